@@ -2,13 +2,13 @@
 
 use mbs_core::scene::{Body, BodyId, Dimension, Inertia, Joint, JointKind, JointLimits, Scene};
 
-/// Where the tip is in the reference configuration [m].
+/// Position of the tip in the reference configuration [m].
 pub const TIP: [f64; 3] = [2.0, 0.0, 0.0];
 
-/// Where the tip is after 1 s, by an extrapolation with 34 digits [m].
+/// Position of the tip after 1 s, by an extrapolation with 34 digits [m].
 pub const TIP_AFTER_ONE_SECOND: [f64; 2] = [-1.662_115_135_816_127_6, -1.041_466_667_193_224_7];
 
-/// What the trapezoidal rule is off by there with steps of 1 ms: 10.5 m/s^2 times the square of the step [m].
+/// Error of the tip after 1 s by the trapezoidal rule with steps of 1 ms: 10.5 m/s^2 times the square of the step [m].
 pub const TRAPEZOIDAL: f64 = 1.1e-5;
 
 /// Asserts that the tip is where it should be, within `tolerance` [m].

@@ -30,7 +30,8 @@ impl Now<'_> {
         row
     }
 
-    /// What a multiplier of a sign does to bodies where the machine says where it acts; the same power in all motions that joints allow.
+    /// Returns what a multiplier of a sign does to bodies where the machine says where it acts. Its power is the same in all motions that joints
+    /// allow.
     pub(crate) fn seated(&self, coupling: &Coupling, row: &Row, sign: f64) -> Option<Parts> {
         match &coupling.seat {
             Seat::Nowhere => None,
@@ -115,7 +116,7 @@ impl Now<'_> {
         self.wrench(parts, two, strand.ends[1], scale(-force, strand.along), ZERO);
     }
 
-    /// What couplings do to bodies whatever their efforts are: pretensions.
+    /// Returns what couplings do to bodies whatever their efforts are: pretensions.
     pub(crate) fn pretensions(&self) -> Parts {
         let mut parts = Parts::new();
         for coupling in &self.scene.couplings {

@@ -118,7 +118,7 @@ impl Spline {
     }
 }
 
-/// The same abscissa within the first period of rows.
+/// Returns the same abscissa within the first period of rows.
 fn within(first: f64, last: f64, x: f64) -> f64 {
     first + (x - first).rem_euclid(last - first)
 }

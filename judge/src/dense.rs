@@ -10,7 +10,7 @@ pub(crate) struct Square {
     entries: Vec<f64>,
 }
 
-/// What elimination made of a matrix.
+/// Factors of a matrix by elimination.
 #[derive(Debug, Clone)]
 pub(crate) struct Factors {
     matrix: Square,
@@ -22,12 +22,12 @@ pub(crate) struct Factors {
 }
 
 impl Square {
-    /// The zero matrix.
+    /// Returns the matrix of zeros.
     pub(crate) fn zero(n: usize) -> Self {
         Self { n, entries: vec![0.0; n * n] }
     }
 
-    /// Entry (i, j).
+    /// Returns the entry (i, j) to write.
     pub(crate) fn at(&mut self, i: usize, j: usize) -> &mut f64 {
         &mut self.entries[i * self.n + j]
     }
@@ -37,7 +37,7 @@ impl Square {
         self.entries[i * self.n + j]
     }
 
-    /// Factors the matrix: each pivot is the largest entry that is left.
+    /// Factors the matrix by elimination: each pivot is the largest entry that is left.
     pub(crate) fn factor(mut self) -> Factors {
         let n = self.n;
         let (mut rows, mut columns): (Vec<_>, Vec<_>) = ((0..n).collect(), (0..n).collect());

@@ -1,4 +1,4 @@
-//! What is drawn: the body that carries two axes, and the bodies that turn or slide against it.
+//! Drawn bodies of a mesh: the body that carries two axes, and the bodies that turn or slide against it.
 //!
 //! Where the parts of a mesh touch, both have the same velocity along their teeth, seen from the body in which both axes stand. So every
 //! mesh is a sum of turns and ways against that body, whatever joints lead there.
@@ -9,7 +9,7 @@ use crate::vector::{Vector, cross, dot, norm, scale, sub};
 /// Largest sine of parallel axes, and largest distance of one axis from itself relative to that of joints [-]. Chosen, not tuned.
 const PARALLEL: f64 = 1e-6;
 
-/// A joint's line: a point and a unit direction. In the plane that of a turn is square to it.
+/// Line of a joint: a point and a unit direction. In the plane that of a turn is square to it.
 fn line(joint: &Joint, planar: bool) -> (Vector, Vector) {
     let axis = if planar && joint.kind == Kind::Revolute { [0.0, 0.0, 1.0] } else { joint.axes[0] };
     (joint.points[0], axis)

@@ -1,4 +1,4 @@
-//! What each kind of joint forbids, and its coordinates.
+//! Rows of each kind of joint: what it forbids, and its coordinates.
 
 use crate::rows::{Places, Row, Seat};
 use crate::scene::{Carrier, Joint, Kind};
@@ -34,7 +34,7 @@ impl Joint {
         places.cosine(self.bodies, u, w)
     }
 
-    /// Both bodies have the direction `a`.
+    /// Rows that hold the direction `a` common to both bodies.
     fn parallel(&self, places: &Places, a: Vector) -> Vec<Row> {
         across(a).map(|x| self.cosine(places, x, a)).to_vec()
     }
@@ -157,7 +157,7 @@ impl Joint {
         }
     }
 
-    /// Which of the coordinates are turns, in the order of `near`; those before are translations.
+    /// Numbers of the coordinates that are turns, in the order of `near`; those before are translations.
     pub(crate) fn turning(&self, planar: bool) -> Range<usize> {
         let [slides, turns] = self.kind.coordinates(planar);
         slides..slides + turns
@@ -173,7 +173,7 @@ impl Joint {
         Some(self.turning(planar)).filter(|turns| turns.len() == 3).map(|turns| turns.start)
     }
 
-    /// Where its reaction acts: its point in the second body.
+    /// Returns the place where the reaction of the joint acts: its point in the second body.
     pub(crate) fn place(&self, places: &Places) -> Vector {
         places.seat(self.bodies[1], self.points[1]).p
     }
@@ -194,13 +194,13 @@ fn angle_about(axis: Vector, x: Vector, y: Vector) -> f64 {
     dot(axis, cross(x, y)).atan2(dot(x, y))
 }
 
-/// The same angle, by whole turns nearest to another.
+/// Returns the same angle, by whole turns nearest to another.
 pub(crate) fn nearest(angle: f64, near: f64) -> f64 {
     let turn = 2.0 * core::f64::consts::PI;
     angle + turn * ((near - angle) / turn).round()
 }
 
-/// The same rotation, by whole turns about its axis nearest to another rotation vector.
+/// Returns the same rotation, by whole turns about its axis nearest to another rotation vector.
 fn nearest_vector(v: Vector, near: Vector) -> Vector {
     let angle = norm(v);
     if angle < 1e-6 {

@@ -1,4 +1,4 @@
-//! Forces: gravity, the bodies' own turning, and every effect of the contract.
+//! Laws of forces: gravity, the bodies' own turning, and every effect of the contract.
 
 use crate::loads::{Loads, Now, contact};
 use crate::rows::Row;
@@ -38,7 +38,7 @@ impl Now<'_> {
         }
     }
 
-    /// All forces.
+    /// Returns all forces on the bodies.
     pub(crate) fn loads(&self) -> Loads {
         let mut loads = Loads { on: vec![[0.0; 6]; self.frames.len()], potential: 0.0, power: 0.0 };
         for (b, body) in self.scene.bodies.iter().enumerate() {
@@ -67,7 +67,7 @@ impl Now<'_> {
         loads
     }
 
-    /// Adds an effect; returns what it stores and the rate of that.
+    /// Adds the forces of an effect; returns what it stores and the rate of that.
     #[allow(clippy::too_many_lines, reason = "one arm for each kind")]
     fn effect(&self, effect: &Effect, loads: &mut Loads) -> (f64, f64) {
         let p = self.places;

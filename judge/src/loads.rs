@@ -1,4 +1,4 @@
-//! What forces act from and on: bodies in their places at a time, and the sums on each.
+//! Loads: which forces act from and on; bodies in their places at a time, and the sums on each.
 
 use crate::rows::{Frame, Places, Row};
 use crate::scene::{Carrier, Scene};
@@ -42,7 +42,7 @@ impl Loads {
     }
 }
 
-/// What bodies are in: scene, places, frames, turns of joints, time.
+/// State that bodies are in: scene, places, frames, turns of joints, time.
 #[derive(Debug)]
 pub(crate) struct Now<'a> {
     pub(crate) scene: &'a Scene,
@@ -50,7 +50,7 @@ pub(crate) struct Now<'a> {
     pub(crate) frames: &'a [Frame],
     pub(crate) turns: &'a [[f64; 3]],
     pub(crate) t: f64,
-    /// States of signals.
+    /// States of the signals.
     pub(crate) memory: &'a [f64],
 }
 

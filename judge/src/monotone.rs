@@ -73,7 +73,7 @@ fn cut([slope, curvature]: [f64; 2], [left, right]: [Option<Side>; 2]) -> [f64; 
     [m, c]
 }
 
-/// The same seen from the other end of the interval.
+/// Returns slope and curvature as seen from the other end of the interval.
 fn mirrored([slope, curvature]: [f64; 2]) -> [f64; 2] {
     [slope, -curvature]
 }

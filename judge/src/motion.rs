@@ -15,13 +15,13 @@ use crate::vector::{Vector, ZERO, add, cross, dot, product, scale, sub, times, t
 /// A state of motion.
 #[derive(Debug, Clone, PartialEq)]
 pub struct State {
-    /// Time [s].
+    /// Time of the state [s].
     pub t: f64,
-    /// Bodies.
+    /// Frames of the bodies.
     pub frames: Vec<Frame>,
     /// Single turns of each joint, or its rotation vector, with all turns; then those that couplings count.
     pub turns: Vec<[f64; 3]>,
-    /// States of signals.
+    /// States of the signals.
     pub memory: Vec<f64>,
     /// Work of all that is not stored [J].
     pub work: f64,
@@ -34,7 +34,7 @@ pub struct Moved {
     pub accelerations: Vec<[f64; 6]>,
     /// Reaction of each joint: what its first body does to its second, at the joint's place, guide included.
     pub reactions: Vec<[f64; 6]>,
-    /// What guides put on the coordinates of each joint.
+    /// Efforts of guides on the coordinates of each joint.
     pub efforts: Vec<[f64; 6]>,
     /// The multiplier of each coupling.
     pub couplings: Vec<f64>,
@@ -54,16 +54,16 @@ pub struct Moved {
     pub energy: [f64; 2],
     /// Power of all that is not stored [W].
     pub power: f64,
-    /// The smallest pivot: how far from a singular position.
+    /// Smallest pivot of the factors: how far the position is from a singular one.
     pub least_pivot: f64,
     /// Share of the loads that nothing balances.
     pub unmet: f64,
 }
 
-/// A mechanism.
+/// Mechanism: a scene that is ready to be moved.
 #[derive(Debug, Clone)]
 pub struct Mechanism {
-    /// The scene.
+    /// Scene of the mechanism.
     pub scene: Scene,
     /// Indices of the velocities of each body.
     columns: Vec<[Option<usize>; 6]>,
@@ -72,14 +72,14 @@ pub struct Mechanism {
     scales: Vec<f64>,
 }
 
-/// What a row belongs to.
+/// Owner of a row.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Owner {
-    /// A joint.
+    /// Joint by its index.
     Joint(usize),
-    /// A coupling.
+    /// Coupling by its index.
     Coupling(usize),
-    /// What rolls, along a direction on its body.
+    /// Contact that rolls, along a direction on its body.
     Rolling(usize, Vector),
     /// A guide of a coordinate of a joint.
     Guide(usize, usize),
@@ -316,7 +316,7 @@ impl Mechanism {
         self.evaluate_among(state, None)
     }
 
-    /// The same by some of the rows, from which the others follow.
+    /// Returns accelerations, reactions, energies and power by some of the rows, from which the others follow.
     pub(crate) fn evaluate_among(&self, state: &State, among: Option<&[bool]>) -> Moved {
         let places = self.places(state);
         let now = self.now(state, &places);
@@ -437,7 +437,7 @@ impl Mechanism {
         }
     }
 
-    /// What a multiplier does to the second body, about the joint's place.
+    /// Returns the force and moment of a multiplier on the second body, about the joint's place.
     fn wrench(&self, joint: usize, row: &Row, lambda: f64, places: &Places) -> [f64; 6] {
         let joint = &self.scene.joints[joint];
         let place = joint.place(places);

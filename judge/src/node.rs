@@ -4,14 +4,14 @@ use crate::vector::{Vector, ZERO};
 use std::collections::BTreeMap;
 use toml::de::{DeTable, DeValue};
 
-/// Why a scene is not read.
+/// Reason why a scene is not read.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Fault(pub String);
 
 /// A result of reading.
 pub(crate) type Read<T> = Result<T, Fault>;
 
-/// A value.
+/// Value in a scene file.
 #[derive(Debug, Clone)]
 pub(crate) enum Node {
     Number(f64),
@@ -21,7 +21,7 @@ pub(crate) enum Node {
     Table(Table),
 }
 
-/// A table; a key that is taken is gone.
+/// Table of a scene file; a key that is taken is gone.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Table {
     entries: BTreeMap<String, Node>,

@@ -1,4 +1,4 @@
-//! What channels show.
+//! Outputs that channels show.
 
 use crate::motion::{Mechanism, State};
 use crate::scene::{Coupled, Measure, Quantity};
@@ -27,7 +27,7 @@ impl Quantity {
     /// Names of those of a coupling.
     pub const OF_COUPLINGS: &[&str] = &["effort", "value", "length", "rate", "power"];
 
-    /// That of a coupling.
+    /// Returns the quantity of a coupling by its name.
     pub(crate) fn of_coupling(name: &str, number: usize) -> Option<Self> {
         let what = match name {
             "effort" | "force" => Coupled::Effort,
@@ -40,7 +40,7 @@ impl Quantity {
         Some(Self::Coupling(number, what))
     }
 
-    /// That of a body, or of its point.
+    /// Returns the quantity of a body, or of its point, by its name.
     pub(crate) fn of_body(name: &str, body: usize, at: Option<Vector>) -> Option<Self> {
         Some(match (name, at) {
             ("position", Some(at)) => Self::Position(body, at),
@@ -57,7 +57,7 @@ impl Quantity {
         })
     }
 
-    /// That of a joint.
+    /// Returns the quantity of a joint by its name.
     pub(crate) fn of_joint(name: &str, joint: usize) -> Option<Self> {
         Some(match name {
             "value" => Self::Value(joint),

@@ -5,7 +5,7 @@ use crate::vector::Vector;
 /// A body, or the ground.
 pub type Carrier = Option<usize>;
 
-/// A cubic spline: abscissae, values and second derivatives.
+/// Spline of cubic pieces: abscissae, values and second derivatives.
 #[derive(Debug, Clone, Default)]
 pub struct Spline {
     /// Abscissae, values, second derivatives.
@@ -23,7 +23,7 @@ pub enum Curve {
     Linear(Vec<[f64; 2]>, bool),
     /// The value of the row before, the ends held; does it repeat?
     Hold(Vec<[f64; 2]>, bool),
-    /// c0, c1, ... of increasing power.
+    /// Polynomial with the coefficients c0, c1, ... of increasing power.
     Polynomial(Vec<f64>),
 }
 
@@ -34,13 +34,13 @@ pub enum Law {
     Curve(Curve),
     /// amplitude sin(2π f t + phase).
     Sine([f64; 3]),
-    /// rate t.
+    /// Ramp: rate t.
     Ramp(f64),
     /// A signal that follows time alone.
     Signal(Box<Source>),
 }
 
-/// What a term of a sum measures, zero in the reference configuration.
+/// Measure of a term of a sum, zero in the reference configuration.
 #[derive(Debug, Clone)]
 pub enum Measure {
     /// A coordinate of a joint.
@@ -58,9 +58,9 @@ pub enum Measure {
 /// A term of a sum.
 #[derive(Debug, Clone)]
 pub struct Term {
-    /// What it measures.
+    /// Measure of the term.
     pub measure: Measure,
-    /// Its factor.
+    /// Factor of the term.
     pub factor: f64,
     /// A function of what is measured.
     pub curve: Option<Curve>,
@@ -75,10 +75,10 @@ pub struct Wheel {
     pub axis: Vector,
 }
 
-/// Where the force of a coupling acts, if the scene says so.
+/// Seat of a coupling: where its force acts, if the scene says so.
 #[derive(Debug, Clone)]
 pub enum Seat {
-    /// Nowhere: the torques of its coordinates alone.
+    /// No seat: the torques of its coordinates alone.
     Nowhere,
     /// A thread between two bodies, along an axis of the carrier through a point: carrier, screw, nut.
     Thread([Carrier; 3], Vector, Vector),
@@ -94,43 +94,43 @@ pub enum Seat {
 /// A sum that is zero.
 #[derive(Debug, Clone)]
 pub struct Coupling {
-    /// Its name.
+    /// Name of the coupling.
     pub name: String,
-    /// Its kind in scene files.
+    /// Kind of the coupling in scene files.
     pub kind: String,
     /// The terms of the sum.
     pub terms: Vec<Term>,
-    /// What the sum is, beside the law.
+    /// Value of the sum, beside the law.
     pub value: f64,
-    /// What is added to the value over time.
+    /// Law that is added to the value over time.
     pub law: Option<Law>,
     /// Ratio of the effort that is shown to the multiplier.
     pub gain: f64,
     /// The coordinate that the effort is given to: joint, number, and its ratio to the way of the effort.
     pub passed: Option<(usize, usize, f64)>,
-    /// Where its force acts.
+    /// Seat of the coupling's force.
     pub seat: Seat,
 }
 
-/// What touches a plane.
+/// Shape of a body's part that touches a plane.
 #[derive(Debug, Clone, Copy)]
 pub enum Shape {
-    /// A thin disc: radius, unit axis.
+    /// Thin disc: radius, unit axis.
     Disc(f64, Vector),
-    /// A sphere: radius.
+    /// Sphere: its radius.
     Ball(f64),
     /// A blade along a unit direction.
     Blade(Vector),
 }
 
-/// What rolls on a plane or cuts it.
+/// Contact of a body that rolls on a plane, or of a blade that cuts it.
 #[derive(Debug, Clone)]
 pub struct Rolling {
-    /// Its name.
+    /// Name of the contact.
     pub name: String,
     /// The body, and the one that the plane is fixed in.
     pub bodies: [Carrier; 2],
-    /// Its shape.
+    /// Shape that touches the plane.
     pub shape: Shape,
     /// Centre of the disc or ball, or the point of the blade.
     pub center: Vector,
@@ -143,25 +143,25 @@ pub struct Rolling {
 /// A number over time and of the motion.
 #[derive(Debug, Clone)]
 pub enum Source {
-    /// The same at all times.
+    /// Number that is the same at all times.
     Constant(f64),
     /// A table over time.
     Table(Curve),
-    /// Amplitude, frequency, phase, offset.
+    /// Sine: amplitude, frequency, phase, offset.
     Sine([f64; 4]),
-    /// Amplitude, frequency, phase, offset, last frequency, duration.
+    /// Chirp: amplitude, frequency, phase, offset, last frequency, duration.
     Chirp([f64; 6]),
-    /// Rate, start, end.
+    /// Ramp: rate, start, end.
     Ramp([f64; 3]),
-    /// From, to, when it begins, how long it takes.
+    /// Step: from, to, when it begins, how long it takes.
     Step([f64; 4]),
-    /// Factors times numbers.
+    /// Sum of factors times numbers.
     Sum(Vec<(f64, Self)>),
-    /// All multiplied.
+    /// Product of numbers.
     Product(Vec<Self>),
     /// A function of a number.
     Of(Curve, Box<Self>),
-    /// Within limits.
+    /// Number within limits.
     Clamp(Box<Self>, [f64; 2]),
     /// Within limits, by itself; one where that is zero.
     LimitRatio(Box<Self>, [f64; 2]),
@@ -175,14 +175,14 @@ pub enum Source {
     Pid(usize, [Box<Self>; 2], [f64; 3], f64),
 }
 
-/// A signal: its name, what it is, and its state at the start.
+/// Signal: its name, what it is, and its state at the start.
 #[derive(Debug, Clone)]
 pub struct Signal {
-    /// Its name.
+    /// Name of the signal.
     pub name: String,
-    /// What it is.
+    /// Source of the signal's number.
     pub source: Source,
-    /// Its state at the start.
+    /// State of the signal at the start.
     pub start: f64,
 }
 

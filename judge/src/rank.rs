@@ -1,4 +1,4 @@
-//! Which rows follow from others, and how many freedoms are left.
+//! Rows that follow from others, and the number of freedoms that are left.
 
 use crate::dense::Square;
 use crate::motion::{Mechanism, State};
@@ -35,7 +35,7 @@ impl Mechanism {
         }
     }
 
-    /// How many freedoms are left by the independent rows.
+    /// Number of freedoms that the independent rows leave.
     #[must_use]
     pub fn freedoms(&self, state: &State) -> usize {
         let places = self.places(state);

@@ -12,7 +12,7 @@ use crate::scene::{
 };
 use crate::vector::{Vector, ZERO, across, add, dot, norm, scale, sub, unit};
 
-/// Reads a scene.
+/// Reads the text of a scene.
 ///
 /// # Errors
 /// What is not understood.
@@ -141,7 +141,7 @@ fn joint(mut table: Table, name: String, names: &Names, all: &[Body]) -> Read<Jo
     Ok(Joint { name, kind, bodies, points, axes, hinged: hinge.is_some() })
 }
 
-/// Reads the couplings.
+/// Reads the couplings of a scene.
 fn couplings(tables: Vec<Table>, names: &Names, scene: &mut Scene) -> Read<()> {
     let (mut wheels, planar) = (Vec::new(), scene.planar);
     let Scene { joints, signals, .. } = &*scene;

@@ -12,7 +12,7 @@ use core::f64::consts::PI;
 /// Largest distance of a rope's end from the rim of its drum, relative to the radius [-]. Chosen, not tuned.
 const AT_RIM: f64 = 1e-6;
 
-/// What couplings are read with.
+/// Reader of couplings: the parts of the scene that they are read with.
 pub(crate) struct Reader<'a> {
     pub(crate) names: &'a Names,
     pub(crate) joints: &'a [Joint],
@@ -37,7 +37,7 @@ impl Sum {
 }
 
 impl Reader<'_> {
-    /// A coupling.
+    /// Reads a coupling.
     pub(crate) fn coupling(&mut self, mut table: Table, number: usize) -> Read<Coupling> {
         let name = match table.take("name") {
             Some(Node::Text(name)) => name,

@@ -117,7 +117,7 @@ fn points(table: &mut Table, names: &Names) -> Read<Vec<(Carrier, Vector)>> {
     table.tables("points")?.into_iter().map(one).collect()
 }
 
-/// What `joint` with `coordinate` and `axis` measures, or `points`.
+/// Reads the measure by `joint` with `coordinate` and `axis`, or by `points`.
 pub(crate) fn measure(table: &mut Table, names: &Names, joints: &[Joint]) -> Read<Measure> {
     if table.has("points") {
         return Ok(Measure::Length(points(table, names)?));

@@ -1,4 +1,4 @@
-//! Reads effects.
+//! Reads effects of a scene.
 
 use crate::names::Names;
 use crate::node::{Node, Read, Table, fault};
@@ -121,7 +121,7 @@ fn line(t: &mut Table, names: &Names) -> Read<Line> {
     Ok(Line { bodies: names.pair(t)?, points: t.two_vectors("points")?, direction })
 }
 
-/// Six numbers; in the plane three: along x, along y, about z.
+/// Reads six numbers; in the plane three: along x, along y, about z.
 fn six(t: &mut Table, key: &str) -> Read<[f64; 6]> {
     if t.planar {
         let [x, y, about] = t.exactly(key)?;

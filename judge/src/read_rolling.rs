@@ -1,11 +1,11 @@
-//! Reads what rolls.
+//! Reads contacts that roll, and blades.
 
 use crate::names::Names;
 use crate::node::{Node, Read, Table, fault};
 use crate::scene::{Rolling, Shape};
 use crate::vector::unit;
 
-/// What rolls.
+/// Reads a contact that rolls, or a blade.
 pub(crate) fn rolling(mut table: Table, names: &Names, number: usize) -> Read<Rolling> {
     let name = match table.take("name") {
         Some(Node::Text(name)) => name,

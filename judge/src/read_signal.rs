@@ -1,4 +1,4 @@
-//! Reads signals: each as a tree of what it is made of.
+//! Reads signals, each as a tree of what it is made of.
 
 use crate::names::Names;
 use crate::node::{Node, Read, Table, fault};
@@ -103,7 +103,7 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// What follows time alone, if the kind is one of these.
+/// Reads a source that follows time alone, if the kind is one of these.
 fn of_time(kind: &str, t: &mut Table) -> Read<Option<Source>> {
     let wave = |t: &mut Table| -> Read<[f64; 4]> {
         let (phase, offset) = (t.number_or("phase", 0.0)?, t.number_or("offset", 0.0)?);

@@ -12,7 +12,7 @@ use crate::rows::{Row, Seat, six};
 use crate::scene::{Rolling, Shape};
 use crate::vector::{Vector, ZERO, across, add, cross, dot, norm, scale, sub};
 
-/// The lowest point: from the centre, and the rate of that.
+/// Lowest point of what rolls: from the centre, and the rate of that.
 struct Lowest {
     arm: Vector,
     rate: Vector,

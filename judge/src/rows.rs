@@ -17,7 +17,7 @@ pub struct Frame {
     pub r: Vector,
     /// Rotation from the reference configuration.
     pub q: Quaternion,
-    /// Its angle in a planar scene, with all turns [rad].
+    /// Angle of the body in a planar scene, with all turns [rad].
     pub angle: f64,
     /// Velocity of the centre of mass [m/s].
     pub v: Vector,
@@ -25,7 +25,7 @@ pub struct Frame {
     pub w: Vector,
 }
 
-/// Where a body is, as equations need it.
+/// Place and velocities of a body, as equations need them.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Placed {
     pub(crate) center: Vector,
@@ -44,20 +44,20 @@ pub(crate) struct Seat {
     pub(crate) bias: Vector,
 }
 
-/// A row.
+/// Row: a scalar with its derivatives.
 #[derive(Debug, Clone)]
 pub(crate) struct Row {
     /// Gradient by velocity and angular velocity of bodies; of a joint, of its two bodies in their order.
     pub(crate) parts: Vec<(Carrier, [f64; 6])>,
-    /// The scalar.
+    /// Value of the scalar.
     pub(crate) value: f64,
-    /// Its second derivative without accelerations.
+    /// Second derivative of the scalar without accelerations.
     pub(crate) bias: f64,
     /// Rate and acceleration that the row is to have.
     pub(crate) given: [f64; 2],
     /// Does it hold rates alone?
     pub(crate) of_rates: bool,
-    /// What a multiplier does to bodies, where that is not the gradient.
+    /// Forces and moments of a multiplier on bodies, where that is not the gradient.
     pub(crate) acts: Option<Vec<(Carrier, [f64; 6])>>,
 }
 
@@ -183,7 +183,7 @@ impl Row {
         sum
     }
 
-    /// J v.
+    /// Returns the rate J v of the row.
     pub(crate) fn rate(&self, places: &Places) -> f64 {
         let of = |(body, part): &(Carrier, [f64; 6])| {
             let b = places.of(*body);

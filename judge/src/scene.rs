@@ -1,4 +1,4 @@
-//! What a scene says, as the judge reads it. A planar scene lies in the plane z = 0 of space.
+//! Scene as the judge reads it. A planar scene lies in the plane z = 0 of space.
 
 pub use crate::parts::{
     Carrier, Coupling, Curve, Given, Law, Measure, Rolling, Seat, Shape, Signal, Source, Spline,
@@ -6,95 +6,95 @@ pub use crate::parts::{
 };
 use crate::vector::{Matrix, Vector};
 
-/// A scene.
+/// Scene that the judge runs.
 #[derive(Debug, Clone, Default)]
 pub struct Scene {
-    /// Its name.
+    /// Name of the scene.
     pub name: String,
-    /// Is it planar?
+    /// Is the scene planar?
     pub planar: bool,
-    /// Gravity [m/s²].
+    /// Acceleration of gravity [m/s²].
     pub gravity: Vector,
-    /// Duration [s].
+    /// Duration of the run [s].
     pub duration: f64,
     /// Step that the scene asks for [s].
     pub step: Option<f64>,
-    /// Bodies.
+    /// Bodies of the scene.
     pub bodies: Vec<Body>,
-    /// Joints.
+    /// Joints of the scene.
     pub joints: Vec<Joint>,
-    /// Couplings.
+    /// Couplings of the scene.
     pub couplings: Vec<Coupling>,
     /// Turns that couplings count, beside those of joints.
     pub wheels: Vec<Wheel>,
-    /// What rolls.
+    /// Contacts that roll, and blades.
     pub rollings: Vec<Rolling>,
-    /// Guides.
+    /// Guides of coordinates of joints.
     pub guides: Vec<Guide>,
-    /// What is held at the start.
+    /// Conditions that hold at the start.
     pub initials: Vec<InitialCondition>,
-    /// Signals.
+    /// Signals of the scene.
     pub signals: Vec<Signal>,
     /// Effects that are enabled.
     pub effects: Vec<Effect>,
-    /// The road's features: left and right.
+    /// Features of the road: left and right.
     pub road: [Vec<Feature>; 2],
     /// Speed of the road along -x [m/s].
     pub road_speed: f64,
-    /// Channels.
+    /// Channels of the scene.
     pub outputs: Vec<Output>,
 }
 
 /// A body in the reference configuration.
 #[derive(Debug, Clone)]
 pub struct Body {
-    /// Its name.
+    /// Name of the body.
     pub name: String,
-    /// Mass [kg].
+    /// Mass of the body [kg].
     pub mass: f64,
     /// Centre of mass [m].
     pub center: Vector,
     /// Inertia about the centre of mass, global axes [kg m²].
     pub inertia: Matrix,
-    /// Factor of gravity.
+    /// Factor of gravity on the body [-].
     pub gravity_scale: f64,
 }
 
 /// The kinds of joint.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Kind {
-    /// One rotation.
+    /// Joint with one rotation.
     Revolute,
-    /// Three rotations.
+    /// Joint with three rotations.
     Spherical,
-    /// Two rotations.
+    /// Joint with two rotations.
     Universal,
-    /// One translation.
+    /// Joint with one translation.
     Prismatic,
-    /// A translation and a rotation along one axis.
+    /// Joint with a translation and a rotation along one axis.
     Cylindrical,
-    /// Two translations and a rotation across them.
+    /// Joint with two translations and a rotation across them.
     Planar,
-    /// Nothing moves.
+    /// Joint in which nothing moves.
     Weld,
-    /// Everything moves.
+    /// Joint in which everything moves.
     Free,
-    /// Two points keep their distance.
+    /// Joint in which two points keep their distance.
     Distance,
 }
 
-/// A joint.
+/// Joint between two bodies.
 #[derive(Debug, Clone)]
 pub struct Joint {
-    /// Its name.
+    /// Name of the joint.
     pub name: String,
-    /// Its kind.
+    /// Kind of the joint.
     pub kind: Kind,
     /// First and second body.
     pub bodies: [Carrier; 2],
-    /// Its point in both bodies [m].
+    /// Point of the joint in both bodies [m].
     pub points: [Vector; 2],
-    /// Unit axes: axis, and direction or second axis.
+    /// Unit vectors: axis, and direction or second axis.
     pub axes: [Vector; 2],
     /// A link of constant distance with a hinge at its first end.
     pub hinged: bool,
@@ -114,7 +114,7 @@ impl Kind {
         (Self::Distance, "distance"),
     ];
 
-    /// How many of its coordinates are translations, which come first, and how many rotations.
+    /// Number of translations among the joint's coordinates, which come first, and number of rotations.
     #[must_use]
     pub fn coordinates(self, planar: bool) -> [usize; 2] {
         match self {
@@ -131,36 +131,36 @@ impl Kind {
     }
 }
 
-/// A guided joint.
+/// Guide of a coordinate of a joint.
 #[derive(Debug, Clone)]
 pub struct Guide {
-    /// The joint.
+    /// Index of the joint.
     pub joint: usize,
     /// The number of its coordinate.
     pub coordinate: usize,
-    /// That coordinate over time.
+    /// Coordinate over time.
     pub law: Law,
 }
 
-/// What is held at the start.
+/// Condition that holds at the start.
 #[derive(Debug, Clone)]
 pub enum InitialCondition {
     /// Coordinates and rates of a joint.
     Joint {
-        /// The joint.
+        /// Index of the joint.
         joint: usize,
-        /// Its coordinates.
+        /// Coordinates of the joint.
         value: Option<Vec<f64>>,
-        /// Their rates.
+        /// Rates of the coordinates.
         rate: Option<Vec<f64>>,
     },
     /// Velocities of a body.
     Body {
-        /// The body.
+        /// Index of the body.
         body: usize,
         /// Velocity of a point.
         velocity: Option<[Vector; 2]>,
-        /// Angular velocity.
+        /// Angular velocity of the body, global axes.
         angular: Option<Vector>,
     },
 }
@@ -170,7 +170,7 @@ pub enum InitialCondition {
 pub struct Line {
     /// First and second body.
     pub bodies: [Carrier; 2],
-    /// Their points.
+    /// Points of the line on the two bodies.
     pub points: [Vector; 2],
     /// Measured along this direction of the first body.
     pub direction: Option<Vector>,
@@ -179,55 +179,55 @@ pub struct Line {
 /// Side force of a tire by the Calspan model: a, omega, b, skid, trail.
 #[derive(Debug, Clone)]
 pub struct Calspan {
-    /// A0 to A4.
+    /// Coefficients A0 to A4.
     pub a: [f64; 5],
-    /// W.
+    /// Factor W of A2.
     pub omega: f64,
-    /// B1, B3, B4.
+    /// Coefficients B1, B3, B4 of the friction.
     pub b: [f64; 3],
-    /// k.
+    /// Factor k of the friction.
     pub skid: f64,
-    /// AF1, AF2.
+    /// Coefficients AF1, AF2 of the trail.
     pub trail: [f64; 2],
 }
 
-/// An effect.
+/// Effect that is enabled, with its numbers.
 #[derive(Debug, Clone)]
 pub enum Effect {
-    /// Stiffness, damping, free length.
+    /// Spring and damper: stiffness, damping, free length.
     SpringDamper(Line, [f64; 3]),
     /// Pieces [lower, upper, c0, ...] of the length, or of its rate.
     Polynomial(Line, Vec<Vec<f64>>, bool),
-    /// Stiffness, damping, clearance.
+    /// Bumper: stiffness, damping, clearance.
     Bumper(Line, [f64; 3]),
     /// A force along the line.
     Actuator(Line, Given),
     /// Stiffness and damping along and about the axes of the first body.
     Bushing([Carrier; 2], Vector, [[f64; 6]; 2]),
-    /// Sum; stiffness, damping, free value.
+    /// Torsion spring on a sum: stiffness, damping, free value.
     TorsionSpring(Vec<Term>, [f64; 3]),
     /// Torque of a joint's first body on its second, or along a sum.
     JointTorque(Vec<Term>, Given),
     /// Torque on a body.
     BodyTorque(usize, Given),
-    /// Sum; lower, upper, stiffness, damping.
+    /// Limit of a sum: lower, upper, stiffness, damping.
     Limit(Vec<Term>, [f64; 4]),
-    /// Sum; coulomb, static, stribeck, viscous, regularisation.
+    /// Friction along a sum: coulomb, static, stribeck, viscous, regularisation.
     Friction(Vec<Term>, [f64; 5]),
-    /// Body, point, force; does it turn with the body?
+    /// Force on a body: body, point, force; does it turn with the body?
     Force(usize, Vector, Given, bool),
-    /// Body, point; area times coefficient, density.
+    /// Drag on a body: body, point; area times coefficient, density.
     Drag(usize, Vector, [f64; 2]),
-    /// Body, direction; speed, gain, limit.
+    /// Force that holds a body's speed: body, direction; speed, gain, limit.
     SpeedHold(usize, Vector, [f64; 3]),
-    /// A wheel.
+    /// Wheel on the road.
     Tire(Tire),
-    /// Joint; the rotor's inertia times the square of its ratio.
+    /// Rotor on a joint: joint; the rotor's inertia times the square of its ratio.
     Rotor(usize, f64),
 }
 
 impl Shape {
-    /// Its kind in scene files.
+    /// Returns the kind of the shape in scene files.
     #[must_use]
     pub fn name(&self) -> &'static str {
         match self {
@@ -239,7 +239,7 @@ impl Shape {
 }
 
 impl Source {
-    /// Its kind in scene files.
+    /// Returns the kind of the source in scene files.
     #[must_use]
     pub fn name(&self) -> &'static str {
         match self {
@@ -263,7 +263,7 @@ impl Source {
 }
 
 impl Effect {
-    /// Its kind in scene files, with where it acts.
+    /// Returns the kind of the effect in scene files, with where it acts.
     #[must_use]
     pub fn name(&self) -> &'static str {
         match self {
@@ -291,98 +291,98 @@ impl Effect {
 /// A wheel on the road.
 #[derive(Debug, Clone)]
 pub struct Tire {
-    /// Its carrier.
+    /// Carrier of the wheel.
     pub body: usize,
-    /// Its centre.
+    /// Centre of the wheel.
     pub center: Vector,
-    /// Its axis.
+    /// Axis of the wheel.
     pub axis: Option<Vector>,
     /// Radius, stiffness, damping, rolling resistance.
     pub numbers: [f64; 4],
-    /// Side force.
+    /// Side force of the tire.
     pub side: Option<Calspan>,
 }
 
 /// A part of the road.
 #[derive(Debug, Clone)]
 pub enum Feature {
-    /// Height.
+    /// Flat part: its height.
     Flat(f64),
-    /// Start, length, height, rounding.
+    /// Ramp: start, length, height, rounding.
     Ramp([f64; 4]),
-    /// Start, length, amplitude.
+    /// Bump: start, length, amplitude.
     Bump([f64; 3]),
     /// Natural cubic spline of the height.
     Table(Spline),
 }
 
-/// A channel.
+/// Channel of the outputs.
 #[derive(Debug, Clone)]
 pub struct Output {
-    /// Its name.
+    /// Name of the channel.
     pub name: String,
-    /// What it shows.
+    /// Quantity that the channel shows.
     pub quantity: Quantity,
 }
 
-/// What a channel shows.
+/// Quantity that a channel shows.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Quantity {
-    /// Of a body's point.
+    /// Position of a body's point.
     Position(usize, Vector),
-    /// Of a body's point.
+    /// Velocity of a body's point.
     Velocity(usize, Vector),
-    /// Of a body's point.
+    /// Acceleration of a body's point.
     Acceleration(usize, Vector),
-    /// Of a body's point: its acceleration without gravity.
+    /// Acceleration of a body's point without gravity.
     ProperAcceleration(usize, Vector),
-    /// Of a body.
+    /// Angular velocity of a body.
     AngularVelocity(usize),
-    /// Of a body.
+    /// Angular acceleration of a body.
     AngularAcceleration(usize),
-    /// Of a body: the angle in the plane, a quaternion in space.
+    /// Orientation of a body: the angle in the plane, a quaternion in space.
     Orientation(usize),
-    /// Of a body: the angle in the plane.
+    /// Rotation vector of a body; in the plane, the angle.
     RotationVector(usize),
-    /// Of a body, row by row.
+    /// Rotation matrix of a body, row by row.
     RotationMatrix(usize),
-    /// Of a body.
+    /// Kinetic energy of a body.
     KineticEnergy(usize),
-    /// Of a joint.
+    /// Coordinates of a joint.
     Value(usize),
-    /// Of a joint.
+    /// Rates of a joint's coordinates.
     Rate(usize),
-    /// Of a joint.
+    /// Second derivatives of a joint's coordinates.
     JointAcceleration(usize),
-    /// Of a joint: what its guide puts on its coordinate.
+    /// Effort of a joint's guide on its coordinate.
     Effort(usize),
-    /// Of a joint: what its guide gives through it.
+    /// Power that a joint's guide gives through it.
     Power(usize),
-    /// Of a joint.
+    /// Reaction of a joint.
     Reaction(usize),
-    /// Of a coupling.
+    /// Quantity of a coupling.
     Coupling(usize, Coupled),
-    /// Of a signal: its value, or its rate.
+    /// Value of a signal, or its rate.
     Signal(usize, bool),
-    /// Of what rolls: the force on it at the contact.
+    /// Force at the contact on a body that rolls, or on a blade.
     Contact(usize),
-    /// Of a body against another one, global axes.
+    /// Angular velocity of a body against another one, global axes.
     RelativeAngularVelocity(usize, usize),
-    /// Of the scene: kinetic and stored.
+    /// Energy of the scene: kinetic and stored.
     Energy,
 }
 
-/// What a channel shows of a coupling.
+/// Quantity of a coupling that a channel shows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Coupled {
-    /// What its drawn part feels.
+    /// Effort on the coupling's drawn part.
     Effort,
-    /// Its sum.
+    /// Value of the coupling's sum.
     Value,
-    /// The length of its lines.
+    /// Length of the coupling's lines.
     Length,
-    /// The rate of its sum.
+    /// Rate of the coupling's sum.
     Rate,
-    /// What it gives or passes on.
+    /// Power that the coupling gives or passes on.
     Power,
 }

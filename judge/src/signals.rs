@@ -20,7 +20,7 @@ fn wave(amplitude: f64, offset: f64, angle: Jet) -> Jet {
     [x + offset, rate, bend]
 }
 
-/// What limits leave of a number, as a ratio: L/x beyond them.
+/// Returns the ratio of what limits leave of a number: L/x beyond them.
 fn limit_ratio([x, dx, ddx]: Jet, [lower, upper]: [f64; 2]) -> Jet {
     if (lower..=upper).contains(&x) {
         return [1.0, 0.0, 0.0];
@@ -162,7 +162,7 @@ impl Now<'_> {
         }
     }
 
-    /// What a controller asks for, without its limit.
+    /// Returns what a controller asks for, without its limit.
     fn asked(&self, source: &Source) -> f64 {
         let Source::Pid(slot, both, [p, i, d], _) = source else { return 0.0 };
         let [e, rate] = self.difference(both);

@@ -1,4 +1,4 @@
-//! The start: what is written holds, the rest follows by the least mass-weighted change from the reference configuration and from rest.
+//! State at the start: what is written holds, the rest follows by the least mass-weighted change from the reference configuration and from rest.
 //!
 //! ```text
 //! least  Σ ½ ∫ |displacement of each particle|² dm = Σ ½ m |r - r₀|² + tr S - tr R S + Σ ½ I θ² of rotors,   S = ½ tr(I) E - I
@@ -32,7 +32,7 @@ const FLAT: f64 = 1e-6;
 /// Differences for second derivatives, in radians or lengths. Chosen, not tuned.
 const DIFFERENCE: f64 = 1e-5;
 
-/// Why there is no start.
+/// Reason why there is no start.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum NoStart {
     /// Held values cannot be met: reached this share of them.
@@ -49,9 +49,9 @@ struct Trial {
 
 /// A step of Newton's method.
 struct Correction {
-    /// Changes of bodies.
+    /// Changes of the bodies' places.
     moves: Vec<[f64; 6]>,
-    /// The new multipliers.
+    /// Multipliers after the step.
     multipliers: Vec<f64>,
     /// A direction of negative curvature.
     falls: Option<Vec<[f64; 6]>>,
@@ -110,7 +110,7 @@ impl Mechanism {
         }
     }
 
-    /// What turns of joints are counted from: what is held or guided, those of couplings as they came to be, else zero.
+    /// Returns the turns that turns of joints are counted from: what is held or guided, those of couplings as they came to be, else zero.
     fn given_turns(&self, found: &[[f64; 3]]) -> Vec<[f64; 3]> {
         let n = self.scene.joints.len();
         let mut turns = vec![[0.0; 3]; n];
@@ -364,7 +364,7 @@ impl Mechanism {
     }
 }
 
-/// What the sum of a coupling is at the start.
+/// Returns what the sum of a coupling is at the start.
 fn given(coupling: &Coupling) -> f64 {
     coupling.value + coupling.law.as_ref().map_or(0.0, |law| law.at(0.0)[0])
 }

@@ -7,7 +7,7 @@ use crate::scene::{Carrier, Measure, Term};
 use crate::vector::{Vector, add, compose, conjugate, cross, dot, norm, scale, sub, unit};
 
 impl Now<'_> {
-    /// What is measured, with its gradient.
+    /// Returns what is measured, with its gradient.
     pub(crate) fn measure(&self, measure: &Measure) -> Row {
         match measure {
             Measure::Coordinate(joint, number) => self.coordinates(*joint).swap_remove(*number),

@@ -1,54 +1,54 @@
 //! Vectors, matrices and rotations of three-dimensional space.
 
-/// A vector.
+/// Vector of three-dimensional space.
 pub type Vector = [f64; 3];
 /// A matrix, by rows.
 pub type Matrix = [[f64; 3]; 3];
 /// A quaternion (w, x, y, z).
 pub type Quaternion = [f64; 4];
 
-/// The zero vector.
+/// Vector of zeros.
 pub const ZERO: Vector = [0.0; 3];
-/// The unit matrix.
+/// Unit matrix E.
 pub const UNIT: Matrix = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
-/// a + b.
+/// Sum a + b.
 #[must_use]
 pub fn add(a: Vector, b: Vector) -> Vector {
     [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
 }
 
-/// a - b.
+/// Difference a - b.
 #[must_use]
 pub fn sub(a: Vector, b: Vector) -> Vector {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
-/// s a.
+/// Product s a of a number and a vector.
 #[must_use]
 pub fn scale(s: f64, a: Vector) -> Vector {
     a.map(|x| s * x)
 }
 
-/// a · b.
+/// Scalar product a · b.
 #[must_use]
 pub fn dot(a: Vector, b: Vector) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-/// a × b.
+/// Vector product a × b.
 #[must_use]
 pub fn cross(a: Vector, b: Vector) -> Vector {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
-/// |a|.
+/// Length |a|.
 #[must_use]
 pub fn norm(a: Vector) -> f64 {
     dot(a, a).sqrt()
 }
 
-/// a / |a|.
+/// Unit vector a / |a|.
 #[must_use]
 pub fn unit(a: Vector) -> Vector {
     scale(1.0 / norm(a), a)
@@ -64,25 +64,25 @@ pub fn across(a: Vector) -> [Vector; 2] {
     [x, cross(a, x)]
 }
 
-/// A v.
+/// Product A v of a matrix and a vector.
 #[must_use]
 pub fn times(a: &Matrix, v: Vector) -> Vector {
     [dot(a[0], v), dot(a[1], v), dot(a[2], v)]
 }
 
-/// Aᵀ v.
+/// Product Aᵀ v of a transposed matrix and a vector.
 #[must_use]
 pub fn transposed_times(a: &Matrix, v: Vector) -> Vector {
     [0, 1, 2].map(|j| a[0][j] * v[0] + a[1][j] * v[1] + a[2][j] * v[2])
 }
 
-/// A B.
+/// Product A B of two matrices.
 #[must_use]
 pub fn product(a: &Matrix, b: &Matrix) -> Matrix {
     a.map(|row| [0, 1, 2].map(|j| row[0] * b[0][j] + row[1] * b[1][j] + row[2] * b[2][j]))
 }
 
-/// Aᵀ.
+/// Transposed matrix Aᵀ.
 #[must_use]
 pub fn transpose(a: &Matrix) -> Matrix {
     [0, 1, 2].map(|i| [a[0][i], a[1][i], a[2][i]])

@@ -16,12 +16,12 @@ use mbs_core::step::{OptionError, Step, StepError, StepReport};
 use mbs_core::team::Team;
 use mbs_core::{Real, SpdSolver, with_team};
 
-/// Which form of the equations is stepped, with its options.
+/// Form of the equations that is stepped, with its options.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Form<T> {
-    /// Index-1.
+    /// Index-1 form, with its options.
     Index1(Options<T>),
-    /// Index-3.
+    /// Index-3 form, with its options.
     Index3(Options<T>),
     /// Index-3 for long steps, index-1 for short ones.
     MultiIndex(IndexChange<T>),

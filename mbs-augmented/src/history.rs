@@ -3,7 +3,7 @@
 use alloc::vec::Vec;
 use mbs_core::step::Counts;
 
-/// What a [`Workspace`](crate::Workspace) remembers from step to step.
+/// State of a [`Workspace`](crate::Workspace) that the next step continues from.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct History<T> {
     /// Factor on the penalty, as it has adapted [-].
@@ -12,7 +12,7 @@ pub struct History<T> {
     pub penalty_strength: T,
     /// Ratio of the most weakly determined combination of constraints before and after one correction [-].
     pub contraction: T,
-    /// That combination, m.
+    /// Combination of constraints that is most weakly determined, m.
     pub weakest_combination: Vec<T>,
     /// Counts of a change of index that no step has reported yet.
     pub settled: Counts,

@@ -29,8 +29,8 @@ use mbs_core::{Real, SpdSolver};
 /// Iterations that are made where what is left is not small after those allowed, as a multiple of them [-]: of friction, or of stiff effects
 /// that are let go.
 const HARD: u32 = 8;
-/// What may be left where corrections no longer shrink, or after the allowed iterations [accelerations]: a joint that sticks and slips
-/// leaves that much.
+/// Largest correction that may be left where corrections stop shrinking, or after the allowed iterations [accelerations]: a joint that sticks and
+/// slips leaves that much.
 const ACCEPTED: f64 = 1e-2;
 /// Corrections of [`settle`] at most [-]: the first leaves 1e-6 of an acceleration, the others go to rounding.
 const MAX_SETTLING: u32 = 12;

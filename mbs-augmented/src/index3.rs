@@ -83,7 +83,7 @@ pub(crate) fn solve<T: Real, M: Model<T>, S: SpdSolver<T>>(
     Ok(done)
 }
 
-/// The Newton loop. Returns what is reported of it, and the sum of the corrections since the factor.
+/// Runs the Newton loop. Returns what is reported of it, and the sum of the corrections since the factor.
 fn iterate<T: Real, M: Model<T>, S: SpdSolver<T>>(
     model: &M,
     (rule, mut newton): (&Rule<T>, Newton<T>),

@@ -1,4 +1,4 @@
-//! Which index a step is made in [P2 4, 5].
+//! Choice of the index in which a step is made [P2 4, 5].
 //!
 //! Index-3 for long steps, index-1 for short ones. It changes from 3 to 1 where the step falls below a threshold, or where several
 //! reductions in a row have not helped. It changes back where it grows beyond twice the threshold. Before each change velocities,
@@ -11,25 +11,25 @@ use mbs_core::model::{Model, State};
 use mbs_core::step::{Step, StepError, StepReport};
 use mbs_core::{Real, SpdSolver};
 
-/// Which form of the equations is stepped.
+/// Index of the equations that are stepped.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ConstraintIndex {
-    /// Accelerations constrained.
+    /// Index-1, in which accelerations are constrained.
     One,
-    /// Positions constrained.
+    /// Index-3, in which positions are constrained.
     Three,
 }
 
-/// What an [`IndexChange`] remembers from step to step.
+/// State of an [`IndexChange`] that the next step continues from.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct IndexHistory<T> {
-    /// The present index.
+    /// Index of the present equations.
     pub index: ConstraintIndex,
     /// Changes of it so far.
     pub changes: u32,
-    /// The last trial, and the last step that was kept [s].
+    /// Length of the last trial [s].
     pub tried: T,
-    /// See `tried`.
+    /// Length of the last step that was kept [s].
     pub last: T,
 }
 
@@ -40,12 +40,12 @@ const HYSTERESIS: f64 = 2.0;
 /// Reductions of one step in a row after which index-1 is tried [-]: by halves, a sixteenth of the step did not help.
 const MAX_REDUCTIONS: u32 = 4;
 
-/// Both forms, with the rule that changes between them.
+/// Options of index-1 and index-3, with the rule that changes between the two forms.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct IndexChange<T> {
-    /// Choices in index-1.
+    /// Options of steps in index-1.
     pub index1: Options<T>,
-    /// Choices in index-3.
+    /// Options of steps in index-3.
     pub index3: Options<T>,
     /// Shorter steps are made in index-1 [s].
     pub threshold: T,
@@ -53,7 +53,7 @@ pub struct IndexChange<T> {
     pub hysteresis: T,
     /// Reductions of one step in a row after which index-1 is tried, whatever the step (the flowchart's maxite).
     pub max_reductions: u32,
-    /// Present index.
+    /// Index of the present equations.
     index: ConstraintIndex,
     changes: u32,
     /// The last trial, and the last step that was kept [s].
@@ -62,7 +62,7 @@ pub struct IndexChange<T> {
 }
 
 impl<T: Real> IndexChange<T> {
-    /// Begins in index-3; threshold 1e-4 s, hysteresis 2, at most 4 reductions.
+    /// Creates the rule, which begins in index-3; threshold 1e-4 s, hysteresis 2, at most 4 reductions.
     #[must_use]
     pub fn new(index1: Options<T>, index3: Options<T>) -> Self {
         Self {
@@ -78,7 +78,7 @@ impl<T: Real> IndexChange<T> {
         }
     }
 
-    /// The present index.
+    /// Index of the present equations.
     #[must_use]
     pub fn index(&self) -> ConstraintIndex {
         self.index
@@ -105,7 +105,7 @@ impl<T: Real> IndexChange<T> {
         IndexHistory { index, changes, tried, last }
     }
 
-    /// Restores a [`history`](Self::history).
+    /// Restores the state that a [`history`](Self::history) holds.
     pub fn set_history(&mut self, history: IndexHistory<T>) {
         let IndexHistory { index, changes, tried, last } = history;
         (self.index, self.changes, self.tried, self.last) = (index, changes, tried, last);

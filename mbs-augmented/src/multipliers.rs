@@ -11,14 +11,14 @@ use mbs_core::model::{Model, State};
 use mbs_core::team::{on_stretches, set_product};
 use mbs_core::{Real, SpdSolver};
 
-/// Where the multipliers of a step start.
+/// Start of the multipliers of a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum MultiplierStart {
     /// Extrapolated from the last two steps [P3 (3)], less what no constraint determines, which would grow from step to step.
     Filtered,
-    /// Extrapolated alone.
+    /// Extrapolated alone, and not filtered.
     Extrapolated,
-    /// Zero [P1 (16)].
+    /// Multipliers of zero [P1 (16)].
     Zero,
 }
 

@@ -1,4 +1,4 @@
-//! What the caller chooses. Public fields; start from [`Options::index3`] or [`Options::index1`].
+//! Options that the caller chooses. Public fields; start from [`Options::index3`] or [`Options::index1`].
 
 use mbs_core::Real;
 use mbs_core::integrator::Integrator;
@@ -7,7 +7,7 @@ use mbs_core::step::OptionError;
 /// Penalty c in double precision and finer [effective masses]. A sweep leaves 1e-6 of a violation, and 10 of 16 digits remain beside it;
 /// 1e2 to 1e8 work in regular motion.
 const PENALTY: f64 = 1e6;
-/// The same in coarser scalars: the square root of 1/EPSILON in f32, so that digits are shared between mass and penalty.
+/// Penalty c in coarser scalars [effective masses]: the square root of 1/EPSILON in f32, so that digits are shared between mass and penalty.
 const PENALTY_OF_SINGLE: f64 = 3e3;
 /// EPSILON from which a scalar is coarser in this sense [-]: between that of f64 and that of f32.
 const COARSE: f64 = 1e-12;
@@ -15,7 +15,7 @@ const COARSE: f64 = 1e-12;
 const TOLERANCE: f64 = 1e-10;
 /// The least tolerance [EPSILON]: six binary digits are left to rounding.
 const MIN_TOLERANCE: f64 = 64.0;
-/// What may be left of the first correction where effects act [-]. At 1e-6 the energy error of a vehicle that steers at 30 m/s grows to the
+/// Share of the first correction that may be left where effects act [-]. At 1e-6 the energy error of a vehicle that steers at 30 m/s grows to the
 /// double, at 3e-7 by a seventh.
 const TRUNCATION_SHARE: f64 = 3e-7;
 /// Iterations of index-3 [-]: passages of singular positions take up to 20.
@@ -30,15 +30,15 @@ const MAX_SWEEPS_OF_INDEX1: u32 = 20;
 /// Choices for a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Options<T> {
-    /// Time integrator.
+    /// Time integrator of the steps.
     pub integrator: Integrator<T>,
     /// Penalty on the constraints.
     pub penalty: Penalty<T>,
     /// Newton tolerance, relative to the displacement per step; in index-1, to the accelerations [-].
     pub tolerance: T,
-    /// Where effects act, the iteration of index-3 also ends by what a correction leaves, at least a tenth of it. It ends below this times
-    /// the first correction of the step, which is three times the error of the trapezoidal rule in it. Zero, and with a fixed alpha: the
-    /// tolerance alone [-].
+    /// Share of the first correction of a step below which the iteration of index-3 also ends where effects act [-]. Compared with it is what a
+    /// correction leaves, at least a tenth of the correction. The first correction is three times the error of the trapezoidal rule in the step.
+    /// Zero, and with a fixed alpha: the tolerance alone.
     pub truncation_share: T,
     /// Iterations allowed in one step.
     pub max_iterations: u32,
@@ -52,7 +52,7 @@ pub struct Options<T> {
     pub adaptive_penalty: bool,
 }
 
-/// The penalty.
+/// Penalty alpha on the constraints.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Penalty<T> {
     /// In proportion to the effective mass of each row: alpha = factor a' m_k in index-3 (a' = 4/dt^2 for the trapezoidal
@@ -74,7 +74,7 @@ impl<T: Real> Penalty<T> {
 }
 
 impl<T: Real> Options<T> {
-    /// Defaults of index-3.
+    /// Returns the defaults of index-3.
     ///
     /// Penalty 1e6 effective masses in double precision (methods: 1e2 to 1e8 work in regular motion), the square root of 1/eps in others.
     /// Tolerance 1e-10, or where effects act, up to double precision, 3e-7 of the first correction. At most 40 iterations: passages of
@@ -98,8 +98,8 @@ impl<T: Real> Options<T> {
         }
     }
 
-    /// Defaults of index-1: penalty 1e6 effective masses, at most 4 iterations, since iterating on at a singular position
-    /// leads away from the solution there. Eight times as many where what is left is not small.
+    /// Returns the defaults of index-1: penalty 1e6 effective masses, at most 4 iterations, since iterating on at a singular position leads away
+    /// from the solution there. Eight times as many where what is left is not small.
     #[must_use]
     pub fn index1() -> Self {
         Self {
@@ -109,7 +109,7 @@ impl<T: Real> Options<T> {
         }
     }
 
-    /// Checks the ranges.
+    /// Checks the ranges of the options.
     ///
     /// # Errors
     /// [`OptionError`] names the option.

@@ -82,7 +82,7 @@ impl<T: Real> PenaltyScale<T> {
         sum(team, x.len(), part) * T::HALF
     }
 
-    /// Multiplies all penalties.
+    /// Multiplies all penalties by a factor.
     pub(crate) fn scale(&mut self, by: T) {
         self.weights.iter_mut().for_each(|s| *s *= by);
         self.factor *= by;
@@ -110,7 +110,7 @@ impl<T: Real> PenaltyScale<T> {
         was_raised
     }
 
-    /// By how much penalties may still be raised.
+    /// Returns the factor by which penalties may still be raised.
     fn room(&self) -> T {
         T::from_f64(MAX_PENALTY) / T::EPSILON / (self.factor * self.base)
     }
@@ -148,16 +148,16 @@ impl<T: Real> PenaltyScale<T> {
 /// Follows the weakest combination of constraints from step to step.
 #[derive(Debug, Clone)]
 pub(crate) struct PenaltyAdaptation<T> {
-    /// u: the combination that one correction leaves most of, m.
+    /// Weakest combination u, of which one correction leaves most, m.
     pub(crate) weakest_combination: Vec<T>,
-    /// rho: what one correction left of it in the last step [-].
+    /// Part rho of the weakest combination that one correction left in the last step [-].
     pub(crate) contraction: T,
-    /// What is added to it where it is well determined, so that no combination stays out of sight, m.
+    /// Part of all combinations that is added to the weakest one where that is well determined, so that no combination stays out of sight, m.
     probe_seed: Vec<T>,
 }
 
 impl<T: Real> PenaltyAdaptation<T> {
-    /// For `m` rows.
+    /// Begins with a combination of all `m` rows.
     pub(crate) fn new(m: usize) -> Self {
         Self {
             weakest_combination: vec![T::ONE; m],
@@ -166,7 +166,7 @@ impl<T: Real> PenaltyAdaptation<T> {
         }
     }
 
-    /// What a step begins with: a raised factor falls where the last step determined all combinations well.
+    /// Returns the factor that a step begins with: a raised factor falls where the last step determined all combinations well.
     pub(crate) fn carried(&self, factor: T) -> T {
         let is_falling = self.contraction < T::from_f64(FALLING * MAX_CONTRACTION);
         if is_falling { (factor * T::from_f64(FALL)).max(T::ONE) } else { factor }

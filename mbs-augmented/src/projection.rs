@@ -63,7 +63,7 @@ impl ProjectionStrategy {
     }
 }
 
-/// Scratch of projections.
+/// Scratch memory of projections.
 #[derive(Debug, Clone)]
 pub(crate) struct Projection<T> {
     /// x - x*, extended.
@@ -82,7 +82,7 @@ impl<T: Real> Projection<T> {
     }
 }
 
-/// One projection: x on its level, with the equations and penalties of the step.
+/// Projection of x on its level, with the equations and penalties of the step.
 #[derive(Debug)]
 pub(crate) struct Projector<'a, T, M, S> {
     pub(crate) model: &'a M,

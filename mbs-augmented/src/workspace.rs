@@ -27,7 +27,7 @@ pub struct Workspace<T, S> {
     pub(crate) projection: Projection<T>,
     /// Energy that the penalties held after the first correction [J].
     pub(crate) penalty_energy: T,
-    /// What a change of index did before the step.
+    /// Counts of a change of index before the step.
     pub(crate) settled: Counts,
     saved: History<T>,
 }
@@ -109,17 +109,17 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
         &self.equations.terms
     }
 
-    /// The same, to be put back.
+    /// Terms as last evaluated, to be put back.
     pub fn terms_mut(&mut self) -> &mut Terms<T> {
         &mut self.equations.terms
     }
 
-    /// The solver.
+    /// Solver of the equations.
     pub fn solver(&self) -> &S {
         &self.equations.solver
     }
 
-    /// A step begins: no counts, penalties raised by `factor`, a fixed alpha times `unit`.
+    /// Begins a step with no counts, penalties raised by `factor`, and a fixed alpha times `unit`.
     pub(crate) fn begin<M: Model<T>>(
         &mut self,
         model: &M,
@@ -191,7 +191,7 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
         commit(model, (rule, compensated), &self.end, multipliers, terms, s);
     }
 
-    /// What a step did, with the change of index before it.
+    /// Returns the report of a step, with the change of index before it.
     pub(crate) fn report(&mut self, newton: (u32, T, Stop), violation: [T; 3]) -> StepReport<T> {
         let (settled, counts) = (take(&mut self.settled), self.equations.counts);
         let counts = Counts {

@@ -90,7 +90,7 @@ fn predict<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     w.end.evaluate_rates(model, rule, &mut w.terms);
 }
 
-/// The Newton loop. Returns what is reported of it.
+/// Runs the Newton loop. Returns what is reported of it.
 fn iterate<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     model: &M,
     (rule, mut newton): (&Rule<T>, Newton<T>),

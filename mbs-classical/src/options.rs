@@ -1,4 +1,4 @@
-//! What the caller chooses. Public fields; start from [`Options::index3`] or [`Options::index1`].
+//! Options that the caller chooses. Public fields; start from [`Options::index3`] or [`Options::index1`].
 
 use mbs_core::Real;
 use mbs_core::integrator::Integrator;
@@ -8,7 +8,7 @@ use mbs_core::step::OptionError;
 const TOLERANCE: f64 = 1e-10;
 /// The least tolerance [EPSILON]: six binary digits are left to rounding.
 const MIN_TOLERANCE: f64 = 64.0;
-/// Iterations [-]: regular steps need two or three.
+/// Most iterations of a step [-]: regular steps need two or three.
 const MAX_ITERATIONS: u32 = 20;
 /// Sweeps of a projection [-]: one is exact but for a factor of a near configuration and for delta.
 const MAX_SWEEPS: u32 = 12;
@@ -21,7 +21,7 @@ const MIN_RANK: f64 = 300.0;
 /// Choices for a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Options<T> {
-    /// Time integrator.
+    /// Time integrator of the steps.
     pub integrator: Integrator<T>,
     /// Newton tolerance, relative to the displacement per step [-].
     pub tolerance: T,
@@ -38,7 +38,7 @@ pub struct Options<T> {
     /// 1e-8 does. It does not help through singular positions, which are passed best without. `None`: zero, and lost rank is
     /// an error.
     pub regularisation: Option<T>,
-    /// What keeps index-1 on its constraints.
+    /// Method that keeps index-1 on its constraints.
     pub stabilisation: Stabilisation<T>,
     /// Put the geometric stiffness of the constraints into the tangent of index-3.
     pub geometric_stiffness: bool,
@@ -46,16 +46,16 @@ pub struct Options<T> {
     pub compensated: bool,
 }
 
-/// What keeps index-1 on its constraints.
+/// Method that keeps index-1 on its constraints.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Stabilisation<T> {
-    /// Nothing: phi grows with time.
+    /// No method of stabilisation: phi grows with time.
     None,
     /// phi'' + 2 alpha phi' + beta^2 phi = 0 instead of phi'' = 0 (Baumgarte, 1972).
     Baumgarte {
         /// Damping of the violation [1/s].
         alpha: T,
-        /// Its frequency [1/s]; equal to alpha for critical damping.
+        /// Frequency of the violation [1/s]; equal to alpha for critical damping.
         beta: T,
     },
     /// Positions, velocities and accelerations are projected after every step.
@@ -63,7 +63,7 @@ pub enum Stabilisation<T> {
 }
 
 impl<T: Real> Options<T> {
-    /// Defaults of index-3: trapezoidal rule, tolerance 1e-10, at most 20 iterations, 2 or 3 are usual.
+    /// Returns the defaults of index-3: trapezoidal rule, tolerance 1e-10, at most 20 iterations, 2 or 3 are usual.
     #[must_use]
     pub fn index3() -> Self {
         Self {
@@ -79,13 +79,13 @@ impl<T: Real> Options<T> {
         }
     }
 
-    /// Defaults of index-1: as index-3, projected after every step.
+    /// Returns the defaults of index-1: as index-3, projected after every step.
     #[must_use]
     pub fn index1() -> Self {
         Self::index3()
     }
 
-    /// Checks the ranges.
+    /// Checks the ranges of the options.
     ///
     /// # Errors
     /// [`OptionError`] names the option.

@@ -26,7 +26,7 @@ pub struct Workspace<T, S> {
     /// Right-hand side, then correction, of coordinates and multipliers, n + m.
     pub(crate) f: Vec<T>,
     scratch: Vec<T>,
-    /// What the weakest pivot leaves undetermined, n + m.
+    /// Null vector of the matrix: what the weakest pivot leaves undetermined, n + m.
     null: Vec<T>,
     /// lambda / a' (index-3) or lambda (index-1), m.
     pub(crate) lambda: Vec<T>,
@@ -58,7 +58,7 @@ const MIN_PART_OF_ROW: f64 = 1e-3;
 /// way may end on either.
 const BRANCH_DISTANCE: f64 = 4.0;
 
-/// Which vector stands at M in a residual.
+/// Vector that stands at M in a residual.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Mass {
     None,
@@ -108,17 +108,17 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
         &self.terms
     }
 
-    /// The same, to be put back. A step leaves nothing else for the next one beside the state.
+    /// Terms as last evaluated, to be put back. A step leaves nothing else for the next one beside the state.
     pub fn terms_mut(&mut self) -> &mut Terms<T> {
         &mut self.terms
     }
 
-    /// The solver.
+    /// Solver of the equations.
     pub fn solver(&self) -> &S {
         &self.solver
     }
 
-    /// Starts a step: no counts, delta from its option.
+    /// Starts a step with no counts, and delta from its option.
     pub(crate) fn begin(&mut self, regularisation: Option<T>) {
         self.counts = Counts::default();
         self.delta.clear();
@@ -185,8 +185,8 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
         self.solver.inertia().negative == self.lambda.len()
     }
 
-    /// What a weak pivot means: x with T x = 0 lies in the multipliers when rows depend on each other, else in coordinates
-    /// that nothing determines. Of dependent rows one of a joint is named, if there is one.
+    /// Diagnoses a weak pivot: x with T x = 0 lies in the multipliers when rows depend on each other, else in coordinates that nothing
+    /// determines. Of dependent rows one of a joint is named, if there is one.
     fn diagnose<M: Model<T>>(&mut self, model: &M, error: FactorError) -> StepError {
         if !error.pivot.is_finite() {
             return StepError::NotFinite { unknown: error.unknown.min(self.last_coordinate()) };

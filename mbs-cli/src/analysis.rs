@@ -1,4 +1,4 @@
-//! `mbs equilibrium SCENE` and `mbs modes SCENE`.
+//! Commands `mbs equilibrium SCENE` and `mbs modes SCENE`.
 
 use crate::files::folder;
 use crate::refusal::Refusal;
@@ -68,7 +68,7 @@ enum At {
     Moving,
 }
 
-/// Runs `mbs equilibrium`.
+/// Runs the command `mbs equilibrium`.
 pub(crate) fn equilibrium(arguments: &Equilibrium) -> ExitCode {
     let search = arguments.common.search();
     let analyse = |scene: &Scene<f64>| {
@@ -77,7 +77,7 @@ pub(crate) fn equilibrium(arguments: &Equilibrium) -> ExitCode {
     command(&arguments.common, "equilibrium.json", analyse)
 }
 
-/// Runs `mbs modes`.
+/// Runs the command `mbs modes`.
 pub(crate) fn modes(arguments: &Modes) -> ExitCode {
     let place = match arguments.at {
         At::Equilibrium => Place::Equilibrium,
@@ -131,7 +131,7 @@ fn command(
     status
 }
 
-/// Replaces the file; gives the object as it is there.
+/// Replaces the file of the object; gives the object as it is there.
 fn write(
     folder: &Folder,
     (file, object): (&str, &str),

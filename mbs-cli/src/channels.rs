@@ -44,7 +44,7 @@ pub(crate) fn lines(channels: &[ChannelSummary], is_all: bool) -> Vec<String> {
     lines
 }
 
-/// A row: texts as they are shown.
+/// Row of the table of statistics: texts as they are shown.
 struct Row<'a> {
     name: &'a str,
     label: String,

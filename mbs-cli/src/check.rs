@@ -1,4 +1,4 @@
-//! `mbs check SCENE...`.
+//! Command `mbs check SCENE...`: reads scenes and assembles them, without a run.
 
 use crate::files;
 use crate::refusal::Refusal;
@@ -31,13 +31,13 @@ pub(crate) struct Arguments {
     json: bool,
 }
 
-/// What is known of a scene that passes: coordinates, constraints, rank; and what is to be known of it.
+/// Sizes of a scene that passes, coordinates, constraints and rank, and notes on it.
 type Sizes = ([usize; 3], Vec<String>);
 
 /// Why a scene does not pass: an object for programs, and the text.
 type Failure = (Value, String);
 
-/// Runs the command.
+/// Runs the command `mbs check`.
 pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     let mut text = String::new();
     let mut status = ExitCode::SUCCESS;

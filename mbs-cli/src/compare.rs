@@ -1,4 +1,4 @@
-//! `mbs compare SCENE`.
+//! Command `mbs compare SCENE`: CPU time and true error of methods over a range of steps.
 
 use crate::bar::{bar, ticks};
 use crate::plot::{is_picture, work_precision};
@@ -117,7 +117,7 @@ impl Arguments {
         self.request().map_or(Vec::new(), |request| request.needed_precisions(has_table))
     }
 
-    /// The reference table: the one given, or the one beside the scene; its name and text.
+    /// Returns the name and the text of the reference table: the one given, or the one beside the scene.
     fn table(&self) -> Result<Option<(String, String)>, Refusal> {
         let name = self.scene.with_extension("csv");
         let folder = self.scene.parent().unwrap_or(Path::new("")).join("references");
@@ -183,7 +183,7 @@ fn named<U: Copy>(
     })
 }
 
-/// Runs the command.
+/// Runs the command `mbs compare`.
 pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     match run(arguments) {
         Ok((comparison, written)) => write_results(&comparison, written, arguments),

@@ -1,4 +1,4 @@
-//! `mbs completions SHELL` and `mbs man DIR`: what an installation puts beside the command.
+//! Commands `mbs completions SHELL` and `mbs man DIR`: what an installation puts beside the command.
 
 use crate::refusal::Refusal;
 use crate::say::{plain, say};
@@ -25,14 +25,14 @@ pub(crate) struct Man {
     dir: PathBuf,
 }
 
-/// Prints the completions.
+/// Prints the completions of a shell.
 pub(crate) fn completions(arguments: &Completions, mut command: Command) -> ExitCode {
     let mut text = Vec::new();
     clap_complete::generate(arguments.shell, &mut command, "mbs", &mut text);
     say(&String::from_utf8_lossy(&text), ExitCode::SUCCESS)
 }
 
-/// Writes the pages.
+/// Writes the manual pages of the program and its commands.
 pub(crate) fn man(arguments: &Man, command: Command) -> ExitCode {
     let dir = &arguments.dir;
     let written =

@@ -1,4 +1,4 @@
-//! `mbs diff A B`.
+//! Command `mbs diff A B`: comparison of the results of two runs.
 
 use crate::channels::{number, time};
 use crate::files;
@@ -44,7 +44,7 @@ fn ratio(text: &str) -> Result<f64, String> {
     number.ok_or_else(|| "write a number of at least zero, such as 1e-6".to_owned())
 }
 
-/// Runs the command.
+/// Runs the command `mbs diff`.
 pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     match compared(arguments) {
         Ok(found) => report(arguments, &found),
@@ -87,7 +87,7 @@ fn compared(arguments: &Arguments) -> Result<Difference, Refusal> {
     Ok(found)
 }
 
-/// What a run is called in a legend: the last part of its path.
+/// Returns the name of a run in a legend: the last part of its path.
 pub(crate) fn label(run: &Path) -> String {
     run.file_stem().unwrap_or(run.as_os_str()).to_string_lossy().into_owned()
 }

@@ -1,4 +1,4 @@
-//! `mbs doctor SCENE`.
+//! Command `mbs doctor SCENE`: faults and doubts of a scene, with remedies.
 
 use crate::refusal::Refusal;
 use crate::say::say;
@@ -47,7 +47,7 @@ pub(crate) struct Arguments {
     still: bool,
 }
 
-/// Runs the command.
+/// Runs the command `mbs doctor`.
 pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     let overrides = Method {
         formulation: arguments.formulation.clone(),

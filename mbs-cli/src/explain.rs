@@ -1,4 +1,4 @@
-//! `mbs explain SCENE`.
+//! Command `mbs explain SCENE`: effects that a scene simulates, and their measured cost.
 
 use crate::precision::NO_PAIRS;
 use crate::refusal::Refusal;
@@ -49,7 +49,7 @@ pub(crate) struct Arguments {
     integrator: Option<String>,
 }
 
-/// Runs the command.
+/// Runs the command `mbs explain`.
 pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     match explain(arguments) {
         Ok((begun, explanation)) => write_results(&begun, &explanation, arguments),

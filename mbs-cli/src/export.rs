@@ -1,4 +1,4 @@
-//! `mbs export SCENE`.
+//! Command `mbs export SCENE`: a scene as constant tables for a controller.
 
 use crate::refusal::Refusal;
 use crate::scene::SceneArgument;
@@ -28,7 +28,7 @@ pub(crate) struct Arguments {
     ladder: Option<PathBuf>,
 }
 
-/// Runs the command.
+/// Runs the command `mbs export`.
 pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     match written(arguments) {
         Ok(()) => ExitCode::SUCCESS,

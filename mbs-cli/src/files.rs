@@ -13,12 +13,12 @@ use mbs::{InputTableError, Method, ResolvedMethod, SettingsError};
 use std::path::Path;
 use std::process::ExitCode;
 
-/// What a command that runs a scene begins with.
+/// Scene, settings and folder of results with which a command that runs a scene begins.
 pub(crate) struct Begun {
     pub(crate) document: SceneFile,
     pub(crate) scene: Scene<f64>,
     pub(crate) settings: ResolvedMethod,
-    /// Where the results go.
+    /// Folder of the results; `None`: no files are written.
     pub(crate) folder: Option<Folder>,
 }
 

@@ -1,4 +1,4 @@
-//! `mbs generate FAMILY`.
+//! Command `mbs generate FAMILY`: a large scene of a family.
 
 use crate::files;
 use crate::refusal::Refusal;
@@ -52,7 +52,7 @@ enum Word {
 /// Distance between vehicles that is not given [m]: twice the length of a car.
 const SPACING: f64 = 8.0;
 
-/// Runs the command.
+/// Runs the command `mbs generate`.
 pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     let text = match text(arguments) {
         Ok(text) => text,

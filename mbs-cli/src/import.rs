@@ -1,4 +1,4 @@
-//! `mbs import FILE`, and models where a scene is wanted.
+//! Command `mbs import FILE`, and models where a scene is wanted.
 
 use crate::files;
 use crate::input;
@@ -43,7 +43,7 @@ pub(crate) struct Arguments {
     json: bool,
 }
 
-/// Runs the command.
+/// Runs the command `mbs import`.
 pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     match imported(arguments) {
         Ok(status) => status,
@@ -96,7 +96,7 @@ fn imported(arguments: &Arguments) -> Result<ExitCode, Refusal> {
     Ok(say(&said, ExitCode::SUCCESS))
 }
 
-/// What is wrong with the start; nothing where it was not looked at.
+/// Faults of the scene's start; `None` where it was not looked at.
 type Faults = Option<Vec<StartFault>>;
 
 fn faults(name: &str, model: &Imported) -> Result<Faults, Refusal> {
@@ -146,7 +146,7 @@ fn report(name: &str, model: &Imported) -> String {
     text
 }
 
-/// What is for the eye alone, by what is said of it: how many elements each.
+/// Returns the texts of the findings that are for the eye alone, each with its number of elements.
 fn for_the_eye(model: &Imported) -> Vec<(&str, usize)> {
     let mut list: Vec<(&str, usize)> = Vec::new();
     let found = model.findings.iter().filter(|finding| is_for_the_eye(finding));

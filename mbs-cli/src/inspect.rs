@@ -1,4 +1,4 @@
-//! `mbs inspect MODEL`.
+//! Command `mbs inspect MODEL`: accelerations, efforts, matrices and frames of a mechanism at a state.
 
 use crate::refusal::Refusal;
 use crate::say::say;
@@ -20,7 +20,7 @@ Exit status:
   0  computed
   1  the scene, the state or the usage was refused";
 
-/// What can be asked for.
+/// Quantities that can be asked for.
 const QUANTITIES: [&str; 11] = [
     "accelerations",
     "efforts",
@@ -34,9 +34,9 @@ const QUANTITIES: [&str; 11] = [
     "jacobians",
     "derivatives",
 ];
-/// Those that need no mass.
+/// Quantities that need no mass.
 const GEOMETRY: [&str; 2] = ["frames", "jacobians"];
-/// How many of them are computed where nothing is asked for: the next one is known by frames, the others are large, and the last is of
+/// Number of quantities that are computed where nothing is asked for: the next one is known by frames, the others are large, and the last is of
 /// open trees alone.
 const DEFAULT: usize = 8;
 
@@ -60,7 +60,7 @@ pub(crate) struct Arguments {
     json: bool,
 }
 
-/// Runs the command.
+/// Runs the command `mbs inspect`.
 pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     match inspected(arguments) {
         Ok(object) if arguments.json => say(&object.to_string(), ExitCode::SUCCESS),
@@ -69,7 +69,7 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     }
 }
 
-/// What is given for a joint.
+/// Value, rate and effort that are given for a joint.
 struct Given {
     name: String,
     value: Option<Vec<f64>>,
@@ -191,7 +191,7 @@ fn matrix(matrix: &Matrix) -> Value {
     json!((0..matrix.rows).map(|i| matrix.row(i)).collect::<Vec<_>>())
 }
 
-/// What the state file says of joints, then what the command line does.
+/// Reads the given state of joints: that of the state file, then that of the command line, which counts before it.
 fn given(arguments: &Arguments, mechanism: &Mechanism) -> Result<Vec<Given>, Refusal> {
     let mut all = match &arguments.state {
         Some(path) => of_file(path, mechanism)?,
@@ -227,7 +227,7 @@ fn given(arguments: &Arguments, mechanism: &Mechanism) -> Result<Vec<Given>, Ref
     Ok(all)
 }
 
-/// What a state file says.
+/// Reads the given state of joints from a state file.
 fn of_file(path: &Path, mechanism: &Mechanism) -> Result<Vec<Given>, Refusal> {
     let mut all = Vec::new();
     let bytes = crate::input::read(path, "state file")?;
@@ -359,7 +359,7 @@ fn is_finite(value: &Value) -> bool {
     }
 }
 
-/// What each row is of, and the efforts along all rows.
+/// Returns the joint and the number of each row, and the efforts along all rows.
 fn rows(
     mechanism: &Mechanism,
     tree: &Tree,
@@ -409,7 +409,7 @@ fn numbers_text(list: &Value) -> String {
     numbers.map(|x| format!("{:>13.6}", x.as_f64().unwrap_or(f64::NAN))).collect()
 }
 
-/// The same for people: a line for each row, then what else was asked for.
+/// Returns the results as text for people: a line for each row, then what else was asked for.
 fn text(object: &Value) -> String {
     let list = |key: &str| object[key].as_array().cloned().unwrap_or_default();
     // a rotation has more numbers in q than rows

@@ -31,12 +31,12 @@ pub(crate) struct Arguments {
     restart: bool,
 }
 
-/// What a run resumes from, and how it is kept.
+/// Checkpoint that a run resumes from, and the writer of its checkpoints.
 #[derive(Debug, Default)]
 pub(crate) struct RunCheckpoints {
     pub(crate) from: Option<Checkpoint>,
     pub(crate) writer: Option<CheckpointWriter>,
-    /// Where the checkpoint of the directory is.
+    /// Path of the checkpoint in the directory of the results.
     checkpoint: Option<PathBuf>,
 }
 
@@ -121,7 +121,7 @@ fn unfinished(out: &Path, hint: &str) -> Refusal {
 }
 
 impl RunCheckpoints {
-    /// What is given, and the settings of the checkpoint where nothing is; else the refusal.
+    /// Returns the settings that are given, and those of the checkpoint where nothing is given; else the refusal.
     pub(crate) fn overrides(&self, given: Method) -> Result<Method, Refusal> {
         let Some(from) = &self.from else { return Ok(given) };
         from.overrides(&given).map_err(|error| Refusal::checkpoint(&error))

@@ -153,7 +153,7 @@ fn command_line() -> clap::Command {
     ))
 }
 
-/// Runs the command. `program` is how it was started: a file, or an interpreter with what it was given. The exit status: 0
+/// Runs the command of a command line. `program` is how it was started: a file, or an interpreter with what it was given. The exit status: 0
 /// done, 1 refused, 2 stopped early or not written, 3 not in this build.
 pub fn run(
     program: impl IntoIterator<Item = OsString>,
@@ -249,7 +249,7 @@ fn unparsed(error: &clap::Error) -> ExitCode {
     usage(message.join(" ").trim_start_matches("error: "), &hint)
 }
 
-/// What to say about a command that is none: a scene, another program's word, or the nearest name where clap has none.
+/// Returns the hint on a command that is none: a scene, another program's word, or the nearest name where clap has none.
 fn hint(error: &clap::Error) -> Option<String> {
     let word = match (error.kind(), error.get(ContextKind::InvalidSubcommand)) {
         (ErrorKind::InvalidSubcommand, Some(ContextValue::String(word))) => word,

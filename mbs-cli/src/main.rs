@@ -1,4 +1,4 @@
-//! The program `mbs`.
+//! Entry point of the program `mbs`.
 
 use std::env::args_os;
 use std::process::ExitCode;

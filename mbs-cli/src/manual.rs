@@ -1,4 +1,4 @@
-//! `mbs kinds` and `mbs schema`: what a scene file may say.
+//! Commands `mbs kinds` and `mbs schema`: what a scene file may say.
 
 use crate::refusal::Refusal;
 use crate::say::say;
@@ -31,7 +31,7 @@ pub(crate) struct Kinds {
 #[command(after_help = SCHEMA)]
 pub(crate) struct Schema {}
 
-/// Runs `mbs kinds`.
+/// Runs the command `mbs kinds`.
 pub(crate) fn kinds(arguments: &Kinds) -> ExitCode {
     if arguments.markdown {
         return say(&manual::markdown(), ExitCode::SUCCESS);
@@ -46,7 +46,7 @@ pub(crate) fn kinds(arguments: &Kinds) -> ExitCode {
     }
 }
 
-/// Runs `mbs schema`.
+/// Runs the command `mbs schema`.
 pub(crate) fn schema() -> ExitCode {
     say(&manual::schema(), ExitCode::SUCCESS)
 }

@@ -112,7 +112,7 @@ pub(crate) fn options(model: &ModelOptions, folder: &Path) -> Result<ImportOptio
     })
 }
 
-/// `NAME=FOLDER`
+/// Reads the name and the folder of `NAME=FOLDER`; else the refusal.
 fn package(text: &str) -> Result<(String, PathBuf), Refusal> {
     let refused = |what: &str| {
         let message = format!("`--package {text}`: {what}");
@@ -135,7 +135,7 @@ pub(crate) fn note(name: &str, model: &Imported) -> String {
     )
 }
 
-/// What the scene has.
+/// Returns a line on the scene of a model: its format, and the numbers of its parts.
 pub(crate) fn first_line(name: &str, model: &Imported) -> String {
     let ModelSizes { links, bodies, joints, couplings, inputs } = model.sizes;
     let bodies = if bodies == 1 { "1 body".to_owned() } else { format!("{bodies} bodies") };

@@ -1,4 +1,4 @@
-//! `mbs new TEMPLATE [FILE]`.
+//! Command `mbs new TEMPLATE [FILE]`: a small scene to begin from.
 
 use crate::files;
 use crate::refusal::Refusal;
@@ -26,7 +26,7 @@ pub(crate) struct Arguments {
     file: Option<PathBuf>,
 }
 
-/// Runs the command.
+/// Runs the command `mbs new`.
 pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     match written(arguments) {
         Ok(text) => say(&text, ExitCode::SUCCESS),

@@ -1,4 +1,4 @@
-//! `mbs plot RUN... --out FILE`: channels of one or several runs over each other, as a page, as a picture or as a table.
+//! Command `mbs plot RUN... --out FILE`: channels of one or several runs over each other, as a page, as a picture or as a table.
 
 mod dashes;
 mod figure;
@@ -44,7 +44,7 @@ pub(crate) struct Arguments {
     log: bool,
 }
 
-/// Runs the command.
+/// Runs the command `mbs plot`.
 pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     match plotted(arguments) {
         Ok(text) => say(&text, ExitCode::SUCCESS),

@@ -1,4 +1,4 @@
-//! `mbs run SCENE --realtime`.
+//! Command `mbs run SCENE --realtime`: options of a paced run.
 
 use crate::refusal::Refusal;
 use clap::Args;
@@ -43,7 +43,7 @@ pub(crate) struct Arguments {
 }
 
 impl Arguments {
-    /// What is asked for; nothing where the run is not paced; else the refusal.
+    /// Returns the pacing that is asked for; nothing where the run is not paced; else the refusal.
     pub(crate) fn pacing(&self) -> Result<Option<Pacing>, Refusal> {
         let other = Pacing::default();
         let is_laddered = self.degrade.is_some() || self.quiet.is_some();

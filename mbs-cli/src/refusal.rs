@@ -1,4 +1,4 @@
-//! What a command says where it does nothing: text for people, and with `--json` an object for programs.
+//! Refusal of a command that does nothing: text for people, and with `--json` an object for programs.
 
 use crate::say::{say, warn};
 use crate::status::{REFUSED, STOPPED};
@@ -14,7 +14,7 @@ use std::process::ExitCode;
 #[derive(Debug)]
 pub(crate) struct Refusal {
     code: &'static str,
-    /// Exit status.
+    /// Exit status of the program.
     status: u8,
     message: String,
     hint: String,
@@ -28,17 +28,17 @@ impl Refusal {
         Self { code, status: REFUSED, message, hint, place: None }
     }
 
-    /// At a place in a file.
+    /// Puts the refusal at a place in a file.
     pub(crate) fn at(self, file: &str, place: Place) -> Self {
         Self { place: Some(Box::new((file.to_owned(), place))), ..self }
     }
 
-    /// Of a file's text.
+    /// Refusal of a file's text.
     pub(crate) fn read(code: &'static str, error: &ReadError) -> Self {
         Self::new(code, error.fault(), error.hint()).at(error.file(), error.place().clone())
     }
 
-    /// Of a scene's text in the precision of a run.
+    /// Refusal of a scene's text in the precision of a run.
     pub(crate) fn scene(error: &PrecisionError) -> Self {
         match error {
             PrecisionError::Read(error) => Self::read("scene-refused", error),
@@ -46,12 +46,12 @@ impl Refusal {
         }
     }
 
-    /// Of settings that no place in the scene asks for.
+    /// Refusal of settings that no place in the scene asks for.
     pub(crate) fn settings(error: &SettingsError) -> Self {
         Self::new("settings-refused", error, error.hint())
     }
 
-    /// Of a directory for results.
+    /// Refusal of a directory for results.
     pub(crate) fn folder(out: &Path, error: &FolderError) -> Self {
         let out = out.display();
         match error {
@@ -69,17 +69,17 @@ impl Refusal {
         }
     }
 
-    /// Of a checkpoint.
+    /// Refusal of a checkpoint.
     pub(crate) fn checkpoint(error: &CheckpointError) -> Self {
         Self::new("checkpoint-refused", error, error.hint())
     }
 
-    /// Of results that were computed and could not be written.
+    /// Refusal of results that were computed and could not be written.
     pub(crate) fn lost(error: &WriteError) -> Self {
         Self::unwritable(error).stopped()
     }
 
-    /// What was written; where it could not be, that is said, and the status becomes that of a run that stopped.
+    /// Returns what was written; where writing failed, says so, and the status becomes that of a run that stopped.
     pub(crate) fn unless_lost<W>(
         written: Result<W, WriteError>,
         status: &mut ExitCode,
@@ -91,35 +91,35 @@ impl Refusal {
         written.inspect_err(lost).ok()
     }
 
-    /// Of a file that could not be written.
+    /// Refusal of a file that could not be written.
     pub(crate) fn unwritable(error: &WriteError) -> Self {
         let hint =
             "make room, or give a place that can be written; what was there before is as it was";
         Self::new("out-unwritable", error, hint)
     }
 
-    /// Of what had begun: its status is that of a run that stopped.
+    /// Makes the refusal one of what had begun: its status is that of a run that stopped.
     pub(crate) fn stopped(self) -> Self {
         Self { status: STOPPED, ..self }
     }
 
-    /// Of what was interrupted, and what there is of it.
+    /// Refusal of what was interrupted, and what there is of it.
     pub(crate) fn interrupted(message: impl Display, hint: &str) -> Self {
         Self::new(INTERRUPTED, message, hint).stopped()
     }
 
-    /// Says it on standard error, and with `--json` as an object on standard output.
+    /// Says the refusal on standard error, and with `--json` as an object on standard output.
     pub(crate) fn report(&self) -> ExitCode {
         self.warn();
         self.object()
     }
 
-    /// Says it on standard error.
+    /// Says the refusal on standard error.
     pub(crate) fn warn(&self) {
         warn(&self.text());
     }
 
-    /// Its text for people.
+    /// Returns the text of the refusal for people.
     pub(crate) fn text(&self) -> String {
         let Self { message, hint, .. } = self;
         match &self.place {
@@ -129,7 +129,7 @@ impl Refusal {
         }
     }
 
-    /// The same for programs.
+    /// Returns the refusal as an object of JSON for programs.
     pub(crate) fn error(&self) -> Value {
         let place = self.place.as_deref();
         json!({
@@ -142,7 +142,7 @@ impl Refusal {
         })
     }
 
-    /// Where JSON is asked for, the object; gives the exit status.
+    /// Writes the object where JSON is asked for; gives the exit status.
     fn object(&self) -> ExitCode {
         let status = ExitCode::from(self.status);
         if !wants_json() {

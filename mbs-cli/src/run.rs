@@ -1,4 +1,4 @@
-//! `mbs run SCENE`.
+//! Command `mbs run SCENE`: simulation of a scene.
 
 use crate::bar::{bar, ticks};
 use crate::files::Begun;
@@ -193,14 +193,14 @@ impl Arguments {
     }
 }
 
-/// `U,L`.
+/// Reads the two numbers of `U,L`.
 fn two_numbers(text: &str) -> Result<[f64; 2], String> {
     let number = |text: &str| text.trim().parse::<f64>().ok();
     let both = text.split_once(',').and_then(|(u, l)| Some([number(u)?, number(l)?]));
     both.ok_or_else(|| "write two numbers with a comma, such as 1e-5,1e-7".to_owned())
 }
 
-/// `on` or `off`.
+/// Reads the word `on` or `off`.
 fn switch(text: &str) -> Result<bool, String> {
     match text {
         "on" => Ok(true),
@@ -209,7 +209,7 @@ fn switch(text: &str) -> Result<bool, String> {
     }
 }
 
-/// Runs the command.
+/// Runs the command `mbs run`.
 pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     if arguments.show.watch {
         let inputs: Vec<_> = arguments.inputs.as_deref().into_iter().collect();
@@ -226,7 +226,7 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
 /// Why a run does not begin.
 enum Stop {
     Refused(Box<Refusal>),
-    /// What it would resume from has a precision that this build lacks.
+    /// Precision of the checkpoint to resume from, which this build lacks.
     Unbuilt(Precision),
 }
 

@@ -1,4 +1,4 @@
-//! What is written to standard output and to standard error, and what becomes of it.
+//! Writing of texts to standard output and to standard error, with the exit status where it fails.
 
 use crate::status::STOPPED;
 use std::io::{self, ErrorKind, Write};

@@ -42,7 +42,7 @@ impl SceneArgument {
         input::is_standard(&self.scene) || self.scene.is_file()
     }
 
-    /// Its tree, and the scene; else the refusal.
+    /// Reads the tree of the file and the scene; else returns the refusal.
     pub(crate) fn read(&self) -> Result<(SceneFile, Scene<f64>), Refusal> {
         let document = self.document()?;
         let scene = document.scene::<f64>();
@@ -50,12 +50,12 @@ impl SceneArgument {
         Ok((document, scene))
     }
 
-    /// Its tree with the values that are set; else the refusal.
+    /// Reads the tree of the file, with the values that are set; else returns the refusal.
     pub(crate) fn document(&self) -> Result<SceneFile, Refusal> {
         self.document_for(false)
     }
 
-    /// The same, where `geometry_alone` for places: inertias that no body has are left out.
+    /// Reads the tree of the file, with the values that are set. Where `geometry_alone` it is for places: inertias that no body has are left out.
     pub(crate) fn document_for(&self, geometry_alone: bool) -> Result<SceneFile, Refusal> {
         let options = (of_words(&self.import)?, geometry_alone);
         let mut document = input::document(&self.scene, "scene file", options)?;
@@ -66,7 +66,7 @@ impl SceneArgument {
         Ok(document)
     }
 
-    /// It as a command line has it.
+    /// Returns the argument as a command line has it.
     pub(crate) fn line(&self) -> String {
         let set = self.set.iter().map(|assignment| format!(" --set '{assignment}'"));
         let import = self.import.iter().map(|option| format!(" --import '{option}'"));

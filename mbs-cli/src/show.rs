@@ -1,4 +1,4 @@
-//! `mbs run --open` and `--watch`.
+//! Options `--open` and `--watch` of `mbs run`.
 
 use crate::line;
 use crate::refusal::Refusal;
@@ -34,7 +34,7 @@ impl Arguments {
     }
 }
 
-/// Opens a page. Where there is no screen or no opener its path is printed.
+/// Opens a page with the opener of the system. Where there is no screen or no opener its path is printed.
 pub(crate) fn open(page: &Path) {
     let page = page.canonicalize().unwrap_or_else(|_| page.to_path_buf());
     if !(has_screen() && is_opened(&page)) {

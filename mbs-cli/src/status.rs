@@ -1,4 +1,4 @@
-//! Exit statuses; 0 is that of what was done.
+//! Exit statuses of the commands; 0 is that of what was done.
 
 /// Exit status of a build that lacks the precision asked for.
 pub(crate) const UNBUILT: u8 = 3;

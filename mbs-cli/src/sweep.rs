@@ -1,4 +1,4 @@
-//! `mbs sweep SCENE SWEEP`.
+//! Command `mbs sweep SCENE SWEEP`: many runs of a scene with varied numbers, into one table.
 
 use crate::bar::bar;
 use crate::diff::label;
@@ -86,14 +86,14 @@ impl Arguments {
         }
     }
 
-    /// Where the results go.
+    /// Returns the directory of the results: the one that is given, or one with the name of the sweep file.
     fn out(&self) -> PathBuf {
         let of_sweep = || PathBuf::from(self.sweep.file_stem().unwrap_or("sweep".as_ref()));
         self.out.clone().unwrap_or_else(of_sweep)
     }
 }
 
-/// Runs the command.
+/// Runs the command `mbs sweep`.
 pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     match run(arguments) {
         Ok((report, out)) => write_results(&report, &out, arguments),
@@ -177,7 +177,7 @@ fn not_run(error: &SweepError, out: &Path) -> Refusal {
     }
 }
 
-/// JSON or text; the exit status says whether all members were completed.
+/// Writes JSON or text; the exit status says whether all members were completed.
 fn write_results(report: &Report, out: &Path, arguments: &Arguments) -> ExitCode {
     let text = match arguments.json {
         true => json(report, arguments),

@@ -1,5 +1,5 @@
-//! Welds first: bodies that never move against each other become one cluster; welded to the ground they vanish. A point mass on a ball joint
-//! is part of the body that it is joined to; of several, of the first.
+//! Clusters of welded bodies: bodies that never move against each other become one cluster; welded to the ground they vanish. A point
+//! mass on a ball joint is part of the body that it is joined to; of several, of the first.
 
 use crate::Real;
 use crate::algebra::{Matrix, Vector, cross, norm};
@@ -12,7 +12,7 @@ use alloc::vec::Vec;
 pub struct Cluster<T: Real> {
     /// Indices of the bodies.
     pub bodies: Vec<usize>,
-    /// Mass [kg].
+    /// Mass of the cluster [kg].
     pub mass: T,
     /// Centre of mass, reference configuration [m].
     pub center: Vector<T, 3>,
@@ -35,7 +35,7 @@ impl<T: Real> Cluster<T> {
     }
 }
 
-/// All clusters.
+/// All clusters of a scene.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Clusters<T: Real> {
     /// Cluster of each body; `None`: part of the ground.

@@ -14,12 +14,12 @@ use crate::Real;
 /// The state of a controller without an integral: it has none.
 pub const NO_STATE: u32 = u32::MAX;
 
-/// What is done to a course.
+/// One operation of a list, with its target.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FeedbackStep<T> {
-    /// The course.
+    /// Index of the target among the courses.
     pub to: u32,
-    /// What is done to its value, rate and acceleration.
+    /// Operation on its value, rate and acceleration.
     pub operation: FeedbackOperation<T>,
 }
 
@@ -36,44 +36,44 @@ pub enum FeedbackOperation<T> {
         /// Which of those that are measured.
         number: u32,
     },
-    /// A number: where sums and products begin.
+    /// Constant with which sums and products begin.
     Constant(T),
     /// Adds another course times a factor.
     Add {
-        /// The other course.
+        /// Index of the source among the courses.
         from: u32,
-        /// The factor.
+        /// Factor of the source.
         factor: T,
     },
     /// Multiplies by another course.
     Multiply {
-        /// The other course.
+        /// Index of the source among the courses.
         from: u32,
     },
     /// A function of another course.
     Curve {
-        /// The other course.
+        /// Index of the source among the courses.
         from: u32,
         /// The number of the function.
         curve: u32,
     },
     /// Another course within limits, the lower one first.
     Clamp {
-        /// The other course.
+        /// Index of the source among the courses.
         from: u32,
-        /// The limits.
+        /// Limits of the value, the lower one first.
         limits: [T; 2],
     },
     /// Another course within limits by that course; one where it is zero.
     LimitRatio {
-        /// The other course.
+        /// Index of the source among the courses.
         from: u32,
-        /// The limits.
+        /// Limits of the ratio, the lower one first.
         limits: [T; 2],
     },
-    /// Another course, late.
+    /// Lag of first order behind the source.
     Lag {
-        /// The other course.
+        /// Index of the source among the courses.
         from: u32,
         /// Which of the states.
         state: u32,
@@ -82,14 +82,14 @@ pub enum FeedbackOperation<T> {
     },
     /// The integral of another course.
     Integral {
-        /// The other course.
+        /// Index of the source among the courses.
         from: u32,
         /// Which of the states.
         state: u32,
-        /// Its limits, the lower one first; infinite: it has none.
+        /// Limits of the integral, the lower one first; infinite: it has none.
         limits: [T; 2],
     },
-    /// What a controller asks for.
+    /// Output of a PID controller.
     Pid {
         /// The wanted course and the measured one.
         from: [u32; 2],
@@ -102,15 +102,15 @@ pub enum FeedbackOperation<T> {
     },
     /// The value of another course becomes a component of a vector.
     Component {
-        /// The other course.
+        /// Index of the source among the courses.
         from: u32,
-        /// Which component.
+        /// Index of the component, from 0.
         component: u32,
     },
     /// The value of another course becomes a force on a measured coordinate, its first component; how it resists the coordinate and the
     /// rate are the others.
     Force {
-        /// The other course.
+        /// Index of the source among the courses.
         from: u32,
         /// Which of those that are measured.
         on: u32,
@@ -152,7 +152,7 @@ impl<T: Real> CourseSlope<T> {
 /// A value, rate and acceleration.
 type Signal<T> = [T; 3];
 
-/// Where states of signals come from and go to: each is a value with its rate.
+/// States of signals, at the start and at this instant: each is a value with its rate.
 #[derive(Debug)]
 pub struct SignalStates<'a, T> {
     /// Time since the start [s]; zero: states are those of the start.

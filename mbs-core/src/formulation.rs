@@ -1,4 +1,4 @@
-//! What a program sees of a formulation: [`Formulation`], implemented by the formulation's own crate.
+//! Formulation as a program sees it: [`Formulation`], implemented by the formulation's own crate.
 
 use crate::Real;
 use crate::history::{History, RestoreError};
@@ -104,7 +104,7 @@ pub trait Formulation<T: Real, const D: usize>: Debug + Send + Sync + Erased<T, 
     /// Goes back to what was saved; the natural state is the caller's.
     fn restore_trial(&mut self) {}
 
-    /// What the next step resumes from, beside the natural state.
+    /// History from which the next step resumes, beside the natural state.
     fn history(&self) -> History<T>;
 
     /// Resumes from a history.
@@ -146,12 +146,12 @@ pub trait Formulation<T: Real, const D: usize>: Debug + Send + Sync + Erased<T, 
         None
     }
 
-    /// What an unknown of the formulation belongs to.
+    /// Part of the scene that an unknown of the formulation belongs to.
     fn owner_of_unknown(&self, model: &NaturalModel<T, D>, unknown: usize) -> Owner {
         model.owner_of_unknown(unknown)
     }
 
-    /// What a constraint row of the formulation belongs to.
+    /// Part of the scene that a constraint row of the formulation belongs to.
     fn owner_of_row(&self, model: &NaturalModel<T, D>, row: usize) -> Owner {
         model.owner_of_row(row)
     }
@@ -197,7 +197,7 @@ pub trait Erased<T: Real, const D: usize> {
     /// This formulation as its own type: options are changed there.
     fn as_any(&self) -> &dyn Any;
 
-    /// The same, to be changed.
+    /// This formulation as its own type, to be changed.
     fn as_any_mut(&mut self) -> &mut dyn Any;
 
     /// A copy, which steps to the same bits; threads are shared.

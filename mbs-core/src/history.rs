@@ -1,4 +1,4 @@
-//! What a formulation remembers from step to step, as named arrays: what checkpoints are made of.
+//! History of a formulation: all that it remembers from step to step, as named arrays, of which checkpoints are made.
 //!
 //! ```text
 //! history:      remembered numbers --Book--> named arrays
@@ -11,7 +11,7 @@ use alloc::vec::Vec;
 /// All that the next step depends on beside the state, in a fixed order.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct History<T> {
-    /// The arrays.
+    /// Arrays of the history, in the order of the walk.
     pub entries: Vec<Entry<T>>,
 }
 
@@ -22,20 +22,20 @@ pub struct Entry<T> {
     pub name: &'static str,
     /// How many they are.
     pub shape: Shape,
-    /// The numbers.
+    /// Numbers of the array.
     pub numbers: Numbers<T>,
 }
 
 /// How many numbers an array has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Shape {
-    /// As many as the formulation always has.
+    /// Fixed number of values, which the formulation always has.
     Fixed,
     /// One number, the same in every history of the formulation.
     Constant,
-    /// As many rows of this width as the model has.
+    /// Rows of this width, as many as the model has.
     Rows(usize),
-    /// The same, of rows that are arrays themselves.
+    /// Rows that are arrays themselves, of this width, as many as the model has.
     Arrays(usize),
     /// Any number of rows of this width.
     List(usize),
@@ -48,17 +48,17 @@ pub enum Numbers<T> {
     Reals(Vec<T>),
     /// Doubles that may be any.
     Floats(Vec<f64>),
-    /// Counts.
+    /// Counts, as 64-bit integers.
     Counts(Vec<u64>),
-    /// Small counts.
+    /// Small counts, as 32-bit integers.
     Small(Vec<u32>),
-    /// Yes or no.
+    /// Flags, each yes or no.
     Flags(Vec<bool>),
     /// Entries that may be missing.
     Part {
-        /// Are they there?
+        /// Whether the entries are there.
         is_some: bool,
-        /// They, or what stands in their place.
+        /// Entries of the part, or what stands in their place.
         entries: Vec<Entry<T>>,
     },
 }
@@ -120,7 +120,7 @@ macro_rules! single {
 }
 
 impl<'a, T: Copy> Book<'a, T> {
-    /// Fills a history.
+    /// Fills a new history by a walk.
     ///
     /// # Errors
     /// Those of the walk.
@@ -234,7 +234,7 @@ impl<'a, T: Copy> Book<'a, T> {
         }
     }
 
-    /// Something, or nothing.
+    /// Writes or reads a part that may be missing, by a walk over it.
     ///
     /// # Errors
     /// Those of the walk over it, and [`RestoreError`] where the history has something else here.
@@ -264,7 +264,7 @@ impl<'a, T: Copy> Book<'a, T> {
         Ok(())
     }
 
-    /// What energies are found from: the laws as last evaluated, and the courses.
+    /// Writes or reads what energies are found from: the laws as last evaluated, and the courses.
     ///
     /// # Errors
     /// As for [`rows`](Self::rows).

@@ -56,7 +56,7 @@ impl<T: Real> Prescribed<T> {
         &self.guides
     }
 
-    /// The signals.
+    /// Signals of the scene, prepared.
     #[must_use]
     pub fn signals(&self) -> &SignalGraph<T> {
         &self.signals
@@ -68,7 +68,7 @@ impl<T: Real> Prescribed<T> {
         &self.courses
     }
 
-    /// Number of guides.
+    /// Number of guides, sums of couplings included.
     #[must_use]
     pub fn n_guides(&self) -> usize {
         self.guides.len()
@@ -144,7 +144,7 @@ impl<T: Real> Prescribed<T> {
         self.courses.iter().filter_map(|(effect, course)| Some((*effect, course.input()?)))
     }
 
-    /// What the inputs of a state begin with: guides, then effects, three numbers each; then signals, one number each.
+    /// Start values of the inputs of a state: guides, then effects, three numbers each; then signals, one number each.
     #[must_use]
     pub fn inputs(&self) -> Vec<T> {
         let threes = self.guide_inputs().chain(self.effect_inputs()).flat_map(|(_, value)| value);
@@ -270,7 +270,7 @@ impl<T: Real> Prescribed<T> {
         of.iter().flatten().any(|signal| self.signals.follows_motion(*signal))
     }
 
-    /// What gives the signals that follow the motion, and the courses that name them.
+    /// Operations that give the signals that follow the motion, and the courses that name them.
     ///
     /// Cost: one pass over signals and courses; allocates.
     #[must_use]
@@ -279,7 +279,7 @@ impl<T: Real> Prescribed<T> {
         self.operations(follows, follows)
     }
 
-    /// What gives all signals that are made of others or follow the motion, and are not constant. The courses that name those or other
+    /// Operations that give all signals that are made of others or follow the motion, and are not constant. The courses that name those or other
     /// signals that are not constant follow. For steps on tables, where functions of time and inputs are courses by themselves.
     ///
     /// States and measured coordinates have the numbers that they have in [`feedback`](Self::feedback).
@@ -341,12 +341,12 @@ fn part(first: usize) -> Range<usize> {
 pub struct GuideInput<T> {
     law: Motion<T>,
     curvature: Vec<T>,
-    /// What is added to the value of the law.
+    /// Offset that is added to the value of the law.
     offset: Option<T>,
 }
 
 impl<T: Real> GuideInput<T> {
-    /// Prepares a law.
+    /// Prepares the law of a guide.
     #[must_use]
     pub fn new(law: &Motion<T>) -> Self {
         let (way, rows, ends) = match law {
@@ -358,7 +358,7 @@ impl<T: Real> GuideInput<T> {
         Self { law: Motion::Table { rows, ends }, curvature, offset: None }
     }
 
-    /// The same law with `offset` added to its value.
+    /// Adds `offset` to the value of the law.
     #[must_use]
     pub fn shifted_by(mut self, offset: T) -> Self {
         self.offset = Some(offset);
@@ -370,13 +370,13 @@ impl<T: Real> GuideInput<T> {
         [self.offset.map_or(value, |offset| value + offset), rate, acceleration]
     }
 
-    /// What is added to the law's value.
+    /// Offset that is added to the value of the law.
     #[must_use]
     pub const fn offset(&self) -> Option<T> {
         self.offset
     }
 
-    /// The law; of a table through its knots, with their [`curvature`](Self::curvature).
+    /// Law of the guide; of a table through its knots, with their [`curvature`](Self::curvature).
     #[must_use]
     pub fn law(&self) -> &Motion<T> {
         &self.law
@@ -425,7 +425,7 @@ pub struct SignalInput<T> {
 }
 
 impl<T: Real> SignalInput<T> {
-    /// Prepares a course.
+    /// Prepares the course of an effect.
     #[must_use]
     pub fn new(course: &Signal<T>) -> Self {
         Self { course: course.clone(), travel: None, on: None }
@@ -437,14 +437,14 @@ impl<T: Real> SignalInput<T> {
         Self { course: Signal::Constant([T::ZERO; 3]), travel: Some(speed), on: None }
     }
 
-    /// The same as a force on a joint's coordinate.
+    /// Makes the course a force on a joint's coordinate.
     #[must_use]
     pub(crate) fn force_on(mut self, on: (usize, usize)) -> Self {
         self.on = Some(on);
         self
     }
 
-    /// The course; of a road that moves a constant that is not read.
+    /// Course of the effect; of a road that moves a constant that is not read.
     #[must_use]
     pub fn course(&self) -> &Signal<T> {
         &self.course
@@ -456,7 +456,7 @@ impl<T: Real> SignalInput<T> {
         self.travel
     }
 
-    /// What an input begins with; `None` of other courses.
+    /// Start value of an input; `None` of other courses.
     fn input(&self) -> Option<[T; 3]> {
         match self.course {
             Signal::Input(value) => Some(value),

@@ -20,20 +20,20 @@ pub struct Integrator<T> {
     pub beta: T,
     /// gamma of Newmark, `>= 1/2`; 1/2 has no numerical damping.
     pub gamma: T,
-    /// am of generalised-alpha.
+    /// Parameter am of generalised-alpha.
     pub alpha_m: T,
-    /// af of generalised-alpha.
+    /// Parameter af of generalised-alpha.
     pub alpha_f: T,
 }
 
 impl<T: Real> Integrator<T> {
-    /// The trapezoidal rule: second order, keeps energy best.
+    /// Trapezoidal rule of second order, which keeps energy best.
     #[must_use]
     pub fn trapezoidal() -> Self {
         Self::newmark(T::from_f64(0.25), T::HALF)
     }
 
-    /// Newmark's method.
+    /// Newmark's method with parameters `beta` and `gamma`.
     pub fn newmark(beta: T, gamma: T) -> Self {
         Self { beta, gamma, alpha_m: T::ZERO, alpha_f: T::ZERO }
     }
@@ -92,15 +92,15 @@ impl<T: Real> Integrator<T> {
 /// An integrator at a step length.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rule<T> {
-    /// h [s].
+    /// Length h of the step [s].
     pub dt: T,
-    /// v' [1/s].
+    /// Factor v' of the correction in the velocity [1/s].
     pub velocity: T,
-    /// a' [1/s^2].
+    /// Factor a' of the correction in the acceleration [1/s^2].
     pub acceleration: T,
     /// 1 / (beta h^2) [1/s^2].
     pub auxiliary: T,
-    /// af.
+    /// Parameter af of generalised-alpha.
     pub alpha_f: T,
 }
 

@@ -48,7 +48,7 @@ pub use mbs_math::{algebra, blocks, ode, once, real, team};
 #[cfg(feature = "alloc")]
 pub use mbs_math::{dense, refined};
 
-/// What the tests of this crate call; no part of its interface.
+/// Items that the tests of this crate call; no part of its interface.
 #[doc(hidden)]
 pub mod inside {
     pub use crate::control::energy::Steering;

@@ -1,4 +1,4 @@
-//! What a formulation sees of a mechanism: [`Model`], with the numbers of one instant in [`Terms`].
+//! Mechanism as a formulation sees it: [`Model`], with the numbers of one instant in [`Terms`].
 //!
 //! ```text
 //! M q'' + phi_q^T lambda = Q(q, q', t),   phi(q, t) = 0
@@ -30,7 +30,7 @@ pub struct Terms<T> {
     pub jacobian: Vec<T>,
     /// Applied forces, element by element (the model's own layout).
     pub force: Vec<T>,
-    /// Laws with tangents: one record for each scalar measure (spring length, joint angle).
+    /// Scalar laws with tangents, one record for each scalar measure (spring length, joint angle).
     pub measures: Vec<ScalarForce<T>>,
     /// Inputs at this instant: value, rate and acceleration of each guide.
     pub guides: Vec<[T; 3]>,
@@ -40,7 +40,7 @@ pub struct Terms<T> {
     pub angles: Vec<T>,
     /// States of signals at this instant, each with its rate.
     pub signals: Vec<[T; 2]>,
-    /// The same at the start of the step: those of [`State::signals`].
+    /// States of signals at the start of the step, each with its rate: those of [`State::signals`].
     pub signal_starts: Vec<[T; 2]>,
     /// How long that is ago [s].
     pub signal_dt: T,
@@ -71,7 +71,7 @@ pub struct Tangent<'a, T> {
 }
 
 impl<T: Real> Tangent<'_, T> {
-    /// What the square of a scalar law's gradient weighs in it.
+    /// Weight of the square of a scalar law's gradient in the tangent.
     #[inline(always)]
     pub(crate) fn weight(&self, law: &ScalarForce<T>) -> T {
         self.stiffness * (law.stiffness - law.transverse) + self.damping * law.damping
@@ -87,9 +87,9 @@ impl<T: Real> Tangent<'_, T> {
 /// A residual f = M x + J^T mu - force Q.
 #[derive(Debug, Clone, Copy)]
 pub struct Load<'a, T> {
-    /// x, extended; `None`: no mass term.
+    /// Vector x that the mass matrix multiplies, extended; `None`: no mass term.
     pub mass: Option<&'a [T]>,
-    /// mu, m; `None`: no constraint term.
+    /// Multipliers mu of the constraints, m; `None`: no constraint term.
     pub multipliers: Option<&'a [T]>,
     /// Factor of the applied forces.
     pub force: T,
@@ -119,7 +119,7 @@ pub trait Model<T: Real>: Cliques + Sync {
     fn n_signal_states(&self) -> usize {
         0
     }
-    /// What a [state](State::signals) has of signals as they begin.
+    /// Signals of a [state](State::signals) as they begin.
     fn signal_states(&self) -> SignalValues<T> {
         Vec::new()
     }
@@ -143,7 +143,7 @@ pub trait Model<T: Real>: Cliques + Sync {
     fn evaluate_forces(&self, q: &[T], v: &[T], terms: &mut Terms<T>);
     /// Writes the measured angles of `terms`, and those of couplings at `q`, into `memory`, at the end of a step.
     fn remember(&self, q: &[T], terms: &Terms<T>, memory: &mut [T]);
-    /// phi_t at `q`. Does nothing without guides.
+    /// Evaluates phi_t at `q`. Does nothing without guides.
     fn evaluate_phi_t(&self, q: &[T], terms: &mut Terms<T>);
     /// Are there rows of velocities, as of bodies that roll? They restrict J v, and no position: their phi is zero.
     fn has_velocity_rows(&self) -> bool {
@@ -188,7 +188,7 @@ pub trait Model<T: Real>: Cliques + Sync {
     ) -> RowCurvature<T> {
         Vec::new()
     }
-    /// See [`BlockSource::has_block`].
+    /// Whether an element has a block: see [`BlockSource::has_block`].
     #[inline]
     fn has_block(&self, _terms: &Terms<T>, _tangent: &Tangent<'_, T>, _element: usize) -> bool {
         true
@@ -206,7 +206,7 @@ pub trait Model<T: Real>: Cliques + Sync {
     fn sum_residuals(&self, _terms: &Terms<T>, _load: &Load<'_, T>, _f: &mut [T]) -> bool {
         false
     }
-    /// Kinetic energy [J].
+    /// Kinetic energy at the velocities `v` [J].
     fn kinetic_energy(&self, v: &[T]) -> T;
     /// Potential energy of gravity, constant forces and springs [J]; springs as last evaluated in `terms`.
     fn potential_energy(&self, q: &[T], terms: &Terms<T>) -> T;
@@ -218,13 +218,13 @@ pub trait Model<T: Real>: Cliques + Sync {
     fn overturned(&self, _terms: &Terms<T>) -> Option<Owner> {
         None
     }
-    /// What has no direction after a step `dq` from a state: a part of a line without length, a twist, a disc that lies flat.
+    /// Error for what has no direction after a step `dq`: a part of a line without length, a twist, a disc that lies flat.
     fn without_direction(&self, _state: &State<T>, _dq: &[T]) -> Option<StepError> {
         None
     }
-    /// What an unknown belongs to, for messages.
+    /// Part of the scene that an unknown belongs to, for messages.
     fn owner_of_unknown(&self, unknown: usize) -> Owner;
-    /// What a constraint row belongs to, for messages.
+    /// Part of the scene that a constraint row belongs to, for messages.
     fn owner_of_row(&self, row: usize) -> Owner;
 }
 
@@ -246,9 +246,9 @@ pub enum Owner {
 /// A model at one instant with the weights of a linear system: what a solver takes.
 #[derive(Debug, Clone, Copy)]
 pub struct System<'a, T, M> {
-    /// The model.
+    /// Model of the mechanism.
     pub model: &'a M,
-    /// Its evaluated terms.
+    /// Evaluated terms of the model.
     pub terms: &'a Terms<T>,
     /// Weights of the matrix.
     pub tangent: Tangent<'a, T>,
@@ -278,23 +278,23 @@ impl<T: Real, M: Model<T>> BlockSource<T> for System<'_, T, M> {
 /// A block of second derivatives, packed; empty where there are none.
 pub type RowCurvature<T> = Vec<T>;
 
-/// What a state has of signals: states of those that have one, then the signals that follow the motion, each with its rate.
+/// Signals of a state: states of those that have one, then the signals that follow the motion, each with its rate.
 pub type SignalValues<T> = Vec<[T; 2]>;
 
 /// Position, velocity and acceleration of a mechanism at a time, with what a step must remember.
 #[derive(Debug, Clone, PartialEq)]
 pub struct State<T> {
-    /// Time [s].
+    /// Time of the state [s].
     pub t: T,
     /// Length of the last step [s]; zero where there was none that multipliers may be extrapolated from.
     pub dt: T,
     /// Coordinates, extended [m or -].
     pub q: Vec<T>,
-    /// What `q` lost to rounding, extended: the position is q + q_low.
+    /// Part of `q` that was lost to rounding, extended: the position is q + q_low.
     pub q_low: Vec<T>,
-    /// Velocities, extended; zero in the constants.
+    /// Velocities of the coordinates, extended; zero in the constants.
     pub v: Vec<T>,
-    /// Accelerations, extended; zero in the constants.
+    /// Accelerations of the coordinates, extended; zero in the constants.
     pub a: Vec<T>,
     /// Auxiliary accelerations of the generalised-alpha family, extended; equal to `a` in the Newmark family.
     pub a_aux: Vec<T>,
@@ -308,7 +308,7 @@ pub struct State<T> {
     pub phi: Vec<T>,
     /// Measured angles with their turns.
     pub memory: Vec<T>,
-    /// What is set from outside for the next step, three numbers each: guides, then effects, in the places that
+    /// Inputs set from outside for the next step, three numbers each: guides, then effects, in the places that
     /// [`Prescribed::input`] and [`Prescribed::guide_input`] name.
     pub inputs: Vec<T>,
     /// The inputs that accelerations, multipliers and power were made with.

@@ -10,12 +10,12 @@ macro_rules! named {
         pub enum $kind { $($(#[$about])* $value,)* }
 
         impl $kind {
-            /// All of them.
+            /// All values, in the order of the enum.
             pub const ALL: [Self; [$($name),*].len()] = [$(Self::$value),*];
             /// Their names, in the same order.
             pub const NAMES: [&str; Self::ALL.len()] = [$($name),*];
 
-            /// Its name.
+            /// Name of the value.
             #[must_use]
             pub fn name(self) -> &'static str {
                 Self::NAMES[self as usize]

@@ -3,12 +3,12 @@
 use crate::Real;
 use crate::algebra::{Matrix, Vector, cross};
 
-/// Where a body is, how it moves and accelerates. Planar bodies use x, y and the turning about z.
+/// Position, velocity and acceleration of a body. Planar bodies use x, y and the turning about z.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RigidMotion<T: Real> {
     /// A material point, in the reference configuration [m].
     pub origin: Vector<T, 3>,
-    /// Where that point is [m].
+    /// Present position of that point [m].
     pub position: Vector<T, 3>,
     /// Rotation from the reference configuration: its columns are the present directions of what were the global axes.
     pub rotation: Matrix<T, 3>,

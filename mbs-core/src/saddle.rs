@@ -57,13 +57,13 @@ impl Saddle {
         self.jacobian[self.starts.len() - 1]
     }
 
-    /// Where those of each element begin, and the end of all.
+    /// Starts of the Jacobian rows of each element, and the end of all.
     #[must_use]
     pub fn jacobian_starts(&self) -> &[usize] {
         &self.jacobian
     }
 
-    /// Where the rows of `element` are among them.
+    /// Range of the Jacobian rows of `element` among those of all elements.
     #[must_use]
     pub fn jacobian(&self, element: usize) -> Range<usize> {
         self.jacobian[element]..self.jacobian[element + 1]
@@ -88,11 +88,11 @@ impl Cliques for Saddle {
 /// The saddle system at one instant.
 #[derive(Debug, Clone, Copy)]
 pub struct SaddleSystem<'a, T, M> {
-    /// The model.
+    /// Model of the mechanism.
     pub model: &'a M,
-    /// Its saddle structure.
+    /// Saddle structure of the model.
     pub saddle: &'a Saddle,
-    /// Its evaluated terms.
+    /// Evaluated terms of the model.
     pub terms: &'a Terms<T>,
     /// Weights of W, without penalty.
     pub tangent: Tangent<'a, T>,

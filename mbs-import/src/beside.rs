@@ -38,8 +38,8 @@ pub(crate) fn find(
     })
 }
 
-/// Where the file of a place may be that is written in a file of this folder. A package or model is looked for in the folder that is given
-/// for it, those of the search path, then upwards.
+/// Paths at which the file of a place may be, which a file of this folder writes. A package or model is looked for in the folder that is
+/// given for it, those of the search path, then upwards.
 ///
 /// # Errors
 /// A scheme from which nothing is fetched.
@@ -95,7 +95,7 @@ pub(crate) fn is_barred(path: &Path, options: &ImportOptions) -> bool {
     options.no_outside && !options.folder.as_deref().is_some_and(is_inside)
 }
 
-/// The same file; one that is not allowed is refused.
+/// First of some places at which there is a file, as its whole path; one that is not allowed is refused.
 pub(crate) fn first(
     file: &Attribute,
     places: impl IntoIterator<Item = PathBuf>,

@@ -5,7 +5,7 @@ use crate::pose::V3;
 use crate::robot::{Joint, Kind};
 use crate::source::Read;
 
-/// How far the ends of a loop may be apart [m]: published poses have six digits.
+/// Largest gap between the ends of a loop that counts as closed [m]: published poses have six digits.
 pub(crate) const CLOSED: f64 = 1.0e-5;
 
 /// A ball at two points that are one where all joints are at zero.

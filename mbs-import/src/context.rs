@@ -1,4 +1,4 @@
-//! What a reader of a format has at hand.
+//! Context of a reader of a format.
 
 use crate::findings::Findings;
 use crate::options::ImportOptions;
@@ -6,7 +6,7 @@ use crate::source::{Fault, Origin, Read, Sources};
 use mbs_scene::nearest_name;
 use std::collections::HashMap;
 
-/// What a reader of a format has at hand.
+/// Context that a reader of a format has at hand.
 #[derive(Debug)]
 pub(crate) struct Context<'a> {
     pub(crate) sources: Sources,
@@ -17,7 +17,7 @@ pub(crate) struct Context<'a> {
 /// Things of one kind by their names.
 #[derive(Debug)]
 pub(crate) struct Named {
-    /// What they are: `link`.
+    /// Kind of the things: `link`.
     what: &'static str,
     first: usize,
     by_name: HashMap<String, (usize, Origin)>,
@@ -25,7 +25,7 @@ pub(crate) struct Named {
 }
 
 impl Named {
-    /// None yet; the first one gets the number `first`.
+    /// Returns a list without things; the first one gets the number `first`.
     pub(crate) fn new(what: &'static str, first: usize) -> Self {
         Self { what, first, by_name: HashMap::new(), names: Vec::new() }
     }

@@ -1,6 +1,6 @@
 //! Coordinates of a file in its own order, and where they are in the scene.
 
-/// What a coordinate of a file lets move.
+/// Kind of motion that a coordinate of a file has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FileMotion {
     /// A hinge or a slide: one number.
@@ -14,13 +14,13 @@ pub enum FileMotion {
 /// A joint of a file, in the order in which its states have numbers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FileCoordinate {
-    /// What it lets move.
+    /// Kind of motion of the joint.
     pub motion: FileMotion,
     /// The joint of the scene.
     pub joint: String,
-    /// Its first coordinate among those of the joint.
+    /// Number of the first coordinate among those of the joint.
     pub number: usize,
-    /// Of a single one: the scene's value is `sign` (value − `zero`) [-].
+    /// Sign of a single coordinate: the scene's value is `sign` (value − `zero`) [-].
     pub sign: f64,
     /// The file's value in the reference configuration [rad or m].
     pub zero: f64,

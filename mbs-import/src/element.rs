@@ -6,10 +6,10 @@
 use crate::source::{Fault, Origin, Read};
 use std::cell::Cell;
 
-/// An element.
+/// An element of a file.
 #[derive(Debug, Clone)]
 pub(crate) struct Element {
-    /// Its name, with the prefix that the file gives it.
+    /// Name of the element, with the prefix that the file gives it.
     pub(crate) name: String,
     pub(crate) at: Origin,
     pub(crate) attributes: Vec<Attribute>,
@@ -19,7 +19,7 @@ pub(crate) struct Element {
     is_read: Cell<bool>,
 }
 
-/// An attribute.
+/// An attribute of an element.
 #[derive(Debug, Clone)]
 pub(crate) struct Attribute {
     pub(crate) name: String,
@@ -42,7 +42,7 @@ impl Attribute {
         Fault::new(self.at, message, hint)
     }
 
-    /// As many numbers as the value has.
+    /// Numbers of the value, as many as there are.
     pub(crate) fn list(&self) -> Read<Vec<f64>> {
         self.value.split_ascii_whitespace().map(|word| self.word(word)).collect()
     }
@@ -58,7 +58,7 @@ impl Attribute {
         Ok(())
     }
 
-    /// Exactly `N` numbers.
+    /// Exactly `N` numbers of the value.
     pub(crate) fn numbers<const N: usize>(&self) -> Read<[f64; N]> {
         let list = self.list()?;
         let n = list.len();
@@ -71,12 +71,12 @@ impl Attribute {
         })
     }
 
-    /// One number.
+    /// The one number of the value.
     pub(crate) fn number(&self) -> Read<f64> {
         self.numbers::<1>().map(|[x]| x)
     }
 
-    /// Is it true?
+    /// Is the value true?
     pub(crate) fn flag(&self) -> Read<bool> {
         match self.value.trim().to_ascii_lowercase().as_str() {
             "true" | "1" => Ok(true),
@@ -115,13 +115,13 @@ impl Element {
         self.is_read.get()
     }
 
-    /// It is read from here on.
+    /// Marks the element as read, and returns it.
     pub(crate) fn read(&self) -> &Self {
         self.is_read.set(true);
         self
     }
 
-    /// It and all below it are read: something else said what becomes of it.
+    /// Marks the element and all below it as read: something else said what becomes of it.
     pub(crate) fn read_whole(&self) {
         let mut rest = vec![self];
         while let Some(element) = rest.pop() {
@@ -184,7 +184,7 @@ impl Element {
         Attribute::new(self.name.clone(), self.text.trim().to_owned(), self.at)
     }
 
-    /// How findings call it: `joint[elbow]`.
+    /// Name of the element in findings: `joint[elbow]`.
     pub(crate) fn label(&self) -> String {
         let name = self.attributes.iter().find(|attribute| attribute.name == "name");
         match name {

@@ -1,34 +1,34 @@
-//! What became of a model's elements.
+//! Findings: what became of a model's elements.
 
 use crate::source::{Origin, Sources};
 
-/// How an element came into the scene.
+/// Way in which an element came into the scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum FindingKind {
-    /// By something that acts nearly the same.
+    /// Element replaced by something that acts nearly the same.
     Approximated,
     /// Not at all, and it could act.
     Ignored,
-    /// Not at all: it is for the eye alone.
+    /// Not at all, since it is for the eye alone.
     Appearance,
-    /// As the file has it, where the format or what was asked for leaves a choice.
+    /// Exactly as the file has it, where the format or what was asked for leaves a choice.
     Noted,
 }
 
-/// What became of an element that is not in the scene as the file has it.
+/// Finding about an element that is not in the scene as the file has it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ModelFinding {
-    /// How it came in.
+    /// Way in which the element came into the scene.
     pub kind: FindingKind,
-    /// Its file.
+    /// Name of the file.
     pub file: String,
-    /// Line, from 1.
+    /// Number of the line, from 1.
     pub line: usize,
-    /// Column, from 1.
+    /// Number of the column, from 1.
     pub column: usize,
-    /// The element: `robot/joint[elbow]/limit`.
+    /// Element with its path: `robot/joint[elbow]/limit`.
     pub element: String,
-    /// What was done.
+    /// Sentence that says what was done.
     pub says: String,
 }
 

@@ -1,4 +1,4 @@
-//! The formats.
+//! Formats of models that are read.
 
 /// A format of models.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -12,7 +12,7 @@ pub enum ModelFormat {
 }
 
 impl ModelFormat {
-    /// Its short name.
+    /// Short name of the format.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {

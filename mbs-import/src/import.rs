@@ -23,13 +23,13 @@ pub struct Imported {
     pub format: ModelFormat,
     /// The text of the scene, TOML.
     pub text: String,
-    /// What is not in it as the file has it, in the order of the file.
+    /// Findings about what is not in the scene as the file has it, in the order of the file.
     pub findings: Vec<ModelFinding>,
-    /// How much it has.
+    /// Sizes of the model: how many parts it has.
     pub sizes: ModelSizes,
     /// The coordinates of the file in its order: of an MJCF, those of `qpos` and `qvel`.
     pub coordinates: Vec<FileCoordinate>,
-    /// Where its text names files from.
+    /// Folder from which the text names files.
     folder: Option<PathBuf>,
 }
 
@@ -47,7 +47,7 @@ impl Imported {
     }
 }
 
-/// How much a model has.
+/// Sizes of a model: how many parts it has.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct ModelSizes {
     /// Links of the file.

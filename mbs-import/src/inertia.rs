@@ -2,7 +2,7 @@
 
 use crate::pose::{M3, Pose, V3};
 
-/// How far a tensor may miss the triangle inequality, relative to its largest moment: what rounding and turning of printed numbers leave.
+/// Tolerance of the triangle inequality of a tensor, relative to its largest moment: what rounding and turning of printed numbers leave.
 pub(crate) const SLACK: f64 = 1.0e-9;
 
 /// The inertia of a body, in the axes of one frame.
@@ -12,7 +12,7 @@ pub(crate) struct Mass {
     pub(crate) mass: f64,
     /// Centre of mass [m].
     pub(crate) center: V3,
-    /// About the centre of mass [kg m²].
+    /// Tensor about the centre of mass [kg m²].
     pub(crate) tensor: M3,
 }
 
@@ -21,7 +21,7 @@ impl Mass {
         Self { mass: 0.0, center: V3::zeros(), tensor: M3::zeros() }
     }
 
-    /// The same in the axes of the frame in which this one stands as `pose` says.
+    /// Returns the inertia in the axes of the frame in which this one stands as `pose` says.
     pub(crate) fn seen_from(&self, pose: &Pose) -> Self {
         let turned = pose.turn * self.tensor * pose.turn.transpose();
         // rounding of the two products is not the same on both sides of the diagonal
@@ -58,7 +58,7 @@ impl Mass {
         self.tensor + (M3::identity() * r.dot(&r) - r * r.transpose()) * self.mass
     }
 
-    /// Its tensor as scenes write it: xx, yy, zz, xy, yz, zx.
+    /// Six numbers of the tensor, as scenes write it: xx, yy, zz, xy, yz, zx.
     pub(crate) fn six(&self) -> [f64; 6] {
         [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0)].map(|entry| self.tensor[entry])
     }

@@ -6,7 +6,8 @@ use crate::pose::{V3, v3};
 use crate::robot::{Coordinate, Law, Robot, Target, What};
 use crate::source::Origin;
 
-/// What becomes of the ends of a joint's range, which the file writes at a place: `own` is stiffness and damping that it writes.
+/// Reports what becomes of the ends of a joint's range, and adds their law. The file writes the range at a place; `own` is
+/// stiffness and damping that it writes.
 pub(crate) fn stops(
     (at, path): (Origin, &str),
     (name, of): (&str, Coordinate),
@@ -32,7 +33,7 @@ pub(crate) fn stops(
     }
 }
 
-/// Why a joint whose ends are written gets no range.
+/// Returns the reason why a joint whose ends are written gets no range.
 pub(crate) fn no_range(lower: f64, upper: f64) -> String {
     format!(
         "`lower` {lower} is not below `upper` {upper}: no range is taken; write type=\"fixed\" where the joint does not move"

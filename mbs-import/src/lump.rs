@@ -26,7 +26,7 @@ pub(crate) struct Lump {
 pub(crate) struct Lumps {
     /// The lump of each link.
     pub(crate) of: Vec<usize>,
-    /// The ground first; the others in the order of their carriers in the file.
+    /// Lumps, the ground first; the others in the order of their carriers in the file.
     pub(crate) lumps: Vec<Lump>,
 }
 

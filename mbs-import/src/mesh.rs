@@ -8,7 +8,7 @@ use mbs_scene::{Solid, TriangleMesh, VolumeRule};
 pub(crate) struct Surface<'a>(pub(crate) &'a TriangleMesh);
 
 impl Surface<'_> {
-    /// Where the surface is open, in words; `None` where it is closed.
+    /// Place at which the surface is open, in words; `None` where it is closed.
     pub(crate) fn opening(&self) -> Option<String> {
         let place = |i: usize| self.0.vertices[i].iter().map(f64::to_string).collect::<Vec<_>>();
         let [a, b] = self.0.open_edge()?.map(|i| place(i).join(" "));

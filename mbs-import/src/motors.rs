@@ -25,7 +25,7 @@ pub(crate) fn add(robot: &mut Robot, findings: &mut Findings) -> Read<()> {
     Ok(())
 }
 
-/// Which joints does an actuator of the file drive?
+/// Returns for each joint whether an actuator of the file drives it.
 fn driven(robot: &Robot) -> Vec<bool> {
     let mut driven = vec![false; robot.joints.len()];
     for law in &robot.laws {

@@ -1,26 +1,26 @@
-//! What a user may ask of a reader.
+//! Options that a user may give a reader.
 
 use std::path::{Path, PathBuf};
 
 /// Whether the root of a model stands on the ground or moves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum BaseKind {
-    /// It is fixed to the ground.
+    /// The root is fixed to the ground.
     Fixed,
-    /// It moves freely.
+    /// The root moves freely.
     Free,
 }
 
-/// How ends of joints act.
+/// Choice of the stiffness and damping of stops at the ends of joints.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Stops {
     /// Stiffness and damping by the mass that they move.
     ByMass,
     /// Given stiffness and damping [N m/rad and N m s/rad, or N/m and N s/m].
     Given {
-        /// Stiffness.
+        /// Stiffness of the stop.
         stiffness: f64,
-        /// Damping.
+        /// Damping of the stop.
         damping: f64,
     },
 }
@@ -28,10 +28,10 @@ pub enum Stops {
 /// Folders of packages and models, as other programs have them.
 const SEARCH_PATHS: [&str; 3] = ["ROS_PACKAGE_PATH", "SDF_PATH", "GZ_SIM_RESOURCE_PATH"];
 
-/// What a user may ask of a reader.
+/// Options that a user may give a reader.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct ImportOptions {
-    /// The base; `None`: as the file says, and fixed where a URDF says nothing.
+    /// Base of the model; `None`: as the file says, and fixed where a URDF says nothing.
     pub base: Option<BaseKind>,
     /// Stops at the ends of ranges that have no stiffness in the file; `None`: the ranges are data.
     pub limits: Option<Stops>,
@@ -60,7 +60,7 @@ pub struct ImportOptions {
 }
 
 impl ImportOptions {
-    /// Those of a model in a folder, with the search paths of the environment: `ROS_PACKAGE_PATH`, `SDF_PATH`, `GZ_SIM_RESOURCE_PATH`.
+    /// Options for a model in a folder, with the search paths of the environment: `ROS_PACKAGE_PATH`, `SDF_PATH`, `GZ_SIM_RESOURCE_PATH`.
     #[must_use]
     pub fn in_folder(folder: PathBuf) -> Self {
         let paths = SEARCH_PATHS.into_iter().filter_map(std::env::var_os);
@@ -68,7 +68,7 @@ impl ImportOptions {
         Self { folder: Some(folder), package_path: paths.collect(), ..Self::default() }
     }
 
-    /// From where the scene names files, if that is known.
+    /// Folder from which the scene names files, if that is known.
     pub(crate) fn scene_home(&self) -> Option<&Path> {
         self.scene_folder.as_deref().or(self.folder.as_deref())
     }

@@ -7,7 +7,7 @@ pub(crate) type V3 = Vector<f64, 3>;
 /// A rotation, or a tensor.
 pub(crate) type M3 = Matrix<f64, 3>;
 
-/// Where a frame is in another one.
+/// Pose of a frame in another one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Pose {
     /// Takes components in the frame to those in the other.
@@ -91,7 +91,7 @@ pub(crate) fn quaternion(q: [f64; 4]) -> Option<M3> {
     ))
 }
 
-/// A basis vector.
+/// Basis vector of axis `i`.
 pub(crate) fn unit(i: usize) -> V3 {
     mbs_core::algebra::unit(i)
 }

@@ -1,4 +1,4 @@
-//! What the readers of all formats fill in: links and joints in global axes of the reference configuration.
+//! Model that the readers of all formats fill in: links and joints in global axes of the reference configuration.
 
 use crate::coordinates::FileCoordinate;
 use crate::inertia::Mass;
@@ -9,11 +9,11 @@ use std::collections::HashSet;
 /// The link that is the ground.
 pub(crate) const GROUND: usize = 0;
 
-/// A model.
+/// A model of links and joints.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Robot {
     pub(crate) name: String,
-    /// The ground first.
+    /// Links, the ground first.
     pub(crate) links: Vec<Link>,
     pub(crate) joints: Vec<Joint>,
     pub(crate) couplings: Vec<Coupling>,
@@ -30,14 +30,14 @@ pub(crate) struct Robot {
     pub(crate) notes: Vec<String>,
 }
 
-/// A rigid part.
+/// A rigid part of a model.
 #[derive(Debug, Clone)]
 pub(crate) struct Link {
     pub(crate) name: String,
     pub(crate) at: Origin,
-    /// In the reference configuration.
+    /// Pose of the link in the reference configuration.
     pub(crate) pose: Pose,
-    /// In global axes; `None` where the file writes no inertia.
+    /// Inertia of the link in global axes; `None` where the file writes no inertia.
     pub(crate) mass: Option<Mass>,
     /// Factor of gravity on it.
     pub(crate) gravity_scale: f64,
@@ -46,7 +46,7 @@ pub(crate) struct Link {
 /// The kinds of joints that formats have.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Kind {
-    /// Welded: both links are one body.
+    /// Fixed joint: both links are welded to one body.
     Fixed,
     /// Welded, and written as a joint of the scene: its reaction is wanted, or it closes a loop.
     Weld,
@@ -61,7 +61,7 @@ pub(crate) enum Kind {
     Distance(V3),
 }
 
-/// A joint.
+/// A joint between two links.
 #[derive(Debug, Clone)]
 pub(crate) struct Joint {
     pub(crate) name: String,
@@ -69,11 +69,11 @@ pub(crate) struct Joint {
     pub(crate) kind: Kind,
     pub(crate) parent: usize,
     pub(crate) child: usize,
-    /// Global place.
+    /// Place of the joint, global.
     pub(crate) place: V3,
     /// Global axes of unit length: one, two of a cross, normal and first slide of a plane.
     pub(crate) axes: Vec<V3>,
-    /// What the file's coordinate is where the scene's is zero.
+    /// Coordinate of the file where that of the scene is zero.
     pub(crate) zero: f64,
     /// Ends of the scene's coordinate.
     pub(crate) range: Option<[f64; 2]>,
@@ -89,7 +89,7 @@ pub(crate) struct Joint {
 pub(crate) struct Coordinate {
     /// The number of the joint.
     pub(crate) joint: usize,
-    /// Which of its coordinates, where it has several.
+    /// Number of the coordinate, where the joint has several.
     pub(crate) number: Option<usize>,
 }
 
@@ -127,7 +127,7 @@ pub(crate) struct Piece {
     pub(crate) coefficients: [f64; 4],
 }
 
-/// What a law acts on.
+/// Target of a law: what it acts on.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Target {
     Coordinate(Coordinate),
@@ -177,7 +177,7 @@ pub(crate) enum What {
         stiffness: f64,
         damping: f64,
     },
-    /// At the ends of the joint's own range.
+    /// Stops at the ends of the joint's own range.
     RangeLimit {
         on: Target,
         stiffness: Option<[f64; 2]>,
@@ -212,7 +212,7 @@ pub(crate) enum What {
 /// Signals that formats have.
 #[derive(Debug, Clone)]
 pub(crate) enum Signal {
-    /// Set from outside; its unit where it is known.
+    /// Input that is set from outside, with its unit where that is known.
     Set {
         value: f64,
         unit: &'static str,
@@ -228,7 +228,7 @@ pub(crate) enum Signal {
     Constant {
         value: f64,
     },
-    /// Signals with factors.
+    /// Sum of signals with factors.
     Sum {
         of: Vec<(String, f64)>,
     },
@@ -240,7 +240,7 @@ pub(crate) enum Signal {
     Lag {
         of: String,
         time: f64,
-        /// At the start.
+        /// Value at the start of the run.
         value: f64,
     },
     Product {
@@ -256,12 +256,12 @@ pub(crate) enum Signal {
     Integral {
         of: String,
         range: Option<[f64; 2]>,
-        /// At the start.
+        /// Value at the start of the run.
         value: f64,
     },
 }
 
-/// What is drawn, in the frame of `pose` in global axes.
+/// Form that is drawn, in the frame of `pose` in global axes.
 #[derive(Debug, Clone)]
 pub(crate) struct Form {
     pub(crate) link: usize,
@@ -274,7 +274,7 @@ pub(crate) struct Form {
 /// Forms along the z axis of their frame.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum FormKind {
-    /// Three lengths.
+    /// Lengths of a box along its three axes.
     Box([f64; 3]),
     Sphere {
         radius: f64,

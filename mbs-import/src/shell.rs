@@ -2,7 +2,7 @@
 
 use core::f64::consts::PI;
 
-/// A shell.
+/// Area of a shell, and its moments for each kilogram.
 type Shell = (f64, [f64; 3]);
 
 /// A tube with what closes it: area, moment across and along of the latter.
@@ -80,7 +80,7 @@ fn elliptic(numbers: [f64; 3]) -> (f64, f64) {
 mod tests {
     use super::*;
 
-    /// The same by a sum over the sphere that is exact for smooth integrands: Gauss-Legendre points along, equal steps around.
+    /// Shell of an ellipsoid by a sum over the sphere that is exact for smooth integrands: Gauss-Legendre points along, equal steps around.
     fn by_points(half: [f64; 3]) -> Shell {
         /// Points along and around: enough for fourteen digits of these ellipsoids.
         const N: usize = 400;

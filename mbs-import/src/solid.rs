@@ -31,7 +31,7 @@ impl Solid {
         }
     }
 
-    /// The same with all sizes times a factor.
+    /// Returns the solid with all sizes times a factor.
     pub(crate) fn scaled(&self, factor: f64) -> Self {
         let all = |half: [f64; 3]| half.map(|x| x * factor);
         match *self {
@@ -44,7 +44,7 @@ impl Solid {
         }
     }
 
-    /// Its mass at a density, or with the mass that is written; a shell's density is that of an area.
+    /// Mass of the solid at a density, or with the mass that is written; a shell's density is that of an area.
     pub(crate) fn mass(&self, is_shell: bool, density: f64, written: Option<f64>) -> Mass {
         let (size, moments) = match self.shell().filter(|_| is_shell) {
             Some(shell) => shell,
@@ -55,7 +55,7 @@ impl Solid {
         Mass { mass, center: self.center(), tensor }
     }
 
-    /// Its centre of mass.
+    /// Centre of mass of the solid.
     const fn center(&self) -> V3 {
         match *self {
             Self::Cone(_, h) => v3([0.0, 0.0, -h / 2.0]),
@@ -104,7 +104,7 @@ impl Solid {
         })
     }
 
-    /// What is drawn of it.
+    /// Form that is drawn of the solid.
     pub(crate) const fn form(&self) -> Option<FormKind> {
         Some(match *self {
             Self::Sphere(radius) => FormKind::Sphere { radius },

@@ -11,7 +11,7 @@ pub(crate) const MOST_BYTES: usize = 64 << 20;
 pub(crate) struct Origin {
     /// The number of the text.
     pub(crate) source: u16,
-    /// The first byte.
+    /// First byte of the place.
     pub(crate) start: u32,
     /// The byte behind the last.
     pub(crate) end: u32,
@@ -24,7 +24,7 @@ impl Origin {
     }
 }
 
-/// Why a model is refused: a place, what is wrong, and what to do.
+/// Reason why a model is refused: a place, what is wrong, and what to do.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Fault {
     pub(crate) at: Origin,
@@ -32,7 +32,7 @@ pub(crate) struct Fault {
     pub(crate) hint: String,
 }
 
-/// What is read of a model, or why it is refused.
+/// Result of a reader: what is read of a model, or why it is refused.
 pub(crate) type Read<T> = Result<T, Fault>;
 
 impl Fault {
@@ -57,7 +57,7 @@ struct Source {
 pub(crate) struct Sources(Vec<Source>);
 
 impl Sources {
-    /// Adds a text; its number.
+    /// Adds a text and returns its number.
     pub(crate) fn add(&mut self, name: &str, text: &str, by: Option<Origin>) -> u16 {
         let lines =
             core::iter::once(0).chain(text.match_indices('\n').map(|(i, _)| i + 1)).collect();

@@ -1,17 +1,17 @@
 //! Tables that say what becomes of the elements and attributes of a format.
 
-/// What becomes of an element or an attribute.
+/// Treatment of an element or an attribute.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Treatment {
-    /// It is in the scene.
+    /// The element or attribute is in the scene.
     Mapped,
     /// Something in the scene acts nearly so; the reader says what.
     Approximated,
-    /// It is not in the scene, and this is reported, with the reason.
+    /// The element or attribute is not in the scene, and this is reported, with the reason.
     Ignored(&'static str),
-    /// It is for the eye alone.
+    /// The element or attribute is for the eye alone.
     Appearance,
-    /// It has no effect on the motion, or another finding has it.
+    /// The element or attribute has no effect on the motion, or another finding has it.
     Silent,
     /// The model is refused.
     Refused,
@@ -26,7 +26,7 @@ pub(crate) struct Row {
     pub(crate) treatment: Treatment,
 }
 
-/// A row.
+/// Returns a row of a table.
 pub(crate) const fn row(
     element: &'static str,
     attributes: &'static str,
@@ -35,7 +35,7 @@ pub(crate) const fn row(
     Row { element, attributes, treatment }
 }
 
-/// What a table says of an element (`attribute` is empty), or of an attribute; `None` where it does not know it.
+/// Treatment by a table of an element (`attribute` is empty), or of an attribute; `None` where the table does not know it.
 pub(crate) fn treatment(
     table: &[Row],
     parent: &str,

@@ -1,4 +1,4 @@
-//! What no reader asked for.
+//! Elements and attributes for which no reader asked.
 
 use crate::element::Element;
 use crate::findings::Findings;

@@ -2,7 +2,7 @@
 
 use crate::source::{Fault, Origin};
 
-/// How its text and its binary files begin.
+/// First bytes of the text and the binary files of USD.
 const BEGINS: [&[u8]; 2] = [b"#usda", b"PXR-USDC"];
 
 /// Is it a file of USD?
@@ -10,7 +10,7 @@ pub(crate) fn is_usd(bytes: &[u8]) -> bool {
     BEGINS.iter().any(|begin| bytes.starts_with(begin))
 }
 
-/// Its refusal.
+/// Refusal of a file of USD.
 pub(crate) fn refusal(source: u16) -> Fault {
     Fault::new(
         Origin::start_of(source),

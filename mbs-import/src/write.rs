@@ -9,7 +9,7 @@ use crate::robot::{Form, FormKind, GROUND, Joint, Kind, Robot, Target, Term, is_
 use mbs_scene::quoted;
 use std::fmt::Write;
 
-/// The text; a check of the scene's reader says whether it can be meant.
+/// Writes the text of a scene; a check of the scene's reader says whether it can be meant.
 pub(crate) fn scene(robot: &Robot, lumps: &Lumps) -> String {
     let mut writer = Writer { robot, lumps, out: String::new() };
     writer.head();
@@ -29,7 +29,7 @@ struct Writer<'a> {
     out: String,
 }
 
-/// A number: the shortest text that reads back to it.
+/// Shortest text of a number that reads back to it.
 fn number(x: f64) -> String {
     format!("{:?}", if x == 0.0 { 0.0 } else { x })
 }
@@ -298,7 +298,7 @@ impl FormKind {
 }
 
 impl Form {
-    /// Its axes, where they are not the global ones.
+    /// Axes of the form, where they are not the global ones.
     fn turned(&self) -> String {
         let is_turned = self.pose.turn != M3::identity();
         if is_turned { format!(", axes = {}", axes(&self.pose.turn)) } else { String::new() }

@@ -6,7 +6,7 @@ use roxmltree::{Document, Node, ParsingOptions, TextPos};
 
 /// Most elements, attributes and texts of a file; each takes about a hundred bytes.
 const MOST_NODES: u32 = 1_000_000;
-/// Levels of elements: walks go down by calls. Published models have 40 at most.
+/// Most levels of elements: walks go down by calls. Published models have 40 at most.
 const MOST_LEVELS: usize = 512;
 /// Prefixes that a file may use without saying what they are.
 const MOST_PREFIXES: usize = 64;
@@ -16,7 +16,7 @@ struct Edited {
     text: String,
     /// Bytes of the file before the text.
     skipped: usize,
-    /// Where declarations stand, and their bytes.
+    /// Byte at which declarations stand, and the number of their bytes.
     inserted: (usize, usize),
     source: u16,
 }

@@ -112,7 +112,7 @@ impl<T: Real> Square<T> {
         }
     }
 
-    /// To H: nothing below the first subdiagonal.
+    /// Reduces the matrix to H: nothing below the first subdiagonal.
     fn reduce(&mut self) {
         let n = self.n;
         for k in 0..n.saturating_sub(2) {
@@ -187,7 +187,7 @@ impl<T: Real> Square<T> {
         is_zero
     }
 
-    /// Of rows k and k + 1: λ = (a + d)/2 ± √((a − d)²/4 + b c).
+    /// Returns the two eigenvalues of rows k and k + 1, each as real and imaginary part: λ = (a + d)/2 ± √((a − d)²/4 + b c).
     fn pair(&self, k: usize) -> [[T; 2]; 2] {
         let (a, d) = (self.at(k, k), self.at(k + 1, k + 1));
         let product = self.at(k, k + 1) * self.at(k + 1, k);

@@ -34,17 +34,17 @@ use mbs_core::model::{Model, State};
 use mbs_core::step::{largest, largest_or_nan};
 use mbs_core::{Real, SymmetricSolver};
 
-/// What was found.
+/// Result of a search for an equilibrium.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Equilibrium<T> {
-    /// Steps taken.
+    /// Number of steps taken.
     pub iterations: u32,
     /// Factorisations, of refused steps and of the test of stability too.
     pub factorizations: u32,
     /// Largest force left on a coordinate [N, N m for directions].
     pub residual: T,
-    /// The same, by the work along the scene's length [-]. It is relative to the largest sum of absolute forces that a coordinate met,
-    /// or to what its stiffness makes of a displacement of that size; 0 without forces.
+    /// Largest force left, by its work along the scene's length [-]. It is relative to the largest sum of absolute forces that a
+    /// coordinate met, or to what its stiffness makes of a displacement of that size; 0 without forces.
     pub relative: T,
     /// Largest constraint violation [m or rad].
     pub violation: T,
@@ -55,7 +55,7 @@ pub struct Equilibrium<T> {
     pub unstable: usize,
     /// Directions with |omega| below [`rate`](Self::rate), in which it may stand anywhere, by the same estimate.
     pub neutral: usize,
-    /// What counts as neutral [rad/s].
+    /// Rate below which a direction counts as neutral [rad/s].
     pub rate: T,
 }
 
@@ -126,7 +126,7 @@ pub(crate) struct Search<'a, T, M, S> {
     lambda: Vec<T>,
     residual: Vec<T>,
     phi: Vec<T>,
-    /// The same for a step on trial.
+    /// Positions, multipliers and residual of a step on trial.
     pub(crate) next: Vec<T>,
     next_lambda: Vec<T>,
     next_residual: Vec<T>,
@@ -137,7 +137,7 @@ pub(crate) struct Search<'a, T, M, S> {
     met: T,
     /// Largest acceleration that a force would have given alone so far, in sizes [1/s^2].
     lively: T,
-    /// What the matrix of the last step makes of a displacement of a coordinate's size, at most [J].
+    /// Largest work that the matrix of the last step makes of a displacement of a coordinate's size [J].
     stiff: T,
     /// Pseudo-time step squared and its bound [s^2].
     s: T,
@@ -364,7 +364,7 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Search<'a, T, M, S> {
         (self.w.extent(&self.next[..self.w.n]) + T::ONE) * T::EPSILON * T::from_f64(FLOOR_ROUNDINGS)
     }
 
-    /// Forces at `next`.
+    /// Evaluates the forces at `next`.
     fn evaluate(&mut self) {
         self.model.evaluate_forces(&self.next, &self.v, &mut self.w.terms);
         self.measure();

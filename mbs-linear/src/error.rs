@@ -1,4 +1,4 @@
-//! Why there is no equilibrium, or no linearisation.
+//! Errors of the search for an equilibrium and of the linearisation.
 
 use mbs_core::step::OptionError;
 
@@ -19,7 +19,7 @@ pub enum EquilibriumError {
     NotNear,
     /// Integrals or lags among the signals find no rest.
     SignalsMove,
-    /// Nothing holds it: the mechanism fell or drove farther than a million times the scene's length.
+    /// Nothing holds the mechanism: it fell or drove farther than a million times the scene's length.
     Escapes {
         /// The coordinate that went farthest.
         unknown: u32,
@@ -109,14 +109,14 @@ pub enum LinearError {
     },
     /// Accelerations next to the state do not meet the constraints: rows nearly repeat each other.
     NotSettled {
-        /// By how much at most [m/s^2].
+        /// Largest acceleration by which the constraints are missed [m/s^2].
         left: f64,
     },
     /// A force became infinite or not a number.
     NotFinite,
     /// An output is infinite or not a number at the state or next to it.
     Output {
-        /// Its number among what is measured.
+        /// Number of the output among what is measured.
         output: usize,
     },
     /// Bodies that roll are in motion: more places are free than velocities, and they drift from each other.

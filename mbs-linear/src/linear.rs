@@ -1,4 +1,4 @@
-//! What a linearisation gives: stiffness and damping in independent coordinates.
+//! Linearisation about a state: stiffness and damping in independent coordinates.
 
 use crate::signal_matrices::LinearSignals;
 use alloc::vec;
@@ -8,7 +8,7 @@ use mbs_core::Real;
 /// Equations of motion linearised about a state, z'' + C_r z' + K_r z = f; matrices are stored column by column.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Linear<T> {
-    /// Freedoms f.
+    /// Number of freedoms f.
     pub n_freedoms: usize,
     /// -dz''/dz [1/s^2], f x f.
     pub stiffness: Vec<T>,

@@ -26,7 +26,7 @@ use mbs_core::algebra::norm_inf;
 use mbs_core::model::{Load, Model, State};
 use mbs_core::{Real, SymmetricSolver};
 
-/// What guides and courses do meanwhile.
+/// Behaviour of guides and courses while a state is linearised.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Instant {
     /// Guides are held at their values of that time: rates and accelerations are zero, as in an equilibrium.
@@ -39,8 +39,8 @@ pub enum Instant {
 const SWEEPS: u32 = 60;
 /// Largest move that closes the constraints, relative to a difference [-]: their curvature takes some 1e-4.
 const CURVED: f64 = 0.1;
-/// The same at which a difference gets shorter, in its reach [-]: 0.001 at the default. The modes of a chain of 60 links
-/// then have nine digits, and five at ten times this.
+/// Move that closes the constraints, at which a difference gets shorter, in its reach [-]: 0.001 at the default. The modes of a chain of
+/// 60 links then have nine digits, and five at ten times this.
 const FLAT: f64 = 10.0;
 /// Largest part by which such a difference gets shorter at once [-]. Chosen, not tuned.
 const SHORTER: f64 = 1.0 / 64.0;
@@ -101,17 +101,17 @@ pub(crate) struct Field<'a, T, M, S> {
     pub(crate) lively: T,
     /// Shortest difference by coordinates and velocities, in sizes of coordinates [-].
     shortest: T,
-    /// What is measured at each state; nothing where no outputs are asked for.
+    /// Outputs that are measured at each state; nothing where none are asked for.
     pub(crate) watch: Option<Watch<'a, T>>,
 }
 
 /// Slopes by coordinates or by velocities; matrices are stored column by column.
 pub(crate) struct Slopes<T> {
-    /// Of -z''.
+    /// Slopes of the accelerations, as -z''.
     pub(crate) forces: Vec<T>,
-    /// Of the rates x' of the states of signals.
+    /// Slopes of the rates x' of the states of signals.
     signals: Vec<T>,
-    /// Of the outputs.
+    /// Slopes of the outputs.
     pub(crate) outputs: Vec<T>,
 }
 
@@ -315,7 +315,7 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'a, T, M, S> {
         self.at_rest_of(&v)
     }
 
-    /// How far a change of z moves coordinates, in their sizes [-].
+    /// Returns how far a change of z moves coordinates, in their sizes [-].
     pub(crate) fn extent(&self, change: &[T]) -> T {
         let mut way = vec![T::ZERO; self.w.n];
         for (j, &z) in change.iter().enumerate() {

@@ -13,7 +13,7 @@ pub struct Matrix {
 }
 
 impl Matrix {
-    /// All zero.
+    /// Matrix of zeros alone.
     #[must_use]
     pub fn zeros(n_rows: usize, n_columns: usize) -> Self {
         Self { n_rows, n_columns, entries: vec![0.0; n_rows * n_columns] }
@@ -27,7 +27,7 @@ impl Matrix {
         all
     }
 
-    /// Of its entries by row and column.
+    /// Makes a matrix from its entries by row and column.
     pub fn from_fn(n_rows: usize, n_columns: usize, entry: impl Fn(usize, usize) -> f64) -> Self {
         let columns = 0..n_columns;
         let entries = columns.flat_map(|j| (0..n_rows).map(move |i| (i, j)));
@@ -46,7 +46,7 @@ impl Matrix {
         self.n_columns
     }
 
-    /// Column `j`.
+    /// Column `j` of the matrix.
     #[must_use]
     pub fn column(&self, j: usize) -> &[f64] {
         &self.entries[j * self.n_rows..][..self.n_rows]
@@ -79,7 +79,7 @@ impl Matrix {
         Self::from_fn(self.n_columns, self.n_rows, |i, j| self[(j, i)])
     }
 
-    /// A B.
+    /// Product A B of two matrices.
     ///
     /// # Panics
     /// If B has not as many rows as A has columns.
@@ -96,7 +96,7 @@ impl Matrix {
         product
     }
 
-    /// A − B.
+    /// Difference A − B of two matrices.
     ///
     /// # Panics
     /// If their sizes differ.

@@ -1,4 +1,4 @@
-//! What the caller chooses. Public fields; start from the defaults.
+//! Options that the caller chooses. Public fields; start from the defaults.
 
 use mbs_core::Real;
 use mbs_core::step::OptionError;
@@ -9,12 +9,12 @@ pub struct Options<T> {
     /// Largest residual force that counts as balanced, relative to the largest sum of absolute forces on a coordinate [-].
     /// The search continues to machine precision where it can.
     pub tolerance: T,
-    /// Factorisations allowed.
+    /// Number of factorisations allowed.
     pub max_factorizations: u32,
 }
 
 impl<T: Real> Default for Options<T> {
-    /// Tolerance 1e-9 (f32: 1e-4), at most 2000 factorisations: a fall over many times the scene's length ends before.
+    /// Default tolerance of 1e-9 (f32: 1e-4), at most 2000 factorisations: a fall over many times the scene's length ends before.
     fn default() -> Self {
         /// Tolerance of forces [-]. Chosen, not tuned.
         const TOLERANCE: f64 = 1e-9;
@@ -28,7 +28,7 @@ impl<T: Real> Default for Options<T> {
 }
 
 impl<T: Real> Options<T> {
-    /// Checks the ranges.
+    /// Checks the ranges of the options.
     ///
     /// # Errors
     /// [`OptionError`] names the option.
@@ -51,7 +51,7 @@ pub struct LinearOptions<T> {
 }
 
 impl<T: Real> Default for LinearOptions<T> {
-    /// 1e-4 (f32: 1e-2): the fourth power of it, the error of the differences, is below rounding in smooth forces.
+    /// Default step of 1e-4 (f32: 1e-2): the fourth power of it, the error of the differences, is below rounding in smooth forces.
     fn default() -> Self {
         /// Difference of coordinates in double precision [-]: its fourth power is rounding.
         const STEP: f64 = 1e-4;
@@ -60,7 +60,7 @@ impl<T: Real> Default for LinearOptions<T> {
 }
 
 impl<T: Real> LinearOptions<T> {
-    /// Checks the range.
+    /// Checks the range of the step.
     ///
     /// # Errors
     /// [`OptionError`] names the option.

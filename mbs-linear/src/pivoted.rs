@@ -12,7 +12,7 @@ pub(crate) struct Pivoted<T> {
     rows: Vec<usize>,
     columns: Vec<usize>,
     rank: usize,
-    /// What stands on the diagonal from the rank on.
+    /// Stiffness that stands on the diagonal from the rank on.
     least: T,
 }
 

@@ -24,7 +24,7 @@ use mbs_core::{Real, SymmetricSolver};
 pub struct Ports<'a, T> {
     /// The place of each input among [`State::inputs`]: see [`Prescribed`](mbs_core::inputs::Prescribed).
     pub inputs: &'a [usize],
-    /// Measures the outputs; always as many numbers.
+    /// Measure of the outputs; always as many numbers.
     pub outputs: &'a mut OutputMeasure<'a, T>,
     /// Coordinates x in place of z: of dy/dz, p x f, it makes dx/dz, f x f, both column by column; nothing where no x determine z. Without
     /// it they are z.
@@ -42,7 +42,7 @@ impl<T> fmt::Debug for Ports<'_, T> {
     }
 }
 
-/// What inputs do to a linearised motion, and outputs measure of it; matrices are stored column by column.
+/// Matrices of the inputs and outputs of a linearised motion, stored column by column.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LinearPorts<T> {
     /// Number of inputs m.
@@ -81,8 +81,8 @@ impl<T: Real> LinearPorts<T> {
 /// factorisations for one that moves a guide; 4 f factorisations more where coordinates are chosen; allocates.
 ///
 /// # Errors
-/// As [`linearise`](crate::linearise()), and what `ports.outputs` answers with; [`LinearError::Singular`] where no coordinates are chosen. A guide whose value cannot be changed, as joints hold its
-/// coordinate too, is [`LinearError::NotClosed`].
+/// As [`linearise`](crate::linearise()), and what `ports.outputs` answers with; [`LinearError::Singular`] where no coordinates are
+/// chosen. A guide whose value cannot be changed, as joints hold its coordinate too, is [`LinearError::NotClosed`].
 ///
 /// # Panics
 /// If a place is none of a state's inputs.
@@ -146,7 +146,7 @@ struct Driven<'a, T> {
     instant: Instant,
     /// The guides as the state's own inputs have them.
     held: &'a [[T; 3]],
-    /// Which of value, rate and acceleration of a guide it changes.
+    /// Whether the input changes value, rate and acceleration of a guide, each by itself.
     changed: [bool; 3],
     /// Are positions closed with it?
     is_moved: bool,

@@ -52,7 +52,7 @@ impl<T: Real, M: Model<T>, S: SymmetricSolver<T>> Search<'_, T, M, S> {
         false
     }
 
-    /// What the way from `q` to `next` slips, row by row; zero in other rows. Nothing where a midpoint cannot be closed.
+    /// Slip of the way from `q` to `next`, row by row; zero in other rows. Nothing where a midpoint cannot be closed.
     fn slip(&mut self) -> Option<Vec<T>> {
         let (from, to) = (self.q.clone(), self.next.clone());
         let middle = self.between(&from, &to)?;

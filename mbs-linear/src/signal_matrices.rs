@@ -1,8 +1,8 @@
-//! What a linearisation has of the states of signals.
+//! States of signals in a linearisation.
 
 use alloc::vec::Vec;
 
-/// What the states of signals do to a linearised motion, and the motion to them; matrices are stored column by column.
+/// Matrices between the states of signals and a linearised motion, stored column by column.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LinearSignals<T> {
     /// Number of states s.

@@ -19,7 +19,7 @@ use mbs_core::Real;
 pub struct Svd {
     /// Left vectors as columns.
     pub u: Matrix,
-    /// Singular values, falling: as many as the shorter side is long.
+    /// Singular values, from the largest to the smallest: as many as the shorter side is long.
     pub sigma: Vec<f64>,
     /// Right vectors as columns.
     pub v: Matrix,
@@ -31,7 +31,7 @@ const MAX_SWEEPS: usize = 60;
 /// Sum of squares that is zero beside a matrix of order one [-]: above 1e-308, where numbers lose digits.
 const TINY: f64 = 1e-280;
 
-/// Which vectors are wanted.
+/// Singular vectors that are wanted.
 #[derive(Clone, Copy)]
 enum Vectors {
     None,
@@ -40,7 +40,7 @@ enum Vectors {
 }
 
 impl Svd {
-    /// With all vectors: U and V are square. Nothing where an entry is not finite, or the iteration does not converge.
+    /// Decomposition with all vectors: U and V are square. Nothing where an entry is not finite, or the iteration does not converge.
     ///
     /// Cost: about 4 m² n + 20 m n² operations for m ≥ n.
     #[must_use]
@@ -76,7 +76,7 @@ fn of(matrix: &Matrix, vectors: Vectors) -> Option<Svd> {
     tall(matrix.clone(), vectors)
 }
 
-/// Of a matrix that has no more columns than rows.
+/// Decomposes a matrix that has no more columns than rows.
 fn tall(mut a: Matrix, vectors: Vectors) -> Option<Svd> {
     let (m, n) = (a.n_rows(), a.n_columns());
     let largest = a.largest()?;
@@ -108,7 +108,7 @@ struct Bidiagonal {
 }
 
 impl Bidiagonal {
-    /// A becomes B; vectors of the reflections from the left stay in its columns.
+    /// Bidiagonal matrix B of A; vectors of the reflections from the left stay in the columns of A.
     fn of(a: &mut Matrix) -> Self {
         let (m, n) = (a.n_rows(), a.n_columns());
         let mut all = Self { d: Vec::new(), e: Vec::new(), beta: Vec::new(), rows: Vec::new() };
@@ -153,7 +153,7 @@ impl Bidiagonal {
         u
     }
 
-    /// V₁.
+    /// Product V₁ of the reflections from the right.
     fn right(&self) -> Matrix {
         let n = self.d.len();
         let mut v = Matrix::identity(n, n);
@@ -287,7 +287,7 @@ impl Chase {
         }
     }
 
-    /// μ: that eigenvalue of the last two rows of BᵀB which is nearer to its last entry.
+    /// Shift μ of the iteration: that eigenvalue of the last two rows of BᵀB which is nearer to its last entry.
     fn shift(&self, low: usize, high: usize) -> f64 {
         let before = if high - 1 > low { self.e[high - 2] } else { 0.0 };
         let (d, e) = (self.d[high - 1], self.e[high - 1]);

@@ -1,4 +1,4 @@
-//! What measures outputs at the states of a linearisation.
+//! Measurement of outputs at the states of a linearisation.
 
 use crate::error::LinearError;
 use alloc::vec::Vec;
@@ -8,7 +8,7 @@ use mbs_core::model::{Model, State, Terms};
 /// Measures outputs at a state: q, v, a, multipliers (`reaction`), measured angles, signals and inputs are those of one instant.
 pub type OutputMeasure<'a, T> = dyn FnMut(&State<T>) -> Result<Vec<T>, LinearError> + 'a;
 
-/// What measures, and the state that it is shown.
+/// Measure of the outputs, and the state that it is shown.
 pub(crate) struct Watch<'a, T> {
     measure: &'a mut OutputMeasure<'a, T>,
     state: State<T>,

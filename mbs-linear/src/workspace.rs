@@ -47,7 +47,7 @@ pub struct Workspace<T, S> {
 }
 
 impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
-    /// Scratch for `model`.
+    /// Prepares the scratch for `model`.
     pub fn new(model: &impl Model<T>, solver: S) -> Self {
         let (n, m) = (model.n_unknowns(), model.n_constraints());
         let saddle = Saddle::new(model);
@@ -129,7 +129,7 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
         &self.diagonal
     }
 
-    /// How far coordinates move, in their sizes [-].
+    /// Returns how far coordinates move, in their sizes [-].
     pub(crate) fn extent(&self, x: &[T]) -> T {
         let ratios = x.iter().zip(&self.sizes).map(|(&x, &size)| x / size);
         largest_of(ratios)
@@ -140,7 +140,7 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
         largest_of(force.iter().zip(&self.sizes).map(|(&f, &size)| f * size))
     }
 
-    /// How far rows are off, as a coordinate of its size would move them [-]. They are as last factored.
+    /// Returns how far rows are off, as a coordinate of its size would move them [-]. Rows are as last factored.
     pub(crate) fn openness(&self, rows: &[T]) -> T {
         largest_of(rows.iter().zip(&self.row_sizes).map(|(&x, &size)| x / size))
     }

@@ -26,33 +26,33 @@ pub const fn vector<T, const D: usize>(numbers: [T; D]) -> Vector<T, D> {
 /// alpha + beta J in the plane, alpha in space (beta unused and zero).
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Coef<T> {
-    /// alpha.
+    /// Coefficient alpha of the identity.
     pub re: T,
-    /// beta.
+    /// Coefficient beta of J.
     pub im: T,
 }
 
 impl<T: Real> Coef<T> {
-    /// Zero.
+    /// Coefficient that is zero.
     #[must_use]
     pub fn zero() -> Self {
         Self { re: T::ZERO, im: T::ZERO }
     }
-    /// One.
+    /// Coefficient that is one.
     #[must_use]
     pub fn one() -> Self {
         Self { re: T::ONE, im: T::ZERO }
     }
-    /// A real coefficient.
+    /// Coefficient with alpha alone.
     pub fn real(re: T) -> Self {
         Self { re, im: T::ZERO }
     }
-    /// Sum.
+    /// Sum of two coefficients.
     #[must_use]
     pub fn plus(self, other: Self) -> Self {
         Self { re: self.re + other.re, im: self.im + other.im }
     }
-    /// Difference.
+    /// Difference of two coefficients.
     #[must_use]
     pub fn minus(self, other: Self) -> Self {
         self.plus(other.scaled(-T::ONE))
@@ -67,12 +67,12 @@ impl<T: Real> Coef<T> {
     pub fn times(self, o: Self) -> Self {
         Self { re: self.re * o.re - self.im * o.im, im: self.re * o.im + self.im * o.re }
     }
-    /// Complex conjugate: the transpose of alpha + beta J.
+    /// Complex conjugate, the transpose of alpha + beta J.
     #[must_use]
     pub fn conj(self) -> Self {
         Self { re: self.re, im: -self.im }
     }
-    /// Squared modulus.
+    /// Squared modulus alpha^2 + beta^2.
     #[must_use]
     pub fn norm_squared(self) -> T {
         self.re * self.re + self.im * self.im
@@ -143,13 +143,13 @@ pub fn raised<T: Real, const D: usize>(x: &Vector<T, D>) -> Vector<T, 3> {
     Vector::from_fn(|i, _| if i < D { x[i] } else { T::ZERO })
 }
 
-/// What the plane or space has of a vector of space.
+/// Components that the plane or space has of a vector of space.
 #[inline(always)]
 pub fn lowered<T: Real, const D: usize>(x: &Vector<T, 3>) -> Vector<T, D> {
     Vector::from_fn(|i, _| x[i])
 }
 
-/// Euclidean length.
+/// Euclidean length of a vector.
 pub fn norm<T: Real, const D: usize>(x: &Vector<T, D>) -> T {
     x.dot(x).sqrt()
 }
@@ -181,7 +181,7 @@ pub fn norm_inf<T: Real>(x: &[T]) -> T {
     if are_numbers { largest } else { T::from_f64(f64::NAN) }
 }
 
-/// a x b.
+/// Cross product a x b.
 pub fn cross<T: Real>(a: &Vector<T, 3>, b: &Vector<T, 3>) -> Vector<T, 3> {
     Vector::<T, 3>::new(
         a[1] * b[2] - a[2] * b[1],

@@ -142,18 +142,18 @@ pub trait SymmetricSolver<T: Real> {
 /// Number of pivots of each sign.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Inertia {
-    /// Positive ones.
+    /// Number of positive pivots.
     pub positive: usize,
-    /// Negative ones.
+    /// Number of negative pivots.
     pub negative: usize,
-    /// Zero to rounding.
+    /// Number of pivots that are zero to rounding.
     pub zero: usize,
 }
 
 /// The pivot that is smallest relative to what it was the sum of.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Weakest {
-    /// Its unknown; `u32::MAX` without unknowns.
+    /// Unknown of the pivot; `u32::MAX` without unknowns.
     pub unknown: u32,
     /// |pivot| over the sum of the absolute values that it is made of, in the equilibrated matrix [-], at most 1: the share
     /// that cancellation left. Digits of the solution are lost in this proportion.
@@ -165,7 +165,7 @@ pub struct Weakest {
 pub struct FactorError {
     /// The unknown at whose elimination it happened.
     pub unknown: u32,
-    /// The pivot found; of a [`SymmetricSolver`] relative to what it was the sum of.
+    /// Pivot that was found; of a [`SymmetricSolver`] relative to what it was the sum of.
     pub pivot: f64,
 }
 

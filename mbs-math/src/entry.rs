@@ -2,12 +2,12 @@
 
 use crate::Real;
 
-/// Where numbers come from.
+/// Reader of the numbers of an entry.
 pub trait EntryReader<T> {
     /// Why there is none.
     type Error;
 
-    /// A real number.
+    /// Reads a real number.
     ///
     /// # Errors
     /// At the end.
@@ -23,17 +23,17 @@ pub trait EntryReader<T> {
     fn fault(&self) -> Self::Error;
 }
 
-/// Where numbers go, as bytes or as an expression of Rust. What is for the expression alone is left out of bytes.
+/// Writer of numbers, as bytes or as an expression of Rust. What is for the expression alone is left out of bytes.
 pub trait EntryWriter<T> {
-    /// A real number.
+    /// Writes a real number.
     fn real(&mut self, x: T);
     /// A count or a place.
     fn word(&mut self, x: u32);
-    /// A claim.
+    /// Writes a claim, true or false.
     fn flag(&mut self, x: bool);
     /// The number of a variant, which an expression names.
     fn tag(&mut self, tag: u32);
-    /// Nothing.
+    /// Writes nothing, as `None`.
     fn none(&mut self);
     /// Something, which is written next; [`text`](Self::text) closes it.
     fn some(&mut self);
@@ -41,31 +41,31 @@ pub trait EntryWriter<T> {
     fn open(&mut self, _name: &'static str) {}
     /// Begins a field by its name, or by its place in a tuple.
     fn field(&mut self, _name: &'static str) {}
-    /// Ends a struct.
+    /// Ends a struct, or a variant.
     fn close(&mut self) {}
-    /// Words and brackets.
+    /// Writes words and brackets.
     fn text(&mut self, _text: &'static str) {}
 }
 
-/// What is made of numbers in a fixed order.
+/// Value that is made of numbers in a fixed order.
 pub trait Entry<T>: Sized {
-    /// Reads it.
+    /// Reads the value from a reader.
     ///
     /// # Errors
     /// Those of the reader.
     fn of<R: EntryReader<T>>(from: &mut R) -> Result<Self, R::Error>;
 
-    /// Writes it; false if it is not made of numbers.
+    /// Writes the value's numbers; false if it is not made of numbers.
     fn numbers<W: EntryWriter<T>>(&self, to: &mut W) -> bool;
 }
 
-/// What a build cannot have.
+/// Entry that a build cannot have.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Absent {}
 
 /// The entry of a table that is always empty, for any scalar.
 pub trait NoEntry {
-    /// [`Absent`].
+    /// Entry type of the table, [`Absent`].
     type Entry;
 }
 

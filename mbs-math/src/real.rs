@@ -68,7 +68,7 @@ pub trait Real:
     }
     /// The nearest number to a decimal text such as `9.81` or `1.0e-3`; `None` when it is not one.
     fn from_decimal(text: &str) -> Option<Self>;
-    /// The nearest `f64`.
+    /// Nearest `f64` of the number.
     fn to_f64(self) -> f64;
     /// The number as the sum of two `f64`, to the last bit; the second is zero where one holds it.
     #[inline]
@@ -81,14 +81,14 @@ pub trait Real:
     fn from_parts([near, _]: [f64; 2]) -> Self {
         Self::from_f64(near)
     }
-    /// Square root.
+    /// Square root of the number.
     fn sqrt(self) -> Self;
     /// Sine and cosine of an angle [rad].
     fn sin_cos(self) -> (Self, Self);
     /// Angle of the point (`x`, `self`) from the x axis [rad], in (-pi, pi].
     fn atan2(self, x: Self) -> Self;
 
-    /// Absolute value.
+    /// Absolute value of the number.
     #[inline]
     fn abs(self) -> Self {
         if self < Self::ZERO { -self } else { self }

@@ -33,7 +33,7 @@ pub struct Refined<T, S> {
     cliques: Lists,
     /// The blocks last factored, one after the other.
     blocks: Vec<T>,
-    /// Where each begins, and the end of all.
+    /// Start of the block of each element, and the end of all.
     places: Vec<usize>,
     /// Values of one element.
     values: Vec<T>,
@@ -49,10 +49,10 @@ struct Room {
     scratch: Vec<f64>,
 }
 
-/// What the solutions came to since [`Refined::take_tally`] was last asked.
+/// Tally of the solutions since [`Refined::take_tally`] was last asked.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Tally {
-    /// Solutions.
+    /// Number of solutions asked for.
     pub solutions: u64,
     /// Corrections of those that succeeded, each a solution in `f64`; the first of each is that of the factor alone.
     pub corrections: u64,
@@ -68,7 +68,7 @@ pub enum RefinementError {
     /// Corrections did not fall by half: the condition of the matrix is beyond the factor's precision. Remedy: a smaller
     /// penalty, or a factor in the finer scalar.
     Stalled {
-        /// Corrections made.
+        /// Number of corrections made.
         corrections: u32,
         /// The last one beside the one before it [-].
         contraction: f64,
@@ -77,7 +77,7 @@ pub enum RefinementError {
     },
     /// The corrections that are allowed were made, and the last one was not rounding yet. Remedy: allow more.
     Unfinished {
-        /// Corrections made.
+        /// Number of corrections made.
         corrections: u32,
         /// The last one beside the solution [-].
         left: f64,
@@ -139,7 +139,7 @@ impl<T: Real, S: SpdSolver<f64>> Refined<T, S> {
         self.most
     }
 
-    /// What the solutions came to since this was last asked.
+    /// Takes the tally of the solutions since this was last asked.
     pub fn take_tally(&self) -> Tally {
         self.tally.take()
     }
@@ -229,7 +229,8 @@ impl<T: Real, S: SpdSolver<f64>> SpdSolver<T> for Refined<T, S> {
         Ok(())
     }
 
-    /// [`refine`](Refined::refine); what fails there is kept in the [`Tally`], and the best that was reached is the solution.
+    /// Solves T x = b by [`refine`](Refined::refine); what fails there is kept in the [`Tally`], and the best that was reached is the
+    /// solution.
     fn solve(&self, x: &mut [T], scratch: &mut [T]) {
         let mut tally = self.tally.get();
         tally.solutions += 1;

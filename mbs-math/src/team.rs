@@ -25,7 +25,7 @@ pub trait Team: Sync {
     fn size(&self) -> usize;
 }
 
-/// One thread: the caller's.
+/// Team of one thread: the caller's.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Alone;
 

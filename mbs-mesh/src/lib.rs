@@ -27,22 +27,22 @@ pub struct TriangleMesh {
     pub triangles: Vec<[usize; 3]>,
 }
 
-/// Why a file is no surface.
+/// Reason why a file is no surface.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum MeshFault {
-    /// It cannot be read.
+    /// The file cannot be read.
     File(ErrorKind),
-    /// Its ending is none of [`MESH_ENDINGS`].
+    /// The ending of the file is none of [`MESH_ENDINGS`].
     Ending,
-    /// It is too large.
+    /// The file is too large.
     TooLarge,
-    /// It is no text.
+    /// The file is no text.
     NotText,
     /// This line, counted from 1, is none of its format.
     Line(usize),
     /// A vertex has no three numbers.
     Vertex,
-    /// It ends within its numbers.
+    /// The file ends within its numbers.
     Ends,
     /// A count is below zero.
     Count,
@@ -137,7 +137,7 @@ impl TriangleMesh {
     }
 }
 
-/// Which objects of a file count.
+/// Objects of a file that count.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Parts {
     All,

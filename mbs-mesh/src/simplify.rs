@@ -1,4 +1,4 @@
-//! The same surface with fewer triangles, or with fewer vertices.
+//! Simpler copies of a surface, with fewer triangles or with fewer vertices.
 
 use crate::TriangleMesh;
 use std::collections::{HashMap, HashSet};

@@ -7,7 +7,7 @@ use std::collections::HashMap;
 type V3 = Vector<f64, 3>;
 type M3 = Matrix<f64, 3>;
 
-/// How the tetrahedra between a point and the triangles count.
+/// Rule by which the tetrahedra between a point and the triangles count.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum VolumeRule {
     /// With the sign of their volume: the enclosed volume, of a closed surface alone.

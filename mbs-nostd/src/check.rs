@@ -18,24 +18,24 @@ use mbs_recursive::slices::TreeSlices;
 use mbs_recursive::space::Space;
 use mbs_recursive::{coupled, curves, feedback, rotor};
 
-/// What keeps a model from being loaded.
+/// Reason why a model is not loaded.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum LoadError {
     /// A model is larger than what is to hold it.
     Capacity {
-        /// Of what there is too much.
+        /// Name of what the model has too much of.
         of: &'static str,
-        /// What the model needs.
+        /// Number that the model needs.
         needed: usize,
-        /// What there is.
+        /// Number that there is room for.
         capacity: usize,
     },
     /// A number in a table points outside of what it is to point into, or this build leaves the effect out.
     Index {
-        /// The table.
+        /// Name of the table.
         table: &'static str,
-        /// The entry.
+        /// Number of the entry in the table.
         entry: usize,
     },
     /// An effect on an angle of a ball, which no controller has.
@@ -45,7 +45,7 @@ pub enum LoadError {
     },
     /// A guided rotation vector, which no controller has.
     GuidedBall {
-        /// Its link.
+        /// Number of the link whose joint is guided.
         link: usize,
     },
     /// The model has a machine element that this build leaves out.
@@ -57,7 +57,7 @@ pub enum LoadError {
     Format,
     /// The text has a law that this build leaves out, or the text is not what a model is written as.
     Record {
-        /// Where in the text.
+        /// Place in the text where the entry begins that cannot be read [bytes].
         byte: usize,
     },
     /// The text ends before the model does, or continues after it.
@@ -103,26 +103,26 @@ impl core::fmt::Display for LoadError {
 
 impl core::error::Error for LoadError {}
 
-/// How large a model is, or may be.
+/// Sizes that a model has, or may have at most.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Sizes {
     /// Links, the ground among them.
     pub links: usize,
-    /// Coordinates.
+    /// Number of coordinates.
     pub coordinates: usize,
-    /// Freedoms.
+    /// Number of freedoms.
     pub freedoms: usize,
-    /// Rows of loops.
+    /// Number of rows of loops.
     pub rows: usize,
     /// Numbers in blocks of Λ.
     pub blocks: usize,
     /// Gains of rows at joints.
     pub gains: usize,
-    /// Guides.
+    /// Number of guides.
     pub guides: usize,
-    /// Courses.
+    /// Number of signals, those of effects alone included.
     pub courses: usize,
-    /// States of signals.
+    /// Number of states of signals.
     pub states: usize,
     /// Courses, where there are operations on them; else none.
     pub followed: usize,
@@ -131,7 +131,7 @@ pub struct Sizes {
 }
 
 impl Sizes {
-    /// Is there room?
+    /// Checks that a model of these sizes fits into `room`.
     ///
     /// # Errors
     /// [`LoadError::Capacity`] names what there is too much of.
@@ -243,24 +243,24 @@ impl<'a, T: Real, S: Space<T>> Checked<'a, T, S> {
         Ok(Self { model: *model, sizes })
     }
 
-    /// What was checked before: the tables of `model` have not changed since.
+    /// Makes a checked model again: the tables of `model` have not changed since they were checked with these `sizes`.
     pub(crate) fn again(model: Model<'a, T, S>, sizes: Sizes) -> Self {
         Self { model, sizes }
     }
 
-    /// The model.
+    /// Returns the model whose tables were checked.
     #[must_use]
     pub fn model(&self) -> &Model<'a, T, S> {
         &self.model
     }
 
-    /// How large it is.
+    /// Returns the sizes of the model.
     #[must_use]
     pub fn sizes(&self) -> Sizes {
         self.sizes
     }
 
-    /// How many slopes of curves a step remembers: one for each term up to the last with a curve.
+    /// Returns the number of slopes of curves that a step remembers: one for each term up to the last with a curve.
     #[must_use]
     pub fn n_slopes(&self) -> usize {
         if curves::IS_BUILT { self.model.mechanism.loops.couplings.n_slopes() } else { 0 }
@@ -273,7 +273,7 @@ impl<'a, T: Real, S: Space<T>> Checked<'a, T, S> {
     }
 }
 
-/// What is looked at.
+/// Tables under check, with the sizes that their numbers must stay within.
 struct Look<'a, 'b, T: Real, S: Space<T>> {
     m: &'a TreeSlices<'b, T, S>,
     sizes: Sizes,
@@ -301,7 +301,7 @@ pub(crate) fn n_sides<T: Real, S: Space<T>>(m: &TreeSlices<'_, T, S>) -> usize {
         .fold(MIN_SIDES, |most, side| most.max(sides(side)))
 }
 
-/// `Ok` if so.
+/// Returns the fault of `entry` in `table` unless `holds`.
 fn ensure(holds: bool, table: &'static str, entry: usize) -> Result<(), LoadError> {
     if holds { Ok(()) } else { Err(fault(table, entry)) }
 }

@@ -9,10 +9,10 @@ use mbs_recursive::rows::Row;
 use mbs_recursive::space::Space;
 use mbs_recursive::{coupled, curves, feedback, rolling, rotor};
 
-/// An element.
+/// A machine element that a build may leave out.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Element {
-    /// Its Cargo feature.
+    /// Cargo feature that brings the element.
     pub(crate) feature: &'static str,
     /// Is it in this build?
     is_built: bool,

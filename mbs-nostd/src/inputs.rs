@@ -1,4 +1,4 @@
-//! Guides and courses: functions of time from tables, or values written between steps.
+//! Laws of guides and signals: functions of time from tables, or values written between steps.
 
 use mbs_core::Real;
 use mbs_core::laws::{Part, guide};
@@ -13,16 +13,16 @@ pub enum Motion<T> {
     Input([T; 3]),
     /// amplitude sin(2 pi frequency t + phase).
     Sine {
-        /// [rad or m].
+        /// Amplitude [rad or m].
         amplitude: T,
-        /// [Hz].
+        /// Frequency of the sine [Hz].
         frequency: T,
-        /// [rad].
+        /// Phase of the sine [rad].
         phase: T,
     },
-    /// rate t.
+    /// Motion at a constant rate: rate t.
     Ramp {
-        /// [rad/s or m/s].
+        /// Rate [rad/s or m/s].
         rate: T,
     },
     /// Cubic spline through a part of the knots, with the curvatures of its ends.
@@ -34,22 +34,22 @@ pub enum Motion<T> {
 /// A step that takes its time: from + (to - from) s^3 (10 - 15 s + 6 s^2), s = (t - at)/rise.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rise<T> {
-    /// The value before.
+    /// Value before the step.
     pub from: T,
-    /// The value after.
+    /// Value after the step.
     pub to: T,
     /// When it begins [s].
     pub at: T,
-    /// How long it takes; zero is a jump [s].
+    /// Duration of the rise; zero is a jump [s].
     pub rise: T,
 }
 
 /// The vector of an effect, or value, rate and acceleration of a signal, as a function of time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum SignalLaw<T> {
-    /// Written between steps; this at the start.
+    /// Value, rate and acceleration of a signal, or a vector, written between steps; these at the start.
     Input([T; 3]),
-    /// Always the same.
+    /// Value that is always the same.
     Constant([T; 3]),
     /// Way and speed of a road that moves: (speed t, speed, 0) [m/s].
     Travel(T),
@@ -64,9 +64,9 @@ pub enum SignalLaw<T> {
 /// All guides and courses of a model.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Prescriptions<'a, T> {
-    /// The guides.
+    /// Guides, each as a function of time or as an input.
     pub guides: &'a [Motion<T>],
-    /// The courses.
+    /// Signals, each as a function of time or as an input.
     pub courses: &'a [SignalLaw<T>],
     /// Knots (time, value) of guides and signals, and the second derivatives there.
     pub knots: (&'a [[T; 2]], &'a [T]),
@@ -74,14 +74,14 @@ pub struct Prescriptions<'a, T> {
     pub rows: &'a [[T; 4]],
 }
 
-/// What was written between steps: a place for each guide and each course, read where it is an input.
+/// Values written between steps: a place for each guide and each signal, read where it is an input.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Values<const G: usize, const C: usize, T> {
     pub(crate) guides: [[T; 3]; G],
     pub(crate) courses: [[T; 3]; C],
     /// The guides that the last step ended with.
     pub(crate) ended: [[T; 3]; G],
-    /// Which of them are inputs.
+    /// Whether each guide is an input.
     is_guide: [bool; G],
     is_course: [bool; C],
     /// Courses are other than those that the accelerations were made with.

@@ -1,4 +1,4 @@
-//! What is done about overruns: effects are dropped rung by rung, and taken up again when there is time.
+//! Answer to overruns: effects are dropped rung by rung, and taken up again when there is time.
 
 /// Climbs a rung after steps that ran out of time, and comes down after steps that did not.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -26,7 +26,7 @@ impl DegradationLadder {
         Self { patience, recovery, rung: 0, overruns: 0, in_time: 0 }
     }
 
-    /// How many rungs of effects are dropped.
+    /// Returns the number of rungs of effects that are dropped.
     #[must_use]
     pub const fn rung(&self) -> u32 {
         self.rung

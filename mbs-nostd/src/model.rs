@@ -14,21 +14,21 @@ pub struct Model<'a, T: Real, S: Space<T>> {
     pub prescriptions: Prescriptions<'a, T>,
     /// The state to start from.
     pub start: StartState<'a, T>,
-    /// How many of the effects are kept at each rung of the degrade ladder, fewer on each: the least needed stand last. Empty: all
+    /// Number of effects that are kept at each rung of the degrade ladder, fewer on each: the least needed stand last. Empty: all
     /// are always kept.
     pub rungs: &'a [u32],
 }
 
-/// A consistent state.
+/// A consistent state that a run starts from.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StartState<'a, T> {
-    /// Time [s].
+    /// Time of the start [s].
     pub t: T,
-    /// Coordinates.
+    /// Coordinates at the start.
     pub z: &'a [T],
-    /// Velocities.
+    /// Velocities at the start.
     pub v: &'a [T],
-    /// Accelerations.
+    /// Accelerations at the start.
     pub a: &'a [T],
     /// States of signals, each with its rate.
     pub signals: &'a [[T; 2]],

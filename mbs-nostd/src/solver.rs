@@ -40,9 +40,9 @@ pub struct Solver<
 > {
     /// Choices for the steps.
     pub options: Options<T>,
-    /// How much work a step may be.
+    /// Bounds on the work of a step.
     pub bounds: Bounds,
-    /// What is done about overruns.
+    /// Ladder by which effects are dropped after overruns.
     pub ladder: DegradationLadder,
     sizes: Sizes,
     t: T,
@@ -88,7 +88,7 @@ struct Scratch<
     /// States of signals at the start of a step, and at the instant.
     states: [[[T; 2]; M]; 2],
     course_slopes: [CourseSlope<T>; F],
-    /// Those of the curves of couplings.
+    /// Slopes of the terms of couplings that have curves.
     slopes: [T; W],
     z: [T; Z],
     /// v, z̈, response, scratch.
@@ -184,17 +184,17 @@ impl<
         self.inputs.restart(&model.model().prescriptions);
     }
 
-    /// Time [s].
+    /// Returns the time [s].
     pub fn time(&self) -> T {
         self.t
     }
 
-    /// Coordinates: angles, slides, quaternions; of free bodies rotation, then position.
+    /// Returns the coordinates: angles, slides, quaternions; of free bodies rotation, then position.
     pub fn coordinates(&self) -> &[T] {
         self.z.get(..self.sizes.coordinates).unwrap_or(&[])
     }
 
-    /// Velocities.
+    /// Returns the velocities.
     pub fn velocities(&self) -> &[T] {
         self.v.get(..self.sizes.freedoms).unwrap_or(&[])
     }

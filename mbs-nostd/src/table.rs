@@ -1,4 +1,4 @@
-//! What a model that `mbs export --rust` wrote is made of.
+//! Names that a model written by `mbs export --rust` is made of.
 
 pub use crate::{
     LoadError, Model, Motion, Planar, Prescriptions, Rise, SignalLaw, Solver, Spatial, StartState,

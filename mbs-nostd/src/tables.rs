@@ -21,7 +21,7 @@ use mbs_recursive::rows::Row;
 use mbs_recursive::slices::TreeSlices;
 use mbs_recursive::space::Space;
 
-/// What a model's text begins with, and its version.
+/// First numbers of a model's text: its mark, and the version.
 pub(crate) const HEAD: [u32; 2] = [u32::from_le_bytes(*b"MBSN"), 2];
 /// Added to the version of a text that ends with rotors [-].
 pub(crate) const WITH_ROTORS: u32 = 1;
@@ -245,7 +245,7 @@ impl<
         Checked::again(self.unchecked(), self.sizes)
     }
 
-    /// What the rows of couplings refer to.
+    /// Returns the tables that the rows of couplings refer to.
     #[allow(clippy::needless_update, reason = "with `alloc` there is a field more")]
     fn couplings_of_rows(&self) -> Couplings<'_, T, S> {
         Couplings {

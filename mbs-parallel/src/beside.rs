@@ -10,7 +10,7 @@ use std::thread;
 /// Stack of the thread of a job [bytes]: that of a process's first thread on most systems.
 const STACK: usize = 8 << 20;
 
-/// What a job gave.
+/// Result of a job, or its panic.
 type Done<R> = Result<R, Panicked>;
 
 /// Does a job on a thread of its own, and calls `look` on this one once in a `period` until it is done. A job that panics is a result too.
@@ -42,7 +42,7 @@ pub fn beside<R: Send>(
     })
 }
 
-/// As [`beside`], but a `look` that breaks leaves the job to itself: it ends on its own, and what it gives is lost.
+/// Does a job as [`beside`], but a `look` that breaks leaves the job to itself: it ends on its own, and what it gives is lost.
 ///
 /// # Errors
 /// As for [`beside`].

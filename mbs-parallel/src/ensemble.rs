@@ -1,4 +1,4 @@
-//! Ensembles: independent jobs over threads, results to one sink.
+//! Ensembles of independent jobs over threads, with results to one sink.
 
 #[cfg(test)]
 mod tests;
@@ -27,7 +27,7 @@ pub enum EnsembleError {
     Threads(NonZeroUsize),
 }
 
-/// What a job that panicked said.
+/// Message of a job that panicked.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Panicked(String);
 
@@ -103,7 +103,7 @@ impl Panicked {
         Self(text.unwrap_or_else(|| "no message".to_owned()))
     }
 
-    /// The message.
+    /// Message of the panic.
     #[must_use]
     pub fn message(&self) -> &str {
         &self.0

@@ -15,7 +15,7 @@ pub(crate) struct Numbers {
 }
 
 impl Numbers {
-    /// Takes an argument: doubles in the order of rows as they are; anything else is converted, or refused where `strict`.
+    /// Takes an argument of Python: doubles in the order of rows as they are; anything else is converted, or refused where `strict`.
     pub(crate) fn new(value: &Bound<'_, PyAny>, name: &str, strict: bool) -> PyResult<Self> {
         // arrays of other classes may mean more than their numbers
         if value.is_exact_instance_of::<PyUntypedArray>()
@@ -133,7 +133,7 @@ pub(crate) fn wrong_shape(py: Python<'_>, name: &str, found: &[usize], expected:
 #[derive(Debug)]
 pub(crate) struct States {
     arguments: Vec<(Numbers, usize, bool)>,
-    /// How many; nothing: one, without a dimension of its own.
+    /// Number of the states; `None`: one, without a dimension of its own.
     k: Option<usize>,
 }
 

@@ -209,7 +209,7 @@ struct Batch<'a> {
     k: usize,
     /// Numbers of a motion in q and in v.
     sizes: [usize; 2],
-    /// Threads; without any the caller's own.
+    /// Pool of threads; without one, the caller's own thread.
     pool: Option<Arc<Ensemble>>,
     interrupt: &'a Interrupt,
 }

@@ -1,4 +1,4 @@
-//! What is computed of one state, or of each of many.
+//! Computations of one state, or of each of many.
 
 use crate::array::{States, array};
 use crate::error::{Class, class_of, exception, fields};
@@ -71,7 +71,7 @@ impl Mechanism {
 
 /// Why a loop over states ended early.
 enum Ended {
-    /// What a state is refused for.
+    /// Number of a state that is refused, and its error.
     Refused(usize, Box<TreeError>),
     Interrupted(PyErr),
 }

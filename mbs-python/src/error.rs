@@ -6,7 +6,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-/// What an exception is made of.
+/// Fields of which an exception is made.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Fields {
     pub(crate) code: String,
@@ -44,7 +44,7 @@ impl Class {
     }
 }
 
-/// An exception.
+/// Makes an exception of a class from its fields.
 pub(crate) fn exception(py: Python<'_>, class: Class, fields: &Fields) -> PyErr {
     let made = || -> PyResult<PyErr> {
         let class = py.import("multibody.errors")?.getattr(class.name())?;

@@ -11,7 +11,7 @@ use mbs::{BodyId, SimulationError, Tree};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-/// What is asked for of an argument.
+/// Hint for an argument of external forces.
 const HINT: &str = "give {NAME: (force, moment)}, three numbers each, by names of frames or bodies";
 
 /// Adds what forces do along the velocities: Jᵀ (f, m).

@@ -9,7 +9,7 @@ use std::ops::Range;
 /// Forces that a mechanism takes as inputs.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Forces {
-    /// Frames or bodies.
+    /// Names of the frames or bodies with forces.
     pub(crate) names: Vec<String>,
     /// The first of their inputs, which stand in the order of the names.
     pub(crate) first: usize,
@@ -26,7 +26,7 @@ pub(crate) const fn parts(dimension: Dimension) -> &'static [usize] {
 }
 
 impl Forces {
-    /// Where the numbers of forces stand among all inputs.
+    /// Returns the range of the forces' numbers among all inputs.
     pub(crate) fn range(&self) -> Range<usize> {
         self.first..self.first + self.names.len() * self.parts.len()
     }
@@ -57,7 +57,7 @@ impl Forces {
 pub(crate) struct External {
     pub(crate) name: String,
     pub(crate) body: BodyId,
-    /// Where it acts, in the reference configuration.
+    /// Point at which the force acts, in the reference configuration [m].
     pub(crate) at: [f64; 3],
     pub(crate) wrench: [f64; 6],
 }

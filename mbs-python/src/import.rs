@@ -13,10 +13,10 @@ use pyo3::types::{PyDict, PyString};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// A model: the name that messages show, and what became of its elements.
+/// Model that was imported: the name that messages show, and what became of its elements.
 pub(crate) type Model = (String, Imported);
 
-/// What a source is: its scene, the folder where it lies, and the model that it was.
+/// Contents of a source: its scene, the folder where it lies, and the model that it was.
 pub(crate) struct Read {
     pub(crate) file: SceneFile,
     pub(crate) folder: Option<PathBuf>,
@@ -117,7 +117,7 @@ fn take(given: &Bound<'_, PyDict>, format: ModelFormat, taken: &mut ImportOption
     Ok(())
 }
 
-/// What an option takes.
+/// Returns the hint on the values of an option.
 fn meaning(option: &str) -> &'static str {
     match option {
         "base" => "give \"fixed\" or \"free\"",
@@ -153,7 +153,7 @@ fn set(options: &mut ImportOptions, (option, value): (&str, &Bound<'_, PyAny>)) 
     Ok(())
 }
 
-/// Stops: none, those by mass, or a stiffness above zero with a damping of zero or more.
+/// Reads the stops of an option: none, those by mass, or a stiffness above zero with a damping of zero or more.
 fn limits(value: &Bound<'_, PyAny>) -> PyResult<Option<Stops>> {
     if value.is_none() {
         return Ok(None);

@@ -23,7 +23,7 @@ pub(crate) struct Mechanism {
     pub(crate) shared: Arc<Shared>,
 }
 
-/// What copies share.
+/// Parts of a mechanism that its copies share.
 #[derive(Debug)]
 pub(crate) struct Shared {
     pub(crate) mechanism: mbs::Mechanism,
@@ -36,9 +36,9 @@ pub(crate) struct Shared {
     pub(crate) model: Option<Arc<Model>>,
     pub(crate) forces: Forces,
     dof: OnceLock<usize>,
-    /// At rest in the reference configuration.
+    /// Tree at rest in the reference configuration.
     first: OnceLock<Tree>,
-    /// Those that are not in use.
+    /// Trees that are not in use.
     trees: Mutex<Vec<Tree>>,
 }
 
@@ -195,7 +195,7 @@ pub(crate) fn channels(scene: &Scene<f64>) -> Vec<Channel> {
 const OF_JOINTS: [(&str, &str); 3] =
     [("cut-joint", "joint"), ("guided-joint", "joint"), ("no-coordinates", "joint")];
 
-/// Names of parts.
+/// Names of the parts of a list.
 macro_rules! names {
     ($of:expr) => {
         $of.iter().map(|part| part.name.clone()).collect()

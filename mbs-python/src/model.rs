@@ -1,4 +1,4 @@
-//! What a mechanism has of the model that it was: the report of its import, and states in the order of its file.
+//! Methods of a mechanism that was a model: the report of its import, and states in the order of its file.
 
 use crate::error::guarded;
 use crate::import;

@@ -1,4 +1,4 @@
-//! What is read of a simulation by name: outputs, joints, bodies, forces.
+//! Readings of a simulation by name: outputs, joints, bodies, forces.
 
 use crate::array::{array, vector};
 use crate::error::{Class, raised, unknown_name, usage};

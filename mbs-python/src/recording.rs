@@ -1,4 +1,4 @@
-//! What a motion that is stepped from Python leaves behind: pictures and outputs, of which a page can be made.
+//! Recording of a motion that is stepped from Python: pictures and outputs, of which a page can be made.
 
 use crate::array::{array, vector};
 use crate::error::{Class, guarded, raised, unknown_name};
@@ -23,9 +23,9 @@ pub(crate) struct Tape {
     rows: Vec<f64>,
     n_bodies: usize,
     n_columns: usize,
-    /// Every so many steps an instant is taken.
+    /// Steps from one instant to the next.
     stride: usize,
-    /// Steps since the last one.
+    /// Steps since the last instant.
     since: usize,
 }
 
@@ -89,7 +89,7 @@ pub(crate) fn poses(simulation: &Simulation, n_bodies: usize) -> Vec<f64> {
     (0..n_bodies).flat_map(of).collect()
 }
 
-/// What is drawn of a scene, with its start as the only picture: a run of one step.
+/// Returns the drawing of a scene, with its start as the only picture: a run of one step.
 pub(crate) fn drawing(mechanism: &Mechanism) -> Result<Option<RecordedMotion>, SimulationError> {
     let (file, scene) = (&mechanism.shared.file, &mechanism.shared.scene);
     let settings = ResolvedMethod::new(scene, &Method::default())?;

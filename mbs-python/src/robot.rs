@@ -1,4 +1,4 @@
-//! What a mechanism has at a state, or at many.
+//! Quantities of a mechanism at a state, or at many.
 
 use crate::array::{Numbers, array, point, vector, wrong_shape};
 use crate::error::{Class, raised, unknown_name, usage};
@@ -447,7 +447,7 @@ impl Mechanism {
         point(at, self.shared.scene.dimension.count())
     }
 
-    /// One state's coordinates.
+    /// Reads the coordinates of one state.
     pub(crate) fn coordinates_of(&self, q: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
         Numbers::row(q, "q", self.sizes(q.py())?[0])
     }

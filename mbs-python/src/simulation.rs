@@ -25,15 +25,15 @@ pub(crate) struct Simulation {
     moving: Mutex<Moving>,
 }
 
-/// What moves.
+/// Simulation in motion, with its tree and its recordings.
 #[derive(Debug)]
 pub(crate) struct Moving {
     pub(crate) simulation: mbs::Simulation,
-    /// Where it is in relative coordinates, from the first time that it is asked for.
+    /// Tree of the state in relative coordinates, from the first time that it is asked for.
     tree: Option<Tree>,
     /// Is the tree where the simulation is?
     is_followed: bool,
-    /// What its motion is recorded on.
+    /// Tapes on which the motion is recorded.
     tapes: Vec<Weak<Mutex<Tape>>>,
 }
 
@@ -69,7 +69,7 @@ impl Simulation {
         Ok(Self { mechanism, settings, flag, moving: Mutex::new(moving) })
     }
 
-    /// What moves, where no other thread has it.
+    /// Returns the simulation in motion, where no other thread has it.
     pub(crate) fn moving(&self, py: Python<'_>) -> PyResult<MutexGuard<'_, Moving>> {
         match self.moving.try_lock() {
             Ok(moving) => Ok(moving),
@@ -112,7 +112,7 @@ impl Simulation {
         read.map_err(|error| raised(py, &error, Class::Stop))
     }
 
-    /// Advances what moves, where no other thread has it.
+    /// Advances the simulation, where no other thread has it.
     fn advance<R>(
         &self,
         py: Python<'_>,

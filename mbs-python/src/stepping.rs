@@ -1,4 +1,4 @@
-//! What a simulation is stepped with: rows of inputs, and recordings of its motion.
+//! Means to step a simulation: rows of inputs, and recordings of its motion.
 
 use crate::array::{Numbers, wrong_shape};
 use crate::recording::Tape;
@@ -7,7 +7,7 @@ use pyo3::prelude::*;
 use std::ops::Range;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// What a motion is recorded on while it is stepped.
+/// Tapes on which a motion is recorded while it is stepped.
 pub(crate) struct Tapes(pub(crate) Vec<Arc<Mutex<Tape>>>);
 
 impl Tapes {
@@ -45,7 +45,7 @@ impl Tapes {
     }
 }
 
-/// Rows of inputs: all of them, or all but the forces.
+/// Rows of inputs of a call: all of them, or all but the forces.
 pub(crate) struct InputRows {
     numbers: Vec<f64>,
     n: usize,

@@ -24,20 +24,20 @@ const QUICK_REPEATS: u32 = 2;
 /// CPU time of all runs of a quick comparison, roughly [s].
 const QUICK_BUDGET: f64 = 5.0;
 
-/// How a search goes.
+/// Returns the search with this name; refuses an unknown name.
 fn search(py: Python<'_>, name: &str) -> PyResult<Search> {
     let search = Search::ALL.into_iter().find(|search| search.name() == name);
     let unknown = || unknown_name(py, ["search", "searches"], ("search", name), &Search::NAMES);
     search.ok_or_else(unknown)
 }
 
-/// About which state.
+/// Returns the place with this name; refuses an unknown name.
 fn place(py: Python<'_>, name: &str) -> PyResult<Place> {
     let place = Place::ALL.into_iter().find(|place| place.name() == name);
     place.ok_or_else(|| unknown_name(py, ["state", "states"], ("at", name), &Place::NAMES))
 }
 
-/// What a comparison reports.
+/// Watch of a comparison, which notes the share that is done.
 struct Watched<'a>(&'a Reached);
 
 impl compare::Watch for Watched<'_> {
@@ -211,7 +211,7 @@ fn json<'py>(py: Python<'py>, text: &str) -> PyResult<Bound<'py, PyAny>> {
     value::object(py, &object)
 }
 
-/// What a linear system is about: a place, with how an equilibrium is sought, or a state.
+/// Operating point of a linear system: a place, with the search for its equilibrium, or a state.
 enum Where {
     Place(Place, Search),
     State(Vec<f64>, Vec<f64>),

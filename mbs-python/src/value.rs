@@ -31,7 +31,7 @@ pub(crate) fn object<'py>(py: Python<'py>, value: &Value) -> PyResult<Bound<'py,
     }
 }
 
-/// What a dict has by name; an argument that is none is refused.
+/// Returns the items of a dict by name; refuses an argument that is no dict.
 pub(crate) fn items<'py>(
     dict: &Bound<'py, PyAny>,
     argument: &str,

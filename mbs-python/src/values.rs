@@ -13,7 +13,7 @@ pub(crate) fn make<'py>(
     py.import("multibody.values")?.getattr(class)?.call1(fields)
 }
 
-/// A state.
+/// Makes a `State` of Python from coordinates and velocities.
 pub(crate) fn state<'py>(py: Python<'py>, q: Vec<f64>, v: Vec<f64>) -> PyResult<Bound<'py, PyAny>> {
     make(py, "State", (vector(py, &q), vector(py, &v)))
 }

@@ -28,7 +28,7 @@ impl Reached {
     }
 }
 
-/// What is reported during work.
+/// Report of progress during work.
 #[derive(Debug)]
 pub(crate) struct Progress<'a, 'py> {
     /// Called with how far it is, at most ten times a second, and at its end.
@@ -95,7 +95,7 @@ pub(crate) fn watched<R: Send>(
     Ok((done, raised))
 }
 
-/// The same where there is no result but a whole one.
+/// Does some work as `watched` does, where there is no result but a whole one.
 pub(crate) fn whole<R: Send>(
     py: Python<'_>,
     flag: &AtomicBool,

@@ -33,7 +33,7 @@ impl<C: Clock + ?Sized> Clock for &mut C {
 pub struct SystemClock(Instant);
 
 impl SystemClock {
-    /// Starts at zero.
+    /// Starts the clock at zero.
     #[must_use]
     pub fn new() -> Self {
         Self(Instant::now())
@@ -60,7 +60,7 @@ impl Clock for SystemClock {
     }
 }
 
-/// Waits until `target`: asleep until `awake` before it, then awake. Returns at once when it is past.
+/// Waits until `target`, asleep until `awake` before it, then awake. Returns at once when it is past.
 pub fn wait_until(clock: &mut impl Clock, target: Duration, awake: Duration) {
     let rest = target.saturating_sub(clock.now());
     if rest > awake {

@@ -1,4 +1,4 @@
-//! Which level the next task runs at: down after an overrun, up after a quiet time, with hysteresis.
+//! Level at which the next task runs: down after an overrun, up after a quiet time, with hysteresis.
 //!
 //! ```text
 //! down: the task was late and took longer than a period, or more than `patience` tasks in a row were late
@@ -32,7 +32,7 @@ impl Default for Recovery {
     }
 }
 
-/// Where on the ladder the loop stands.
+/// Level on which the loop stands, and the counts that move it.
 #[derive(Debug, Clone)]
 pub(crate) struct DegradationLadder {
     quiet: Recovery,
@@ -41,14 +41,14 @@ pub(crate) struct DegradationLadder {
     level: usize,
     late_in_row: u32,
     quiet_in_row: u64,
-    /// f.
+    /// Factor f of the quiet time [-].
     times: u32,
     /// Tasks since the last rise, until it has proved itself.
     since_rise: Option<u64>,
 }
 
 impl DegradationLadder {
-    /// `levels` `≥ 1`: 0 is everything, `levels − 1` the least.
+    /// Makes a ladder of `levels` `≥ 1` levels: 0 is everything, `levels − 1` the least.
     pub(crate) fn new(quiet: Recovery, period: Duration, levels: usize) -> Self {
         Self {
             quiet,
@@ -66,7 +66,7 @@ impl DegradationLadder {
         self.level
     }
 
-    /// After a task: what is done about it, if anything.
+    /// Counts a task, and returns what is done about it, if anything.
     pub(crate) fn after(&mut self, is_late: bool, duration: Duration) -> Option<Action> {
         self.watch_rise();
         if is_late { Some(self.late(duration)) } else { self.in_time(duration) }

@@ -1,25 +1,25 @@
-//! What happened out of the ordinary: overruns and changes of level, in bounded memory.
+//! Events out of the ordinary: overruns and changes of level, in bounded memory.
 
 use std::time::Duration;
 
-/// What was done about a task.
+/// Action after a task that was late, or after which the level changed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Action {
-    /// Late; it was finished, and the next began at once.
+    /// Late task that was finished; the next began at once.
     Finished,
-    /// Late; its result was held back for this many periods.
+    /// Late task whose result was held back for this many periods.
     Held {
         /// Periods in which the last result stood on.
         periods: u64,
     },
-    /// Late; the next one runs at this level.
+    /// Late task, after which the next one runs at this level.
     Down {
-        /// The level.
+        /// Level of the next task.
         to: usize,
     },
     /// In time, and quiet for long enough; the next one runs at this level.
     Up {
-        /// The level.
+        /// Level of the next task.
         to: usize,
     },
 }
@@ -27,17 +27,17 @@ pub enum Action {
 /// A task that was late, or after which the level changed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Entry {
-    /// Which task, from 0.
+    /// Number of the task, from 0.
     pub task: u64,
     /// When it ended, since the loop began.
     pub at: Duration,
-    /// How long it took.
+    /// Duration of the task.
     pub duration: Duration,
-    /// By how much it missed its deadline; zero where it did not.
+    /// Time by which the task missed its deadline; zero where it did not.
     pub late: Duration,
     /// The level at which it ran.
     pub level: usize,
-    /// What was done.
+    /// Action that was taken.
     pub action: Action,
 }
 
@@ -54,7 +54,7 @@ impl Log {
         Self { entries: Vec::with_capacity(capacity), left_out: 0, capacity }
     }
 
-    /// Takes one more. No allocation.
+    /// Takes one more entry, without allocation.
     pub(crate) fn take(&mut self, entry: Entry) {
         if self.entries.len() < self.capacity {
             self.entries.push(entry);

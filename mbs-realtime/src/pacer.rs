@@ -1,4 +1,4 @@
-//! The loop: tasks one period apart, and what happens when one is late.
+//! Loop of tasks one period apart, and what happens when one is late.
 //!
 //! ```text
 //! task k: planned begin r_k, deadline d_k = r_k + P, end e_k;  late where e_k > d_k
@@ -14,7 +14,7 @@ use crate::sample::{Sample, nanos};
 use core::ops::ControlFlow;
 use std::time::Duration;
 
-/// What happens when a task ends after its deadline.
+/// Policy for a task that ends after its deadline.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Overrun {
     /// The late result is published as soon as it is there, and the next task begins at once. The schedule stays: tasks that are
@@ -24,16 +24,17 @@ pub enum Overrun {
     /// The late result is published at the next boundary of a period, and the next task begins there; until then the last result
     /// stands. The schedule is put off by these periods and they are not caught up: no task is left out, but each comes later.
     Hold,
-    /// As [`Finish`](Self::Finish), and the level goes down one step of the ladder; it comes back up as [`Recovery`] says.
+    /// The loop continues as with [`Finish`](Self::Finish), and the level goes down one step of the ladder; it comes back up as
+    /// [`Recovery`] says.
     Degrade,
 }
 
-/// How a loop is paced.
+/// Pace of a loop: its period, and what becomes of late tasks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Pace {
     /// From the planned begin of a task to that of the next. `> 0`.
     pub period: Duration,
-    /// What happens when a task is late.
+    /// Policy for a task that is late.
     pub overrun: Overrun,
     /// The loop waits asleep until so long before a begin, then awake: systems wake sleepers late. Zero: asleep only.
     pub awake: Duration,
@@ -84,15 +85,15 @@ impl core::error::Error for PaceError {}
 /// The work of one period.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Task {
-    /// Its number, from 0.
+    /// Number of the task, from 0.
     pub index: u64,
     /// The level of the ladder at which it is to run: 0 is everything.
     pub level: usize,
 }
 
-/// What is paced.
+/// Work that a loop paces, one task for each period.
 pub trait Work {
-    /// What keeps it from continuing.
+    /// Error that keeps the work from continuing.
     type Error;
 
     /// The work of one period: read inputs, step. `Break` ends the loop after this task.
@@ -101,7 +102,8 @@ pub trait Work {
     /// What keeps it from continuing; the loop ends then.
     fn step(&mut self, task: Task) -> Result<ControlFlow<()>, Self::Error>;
 
-    /// Its result becomes valid now: write outputs. Called once for each task, at the end of its period, or as the policy says.
+    /// Publishes the result of a task, which becomes valid now: write outputs. Called once for each task, at the end of its period, or as the
+    /// policy says.
     fn publish(&mut self, task: Task) {
         let _ = task;
     }
@@ -238,7 +240,7 @@ impl Pacer {
         self.margin.take(nanos(deadline) - nanos(end));
     }
 
-    /// What is done about a task, late or not; logged where it is out of the ordinary.
+    /// Returns what is done about a task, late or not, and logs it where it is out of the ordinary.
     fn after(&mut self, task: Task, late: Duration, duration: Duration) -> Option<Action> {
         let is_late = !late.is_zero();
         let action = match self.pace.overrun {
@@ -262,12 +264,12 @@ impl Pacer {
         action
     }
 
-    /// ⌈late / P⌉.
+    /// Returns ⌈late / P⌉, the number of periods.
     fn periods(&self, late: Duration) -> u64 {
         u64::try_from(late.as_nanos().div_ceil(self.pace.period.as_nanos())).unwrap_or(u64::MAX)
     }
 
-    /// How the loop is paced.
+    /// Returns the pace of the loop.
     #[must_use]
     pub fn pace(&self) -> &Pace {
         &self.pace
@@ -279,7 +281,7 @@ impl Pacer {
         self.ladder.level()
     }
 
-    /// What was measured so far. Sorts: not for within the loop.
+    /// Returns what was measured so far. Sorts: not for within the loop.
     #[must_use]
     pub fn report(&self) -> Report {
         let simulated = times(self.pace.period, self.tasks);
@@ -303,7 +305,7 @@ impl Pacer {
     }
 }
 
-/// n P.
+/// Returns n P, the time of n periods.
 fn times(period: Duration, n: u64) -> Duration {
     let nanos = period.as_nanos().saturating_mul(u128::from(n));
     Duration::from_nanos(u64::try_from(nanos).unwrap_or(u64::MAX))

@@ -1,4 +1,4 @@
-//! What a paced loop was like.
+//! Measures of a paced loop.
 
 use crate::log::Entry;
 use crate::sample::{Sample, nearest_rank};
@@ -7,26 +7,26 @@ use std::time::Duration;
 /// Half, 99 of 100, and all of some times are not longer than these.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Spread {
-    /// Median.
+    /// Median of the times.
     pub p50: Duration,
-    /// 99th percentile.
+    /// 99th percentile of the times.
     pub p99: Duration,
-    /// The longest.
+    /// Longest of the times.
     pub max: Duration,
 }
 
-/// What was left until the deadline [s]; negative where it was missed.
+/// Time left until the deadline [s]; negative where it was missed.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Margin {
-    /// The least.
+    /// Least of the margins.
     pub least: f64,
     /// 99 of 100 were larger, or equal.
     pub p1: f64,
-    /// Median.
+    /// Median of the margins.
     pub p50: f64,
 }
 
-/// What a loop has measured so far.
+/// Measures of a loop so far.
 ///
 /// Percentiles are exact up to 65,536 tasks; of longer loops they are those of every second task, fourth, and so on. Extremes and
 /// counts are of all.
@@ -34,11 +34,11 @@ pub struct Margin {
 pub struct Report {
     /// Tasks that were done.
     pub tasks: u64,
-    /// How long after their planned time tasks began; those that the task before delayed are not counted.
+    /// Delays of the begins of tasks after their planned times; those that the task before delayed are not counted.
     pub jitter: Spread,
-    /// How long tasks took, from their begin to their end.
+    /// Durations of tasks, from their begin to their end.
     pub duration: Spread,
-    /// What was left until the deadlines.
+    /// Time left until the deadlines.
     pub margin: Margin,
     /// Tasks that ended after their deadline.
     pub overruns: u64,
@@ -46,13 +46,13 @@ pub struct Report {
     pub latest: Duration,
     /// Overruns and changes of level, the first ones.
     pub log: Vec<Entry>,
-    /// How many more there were than are listed.
+    /// Number of overruns and changes of level beyond the listed ones.
     pub log_left_out: u64,
     /// Tasks at each level.
     pub at_level: Vec<u64>,
     /// Periods by which the schedule was put off ([`Hold`](crate::Overrun::Hold)).
     pub skipped: u64,
-    /// How far behind the clock the last result came: what was put off, and how late it was.
+    /// Delay of the last result behind the clock: what was put off, and how late it was.
     pub behind: Duration,
     /// From the begin of the first task to the end of the last.
     pub elapsed: Duration,
@@ -78,7 +78,7 @@ pub(crate) fn spread(sample: &Sample) -> Spread {
     Spread { p50: of(50), p99: of(99), max: time(max) }
 }
 
-/// Percentiles of margins.
+/// Least value and percentiles of margins.
 pub(crate) fn margin(sample: &Sample) -> Margin {
     let Some((sorted, [least, _])) = sample.sorted() else { return Margin::default() };
     #[allow(clippy::cast_precision_loss, reason = "nanoseconds of some months")]

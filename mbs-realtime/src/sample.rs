@@ -30,7 +30,7 @@ impl Sample {
         Self { kept: Vec::with_capacity(CAPACITY), every: 1, seen: 0, range: None }
     }
 
-    /// Takes one more. No allocation.
+    /// Takes one more value, without allocation.
     pub(crate) fn take(&mut self, value: i64) {
         let [least, most] = self.range.unwrap_or([value; 2]);
         self.range = Some([least.min(value), most.max(value)]);
@@ -54,7 +54,7 @@ impl Sample {
         self.every *= 2;
     }
 
-    /// What was kept, ascending, and the least and the largest of all.
+    /// Returns what was kept, ascending, and the least and the largest of all.
     pub(crate) fn sorted(&self) -> Option<(Vec<i64>, [i64; 2])> {
         let mut sorted = self.kept.clone();
         sorted.sort_unstable();
@@ -62,7 +62,7 @@ impl Sample {
     }
 }
 
-/// Nanoseconds; some three hundred years at most.
+/// Nanoseconds of a time; some three hundred years at most.
 pub(crate) fn nanos(time: Duration) -> i64 {
     i64::try_from(time.as_nanos()).unwrap_or(i64::MAX)
 }

@@ -21,12 +21,12 @@ pub fn history(n: usize) -> usize {
     (2 * (DEPTH + 1) + 1) * n
 }
 
-/// What is known of an iteration in progress.
+/// State of an iteration in progress.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) struct Mixing {
     /// Is there a last x and r?
     has_last: bool,
-    /// Pairs found.
+    /// Number of pairs found.
     n_pairs: usize,
     /// The place of the next one, which takes that of the oldest.
     place: usize,
@@ -122,7 +122,7 @@ mod tests {
     use super::*;
     use alloc::{vec, vec::Vec};
 
-    /// What an iteration of diagonal contractions leaves over of x − solution.
+    /// Returns the rest r and the next iterate g = x − r of an iteration of diagonal contractions towards `solution`.
     fn left_over(x: &[f64], slow: &[f64], solution: f64) -> [Vec<f64>; 2] {
         let r: Vec<f64> = x.iter().zip(slow).map(|(x, share)| share * (x - solution)).collect();
         let g = x.iter().zip(&r).map(|(x, r)| x - r).collect();

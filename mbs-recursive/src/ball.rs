@@ -101,8 +101,8 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
         Ok(false)
     }
 
-    /// What a row lacks of its twists where they have begun anew on the way between two states; `None` where the row is not linear in one
-    /// that has.
+    /// Computes what a row's sum lacks of twists that have begun anew on the way between two states. `None` where the row is not linear in
+    /// such a twist.
     pub(crate) fn lost_twist(
         &self,
         row: &CoupledRow<T>,

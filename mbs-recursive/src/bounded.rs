@@ -27,7 +27,7 @@ use mbs_core::Real;
 use mbs_core::algebra::norm_inf;
 use mbs_core::step::{OptionError, StepError, largest_or_nan};
 
-/// How much work a step is.
+/// Work of a step: evaluations, sweeps and projections.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Bounds {
     /// Evaluations of the accelerations, at least one.
@@ -47,11 +47,11 @@ impl Default for Bounds {
 
 /// Says whether there is time for more: asked before each evaluation but the first, and before each projection.
 pub trait Watch {
-    /// Is there?
+    /// Is there time for more?
     fn has_time(&mut self) -> bool;
 }
 
-/// There always is.
+/// Watch of steps that always have time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Unwatched;
 
@@ -69,12 +69,12 @@ impl<F: FnMut() -> bool> Watch for F {
     }
 }
 
-/// What a bounded step did, and what it left over.
+/// Work of a bounded step, and the errors that it left over.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BoundedReport<T> {
-    /// Evaluations made.
+    /// Number of evaluations made.
     pub evaluations: u32,
-    /// Projections made.
+    /// Number of projections made.
     pub projections: u32,
     /// The last change of a coordinate by a change of its acceleration: β h² times it [m or rad].
     pub correction: T,

@@ -22,7 +22,7 @@ use mbs_core::Real;
 pub struct ClosedLoop<T: Real, S: Space<T>> {
     /// Links of its first and second body.
     pub links: [u32; 2],
-    /// Its point on each, from the link's origin, reference axes [m].
+    /// Point of the loop on each link, from the link's origin, reference axes [m].
     pub points: [S::Point; 2],
     /// First of its rows.
     pub first: u32,
@@ -65,7 +65,7 @@ impl<T: Real, S: Space<T>> ClosedLoop<T, S> {
         }
     }
 
-    /// The same of the rows of a cut joint.
+    /// Evaluates the rows of a cut joint and hands them out in order.
     #[inline(always)]
     fn evaluate_cut(
         &self,

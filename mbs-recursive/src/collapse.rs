@@ -1,4 +1,5 @@
-//! What has no direction left after a step: parts of ropes without length, twists of balls whose axes are opposite, discs that lie flat.
+//! Checks of what has no direction left after a step: parts of ropes without length, twists of balls whose axes are opposite, discs that
+//! lie flat.
 
 use crate::coupled::{HAS_BALL_ANGLES, HAS_LINES};
 use crate::fault::failure;
@@ -34,7 +35,7 @@ pub(crate) fn check_lines<T: Real, S: Space<T>>(
     check_parts(m, inputs, step, s)
 }
 
-/// The same of lines alone.
+/// Looks whether a part of a line has collapsed in the step, without a look at discs.
 #[inline(always)]
 pub(crate) fn check_parts<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,

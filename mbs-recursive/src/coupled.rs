@@ -28,13 +28,13 @@ pub(crate) const HAS_BALL_ANGLES: bool = cfg!(feature = "alloc");
 /// The row of a coupling.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CoupledRow<T> {
-    /// Its terms.
+    /// Terms of the row.
     pub terms: Span,
     /// The links on which its lines have points.
     pub starts: Span,
     /// Number of the guide that is its sum; [`NONE`]: it is zero.
     pub guide: u32,
-    /// What its sum is beside the guide, over the largest factor: what a guide adds to its law where it is exported.
+    /// Part of the sum beside the guide, over the largest factor: what a guide adds to its law where it is exported.
     pub value: T,
     /// One over the largest factor: the sum is divided by it.
     pub inverse: T,
@@ -45,16 +45,16 @@ pub struct CoupledRow<T> {
 /// A term of a coupling.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SumTerm<T> {
-    /// Its factor over the largest one.
+    /// Factor of the term over the largest one.
     pub factor: T,
-    /// Its curve; [`NONE`]: the measured number itself.
+    /// Number of the term's curve; [`NONE`]: the measured number itself.
     pub curve: u32,
-    /// What is measured.
+    /// Measure that the term is a function of.
     pub of: SumMeasure<T>,
 }
 
 impl<T: Real> SumTerm<T> {
-    /// Its growth by its coordinate; that of a curve was noted when the term, number `i` of all, was evaluated.
+    /// Returns the growth of the term by its coordinate; that of a curve was noted when the term, number `i` of all, was evaluated.
     #[inline(always)]
     fn slope(&self, i: usize, slopes: &[T]) -> Result<T, Outside> {
         if self.has_curve() { at(slopes, i).copied() } else { Ok(self.factor) }
@@ -72,14 +72,14 @@ impl<T: Real> SumTerm<T> {
 pub enum SumMeasure<T> {
     /// The coordinate of a link whose joint has one freedom, or is guided.
     Joint {
-        /// The link.
+        /// Number of the link.
         link: u32,
         /// The side by which its part of the row travels inward; [`NONE`]: its joint is guided.
         side: u32,
     },
     /// The length of a line, less that in the reference configuration.
     Line {
-        /// Its points.
+        /// Points of the line.
         points: Span,
         /// The length in the reference configuration [m].
         reference: T,
@@ -103,7 +103,7 @@ pub enum SumMeasure<T> {
 /// A point of a line, or a direction of a ball.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LinePoint<T: Real, S: Space<T>> {
-    /// Its link, among those of its row.
+    /// Number of the point's link among those of its row.
     pub start: u32,
     /// The point, from the link's origin, reference axes [m].
     pub point: S::Point,
@@ -112,30 +112,30 @@ pub struct LinePoint<T: Real, S: Space<T>> {
 /// A link at which a row begins.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct LinkStart {
-    /// The link.
+    /// Number of the link.
     pub link: u32,
     /// The side by which it travels inward.
     pub side: u32,
 }
 
-/// What the rows of couplings refer to: constant.
+/// Tables that the rows of couplings refer to: constant.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Couplings<'a, T: Real, S: Space<T>> {
     /// Number of loops that are cut joints; those behind them are couplings. More than there are: all are.
     pub n_cut: u32,
-    /// Terms.
+    /// Terms of all rows.
     pub terms: &'a [SumTerm<T>],
-    /// Points of lines.
+    /// Points of lines, and directions of balls.
     pub points: &'a [LinePoint<T, S>],
-    /// Links of lines.
+    /// Links on which lines have points.
     pub starts: &'a [LinkStart],
-    /// Curves.
+    /// Curves of terms and signals.
     pub curves: &'a [CurveTable<T>],
-    /// Knots of splines.
+    /// Knots of splines, each an argument with its value.
     pub knots: &'a [[T; 2]],
     /// Second derivatives of splines at their knots, and coefficients of polynomials.
     pub numbers: &'a [T],
-    /// User-defined relations.
+    /// Codes of the user-defined relations.
     #[cfg(feature = "alloc")]
     pub relations: Option<&'a mbs_core::laws::code::Codes>,
 }
@@ -147,7 +147,7 @@ pub(crate) type Here<'a, T, S> =
 /// The gradients of all rows: K of all sides, those of the first in front; and the slope of each term that has a curve.
 pub(crate) type Gradients<'a, T, S> = (&'a mut [<S as Space<T>>::Motion], &'a mut [T]);
 
-/// What the row of a coupling is at an instant.
+/// Value of the row of a coupling at an instant.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct CoupledValue<T> {
     /// Φ, Φ̇, and Φ̈ without accelerations.
@@ -157,7 +157,7 @@ pub(crate) struct CoupledValue<T> {
 }
 
 impl<T: Real> CoupledValue<T> {
-    /// Of no term.
+    /// Returns the value of a row without terms.
     pub(crate) const fn zero() -> Self {
         Self { row: [T::ZERO; 3], parts: [T::ZERO; 2] }
     }
@@ -171,7 +171,7 @@ impl<T: Real> CoupledValue<T> {
 }
 
 impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
-    /// Of a mechanism without couplings.
+    /// Couplings of a mechanism that has none.
     #[must_use]
     pub const fn none() -> Self {
         Self {
@@ -192,7 +192,7 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
         curves::function((self.curves, self.knots, self.numbers), curve, x)
     }
 
-    /// How many slopes an evaluation remembers: one for each term up to the last that has a curve.
+    /// Returns the number of slopes that an evaluation remembers: one for each term up to the last that has a curve.
     #[must_use]
     pub fn n_slopes(&self) -> usize {
         let last = self.terms.iter().rposition(|term| term.curve != NONE);
@@ -408,19 +408,19 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
     }
 }
 
-/// What grows a sum: a coordinate or a link, and how much.
+/// Coordinate or link by whose motion a sum grows, and how much.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum SumEnd<T: Real, S: Space<T>> {
     /// The coordinate of a link.
     Joint {
-        /// The link.
+        /// Number of the link.
         link: u32,
         /// The growth by it.
         slope: T,
     },
-    /// A link's motion.
+    /// The motion of a link.
     Link {
-        /// The link.
+        /// Number of the link.
         link: u32,
         /// The growth by it.
         wrench: S::Motion,

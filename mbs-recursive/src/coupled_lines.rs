@@ -115,8 +115,8 @@ pub(crate) struct LinePart<T: Real, S: Space<T>> {
     /// From the first to the second.
     pub(crate) direction: S::Point,
     pub(crate) length: T,
-    /// How fast the gap between its ends grows.
+    /// Velocity of the part's second end against its first.
     pub(crate) rate: S::Point,
-    /// How that grows without accelerations.
+    /// Acceleration of the second end against the first that is left without accelerations of the links.
     pub(crate) bias: S::Point,
 }

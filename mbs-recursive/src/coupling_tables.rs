@@ -7,11 +7,11 @@ use alloc::vec::Vec;
 use mbs_core::Real;
 use mbs_core::laws::code::Codes;
 
-/// Where a row begins: at a link with K, or at the joint of a link with g.
+/// Start of a row on its way inward: at a link with K, or at the joint of a link with g.
 pub(crate) struct Begin<'a> {
     pub(crate) link: u32,
     pub(crate) at_joint: bool,
-    /// Where its side is written.
+    /// Place where the number of its side is written.
     pub(crate) side: Option<&'a mut u32>,
 }
 
@@ -52,7 +52,7 @@ impl<T: Real, S: Space<T>> CouplingTables<T, S> {
         }
     }
 
-    /// Where a row begins: at the links of its lines, and at the joints whose coordinates it has.
+    /// Returns the starts of a row: at the links of its lines, and at the joints whose coordinates it has.
     pub(crate) fn begins(&mut self, row: &CoupledRow<T>) -> Vec<Begin<'_>> {
         let starts = self.starts[row.starts.range()].iter_mut();
         let starts =

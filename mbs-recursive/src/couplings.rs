@@ -109,7 +109,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         Ok((terms, starts))
     }
 
-    /// What a term measures; its links are added to those of its row, which begin at `first`.
+    /// Makes the measure of a term; its links are added to those of its row, which begin at `first`.
     ///
     /// # Errors
     /// The joint whose coordinate no link has alone.

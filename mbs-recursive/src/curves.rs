@@ -1,4 +1,4 @@
-//! Curves in tables: functions of what couplings, sums and signals measure.
+//! Curves in tables: functions of the numbers that couplings, sums and signals measure.
 
 use crate::indexing::{Outside, at, part, range};
 use crate::plan::Span;
@@ -18,16 +18,16 @@ pub const IS_BUILT: bool = cfg!(feature = "curves");
 pub enum CurveTable<T> {
     /// A cubic spline.
     Spline {
-        /// Its knots.
+        /// Knots of the spline.
         knots: Span,
         /// The first of its second derivatives, as many as knots.
         first: u32,
-        /// Its period; zero: it has none.
+        /// Period of the spline; zero: it has none.
         period: T,
     },
     /// A polynomial.
     Polynomial {
-        /// Its coefficients, the constant one first.
+        /// Coefficients of the polynomial, the constant one first.
         coefficients: Span,
     },
 }
@@ -80,13 +80,13 @@ impl<T: Real> CurveTables<T> {
         Self { curves: curves.to_vec(), knots: knots.to_vec(), numbers: numbers.to_vec() }
     }
 
-    /// The curves.
+    /// Returns the curves, with their knots and numbers.
     #[must_use]
     pub fn slices(&self) -> CurveSlices<'_, T> {
         (&self.curves, &self.knots, &self.numbers)
     }
 
-    /// Adds a curve; its number.
+    /// Adds a curve; returns its number.
     pub fn add(&mut self, curve: &PreparedCurve<T>) -> u32 {
         let table = match curve {
             PreparedCurve::Identity => return NONE,

@@ -2,7 +2,7 @@
 
 use mbs_core::actions::ActionError;
 
-/// Why a scene has no tree.
+/// Reason why a scene has no tree.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum TreeError {
@@ -10,38 +10,38 @@ pub enum TreeError {
     Dimension,
     /// A guided joint closes a loop in which every joint is guided, or moves nothing.
     GuideCut {
-        /// `scene.joints[joint]`.
+        /// Number of the joint: `scene.joints[joint]`.
         joint: usize,
     },
     /// A joint with a torsion spring or a torque closes a loop in which every joint has one or is guided.
     EffectCut {
-        /// `scene.effects[effect]`.
+        /// Number of the effect: `scene.effects[effect]`.
         effect: usize,
-        /// `scene.joints[joint]`.
+        /// Number of the joint: `scene.joints[joint]`.
         joint: usize,
     },
     /// A coupling that relative coordinates do not have: a joint of it closes a loop in which every joint is guided or has an effect or a
     /// coupling, is free, or holds parts of one body together.
     Coupling {
-        /// `scene.couplings[coupling]`.
+        /// Number of the coupling: `scene.couplings[coupling]`.
         coupling: usize,
     },
     /// A signal measures a joint that relative coordinates do not give as one number: it closes a loop in which every joint is asked for,
     /// is free, or holds parts of one body together.
     Signal {
-        /// `scene.joints[joint]`.
+        /// Number of the joint: `scene.joints[joint]`.
         joint: usize,
     },
     /// A coupling of guided joints alone, which their guides do not hold.
     CouplingGuided {
-        /// `scene.couplings[coupling]`.
+        /// Number of the coupling: `scene.couplings[coupling]`.
         coupling: usize,
     },
     /// An effect gives no actions.
     Effect(ActionError),
     /// A body without mass at the end of a branch: its joint meets no inertia.
     MasslessEnd {
-        /// `scene.bodies[body]`.
+        /// Number of the body: `scene.bodies[body]`.
         body: usize,
     },
     /// A joint meets no inertia: nothing beyond it resists its motion.
@@ -51,7 +51,7 @@ pub enum TreeError {
     },
 }
 
-/// Why several states of a mechanism are not evaluated at once.
+/// Reason why several states of a mechanism are not evaluated at once.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum LanesError {
@@ -64,7 +64,7 @@ pub enum LanesError {
     },
     /// A law with pieces, or one whose branches are not known.
     Effect {
-        /// `scene.effects[effect]`.
+        /// Number of the effect: `scene.effects[effect]`.
         effect: usize,
     },
 }

@@ -50,7 +50,7 @@ pub(crate) enum Level {
     Coarse,
     /// To a hundredth of the error that steps may make.
     Rates,
-    /// To rounding.
+    /// To rounding of a row's terms.
     Fine,
     /// This many sweeps after the first one, whatever is left.
     Fixed(u32),
@@ -71,9 +71,9 @@ pub(crate) fn accelerations<T: Real, S: Space<T>>(
     finish(m, options, level, s)
 }
 
-/// The same where the effects answer to the accelerations that are found: on entry `s.zdd` has those that (`s.z`, `s.v`) were
-/// made of. What differs from them meets the effects' stiffness and damping, in the ratio of `reach` (see [`Reach`]).
-/// Accelerations that do not differ are those of [`accelerations`].
+/// Evaluates the accelerations where the effects answer to those that are found: on entry `s.zdd` has those that (`s.z`, `s.v`) were made
+/// of. What differs from them meets the effects' stiffness and damping, in the ratio of `reach` (see [`Reach`]). Accelerations that do not
+/// differ are those of [`accelerations`].
 ///
 /// Cost: that of [`accelerations`], an outward pass without products, and a square of six numbers for each effect.
 pub(crate) fn accelerations_ahead<T: Real, S: Space<T>>(
@@ -92,7 +92,7 @@ pub(crate) fn accelerations_ahead<T: Real, S: Space<T>>(
     finish(m, options, level, s)
 }
 
-/// The same under efforts along the freedoms; the loads are those of gravity.
+/// Evaluates the accelerations under efforts along the freedoms; the loads are those of gravity.
 #[cfg(feature = "alloc")]
 pub(crate) fn accelerations_under<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,

@@ -33,13 +33,13 @@ struct System<'r, 'a, 'b, T: Real, S: Space<T>, I> {
     evaluations: u32,
     /// Error control tries a shorter step where an evaluation fails.
     is_patient: bool,
-    /// How far accelerations are taken: with error control to a hundredth of its error.
+    /// Residual at which sweeps for the accelerations end: with error control a hundredth of its error.
     level: Level,
     last_failure: Option<StepError>,
 }
 
 impl<'r, 'a, 'b, T: Real, S: Space<T>, I: Inputs<T>> System<'r, 'a, 'b, T, S, I> {
-    /// Level of accelerations: to rounding with a fixed step, else to the error's.
+    /// Makes the system with the level of its accelerations: to rounding with a fixed step, else to the error's.
     fn new(
         m: &'r TreeSlices<'a, T, S>,
         inputs: &'r I,
@@ -161,7 +161,7 @@ impl<T: Real, S: Space<T>, I: Inputs<T>> Rates<T> for System<'_, '_, '_, T, S, I
     }
 }
 
-/// Components of y.
+/// Number of components of y.
 #[must_use]
 pub fn n_components<T: Real, S: Space<T>>(m: &TreeSlices<'_, T, S>) -> usize {
     m.n_coordinates + m.n_freedoms + m.feedback.n_states + 1

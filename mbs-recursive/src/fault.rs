@@ -1,4 +1,4 @@
-//! What stops a pass, and the error of a step that it is.
+//! Faults that stop a pass, and the error of a step that each is.
 
 use crate::indexing::Outside;
 use crate::joint::NoInertia;
@@ -8,7 +8,7 @@ use crate::space::Space;
 use mbs_core::Real;
 use mbs_core::step::StepError;
 
-/// What stops a pass.
+/// Reason why a pass stops.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Fault<T> {
     /// The tables do not fit each other.
@@ -23,7 +23,7 @@ pub enum Fault<T> {
         level: u8,
         /// The row that is violated most.
         row: u32,
-        /// What is left.
+        /// Violation that is left.
         violation: T,
     },
 }

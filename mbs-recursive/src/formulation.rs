@@ -30,11 +30,11 @@ pub type TreeStep<T, S> = fn(
 /// An angle that the tree has with its turns.
 #[derive(Debug, Clone, Copy)]
 enum Angle {
-    /// A link's coordinate.
+    /// The coordinate of a link.
     Of(u32),
     /// Minus a link's coordinate.
     Against(u32),
-    /// Of the second body against the first, in the plane.
+    /// Angle of the second body against the first, in the plane.
     Between([BodyId; 2]),
 }
 
@@ -77,7 +77,7 @@ pub struct Tree<T: Real, S: Space<T>> {
     terms: Terms<T>,
     /// The links that have the coordinates of each joint.
     coordinates: Vec<Vec<Option<u32>>>,
-    /// Where the natural state remembers angles that the tree has, and whose they are.
+    /// Places where the natural state remembers angles that the tree has, each with the angle.
     angles: Vec<(usize, Angle)>,
     rank: usize,
     energies: [f64; 2],

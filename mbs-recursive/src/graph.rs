@@ -28,11 +28,11 @@ use mbs_core::scene::{BallAngle, BodyId, CouplingMeasure, Freedom, Scene, Signal
 /// A step of the tree: a cluster and the joint it hangs by.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Branch {
-    /// The cluster.
+    /// Number of the cluster.
     pub(crate) cluster: usize,
     /// The cluster it hangs from; `None`: the ground.
     pub(crate) parent: Option<usize>,
-    /// The joint; `None`: free, without a joint of the scene.
+    /// Number of the joint; `None`: free, without a joint of the scene.
     pub(crate) joint: Option<usize>,
     /// The parent is the joint's second body.
     pub(crate) is_reversed: bool,
@@ -45,7 +45,7 @@ pub(crate) struct Branch {
 /// The spanning tree of a scene.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Graph {
-    /// Parents before children.
+    /// Branches of the tree, parents before children.
     pub(crate) branches: Vec<Branch>,
     /// Joints that are cut, in file order.
     pub(crate) cuts: Vec<usize>,
@@ -121,7 +121,7 @@ pub(crate) fn span<T: Real>(
     Ok(Graph { branches: growth.branches, cuts })
 }
 
-/// What asks for a joint's coordinate.
+/// Demands for the coordinates of each joint, by guides, effects, couplings and signals.
 struct Demands {
     is_guided: Vec<bool>,
     /// The first effect that acts along it.
@@ -281,7 +281,7 @@ impl Growth {
     }
 }
 
-/// Where what the ground does not reach may start, best first.
+/// Starts of the parts that the ground does not reach, best first.
 struct Roots {
     /// Free joints, in file order.
     free: vec::IntoIter<usize>,

@@ -1,4 +1,4 @@
-//! What one step leaves for the next beside the state, to read and to restore.
+//! Memory that one step leaves for the next beside the state, to read and to restore.
 
 use crate::options::Options;
 use crate::space::Space;
@@ -9,7 +9,7 @@ use mbs_core::ode::{
     Adaptive, AdaptiveHistory, Extrapolation, Method, Radau, RadauHistory, Tableau,
 };
 
-/// What a [`Workspace`] remembers from step to step.
+/// Memory of a [`Workspace`] from step to step.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct History<T> {
     /// Most rows that were seen to have an effect.
@@ -18,11 +18,11 @@ pub struct History<T> {
     pub pivots: Vec<T>,
     /// Error control of the pair 5(4), if it was asked for.
     pub pair: Option<AdaptiveHistory<T>>,
-    /// The same of the method 8(5,3).
+    /// Error control of the method 8(5,3), if it was asked for.
     pub eighth: Option<AdaptiveHistory<T>>,
-    /// The same of extrapolation.
+    /// Error control of extrapolation, if it was asked for.
     pub extrapolation: Option<AdaptiveHistory<T>>,
-    /// The same of the collocation at Radau points, with its slopes.
+    /// Error control of the collocation at Radau points, with its slopes, if it was asked for.
     pub radau: Option<(AdaptiveHistory<T>, RadauHistory<T>)>,
 }
 

@@ -7,7 +7,7 @@
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Outside;
 
-/// Entry `i`.
+/// Returns entry `i` of a table.
 #[inline(always)]
 pub(crate) fn at<X>(table: &[X], i: usize) -> Result<&X, Outside> {
     table.get(i).ok_or(Outside)
@@ -63,7 +63,7 @@ pub(crate) fn copy<X: Copy>(from: &[X], to: &mut [X]) -> Result<(), Outside> {
     Ok(())
 }
 
-/// What comes of tables that fit because a tree made them all.
+/// Returns the result of tables that fit because a tree made them all.
 ///
 /// # Panics
 /// If they do not.

@@ -1,4 +1,4 @@
-//! What the passes ask of a joint, kind by kind.
+//! Work of the passes at a joint, kind by kind.
 //!
 //! ```text
 //! place      R, ω, v of the link from the parent's     [P3 (26)]
@@ -17,13 +17,13 @@ use mbs_core::laws::spin::spin;
 /// A joint that meets no inertia.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NoInertia<T> {
-    /// Its link.
+    /// Number of the link whose joint it is.
     pub link: u32,
-    /// What was found: bᵀ I b.
+    /// Pivot that was found: bᵀ I b.
     pub pivot: T,
 }
 
-/// Where a link is and how it moves, from its parent and its joint's coordinates; without `MOVES` at rest.
+/// Returns place and motion of a link from its parent and its joint's coordinates; without `MOVES` at rest.
 #[inline(always)]
 pub(crate) fn place<T: Real, S: Space<T>, const MOVES: bool>(
     link: &Link<T, S>,
@@ -70,7 +70,7 @@ pub(crate) fn place<T: Real, S: Space<T>, const MOVES: bool>(
     })
 }
 
-/// Where a link is that moves with its parent, but for what its joint adds to velocity and bias.
+/// Returns place and motion of a link that moves with its parent, but for what its joint adds to velocity and bias.
 #[inline(always)]
 fn carried<T: Real, S: Space<T>, const MOVES: bool>(
     link: &Link<T, S>,
@@ -131,7 +131,7 @@ fn free<T: Real, S: Space<T>, const MOVES: bool>(
 /// Are guided balls in this build? Tables for controllers have none.
 pub(crate) const HAS_GUIDED_BALLS: bool = cfg!(feature = "alloc");
 
-/// Where a link is that a guided ball turns against its parent.
+/// Returns place and motion of a link that a guided ball turns against its parent.
 #[inline(never)]
 fn guided_ball<T: Real, S: Space<T>, const MOVES: bool>(
     link: &Link<T, S>,

@@ -1,4 +1,4 @@
-//! What a scene says of each joint and each body, gathered in one pass.
+//! Facts of each joint and each cluster of a scene, gathered in one pass.
 
 use alloc::vec;
 use alloc::vec::Vec;

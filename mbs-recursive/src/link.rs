@@ -11,7 +11,7 @@ pub enum LinkKind {
     Revolute,
     /// Slides along an axis fixed in the parent; one freedom.
     Prismatic,
-    /// A ball; three freedoms (space only).
+    /// A ball joint; three freedoms (space only).
     Ball,
     /// Free against the ground; six freedoms, in the plane three.
     Free,
@@ -24,7 +24,7 @@ pub enum LinkKind {
 }
 
 impl LinkKind {
-    /// Number of freedoms.
+    /// Number of freedoms of the joint.
     #[must_use]
     pub fn n_freedoms<T: Real, S: Space<T>>(self) -> usize {
         match self {
@@ -57,7 +57,7 @@ impl LinkKind {
 pub struct Link<T: Real, S: Space<T>> {
     /// The link it hangs from.
     pub parent: u32,
-    /// Its joint.
+    /// Kind of the joint to the parent.
     pub kind: LinkKind,
     /// First of its coordinates in z.
     pub z: u32,
@@ -70,7 +70,7 @@ pub struct Link<T: Real, S: Space<T>> {
     pub direction: S::Point,
     /// From the parent's origin to the joint, reference axes [m].
     pub offset: S::Point,
-    /// Mass [kg].
+    /// Mass of the link [kg].
     pub mass: T,
     /// From the link's origin to its centre of mass, reference axes [m].
     pub center: S::Point,
@@ -102,27 +102,27 @@ impl<T: Real, S: Space<T>> Link<T, S> {
     }
 }
 
-/// Where a link is and how it moves, world axes, about its own origin.
+/// Place and motion of a link, world axes, about its own origin.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LinkMotion<T: Real, S: Space<T>> {
     /// Rotation from the reference configuration.
     pub rotation: S::Rotation,
-    /// Its origin, from the tree's base [m].
+    /// Origin of the link, from the tree's base [m].
     pub position: S::Point,
     /// From the parent's origin to its own [m].
     pub arm: S::Point,
-    /// b: the motion of unit rate of a joint with one freedom; of a guided ball the motion that its guides give.
+    /// Motion b of unit rate of a joint with one freedom; of a guided ball the motion that its guides give.
     pub freedom: S::Motion,
-    /// (ω, v).
+    /// Velocity (ω, v) of the link.
     pub velocity: S::Motion,
-    /// d: what its acceleration is without joint accelerations and the parent's.
+    /// Acceleration d of the link without joint accelerations and its parent's acceleration.
     pub bias: S::Motion,
     /// From its origin to its centre of mass [m].
     pub center: S::Point,
 }
 
 impl<T: Real, S: Space<T>> LinkMotion<T, S> {
-    /// The ground.
+    /// Returns the place of the ground, at rest.
     #[must_use]
     pub fn ground() -> Self {
         Self {
@@ -137,10 +137,10 @@ impl<T: Real, S: Space<T>> LinkMotion<T, S> {
     }
 }
 
-/// What is left of a link's subtree after condensation.
+/// Inertia and forces of a link's subtree after condensation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ArticulatedInertia<T: Real, S: Space<T>> {
-    /// Articulated inertia; after its joint's elimination its factors, where the joint has several freedoms.
+    /// Articulated inertia of the subtree; after its joint's elimination its factors, where the joint has several freedoms.
     pub inertia: S::Inertia,
     /// Bias force p: minus the condensed force.
     pub force: S::Motion,
@@ -148,16 +148,17 @@ pub struct ArticulatedInertia<T: Real, S: Space<T>> {
     pub column: S::Motion,
     /// 1 / bᵀ I b.
     pub inverse: T,
-    /// u: the force along the joint, all its freedoms in world axes.
+    /// Force u along the joint, all its freedoms in world axes.
     pub drive: S::Motion,
     /// Torque or force of effects along a joint of one freedom.
     pub effort: T,
-    /// What rotors and effects add to bᵀ I b of a joint of one freedom: effects by their resistance to its acceleration within a step.
+    /// Inertia that rotors and effects add to bᵀ I b of a joint of one freedom: effects by their resistance to its acceleration within a
+    /// step.
     pub resistance: T,
 }
 
 impl<T: Real, S: Space<T>> ArticulatedInertia<T, S> {
-    /// Nothing.
+    /// Returns no inertia and no force.
     #[must_use]
     pub fn empty() -> Self {
         Self {
@@ -172,10 +173,10 @@ impl<T: Real, S: Space<T>> ArticulatedInertia<T, S> {
     }
 }
 
-/// What a rotor adds to the inertia of the coordinate of a link with one.
+/// Inertia that a rotor adds to the coordinate of a link with one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LinkRotor<T> {
-    /// The link.
+    /// Number of the link.
     pub link: u32,
     /// Inertia times the square of the ratio [kg m^2, of a slide kg].
     pub inertia: T,

@@ -48,15 +48,15 @@ use mbs_core::Real;
 /// The loops of a mechanism: constant.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Loops<'a, T: Real, S: Space<T>> {
-    /// The cut joints.
+    /// Loops of the cut joints; those of couplings behind them.
     pub loops: &'a [ClosedLoop<T, S>],
-    /// Their equations.
+    /// Rows of all loops, one for each equation.
     pub rows: &'a [Row<T, S>],
-    /// Who meets whom.
+    /// Order of the passes: which loops meet, and where they are eliminated.
     pub plan: Plan<'a>,
     /// The least scale of a row's mobility: of lengths [1/kg], of angles [1/(kg m^2)].
     pub floor: [T; 2],
-    /// What the rows of couplings refer to.
+    /// Tables that the rows of couplings refer to.
     pub couplings: Couplings<'a, T, S>,
 }
 
@@ -85,16 +85,16 @@ impl<'a, T: Real, S: Space<T>> Loops<'a, T, S> {
     }
 }
 
-/// What the loops need to remember during an evaluation.
+/// Memory that the loops need during an evaluation.
 #[derive(Debug)]
 pub struct LoopStore<'a, T: Real, S: Space<T>> {
     /// K of all sides as they travel: all first sides, then all second ones, and so on.
     pub k: &'a mut [S::Motion],
     /// The slopes of the terms of couplings that have curves, by the number of the term.
     pub slopes: &'a mut [T],
-    /// l, later l̃.
+    /// Numbers l of the rows, later l̃.
     pub l: &'a mut [T],
-    /// λ.
+    /// Multipliers λ of the rows.
     pub lambda: &'a mut [T],
     /// Blocks of Λ, later of its factor.
     pub blocks: &'a mut [T],
@@ -108,7 +108,7 @@ pub struct LoopStore<'a, T: Real, S: Space<T>> {
     pub pivots: &'a mut [T],
 }
 
-/// What is added to the diagonal of Λ.
+/// Numbers that are added to the diagonal of Λ.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Regularisation<T> {
     /// This share of the rows' own scale.
@@ -120,9 +120,9 @@ pub enum Regularisation<T> {
 /// A row that nothing moves, or that repeats others beyond what the regularisation carries.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RankLost<T> {
-    /// The row.
+    /// Number of the row.
     pub row: u32,
-    /// Its pivot, relative to its scale.
+    /// Pivot of the row, relative to its scale.
     pub pivot: T,
 }
 

@@ -1,4 +1,4 @@
-//! What the caller chooses. Public fields; start from [`Options::default`].
+//! Options that the caller chooses. Public fields; start from [`Options::default`].
 
 use mbs_core::Real;
 use mbs_core::integrator::Integrator;
@@ -15,7 +15,7 @@ pub struct Options<T> {
     pub max_iterations: u32,
     /// Sweeps after which a projection must have reached its level.
     pub max_sweeps: u32,
-    /// How loops are closed.
+    /// Method by which loops are closed.
     pub closure: Closure<T>,
     /// Error of one step with error control, relative and absolute [-]; loops hold to a hundredth of it until the end of a call,
     /// and to rounding there.
@@ -29,7 +29,7 @@ pub struct Options<T> {
     pub regularisation: T,
 }
 
-/// How loops are closed.
+/// Method by which loops are closed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Closure<T> {
     /// Multipliers that meet Φ̈ = 0 to rounding; positions and velocities projected after each step.
@@ -56,8 +56,8 @@ impl<T: Real> Closure<T> {
 }
 
 impl<T: Real> Default for Options<T> {
-    /// Trapezoidal rule; tolerance 1e-10 (64 roundings in single precision); 50 iterations, 30 sweeps; error 1e-8, a million
-    /// steps; ε = √rounding / 256.
+    /// Returns the defaults: trapezoidal rule; tolerance 1e-10 (64 roundings in single precision); 50 iterations, 30 sweeps; error 1e-8, a
+    /// million steps; ε = √rounding / 256.
     fn default() -> Self {
         /// Tolerance of corrections, relative to the displacement by accelerations in a step [-].
         const TOLERANCE: f64 = 1e-10;
@@ -83,7 +83,7 @@ impl<T: Real> Default for Options<T> {
 }
 
 impl<T: Real> Options<T> {
-    /// Checks the ranges.
+    /// Checks the ranges of the options.
     ///
     /// # Errors
     /// [`OptionError`] names the option.

@@ -1,4 +1,4 @@
-//! What the freedoms, links and rows of a tree belong to, for messages.
+//! Owners of the freedoms, links and rows of a tree, for messages.
 
 use crate::link::Link;
 use crate::loops::index;
@@ -9,7 +9,7 @@ use mbs_core::Real;
 use mbs_core::model::Owner;
 
 impl<T: Real, S: Space<T>> TreeModel<T, S> {
-    /// What a freedom belongs to, for messages.
+    /// Returns the owner of a freedom, for messages.
     #[must_use]
     pub fn owner_of_unknown(&self, unknown: usize) -> Owner {
         let owns = |link: &Link<T, S>| {
@@ -20,13 +20,13 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         self.owner_of_link[link]
     }
 
-    /// What a link belongs to, for messages.
+    /// Returns the owner of a link, for messages.
     #[must_use]
     pub fn owner_of_link(&self, link: usize) -> Owner {
         self.owner_of_link[link]
     }
 
-    /// What a row belongs to, for messages.
+    /// Returns the owner of a row, for messages.
     #[must_use]
     pub fn owner_of_row(&self, row: usize) -> Owner {
         let lap = self.loops.iter().find(|l| (l.first..l.first + l.n).contains(&index(row)));

@@ -19,7 +19,7 @@ use crate::loops::{self, LoopStore, Loops, Regularisation, index};
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
 
-/// First pass, outward: places, velocities and velocity products.
+/// First pass of an evaluation, outward: places, velocities and velocity products.
 ///
 /// Cost: about 50 multiplications for each planar link and 150 for each spatial one, and a sine and cosine.
 ///
@@ -89,7 +89,7 @@ pub fn inertias<T: Real, S: Space<T>>(
     }
 }
 
-/// Second pass, inward: articulated inertias and forces; loops are eliminated at their ancestors.
+/// Second pass of an evaluation, inward: articulated inertias and forces; loops are eliminated at their ancestors.
 ///
 /// # Errors
 /// [`Fault`] names the link or row.
@@ -155,11 +155,11 @@ pub fn condense_again<T: Real, S: Space<T>>(
     loops::close_again(m, 0, at_mut(condensed, 0)?, st)
 }
 
-/// What the first two passes leave of each link.
+/// Motions and articulated inertias that the first two passes leave of each link.
 pub type Factors<'a, T, S> = (&'a [LinkMotion<T, S>], &'a [ArticulatedInertia<T, S>]);
 
-/// Third pass, outward: joint accelerations, links' accelerations, λ. `a[0]` is given: minus gravity, or zero for a response
-/// (`has_bias` false), which has no velocity products.
+/// Third pass of an evaluation, outward: joint accelerations, links' accelerations, λ. `a[0]` is given: minus gravity, or zero for a
+/// response (`has_bias` false), which has no velocity products.
 ///
 /// # Errors
 /// [`Outside`] if the tables do not fit each other.

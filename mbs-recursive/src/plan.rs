@@ -7,20 +7,20 @@
 /// A range of a flat list.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Span {
-    /// Its first place.
+    /// First place of the range.
     pub first: u32,
     /// The place behind its last.
     pub end: u32,
 }
 
 impl Span {
-    /// The places.
+    /// Returns the places of the range.
     #[inline(always)]
     #[must_use]
     pub fn range(self) -> core::ops::Range<usize> {
         self.first as usize..self.end as usize
     }
-    /// Nothing?
+    /// Is the range empty?
     #[inline(always)]
     #[must_use]
     pub fn is_empty(self) -> bool {
@@ -28,12 +28,12 @@ impl Span {
     }
 }
 
-/// What happens to loops at a link.
+/// Loops at a link: those that pass its joint, meet there, and are eliminated there.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Station {
     /// Sides of loops that pass its joint.
     pub passes: Span,
-    /// Those of them that meet.
+    /// Pairs of these sides that meet.
     pub pairs: Span,
     /// Loops that are eliminated there, in order.
     pub ends: Span,
@@ -42,9 +42,9 @@ pub struct Station {
 /// One side of a loop passing a joint.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Pass {
-    /// The loop.
+    /// Number of the loop.
     pub lap: u32,
-    /// Its side: 0 from the first body, 1 from the second.
+    /// Side of the loop: 0 from the first body, 1 from the second.
     pub side: u32,
     /// Place of its gains: rows times freedoms of the joint.
     pub gain: u32,
@@ -64,7 +64,7 @@ pub struct Pair {
 /// A loop being eliminated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct End {
-    /// The loop.
+    /// Number of the loop.
     pub lap: u32,
     /// Loops eliminated later that it is coupled with.
     pub couplings: Span,
@@ -75,7 +75,7 @@ pub struct End {
 /// A later loop that an eliminated one is coupled with.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct LoopCoupling {
-    /// The later loop.
+    /// Number of the later loop.
     pub lap: u32,
     /// The side by which it reaches the link of elimination.
     pub side: u32,
@@ -94,19 +94,19 @@ pub struct Update {
     pub block: u32,
 }
 
-/// All lists.
+/// Lists of the order of all loops.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Plan<'a> {
-    /// For each link.
+    /// Work at each link, one entry a link.
     pub stations: &'a [Station],
-    /// See [`Pass`].
+    /// Sides that pass joints; see [`Pass`].
     pub passes: &'a [Pass],
-    /// See [`Pair`].
+    /// Passes that meet; see [`Pair`].
     pub pairs: &'a [Pair],
-    /// See [`End`].
+    /// Loops being eliminated; see [`End`].
     pub ends: &'a [End],
-    /// See [`LoopCoupling`].
+    /// Couplings of eliminated loops with later ones; see [`LoopCoupling`].
     pub couplings: &'a [LoopCoupling],
-    /// See [`Update`].
+    /// Blocks changed by eliminations; see [`Update`].
     pub updates: &'a [Update],
 }

@@ -62,15 +62,16 @@ const ROUNDINGS: f64 = 16.0;
 const ERROR_FRACTION: f64 = 0.01;
 /// Violation that may remain where sweeps stall, in roots of rounding of its scale [-]. Chosen, not tuned.
 const STALLED: f64 = 0.1;
-/// The same near a singular position, where a combination of rows moves nothing [-]. Chosen, not tuned.
+/// Violation that may remain near a singular position, in roots of rounding of its scale [-]: a combination of rows moves nothing there.
+/// Chosen, not tuned.
 const STALLED_SINGULAR: f64 = 1e2;
 
-/// What may be left of Φ and Φ̇ beside their scales: rounding.
+/// Share of their scales that may be left of Φ and Φ̇: rounding.
 pub(crate) fn rounding<T: Real>() -> T {
     T::EPSILON * T::from_f64(ROUNDINGS)
 }
 
-/// What may be left within a call of a method with this error: a fraction of it.
+/// Share that may be left within a call of a method with this error: a fraction of it.
 pub(crate) fn share_of<T: Real>(error: T) -> T {
     (error * T::from_f64(ERROR_FRACTION)).min(T::EPSILON.sqrt()).max(rounding())
 }
@@ -175,13 +176,13 @@ pub(crate) fn keep<T: Real, S: Space<T>>(
     Ok(())
 }
 
-/// How far the equations of loops are from their level.
+/// Violation of the equations of loops, against the level that they are to reach.
 struct Violation<T> {
     /// The largest |Φ| or |Φ̇|.
     worst: T,
-    /// Its row.
+    /// Number of the row with the largest violation.
     row: u32,
-    /// What rounding of it is small against: the scene's length, the fastest row.
+    /// Scale that rounding of the violation is small against: the scene's length, the fastest row.
     scale: T,
     /// Is no more left than the share that was asked for, of the scale and of each row's own speed, or one, or rounding?
     is_within: bool,

@@ -24,9 +24,9 @@ use mbs_core::step::StepError;
 /// Parts of the efforts M v̇ + c + g.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum EffortTerms {
-    /// All of them, less what effects do: zero at the accelerations of free motion.
+    /// All parts, less what effects do: zero at the accelerations of free motion.
     WithEffects,
-    /// All of them.
+    /// All parts, effects left out.
     WithoutEffects,
     /// g alone, at rest.
     Gravity,
@@ -37,11 +37,11 @@ pub enum EffortTerms {
 /// The links of one joint of the tree, or of a body that no joint holds.
 #[derive(Debug, Clone, PartialEq)]
 pub struct JointLinks<T> {
-    /// `scene.joints[joint]`; `None` for a body that no joint holds.
+    /// Number of the joint: `scene.joints[joint]`; `None` for a body that no joint holds.
     pub joint: Option<usize>,
     /// The body that it carries, the first one of those that are welded.
     pub body: usize,
-    /// Its links from the parent to the child, one for each freedom; a ball or a free joint has one.
+    /// Links of the joint from the parent to the child, one for each freedom; a ball or a free joint has one.
     pub links: Range<usize>,
     /// The parent is the joint's second body; then the links stand in reverse order of the joint's numbers.
     pub is_reversed: bool,

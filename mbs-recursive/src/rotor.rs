@@ -13,7 +13,7 @@ use mbs_core::Real;
 /// Are rotors in this build?
 pub const IS_BUILT: bool = cfg!(feature = "rotors");
 
-/// The rotors; none in a build without.
+/// Returns the rotors; none in a build without them.
 #[inline(always)]
 fn built<T>(rotors: &[LinkRotor<T>]) -> &[LinkRotor<T>] {
     if IS_BUILT { rotors } else { &[] }

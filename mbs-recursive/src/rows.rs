@@ -16,7 +16,7 @@ pub enum Row<T: Real, S: Space<T>> {
     Gap {
         /// Unit direction, reference axes.
         direction: S::Point,
-        /// What it keeps [m].
+        /// Part of the gap that is kept [m].
         constant: T,
     },
     /// Two directions keep their angle.
@@ -30,19 +30,19 @@ pub enum Row<T: Real, S: Space<T>> {
     },
     /// The points keep their distance.
     Length {
-        /// The distance [m].
+        /// Distance of the points [m].
         length: T,
     },
     /// The lowest point of a disc or ball stays on a plane of the second body: the first row of a body that rolls.
     Height {
-        /// The radius [m].
+        /// Radius of the disc or ball [m].
         radius: T,
         /// The disc's unit axis, reference axes of the first body; of a ball, and in the plane, zero.
         axis: S::Point,
         /// The plane's unit normal, reference axes of the second body.
         normal: S::Point,
     },
-    /// It does not slip along a direction of the second body: a row of velocities.
+    /// The body that rolls does not slip along a direction of the second body: a row of velocities.
     NoSlip {
         /// Unit direction, reference axes.
         direction: S::Point,
@@ -85,15 +85,15 @@ impl<T: Real, S: Space<T>> Row<T, S> {
     }
 }
 
-/// What an equation is at an instant.
+/// Gradients, value, rate and bias of an equation at an instant.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RowValue<T: Real, S: Space<T>> {
-    /// K₁, K₂.
+    /// Gradients K₁ and K₂ by the motions of both bodies.
     pub gradient: [S::Motion; 2],
     /// Φ [m or rad].
     pub value: T,
-    /// Φ̇.
+    /// Rate Φ̇ of the equation.
     pub rate: T,
-    /// Φ̈ without accelerations.
+    /// Bias: Φ̈ without accelerations.
     pub bias: T,
 }

@@ -1,4 +1,4 @@
-//! What a caller asks of a tree: steps, energies, efforts, mass matrix, reactions.
+//! Work that a caller asks of a tree: steps, energies, efforts, mass matrix, reactions.
 
 use crate::bounded::{self, BoundedReport, Bounds, Unwatched};
 use crate::energy_balance;
@@ -448,7 +448,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
     }
 }
 
-/// What effects and rotors do along the coordinates of a joint, on its last link about its origin.
+/// Returns the wrench of effects and rotors along the coordinates of a joint, on its last link about its origin.
 fn along<T: Real, S: Space<T>>(place: &TreePlace, s: &Store<'_, T, S>) -> S::Motion {
     let mut sum = S::Motion::zero();
     for link in place.first as usize..=place.link as usize {

@@ -15,9 +15,9 @@ use mbs_core::laws::LawInputs;
 pub struct TreeSlices<'a, T: Real, S: Space<T>> {
     /// The links, parents first; the first is the ground.
     pub links: &'a [Link<T, S>],
-    /// The closed loops.
+    /// Closed loops: cut joints and couplings.
     pub loops: Loops<'a, T, S>,
-    /// The effects.
+    /// Effects on links and joints.
     pub loads: &'a [Load<T, S>],
     /// The rotors, one a link.
     pub rotors: &'a [LinkRotor<T>],
@@ -31,18 +31,18 @@ pub struct TreeSlices<'a, T: Real, S: Space<T>> {
     pub base: S::Point,
     /// The scene's length [m].
     pub length: T,
-    /// Numbers in z.
+    /// Number of coordinates in z.
     pub n_coordinates: usize,
-    /// Numbers in v.
+    /// Number of velocities in v.
     pub n_freedoms: usize,
 }
 
 /// A length or an angle of a ball that signals measure.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FeedbackMeasure<T> {
-    /// Its number among all that is measured.
+    /// Number of the measure among all that is measured.
     pub number: u32,
-    /// What it is.
+    /// Length or angle of a ball that is measured.
     pub of: SumMeasure<T>,
     /// The links on which it has points.
     pub starts: Span,
@@ -52,20 +52,20 @@ pub struct FeedbackMeasure<T> {
 /// [`Couplings`](crate::coupled::Couplings).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FeedbackSlices<'a, T> {
-    /// The operations.
+    /// Operations that give the signals.
     pub steps: &'a [FeedbackStep<T>],
     /// The link of each measured coordinate; [`NONE`](crate::coupled::NONE): what is measured is no coordinate.
     pub links: &'a [u32],
-    /// What is measured and is no coordinate.
+    /// Lengths and angles of balls that are measured and are no coordinates.
     pub measures: &'a [FeedbackMeasure<T>],
-    /// Number of states.
+    /// Number of states of signals.
     pub n_states: usize,
     /// The signals that follow the motion, by their numbers among the courses.
     pub signals: &'a [u32],
 }
 
 impl<T> FeedbackSlices<'_, T> {
-    /// Of a mechanism without such signals.
+    /// Feedback of a mechanism without signals that follow the motion.
     #[must_use]
     pub const fn none() -> Self {
         Self { steps: &[], links: &[], measures: &[], n_states: 0, signals: &[] }
@@ -85,7 +85,7 @@ pub struct Store<'a, T: Real, S: Space<T>> {
     pub placed: &'a mut [LinkMotion<T, S>],
     /// Links at a trial state; as many as links.
     pub trial: &'a mut [LinkMotion<T, S>],
-    /// Articulated bodies; as many as links.
+    /// Articulated bodies, one a link.
     pub condensed: &'a mut [ArticulatedInertia<T, S>],
     /// Accelerations of the links, gravity's taken off.
     pub a: &'a mut [S::Motion],
@@ -93,7 +93,7 @@ pub struct Store<'a, T: Real, S: Space<T>> {
     pub a_response: &'a mut [S::Motion],
     /// Responses of the freedoms.
     pub v_response: &'a mut [T],
-    /// Loops.
+    /// Scratch of the loops.
     pub loops: LoopStore<'a, T, S>,
     /// K of the rows on both bodies: first sides, then second ones.
     pub gradient: &'a mut [S::Motion],
@@ -105,7 +105,7 @@ pub struct Store<'a, T: Real, S: Space<T>> {
     pub guides: &'a mut [[T; 3]],
     /// Courses at the instant.
     pub courses: &'a mut [[T; 3]],
-    /// States of signals.
+    /// States of signals in a step.
     pub signals: SignalStates<'a, T>,
     /// Coordinates of the step being made.
     pub z: &'a mut [T],
@@ -115,12 +115,12 @@ pub struct Store<'a, T: Real, S: Space<T>> {
     pub zdd: &'a mut [T],
     /// Increments of the step being made, or accelerations of the last iteration.
     pub scratch: &'a mut [T],
-    /// What a step with effects remembers of its iteration: [`history`](crate::anderson::history) numbers, or
-    /// none, and the iteration is a plain one.
+    /// Memory of the iteration of a step with effects: [`history`](crate::anderson::history) numbers, or none, and the iteration is a plain
+    /// one.
     pub history: &'a mut [T],
     /// The most rows that had an effect so far.
     pub rank: &'a mut usize,
-    /// What was done.
+    /// Counts of the work that was done.
     pub counts: Counts,
 }
 
@@ -134,7 +134,7 @@ pub struct Counts {
 }
 
 impl<'a, T: Real, S: Space<T>> Store<'a, T, S> {
-    /// What loads see at the place where inertias were factored.
+    /// Returns the mechanism as loads see it at the place where inertias were factored.
     #[allow(clippy::needless_update, reason = "with effects compiled there are tables")]
     pub(crate) fn instant<'b>(&'b self, m: &'b TreeSlices<'_, T, S>) -> Instant<'b, T, S> {
         Instant {
@@ -151,13 +151,13 @@ impl<'a, T: Real, S: Space<T>> Store<'a, T, S> {
 /// The state that a step starts from.
 #[derive(Debug, Clone, Copy)]
 pub struct Start<'a, T> {
-    /// Time [s].
+    /// Time of the start [s].
     pub t: T,
-    /// Coordinates.
+    /// Coordinates at the start.
     pub z: &'a [T],
-    /// Velocities.
+    /// Velocities at the start.
     pub v: &'a [T],
-    /// Accelerations.
+    /// Accelerations at the start.
     pub a: &'a [T],
     /// States of signals, each with its rate.
     pub signals: &'a [[T; 2]],

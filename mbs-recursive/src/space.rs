@@ -37,11 +37,11 @@ pub trait Numbers<T>:
     + Sync
     + 'static
 {
-    /// How many.
+    /// Number of components.
     const N: usize;
-    /// All zero.
+    /// Returns zero in every component.
     fn zero() -> Self;
-    /// Inner product.
+    /// Returns the inner product with `other`.
     fn dot(&self, other: &Self) -> T;
     /// The inner product of absolute values: what rounding of the inner product is small against.
     fn parts(&self, other: &Self) -> T;
@@ -72,13 +72,13 @@ impl<T: Real, const N: usize> Numbers<T> for Vector<T, N> {
 
 /// The plane or space: what the passes need to know of it.
 pub trait Space<T: Real>: Copy + Debug + Send + Sync + 'static {
-    /// Points and directions.
+    /// Vectors of points and directions.
     type Point: Numbers<T>;
     /// Angular velocities and moments.
     type Spin: Numbers<T>;
     /// A motion (ω, v) or a force (τ, f), first the turning part.
     type Motion: Numbers<T>;
-    /// A rotation.
+    /// Rotation from body-fixed to world axes.
     type Rotation: Copy + Debug + PartialEq + Send + Sync + 'static;
     /// A symmetric map from motions to forces.
     type Inertia: Copy + Debug + PartialEq + Send + Sync + 'static;
@@ -90,20 +90,20 @@ pub trait Space<T: Real>: Copy + Debug + Send + Sync + 'static {
     /// Numbers that hold the coordinates of a free body: an angle or a quaternion, then the position.
     const FREE: usize;
 
-    /// (ω, v).
+    /// Returns the motion (ω, v).
     fn motion(spin: Self::Spin, point: Self::Point) -> Self::Motion;
     /// ω of (ω, v).
     fn spin(motion: &Self::Motion) -> Self::Spin;
     /// v of (ω, v).
     fn point(motion: &Self::Motion) -> Self::Point;
-    /// ω × x.
+    /// Returns the cross product ω × x.
     fn cross(spin: &Self::Spin, x: &Self::Point) -> Self::Point;
     /// ω × n, for angular velocities; zero in the plane.
     fn cross_spin(spin: &Self::Spin, n: &Self::Spin) -> Self::Spin;
-    /// r × f.
+    /// Returns the moment r × f.
     fn moment(r: &Self::Point, f: &Self::Point) -> Self::Spin;
 
-    /// No rotation.
+    /// Returns the rotation that turns nothing.
     fn identity() -> Self::Rotation;
     /// A body-fixed vector in world axes.
     fn rotate(r: &Self::Rotation, x: &Self::Point) -> Self::Point;
@@ -119,7 +119,7 @@ pub trait Space<T: Real>: Copy + Debug + Send + Sync + 'static {
     fn turned_by(r: &Self::Rotation, z: &[T]) -> Self::Rotation;
     /// Writes the joint coordinates of a rotation.
     fn write_rotation(r: &Self::Rotation, z: &mut [T]);
-    /// Rᵀ S.
+    /// Returns the relative rotation Rᵀ S.
     fn relative(r: &Self::Rotation, s: &Self::Rotation) -> Self::Rotation;
     /// Moves the coordinates of a rotation by a rotation vector in its own axes: q ← q exp(δ), normalised.
     fn advance_rotation(z: &mut [T], delta: &[T]);
@@ -128,7 +128,7 @@ pub trait Space<T: Real>: Copy + Debug + Send + Sync + 'static {
     /// Makes the coordinates of a rotation unit again.
     fn normalise_rotation(z: &mut [T]);
 
-    /// No inertia.
+    /// Returns an inertia of zero.
     fn no_inertia() -> Self::Inertia;
     /// The inertia of a body about its link's origin; `center` from there in world axes, `tensor` about it in body axes.
     fn body_inertia(
@@ -139,11 +139,11 @@ pub trait Space<T: Real>: Copy + Debug + Send + Sync + 'static {
     ) -> Self::Inertia;
     /// The angular momentum of the body's own tensor: the turning block times ω.
     fn turning_block(inertia: &Self::Inertia, spin: &Self::Spin) -> Self::Spin;
-    /// I a.
+    /// Returns the product I a.
     fn times(inertia: &Self::Inertia, a: &Self::Motion) -> Self::Motion;
-    /// I (n, 0).
+    /// Returns the product I (n, 0).
     fn times_spin(inertia: &Self::Inertia, n: &Self::Spin) -> Self::Motion;
-    /// I (0, d).
+    /// Returns the product I (0, d).
     fn times_point(inertia: &Self::Inertia, d: &Self::Point) -> Self::Motion;
     /// I − u w uᵀ, for a weight w.
     fn reduced(inertia: &Self::Inertia, u: &Self::Motion, w: T) -> Self::Inertia;

@@ -26,7 +26,7 @@ use mbs_core::rigid::RigidMotion;
 use mbs_core::scene::Scene;
 use mbs_core::step::StepError;
 
-/// What keeps a tree from starting.
+/// Reason why a tree does not start.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum StartError {
@@ -81,7 +81,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         Ok(start)
     }
 
-    /// The same from the motions of the scene's bodies at time `t`, one for each.
+    /// Makes the state of an assembled mechanism from the motions of the scene's bodies at time `t`, one for each.
     ///
     /// # Errors
     /// As for [`start`](Self::start).
@@ -388,7 +388,7 @@ fn onto_loops<T: Real, S: Space<T>>(
     Ok(())
 }
 
-/// How far the child of a branch turned against the parent: the last coordinates of its joint, in reverse the other way round.
+/// Returns how far the child of a branch turned against the parent: the last coordinates of its joint, in reverse the other way round.
 fn turned<T: Real>(branch: &Branch, values: &[T]) -> Vector<T, 3> {
     let sign = if branch.is_reversed { -T::ONE } else { T::ONE };
     let mut last = Vector::<T, 3>::zeros();

@@ -17,7 +17,7 @@ use mbs_core::ode::{Adaptive, Extrapolation, Radau, Tableau, rk4_scratch};
 /// Position, velocity and acceleration of a tree at a time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TreeState<T> {
-    /// Time [s].
+    /// Time of the state [s].
     pub t: T,
     /// Coordinates: angles [rad], slides [m], quaternions of balls; of free bodies rotation, then position [m].
     pub z: Vec<T>,
@@ -30,8 +30,7 @@ pub struct TreeState<T> {
     pub a_aux: Vec<T>,
     /// Multipliers of the cut joints' equations [N, N m].
     pub lambda: Vec<T>,
-    /// What is set from outside for the next step, in the places that
-    /// [`Prescribed::input`](mbs_core::inputs::Prescribed::input) and
+    /// Values set from outside for the next step, in the places that [`Prescribed::input`](mbs_core::inputs::Prescribed::input) and
     /// [`Prescribed::guide_input`](mbs_core::inputs::Prescribed::guide_input) name.
     pub inputs: Vec<T>,
     /// The inputs that accelerations, multipliers and power were made with.
@@ -40,7 +39,7 @@ pub struct TreeState<T> {
     pub signals: Vec<[T; 2]>,
     /// Work done by dampers, courses and guides since the start [J].
     pub work: T,
-    /// Their power at this instant [W].
+    /// Rate at which `work` grows at this instant [W].
     pub power: T,
 }
 
@@ -65,7 +64,7 @@ impl<T: Real> TreeState<T> {
         }
     }
 
-    /// What a step starts from.
+    /// Returns the state as the start of a step.
     pub(crate) fn start(&self) -> Start<'_, T> {
         Start { t: self.t, z: &self.z, v: &self.v, a: &self.a, signals: &self.signals }
     }
@@ -138,22 +137,22 @@ pub struct Workspace<T: Real, S: Space<T>> {
 /// Scratch of explicit steps.
 #[derive(Debug, Clone)]
 pub(crate) struct Explicit<T> {
-    /// (z, v, work).
+    /// Vector y of the method: z, v, states of signals, work.
     pub(crate) y: Vec<T>,
-    /// Stages.
+    /// Scratch of the method, its stages among it.
     pub(crate) scratch: Vec<T>,
     /// Error control, from the first step that asks for it.
     pub(crate) pair: Option<Adaptive<T, Tableau<T, 7>>>,
-    /// The same of the method 8(5,3).
+    /// Error control of the method 8(5,3), from the first step that asks for it.
     pub(crate) eighth: Option<Adaptive<T, Tableau<T, 12>>>,
-    /// The same of extrapolation.
+    /// Error control of extrapolation, from the first step that asks for it.
     pub(crate) extrapolation: Option<Adaptive<T, Extrapolation>>,
-    /// The same of the collocation at Radau points, with its matrices.
+    /// Error control of the collocation at Radau points, with its matrices, from the first step that asks for it.
     pub(crate) radau: Option<Adaptive<T, Radau<T>>>,
 }
 
 impl<T: Real, S: Space<T>> Workspace<T, S> {
-    /// Scratch for `model`.
+    /// Makes the scratch for `model`.
     #[must_use]
     pub fn new(model: &TreeModel<T, S>) -> Self {
         let (links, rows) = (model.links.len(), model.rows.len());
@@ -194,7 +193,7 @@ impl<T: Real, S: Space<T>> Workspace<T, S> {
         }
     }
 
-    /// What stands of the last factorisation: most rows that had an effect so far, and the pivots of the rows.
+    /// Returns what stands of the last factorisation: most rows that had an effect so far, and the pivots of the rows.
     pub(crate) fn last(&self) -> (usize, &[T]) {
         let rows = self.rows.len();
         (self.rank, &self.multipliers[3 * rows..4 * rows])

@@ -43,9 +43,11 @@ const ROUNDINGS: f64 = 64.0;
 const PLACE_ROUNDINGS: f64 = 8.0;
 /// Correction with which a stalled iteration may end without effects, relative to the displacement by accelerations [-]. Chosen, not tuned.
 const ENOUGH: f64 = 1e-2;
-/// The same with effects [-]: a stiff effect makes much of what is left in its place. Chosen, not tuned.
+/// Correction with which a stalled iteration may end with effects, relative to the displacement by accelerations [-]: a stiff effect makes
+/// much of what is left in its place. Chosen, not tuned.
 const ENOUGH_WITH_EFFECTS: f64 = 1e-6;
-/// The same near a singular position [-], where rounding is amplified. Chosen, not tuned.
+/// Correction with which a stalled iteration may end near a singular position, relative to the displacement by accelerations [-]: rounding
+/// is amplified there. Chosen, not tuned.
 const PASSAGE: f64 = 0.1;
 
 /// Makes one step of length `dt` [s] from a start with its auxiliary accelerations: the end is in `s.z`, `s.v`, `s.zdd`, `s.lambda`.
@@ -98,7 +100,7 @@ pub fn step<T: Real, S: Space<T>>(
     })
 }
 
-/// The fixed-point loop: iterations, last correction, what ended it.
+/// Runs the fixed-point loop; returns iterations, last correction, and what ended it.
 fn iterate<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
     (dt, options): (T, &Options<T>),
@@ -172,13 +174,13 @@ fn iterate<T: Real, S: Space<T>>(
     })
 }
 
-/// How far places and velocities at the end go with the accelerations there.
+/// Reach of the accelerations at the end of a step to the places and velocities there.
 fn reach_of<T: Real>(integrator: &Integrator<T>, dt: T) -> Reach<T> {
     let share = integrator.share();
     Reach { place: dt * dt * integrator.beta * share, speed: dt * integrator.gamma * share }
 }
 
-/// Why an iteration that does not contract may end with this correction, beside what accelerations move in the step, if it may.
+/// Returns why an iteration that does not contract may end with this correction, beside what accelerations move in the step, if it may.
 fn given_up<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
     options: &Options<T>,

@@ -32,7 +32,7 @@ pub(crate) struct Part<T: Real> {
     pub(crate) kind: LinkKind,
     /// Axis or direction, reference axes.
     pub(crate) axis: Vector<T, 3>,
-    /// Its number among the joint's coordinates.
+    /// Number of the part among the joint's coordinates.
     pub(crate) number: usize,
 }
 
@@ -56,12 +56,12 @@ pub struct TreeModel<T: Real, S: Space<T>> {
     pub(crate) feedback: Feedback<T>,
     /// The link of each coordinate that signals measure.
     pub(crate) measured: Vec<u32>,
-    /// What else signals measure.
+    /// Lengths and angles of balls that signals measure.
     pub(crate) measures: Vec<FeedbackMeasure<T>>,
     pub(crate) order: Order,
     /// Forces at centres of mass where gravity has a factor, then the effects.
     pub(crate) loads: Vec<Load<T, S>>,
-    /// How many of them are parts of gravity.
+    /// Number of loads that are parts of gravity.
     pub(crate) n_weights: usize,
     pub(crate) rotors: Vec<LinkRotor<T>>,
     /// The effect of the scene that each load comes from; those of gravity come from none.
@@ -69,14 +69,14 @@ pub struct TreeModel<T: Real, S: Space<T>> {
     pub(crate) prescribed: Prescribed<T>,
     pub(crate) tables: Tables<T>,
     pub(crate) gravity: S::Point,
-    /// What positions are counted from [m].
+    /// Point that positions are counted from [m].
     pub(crate) base: Vector<T, 3>,
     pub(crate) length: T,
     pub(crate) floor: [T; 2],
     pub(crate) n_coordinates: usize,
     pub(crate) n_freedoms: usize,
     pub(crate) seats: Vec<TreePlace>,
-    /// Where each link's origin was in the reference configuration.
+    /// Origin of each link in the reference configuration.
     pub(crate) origins: Vec<Vector<T, 3>>,
     /// Link of each body of the scene; 0: ground.
     pub(crate) link_of_body: Vec<u32>,
@@ -109,8 +109,8 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         Ok(Self::made(scene, true)?.0)
     }
 
-    /// The same where joints may meet no inertia: then with the fault for which it has no accelerations. Places, velocities, Jacobians
-    /// and the efforts of given accelerations need none.
+    /// Makes the tree of a scene whose joints may meet no inertia: then with the fault for which it has no accelerations. Places,
+    /// velocities, Jacobians and the efforts of given accelerations need none.
     ///
     /// # Errors
     /// [`TreeError`] names the body or joint.
@@ -350,7 +350,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
             && self.links.iter().zip(&other.links).all(same)
     }
 
-    /// Guides and courses: they name the places of a state's inputs, and set them.
+    /// Returns the guides and signals: they name the places of a state's inputs, and set them.
     #[must_use]
     pub fn prescribed(&self) -> &Prescribed<T> {
         &self.prescribed

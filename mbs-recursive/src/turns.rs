@@ -122,7 +122,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         self.with_angles(state, |at| own(at.turn(links[1])) - own(at.turn(links[0])))
     }
 
-    /// What an instant says that has coordinates, and no places.
+    /// Evaluates `f` at an instant that has coordinates, and no places.
     fn with_angles<R>(&self, state: &TreeState<T>, f: impl FnOnce(&Instant<'_, T, S>) -> R) -> R {
         let mut guides = vec![[T::ZERO; 3]; self.prescribed.n_guides()];
         let mut signals = vec![[T::ZERO; 3]; self.prescribed.signals().len()];

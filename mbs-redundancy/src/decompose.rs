@@ -16,7 +16,7 @@ use mbs_linear::{Matrix, singular_values};
 /// Largest entry of P that is zero [-]: what rounding of σ > 1e-9 leaves.
 pub(crate) const ZERO: f64 = 1e-7;
 
-/// A group: places of its joints in the part, and the dimension of its null space.
+/// Group: places of its joints in the part, and the dimension of its null space.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Group {
     /// Places of its joints in the part.

@@ -5,10 +5,10 @@ use mbs_core::outputs::{JointWrenches, Wrench};
 use mbs_core::rigid::RigidMotion;
 use mbs_core::scene::{BodyId, Dimension, Joint};
 
-/// Where the bodies of a scene are.
+/// Poses of the bodies of a scene.
 pub type Poses = [RigidMotion<f64>];
 
-/// One joint.
+/// Link of two bodies by one joint.
 #[derive(Debug, Clone)]
 pub(crate) struct Link {
     pub(crate) joint: Joint<f64>,
@@ -22,7 +22,7 @@ impl Link {
         Self { joint: joint.clone(), is_guided, transmission }
     }
 
-    /// How many of its rows are those of guides; they are the last ones.
+    /// Number of the joint's rows that are those of guides; they are the last ones.
     pub(crate) fn n_guided(&self) -> usize {
         self.transmission.n_guided()
     }
@@ -31,7 +31,7 @@ impl Link {
         self.transmission.n_directions()
     }
 
-    /// Its directions at a pose; moments are unit forces at `length` [m].
+    /// Returns the directions of the joint at a pose; moments are unit forces at `length` [m].
     pub(crate) fn wrenches(&self, at: &Poses, length: f64) -> Vec<Wrench<f64>> {
         let turned = self.joint.bodies.map(|body| pose(at, body).rotation);
         let mut all = Vec::with_capacity(self.n_rows());
@@ -43,7 +43,7 @@ impl Link {
         all
     }
 
-    /// Its place on its first or second body [m].
+    /// Returns the place of the joint on its first or second body [m].
     pub(crate) fn place(&self, at: &Poses, i: usize) -> Vector {
         let reference = Vector::from(self.joint.points[i]);
         pose(at, self.joint.bodies[i]).point(&reference)[0]

@@ -34,7 +34,7 @@ pub struct Linkage {
     /// Turns of point masses, which are none: no joint has a row for them.
     n_idle: usize,
     pub(crate) links: Vec<Link>,
-    /// What can depend on each other: see [`Part`].
+    /// Parts within which joints can depend on each other: see [`Part`].
     pub parts: Vec<Part>,
 }
 
@@ -79,7 +79,7 @@ impl Linkage {
         }
     }
 
-    /// Which of them turn it.
+    /// Returns the range of a body's freedoms that turn it.
     pub(crate) fn turns(&self) -> Range<usize> {
         match self.dimension {
             Dimension::Planar => 2..3,
@@ -118,7 +118,7 @@ impl Linkage {
         self.jacobian_of(part, &part.joints.iter().map(|&j| &self.links[j]).collect::<Vec<_>>(), at)
     }
 
-    /// The same with other joints in the places of those of the part.
+    /// Returns the rows of a part at a pose, with other joints in the places of those of the part.
     pub(crate) fn jacobian_of(&self, part: &Part, links: &[&Link], at: &Poses) -> Jacobian {
         let f = self.freedoms();
         let (mut rows, mut wrenches) = (Vec::new(), Vec::new());
@@ -146,7 +146,7 @@ impl Linkage {
         Jacobian { matrix, rows, wrenches }
     }
 
-    /// What counts of a force and a moment: [Fx, Fy, Mz] or all six.
+    /// Returns the components that count of a force and a moment: [Fx, Fy, Mz] or all six.
     pub(crate) fn components(&self, force: &Vector, moment: &Vector) -> [f64; 6] {
         match self.dimension {
             Dimension::Planar => [force[0], force[1], moment[2], 0.0, 0.0, 0.0],

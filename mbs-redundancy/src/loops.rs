@@ -37,10 +37,10 @@ impl Corner {
     }
 }
 
-/// A closed loop.
+/// Closed loop of joints.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Loop {
-    /// Its joints, in order round the loop, beginning with the first in the scene.
+    /// Joints of the loop, in order round it, beginning with the first in the scene.
     pub joints: Vec<usize>,
     /// Corners where three places form a triangle: at revolute, spherical and universal joints.
     pub corners: Vec<Corner>,
@@ -160,12 +160,12 @@ fn turn(linkage: &Linkage, at: &Poses, joint: usize, [to, from]: [Vector; 2]) ->
     Some(Corner { joint, turn: sine.atan2(to.dot(&from)), has_sign: axis.is_some() })
 }
 
-/// How much a joint moves when its part does.
+/// Share of a joint in the motion of its part.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Drive {
-    /// The joint.
+    /// Index of the joint.
     pub joint: usize,
-    /// Its rate over that of the fastest joint of the part, angles at the part's length, with the sign of the common motion [-].
+    /// Rate of the joint over that of the fastest joint of the part, with the sign of the common motion [-]. Angles count at the part's length.
     pub share: f64,
 }
 

@@ -15,7 +15,7 @@ pub struct Part {
     pub joints: Vec<usize>,
     /// Indices of the bodies, rising; the ground is not among them.
     pub bodies: Vec<usize>,
-    /// Size [m]: the largest distance of a joint's place from the centre of one of its bodies; one if all coincide.
+    /// Length of the part [m]: the largest distance of a joint's place from the centre of one of its bodies; one if all coincide.
     pub length: f64,
 }
 
@@ -27,7 +27,7 @@ impl Part {
     }
 }
 
-/// Cost: in proportion to bodies and joints.
+/// Returns the parts of `n` bodies and their links. Cost: in proportion to bodies and joints.
 pub(crate) fn parts(n: usize, links: &[Link], at: &Poses) -> Vec<Part> {
     let node = |body: BodyId| match body {
         BodyId::Ground => n,
@@ -77,7 +77,7 @@ fn part(links: &[Link], joints: Vec<usize>, at: &Poses) -> Part {
 }
 
 struct Search {
-    /// Neighbour and joint.
+    /// Edges of each node: neighbour and joint.
     edges: Vec<Vec<(usize, usize)>>,
     depth: Vec<usize>,
     /// Least depth that the subtree of a node reaches by one edge back.

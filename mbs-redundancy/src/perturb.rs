@@ -13,7 +13,7 @@ use mbs_core::rigid::RigidMotion;
 use mbs_linear::{Matrix, Svd};
 
 mbs_core::named! {
-    /// Where a dependency holds.
+    /// Nature of a dependency: the positions in which it holds.
     pub enum Nature {
         /// In every position near by: the mechanism is built so.
         Structural = "structural",
@@ -21,9 +21,9 @@ mbs_core::named! {
         Singular = "singular-position",
         /// Some of it in every position, more in this one.
         Both = "both",
-        /// It is not known: nothing can move.
+        /// Nature that is not known: nothing can move.
         Rigid = "rigid",
-        /// It was not tried: too large, or no position near by was found.
+        /// Nature that was not tried: too large, or no position near by was found.
         Untried = "untried",
     }
 }

@@ -15,7 +15,7 @@ const ALMOST: f64 = 1e-6;
 /// Rank of a matrix, and what it leaves open.
 #[derive(Debug, Clone)]
 pub struct Rank {
-    /// Rows, columns, rank.
+    /// Number of rows, number of columns, and rank.
     pub sizes: [usize; 3],
     /// All singular values, falling [-].
     pub sigma: Vec<f64>,
@@ -28,7 +28,7 @@ pub struct Rank {
 }
 
 impl Rank {
-    /// Of a matrix. Nothing where its singular values do not converge, as with numbers that are not finite.
+    /// Computes the rank of a matrix. Nothing where its singular values do not converge, as with numbers that are not finite.
     ///
     /// Cost: about 20 m n min(m, n) operations.
     #[must_use]

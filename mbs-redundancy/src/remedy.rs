@@ -25,7 +25,7 @@ use mbs_linear::Matrix;
 pub struct JointChange {
     /// Index of the joint.
     pub joint: usize,
-    /// Its new kind; `Free`: leave it out.
+    /// New kind of the joint; `Free`: leave it out.
     pub kind: JointKind,
     /// The second axis that a universal joint needs, in the reference configuration.
     pub axis: Option<[f64; 3]>,
@@ -297,7 +297,7 @@ fn extend(
     None
 }
 
-/// How many redundancies some changes take together.
+/// Returns the number of redundancies that some changes take together.
 fn takes(options: &[Choice], chosen: &[usize]) -> usize {
     let rows: Vec<&Vec<f64>> = chosen.iter().flat_map(|&i| &options[i].taken).collect();
     dimension(&stacked(&rows))

@@ -1,4 +1,4 @@
-//! How far a pose is from meeting the joints, one number for each row; its derivative along a twist is the row.
+//! Residuals of the joints at a pose, one number for each row; the derivative of each along a twist is the row.
 //!
 //! ```text
 //! force f:   f·(p₂ − p₁)   (distance: length − L)
@@ -44,7 +44,7 @@ pub(crate) fn residuals(
     wrenches.iter().enumerate().map(row).collect()
 }
 
-/// p₂ − p₁.
+/// Offset p₂ − p₁ of the places of a joint.
 fn offset(link: &Link, at: &Poses) -> Vector {
     link.place(at, 1) - link.place(at, 0)
 }

@@ -17,7 +17,7 @@ pub struct Member {
     pub joint: usize,
     /// Directions of its reaction that nothing determines: forces, moments about its place, and both together.
     pub open: [usize; 3],
-    /// Which components of its reaction are determined: [Fx, Fy, Mz], or all six, in global axes.
+    /// Whether each component of its reaction is determined: [Fx, Fy, Mz], or all six, in global axes.
     pub is_unique: Vec<bool>,
     /// Is its guide among the dependent equations?
     pub guide: bool,
@@ -26,9 +26,9 @@ pub struct Member {
 /// Joints whose equations depend on each other, none of which can be left out of the set.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Set {
-    /// Its joints, in the order of the scene.
+    /// Joints of the set, in the order of the scene.
     pub members: Vec<Member>,
-    /// How many equations follow from the others.
+    /// Number of equations that follow from the others.
     pub redundant: usize,
     /// In every position, or in this one.
     pub nature: Nature,
@@ -36,11 +36,11 @@ pub struct Set {
     pub is_exact: bool,
     /// The largest singular value that was taken as zero, over the largest [-].
     pub sigma: f64,
-    /// What would mend it, where that was found.
+    /// Remedy that would mend the set, where one was found.
     pub remedy: Option<Remedy>,
 }
 
-/// What the joints of a scene do at a position.
+/// Diagnosis of the joints of a scene at a position.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Diagnosis {
     /// Equations of all joints, freedoms of all bodies without joints, rank.
@@ -141,7 +141,7 @@ impl Found<'_> {
         }
     }
 
-    /// By the rank of the group's rows alone, at other positions.
+    /// Finds the nature of a group by the rank of its rows alone, at other positions.
     fn nature(&self, group: &Group, near: &[Vec<RigidMotion<f64>>]) -> Nature {
         if self.rank.free.n_columns() == 0 {
             return Nature::Rigid;
@@ -162,7 +162,7 @@ impl Found<'_> {
         }
     }
 
-    /// What a joint's reaction leaves open: the span of its wrenches in the null space.
+    /// Returns a joint with what its reaction leaves open: the span of its wrenches in the null space.
     fn member(&self, place: usize, null: &Matrix) -> Member {
         let Jacobian { rows, wrenches, .. } = &self.jacobian;
         let joint = self.part.joints[place];

@@ -173,7 +173,7 @@ fn whole(prices: &EffectCosts) -> Section {
     }
 }
 
-/// What watching the invariant costs, and as a share of a step.
+/// Returns the time that watching the invariant takes, and its share of a step.
 fn monitor(prices: &EffectCosts) -> String {
     let Some(seconds) = prices.monitor_seconds_per_step else {
         return "not measured".to_owned();

@@ -1,4 +1,4 @@
-//! A report: titled tables, for the terminal as text and for a browser as one HTML file.
+//! Reports: titled tables, for the terminal as text and for a browser as one HTML file.
 
 use crate::page::{Page, PageSection, still_view};
 pub use crate::table::Section;
@@ -6,23 +6,23 @@ pub(crate) use crate::table::{row, wrapped};
 use core::fmt::Write;
 use mbs::record::{Provenance, RecordedMotion};
 
-/// What stands in a report.
+/// Report of titled tables.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Report {
-    /// Title.
+    /// Title of the report.
     pub title: String,
-    /// What went wrong, if anything did.
+    /// Error of the run, if there was one.
     pub error: Option<String>,
     /// The tables, in order.
     pub sections: Vec<Section>,
-    /// What is drawn below the first table, with the names of bodies and joints.
+    /// Motion that is drawn below the first table, with the names of bodies and joints.
     pub motion: Option<RecordedMotion>,
-    /// How it was made.
+    /// Provenance of the report: how it was made.
     pub provenance: Provenance,
 }
 
 impl Report {
-    /// As text, columns aligned.
+    /// Returns the report as text, columns aligned.
     ///
     /// # Examples
     /// ```
@@ -43,7 +43,7 @@ impl Report {
         out
     }
 
-    /// As one HTML file without references to anything outside. Tables need no script; those that are folded stand last.
+    /// Returns the report as one HTML file without references to anything outside. Tables need no script; those that are folded stand last.
     #[must_use]
     pub fn page(&self) -> String {
         let error = self.error.as_ref().map(|error| PageSection::Error(format!("The run {error}")));

@@ -6,12 +6,12 @@ use core::fmt::Write;
 /// Letters of a cell beyond which the cells of a row stand below each other on a narrow screen. Chosen, not tuned.
 const MAX_CELL: usize = 60;
 
-/// A titled table.
+/// Table with a title.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Section {
-    /// Title.
+    /// Title of the table.
     pub title: String,
-    /// What the numbers mean, in one or two sentences; may be empty.
+    /// Caption that says in one or two sentences what the numbers mean; may be empty.
     pub caption: String,
     /// Names of the columns; empty: the first column names what the others say.
     pub head: Vec<String>,
@@ -37,13 +37,13 @@ impl Section {
         Self { title: title.to_owned(), head, rows, ..Self::default() }
     }
 
-    /// How something was made.
+    /// Table of how something was made.
     pub(crate) fn made<'a>(rows: impl Iterator<Item = [&'a str; 2]>) -> Self {
         let rows = rows.map(|[label, value]| row(label, value.to_owned()));
         Self::new("How this was made", &[], rows.collect())
     }
 
-    /// The same, folded on a page.
+    /// Returns the table, folded on a page.
     pub(crate) fn folded(self) -> Self {
         Self { is_folded: true, ..self }
     }

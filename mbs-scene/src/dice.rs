@@ -11,20 +11,20 @@ const GOLDEN: u128 = 0x9E37_79B9_7F4A_7C15_F39C_C060_5CED_C835;
 pub struct Dice(Pcg64);
 
 impl Dice {
-    /// Those of a seed.
+    /// Returns the random numbers of a seed.
     #[must_use]
     pub fn new(seed: u64) -> Self {
         Self::of_part(seed, 0)
     }
 
-    /// Those of a seed's part, which share nothing with other parts.
+    /// Returns the random numbers of a seed's part, which share nothing with other parts.
     pub(crate) fn of_part(seed: u64, part: usize) -> Self {
         let mut random = Pcg64::new(u128::from(seed).wrapping_mul(GOLDEN), 0);
         random.advance((part as u128).wrapping_mul(GOLDEN));
         Self(random)
     }
 
-    /// One of `0..n`; 0 where n is 0.
+    /// Returns one of `0..n`; 0 where n is 0.
     pub fn below(&mut self, n: usize) -> usize {
         let n = u64::try_from(n).unwrap_or(u64::MAX).max(1);
         usize::try_from(self.0.next_u64() % n).unwrap_or(0)

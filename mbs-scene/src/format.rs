@@ -27,7 +27,7 @@ pub fn significant(x: f64) -> String {
     if PLAIN.contains(&size) { format!("{rounded}") } else { format!("{rounded:e}") }
 }
 
-/// At most 32 digits; exponents where [`shortest()`] has them.
+/// Text of a number with at most 32 digits; exponents where [`shortest()`] has them.
 #[must_use]
 pub fn full(x: DoubleDouble) -> String {
     let size = x.hi().abs();

@@ -16,7 +16,7 @@ pub use mbs_mesh::{MESH_ENDINGS, MeshFault, Solid, TriangleMesh, VolumeRule, hul
 pub use read::{Place, ReadError, ReadFault, SceneFile, SweepFault, SweepFile, nearest_name};
 pub use write::{WriteError, quoted, to_toml};
 
-/// What the tests of this crate call; no part of its interface.
+/// Items that the tests of this crate call; no part of its interface.
 #[doc(hidden)]
 pub mod inside {
     pub use crate::generate::text::number;

@@ -22,7 +22,7 @@ pub(crate) struct Layout {
     pub(crate) plan: Plan,
     /// The unknown at each place of the storage of a vector.
     pub(crate) unknown_at: Vec<u32>,
-    /// Where the block of each element begins, and the end of all.
+    /// Start of the block of each element, and the end of all.
     pub(crate) block_starts: Vec<usize>,
     task_of_front: Vec<u32>,
     /// The fronts that each front receives updates from, in the order of `plan.children`.
@@ -99,7 +99,7 @@ fn child_rows<'a>(
     })
 }
 
-/// Where a front lies, and how many pivots it had.
+/// Place of a front, and the number of its pivots.
 #[derive(Debug, Clone, Copy, Default)]
 struct Stretch {
     offset: usize,
@@ -108,12 +108,12 @@ struct Stretch {
     n_pivots: usize,
 }
 
-/// What became of the plan in the last factorisation.
+/// Departures from the plan in the last factorisation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Delays {
     /// Unknowns that a front passed on to its parent, counted once for every front.
     pub delayed: usize,
-    /// Those of them that one task passed on to another.
+    /// Delayed unknowns that one task passed on to another.
     pub between_tasks: usize,
     /// Unknowns of the largest front.
     pub largest_front: usize,
@@ -122,7 +122,7 @@ pub struct Delays {
 }
 
 impl Delays {
-    /// Of both.
+    /// Delays of both together.
     pub(crate) fn with(self, other: Self) -> Self {
         Self {
             delayed: self.delayed + other.delayed,
@@ -133,7 +133,7 @@ impl Delays {
     }
 }
 
-/// What one task has factored.
+/// Factored fronts of one task.
 #[derive(Debug, Clone)]
 pub(crate) struct Share<T> {
     /// One for each of its fronts.
@@ -145,7 +145,7 @@ pub(crate) struct Share<T> {
     size: Vec<T>,
     /// Whether a pivot is the first of a pair, beside `order`.
     pairs: Vec<bool>,
-    /// One scaled block.
+    /// Scratch for one scaled block.
     block: Vec<T>,
     pub(crate) tally: Tally,
     pub(crate) delays: Delays,
@@ -214,7 +214,7 @@ impl<T: Real, W: Team> Job<'_, T, W> {
     }
 }
 
-/// What is read of a task when its fronts are done.
+/// Results of a task that are read when its fronts are done.
 #[derive(Debug)]
 struct Done<'a, T> {
     stretches: &'a [Stretch],

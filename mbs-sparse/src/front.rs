@@ -3,7 +3,7 @@
 pub(crate) use mbs_math::dense::front::column;
 use std::ops::Range;
 
-/// What a front holds before anything is added to it.
+/// Content of a front before anything is added to it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum FrontInit {
     /// Zeros.
@@ -19,7 +19,7 @@ pub(crate) enum FrontInit {
 /// One dense step of the elimination.
 #[derive(Debug, Clone)]
 pub(crate) struct Front {
-    /// Unknowns eliminated here.
+    /// Number of unknowns eliminated here.
     pub(crate) p: usize,
     /// Unknowns of the front.
     pub(crate) f: usize,
@@ -33,8 +33,8 @@ pub(crate) struct Front {
     pub(crate) init: FrontInit,
     /// Place of the first pivot in the own vector of its task.
     pub(crate) at: usize,
-    /// Its elements in the list of all elements.
+    /// Range of its elements in the list of all elements.
     pub(crate) elements: Range<usize>,
-    /// Its children in the list of all children.
+    /// Range of its children in the list of all children.
     pub(crate) children: Range<usize>,
 }

@@ -34,7 +34,7 @@ impl Lists {
         self.start.len() - 1
     }
 
-    /// List `i`.
+    /// Items of list `i`.
     pub(crate) fn get(&self, i: usize) -> &[u32] {
         &self.items[self.start[i]..self.start[i + 1]]
     }

@@ -44,7 +44,7 @@ pub struct Indefinite<T: Real, W: Team = Alone> {
     rows: Vec<T>,
     diagonal: Vec<T>,
     scatter: Scatter<T>,
-    /// What each task has factored.
+    /// Factored fronts of each task.
     shares: Vec<Share<T>>,
     tally: Tally,
     delays: Delays,
@@ -62,7 +62,8 @@ impl<T: Real> Indefinite<T> {
 }
 
 impl<T: Real, W: Team> Indefinite<T, W> {
-    /// As [`analyse`](Indefinite::analyse), for a team. What it computes has the same bits whatever the team.
+    /// Analyses the cliques as [`analyse`](Indefinite::analyse) does, for a team. What the solver computes has the same bits whatever the
+    /// team.
     ///
     /// # Panics
     /// As [`analyse`](Indefinite::analyse).
@@ -70,7 +71,7 @@ impl<T: Real, W: Team> Indefinite<T, W> {
         Self::laid_out(team, Layout::new(plan(cliques, options)), Thresholds::default())
     }
 
-    /// The same analysis for another team; what was factored is lost.
+    /// Returns the same analysis for another team; what was factored is lost.
     pub fn with_team<V: Team>(self, team: V) -> Indefinite<T, V> {
         Indefinite::laid_out(team, self.layout, self.thresholds)
     }
@@ -109,7 +110,7 @@ impl<T: Real, W: Team> Indefinite<T, W> {
         self.layout.plan.tasks.n_leaves()
     }
 
-    /// What became of the plan in the last factorisation.
+    /// Departures from the plan in the last factorisation.
     pub fn delays(&self) -> Delays {
         self.delays
     }
@@ -143,7 +144,8 @@ impl<T: Real, W: Team> Indefinite<T, W> {
 }
 
 impl<T: Real, W: Team> SymmetricSolver<T> for Indefinite<T, W> {
-    /// Cost: that of the fronts as planned, more where pivots are delayed; four passes over the blocks for the scaling.
+    /// Factors the blocks of the source. Cost: that of the fronts as planned, more where pivots are delayed; four passes over the blocks
+    /// for the scaling.
     fn factor<S: BlockSource<T>>(&mut self, source: &S) -> Result<(), FactorError> {
         self.gather(source);
         let job = Job {

@@ -47,7 +47,8 @@ impl<T: Real> Multifrontal<T> {
 }
 
 impl<T: Real, W: Team> Multifrontal<T, W> {
-    /// As [`analyse`](Multifrontal::analyse), for a team. What it computes has the same bits whatever the team.
+    /// Analyses the cliques as [`analyse`](Multifrontal::analyse) does, for a team. What the solver computes has the same bits whatever
+    /// the team.
     ///
     /// # Panics
     /// As [`analyse`](Multifrontal::analyse).
@@ -55,7 +56,7 @@ impl<T: Real, W: Team> Multifrontal<T, W> {
         Self::planned(team, plan(cliques, options), options.pivoting)
     }
 
-    /// The same analysis for another team; what was factored is lost.
+    /// Returns the same analysis for another team; what was factored is lost.
     pub fn with_team<V: Team>(self, team: V) -> Multifrontal<T, V> {
         Multifrontal::planned(team, self.plan, self.pivoting)
     }

@@ -1,4 +1,4 @@
-//! What the caller chooses, [`Options`], and what a factorisation costs, [`Counters`].
+//! Options that the caller chooses, [`Options`], and the cost of a factorisation, [`Counters`].
 //!
 //! ```text
 //! flops of one partial factorisation of p pivots in a front of f unknowns:
@@ -18,23 +18,23 @@ pub enum Pivoting {
 /// In which order unknowns are eliminated. No number depends on it but by rounding.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Ordering {
-    /// Minimum degree; where that leaves little to do at the same time, a dissection that costs at most a tenth more.
+    /// Order of minimum degree; where that leaves little to do at the same time, a dissection that costs at most a tenth more.
     #[default]
     Chosen,
-    /// Approximate minimum degree: the least work for one thread.
+    /// Order of approximate minimum degree: the least work for one thread.
     MinimumDegree,
     /// This many levels of cuts in half, parts by minimum degree: most to do at the same time, on chains up to two and a half times the work.
     Dissection(u32),
 }
 
-/// What the caller chooses. Public fields; start from `Options::default()`.
+/// Options that the caller chooses. Public fields; start from `Options::default()`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Options {
     /// Choice of pivots inside each front.
     pub pivoting: Pivoting,
     /// Systems of at most this many unknowns are one dense front in the given order.
     pub dense_up_to: usize,
-    /// Order of elimination.
+    /// Order in which unknowns are eliminated.
     pub ordering: Ordering,
     /// Trees of fronts are cut into tasks of about this many nanoseconds of factorisation; `u64::MAX`: never. The sums of a
     /// solution depend on it, and never on who works on the tasks.
@@ -42,8 +42,8 @@ pub struct Options {
 }
 
 impl Default for Options {
-    /// No pivoting; one dense front up to 8 unknowns. Measured on chains of 4, 6 and 12 unknowns an element. Dense is
-    /// 8 % faster at n = 6, equal at 8 and 9, 6 to 13 % slower at 12, and takes 1.5 to 1.7 times as long at 24.
+    /// Options without pivoting; one dense front up to 8 unknowns. Measured on chains of 4, 6 and 12 unknowns an element. Dense is 8 %
+    /// faster at n = 6, equal at 8 and 9, 6 to 13 % slower at 12, and takes 1.5 to 1.7 times as long at 24.
     fn default() -> Self {
         Self { pivoting: Pivoting::None, dense_up_to: 8, ordering: Ordering::Chosen, grain: 5_000 }
     }
@@ -52,11 +52,11 @@ impl Default for Options {
 /// Exact sizes of one analysis; times are measured from outside.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Counters {
-    /// Unknowns.
+    /// Number of unknowns n.
     pub n: usize,
-    /// Elements.
+    /// Number of elements analysed.
     pub n_elements: usize,
-    /// Fronts: dense matrices that are factored one after the other.
+    /// Number of fronts, dense matrices that are factored one after the other.
     pub n_fronts: usize,
     /// Unknowns of the largest front.
     pub largest_front: usize,

@@ -7,7 +7,7 @@ use crate::front::column;
 use crate::graph::index;
 use mbs_math::Real;
 
-/// Where a packed triangle of k unknowns lands in a packed front of f unknowns.
+/// Place of a packed triangle of k unknowns in a packed front of f unknowns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Place {
     /// Unknown i at row `f - k + i`: one stretch, from this offset to the end of the front.
@@ -21,11 +21,11 @@ pub(crate) enum Place {
 /// One element or one child update that is added into a front.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Part {
-    /// The element; of a child, where its update starts in the array of all fronts.
+    /// Number of the element; of a child, the start of its update in the array of all fronts.
     pub(crate) source: usize,
     /// Unknowns of the part.
     pub(crate) size: u32,
-    /// Where they are in the front.
+    /// Place of the unknowns in the front.
     pub(crate) place: Place,
 }
 
@@ -36,7 +36,7 @@ impl Part {
         triangle(self.size as usize)
     }
 
-    /// Where the entries of a scattered part go, and those of the scattered parts after it; of any other part nothing.
+    /// Targets of the entries of a scattered part, and of the scattered parts after it; of any other part nothing.
     #[inline(always)]
     pub(crate) fn targets<'a>(&self, all: &'a [u32]) -> &'a [u32] {
         match self.place {

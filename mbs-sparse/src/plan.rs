@@ -27,7 +27,7 @@ pub(crate) struct Plan {
     pub(crate) targets: Vec<u32>,
     /// Elimination places of the remaining rows of all fronts.
     pub(crate) rows: Vec<u32>,
-    /// What may be done at the same time.
+    /// Tasks that may be done at the same time.
     pub(crate) tasks: Tasks,
     /// Unknown at each place of the elimination.
     pub(crate) order: Vec<u32>,
@@ -40,7 +40,7 @@ pub(crate) struct Plan {
     pub(crate) counters: Counters,
 }
 
-/// Analyses the cliques.
+/// Plans the elimination for these cliques.
 pub(crate) fn plan(cliques: &impl Cliques, options: Options) -> Plan {
     let (n, n_primal) = (cliques.n_unknowns(), cliques.n_primal());
     let cliques = graph::checked_cliques(cliques);
@@ -133,7 +133,7 @@ struct Planner {
     row: Vec<u32>,
     /// The elements of each front.
     elements_of: Lists,
-    /// Where targets that occur again stand: most fronts of a mechanism are like another one.
+    /// Place of targets that occur again: most fronts of a mechanism are like another one.
     known: HashMap<Vec<u32>, usize>,
 }
 
@@ -269,7 +269,7 @@ impl Plan {
         gathered.max(triangle(self.largest_clique))
     }
 
-    /// Where fronts and unknowns are stored, task by task.
+    /// Places fronts and unknowns in the storage, task by task.
     fn place_fronts(&mut self, place: &[u32]) {
         let mut stored_at_place = vec![0; place.len()];
         for task in &self.tasks.list {

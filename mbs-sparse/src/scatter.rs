@@ -1,4 +1,4 @@
-//! What elements write for their unknowns, brought together by unknown: by one thread or by several, the same bits.
+//! Values that elements write for their unknowns, brought together by unknown: by one thread or by several, the same bits.
 //!
 //! ```text
 //! elements   [ stretch 1 | stretch 2 | ... ]        unknowns   [ first met in stretch 1 | in stretch 2 | ... ]
@@ -24,7 +24,7 @@ pub(crate) struct Scatter<T> {
     cuts: Option<Cuts>,
 }
 
-/// Where the elements are cut for a team.
+/// Cuts of the elements for a team.
 #[derive(Debug, Clone)]
 struct Cuts {
     /// First element, first unknown and first kept value of each stretch, and the ends.
@@ -122,7 +122,7 @@ impl<T: Real> Scatter<T> {
     }
 }
 
-/// What a team does.
+/// Work of a team.
 struct Work<'a, F, J> {
     cuts: &'a Cuts,
     cliques: &'a Lists,

@@ -1,4 +1,4 @@
-//! What a task and those below it own, and the work on it: factorisation and the two sweeps, task by task.
+//! Numbers that a task and those below it own, and the work on them: factorisation and the two sweeps, task by task.
 //!
 //! ```text
 //! factor:    tasks below (at the same time, each on its own part of the numbers), then the own fronts in order
@@ -25,7 +25,7 @@ pub(crate) struct Numbers<'a, T> {
     pub(crate) fronts: &'a mut [T],
     pub(crate) pivots: &'a mut [T],
     pub(crate) order: &'a mut [u32],
-    /// As long as `order`, or empty without pivoting.
+    /// Rows that became pivots, as many as `order`, or empty without pivoting.
     pub(crate) taken: &'a mut [u32],
 }
 
@@ -47,7 +47,7 @@ impl<'a, T: Real> Numbers<'a, T> {
         )
     }
 
-    /// The same numbers for a while.
+    /// Lends the same numbers for a while.
     fn lent(&mut self) -> Numbers<'_, T> {
         let Numbers { fronts, pivots, order, taken } = self;
         Numbers { fronts, pivots, order, taken }
@@ -66,7 +66,7 @@ impl<'a, T: Real> Numbers<'a, T> {
         })
     }
 
-    /// One task: those below, then its own fronts.
+    /// Factors a task's numbers: those of tasks below, then its own fronts.
     fn factor_task<W: Team, S: BlockSource<T>>(
         mut self,
         how: (&Plan, Pivoting),
@@ -323,7 +323,7 @@ impl<T: Real> Sweep<T> for Factor<'_, T> {
 }
 
 impl Task {
-    /// Where what it leaves for rows further up stands in a storage that begins at `start`.
+    /// Place of what the task leaves for rows further up, in a storage that begins at `start`.
     fn outer_vector(&self, start: usize) -> usize {
         self.vector[1] + self.places.len() - start
     }

@@ -32,7 +32,7 @@ pub(crate) fn forward<T: Real>(mut a: &[T], y: &mut [T], (first, p): (usize, usi
     }
 }
 
-/// Backward sweep, likewise; the unknowns at `rows` are known.
+/// Backward sweep through the front, likewise; the unknowns at `rows` are known.
 pub(crate) fn backward<T: Real>(a: &[T], y: &mut [T], (first, p): (usize, usize), rows: &[u32]) {
     let f = p + rows.len();
     let mut k = p - p % BLOCK;

@@ -30,7 +30,7 @@ pub(crate) struct Task {
     pub(crate) first_task: usize,
     /// Rows further up that its fronts and children touch, as places, ascending: a stretch of the list of all.
     pub(crate) outer: Range<usize>,
-    /// Storage of numbers: where that of all below begins, where its own begins, and the end.
+    /// Places in the storage of numbers: where that of all below begins, where its own begins, and the end.
     pub(crate) numbers: [usize; 3],
     /// Storage of a vector, likewise.
     pub(crate) vector: [usize; 3],
@@ -44,7 +44,7 @@ pub(crate) struct Tasks {
     pub(crate) list: Vec<Task>,
     /// The tasks below each task, in order.
     pub(crate) children: Lists,
-    /// Those that are below none.
+    /// Tasks that are below none.
     pub(crate) roots: Vec<u32>,
     /// Outer rows of all tasks, as places.
     pub(crate) outer: Vec<u32>,
@@ -58,9 +58,9 @@ pub(crate) struct Tasks {
     pub(crate) sizes: [usize; 2],
 }
 
-/// What belongs to neighbouring tasks with all below them.
+/// Property of neighbouring tasks with all below them.
 pub(crate) trait Owned: Send + Sized {
-    /// What belongs to tasks before `cut`, and the rest; the first of all is `begin`.
+    /// Parts of the tasks before `cut`, and of the rest; the first of all is `begin`.
     fn cut(self, begin: &Task, cut: &Task) -> (Self, Self);
 }
 
@@ -138,7 +138,7 @@ impl Tasks {
     }
 }
 
-/// Cuts the tree. `work` is the time of each front [ns], `grain` what a task should take at least.
+/// Cuts the tree into tasks. `work` is the time of each front [ns], `grain` what a task should take at least.
 pub(crate) fn tasks(
     (fronts, parent): (&[Front], &[u32]),
     all_rows: &[u32],

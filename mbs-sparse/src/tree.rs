@@ -136,8 +136,8 @@ fn structure(elements: &Lists, place: &[u32]) -> Lists {
     rows
 }
 
-/// Merges fronts upwards; the result names for each node the node whose front eliminates it, with the pivots and the unknowns
-/// of that front.
+/// Merges fronts up the tree. For each node the result names the node whose front eliminates it, with the pivots and the unknowns of that
+/// front.
 fn merged(
     rows: &Lists,
     parent: &[u32],

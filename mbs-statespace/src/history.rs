@@ -1,10 +1,10 @@
-//! What one step leaves for the next beside the state: the choice of independent coordinates, and how good it was.
+//! State that one step leaves for the next beside that of the model: the choice of independent coordinates, and how good it was.
 
 use crate::elimination::Order;
 use crate::workspace::Workspace;
 use mbs_core::Real;
 
-/// What a [`Workspace`] remembers from step to step.
+/// State of a [`Workspace`] that the next step continues from.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct History<T> {
     /// The pivots that are kept.

@@ -11,7 +11,7 @@ use mbs_core::model::{Model, Tangent, Terms};
 pub(crate) struct Jacobian<T> {
     starts: Vec<u32>,
     columns: Vec<u32>,
-    /// Where each entry stands in its element's rows.
+    /// Place of each entry in its element's rows.
     sources: Vec<u32>,
     pub(crate) values: Vec<T>,
     /// The rows of one element.
@@ -147,7 +147,7 @@ pub(crate) fn largest_block<T: Real>(model: &impl Model<T>) -> usize {
     (0..model.n_elements()).map(size).max().unwrap_or(0)
 }
 
-/// The same numbers in (-1/2, 1/2) on every machine.
+/// Random numbers in (-1/2, 1/2), the same on every machine.
 struct Random(u32);
 
 impl Random {

@@ -1,4 +1,4 @@
-//! What the caller chooses. Public fields; start from [`Options::default`].
+//! Options that the caller chooses. Public fields; start from [`Options::default`].
 
 use mbs_core::Real;
 use mbs_core::integrator::Integrator;
@@ -9,7 +9,7 @@ use mbs_core::step::OptionError;
 pub struct Options<T> {
     /// Time integrator, applied to z.
     pub integrator: Integrator<T>,
-    /// What z is.
+    /// Choice of the coordinates z.
     pub coordinates: Coordinates,
     /// A correction below this times the displacement that accelerations cause in the step is small [-].
     pub tolerance: T,
@@ -36,7 +36,7 @@ pub enum Coordinates {
 pub enum PivotChange {
     /// When a pivot fell below a hundredth of what it was, R grew above 10, or the position problem took more than 4 iterations.
     WhenNeeded,
-    /// At every step.
+    /// Always, at every step.
     EveryStep,
 }
 
@@ -59,7 +59,7 @@ impl<T: Real> Default for Options<T> {
 }
 
 impl<T: Real> Options<T> {
-    /// Checks the ranges.
+    /// Checks the ranges of the options.
     ///
     /// # Errors
     /// [`OptionError`] names the option.

@@ -23,7 +23,7 @@ pub struct Workspace<T> {
     pub(crate) basis: Basis<T>,
     pub(crate) tangent: Symmetric<T>,
     pub(crate) solver: Dense<T>,
-    /// C^T R, factored.
+    /// Matrix C^T R, factored.
     pub(crate) turn: General<T>,
     /// C^T x of the predicted dq, v, a, and what is wanted of x now, f each.
     pub(crate) predicted: [Vec<T>; 3],
@@ -54,14 +54,14 @@ pub struct Workspace<T> {
     pub(crate) first_basis: T,
     /// The next step chooses anew.
     pub(crate) is_stale: bool,
-    /// Within a step.
+    /// Counts within a step.
     pub(crate) counts: Counts,
-    /// Since the start.
+    /// Choices since the start.
     pub(crate) choices: u32,
 }
 
 impl<T: Real> Workspace<T> {
-    /// Scratch for `model`; `start` is a consistent state, and the rank of its constraints is the rank that stands.
+    /// Creates the scratch for `model`; `start` is a consistent state, and the rank of its constraints is the rank that stands.
     pub fn new(model: &impl Model<T>, start: &State<T>) -> Self {
         let (n, e, m) = (model.n_unknowns(), model.n_extended(), model.n_constraints());
         let zeros = |k| vec![T::ZERO; k];
@@ -114,17 +114,17 @@ impl<T: Real> Workspace<T> {
         &self.terms
     }
 
-    /// The same, to be put back.
+    /// Terms as last evaluated, to be put back.
     pub fn terms_mut(&mut self) -> &mut Terms<T> {
         &mut self.terms
     }
 
-    /// The elimination: rank, independent and dependent coordinates, rows that were dropped.
+    /// Elimination of the constraints: rank, independent and dependent coordinates, rows that were dropped.
     pub fn elimination(&self) -> &Elimination<T> {
         &self.elimination
     }
 
-    /// How often independent coordinates were chosen anew since the start.
+    /// Number of new choices of independent coordinates since the start.
     pub fn n_choices(&self) -> u32 {
         self.choices
     }

@@ -1,4 +1,4 @@
-//! How far the outputs of two runs are apart.
+//! Distance between the outputs of two runs.
 
 use crate::record::{Channel, OutputChange};
 use crate::run::Outcome;
@@ -26,7 +26,7 @@ struct Part {
     columns: Vec<usize>,
     /// The largest range of a component.
     range: f64,
-    /// What is not larger is rounding.
+    /// Largest change that is rounding.
     floor: f64,
 }
 
@@ -38,7 +38,7 @@ fn ranges<'a, T: Real>(scene: &Scene<T>, run: &'a Outcome) -> OutputRanges<'a> {
 }
 
 impl<'a> OutputRanges<'a> {
-    /// Those of a run.
+    /// Ranges of the outputs of a run.
     pub fn new<T: Real>(scene: &Scene<T>, run: &'a Outcome) -> Self {
         if T::HAS_INSTANCES {
             return found::<New<T>>(NEW)(scene, run);

@@ -1,4 +1,4 @@
-//! What the channels of a run read: measures, and reactions and effects where an output asks for them.
+//! Channels that a run reads: measures, and reactions and effects where an output asks for them.
 
 use crate::checkpoint::tape::{Tape, Walked, holds};
 use crate::simulation::Simulation;
@@ -17,12 +17,12 @@ pub struct Channels<T: Real, const D: usize> {
     forces: Option<Forces<T, D>>,
     /// The coordinates that the first state knows with their turns.
     remembered: Vec<RememberedAngle<T>>,
-    /// What has a reaction, an effort or a force that is an output and was not unique at some row: joints, then couplings, then rollings.
+    /// Joints, then couplings, then rollings whose reaction, effort or force is an output and was not unique at some row.
     not_unique: Vec<usize>,
     asked: Vec<usize>,
     /// Number of joints, and of joints and couplings.
     ends: [usize; 2],
-    /// Where the components of each output end.
+    /// Ends of the components of each output.
     outputs: Vec<usize>,
     write_at: Write<T, D>,
     track: Track<T, D>,
@@ -36,7 +36,7 @@ type Write<T, const D: usize> =
 instances!(NEW: New<T, D> = Channels::<T, D>::new_here);
 
 impl<T: Real, const D: usize> Channels<T, D> {
-    /// Those of a scene.
+    /// Creates the channels of a scene.
     ///
     /// # Errors
     /// [`StopError`] for an output that cannot be measured.

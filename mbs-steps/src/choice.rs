@@ -36,7 +36,7 @@ mbs_core::named! {
 }
 
 impl IntegratorKind {
-    /// Explicit?
+    /// Is the integrator explicit?
     #[must_use]
     pub fn is_explicit(self) -> bool {
         matches!(self, Self::Rk4 | Self::Rk54 | Self::Rk853 | Self::Extrapolation)
@@ -77,13 +77,13 @@ fn ratio<T: Real>(over: u16, under: u16) -> T {
 }
 
 mbs_core::named! {
-    /// What chooses the length of the steps.
+    /// Rule that chooses the length of the steps.
     pub enum StepRule {
         /// Nothing: all steps are as long as asked for.
         Fixed = "fixed",
         /// The change of the energy invariant.
         Energy = "energy",
-        /// The same as publication 2 prints it: the step changes only where the change crosses a limit.
+        /// Change of the energy invariant, as publication 2 prints it: the step changes only where the change crosses a limit.
         EnergyPrinted = "energy-printed",
         /// An estimate of the local error.
         Error = "error",

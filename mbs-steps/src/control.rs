@@ -22,7 +22,7 @@ pub struct Control<T: Real, const D: usize> {
     driver: Driver<T>,
     estimate: Option<LocalError<T>>,
     events: Option<Events<T, D>>,
-    /// In natural coordinates: a tree has its turns.
+    /// Angles of the joints in natural coordinates: a tree has its turns.
     turns: Option<Turns<T, D>>,
     saved: State<T>,
     /// The law in code by which trials failed last, and when [s].
@@ -34,7 +34,7 @@ pub struct Control<T: Real, const D: usize> {
 }
 
 impl<T: Real, const D: usize> Control<T, D> {
-    /// As the settings say; nothing for steps of fixed length.
+    /// Creates the control that the settings ask for; nothing for steps of fixed length.
     ///
     /// # Errors
     /// [`ModelError`] as for the model.

@@ -28,7 +28,7 @@ impl<T: Real, const D: usize> StepObserver<T, D> for Listener<'_> {
     }
 }
 
-/// A run.
+/// Run of a scene: a listener to the time of each step, and the settings.
 #[allow(
     missing_debug_implementations,
     reason = "it holds what has none, and is made and used in one call"

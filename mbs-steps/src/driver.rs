@@ -58,7 +58,7 @@ const MAX_SLIVER: f64 = 1e-5;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub trait StepObserver<T: Real, const D: usize> {
-    /// Before a step: its inputs may be set. Where lengths are controlled, a rejected trial is repeated with the same inputs.
+    /// Prepares a step, whose inputs may be set. Where lengths are controlled, a rejected trial is repeated with the same inputs.
     ///
     /// # Errors
     /// What stops the run.
@@ -135,7 +135,7 @@ impl<T: Real, const D: usize, A: StepObserver<T, D>> StepObserver<T, D>
 pub struct StepInputs<'a, T: Real, const D: usize>(&'a mut Simulation<T, D>);
 
 impl<T: Real, const D: usize> StepInputs<'_, T, D> {
-    /// As [`Simulation::set_input`].
+    /// Sets the input of an effect, as [`Simulation::set_input`] does.
     ///
     /// # Errors
     /// [`InputError`] where there is no such input, or a component is not finite.
@@ -143,7 +143,7 @@ impl<T: Real, const D: usize> StepInputs<'_, T, D> {
         self.0.set_input(effect, value)
     }
 
-    /// As [`Simulation::set_guide`].
+    /// Sets the motion of a guide, as [`Simulation::set_guide`] does.
     ///
     /// # Errors
     /// [`InputError`] where there is no such input, or a component is not finite.
@@ -151,7 +151,7 @@ impl<T: Real, const D: usize> StepInputs<'_, T, D> {
         self.0.set_guide(guide, motion)
     }
 
-    /// As [`Simulation::set_signal`].
+    /// Sets the value of a signal, as [`Simulation::set_signal`] does.
     ///
     /// # Errors
     /// [`InputError`] where there is no such input, or the value is not finite.
@@ -173,7 +173,7 @@ pub fn continue_if(yes: bool) -> ControlFlow<()> {
     if yes { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
 }
 
-/// What the loop steps: a simulation, or several in turn of which one is shown.
+/// System that the loop steps: a simulation, or several in turn of which one is shown.
 pub trait Plant<T: Real, const D: usize> {
     /// The simulation that steps.
     fn stepped(&mut self) -> &mut Simulation<T, D>;
@@ -186,7 +186,7 @@ pub trait Plant<T: Real, const D: usize> {
         self.stepped().advance(rest)
     }
 
-    /// Sets the clock.
+    /// Sets the time of the simulation [s].
     fn set_time(&mut self, t: T) {
         self.stepped().set_time(t);
     }
@@ -205,7 +205,7 @@ impl<T: Real, const D: usize> Plant<T, D> for Simulation<T, D> {
 /// Simulated time up to an instant at which a step has to end.
 #[derive(Debug, Clone, Copy)]
 pub struct Stretch<T> {
-    /// Its end [s].
+    /// End of the stretch [s].
     pub to: T,
     /// Steps of fixed length; else as many as their control makes.
     pub fixed: Option<Fixed<T>>,
@@ -216,11 +216,11 @@ pub struct Stretch<T> {
 /// Steps of fixed length.
 #[derive(Debug, Clone, Copy)]
 pub struct Fixed<T> {
-    /// Number of steps.
+    /// Number of the steps.
     pub n: u64,
     /// Time before the first, in the digits of the run and in `f64` [s].
     pub from: (T, f64),
-    /// Their length [s].
+    /// Length of a step, in the digits of the run and in `f64` [s].
     pub dt: (T, f64),
 }
 
@@ -316,7 +316,7 @@ fn drive_here<T: Real, const D: usize>(
     drive(simulation, stretches, interrupt, observer)
 }
 
-/// What is left of a stretch of this length up to `to` [s] that is no step: it is near the rounding of the time.
+/// Largest remainder of a stretch of this length up to `to` [s] that is no step: it is near the rounding of the time.
 fn remainder<T: Real>(to: T, length: T) -> T {
     (to * T::EPSILON * T::from_f64(ROUNDINGS)).min(length * T::from_f64(MAX_SLIVER))
 }

@@ -18,7 +18,7 @@ pub struct Alarm {
 }
 
 impl Alarm {
-    /// Of a limit, as a fraction of the exchanged energy.
+    /// Makes an alarm with a limit, as a fraction of the exchanged energy.
     pub fn new(share: f64) -> Self {
         Self { share, off: 0 }
     }
@@ -37,7 +37,7 @@ impl Alarm {
         self.rings_for(simulation, is_last, None)
     }
 
-    /// The same, with another reason for which steps in a row may be off.
+    /// Rings as [`rings`](Self::rings) does, with another reason for which steps in a row may be off.
     pub fn rings_for<T: Real, const D: usize>(
         &mut self,
         simulation: &Simulation<T, D>,

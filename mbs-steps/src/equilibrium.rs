@@ -21,19 +21,19 @@ pub fn workspace<T: Real, const D: usize>(
 }
 
 mbs_core::named! {
-    /// How an equilibrium is sought.
+    /// Search for an equilibrium.
     #[derive(Default)]
     pub enum Search {
         /// Down from the start, to one that is stable.
         #[default]
         Down = "down",
-        /// By Newton's method from the start, to the one nearby, stable or not.
+        /// Newton's method from the start, to the equilibrium nearby, stable or not.
         Near = "near",
     }
 }
 
 impl Search {
-    /// How a scene with this start seeks its equilibrium; nothing where it starts from its initial conditions.
+    /// Returns the search for the equilibrium of a scene with this start; nothing where it starts from its initial conditions.
     #[must_use]
     pub fn of_start(start: Start) -> Option<Self> {
         match start {

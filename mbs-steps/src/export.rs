@@ -25,10 +25,10 @@ pub struct Exported {
     pub bytes: Vec<u8>,
 }
 
-/// Why a scene has no tables.
+/// Reason why a scene has no tables.
 #[derive(Debug)]
 pub enum ExportError {
-    /// It does not start.
+    /// The scene does not start.
     Stop(StopError),
     /// An effect of this name is code, which no table has.
     Effect(String),

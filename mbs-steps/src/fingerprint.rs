@@ -7,23 +7,23 @@ const BASIS: u64 = 0xcbf2_9ce4_8422_2325;
 /// The factor of a byte: FNV-1a's prime of 64 bits.
 const PRIME: u64 = 0x0100_0000_01b3;
 
-/// What was written so far, as a number.
+/// Hash of what was written so far, as a number.
 #[derive(Debug, Clone, Copy)]
 pub struct Fingerprint(u64);
 
 impl Fingerprint {
-    /// Of nothing.
+    /// Returns the fingerprint of nothing.
     pub(crate) fn new() -> Self {
         Self(BASIS)
     }
 
-    /// More bytes.
+    /// Adds bytes to the fingerprint.
     pub fn add(&mut self, bytes: &[u8]) {
         let step = |hash: u64, &byte: &u8| (hash ^ u64::from(byte)).wrapping_mul(PRIME);
         self.0 = bytes.iter().fold(self.0, step);
     }
 
-    /// The number.
+    /// Returns the fingerprint as a number.
     pub fn get(self) -> u64 {
         self.0
     }
@@ -36,7 +36,7 @@ impl fmt::Write for Fingerprint {
     }
 }
 
-/// Of some bytes.
+/// Returns the fingerprint of some bytes.
 pub fn fingerprint(bytes: &[u8]) -> u64 {
     let mut all = Fingerprint::new();
     all.add(bytes);

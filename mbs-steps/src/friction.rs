@@ -81,7 +81,7 @@ pub struct Frictions<T: Real, const D: usize> {
 }
 
 impl<T: Real, const D: usize> Frictions<T, D> {
-    /// Those of a scene; none where the method of the settings follows them.
+    /// Finds the frictions of a scene; none where the method of the settings follows them.
     pub fn new(scene: &Scene<T>, settings: &ResolvedMethod, model: &NaturalModel<T, D>) -> Self {
         let is_explicit = settings.integrator == IntegratorKind::Rk4;
         let friction = |(effect, e): (usize, &Effect<T>)| {

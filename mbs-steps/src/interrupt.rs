@@ -1,4 +1,4 @@
-//! How a run is asked to end from outside: a flag that it looks at between its steps.
+//! Request from outside to end a run: a flag that it looks at between its steps.
 
 use core::fmt::{self, Debug, Formatter};
 use core::sync::atomic::{AtomicBool, Ordering};
@@ -11,7 +11,7 @@ use std::sync::Arc;
 pub struct Interrupt(Option<Arc<AtomicBool>>);
 
 impl Interrupt {
-    /// Of a flag that somebody else sets: a signal handler, say.
+    /// Makes an interrupt of a flag that somebody else sets: a signal handler, say.
     #[must_use]
     pub fn new(flag: Arc<AtomicBool>) -> Self {
         Self(Some(flag))

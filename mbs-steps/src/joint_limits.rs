@@ -67,7 +67,7 @@ impl Watched {
         tape.floats(&mut self.most)
     }
 
-    /// What is said about it.
+    /// Notes on the limits that the joint has left.
     fn notes<T>(&self, scene: &Scene<T>) -> impl Iterator<Item = String> {
         let joint = &scene.joints[self.joint];
         let unit = joint.kind.single(scene.dimension).map_or("", |freedom| freedom.unit());
@@ -112,7 +112,7 @@ impl<T: Real, const D: usize> LimitWatch<T, D> {
         Ok(Self { all, measures: Some(measures), values })
     }
 
-    /// Takes a state: that of the start, and that at the end of each step.
+    /// Watches a state of the run: that of the start, and that at the end of each step.
     ///
     /// Cost: value and rate of each of the joints; no allocation.
     pub fn watch(&mut self, simulation: &Simulation<T, D>) {
@@ -137,7 +137,7 @@ impl<T: Real, const D: usize> LimitWatch<T, D> {
         self.all.iter_mut().try_for_each(|watched| watched.walk(tape))
     }
 
-    /// What a run notes: each limit once, with its first time and its largest excess.
+    /// Notes of a run: each limit once, with its first time and its largest excess.
     pub fn notes(&self, scene: &Scene<T>) -> Vec<String> {
         self.all.iter().flat_map(|watched| watched.notes(scene)).collect()
     }

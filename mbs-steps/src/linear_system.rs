@@ -6,8 +6,9 @@
 //! A = R S^-1,   B = W - A T,   C = P S^-1,   D = Q - C T
 //! ```
 //!
-//! w are coordinates, their rates and the states of signals: x but for rotations, whose rates are angular velocities. S, T, R, W, P and Q are differences of what is measured at states
-//! next to it (`mbs_linear::linearise_ports`). T is not zero where a guide is an input: the joints that it moves are states as well.
+//! w are coordinates, their rates and the states of signals: x but for rotations, whose rates are angular velocities. S, T, R, W,
+//! P and Q are differences of what is measured at states next to it (`mbs_linear::linearise_ports`). T is not zero where a
+//! guide is an input: the joints that it moves are states as well.
 
 mod about;
 mod coordinates;
@@ -37,9 +38,9 @@ use names::{InputPlaces, OutputColumns};
 /// About which state a mechanism is linearised.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct LinearizeOptions {
-    /// The state. Default: the static equilibrium near the start.
+    /// State about which the mechanism is linearised. Default: the static equilibrium near the start.
     pub place: Place,
-    /// How the equilibrium is sought. Default: downhill, to a stable one.
+    /// Search for the equilibrium. Default: downhill, to a stable one.
     pub search: Search,
 }
 
@@ -80,7 +81,7 @@ impl LinearSystem {
         asked.about(scene, options)?.or_not_steady(scene)
     }
 
-    /// As [`steady`](Self::steady), about a state whose bodies move as `motions` say, which meet the constraints.
+    /// Linearises as [`steady`](Self::steady) does, about a state whose bodies move as `motions` say, which meet the constraints.
     ///
     /// # Errors
     /// As for [`linearize_at`](crate::linearize_at); `not-steady` where the state is neither a rest nor a steady motion.
@@ -91,8 +92,8 @@ impl LinearSystem {
         Asked::alone(None, Axes::Turning).at(scene, motions)?.or_not_steady(scene)
     }
 
-    /// As [`steady`](Self::steady), of any state: about one that is no steady motion the matrices of the instant, in axes that stand, with
-    /// [`unsteady`](Self::unsteady) saying why.
+    /// Linearises as [`steady`](Self::steady) does, about any state. About one that is no steady motion the matrices are those of the instant, in
+    /// axes that stand, with [`unsteady`](Self::unsteady) saying why.
     ///
     /// # Errors
     /// As for [`linearize`](crate::linearize).
@@ -100,7 +101,7 @@ impl LinearSystem {
         Asked::alone(Some(options.place), Axes::TurningOrStanding).about(scene, options)
     }
 
-    /// As [`frozen`](Self::frozen), about a state whose bodies move as `motions` say, which meet the constraints.
+    /// Linearises as [`frozen`](Self::frozen) does, about a state whose bodies move as `motions` say, which meet the constraints.
     ///
     /// # Errors
     /// As for [`linearize_at`](crate::linearize_at).
@@ -131,7 +132,7 @@ impl LinearSystem {
     }
 }
 
-/// What is asked for.
+/// Request for a linear system: place, inputs, outputs and axes.
 struct Asked<'a> {
     place: Option<Place>,
     inputs: Option<&'a [&'a str]>,
@@ -140,7 +141,7 @@ struct Asked<'a> {
 }
 
 impl Asked<'_> {
-    /// Without inputs and outputs.
+    /// Makes a request without inputs and outputs.
     const fn alone(place: Option<Place>, axes: Axes) -> Self {
         Self { place, inputs: Some(&[]), outputs: Some(&[]), axes }
     }

@@ -35,7 +35,7 @@ pub(super) fn loops_alone<T: Real>(scene: &Scene<T>, joint: usize) -> Scene<T> {
     Scene { bodies, joints, ..Scene::empty("", scene.dimension, T::ONE) }
 }
 
-/// Of each edge of a graph with `n` nodes, whether it shares cycles with one of them.
+/// Returns for each edge of a graph with `n` nodes whether it shares cycles with the given edge.
 fn together(ends: &[[usize; 2]], n: usize, edge: usize) -> Vec<bool> {
     let mut at_node = vec![Vec::new(); n];
     for (e, [a, b]) in ends.iter().enumerate() {

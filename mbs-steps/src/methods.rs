@@ -19,14 +19,14 @@ use mbs_recursive::{Closure, Planar, Spatial, StartError, Tree, TreeModel, TreeS
 use mbs_sparse::{Indefinite, Multifrontal};
 use mbs_statespace::StateSpace;
 
-/// What a formulation is called, and what it can do.
+/// Name and abilities of a formulation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Row {
-    /// Its name in scenes and on the command line.
+    /// Name of the formulation in scenes and on the command line.
     pub name: &'static str,
-    /// What it is.
+    /// Sentence that says what the formulation is.
     pub sentence: &'static str,
-    /// What a penalty means to it.
+    /// Meaning of a penalty to the formulation.
     pub penalty: PenaltyUse,
     /// Do threads share the work of its steps?
     pub threads: bool,
@@ -38,18 +38,18 @@ pub struct Row {
     pub redundant: bool,
     /// May effects be left out while it runs?
     pub switches: bool,
-    /// Its place among those that a reference is made and checked by; nothing: it serves for none.
+    /// Rank among the formulations that a reference is made and checked by; nothing: it serves for none.
     pub reference: Option<u8>,
 }
 
-/// What a penalty means to a formulation.
+/// Meaning of a penalty to a formulation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PenaltyUse {
-    /// It has none.
+    /// The formulation has no penalty.
     None,
     /// The caller may give one; a scene's is meant for others.
     OfCaller,
-    /// It is that of scenes, in this unit.
+    /// The penalty is that of scenes, in this unit.
     OfScene(&'static str),
 }
 
@@ -66,7 +66,7 @@ const ROW: Row = Row {
     reference: None,
 };
 
-/// What is asked of a formulation.
+/// Demands on a formulation: integrator, penalty, tolerance, threads and step.
 #[derive(Debug, Clone, Copy)]
 pub struct Demands<T> {
     pub integrator: IntegratorKind,
@@ -77,7 +77,7 @@ pub struct Demands<T> {
     pub step: T,
 }
 
-/// What a formulation is built from.
+/// Parts from which a formulation is built.
 #[derive(Debug)]
 pub struct Request<'a, T: Real, const D: usize> {
     pub scene: &'a Scene<T>,
@@ -85,7 +85,7 @@ pub struct Request<'a, T: Real, const D: usize> {
     pub model: &'a NaturalModel<T, D>,
     /// Analysed for the model's cliques.
     pub solver: Multifrontal<T>,
-    /// The start.
+    /// State at the start.
     pub state: &'a mut State<T>,
 }
 
@@ -106,7 +106,7 @@ macro_rules! formulations {
             /// All of them, in the order of [`FORMULATIONS`] after `auto`.
             pub const ALL: [Self; [$($name),*].len()] = [$(Self::$kind),*];
 
-            /// Its name and what it can do.
+            /// Returns the name of the formulation and what it can do.
             #[must_use]
             pub fn row(self) -> Row {
                 match self {
@@ -114,7 +114,7 @@ macro_rules! formulations {
                 }
             }
 
-            /// Builds it.
+            /// Builds the formulation for a request.
             pub fn build<T: Real, const D: usize>(self, request: Request<'_, T, D>) -> Built<T, D> {
                 match self {
                     $(Self::$kind => $build(request),)*
@@ -145,13 +145,13 @@ impl FormulationKind {
     /// The one in relative coordinates.
     pub const RELATIVE: Self = Self::Recursive;
 
-    /// Its name.
+    /// Name of the formulation in scenes and on the command line.
     #[must_use]
     pub fn name(self) -> &'static str {
         self.row().name
     }
 
-    /// That of a name.
+    /// Returns the formulation of a name.
     #[must_use]
     pub fn of_name(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|f| f.name() == name)
@@ -163,7 +163,7 @@ impl FormulationKind {
         core::iter::once(Self::DEFAULT).chain(others)
     }
 
-    /// Those that a reference is made and checked by, the best first.
+    /// Formulations that a reference is made and checked by, the best first.
     #[must_use]
     pub fn references() -> Vec<Self> {
         let mut all: Vec<Self> = Self::listed().filter(|f| f.row().reference.is_some()).collect();
@@ -322,7 +322,7 @@ pub fn tree_step<T: Real, S: Space<T>>(integrator: IntegratorKind) -> TreeStep<T
     }
 }
 
-/// Why the tree has no start, with the names' places.
+/// Returns the reason why the tree has no start, with the names' places.
 fn not_started<T: Real, S: Space<T>>(error: StartError, model: &TreeModel<T, S>) -> StopError {
     match error {
         StartError::Tree(error) => StopError::tree(error),

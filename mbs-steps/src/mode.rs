@@ -5,7 +5,7 @@ use core::f64::consts::TAU;
 /// An eigenvalue, or a pair of conjugate ones.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Mode {
-    /// Real part [1/s]: negative decays.
+    /// Real part of the eigenvalue [1/s]: negative decays.
     pub real: f64,
     /// Imaginary part [rad/s], not negative; positive stands for a pair.
     pub imaginary: f64,

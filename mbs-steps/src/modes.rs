@@ -21,15 +21,15 @@ use serde_json::{Value, json};
 pub struct Modes {
     /// Name of the scene.
     pub scene: String,
-    /// About which state.
+    /// State about which the scene is linearised.
     pub place: Place,
     /// The equilibrium, if that is the place.
     pub found: Option<Equilibrium<f64>>,
-    /// What is left out, of the equilibrium too.
+    /// Parts of the scene that are left out, of the equilibrium too.
     pub left_out: Vec<LeftOut>,
-    /// Freedoms.
+    /// Number of freedoms of the scene.
     pub dof: usize,
-    /// Why the state is no rest and no steady motion, if it is none: the eigenvalues are then those of an instant.
+    /// Reason why the state is no rest and no steady motion, if it is none: the eigenvalues are then those of an instant.
     pub unsteady: Option<Unsteady>,
     /// Largest acceleration that joints ask for because bodies turn [m/s^2].
     pub turning: f64,
@@ -51,8 +51,8 @@ impl Modes {
         }
     }
 
-    /// The same of any state: of one that is no steady motion the eigenvalues of the instant, in axes that stand. They say nothing of what
-    /// grows or decays.
+    /// Modes of any state: of one that is no steady motion the eigenvalues of the instant, in axes that stand. They say nothing of what grows or
+    /// decays.
     ///
     /// # Errors
     /// As for [`new`](Self::new), but for the last.
@@ -119,7 +119,7 @@ impl Modes {
         !self.modes.iter().any(Mode::grows)
     }
 
-    /// One JSON object.
+    /// Returns the modes as one JSON object.
     #[must_use]
     pub fn to_json(&self) -> Value {
         let mode = |m: &Mode| {

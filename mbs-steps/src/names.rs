@@ -18,7 +18,7 @@ pub struct Names {
     /// The bodies at the ends of the parts of each coupling's lines; `None`: the ground.
     parts: Vec<Vec<[Option<usize>; 2]>>,
     pub effects: Vec<String>,
-    /// The same of each effect's lines.
+    /// Bodies at the ends of the parts of each effect's lines; `None`: the ground.
     effect_parts: Vec<Vec<[Option<usize>; 2]>>,
     pub outputs: Vec<String>,
     /// First joint in the file that touches each body.
@@ -59,7 +59,7 @@ impl Names {
         }
     }
 
-    /// What happened to a part of a line, with the names of its coupling or effect and of the bodies at its ends.
+    /// Says what happened to a part of a line, with the names of its coupling or effect and of the bodies at its ends.
     pub fn part_of(&self, error: &StepError, what: &impl Display) -> Option<String> {
         let (names, parts, of, part) = match *error {
             StepError::RopeCollapsed { coupling, part } => {
@@ -117,7 +117,7 @@ fn parts_of_line<T>(points: &[(BodyId, [T; 3])]) -> Vec<[Option<usize>; 2]> {
     points.windows(2).map(|pair| [pair[0].0, pair[1].0].map(BodyId::index)).collect()
 }
 
-/// The same of the lines of an effect.
+/// Bodies at the ends of the parts of an effect's lines.
 fn parts_of_effect<T: Real>(effect: &Effect<T>) -> Vec<[Option<usize>; 2]> {
     let values = effect.kind.values();
     let found = values.iter().find_map(|value| match value {

@@ -14,7 +14,7 @@ const NOTED: f64 = 1e-6;
 /// Acceleration of all masses below whose force a row is at rest [m/s^2]: rounding of a scene without gravity.
 const AT_REST: f64 = 1e-9;
 
-/// What holds both ways.
+/// Row of constraints that holds both ways.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Row {
     /// The contact of `scene.rollings` with this number.
@@ -75,7 +75,7 @@ struct Held {
 #[derive(Debug, Clone)]
 pub struct OneWayWatch<T: Real, const D: usize> {
     all: Vec<Held>,
-    /// `None`: there are none, or more forces than reactions are made for.
+    /// Reactions of the scene; `None`: there are no rows, or more forces than reactions are made for.
     reactions: Option<Reactions<T, D>>,
     /// Force below which a row is at rest [N].
     rest: f64,
@@ -91,7 +91,7 @@ impl<T: Real, const D: usize> OneWayWatch<T, D> {
         Self { all, reactions, rest: mass * AT_REST }
     }
 
-    /// Takes a state: that of the start, and that at the end of each step.
+    /// Watches a state of the run: that of the start, and that at the end of each step.
     ///
     /// Cost: without such rows a comparison; with them all reactions. No allocation.
     pub fn watch(&mut self, simulation: &Simulation<T, D>) {
@@ -117,7 +117,7 @@ impl<T: Real, const D: usize> OneWayWatch<T, D> {
         })
     }
 
-    /// What a run notes: each row once, with the first time and its largest force the wrong way.
+    /// Notes of a run: each row once, with the first time and its largest force the wrong way.
     pub fn notes(&self, scene: &Scene<T>) -> Vec<String> {
         let note = |held: &Held| {
             let (t, most) = (significant(held.first?), few(held.most));
@@ -149,7 +149,7 @@ impl<T: Real, const D: usize> OneWayWatch<T, D> {
     }
 }
 
-/// What the follower of a cam is pushed with: a force on a slide, a moment on a turn.
+/// Unit of what the follower of a cam is pushed with: of a force on a slide, of a moment on a turn.
 fn follower_unit<T>(scene: &Scene<T>, cam: &Coupling<T>) -> &'static str {
     let follower = cam.terms.first().and_then(|term| term.of.coordinate());
     let freedom = follower

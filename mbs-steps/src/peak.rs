@@ -18,8 +18,8 @@ const ITERATIONS: usize = 8;
 /// Correction at which a turning point is found, relative to a step [-]: the value changes with its square.
 const FOUND: f64 = 1e-8;
 
-/// Where a number turns beside the third of five values, and its value there. Nothing where it does not turn, or where the neighbours do not
-/// justify more than the value of the step.
+/// Returns where a number turns beside the third of five values, and its value there. Nothing where it does not turn, or where the neighbours do
+/// not justify more than the value of the step.
 pub fn turning_point(t: [f64; 5], x: [f64; 5]) -> Option<(f64, f64)> {
     let is_least = x[2] <= x[1] && x[2] <= x[3];
     let is_largest = x[2] >= x[1] && x[2] >= x[3];

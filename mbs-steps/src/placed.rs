@@ -26,15 +26,15 @@ mbs_core::named! {
     reason = "it holds what has none, and is made and used in one call"
 )]
 pub struct PlacedScene<const D: usize> {
-    /// The scene; in an equilibrium without what only motion makes.
+    /// Scene at its place; in an equilibrium without what only motion makes.
     pub scene: Scene<f64>,
-    /// Its model, whose start is at the place.
+    /// Model of the scene, whose start is at the place.
     pub ready: AssembledScene<f64, D>,
     /// The equilibrium, if that is the place.
     pub found: Option<Equilibrium<f64>>,
-    /// What is left out; of a moving state, of the search of its equilibrium alone.
+    /// Parts of the scene that are left out; of a moving state, of the search of its equilibrium alone.
     pub left_out: Vec<LeftOut>,
-    /// What guides do there.
+    /// Motion of the guides at the place.
     pub instant: Instant,
 }
 

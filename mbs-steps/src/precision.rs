@@ -12,18 +12,18 @@ use mbs_core::scene::{Dimension, Scene};
 use mbs_scene::{ReadError, SceneFile};
 use std::borrow::Cow;
 
-/// What is done with a scene in the digits and the dimensions of its run.
+/// Work on a scene in the digits and the dimensions of its run.
 pub trait SceneWork {
-    /// What comes of it.
+    /// Result of the work.
     type Done;
 
-    /// Does it.
+    /// Does the work on a scene.
     fn done<T: Real, const D: usize>(self, scene: &Scene<T>) -> Self::Done;
 }
 
-/// What has a scene in every precision.
+/// Source of a scene in every precision.
 pub trait Source {
-    /// Why it has none in one.
+    /// Reason why the source has no scene in one of the precisions.
     type Error: From<PrecisionError>;
 
     /// The scene in the precision `T`.
@@ -45,12 +45,12 @@ impl Source for SceneFile {
 /// A scene in one precision.
 #[derive(Debug)]
 pub enum ReadScene<'a> {
-    /// Double precision.
+    /// Scene in double precision.
     F64(Box<Cow<'a, Scene<f64>>>),
-    /// Single precision.
+    /// Scene in single precision.
     #[cfg(feature = "f32")]
     F32(Box<Scene<f32>>),
-    /// Pairs of doubles.
+    /// Scene in pairs of doubles.
     #[cfg(feature = "dd")]
     DoubleDouble(Box<Scene<DoubleDouble>>),
 }
@@ -67,7 +67,7 @@ impl<'a> ReadScene<'a> {
         Self::of(document, Cow::Borrowed(scene), precision)
     }
 
-    /// The same of any source that has the scene in `f64`.
+    /// Takes the scene from any source that has it in `f64`, or reads it anew from the source in another precision.
     ///
     /// # Errors
     /// Those of the source, and a precision that is not built.
@@ -88,7 +88,7 @@ impl<'a> ReadScene<'a> {
         }
     }
 
-    /// The same for as long as one likes.
+    /// Returns the scene with its own data, for as long as one likes.
     pub fn into_owned(self) -> ReadScene<'static> {
         match self {
             Self::F64(scene) => ReadScene::F64(Box::new(Cow::Owned(scene.into_owned()))),
@@ -167,7 +167,7 @@ impl PrecisionError {
         }
     }
 
-    /// What to do about it.
+    /// Hint for the user: what to do about the error.
     #[must_use]
     pub fn hint(&self) -> String {
         match self {
@@ -177,7 +177,7 @@ impl PrecisionError {
     }
 }
 
-/// How to get a precision that was left out.
+/// Returns the hint on how to get a precision that was left out of the build.
 pub fn not_built_hint(precision: Precision) -> String {
     format!("build with the feature `{}`, which is on by default", precision.name())
 }

@@ -1,4 +1,4 @@
-//! What every way to simulate a scene begins from.
+//! Assembled scene, from which every way to simulate a scene begins.
 
 use crate::equilibrium::{Search, equilibrium_start};
 use crate::rest::without_rates;
@@ -17,11 +17,11 @@ use mbs_sparse::Multifrontal;
 /// A model, its solver, and its consistent start.
 #[derive(Debug)]
 pub struct AssembledScene<T: Real, const D: usize> {
-    /// Its model in natural coordinates.
+    /// Model in natural coordinates.
     pub model: NaturalModel<T, D>,
     /// The solver of its start.
     pub solver: Multifrontal<T>,
-    /// Its start.
+    /// Consistent start of the model.
     pub start: Assembled<T>,
     rank: Option<usize>,
     parts: Parts<T, D>,

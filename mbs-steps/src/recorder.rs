@@ -1,5 +1,4 @@
-//! What is kept of a run: rows of channels, energies, violations and counts, thinned to a bounded number; maxima over every
-//! step.
+//! Record of a run: rows of channels, energies, violations and counts, thinned to a bounded number; maxima over every step.
 
 use crate::checkpoint::tape::{Tape, Walked, holds};
 use crate::precision::is_finer;
@@ -16,7 +15,7 @@ use mbs_scene::format::full;
 /// Most rows that are kept, and one more for the end; twice as many where the number of steps is not known before. Chosen, not tuned.
 pub const MOST_ROWS: u64 = 10_000;
 
-/// What one step left behind; of several, the largest.
+/// Mark that one step leaves: time, energies, violations and counts; of several steps, the largest.
 #[derive(Debug, Clone, Default)]
 pub struct StepMark {
     pub t: f64,
@@ -41,7 +40,7 @@ pub struct Recorder {
     /// One mark for each row, and all components, row by row.
     marks: Vec<StepMark>,
     rows: Vec<f64>,
-    /// What the numbers of the rows leave of the values, where these have more digits; else nothing.
+    /// Remainders of the values beyond the numbers of the rows, where the values have more digits; else nothing.
     rests: Vec<f64>,
     n_columns: usize,
     /// Steps of which one row is kept.
@@ -55,12 +54,12 @@ pub struct Recorder {
     tallies: Tallies,
 }
 
-/// Which rows of a run stay in memory.
+/// Rows of a run that stay in memory.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RecordRows {
-    /// All: for files and pages.
+    /// All rows, for files and pages.
     All,
-    /// The last: for a row in a table of many runs.
+    /// The last row alone, for a row in a table of many runs.
     Last,
 }
 
@@ -107,7 +106,7 @@ impl Recorder {
         self.every
     }
 
-    /// Rows so far.
+    /// Number of rows so far.
     pub fn n_rows(&self) -> usize {
         self.marks.len()
     }
@@ -161,7 +160,7 @@ impl Recorder {
         self.tallies.take(t, values);
     }
 
-    /// Keeps a row; `values` are all components of all channels.
+    /// Keeps the row of a step; `values` are all components of all channels.
     pub fn keep<T: Real>(&mut self, step: &StepMark, values: &[T]) {
         // A step that was marked is among the recent ones; a start and a stop are not.
         let is_marked = self.recent.step.length > 0.0 && self.recent.t >= step.t;
@@ -227,7 +226,7 @@ impl Recorder {
         self.by_channels(self.rows[start..].iter().copied())
     }
 
-    /// The same with all digits, where there are more than those of `f64`.
+    /// Returns the last row by channels with all digits, where there are more than those of `f64`.
     pub fn last_long(&self) -> Option<Vec<(String, Vec<String>)>> {
         let row = self.long_table().last()?;
         Some(self.by_channels(row.into_iter().map(full)))
@@ -317,7 +316,7 @@ impl Recorder {
         self.steps_from(0)
     }
 
-    /// Those from a row on.
+    /// Rows that end a step, from a row on.
     fn steps_from(&self, row: usize) -> impl Iterator<Item = &StepMark> {
         let marks = self.marks.iter().skip(row);
         marks.filter(|mark| mark.step.length > 0.0)

@@ -5,14 +5,14 @@ use mbs_core::inputs::{GuideInput, SignalGraph};
 use mbs_core::scene::{BodyId, InitialTarget, Motion, Scene};
 use serde_json::{Value, json};
 
-/// What an analysis at rest leaves out of a scene.
+/// Part that an analysis at rest leaves out of a scene.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct LeftOut {
-    /// What it belongs to: `effect`, `joint` or `body`.
+    /// Kind of the owner of the part: `effect`, `joint` or `body`.
     pub of: &'static str,
-    /// Name of that.
+    /// Name of the owner.
     pub name: String,
-    /// The part of it.
+    /// Part that is left out.
     pub part: &'static str,
 }
 
@@ -45,7 +45,7 @@ pub fn without_rates<T: Real>(mut scene: Scene<T>) -> Scene<T> {
     scene
 }
 
-/// What [`at_rest`] leaves out that could act at rest, or on small motions about it: parts of effects, then rates.
+/// Parts that [`at_rest`] leaves out and that could act at rest, or on small motions about it: parts of effects, then rates.
 pub fn left_out<T: Real>(scene: &Scene<T>) -> Vec<LeftOut> {
     let mut all = effects_left_out(scene);
     let mut leave = |of, name: &String, part| {
@@ -89,7 +89,7 @@ pub fn effects_left_out<T: Real>(scene: &Scene<T>) -> Vec<LeftOut> {
     all
 }
 
-/// As it stands in JSON.
+/// Returns the parts that are left out as they stand in JSON.
 pub fn left_out_json(left_out: &[LeftOut]) -> Value {
     left_out.iter().map(|l| json!({ l.of: l.name, "part": l.part })).collect()
 }

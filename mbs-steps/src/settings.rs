@@ -1,4 +1,4 @@
-//! What is asked of a run: the scene's `[solver]` table, overridden by the command line, checked against what is built.
+//! Settings of a run: the scene's `[solver]` table, overridden by the command line, checked against what is built.
 
 pub mod length;
 mod method;
@@ -26,20 +26,20 @@ const DEFAULT_ERROR: f64 = 1e-6;
 /// Largest error of the invariant before a run stops, relative to the exchanged energy [-]. Chosen, not tuned.
 const DEFAULT_ALARM: f64 = 0.1;
 
-/// What the command line (or a caller) says; `None` leaves it to the scene.
+/// Settings that the command line (or a caller) gives; `None` leaves a setting to the scene.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Method {
-    /// Formulation.
+    /// Name of the formulation.
     pub formulation: Option<String>,
-    /// Integrator.
+    /// Name of the integrator.
     pub integrator: Option<String>,
-    /// Precision.
+    /// Name of the precision.
     pub precision: Option<String>,
-    /// Step [s].
+    /// Length of a step [s]; of a controlled length the first one.
     pub step: Option<f64>,
     /// Largest step of a controlled length [s].
     pub step_max: Option<f64>,
-    /// What chooses the length of the steps; left out, the tolerances that are given.
+    /// Name of the rule that chooses the length of the steps; left out, the tolerances that are given.
     pub step_control: Option<String>,
     /// [U, L] of the energy rule.
     pub energy_tolerance: Option<[f64; 2]>,
@@ -49,35 +49,35 @@ pub struct Method {
     pub events: Option<bool>,
     /// Share of the energy turned over that the invariant may be off by.
     pub energy_alarm: Option<f64>,
-    /// Duration [s].
+    /// Duration of the run [s].
     pub duration: Option<f64>,
     /// Fixed penalty [N/m in index-3, kg in index-1]; in classical the regularisation 1/alpha, in recursive the report's
     /// closure forces; state-space has none.
     pub penalty: Option<f64>,
     /// Tolerance of the iterations, relative to what accelerations move in a step; with error control the error of a step.
     pub tolerance: Option<f64>,
-    /// Threads.
+    /// Threads that share the work of a step.
     pub threads: Option<usize>,
-    /// What ends the run from outside.
+    /// Interrupt that ends the run from outside.
     pub interrupt: Interrupt,
 }
 
-/// Everything decided.
+/// Settings of a run, with everything decided.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ResolvedMethod {
-    /// As asked, `auto` included.
+    /// Formulation as asked for, `auto` included.
     pub asked: String,
-    /// What runs.
+    /// Formulation that the run uses.
     pub formulation: FormulationKind,
-    /// Integrator.
+    /// Integrator that the run uses.
     pub integrator: IntegratorKind,
-    /// Precision.
+    /// Precision of the run.
     pub precision: Precision,
-    /// Step [s]; with a controlled step size the first one.
+    /// Length of a step [s]; with a controlled step size the first one.
     pub step: f64,
     /// Largest step of a controlled step size [s], and the distance of recorded rows: `step` when left out.
     pub step_max: f64,
-    /// What chooses the length of the steps.
+    /// Rule that chooses the length of the steps.
     pub rule: StepRule,
     /// [U, L] of the energy rule.
     pub energy_tolerance: [f64; 2],
@@ -87,28 +87,28 @@ pub struct ResolvedMethod {
     pub events: bool,
     /// Share of the energy turned over that the invariant may be off by before the run stops.
     pub energy_alarm: f64,
-    /// Duration [s].
+    /// Duration of the run [s].
     pub duration: f64,
     /// Fixed penalty, if any.
     pub penalty: Option<f64>,
-    /// Tolerance, if any.
+    /// Tolerance of the iterations, if any.
     pub tolerance: Option<f64>,
     /// Threads that share the work of a step.
     pub threads: usize,
-    /// What a pilot measured, where one chose.
+    /// Report of a pilot, where one chose.
     pub choice: Option<Box<PilotReport>>,
-    /// What ends the run from outside.
+    /// Interrupt that ends the run from outside.
     pub interrupt: Interrupt,
 }
 
 /// The lengths of time of a run in its own precision [s].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Lengths<T> {
-    /// Step.
+    /// Length of a step.
     pub step: T,
-    /// Largest step.
+    /// Largest length of a step.
     pub step_max: T,
-    /// Duration.
+    /// Duration of the run.
     pub duration: T,
 }
 
@@ -118,11 +118,11 @@ pub struct Lengths<T> {
 pub enum SettingsError {
     /// A name that is unknown or not built yet.
     NotBuilt {
-        /// The key.
+        /// Key of the setting.
         key: &'static str,
         /// The value asked for.
         value: String,
-        /// What is built.
+        /// Names that are built.
         built: &'static [&'static str],
         /// The scene asks for it, not the command line.
         from_scene: bool,
@@ -131,16 +131,16 @@ pub enum SettingsError {
     NotInBuild(Precision),
     /// A number that must be positive and finite.
     NotPositive {
-        /// The key.
+        /// Key of the setting.
         key: &'static str,
-        /// The value.
+        /// Value of the setting.
         value: f64,
     },
     /// U and L of the energy rule, the smaller one first.
     LimitOrder([f64; 2]),
     /// Names that do not go together.
     NotTogether {
-        /// Formulation.
+        /// Formulation that does not know the option.
         formulation: FormulationKind,
         /// The option that it does not know.
         option: String,
@@ -149,16 +149,16 @@ pub enum SettingsError {
     Scene(SceneError),
     /// A step of fixed length that is longer than the run.
     StepTooLong {
-        /// Step [s].
+        /// Length of a step [s].
         step: f64,
-        /// Duration [s].
+        /// Duration of the run [s].
         duration: f64,
     },
     /// The step is so short that the run would not end.
     TooManySteps {
-        /// Step [s].
+        /// Length of a step [s].
         step: f64,
-        /// Duration [s].
+        /// Duration of the run [s].
         duration: f64,
     },
 }
@@ -176,7 +176,7 @@ impl SettingsError {
         }
     }
 
-    /// What to do about it.
+    /// Hint for the user: what to do about the error.
     #[must_use]
     pub fn hint(&self) -> String {
         match self {
@@ -394,8 +394,9 @@ fn method<T>(
     Ok((asked, formulation, integrator))
 }
 
-/// What chooses the length of the steps: what the command line names, what it gives tolerances for, what the scene names, what
-/// it gives the other tolerance for. The energy limits of a scene are meant for multi-index, which has the energy rule anyway.
+/// Rule that chooses the length of the steps. First comes what the command line names, then what it gives tolerances for; then what the
+/// scene names, and last what it gives the other tolerance for. The energy limits of a scene are meant for multi-index, which has the
+/// energy rule anyway.
 fn step_rule<T>(
     solver: &SolverTable<T>,
     overrides: &Method,

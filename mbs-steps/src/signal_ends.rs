@@ -10,18 +10,18 @@ use mbs_core::model::State;
 use mbs_core::natural::NaturalModel;
 use mbs_core::step::{Step, StepError, StepReport};
 
-/// Where steps end for signals: nowhere where these are smooth.
+/// Times at which steps end for signals: none where these are smooth.
 #[derive(Debug, Clone)]
 pub struct SignalEnds<T>(SignalTimes<T>);
 
-/// How long before a jump of a signal a step ends, and behind it the next begins, in units of rounding of the time [-]: more than that of
-/// the times of rows in the thousandth period.
+/// Distance from a jump of a signal at which a step ends before it and the next begins behind it, in units of rounding of the time [-].
+/// It is more than the rounding of the times of rows in the thousandth period.
 const BESIDE_JUMP: f64 = 32.0;
 /// Time to a jump or a corner that is no step, in the same units [-]. Chosen, not tuned.
 const NO_STEP: f64 = 96.0;
 
 impl<T: Real> SignalEnds<T> {
-    /// Those of a model.
+    /// Takes the times of a model's signals.
     pub fn new<const D: usize>(model: &NaturalModel<T, D>) -> Self {
         Self(model.prescribed().signal_times())
     }
@@ -90,7 +90,7 @@ impl<T: Real> SignalEnds<T> {
     }
 }
 
-/// How far beside it steps end and begin [s].
+/// Returns the distance from a signal's time at which steps end and begin [s]; 0 where it is no jump.
 fn beside<T: Real>(at: &SignalTime<T>) -> T {
     if at.is_jump { at.time.abs() * T::EPSILON * T::from_f64(BESIDE_JUMP) } else { T::ZERO }
 }

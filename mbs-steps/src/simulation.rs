@@ -30,12 +30,12 @@ pub struct Simulation<T: Real, const D: usize> {
     model: NaturalModel<T, D>,
     state: State<T>,
     formulation: Box<dyn Formulation<T, D>>,
-    /// What assembly did; the state in it is the start.
+    /// Result of the assembly; the state in it is the start.
     pub start: Assembled<T>,
     sizes: [usize; 3],
     initial_energy: [f64; 2],
     control: Option<Box<Control<T, D>>>,
-    /// Of methods that control their steps within those of a run.
+    /// Ends of steps at the times of signals, for methods that control their steps within those of a run.
     ends: Option<SignalEnds<T>>,
     invariant: Invariant,
     advance: Advance<T, D>,
@@ -55,7 +55,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         Self::of(scene, settings, AssembledScene::new(scene)?)
     }
 
-    /// The same of a scene that is ready.
+    /// Builds the simulation of a scene whose model is assembled.
     #[doc(hidden)]
     pub fn of(
         scene: &Scene<T>,
@@ -110,7 +110,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 }
 
 impl<T: Real, const D: usize> Simulation<T, D> {
-    /// Makes one step: of `rest` [s] where the length of steps is fixed, of at most that where it is controlled.
+    /// Makes one step of `rest` [s] where the length of steps is fixed, of at most that where it is controlled.
     ///
     /// # Errors
     /// [`StepError`]; the state is then unchanged.
@@ -135,8 +135,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         })
     }
 
-    /// That a part of a rope loses its length in a step that failed, where its motion leads there. Of a controlled step, within two of the
-    /// last one's length.
+    /// Returns the error that a part of a rope loses its length in a step that failed, where its motion leads there. Of a controlled step, within
+    /// two of the last one's length.
     fn collapsing(&self, rest: T) -> Option<StepError> {
         let State { v, a, dt, .. } = &self.state;
         let h = if *dt > T::ZERO { rest.min(T::TWO * *dt) } else { rest };
@@ -187,7 +187,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         self.formulation.index()
     }
 
-    /// Sets the clock: sums of many steps drift, multiples do not.
+    /// Sets the time of the state [s]: sums of many steps drift, multiples do not.
     pub fn set_time(&mut self, t: T) {
         self.state.t = t;
         self.formulation.set_time(t);
@@ -234,7 +234,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         self.formulation.terms().is_none()
     }
 
-    /// The natural-coordinate model: outputs are measured in it.
+    /// Model in natural coordinates: outputs are measured in it.
     pub fn model(&self) -> &NaturalModel<T, D> {
         &self.model
     }
@@ -244,7 +244,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         &self.state
     }
 
-    /// The formulation; its options are changed in its own type.
+    /// Formulation of the simulation; its options are changed in its own type.
     pub fn formulation_mut(&mut self) -> &mut dyn Formulation<T, D> {
         &mut *self.formulation
     }
@@ -297,14 +297,14 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         energies_at(&*self.formulation, &self.model, &self.state)
     }
 
-    /// The same, taken anew: what watching the invariant costs in each step.
+    /// Kinetic energy, potential energy and work since the start [J], taken anew: what watching the invariant costs in each step.
     #[doc(hidden)]
     pub fn watched_energies(&mut self) -> [f64; 3] {
         self.formulation.watch();
         self.formulation.energies(&self.model, &self.state)
     }
 
-    /// The same at the start.
+    /// Kinetic energy, potential energy and work at the start [J].
     pub fn initial_energies(&self) -> [f64; 3] {
         [self.initial_energy[0], self.initial_energy[1], 0.0]
     }
@@ -325,7 +325,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         StopError::step(error, unknown, |row| self.formulation.owner_of_row(&self.model, row))
     }
 
-    /// Whose constraint carries the largest force; where no multipliers are known, whose coordinate accelerates most.
+    /// Returns the owner of the constraint with the largest force; where no multipliers are known, of the coordinate that accelerates most.
     pub fn most_loaded(&self) -> Owner {
         let is_known = self.state.reaction.iter().any(|&x| x != T::ZERO);
         if is_known {

@@ -16,10 +16,10 @@ use mbs_core::scene::{Dimension, Joint, JointId, Output, Quantity, Scene};
 use mbs_linear::{Equilibrium, Instant, LinearOptions, linearise};
 use serde_json::{Map, Value, json};
 
-/// How far bodies are from where they started: a way or a turn at most, and which body's it is.
+/// Largest way or turn of bodies from where they started, and which body's it is.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Moved {
-    /// Of a centre of mass [m], or about any axis, from 0 to pi [rad].
+    /// Way of a centre of mass [m], or turn about any axis, from 0 to pi [rad].
     pub size: f64,
     /// Name of the body.
     pub body: String,
@@ -32,13 +32,13 @@ pub struct StaticEquilibrium {
     pub scene: String,
     /// Coordinates, constraints, their rank.
     pub sizes: [usize; 3],
-    /// How it was searched.
+    /// Search that was used.
     pub search: Search,
-    /// What the search found.
+    /// Equilibrium that the search found.
     pub found: Equilibrium<f64>,
-    /// How far centres of mass went from the start, and how far bodies turned; without bodies nothing.
+    /// Largest way of centres of mass from the start, and largest turn of bodies; without bodies nothing.
     pub moved: Option<[Moved; 2]>,
-    /// What is left out.
+    /// Parts of the scene that are left out.
     pub left_out: Vec<LeftOut>,
     /// Modes that grow, by the eigenvalues of the equations of motion; `None` where they cannot be linearised.
     pub unstable: Option<usize>,
@@ -48,11 +48,11 @@ pub struct StaticEquilibrium {
     pub potential: f64,
     /// Joint coordinates [rad or m].
     pub joints: Vec<(Channel, Vec<f64>)>,
-    /// What the first body of each joint does to the second; empty where the loops are too large for reactions.
+    /// Reactions of the joints: what the first body does to the second; empty where the loops are too large for reactions.
     pub reactions: Vec<(Channel, Vec<f64>)>,
     /// Joints whose reaction is not unique: the smallest is given.
     pub not_unique: Vec<String>,
-    /// The scene's outputs.
+    /// Values of the scene's outputs.
     pub outputs: Vec<(Channel, Vec<f64>)>,
 }
 
@@ -112,7 +112,7 @@ impl StaticEquilibrium {
         })
     }
 
-    /// One JSON object.
+    /// Returns the equilibrium as one JSON object.
     #[must_use]
     pub fn to_json(&self) -> Value {
         let found = &self.found;

@@ -1,4 +1,4 @@
-//! Why a run stopped, in words and with names.
+//! Reason why a run stopped, in words and with names.
 
 mod code;
 mod gap;
@@ -27,16 +27,16 @@ use mbs_recursive::TreeError;
 /// The code of what was interrupted.
 pub const INTERRUPTED: &str = "interrupted";
 
-/// What to do about a body whose motion no inertia resists.
+/// Hint on a body whose motion no inertia resists.
 const NO_INERTIA: &str = "give the body mass and inertia; write a point mass as `point`, weld a point mass to what carries it, or give it any small \
                           inertia; a node between springs needs mass (a step h carries it from m = 4 k h^2 on), or one rope through it; or remove the \
                           freedom that nothing determines";
 
-/// Why a run stopped early.
+/// Reason why a run stopped early.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum StopError {
-    /// No consistent start.
+    /// The scene has no consistent start.
     Start(AssemblyError),
     /// Constraints that depend on each other but for a small tilt of an axis.
     AlmostDependent(AlmostDependent),
@@ -64,19 +64,19 @@ pub enum StopError {
     Observer {
         /// Code of its error.
         code: &'static str,
-        /// What it says.
+        /// Message of the error.
         message: Box<str>,
-        /// What to try; empty where it does not say.
+        /// Hint what to try; empty where the error gives none.
         hint: Box<str>,
     },
     /// An output whose value is not finite.
     Output {
-        /// Its number in the scene.
+        /// Number of the output in the scene.
         output: usize,
     },
     /// Friction that the steps of an explicit method pass over.
     Friction {
-        /// The effect.
+        /// Number of the effect in the scene.
         effect: usize,
         /// Rate below which it falls [rad/s or m/s].
         regularisation: f64,
@@ -91,7 +91,7 @@ pub enum StopError {
         turned_over: f64,
         /// Share of it that was allowed [-].
         share: f64,
-        /// Whose constraint carries the largest force, or whose coordinate accelerates most.
+        /// Owner of the constraint that carries the largest force, or of the coordinate that accelerates most.
         owner: Owner,
     },
 }
@@ -107,7 +107,7 @@ impl StopError {
         Self::Step(error, owner)
     }
 
-    /// That a user-defined law or relation failed, where one did; else this.
+    /// Returns the failure of a user-defined law or relation, where one failed; else this error.
     pub fn or_law(self, codes: &Codes) -> Self {
         codes.failed().map_or(self, |failed| Self::Step(failed.into(), None))
     }
@@ -183,7 +183,7 @@ impl StopError {
         })
     }
 
-    /// What to try.
+    /// Hint for the user: what to try.
     #[must_use]
     #[allow(clippy::too_many_lines, reason = "one line or two for each error")]
     pub fn hint(&self) -> &'static str {
@@ -277,7 +277,7 @@ impl StopError {
         }
     }
 
-    /// What the error is about.
+    /// Part of the scene that the error is about.
     pub fn owner(&self) -> Option<Owner> {
         match self {
             Self::Start(error) => start_owner(error),
@@ -297,7 +297,7 @@ impl StopError {
         }
     }
 
-    /// As it stands in JSON.
+    /// Returns the error as it stands in JSON.
     #[must_use]
     pub fn report(&self, time: f64, names: &Names) -> RunError {
         let owner = self.owner();

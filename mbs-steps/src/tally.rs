@@ -12,7 +12,7 @@ use crate::record::{Channel, ComponentStatistics, Statistics, measured};
 use core::ops::Range;
 use mbs_core::Real;
 
-/// What is gathered of one number.
+/// Statistics of one number, as they are gathered.
 #[derive(Debug, Clone, Copy)]
 struct Tally {
     min: f64,
@@ -60,9 +60,9 @@ impl Tally {
 /// Statistics of all numbers of a run.
 #[derive(Debug)]
 pub struct Tallies {
-    /// Of each number, the columns that it is made of: one, or those of a vector whose magnitude it is.
+    /// Columns of which each number is made: one, or those of a vector whose magnitude it is.
     columns: Vec<Range<usize>>,
-    /// Those of them that are magnitudes.
+    /// Whether each number is a magnitude.
     is_magnitude: Vec<bool>,
     tallies: Vec<Tally>,
     /// First and last time [s]; nothing before the first values.
@@ -73,7 +73,7 @@ pub struct Tallies {
 }
 
 impl Tallies {
-    /// For these channels.
+    /// Creates the statistics for these channels.
     pub fn new(channels: &[Channel]) -> Self {
         let (mut columns, mut is_magnitude, mut first) = (Vec::new(), Vec::new(), 0);
         for channel in channels {

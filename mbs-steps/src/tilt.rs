@@ -16,7 +16,7 @@ use std::borrow::Cow;
 pub struct AlmostDependent {
     /// The joint, and the one whose axis its own is meant to be parallel to, or across.
     pub joints: [usize; 2],
-    /// By how much it is off [rad].
+    /// Angle by which the axis is off [rad].
     pub angle: f64,
     /// The unit axis that mends it.
     pub axis: [f64; 3],
@@ -40,8 +40,7 @@ impl core::fmt::Display for AlmostDependent {
     }
 }
 
-/// What is said of the axes that are off by a little: those that are taken as parallel, or as across each other, and one whose tilt takes
-/// freedoms.
+/// Notes on the axes that are off by a little: those that are taken as parallel, or as across each other, and one whose tilt takes freedoms.
 pub fn notes<T: Real>(scene: &Scene<T>) -> Vec<(usize, String)> {
     if T::HAS_INSTANCES {
         return found::<Notes<T>>(NOTES)(scene);
@@ -109,7 +108,7 @@ fn binding<T: Real, const D: usize>(
     Some(one.unwrap_or((*first, all)))
 }
 
-/// What is said of a tilt that takes freedoms: whether it is taken as it is.
+/// Note on a tilt that takes freedoms: whether it is taken as it is.
 fn binding_note<T: Real>(scene: &Scene<T>) -> Option<(usize, String)> {
     if scene.dimension != Dimension::Spatial {
         return None;

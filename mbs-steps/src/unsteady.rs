@@ -1,19 +1,19 @@
-//! Why a motion is not steady, in words and numbers.
+//! Reason why a motion is not steady, in words and numbers.
 
 use mbs_scene::format::few;
 use serde_json::{Value, json};
 
-/// Why a motion is not steady.
+/// Reason why a motion is not steady.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum Unsteady {
     /// A state accelerates in the axes that turn with the motion.
     Accelerates {
-        /// Its name.
+        /// Name of the state.
         state: String,
-        /// By how much [rad/s^2 or m/s^2].
+        /// Acceleration of the state [rad/s^2 or m/s^2].
         by: f64,
-        /// Unit of that.
+        /// Unit of the acceleration.
         unit: &'static str,
     },
     /// The linear equations change along the motion.
@@ -26,7 +26,7 @@ pub enum Unsteady {
 }
 
 impl Unsteady {
-    /// One JSON object.
+    /// Returns the reason as one JSON object.
     #[must_use]
     pub fn to_json(&self) -> Value {
         let (state, by, unit) = match self {

@@ -1,4 +1,4 @@
-//! What is said about a run: rows of a summary, notes, and when and why it stopped.
+//! Words about a run: rows of a summary, notes, and when and why it stopped.
 
 pub use mbs_scene::format::{duration, few, size};
 
@@ -64,7 +64,7 @@ pub fn estimate(e: &ErrorEstimate) -> Vec<(&'static str, String)> {
     rows
 }
 
-/// Two digits: an estimate has no more.
+/// Writes a number with two digits: an estimate has no more.
 fn small(x: f64) -> String {
     if x == 0.0 { "0".to_owned() } else { format!("{x:.1e}") }
 }
@@ -74,7 +74,7 @@ fn method(m: &MethodUsed) -> String {
     [m.formulation.as_str(), &m.integrator].join(" ").trim_end().to_owned()
 }
 
-/// How many steps there were, and how long they were.
+/// Describes the number of steps and their lengths.
 #[must_use]
 pub fn steps(m: &MethodUsed) -> String {
     let count = counted(usize::try_from(m.steps).unwrap_or(usize::MAX), "step");
@@ -96,7 +96,7 @@ pub fn drift(s: &RunSummary) -> String {
     format!("{} W, {} J", size(s.energy.drift), size(s.energy.scatter))
 }
 
-/// What the control of the step size did, for a table.
+/// Says what the control of the step size did, for a table.
 #[must_use]
 pub fn control(c: &ControlSummary) -> String {
     let rule = match c.rule {
@@ -170,7 +170,7 @@ pub fn few_threads(asked: usize, used: usize) -> Option<String> {
         .then(|| format!("{used} {are}, not {asked}: more have no work here, or no processor"))
 }
 
-/// What is unusual about a scene, said once.
+/// Notes on what is unusual about a scene, each said once.
 pub fn notes<T: Real>(
     scene: &Scene<T>,
     settings: &ResolvedMethod,
@@ -295,7 +295,7 @@ fn in_f64<T: Real>(x: [T; 3]) -> [f64; 3] {
     x.map(Real::to_f64)
 }
 
-/// Of a joint whose reaction the motion does not determine.
+/// Returns the note on a joint whose reaction the motion does not determine.
 #[must_use]
 pub fn not_unique(joint: &str) -> String {
     format!("the reaction of joint `{joint}` is not unique: the smallest one is given")

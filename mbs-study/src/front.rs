@@ -9,7 +9,7 @@ use mbs_scene::SceneFile;
 use std::io;
 use std::path::Path;
 
-/// What every formulation, integrator and step costs and gives on a mechanism, against a reference that is not under test.
+/// Compares every formulation, integrator and step on a mechanism by cost and error, against a reference that is not under test.
 ///
 /// Cost: many runs. Empty lists of the options mean all there are; short lists and a short duration make it quick. The reference needs the
 /// feature `dd`, and an empty list of precisions `f32` too; both are on by default.
@@ -80,7 +80,7 @@ impl Sweep {
         Self { text, method: Method::default(), threads: None, not_finite: None }
     }
 
-    /// That of a file, as `mbs sweep` reads it.
+    /// Reads the sweep of a file, as `mbs sweep` reads it.
     ///
     /// # Errors
     /// Where it cannot be read. What it says is checked by [`sweep`].
@@ -122,7 +122,7 @@ impl Sweep {
     }
 }
 
-/// What the runs of a sweep gave, in the order of its members.
+/// Results of the runs of a sweep, in the order of its members.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SweepResult {
     columns: Columns,
@@ -153,13 +153,13 @@ impl SweepResult {
         })
     }
 
-    /// Number of runs.
+    /// Returns the number of runs.
     #[must_use]
     pub fn len(&self) -> usize {
         self.rows.len()
     }
 
-    /// Without runs?
+    /// Is the result without runs?
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.rows.is_empty()

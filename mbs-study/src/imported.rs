@@ -1,16 +1,16 @@
-//! What became of the elements of a model, and whether its scene has a start.
+//! Elements of an imported model and what became of them, and whether its scene has a start.
 
 use crate::doctor::{Effort, Finding, Severity, examine};
 use mbs::models::{FindingKind, Imported, ModelFinding, ModelSizes};
 use mbs::{Method, Precision, ResolvedMethod, SimulationError};
 use serde_json::{Value, json};
 
-/// What the doctor calls a fault of the start, with its line of the scene.
+/// Fault of the start as the doctor calls it, with its line of the scene.
 #[derive(Debug, Clone)]
 pub struct StartFault {
-    /// What the doctor says.
+    /// Finding of the doctor.
     pub finding: Finding,
-    /// Its line of the scene, where it has one.
+    /// Line of the finding in the scene, where it has one.
     pub line: Option<usize>,
 }
 
@@ -49,7 +49,7 @@ pub fn start_faults(
     Ok(Some(found.collect()))
 }
 
-/// How many findings are of a kind.
+/// Returns the number of findings of a kind.
 #[must_use]
 pub fn count(model: &Imported, kind: FindingKind) -> usize {
     model.findings.iter().filter(|finding| finding.kind == kind).count()

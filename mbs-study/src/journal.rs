@@ -1,4 +1,4 @@
-//! A journal: a head line, then one line for each finished job in the order of completion.
+//! Journal: a head line, then one line for each finished job in the order of completion.
 //!
 //! A line counts once its line end is written. What a kill left of a line is cut off, and its job runs again.
 
@@ -8,20 +8,20 @@ use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::Path;
 
-/// What a journal is of.
+/// Kind of a journal: its file, and what it is of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Kind {
     /// Name of the file.
     pub file: &'static str,
     /// First word of its head.
     pub title: &'static str,
-    /// What it has the results of, with its article.
+    /// Names, with their articles, of what it has the results of, and of another such thing.
     pub of: [&'static str; 2],
-    /// What the hashes of its head are of, in order.
+    /// Names of what the hashes of its head are of, in order.
     pub hashes: &'static [&'static str],
 }
 
-/// What a journal belongs to: version, and hashes of what its results depend on.
+/// Head of a journal, which says what it belongs to: version, and hashes of what its results depend on.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Head {
     kind: Kind,
@@ -38,20 +38,20 @@ pub struct Journal {
 #[derive(Debug)]
 #[non_exhaustive]
 pub enum JournalError {
-    /// It has the results of another sweep, say, as the first text calls it; the second says what has changed.
+    /// Journal of other results, of another sweep, say, as the first text calls it; the second says what has changed.
     Other([&'static str; 2]),
     /// The file of the first name is no journal of what the second says.
     NotAJournal(String, &'static str),
-    /// Another process is writing it; of what it is.
+    /// Journal that another process is writing, with the name of what it has the results of.
     Busy(&'static str),
-    /// What it is of was interrupted: it has what was finished before.
+    /// Journal of what was interrupted: it has what was finished before.
     Interrupted,
-    /// It cannot be read or written.
+    /// Journal that cannot be read or written.
     Io(io::Error),
 }
 
 impl Head {
-    /// Of results that depend on these texts.
+    /// Makes the head of results that depend on these texts.
     pub fn new(kind: Kind, texts: &[&str]) -> Self {
         let mut cells = vec![kind.title.to_owned(), env!("CARGO_PKG_VERSION").to_owned()];
         cells.extend(texts.iter().map(|text| hash(text)));
@@ -100,7 +100,7 @@ impl Head {
 /// The whole lines of a journal.
 struct Lines {
     cells: Vec<Vec<String>>,
-    /// Where they end.
+    /// Byte at which the whole lines end.
     bytes: usize,
 }
 
@@ -123,7 +123,7 @@ impl Journal {
         Self::open_as((out, head.kind.file), head, anew)
     }
 
-    /// The same of a journal with another name.
+    /// Opens the journal as [`Self::open`] does, with another name.
     pub(crate) fn open_as(
         (out, name): (&Path, &str),
         head: &Head,
@@ -175,7 +175,7 @@ pub(crate) fn hash(text: &str) -> String {
 }
 
 impl JournalError {
-    /// What to do about it.
+    /// Returns a hint at what to do about the error.
     #[must_use]
     pub fn hint(&self) -> &'static str {
         match self {

@@ -1,4 +1,4 @@
-//! What runs where a run stopped: other formulations, integrators and steps are tried, and the first that gets to the end is named.
+//! Remedy where a run stopped: other formulations, integrators and steps are tried, and the first that gets to the end is named.
 //!
 //! A trial may take so many iterations and steps, by their nominal times, and no clock is asked: every machine names the same.
 
@@ -17,7 +17,7 @@ const A_TRIAL: f64 = 0.15;
 /// The step of the last trial, relative to that of the run [-].
 const SHORTER: f64 = 0.1;
 
-/// What is tried, in this order: the tree has no closing equations to lose, controlled steps follow what fixed ones pass over.
+/// Methods that are tried, in this order: the tree has no closing equations to lose, controlled steps follow what fixed ones pass over.
 const OTHERS: [(FormulationKind, IntegratorKind); 7] = [
     (FormulationKind::RELATIVE, IntegratorKind::Trapezoidal),
     (FormulationKind::MultiIndex, IntegratorKind::Trapezoidal),
@@ -120,7 +120,7 @@ fn candidates(
     others.chain(shorter).collect()
 }
 
-/// How far a method gets [s], and whether that is no stop: it got to the end, or has had its time.
+/// Returns the time that a method reaches [s], and whether that is no stop: it got to the end, or has had its time.
 fn trial<const D: usize>(scene: &Scene<f64>, settings: &ResolvedMethod) -> (f64, bool) {
     let Ok(mut simulation) = Simulation::<f64, D>::new(scene, settings) else {
         return (0.0, false);

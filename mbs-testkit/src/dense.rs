@@ -8,13 +8,13 @@ pub fn plus(x: &[f64], s: f64, y: &[f64]) -> Vec<f64> {
     x.iter().zip(y).map(|(x, y)| x + s * y).collect()
 }
 
-/// x . y.
+/// Scalar product x . y.
 #[must_use]
 pub fn dot(x: &[f64], y: &[f64]) -> f64 {
     x.iter().zip(y).map(|(x, y)| x * y).sum()
 }
 
-/// The reference configuration.
+/// The reference configuration of a model.
 #[must_use]
 pub fn reference(model: &impl Model<f64>) -> Vec<f64> {
     let mut q = vec![0.0; model.n_extended()];
@@ -22,7 +22,7 @@ pub fn reference(model: &impl Model<f64>) -> Vec<f64> {
     q
 }
 
-/// J x.
+/// Product J x of the Jacobian.
 #[must_use]
 pub fn rates(model: &impl Model<f64>, terms: &Terms<f64>, x: &[f64]) -> Vec<f64> {
     let mut rates = vec![0.0; model.n_constraints()];

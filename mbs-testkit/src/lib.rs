@@ -1,5 +1,6 @@
-//! What the tests of several crates share: scenes and their assembled starts, dense views of a model, random mechanisms, retelling, and an
-//! allocator that counts. It is compiled once, for doubles, so that no test program does it again.
+//! Helpers that the tests of several crates share: scenes and their assembled starts, dense views of a model, and random mechanisms.
+//! Mechanisms written in another way, and an allocator that counts, are here too. They are compiled once, for doubles, so that no test
+//! program does it again.
 
 pub mod allocations;
 mod dense;

@@ -21,15 +21,15 @@ fn plus(a: Vector, s: f64, b: Vector) -> Vector {
 /// A joint as it is drawn: its second body moves against its first along its axis, or about it.
 #[derive(Debug, Clone)]
 pub struct Drawn {
-    /// Its name.
+    /// Name of the joint.
     pub name: &'static str,
-    /// Its bodies, the first nearer to the ground.
+    /// Bodies of the joint, the first nearer to the ground.
     pub bodies: [&'static str; 2],
     /// Is it a turn? Otherwise a slide.
     pub is_turn: bool,
-    /// Its place.
+    /// Place of the joint.
     pub at: Vector,
-    /// Its axis.
+    /// Axis of the joint.
     pub axis: Vector,
 }
 
@@ -41,7 +41,7 @@ fn slide(name: &'static str, bodies: [&'static str; 2], at: Vector) -> Drawn {
     Drawn { name, bodies, is_turn: false, at, axis: [1.0, 0.0, 0.0] }
 }
 
-/// How far parts slip where they touch, by the velocities of the bodies.
+/// Slip of parts where they touch, by the velocities of the bodies.
 pub type Slip = Box<dyn Fn(&dyn Fn(&str) -> Twist) -> f64>;
 
 /// The text of a coupling, or of what rolls, in a wording.
@@ -49,13 +49,13 @@ pub type Written = Box<dyn Fn(&Wording) -> String>;
 
 /// A machine, and what it has to keep at zero: how far its parts slip where they touch, by the velocities of its bodies.
 pub struct Machine {
-    /// What it is.
+    /// Description of the machine.
     pub what: &'static str,
-    /// Its joints.
+    /// Joints of the machine.
     pub joints: Vec<Drawn>,
-    /// Its coupling, or what rolls.
+    /// Coupling of the machine, or what rolls.
     pub coupling: Written,
-    /// How far its parts slip.
+    /// Slip of the parts of the machine where they touch.
     pub slip: Slip,
 }
 
@@ -103,7 +103,7 @@ pub fn twists(joints: &[Drawn], rates: &[f64]) -> Vec<(&'static str, Twist)> {
 
 const Z: Vector = [0.0, 0.0, 1.0];
 
-/// In which ways a machine is worded otherwise than it is drawn.
+/// Ways in which a machine is worded otherwise than it is drawn.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Ways {
     /// The bodies of joints in either order.
@@ -112,7 +112,7 @@ pub struct Ways {
     pub reverses: bool,
     /// Bodies and joints in any order.
     pub shuffles: bool,
-    /// The whole turned.
+    /// The whole machine turned.
     pub turns: bool,
     /// Lengths in millimetres.
     pub millimetres: bool,
@@ -131,12 +131,12 @@ pub struct Wording {
     pub metre: f64,
     /// The axes of the machine.
     axes: [Vector; 3],
-    /// Of each joint its name, whether its bodies are swapped, and the length of its axis.
+    /// Joints, each with its name, whether its bodies are swapped, and the length of its axis.
     joints: Vec<(&'static str, bool, f64)>,
 }
 
 impl Wording {
-    /// Of a machine in some ways.
+    /// Returns the wording of a machine in some ways.
     pub fn new(random: &mut Random, machine: &Machine, ways: Ways) -> Self {
         let unit = |a: Vector| plus([0.0; 3], 1.0 / dot(a, a).sqrt(), a);
         let mut any = || [0; 3].map(|_| random.next());
@@ -161,13 +161,13 @@ impl Wording {
         Self { metre: if ways.millimetres { 1000.0 } else { 1.0 }, axes, joints }
     }
 
-    /// A direction.
+    /// A direction in the axes of the wording.
     #[must_use]
     pub fn turned(&self, a: Vector) -> Vector {
         (0..3).fold([0.0; 3], |sum, i| plus(sum, a[i], self.axes[i]))
     }
 
-    /// A place.
+    /// A place in the axes and the unit of the wording.
     #[must_use]
     pub fn place(&self, at: Vector) -> Vector {
         self.turned(at).map(|x| x * self.metre)
@@ -226,7 +226,7 @@ impl Wording {
         self.moving_with(machine, seed, &outputs.flatten().collect::<String>())
     }
 
-    /// The same with other outputs.
+    /// The machine of [`Self::moving`] with other outputs.
     #[must_use]
     pub fn moving_with(&self, machine: &Machine, seed: u64, outputs: &str) -> String {
         let m = self.metre;

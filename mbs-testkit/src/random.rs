@@ -11,7 +11,7 @@ use mbs_core::scene::{
 pub struct Random(pub u64);
 
 impl Random {
-    /// By a seed, which may be any number.
+    /// Returns the generator of a seed, which may be any number.
     #[must_use]
     pub fn new(seed: u64) -> Self {
         Self(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1)
@@ -30,7 +30,7 @@ impl Random {
         bits as f64 / (1_u64 << 52) as f64 - 1.0
     }
 
-    /// Below `n`.
+    /// Random number below `n`.
     pub fn below(&mut self, n: usize) -> usize {
         (((self.next() + 1.0) * 0.5 * n as f64) as usize).min(n - 1)
     }
@@ -119,7 +119,7 @@ pub fn guided(scene: Scene<f64>, seed: u64, chances: usize) -> Scene<f64> {
     guided_where(scene, seed, chances, |n| n == 1)
 }
 
-/// The same of joints with several coordinates, all of which are guided.
+/// A mechanism as [`guided`] makes it, but of joints with several coordinates, all of which are guided.
 #[must_use]
 pub fn guided_whole(scene: Scene<f64>, seed: u64, chances: usize) -> Scene<f64> {
     guided_where(scene, seed, chances, |n| n > 1)
@@ -247,7 +247,7 @@ pub fn closed_by(seed: u64, kind: JointKind, dimension: Dimension) -> Scene<f64>
     scene
 }
 
-/// The same with each joint as a chain of massless bodies, one freedom on each.
+/// The scene with each joint as a chain of massless bodies, one freedom on each.
 #[must_use]
 pub fn split(scene: &Scene<f64>) -> Scene<f64> {
     let (mut split, dimension) = (scene.clone(), scene.dimension);

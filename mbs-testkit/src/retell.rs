@@ -1,4 +1,4 @@
-//! The same mechanism written in another way: turned as a whole, its bodies in another order.
+//! Mechanisms written in another way: turned as a whole, their bodies in another order.
 
 use mbs_core::effects::{Field, Form, SignalForm, Value};
 use mbs_core::measure::RollingInput;
@@ -212,7 +212,7 @@ pub fn in_plane(x: Vector) -> Vector {
     axes.map(|axis: Vector| axis[0] * x[0] + axis[1] * x[1] + axis[2] * x[2])
 }
 
-/// That scene as a planar one.
+/// The scene of scenes/spatial-four-bar.toml as a planar one.
 #[must_use]
 pub fn flattened(scene: &Scene<f64>) -> Scene<f64> {
     let mut flat = turn_by(scene, in_plane);

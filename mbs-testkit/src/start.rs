@@ -41,7 +41,7 @@ pub fn start<const D: usize>(scene: &Scene<f64>) -> Start<D> {
     start_in(scene)
 }
 
-/// The same in numbers of a kind.
+/// The model of a scene, and the consistent state that it starts from, in numbers of a kind.
 ///
 /// # Panics
 ///
@@ -77,7 +77,7 @@ pub fn centres<T: Real, const D: usize>(
     (0..scene.bodies.len()).map(place).collect()
 }
 
-/// The same with the names of the bodies, and in their order.
+/// Centres of mass of all bodies [m] with the names of the bodies, and in the order of these.
 #[must_use]
 pub fn named_centres<T: Real, const D: usize>(
     scene: &Scene<T>,

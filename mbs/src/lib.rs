@@ -64,7 +64,7 @@ pub use statics::{Moved, StaticEquilibrium};
 pub use stop::{INTERRUPTED, StopError};
 pub use tilt::AlmostDependent;
 
-/// What the studies of mbs-study share with this crate, and what its tests call; no part of its interface.
+/// Items that the studies of mbs-study share with this crate, and that its tests call; no part of its interface.
 #[doc(hidden)]
 pub mod inside {
     pub use mbs_steps::at_state::{Gradient, gradients, poses};

@@ -14,7 +14,7 @@ const SOURCES: [&str; 7] = [
     "three.txt",
     "LICENSE",
 ];
-/// What is written back.
+/// Files that are written back.
 const RESULTS: [&str; 2] = ["three.txt", "LICENSE"];
 
 /// Bundles it anew with the versions of its lock file. The text stays as it is where the script in it does.

@@ -14,10 +14,10 @@ use crate::summary::{LeftOut, Outcome, Summary};
 use crate::test::{self, DOCUMENTS};
 use std::process::{Command, ExitCode, Stdio};
 
-/// What is left out of the checks, and what is added to them.
+/// Scope of the checks: what is left out of them, and what is added.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Scope {
-    /// Without the tests: `cargo xtask test` has run them.
+    /// Whether the tests are left out: `cargo xtask test` has run them.
     pub is_tested: bool,
     /// A check that lacks a tool fails.
     pub is_strict: bool,
@@ -47,10 +47,10 @@ type Check = fn() -> Result<Outcome, String>;
 
 type Listed = (&'static str, Check);
 
-/// What a mistake while writing fails at, first.
+/// Checks that a mistake while writing fails at, first.
 const BEFORE_THE_TESTS: [Listed; 2] = [("format", format), ("lints", lints)];
 
-/// What runs on the build of the tests, on all cores: one after another. `lean` leaves a lean `mbs` where later jobs look for the whole
+/// Checks that run on the build of the tests, on all cores: one after another. `lean` leaves a lean `mbs` where later jobs look for the whole
 /// one; its tests put that back.
 const AFTER_THE_TESTS: [Listed; 3] =
     [("rules", rules), ("lean", features::lean), ("documents", documents)];
@@ -77,7 +77,7 @@ fn listed(list: &[Listed], summary: &mut Summary) {
 /// Seconds of the long fuzzing.
 const LONG_FUZZ: &str = "1800";
 
-/// The long list: what each of the checks above has in a short form, whole, and what takes other programs.
+/// Runs the long list: what each of the checks above has in a short form, whole, and what takes other programs.
 fn long(summary: &mut Summary) {
     let jobs: [(&str, &[&str]); 7] = [
         ("check-nostd, whole", &["check-nostd"]),

@@ -41,7 +41,7 @@ pub fn watched(command: &mut Command, limit: Option<Duration>) -> Result<Option<
     Ok(Some(Output { status, stdout, stderr }))
 }
 
-/// What a command prints.
+/// Returns the text that a command prints.
 ///
 /// # Errors
 ///

@@ -8,9 +8,9 @@ use std::process::Command;
 /// How it is built, in release mode.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Build {
-    /// In `f64` alone: half the work of the other, for a first run.
+    /// Build in `f64` alone: half the work of the other, for a first run.
     Double,
-    /// With all precisions.
+    /// Build with all precisions.
     All,
 }
 

@@ -1,12 +1,12 @@
 //! The effects that mbs-core has, as the list in its source says: names, Cargo features, modules of laws.
 
-/// The list.
+/// Source text of the list.
 const LIST: &str = include_str!("../../mbs-core/src/effects/list.rs");
 
 /// A line of the list.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Listed {
-    /// Its module in `mbs_core::effects`.
+    /// Module of the effect in `mbs_core::effects`.
     pub module: &'static str,
     /// The Cargo feature that brings it; `None`: every build has it.
     pub feature: Option<&'static str>,
@@ -15,7 +15,7 @@ pub struct Listed {
 }
 
 impl Listed {
-    /// Its cases in `counts`: a user's own law may act in two ways.
+    /// Cases of the effect in `counts`: a user's own law may act in two ways.
     pub fn cases(self) -> Vec<String> {
         match self.module {
             "user" => vec!["own-length".to_owned(), "own-body".to_owned()],
@@ -30,7 +30,7 @@ impl Listed {
     }
 }
 
-/// Every effect.
+/// Every effect of the list.
 pub fn all() -> impl Iterator<Item = Listed> {
     LIST.lines().filter_map(|line| {
         let (_, rest) = line.trim().strip_suffix(';')?.split_once(" in ")?;

@@ -9,7 +9,7 @@ use std::process::{Command, ExitCode};
 
 /// Crates that must not need the others' linear algebra or threads, where they are in the workspace.
 const LEAN: [&str; 3] = ["mbs-core", "mbs-recursive", "mbs-nostd"];
-/// What they must not pull in.
+/// Crates that those of [`LEAN`] must not pull in.
 const HEAVY: [&str; 2] = ["faer", "rayon"];
 
 /// Runs the check by itself.

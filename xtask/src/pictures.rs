@@ -13,7 +13,7 @@ const SMALL: [u32; 2] = [400, 240];
 /// Width and height of a picture in README.md or a guide [pixels]: as wide as the text on a forge.
 const LARGE: [u32; 2] = [720, 300];
 
-/// Where a scene is looked at, where that is not a third of its run from the usual side: as the address of the page has it.
+/// Views of scenes that are not at a third of their run from the usual side: as the address of the page has it.
 const LOOKS: [(&str, &str); 5] = [
     ("iltis-stairs", "t=6.4"),
     ("iltis-stairs-stiff", "t=6.4"),

@@ -91,7 +91,7 @@ pub(crate) fn interpreter() -> Option<String> {
     names.into_iter().find(fits).map(str::to_owned)
 }
 
-/// A clean environment.
+/// Makes a clean virtual environment.
 pub(crate) fn environment(python: &str, at: &Path) -> Result<PathBuf, String> {
     run(Command::new(python).args(["-m", "venv", "--clear"]).arg(at))?;
     Ok(at.to_owned())

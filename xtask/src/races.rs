@@ -13,7 +13,8 @@ pub fn races() -> ExitCode {
     summary::ended("races", watched().map(|()| remark()))
 }
 
-/// The run. Sanitizers are an unstable option of the compiler, which `RUSTC_BOOTSTRAP` lets a stable one have.
+/// Runs the tests of the thread team under ThreadSanitizer. Sanitizers are an unstable option of the compiler, which `RUSTC_BOOTSTRAP` lets a
+/// stable one have.
 fn watched() -> Result<(), String> {
     let version = output(Command::new("rustc").arg("-vV")).ok_or("cannot ask `rustc -vV`")?;
     let host = host(&version).ok_or("`rustc -vV` names no host")?;

@@ -7,7 +7,7 @@ use std::process::ExitCode;
 
 /// Set for the command: it need not say which precision is missing.
 const BUILDER: &str = "MBS_BUILDER";
-/// Its exit status when this build lacks a precision.
+/// Exit status of the command when this build lacks a precision.
 const UNBUILT: u8 = 3;
 
 /// Builds `mbs` with `f64` alone and runs it. Where the arguments ask for more digits or fewer, it is built with all precisions, and run
@@ -22,7 +22,7 @@ pub fn mbs(args: &[OsString]) -> ExitCode {
     if status == ExitCode::from(UNBUILT) { hand_over(&mut mbs(Build::All)) } else { status }
 }
 
-/// `mbs run ARGS`.
+/// Builds and runs `mbs run ARGS`.
 pub fn simulate(args: &[OsString]) -> ExitCode {
     let run = [OsStr::new("run").to_owned()];
     mbs(&[&run, args].concat())

@@ -1,4 +1,4 @@
-//! What ran, what was left out and how to get it: the last lines of `cargo xtask test` and `cargo xtask check`.
+//! Summary of what ran, what was left out and how to get it: the last lines of `cargo xtask test` and `cargo xtask check`.
 
 use crate::process::children_seconds;
 use std::panic::resume_unwind;
@@ -9,18 +9,18 @@ use std::time::Instant;
 /// How a check ended, when it did not fail.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Outcome {
-    /// It ran and holds; a remark, possibly empty.
+    /// Check that ran and holds; a remark, possibly empty.
     Passed(String),
-    /// It could not run on this machine.
+    /// Check that could not run on this machine.
     LeftOut(LeftOut),
 }
 
 /// A check that did not run.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct LeftOut {
-    /// What is missing.
+    /// Reason: what is missing.
     pub why: String,
-    /// What to do to have it run.
+    /// Remedy: what to do to have it run.
     pub remedy: String,
 }
 
@@ -44,7 +44,7 @@ pub fn ended(name: &str, outcome: Result<Outcome, String>) -> ExitCode {
 pub struct Summary {
     lines: Vec<String>,
     left_out: Vec<(String, LeftOut)>,
-    /// What failed, and why.
+    /// Names of the checks that failed, and why.
     failures: Vec<String>,
     /// A check that cannot run here fails.
     is_strict: bool,
@@ -88,7 +88,7 @@ impl Summary {
         }
     }
 
-    /// What is found at the end of all checks.
+    /// Returns the result at the end of all checks.
     ///
     /// # Errors
     ///

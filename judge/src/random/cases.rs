@@ -13,9 +13,9 @@ use crate::vector::{cross, dot, norm, scale, sub, unit};
 /// A scene of the enumeration.
 #[derive(Debug, Clone)]
 pub struct Case {
-    /// What is enumerated, in words.
+    /// Name of what is enumerated, in words.
     pub name: String,
-    /// The scene file.
+    /// Text of the scene file.
     pub text: String,
     /// A step that resolves it [s].
     pub step: f64,
@@ -23,15 +23,15 @@ pub struct Case {
 
 /// Steps of a case.
 pub const STEPS: u32 = 10;
-/// Longest step [s]. Chosen, not tuned.
+/// Longest step of a case [s]. Chosen, not tuned.
 const LONGEST: f64 = 5e-4;
 /// Longest step, relative to the time in which a body turns a radian or its motion changes by the mechanism's size [-]. Chosen, not tuned.
 const TIME_FRACTION: f64 = 0.01;
 
-/// What acts beside the effects that are drawn: nothing, laws of guides, and a rotor.
+/// Loads beside the effects that are drawn: nothing, laws of guides, and a rotor.
 const OTHERS: [&str; 6] = ["nothing", "sine", "ramp", "table", "level-table", "rotor"];
 
-/// All cases.
+/// Returns all cases of the enumeration.
 #[must_use]
 pub fn cases() -> Vec<Case> {
     let mut list = Vec::new();
@@ -65,7 +65,7 @@ pub fn cases() -> Vec<Case> {
     list
 }
 
-/// What the first body of a joint is.
+/// Place that the first body of a joint has.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Place {
     Ground,
@@ -159,7 +159,7 @@ fn case(
     Some((draft.text(), step))
 }
 
-/// Of a name, so that more cases change none (FNV-1a).
+/// Seed of a name (FNV-1a), so that more cases change none.
 fn seed(name: &str) -> u64 {
     let step = |sum: u64, byte| (sum ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
     name.bytes().fold(0xcbf2_9ce4_8422_2325, step)

@@ -34,7 +34,7 @@ impl Dice {
         self.between(low.ln(), high.ln()).exp()
     }
 
-    /// One of 0..n.
+    /// Draws a whole number of 0..n.
     pub(crate) fn below(&mut self, n: usize) -> usize {
         #[allow(clippy::cast_possible_truncation, reason = "less than n")]
         let i = (self.next() % n as u64) as usize;

@@ -21,7 +21,7 @@ pub(crate) struct Draft {
     pub(crate) couplings: Vec<(String, String)>,
     /// Signals as text, each with whether its rate is shown.
     pub(crate) signals: Vec<(String, bool)>,
-    /// What rolls, as text.
+    /// Contacts that roll, and blades, as text.
     pub(crate) rollings: Vec<String>,
     /// Effects, roads and velocities of bodies, as text.
     pub(crate) blocks: Vec<String>,

@@ -82,7 +82,7 @@ impl Effects<'_> {
         }
     }
 
-    /// Another body, or the ground.
+    /// Picks a body other than `a`, or the ground.
     fn other(&mut self, a: usize) -> Carrier {
         Some(self.dice.below(self.draft.bodies.len())).filter(|b| *b != a)
     }
@@ -215,7 +215,7 @@ impl Effects<'_> {
         }
     }
 
-    /// As heavy at the joint as a body, on joints with one turn or slide.
+    /// Returns a rotor as heavy at the joint as a body, on joints with one turn or slide.
     fn rotor(&mut self) -> Option<String> {
         let j = self.joint(&[Kind::Revolute, Kind::Prismatic])?;
         let ratio = self.dice.logarithmic(5.0, 200.0);

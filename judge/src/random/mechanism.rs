@@ -43,7 +43,7 @@ const SPACE_LOOPS: [(Kind, f64); 7] = [
 ];
 
 impl Draft {
-    /// A tree.
+    /// Draws a tree of bodies.
     pub(crate) fn tree(dice: &mut Dice) -> Self {
         let planar = dice.chance(0.4);
         let length = dice.logarithmic(1e-3, 100.0);
@@ -255,7 +255,7 @@ impl Draft {
         }
     }
 
-    /// As many numbers as the kind has coordinates: turns, and slides in lengths of the mechanism.
+    /// Draws as many numbers as the kind has coordinates: turns, and slides in lengths of the mechanism.
     pub(crate) fn numbers(&self, dice: &mut Dice, kind: Kind, turn: f64, slide: f64) -> Vec<f64> {
         let [slides, turns] = kind.coordinates(self.planar);
         let slide = slide * self.length;

@@ -24,11 +24,11 @@ pub use cases::{Case, STEPS, cases};
 /// A scene with how it is to be run.
 #[derive(Debug, Clone)]
 pub struct Drawn {
-    /// The scene file.
+    /// Text of the scene file.
     pub text: String,
     /// Step by the motion's own time [s].
     pub step: f64,
-    /// Steps.
+    /// Number of steps.
     pub steps: u32,
 }
 
@@ -78,7 +78,7 @@ fn time_scale(draft: &Draft) -> f64 {
     1.0 / fastest.max(draft.stiffest / own)
 }
 
-/// What a scene has, each kind once: of joints, of effects, guides, loops, starts.
+/// Returns the kinds of what a scene has, each once: of joints, of effects, guides, loops, starts.
 #[must_use]
 pub fn kinds(text: &str) -> Vec<String> {
     let Ok(scene) = read(text) else { return Vec::new() };

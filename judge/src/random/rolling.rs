@@ -1,4 +1,4 @@
-//! What rolls in a draft: a disc or a ball on a plane, an axle of two wheels, a blade.
+//! Contacts that roll in a draft: a disc or a ball on a plane, an axle of two wheels, a blade.
 
 use super::dice::Dice;
 use super::draft::Draft;

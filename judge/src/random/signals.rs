@@ -3,7 +3,7 @@
 use super::dice::Dice;
 use super::draft::Draft;
 
-/// What is drawn.
+/// Machines that are drawn.
 const MACHINES: [&str; 4] = ["servo", "engine", "force", "sum"];
 /// Kinds of signals that follow time. The ramp stands twice: no other machine has one.
 const WAVES: [&str; 9] =
@@ -26,7 +26,7 @@ impl Draft {
         }
     }
 
-    /// Adds a signal; is its rate shown?
+    /// Adds a signal and returns its name. `has_rate`: is its rate shown?
     fn signal(&mut self, text: String, has_rate: bool) -> String {
         let name = format!("s{}", self.signals.len());
         self.signals.push((text, has_rate));

@@ -39,7 +39,7 @@ fn kind(kind: Kind) -> &'static str {
 }
 
 impl Draft {
-    /// The scene file.
+    /// Returns the text of the scene file.
     pub(crate) fn text(&self) -> String {
         let mut out = String::new();
         let p = self.planar;

@@ -34,46 +34,46 @@ fn is_steered(formulation: &str) -> bool {
 /// A formulation with an integrator.
 pub type Way = [&'static str; 2];
 
-/// What became of a run.
+/// Verdict on a run.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Verdict {
-    /// As the judge says.
+    /// Run that agrees with the judge.
     Agrees,
     /// Ends well, and is off.
     Differs {
         /// The output that is off most, beside what is allowed.
         channel: String,
-        /// How far.
+        /// Largest difference of the output from what the judge says.
         off: f64,
-        /// How far it may be off.
+        /// Largest difference that is allowed.
         allowed: f64,
-        /// Its largest value.
+        /// Largest value of the output.
         size: f64,
         /// Is it off at the start already?
         start: bool,
     },
-    /// Stops.
+    /// Run that stops.
     Stops {
         /// The code of the stop, or `refused`.
         code: String,
-        /// When; 0 at the start [s].
+        /// Time of the stop; 0 at the start [s].
         time: f64,
-        /// What the command says.
+        /// Message of the command.
         message: String,
     },
-    /// It panics.
+    /// Run that panics.
     Panics,
 }
 
 /// Rows of all channels at multiples of a step.
 pub type Rows = Vec<Vec<f64>>;
 
-/// What the judge says of a scene.
+/// Judgement of a scene: what the judge says of it.
 #[derive(Debug)]
 pub struct Judged {
-    /// The mechanism.
+    /// Mechanism of the scene.
     pub mechanism: Mechanism,
-    /// Its outputs at the ends of the steps.
+    /// Outputs of the mechanism at the ends of the steps.
     pub rows: Rows,
     /// A time in which the motion changes [s].
     pub time: f64,
@@ -85,7 +85,7 @@ pub struct Judged {
     pub is_redundant: bool,
 }
 
-/// Runs the judge.
+/// Runs the judge on a scene.
 ///
 /// # Errors
 /// Why it does not run, in words.
@@ -250,7 +250,7 @@ pub fn trial(judged: &Judged, scene: &Scene<f64>, method: Way, step: f64, steps:
     }
 }
 
-/// By steps over `share` and half of them.
+/// Verdict by steps over `share` and half of them.
 fn by_two(
     judged: &Judged,
     scene: &Scene<f64>,
@@ -297,12 +297,12 @@ fn kind(quantity: Quantity) -> usize {
     }
 }
 
-/// A channel: its output and its components, parted where these have different units.
+/// Part of a channel: its output and its components, parted where these have different units.
 #[derive(Debug)]
 pub struct Part {
-    /// The output.
+    /// Index of the output.
     pub output: usize,
-    /// Where its components stand in a row.
+    /// Range of the components in a row.
     pub components: std::ops::Range<usize>,
     kind: usize,
 }

@@ -1,4 +1,4 @@
-//! The enumerated oracle: every case of joints and effects, by every formulation with every integrator.
+//! Oracle by enumeration: every case of joints and effects, by every formulation with every integrator.
 
 use super::{Judged, Verdict, Way, compare, document, judge, rows, trial};
 use crate::random::{Case, STEPS};
@@ -8,7 +8,7 @@ use std::num::NonZero;
 use std::panic::resume_unwind;
 use std::thread;
 
-/// What came of the enumeration.
+/// Tally of what came of the enumeration.
 #[derive(Debug, Default)]
 pub struct Tally {
     /// Combinations that ran and agree.
@@ -76,7 +76,7 @@ fn case(case: &Case, tally: &mut Tally) {
     }
 }
 
-/// By steps of h alone where these agree with the judge to rounding.
+/// Verdict by steps of h alone where these agree with the judge to rounding.
 fn briefly(judged: &Judged, scene: &Scene<f64>, method: Way, step: f64, steps: u32) -> Verdict {
     if method[1] != "trapezoidal" {
         match rows(scene, method, (step, steps), 1) {

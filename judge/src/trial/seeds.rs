@@ -13,10 +13,10 @@ pub fn methods() -> Vec<Way> {
     fixed.into_iter().chain(steered).map(|f| [f.name(), "trapezoidal"]).collect()
 }
 
-/// What became of scenes.
+/// Tally of what became of scenes.
 #[derive(Debug, Default)]
 pub struct Tally {
-    /// Scenes.
+    /// Number of scenes.
     pub scenes: usize,
     /// Scenes that the judge does not run.
     pub unjudged: usize,
@@ -67,7 +67,7 @@ impl Tally {
         out
     }
 
-    /// What a verdict counts as, and what is said of it.
+    /// Returns what a verdict counts as, and what is said of it.
     fn judge(
         &mut self,
         (seed, drawn, judged): (u64, &random::Drawn, &trial::Judged),

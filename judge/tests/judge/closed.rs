@@ -3,7 +3,7 @@
 use crate::{channel, mechanism, run, scene};
 use judge::vector::norm;
 
-/// What steps to 1e-12 leave over some thousand of them.
+/// Error that some thousand steps leave, each to 1e-12 [-].
 const CLOSE: f64 = 1e-9;
 
 fn near(found: f64, right: f64, tolerance: f64) {

@@ -1,4 +1,5 @@
-//! The same enumeration on the solver of fixed capacity, which controllers run: the bits of the recursion that the judge is held against.
+//! Enumeration of the judge's cases on the solver of fixed capacity, which controllers run: the bits of the recursion that the judge is held
+//! against.
 
 use judge::random;
 use judge::trial::document;

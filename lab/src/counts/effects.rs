@@ -12,7 +12,7 @@ use mbs_core::scene::{
     UserLaw,
 };
 
-/// The coupler.
+/// Body that is the coupler of the scene.
 const COUPLER: BodyId = BodyId::Body(1);
 const CRANK: JointId = JointId::new(0);
 /// Centre of the coupler [m].
@@ -41,7 +41,7 @@ pub(crate) fn all(dimension: Dimension) -> Vec<(String, EffectKind<f64>)> {
     all.into_iter().map(|(name, kind)| (name.to_owned(), kind)).chain(examples).collect()
 }
 
-/// What every build has.
+/// Effects that every build has: springs and forces.
 fn springs_and_forces(points: [[f64; 3]; 2], at: [f64; 3]) -> Vec<(&'static str, EffectKind<f64>)> {
     let (bodies, body) = (BODIES, COUPLER);
     let course = Signal::Input([3.0, 0.0, 0.0]);

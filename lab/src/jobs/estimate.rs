@@ -32,7 +32,7 @@ const TOLERANCES: [&str; 2] = ["1e-12", "1e-10"];
 /// Errors below this share of what an output is are rounding of the reference.
 const ROUNDING: f64 = 1e-11;
 
-/// What was found of a scene.
+/// Findings on a scene.
 struct Row {
     scene: String,
     /// True errors over the estimates.

@@ -9,7 +9,8 @@ use mbs_core::step::StepError;
 use mbs_core::team::{norm_inf, on_stretches, set_product, subtract};
 use mbs_core::{Real, SpdSolver};
 
-/// What rounding leaves of the constraints, for which penalties are not raised [EPSILON of what their coordinates went]: six binary digits.
+/// Violation that rounding leaves of the constraints, for which penalties are not raised [EPSILON of what their coordinates went]: six binary
+/// digits.
 const ROUNDING: f64 = 64.0;
 /// Part of a violation of positions that a slow sweep leaves, for which penalties are raised [-]: ten sweeps would make ten digits.
 const SLOW_CONTRACTION: f64 = 0.1;

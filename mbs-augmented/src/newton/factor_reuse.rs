@@ -20,7 +20,8 @@ use mbs_core::{Real, SpdSolver};
 /// Contraction of corrections up to which a factor is kept, where the iteration ends below the truncation error [-]: a new factor costs two
 /// iterations, which contract to 0.04 by then.
 const MAX_CONTRACTION: f64 = 0.2;
-/// The same where the tolerance alone ends the iteration [-]: a new factor takes in nearly all of what constraints alone leave.
+/// Contraction of corrections up to which a factor is kept where the tolerance alone ends the iteration [-]. A new factor takes in nearly all
+/// of what constraints alone leave.
 const MAX_CONTRACTION_TO_TOLERANCE: f64 = 1e-3;
 /// Change of a law's tangent up to which its factor serves [-]: a tenth of it then shrinks corrections to a tenth.
 const MAX_TANGENT_CHANGE: f64 = 0.1;

@@ -15,7 +15,7 @@ const MIN_CONTRACTION: f64 = 0.1;
 /// Ends an iteration below the truncation error.
 #[derive(Debug)]
 pub(crate) struct StopRule<T> {
-    /// What may be left of the first correction [-]; zero where the tolerance alone ends the iteration.
+    /// Share of the first correction that may be left [-]; zero where the tolerance alone ends the iteration.
     truncation_share: T,
 }
 

@@ -29,9 +29,9 @@ const MAX_ITERATIONS: u32 = 20;
 /// Choices for a step as published.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Options<T> {
-    /// Time integrator.
+    /// Time integrator of the steps.
     pub integrator: Integrator<T>,
-    /// The same alpha on every row [N/m].
+    /// Penalty alpha, the same on every row [N/m].
     pub alpha: T,
     /// Newton tolerance, relative to the displacement per step [-].
     pub tolerance: T,
@@ -47,7 +47,7 @@ impl<T: Real> Options<T> {
         Self { integrator, alpha, tolerance, max_iterations: MAX_ITERATIONS }
     }
 
-    /// The same of the formulation that has all strategies, with none of them.
+    /// Returns these options as the formulation has them that has all strategies, with none of them.
     fn of_index3(&self) -> crate::Options<T> {
         let Self { integrator, alpha, tolerance, max_iterations } = *self;
         crate::Options {

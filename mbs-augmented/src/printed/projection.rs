@@ -15,7 +15,7 @@ pub(super) enum Published {
     ByTangent,
 }
 
-/// One sweep:
+/// Projects x in one sweep:
 ///
 /// ```text
 /// W x <- M x - J^T alpha b

@@ -1,4 +1,4 @@
-//! What must not change a motion: axes, the order of bodies, the order in a joint, the precision; and bodies at rest.
+//! Changes that leave a motion as it is: axes, the order of bodies, the order in a joint, the precision; and bodies at rest.
 
 use mbs_augmented::{Options, Workspace, index1, index3};
 use mbs_core::Real;
@@ -12,7 +12,7 @@ use mbs_testkit::{named_centres, scene, scene_in, solver, start, start_in};
 
 /// Growth of rounding over some hundred steps of a regular motion, in metres.
 const ROUNDING: f64 = 1e-9;
-/// What single precision may lose in half a second, in metres.
+/// Error that single precision may cause in half a second, in metres.
 const SINGLE: f64 = 1e-3;
 
 fn run<T: Real, const D: usize>(

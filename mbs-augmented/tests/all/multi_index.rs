@@ -54,8 +54,8 @@ impl<const D: usize> Bench<D> {
     }
 }
 
-/// What a change of index may move: index-3 leaves multipliers that balance its iteration to 1e-10 of the accelerations, times
-/// masses of tens of kilograms and accelerations of a hundred metres per second squared.
+/// Checks that a change of index moves little. Index-3 leaves multipliers that balance its iteration to 1e-10 of the accelerations. Masses of
+/// tens of kilograms and accelerations of a hundred metres per second squared multiply that.
 fn check_settling<const D: usize>(name: &str, h: f64, force: f64) {
     let mut bench = Bench::<D>::new(name);
     bench.index3(h, 200);

@@ -1,4 +1,4 @@
-//! What each strategy of index-3 gives, by a closed form or by exact counts: docs/INDEX3.md names the tests.
+//! Results of each strategy of index-3, by a closed form or by exact counts: docs/INDEX3.md names the tests.
 #![allow(clippy::print_stdout, reason = "what is measured is shown with --nocapture")]
 
 use mbs_augmented::{Options, Workspace, index3};
@@ -33,7 +33,7 @@ fn run<const D: usize>(
     counts
 }
 
-/// One row: s = c m, so that (1 + s J M^-1 J^T)^-1 = 1 / (1 + c); the predicted row is longer by 1e-6.
+/// Contraction of a correction with one row: s = c m, so that (1 + s J M^-1 J^T)^-1 = 1 / (1 + c). The predicted row is longer by 1e-6.
 #[test]
 fn a_correction_leaves_one_part_in_1_plus_c_whatever_mass_and_step() {
     let mut scene = file("simple-pendulum");
@@ -59,8 +59,8 @@ fn steps_that_end_next_to_a_singular_position_converge_with_penalties_raised_for
     assert!(factor > 1e3, "{factor:e}");
 }
 
-/// What the energy [J] of the double pendulum at 1e-2 s differs by between the two strategies of projection [-]: it is off by 4e-3 J, and
-/// by 6e-4 of that with a reused factor from before a large correction.
+/// Difference of the energy's error between the two strategies of projection, for the double pendulum at 1e-2 s, relative [-]. The energy is off
+/// by 4e-3 J, and by 6e-4 of that with a reused factor from before a large correction.
 const SAME_ENERGY: f64 = 1e-6;
 
 #[test]
@@ -79,9 +79,9 @@ fn a_reused_factor_projects_as_an_exact_one_does() {
     assert!((reused - exact).abs() < SAME_ENERGY * exact.abs(), "{reused:e} J, {exact:e} J");
 }
 
-/// Where constraints act alone a step has one factor, for two corrections, the probe of the penalties and both projections; with a factor for
-/// each correction, or one for the projections, it has two. Multipliers from zero take a third correction. On the two four-bars velocities
-/// would be swept twice if the first sweep were not scaled.
+/// A step under constraints alone has one factor, for two corrections, the probe of the penalties and both projections. With a factor for each
+/// correction, or one for the projections, it has two. Multipliers from zero take a third correction. On the two four-bars velocities would be
+/// swept twice if the first sweep were not scaled.
 #[test]
 fn a_step_under_constraints_alone_has_one_factor_two_corrections_and_a_sweep_at_each_level() {
     let counts = |name| run::<2>(&file(name), (1e-3, 100), &Options::index3(), |_, _, _| {});
@@ -89,8 +89,8 @@ fn a_step_under_constraints_alone_has_one_factor_two_corrections_and_a_sweep_at_
     assert_eq!(counts("two-four-bars"), [200, 100, 500]);
 }
 
-/// Where effects act a step has two factors, one for its corrections and one of the mass for its projections, but where wheels meet the bump:
-/// laws are others there. Corrections end below what the rule errs by: to the tolerance they are 273.
+/// A step under effects has two factors, one for its corrections and one of the mass for its projections. Steps in which wheels
+/// meet the bump are the exception: laws are others there. Corrections end below what the rule errs by: to the tolerance they are 273.
 ///
 /// The vehicle is the same on both sides. Only rounding leads it off its plane, unless a projection is not orthogonal in the mass: with the
 /// factor of the corrections it is off by 1e-5 m.

@@ -14,7 +14,7 @@ use mbs_testkit::{PLANAR, SPATIAL, centres, scene, scene_in, solver, start};
 
 /// Two converged solutions of the same step equations, over some hundred steps of a regular motion [m].
 const SAME: f64 = 1e-9;
-/// The same where rounding grows with the motion, or a residue of the projections differs.
+/// Two converged solutions of the same step equations where rounding grows with the motion, or a residue of the projections differs [m].
 const NEAR: f64 = 1e-7;
 
 /// Centres, work and reactions of the augmented Lagrangian after so many steps.

@@ -42,7 +42,7 @@ struct Line<'a> {
     points: Vec<(f64, f64)>,
 }
 
-/// The diagram.
+/// Work-precision diagram of a scene, with its lines.
 struct Diagram<'a> {
     scene: &'a str,
     lines: Vec<Line<'a>>,

@@ -11,7 +11,7 @@ use plotters_backend::{
     FontTransform,
 };
 
-/// A pixel [pt]: 96 of them are an inch, as in SVG.
+/// Size of a pixel [pt]: 96 of them are an inch, as in SVG.
 const PIXEL: f32 = 0.75;
 /// Height of the letters M of the texts of plotters, relative to its font size [-]: that of its pictures in SVG.
 const SIZE: f32 = 1.0 / 1.24;
@@ -75,7 +75,7 @@ impl<'a> PdfBackend<'a> {
         Ok(())
     }
 
-    /// Draws through points: a line of some width, or what it surrounds.
+    /// Draws a line through points: with a width the line itself, else the area that it surrounds.
     fn trace(
         &mut self,
         color: BackendColor,

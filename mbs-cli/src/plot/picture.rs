@@ -52,15 +52,15 @@ pub(super) struct Panel {
     pub(super) is_log: bool,
 }
 
-/// What stops a drawing.
+/// Error that stops a drawing.
 pub(super) type Fault<B> = DrawingAreaErrorKind<<B as DrawingBackend>::ErrorType>;
 
-/// What can be drawn as a file of each kind.
+/// Picture that can be drawn as a file of each kind.
 pub(super) trait Picture {
-    /// Its size [px].
+    /// Returns the width and the height of the picture [px].
     fn size(&self) -> (u32, u32);
 
-    /// Draws it.
+    /// Draws the picture into an area.
     fn draw<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>) -> Result<(), Fault<B>>;
 }
 

@@ -117,7 +117,7 @@ fn pendulum(replace: &[(&str, &str)]) -> String {
     text
 }
 
-/// What is wrong, how the pendulum is changed for it, and the text to point at.
+/// Fault of a scene: what is wrong, how the pendulum is changed for it, and the text to point at.
 type Case<'a> = (&'a str, Vec<(&'a str, &'a str)>, &'a str);
 
 /// Writes a scene file and runs it.

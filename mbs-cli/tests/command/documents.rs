@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use steps::Step;
 
-/// The repository.
+/// Root folder of the repository.
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }
@@ -30,7 +30,7 @@ fn documents() -> Vec<PathBuf> {
     found
 }
 
-/// Where a document's commands run: a folder of its own with the scenes of the repository.
+/// Makes the folder in which a document's commands run: one of its own with the scenes of the repository.
 fn folder(document: &Path) -> PathBuf {
     let name: String =
         document.strip_prefix(root()).expect("of the repository").display().to_string();

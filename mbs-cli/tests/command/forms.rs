@@ -38,7 +38,7 @@ name = \"rod\"
 mass = \"1/3\"
 rod = { from = \"foot\", to = { of = \"foot\", plus = [\"length\", 0.0] } }
 ";
-/// The same in one.
+/// The pendulum of [`MAIN`] and [`ROD`] in one file.
 const TOML: &str = "\
 [scene]
 name = \"pendulum\"

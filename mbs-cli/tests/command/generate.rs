@@ -1,4 +1,4 @@
-//! `mbs generate`.
+//! Tests of `mbs generate`.
 
 use crate::{run, scene, status, text};
 use mbs::scene_file::{Family, generate};

@@ -1,5 +1,5 @@
-//! What the command meets in the field: bad paths, torn texts, full disks, signals, other processes, kills. Nothing panics, nothing hangs, and
-//! nothing that was there is lost.
+//! Hostile conditions that the command meets in the field: bad paths, torn texts, full disks, signals, other processes, kills. Nothing panics,
+//! nothing hangs, and nothing that was there is lost.
 
 mod folders;
 mod killed;
@@ -81,13 +81,13 @@ impl Place {
     }
 }
 
-/// What a command says that ends in time.
+/// Runs a command, which must end in time; returns its output.
 fn ended(command: &mut Command) -> Output {
     let command = command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
     output(command.spawn().expect("the command is built"), "")
 }
 
-/// What a process says that ends in time.
+/// Returns the output of a process, which must end in time.
 fn output(mut child: Child, what: &str) -> Output {
     // pipes hold more than these say
     let begun = Instant::now();

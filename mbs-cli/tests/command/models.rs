@@ -15,7 +15,7 @@ pub(crate) fn file(name: &str) -> PathBuf {
     folder.join(name)
 }
 
-/// What a run says of the motion: all but its own time and the name of the file.
+/// Runs a scene; returns what the run says of the motion: all but its own time and the name of the file.
 fn motion(scene: &str) -> Vec<Value> {
     let object = done(&run("run", &[scene, "--json", "--step", "1e-2"]));
     ["outputs", "energy", "violation", "iterations", "channels"]

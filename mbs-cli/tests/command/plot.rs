@@ -8,7 +8,7 @@ fn plotted(name: &str, arguments: &[&str]) -> String {
     String::from_utf8(drawn(name, arguments)).expect("text")
 }
 
-/// The same; gives its bytes.
+/// Draws the slider-crank into a file of that name; gives its bytes.
 fn drawn(name: &str, arguments: &[&str]) -> Vec<u8> {
     let out = plain(Path::new(env!("CARGO_TARGET_TMPDIR")).join(name));
     let scene = scene("slider-crank");

@@ -35,7 +35,7 @@ fn rows(out: &Path) -> Vec<String> {
     table.lines().filter_map(cut).collect()
 }
 
-/// Twelve members; masses may be varied without changing other places.
+/// Sweep of twelve members, whose masses may be varied without changing other places.
 const MASSES: &str = "[sweep]\ncombine = 'latin-hypercube'\nsamples = 12\nseed = 3\n\
     [[vary]]\npath = 'body.upper.mass'\nfrom = 0.5\nto = 2\n\
     [[vary]]\npath = 'body.lower.mass'\nfrom = 0.01\nto = 100\nscale = 'log'\n";

@@ -15,7 +15,7 @@ use crate::measure::TermInput;
 use crate::scene::{BodyId, CouplingTerm, Dimension, Freedom, JointId, Signal, Surroundings};
 use alloc::vec;
 
-/// What the kinds of effect add their actions to.
+/// Compiler of the effects of a scene: each kind of effect adds its actions here.
 pub(crate) struct Compiler<'a, T> {
     pub(crate) among: Surroundings<'a, T>,
     pub(super) effect: usize,

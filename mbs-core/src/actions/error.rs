@@ -1,4 +1,4 @@
-//! What can keep an effect from being acted out.
+//! Errors that keep an effect from being acted out.
 
 /// A scene whose effects give no actions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -6,7 +6,7 @@
 pub enum ActionError {
     /// The law of an enabled effect is not compiled.
     LeftOut {
-        /// The effect.
+        /// Index of the effect whose law is not compiled.
         effect: usize,
         /// The Cargo feature of mbs-core that brings it.
         feature: &'static str,

@@ -26,27 +26,27 @@ use alloc::vec::Vec;
 /// A place on a body, reference configuration [m].
 pub type Attachment<T> = (BodyId, [T; 3]);
 
-/// What one effect, or a part of one, does.
+/// Action of one effect, or of a part of one.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Action<T> {
     /// A law along the line of two places.
     Length {
-        /// The places.
+        /// Places at both ends of the length.
         ends: [Attachment<T>; 2],
-        /// The law.
+        /// Law of the tension along the line.
         law: Law<T>,
     },
     /// A law of the distance of two places along a direction fixed in the first body (a unit vector): a slide.
     Along {
-        /// The places.
+        /// Places whose distance counts, the first in the body that has the direction.
         ends: [Attachment<T>; 2],
         /// The direction, reference configuration.
         direction: [T; 3],
-        /// What the distance is counted from [m].
+        /// Offset that the distance is counted from [m].
         offset: T,
         /// Joint and number of the coordinate that it is, where the joint has others too.
         of: Option<(usize, usize)>,
-        /// The law.
+        /// Law of the distance along the direction.
         law: Law<T>,
     },
     /// A law of a turn of a joint about an axis.
@@ -55,43 +55,43 @@ pub enum Action<T> {
         joint: usize,
         /// The number of the turn among the joint's coordinates.
         number: usize,
-        /// The law.
+        /// Law of the turn about the axis.
         law: Law<T>,
     },
     /// A law of a sum of joint coordinates and lengths, each counted from the reference configuration.
     Sum {
-        /// Its terms whose factor is not zero.
+        /// Terms of the sum whose factor is not zero.
         terms: Vec<TermInput<T>>,
-        /// The law.
+        /// Law of the sum.
         law: Law<T>,
     },
     /// A law of the angle of the second body against the first in the plane, over any number of turns.
     Turn {
-        /// The bodies.
+        /// Bodies of the angle: the second turns against the first.
         bodies: [BodyId; 2],
-        /// The law.
+        /// Law of the angle between the bodies.
         law: Law<T>,
     },
     /// A law of a component of the rotation vector of the second body against the first in space, below a whole turn. It is along a
     /// global axis of the reference configuration, fixed in the first body. An effect has three of them, one after the other, or none.
     Rotation {
-        /// The bodies.
+        /// Bodies of the rotation vector: the second turns against the first.
         bodies: [BodyId; 2],
         /// The component, from 0.
         number: u32,
-        /// The law.
+        /// Law of this component of the rotation vector.
         law: Law<T>,
     },
     /// A force that keeps its value and its direction: it has a potential.
     Constant {
-        /// Where it acts.
+        /// Index of the body, and the place on it where the force acts, reference configuration [m].
         at: (usize, [T; 3]),
-        /// The force [N].
+        /// Force on the body [N].
         force: [T; 3],
     },
     /// A force that follows a course.
     Force {
-        /// Where it acts.
+        /// Index of the body, and the place on it where the force acts, reference configuration [m].
         at: (usize, [T; 3]),
         /// Number of the course.
         course: u32,
@@ -100,18 +100,18 @@ pub enum Action<T> {
     },
     /// A torque on a body that follows a course: global axes; in the plane the first component.
     Torque {
-        /// The body.
+        /// Index of the body that the torque acts on.
         body: usize,
         /// Number of the course.
         course: u32,
     },
     /// A law on one body.
     BodyLoad {
-        /// Where it acts.
+        /// Index of the body, and the place on it where the law acts, reference configuration [m].
         at: (usize, [T; 3]),
-        /// Its direction, a unit vector fixed in the body.
+        /// Direction of the law, a unit vector fixed in the body.
         axis: [T; 3],
-        /// The law.
+        /// Law that acts on the body.
         law: BodyLaw<T>,
     },
 }

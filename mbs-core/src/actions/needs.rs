@@ -1,11 +1,11 @@
-//! What the entries of a scene ask of its bodies: material points, directions and rotations. Joints are looked at by themselves.
+//! Material points, directions and rotations that the entries of a scene ask of its bodies. Joints are looked at by themselves.
 
 use crate::Real;
 use crate::actions::{Action, Actions};
 use crate::outputs::{Quantity, RelativePoint, Target};
 use crate::scene::{BallAngle, BodyId, CouplingMeasure, Entry, InitialTarget, Scene, SignalKind};
 
-/// What is asked of a body.
+/// Need of an entry of the scene: a point, a direction, a rotation, or coordinates of a joint.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Need<T> {
     /// The material point that is at this place in the reference configuration [m].
@@ -14,7 +14,7 @@ pub(crate) enum Need<T> {
     Direction(usize, [T; 3]),
     /// All of its rotation.
     Rotation(BodyId),
-    /// What it has of a rotation: it is read, and nothing acts on it.
+    /// Rotation of a body that is only read, full or not: nothing acts on it.
     Orientation(BodyId),
     /// Coordinates of a joint: the one of this number, else all.
     Coordinates(usize, Option<usize>),

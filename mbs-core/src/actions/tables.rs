@@ -18,7 +18,7 @@ pub struct Tables<T> {
 }
 
 impl<T: Real> Tables<T> {
-    /// No tables.
+    /// Returns tables without entries.
     pub(super) fn empty() -> Self {
         Self {
             pieces: Vec::new(),
@@ -34,7 +34,7 @@ impl<T: Real> Tables<T> {
         &self.codes
     }
 
-    /// What laws ask for, with the courses of this instant.
+    /// Returns the inputs of the laws: these tables, and the vectors of `courses` at this instant.
     #[inline(always)]
     pub fn law_inputs<'a>(&'a self, courses: &'a [[T; 3]]) -> LawInputs<'a, T> {
         LawInputs {

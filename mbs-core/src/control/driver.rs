@@ -1,4 +1,4 @@
-//! The driver: tries steps, judges them, repeats those that fail, and plans the next.
+//! Driver of the step size: it tries steps, judges them, repeats those that fail, and plans the next.
 
 use super::energy::{EnergyRule, Steering};
 use super::invariant::Invariant;
@@ -19,7 +19,7 @@ const MOST_LANDINGS: u32 = 12;
 /// Growth of the step where no rule limits it [-]. Chosen, not tuned: the largest step limits what follows.
 const FREE: f64 = 2.0;
 
-/// What a driver steps: a mechanism with a formulation and a state that can be put back.
+/// Mechanism that a driver steps, with a formulation and a state that can be put back.
 pub trait Stepper<T: Real> {
     /// Called before a trial of length `h` [s], after `reductions` in a row of this step: the place to change the index.
     ///
@@ -49,16 +49,16 @@ pub trait Stepper<T: Real> {
     fn keep(&mut self, at_event: bool);
 }
 
-/// What a trial came to.
+/// Outcome of a trial step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TrialStep<T> {
-    /// What the step did.
+    /// Report on the step.
     pub report: StepReport<T>,
     /// Time at its end [s].
     pub t: T,
     /// Kinetic energy, potential energy, work [J] at its end.
     pub energies: [f64; 3],
-    /// Its local error relative to the scene's length; zero where none is asked for [-].
+    /// Local error of the step relative to the scene's length; zero where none is asked for [-].
     pub error: f64,
     /// 1/2 a^T M a at its beginning and at its end [J/s^2]. From rest nothing has moved yet: the energy that the accelerations give in a
     /// first step takes the place of the energy that moves. Once energy moves ([`Invariant::is_moving`]) the smaller of the two counts,
@@ -91,14 +91,14 @@ pub struct Rules<T> {
     pub error: Option<(f64, u32)>,
 }
 
-/// What kept the next step from being longer.
+/// Cause that kept the next step from being longer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Limit {
     /// The largest step, or the end.
     Largest,
-    /// The energy rule.
+    /// Limit by the energy rule.
     Energy,
-    /// The error estimate.
+    /// Limit by the error estimate.
     Error,
     /// An event ended the step.
     Event,
@@ -109,11 +109,11 @@ pub enum Limit {
 }
 
 impl Limit {
-    /// All of them.
+    /// All limits, in the order of the enum.
     pub const ALL: [Self; 6] =
         [Self::Largest, Self::Energy, Self::Error, Self::Event, Self::Contact, Self::Failure];
 
-    /// Its name in files.
+    /// Name of the limit in files.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -130,17 +130,17 @@ impl Limit {
 /// A step that was accepted.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Accepted<T> {
-    /// What the last trial came to; iterations, factorisations and solutions of all that came to their end.
+    /// Outcome of the last trial; iterations, factorisations and solutions are those of all trials that came to their end.
     pub attempt: TrialStep<T>,
-    /// Its length [s].
+    /// Length of the step [s].
     pub step: T,
     /// Trials before it that were rejected, or shortened for an event.
     pub rejected: u32,
     /// Change of the invariant in it [J].
     pub change: f64,
-    /// What kept this step or the next from being longer.
+    /// Cause that kept this step or the next from being longer.
     pub limit: Limit,
-    /// It took the whole of the time that was left.
+    /// Whether the step took the whole of the time that was left.
     pub is_last: bool,
 }
 
@@ -153,7 +153,7 @@ pub struct Driver<T> {
     /// The step that is tried next, and the first one [s].
     next: T,
     first: T,
-    /// Where the present stretch of a largest step began [s], and the trials in it; nothing before the first.
+    /// Start of the present stretch of a largest step [s], and the trials in it; `None` before the first.
     stretch: Option<(T, u32)>,
 }
 
@@ -172,7 +172,7 @@ fn count<T: Real>(stretch: &mut Option<(T, u32)>, t: T, length: T) -> Result<(),
     Ok(())
 }
 
-/// What a driver remembers from step to step.
+/// History of a driver from step to step.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct DriverHistory<T> {
     /// The step that is tried next [s].
@@ -181,7 +181,7 @@ pub struct DriverHistory<T> {
     pub energy: Option<(f64, u32)>,
     /// Of the error estimate, where there is one: that of its [`StepControl`].
     pub error: Option<(Option<f64>, bool)>,
-    /// Where the present stretch of a largest step began [s], and the trials in it.
+    /// Start of the present stretch of a largest step [s], and the trials in it.
     pub stretch: Option<(T, u32)>,
 }
 
@@ -191,7 +191,7 @@ struct Effort {
     rejected: u32,
     reductions: u32,
     landings: u32,
-    /// Iterations, factorisations, solutions.
+    /// Iterations, factorisations and solutions so far.
     work: [u32; 3],
     /// Why the last trial was shortened.
     reason: Option<Limit>,
@@ -215,7 +215,7 @@ impl Effort {
         }
     }
 
-    /// What a trial did.
+    /// Adds the work of a trial.
     fn add<T>(&mut self, report: &StepReport<T>) {
         let [iterations, factorizations, solves] = self.work;
         self.work = [
@@ -234,7 +234,7 @@ impl Effort {
     }
 }
 
-/// What the rules say of a trial, with what they would remember of it.
+/// Judgement of the rules on a trial, with what they would remember of it.
 struct Judgement<T> {
     /// Factor for the next step, or for its repetition.
     factor: f64,
@@ -409,7 +409,7 @@ impl<T: Real> Driver<T> {
         }
     }
 
-    /// What the rules say of a trial.
+    /// Judges a trial by the rules.
     fn judge(&self, attempt: &TrialStep<T>, change: f64, invariant: &Invariant) -> Judgement<T> {
         let (mut energy, mut error) = (self.energy, self.error);
         let mut kept = (f64::INFINITY, Limit::Largest);

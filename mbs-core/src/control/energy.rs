@@ -16,15 +16,15 @@
 /// The rule with its limits.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EnergyRule {
-    /// U: a larger change rejects the step [-].
+    /// Upper limit U of the change: a larger one rejects the step [-].
     pub upper: f64,
-    /// L: the change is kept above it, up to the largest step [-].
+    /// Lower limit L of the change: it is kept above it, up to the largest step [-].
     pub lower: f64,
     /// Share of U that the repeated step aims at [-].
     pub safety: f64,
     /// 1/r, from 1/4 to 1/2 [-].
     pub exponent: f64,
-    /// As printed: between L and U the step stays as it is.
+    /// Whether the rule is as printed: between L and U the step stays as it is.
     pub is_printed: bool,
 }
 
@@ -107,7 +107,7 @@ impl Steering {
         (self.memory, self.small)
     }
 
-    /// Restores a [`history`](Self::history).
+    /// Restores the rule's memory from a [`history`](Self::history).
     pub(super) fn set_history(&mut self, (memory, small): (f64, u32)) {
         (self.memory, self.small) = (memory, small);
     }

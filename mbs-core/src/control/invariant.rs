@@ -12,7 +12,7 @@
 /// Rounding of the energy balance, in units of the precision times the sum of its parts [-]. Chosen, not tuned.
 const ROUNDINGS: f64 = 64.0;
 
-/// What the invariant did so far. Energies in joules.
+/// Energy invariant Pi, with its changes and errors so far. Energies in joules.
 ///
 /// Cost of a step: some thirty operations, in `f64` for every scalar.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -99,7 +99,7 @@ impl Invariant {
         self.last
     }
 
-    /// Pi(0) [J].
+    /// Invariant Pi(0) at the start [J].
     #[must_use]
     pub fn initial(&self) -> f64 {
         self.initial
@@ -117,7 +117,7 @@ impl Invariant {
         self.max_error
     }
 
-    /// What energies after a step would change of Pi [J].
+    /// Change of Pi that energies after a step would make [J].
     #[must_use]
     pub fn change(&self, [kinetic, potential, work]: [f64; 3]) -> f64 {
         let [k, p, w] = self.last;
@@ -130,8 +130,8 @@ impl Invariant {
         self.max_kinetic + self.gross_work
     }
 
-    /// What changes within a step are measured against, `energies` at its end: the largest kinetic energy plus the range of the
-    /// potential one [J]. It does not grow with the length of a run, and knows no zero of the potential energy.
+    /// Scale of changes within a step, with `energies` at its end: the largest kinetic energy plus the range of the potential one [J]. It
+    /// does not grow with the length of a run, and knows no zero of the potential energy.
     #[must_use]
     pub fn scale(&self, [kinetic, potential, _]: [f64; 3]) -> f64 {
         let range = self.potential[1].max(potential) - self.potential[0].min(potential);
@@ -214,7 +214,7 @@ impl Invariant {
 }
 
 impl Line {
-    /// One more point.
+    /// Adds one more point.
     fn take(&mut self, t: f64, error: f64, change: f64) {
         self.n += 1.0;
         self.squares += change * change;

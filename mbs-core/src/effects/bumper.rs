@@ -10,7 +10,7 @@ use crate::laws::scalar::{ScalarForce, TensionLaw};
 /// Pushes where the value has fallen below `touch`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BumperLaw<T> {
-    /// [N/m] and [N s/m].
+    /// Stiffness [N/m] and damping [N s/m].
     pub law: [T; 2],
     /// Value at which contact begins [m].
     pub touch: T,

@@ -1,4 +1,4 @@
-//! What the files of effects describe their data with.
+//! Names with which the files of effects describe their data.
 
 pub(super) use super::field::Default::{
     As, Needed, NeededWith, NeededWithout, Nothing, Number, Open, OpenWith, Times,

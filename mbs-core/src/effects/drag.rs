@@ -17,9 +17,9 @@ use crate::laws::scalar::ScalarForce;
 /// Drag of still air.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DragLaw<T> {
-    /// C_d A [m^2].
+    /// Drag coefficient times area, C_d A [m^2].
     pub area_coefficient: T,
-    /// [kg/m^3].
+    /// Density of the air [kg/m^3].
     pub density: T,
 }
 
@@ -88,7 +88,7 @@ mod data {
         fn dissipates(&self) -> bool {
             true
         }
-        /// It grows with the square of the speed: small motions do not meet it.
+        /// Drag grows with the square of the speed: small motions do not meet it.
         fn rest(&mut self, _: &mut dyn FnMut(&'static str)) -> bool {
             false
         }

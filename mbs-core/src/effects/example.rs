@@ -7,7 +7,7 @@ use crate::scene::{
 use alloc::vec;
 use alloc::vec::Vec;
 
-/// Where an example acts.
+/// Bodies, places and joint on which an example acts.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Places {
     /// Two bodies, and a place on each, reference configuration [m].

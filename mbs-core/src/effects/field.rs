@@ -1,4 +1,4 @@
-//! What effects are described by: fields with a key, a form, a unit and a default, and values in these forms.
+//! Fields and values that describe effects: a field has a key, a form, a unit and a default, and a value has one of these forms.
 //!
 //! Reader, writer, checks, documents and tests go through fields and values; none of them has a list of kinds.
 
@@ -12,20 +12,20 @@ use alloc::vec::Vec;
 /// One key of an effect in scene files.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Field {
-    /// The key; of a [`Form::Signal`] the first of its four.
+    /// Key in scene files; of a [`Form::Signal`] the first of its four.
     pub key: &'static str,
-    /// What stands there.
+    /// Form of the value at the key.
     pub form: Form,
-    /// SI unit; empty: none.
+    /// SI unit of the value; empty: none.
     pub unit: &'static str,
-    /// What holds where the key is left out.
+    /// Rule for a key that is left out.
     pub default: Default,
-    /// One sentence.
+    /// Meaning of the field, in one sentence.
     pub meaning: &'static str,
 }
 
 impl Field {
-    /// Its keys in scene files.
+    /// Returns the keys of the field in scene files.
     pub fn keys(&self) -> impl Iterator<Item = &'static str> {
         let keys = match self.form {
             Form::Signal(_) => [Some(self.key), Some("table"), Some("input"), Some("signal")],
@@ -37,7 +37,7 @@ impl Field {
     }
 }
 
-/// What stands at a key, and what is refused there.
+/// Form of the value at a key, and what is refused there.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Form {
@@ -45,7 +45,7 @@ pub enum Form {
     Bodies,
     /// A body that moves.
     Body,
-    /// A joint.
+    /// A joint, with its need where no coordinate is given.
     Joint(JointNeed),
     /// A coordinate of the joint, by name or number from 0; `None`: the one that the joint's need means.
     Coordinate,
@@ -61,7 +61,7 @@ pub enum Form {
     Axis,
     /// A direction, or none.
     MaybeAxis,
-    /// A number.
+    /// A number, with the sign that it may have.
     Number(Sign),
     /// A length, or `"reference"`: that of the line in the reference configuration.
     Length,
@@ -73,7 +73,7 @@ pub enum Form {
     Pieces,
     /// `value`, with `input = true` one that is set between steps, `table` over time, or `signal` by name.
     Signal(SignalForm),
-    /// `"global"` or `"body"`.
+    /// Axes of a vector: `"global"` or `"body"`.
     Frame,
     /// `"none"` or `"calspan"`, with its `coefficients`.
     Side,
@@ -89,7 +89,7 @@ pub enum Form {
     BodyLaw,
 }
 
-/// What an effect asks of a joint whose coordinate is not given.
+/// Need of an effect for a joint whose coordinate is not given.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum JointNeed {
     /// One rotation, or one coordinate alone.
@@ -118,7 +118,7 @@ pub enum SignalForm {
     Scalar,
     /// A vector of the scene's dimension.
     Vector,
-    /// About an axis: one number in the plane, a vector in space.
+    /// Numbers of a moment: one in the plane, a vector in space.
     Moment,
     /// Three numbers of any meaning.
     Three,
@@ -136,12 +136,12 @@ impl SignalForm {
     }
 }
 
-/// What holds where a key is left out.
+/// Rule for a key that is left out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Default {
-    /// It must be written.
+    /// The key must be written.
     Needed,
-    /// This decimal number; of six all.
+    /// The decimal number given here; in [`Form::Six`] all six are this number.
     Number(&'static str),
     /// The value of an earlier key.
     As(&'static str),
@@ -149,11 +149,11 @@ pub enum Default {
     Times(&'static str, &'static str),
     /// Zero where the value of an earlier key is zero, else it must be written.
     NeededWith(&'static str),
-    /// It must be written, but where an earlier key is true: then neither may stand beside the other.
+    /// The key must be written, but where an earlier key is true: then neither may stand beside the other.
     NeededWithout(&'static str),
-    /// It follows from the scene.
+    /// The value follows from the scene.
     Open,
-    /// It follows from the scene where an earlier key does, else zero.
+    /// The value follows from the scene where that of an earlier key does, else it is zero.
     OpenWith(&'static str),
     /// Nothing, or the first of the words.
     Nothing,
@@ -163,56 +163,56 @@ pub enum Default {
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum Value<T> {
-    /// Of [`Form::Bodies`].
+    /// Value in the form [`Form::Bodies`].
     Bodies([BodyId; 2]),
-    /// Of [`Form::Body`].
+    /// Value in the form [`Form::Body`].
     Body(BodyId),
-    /// Of [`Form::Joint`].
+    /// Value in the form [`Form::Joint`].
     Joint(JointId),
-    /// Of [`Form::Coordinate`].
+    /// Value in the form [`Form::Coordinate`].
     Coordinate(Option<usize>),
-    /// Of [`Form::Terms`].
+    /// Value in the form [`Form::Terms`].
     Terms(Vec<CouplingTerm<T>>),
-    /// Of [`Form::Point`].
+    /// Value in the form [`Form::Point`].
     Point([T; 3]),
-    /// Of [`Form::Points`].
+    /// Value in the form [`Form::Points`].
     Points([[T; 3]; 2]),
-    /// Of [`Form::Line`].
+    /// Value in the form [`Form::Line`].
     Line(Vec<(BodyId, [T; 3])>),
-    /// Of [`Form::Axis`].
+    /// Value in the form [`Form::Axis`].
     Axis([T; 3]),
-    /// Of [`Form::MaybeAxis`].
+    /// Value in the form [`Form::MaybeAxis`].
     MaybeAxis(Option<[T; 3]>),
-    /// Of [`Form::Number`].
+    /// Value in the form [`Form::Number`].
     Number(T),
-    /// Of [`Form::Length`]; `None`: that in the reference configuration.
+    /// Value in the form [`Form::Length`]; `None`: the length in the reference configuration.
     Length(Option<T>),
-    /// Of [`Form::Flag`].
+    /// Value in the form [`Form::Flag`].
     Flag(bool),
-    /// Of [`Form::Six`].
+    /// Value in the form [`Form::Six`].
     Six([T; 6]),
-    /// Of [`Form::Pieces`].
+    /// Value in the form [`Form::Pieces`].
     Pieces(Vec<PolynomialPiece<T>>),
-    /// Of [`Form::Signal`].
+    /// Value in the form [`Form::Signal`].
     Signal(Signal<T>),
-    /// Of [`Form::Frame`].
+    /// Value in the form [`Form::Frame`].
     Frame(AxisFrame),
-    /// Of [`Form::Side`].
+    /// Value in the form [`Form::Side`].
     Side(Option<CalspanCoefficients<T>>),
-    /// Of [`Form::Spin`].
+    /// Value in the form [`Form::Spin`].
     Spin(Option<JointId>),
-    /// Of [`Form::Slip`].
+    /// Value in the form [`Form::Slip`].
     Slip(Option<LongitudinalSlip<T>>),
-    /// Of [`Form::Name`].
+    /// Value in the form [`Form::Name`].
     Name(bool),
-    /// Of [`Form::ForceLaw`].
+    /// Value in the form [`Form::ForceLaw`].
     ForceLaw(Code<dyn ForceLaw>),
-    /// Of [`Form::BodyLaw`].
+    /// Value in the form [`Form::BodyLaw`].
     BodyLaw(Code<dyn BodyLaw>),
 }
 
 impl<T: Clone> Value<T> {
-    /// The same with every number as `f` gives it.
+    /// Returns the value with every number as `f` gives it.
     pub fn map<U>(self, f: &mut impl FnMut(T) -> U) -> Value<U> {
         match self {
             Self::Bodies(bodies) => Value::Bodies(bodies),
@@ -265,7 +265,7 @@ impl<T: Clone> Value<T> {
 }
 
 impl<T> Signal<T> {
-    /// The same with every number as `f` gives it.
+    /// Returns the signal with every number as `f` gives it.
     pub fn map<U>(self, f: &mut impl FnMut(T) -> U) -> Signal<U> {
         match self {
             Self::Constant(x) => Signal::Constant(x.map(f)),
@@ -280,12 +280,12 @@ impl<T> Signal<T> {
 
 /// The data of a kind of effect: made by [`effect!`](super::effect).
 pub(crate) trait EffectData<T>: Sized {
-    /// Its names in scene files; an effect has the first, unless its model says otherwise.
+    /// Names of the kind in scene files; an effect has the first, unless its model says otherwise.
     const NAMES: &'static [&'static str];
-    /// Its fields, in order.
+    /// Fields of the kind, in order.
     const FIELDS: &'static [Field];
 
-    /// The values of its fields.
+    /// Returns the values of the fields, in their order.
     fn values(&self) -> Vec<Value<T>>
     where
         T: Clone;

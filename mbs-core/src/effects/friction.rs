@@ -16,7 +16,7 @@ use crate::laws::entry::entry;
 use crate::laws::operations::Operations;
 use crate::laws::scalar::{ScalarForce, TensionLaw};
 
-/// A friction law.
+/// Law of regularised Stribeck friction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FrictionLaw<T> {
     /// Friction of fast motion [N m or N].
@@ -35,16 +35,16 @@ pub struct FrictionLaw<T> {
 
 entry!(FrictionLaw<T> { coulomb, r#static, stribeck, viscous, regularisation, course });
 
-/// What force and slope at a rate are made of.
+/// Parts of the force and the slope at a rate.
 #[derive(Debug, Clone, Copy)]
 struct FrictionParts<T> {
     /// r / sqrt(r^2 + e^2).
     share: T,
     /// sqrt(r^2 + e^2).
     root: T,
-    /// g.
+    /// Level of the friction, g [N m or N].
     level: T,
-    /// r / r_s.
+    /// Rate by the Stribeck rate, r / r_s.
     s: T,
     /// 1 / (1 + s^2).
     bell: T,
@@ -81,7 +81,8 @@ impl<T: Real> FrictionLaw<T> {
         (level / root * (T::ONE - w * share) - fall + self.viscous).max(T::ZERO)
     }
 
-    /// What [`slope`](Self::slope) takes where an iteration came from the `before` to this rate: its force and slope there.
+    /// Share that [`slope`](Self::slope) takes where an iteration came from the rate `before` to this one: by force and slope at `before`,
+    /// within -1 and 1.
     #[inline]
     pub fn foreseen(&self, rate: T, (before, force, slope): (T, T, T)) -> T {
         let level = self.parts(rate).level;

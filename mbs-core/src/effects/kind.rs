@@ -10,7 +10,7 @@ use alloc::vec::Vec;
 /// The key of springs that are slack below their free length.
 pub(super) const PULLS_ONLY: &str = "pulls_only";
 
-/// What a kind of effect does, and what it says of itself.
+/// Model of a kind of effect: its checks, its actions and its properties.
 pub(crate) trait EffectModel<T: Real>: EffectData<T> {
     /// Law and range, in one line of Markdown.
     const LAW: &'static str;
@@ -25,7 +25,7 @@ pub(crate) trait EffectModel<T: Real>: EffectData<T> {
     /// May its law take different ways by its numbers? Then several states are not computed at once.
     const HAS_BRANCHES: bool = true;
 
-    /// Its name in scene files.
+    /// Returns the name of the effect in scene files.
     fn name(&self) -> &'static str {
         Self::NAMES.first().copied().unwrap_or_default()
     }
@@ -38,7 +38,7 @@ pub(crate) trait EffectModel<T: Real>: EffectData<T> {
         Ok(())
     }
 
-    /// Adds what it does.
+    /// Adds the actions of the effect.
     fn actions(&self, to: &mut Compiler<'_, T>);
 
     /// Can it store energy?
@@ -69,11 +69,11 @@ pub(crate) trait EffectModel<T: Real>: EffectData<T> {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Row {
-    /// Its module, the name of its kind in small letters.
+    /// Module of the kind, with the kind's name in small letters.
     pub module: &'static str,
-    /// Its names in scene files; none for a law in code.
+    /// Names of the kind in scene files; none for a law in code.
     pub names: &'static [&'static str],
-    /// Its fields.
+    /// Fields of the kind, in order.
     pub fields: &'static [Field],
     /// Law and range, in one line of Markdown.
     pub law: &'static str,
@@ -144,7 +144,7 @@ impl<T: Clone> EffectKind<T> {
     }
 }
 
-/// What an effect acts on.
+/// Part of a mechanism that an effect acts on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ActsOn {
     /// A line over two points or more, by one number.
@@ -178,7 +178,7 @@ impl<T: Clone> EffectKind<T> {
         self.row().has_branches || self.pulls_only()
     }
 
-    /// What it acts on.
+    /// Returns the part of the mechanism that the effect acts on.
     #[must_use]
     pub fn acts_on(&self) -> ActsOn {
         if let Self::Own(own) = self {
@@ -222,7 +222,7 @@ macro_rules! kinds {
         pub const EFFECTS: &[Row] = &[$(Row::of::<$Kind<f64>>(stringify!($module), kind::feature_of! $gate)),*];
 
         impl<T> EffectKind<T> {
-            /// What is known of its kind.
+            /// Returns the row of the effect's kind.
             #[must_use]
             pub const fn row(&self) -> &'static Row {
                 match self {
@@ -238,7 +238,7 @@ macro_rules! kinds {
                 make.get(row)?(&mut values.into_iter())
             }
 
-            /// The same kind with other values; `None` if they are not those of its fields.
+            /// Returns an effect of the same kind with other values; `None` if they are not those of its fields.
             pub fn with<U>(&self, values: impl IntoIterator<Item = Value<U>>) -> Option<EffectKind<U>> {
                 let values = &mut values.into_iter();
                 match self {
@@ -256,7 +256,7 @@ macro_rules! kinds {
                 }
             }
 
-            /// The same with every number as `f` gives it; `None` for a user's own law, which is code for one scalar type.
+            /// Returns the effect with every number as `f` gives it; `None` for a user's own law, which is code for one scalar type.
             pub fn map<U>(self, f: &mut impl FnMut(T) -> U) -> Option<EffectKind<U>>
             where
                 T: Clone,
@@ -266,7 +266,7 @@ macro_rules! kinds {
         }
 
         impl<T: Real> EffectKind<T> {
-            /// Its name in scene files; `own` for a law in code.
+            /// Returns the name of the effect in scene files; `own` for a law in code.
             #[must_use]
             pub fn name(&self) -> &'static str {
                 match self {

@@ -90,7 +90,7 @@ mod law {
             T::from_f64(self.force(&at, law_inputs).energy)
         }
 
-        /// What the law does not store, with what its energy changes by time alone; by central differences.
+        /// Power that the law does not store, with the change of its energy by time alone [W]; by central differences.
         #[inline(never)]
         fn power(&self, measure: &ScalarForce<T>, law_inputs: &LawInputs<'_, T>) -> T {
             let ScalarForce { value, rate, tension, .. } = *measure;

@@ -14,9 +14,9 @@ use crate::laws::scalar::{ScalarForce, TensionLaw};
 /// Pulls where the value has risen above `free`, never pushes: see [`contact`](crate::laws::bumper).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PullLaw<T> {
-    /// [N/m, N m/rad].
+    /// Stiffness [N/m, N m/rad].
     pub stiffness: T,
-    /// [N s/m, N m s/rad].
+    /// Damping [N s/m, N m s/rad].
     pub damping: T,
     /// Value above which it pulls [m, rad].
     pub free: T,

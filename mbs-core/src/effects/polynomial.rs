@@ -11,9 +11,9 @@ use crate::laws::{LawInputs, Part};
 /// A piecewise polynomial of the value or of the rate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct PolynomialLaw {
-    /// Its pieces.
+    /// Pieces of the polynomial.
     pub pieces: Part,
-    /// Of the rate: a damper.
+    /// Is it a polynomial of the rate, a damper?
     pub of_rate: bool,
 }
 

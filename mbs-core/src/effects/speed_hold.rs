@@ -15,7 +15,7 @@ use crate::laws::entry::entry;
 use crate::laws::operations::Operations;
 use crate::laws::scalar::ScalarForce;
 
-/// A speed hold.
+/// Law of a drive that holds a speed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SpeedHoldLaw<T> {
     /// Speed to hold [m/s].

@@ -13,9 +13,9 @@ use crate::laws::scalar::{ScalarForce, TensionLaw};
 /// stiffness (m - free) + damping m'.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SpringDamperLaw<T> {
-    /// [N/m, N m/rad].
+    /// Stiffness [N/m, N m/rad].
     pub stiffness: T,
-    /// [N s/m, N m s/rad].
+    /// Damping [N s/m, N m s/rad].
     pub damping: T,
     /// Value without tension [m, rad].
     pub free: T,

@@ -30,7 +30,7 @@ mod data {
 
         const HAS_BRANCHES: bool = false;
 
-        /// What pulls only has no use for negative numbers.
+        /// Refuses a negative stiffness or damping of a spring that pulls only.
         fn check(&self, _: Surroundings<'_, T>, place: Place) -> Result<(), SceneError> {
             if !self.pulls_only {
                 return Ok(());

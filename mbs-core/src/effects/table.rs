@@ -1,4 +1,4 @@
-//! What the list of effects is made into: modules, names, the enums of laws, and the enum of kinds with its dispatch.
+//! Expansions of the list of effects: modules, names, the enums of laws, and the enum of kinds with its dispatch.
 
 /// Modules and kinds of a list of effects.
 macro_rules! kinds {
@@ -98,7 +98,7 @@ macro_rules! laws {
         #[derive(Debug, Clone, Copy, PartialEq)]
         #[non_exhaustive]
         pub enum BodyLaw<T> {
-            /// Nothing: cannot be made.
+            /// Variant that cannot be made.
             #[doc(hidden)]
             Never(NeverLaw<T>),
             $($(
@@ -176,7 +176,7 @@ macro_rules! dispatch {
         $(#[$meta:meta])*
         fn $method:ident($($arg:ident: $Arg:ty),*) -> $Out:ty;
     )* }) => {
-        /// Dispatch.
+        /// Methods that ask the law of the variant.
         impl<T: Real> $Enum<T> {
             $(table::method! {
                 $laws $Trait law (law $(, $arg)*) $(#[$meta])* fn $method($($arg: $Arg),*) -> $Out
@@ -213,7 +213,7 @@ macro_rules! tags {
             }
         }
 
-        /// Writes the law; false if it is not made of numbers, as a user's own.
+        /// Writes the numbers of the law; false if it is not made of numbers, as a user's own.
         pub fn write<W: EntryWriter<T>>(&self, to: &mut W) -> bool {
             match self {
                 $(#[cfg $gate] Self::$Variant(law) => {

@@ -95,7 +95,7 @@ mod data {
         fn dissipates(&self) -> bool {
             !self.damping.is_zero()
         }
-        /// What it does when it rolls.
+        /// Takes out the forces of rolling: side force, rolling resistance and force by slip.
         fn rest(&mut self, leave: &mut dyn FnMut(&'static str)) -> bool {
             if self.side.take().is_some() {
                 leave("side force");

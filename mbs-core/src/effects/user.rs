@@ -12,7 +12,7 @@ use crate::laws::user::{UserBodyLaw, UserScalarLaw};
 /// A user's own law of a value and its rate.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct UserScalarEntry<T> {
-    /// The law.
+    /// User's law of a value and its rate.
     pub law: UserScalarLaw<T>,
     /// Number of the signal that is its input.
     pub course: u32,
@@ -21,7 +21,7 @@ pub struct UserScalarEntry<T> {
 /// A user's own law on a body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct UserBodyEntry<T> {
-    /// The law.
+    /// User's law on a body.
     pub law: UserBodyLaw<T>,
     /// Number of the signal that is its input.
     pub course: u32,
@@ -107,11 +107,11 @@ mod data {
     pub struct Own<T> {
         /// The law and where it acts.
         pub law: UserLaw<T>,
-        /// Its input.
+        /// Input of the law.
         pub course: Signal<T>,
     }
 
-    /// It is code: no scene file has it, and it has no values.
+    /// A law of a user's own is code: no scene file has it, and it has no values.
     impl<T> EffectData<T> for Own<T> {
         const NAMES: &'static [&'static str] = &[];
         const FIELDS: &'static [Field] = &[];

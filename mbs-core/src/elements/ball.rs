@@ -31,7 +31,7 @@ pub(crate) fn swing<T: Real, const D: usize>(pair: &Pair<T, D>) -> T {
     s.atan2(c)
 }
 
-/// Its gradient by both directions.
+/// Gradient of the swing by both directions; zero at no swing.
 pub(crate) fn swing_gradient<T: Real, const D: usize>(pair: &Pair<T, D>) -> Pair<T, D> {
     let ([c, s], n) = swing_parts(pair);
     if s == T::ZERO {
@@ -45,7 +45,7 @@ pub(crate) fn swing_gradient<T: Real, const D: usize>(pair: &Pair<T, D>) -> Pair
     [by(cross(&raised(b), &n), b), by(cross(&n, &raised(a)), a)]
 }
 
-/// Its rate, and what is known of its acceleration.
+/// Rate of the swing, and the part of its second derivative without accelerations.
 pub(crate) fn swing_rates<T: Real, const D: usize>(
     pair: &Pair<T, D>,
     [a_t, b_t]: &Pair<T, D>,
@@ -70,7 +70,7 @@ pub(crate) fn twist_parts<T: Real, const D: usize>(
     [e1.dot(f1) + e2.dot(f2), e2.dot(f1) - e1.dot(f2)]
 }
 
-/// Its gradient by e1, e2, and by f1, f2.
+/// Gradient of the twist by e1, e2, and by f1, f2.
 pub(crate) fn twist_gradient<T: Real, const D: usize>(
     first: &Pair<T, D>,
     second: &Pair<T, D>,
@@ -94,7 +94,7 @@ pub fn ball_directions<T: Real>(a: &Vector<T, 3>, b: &Vector<T, 3>) -> [Vector<T
     [n, (a + b) * (T::ONE / (T::ONE + a.dot(b)))]
 }
 
-/// Its rate, and what is known of its acceleration.
+/// Rate of the twist, and the part of its second derivative without accelerations.
 pub(crate) fn twist_rates<T: Real, const D: usize>(
     (first, second): (&Pair<T, D>, &Pair<T, D>),
     (first_t, second_t): (&Pair<T, D>, &Pair<T, D>),

@@ -6,25 +6,25 @@ use crate::algebra::{Coef, Vector, add_to, load};
 /// One entity in a combination.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Term<T> {
-    /// Where the entity starts in the extended coordinates.
+    /// Start of the entity in the extended coordinates.
     pub entity: u32,
-    /// Where its columns start in the element's own Jacobian row.
+    /// Start of the entity's columns in the element's own Jacobian row.
     pub column: u32,
-    /// Its coefficient.
+    /// Coefficient of the entity in the combination.
     pub coef: Coef<T>,
 }
 
 /// A run of terms in a shared pool.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Span {
-    /// First.
+    /// Index of the first term.
     pub start: u32,
     /// One past the last.
     pub end: u32,
 }
 
 impl Span {
-    /// The terms.
+    /// Terms of the span in `pool`.
     #[inline(always)]
     #[must_use]
     pub fn of<T>(self, pool: &[T]) -> &[T] {
@@ -36,17 +36,17 @@ impl Span {
     pub fn of_mut<T>(self, pool: &mut [T]) -> &mut [T] {
         &mut pool[self.start as usize..self.end as usize]
     }
-    /// How many.
+    /// Number of terms in the span.
     #[must_use]
     pub fn len(self) -> usize {
         (self.end - self.start) as usize
     }
-    /// None?
+    /// Is the span empty?
     #[must_use]
     pub fn is_empty(self) -> bool {
         self.start == self.end
     }
-    /// As a range of indices.
+    /// Span as a range of indices.
     #[must_use]
     pub fn range(self) -> core::ops::Range<usize> {
         self.start as usize..self.end as usize

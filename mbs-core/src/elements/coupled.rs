@@ -34,11 +34,11 @@ pub enum Measurand<T> {
         /// Place of the last angle among those remembered.
         memory: u32,
     },
-    /// x.y.
+    /// Slide of two points along a direction, x.y.
     Slide {
         /// From the first body's point to the second's.
         x: Span,
-        /// Direction.
+        /// Direction of the slide, along which x is measured.
         y: Span,
     },
     /// Length of x, less that in the reference configuration.
@@ -59,7 +59,7 @@ pub enum Measurand<T> {
     Twist {
         /// Two directions across the axis, in the first body.
         first: [Span; 2],
-        /// The same in the second.
+        /// Two directions across the axis, in the second body.
         second: [Span; 2],
         /// Place of the last angle among those remembered.
         memory: u32,
@@ -69,41 +69,41 @@ pub enum Measurand<T> {
 /// A term of the sum.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CoupledTerm<T> {
-    /// Its factor over the largest one.
+    /// Factor of the term over the largest one.
     pub factor: T,
-    /// Its measures, in their table: the term is a function of their sum. Each counts with the factor of its sign.
+    /// Measures of the term, in their table: the term is a function of their sum. Each counts with the factor of its sign.
     pub measures: Span,
-    /// Its curve, in their table; [`NONE`]: the sum itself.
+    /// Curve of the term, in the table of curves; [`NONE`]: the sum itself.
     pub curve: u32,
 }
 
 /// A measure with its sign.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Signed<T> {
-    /// Its sign.
+    /// Sign with which the measure counts.
     pub sign: T,
-    /// The measure.
+    /// Measure without its sign.
     pub of: Measurand<T>,
 }
 
 /// The row of a coupling.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Coupled<T> {
-    /// Its terms, in their table.
+    /// Terms of the coupling, in their table.
     pub terms: Span,
     /// One over the largest factor: the sum is divided by it.
     pub inverse: T,
     /// Number of the guide that is its sum; [`NONE`]: it is zero.
     pub guide: u32,
-    /// What of its terms is held.
+    /// Function of the terms that is held.
     pub form: CoupledForm,
-    /// Row number.
+    /// Number of the row, its place in `phi`.
     pub row: u32,
     /// The row's place in the Jacobian store.
     pub place: Span,
 }
 
-/// What of its terms a coupling holds.
+/// Function of its terms that a coupling holds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CoupledForm {
     /// A sum that is constant, and without curves.
@@ -117,11 +117,11 @@ pub enum CoupledForm {
 /// The tables that couplings refer to.
 #[derive(Debug, Clone, Copy)]
 pub struct CoupledTables<'a, T, F> {
-    /// Terms.
+    /// Terms of the couplings.
     pub terms: &'a [CoupledTerm<T>],
-    /// Measures.
+    /// Measures of the terms, each with its sign.
     pub measures: &'a [Signed<T>],
-    /// Combinations.
+    /// Pool of the combinations that measures refer to.
     pub pool: &'a [Term<T>],
     /// The curves by number.
     pub curves: &'a F,
@@ -196,7 +196,7 @@ impl<T: Real> Coupled<T> {
         phi[self.row as usize] = value;
     }
 
-    /// The same at `q + dq`, from `phi_n` at `q` where the sum is linear and constant.
+    /// Value and gradient at `q + dq`, from `phi_n` at `q` where the sum is linear and constant.
     #[inline(never)]
     pub fn advance<const D: usize>(
         &self,
@@ -345,7 +345,7 @@ impl<T: Real> Measurand<T> {
     }
 }
 
-/// What a measure changes by when coordinates change from `q` by `dq`, free of cancellation.
+/// Change of a measure when coordinates change from `q` by `dq`, free of cancellation.
 fn increment<T: Real, const D: usize>(
     of: &Measurand<T>,
     at: impl Fn(Span) -> Vector<T, D>,

@@ -7,18 +7,18 @@
 use crate::Real;
 use crate::algebra::{Vector, load, store};
 
-/// A constant-distance row.
+/// Row of a constant distance of two entities.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Distance<T> {
     /// Extended coordinates of the ends a and b.
     pub ends: [u32; 2],
-    /// Where the gradients of a and b stand in the Jacobian store.
+    /// Places of the gradients of a and b in the Jacobian store.
     pub places: [u32; 2],
-    /// Row number.
+    /// Number of the row, its place in `phi`.
     pub row: u32,
     /// L [m or -].
     pub length: T,
-    /// 1 / L.
+    /// Inverse of the length, 1 / L [1/m or -].
     pub inverse: T,
 }
 

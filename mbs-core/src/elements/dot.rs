@@ -7,18 +7,18 @@
 use super::combination::{Span, Term, add_gradient, combine};
 use crate::Real;
 
-/// A constant-dot-product row.
+/// Row of a constant dot product of two combinations.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Dot<T> {
-    /// First combination.
+    /// First combination x of entities.
     pub x: Span,
-    /// Second combination.
+    /// Second combination y of entities.
     pub y: Span,
-    /// Scale s.
+    /// Scale s of the dot product.
     pub scale: T,
-    /// Constant c.
+    /// Constant c that the scaled dot product has.
     pub constant: T,
-    /// Row number.
+    /// Number of the row, its place in `phi`.
     pub row: u32,
     /// The row's place in the Jacobian store.
     pub place: Span,

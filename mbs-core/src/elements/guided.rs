@@ -21,10 +21,10 @@ use crate::Real;
 use crate::algebra::{Vector, cross, rotation, unit};
 use crate::laws::spin::spin;
 
-/// What is guided.
+/// Coordinate that is guided: an angle, a slide, or a component of a rotation vector.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum GuidedMotion {
-    /// An angle: x1 and x2 in the first body.
+    /// Angle of y in the frame x1, x2 of the first body.
     Angle {
         /// Direction at angle zero.
         x1: Span,
@@ -42,7 +42,7 @@ pub enum GuidedMotion {
         x: [Span; 3],
         /// The second body's axis j.
         y: Span,
-        /// k: the component.
+        /// Component k of the rotation vector, from 0.
         number: u32,
     },
 }
@@ -83,7 +83,7 @@ fn turned<T: Real>(f: &Vector<T, 3>, k: u32) -> [Vector<T, 3>; 2] {
     [r * unit(i), r * unit(j)]
 }
 
-/// sum_a r_a x_a.
+/// Returns the combination sum_a r_a x_a of three vectors.
 fn mixed<T: Real, const D: usize>(r: &Vector<T, 3>, x: &[Vector<T, D>; 3]) -> Vector<T, D> {
     x[0] * r[0] + x[1] * r[1] + x[2] * r[2]
 }
@@ -97,23 +97,23 @@ fn skew<T: Real, const D: usize>(
     (mixed(&r[1], x).dot(&y[0]) - mixed(&r[0], x).dot(&y[1])) * T::HALF
 }
 
-/// A rheonomic row.
+/// Rheonomic row of a guided coordinate.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Guided {
-    /// Angle or slide.
+    /// Coordinate that is guided, with the directions that measure it.
     pub motion: GuidedMotion,
     /// Direction in the second body (angle), or of the slide; of a rotation the second body's axis i.
     pub y: Span,
-    /// Which guide drives it; of a rotation the first of its three.
+    /// Number of the guide that drives the coordinate; of a rotation the first of its three.
     pub guide: u32,
-    /// Row number.
+    /// Number of the row, its place in `phi`.
     pub row: u32,
     /// The row's place in the Jacobian store.
     pub place: Span,
 }
 
 impl Guided {
-    /// What the curvature of phi is made of: pairs of directions with their factors, by the guides of the instant.
+    /// Hands out the pairs of directions, with their factors, that make the curvature of phi by the guides of the instant.
     #[cfg(feature = "alloc")]
     pub(crate) fn each_pair<T: Real>(
         &self,

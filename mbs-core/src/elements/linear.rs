@@ -11,7 +11,7 @@ use crate::algebra::Vector;
 /// D rows of linear dependence.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Linear {
-    /// The combination; constants enter as entities.
+    /// Combination that the rows hold at zero; constants enter as entities.
     pub x: Span,
     /// First of the D row numbers.
     pub row: u32,
@@ -20,7 +20,7 @@ pub struct Linear {
 }
 
 impl Linear {
-    /// Values at `q`.
+    /// Writes the values of the rows at `q`.
     #[inline(always)]
     pub fn evaluate<T: Real, const D: usize>(&self, pool: &[Term<T>], q: &[T], phi: &mut [T]) {
         let x: Vector<T, D> = combine(self.x.of(pool), q);

@@ -25,9 +25,9 @@ pub struct RollingRows<T: Real> {
     pub radius: T,
     /// Is it a blade?
     pub is_blade: bool,
-    /// The body: its centre, or the point of a blade, and its directions along the global axes of the reference configuration.
+    /// Frame of the body: its centre, or the point of a blade, and its directions along the global axes of the reference configuration.
     pub body: RollingFrame,
-    /// What it rolls on: a point of the plane, and directions.
+    /// Frame of what it rolls on: a point of the plane, and directions.
     pub on: RollingFrame,
     /// The axis of a disc or the direction of a blade, in the body.
     pub axis: Vector<T, 3>,
@@ -37,16 +37,16 @@ pub struct RollingRows<T: Real> {
     pub row: u32,
     /// Number of its rows: the height first, unless it is a blade.
     pub n: u32,
-    /// Their place in the Jacobian store.
+    /// Place of the rows in the Jacobian store.
     pub place: Span,
 }
 
 /// A point and the directions of a body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct RollingFrame {
-    /// The point.
+    /// Point of the frame.
     pub point: Span,
-    /// As many directions as the space has.
+    /// Directions of the frame, as many as the space has.
     pub axes: [Span; 3],
 }
 
@@ -77,7 +77,7 @@ impl<T: Real> Placed<T> {
         parts.fold(self.point[1], |sum, ([_, e_t], [x, _])| sum + e_t * *x)
     }
 
-    /// What the change of these components adds to its acceleration.
+    /// Part of the point's acceleration that the change of these components adds.
     fn drift(&self, x: &[[T; 2]; 3]) -> Vector<T, 3> {
         let parts = self.axes.iter().zip(x);
         parts.fold(Vector::zeros(), |sum, ([_, e_t], [_, x_t])| sum + e_t * *x_t)
@@ -135,7 +135,7 @@ impl<T: Real> RollingRows<T> {
         self.evaluate_with::<D>(pool, |x| [value::<T, D>(pool, x, q), Vector::zeros()], out);
     }
 
-    /// The same at `q + dq`.
+    /// Heights and gradients at `q + dq`; rows of velocities have the value zero.
     pub fn advance<const D: usize>(
         &self,
         pool: &[Term<T>],

@@ -12,14 +12,14 @@ use crate::team::on_stretches;
 use alloc::vec;
 use alloc::vec::Vec;
 
-/// Where a step ends, as it is known within the step; all vectors are extended.
+/// End of a step, as it is known within the step; all vectors are extended.
 #[derive(Debug, Clone)]
 pub struct StepEnd<T> {
     /// Increments of the coordinates in the step [m or -].
     pub dq: Vec<T>,
     /// Coordinates [m or -].
     pub q: Vec<T>,
-    /// Velocities.
+    /// Velocities of the coordinates.
     pub v: Vec<T>,
     /// Accelerations, in the unit that they were predicted in.
     pub a: Vec<T>,
@@ -96,7 +96,7 @@ impl<T: Real> StepEnd<T> {
         }
     }
 
-    /// What the step leaves of rows of velocities, where there are any: phi = (dq/dv) J v.
+    /// Evaluates what the step leaves of rows of velocities, where there are any: phi = (dq/dv) J v.
     #[inline]
     pub fn evaluate_rates<M: Model<T>>(&self, model: &M, rule: &Rule<T>, terms: &mut Terms<T>) {
         if model.has_velocity_rows() {

@@ -28,9 +28,9 @@ pub struct Newton<T> {
     pub tolerance: T,
     /// Length of the scene [m].
     pub length: T,
-    /// Corrections so far.
+    /// Number of corrections so far.
     pub iterations: u32,
-    /// The first correction; zero before it.
+    /// Size of the first correction; zero before it.
     pub first: T,
     /// The last two, the later one last; zero before them.
     pub corrections: [T; 2],
@@ -44,7 +44,7 @@ impl<T: Real> Newton<T> {
         Self { scale, tolerance, length, iterations: 0, first: zero, corrections: [zero; 2] }
     }
 
-    /// The last correction.
+    /// Size of the last correction.
     #[inline]
     pub fn last(&self) -> T {
         self.corrections[1]
@@ -98,7 +98,8 @@ impl<T: Real> Newton<T> {
         Ok(())
     }
 
-    /// What ends the iteration with the last correction, if it is over: a correction below `goal` is small, one of `noise` is rounding.
+    /// Reason to end the iteration with the last correction, if it is over: a correction below `goal` is small, one of `noise` is
+    /// rounding.
     #[inline]
     pub fn stop(&self, goal: T, noise: T) -> Option<Stop> {
         let [before, last] = self.corrections;
@@ -127,7 +128,7 @@ impl<T: Real> Newton<T> {
         moved * T::EPSILON * T::from_f64(ROUNDING)
     }
 
-    /// What is reported of an iteration that ended so.
+    /// Report on an iteration that ended so: iterations, size of the last correction, and the reason.
     #[inline]
     pub fn ended(&self, stop: Stop) -> (u32, T, Stop) {
         (self.iterations, self.last(), stop)

@@ -13,7 +13,7 @@ use crate::team::{add, norm_inf};
 /// Violation that is accepted when no sweep lowers it further, relative to what the vector and the scene move [-]: five digits more
 /// than steps of practical length are exact to.
 const ACCEPTED: f64 = 5e-10;
-/// The same where rounding decides [EPSILON]: sums over the coordinates of a long row of bodies.
+/// Violation that is accepted where rounding decides [EPSILON]: sums over the coordinates of a long row of bodies.
 const ACCEPTED_ROUNDING: f64 = 1024.0;
 /// A violation of velocities that is rounding [EPSILON of the largest velocity]: some products in a row.
 const VELOCITY_ROUNDING: f64 = 16.0;
@@ -38,11 +38,11 @@ pub enum ConstraintLevel {
 pub struct ResidualLimits<T> {
     /// A violation that is not swept at all.
     pub goal: T,
-    /// What sweeps may leave.
+    /// Violation that sweeps may leave.
     pub enough: T,
-    /// What they may leave where they no longer shrink it.
+    /// Violation that sweeps may leave where another one does not shrink it.
     pub limit: T,
-    /// What the violation is compared with: the vector, with what keeps that from zero.
+    /// Size that the violation is compared with: that of the vector, with what keeps it from zero.
     pub size: T,
 }
 

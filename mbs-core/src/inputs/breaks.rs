@@ -12,7 +12,7 @@ use alloc::vec::Vec;
 /// A time at which a signal jumps or has a corner.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SignalTime<T> {
-    /// The time [s].
+    /// Time of the jump or corner [s].
     pub time: T,
     /// Does a value jump, and not a rate alone?
     pub is_jump: bool,
@@ -23,7 +23,7 @@ pub struct SignalTime<T> {
 struct Times<T> {
     times: Vec<T>,
     is_jump: bool,
-    /// Where the first period begins, and its length [s].
+    /// Beginning of the first period, and its length [s].
     period: [T; 2],
 }
 
@@ -35,7 +35,7 @@ pub struct SignalTimes<T>(Vec<Times<T>>);
 const STRAIGHT: f64 = 1e-9;
 
 impl<T: Real> SignalTimes<T> {
-    /// Those of signals, and of the tables among the courses. Cost: one pass over them.
+    /// Finds the times of signals, and of the tables among the courses. Cost: one pass over them.
     #[doc(hidden)]
     pub fn new<'a>(
         signals: &'a SignalGraph<T>,

@@ -1,4 +1,4 @@
-//! What gives the signals that follow the motion, and the courses that name them: built once from a scene.
+//! Operations that give the signals that follow the motion, and the courses that name them: built once from a scene.
 
 use crate::Real;
 use crate::feedback::{CourseSlope, FeedbackOperation, FeedbackStep};
@@ -10,13 +10,13 @@ use alloc::vec::Vec;
 pub struct Feedback<T> {
     /// The operations, in their order.
     pub steps: Vec<FeedbackStep<T>>,
-    /// What is measured.
+    /// Numbers that are measured.
     pub measured: Vec<TermInput<T>>,
-    /// What each state begins with.
+    /// Start value of each state.
     pub starts: Vec<T>,
     /// The signals that follow the motion, by their numbers.
     pub signals: Vec<u32>,
-    /// The functions.
+    /// Functions that the operations refer to.
     pub curves: Vec<PreparedCurve<T>>,
 }
 
@@ -27,7 +27,8 @@ impl<T: Real> Feedback<T> {
         self.steps.is_empty()
     }
 
-    /// What a state has of them: first their own states, then the signals, each with its rate. An evaluation gives rates and signals.
+    /// Numbers that a state has of the signals: first their own states, then the signals, each with its rate. An evaluation gives rates and
+    /// signals.
     #[must_use]
     pub fn states(&self) -> Vec<[T; 2]> {
         let mut states: Vec<_> = self.starts.iter().map(|&start| [start, T::ZERO]).collect();

@@ -31,18 +31,18 @@ pub struct SignalGraph<T> {
     moves: Vec<bool>,
 }
 
-/// A signal, prepared.
+/// A signal of the scene, prepared.
 #[derive(Debug, Clone, PartialEq)]
 struct Node<T> {
     kind: SignalKind<T>,
-    /// Of a spline or a curve.
+    /// Prepared form of a spline or a curve.
     curve: PreparedCurve<T>,
-    /// Its place among the inputs.
+    /// Place of the signal among the inputs.
     input: usize,
 }
 
 impl<T: Real> SignalGraph<T> {
-    /// Prepares signals. Those of a circle, which the check of a scene refuses, are zero.
+    /// Prepares the signals of a scene. Those of a circle, which the check of a scene refuses, are zero.
     ///
     /// Cost: one tridiagonal elimination for each spline, and one pass over the signals.
     #[must_use]
@@ -63,13 +63,13 @@ impl<T: Real> SignalGraph<T> {
         Self { nodes, order, inputs, follows, moves }
     }
 
-    /// Number of signals.
+    /// Number of signals of the scene.
     #[must_use]
     pub fn len(&self) -> usize {
         self.nodes.len()
     }
 
-    /// Is there none?
+    /// Is there no signal?
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.nodes.is_empty()

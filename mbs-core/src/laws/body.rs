@@ -16,16 +16,16 @@ use crate::Real;
 use core::convert::Infallible;
 use core::marker::PhantomData;
 
-/// What a law sees of its body, global axes. In the plane z components of places are zero, and spin is about z.
+/// Motion of a body that a law sees, global axes. In the plane z components of places are zero, and spin is about z.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BodyMotion<T> {
     /// The law's point [m].
     pub position: [T; 3],
-    /// Its velocity [m/s].
+    /// Velocity of the law's point [m/s].
     pub velocity: [T; 3],
     /// The law's direction as it has turned with the body.
     pub axis: [T; 3],
-    /// Angular velocity [rad/s].
+    /// Angular velocity of the body [rad/s].
     pub spin: [T; 3],
 }
 
@@ -36,7 +36,7 @@ pub struct UnitWrench<T> {
     pub force: [T; 3],
     /// m, about the law's point [m, or - for a pure moment].
     pub moment: [T; 3],
-    /// Its tension and tangents; `rate` is d.v + m.w less `drift`.
+    /// Tension of the wrench with its tangents; `rate` is d.v + m.w less `drift`.
     pub measure: ScalarForce<T>,
 }
 
@@ -48,7 +48,7 @@ pub(crate) fn put<T>(out: &mut [UnitWrench<T>], place: usize, action: UnitWrench
     }
 }
 
-/// What the road does to a tire.
+/// Forces of the road on a tire.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct TireForces<T> {
     /// Force along the road's normal [N].
@@ -81,7 +81,7 @@ pub trait WrenchesLaw<T: Real>: Entry<T> + Copy {
     /// A bound of the operations of [`evaluate`](Self::evaluate): of the branch that costs most.
     fn operations(&self, law_inputs: &LawInputs<'_, T>) -> Operations;
 
-    /// Number of actions.
+    /// Number of actions of the law.
     fn n_actions(&self) -> usize {
         1
     }
@@ -111,7 +111,7 @@ pub trait WrenchesLaw<T: Real>: Entry<T> + Copy {
         -measure.tension * measure.rate
     }
 
-    /// How many gaps it has; none where it acts always.
+    /// Number of gaps of the law; none where it acts always.
     fn n_gaps(&self) -> usize {
         0
     }
@@ -121,12 +121,12 @@ pub trait WrenchesLaw<T: Real>: Entry<T> + Copy {
         false
     }
 
-    /// Its gap with the rate, then where it is over its road and how fast, along and up.
+    /// Gap of the law with its rate, then its place over the road and its speed, each along and up.
     fn watch(&self, _motion: &BodyMotion<T>, _supplies: &LawInputs<'_, T>) -> [[T; 2]; 3] {
         [[T::ZERO; 2]; 3]
     }
 
-    /// What the road does to a tire; `None` of other laws.
+    /// Forces of the road on a tire; `None` of other laws.
     fn tire(&self, _motion: &BodyMotion<T>, _inputs: &LawInputs<'_, T>) -> Option<TireForces<T>> {
         None
     }
@@ -139,7 +139,7 @@ pub trait WrenchesLaw<T: Real>: Entry<T> + Copy {
     /// Hands out its kinks, in no order.
     fn kinks(&self, _supplies: &LawInputs<'_, T>, _take: &mut dyn FnMut(LawCorner<T>)) {}
 
-    /// How far from its place a kink may be passed [m].
+    /// Largest distance from its place at which a kink may be passed [m].
     fn reach(&self) -> T {
         T::ZERO
     }

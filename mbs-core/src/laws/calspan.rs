@@ -30,7 +30,7 @@ pub struct Coefficients<T> {
     pub b: [T; 3],
     /// k, the skid ratio [-].
     pub skid: T,
-    /// AF1, AF2 [m/N].
+    /// Coefficients AF1, AF2 of the aligning torque [m/N].
     pub trail: [T; 2],
 }
 
@@ -57,7 +57,7 @@ impl<T: Real> Coefficients<T> {
     }
 }
 
-/// What the tire does across.
+/// Side force of the tire, its aligning torque and its slope.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Side<T> {
     /// Side force Fy [N].

@@ -5,8 +5,8 @@
 //! on a body                              (t, place, velocity, direction, angular velocity, u) -> force, moment
 //! ```
 //!
-//! [Relations](Relation) of couplings are objects too. u are three numbers that are set between steps. Where no allocation or no pointer that threads share can be had, laws are functions:
-//! [`user`](super::user).
+//! [Relations](Relation) of couplings are objects too. u are three numbers that are set between steps. Where no allocation or no pointer that
+//! threads share can be had, laws are functions: [`user`](super::user).
 
 use super::relation::Relation;
 use alloc::vec::Vec;
@@ -14,7 +14,7 @@ use core::fmt::{self, Debug, Formatter};
 use core::ops::Deref;
 use core::sync::atomic::{AtomicU32, Ordering};
 
-/// What a [`ForceLaw`] sees.
+/// Measured numbers that a [`ForceLaw`] sees.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
 pub struct Measured {
@@ -22,14 +22,14 @@ pub struct Measured {
     pub time: f64,
     /// Length of the line, or the joint's coordinate from the reference configuration [m, rad].
     pub value: f64,
-    /// Its rate [m/s, rad/s].
+    /// Rate of the value [m/s, rad/s].
     pub rate: f64,
     /// The input of the effect: zero until it is set.
     pub input: [f64; 3],
 }
 
-/// What a [`ForceLaw`] gives. Derivatives are those of `force`. In steps they steer iterations alone: where they are left at zero, stiff laws
-/// need more iterations or smaller steps. The search for an equilibrium takes them for the law's own.
+/// Force that a [`ForceLaw`] gives, with derivatives and energy. Derivatives are those of `force`. In steps they steer iterations alone: where
+/// they are left at zero, stiff laws need more iterations or smaller steps. The search for an equilibrium takes them for the law's own.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Force {
     /// Pulls the ends together, or turns or moves a joint's second body backwards, when positive [N, N m].
@@ -38,7 +38,7 @@ pub struct Force {
     pub stiffness: f64,
     /// d force / d rate [N s/m, N m s/rad].
     pub damping: f64,
-    /// Stored energy [J]. It is read at no rate; what it does not hold is work of the law, all of it where this is zero.
+    /// Energy that the law stores [J]. It is read at no rate; what it does not hold is work of the law, all of it where this is zero.
     pub energy: f64,
 }
 
@@ -73,7 +73,7 @@ pub trait ForceLaw: Send + Sync + Debug {
     fn evaluate(&self, at: &Measured) -> Force;
 }
 
-/// What a [`BodyLaw`] sees, global axes. In the plane third components of places are zero, and angular velocity is about z.
+/// Motion of a body that a [`BodyLaw`] sees, global axes. In the plane third components of places are zero, and angular velocity is about z.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
 pub struct MeasuredBody {
@@ -81,7 +81,7 @@ pub struct MeasuredBody {
     pub time: f64,
     /// The law's point on the body [m].
     pub position: [f64; 3],
-    /// Its velocity [m/s].
+    /// Velocity of the law's point [m/s].
     pub velocity: [f64; 3],
     /// The law's direction as it has turned with the body, of length one.
     pub axis: [f64; 3],
@@ -94,9 +94,9 @@ pub struct MeasuredBody {
 /// A force and a moment, global axes.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Wrench {
-    /// [N].
+    /// Force on the body [N].
     pub force: [f64; 3],
-    /// [N m].
+    /// Moment on the body [N m].
     pub moment: [f64; 3],
 }
 
@@ -123,19 +123,19 @@ pub struct Wrench {
 /// assert_eq!(Thruster { most: 20.0 }.evaluate(&at).force, [0.0, 20.0, 0.0]);
 /// ```
 pub trait BodyLaw: Send + Sync + Debug {
-    /// What acts on the body at the law's point: a function of `at` alone, for it is called at trial states, in any order and from
-    /// several threads.
+    /// Force and moment on the body at the law's point: a function of `at` alone. It is called at trial states, in any order and from several
+    /// threads.
     fn evaluate(&self, at: &MeasuredBody) -> Wrench;
 }
 
-/// Where laws are shared.
+/// Pointer by which the copies of a law share it.
 #[cfg(target_has_atomic = "ptr")]
 type Shared<L> = alloc::sync::Arc<L>;
-/// Where nothing can be counted by threads a law stays for good.
+/// Reference by which the copies of a law share it: where nothing can be counted by threads, a law stays for good.
 #[cfg(not(target_has_atomic = "ptr"))]
 type Shared<L> = &'static L;
 
-/// A shared law: copies are the same one, and two are equal where they are.
+/// Law that copies share: two are equal where they are the same one.
 pub struct Code<L: ?Sized + 'static>(Shared<L>);
 
 /// Makes a [`Code`] of a law.
@@ -191,7 +191,7 @@ pub struct Codes {
     failed: AtomicU32,
 }
 
-/// What a law in code belongs to.
+/// Effect or coupling that a law in code belongs to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CodeOwner {
     /// The effect in the scene.
@@ -339,7 +339,7 @@ impl Relation for NumberedRelation<'_> {
     }
 }
 
-/// What a law that failed is taken for: nothing that is computed with it is a number.
+/// Result of a law that failed: nothing that is computed with it is a number.
 const FAILED: Force =
     Force { force: f64::NAN, stiffness: f64::NAN, damping: 0.0, energy: f64::NAN };
 

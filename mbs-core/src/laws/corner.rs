@@ -22,7 +22,7 @@ use crate::Real;
 pub struct LawCorner<T> {
     /// x_k, over the road, or m_k [m or rad].
     pub place: T,
-    /// h_k; zero where there is no road [m].
+    /// Height h_k of the road; zero where there is no road [m].
     pub height: T,
     /// h'_k, or the slope whose normal is passed [-].
     pub slope: T,
@@ -35,7 +35,7 @@ impl<T: Real> LawCorner<T> {
         (x - self.place) + (z - self.height) * self.slope
     }
 
-    /// Its rate for the rates of both.
+    /// Rate of g for the rates of both coordinates.
     #[inline]
     pub fn rate(&self, [x, z]: [T; 2]) -> T {
         x + z * self.slope

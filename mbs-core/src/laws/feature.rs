@@ -13,24 +13,24 @@ use crate::Real;
 /// A part of a road; heights of all parts add up.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Feature<T> {
-    /// The same height everywhere [m].
+    /// Height that is the same everywhere [m].
     Flat(T),
     /// A slope with rounded corners, level before and after.
     Rise {
-        /// Where it begins [m].
+        /// Place x at which the rise begins [m].
         start: T,
-        /// Its length along x [m].
+        /// Length of the rise along x [m].
         length: T,
-        /// Its height [m].
+        /// Height of the rise [m].
         height: T,
         /// Length of each rounded corner, at most half the length [m].
         rounding: T,
     },
     /// amplitude (1 - cos(2 pi (x - start) / length)), once.
     Bump {
-        /// Where it begins [m].
+        /// Place x at which the bump begins [m].
         start: T,
-        /// Its length along x [m].
+        /// Length of the bump along x [m].
         length: T,
         /// Half its height [m].
         amplitude: T,
@@ -49,11 +49,11 @@ entry!(Feature enum {
 /// A height and its first two derivatives by x.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Height<T> {
-    /// [m].
+    /// Height of the road [m].
     pub value: T,
-    /// [-].
+    /// Slope of the road [-].
     pub slope: T,
-    /// [1/m].
+    /// Second derivative of the height by x [1/m].
     pub curvature: T,
 }
 
@@ -85,7 +85,7 @@ impl<T: Real> Feature<T> {
         }
     }
 
-    /// Where its pieces meet, each other or the level road.
+    /// Places x at which its pieces meet, each other or the level road.
     pub(super) fn ends(&self, knots: (&[[T; 2]], &[T])) -> [Option<T>; 4] {
         match *self {
             Self::Flat(_) => [None; 4],

@@ -13,11 +13,11 @@ use crate::Real;
 /// Value, rate and acceleration of a guided coordinate [rad or m, per s, per s^2].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GuideMotion<T> {
-    /// g(t).
+    /// Value g(t) of the coordinate.
     pub value: T,
-    /// dg/dt.
+    /// Rate dg/dt of the coordinate.
     pub rate: T,
-    /// d^2 g/dt^2.
+    /// Acceleration d^2 g/dt^2 of the coordinate.
     pub acceleration: T,
 }
 

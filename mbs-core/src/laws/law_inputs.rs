@@ -1,4 +1,4 @@
-//! What laws refer to by number: inputs and tables.
+//! Inputs and tables that laws refer to by number.
 
 use crate::Real;
 
@@ -34,23 +34,23 @@ table_entry! {
 /// The tables of laws that never change.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LawTables<'a, T> {
-    /// Pieces of polynomials.
+    /// Pieces of the laws' polynomials.
     pub pieces: &'a [PieceEntry<T>],
-    /// Parts of roads.
+    /// Parts of the laws' roads.
     pub features: &'a [FeatureEntry<T>],
     /// Points of roads given by tables, and their curvatures.
     pub knots: (&'a [KnotEntry<T>], &'a [CurvatureEntry<T>]),
 }
 
-/// What laws refer to by number: inputs at this instant, and tables that never change.
+/// Inputs at this instant and tables that never change, which laws refer to by number.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LawInputs<'a, T> {
     /// The vectors of the courses at this instant.
     pub courses: &'a [[T; 3]],
-    /// Pieces of polynomials.
+    /// Pieces of the laws' polynomials.
     #[cfg(feature = "polynomial")]
     pub pieces: &'a [super::polynomial::Piece<T>],
-    /// Parts of roads.
+    /// Parts of the laws' roads.
     #[cfg(feature = "tire")]
     pub features: &'a [super::feature::Feature<T>],
     /// Points (x, z) of roads given by tables, and their curvatures.
@@ -69,7 +69,7 @@ impl<'a, T: Real> LawInputs<'a, T> {
         self.courses.get(course as usize).copied().unwrap_or([T::ZERO; 3])
     }
 
-    /// Courses alone.
+    /// Returns inputs with these `courses` alone, without tables.
     #[must_use]
     pub const fn courses(courses: &'a [[T; 3]]) -> Self {
         Self {
@@ -85,7 +85,7 @@ impl<'a, T: Real> LawInputs<'a, T> {
         }
     }
 
-    /// The same courses, with these tables.
+    /// Returns inputs with the same `courses`, and with these tables.
     #[inline(always)]
     #[must_use]
     pub const fn with(self, tables: LawTables<'a, T>) -> Self {
@@ -103,7 +103,7 @@ impl<'a, T: Real> LawInputs<'a, T> {
         }
     }
 
-    /// The tables; empty ones of features that are off.
+    /// Returns the tables of laws; those of features that are off are empty.
     #[must_use]
     pub const fn tables(&self) -> LawTables<'a, T> {
         LawTables {
@@ -122,7 +122,7 @@ impl<'a, T: Real> LawInputs<'a, T> {
         }
     }
 
-    /// Pieces of polynomials; none without the feature.
+    /// Returns the pieces of polynomials; none without the feature.
     #[inline(always)]
     pub(crate) const fn pieces(&self) -> &'a [super::polynomial::Piece<T>] {
         #[cfg(feature = "polynomial")]
@@ -131,7 +131,7 @@ impl<'a, T: Real> LawInputs<'a, T> {
         &[]
     }
 
-    /// Parts of roads; none without the feature.
+    /// Returns the parts of roads; none without the feature.
     #[inline(always)]
     pub(crate) const fn features(&self) -> &'a [super::feature::Feature<T>] {
         #[cfg(feature = "tire")]

@@ -5,13 +5,13 @@ use core::ops::{Add, AddAssign, Mul};
 /// Counts of arithmetic operations.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Operations {
-    /// Products.
+    /// Number of products counted.
     pub products: u64,
-    /// Sums and differences.
+    /// Number of sums and differences.
     pub sums: u64,
-    /// Quotients.
+    /// Number of quotients counted.
     pub quotients: u64,
-    /// Square roots.
+    /// Number of square roots.
     pub roots: u64,
     /// Sines with their cosines, and arc tangents.
     pub turns: u64,
@@ -20,10 +20,10 @@ pub struct Operations {
 }
 
 impl Operations {
-    /// None.
+    /// Count of no operations.
     pub const NONE: Self = Self::new(0, 0);
 
-    /// Products and sums.
+    /// Returns the count of products and sums without other operations.
     #[must_use]
     pub const fn new(products: u64, sums: u64) -> Self {
         Self { products, sums, quotients: 0, roots: 0, turns: 0, entries: 0 }
@@ -47,9 +47,9 @@ impl Operations {
         self.products + self.sums + self.quotients + self.roots + self.turns
     }
 
-    /// The bound of instructions of a Cortex-M whose arithmetic unit has the precision. It counts 7 for two products or sums with their
-    /// loads, stores and part of the loops, 16 for a quotient, 40 to find an entry. In single precision a root is an instruction between moves, and turns
-    /// need no doubles; in double precision both are functions of libm. Angles beyond 6400 rad, in double precision 1e6 rad, cost more.
+    /// The bound of instructions of a Cortex-M whose arithmetic unit has the precision. It counts 7 for two products or sums with their loads,
+    /// stores and part of the loops, 16 for a quotient, 40 to find an entry. In single precision a root is an instruction between moves, and
+    /// turns need no doubles; in double precision both are functions of libm. Angles beyond 6400 rad, in double precision 1e6 rad, cost more.
     #[must_use]
     pub const fn instructions(&self, is_double: bool) -> u64 {
         let (root, turn) = if is_double { (140, 400) } else { (20, 120) };

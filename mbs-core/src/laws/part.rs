@@ -3,14 +3,14 @@
 /// A part of a table that laws share: `n` entries from `first`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Part {
-    /// The first entry.
+    /// Index of the first entry.
     pub first: u32,
-    /// How many.
+    /// Number of entries from `first` on.
     pub n: u32,
 }
 
 impl Part {
-    /// The entries; none where the table is too short.
+    /// Entries of the part; none where the table is too short.
     #[inline(always)]
     pub fn of<X>(self, table: &[X]) -> &[X] {
         let first = self.first as usize;

@@ -16,13 +16,13 @@ pub const MAX_COEFFICIENTS: usize = 8;
 /// A polynomial about the middle of the range in which it holds.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Piece<T> {
-    /// Where it begins.
+    /// Lower end of the range.
     pub lower: T,
-    /// Where it ends.
+    /// Upper end of the range.
     pub upper: T,
-    /// m.
+    /// Middle m of the range.
     pub middle: T,
-    /// d_k.
+    /// Coefficients d_k about the middle.
     pub coefficients: [T; MAX_COEFFICIENTS],
     /// The integral of all pieces from the first one's lower end to m.
     pub energy: T,
@@ -51,7 +51,7 @@ impl<T: Real> Piece<T> {
         Some(Self { lower, upper, middle, coefficients: d, energy: T::ZERO })
     }
 
-    /// Value and slope; beyond the ends of the range along the tangent there.
+    /// Value and slope at `x`; beyond the ends of the range along the tangent there.
     #[inline]
     fn value(&self, x: T) -> (T, T) {
         let at = x.max(self.lower).min(self.upper);

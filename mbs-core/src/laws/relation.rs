@@ -50,7 +50,7 @@ pub trait Relation: Send + Sync + Debug {
     fn curvature(&self, at: &[f64], rates: &[f64]) -> f64;
 }
 
-/// What makes a relation useless.
+/// Fault that makes a relation useless.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum RelationFault {
@@ -58,7 +58,7 @@ pub enum RelationFault {
     NotFinite,
     /// A derivative is not that of the value.
     Gradient {
-        /// Which one, from 0.
+        /// Number of the argument, from 0.
         argument: usize,
         /// The derivative that the relation gives, and that of its values.
         numbers: [f64; 2],
@@ -70,7 +70,7 @@ pub enum RelationFault {
     },
     /// More than [`MAX_ARGUMENTS`] terms.
     TooMany {
-        /// How many.
+        /// Number of terms found.
         found: usize,
     },
     /// A run of more digits than a double has.
@@ -83,7 +83,7 @@ pub enum RelationFault {
 }
 
 impl RelationFault {
-    /// What to do about it.
+    /// Returns advice on how to mend the fault.
     #[must_use]
     pub const fn advice(&self) -> &'static str {
         match self {
@@ -134,7 +134,8 @@ const STEPS: [f64; 3] = [1e-3, 1e-5, 1e-7];
 /// Difference of a derivative that is right from a quotient of differences, relative [-]: such errors are of second order in the step, and
 /// those of a wrong formula of order one. Chosen, not tuned.
 const AGREEMENT: f64 = 1e-3;
-/// The same beside the largest derivative [-]: where one is zero, its quotient is what the third derivatives make of it. Chosen, not tuned.
+/// Difference of a right derivative, beside the largest derivative [-]: where one is zero, its quotient is what the third derivatives make of it.
+/// Chosen, not tuned.
 const BESIDE_LARGEST: f64 = 1e-6;
 /// Rounding of a value, in units of that of its size [-]: a formula has a few dozen operations. Chosen, not tuned.
 const ROUNDINGS: f64 = 64.0;

@@ -39,7 +39,7 @@ pub struct RoadContact<T> {
     pub distance: T,
     /// Unit normal of the road there: along x, and up.
     pub normal: [T; 2],
-    /// h'' there; on a sharp crest so far below zero that [`turn`](Self::turn) is that of a point [1/m].
+    /// Second derivative h'' of the road there; on a sharp crest so far below zero that [`turn`](Self::turn) is that of a point [1/m].
     pub bend: T,
 }
 
@@ -87,7 +87,7 @@ pub fn road_contact<T: Real>(
 }
 
 impl<T: Real> RoadContact<T> {
-    /// How the normal turns as the centre moves along the road by its tangent (normal_up, -normal_x) [1/m]. In a hollow it
+    /// Rate at which the normal turns as the centre moves along the road by its tangent (normal_up, -normal_x) [1/m]. In a hollow it
     /// grows without bound where the centre comes to the centre of curvature; it is cut off at a hundred times h''.
     pub fn turn(&self) -> T {
         /// Least distance to the centre of curvature, relative to its radius [-]. Chosen, not tuned.
@@ -98,7 +98,7 @@ impl<T: Real> RoadContact<T> {
     }
 }
 
-/// What stays the same in the searches of one centre.
+/// Data that all searches of one centre share.
 struct Search<'a, T> {
     road: Part,
     law_inputs: &'a LawInputs<'a, T>,

@@ -15,7 +15,7 @@ use crate::Real;
 pub struct ScalarForce<T> {
     /// Length or angle [m, rad].
     pub value: T,
-    /// Its rate [m/s, rad/s].
+    /// Rate of the value [m/s, rad/s].
     pub rate: T,
     /// Generalised force against growth [N, N m].
     pub tension: T,
@@ -89,7 +89,7 @@ pub trait TensionLaw<T: Real>: Entry<T> + Copy {
         false
     }
 
-    /// How many gaps it has; none where it acts always.
+    /// Number of gaps of the law; none where it acts always.
     fn n_gaps(&self) -> usize {
         0
     }
@@ -99,7 +99,7 @@ pub trait TensionLaw<T: Real>: Entry<T> + Copy {
         false
     }
 
-    /// Its gaps and their rates at a value and its rate.
+    /// Gaps of the law and their rates, at a value and its rate.
     fn gaps(&self, _value: T, _rate: T) -> [[T; 2]; 2] {
         [[T::ZERO; 2]; 2]
     }

@@ -26,20 +26,20 @@ pub struct LongitudinalSlip<T> {
 
 entry!(LongitudinalSlip<T> { stiffness, friction });
 
-/// What slip along the plane makes.
+/// Force by slip along the plane, with its effect on the side force.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SlipForce<T> {
-    /// -Fx [N].
+    /// Force against the slip, -Fx [N].
     pub resistance: T,
-    /// Its derivative by k_x, not negative [N].
+    /// Derivative of the resistance by k_x, not negative [N].
     pub slope: T,
-    /// What is left of the side force [-].
+    /// Share of the side force that is left [-].
     pub side_share: T,
     /// The slip at which r is 1 without side force [-].
     pub scale: T,
 }
 
-/// s(r).
+/// Returns the factor s(r).
 #[doc(hidden)]
 pub fn share<T: Real>(r: T) -> T {
     let three = T::TWO + T::ONE;

@@ -47,7 +47,7 @@ use crate::algebra::{Vector, cross, norm};
 /// Speed v_s below which slip is regularised [m/s]. Chosen, not tuned.
 pub const STANDSTILL: f64 = 0.1;
 
-/// A wheel.
+/// Law of a wheel on a road.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TireLaw<T> {
     /// Radius without load [m].
@@ -56,11 +56,11 @@ pub struct TireLaw<T> {
     pub radial: [T; 2],
     /// Force against rolling as a share of the load [-].
     pub rolling: T,
-    /// Side force; `None`: none.
+    /// Coefficients of the side force; `None`: no side force.
     pub side: Option<Coefficients<T>>,
     /// Force by slip along its plane, of a wheel that spins; `None`: it rolls freely.
     pub longitudinal: Option<LongitudinalSlip<T>>,
-    /// The road's features.
+    /// Features of the road.
     pub road: Part,
     /// The course whose vector is (way, speed, -) of a road that comes towards the wheel along -x.
     pub travel: Option<u32>,
@@ -77,16 +77,16 @@ pub struct TireContact<T> {
     pub deflection: [T; 2],
     /// The centre, along the road from its zero and up [m].
     pub place: [T; 2],
-    /// Its velocity against the road [m/s].
+    /// Velocity of the centre against the road, along it and up [m/s].
     pub speed: [T; 2],
 }
 
-/// How the wheel stands on the road, and moves over it.
+/// Stance of the wheel on the road, and its motion over it.
 struct Stand<T> {
     stance: Stance<T>,
     /// The centre, along the road and up.
     place: [T; 2],
-    /// Its velocity against the road, and the road's own.
+    /// Velocity of the centre against the road, and the road's own.
     velocity: Vector<T, 3>,
     ground: Vector<T, 3>,
     /// The deflection and the rate at which it ends.
@@ -94,9 +94,9 @@ struct Stand<T> {
     rate: T,
 }
 
-/// What of the wheel touches the road.
+/// Contact of a wheel with its road.
 struct Stance<T> {
-    /// The road's normal.
+    /// Normal of the road, a unit vector.
     normal: Vector<T, 3>,
     /// From the centre to the contact point, d / cos g [m].
     reach: T,
@@ -158,7 +158,7 @@ fn line<T: Real>(
 entry!(TireLaw<T> { radius, radial, rolling, side, longitudinal, road, travel, up, leans });
 
 impl<T: Real> TireLaw<T> {
-    /// How far it is pressed in, and where it is over its road. Cost: that of the nearest point, and no force.
+    /// Deflection of the wheel, and where it is over its road. Cost: that of the nearest point, and no force.
     pub fn contact(&self, motion: &BodyMotion<T>, law_inputs: &LawInputs<'_, T>) -> TireContact<T> {
         let Stand { place, velocity, depth, rate, .. } = self.stand(motion, law_inputs);
         TireContact {
@@ -189,7 +189,7 @@ impl<T: Real> TireLaw<T> {
         Stand { stance, place, velocity, ground, depth, rate }
     }
 
-    /// Where a wheel with the given axis touches the road; how its deflection changes.
+    /// Returns the contact of a wheel with the given axis, and how its deflection changes.
     fn stance(&self, axis: &Vector<T, 3>, foot: &RoadContact<T>) -> Stance<T> {
         let normal = self.vector(foot.normal);
         let upright = Stance {
@@ -216,7 +216,7 @@ impl<T: Real> TireLaw<T> {
         Stance { reach, stretch, row: [force + bending, cross(axis, &normal) * share], ..upright }
     }
 
-    /// What a loaded wheel does along and across its plane.
+    /// Writes the actions of a loaded wheel along and across its plane.
     fn roll(
         &self,
         (load, stance): (T, &Stance<T>),
@@ -291,14 +291,14 @@ impl<T: Real> TireLaw<T> {
         }
     }
 
-    /// What of a vector points up.
+    /// Component of a vector that points up.
     fn along_up(&self, v: &Vector<T, 3>) -> T {
         if self.up == 1 { v[1] } else { v[2] }
     }
 }
 
 impl<T: Real> WrenchesLaw<T> for TireLaw<T> {
-    /// Radial force; rolling resistance; side force and aligning torque; force by slip.
+    /// Counts the actions, in order: radial force; rolling resistance; side force and aligning torque; force by slip.
     fn n_actions(&self) -> usize {
         if self.longitudinal.is_some() {
             5

@@ -16,7 +16,7 @@ pub trait ScalarLaw<T> {
     /// Tension with those derivatives by value and rate that stiffen. Derivatives that are left at zero only cost iterations.
     fn evaluate(value: T, rate: T, input: [T; 3]) -> ScalarForce<T>;
 
-    /// Stored energy [J]; what is not stored counts as power given or taken.
+    /// Energy that the law stores [J]; what is not stored counts as power given or taken.
     fn energy(value: T, input: [T; 3]) -> T;
 
     /// The elastic part of the tension, dV/dm.
@@ -38,7 +38,7 @@ pub struct UserScalarLaw<T> {
 }
 
 impl<T> UserScalarLaw<T> {
-    /// The law `L`.
+    /// Returns the law `L` as a value.
     #[must_use]
     pub fn of<L: ScalarLaw<T>>() -> Self {
         Self { evaluate: L::evaluate, energy: L::energy, elastic: L::elastic }
@@ -66,7 +66,7 @@ pub struct UserBodyLaw<T> {
 }
 
 impl<T> UserBodyLaw<T> {
-    /// The law `L`.
+    /// Returns the law `L` as a value.
     #[must_use]
     pub fn of<L: WrenchLaw<T>>() -> Self {
         Self { evaluate: L::evaluate }

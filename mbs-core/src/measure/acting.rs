@@ -1,4 +1,4 @@
-//! Where the force of a coupling acts on the drawn machine, by places and axes in the reference configuration.
+//! Places where the force of a coupling acts on the drawn machine, by the geometry of the reference configuration.
 
 use crate::Real;
 use crate::algebra::{Vector, along, cross, norm};
@@ -28,7 +28,7 @@ pub(crate) enum Acting {
 }
 
 impl Acting {
-    /// Of a coupling; `None`: it acts along its coordinates, or the geometry does not say where.
+    /// Finds where the force of a coupling acts; `None`: along its coordinates, or the geometry does not say where.
     pub(crate) fn of<T: Real>(scene: &Scene<T>, coupling: &Coupling<T>) -> Option<Self> {
         if coupling.relation.is_some() {
             return None;

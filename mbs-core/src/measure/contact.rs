@@ -25,7 +25,7 @@ pub fn lowest_point<T: Real>(radius: T, [n, n_t]: &Moving<T>, [a, a_t]: &Moving<
     [unit * -radius, (w_t - unit * unit.dot(&w_t)) * -radius]
 }
 
-/// The same at rest, without its rate.
+/// Vector from the centre of a disc or ball to its lowest point [m], with normal and axis at rest.
 pub fn lowest_place<T: Real>(radius: T, normal: Vector<T, 3>, axis: Vector<T, 3>) -> Vector<T, 3> {
     let still = |x| [x, Vector::zeros()];
     let [place, _] = lowest_point(radius, &still(normal), &still(axis));

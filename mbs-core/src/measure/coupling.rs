@@ -8,19 +8,19 @@ use crate::laws::relation::Relation;
 use crate::scene::{Coupling, Motion};
 use alloc::vec::Vec;
 
-/// A coupling, prepared.
+/// A coupling, with its curves and its function of time prepared.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CouplingInput<T> {
-    /// Its terms whose factor is not zero.
+    /// Terms of the coupling whose factor is not zero.
     pub terms: Vec<TermInput<T>>,
-    /// What is held of them; `None`: their sum.
+    /// Relation of the terms that is held; `None`: their sum is.
     pub relation: Option<Code<dyn Relation>>,
-    /// What the sum is in the course of time, where it is not always zero.
+    /// Function of time that the sum follows, where it is not always zero.
     pub sum: Option<GuideInput<T>>,
 }
 
 impl<T: Real> CouplingInput<T> {
-    /// Prepares a coupling.
+    /// Prepares the curves and the function of time of a coupling.
     #[must_use]
     pub fn new(coupling: &Coupling<T>) -> Self {
         let still = Motion::Ramp { rate: T::ZERO };
@@ -29,7 +29,7 @@ impl<T: Real> CouplingInput<T> {
         Self { terms: TermInput::all(&coupling.terms), relation: coupling.relation.clone(), sum }
     }
 
-    /// What the sum is at time `t` [s], with the values of the scene's signals there.
+    /// Value of the sum at time `t` [s], with the values of the scene's signals there.
     #[must_use]
     pub fn sum_at(&self, t: T, signals: &[[T; 3]]) -> T {
         self.sum.as_ref().map_or(T::ZERO, |sum| sum.at(t, signals)[0])
@@ -55,7 +55,7 @@ impl<T: Real> CouplingInput<T> {
         if is_usable { factor * arguments.slope(term) } else { factor }
     }
 
-    /// What is held where the terms, without their factors, have these values; and the largest of its parts.
+    /// Value of the sum or relation where the terms, without their factors, have these values; and the largest of its parts.
     #[must_use]
     pub fn value_at(&self, values: &[T]) -> [T; 2] {
         let mut arguments = Arguments::<T>::default();

@@ -126,15 +126,15 @@ mod prepared {
     /// A curve with its spline prepared.
     #[derive(Debug, Clone, PartialEq)]
     pub enum PreparedCurve<T> {
-        /// f(x) = x.
+        /// Identity: f(x) = x.
         Identity,
-        /// A spline.
+        /// A piecewise cubic function.
         Spline {
-            /// Its knots (x, f).
+            /// Knots (x, f) of the function.
             knots: Vec<[T; 2]>,
-            /// Its second derivatives at the knots.
+            /// Second derivatives at the knots.
             curvature: Vec<T>,
-            /// Its period; zero: it has none.
+            /// Period of the function; zero: it has none.
             period: T,
         },
         /// A polynomial, by its coefficients.
@@ -210,7 +210,7 @@ mod prepared {
         }
     }
 
-    /// A natural spline.
+    /// Interpolation by a natural spline.
     const SPLINE: Interpolation = Interpolation::Spline(TableEnds::Natural);
 
     /// Knots and second derivatives of the piecewise cubic function of a table, as [`guide::spline`] takes them.

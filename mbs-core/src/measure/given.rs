@@ -1,4 +1,4 @@
-//! Which joint coordinates have a value at the start: by initial values, by guides, and by the couplings between them.
+//! Joint coordinates that have a value at the start: by initial values, by guides, and by the couplings between them.
 
 use super::CouplingInput;
 use crate::Real;

@@ -14,7 +14,7 @@ use crate::scene::{BodyId, CouplingMeasure, CouplingTerm, Freedom, Scene};
 pub(crate) struct MeshedWheels<T: Real> {
     /// The body that carries both.
     pub(crate) carrier: BodyId,
-    /// The wheels.
+    /// Bodies of the two wheels.
     pub(crate) wheels: [BodyId; 2],
     /// Moment on each wheel about the joint's axis for an effort of one.
     pub(crate) moments: [T; 2],
@@ -24,7 +24,7 @@ pub(crate) struct MeshedWheels<T: Real> {
 }
 
 impl<T: Real> MeshedWheels<T> {
-    /// Of the terms of a coupling; `None` where they are none: two turns about parallel axes apart, in one body.
+    /// Wheels of the terms of a coupling. `None` unless the terms are two turns about parallel axes apart, in one body.
     pub(crate) fn new(scene: &Scene<T>, terms: &[CouplingTerm<T>]) -> Option<Self> {
         /// Largest sine of the angle of axes that are parallel [-]. Chosen, not tuned: digits of a file.
         const PARALLEL: f64 = 1e-6;

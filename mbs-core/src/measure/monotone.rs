@@ -27,7 +27,7 @@ const INNER_KNOT: f64 = 0.25;
 /// Distance of two rows that counts as none, in units of rounding of their x [-]: no knots fit between them.
 const MIN_DISTANCE: f64 = 64.0;
 
-/// What a table has in place of its spline.
+/// Curvatures and knots that a table has in place of its spline.
 struct Bounded {
     /// Curvature at each row; `None`: that of the spline.
     curvature: Vec<Option<f64>>,

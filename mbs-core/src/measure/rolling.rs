@@ -1,4 +1,4 @@
-//! What rolls, as models take it: unit directions, the plane with two directions along it, the point of contact.
+//! Rollings, as models take them: unit directions, the plane with two directions along it, the point of contact.
 
 use super::{lies_flat, lowest_place};
 use crate::Real;
@@ -25,7 +25,7 @@ pub struct RollingInput<T: Real> {
 }
 
 impl<T: Real> RollingInput<T> {
-    /// Of an entry that passed its scene's check.
+    /// Input of an entry that passed its scene's check.
     pub fn new(rolling: &Rolling<T>, dimension: Dimension) -> Self {
         let is_planar = dimension == Dimension::Planar;
         let radius = rolling.kind.radius().copied().unwrap_or(T::ZERO);
@@ -54,7 +54,7 @@ impl<T: Real> RollingInput<T> {
         new
     }
 
-    /// Its lowest point [m].
+    /// Lowest point of the disc or ball, or the point of the blade [m].
     pub fn contact(&self) -> Vector<T, 3> {
         if self.is_blade {
             return self.center;

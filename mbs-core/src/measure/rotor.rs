@@ -4,12 +4,12 @@ use crate::Real;
 use crate::effects::{EffectKind, Rotor};
 use crate::scene::Scene;
 
-/// An enabled rotor.
+/// An enabled rotor of a scene.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RotorInput<T> {
-    /// `scene.effects[effect]`.
+    /// Index of the rotor among the effects: `scene.effects[effect]`.
     pub effect: usize,
-    /// The joint.
+    /// Index of the joint.
     pub joint: usize,
     /// The number of its coordinate.
     pub number: usize,
@@ -18,7 +18,7 @@ pub struct RotorInput<T> {
 }
 
 impl<T: Real> RotorInput<T> {
-    /// Those of a checked scene, in the order of its effects.
+    /// Rotors of a checked scene, in the order of its effects.
     pub fn all(scene: &Scene<T>) -> impl Iterator<Item = Self> + '_ {
         let effects = scene.effects.iter().enumerate().filter(|(_, effect)| effect.enabled);
         effects.filter_map(|(effect, of)| {
@@ -30,7 +30,7 @@ impl<T: Real> RotorInput<T> {
         })
     }
 
-    /// What a rotor adds to the inertia of its coordinate.
+    /// Inertia that a rotor adds to that of its coordinate [kg m^2, of a slide kg].
     pub(crate) fn at_joint(rotor: &Rotor<T>) -> T {
         rotor.inertia * rotor.ratio * rotor.ratio
     }

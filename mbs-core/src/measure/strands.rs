@@ -16,7 +16,7 @@ use crate::scene::{Coupling, DrawnKind, Freedom, NotStrands, Scene};
 pub(crate) struct Strands<T: Real> {
     /// The wheels on the body that carries both.
     pub(crate) wheels: MeshedWheels<T>,
-    /// Their radii [m], of the second one negative where the belt is crossed.
+    /// Radii of the wheels [m], of the second one negative where the belt is crossed.
     radii: [T; 2],
 }
 
@@ -32,7 +32,7 @@ pub(crate) struct Strand<T: Real> {
 }
 
 impl<T: Real> Strands<T> {
-    /// Of a coupling.
+    /// Finds the strands of a coupling.
     ///
     /// # Errors
     /// Why places and axes do not say where its strands are.
@@ -70,7 +70,7 @@ impl<T: Real> Strands<T> {
         Ok(Self { wheels, radii })
     }
 
-    /// Both strands, where the first axis is `n` and the axes stand at these places.
+    /// Strands of the belt, where the first axis is `n` and the axes stand at these places.
     pub(crate) fn at(&self, n: &Vector<T, 3>, [from, to]: [Vector<T, 3>; 2]) -> [Strand<T>; 2] {
         let [r1, r2] = self.radii;
         let way = to - from;

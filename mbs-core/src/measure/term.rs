@@ -9,9 +9,9 @@ use alloc::vec::Vec;
 /// A term of a coupling, prepared.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TermInput<T> {
-    /// Its factor.
+    /// Factor of the term.
     pub factor: T,
-    /// What it measures.
+    /// Number that is measured.
     pub of: CouplingMeasure<T>,
     /// Joint and number of a coordinate; `None` of a length.
     pub coordinate: Option<(usize, usize)>,
@@ -53,7 +53,7 @@ impl<T: Real> TermInput<T> {
         Self::measured(&CouplingMeasure::Length { points: points.to_vec() })
     }
 
-    /// What a length over these points counts from [m]: without the length in the reference configuration, zero.
+    /// Length that a measured one over these points counts from [m]: that in the reference configuration, or zero where it counts whole.
     #[must_use]
     pub fn reference_of(&self, points: &[[T; 3]; 2]) -> T {
         let [p, q] = points.map(Vector::<T, 3>::from);

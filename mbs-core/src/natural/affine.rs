@@ -15,14 +15,14 @@ pub struct Affine<T: Real, const D: usize> {
     constant: Vector<T, D>,
 }
 
-/// What of a body turns.
+/// Part of a body that turns: all of it, a line, or nothing.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Shape<T: Real> {
-    /// All of it.
+    /// All of the body.
     Full,
     /// The line between its ends, reference configuration: a spatial rod held by balls.
     Rod([Vector<T, 3>; 2]),
-    /// Nothing: a point mass.
+    /// No part, as of a point mass.
     Point,
 }
 
@@ -41,7 +41,7 @@ impl<T: Real, const D: usize> Affine<T, D> {
         x
     }
 
-    /// This less another.
+    /// Returns this point or direction less another.
     #[must_use]
     pub fn minus(&self, other: &Self) -> Self {
         let mut terms = self.terms.clone();
@@ -106,7 +106,7 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         self.clusters.of(body).is_none_or(|c| self.bases[c].is_full())
     }
 
-    /// What of a body turns.
+    /// Returns the part of a body that turns.
     pub(crate) fn shape(&self, body: BodyId) -> Shape<T> {
         let Some(c) = self.clusters.of(body) else { return Shape::Full };
         let cluster = &self.clusters.clusters[c];

@@ -1,4 +1,4 @@
-//! Where a state remembers the angles of effects.
+//! Angles that a state remembers, with their places.
 
 use super::layout::effect_of;
 use super::model::NaturalModel;
@@ -13,9 +13,9 @@ use alloc::vec::Vec;
 pub struct RememberedAngle<T> {
     /// The joint, and the number of the coordinate.
     pub of: (usize, usize),
-    /// Its sign beside what is remembered.
+    /// Sign of the coordinate beside the remembered angle, 1 or -1.
     pub sign: T,
-    /// Where it is remembered: its place in [`State::memory`](crate::model::State::memory).
+    /// Place of the angle in [`State::memory`](crate::model::State::memory).
     pub place: usize,
 }
 

@@ -43,7 +43,7 @@ enum Frame<T: Real> {
     Planar { origin: Vector<T, 3>, second: Coef<T>, is_point: bool },
     /// Two points of a rod.
     Rod { origin: Vector<T, 3>, along: Vector<T, 3> },
-    /// A point mass: there is one point, and no direction.
+    /// Frame of a point mass: there is one point, and no direction.
     Point,
     /// Origin (subtracted before D is formed) and D^-1.
     Spatial { origin: Vector<T, 3>, inverse: Matrix<T, 4> },
@@ -282,7 +282,7 @@ fn snap<T: Real>(c: Coef<T>, size: T) -> Coef<T> {
     Coef { re: clean(c.re), im: clean(c.im) }
 }
 
-/// The largest component.
+/// Largest component of a vector, without its sign.
 fn size<T: Real>(x: &Vector<T, 3>) -> T {
     x.iter().fold(T::ZERO, |a, x| a.max(x.abs()))
 }
@@ -295,7 +295,7 @@ fn points_of<T: Real>(shared: &[usize], entities: &[Entity<T>]) -> Vec<usize> {
     shared.iter().copied().filter(|&e| entities[e].kind == EntityKind::Point).collect()
 }
 
-/// The first point: one on the ground if there is one, else the first shared, else an own point at the centre.
+/// Returns the first point of a basis: one on the ground if any, else the first shared, else an own point at the centre.
 fn first_point<T: Real>(
     cluster: &Cluster<T>,
     points: &[usize],

@@ -1,4 +1,4 @@
-//! What a model is built of: sharing, bases, rigid-body rows; then joint rows and effects.
+//! Builder of a model: sharing, bases, rigid-body rows; then joint rows and effects.
 
 use super::basis::{Basis, Combination};
 use super::error::ModelError;
@@ -29,7 +29,7 @@ pub(super) struct Builder<'a, T: Real> {
     pub(super) bases: Vec<Basis<T>>,
     pub(super) shared: Vec<Vec<usize>>,
     pub(super) groups: Vec<GroupDraft<T>>,
-    /// What signals measure.
+    /// Measures of the numbers that signals measure: each number is a sum of measures.
     pub(super) measured: Vec<Vec<MeasureDraft<T>>>,
     /// Rotors, each with its entity.
     pub(super) rotors: Vec<(usize, RotorInput<T>)>,

@@ -1,4 +1,4 @@
-//! What a joint coordinate is measured by, whether it is held, guided, acted on or recorded.
+//! Points and directions that measure a joint coordinate, whether it is held, guided, acted on or recorded.
 //!
 //! ```text
 //! angle      atan2(x2.y, x1.y)   x1, x2 in one body, y in the other
@@ -20,7 +20,7 @@ use crate::scene::{BodyId, Dimension, Freedom, Joint};
 pub(crate) enum Coordinate<T, X> {
     /// `sign` times the angle of y in the frame x1, x2.
     Angle { x1: X, x2: X, y: X, sign: T },
-    /// x.y.
+    /// Slide of two points along a direction, x.y.
     Slide { x: X, y: X },
     /// Rotation of the second body against the first.
     Rotation,

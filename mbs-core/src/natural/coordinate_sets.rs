@@ -1,4 +1,4 @@
-//! Which entities of its group a row touches: most rows say something about one point or direction, or two.
+//! Entities of its group that a row touches: most rows say something about one point or direction, or two.
 //!
 //! ```text
 //! block += w g g^T,   g = [0 .. g_a .. 0 .. g_b .. 0]          21 numbers of 78 for two of four points in space
@@ -18,7 +18,7 @@ impl CoordinateSet {
     /// A row that touches any unknown of its group.
     pub const ANY: Self = Self { first: u8::MAX, second: u8::MAX };
 
-    /// Of a row that touches these entities, by their places among the unknown ones of a group of `n`.
+    /// Set of a row that touches these entities, by their places among the unknown ones of a group of `n`.
     pub fn of(touched: impl Iterator<Item = usize>, n: usize, dimension: usize) -> Self {
         let (mut least, mut most, mut between) = (usize::MAX, 0, false);
         let mut seen = [usize::MAX; 2];

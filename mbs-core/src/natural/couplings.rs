@@ -72,7 +72,7 @@ impl<T: Real> Builder<'_, T> {
         CoupledDraft { factor: term.factor / scale, measures, curve: term.curve.clone() }
     }
 
-    /// What measures an angle of a ball.
+    /// Returns the measure of a ball's swing or twist about an axis.
     fn ball_measure(
         &mut self,
         [first, second]: [BodyId; 2],
@@ -96,7 +96,7 @@ impl<T: Real> Builder<'_, T> {
         }
     }
 
-    /// What measures a joint coordinate; the check of a scene refuses those that nothing measures.
+    /// Returns the measure of a joint coordinate; the check of a scene refuses those that nothing measures.
     pub(super) fn coordinate_measure(
         &mut self,
         index: usize,

@@ -83,7 +83,7 @@ impl<T: Real> Builder<'_, T> {
         Ok(())
     }
 
-    /// What acts on one body from the ground; nothing on a body that is welded to it.
+    /// Adds an action on one body from the ground; a body that is welded to the ground gets none.
     fn add_action_on_body(
         &mut self,
         action: &Action<T>,

@@ -267,7 +267,7 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         }
     }
 
-    /// The same of the guided rows, which the steps leave out: guides as last set in `terms`.
+    /// Adds K_geo of the guided rows, which the steps leave out: guides as last set in `terms`.
     pub(crate) fn add_guided_curvature(
         &self,
         terms: &Terms<T>,

@@ -19,14 +19,14 @@ use core::ops::Range;
 /// Groups of a part [-], which one thread evaluates: some ten microseconds of work.
 const GROUPS: usize = 64;
 
-/// Neighbouring groups: from one cursor to another.
+/// Part of a model: neighbouring groups, from one cursor to another.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Part {
     pub(super) from: Cursor,
     to: Cursor,
 }
 
-/// What the evaluation of a part writes: its stretches, or empty ones of what is not written.
+/// Stretches that the evaluation of a part writes; empty ones of what is not written.
 #[derive(Debug)]
 pub(super) struct Out<'a, T> {
     /// One number for each row.
@@ -108,27 +108,27 @@ impl Part {
         let places = row.places.map(|at| at - narrow(self.from.jacobian));
         Distance { places, row: row.row - narrow(self.from.row), ..*row }
     }
-    /// Likewise.
+    /// A dot-product row with its places within the stretches of the part.
     #[inline(always)]
     pub(super) fn dot<T: Real>(&self, row: &Dot<T>) -> Dot<T> {
         Dot { place: self.place(row.place), row: row.row - narrow(self.from.row), ..*row }
     }
-    /// Likewise.
+    /// Linear rows with their places within the stretches of the part.
     #[inline(always)]
     pub(super) fn linear(&self, row: &Linear) -> Linear {
         Linear { place: self.place(row.place), row: row.row - narrow(self.from.row), ..*row }
     }
-    /// Likewise.
+    /// The row of a coupling with its places within the stretches of the part.
     #[inline(always)]
     pub(super) fn coupling<T: Real>(&self, row: &Coupled<T>) -> Coupled<T> {
         Coupled { place: self.place(row.place), row: row.row - narrow(self.from.row), ..*row }
     }
-    /// Likewise.
+    /// The rows of a rolling with their places within the stretches of the part.
     #[inline(always)]
     pub(super) fn rolling<T: Real>(&self, row: &RollingRows<T>) -> RollingRows<T> {
         RollingRows { place: self.place(row.place), row: row.row - narrow(self.from.row), ..*row }
     }
-    /// Likewise.
+    /// A guided row with its places within the stretches of the part.
     #[inline(always)]
     pub(super) fn guide(&self, row: &Guided) -> Guided {
         Guided { place: self.place(row.place), row: row.row - narrow(self.from.row), ..*row }

@@ -1,4 +1,4 @@
-//! What can keep a checked scene from becoming a model.
+//! Errors that keep a checked scene from becoming a model.
 
 use crate::actions::ActionError;
 
@@ -10,17 +10,17 @@ pub enum ModelError {
     Dimension,
     /// No basis for this body could be found.
     Basis {
-        /// The body.
+        /// Index of the body without a basis.
         body: usize,
     },
     /// An effect or output asks for a rotation that this body, a rod held by balls, does not carry.
     NoRotation {
-        /// The body.
+        /// Index of the body, a rod held by balls.
         body: usize,
     },
     /// The law of an enabled effect is not compiled.
     LeftOut {
-        /// The effect.
+        /// Index of the effect whose law is not compiled.
         effect: usize,
         /// The Cargo feature of mbs-core that brings it.
         feature: &'static str,

@@ -14,7 +14,7 @@ use alloc::vec::Vec;
 use core::convert::Infallible;
 
 impl<T: Real> Builder<'_, T> {
-    /// What signals measure; the check of a scene refuses coordinates that nothing measures.
+    /// Adds the measures of signals; the check of a scene refuses coordinates that nothing measures.
     pub(super) fn add_measured(&mut self, feedback: &Feedback<T>) {
         for term in &feedback.measured {
             let measures = self.coupled_draft(term, T::ONE).measures;
@@ -24,7 +24,7 @@ impl<T: Real> Builder<'_, T> {
 }
 
 impl<T: Real, const D: usize> Layout<T, D> {
-    /// Adds one number: the sum of these measures.
+    /// Adds one measured number, the sum of these measures.
     pub(super) fn add_measured(&mut self, drafts: &[MeasureDraft<T>]) {
         let first = index(self.model.measured.len());
         for draft in drafts {

@@ -13,7 +13,7 @@ use crate::elements::{CoupledTables, Curves, Span, Term, combine};
 use crate::laws::LawInputs;
 use crate::laws::scalar::{Law, ScalarForce};
 
-/// What a scalar law measures.
+/// Quantity that a scalar law measures, by combinations of entities.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Measure<T> {
     /// Length of a combination.

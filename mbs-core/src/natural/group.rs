@@ -6,38 +6,38 @@ use crate::algebra::Coef;
 use crate::elements::Span;
 use crate::model::Owner;
 
-/// One element.
+/// Element of the model, by its parts of the tables.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Group {
-    /// Its entities in the slot table (extended coordinates): unknown ones first, then constants.
+    /// Entities of the group in the slot table (extended coordinates): unknown ones first, then constants.
     pub(crate) slots: Span,
-    /// How many of them are unknown.
+    /// Number of the unknown entities.
     pub(crate) n_unknown: u32,
-    /// Its unknowns in the clique table; k = n_unknown * D of them.
+    /// Unknowns of the group in the clique table; k = n_unknown * D of them.
     pub(crate) clique: Span,
-    /// Its constraint rows.
+    /// Constraint rows of the group.
     pub(crate) rows: Span,
     /// Start of its rows in the Jacobian store; each is `width` long, the unknowns first.
     pub(crate) jacobian: u32,
     /// Columns of a row: entities times D.
     pub(crate) width: u32,
-    /// Its G in the coefficient table (n_unknown squared), empty without mass.
+    /// Matrix G of the group's mass in the coefficient table (n_unknown squared), empty without mass.
     pub(crate) mass: Span,
     /// Does some coefficient of its G turn, as where the mass lies beside the line of two points?
     pub(crate) is_mass_turned: bool,
-    /// Its constant mass block in the block table (packed k (k + 1) / 2), empty without mass.
+    /// Constant mass block of the group in the block table (packed k (k + 1) / 2), empty without mass.
     pub(crate) block: Span,
-    /// Its force vector in the force store, k long; empty when nothing applies.
+    /// Force vector of the group in the force store, k long; empty when nothing applies.
     pub(crate) force: Span,
-    /// Its rows of each kind, in the tables of those kinds.
+    /// Distance rows of the group, in their table.
     pub(crate) distances: Span,
-    /// Likewise.
+    /// Dot-product rows of the group, in their table.
     pub(crate) dots: Span,
-    /// Its scalar laws in the measure table; their gradients follow the constraint rows.
+    /// Scalar laws of the group in the measure table; their gradients follow the constraint rows.
     pub(crate) measures: Span,
     /// Are its measures those of a law on one body?
     pub(crate) has_body_law: bool,
-    /// Whose it is; of bodies and joints that were put together, the first one's.
+    /// Owner of the group; of bodies and joints that were put together, that of the first one.
     pub(crate) owner: Owner,
 }
 

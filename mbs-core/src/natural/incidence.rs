@@ -12,22 +12,22 @@ use alloc::vec::Vec;
 /// An entity that a row touches.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Entry {
-    /// Its first coordinate.
+    /// First coordinate of the entity.
     slot: u32,
-    /// Where its gradient stands in the Jacobian store.
+    /// Place of the entity's gradient in the Jacobian store.
     place: u32,
 }
 
-/// What each row touches.
+/// Entities that each row touches.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Incidence {
-    /// Where each row begins in the list, and the end.
+    /// Start of each row in the list, and the end.
     start: Vec<u32>,
     list: Vec<Entry>,
 }
 
 impl Incidence {
-    /// Of the rows of a model that has all its groups.
+    /// Incidence of the rows of a model that has all its groups.
     pub(super) fn of<const D: usize>(
         groups: &[Group],
         slots: &[u32],

@@ -63,7 +63,7 @@ pub(super) struct Layout<T: Real, const D: usize> {
 /// Different masses among which an equal one is searched [-]: what a chain reads stays in the cache. Chosen, not tuned.
 const RECENT: usize = 16;
 
-/// Where a combination's columns are in the group at hand.
+/// Columns of combinations in the group at hand, by the slots of its entities.
 pub(super) struct Columns<'a> {
     pub(super) slots: &'a [usize],
 }

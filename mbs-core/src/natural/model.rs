@@ -28,7 +28,7 @@ pub struct NaturalModel<T: Real, const D: usize> {
     pub(super) n_unknowns: usize,
     pub(super) n_rows: usize,
     pub(super) n_jacobian: usize,
-    /// Reference configuration, extended.
+    /// Coordinates of the reference configuration, extended.
     pub(super) reference: Vec<T>,
     /// Gravity and constant forces over the extended coordinates: V = -weight.q.
     pub(super) weight: Vec<T>,
@@ -46,9 +46,9 @@ pub struct NaturalModel<T: Real, const D: usize> {
     pub(super) curves: Vec<PreparedCurve<T>>,
     /// Joint and coordinate of each angle that couplings remember, with its place.
     pub(super) coupled_angles: Vec<((usize, usize), T, u32)>,
-    /// What signals measure, and the operations that give them.
+    /// Measures of the signals that follow the motion; `feedback` has the operations that give the signals.
     pub(super) measured: Vec<Signed<T>>,
-    /// Of each number that signals measure, the measures that it is the sum of.
+    /// Measures of each number that signals measure: the number is their sum.
     pub(super) measured_numbers: Vec<Span>,
     pub(super) feedback: Feedback<T>,
     pub(super) rotors: Vec<NaturalRotor<T>>,
@@ -66,7 +66,7 @@ pub struct NaturalModel<T: Real, const D: usize> {
     pub(super) tables: Tables<T>,
     pub(super) prescribed: Prescribed<T>,
     pub(super) n_memory: usize,
-    /// Whose each remembered angle is, with its place, in the order of the effects.
+    /// Owner of each remembered angle, with its place, in the order of the effects.
     pub(super) angles: Vec<(Owner, u32)>,
     /// The first of the three measures of each rotation in space, with its owner.
     pub(super) rotations: Vec<(u32, Owner)>,
@@ -87,7 +87,7 @@ pub struct NaturalModel<T: Real, const D: usize> {
     /// The scene's length [m].
     pub(super) length: T,
     pub(super) incidence: Incidence,
-    /// Where parts begin, and the end.
+    /// Cursors at which parts begin, and the end.
     pub(super) cursors: Vec<Cursor>,
     /// The residual of every group has room on the stack.
     pub(super) is_small: bool,
@@ -114,7 +114,7 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         self.length
     }
 
-    /// Guides and courses: they name the places of a state's inputs, and set them.
+    /// Guides and signals by their numbers: they name the places of a state's inputs, and set them.
     #[must_use]
     pub fn prescribed(&self) -> &Prescribed<T> {
         &self.prescribed
@@ -126,7 +126,7 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         self.tables.codes()
     }
 
-    /// How many elements stand behind each kind of row: (distance, dot product, linear, guided).
+    /// Number of elements behind each kind of row: (distance, dot product, linear, guided).
     #[must_use]
     pub fn n_elements_by_kind(&self) -> [usize; 4] {
         [self.distances.len(), self.dots.len(), self.linears.len(), self.guided.len()]
@@ -136,11 +136,11 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
 /// A rotor in the model.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NaturalRotor<T> {
-    /// `scene.effects[effect]`.
+    /// Index of the rotor in `scene.effects`.
     pub effect: usize,
-    /// Its unknown, the joint's coordinate.
+    /// Unknown of the rotor, which equals the joint's coordinate.
     pub unknown: usize,
-    /// Its inertia at the joint [kg m^2, of a slide kg].
+    /// Inertia of the rotor at the joint [kg m^2, of a slide kg].
     pub inertia: T,
     /// The joint's coordinate, in the table of measures.
     pub(super) measure: usize,
@@ -149,7 +149,7 @@ pub struct NaturalRotor<T> {
 /// An unknown entity with one of the bodies that carry it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Carried<T: Real> {
-    /// Its first coordinate.
+    /// First coordinate of the entity.
     pub(super) at: u32,
     /// Index of the body.
     pub(super) body: usize,

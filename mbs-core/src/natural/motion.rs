@@ -62,7 +62,8 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         }
     }
 
-    /// The same, and the measured angles, which continue from those that the state remembers; the state has its time.
+    /// Writes the motions as [`write_motions`](Self::write_motions) does, and the unknowns of rotors. Measured angles continue from those that
+    /// the state remembers; the state has its time.
     pub fn take_motions(&self, motions: &[RigidMotion<T>], terms: &mut Terms<T>, s: &mut State<T>) {
         self.write_motions(motions, s);
         if !s.memory.is_empty() {

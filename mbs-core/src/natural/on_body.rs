@@ -16,7 +16,7 @@ use crate::laws::scalar::ScalarForce;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct BodyElement<T> {
     pub(crate) point: Span,
-    /// The body's directions; empty ones where the law asks for no rotation.
+    /// Directions of the body; empty ones where the law asks for no rotation.
     pub(crate) frame: [Span; 3],
     /// The law's direction in those axes.
     pub(crate) axis: [T; 3],
@@ -80,7 +80,7 @@ impl<T: Real> BodyElement<T> {
         }
     }
 
-    /// Stored energy [J].
+    /// Stored energy of the law [J].
     pub(crate) fn energy(&self, measures: &[ScalarForce<T>]) -> T {
         let own = self.measures.of(measures).iter().enumerate();
         own.fold(T::ZERO, |sum, (k, measure)| sum + self.law.energy(k, measure))

@@ -72,7 +72,7 @@ pub(crate) struct CoupledDraft<T: Real> {
     pub(crate) curve: PreparedCurve<T>,
 }
 
-/// What a term of a coupling measures.
+/// Quantity that a term of a coupling measures, in terms of entities.
 #[derive(Debug, Clone)]
 pub(crate) enum MeasureDraft<T: Real> {
     Angle { x1: Combination<T>, x2: Combination<T>, y: Combination<T>, sign: T, of: (usize, usize) },
@@ -135,7 +135,7 @@ impl<T: Real> RowDraft<T> {
     }
 }
 
-/// What an effect group measures or applies.
+/// Measure or load of an effect group, in terms of entities.
 #[derive(Debug, Clone)]
 pub(crate) enum EffectDraft<T: Real> {
     Length {
@@ -201,14 +201,14 @@ impl<T: Real> EffectDraft<T> {
 /// A group being built.
 #[derive(Debug, Clone)]
 pub(crate) struct GroupDraft<T: Real> {
-    /// Whose it is; of parts that were put together, the first one's.
+    /// Owner of the group; of parts that were put together, that of the first one.
     pub(crate) owner: Owner,
     /// Entities with mass and their G.
     pub(crate) mass: Option<(Vec<usize>, Vec<Coef<T>>)>,
     /// Constant generalised forces of gravity and constant point forces: entity, force.
     pub(crate) forces: Vec<(usize, Vector<T, 3>)>,
     pub(crate) rows: Vec<RowDraft<T>>,
-    /// Whose each row is; the group's where there is none.
+    /// Owner of each row; the group's where there is none.
     pub(crate) row_owners: Vec<Owner>,
     pub(crate) effects: Vec<EffectDraft<T>>,
 }
@@ -254,7 +254,7 @@ pub(crate) struct Constants {
 }
 
 impl Constants {
-    /// Those among `entities`.
+    /// Collects the constant entities among `entities`.
     pub(crate) fn new<T: Real>(entities: &[Entity<T>]) -> Self {
         let mut new = Self::default();
         for (e, entity) in entities.iter().enumerate().filter(|(_, entity)| entity.is_constant) {

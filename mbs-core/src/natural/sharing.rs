@@ -1,4 +1,4 @@
-//! Which points and directions bodies share, by union-find over (body, point) and (body, direction) in file order.
+//! Points and directions that bodies share, by union-find over (body, point) and (body, direction) in file order.
 //!
 //! The rule: a joint names what its two bodies keep common. A point (direction) named again on the same body at the
 //! same place (parallel, either sign) within [`TOLERANCE`] of the scene's length is the same feature. Features joined by
@@ -15,7 +15,7 @@ use alloc::vec::Vec;
 /// Distance below which features are one, relative to the scene's length (points) or as an angle (directions) [-]. Chosen, not tuned.
 pub const TOLERANCE: f64 = 1e-9;
 
-/// Point or direction.
+/// Kind of an entity: a point or a direction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum EntityKind {
     Point,
@@ -42,7 +42,7 @@ struct Feature<T: Real> {
 /// The shared entities and who has them.
 #[derive(Debug)]
 pub(crate) struct Sharing<T: Real> {
-    /// The entities.
+    /// Entities that bodies share.
     pub(crate) entities: Vec<Entity<T>>,
     /// For each cluster, the entities it shares, in file order.
     pub(crate) of_cluster: Vec<Vec<usize>>,
@@ -80,7 +80,7 @@ pub(crate) fn tolerance<T: Real>() -> T {
     T::from_f64(TOLERANCE).max(T::EPSILON * T::from_f64(ROUNDINGS))
 }
 
-/// What a joint keeps common.
+/// Point and direction that a joint keeps common, where it has them.
 fn common<T: Real>(
     joint: &Joint<T>,
     dimension: Dimension,

@@ -1,4 +1,4 @@
-//! Which spatial rods may stay two points: only balls hold them, every point used lies on them, nothing needs their spin.
+//! Spatial rods that may stay two points: only balls hold them, every point used lies on them, nothing needs their spin.
 
 use crate::Real;
 use crate::actions::{Actions, Need, needs};

@@ -20,12 +20,12 @@ pub(super) struct OutputAxes<T: Real, const D: usize> {
     /// The axes that its quantity has by itself.
     own: Frame<T, D>,
     required: Frame<T, D>,
-    /// Where its vectors are among its components; what is no vector stays.
+    /// Places of the vectors among the components; what is no vector stays.
     vectors: Vec<Range<usize>>,
 }
 
 impl<T: Real, const D: usize> OutputAxes<T, D> {
-    /// Those of an output; `None` where it keeps the axes of its quantity.
+    /// Axes of an output; `None` where it keeps the axes of its quantity.
     pub(super) fn new(
         output: &Output<T>,
         scene: &Scene<T>,

@@ -20,13 +20,13 @@ pub const MOST_INSTANTS: usize = 1000;
 /// A contact that is made or broken.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Instant {
-    /// When [s].
+    /// Time of the instant [s].
     pub t: f64,
     /// Index of the effect in the scene.
     pub effect: usize,
-    /// Of a limit: 0 its lower end, 1 its upper one. 0 else.
+    /// End of a limit: 0 its lower end, 1 its upper one. 0 else.
     pub end: usize,
-    /// Made, or broken?
+    /// Is the contact made, and not broken?
     pub makes: bool,
 }
 

@@ -21,7 +21,7 @@ const MISFIT: f64 = 1e-2;
 pub(super) enum Coordinate<T: Real, const D: usize> {
     /// `sign` times the angle of y in the frame x1, x2. It is one of two, as in a universal joint, or the only one.
     Angle { x1: Affine<T, D>, x2: Affine<T, D>, y: Affine<T, D>, sign: T, is_one_of_two: bool },
-    /// x.y.
+    /// Slide x.y along the direction y.
     Slide { x: Affine<T, D>, y: Affine<T, D> },
     /// Rotation of the second body against the first.
     Turn { frames: Box<[Frame<T, D>; 2]> },
@@ -53,7 +53,7 @@ impl<T: Real, const D: usize> Coordinate<T, D> {
         Some((Self::of_freedom(scene, model, (joint, freedom)), place))
     }
 
-    /// That of one freedom.
+    /// Coordinate of one freedom.
     pub(super) fn of_freedom(
         scene: &Scene<T>,
         mut model: &NaturalModel<T, D>,
@@ -73,7 +73,7 @@ impl<T: Real, const D: usize> Coordinate<T, D> {
         }
     }
 
-    /// What stays zero: points do not turn.
+    /// Coordinate that stays zero: points do not turn.
     fn none(model: &NaturalModel<T, D>, freedom: Freedom) -> Self {
         if freedom == Freedom::Ball {
             return Self::Turn { frames: Box::new([Frame::Point, Frame::Point]) };
@@ -185,12 +185,12 @@ impl<T: Real, const D: usize> Coordinate<T, D> {
         cross(&y, &(x2 * c - x1 * s)) * (T::ONE / (c * c + s * s))
     }
 
-    /// Where the angle is expected that was `last` before a time of `dt` [s] with these rates at both ends: where the mean rate leads.
+    /// Angle that is expected a time of `dt` [s] after `last`, with these rates at both ends: where the mean rate leads.
     pub(super) fn expected(last: T, [before, now]: [T; 2], dt: T) -> T {
         last + (before + now) * dt * T::HALF
     }
 
-    /// Between two states: the turn of an angle by its rates, if it is a large one and its positions differ.
+    /// Turn of an angle between two states by its rates, if it is a large one and its positions differ.
     pub(super) fn lost_turn(&self, [from, to]: [&State<T>; 2]) -> Option<T> {
         if !self.is_angle() {
             return None;
@@ -305,7 +305,7 @@ impl<T: Real, const D: usize> CoordinateMotion<T, D> {
         Some(Self { coordinate: Coordinate::of_freedom(scene, model, (joint, freedom)) })
     }
 
-    /// Its rate and its acceleration at a state [rad/s or m/s, rad/s^2 or m/s^2]. Cost: a few products, no allocation.
+    /// Rate and acceleration of the coordinate at a state [rad/s or m/s, rad/s^2 or m/s^2]. Cost: a few products, no allocation.
     #[must_use]
     pub fn at(&self, state: &State<T>) -> [T; 2] {
         self.coordinate.motion(state)

@@ -33,17 +33,17 @@ use alloc::vec::Vec;
 #[derive(Debug, Clone)]
 pub(super) struct CoupledSum<T: Real, const D: usize> {
     terms: Vec<SumTerm<T, D>>,
-    /// What is held of the terms; `None`: their sum.
+    /// Relation of the terms that is held; `None`: their sum.
     relation: Option<Code<dyn Relation>>,
     /// The moving bodies that it acts on, ascending.
     bodies: Vec<usize>,
     /// The largest force, or moment over the scene's length, of a term without a curve at an effort of one.
     scale: T,
-    /// What acts in place of the terms' couples where its wheels have a pitch point.
+    /// Force of the teeth in place of the terms' couples, where the wheels have a pitch point.
     teeth: Option<Box<ToothForce<T, D>>>,
-    /// What acts in place of the terms' couples where its belt has a pretension.
+    /// Force of the strands in place of the terms' couples, where the belt has a pretension.
     strands: Option<Box<StrandForce<T, D>>>,
-    /// What acts in place of the terms' forces where they act elsewhere on the drawn machine.
+    /// Force in place of those of the terms, where they act elsewhere on the drawn machine.
     drawn: Option<Box<DrawnForce<T, D>>>,
 }
 
@@ -92,7 +92,7 @@ impl<T: Real, const D: usize> CoupledSum<T, D> {
         sum
     }
 
-    /// Of these terms; `remembered` is the first place of the angles that the state remembers for them.
+    /// Sum of these terms; `remembered` is the first place of the angles that the state remembers for them.
     pub(super) fn of_terms(
         (scene, model): (&Scene<T>, &NaturalModel<T, D>),
         terms: &[TermInput<T>],
@@ -300,7 +300,7 @@ impl<T: Real, const D: usize> Part<T, D> {
         self.is_angle() && !matches!(self.of, PartKind::Swing { .. })
     }
 
-    /// Its value and its rate.
+    /// Value and rate of the measure at a state.
     pub(super) fn measure(&self, state: &State<T>) -> [T; 2] {
         match &self.of {
             PartKind::Coordinate { of, memory, .. } => {

@@ -14,7 +14,7 @@ use crate::Real;
 /// A cubic over the share r of a step.
 #[derive(Debug, Clone, Copy)]
 pub struct Cubic {
-    /// At both ends.
+    /// Values at both ends.
     values: [f64; 2],
     /// Derivatives by r at both ends.
     slopes: [f64; 2],
@@ -43,7 +43,7 @@ impl Cubic {
         (g0 * (1.0 + 2.0 * r) + d0 * r) * s * s + (g1 * (3.0 - 2.0 * r) - d1 * s) * r * r
     }
 
-    /// Where it is `level` between two shares at which it is on different sides of it.
+    /// Share at which the cubic is `level`, between two shares at which it is on different sides of it.
     ///
     /// Bisection needs no care where the cubic is flat, and roots are asked for rarely.
     pub fn root(&self, level: f64, [mut low, mut high]: [f64; 2]) -> f64 {
@@ -103,7 +103,7 @@ impl Cubic {
     }
 }
 
-/// Where within a step a gap comes to its other side.
+/// Place within a step at which a gap comes to its other side.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Change {
     /// Share of the step.

@@ -19,9 +19,9 @@ use crate::scene::{BodyId, Coupling, Scene};
 /// A force that acts elsewhere than along the coordinates of its coupling.
 #[derive(Debug, Clone)]
 pub(super) enum DrawnForce<T: Real, const D: usize> {
-    /// Of a thread.
+    /// Force of a thread.
     Thread {
-        /// Nut, then screw.
+        /// Bodies of the nut and the screw, in this order.
         bodies: [BodyId; 2],
         /// The screw's axis, with its place.
         turn: (Coordinate<T, D>, Affine<T, D>),
@@ -78,7 +78,7 @@ impl<T: Real, const D: usize> DrawnForce<T, D> {
         }
     }
 
-    /// What acts at an end of the line, of so many ends: at the rim on the drum. Adds its moment about the drum's axis.
+    /// Returns what acts at an end of the line, one of `ends`: at the rim it acts on the drum. Adds its moment about the drum's axis.
     pub(super) fn moved(
         &self,
         (end, ends): (usize, usize),

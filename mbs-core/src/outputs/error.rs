@@ -1,4 +1,4 @@
-//! What can keep reactions from being evaluated.
+//! Errors that keep reactions from being evaluated.
 
 use crate::natural::ModelError;
 

@@ -1,4 +1,4 @@
-//! Where within a trial step a law passes a kink, so that the step can be made again to end there.
+//! Events at which a law passes a kink within a trial step, so that the step can be made again to end there.
 //!
 //! ```text
 //! gap      of bumpers, limits, tires: 0 where contact is made or broken
@@ -21,7 +21,8 @@
 //! To it comes what the rounding of the time leaves at the rate of the gap.
 //!
 //! Not found: kinks of dampers, friction and user-defined laws, and those of signals, whose times are known beforehand
-//! ([`SignalTimes`](crate::inputs::SignalTimes)). Nor are a road's kinks under a wheel in the air, or two places of a road that become equally near in a hollow as tight as the wheel.
+//! ([`SignalTimes`](crate::inputs::SignalTimes)). Nor are a road's kinks under a wheel in the air, or two places of a road that become
+//! equally near in a hollow as tight as the wheel.
 
 use super::cubic::Cubic;
 use super::load::{Gap, Load, Loads, N_READING, Reading};
@@ -44,7 +45,7 @@ pub struct Events<T: Real, const D: usize> {
     trials: u32,
 }
 
-/// What [`Events`] know of the beginning of a step.
+/// History of [`Events`] from the beginning of a step.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct EventHistory<T> {
     /// When it begins [s].
@@ -55,7 +56,7 @@ pub struct EventHistory<T> {
     pub begin: Vec<[T; N_READING]>,
 }
 
-/// What is known of one effect.
+/// One effect that is watched, with its numbers.
 #[derive(Debug, Clone)]
 struct Watched<T> {
     effect: usize,
@@ -161,7 +162,7 @@ impl<T: Real, const D: usize> Events<T, D> {
         self.start(state);
     }
 
-    /// What the next step is compared with.
+    /// History that the next step is compared with.
     #[must_use]
     pub fn history(&self) -> EventHistory<T> {
         let begin = self.watched.iter().map(|watched| watched.begin.numbers()).collect();

@@ -1,4 +1,4 @@
-//! What effects exert on bodies, as reactions take it.
+//! Wrenches that effects exert on bodies, as reactions take them.
 
 use super::frame::Frame;
 use super::load::{Load, Loads};
@@ -42,8 +42,8 @@ impl<T: Real, const D: usize> EffectWrenches<T, D> {
         self.loads.update(state);
     }
 
-    /// What an effect exerts at a state: on its body, or on the second of its two, global axes. The moment is about the point of that body where
-    /// the effect is attached, as it has moved; an effect about an angle has a moment alone. Zero where the effect is not there.
+    /// Wrench of an effect at a state: on its body, or on the second of its two, global axes. The moment is about the point of that body
+    /// where the effect is attached, as it has moved; an effect about an angle has a moment alone. Zero where the effect is not there.
     ///
     /// Cost: one evaluation of the effect's laws, and one look at each other effect; no allocation.
     pub fn of(&mut self, effect: usize, state: &State<T>) -> Wrench<T> {
@@ -51,7 +51,7 @@ impl<T: Real, const D: usize> EffectWrenches<T, D> {
         self.wrench(effect, state)
     }
 
-    /// The same at the state that was [set](Self::update).
+    /// Wrench of an effect at the state that was [set](Self::update).
     pub(super) fn wrench(&self, effect: usize, state: &State<T>) -> Wrench<T> {
         let law_inputs = self.loads.law_inputs();
         let mut sum = Wrench::zero();
@@ -92,7 +92,7 @@ impl<T: Real, const D: usize> EffectWrenches<T, D> {
         })
     }
 
-    /// What the road does to a tire; zeros where the effect is none, or is not there.
+    /// Forces of the road on a tire; zeros where the effect is none, or is not there.
     pub(super) fn tire(&self, effect: usize, state: &State<T>) -> TireForces<T> {
         let law_inputs = self.loads.law_inputs();
         let turned = |body| self.turned(body, state);

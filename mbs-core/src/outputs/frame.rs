@@ -15,9 +15,9 @@ use alloc::boxed::Box;
 /// The directions that carry a body's rotation.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Frame<T: Real, const D: usize> {
-    /// Plane: what was the x axis in the reference configuration.
+    /// Direction in the plane that was the x axis in the reference configuration.
     Planar(Affine<T, D>),
-    /// Space: what were the three axes.
+    /// Directions in space that were the three axes in the reference configuration.
     Full(Box<[Affine<T, D>; 3]>),
     /// A spatial rod of two points: from one end to the other, now and in the reference configuration.
     Rod { along: Affine<T, D>, reference: Vector<T, 3> },
@@ -41,7 +41,7 @@ impl<T: Real, const D: usize> Frame<T, D> {
         }
     }
 
-    /// R: its columns are the present directions of what were the global axes.
+    /// Rotation matrix R from the reference configuration: its columns are the present directions of what were the global axes.
     pub(super) fn rotation(&self, q: &[T]) -> Matrix<T, 3> {
         match self {
             Self::Planar(x) => {
@@ -91,7 +91,7 @@ pub fn carry<T: Real>(a: &Vector<T, 3>, b: &Vector<T, 3>) -> Matrix<T, 3> {
     Matrix::from_columns(&columns)
 }
 
-/// x / |x|; zero stays zero.
+/// Unit vector x / |x|; zero stays zero.
 pub fn normalised<T: Real>(x: &Vector<T, 3>) -> Vector<T, 3> {
     let length = norm(x);
     if length > T::ZERO { x * (T::ONE / length) } else { *x }

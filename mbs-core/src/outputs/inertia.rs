@@ -1,4 +1,4 @@
-//! Masses in motion: energy and momentum of bodies at a state.
+//! Energy and momentum of bodies at a state, as masses in motion.
 //!
 //! ```text
 //! E = 1/2 sum (m c'.c' + omega.I omega),   V = -sum s m g.c,   P = sum m c'
@@ -19,7 +19,7 @@ use crate::scene::{BodyId, Scene};
 pub(super) struct BodyInertia<T: Real, const D: usize> {
     pub(super) frame: Frame<T, D>,
     pub(super) center: Affine<T, D>,
-    /// Mass [kg].
+    /// Mass of the body [kg].
     pub(super) mass: T,
     /// The mass on which gravity acts [kg].
     weight: T,
@@ -28,7 +28,7 @@ pub(super) struct BodyInertia<T: Real, const D: usize> {
 }
 
 impl<T: Real, const D: usize> BodyInertia<T, D> {
-    /// Of `scene.bodies[body]`.
+    /// Prepares the inertia of `scene.bodies[body]`.
     pub(super) fn new(scene: &Scene<T>, model: &NaturalModel<T, D>, body: usize) -> Self {
         let (mass, center, inertia) = scene.bodies[body].mass_properties();
         let me = BodyId::Body(body);
@@ -36,18 +36,18 @@ impl<T: Real, const D: usize> BodyInertia<T, D> {
         Self { frame, center, mass, weight: scene.bodies[body].gravitational_mass(), inertia }
     }
 
-    /// Its centre of mass and the velocity of that.
+    /// Position of the centre of mass, and its velocity [m, m/s].
     fn center(&self, state: &State<T>) -> [Vector<T, 3>; 2] {
         [raised(&self.center.value(&state.q)), raised(&self.center.rate(&state.v))]
     }
 
-    /// Its angular velocity, and I omega.
+    /// Angular velocity omega, and I omega.
     fn spin(&self, state: &State<T>) -> [Vector<T, 3>; 2] {
         let (r, omega) = (self.frame.rotation(&state.q), self.frame.turning(&state.q, &state.v));
         [omega, r * (self.inertia * (r.transpose() * omega))]
     }
 
-    /// Its kinetic energy [J].
+    /// Kinetic energy of the body [J].
     pub(super) fn kinetic_energy(&self, state: &State<T>) -> T {
         let ([_, v], [omega, spin]) = (self.center(state), self.spin(state));
         (v.dot(&v) * self.mass + omega.dot(&spin)) * T::HALF

@@ -8,11 +8,11 @@ use alloc::vec::Vec;
 /// Bodies whose balance gives the wrenches of some joints and the efforts of some couplings.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Block {
-    /// Bodies by number.
+    /// Numbers of the bodies.
     pub bodies: Vec<usize>,
-    /// Joints by number.
+    /// Numbers of the joints.
     pub joints: Vec<usize>,
-    /// Couplings by number.
+    /// Numbers of the couplings.
     pub couplings: Vec<usize>,
 }
 

@@ -32,12 +32,12 @@ pub struct Measures<T: Real, const D: usize> {
     invariant_error: T,
 }
 
-/// What one output writes.
+/// Recorded output with its channel, and how its numbers are written.
 #[derive(Debug, Clone)]
 struct Recorded<T: Real, const D: usize> {
     channel: Channel<T, D>,
     n_components: usize,
-    /// Where its axes are not those of its quantity.
+    /// Axes of the output, where they are not those of its quantity.
     axes: Option<OutputAxes<T, D>>,
     /// The vectors among its components whose magnitudes follow.
     vectors: Vec<Range<usize>>,
@@ -129,7 +129,7 @@ impl<T: Real, const D: usize> Measures<T, D> {
         &self.memory
     }
 
-    /// The same, to restore others.
+    /// Values of [`memory`](Self::memory), to restore others.
     pub fn memory_mut(&mut self) -> &mut [T] {
         &mut self.memory
     }
@@ -145,8 +145,8 @@ impl<T: Real, const D: usize> Measures<T, D> {
         self.follow(state, |_, _| None, true)
     }
 
-    /// The same where angles, by joint and number, are known with their turns, as most of a tree are. Its steps may be any number of steps of
-    /// its rule: rates do not determine the turns between them, and nothing is refused.
+    /// Follows all joint coordinates where angles, by joint and number, are known with their turns, as most of a tree are. Its steps may
+    /// be any number of steps of its rule: rates do not determine the turns between them, and nothing is refused.
     pub fn track_with(&mut self, state: &State<T>, known: impl Fn(usize, usize) -> Option<T>) {
         // Without a check there is no error.
         let _ = self.follow(state, known, false);

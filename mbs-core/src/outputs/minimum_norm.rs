@@ -66,12 +66,12 @@ impl<T: Real> MinimumNorm<T> {
         &mut self.a[j * self.m + i]
     }
 
-    /// The right-hand side.
+    /// Right-hand side of the equations.
     pub fn right(&mut self) -> &mut [T] {
         &mut self.b[..self.m]
     }
 
-    /// The solution.
+    /// Solution of the equations.
     pub fn solution(&self) -> &[T] {
         &self.x[..self.n]
     }
@@ -81,7 +81,7 @@ impl<T: Real> MinimumNorm<T> {
         T::from_f64(self.m.max(self.n) as f64 * libm::pow(T::EPSILON.to_f64(), 2.0 / 3.0))
     }
 
-    /// Factors and solves; returns the length of what no solution balances.
+    /// Factors the matrix and solves the equations; returns the length of what no solution balances.
     ///
     /// Cost: about 2 m n r operations, and r (n - r)^2 when the rank is short; no allocation.
     pub fn solve(&mut self) -> T {

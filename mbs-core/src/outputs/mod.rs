@@ -1,4 +1,4 @@
-//! What is recorded of a motion: points, joint coordinates and reactions, measured from a state of the model.
+//! Recorded quantities of a motion: points, joint coordinates and reactions, measured from a state of the model.
 //!
 //! Nothing here depends on a formulation or an integrator. [`Measures`] reads positions, velocities and accelerations.
 //! [`Reactions`] closes the balance of every body of the scene from them, with the efforts of couplings. [`EffectWrenches`] has what effects do;

@@ -57,13 +57,13 @@ pub struct Reactions<T: Real, const D: usize> {
     place_in_block: Vec<usize>,
 }
 
-/// One body.
+/// One body, with its place at a state.
 #[derive(Debug, Clone)]
 struct Placed<T: Real, const D: usize> {
     body: BodyInertia<T, D>,
-    /// What gravity makes of it [m/s^2].
+    /// Acceleration of the body by gravity [m/s^2].
     gravity: Vector<T, 3>,
-    /// At the state: rotation and centre of mass.
+    /// Rotation and centre of mass at the state.
     turned: Matrix<T, 3>,
     at: Vector<T, 3>,
 }
@@ -356,7 +356,7 @@ impl<T: Real, const D: usize> Placed<T, D> {
         }
     }
 
-    /// Places the body; what all joints and effects together must give: [m (c'' - g); I omega' + omega x I omega].
+    /// Places the body at a state; returns what all joints and effects must give: [m (c'' - g); I omega' + omega x I omega].
     fn update(&mut self, state: &State<T>) -> Wrench<T> {
         let BodyInertia { frame, center, mass, inertia, .. } = &self.body;
         let r = frame.rotation(&state.q);

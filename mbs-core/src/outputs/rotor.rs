@@ -14,10 +14,10 @@ use crate::natural::NaturalModel;
 use crate::scene::Scene;
 use alloc::vec::Vec;
 
-/// A rotor.
+/// Enabled rotor of a scene.
 #[derive(Debug, Clone)]
 pub(super) struct RotorTorque<T: Real, const D: usize> {
-    /// `scene.effects[effect]`.
+    /// Index of the effect in the scene.
     pub(super) effect: usize,
     inertia: T,
     unknown: usize,
@@ -48,7 +48,7 @@ impl<T: Real, const D: usize> RotorTorque<T, D> {
         ScalarForce { value, rate, tension, ..ScalarForce::default() }
     }
 
-    /// Its kinetic energy [J].
+    /// Kinetic energy of the rotor [J].
     pub(super) fn kinetic_energy(&self, state: &State<T>) -> T {
         let rate = state.v[self.unknown];
         self.inertia * rate * rate * T::HALF

@@ -27,7 +27,7 @@ pub(super) struct ToothForce<T: Real, const D: usize> {
     axes: [(Coordinate<T, D>, Affine<T, D>); 2],
     /// Moment on the first wheel for an effort of one.
     moment: T,
-    /// tan(alpha).
+    /// Factor tan(alpha) of the force that drives the teeth apart.
     apart: T,
 }
 

@@ -22,7 +22,7 @@ pub struct Turns<T: Real, const D: usize> {
 }
 
 impl<T: Real, const D: usize> Turns<T, D> {
-    /// Those of all joints that turn about an axis.
+    /// Angles of all joints that turn about an axis.
     #[must_use]
     pub fn new(scene: &Scene<T>, model: &NaturalModel<T, D>) -> Self {
         let angles = scene.joints.iter().enumerate().flat_map(|(i, joint)| {

@@ -21,7 +21,7 @@ use crate::scene::{
 };
 use alloc::vec::Vec;
 
-/// Where a wrench acts: a body and, for a force, a point.
+/// Wrench with its place: a body and, for a force, a point.
 pub(super) type Applied<T> = (BodyId, Option<Vector<T, 3>>, Wrench<T>);
 
 /// A force and a moment about the joint's place [N, N m], or about a body's centre of mass.
@@ -49,13 +49,13 @@ impl<T: Real> Wrench<T> {
         self.moment += other.moment;
     }
 
-    /// The same wrench about another place; `arm` leads from there to its own.
+    /// This wrench about another place; `arm` leads from there to its own.
     pub(super) fn shifted(&self, arm: &Vector<T, 3>) -> Self {
         Self { force: self.force, moment: self.moment + cross(arm, &self.force) }
     }
 }
 
-/// What a joint can transmit, by its kind and axes alone. Directions are those of the reference configuration.
+/// Wrenches that a joint can transmit, by its kind and axes alone. Directions are those of the reference configuration.
 #[derive(Debug, Clone, PartialEq)]
 pub struct JointWrenches<T: Real> {
     dimension: Dimension,
@@ -182,7 +182,7 @@ pub(super) struct WrenchBasis<T: Real, const D: usize> {
     transmission: Transmission<T>,
 }
 
-/// What a joint or a contact transmits.
+/// Transmission of a joint or a contact.
 #[derive(Debug, Clone)]
 enum Transmission<T: Real> {
     Joint(JointWrenches<T>),
@@ -191,7 +191,7 @@ enum Transmission<T: Real> {
 }
 
 impl<T: Real, const D: usize> WrenchBasis<T, D> {
-    /// Of `scene.rollings[index]`: from what it rolls on to the body.
+    /// Wrenches of a contact, that of `scene.rollings[index]`: from what it rolls on to the body.
     pub(super) fn of_rolling(scene: &Scene<T>, model: &NaturalModel<T, D>, index: usize) -> Self {
         let input = RollingInput::new(&scene.rollings[index], scene.dimension);
         let [body, on] = input.bodies;

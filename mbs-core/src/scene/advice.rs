@@ -1,13 +1,13 @@
-//! What to do about a fault of a scene.
+//! Advice on the faults of a scene.
 
 use crate::scene::{NotDrawn, NotStrands, SceneFault};
 
-/// What a point mass takes.
+/// Advice on what a point mass takes.
 const POINT_TURNS: &str = "a point takes the joints `spherical` (plane: `revolute`), `distance` and `free` as their second body, forces, and \
                            lengths; give what turns `center` and `inertia`";
 
 impl SceneFault {
-    /// What to do about it, in the imperative.
+    /// Advice on the fault, in the imperative.
     #[must_use]
     #[allow(clippy::too_many_lines, reason = "one sentence for each fault")]
     pub fn advice(&self) -> &'static str {

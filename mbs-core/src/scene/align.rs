@@ -24,11 +24,11 @@ const ROUNDINGS: f64 = 1e3;
 pub struct Tilt<T> {
     /// The joint, and which of its axes.
     pub joint: usize,
-    /// 0 or 1.
+    /// Number of the axis in its joint: 0 or 1.
     pub axis: usize,
     /// The joint whose axis it is meant to be parallel to, or across.
     pub other: usize,
-    /// By how much it is off [rad].
+    /// Angle by which the axis is off [rad].
     pub angle: T,
     /// The unit axis that is not off.
     pub to: [T; 3],

@@ -14,7 +14,7 @@ pub fn transverse<T: Real>(axis: &Vector<T, 3>, dimension: Dimension) -> [Vector
 }
 
 impl<T: Real> Joint<T> {
-    /// What it lets move in a scene of that dimension, in the order of its coordinates.
+    /// Freedoms of the joint in a scene of that dimension, in the order of its coordinates.
     #[must_use]
     pub fn freedoms(&self, dimension: Dimension) -> &'static [Freedom] {
         self.kind.freedoms(dimension)
@@ -95,7 +95,7 @@ impl<T: Real> Joint<T> {
         [v, cross(&n, &v), other]
     }
 
-    /// Which of its bodies has the axis of a turn: 1 for the second of two.
+    /// Number of the joint's body that has the axis of a turn: 1 for the second of two axes, else 0.
     #[must_use]
     pub fn side_of_turn(&self, dimension: Dimension, axis: Axis) -> usize {
         match self.kind.rotation(dimension) {

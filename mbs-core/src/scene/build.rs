@@ -54,7 +54,7 @@ impl Body<Number> {
         Self::of((mass.into(), center.into().0), Inertia::Spatial(inertia.map(Into::into)))
     }
 
-    /// The same with gravity times a factor; zero: it has no weight.
+    /// Sets the factor of gravity on the body; zero: it has no weight.
     #[must_use]
     pub fn with_gravity_scale(mut self, scale: impl Into<Number>) -> Self {
         self.gravity_scale = Some(scale.into());
@@ -150,16 +150,16 @@ impl Joint<Number> {
 /// A joint with what holds for its coordinate at the start.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StartedJoint {
-    /// The joint.
+    /// Joint that has the coordinate.
     pub joint: Joint<Number>,
-    /// Its coordinate [rad or m].
+    /// Coordinate of the joint at the start [rad or m].
     pub value: Number,
-    /// Its rate [rad/s or m/s].
+    /// Rate of the coordinate at the start [rad/s or m/s].
     pub rate: Number,
 }
 
 impl StartedJoint {
-    /// The same joint with a name.
+    /// Gives the joint a name.
     #[must_use]
     pub fn named(mut self, name: &str) -> Self {
         self.joint = self.joint.named(name);
@@ -192,7 +192,7 @@ impl Guide<Number> {
         Self { joint, number: 0, law: motion.into() }
     }
 
-    /// The same motion of another coordinate of the joint, by its number from 0. Of several all are guided, one after another.
+    /// Guides another coordinate of the joint, by its number from 0. Of several all are guided, one after another.
     #[must_use]
     pub fn on_coordinate(mut self, number: usize) -> Self {
         self.number = number;
@@ -205,7 +205,7 @@ impl Effect<Number> {
         Self { name: String::new(), enabled: true, kind: kind.into() }
     }
 
-    /// The same effect on another coordinate of its joint, by its number from 0; effects without a joint stay as they are.
+    /// Moves the effect to another coordinate of its joint, by its number from 0; effects without a joint stay as they are.
     #[must_use]
     pub fn on_coordinate(mut self, number: usize) -> Self {
         let values = self.kind.values().into_iter().map(|value| match value {
@@ -419,7 +419,7 @@ impl Effect<Number> {
 macro_rules! named {
     ($($part:ident),*) => {$(
         impl<T> $part<T> {
-            /// The same part with a name.
+            /// Gives the part a name.
             #[must_use]
             pub fn named(mut self, name: &str) -> Self {
                 self.name = name.into();

@@ -7,7 +7,7 @@ use alloc::string::String;
 use alloc::vec::Vec;
 
 impl Signal<Number> {
-    /// The same number at all times.
+    /// A number that is the same at all times.
     #[must_use]
     pub fn constant(value: impl Into<Number>) -> Self {
         Self::Constant([value.into(), Number::ZERO, Number::ZERO])
@@ -47,7 +47,7 @@ impl From<SignalKind<f64>> for SignalKind<Number> {
 }
 
 impl Road<Number> {
-    /// The same features under all wheels, whose heights add up; they come along -x towards a standing vehicle at a speed [m/s].
+    /// Features whose heights add up, equal under all wheels; they come along -x towards a standing vehicle at a speed [m/s].
     pub fn new(
         features: impl IntoIterator<Item = RoadFeature<f64>>,
         speed: impl Into<Number>,

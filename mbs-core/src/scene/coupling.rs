@@ -30,20 +30,21 @@ pub struct Coupling<T> {
     pub terms: Vec<CouplingTerm<T>>,
     /// A user-defined function of the terms that is held in place of their sum; in code only.
     pub relation: Option<Code<dyn Relation>>,
-    /// What the sum is, from the reference configuration [unit of a factor times its coordinate].
+    /// Value of the sum, from the reference configuration [unit of a factor times its coordinate].
     pub value: T,
-    /// What is added to the value in the course of time.
+    /// Function of time that is added to the value.
     pub motion: Option<Motion<T>>,
-    /// What holds the sum.
+    /// Kind of part that holds the sum.
     pub kind: CouplingKind<T>,
-    /// What its sum follows from when the scene is [resolved](crate::scene::Scene::resolve); `None`: it is meant as it is written.
+    /// Drawn coupling from which the sum follows when the scene is [resolved](crate::scene::Scene::resolve); `None`: the sum is meant as it is
+    /// written.
     pub drawn: Option<Drawn>,
 }
 
-/// What holds the sum of a coupling. The motion is the same with all; reactions and notes are not.
+/// Kind of part that holds the sum of a coupling. The motion is the same with all; reactions and notes are not.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub enum CouplingKind<T> {
-    /// Anything: it acts along its coordinates and lengths.
+    /// Any part, which acts along the coordinates and lengths of the coupling.
     #[default]
     General,
     /// Teeth in mesh: the bearings of both wheels carry their force.
@@ -59,7 +60,7 @@ pub enum CouplingKind<T> {
     Cam,
 }
 
-/// Where two wheels with straight teeth touch.
+/// Contact of two wheels with straight teeth.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mesh<T> {
     /// The pitch point, fixed in the body that carries both wheels, reference configuration [m].
@@ -95,8 +96,9 @@ impl<T> Coupling<T> {
         self.motion.is_some()
     }
 
-    /// What its effort is, over the force that its sum takes to change: of a gear and a differential the torque on the first wheel [N m],
-    /// of a belt the difference of its strands [N], of a rack and a screw the force along the slide [N], of a rope its tension [N]; one of others.
+    /// Effort of the coupling over the force that its sum takes to change; one where no other effort is named. The effort of a gear and a
+    /// differential is the torque on the first wheel [N m]. That of a belt is the difference of its strands [N], that of a rack and a screw
+    /// the force along the slide [N], that of a rope its tension [N].
     #[must_use]
     pub fn effort_factor(&self) -> T
     where
@@ -231,7 +233,7 @@ impl Coupling<Number> {
         Self { kind: CouplingKind::Rope, ..Self::of(terms) }
     }
 
-    /// The same rope, of which a drum of this radius [m] takes in as much as its joint turns.
+    /// Adds to a rope a drum of this radius [m], which takes in as much as its joint turns.
     #[must_use]
     pub fn with_drum(mut self, joint: JointId, radius: f64) -> Self {
         self.terms.push(CouplingTerm::of_joint(joint, 0, radius));
@@ -253,7 +255,7 @@ impl Coupling<Number> {
         Self { kind: CouplingKind::Cam, ..Self::of(terms) }
     }
 
-    /// The same two wheels, that touch at a pitch point [m] under a pressure angle [rad]: their bearings carry the force of the teeth.
+    /// Lets two wheels touch at a pitch point [m] under a pressure angle [rad]: their bearings carry the force of the teeth.
     #[must_use]
     pub fn meshing_at(mut self, at: impl Into<Vector3>, pressure_angle: impl Into<Number>) -> Self {
         let pressure_angle = pressure_angle.into();
@@ -261,7 +263,7 @@ impl Coupling<Number> {
         self
     }
 
-    /// The same belt with strands that pull by this force [N] where it passes nothing on: the bearings of its wheels carry them.
+    /// Gives a belt strands that pull by this force [N] where it passes nothing on: the bearings of its wheels carry their pull.
     #[must_use]
     pub fn tightened(mut self, pretension: impl Into<Number>) -> Self {
         self.kind = CouplingKind::Strands { pretension: pretension.into() };
@@ -273,7 +275,7 @@ impl Coupling<Number> {
         self
     }
 
-    /// The same coupling, which is known to be meant as drawn: no run notes that its sum is another one than in version 0.1.
+    /// Marks the coupling as meant as drawn: no run notes that its sum is another one than in version 0.1.
     #[must_use]
     pub fn as_drawn(mut self) -> Self {
         if let Some(drawn) = &mut self.drawn {
@@ -282,14 +284,14 @@ impl Coupling<Number> {
         self
     }
 
-    /// The same coupling whose sum is `value`, from the reference configuration.
+    /// Sets the sum of the coupling to `value`, from the reference configuration.
     #[must_use]
     pub fn holding(mut self, value: impl Into<Number>) -> Self {
         self.value = value.into();
         self
     }
 
-    /// The same coupling whose sum follows a function of time.
+    /// Lets the sum of the coupling follow a function of time.
     #[must_use]
     pub fn driven(mut self, motion: impl Into<Motion<Number>>) -> Self {
         self.motion = Some(motion.into());

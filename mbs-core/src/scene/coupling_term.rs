@@ -6,9 +6,9 @@ use alloc::vec::Vec;
 /// A term of a coupling: `factor` times a measured number, or a curve of it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CouplingTerm<T> {
-    /// Its factor.
+    /// Factor of the number, or of its curve.
     pub factor: T,
-    /// The number.
+    /// Number that is measured.
     pub of: CouplingMeasure<T>,
     /// The function of the number that is meant; `None`: the number itself.
     pub curve: Option<Curve<T>>,
@@ -19,7 +19,7 @@ pub struct CouplingTerm<T> {
 pub enum CouplingMeasure<T> {
     /// A coordinate of a joint [rad or m]; angles count their turns.
     Coordinate {
-        /// The joint.
+        /// Joint of the coordinate.
         joint: JointId,
         /// The place of the coordinate among the joint's, from 0.
         number: usize,
@@ -31,9 +31,9 @@ pub enum CouplingMeasure<T> {
     },
     /// An angle of a ball, zero in the reference configuration [rad]; of effects only.
     Ball {
-        /// The joint.
+        /// Joint with the ball.
         joint: JointId,
-        /// Which angle.
+        /// Angle of the ball: its swing or its twist.
         angle: BallAngle,
         /// A direction that is fixed in the first body; and in the second, which has the same in the reference configuration.
         axis: [T; 3],
@@ -50,10 +50,10 @@ pub enum BallAngle {
 }
 
 impl BallAngle {
-    /// Both.
+    /// All angles of a ball.
     pub const ALL: [Self; 2] = [Self::Swing, Self::Twist];
 
-    /// Its name in scene files.
+    /// Name of the angle in scene files.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {

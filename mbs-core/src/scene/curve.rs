@@ -16,24 +16,24 @@ pub enum Curve<T> {
     Shaped {
         /// The rows (x, f).
         rows: Vec<[T; 2]>,
-        /// How it goes between them.
+        /// Shape of the curve between the rows.
         shape: CurveShape,
-        /// Does it repeat? Its last value is then its first.
+        /// Does the curve repeat? Its last value is then its first.
         periodic: bool,
     },
 }
 
-/// How a table goes between its rows that is no spline.
+/// Shape of a table between its rows where it is no spline.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CurveShape {
     /// Twice differentiable, between the values of the neighbouring rows.
     Monotone,
-    /// Straight.
+    /// Straight lines between the rows.
     Linear,
 }
 
 impl CurveShape {
-    /// Its name in scene files.
+    /// Name of the shape in scene files.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -43,13 +43,13 @@ impl CurveShape {
     }
 }
 
-/// How a spline or a monotone table begins and ends.
+/// Condition at both ends of a spline or a monotone table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum TableEnds {
-    /// Without curvature: the natural spline, which ends on a slope.
+    /// Ends without curvature: the natural spline, which ends on a slope.
     #[default]
     Natural,
-    /// At rest: the clamped spline, with no rate at both ends.
+    /// Ends at rest: the clamped spline, with no rate at both ends.
     Level,
 }
 

@@ -4,7 +4,7 @@ use crate::scene::{BodyId, Dimension, JointId, JointKind, NamedSignal, Road, Sig
 use alloc::string::String;
 use alloc::vec::Vec;
 
-/// What a run starts from.
+/// Configuration that a run starts from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Start {
     /// The reference configuration with the initial conditions.
@@ -19,9 +19,9 @@ pub enum Start {
 /// A rigid body, or a point with mass.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Body<T> {
-    /// Unique name.
+    /// Unique name of the body.
     pub name: String,
-    /// Mass [kg]; zero is allowed where the others determine the motion.
+    /// Mass of the body [kg]; zero is allowed where the others determine the motion.
     pub mass: T,
     /// Centre of mass in the reference configuration [m].
     pub center: [T; 3],
@@ -36,14 +36,14 @@ pub struct Body<T> {
 pub enum Inertia<T> {
     /// Uniform slender rod between two points: centre (the middle) and inertia follow from mass and length.
     Rod {
-        /// One end [m].
+        /// One end of the rod [m].
         from: [T; 3],
         /// The other end [m].
         to: [T; 3],
     },
-    /// Planar body: about z [kg m^2].
+    /// Moment of inertia of a planar body about z [kg m^2].
     Planar(T),
-    /// Spatial body: [Ixx, Iyy, Izz, Ixy, Iyz, Izx] in global axes, products as in the matrix [kg m^2].
+    /// Inertia of a spatial body: [Ixx, Iyy, Izz, Ixy, Iyz, Izx] in global axes, products as in the matrix [kg m^2].
     Spatial([T; 6]),
     /// A point mass at the centre: it has no orientation.
     Point,
@@ -60,9 +60,9 @@ impl<T> Body<T> {
 /// A joint between two bodies. Positive motion: second body relative to the first.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Joint<T> {
-    /// Unique name.
+    /// Unique name of the joint.
     pub name: String,
-    /// Kind.
+    /// Kind of the joint.
     pub kind: JointKind,
     /// First and second body.
     pub bodies: [BodyId; 2],
@@ -72,7 +72,7 @@ pub struct Joint<T> {
     /// body, its second in the second. A planar joint has its normal, then its first translation; a link has `axes[0]` when it
     /// is hinged. Unused ones are `None`. A planar revolute has none (its axis is +z).
     pub axes: [Option<[T; 3]>; 2],
-    /// What its coordinate, rate and effort are meant to keep to.
+    /// Limits that the coordinate, its rate and its effort are meant to keep to.
     pub limits: JointLimits<T>,
 }
 
@@ -88,7 +88,7 @@ impl<T> Joint<T> {
     }
 }
 
-/// What the only coordinate of a joint, its rate and its effort are meant to keep to: data, without effect on the motion.
+/// Limits that the only coordinate of a joint, its rate and its effort are meant to keep to: data, without effect on the motion.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct JointLimits<T> {
     /// Lower and upper end of the coordinate, from the reference configuration [rad or m].
@@ -124,7 +124,7 @@ impl<T> Default for JointLimits<T> {
 /// One `[[initial]]` entry: what is written holds exactly at the start.
 #[derive(Debug, Clone, PartialEq)]
 pub struct InitialCondition<T> {
-    /// What it speaks about.
+    /// Target of the condition, with its values.
     pub target: InitialTarget<T>,
 }
 
@@ -133,16 +133,16 @@ pub struct InitialCondition<T> {
 pub enum InitialTarget<T> {
     /// Joint coordinates and rates, in the order of the joint's numbers [rad, m, rad/s, m/s].
     Joint {
-        /// The joint.
+        /// Joint whose numbers are given.
         joint: JointId,
         /// Coordinates from the reference configuration.
         value: Option<Vec<T>>,
-        /// Their rates; for a spherical joint the relative angular velocity in global axes.
+        /// Rates of the coordinates; for a spherical joint the relative angular velocity in global axes.
         rate: Option<Vec<T>>,
     },
     /// Velocity of a material point and/or angular velocity of a body.
     Body {
-        /// The body.
+        /// Body whose velocities are given.
         body: BodyId,
         /// Material point (reference configuration) and its velocity [m, m/s].
         velocity: Option<([T; 3], [T; 3])>,
@@ -154,11 +154,11 @@ pub enum InitialTarget<T> {
 /// Kinematic guidance: a joint coordinate follows a law of time, counted from the reference configuration.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Guide<T> {
-    /// The guided joint. Of one with several coordinates all are guided, by guides that stand one after another.
+    /// Joint that is guided. Of one with several coordinates all are guided, by guides that stand one after another.
     pub joint: JointId,
     /// Number of the coordinate, in the order of the joint's coordinates; the rotation vector of a ball has three.
     pub number: usize,
-    /// The law.
+    /// Law of time that the coordinate follows.
     pub law: Motion<T>,
 }
 
@@ -169,23 +169,23 @@ pub enum Motion<T> {
     Table {
         /// The rows [s, rad or m].
         rows: Vec<[T; 2]>,
-        /// How it begins and ends.
+        /// Condition at both ends of the table.
         ends: TableEnds,
     },
     /// Through (time, value), between the values of the neighbouring rows; the end values are held outside.
     Monotone {
         /// The rows [s, rad or m].
         rows: Vec<[T; 2]>,
-        /// How it begins and ends.
+        /// Condition at both ends of the table.
         ends: TableEnds,
     },
     /// amplitude * sin(2 pi frequency t + phase)   [rad or m, Hz, rad].
     Sine {
         /// Amplitude [rad or m].
         amplitude: T,
-        /// Frequency [Hz].
+        /// Frequency of the sine [Hz].
         frequency: T,
-        /// Phase [rad].
+        /// Phase at time zero [rad].
         phase: T,
     },
     /// Value, rate and acceleration, held until they are set again between steps; these at the start.
@@ -199,7 +199,7 @@ pub enum Motion<T> {
     Signal(SignalId),
 }
 
-/// What an effect acts among.
+/// Surroundings of an effect: the parts of its scene that it refers to.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Surroundings<'a, T> {
     pub(crate) dimension: Dimension,

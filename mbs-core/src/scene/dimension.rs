@@ -1,6 +1,6 @@
 //! The plane or space.
 
-/// Planar or spatial.
+/// Dimension of a scene: planar or spatial.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Dimension {
     /// Motion in the x-y plane; rotations about z.
@@ -10,7 +10,7 @@ pub enum Dimension {
 }
 
 impl Dimension {
-    /// 2 or 3.
+    /// Number of dimensions: 2 or 3.
     #[must_use]
     pub const fn count(self) -> usize {
         match self {

@@ -1,40 +1,40 @@
-//! What couplings are drawn as.
+//! Kinds of drawn couplings.
 
 /// A coupling whose sum follows from what is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Drawn {
-    /// What is drawn.
+    /// Kind of the drawn coupling.
     pub kind: DrawnKind,
     /// Does the scene say that it is meant as drawn?
     pub is_stated: bool,
-    /// How the sum was found; [`Sense::Same`] before the scene is resolved.
+    /// Sense of the sum that was found; [`Sense::Same`] before the scene is resolved.
     pub sense: Sense,
 }
 
-/// How the sum of a drawn coupling compares with that of the joints' coordinates as they are written, which version 0.1 took.
+/// Comparison of a drawn coupling's sum with that of the joints' coordinates as they are written, which version 0.1 took.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Sense {
-    /// The same.
+    /// Sum equal to that of the coordinates as they are written.
     Same,
-    /// Another: wheels turn the other way, or joints between their carriers count.
+    /// Sum unlike that of the coordinates: wheels turn the other way, or joints between their carriers count.
     Changed,
     /// Places and axes do not decide; the coordinates are taken as they are written.
     Undecided,
 }
 
-/// What places and axes do not say of a drawn coupling.
+/// Reason why places and axes do not determine a drawn coupling.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum NotDrawn {
-    /// Its axes are not parallel.
+    /// The axes of the coupling are not parallel.
     Parallel,
-    /// On which side of the pinion the rack's pitch line is.
+    /// Places do not say on which side of the pinion the rack's pitch line is.
     PitchLine,
 }
 
-/// Why places and axes do not say where the strands of a belt are.
+/// Reason why places and axes do not say where the strands of a belt are.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum NotStrands {
-    /// It is no belt of two wheels that turn about parallel axes in one body.
+    /// The coupling is no belt of two wheels that turn about parallel axes in one body.
     Wheels,
     /// The joints stand this far apart along their axes [m].
     Planes(f64),
@@ -42,7 +42,7 @@ pub enum NotStrands {
     Inside(f64),
 }
 
-/// What is drawn. Sizes are the factors of the first terms.
+/// Kind of a drawn coupling. Its sizes are the factors of the first terms.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum DrawnKind {
     /// Two wheels in mesh: the first, the second.
@@ -56,7 +56,7 @@ pub enum DrawnKind {
     Ratio,
     /// A belt on two wheels: the first, the second.
     Belt {
-        /// Is it crossed?
+        /// Is the belt crossed?
         is_crossed: bool,
     },
     /// The slide of a rack, the turn of its pinion.
@@ -80,7 +80,7 @@ impl DrawnKind {
         }
     }
 
-    /// As a scene has it that does not say more.
+    /// Returns a drawn coupling of this kind, as a scene has it that does not say more.
     #[must_use]
     pub const fn drawn(self) -> Drawn {
         Drawn { kind: self, is_stated: false, sense: Sense::Same }

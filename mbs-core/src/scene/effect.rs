@@ -1,4 +1,4 @@
-//! What effects are described by: signals, axes, laws of users, polynomials and roads.
+//! Data that describe effects: signals, axes, laws of users, polynomials and roads.
 
 use crate::laws::user::{UserBodyLaw, UserScalarLaw};
 use crate::scene::{BodyId, CurveShape, JointId, SignalId};
@@ -7,7 +7,7 @@ use alloc::vec::Vec;
 /// A constant, a table over time (linear between the points, the end values held outside), or signals of the scene.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Signal<T> {
-    /// The same at all times; planar torques and joint torques use the first component only.
+    /// Vector that is the same at all times; planar torques and joint torques use the first component only.
     Constant([T; 3]),
     /// Rows of (time, value).
     Table(Vec<(T, [T; 3])>),
@@ -20,13 +20,13 @@ pub enum Signal<T> {
 /// Axes in which a force is given.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum AxisFrame {
-    /// Fixed directions.
+    /// Global axes, whose directions are fixed.
     Global,
     /// Turning with the body (global axes of the reference configuration at the start).
     Body,
 }
 
-/// Where a law of a user's own acts.
+/// Law of a user's own, with the place where it acts.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum UserLaw<T> {
     /// Along the line of two body points.
@@ -35,25 +35,25 @@ pub enum UserLaw<T> {
         bodies: [BodyId; 2],
         /// One point per body, reference configuration [m].
         points: [[T; 3]; 2],
-        /// The law.
+        /// User's law of the line.
         law: UserScalarLaw<T>,
     },
     /// On the coordinate of a joint that has one.
     Joint {
-        /// The joint.
+        /// Joint on which the law acts.
         joint: JointId,
-        /// The law.
+        /// User's law of the coordinate.
         law: UserScalarLaw<T>,
     },
-    /// On a body.
+    /// On a body at a point.
     Body {
-        /// The body.
+        /// Body on which the law acts.
         body: BodyId,
         /// Point, reference configuration [m].
         at: [T; 3],
         /// Direction, fixed in the body.
         axis: [T; 3],
-        /// The law.
+        /// User's law of the body.
         law: UserBodyLaw<T>,
     },
 }
@@ -61,9 +61,9 @@ pub enum UserLaw<T> {
 /// One polynomial and the range in which it holds.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PolynomialPiece<T> {
-    /// Where it begins [m or m/s].
+    /// Beginning of the range [m or m/s].
     pub lower: T,
-    /// Where it ends [m or m/s].
+    /// End of the range [m or m/s].
     pub upper: T,
     /// Coefficients of increasing power, at most [`PolynomialPiece::MAX_COEFFICIENTS`].
     pub coefficients: Vec<T>,
@@ -82,7 +82,7 @@ pub use crate::laws::slip::LongitudinalSlip;
 pub struct Road<T> {
     /// Under wheels whose centre has y >= 0 in the reference configuration: features whose heights add up.
     pub left: Vec<RoadFeature<T>>,
-    /// Under the others; in the plane the same.
+    /// Under the other wheels; in the plane the same features.
     pub right: Vec<RoadFeature<T>>,
     /// Speed at which the road comes towards a standing vehicle, along -x [m/s].
     pub speed: T,
@@ -91,25 +91,25 @@ pub struct Road<T> {
 /// A part of a road; heights of all parts add up.
 #[derive(Debug, Clone, PartialEq)]
 pub enum RoadFeature<T> {
-    /// The same height everywhere [m].
+    /// Level road of one height everywhere.
     Flat {
-        /// Height [m].
+        /// Height of the road [m].
         height: T,
     },
     /// A rise (or fall) of constant slope with rounded corners, level before and after: a ramp; short: a step of stairs.
     Rise {
-        /// Where it begins [m].
+        /// Beginning of the rise along x [m].
         start: T,
-        /// Its length along x [m].
+        /// Length of the rise along x [m].
         length: T,
-        /// Its height; negative: down [m].
+        /// Height of the rise; negative: down [m].
         height: T,
         /// Length of each rounded corner, at most half the length [m].
         rounding: T,
     },
     /// Risers, each with a tread behind it: rise i begins at start + i (tread + riser). A riser is all rounding, without a straight part.
     Stairs {
-        /// Where the first riser begins [m].
+        /// Beginning of the first riser along x [m].
         start: T,
         /// Length of a tread along x [m].
         tread: T,
@@ -117,16 +117,16 @@ pub enum RoadFeature<T> {
         riser: T,
         /// Height of a riser; negative: down [m].
         height: T,
-        /// Number of risers.
+        /// Number of risers of the stairs.
         count: u32,
     },
     /// amplitude (1 - cos(2 pi (x - start) / length)), once.
     Bump {
-        /// Where it begins [m].
+        /// Beginning of the bump along x [m].
         start: T,
-        /// Its length along x [m].
+        /// Length of the bump along x [m].
         length: T,
-        /// Half its height; negative: a hole [m].
+        /// Half the height of the bump; negative: a hole [m].
         amplitude: T,
     },
     /// Natural cubic spline through (x, z), level outside.
@@ -135,7 +135,7 @@ pub enum RoadFeature<T> {
     Shaped {
         /// The points (x, z).
         points: Vec<[T; 2]>,
-        /// How it goes between them.
+        /// Shape of the road between the points.
         shape: CurveShape,
     },
 }

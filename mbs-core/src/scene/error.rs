@@ -1,4 +1,4 @@
-//! Where a scene is wrong: entry, index and field.
+//! Errors of a scene, by entry, index and field.
 
 use crate::scene::SceneFault;
 use core::fmt::{self, Display, Formatter};
@@ -6,48 +6,48 @@ use core::fmt::{self, Display, Formatter};
 /// An entry of the scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Entry {
-    /// `[scene]`.
+    /// Table `[scene]` of scene files.
     Scene,
     /// `[[body]]` number i (from 0).
     Body(usize),
-    /// `[[joint]]` number i.
+    /// `[[joint]]` number i (from 0).
     Joint(usize),
-    /// `[[initial]]` number i.
+    /// `[[initial]]` number i (from 0).
     Initial(usize),
-    /// `[[guide]]` number i.
+    /// `[[guide]]` number i (from 0).
     Guide(usize),
-    /// `[[coupling]]` number i.
+    /// `[[coupling]]` number i (from 0).
     Coupling(usize),
-    /// `[[rolling]]` number i.
+    /// `[[rolling]]` number i (from 0).
     Rolling(usize),
-    /// `[[signal]]` number i.
+    /// `[[signal]]` number i (from 0).
     Signal(usize),
-    /// `[[frame]]` number i.
+    /// `[[frame]]` number i (from 0).
     Frame(usize),
-    /// `[[shape]]` number i.
+    /// `[[shape]]` number i (from 0).
     Shape(usize),
-    /// `[[effect]]` number i.
+    /// `[[effect]]` number i (from 0).
     Effect(usize),
-    /// `[[output]]` number i.
+    /// `[[output]]` number i (from 0).
     Output(usize),
-    /// `[road]`.
+    /// Table `[road]` of scene files.
     Road,
     /// Feature number i of the road on the left, or of the only one.
     RoadLeft(usize),
     /// Feature number i of the road on the right.
     RoadRight(usize),
-    /// `[solver]`.
+    /// Table `[solver]` of scene files.
     Solver,
 }
 
 /// A scene that cannot be meant.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SceneError {
-    /// Where.
+    /// Entry of the scene that has the fault.
     pub entry: Entry,
     /// The key in the entry, as in scene files.
     pub field: &'static str,
-    /// What is wrong.
+    /// Fault of the field.
     pub fault: SceneFault,
 }
 

@@ -1,11 +1,11 @@
-//! What can be wrong with a scene, and what to do about it.
+//! Faults that a scene can have, and what to do about them.
 
 use super::{BodyId, Dimension, JointKind, NotDrawn, NotStrands};
 use crate::laws::relation::RelationFault;
 use crate::scene::SignalBreak;
 use core::fmt::{self, Display, Formatter};
 
-/// The faults.
+/// Faults of a scene.
 ///
 /// Each reads as the rest of a sentence about a key: `{}` says what is wrong and what to do, `{:#}` only
 /// what is wrong; [`SceneFault::advice`] is the other half.
@@ -38,13 +38,13 @@ pub enum SceneFault {
     NeedsMovingBody,
     /// A law in code, where data is needed.
     InCode,
-    /// Both bodies are the same.
+    /// One body twice, where two are needed.
     SameBody,
     /// Something that turns, or has an axis, of a point mass; the body.
     PointTurns(usize),
     /// A place that is not that of a point mass.
     OffPoint {
-        /// The body.
+        /// Index of the body.
         body: usize,
         /// Distance of the two [m].
         by: f64,
@@ -67,9 +67,9 @@ pub enum SceneFault {
     WrongDimension,
     /// The count of numbers is wrong.
     WrongCount {
-        /// Numbers needed.
+        /// Count of numbers that is needed.
         needed: usize,
-        /// Numbers there.
+        /// Count of numbers that is there.
         found: usize,
     },
     /// The joint has no coordinates to speak about.
@@ -98,9 +98,9 @@ pub enum SceneFault {
     TwistMeasured,
     /// The coordinate of a joint that has several is missing, or is none of them.
     NeedsCoordinate {
-        /// The joint's kind.
+        /// Kind of the joint.
         joint: JointKind,
-        /// The scene's dimension.
+        /// Dimension of the scene.
         dimension: Dimension,
         /// The number that is given.
         given: Option<usize>,
@@ -111,7 +111,7 @@ pub enum SceneFault {
     LiesFlat,
     /// A blade stands along the plane's normal.
     AlongNormal,
-    /// What rolls does not touch its plane; the distance of its lowest point [m].
+    /// A wheel or ball does not touch its plane; the distance of its lowest point [m].
     Apart(f64),
     /// A periodic curve has different values at its ends; both.
     PeriodicEnds([f64; 2]),
@@ -142,22 +142,22 @@ pub enum SceneFault {
     NoSingleCoordinate(usize),
     /// Guides of a joint are not one for each of its coordinates, in their order.
     GuideNotWhole {
-        /// How many coordinates it has.
+        /// Number of coordinates of the joint.
         needed: usize,
-        /// How many are guided, in their order.
+        /// Number of guided coordinates, in their order.
         found: usize,
     },
     /// A guide between bodies that are welded together.
     GuideWelded,
     /// The joint has no single rotation to spring or drive; the number it has.
     NoSingleRotation(usize),
-    /// The same thing is prescribed twice; the index of the first entry.
+    /// One thing is prescribed twice; the index of the first entry.
     GivenTwice(usize),
     /// An initial entry contradicts the guide of its joint.
     Contradiction {
-        /// What the entry says.
+        /// Value that the entry gives.
         given: f64,
-        /// What the guide says at t = 0.
+        /// Value that the guide gives at t = 0.
         guide: f64,
     },
     /// The table of a guide begins or ends on a slope within the run: an impact.
@@ -166,7 +166,7 @@ pub enum SceneFault {
         row: usize,
         /// The last one, not the first.
         is_end: bool,
-        /// Its time [s].
+        /// Time of the row [s].
         time: f64,
         /// The rate there [rad/s or m/s].
         rate: f64,
@@ -175,9 +175,9 @@ pub enum SceneFault {
     SignalCircle,
     /// The signal is not smooth, which a guide or a coupling needs.
     SignalNotSmooth {
-        /// What spoils it.
+        /// Break at which the signal is not smooth.
         broken: SignalBreak,
-        /// What makes it smooth.
+        /// Remedy that makes the signal smooth.
         remedy: &'static str,
     },
     /// A controller needs the rate of a signal that has none which is known.
@@ -200,7 +200,7 @@ pub enum SceneFault {
     PieceCoefficients {
         /// The piece (from 0).
         piece: usize,
-        /// Coefficients there.
+        /// Number of its coefficients.
         found: usize,
     },
     /// A piece of a polynomial (from 0) does not end above its beginning.
@@ -228,9 +228,9 @@ pub enum SceneFault {
     },
     /// A hollow of the road in which a wheel would touch twice; radii [m].
     TightHollow {
-        /// Of the hollow at its tightest.
+        /// Radius of the hollow at its tightest.
         hollow: f64,
-        /// Of the largest wheel.
+        /// Radius of the largest wheel.
         wheel: f64,
     },
     /// A key that this kind needs is missing.

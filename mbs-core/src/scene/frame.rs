@@ -9,10 +9,10 @@ pub struct BodyFrame<T> {
     /// Unique name among the frames and the other bodies: it stands wherever a body's name does. Of its own body's name it is the place
     /// that stands for this body.
     pub name: String,
-    /// Its body, or the ground.
+    /// Body that the place moves with, or the ground.
     pub body: BodyId,
-    /// Its place in the reference configuration [m].
+    /// Place in the reference configuration [m].
     pub at: [T; 3],
-    /// Its first and its second axis, any length; the second is made right-angled to the first. `None`: x and y.
+    /// First and second axis of the frame, any length; the second is made right-angled to the first. `None`: x and y.
     pub axes: Option<[[T; 3]; 2]>,
 }

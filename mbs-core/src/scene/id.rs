@@ -5,17 +5,17 @@
 /// A body by its place in `scene.bodies`, or the ground.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum BodyId {
-    /// The fixed frame.
+    /// Ground, which is the fixed frame.
     Ground,
-    /// `scene.bodies[i]`.
+    /// Body number i (from 0): `scene.bodies[i]`.
     Body(usize),
 }
 
-/// The fixed frame.
+/// Ground, which is the fixed frame.
 pub const GROUND: BodyId = BodyId::Ground;
 
 impl BodyId {
-    /// The fixed frame.
+    /// Ground, which is the fixed frame.
     pub const GROUND: Self = Self::Ground;
 
     /// The body at a place in `scene.bodies`.
@@ -24,7 +24,7 @@ impl BodyId {
         Self::Body(index)
     }
 
-    /// Its place in `scene.bodies`; `None` for the ground.
+    /// Place of the body in `scene.bodies`; `None` for the ground.
     #[must_use]
     pub const fn index(self) -> Option<usize> {
         match self {
@@ -47,7 +47,7 @@ macro_rules! handle {
                 Self(index)
             }
 
-            /// Its place in its list.
+            /// Place of the entry in its list.
             #[must_use]
             pub const fn index(self) -> usize {
                 self.0

@@ -72,7 +72,7 @@ impl Freedom {
         }
     }
 
-    /// Its axis; a ball has none.
+    /// Axis of the freedom; a ball has none.
     #[must_use]
     pub const fn axis(self) -> Option<Axis> {
         match self {
@@ -82,33 +82,33 @@ impl Freedom {
     }
 }
 
-/// How the translation of a joint is constrained.
+/// Constraint on the translation of a joint.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Translation {
-    /// The points coincide.
+    /// The points of the joint coincide.
     Fixed,
-    /// They move along a line.
+    /// The points move along a line.
     Along(Axis),
-    /// They move in the plane across a direction.
+    /// The points move in the plane across a direction.
     Across(Axis),
-    /// It is not.
+    /// The translation is not constrained.
     Free,
 }
 
-/// How the rotation of a joint is constrained. In the plane it is fixed or free.
+/// Constraint on the rotation of a joint. In the plane it is fixed or free.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Rotation {
     /// The bodies do not turn against each other.
     Fixed,
-    /// They have an axis in common.
+    /// The bodies have an axis in common.
     About(Axis),
     /// An axis of the first body keeps its angle with one of the second.
     Universal([Axis; 2]),
-    /// It is not.
+    /// The rotation is not constrained.
     Free,
 }
 
-/// What a kind of joint is.
+/// Form of a kind of joint: its name and its freedoms.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct JointForm {
     /// Name in scene files.
@@ -144,7 +144,7 @@ macro_rules! kinds {
             /// Every kind that scene files name, in the order of the scene format.
             pub const ALL: [Self; JOINTS.len()] = [$(Self::$kind),*];
 
-            /// What it is.
+            /// Form of the kind: its name and its freedoms.
             #[must_use]
             pub const fn form(self) -> &'static JointForm {
                 const FORMS: &[JointForm] = &[$($form,)* $of_form];
@@ -241,7 +241,7 @@ impl JointKind {
             && self.rotation(dimension) == Rotation::Free
     }
 
-    /// What it lets move in a scene of that dimension, in the order of the joint's coordinates.
+    /// Freedoms of the kind in a scene of that dimension, in the order of the joint's coordinates.
     #[must_use]
     pub const fn freedoms(self, dimension: Dimension) -> &'static [Freedom] {
         match (dimension, self.form()) {
@@ -250,7 +250,7 @@ impl JointKind {
         }
     }
 
-    /// The same, each with the number of its first coordinate.
+    /// Freedoms of the kind in a scene of that dimension, each with the number of its first coordinate.
     pub fn numbered(self, dimension: Dimension) -> impl Iterator<Item = (usize, Freedom)> {
         self.freedoms(dimension).iter().scan(0, |next, &freedom| {
             let number = *next;
@@ -271,7 +271,7 @@ impl JointKind {
         self.freedoms(dimension).iter().map(|freedom| freedom.n_rotations()).sum()
     }
 
-    /// Its freedom, where it has one coordinate.
+    /// Only freedom of the kind, where that has one coordinate.
     #[must_use]
     pub fn single(self, dimension: Dimension) -> Option<Freedom> {
         match self.freedoms(dimension) {
@@ -344,7 +344,7 @@ impl JointKind {
         freedoms.find(|(_, freedom)| *freedom == Ball).map(|(number, _)| number)
     }
 
-    /// How it constrains translation; a [link](Self::is_link) has equations of its own.
+    /// Constraint of the joint on translation; a [link](Self::is_link) has equations of its own.
     #[must_use]
     pub fn translation(self, dimension: Dimension) -> Translation {
         let mut slides = self.freedoms(dimension).iter().filter_map(|freedom| match freedom {
@@ -360,7 +360,7 @@ impl JointKind {
         }
     }
 
-    /// How it constrains rotation; a [link](Self::is_link) has equations of its own.
+    /// Constraint of the joint on rotation; a [link](Self::is_link) has equations of its own.
     #[must_use]
     pub fn rotation(self, dimension: Dimension) -> Rotation {
         let mut turns = self.freedoms(dimension).iter().filter(|freedom| freedom.n_rotations() > 0);

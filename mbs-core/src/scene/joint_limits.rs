@@ -1,4 +1,4 @@
-//! What a joint is meant to keep to, in code, and the stops that keep it there.
+//! Limits that a joint is meant to keep to, in code, and the stops that keep it there.
 
 use crate::scene::{Effect, Joint, JointId, Limit, Number};
 use alloc::string::String;

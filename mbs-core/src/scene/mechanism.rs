@@ -15,19 +15,19 @@ use core::ops::{Index, IndexMut};
 /// A mechanism and what is asked of it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scene<T> {
-    /// Name for reports.
+    /// Name of the scene, for reports.
     pub name: String,
-    /// Planar or spatial.
+    /// Dimension of the scene: planar or spatial.
     pub dimension: Dimension,
     /// Acceleration of gravity [m/s^2]; `None`: no gravity and no gravity code.
     pub gravity: Option<[T; 3]>,
     /// Length of the run [s].
     pub duration: T,
-    /// The bodies; the ground is not among them.
+    /// Bodies of the scene; the ground is not among them.
     pub bodies: Vec<Body<T>>,
-    /// The joints.
+    /// Joints of the scene.
     pub joints: Vec<Joint<T>>,
-    /// What holds exactly at the start; the rest follows.
+    /// Conditions that hold exactly at the start; the rest follows.
     pub initials: Vec<InitialCondition<T>>,
     /// Kinematic guidance of joint coordinates.
     pub guides: Vec<Guide<T>>,
@@ -39,17 +39,17 @@ pub struct Scene<T> {
     pub signals: Vec<NamedSignal<T>>,
     /// The road of tires; empty: level ground at height zero.
     pub road: Road<T>,
-    /// What the run starts from.
+    /// Configuration that the run starts from.
     pub start: Start,
     /// Named places on bodies.
     pub frames: Vec<BodyFrame<T>>,
     /// Forms that pictures draw; a body without one is drawn by its inertia.
     pub shapes: Vec<BodyShape<T>>,
-    /// Opt-in effects. Those with `enabled: false` are not built.
+    /// Opt-in effects of the scene. Those with `enabled: false` are not built.
     pub effects: Vec<Effect<T>>,
-    /// Channels; empty: every joint coordinate.
+    /// Channels that are recorded; empty: every joint coordinate.
     pub outputs: Vec<Output<T>>,
-    /// What the scene asks of the solver.
+    /// Wishes of the scene for the solver.
     pub solver: SolverTable<T>,
 }
 
@@ -80,23 +80,23 @@ impl<T: Default> Scene<T> {
     }
 }
 
-/// An opt-in effect.
+/// An opt-in effect, with its name.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Effect<T> {
     /// Unique name among the effects (given, or `effect-N`).
     pub name: String,
     /// Switched off when false: then nothing of it is built.
     pub enabled: bool,
-    /// What it does.
+    /// Kind of the effect, with its data.
     pub kind: EffectKind<T>,
 }
 
 /// A channel: what is recorded, under which name.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Output<T> {
-    /// Unique name.
+    /// Unique name of the channel.
     pub name: String,
-    /// What is measured.
+    /// Quantity that is measured.
     pub quantity: Quantity<T>,
     /// The body in whose axes its vectors have their components, the ground for global ones; `None`: the axes of its quantity. A thin rod
     /// on balls turns by the smallest rotation that carries its line.
@@ -117,7 +117,7 @@ impl<T> Output<T> {
 }
 
 impl<T> Scene<T> {
-    /// What its effects act among.
+    /// Surroundings that the effects of the scene act among.
     pub(crate) fn surroundings(&self) -> Surroundings<'_, T> {
         let Self { dimension, ref bodies, ref joints, ref road, ref signals, .. } = *self;
         Surroundings { dimension, bodies, joints, road, signals }
@@ -125,7 +125,7 @@ impl<T> Scene<T> {
 }
 
 impl<T> Scene<T> {
-    /// Which bodies a joint or a contact that rolls names: the others move freely.
+    /// Whether a joint or a contact that rolls names each body: the others move freely.
     #[must_use]
     pub fn held_bodies(&self) -> Vec<bool> {
         let mut held = alloc::vec![false; self.bodies.len()];
@@ -164,8 +164,8 @@ impl<T> Scene<T> {
 }
 
 impl<T: Clone> Scene<T> {
-    /// Its outputs; where it names none, the coordinates of every joint that has some, under the joint's name. Points do not turn: joints
-    /// that hold them have none.
+    /// Outputs of the scene; where it names none, the coordinates of every joint that has some, under the joint's name. Points do not turn:
+    /// joints that hold them have none.
     #[must_use]
     pub fn channels(&self) -> Vec<Output<T>> {
         if !self.outputs.is_empty() {

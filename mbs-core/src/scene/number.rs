@@ -24,11 +24,11 @@ const COMPUTED_DIGITS: usize = 40;
 #[derive(Debug, Clone, Default)]
 pub struct Number {
     near: f64,
-    /// `None`: the shortest text of `near`.
+    /// Origin of the number; `None`: the shortest text of `near`.
     source: Option<Box<Source>>,
 }
 
-/// Where a number comes from.
+/// Origin of a number.
 #[derive(Debug, Clone)]
 enum Source {
     /// A text of more digits than `f64` keeps.
@@ -46,9 +46,9 @@ enum Source {
 }
 
 impl Number {
-    /// Zero.
+    /// Number zero, in every precision.
     pub const ZERO: Self = Self { near: 0.0, source: None };
-    /// One half.
+    /// Number one half, in every precision.
     pub const HALF: Self = Self { near: 0.5, source: None };
 
     /// The number of a decimal text such as `9.81` or `1.0e-3`; `None` when it is not one, or not one that a scene file may have.
@@ -108,13 +108,13 @@ impl Number {
         matches!(self.source.as_deref(), Some(Source::Sum(..) | Source::Product(..)))
     }
 
-    /// The nearest `f64`.
+    /// `f64` nearest to the number.
     #[must_use]
     pub fn to_f64(&self) -> f64 {
         self.near
     }
 
-    /// Is it zero?
+    /// Is the number zero?
     #[must_use]
     pub fn is_zero(&self) -> bool {
         self.near == 0.0
@@ -136,7 +136,7 @@ impl Number {
         }
     }
 
-    /// Its decimal text, as scene files have it.
+    /// Decimal text of the number, as scene files have it.
     #[must_use]
     pub fn text(&self) -> String {
         match self.source.as_deref() {

@@ -18,8 +18,8 @@ impl Effect<Number> {
         Self { name: String::new(), enabled: true, kind: rope.into() }
     }
 
-    /// The same law on a sum of terms, in place of its joint or its points. What has no such form stays as it is; so does a
-    /// spring along a line, whose free length is no value of a sum.
+    /// Puts the law on a sum of terms, in place of its joint or its points. An effect without such a form stays as it is; so does a spring along
+    /// a line, whose free length is no value of a sum.
     #[must_use]
     pub fn on_terms(mut self, terms: Vec<CouplingTerm<Number>>) -> Self {
         let (fields, values) = (self.kind.row().fields, self.kind.values());

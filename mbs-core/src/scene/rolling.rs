@@ -14,9 +14,9 @@ use alloc::string::String;
 pub struct Rolling<T> {
     /// Unique name among the rollings.
     pub name: String,
-    /// What rolls.
+    /// Kind of the rolling, with its sizes.
     pub kind: RollingKind<T>,
-    /// The body.
+    /// Body that rolls, or has the blade.
     pub body: BodyId,
     /// The centre of the wheel or ball, or the point of the blade, reference configuration [m].
     pub at: [T; 3],
@@ -31,23 +31,23 @@ pub struct Rolling<T> {
 pub struct RollingPlane<T> {
     /// One of its points, reference configuration [m].
     pub point: [T; 3],
-    /// Its normal towards what rolls, any length, reference configuration.
+    /// Normal of the plane towards what rolls, any length, reference configuration.
     pub normal: [T; 3],
 }
 
-/// What rolls.
+/// Kind of a rolling: wheel, ball or blade.
 #[derive(Debug, Clone, PartialEq)]
 pub enum RollingKind<T> {
-    /// A thin disc.
+    /// A thin disc that rolls.
     Wheel {
-        /// Its axis, any length, reference configuration; not used in the plane.
+        /// Axis of the wheel, any length, reference configuration; not used in the plane.
         axis: [T; 3],
-        /// Its radius [m].
+        /// Radius of the wheel [m].
         radius: T,
     },
-    /// A sphere.
+    /// A sphere that rolls.
     Ball {
-        /// Its radius [m].
+        /// Radius of the ball [m].
         radius: T,
     },
     /// A point that does not move across a direction of its body.

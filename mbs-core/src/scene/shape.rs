@@ -10,9 +10,9 @@ use alloc::vec::Vec;
 pub struct BodyShape<T> {
     /// Unique name among the shapes.
     pub name: String,
-    /// Its body, or the ground.
+    /// Body that the form moves with, or the ground.
     pub body: BodyId,
-    /// The form.
+    /// Form of the shape, with its sizes.
     pub form: ShapeKind<T>,
     /// Red, green and blue, each up to 255; `None`: those of its body.
     pub colour: Option<[u8; 3]>,
@@ -23,30 +23,30 @@ pub struct BodyShape<T> {
 }
 
 impl<T> BodyShape<T> {
-    /// Its colour as `#rrggbb`.
+    /// Colour of the shape as `#rrggbb`.
     #[must_use]
     pub fn colour_code(&self) -> Option<String> {
         self.colour.map(|[red, green, blue]| format!("#{red:02x}{green:02x}{blue:02x}"))
     }
 }
 
-/// Forms; places and lengths in the reference configuration [m].
+/// Form of a shape; places and lengths in the reference configuration [m].
 #[derive(Debug, Clone, PartialEq)]
 pub enum ShapeKind<T> {
     /// A box of space.
     Box {
-        /// Its centre.
+        /// Centre of the box.
         center: [T; 3],
-        /// Its lengths along its axes.
+        /// Lengths of the box along its axes.
         size: [T; 3],
-        /// Its first and its second axis, any length; `None`: x and y.
+        /// First and second axis of the box, any length; `None`: x and y.
         axes: Option<[[T; 3]; 2]>,
     },
     /// A sphere of space.
     Sphere {
-        /// Its centre.
+        /// Centre of the sphere.
         center: [T; 3],
-        /// Its radius.
+        /// Radius of the sphere.
         radius: T,
     },
     /// A cylinder with round ends; in the plane a bar with round ends.
@@ -55,7 +55,7 @@ pub enum ShapeKind<T> {
         from: [T; 3],
         /// The centre of the other end.
         to: [T; 3],
-        /// Its radius.
+        /// Radius of the capsule.
         radius: T,
     },
     /// A cylinder of space with flat ends.
@@ -64,26 +64,26 @@ pub enum ShapeKind<T> {
         from: [T; 3],
         /// The centre of the other end.
         to: [T; 3],
-        /// Its radius.
+        /// Radius of the cylinder.
         radius: T,
     },
     /// A disc of the plane.
     Disc {
-        /// Its centre.
+        /// Centre of the disc.
         center: [T; 3],
-        /// Its radius.
+        /// Radius of the disc.
         radius: T,
     },
     /// A polygon of the plane.
     Polygon {
-        /// Its corners, one after the other.
+        /// Corners of the polygon, one after the other.
         points: Vec<[T; 3]>,
     },
     /// A surface of triangles of space, from a file that only pictures read.
     Mesh {
-        /// The file: STL, OBJ or MSH.
+        /// File with the triangles: STL, OBJ or MSH.
         file: String,
-        /// Where the origin of the file is.
+        /// Place of the origin of the file.
         at: [T; 3],
         /// The file's first and second axis, any length; `None`: x and y.
         axes: Option<[[T; 3]; 2]>,
@@ -93,7 +93,7 @@ pub enum ShapeKind<T> {
 }
 
 impl<T> ShapeKind<T> {
-    /// Its key in scene files.
+    /// Key of the form in scene files.
     #[must_use]
     pub const fn key(&self) -> &'static str {
         match self {

@@ -23,25 +23,25 @@ use core::fmt::{self, Display, Formatter};
 pub struct NamedSignal<T> {
     /// Unique name among the signals.
     pub name: String,
-    /// What it is.
+    /// Kind of the signal, with its numbers.
     pub kind: SignalKind<T>,
 }
 
-/// How a table goes between its rows.
+/// Interpolation of a table between its rows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Interpolation {
-    /// Cubic spline.
+    /// Cubic spline through the rows, with these ends.
     Spline(TableEnds),
     /// Twice differentiable, between the values of the neighbouring rows.
     Monotone(TableEnds),
-    /// Straight.
+    /// Straight lines between the rows.
     Linear,
     /// The value of the last row that has passed.
     Hold,
 }
 
 impl Interpolation {
-    /// How it begins and ends, where it is smooth; `None`: it is not.
+    /// Condition at both ends, where the interpolation is smooth; `None`: it is not.
     #[must_use]
     pub const fn ends(self) -> Option<TableEnds> {
         match self {
@@ -50,7 +50,7 @@ impl Interpolation {
         }
     }
 
-    /// Its name in scene files.
+    /// Name of the interpolation in scene files.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -75,46 +75,46 @@ impl From<CurveShape> for Interpolation {
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum SignalKind<T> {
-    /// The same at all times.
+    /// A number that is the same at all times.
     Constant(T),
     /// Through rows (time, value); the end values are held outside, or the table repeats.
     Table {
         /// The rows [s, unit of the signal].
         rows: Vec<[T; 2]>,
-        /// How it goes between them.
+        /// Interpolation between the rows.
         interpolation: Interpolation,
-        /// Does it repeat? Its last value is then its first.
+        /// Does the table repeat? Its last value is then its first.
         periodic: bool,
     },
     /// offset + amplitude sin(2 pi frequency t + phase).
     Sine {
-        /// Amplitude.
+        /// Amplitude of the sine [unit of the signal].
         amplitude: T,
-        /// Frequency [Hz].
+        /// Frequency of the sine [Hz].
         frequency: T,
-        /// Phase [rad].
+        /// Phase at time zero [rad].
         phase: T,
-        /// Mean.
+        /// Mean of the sine [unit of the signal].
         offset: T,
     },
     /// A sine whose frequency goes from one to another at a constant rate, and stays there.
     Chirp {
-        /// Amplitude.
+        /// Amplitude of the chirp [unit of the signal].
         amplitude: T,
         /// Frequency at the start [Hz].
         frequency: T,
         /// Frequency at the end of the duration [Hz].
         to_frequency: T,
-        /// How long the frequency changes [s].
+        /// Duration of the change of frequency [s].
         duration: T,
         /// Phase at the start [rad].
         phase: T,
-        /// Mean.
+        /// Mean of the chirp [unit of the signal].
         offset: T,
     },
     /// rate (t - start) between start and end, zero before and held after.
     Ramp {
-        /// Rate [per s].
+        /// Rate of the ramp [unit of the signal per s].
         rate: T,
         /// When it begins [s].
         start: T,
@@ -125,46 +125,46 @@ pub enum SignalKind<T> {
     },
     /// From one value to another: from + (to - from) s^3 (10 - 15 s + 6 s^2), s = (t - at)/rise.
     Step {
-        /// The value before.
+        /// Value before the step.
         from: T,
-        /// The value after.
+        /// Value after the step.
         to: T,
         /// When it begins [s].
         at: T,
-        /// How long it takes; zero is a jump [s].
+        /// Duration of the step; zero is a jump [s].
         rise: T,
     },
     /// The sum of signals, each with its factor.
     Sum {
-        /// The signals.
+        /// Signals that are added.
         of: Vec<SignalId>,
-        /// Their factors.
+        /// Factors of the signals, in their order.
         factors: Vec<T>,
     },
     /// The product of signals.
     Product {
-        /// The signals.
+        /// Signals that are multiplied.
         of: Vec<SignalId>,
     },
     /// A function of a signal.
     Curve {
-        /// The signal.
+        /// Signal that the function takes.
         of: SignalId,
-        /// The function.
+        /// Function of the signal.
         curve: Curve<T>,
     },
     /// A signal within limits.
     Clamp {
-        /// The signal.
+        /// Signal that is kept within the limits.
         of: SignalId,
-        /// The lower limit.
+        /// Lower limit of the value.
         lower: T,
-        /// The upper limit.
+        /// Upper limit of the value.
         upper: T,
     },
-    /// What limits leave of a signal, as a ratio: the signal within limits by the signal; one where that is zero.
+    /// Ratio of a signal within limits to the signal itself; one where the signal is zero.
     LimitRatio {
-        /// The signal.
+        /// Signal that is kept within the limits.
         of: SignalId,
         /// The lower limit, at most zero.
         lower: T,
@@ -173,39 +173,39 @@ pub enum SignalKind<T> {
     },
     /// Held until it is set again between steps.
     Input {
-        /// Its value at the start.
+        /// Value of the input at the start.
         value: T,
-        /// Its unit, for people.
+        /// Unit of the input, for people.
         unit: String,
     },
     /// A number that the mechanism has, or its rate.
     Measure {
-        /// Which number; a length counts whole, and not from the reference configuration.
+        /// Number that is measured; a length counts whole, and not from the reference configuration.
         of: CouplingMeasure<T>,
-        /// Its rate, and not its value?
+        /// Is the rate of the number measured, and not its value?
         is_rate: bool,
     },
     /// A signal that comes late: time x' = s - x.
     Lag {
-        /// The signal.
+        /// Signal that the lag follows.
         of: SignalId,
         /// In this time a jump is followed to 63 percent [s].
         time: T,
-        /// Its value at the start.
+        /// Value of the lag at the start.
         value: T,
     },
     /// The integral of a signal over time; at a limit it stops, and comes back as soon as the signal turns back.
     Integral {
-        /// The signal.
+        /// Signal that is integrated.
         of: SignalId,
-        /// The lower limit.
+        /// Lower limit of the integral; `None`: it has none.
         lower: Option<T>,
-        /// The upper limit.
+        /// Upper limit of the integral; `None`: it has none.
         upper: Option<T>,
-        /// Its value at the start.
+        /// Value of the integral at the start.
         value: T,
     },
-    /// What a controller asks for: p e + i x + d e' with e = target - measured and x' = e.
+    /// Demand of a controller: p e + i x + d e' with e = target - measured and x' = e.
     Pid {
         /// The wanted number, and the measured one.
         of: [SignalId; 2],
@@ -220,18 +220,18 @@ pub enum SignalKind<T> {
     },
 }
 
-/// How smooth a signal is; the worst first.
+/// Smoothness of a signal; the worst first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Smoothness {
-    /// Its value jumps.
+    /// Signal whose value jumps.
     Jump,
-    /// Its rate jumps.
+    /// Signal whose rate jumps.
     Corner,
-    /// It is twice differentiable, but for jumps of its acceleration.
+    /// Signal that is twice differentiable, but for jumps of its acceleration.
     Smooth,
 }
 
-/// Where a signal is not smooth.
+/// Break of a signal, at which it is not smooth.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SignalBreak {
     /// The signal that makes it: the one that was asked about, or one that it is made of.
@@ -280,7 +280,7 @@ impl<T> SignalKind<T> {
         !matches!(self, Self::Measure { is_rate: true, .. } | Self::Pid { .. })
     }
 
-    /// What makes it smooth, in the imperative.
+    /// Remedy that makes the signal smooth, in the imperative.
     pub(crate) const fn remedy(&self) -> &'static str {
         match self {
             Self::Step { .. } => "give it `rise`",
@@ -359,7 +359,7 @@ impl<T> SignalKind<T> {
 }
 
 impl<T: Real> SignalKind<T> {
-    /// How smooth it is for smooth operands from time zero on, and the first time of what is not.
+    /// First break for smooth operands from time zero on: whether it is a jump, else a corner, and its time. `None`: it is smooth.
     fn own_break(&self) -> Option<(bool, Option<f64>)> {
         let at = |is_jump, time: &T| Some((is_jump, Some(time.to_f64())));
         let is_within = |time: &T| *time > T::ZERO;
@@ -429,7 +429,7 @@ pub fn signal_order<T>(signals: &[NamedSignal<T>]) -> Result<Vec<usize>, Vec<usi
     }
 }
 
-/// Where each signal is not smooth, itself or by what it is made of: the worst, of equal ones the first that it is made of.
+/// Returns the worst break of each signal, its own or of what it is made of; of equal ones the first that it is made of.
 ///
 /// A spline is smooth within its rows; [`Scene::check_run`](crate::scene::Scene::check_run) looks at its ends.
 ///

@@ -10,15 +10,15 @@ pub struct SolverTable<T> {
     pub formulation: Option<String>,
     /// Integrator as written, likewise.
     pub integrator: Option<String>,
-    /// Step [s].
+    /// Length of the steps [s].
     pub step: Option<T>,
     /// Largest step of variable-step methods [s].
     pub step_max: Option<T>,
     /// Newton tolerance, relative to the scene's length.
     pub tolerance: Option<T>,
-    /// The printed alpha: N/m in index-3, kg in index-1.
+    /// Penalty factor, the printed alpha: N/m in index-3, kg in index-1.
     pub penalty: Option<T>,
-    /// What chooses the length of the steps, as written, likewise.
+    /// Rule that chooses the length of the steps, as written, checked likewise.
     pub step_control: Option<String>,
     /// [U, L] of the energy rule: shares of the energy that moves.
     pub energy_tolerance: Option<[T; 2]>,

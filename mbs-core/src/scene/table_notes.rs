@@ -19,11 +19,11 @@ const NOTED_EXCESS: f64 = 0.05;
 /// A spline that leaves the range of two neighbouring rows.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TableNote {
-    /// Where the table stands.
+    /// Entry in which the table stands.
     pub entry: Entry,
-    /// Its key there.
+    /// Key of the table in that entry.
     pub key: &'static str,
-    /// What is said of it.
+    /// Text of the note.
     pub text: String,
 }
 
@@ -31,7 +31,7 @@ pub struct TableNote {
 struct Spline {
     entry: Entry,
     key: &'static str,
-    /// What it belongs to.
+    /// Part of the scene that has the table, in words.
     of: String,
     rows: Vec<[f64; 2]>,
     ends: TableEnds,
@@ -82,7 +82,7 @@ impl<T: Real> Scene<T> {
         }
     }
 
-    /// Functions of time.
+    /// Adds the splines of functions of time.
     fn add_motions(&self, to: &mut Vec<Spline>) {
         let axes = ["t", "value"];
         let mut add = |entry, of: String, rows: &[[T; 2]], ends, is_periodic| {
@@ -122,7 +122,7 @@ impl<T: Real> Scene<T> {
         }
     }
 
-    /// Roads; one that is the same under all wheels counts once.
+    /// Adds the splines of roads; one that is the same under all wheels counts once.
     fn add_roads(&self, to: &mut Vec<Spline>) {
         let right = if self.road.left == self.road.right { &[][..] } else { &self.road.right };
         let sides: [Side<'_, T>; 2] =
@@ -165,7 +165,7 @@ fn curve<T: Real>(
 }
 
 impl Spline {
-    /// What is said of it; `None`: it stays near its rows.
+    /// Note on the spline; `None`: it stays near its rows.
     fn note(&self) -> Option<TableNote> {
         let values = || self.rows.iter().map(|row| row[1]);
         let [low, high] = [values().fold(f64::MAX, f64::min), values().fold(f64::MIN, f64::max)];
@@ -201,7 +201,7 @@ impl Spline {
     }
 }
 
-/// Where the rate of a cubic vanishes within its piece of length h and rise, with curvatures of its ends, from the beginning.
+/// Zeros of the rate of a cubic within its piece of length h and rise, with curvatures of its ends, from the beginning.
 fn turning((h, rise): (f64, f64), [c0, c1]: [f64; 2]) -> impl Iterator<Item = f64> {
     // m + c0 s + (c1 - c0) s^2 / (2 h) = 0
     let m = rise / h - h * (2.0 * c0 + c1) / 6.0;

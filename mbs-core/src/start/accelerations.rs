@@ -1,4 +1,4 @@
-//! The last level: accelerations and multipliers by the index-1 equations.
+//! Accelerations and multipliers by the index-1 equations, the last level of a consistent state.
 
 use super::error::AssemblyError;
 use super::problem::{MAX_SWEEPS, RAISE, raises};
@@ -81,7 +81,7 @@ pub fn accelerations<T: Real, M: Model<T>>(
     Ok(residual)
 }
 
-/// What a state has besides its accelerations.
+/// Writes multipliers, `phi`, remembered angles, signals, inputs and power of a state that has its accelerations.
 fn keep<T: Real, M: Model<T>>(model: &M, s: &mut State<T>, lambda: &[T], terms: &Terms<T>) {
     s.a_aux.copy_from_slice(&s.a);
     for x in [&mut s.lambda, &mut s.lambda_previous, &mut s.reaction] {
@@ -94,7 +94,7 @@ fn keep<T: Real, M: Model<T>>(model: &M, s: &mut State<T>, lambda: &[T], terms: 
     s.power = model.power(&s.q, &s.v, &s.reaction, terms);
 }
 
-/// How the rows of accelerations are judged; see `weak.rs`.
+/// Criterion for the rows of accelerations; see `weak.rs`.
 struct Met<'a, T> {
     accepted: T,
     penalty: &'a [T],

@@ -17,15 +17,15 @@ use crate::scene::Scene;
 /// A consistent state, and what was done to get it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Assembled<T> {
-    /// The state: positions, velocities, accelerations and multipliers satisfy everything.
+    /// State of the scene: positions, velocities, accelerations and multipliers satisfy everything.
     pub state: State<T>,
     /// Largest change of a coordinate from the reference configuration [m or -].
     pub change: T,
     /// Largest residual of joints and held values before any change [m or rad].
     pub residual_before: T,
-    /// Largest residuals after: position, velocity, acceleration.
+    /// Largest residuals that are left: position, velocity, acceleration.
     pub residual: [T; 3],
-    /// Continuation stages taken.
+    /// Number of continuation stages taken.
     pub stages: u32,
 }
 

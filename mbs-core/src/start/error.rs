@@ -1,4 +1,4 @@
-//! Why a scene cannot be put together.
+//! Reasons why a scene cannot be put together.
 
 use crate::model::Owner;
 use crate::natural::ModelError;
@@ -7,13 +7,13 @@ use crate::natural::ModelError;
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum AssemblyError {
-    /// No model.
+    /// Scene that gives no model.
     Model(ModelError),
     /// Loops, guides and held coordinates cannot be met together.
     Position {
         /// Largest residual left [m or rad].
         residual: f64,
-        /// What it belongs to.
+        /// Owner of the row that is not met.
         owner: Owner,
         /// The `[[initial]]` entry concerned, if it is one.
         initial: Option<usize>,
@@ -30,21 +30,21 @@ pub enum AssemblyError {
     Velocity {
         /// Largest residual left [m/s or rad/s].
         residual: f64,
-        /// What it belongs to.
+        /// Owner of the row that is not met.
         owner: Owner,
         /// The `[[initial]]` entry concerned, if it is one.
         initial: Option<usize>,
     },
     /// Accelerations do not follow: a force meets no inertia there.
     NoInertia {
-        /// What it belongs to.
+        /// Owner of the coordinate that has no inertia.
         owner: Owner,
     },
     /// Accelerations do not meet the constraints.
     Acceleration {
         /// Largest residual left [m/s^2].
         residual: f64,
-        /// What it belongs to.
+        /// Owner of the row that is not met.
         owner: Owner,
     },
 }

@@ -7,14 +7,14 @@ use crate::scene::{BodyId, Dimension, Inertia, InitialTarget, Joint, Scene};
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 
-/// What a row measures.
+/// Quantity that a held row measures.
 #[derive(Debug, Clone)]
 enum Kind<T: Real, const D: usize> {
     /// Angle of y in the frame x1, x2.
     Angle { x1: Affine<T, D>, x2: Affine<T, D>, y: Affine<T, D> },
-    /// x.y.
+    /// Slide of two points along a direction, x.y.
     Slide { x: Affine<T, D>, y: Affine<T, D> },
-    /// (R a)_i . b_j of the two bodies' frames, R the wanted relative rotation: zero when it is reached.
+    /// Orientation of the two bodies' frames, (R a)_i . b_j with R the wanted relative rotation: zero when it is reached.
     Orientation { first: Box<[Affine<T, D>; 3]>, second: Affine<T, D>, vector: [T; 3], i: usize },
     /// A velocity component of a point.
     PointRate { x: Affine<T, D>, axis: usize },
@@ -28,14 +28,14 @@ enum Kind<T: Real, const D: usize> {
     },
 }
 
-/// One held row.
+/// Row that holds a value, a rate or both.
 #[derive(Debug, Clone)]
 pub(super) struct StartRow<T: Real, const D: usize> {
     kind: Kind<T, D>,
-    /// Held value (`None`: only the rate), held rate (`None`: only the value).
+    /// Value that the row holds, or `None` if only the rate; `rate` is the held rate, or `None` if only the value.
     pub(super) value: Option<T>,
     pub(super) rate: Option<T>,
-    /// The `[[initial]]` entry.
+    /// Index of the `[[initial]]` entry.
     pub(super) initial: usize,
     /// Joint or body it belongs to.
     pub(super) owner: crate::model::Owner,
@@ -207,7 +207,7 @@ impl<T: Real, const D: usize> StartRow<T, D> {
     }
 }
 
-/// e_axis x u.
+/// Returns the cross product e_axis x u.
 fn spin_arm<T: Real, const D: usize>(u: &Vector<T, D>, axis: usize) -> Vector<T, D> {
     lowered(&cross(&unit(axis), &raised(u)))
 }

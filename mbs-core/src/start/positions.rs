@@ -296,13 +296,13 @@ impl<T: Real, S: SpdSolver<T>, const D: usize> Assembly<'_, T, S, D> {
         Err(self.gap())
     }
 
-    /// What is left open.
+    /// Returns the error of a gap that is left open, with its largest residual.
     fn gap(&self) -> AssemblyError {
         let (residual, owner, initial) = self.culprit();
         AssemblyError::Position { residual: residual.to_f64(), owner, initial, reached: None }
     }
 
-    /// Why the path ended, with what was on its way: everything was closed up to `tau`.
+    /// Returns the error of a path that ended, with what was on its way: everything was closed up to `tau`.
     fn stopped(&self, (error, scene): (AssemblyError, &Scene<T>), tau: T) -> AssemblyError {
         let AssemblyError::Position { residual, mut owner, mut initial, .. } = error else {
             return error;
@@ -344,11 +344,11 @@ pub(super) fn given_turns<T: Real, const D: usize>(
     angles.collect()
 }
 
-/// Why a stage ended before everything was closed.
+/// Reason why a stage ended before everything was closed.
 enum Stop {
     /// Corrections were too large, or did not end: shorter stages may lead on.
     Jump(AssemblyError),
-    /// What is held contradicts itself or the joints here.
+    /// Gap that is left: what is held contradicts itself or the joints here.
     Gap(AssemblyError),
 }
 

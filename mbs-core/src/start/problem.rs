@@ -66,14 +66,14 @@ pub struct Problem<'a, T: Real, const D: usize> {
     pub(super) residuals: Vec<T>,
     /// Penalties of the model's rows, then of the holds.
     pub(super) penalty: Vec<T>,
-    /// What the penalties are in effective masses.
+    /// Size of the penalties, in effective masses.
     pub(super) alpha: T,
     /// Largest change of each row over changes of the coordinates by their sizes; rows as for the penalties.
     pub(super) spreads: Vec<T>,
     scratch: Vec<T>,
 }
 
-/// Which level is being made consistent: it says which holds act.
+/// Level that is being made consistent: it says which holds act.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Level {
     Position,
@@ -216,7 +216,7 @@ impl<T: Real, const D: usize> Cliques for Problem<'_, T, D> {
 pub(super) struct Sweep<'p, 'a, T: Real, const D: usize> {
     pub(super) problem: &'p Problem<'a, T, D>,
     pub(super) level: Level,
-    /// x - x*.
+    /// Change x - x* of the unknowns, extended.
     pub(super) change: &'p [T],
     /// Multipliers of the model's rows, then of the holds.
     pub(super) multipliers: &'p [T],
@@ -276,7 +276,7 @@ impl<T: Real, const D: usize> BlockSource<T> for Sweep<'_, '_, T, D> {
     }
 }
 
-/// How often penalties may be raised: in double precision to 1e9 effective masses, in single precision to 15,000.
+/// Number of raises of the penalties: in double precision to 1e9 effective masses, in single precision to 15,000.
 pub(super) fn raises<T: Real>() -> u32 {
     if T::EPSILON < T::from_f64(1e-12) { 2 } else { 1 }
 }

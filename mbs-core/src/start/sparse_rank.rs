@@ -48,7 +48,7 @@ pub fn sparse_rank<T: Real>(rows: Vec<Row<T>>, n: usize) -> usize {
     rank
 }
 
-/// How small the diagonal of a row is, its length, and its number.
+/// Turn of a row: how small its diagonal is, its length, and its number.
 type Turn = (u32, usize, usize);
 
 /// The turn of a row; `None` when nothing but rounding is left of its diagonal.

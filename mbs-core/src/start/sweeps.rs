@@ -150,7 +150,7 @@ impl<'a, T: Real, S: SpdSolver<T>, const D: usize> Assembly<'a, T, S, D> {
         T::EPSILON * self.largest(q).max(T::ONE)
     }
 
-    /// What is accepted of a row, relative to its spread.
+    /// Residual of a row that is accepted, relative to its spread.
     pub(super) fn accepted(&self, q: &[T]) -> T {
         self.rounding(q) * T::from_f64(ROUNDINGS)
     }
@@ -159,7 +159,7 @@ impl<'a, T: Real, S: SpdSolver<T>, const D: usize> Assembly<'a, T, S, D> {
         norm_inf(&[norm_inf(&self.problem.terms.phi), norm_inf(&self.problem.residuals)])
     }
 
-    /// Where the largest residual is: its size, whose it is, and the entry if it is a held row.
+    /// Largest residual of all rows: its size, its owner, and the entry if it is a held row.
     pub(super) fn culprit(&self) -> (T, Owner, Option<usize>) {
         let p = &self.problem;
         let (rows, holds) = self.rows.split_at(p.model.n_constraints());

@@ -1,4 +1,4 @@
-//! What can stop a step, and what options cannot be.
+//! Errors that stop a step, and errors of options and inputs.
 
 use crate::FactorError;
 #[cfg(feature = "alloc")]
@@ -10,7 +10,7 @@ use crate::laws::code::CodeOwner;
 pub enum StepError {
     /// The iteration did not converge.
     NotConverged {
-        /// Iterations made.
+        /// Number of iterations made.
         iterations: u32,
         /// Last correction of a coordinate, relative to the scene's length.
         correction: f64,
@@ -21,7 +21,7 @@ pub enum StepError {
     Singular(FactorError),
     /// A number became infinite or NaN.
     NotFinite {
-        /// The unknown concerned.
+        /// Number of the unknown concerned.
         unknown: u32,
     },
     /// The constraints lost rank: the mechanism stands in (or near) a singular position, or rows repeat each other.
@@ -40,7 +40,7 @@ pub enum StepError {
     Violated {
         /// 0 position, 1 velocity, 2 acceleration.
         level: u8,
-        /// Violation left.
+        /// Largest violation that is left.
         violation: f64,
         /// The row that is violated most.
         row: u32,
@@ -60,7 +60,7 @@ pub enum StepError {
     TurnTooLarge {
         /// The joint in the scene.
         joint: u32,
-        /// Its rate times the step [rad].
+        /// Rate of the joint times the step [rad].
         turn: f64,
     },
     /// An effect that measures a rotation in space has turned by more than its law holds for: a whole turn.
@@ -119,7 +119,7 @@ pub enum StepError {
 pub enum InputError {
     /// There is no such effect or guide, it is switched off, or its values come from the scene.
     NotAnInput {
-        /// Its number: of the effect or guide in the scene, of the course or guide in an exported model.
+        /// Number of the input: of the effect or guide in the scene, of the course or guide in an exported model.
         number: usize,
     },
     /// A component is infinite or NaN.

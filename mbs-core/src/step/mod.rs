@@ -1,5 +1,5 @@
-//! What the steps of all formulations share: errors, reports, and what they look for in vectors. What implicit ones share beside this is in
-//! `implicit`, re-exported here where others than the augmented and the classical Lagrangian use it.
+//! Common parts of the steps of all formulations: errors, reports, and what they look for in vectors. Implicit ones share more, which is
+//! in `implicit`, re-exported here where others than the augmented and the classical Lagrangian use it.
 
 mod error;
 mod report;

@@ -1,4 +1,4 @@
-//! What is asked of a step, and what it did, in counts.
+//! Request of a step, and the report on what it did, in counts.
 
 use super::error::StepError;
 use crate::Real;
@@ -6,7 +6,7 @@ use crate::Real;
 /// A step that is asked for.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Step<T> {
-    /// Its length [s].
+    /// Length of the step [s].
     pub dt: T,
     /// Length of the scene, beside which corrections and violations are small [m].
     pub length: T,
@@ -40,27 +40,27 @@ pub enum Stop {
     Passage,
     /// The allowed iterations are used, and the last correction is small beside the step though not below its tolerance.
     Tolerance,
-    /// Explicit: nothing is iterated.
+    /// No iteration, since the method is explicit.
     Explicit,
 }
 
-/// What a step did with matrices.
+/// Counts of a step's work with matrices.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Counts {
-    /// Factorisations.
+    /// Number of factorisations made.
     pub factorizations: u32,
-    /// Back-substitutions.
+    /// Number of back-substitutions made.
     pub solves: u32,
 }
 
-/// What a step did. Counts only; time is measured from outside.
+/// Report on what a step did. Counts only; time is measured from outside.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StepReport<T> {
-    /// Iterations; evaluations of the accelerations in relative coordinates.
+    /// Number of iterations made; of evaluations of the accelerations in relative coordinates.
     pub iterations: u32,
-    /// Factorisations.
+    /// Number of factorisations made.
     pub factorizations: u32,
-    /// Back-substitutions.
+    /// Number of back-substitutions made.
     pub solves: u32,
     /// Accepted steps inside this one: 1, more where a step size is controlled inside.
     pub steps: u32,
@@ -68,7 +68,7 @@ pub struct StepReport<T> {
     pub rejected: u32,
     /// Last correction of a coordinate [m or -].
     pub correction: T,
-    /// What ended the iteration.
+    /// Reason that ended the iteration.
     pub stop: Stop,
     /// Largest |phi|, |phi'|, |phi''| after the step [m, m/s, m/s^2].
     pub violation: [T; 3],

@@ -1,4 +1,4 @@
-//! What steps look for in a vector.
+//! Scans of a vector, as steps need them.
 
 use crate::Real;
 use crate::team::{Team, norm_inf};

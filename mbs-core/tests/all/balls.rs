@@ -10,7 +10,7 @@ use mbs_testkit::{Random, model, residual, scene};
 
 type V = Vector<f64, 3>;
 
-/// Of central differences: 1e-16 of an angle over it, and its square times third derivatives of order ten.
+/// Step of central differences: 1e-16 of an angle over it, and its square times third derivatives of order ten.
 const STEP: f64 = 1e-5;
 /// Largest difference of a gradient and of a rate from differences [-].
 const DIFFERENCE: f64 = 1e-7;

@@ -16,11 +16,11 @@ struct Pendulum {
     saved: (f64, [f64; 2]),
     fails_from: f64,
     event: Option<f64>,
-    /// Each trial: its length, and whether it was kept.
+    /// Length of each trial, and whether it was kept.
     trials: Vec<(f64, bool)>,
     /// Change of the energy that no step makes smaller [J].
     leak: f64,
-    /// What it says of its accelerations at both ends of a step.
+    /// Energies of the accelerations at both ends of a step, as the pendulum states them [J/s^2].
     accelerating: [f64; 2],
 }
 

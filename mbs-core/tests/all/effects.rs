@@ -19,7 +19,7 @@ use mbs_testkit::{Random, close, dot, matrix, model, plus, residual};
 
 type V = Vector<f64, 3>;
 
-/// Of central differences: 1e-16 of 1e2 N over it is rounding, its square times third derivatives of order 1e3 truncation.
+/// Step of central differences: 1e-16 of 1e2 N over it is rounding, its square times third derivatives of order 1e3 truncation.
 const STEP: f64 = 1e-5;
 const DIFFERENCE: f64 = 2e-6;
 /// Sums of some tens of products of numbers of order a hundred.
@@ -84,7 +84,7 @@ impl<const D: usize> At<D> {
         after.iter().zip(before).map(|(a, b)| (a - b) / (2.0 * STEP)).collect()
     }
 
-    /// -Q.
+    /// Generalised forces of the effects with the opposite sign, -Q.
     fn minus_force(&self) -> Vec<f64> {
         let load = Load { mass: None, multipliers: None, force: 1.0 };
         residual(&self.model, &self.terms, &load)
@@ -102,7 +102,7 @@ impl<const D: usize> At<D> {
         state.v
     }
 
-    /// K, or C.
+    /// Tangent of the forces by the factors of both parts: K, or C.
     fn tangent(&self, [stiffness, damping]: [f64; 2]) -> Vec<Vec<f64>> {
         let zero = vec![0.0; self.model.n_constraints()];
         let block = |stiffness, damping| {

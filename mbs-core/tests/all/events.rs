@@ -206,7 +206,7 @@ stiffness = 80000.0
     )
 }
 
-/// Where the foot of a wheel is whose centre is at (x, z) over that road.
+/// Position x of the foot of a wheel whose centre is at (x, z) over that road [m].
 fn foot_of([x, z]: [f64; 2]) -> f64 {
     let features = [
         Feature::Rise { start: 1.0, length: 2.0, height: 0.2, rounding: 0.5 },

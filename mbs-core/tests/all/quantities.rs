@@ -15,7 +15,7 @@ const G: f64 = 9.81;
 /// Assembly closes to rounding of a few products of numbers of order ten.
 const CLOSED: f64 = 1e-10;
 
-/// What these quantities are at a scene's start.
+/// Values of these quantities at a scene's start.
 fn measured<const D: usize>(scene: &Scene<f64>, quantities: &[Quantity<f64>]) -> Vec<f64> {
     let mut scene = scene.clone();
     quantities.iter().for_each(|quantity| output(&mut scene, quantity.clone()));

@@ -29,7 +29,7 @@ fn vector_of(r: &R) -> V {
     if sine > 0.0 { sines * (0.5 * angle / sine) } else { V::zeros() }
 }
 
-/// What is given of a wheel.
+/// Data of a wheel: its side, the directions up and forward, and an axis where one is given.
 #[derive(Clone, Copy)]
 struct Given {
     side: VehicleSide,
@@ -38,7 +38,7 @@ struct Given {
     axis: Option<[f64; 3]>,
 }
 
-/// Those of a scene file where nothing is written.
+/// Data of a wheel as a scene file has them where nothing is written.
 fn usual(side: VehicleSide) -> Given {
     Given { side, up: [0.0, 0.0, 1.0], forward: [1.0, 0.0, 0.0], axis: None }
 }
@@ -71,7 +71,7 @@ fn assert_near(found: [f64; 3], expected: [f64; 3], what: &str) {
     }
 }
 
-/// The same rotation of what is mirrored at the middle of the vehicle.
+/// Mirror image of a rotation, at the middle of the vehicle.
 fn mirrored(r: &R) -> R {
     let sign = |i: usize| if i == 1 { -1.0 } else { 1.0 };
     let columns = [0, 1, 2].map(|j| V::from_fn(|i, _| sign(i) * sign(j) * r[(i, j)]));

@@ -11,7 +11,7 @@ use crate::source::Read;
 pub(super) struct Actuator {
     /// The word that wrote its gain and bias, where one did that is not `general`.
     by: String,
-    /// The last word.
+    /// Word of the last element that wrote it.
     word: String,
     gain: [f64; 3],
     bias: [f64; 3],
@@ -31,18 +31,18 @@ pub(super) struct Actuator {
     inherit: f64,
     /// The length of the rod from a crank to its slider.
     pub(super) crank_length: Option<f64>,
-    /// What acts and has no counterpart.
+    /// Parts that act and have no counterpart.
     pub(super) lost: Vec<String>,
 }
 
-/// How a control becomes what acts.
+/// Dynamics between a control and what acts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Dynamics {
-    /// It acts at once.
+    /// The control acts at once.
     None,
     /// A delay of first order.
     Lag,
-    /// Its integral.
+    /// The integral of the control acts.
     Integral,
 }
 
@@ -72,8 +72,8 @@ impl Actuator {
         }
     }
 
-    /// What the classes of an element make of an actuator, and then the element. Each stands with the depth of its class; the last depth is
-    /// that of the class of the element.
+    /// Actuator that the classes of an element make, and then the element. Each stands with the depth of its class; the last depth is that
+    /// of the class of the element.
     pub(super) fn of(
         element: &Element,
         (defaults, depth): (&[(usize, &Element)], usize),
@@ -199,7 +199,7 @@ impl Actuator {
         Ok(())
     }
 
-    /// What all words have.
+    /// Reads the attributes that all words have.
     fn common(&mut self, element: &Element) -> Read<()> {
         for name in ["name", "class", "group", "user"] {
             element.attribute(name);
@@ -252,7 +252,7 @@ impl Actuator {
         self.time
     }
 
-    /// How many numbers of a keyframe are its activation; `None` where only its own program knows.
+    /// Number of the numbers of a keyframe that are its activation; `None` where only its own program knows.
     pub(super) fn activations(&self) -> Option<usize> {
         match (self.by.as_str(), self.dynamics.as_str()) {
             ("muscle", _) => Some(1),
@@ -262,14 +262,14 @@ impl Actuator {
         }
     }
 
-    /// g₀, g₁, g₂.
+    /// Gains g₀, g₁, g₂.
     pub(super) fn gains(&self) -> [f64; 3] {
         let [constant, rest @ ..] = self.gain;
         let [length, rate] = if self.gain_kind == "affine" { rest } else { [0.0; 2] };
         [constant, length, rate]
     }
 
-    /// b₀, b₁, b₂.
+    /// Biases b₀, b₁, b₂.
     pub(super) fn biases(&self) -> [f64; 3] {
         if self.bias_kind == "affine" { self.bias } else { [0.0; 3] }
     }
@@ -306,7 +306,7 @@ impl Actuator {
         self.force.filter(|_| self.force_limited.unwrap_or(auto))
     }
 
-    /// Why the scene cannot have its force.
+    /// Returns the reason why the scene cannot have the actuator's force, if there is one.
     pub(super) fn refusal(&self, auto: bool) -> Option<String> {
         if !matches!(self.gain_kind.as_str(), "fixed" | "affine") {
             let other = if self.by == "general" { &self.gain_kind } else { &self.by };
@@ -335,7 +335,7 @@ impl Actuator {
         stiffness == -bias && ratio > 0.0
     }
 
-    /// With the damping of its ratio: c = 2 d √(k m), and m what it moves in the reference configuration.
+    /// Returns the actuator with the damping of its ratio: c = 2 d √(k m), and m what it moves in the reference configuration.
     pub(super) fn damped(&self, moved: impl FnOnce() -> Option<f64>) -> Result<Self, String> {
         if !self.has_ratio() {
             return Ok(self.clone());
@@ -349,7 +349,7 @@ impl Actuator {
         Ok(damped)
     }
 
-    /// The same of a hinge or a slide in frames with a scale; `None` where the scene cannot have it.
+    /// Returns the actuator of a hinge or a slide in frames with a scale; `None` where the scene cannot have it.
     pub(super) fn grown(&self, size: Size, is_slide: bool) -> Option<Self> {
         if size == Size::ONE {
             return Some(self.clone());
@@ -385,7 +385,7 @@ impl Actuator {
         matches!(self.by.as_str(), "position" | "velocity" | "intvelocity")
     }
 
-    /// Why the scene cannot have it there: what is no coordinate has no measure.
+    /// Returns the reason why the scene cannot have the actuator at this transmission, if there is one: what is no coordinate has no measure.
     pub(super) fn refusal_of(&self, pulled: &Transmission) -> Option<String> {
         if pulled.pushes.is_empty() {
             return None;

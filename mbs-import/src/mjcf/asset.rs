@@ -20,11 +20,11 @@ pub(super) struct MeshGeom {
     pub(super) at: Origin,
     /// The name of the mesh.
     pub(super) mesh: Option<Attribute>,
-    /// How a form is fitted to the mesh, where it is one.
+    /// Form that is fitted to the mesh, where the geom is one.
     pub(super) fit: Option<Fit>,
     pub(super) mass: Option<f64>,
     pub(super) density: f64,
-    /// Global.
+    /// Pose of the geom, global.
     pub(super) pose: Pose,
 }
 
@@ -37,7 +37,7 @@ pub(super) struct Fit {
     pub(super) is_shell: bool,
 }
 
-/// What to do where the mass of a mesh is not computed.
+/// Hint where the mass of a mesh is not computed.
 const HINT: &str = "write an <inertial> in its body, or mass=\"0\" here, or let --massless-meshes count it as massless";
 
 /// Attributes of meshes that say a mass: they are read, whether one follows from them or not.
@@ -138,7 +138,7 @@ fn whole(view: &View<'_>, model: &Model<'_, '_, '_>) -> Read<Result<Whole, Strin
     Ok(mass.map(|mass| (mesh, count, mass)))
 }
 
-/// What is drawn of a geom that is a mesh: its pose and form, or why it is not drawn.
+/// Pose and form that are drawn of a geom that is a mesh, or why it is not drawn.
 pub(super) fn form(
     geom: &MeshGeom,
     model: &Model<'_, '_, '_>,
@@ -165,7 +165,7 @@ pub(super) fn form(
     Ok(Ok((geom.pose.then(&own), FormKind::Mesh { file, scale })))
 }
 
-/// How the triangles of a file stand in the frame of a geom.
+/// Reference of a mesh: how the triangles of a file stand in the frame of a geom.
 struct Reference {
     from: V3,
     turn: M3,

@@ -47,7 +47,7 @@ pub(crate) fn attach(root: &mut Element, context: &mut Context<'_>) -> Read<()> 
 struct Reader<'a, 'c> {
     context: &'a mut Context<'c>,
     included: Included,
-    /// What comes into the root beside bodies.
+    /// Elements that come into the root beside bodies.
     added: Vec<Element>,
 }
 
@@ -88,7 +88,7 @@ impl Reader<'_, '_> {
         Ok(())
     }
 
-    /// What stands in the place of an `attach`.
+    /// Element that stands in the place of an `attach`.
     fn attached(&mut self, attach: &Element, (models, _): (&[Element], &Element)) -> Read<Element> {
         let name = attach.need("model")?;
         let is_it = |model: &&Element| model.value("name") == Some(name.value.trim());

@@ -20,30 +20,30 @@ const MAX_COPIES: f64 = 10_000.0;
 /// Bodies, joints, geoms and sites of a model: copies of copies grow fast.
 const MAX_PARTS: usize = 200_000;
 
-/// Where the elements of a body, a frame or a copy stand.
+/// Scope in which the elements of a body, a frame or a copy stand.
 #[derive(Debug, Clone)]
 struct Scope {
     link: usize,
-    /// Global.
+    /// Frame of the scope, global.
     frame: Pose,
-    /// That as it is drawn, where bodies stand at a keyframe.
+    /// Frame of the scope as it is drawn, where bodies stand at a keyframe.
     drawn: Pose,
     class: usize,
     /// The ending of all names, which copies have.
     ending: String,
     /// Whether the body does not move.
     is_still: bool,
-    /// Of all that stands in it.
+    /// Size of all that stands in the scope.
     size: Size,
 }
 
-/// What a body has besides other bodies.
+/// Parts that a body has besides other bodies.
 #[derive(Debug, Default)]
 struct Own {
     joints: Vec<Written>,
     inertial: Option<Mass>,
     geoms: Vec<Mass>,
-    /// With the place about which they grow.
+    /// Meshes, each with the place about which it grows.
     meshes: Vec<(MeshGeom, Size, V3)>,
     gravity_share: f64,
 }
@@ -103,7 +103,7 @@ impl<'a> Walk<'_, 'a, '_, '_> {
         Some(self.model.copied(name, &scope.ending))
     }
 
-    /// What belongs to the body itself.
+    /// Reads what belongs to the body itself.
     fn own(&mut self, element: &'a Element, scope: &Scope, own: &mut Own) -> Read<()> {
         let classes = self.model.classes;
         for child in &element.children {
@@ -320,7 +320,7 @@ impl<'a> Walk<'_, 'a, '_, '_> {
         Ok(())
     }
 
-    /// Where the elements of a `frame` stand, or of each copy of a `replicate`.
+    /// Scopes of the elements of a `frame`, or of each copy of a `replicate`.
     fn scopes(&mut self, element: &'a Element, scope: &Scope) -> Read<Vec<Scope>> {
         let view = View::plain(element);
         let class = self.class(element, scope)?;

@@ -4,25 +4,25 @@ use crate::element::{Attribute, Element};
 use crate::source::{Origin, Read};
 use std::collections::HashMap;
 
-/// What helps where the format's own program makes something of the file.
+/// Hint where the format's own program makes something of the file.
 pub(super) const SAVED: &str = "write the model as its own program compiles it, and give that file: in Python mujoco.mj_saveLastXML(\"model.xml\", mujoco.MjModel.from_xml_path(\"...\"))";
 
-/// Its attribute with the numbers of the texts of which it is made.
+/// Attribute of an attached model with the numbers of the texts of which it is made.
 pub(super) const SOURCES: &str = "sources";
 
 /// The element in which the settings of attached models stay; no file can have this name.
 pub(super) const ATTACHED: &str = "attached model";
 
-/// Where the inertia of a body comes from.
+/// Whether the inertia of a body comes from its geoms.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum FromGeoms {
     Never,
     Always,
-    /// Where no `inertial` is written.
+    /// Only where no `inertial` is written.
     Auto,
 }
 
-/// How a file is to be read, and what of it acts.
+/// Settings of how a file is to be read, and of what acts in it.
 #[derive(Debug, Clone)]
 pub(super) struct Compiler {
     pub(super) is_degree: bool,
@@ -48,11 +48,11 @@ pub(super) struct Compiler {
     pub(super) align_free: bool,
     pub(super) gravity: [f64; 3],
     pub(super) acts: Acts,
-    /// Those of attached models, by the numbers of their texts.
+    /// Settings of attached models, by the numbers of their texts.
     attached: HashMap<u16, Self>,
 }
 
-/// What `option/flag` leaves on.
+/// Parts of a model that `option/flag` leaves on.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Acts {
     pub(super) spring: bool,
@@ -108,7 +108,7 @@ impl Compiler {
         Ok(settings)
     }
 
-    /// Those that hold at a place: an attached model has its own.
+    /// Settings that hold at a place: an attached model has its own.
     pub(super) fn of(&self, at: Origin) -> &Self {
         self.attached.get(&at.source).unwrap_or(self)
     }
@@ -217,7 +217,7 @@ impl Compiler {
     }
 }
 
-/// Which of some words a value is.
+/// Number of the word that a value is, among some words.
 pub(super) fn word(attribute: &Attribute, known: &[&str]) -> Read<usize> {
     known.iter().position(|word| *word == attribute.value.trim()).ok_or_else(|| {
         attribute.fault(

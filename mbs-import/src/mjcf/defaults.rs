@@ -11,14 +11,14 @@ use std::collections::HashMap;
 /// The class of what names none.
 pub(super) const MAIN: usize = 0;
 
-/// What a class says of the elements of each name, what its parents say included.
+/// Values that a class gives the elements of each name, those of its parents included.
 #[derive(Debug, Clone, Default)]
 struct Class<'a> {
-    /// Each as often as a class on the way writes it, the innermost last.
+    /// Attributes by the names of element and attribute, each as often as a class on the way writes it, the innermost last.
     values: HashMap<(&'a str, &'a str), Vec<&'a Attribute>>,
     /// Elements of actuators with the depths of their classes: one kind changes what another starts from, so they count in their order.
     actuators: Vec<(usize, &'a Element)>,
-    /// How many classes it is in.
+    /// Number of classes in which the class is.
     depth: usize,
 }
 
@@ -64,7 +64,7 @@ impl<'a> Classes<'a> {
         Ok(())
     }
 
-    /// Its own elements first, then the classes in it, which start as copies.
+    /// Adds the class's own elements first, then the classes in it, which start as copies.
     fn add(&mut self, element: &'a Element, number: usize) -> Read<()> {
         for child in element.children.iter().filter(|child| child.name != "default") {
             if treatment(TABLE, "default", &child.name, "") != Some(Treatment::Mapped) {
@@ -115,7 +115,7 @@ impl<'a> Classes<'a> {
         self.view_as(element, &element.name, scope)
     }
 
-    /// The same for an element whose defaults have another name: `tendon` for `fixed`.
+    /// An element with what its class says, whose defaults have another name: `tendon` for `fixed`.
     pub(super) fn view_as(
         &'a self,
         element: &'a Element,
@@ -168,12 +168,12 @@ impl<'a> View<'a> {
         Self { element, kind: &element.name, class: None }
     }
 
-    /// What the element itself writes.
+    /// Attribute that the element itself writes.
     pub(super) fn own(&self, name: &str) -> Option<&'a Attribute> {
         self.element.attribute(name)
     }
 
-    /// What its class writes.
+    /// Attribute that the class of the element writes.
     pub(super) fn inherited(&self, name: &str) -> Option<&'a Attribute> {
         self.class.and_then(|class| class.values.get(&(self.kind, name))?.last().copied())
     }

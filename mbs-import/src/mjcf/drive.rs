@@ -176,7 +176,7 @@ fn force(
     (signal, gear)
 }
 
-/// What follows a control.
+/// Signal that follows a control.
 fn followed(of: String, actuator: &Actuator, of_length: Option<[f64; 2]>, auto: bool) -> Signal {
     match actuator.dynamics() {
         Dynamics::Integral => {

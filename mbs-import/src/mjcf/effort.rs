@@ -4,7 +4,7 @@ use super::model::{Model, Motion};
 use super::transmission::Transmission;
 use crate::robot::{Coordinate, GROUND, Robot, Signal, Target, Term, What};
 
-/// What an actuator does to terms: a signal times a gear.
+/// Pull of an actuator on terms: a signal times a gear.
 #[derive(Debug, Clone)]
 pub(super) struct Pull {
     pub(super) name: String,
@@ -16,12 +16,12 @@ pub(super) struct Pull {
 /// A part of the effort of a joint: the actuator, its signal, and the factor.
 type Share = (String, String, f64);
 
-/// What is limited together.
+/// Actuators that are limited together.
 #[derive(Debug, Default)]
 pub(super) struct Shared {
-    /// By the number of a tendon.
+    /// Pulls by the number of a tendon.
     ropes: Vec<(usize, Vec<Pull>)>,
-    /// By the number of a joint of the file.
+    /// Shares by the number of a joint of the file.
     joints: Vec<(usize, Vec<Share>)>,
 }
 

@@ -58,7 +58,7 @@ fn name(element: &Element, ending: &str, wanted: &str) -> String {
     element.value("name").map_or_else(|| wanted.to_owned(), |name| format!("{name}{ending}"))
 }
 
-/// `connect` and `weld`: a joint that closes a loop.
+/// Reads `connect` and `weld`: a joint that closes a loop.
 fn closing(element: &Element, ending: &str, model: &mut Model<'_, '_, '_>) -> Read<()> {
     let is_weld = element.name == "weld";
     let (ends, offset) = if let Some(first) = element.attribute("site1") {
@@ -91,7 +91,7 @@ fn closing(element: &Element, ending: &str, model: &mut Model<'_, '_, '_>) -> Re
     Ok(())
 }
 
-/// How the second of two bodies is held by the first.
+/// Offset by which the first of two bodies holds the second.
 fn between(
     element: &Element,
     is_weld: bool,
@@ -129,7 +129,7 @@ fn between(
     Ok(Offset { place: drawn.place, moved: wanted.at - drawn.place, turned })
 }
 
-/// The same for two tendons, or for one, each a sum of coordinates; `false` where no sum is equal.
+/// Reads an equality of two tendons, or of one, each a sum of coordinates; `false` where no sum is equal.
 fn tendons(element: &Element, ending: &str, model: &mut Model<'_, '_, '_>) -> Read<bool> {
     let [constant, slope, rest @ ..] = polynomial(element)?;
     let first = model.tendon(element.need("tendon1")?, ending)?.1.clone();

@@ -12,7 +12,7 @@ const ALIKE: f64 = 1.0e-6;
 /// A form that is fitted to a mesh.
 pub(super) struct Fitted {
     pub(super) solid: Solid,
-    /// Its frame in that of the mesh.
+    /// Frame of the form in that of the mesh.
     pub(super) frame: Pose,
     /// Are its axes a choice, on which its mass or moments depend?
     pub(super) is_chosen: bool,

@@ -13,14 +13,14 @@ use crate::source::Read;
 /// Groups that the format's own viewer shows; the others are for contact.
 const SEEN_GROUPS: f64 = 2.0;
 
-/// What of a geom is needed.
+/// Mass that a geom has: of a solid, of a mesh, or none.
 #[derive(Debug, Clone)]
 pub(super) enum Geom {
     /// A solid with its mass, which is zero where it counts for none.
     Solid(Mass),
     /// A mesh whose mass counts.
     Mesh(MeshGeom),
-    /// Neither.
+    /// Neither a solid nor a mesh whose mass counts.
     Nothing,
 }
 

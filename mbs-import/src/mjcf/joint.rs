@@ -50,7 +50,7 @@ fn axis(view: &View<'_>, scope: &Pose, (name, is_single): (&str, bool)) -> Read<
     }
 }
 
-/// What acts in a joint, in the size of its frames.
+/// Numbers of what acts in a joint, in the size of its frames.
 struct Strong {
     strengths: [Strength; 2],
     friction: f64,
@@ -382,7 +382,7 @@ fn single(read: &Written, motion: &Motion, model: &mut Model<'_, '_, '_>) {
     }
 }
 
-/// What else a ball or a free joint has.
+/// Reports what does not act in a ball or a free joint.
 fn several(read: &Written, motion: &Motion, model: &mut Model<'_, '_, '_>) {
     let label = format!("joint[{}]", motion.name);
     if read.friction > 0.0 {

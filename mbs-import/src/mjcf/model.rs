@@ -1,4 +1,4 @@
-//! What the parts of the reader fill in together.
+//! Model that the parts of the reader fill in together.
 
 use super::compiler::Compiler;
 use super::defaults::Classes;
@@ -13,7 +13,7 @@ use crate::robot::{Coordinate, GROUND, Law, Robot, Signal, Target, Term, What};
 use crate::source::{Origin, Read};
 use std::collections::{HashMap, HashSet};
 
-/// What a joint of the file lets move.
+/// Kind of a joint of the file, by what it lets move.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Moves {
     Hinge,
@@ -33,7 +33,7 @@ impl Moves {
     }
 }
 
-/// What names are of: those of one sort differ.
+/// Sort of what names are of: names of one sort differ.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(super) enum Sort {
     Link,
@@ -49,30 +49,30 @@ pub(super) struct Motion {
     pub(super) moves: Moves,
     /// The joint of the scene.
     pub(super) joint: usize,
-    /// Which of its coordinates, where it has several.
+    /// Number of the coordinate, where the joint has several.
     pub(super) number: Option<usize>,
     /// The scene's coordinate grows against the file's where this is −1.
     pub(super) sign: f64,
     /// The file's coordinate in the reference configuration.
     pub(super) zero: f64,
-    /// That as the model is drawn.
+    /// Coordinate of the file as the model is drawn.
     pub(super) drawn: f64,
-    /// Without tension in its spring.
+    /// Coordinate of the file without tension in its spring.
     pub(super) spring: f64,
     /// Ends of the file's coordinate.
     pub(super) range: Option<[f64; 2]>,
     /// Ends of the effort of all actuators.
     pub(super) effort: Option<[f64; 2]>,
     pub(super) armature: f64,
-    /// Its directions in the reference configuration, global: of a turn about the place of its joint.
+    /// Direction of the motion in the reference configuration, global: of a turn about the place of its joint.
     pub(super) axis: V3,
     /// Time and damping ratio of its stops, where it has any.
     pub(super) stops: Option<[f64; 2]>,
     /// Time and damping ratio from which its spring follows.
     pub(super) timed: Option<[f64; 2]>,
-    /// Of the frames in which it stands.
+    /// Size of the frames in which the joint stands.
     pub(super) size: Size,
-    /// Its spring and its damper, where they act.
+    /// Spring and damper of the joint, where they act.
     pub(super) strengths: [Strength; 2],
 }
 
@@ -97,7 +97,7 @@ impl Motion {
         (term, factor * self.zero)
     }
 
-    /// Where its numbers in the file are in the scene.
+    /// Joint of the file with the place of its numbers in the scene.
     pub(super) fn of_file(&self, robot: &Robot) -> FileCoordinate {
         let joint = &robot.joints[self.joint];
         let Pose { turn, at } = robot.links[joint.child].pose;
@@ -136,7 +136,7 @@ pub(super) struct Site {
     pub(super) name: String,
     pub(super) link: usize,
     pub(super) pose: Pose,
-    /// Of the frames in which it stands.
+    /// Size of the frames in which the site stands.
     pub(super) size: Size,
 }
 
@@ -152,7 +152,7 @@ impl Site {
 pub(super) struct Tendon {
     pub(super) name: String,
     pub(super) terms: Vec<Term>,
-    /// Its length in the reference configuration.
+    /// Length of the tendon in the reference configuration.
     pub(super) drawn: f64,
     /// Ends of its length.
     pub(super) range: Option<[f64; 2]>,
@@ -162,7 +162,7 @@ pub(super) struct Tendon {
     pub(super) is_grown: bool,
 }
 
-/// What a keyframe sets of an actuator.
+/// Control of an actuator, which a keyframe sets.
 #[derive(Debug, Clone)]
 pub(super) struct Control {
     /// The law of its input.
@@ -171,7 +171,7 @@ pub(super) struct Control {
     pub(super) activation: Option<usize>,
     /// Factor of its control and its activation in the file.
     pub(super) factor: f64,
-    /// How many numbers its activation has in the file, if that is known.
+    /// Number of the activation's numbers in the file, if that is known.
     pub(super) activations: Option<usize>,
 }
 
@@ -198,11 +198,11 @@ pub(super) struct Model<'a, 'b, 'c> {
     pub(super) masses: Vec<(usize, Mass, f64)>,
     /// Endings of names that `replicate` gives, by the name without one.
     pub(super) copies: HashMap<String, Vec<String>>,
-    /// By the number of the actuator.
+    /// Controls by the number of the actuator.
     pub(super) inputs: Vec<Control>,
     /// Coordinates of the keyframe at which bodies stand in the reference configuration; `None`: as they are drawn.
     pub(super) posed: Option<Vec<f64>>,
-    /// Where links stand as they are drawn.
+    /// Poses of links as they are drawn.
     pub(super) drawn: HashMap<usize, Pose>,
     /// Is a loop open in the reference configuration?
     pub(super) is_open: bool,
@@ -270,7 +270,7 @@ impl<'a, 'b, 'c> Model<'a, 'b, 'c> {
         })
     }
 
-    /// Adds a signal; its name.
+    /// Adds a signal and returns its name.
     pub(super) fn signal(&mut self, wanted: &str, signal: Signal) -> String {
         self.law(wanted, What::Signal(signal))
     }

@@ -5,10 +5,10 @@ use crate::element::Element;
 use crate::pose::{M3, V3, direction};
 use crate::robot::{Coordinate, Coupling, Joint, Kind, Link, Term};
 
-/// How far two sides may be apart, and turned, as drawn.
+/// Largest distance and turn between two sides that meet as drawn [m and rad].
 const SLACK: f64 = 1.0e-6;
 
-/// What takes the second side to where the first one holds it: a displacement, and a turn about its place; global, as drawn.
+/// Offset that takes the second side to where the first one holds it: a displacement, and a turn about its place; global, as drawn.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Offset {
     pub(super) place: V3,
@@ -43,7 +43,7 @@ pub(super) fn carried(
     link
 }
 
-/// Where joints of one loop stand.
+/// Place at which the joints of one loop stand.
 struct Step<'a> {
     name: &'a str,
     element: &'a Element,

@@ -1,4 +1,4 @@
-//! Places and orientations.
+//! Places and orientations of elements.
 
 use super::compiler::Compiler;
 use super::defaults::View;
@@ -57,7 +57,7 @@ fn of(word: &Attribute, compiler: &Compiler) -> Read<M3> {
     }
 }
 
-/// Three turns: small letters are axes that turn along, capitals are axes that stay.
+/// Rotation of three turns: small letters are axes that turn along, capitals are axes that stay.
 pub(super) fn euler(angles: [f64; 3], compiler: &Compiler) -> M3 {
     angles.iter().zip(compiler.sequence).fold(M3::identity(), |turned, (angle, letter)| {
         let axis = unit(usize::from(letter.to_ascii_lowercase() - b'x'));

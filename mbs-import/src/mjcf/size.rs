@@ -22,7 +22,7 @@ impl Size {
     pub(super) const ONE: Self =
         Self { length: 1.0, mass: 1.0, force_length: 1.0, force_mass: 1.0 };
 
-    /// That of what is in a frame of this size.
+    /// Size of what is in a frame that stands in this size.
     pub(super) fn of_frame(self, frame: &Element) -> Read<Self> {
         let length = frame.attribute("scale").map(scale).transpose()?;
         let scaling = frame.attribute("scaling");

@@ -1,4 +1,4 @@
-//! What follows from the inertia that a coordinate moves in the reference configuration: stops, and springs of a given time.
+//! Laws that follow from the inertia that a coordinate moves in the reference configuration: stops, and springs of a given time.
 //!
 //! Mass matrix of a tree by composite bodies, factored as M = Lᵀ L along the branches, without fill.
 
@@ -145,7 +145,8 @@ impl Factor {
         Some(Self { of: of.collect(), rows, tree })
     }
 
-    /// What each joint of the file moves while others give way: one over the diagonal of the inverse of M, of several coordinates over its mean.
+    /// Inertia that each joint of the file moves while others give way: one over the diagonal of the inverse of M, of several coordinates over
+    /// its mean.
     fn moved(&self, motions: usize) -> Vec<f64> {
         let mut found = vec![(0.0, 0.0); motions];
         for (number, column) in self.tree.columns.iter().enumerate() {
@@ -156,7 +157,7 @@ impl Factor {
         found.into_iter().map(|(count, softness)| count / softness).collect()
     }
 
-    /// What a sum moves, 1 / J M⁻¹ Jᵀ; `None` where it moves nothing.
+    /// Inertia that a sum moves, 1 / J M⁻¹ Jᵀ; `None` where it moves nothing.
     pub(super) fn moved_by(&self, terms: &[Term]) -> Option<f64> {
         let mut entries = Vec::new();
         for term in terms.iter().filter(|term| term.line.is_empty()) {

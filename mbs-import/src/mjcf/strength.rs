@@ -31,7 +31,7 @@ impl Strength {
         Self([a * factor(1), b * factor(2), c * factor(3)])
     }
 
-    /// The same where it acts.
+    /// Returns the strength where it acts, else none.
     pub(super) const fn where_it(self, acts: bool) -> Self {
         if acts { self } else { Self::NONE }
     }
@@ -41,13 +41,13 @@ impl Strength {
         (self.0[1..] == [0.0; 2]).then_some(self.0[0])
     }
 
-    /// Of a coordinate that grows against that of the file where the sign is −1: the even term of a spring turns.
+    /// Strength of a coordinate that grows against that of the file where the sign is −1: the even term of a spring turns.
     pub(super) fn against(&self, sign: f64) -> Self {
         let [a, b, c] = self.0;
         Self([a, b * sign, c])
     }
 
-    /// By powers of m, of x = m − free.
+    /// Coefficients by powers of m, of x = m − free.
     fn shifted(&self, free: f64) -> [f64; 4] {
         let [k0, k1, k2] = self.0;
         [

@@ -1,4 +1,4 @@
-//! What becomes of the elements and attributes of MJCF.
+//! Treatment of the elements and attributes of MJCF.
 
 use crate::table::Treatment::{Appearance, Approximated, Ignored, Mapped, Refused, Silent};
 use crate::table::{Row, row};

@@ -15,7 +15,7 @@ use crate::robot::{Coordinate, Target, Term, What};
 use crate::source::{Fault, Read};
 use mbs_core::algebra::norm;
 
-/// What a tendon pulls: terms, their length as drawn, and that without tension in the springs of the joints.
+/// Sum that a tendon pulls: terms, their length as drawn, and that without tension in the springs of the joints.
 struct Pulled {
     terms: Vec<Term>,
     /// Is a part of it in a frame with a scale?

@@ -1,4 +1,4 @@
-//! What actuators pull: sums of coordinates, or forces and moments on a body.
+//! Transmissions of actuators: sums of coordinates, or forces and moments on a body.
 
 use super::model::{Model, Motion, Moves};
 use super::size::Size;
@@ -8,26 +8,26 @@ use crate::robot::{GROUND, Kind, Signal, Term, What};
 use crate::source::Read;
 use mbs_core::algebra::cross;
 
-/// Why an actuator does not act: what it does there is not known here.
+/// Reason why an actuator does not act: what it does there is not known here.
 pub(super) const GROWN: &str = "it pulls a tendon, a site or a ball in a frame with a scale";
 
 /// Distance of the two forces of a couple [m]: with it a moment of 1 N m is two forces of 1 N.
 const ARM: f64 = 1.0;
 
-/// What an actuator pulls.
+/// Transmission of an actuator: what it pulls.
 pub(super) struct Transmission {
     /// Terms of its length without gear, and the length in the reference configuration.
     pub(super) terms: Vec<Term>,
     pub(super) drawn: f64,
     pub(super) gear: f64,
-    /// What it does for each newton in place of terms; the gear is in it.
+    /// Pushes for each newton, in place of terms; the gear is in them.
     pub(super) pushes: Vec<Push>,
     /// Whether its length stays zero.
     pub(super) has_length: bool,
     /// The number of its tendon, where that limits all its actuators together.
     pub(super) rope: Option<usize>,
     pub(super) range: Option<[f64; 2]>,
-    /// Of the frames in which it stands, and whether it is a slide.
+    /// Size of the frames in which it stands, and whether it is a slide.
     pub(super) size: (Size, bool),
     pub(super) label: String,
 }
@@ -37,7 +37,7 @@ pub(super) struct Transmission {
 pub(super) struct Push {
     pub(super) link: usize,
     at: Option<V3>,
-    /// In global axes, of the reference configuration where it turns with the link.
+    /// Force or moment in global axes, of the reference configuration where it turns with the link.
     value: V3,
     turns: bool,
 }
@@ -45,7 +45,7 @@ pub(super) struct Push {
 /// A transmission, or why the scene has none.
 type Found = Result<Transmission, String>;
 
-/// What an actuator pulls.
+/// Transmission of an actuator, by the attribute that names it.
 pub(super) fn transmission(
     element: &Element,
     gear: &[f64; 6],

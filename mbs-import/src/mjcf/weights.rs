@@ -1,4 +1,4 @@
-//! What settings of the whole model do to the inertias of its bodies.
+//! Inertias of the bodies, by the settings of the whole model.
 
 use super::model::{Model, Moves, Sort};
 use crate::element::Attribute;
@@ -24,7 +24,7 @@ pub(super) fn check_written(word: &Attribute, tensor: &M3) -> Read<()> {
     ))
 }
 
-/// Principal moments, rising.
+/// Principal moments of a tensor, rising.
 fn listed(tensor: &M3) -> String {
     let mut moments: Vec<f64> = tensor.symmetric_eigen().eigenvalues.iter().copied().collect();
     moments.sort_by(f64::total_cmp);

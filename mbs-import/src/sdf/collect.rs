@@ -14,7 +14,7 @@ use std::collections::HashSet;
 /// The world or a model of the file with its scope.
 pub(super) type Model<'a> = (&'a Element, Scope);
 
-/// What is found so far.
+/// Parts of a file that are found so far.
 pub(super) struct Collector<'a, 'r, 'c> {
     /// Inner models stand before those that they are in.
     pub(super) models: Vec<Model<'a>>,

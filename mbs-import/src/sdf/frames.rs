@@ -12,14 +12,14 @@ pub(super) const WORLD: &str = "world";
 /// The frame of a model, in its scope.
 pub(super) const MODEL: &str = "__model__";
 
-/// A frame.
+/// A frame of the file.
 #[derive(Debug, Clone)]
 pub(super) struct Node {
     pub(super) at: Origin,
-    /// Where it is placed: a full name.
+    /// Full name of the frame in which it is placed.
     pub(super) relative_to: String,
     pub(super) pose: Pose,
-    /// What it moves with: a full name; `None` for links and joints, which say it otherwise.
+    /// Full name of the frame with which it moves; `None` for links and joints, which say it otherwise.
     pub(super) attached_to: Option<String>,
     /// The link that it is.
     pub(super) link: Option<usize>,
@@ -34,7 +34,7 @@ pub(super) struct Frames {
     joints: HashMap<String, [String; 2]>,
     /// Links of static models.
     still: HashSet<usize>,
-    /// What names in the scene leave out: the name of the only model, `outer::`, or nothing.
+    /// Prefix that names in the scene leave out: the name of the only model, `outer::`, or nothing.
     hidden: String,
 }
 
@@ -95,7 +95,7 @@ impl Frames {
         Err(Fault::new(at, format!("unknown link, joint, frame or model `{name}`"), hint))
     }
 
-    /// Where a frame is in that of its model, which stands in the world for the time being.
+    /// Pose of a frame in that of its model, which stands in the world for the time being.
     pub(super) fn alone(&self, name: &str, model: &str, at: Origin) -> Read<Pose> {
         if !self.nodes.contains_key(name) {
             return Err(Fault::new(
@@ -110,7 +110,7 @@ impl Frames {
         Ok(places[0].inverse().then(&places[1]))
     }
 
-    /// Where a frame is in the world.
+    /// Pose of a frame in the world.
     pub(super) fn place(&self, name: &str) -> Read<Pose> {
         let mut chain: Vec<&str> = Vec::new();
         let mut at = name;

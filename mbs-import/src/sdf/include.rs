@@ -9,7 +9,7 @@ use crate::element::{Attribute, Element};
 use crate::source::Read;
 use std::path::PathBuf;
 
-/// What an `include` has besides the place of its model.
+/// Elements that an `include` has besides the place of its model.
 const OWN: [&str; 5] = ["uri", "name", "pose", "placement_frame", "static"];
 
 /// Puts the models of other files in the places of `include` elements.
@@ -85,7 +85,7 @@ impl Includer<'_, '_> {
         Ok(Some(model))
     }
 
-    /// What the `include` says of its model, in place of what the model says.
+    /// Puts what the `include` says of its model in place of what the model says.
     fn own(&mut self, include: &Element, model: &mut Element) -> Read<()> {
         let mut set = |name: &str, value: Attribute| {
             model.attributes.retain(|attribute| attribute.name != name);

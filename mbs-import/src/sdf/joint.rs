@@ -197,7 +197,7 @@ pub(super) fn direction_of(
 
 /// Ends, effort and rate; why there is no range, where one end or both are written.
 fn limits(axis: &Element, has_range: bool, joint: &mut Joint) -> Read<Option<String>> {
-    /// From here on the format means that there is no end.
+    /// Value from which on the format means that there is no end.
     const NONE: f64 = 1.0e16;
     let Some(limit) = axis.child("limit") else { return Ok(None) };
     let value = |name: &str| -> Read<Option<f64>> {
@@ -261,7 +261,7 @@ fn laws(axis: &Element, of: Coordinate, robot: &mut Robot, context: &mut Context
 
 /// Stiffness and damping of stops that are not rigid.
 fn stiffness_of(limit: &Element) -> Read<Option<[f64; 2]>> {
-    /// What the format writes where it means a rigid stop.
+    /// Stiffness that the format writes where it means a rigid stop.
     const RIGID: f64 = 1.0e8;
     let stiffness = number(limit, "stiffness", RIGID)?;
     let damping = number(limit, "dissipation", 1.0)?;
@@ -299,7 +299,7 @@ fn screw(element: &Element, joint: usize, name: &str) -> Read<Coupling> {
     })
 }
 
-/// Where names of joints stand, and what they mean.
+/// Scope in which names of joints stand, and the frames by which they are found.
 pub(super) struct Names<'a> {
     pub(super) scope: &'a Scope,
     pub(super) frames: &'a Frames,

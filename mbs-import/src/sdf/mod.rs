@@ -127,7 +127,7 @@ fn is_taken(name: &str, robot: &Robot) -> bool {
     links.any(|link| link == name) || robot.frames.iter().any(|frame| frame.name == name)
 }
 
-/// What hangs on nothing moves freely; a static model is the ground's.
+/// Joins what hangs on nothing to the ground: free by default, and fixed where the model is static.
 fn base(frames: &Frames, trunks: &[usize], robot: &mut Robot, context: &Context<'_>) {
     for link in 1..robot.links.len() {
         if frames.is_still(link) {

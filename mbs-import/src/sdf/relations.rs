@@ -1,4 +1,4 @@
-//! What relates joints to each other: gearboxes and mimicry.
+//! Relations of joints to each other: gearboxes and mimicry.
 
 use super::frames::Frames;
 use super::joint::{Names, coordinate, direction_of, find, is_still, known};

@@ -1,4 +1,4 @@
-//! Where names stand, and what all readers of the format ask of elements.
+//! Scopes of names, and what all readers of the format ask of elements.
 
 use super::frames::{Frames, MODEL, WORLD};
 use crate::element::{Attribute, Element};
@@ -9,10 +9,10 @@ use crate::source::{Fault, Read};
 /// The attribute in which a model of another file keeps the version of that file; no file can write such a name.
 pub(super) const VERSION: &str = "version of its file";
 
-/// Where names stand.
+/// Scope in which names stand.
 #[derive(Debug, Clone)]
 pub(super) struct Scope {
-    /// What stands before full names: `outer::`, or in the world nothing.
+    /// Prefix of full names: `outer::`, or in the world nothing.
     pub(super) prefix: String,
     pub(super) version: [u32; 2],
     pub(super) is_static: bool,
@@ -78,7 +78,7 @@ pub(super) fn placed(
     Ok((frames.link(&full)?.unwrap_or(GROUND), frames.place(&full)?))
 }
 
-/// That link alone.
+/// The link of the frame that a child names.
 pub(super) fn link(element: &Element, word: &str, scope: &Scope, frames: &Frames) -> Read<usize> {
     placed(element, word, scope, frames).map(|(link, _)| link)
 }

@@ -1,13 +1,13 @@
-//! What becomes of the elements and attributes of SDF.
+//! Treatment of the elements and attributes of SDF.
 
 use crate::table::Treatment::{Appearance, Approximated, Ignored, Mapped};
 use crate::table::{Row, row};
 
-/// Why contact is left out.
+/// Reason why contact is left out.
 const CONTACT: &str = "there is no contact between bodies yet";
-/// Why settings of a simulator are left out.
+/// Reason why settings of a simulator are left out.
 const OTHER: &str = "settings of another simulator";
-/// Why sensors are left out.
+/// Reason why sensors are left out.
 const SENSOR: &str = "sensors measure, and do not act";
 
 /// The elements and attributes of SDF 1.4 to 1.12.

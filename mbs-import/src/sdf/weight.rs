@@ -15,10 +15,10 @@ use mbs_scene::{TriangleMesh, VolumeRule};
 
 /// Density of what writes none [kg/m³]: the format's default, that of water.
 const DENSITY: f64 = 1000.0;
-/// What to do where no mass can be computed.
+/// Hint where no mass can be computed.
 const HINT: &str = "write <mass> and <inertia> with numbers, and leave out auto=\"true\"";
 
-/// Where the parts of a link stand: its full name, and what names in it mean.
+/// Link in which parts stand: its full name, and what names in it mean.
 pub(super) struct Place<'a> {
     pub(super) name: &'a str,
     pub(super) scope: &'a Scope,

@@ -81,7 +81,7 @@ pub(super) fn read(
     Ok((joint, origin(element)?))
 }
 
-/// Why a joint with a `limit` gets no range.
+/// Returns the reason why a joint with a `limit` gets no range.
 fn no_range(limit: &Element) -> Read<String> {
     let [lower, upper] = ["lower", "upper"].map(|name| limit.number_or(name, 0.0));
     let (lower, upper) = (lower?, upper?);

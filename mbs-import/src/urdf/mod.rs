@@ -34,7 +34,7 @@ pub(crate) fn read(root: &Element, context: &mut Context<'_>) -> Read<Robot> {
     Ok(robot)
 }
 
-/// What holds the root: the ground, or nothing.
+/// Adds the joint between the ground and the root, fixed or free.
 fn base(robot: &mut Robot, trunk: usize, context: &mut Context<'_>) -> Read<()> {
     let link = &robot.links[trunk];
     let (at, place) = (link.at, link.pose.at);

@@ -1,4 +1,4 @@
-//! `origin`, and masses.
+//! Poses by the element `origin`, and masses.
 
 use crate::element::Element;
 use crate::pose::{Pose, quaternion, roll_pitch_yaw, v3};

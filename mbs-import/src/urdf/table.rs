@@ -1,9 +1,9 @@
-//! What becomes of the elements and attributes of URDF.
+//! Treatment of the elements and attributes of URDF.
 
 use crate::table::Treatment::{Appearance, Approximated, Ignored, Mapped};
 use crate::table::{Row, row};
 
-/// Why drives keep no gear ratio.
+/// Reason why elements of controllers are left out.
 const CONTROL: &str = "what a controller does is not part of the model";
 
 /// The elements and attributes of URDF 1.0 to 1.2, with those of transmissions.

@@ -18,9 +18,9 @@ pub(crate) struct Tree {
     joints: Vec<Joint>,
     /// The names of the joints in the file.
     joint_names: Vec<String>,
-    /// The root link.
+    /// Number of the root link.
     pub(crate) trunk: usize,
-    /// What stands before names in the scene.
+    /// Prefix of names in the scene.
     prefix: String,
 }
 
@@ -64,7 +64,7 @@ impl Tree {
         Ok(tree)
     }
 
-    /// Reads the joints; the pose of each in the frame of its parent.
+    /// Reads the joints and returns the pose of each in the frame of its parent.
     fn read_joints(&mut self, root: &Element, context: &Context<'_>) -> Read<Vec<Pose>> {
         let mut origins = Vec::new();
         for element in root.each("joint") {
@@ -153,7 +153,7 @@ impl Tree {
     }
 }
 
-/// Where a joint names the world as its parent, if no link is called so.
+/// Place at which a joint names the world as its parent, if no link is called so.
 fn undeclared_world(root: &Element, links: &Named) -> Option<Origin> {
     if links.get(WORLD).is_some() {
         return None;

@@ -137,7 +137,7 @@ impl Writer<'_> {
         self.key("value", number(value));
     }
 
-    /// What a signal with a state has at the start.
+    /// Writes the value that a signal with a state has at the start.
     fn started(&mut self, value: f64) {
         if value != 0.0 {
             self.key("value", number(value));

@@ -65,7 +65,7 @@ pub(crate) fn acceleration(scene: &Scene<f64>, joint: &str) -> f64 {
     mass * dot(across, gravity) / inertia
 }
 
-/// Compares numbers.
+/// Compares a number with the expected one, within a tolerance relative to its size or to one.
 pub(crate) fn close(found: f64, expected: f64, tolerance: f64, what: &str) {
     let size = expected.abs().max(1.0);
     assert!((found - expected).abs() <= tolerance * size, "{what}: {found} for {expected}");

@@ -26,7 +26,7 @@ fn from_fn(n: usize, entry: impl Fn(usize, usize) -> f64) -> Vec<f64> {
     (0..n * n).map(|k| entry(k % n, k / n)).collect()
 }
 
-/// [0 1; −K −C].
+/// State matrix [0 1; −K −C].
 fn state_matrix(
     f: usize,
     k: impl Fn(usize, usize) -> f64,

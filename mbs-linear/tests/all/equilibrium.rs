@@ -169,7 +169,7 @@ fn single_precision_balances_to_its_own_rounding() {
 
 /// A block of 5 kg on a pad of 20,000 N/m that it touches at the start.
 const PAD: &str = include_str!("../../../mbs/tests/field/02-pad.toml");
-/// The same with a spring of 1 N/m beside it.
+/// A block of 5 kg on the same pad, with a spring of 1 N/m beside it.
 const PAD_WITH_SPRING: &str = include_str!("../../../mbs/tests/field/02-pad-with-spring.toml");
 
 #[test]

@@ -24,14 +24,14 @@ use crate::blocks::{FactorError, Inertia, Weakest};
 /// When a pivot is good enough.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Thresholds<T> {
-    /// u: multipliers l stay below 1/u; in (0, 0.35], so that what is all candidates always has a pivot.
+    /// Threshold u of growth: multipliers l stay below 1/u; in (0, 0.35], so that what is all candidates always has a pivot.
     pub growth: T,
     /// A pivot below this times the sum of the absolute values it is made of counts as zero.
     pub zero: T,
 }
 
 impl<T: Real> Default for Thresholds<T> {
-    /// u = 0.01; zero is 256 units of rounding.
+    /// Default of u = 0.01; zero is 256 units of rounding.
     fn default() -> Self {
         /// Default of u [-]: multipliers stay below 100. Chosen, not tuned.
         const GROWTH: f64 = 0.01;
@@ -41,12 +41,12 @@ impl<T: Real> Default for Thresholds<T> {
     }
 }
 
-/// What is counted over a factorisation.
+/// Signs and weakness of the pivots, counted over a factorisation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tally {
     /// Signs of the pivots.
     pub inertia: Inertia,
-    /// The weakest pivot.
+    /// Weakest pivot of all.
     pub weakest: Weakest,
 }
 
@@ -203,7 +203,7 @@ fn largest<T: Real>(a: &[T], f: usize, k: usize, (c, not): (usize, usize)) -> (T
     (size, row)
 }
 
-/// What is left of the diagonal of a column beside what it was the sum of, if it is a pivot of one unknown.
+/// Size of the diagonal of a column relative to what it was the sum of, if it is a pivot of one unknown.
 #[inline(always)]
 fn test_single<T: Real>(column: &[T], size: T, thresholds: &Thresholds<T>) -> Option<T> {
     /// Comparisons made side by side [-]: four doubles fill a register of 256 bits.

@@ -26,7 +26,7 @@ impl<T: Real> Default for Panel<T> {
 }
 
 impl<T: Real> Panel<T> {
-    /// No pivots; the first will be at place `start`.
+    /// Panel without any pivots; the first will be at place `start`.
     pub(super) fn starting_at(start: usize) -> Self {
         Self { start, pivots: [T::ZERO; MAX_PIVOTS], len: 0 }
     }

@@ -16,37 +16,37 @@ const LAST_STEP: f64 = 1.01;
 /// tuned.
 const TOO_MANY: f64 = 10.0;
 
-/// What the hook did to the state at the end of an accepted step.
+/// Change of the state by the hook at the end of an accepted step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum EndState {
-    /// It left the state, and whatever else its rates depend on, as they were: the rates found there hold.
+    /// The hook left the state, and whatever else its rates depend on, as they were: the rates found there hold.
     Kept,
-    /// It moved the state back to where it belongs, as a projection does, and nothing else. The rates found before are taken where
+    /// The hook moved the state back to where it belongs, as a projection does, and nothing else. The rates found before are taken where
     /// it was moved by less than a tenth of the tolerance.
     Projected,
-    /// It changed the state, or what rates depend on beside it: the rates are evaluated anew.
+    /// The hook changed the state, or what rates depend on beside it: the rates are evaluated anew.
     Changed,
 }
 
-/// What was done, over all calls.
+/// Counts of an integration, over all calls.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Counts {
-    /// Steps accepted.
+    /// Number of accepted steps.
     pub accepted: u64,
-    /// Steps rejected.
+    /// Number of rejected steps.
     pub rejected: u64,
     /// Evaluations of the rates; those of a trial that the rates ended are not counted.
     pub evaluations: u64,
 }
 
-/// What an [`Adaptive`] remembers.
+/// History of an [`Adaptive`] from step to step.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct AdaptiveHistory<T> {
     /// The step that will be tried next [s].
     pub step: T,
-    /// That of its [`StepControl`].
+    /// History of its [`StepControl`].
     pub control: (Option<f64>, bool),
-    /// What was done so far.
+    /// Counts of the integration so far.
     pub counts: Counts,
 }
 
@@ -78,7 +78,7 @@ impl<T: Real, M: Method<T>> Adaptive<T, M> {
         self.step
     }
 
-    /// The method.
+    /// Method of the steps.
     #[must_use]
     pub fn method(&self) -> &M {
         &self.method
@@ -89,7 +89,7 @@ impl<T: Real, M: Method<T>> Adaptive<T, M> {
         &mut self.method
     }
 
-    /// What was done, over all calls.
+    /// Counts of the integration, over all calls.
     #[must_use]
     pub fn counts(&self) -> Counts {
         self.counts

@@ -42,13 +42,13 @@ impl<T: Real> StepControl<T> {
         }
     }
 
-    /// What is remembered: the error of the last accepted step, where there was one, and whether the last trial was rejected.
+    /// History of the control: the error of the last accepted step, where there was one, and whether the last trial was rejected.
     #[must_use]
     pub fn history(&self) -> (Option<f64>, bool) {
         (self.memory, self.was_rejected)
     }
 
-    /// Restores a [`history`](Self::history).
+    /// Restores the control from a [`history`](Self::history).
     pub fn set_history(&mut self, (memory, was_rejected): (Option<f64>, bool)) {
         (self.memory, self.was_rejected) = (memory, was_rejected);
     }

@@ -74,7 +74,7 @@ const A: [Row; 12] = [
     ],
 ];
 
-/// The new state.
+/// Weights of the new state.
 const B: Row = &[
     (0, "0.0542937341165687622380535766363"),
     (5, "4.45031289275240888144113950566"),
@@ -114,7 +114,7 @@ const E5: Row = &[
     (11, "-0.02235530786388629525884427845"),
 ];
 
-/// What the method of order 3 has in place of [`B`].
+/// Weights that the method of order 3 has in place of [`B`].
 const THIRD: Row = &[
     (0, "0.244094488188976377952755905512"),
     (8, "0.733846688281611857341361741547"),
@@ -152,7 +152,7 @@ fn row<T: Real>(of: Row) -> [T; 12] {
     weights
 }
 
-/// What is no number would be none in every step.
+/// Number of a decimal text; NaN where it is none, and then in every step.
 fn number<T: Real>(text: &str) -> T {
     T::from_decimal(text).unwrap_or_else(|| T::from_f64(f64::NAN))
 }

@@ -1,4 +1,4 @@
-//! What ends an integration before its time.
+//! Errors that end an integration before its time.
 
 /// An integration that stopped. The state is that of the last accepted step, at `time`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -8,7 +8,7 @@ pub enum OdeError<E> {
     Rates {
         /// Time of the last accepted state [s].
         time: f64,
-        /// What they say.
+        /// Error of the rates or the hook.
         error: E,
     },
     /// No step above rounding of the time meets the tolerance.
@@ -22,7 +22,7 @@ pub enum OdeError<E> {
     TooManySteps {
         /// Time of the last accepted state [s].
         time: f64,
-        /// Steps tried.
+        /// Number of steps tried.
         steps: u32,
     },
 }

@@ -31,7 +31,7 @@ impl Extrapolation {
         Self { columns: columns.clamp(COLUMNS.0, COLUMNS.1) }
     }
 
-    /// As many columns as a tolerance is worth: nine for twenty digits, and two more.
+    /// Extrapolation with as many columns as a tolerance is worth: nine for twenty digits, and two more.
     #[must_use]
     pub fn for_tolerance<T: Real>(tolerance: T) -> Self {
         /// Columns for each digit [-]. Chosen, not tuned.

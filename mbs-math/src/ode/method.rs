@@ -1,4 +1,4 @@
-//! What the control of the step asks of a method, what its caller chooses, and the size of an error.
+//! Method as the control of the step asks it, options of its caller, and the size of an error.
 
 use super::Rates;
 use crate::Real;
@@ -44,7 +44,7 @@ pub trait Method<T: Real> {
         false
     }
 
-    /// What the method makes of the factor by which its next step may be longer: a change may not be worth its cost.
+    /// Factor that the method makes of that by which its next step may be longer: a change may not be worth its cost.
     fn worth(&self, factor: T) -> T {
         factor
     }
@@ -96,7 +96,7 @@ fn size_by<T: Real>(
     if n == 0 { T::ZERO } else { (sum / T::from_f64(n as f64)).sqrt() }
 }
 
-/// What the caller chooses.
+/// Options that the caller chooses.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Options<'a, T> {
     /// Tolerance as a share of a component's value. `≥ 0`.
@@ -112,7 +112,7 @@ pub struct Options<'a, T> {
 }
 
 impl<T: Real> Options<'_, T> {
-    /// The same relative and absolute tolerance, sizes of one, steps of any length, a million of them.
+    /// Options with the same relative and absolute tolerance, sizes of one, steps of any length, a million of them.
     pub fn new(tolerance: T) -> Self {
         Self {
             relative: tolerance,

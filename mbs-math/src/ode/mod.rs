@@ -51,7 +51,7 @@ pub trait Rates<T> {
     /// What makes an answer impossible; the integration ends with it.
     fn rates(&mut self, t: T, y: &[T], dy: &mut [T]) -> Result<(), Self::Error>;
 
-    /// The same with as few roundings as can be had, for slopes by differences. By default [`Self::rates`].
+    /// Writes the rates with as few roundings as can be had, for slopes by differences. By default [`Self::rates`].
     ///
     /// # Errors
     ///

@@ -1,4 +1,4 @@
-//! Embedded Runge-Kutta pairs: coefficients, the stages of one trial step, and its error.
+//! Embedded Runge-Kutta pairs with their coefficients, the stages of one trial step, and its error.
 
 use super::{Method, Options, Rates, method};
 use crate::Real;
@@ -8,11 +8,11 @@ use crate::Real;
 /// The method of higher order gives the new state; its difference from the method of lower order estimates the error.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tableau<T, const S: usize> {
-    /// aᵢⱼ: stage i from the rates of the stages j < i; the rest is not read.
+    /// Coefficients aᵢⱼ of the stages: stage i from the rates of the stages j < i; the rest is not read.
     pub a: [[T; S]; S],
-    /// bᵢ: the new state.
+    /// Weights bᵢ of the new state.
     pub b: [T; S],
-    /// cᵢ: times of the stages.
+    /// Times cᵢ of the stages.
     pub c: [T; S],
     /// eᵢ = bᵢ − b̂ᵢ: the error estimate.
     pub e: [T; S],

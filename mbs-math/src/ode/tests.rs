@@ -384,7 +384,7 @@ fn sizes_weigh_the_components() {
     assert!((plain / weighed - 1.0).abs() < ROUNDING, "{plain} {weighed}");
 }
 
-/// The same oscillator in any precision.
+/// Oscillator y'' = -y in any precision.
 struct Generic;
 impl<T: Real> Rates<T> for Generic {
     type Error = Infallible;

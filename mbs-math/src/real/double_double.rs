@@ -1,4 +1,4 @@
-//! Double-double numbers: about 32 digits by pairs of `f64`, for reference runs.
+//! Double-double numbers with about 32 digits by pairs of `f64`, for reference runs.
 //!
 //! A number is hi + lo with |lo| at most half a unit in the last place of hi. With u = 2⁻⁵³, relative errors are at most
 //!
@@ -36,12 +36,12 @@ impl DoubleDouble {
     pub const ZERO: Self = Self::from_f64(0.0);
     /// One.
     pub const ONE: Self = Self::from_f64(1.0);
-    /// π, to 2⁻¹⁰⁷.
+    /// Half a turn π, to 2⁻¹⁰⁷.
     pub const PI: Self = Self { hi: core::f64::consts::PI, lo: 1.2246467991473532e-16 };
     /// 2⁻¹⁰⁴, four times u²: the smallest difference from one that the arithmetic resolves.
     pub const EPSILON: Self = Self::from_f64(f64::EPSILON * f64::EPSILON);
 
-    /// The same number.
+    /// Makes the same number of an `f64`.
     #[inline]
     #[must_use]
     pub const fn from_f64(x: f64) -> Self {
@@ -56,14 +56,14 @@ impl DoubleDouble {
         Self::pair(hi, lo)
     }
 
-    /// The leading part: the nearest `f64`.
+    /// Leading part of the number: the nearest `f64`.
     #[inline]
     #[must_use]
     pub const fn hi(self) -> f64 {
         self.hi
     }
 
-    /// What the leading part leaves.
+    /// Remainder that the leading part leaves.
     #[inline]
     #[must_use]
     pub const fn lo(self) -> f64 {
@@ -120,7 +120,7 @@ impl DoubleDouble {
         if hi.is_finite() { Self { hi, lo } } else { Self::from_f64(quotient) }
     }
 
-    /// −x in constants.
+    /// Negated number −x, in constants.
     #[inline]
     pub(super) const fn minus(self) -> Self {
         Self { hi: -self.hi, lo: -self.lo }

@@ -34,7 +34,7 @@ const fn shares() -> [Pair; TERMS + 1] {
     of
 }
 
-/// √x: one correction of the root of the leading part, with the exact square of that root (Karp).
+/// Square root √x by one correction of the root of the leading part, with the exact square of that root (Karp).
 ///
 /// Error 25/8 u². Negative numbers give NaN, zero keeps its sign.
 #[inline]

@@ -19,7 +19,7 @@ use num_traits::{One, Zero};
 pub struct Lanes<const N: usize>(pub [f64; N]);
 
 impl<const N: usize> Lanes<N> {
-    /// The same number in every lane.
+    /// Lanes with the same number in each.
     #[inline]
     #[must_use]
     pub const fn all(x: f64) -> Self {
@@ -36,7 +36,7 @@ impl<const N: usize> Lanes<N> {
         every
     }
 
-    /// Lane by lane.
+    /// Applies a function lane by lane.
     #[inline(always)]
     fn map(mut self, of: impl Fn(f64) -> f64) -> Self {
         for x in &mut self.0 {
@@ -86,7 +86,7 @@ impl<const N: usize> Neg for Lanes<N> {
     }
 }
 
-/// What holds in every lane.
+/// Order that holds in every lane.
 impl<const N: usize> PartialOrd for Lanes<N> {
     #[inline]
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
@@ -140,7 +140,7 @@ impl<const N: usize> One for Lanes<N> {
     }
 }
 
-/// Lanes between brackets.
+/// Writes lanes between brackets.
 macro_rules! shown {
     ($trait:ident) => {
         impl<const N: usize> fmt::$trait for Lanes<N> {
@@ -172,7 +172,7 @@ impl<const N: usize> Real for Lanes<N> {
     fn from_decimal(text: &str) -> Option<Self> {
         text.parse().ok().map(Self::all)
     }
-    /// That of the first lane.
+    /// Number of the first lane.
     #[inline]
     fn to_f64(self) -> f64 {
         self.0.first().copied().unwrap_or(f64::NAN)

@@ -8,7 +8,7 @@
 
 #![allow(unsafe_code, reason = "the proof is above")]
 
-/// The square root; of a negative number not a number.
+/// Square root of `x`; of a negative number not a number.
 #[cfg(all(target_arch = "arm", target_abi = "eabihf"))]
 #[inline]
 pub(super) fn root(x: f32) -> f32 {
@@ -28,7 +28,7 @@ pub(super) fn root(x: f32) -> f32 {
     root
 }
 
-/// The square root; of a negative number not a number.
+/// Square root of `x`; of a negative number not a number.
 #[cfg(not(all(target_arch = "arm", target_abi = "eabihf")))]
 #[inline]
 pub(super) fn root(x: f32) -> f32 {

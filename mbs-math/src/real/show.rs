@@ -200,7 +200,7 @@ impl Display for DoubleDouble {
 }
 
 impl LowerExp for DoubleDouble {
-    /// With an exponent: with the decimals asked for, else with 32 digits but for zeros at their end.
+    /// Writes the number with an exponent: with the decimals asked for, else with 32 digits but for zeros at their end.
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         if !self.hi().is_finite() {
             return LowerExp::fmt(&self.hi(), f);

@@ -1,4 +1,4 @@
-//! Error-free transforms: a rounded sum or product of two numbers, and what rounding took from it.
+//! Error-free transforms of two numbers: their rounded sum or product, and what rounding took from it.
 //!
 //! A fused multiply-add is not asked for: where the hardware has none it is a slow call, and a product is split exactly
 //! without it. The results are the same bits on every target whose `f64` is IEEE 754 binary64 in every operation; the x87

@@ -21,7 +21,7 @@ impl Wide {
         self.0.iter().all(|&limb| limb == 0)
     }
 
-    /// Adds x 2^shift; what leaves the top is lost.
+    /// Adds x 2^shift to the number; what leaves the top is lost.
     #[allow(clippy::cast_possible_truncation, reason = "a number is cut into its limbs")]
     pub(super) fn add(&mut self, x: u64, shift: usize) {
         let mut carry = u128::from(x) << (shift % 32);
@@ -54,12 +54,12 @@ impl Wide {
         }
     }
 
-    /// Times 10ⁿ.
+    /// Multiplies the number by 10ⁿ.
     pub(super) fn multiply_by_ten_to(&mut self, n: u32) {
         (0..n).for_each(|_| self.multiply(10));
     }
 
-    /// Times 2ⁿ.
+    /// Multiplies the number by 2ⁿ.
     pub(super) fn shift_up(&mut self, n: usize) {
         let (limbs, bits) = (n / 32, n % 32);
         for i in (0..LIMBS).rev() {

@@ -97,7 +97,7 @@ proptest! {
         prop_assert!(relative(cosine, &wanted_cosine) <= 16.0, "{x}: {}", relative(cosine, &wanted_cosine));
     }
 
-    /// What cancels there are all the digits of a pair: the remainder is told by the later parts of π.
+    /// All digits of a pair cancel at quarter turns: the later parts of π give the remainder.
     #[test]
     fn sine_and_cosine_are_within_16_u2_at_quarter_turns(k in -3000..3000_i32, ulps in -4.0..4.0_f64) {
         let at = DoubleDouble::PI * DoubleDouble::from_f64(f64::from(k) * 0.5);

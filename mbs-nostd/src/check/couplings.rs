@@ -1,4 +1,4 @@
-//! Couplings and sums: their terms, the points and links of their lines, and their curves.
+//! Checks of couplings and sums: their terms, the points and links of their lines, and their curves.
 
 use super::{Look, ends_by, ensure, fault, is_within, sides};
 use crate::check::LoadError;
@@ -76,7 +76,7 @@ impl<T: Real, S: Space<T>> Look<'_, '_, T, S> {
         Ok(())
     }
 
-    /// What curves are made of.
+    /// Checks that curves find their knots and numbers.
     pub(super) fn curves(&self) -> Result<(), LoadError> {
         let couplings = &self.m.loops.couplings;
         for (i, curve) in couplings.curves.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! Operations on signals.
+//! Checks of the operations on signals.
 
 use super::{Look, ensure};
 use crate::check::LoadError;

@@ -139,7 +139,7 @@ impl<'a, T: Real, S: Space<T>> Collected<'a, T, S> {
         Ok(())
     }
 
-    /// The model.
+    /// Returns the model over the collected tables.
     #[must_use]
     pub fn model(&self) -> Model<'_, T, S> {
         Model {

@@ -1,4 +1,4 @@
-//! Signals as tables: functions of time and inputs as courses, all others by operations on these.
+//! Tables of signals: functions of time and inputs as laws, all others by operations on these.
 
 use crate::inputs::{Rise, SignalLaw};
 use alloc::vec::Vec;
@@ -17,7 +17,7 @@ use mbs_recursive::space::Space;
 /// A function of time that tables do not have, or a signal that guides follow and that is neither constant nor a spline or a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct MovingSignal {
-    /// The signal.
+    /// Number of the signal in the scene.
     pub signal: SignalId,
 }
 
@@ -43,7 +43,8 @@ pub(super) struct SignalTables<T> {
 }
 
 impl<T: Real> SignalTables<T> {
-    /// What gives the signals that are made of others. Functions that the mechanism has keep their numbers; others are behind them.
+    /// Collects the operations that give the signals made of others. Functions that the mechanism has keep their numbers; others are behind
+    /// them.
     pub(super) fn new<S: Space<T>>(
         prescribed: &Prescribed<T>,
         mechanism: &TreeSlices<'_, T, S>,
@@ -104,7 +105,7 @@ pub(super) fn held<T: Real>(signals: &SignalGraph<T>) -> Vec<[T; 3]> {
     all.map(|(i, value)| if is_constant(i) { value } else { [T::ZERO; 3] }).collect()
 }
 
-/// Where the courses of signals go, with the knots and curvatures of their tables.
+/// Tables that signals are added to: their laws, and the knots and curvatures of their splines.
 type Laws<'a, T> = (&'a mut Vec<SignalLaw<T>>, (&'a mut Vec<[T; 2]>, &'a mut Vec<T>));
 
 /// Adds the courses of signals, of which `held` has the constant ones; those of the others are made by operations.

@@ -51,7 +51,7 @@ pub(crate) fn close(to: &mut String) {
     }
 }
 
-/// A constant table.
+/// Writes a constant table.
 fn table<X: Record>(name: &str, of: &str, list: &[X], to: &mut String) {
     constants((name, of), list, &X::source, to);
 }

@@ -1,8 +1,8 @@
-//! Bytes being written.
+//! Bytes of a model being written.
 
 use alloc::vec::Vec;
 
-/// Bytes being written.
+/// Bytes of a model being written.
 #[derive(Debug, Clone, Default)]
 pub struct Bytes {
     pub(crate) bytes: Vec<u8>,
@@ -10,7 +10,7 @@ pub struct Bytes {
 }
 
 impl Bytes {
-    /// Adds some.
+    /// Adds bytes as they are.
     pub(crate) fn put(&mut self, bytes: &[u8]) {
         self.bytes.extend_from_slice(bytes);
     }

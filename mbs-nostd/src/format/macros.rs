@@ -1,4 +1,4 @@
-//! What turns a list of fields into reading, writing and source.
+//! Macros that turn a list of fields into reading, writing and source.
 
 /// A struct, by its fields.
 macro_rules! record_struct {

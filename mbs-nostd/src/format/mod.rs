@@ -19,7 +19,7 @@ pub use numbers::Axes;
 
 use crate::check::LoadError;
 
-/// Bytes being read.
+/// Bytes of a model being read, with the place reached.
 #[derive(Debug, Clone)]
 pub struct Reader<'a> {
     bytes: &'a [u8],
@@ -47,7 +47,7 @@ impl<'a> Reader<'a> {
         Ok(*bytes)
     }
 
-    /// What is no entry begins `back` bytes before.
+    /// Returns the fault of an entry that cannot be read and begins `back` bytes before the place reached.
     pub(crate) fn fault(&self, back: usize) -> LoadError {
         LoadError::Record { byte: self.at.saturating_sub(back) }
     }
@@ -60,7 +60,7 @@ impl<'a> Reader<'a> {
 
 /// An entry of a table.
 pub trait Record: Sized {
-    /// Reads it.
+    /// Reads an entry.
     ///
     /// # Errors
     /// [`LoadError`].

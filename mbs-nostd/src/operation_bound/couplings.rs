@@ -68,13 +68,13 @@ fn geometry<T: Real, S: Space<T>>() -> Operations {
     (turned + cross * 3 + ops(0, 2 * d)) * 2 + ops(2 * d, 4 * d).and(1, 1, 0)
 }
 
-/// Its length, rate and bias.
+/// Operations for the length, the rate and the bias of a part of a line.
 fn measured<T: Real, S: Space<T>>() -> Operations {
     let (d, _) = numbers::<T, S>();
     geometry::<T, S>() + ops(4 * d + 1, 4 * d + 4).and(1, 1, 0)
 }
 
-/// What pushes its two ends.
+/// Operations for the wrenches at the two ends of a part of a line.
 fn pushed<T: Real, S: Space<T>>() -> Operations {
     let ([_, cross], (_, n)) = (turned::<T, S>(), numbers::<T, S>());
     geometry::<T, S>() + (cross + ops(n, n)) * 2

@@ -1,4 +1,4 @@
-//! Operations of curves.
+//! Operations of the curves of couplings and signals.
 
 use super::{Operations, count};
 use mbs_core::Real;

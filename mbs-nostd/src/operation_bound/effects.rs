@@ -43,7 +43,7 @@ pub(super) fn inputs<T>(laws: &Prescriptions<'_, T>) -> Operations {
 
 /// The parts of which loads are made, in space or in the plane.
 struct Parts {
-    /// A vector turned.
+    /// Operations that turn a vector.
     turned: Operations,
     /// A wrench at an arm.
     wrench: Operations,
@@ -125,7 +125,7 @@ pub(super) fn load<T: Real, S: Space<T>>(
     }
 }
 
-/// What a law measures, its wrenches and its rate.
+/// Operations for the number that a law measures, its wrenches and its rate.
 fn measured<T: Real, S: Space<T>>(
     n_links: usize,
     gauge: &Measure<T, S>,

@@ -9,7 +9,7 @@ const fn ops(products: u64, sums: u64) -> Operations {
     Operations::new(products, sums)
 }
 
-/// Space or plane?
+/// Is the model in space (not in the plane)?
 const fn is_spatial<T: Real, S: Space<T>>() -> bool {
     S::DIMENSION == 3
 }
@@ -33,7 +33,7 @@ fn inertia<T: Real, S: Space<T>>() -> Operations {
     if is_spatial::<T, S>() { ops(78, 45) } else { ops(9, 0) }
 }
 
-/// The joint's elimination.
+/// Operations of the joint's elimination.
 fn eliminate<T: Real, S: Space<T>>(kind: LinkKind) -> Operations {
     match (kind, is_spatial::<T, S>()) {
         (LinkKind::Revolute | LinkKind::Prismatic, true) => ops(96, 81).and(1, 0, 0),
@@ -62,12 +62,12 @@ fn advance<T: Real, S: Space<T>>(kind: LinkKind) -> Operations {
     }
 }
 
-/// What a parent that is not the ground takes over: inertia, and force alone.
+/// Operations that carry a link to a parent that is not the ground: with its inertia, and its force alone.
 fn shift<T: Real, S: Space<T>>() -> [Operations; 2] {
     if is_spatial::<T, S>() { [ops(60, 81), ops(6, 12)] } else { [ops(8, 19), ops(2, 5)] }
 }
 
-/// An evaluation.
+/// Operations of a link in one evaluation.
 pub(super) fn evaluation<T: Real, S: Space<T>>(link: &Link<T, S>) -> Operations {
     let kind = link.kind;
     let bias = if is_spatial::<T, S>() { ops(0, 6) } else { ops(0, 3) };

@@ -1,4 +1,4 @@
-//! What is written between steps: in the step of fixed capacity, and in the bound of its work.
+//! Inputs that are written between steps: in the step of fixed capacity, and in the bound of its work.
 
 use crate::support::start;
 use mbs_core::scene::{Effect, EffectKind, JointId, JointTorque, Motion, Scene, Signal, TableEnds};

@@ -16,7 +16,7 @@ type RoomTables<T, S> = Tables<T, S, 8, 4, 8, 32, 8, 32, 12, 16, 16, 16>;
 
 /// A cam that lifts a slide, and a rope over the slide and a load to a drum.
 pub(crate) const HOIST: &str = include_str!("hoist.toml");
-/// The same in space, about axes across.
+/// A cam and a rope as in [`HOIST`], but in space, about axes across.
 pub(crate) const WINCH: &str = include_str!("winch.toml");
 
 /// Steps of each comparison.

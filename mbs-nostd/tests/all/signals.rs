@@ -188,7 +188,7 @@ signal = "pressed"
 /// Steps of each comparison.
 const STEPS: u32 = 300;
 
-/// What an input is set to before a step.
+/// Value that an input is set to before a step.
 fn input(number: usize, step: u32) -> f64 {
     [0.5, 0.9, -0.2, 1.3][(step / 60) as usize % 4] * if number == 1 { 0.4 } else { 1.0 }
 }

@@ -32,7 +32,7 @@ use std::cell::UnsafeCell;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// What a job does.
+/// Closure that a job runs.
 type Work<'a> = &'a mut (dyn FnMut() + Send);
 
 /// A closure that waits to be run, once.
@@ -50,7 +50,7 @@ pub(super) struct Handle(*const ());
 unsafe impl Send for Handle {}
 
 impl Handle {
-    /// Runs the job.
+    /// Runs the job and marks it done.
     pub(super) fn run(self) {
         // SAFETY: points 1 and 5: the job is alive until `done` is stored, which is the last that happens here.
         let job = unsafe { &*self.0.cast::<Job<'_>>() };

@@ -15,7 +15,7 @@ use mbs_math::team::Team;
 /// A team chosen at run time.
 #[derive(Debug, Clone, Default)]
 pub enum Threads {
-    /// The caller's thread.
+    /// The caller's thread alone.
     #[default]
     One,
     /// Threads that wait for work awake.

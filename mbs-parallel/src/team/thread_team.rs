@@ -34,7 +34,7 @@ pub struct ThreadTeam {
     hands: Arc<Hands>,
 }
 
-/// What all threads of a thread team see.
+/// State that all threads of a thread team share.
 #[derive(Debug)]
 struct Shared {
     forks: ArrayQueue<Handle>,
@@ -44,7 +44,7 @@ struct Shared {
     n_asleep: CachePadded<AtomicUsize>,
 }
 
-/// The other threads.
+/// Threads that help the caller, and what wakes them.
 #[derive(Debug)]
 struct Hands {
     shared: Arc<Shared>,

@@ -15,13 +15,13 @@ use mbs_core::laws::body::{BodyLaw, BodyMotion, MAX_ACTIONS, UnitWrench};
 /// A law on one body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BodyLoad<T: Real, S: Space<T>> {
-    /// The link.
+    /// Number of the link.
     pub link: u32,
     /// The law's point, from the link's origin, reference axes.
     pub point: S::Point,
     /// The law's direction, reference axes.
     pub axis: [T; 3],
-    /// The law.
+    /// Law that acts on the body.
     pub law: BodyLaw<T>,
 }
 
@@ -57,7 +57,7 @@ impl<T: Real, S: Space<T>> BodyLoad<T, S> {
         Ok(actions.iter().enumerate().fold(T::ZERO, |sum, (k, action)| sum + of(k, action)))
     }
 
-    /// What the law does to its link, about the link's origin.
+    /// Returns the wrench of the law on its link, about the link's origin.
     pub(super) fn wrench(&self, at: &Instant<'_, T, S>) -> Result<S::Motion, Outside> {
         let mut actions = [UnitWrench::default(); MAX_ACTIONS];
         let actions = part_mut(&mut actions, 0, self.law.n_actions())?;
@@ -71,7 +71,7 @@ impl<T: Real, S: Space<T>> BodyLoad<T, S> {
         Ok(S::wrench(&arm, &force) + S::motion(moment, S::Point::zero()))
     }
 
-    /// The same where the accelerations `a` of the links are replaced by unknown ones, with what the law adds to the link's inertia.
+    /// Applies the law where the accelerations `a` of the links are replaced by unknown ones, with what the law adds to the link's inertia.
     pub(super) fn apply_ahead(
         &self,
         at: &Instant<'_, T, S>,
@@ -92,7 +92,7 @@ impl<T: Real, S: Space<T>> BodyLoad<T, S> {
         Ok(())
     }
 
-    /// Stored energy [J].
+    /// Returns the energy stored by the law [J].
     pub(super) fn potential(&self, at: &Instant<'_, T, S>) -> Result<T, Outside> {
         self.sum(at, |k, action| self.law.energy(k, &action.measure))
     }

@@ -1,4 +1,4 @@
-//! What loads are evaluated from: places, velocities and inputs of one instant.
+//! Instant at which loads are evaluated: its places, velocities and inputs.
 
 use crate::coupled::{Couplings, Here};
 use crate::indexing::{Outside, at, at_mut};
@@ -8,16 +8,16 @@ use mbs_core::Real;
 use mbs_core::algebra::Vector;
 use mbs_core::laws::LawInputs;
 
-/// What loads are evaluated from.
+/// Mechanism at one instant, as loads are evaluated from it.
 #[derive(Debug, Clone, Copy)]
 pub struct Instant<'a, T: Real, S: Space<T>> {
-    /// The links.
+    /// Links of the tree.
     pub links: &'a [Link<T, S>],
-    /// Where they are.
+    /// Place and motion of each link.
     pub placed: &'a [LinkMotion<T, S>],
-    /// Coordinates, velocities, guides.
+    /// Coordinates, velocities, and guides, in this order.
     pub coordinates: (&'a [T], &'a [T], &'a [[T; 3]]),
-    /// Tables of sums.
+    /// Tables of couplings and sums.
     pub couplings: &'a Couplings<'a, T, S>,
     /// Vectors of the courses, and tables.
     pub law_inputs: LawInputs<'a, T>,
@@ -65,7 +65,7 @@ impl<T: Real, S: Space<T>> Instant<'_, T, S> {
         Ok(())
     }
 
-    /// A link's place.
+    /// Returns place and motion of a link.
     #[inline(always)]
     pub(super) fn placed(&self, link: u32) -> Result<&LinkMotion<T, S>, Outside> {
         at(self.placed, link as usize)
@@ -76,7 +76,7 @@ impl<T: Real, S: Space<T>> Instant<'_, T, S> {
         Ok(S::rotate(&self.placed(link)?.rotation, point))
     }
 
-    /// Where a link's point is [m].
+    /// Returns the place of a link's point, global axes [m].
     pub(super) fn place(&self, link: u32, point: &S::Point) -> Result<S::Point, Outside> {
         Ok(self.placed(link)?.position + self.arm(link, point)? + self.base)
     }

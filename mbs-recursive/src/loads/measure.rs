@@ -1,4 +1,4 @@
-//! What a scalar law measures between two links, with its gradient by their motions.
+//! Numbers that scalar laws measure between two links, with their gradients by the links' motions.
 //!
 //! ```text
 //! length   L = |p₂ − p₁|                       n on p₂, −n on p₁
@@ -15,21 +15,21 @@ use mbs_core::algebra::rotation_gradient;
 use mbs_core::effects::bushing;
 use mbs_core::laws::scalar::{Law, ScalarForce};
 
-/// What a law measures; points from their links' origins, reference axes.
+/// Number that a law measures between two links; points from their links' origins, reference axes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Measure<T: Real, S: Space<T>> {
     /// The distance of two points.
     Length {
-        /// The points.
+        /// Points on the first and the second link.
         points: [S::Point; 2],
     },
     /// The distance of two points along a direction of the first link.
     Along {
-        /// The points.
+        /// Points on the first and the second link.
         points: [S::Point; 2],
         /// The direction, reference axes.
         direction: S::Point,
-        /// What the distance is counted from [m].
+        /// Offset that the distance is counted from [m].
         offset: T,
     },
     /// A component of the rotation vector of the second link in the first, along what was a global axis: below a whole turn, as

@@ -32,23 +32,23 @@ use mbs_core::laws::scalar::Law;
 pub enum Load<T: Real, S: Space<T>> {
     /// A law of what is measured between two links.
     Between {
-        /// The links.
+        /// Numbers of the two links.
         links: [u32; 2],
-        /// What is measured.
+        /// Measure that the law is a function of.
         gauge: Measure<T, S>,
-        /// The law.
+        /// Law of the measured number.
         law: Law<T>,
     },
     /// A law of the coordinate of a link with one freedom.
     Angle {
-        /// The link.
+        /// Number of the link.
         link: u32,
-        /// The law.
+        /// Law of the coordinate.
         law: Law<T>,
     },
     /// A constant force in fixed directions.
     Constant {
-        /// The link.
+        /// Number of the link.
         link: u32,
         /// The point, from the link's origin, reference axes.
         point: S::Point,
@@ -57,20 +57,20 @@ pub enum Load<T: Real, S: Space<T>> {
     },
     /// A force that follows a course.
     Force {
-        /// The link.
+        /// Number of the link.
         link: u32,
         /// The point, from the link's origin, reference axes.
         point: S::Point,
-        /// The course's number.
+        /// Number of the signal that the force follows.
         course: u32,
         /// Does it turn with the body?
         turns: bool,
     },
     /// A torque that follows a course: global axes, in the plane its first component.
     Torque {
-        /// The link.
+        /// Number of the link.
         link: u32,
-        /// The course's number.
+        /// Number of the signal that the torque follows.
         course: u32,
     },
     /// A law on one body.
@@ -134,7 +134,7 @@ impl<T: Real, S: Space<T>> Load<T, S> {
         }
     }
 
-    /// Stored energy [J].
+    /// Returns the energy stored by the load [J].
     ///
     /// # Errors
     /// [`Outside`] if the tables do not fit each other.

@@ -5,12 +5,12 @@ use crate::space::{Numbers, Space};
 use mbs_core::Real;
 use mbs_core::laws::scalar::ScalarForce;
 
-/// How far accelerations reach within a step.
+/// Reach of accelerations to places and rates within a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Reach<T> {
-    /// β h²: what they do to places [s^2].
+    /// Reach of accelerations to places, β h² [s^2].
     pub place: T,
-    /// γ h: what they do to rates [s].
+    /// Reach of accelerations to rates, γ h [s].
     pub speed: T,
 }
 

@@ -26,11 +26,11 @@ pub const IS_BUILT: bool = cfg!(feature = "sums");
 /// A law of a sum.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SumLoad<T> {
-    /// Its terms.
+    /// Terms of the sum.
     pub terms: Span,
     /// The links on which its lines have points.
     pub starts: Span,
-    /// The law.
+    /// Law of the sum.
     pub law: Law<T>,
 }
 
@@ -81,7 +81,7 @@ impl<T: Real> SumLoad<T> {
         Ok(self.law.evaluate(sum, rate, &here.law_inputs))
     }
 
-    /// Adds its forces.
+    /// Adds the forces of the law to links and joints.
     #[inline(never)]
     pub(super) fn apply<S: Space<T>>(
         &self,
@@ -147,7 +147,7 @@ impl<T: Real> SumLoad<T> {
         })
     }
 
-    /// Stored energy [J].
+    /// Returns the energy stored by the law [J].
     pub(super) fn potential<S: Space<T>>(&self, here: &Instant<'_, T, S>) -> Result<T, Outside> {
         Ok(self.law.energy(self.evaluate(here)?.value, &here.law_inputs))
     }

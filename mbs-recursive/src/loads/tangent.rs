@@ -69,7 +69,7 @@ impl<T: Real, S: Space<T>> Load<T, S> {
     }
 }
 
-/// Which of two links hangs from the other by one joint of at most one freedom, with its wrench.
+/// Finds the one of two links that hangs from the other by one joint of at most one freedom, with its wrench.
 fn outer<T: Real, S: Space<T>>(
     here: &Instant<'_, T, S>,
     [first, second]: [u32; 2],

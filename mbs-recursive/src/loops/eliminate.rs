@@ -282,7 +282,7 @@ fn take<T: Real, S: Space<T>>(
     Ok(())
 }
 
-/// The same elimination for l alone.
+/// Eliminates the loops that end at a link once more, for l alone.
 #[inline(always)]
 pub(crate) fn close_again<T: Real, S: Space<T>>(
     m: &Loops<'_, T, S>,

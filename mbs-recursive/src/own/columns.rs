@@ -1,4 +1,4 @@
-//! The columns: which there are, and where they stand at a position.
+//! Columns of the freedoms: which there are, and where they stand at a position.
 
 use super::six::{Moments, Six, V3};
 use crate::indexing::own;
@@ -15,10 +15,10 @@ use core::ops::Range;
 use mbs_core::Real;
 use mbs_core::algebra::Vector;
 
-/// No column.
+/// Number that stands for no column.
 pub(super) const NONE: u32 = u32::MAX;
 
-/// Where the freedoms of a link stand in the own order, and from where they are seen.
+/// Places of a link's freedoms in the own order, and the points from where they are seen.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LinkFreedoms<T: Real> {
     /// First number of those that move; of a joint that does not, anything.
@@ -60,30 +60,30 @@ pub(super) struct ColumnPart<T: Real> {
     pub(super) reference: V3<T>,
 }
 
-/// A column.
+/// Column of a freedom, at a position.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Column<T: Real> {
-    /// Its number in the own order.
+    /// Number of the column in the own order.
     pub(super) number: u32,
     /// The column before it on the way to the ground.
     pub(super) up: u32,
-    /// It about its link's origin.
+    /// Column about its link's origin.
     pub(super) here: Six<T>,
-    /// It about the origin of the first link on the way from the ground.
+    /// Column about the origin of the first link on the way from the ground.
     pub(super) rooted: Six<T>,
 }
 
-/// What the columns of a link need to know of it, side by side.
+/// Numbers of a link that its columns need, side by side.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct OwnLink<T: Real> {
-    /// Its origin from that of the first link on the way from the ground.
+    /// Origin of the link, from that of the first link on the way from the ground.
     pub(super) place: V3<T>,
-    /// Its parent; of a free one the ground.
+    /// Number of the parent; of a free link the ground.
     pub(super) parent: usize,
     pub(super) columns: Range<usize>,
     /// The parts of its joint.
     pub(super) parts: Range<usize>,
-    /// Its tensor about its origin in reference axes: xx, xy, xz, yy, yz, zz.
+    /// Inertia tensor of the link about its origin in reference axes: xx, xy, xz, yy, yz, zz.
     pub(super) tensor: [T; 6],
 }
 
@@ -192,7 +192,8 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
         self.write_columns(&m, s.placed);
     }
 
-    /// The same on the way from a link to the ground alone; `self.way` has it from the ground on.
+    /// Puts the links on the way from a link to the ground alone where a state has them, and their columns; `self.way` has that way from
+    /// the ground on.
     pub(super) fn place_way(
         &mut self,
         model: &TreeModel<T, S>,
@@ -219,7 +220,7 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
         self.write_columns_of(m, 0..self.parts.len(), placed);
     }
 
-    /// The same of some parts.
+    /// Writes the columns of some parts where the links are placed.
     #[inline]
     fn write_columns_of(
         &mut self,

@@ -1,4 +1,4 @@
-//! How efforts change with positions, velocities and accelerations: derivatives of inverse dynamics.
+//! Derivatives of inverse dynamics: how efforts change with positions, velocities and accelerations.
 //!
 //! ```text
 //! for columns j on the way from i to the ground, with the sums of the subtree of i        [Singh, Russo, Wensing 2022 (15)-(18)]
@@ -17,14 +17,14 @@ use crate::state::{TreeState, Workspace};
 use crate::tree::TreeModel;
 use mbs_core::Real;
 
-/// Where derivatives of efforts go, each a square of the freedoms, row by row: a row for each effort.
+/// Derivatives of efforts to be written, each a square of the freedoms, row by row: a row for each effort.
 #[derive(Debug)]
 pub struct EffortSlopes<'a, T> {
-    /// By positions, along the velocities.
+    /// Derivatives by positions, along the velocities.
     pub q: &'a mut [T],
-    /// By velocities.
+    /// Derivatives by velocities.
     pub v: &'a mut [T],
-    /// By accelerations: the mass matrix.
+    /// Derivatives by accelerations: the mass matrix.
     pub a: &'a mut [T],
 }
 
@@ -46,7 +46,7 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
         self.write_effort_slopes_here(model, (workspace, moving), slopes);
     }
 
-    /// The same where the links stand and are accelerated as the scratch has them after
+    /// Writes the derivatives of the efforts where the links stand and are accelerated as the scratch has them after
     /// [`accelerate_under`](TreeModel::accelerate_under).
     ///
     /// # Panics

@@ -28,15 +28,15 @@ use mbs_core::algebra::cross;
 /// A column S with what its motion and that of its parent make of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Moving<T: Real> {
-    /// S.
+    /// Column S itself.
     pub(super) column: Six<T>,
-    /// Ṡ.
+    /// Rate Ṡ of the column with what carries it.
     pub(super) rate: Six<T>,
-    /// Ψ̇.
+    /// Rate Ψ̇ by the motion of what is at rest while the freedom moves.
     pub(super) first: Six<T>,
-    /// Ψ̈.
+    /// Second rate Ψ̈ by the motion of what is at rest while the freedom moves.
     pub(super) second: Six<T>,
-    /// Ṡ + Ψ̇.
+    /// Sum Ṡ + Ψ̇ of both rates.
     pub(super) both: Six<T>,
 }
 
@@ -53,7 +53,7 @@ pub struct MovingColumns<T: Real> {
     pub(super) motions: Vec<Motion<T>>,
     pub(super) columns: Vec<Moving<T>>,
     pub(super) sums: Vec<Sums<T>>,
-    /// What gravity acts on beside the masses.
+    /// Masses m (s − 1) of the subtrees where gravity has a factor s, about the common point.
     pub(super) weights: Vec<Moments<T>>,
     /// The common point, from the tree's base.
     pub(super) origin: V3<T>,

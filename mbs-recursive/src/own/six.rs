@@ -6,7 +6,7 @@ use mbs_core::algebra::{Matrix, Vector, cross};
 
 pub(super) type V3<T> = Vector<T, 3>;
 
-/// a · b.
+/// Returns the inner product a · b.
 #[inline(always)]
 pub(super) fn dot<T: Real>(a: &V3<T>, b: &V3<T>) -> T {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
@@ -33,14 +33,14 @@ impl<T: Real> Six<T> {
         even + odd
     }
 
-    /// v × s: the rate of a motion s that is carried along by the motion v.
+    /// Returns v × s: the rate of a motion s that is carried along by the motion v.
     #[inline(always)]
     pub(super) fn carries(&self, s: &Self) -> Self {
         let push = cross(&self.turn, &s.push) + cross(&self.push, &s.turn);
         Self { turn: cross(&self.turn, &s.turn), push }
     }
 
-    /// v ×* f: the rate of a force f that is carried along by the motion v.
+    /// Returns v ×* f: the rate of a force f that is carried along by the motion v.
     #[inline(always)]
     pub(super) fn carries_force(&self, f: &Self) -> Self {
         let turn = cross(&self.turn, &f.turn) + cross(&self.push, &f.push);
@@ -104,7 +104,7 @@ impl<T: Real> AddAssign for Six<T> {
 pub(super) struct Moments<T: Real> {
     pub(super) mass: T,
     pub(super) first: V3<T>,
-    /// J: xx, xy, xz, yy, yz, zz.
+    /// Inertia tensor J: xx, xy, xz, yy, yz, zz.
     pub(super) second: [T; 6],
 }
 
@@ -113,7 +113,7 @@ impl<T: Real> Moments<T> {
         Self { mass: T::ZERO, first: V3::zeros(), second: [T::ZERO; 6] }
     }
 
-    /// J x.
+    /// Returns the product J x.
     #[inline(always)]
     pub(super) fn turning(&self, x: &V3<T>) -> V3<T> {
         let s = &self.second;

@@ -1,4 +1,4 @@
-//! What a subtree adds up to about a common point: moments, momentum, how its momentum streams, and the force that moves it.
+//! Sums of a subtree about a common point: moments, momentum, how its momentum streams, and the force that moves it.
 //!
 //! ```text
 //! P = Σ m v        N x = Σ m r × (x × v)        f = Σ I a + v ×* I v
@@ -16,9 +16,9 @@ use mbs_core::algebra::{Matrix, cross};
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Sums<T: Real> {
     pub(super) moments: Moments<T>,
-    /// P.
+    /// Momentum P of the subtree.
     momentum: V3<T>,
-    /// N.
+    /// Stream N of the momentum.
     stream: Matrix<T, 3>,
     pub(super) force: Six<T>,
 }
@@ -33,7 +33,7 @@ impl<T: Real> Sums<T> {
         }
     }
 
-    /// Of one body that moves by v and is accelerated by a, all about the point.
+    /// Sums of one body that moves by v and is accelerated by a, all about the point.
     #[inline(always)]
     pub(super) fn body(moments: Moments<T>, v: &Six<T>, a: &Six<T>) -> Self {
         let momentum = moments.times(v);
@@ -58,14 +58,14 @@ impl<T: Real> Sums<T> {
         Self { moments, momentum: momentum.push, stream, force }
     }
 
-    /// 2 B s.
+    /// Returns 2 B s, the change of velocity forces by a motion s.
     #[inline(always)]
     pub(super) fn streams(&self, s: &Six<T>) -> Six<T> {
         let turn = self.stream * s.turn;
         Six { turn: turn * T::TWO, push: cross(&s.turn, &self.momentum) * T::TWO }
     }
 
-    /// 2 Bᵀ s: it acts on turns alone.
+    /// Returns 2 Bᵀ s, which acts on turns alone.
     #[inline(always)]
     pub(super) fn streams_back(&self, s: &Six<T>) -> V3<T> {
         (self.stream.tr_mul(&s.turn) + cross(&self.momentum, &s.push)) * T::TWO

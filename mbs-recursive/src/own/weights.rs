@@ -1,4 +1,4 @@
-//! How the efforts against gravity change with positions where gravity has a factor on some body.
+//! Derivatives by positions of the efforts against gravity, where gravity has a factor on some body.
 //!
 //! ```text
 //! F = m g (s − 1) is what a body at rest of the mass W = m (s − 1) adds where the ground is accelerated by −g:

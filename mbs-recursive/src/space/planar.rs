@@ -4,16 +4,16 @@ use super::Space;
 use mbs_core::Real;
 use mbs_core::algebra::{Matrix, Vector};
 
-/// The plane.
+/// The plane, as the space of a mechanism.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Planar;
 
 /// A symmetric 3×3 map from (ω, v) to (τ, f): [[a, h], [hᵀ, m]].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PlanarInertia<T> {
-    /// Turning block.
+    /// Turning block a.
     pub a: T,
-    /// LoopCoupling.
+    /// Coupling block h.
     pub h: [T; 2],
     /// Moving block xx, xy, yy.
     pub m: [T; 3],
@@ -23,7 +23,7 @@ impl<T: Real> Space<T> for Planar {
     type Point = Vector<T, 2>;
     type Spin = Vector<T, 1>;
     type Motion = Vector<T, 3>;
-    /// Cosine and sine.
+    /// Cosine and sine of the angle.
     type Rotation = [T; 2];
     type Inertia = PlanarInertia<T>;
     type Tensor = T;

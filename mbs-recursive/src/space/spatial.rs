@@ -4,18 +4,18 @@ use super::Space;
 use mbs_core::Real;
 use mbs_core::algebra::{Matrix, Vector, cross, norm};
 
-/// Space.
+/// Space of three dimensions, as that of a mechanism.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Spatial;
 
 /// A symmetric 6×6 map from (ω, v) to (τ, f): [[A, H], [Hᵀ, M]].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SpatialInertia<T> {
-    /// A: xx, xy, xz, yy, yz, zz.
+    /// Turning block A: xx, xy, xz, yy, yz, zz.
     pub a: [T; 6],
-    /// H by rows.
+    /// Coupling block H by rows.
     pub h: [T; 9],
-    /// M: xx, xy, xz, yy, yz, zz.
+    /// Moving block M: xx, xy, xz, yy, yz, zz.
     pub m: [T; 6],
 }
 
@@ -37,7 +37,7 @@ fn symmetric<T: Real>(s: &[T; 6], x: &Vector<T, 3>) -> Vector<T, 3> {
     )
 }
 
-/// H x.
+/// Returns the product H x.
 #[inline(always)]
 fn forward<T: Real>(h: &[T; 9], x: &Vector<T, 3>) -> Vector<T, 3> {
     v3(
@@ -47,7 +47,7 @@ fn forward<T: Real>(h: &[T; 9], x: &Vector<T, 3>) -> Vector<T, 3> {
     )
 }
 
-/// Hᵀ x.
+/// Returns the product Hᵀ x.
 #[inline(always)]
 fn backward<T: Real>(h: &[T; 9], x: &Vector<T, 3>) -> Vector<T, 3> {
     v3(

@@ -8,7 +8,7 @@ use mbs_recursive::space::Space;
 use mbs_recursive::{Planar, Spatial, TreeModel, Workspace};
 use mbs_testkit::{file, start};
 
-/// What is left of the equations, relative to their parts: a few hundred roundings.
+/// Residual of the equations, relative to their parts: a few hundred roundings.
 const ROUNDING: f64 = 1e-12;
 
 /// Two evaluations of accelerations whose loops have the conditioning of random geometry.
@@ -35,7 +35,7 @@ fn check(scene: &Scene<f64>) {
     assert!(apart.iter().all(|&d| d < ROUNDING), "{}: {apart:?}", scene.name);
 }
 
-/// The same for a state that has moved on from random velocities, against the equations of natural coordinates there.
+/// Checks a state that has moved on from random velocities against the equations of natural coordinates there.
 fn wander<S: Space<f64>, const D: usize>(scene: &Scene<f64>, seed: u64) {
     let mut run = Run::<S>::wandering(scene, seed);
     let motions = run.motions(scene.bodies.len());

@@ -9,7 +9,7 @@ use mbs_testkit::{Random, file_in};
 
 /// Step of the central differences: they are off by its square, and rounding of pairs is below.
 const STEP: f64 = 1e-8;
-/// What the derivatives may be off, relative to the largest: rounding of doubles through trees of twenty bodies.
+/// Error of the derivatives, relative to the largest: rounding of doubles through trees of twenty bodies.
 const ROUNDING: f64 = 1e-12;
 
 fn at<T: Real, S: Space<T>>(model: &TreeModel<T, S>, seed: u64) -> TreeState<T> {

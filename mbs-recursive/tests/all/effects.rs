@@ -9,9 +9,9 @@ use mbs_recursive::space::Space;
 use mbs_recursive::{Planar, Spatial};
 use mbs_testkit::effects::{every, with};
 
-/// What is left of the equations, relative to their parts: a few hundred roundings.
+/// Residual of the equations, relative to their parts: a few hundred roundings.
 const ROUNDING: f64 = 1e-12;
-/// The same of the balances of single bodies under forces of order a hundred [N].
+/// Residual of the balances of single bodies under forces of order a hundred [N].
 const BODIES: f64 = 1e-10;
 /// A step so short that its energy is known by its powers at both ends [s].
 const SHORT: f64 = 1e-4;

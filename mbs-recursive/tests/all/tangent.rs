@@ -87,7 +87,7 @@ impl Bench {
         })
     }
 
-    /// What the forces lose for accelerations `x`, by the tangents at (z, v).
+    /// Decrease of the forces by accelerations `x`, from the tangents at (z, v).
     fn resistance(&mut self, reach: Reach<f64>, v: &[f64; 3], x: &[f64; 3]) -> [f64; 3] {
         self.along((&Z, v), |load, at, condensed| {
             load.apply_ahead(at, (reach, &[0.0; 3], &[Motion::zeros(); 4]), condensed)
@@ -104,7 +104,7 @@ impl Bench {
         .map(|f| -f)
     }
 
-    /// The same by central differences of the forces.
+    /// Decrease of the forces by accelerations `x`, from central differences of the forces.
     fn difference(&mut self, reach: Reach<f64>, v: &[f64; 3], x: &[f64; 3]) -> [f64; 3] {
         let h = 1e-6;
         let mut moved = |sign: f64| {
@@ -118,12 +118,12 @@ impl Bench {
     }
 }
 
-/// Directions of acceleration.
+/// Directions of acceleration in joint coordinates.
 const X: [[f64; 3]; 4] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.7, -1.2, 0.4]];
 /// A step of 0.2 s.
 const REACH: Reach<f64> = Reach { place: 0.01, speed: 0.1 };
 
-/// What a spring of this stiffness measures at [`Z`], where it is larger than zero: V = k L² / 2 without free length.
+/// Length that a spring of this stiffness measures at [`Z`], where it is larger than zero: V = k L² / 2 without free length.
 fn at_z(effect: &str, stiffness: f64) -> f64 {
     let mut bench = Bench::new(effect);
     let m = bench.model.mechanism();

@@ -1,4 +1,4 @@
-//! What the page of a comparison draws: lines of points with logarithmic axes.
+//! Diagrams on the page of a comparison: lines of points with logarithmic axes.
 
 use super::captions;
 use super::text::{per_step, reason, seconds, short};
@@ -46,7 +46,7 @@ pub(super) fn looks(comparison: &Comparison) -> Vec<Look> {
 
 type Value = fn(&RunEntry) -> Option<f64>;
 
-/// All diagrams.
+/// Returns all diagrams of a comparison.
 pub(super) fn panels(comparison: &Comparison) -> Vec<Diagram> {
     let error: Value = |run| run.error;
     let step = "mean step [s]";
@@ -157,7 +157,7 @@ fn setting(m: &MethodRuns, run: &RunEntry) -> String {
     }
 }
 
-/// What is said of a run under the cursor.
+/// Returns what is said of a run under the cursor.
 fn tooltip(m: &MethodRuns, run: &RunEntry) -> String {
     let error = run.error.map_or("no error".to_owned(), |e| format!("error {e:.2e}"));
     let below = if run.is_below_reference { " (not resolved by the reference)" } else { "" };

@@ -8,13 +8,13 @@ use mbs_study::compare::results::{Comparison, MethodRuns, RankLevel, RunEntry, S
 /// Most failures of a method that are listed in the terminal. Chosen, not tuned.
 const MOST_SETTINGS: usize = 4;
 
-/// As tables.
+/// Returns the tables of a comparison.
 #[must_use]
 pub fn report(comparison: &Comparison) -> Report {
     Tables(comparison).report()
 }
 
-/// What the tables are of.
+/// Tables of a comparison.
 pub(super) struct Tables<'a>(pub(super) &'a Comparison);
 
 impl Tables<'_> {
@@ -39,7 +39,7 @@ impl Tables<'_> {
         format!("{}: methods compared", self.0.scene)
     }
 
-    /// Why no rank should be trusted, if that is so.
+    /// Returns why no rank should be trusted, if that is so.
     pub(super) fn unverified(&self) -> Option<String> {
         let notes = self.0.notes.join("; ");
         (!self.0.reference.is_verified).then(|| format!("The reference is not verified. {notes}"))
@@ -50,7 +50,7 @@ impl Tables<'_> {
         self.0.ranking.iter().map(Self::level).collect()
     }
 
-    /// What is compared, against what.
+    /// Returns the table of what is compared, against what.
     pub(super) fn basis(&self) -> Section {
         let r = &self.0.reference;
         let [compared, whole] = [self.0.compared, self.0.duration].map(significant);
@@ -175,7 +175,7 @@ impl Tables<'_> {
         (!rows.is_empty()).then(|| Section::new("Failures", &head, rows))
     }
 
-    /// What `auto` chooses.
+    /// Returns the table of what `auto` chooses.
     pub(super) fn choices(&self) -> Option<Section> {
         let time = |x: Option<f64>| x.map_or_else(|| "-".to_owned(), seconds);
         let number = |x: Option<f64>| x.map_or_else(|| "-".to_owned(), |x| format!("{x:.1e}"));
@@ -264,7 +264,7 @@ pub(super) fn reason(run: &RunEntry) -> (String, String) {
     (format!("{}: {}", e.code, e.message), place)
 }
 
-/// Three digits.
+/// Writes a number with three digits.
 pub(super) fn short(x: f64) -> String {
     significant(rounded(x, 3))
 }

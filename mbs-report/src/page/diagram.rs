@@ -3,22 +3,22 @@
 use super::section::DiagramFrame;
 use serde::Serialize;
 
-/// How the lines of one kind look: distinguished by mark and dash as well as by colour.
+/// Look of the lines of one kind: distinguished by mark and dash as well as by colour.
 #[derive(Debug, Default, Serialize)]
 pub(crate) struct Look {
     pub(crate) name: String,
-    /// Colour and mark.
+    /// Number of the colour and mark.
     pub(crate) kind: usize,
     pub(crate) dash: usize,
     /// Are marks filled?
     pub(crate) is_filled: bool,
     pub(crate) is_thin: bool,
     pub(crate) is_shown: bool,
-    /// What a button shows it with.
+    /// Names of the buttons that show the line.
     pub(crate) groups: Vec<&'static str>,
 }
 
-/// A diagram.
+/// Diagram of points and lines over two axes.
 #[derive(Debug, Default, Serialize)]
 pub(crate) struct Diagram {
     pub(crate) title: String,
@@ -27,11 +27,11 @@ pub(crate) struct Diagram {
     #[serde(skip)]
     pub(crate) caption: String,
     pub(crate) lines: Vec<DiagramLine>,
-    /// Horizontal lines: value and name.
+    /// Horizontal lines of the diagram: value and name.
     pub(crate) across: Vec<(f64, &'static str)>,
-    /// Vertical lines: value and name.
+    /// Vertical lines of the diagram: value and name.
     pub(crate) upright: Vec<(f64, &'static str)>,
-    /// What lies on the rail: at the top or at the right.
+    /// Side of the rail: at the top or at the right.
     pub(crate) rail: &'static str,
     /// A line through the points without marks: a histogram.
     pub(crate) is_plain: bool,
@@ -39,7 +39,7 @@ pub(crate) struct Diagram {
     pub(crate) is_scatter: bool,
     /// Are the axes logarithmic, across and up?
     pub(crate) is_log: [bool; 2],
-    /// As wide as the page, with the keys of all lines?
+    /// Is the diagram as wide as the page, with the keys of all lines?
     pub(crate) has_keys: bool,
 }
 
@@ -48,16 +48,16 @@ pub(crate) struct Diagram {
 pub(crate) struct DiagramLine {
     /// Index of its look.
     pub(crate) look: usize,
-    /// Points: x, y, and what is said of them.
+    /// Points of the line: x, y, and what is said of them.
     pub(crate) points: Vec<(f64, f64, String)>,
     /// Runs that stopped: x or y along the rail, and why.
     pub(crate) failed: Vec<(f64, String)>,
-    /// What the legend adds.
+    /// Note that the legend adds.
     pub(crate) note: String,
 }
 
 impl Diagram {
-    /// Where it is drawn, by its number in the pack.
+    /// Returns the frame of the diagram, by its number in the pack.
     pub(crate) fn frame(&self, number: usize) -> DiagramFrame {
         DiagramFrame {
             place: ("diagram", number),

@@ -22,9 +22,9 @@ const NAMED: usize = 3;
 /// The meshes of a motion, and what the reader of a page should know of them.
 #[derive(Debug, Default)]
 pub(super) struct PageMeshes {
-    /// As they are drawn.
+    /// Meshes as they are drawn.
     list: Vec<TriangleMesh>,
-    /// Their numbers by their files.
+    /// Numbers of the meshes by their files.
     by_file: HashMap<String, usize>,
     pub(super) notes: Vec<String>,
 }

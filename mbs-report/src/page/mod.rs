@@ -1,4 +1,4 @@
-//! Pages: one self-contained HTML file each, made of sections; and the pages of runs.
+//! HTML pages: one self-contained file each, made of sections; and the pages of runs.
 //!
 //! Style, scripts and data are inside the file; it opens from disk and asks the network for nothing. Texts and tables are HTML, so a page has
 //! its numbers without scripts.

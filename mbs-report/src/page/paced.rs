@@ -1,4 +1,4 @@
-//! What the page of a run at the pace of the clock has before the motion: margins and the ladder.
+//! Sections of the page of a run at the pace of the clock that stand before the motion: margins and the ladder.
 
 use super::section::PageSection;
 use crate::table::Section;

@@ -24,12 +24,12 @@ pub(crate) struct Pack {
     groups: Vec<[usize; 3]>,
 }
 
-/// Where a column is, and the numbers that it stands for: `low + step * whole`; the whole number 65535 is a gap where it has one.
+/// Place of a column, and the numbers that it stands for: `low + step * whole`. The whole number 65535 is a gap where it has one.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub(crate) struct Column {
     /// Number of its group.
     group: usize,
-    /// Its number in the group.
+    /// Number of the column in the group.
     column: usize,
     low: f64,
     step: f64,

@@ -26,11 +26,11 @@ pub(super) struct Panels {
     most: usize,
     /// Times that lines have in common, and where they are packed.
     shared: Vec<(Vec<f64>, Column)>,
-    /// Where the components of each channel are, by its name.
+    /// Parts that show the components of each channel, by its name.
     parts: BTreeMap<String, Vec<Part>>,
 }
 
-/// Where a component of a channel is drawn: panel and line; of one that stands still, its value.
+/// Place of a component of a channel: panel and line; of one that stands still, its value.
 #[derive(Debug, Clone, Copy, Serialize)]
 #[serde(untagged)]
 enum Part {
@@ -50,7 +50,7 @@ struct Panel {
     range: f64,
     title: String,
     unit: String,
-    /// What is across where it is not time.
+    /// Name of the quantity across where it is not time.
     #[serde(skip_serializing_if = "String::is_empty")]
     across: String,
     log: bool,
@@ -77,22 +77,22 @@ struct Line {
     y: Column,
 }
 
-/// What is drawn over time, or over another column.
+/// Curve that is drawn over time, or over another column.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Curve<'a> {
     pub(super) name: &'a str,
     pub(super) times: &'a [f64],
-    /// What is across, where it is not time.
+    /// Values across, where they are not times.
     pub(super) across: Option<&'a [f64]>,
     pub(super) values: &'a [f64],
 }
 
-/// Which points of a line are drawn.
+/// Choice of the points of a line that are drawn.
 #[derive(Debug, Clone, Copy)]
 enum Thinning {
     /// Peaks of both signs.
     Peaks,
-    /// The upper edge: what a residual falls to between its peaks says nothing.
+    /// Upper edge: the depth of a residual between its peaks says nothing.
     Edge,
 }
 
@@ -334,7 +334,7 @@ impl Panels {
     }
 }
 
-/// Exponents of ten: what a logarithmic axis shows, packed evenly over its decades. What is not positive is a gap.
+/// Returns the exponents of ten that a logarithmic axis shows, packed evenly over its decades. What is not positive is a gap.
 fn logarithms(values: &[f64]) -> Vec<f64> {
     values.iter().map(|x| if *x > 0.0 { x.log10() } else { f64::NAN }).collect()
 }

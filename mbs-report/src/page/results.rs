@@ -187,7 +187,7 @@ pub fn difference_page(
     .html()
 }
 
-/// What is not compared.
+/// Returns notes on what is not compared.
 fn notes(runs: &[(String, ResultTable); 2], found: &Difference) -> Vec<String> {
     let [(a, _), (b, _)] = runs;
     let mut notes = Vec::new();

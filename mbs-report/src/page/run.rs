@@ -27,7 +27,7 @@ const FIGURES: [&str; 5] = [
     "largest energy error",
 ];
 
-/// What the script draws, and the sections that name it.
+/// Pack that the script draws, and the sections that name it.
 struct Drawn {
     pack: String,
     view: Option<PageSection>,
@@ -51,7 +51,7 @@ pub fn page(record: &RunRecord) -> String {
     html(record, Vec::new())
 }
 
-/// The same of a run at the pace of the clock: margins and ladder stand before the motion.
+/// Writes the page of a run at the pace of the clock: margins and ladder stand before the motion.
 #[must_use]
 pub fn paced_page(record: &RunRecord, paced: &RealtimeSummary) -> String {
     html(record, paced::sections(paced))
@@ -103,7 +103,7 @@ fn html(record: &RunRecord, head: Vec<PageSection>) -> String {
     Page { title: record.scene.clone(), sections, pack: Some(drawn.pack) }.html()
 }
 
-/// What is drawn, with half the pictures and points as often as the pack is too large; and how often that was.
+/// Returns what is drawn, with half the pictures and points as often as the pack is too large; and how often that was.
 fn fitting(record: &RunRecord, meshes: &PageMeshes) -> (Drawn, u32) {
     let mut halvings = 0;
     loop {
@@ -142,7 +142,7 @@ fn drawn(record: &RunRecord, meshes: &PageMeshes, [pictures, points]: [usize; 2]
     Drawn { pack, view, plots, health: vec![PageSection::Plots(health)] }
 }
 
-/// What the view shows that is not seen at once.
+/// Returns sentences on what the view shows that is not seen at once.
 fn caption(record: &RunRecord) -> String {
     let motion = record.motion.as_ref();
     let has_traces = motion.is_some_and(|motion| !motion.traces.is_empty());

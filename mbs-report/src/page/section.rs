@@ -22,14 +22,14 @@ const SCRIPTS: [&str; 5] = [
     include_str!("web/plot.js"),
     include_str!("web/main.js"),
 ];
-/// Those of pages with a view.
+/// Scripts of pages with a view.
 const VIEW_SCRIPTS: [&str; 4] = [
     include_str!("web/meshes.js"),
     include_str!("web/shapes.js"),
     include_str!("web/view.js"),
     include_str!("web/lines.js"),
 ];
-/// That of pages with diagrams.
+/// Script of pages with diagrams.
 const DIAGRAM_SCRIPT: &str = include_str!("web/diagram.js");
 
 /// Notes that stand open at the top of a page [-]; more are folded, so that a phone shows the motion soon. Chosen, not tuned.
@@ -39,7 +39,7 @@ const OPEN_NOTES: usize = 3;
 const KEYS: &str =
     "<div class=\"keys\" id=\"keys\"></div><div class=\"controls\" id=\"groups\"></div>";
 
-/// A page: its title, and its sections from top to bottom.
+/// Page: its title, and its sections from top to bottom.
 #[derive(Debug, Default)]
 pub(crate) struct Page {
     pub(crate) title: String,
@@ -48,14 +48,14 @@ pub(crate) struct Page {
     pub(crate) pack: Option<String>,
 }
 
-/// A section. Texts and tables are HTML without scripts; the view and the plots are drawn from the page's pack.
+/// Section of a page. Texts and tables are HTML without scripts; the view and the plots are drawn from the page's pack.
 #[derive(Debug)]
 pub(crate) enum PageSection {
-    /// Why there is less than was asked for.
+    /// Reason why there is less than was asked for.
     Error(String),
-    /// What the reader should know.
+    /// Notes for the reader.
     Notes(Vec<String>),
-    /// Key numbers: label and value.
+    /// Key numbers of the page: label and value.
     Cards(Vec<[String; 2]>),
     /// The motion in three dimensions, with a sentence below it.
     View(String),
@@ -65,7 +65,7 @@ pub(crate) enum PageSection {
     Keys,
     /// Diagrams of the page's pack.
     Diagrams(Vec<DiagramFrame>),
-    /// A titled table.
+    /// Table with a title.
     Table(Section),
     /// A table whose rows open.
     Rows(OpenRows),
@@ -77,20 +77,20 @@ pub(crate) enum PageSection {
     Text(String),
 }
 
-/// What a plot has beside its lines.
+/// Frame of a plot: what it has beside its lines.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct PlotFrame {
-    /// Its number among the panels of the pack.
+    /// Number of the plot among the panels of the pack.
     pub(crate) panel: usize,
     pub(crate) title: String,
     pub(crate) unit: String,
     pub(crate) caption: String,
 }
 
-/// What a diagram has beside its points.
+/// Frame of a diagram: what it has beside its points.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct DiagramFrame {
-    /// Its kind, and its number among those of the kind in the pack: `diagram` or `map`.
+    /// Kind of the diagram, and its number among those of the kind in the pack: `diagram` or `map`.
     pub(crate) place: (&'static str, usize),
     pub(crate) title: String,
     pub(crate) caption: String,

@@ -248,7 +248,8 @@ fn a_page_of_noise_stays_below_four_megabytes_and_says_what_it_left_out() {
     assert!(html.contains("run.csv has all rows"));
 }
 
-/// How far the rear wheels are from the drawn road at a time, negative where tires are pressed in [m], and the time of the picture [s].
+/// Gaps between the rear wheels and the drawn road at a time [m], and the time of the picture [s].
+/// Gaps are negative where tires are pressed in.
 fn rear_gaps(motion: &serde_json::Value, groups: &Groups, t: f64) -> ([f64; 2], f64) {
     let times = numbers(&motion["times"], groups);
     let apart = |i: &usize| (times[*i] - t).abs();

@@ -1,4 +1,4 @@
-//! Text in HTML: templates with marks, and characters that have a meaning there.
+//! Texts in HTML: templates with marks, and characters that have a meaning there.
 
 /// Puts parts in the places of their marks, which stand in this order. One pass, so that what they contain is never taken for a
 /// mark.

@@ -49,7 +49,7 @@ pub(super) fn text(bodies: usize, command: &str) -> String {
     text::text(COMMENT, command, &scene)
 }
 
-/// Where a link ends [m]; the chain begins at the origin.
+/// End of a link [m]; the chain begins at the origin.
 fn place(k: usize) -> [f64; 3] {
     let part = LINKS[..k % LINKS.len()].iter();
     let offset = part.fold([0.0; 2], |at, link| [at[0] + link[1], at[1] + link[2]]);

@@ -52,7 +52,7 @@ pub(super) fn text(
     Ok(headed(COMMENT, command, &out))
 }
 
-/// What the vehicles share: the scene's own keys, the road, the solver.
+/// Writes what the vehicles share: the scene's own keys, the road, the solver.
 fn header(out: &mut String, vehicle: &SceneFile, name: &str) {
     for table in ["scene", "road", "solver"] {
         let Some(Item { node: Node::Table(members), .. }) = vehicle.top(table) else { continue };

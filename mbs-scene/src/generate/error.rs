@@ -1,4 +1,4 @@
-//! What can be wrong with a scene that is asked for.
+//! Faults of a scene that is asked for.
 
 /// A scene that cannot be generated.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -6,9 +6,9 @@
 pub enum GenerateError {
     /// Nothing to make, or not enough of it to move.
     TooFew {
-        /// How many were asked for.
+        /// Number that was asked for.
         given: usize,
-        /// How many there must be.
+        /// Least number that there must be.
         least: usize,
     },
     /// More bodies than a memory holds.
@@ -20,14 +20,14 @@ pub enum GenerateError {
     },
     /// The distance between vehicles is no positive number [m].
     Spacing(f64),
-    /// What should be a vehicle is no scene that can be read; reading it says why.
+    /// The vehicle is no scene that can be read; reading it says why.
     NoScene,
-    /// What should be a vehicle has no tire.
+    /// The vehicle has no tire.
     NoTires,
 }
 
 impl GenerateError {
-    /// What to do.
+    /// Hint that says what to do.
     #[must_use]
     pub fn hint(&self) -> &'static str {
         match self {

@@ -23,17 +23,17 @@ pub const MOST_BODIES: usize = 10_000_000;
 pub enum Family<'a> {
     /// A spatial chain of links hung at one end and let go from the horizontal: revolute, universal and spherical joints in this order.
     Chain {
-        /// Links; at least 1.
+        /// Number of links; at least 1.
         bodies: usize,
     },
     /// A binary tree of bars with spatial revolute joints, each generation lighter and shorter.
     Tree {
-        /// Bars; at least 1. One less than a power of two fills its generations.
+        /// Number of bars; at least 1. One less than a power of two fills its generations.
         bodies: usize,
     },
     /// Planar four-bar linkages side by side, as in `scenes/n-four-bar-40.toml`.
     FourBars {
-        /// Linkages; at least 1. There is one body more than twice as many.
+        /// Number of linkages; at least 1. There is one body more than twice as many.
         loops: usize,
     },
     /// A rope net of rods joined by balls, hung at its four corners.
@@ -47,7 +47,7 @@ pub enum Family<'a> {
     Convoy {
         /// The scene of one vehicle; it must have a tire.
         vehicle: &'a SceneFile,
-        /// Vehicles; at least 1.
+        /// Number of vehicles; at least 1.
         count: usize,
         /// Distance from one to the next [m].
         spacing: f64,

@@ -1,4 +1,4 @@
-//! What the families of scenes share: a scene that grows, its numbers, and the comment at the head of its text.
+//! Parts that the families of scenes share: a scene that grows, its numbers, and the comment at the head of its text.
 
 use mbs_core::scene::{Dimension, Number, Output, Scene, SolverTable, Vector3};
 
@@ -48,7 +48,7 @@ pub fn number(x: f64) -> Number {
     (rounded + 0.0).into()
 }
 
-/// Such numbers.
+/// Vector of numbers of 15 digits.
 pub(super) fn vector<const N: usize>(x: [f64; N]) -> [Number; N] {
     x.map(number)
 }

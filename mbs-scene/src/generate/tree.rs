@@ -19,7 +19,7 @@ trunk is a square bar of 2 kg and 0.6 m; each generation is lighter by the facto
 starts with 0.5 rad/s; the rest follows with the least kinetic energy. No loops, one freedom for each bar; the energy is
 kept.";
 
-/// Where a bar hangs, where it ends, and the direction of its joint's axis.
+/// Bar of the tree: where it hangs, where it ends, and the direction of its joint's axis.
 struct Bar {
     from: [f64; 3],
     to: [f64; 3],

@@ -1,4 +1,4 @@
-//! `[[body]]`.
+//! Keys of the table `[[body]]`.
 
 use super::table::{KeyTable, inside, listed, may, need};
 use super::value::KeyValue;

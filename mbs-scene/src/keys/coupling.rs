@@ -110,7 +110,7 @@ fn gear() -> KeyTable {
     listed("coupling", meaning, keys)
 }
 
-/// Where teeth touch.
+/// Keys of the place where teeth touch.
 fn mesh() -> [Key; 2] {
     [
         may(
@@ -155,7 +155,7 @@ fn screw() -> KeyTable {
     )
 }
 
-/// How a table of a curve goes between its rows.
+/// Ways in which the table of a curve is interpolated between its rows.
 pub(super) const CURVE_WAYS: [&str; 3] = ["spline", "monotone", "linear"];
 
 /// A curve of a number: a table or a polynomial.
@@ -225,7 +225,7 @@ fn linear() -> KeyTable {
     )
 }
 
-/// What a sum or a signal measures, with the angles of a ball that it takes.
+/// Keys of what a sum or a signal measures, with the angles of a ball that it takes.
 pub(super) fn measure(of_ball: &str) -> Vec<Key> {
     vec![
         may("joint", Of(Referent::Joint), "", "needed without `points`", "A joint."),

@@ -58,7 +58,7 @@ fn table(name: &'static str, row: &'static Row) -> KeyTable {
     KeyTable { header: "effect", kind, standing: Standing::Listed, meaning, law, keys, example }
 }
 
-/// What a kind acts on.
+/// Meaning of a kind: what it acts on.
 fn meaning(row: &Row) -> &'static str {
     match row.fields.first().map(|field| field.form) {
         Some(Form::Bodies) => "Between two bodies.",
@@ -69,7 +69,7 @@ fn meaning(row: &Row) -> &'static str {
     }
 }
 
-/// What holds where a key is not written; `None`: it must be.
+/// Words for what holds where a key is not written; `None`: it must be.
 fn default(default: Default) -> Option<String> {
     match default {
         Default::Needed => None,

@@ -5,14 +5,14 @@
 pub struct Example {
     /// The scene into which it is put.
     pub base: Base,
-    /// The text.
+    /// Text of the example.
     pub text: &'static str,
 }
 
 /// The scene of an example.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Base {
-    /// None: the example is whole.
+    /// No base, since the example is whole.
     Whole,
     /// A planar scene with the bodies `arm`, `wheel` and `cart`, and the joints `pivot`, `hub` and `rail`.
     Planar,

@@ -1,4 +1,4 @@
-//! `[[frame]]`.
+//! Keys of the table `[[frame]]`.
 
 use super::table::{KeyTable, listed, may, need};
 use super::value::KeyValue::{Name, Of, Place, Vectors};

@@ -56,7 +56,7 @@ fn initial() -> Vec<KeyTable> {
     vec![of_joint, of_body]
 }
 
-/// How a table goes between its rows, by words of which the first holds where none is written.
+/// Key for the interpolation of a table between its rows, by words of which the first holds where none is written.
 pub(super) fn interpolation(words: Vec<&'static str>) -> Key {
     let default = words[0];
     let meaning = "Between the rows; `monotone` stays between the values of the neighbouring rows.";

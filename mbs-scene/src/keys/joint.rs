@@ -43,7 +43,7 @@ fn table(kind: JointKind) -> KeyTable {
     }
 }
 
-/// Its axes, in the scenes in which it has them.
+/// Keys of the axes of a kind of joint, in the scenes in which it has them.
 fn axes(kind: JointKind) -> Vec<Key> {
     let mut keys = Vec::new();
     for dimension in [Dimension::Planar, Dimension::Spatial] {
@@ -97,7 +97,7 @@ fn axis(kind: JointKind, dimension: Dimension) -> &'static str {
     }
 }
 
-/// What a joint is meant to keep to. Kinds with one coordinate take it; others are refused with their place.
+/// Keys of the limits that a joint is meant to keep. Kinds with one coordinate take it; others are refused with their place.
 fn limits(kind: JointKind) -> Vec<Key> {
     let has_one = [Dimension::Planar, Dimension::Spatial]
         .into_iter()

@@ -34,7 +34,7 @@ pub use value::{KeyValue, Referent};
 use mbs_core::outputs::TargetKind;
 use std::sync::LazyLock;
 
-/// See [`tables`].
+/// All tables, made once; see [`tables`].
 static TABLES: LazyLock<Vec<KeyTable>> = LazyLock::new(|| {
     let mut tables = [
         scene::tables(),
@@ -69,7 +69,7 @@ pub fn of(header: &str) -> &'static [KeyTable] {
     together(&TABLES, |table| table.header == header)
 }
 
-/// Those of a kind among the tables of a header.
+/// The tables of a kind, among the tables of a header.
 pub fn of_kind(tables: &'static [KeyTable], kind: &str) -> &'static [KeyTable] {
     together(tables, |table| table.kind == Some(kind))
 }

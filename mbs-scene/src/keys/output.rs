@@ -5,7 +5,7 @@ use super::value::KeyValue::{Flag, Name, Of, OfOr, Place, Vector, Word};
 use super::value::Referent;
 use mbs_core::outputs::{QUANTITIES, TargetKind, VehicleSide};
 
-/// What `as` says of an orientation: the word, and the quantity that it means.
+/// Words of `as` for an orientation, each with the quantity that it means.
 pub(crate) const FORMS: [(&str, &str); 3] = [
     ("quaternion", ORIENTATION),
     ("matrix", "rotation-matrix"),
@@ -22,7 +22,7 @@ pub(crate) const OWN_BODY: &str = "body";
 /// The word for angles in degrees.
 pub(crate) const DEGREES: &str = "deg";
 
-/// What outputs are of.
+/// Kinds of targets that outputs have.
 pub(super) const TARGETS: [TargetKind; 11] = [
     TargetKind::Point,
     TargetKind::RelativePoint,
@@ -130,7 +130,7 @@ fn owner(key: &'static str) -> Key {
     }
 }
 
-/// What a target is.
+/// Meaning of a target, as a sentence.
 const fn meaning(target: TargetKind) -> &'static str {
     match target {
         TargetKind::Point => "A channel of a point of a body.",

@@ -1,4 +1,4 @@
-//! `[[rolling]]`.
+//! Keys of the table `[[rolling]]`.
 
 use super::table::{KeyTable, inside, kinds, listed, may, name_or, need};
 use super::value::KeyValue::{Number, Of, Place, Vector};

@@ -81,7 +81,7 @@ const INTEGRATORS: [&str; 9] =
 const STEP_CONTROLS: [&str; 6] =
     ["fixed", "energy", "energy-printed", "error", "both", "energy-published"];
 
-/// `[solver]`.
+/// Keys of the table `[solver]`.
 pub(super) fn solver() -> Vec<KeyTable> {
     let keys = [methods(), steps()].concat();
     vec![once("solver", "Method and steps. The command line overrides each key.", keys)]

@@ -1,4 +1,4 @@
-//! `[[shape]]`.
+//! Keys of the table `[[shape]]`.
 
 use super::table::{Key, KeyTable, inside, listed, may, need};
 use super::value::KeyValue;

@@ -1,4 +1,4 @@
-//! `[[signal]]`.
+//! Keys of the table `[[signal]]`.
 
 use super::coupling::{CURVE_WAYS, curve, measure};
 use super::guide::interpolation;
@@ -47,7 +47,7 @@ fn one() -> Key {
     need("of", Of(Referent::Signal), "", "The signal.")
 }
 
-/// Functions of time.
+/// Kinds of signals that are functions of time.
 fn functions() -> [(&'static str, KeyTable); 4] {
     let wave = || {
         vec![
@@ -70,7 +70,7 @@ fn functions() -> [(&'static str, KeyTable); 4] {
     ]
 }
 
-/// What is made of other signals.
+/// Kinds of signals that are made of other signals.
 fn of_signals() -> [(&'static str, KeyTable); 5] {
     let several = || need("of", Some(Referent::Signal), "", "The signals.");
     let factors = may("factors", SomeNumbers, "", "ones", "A factor for each.");

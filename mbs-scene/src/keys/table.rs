@@ -7,60 +7,60 @@ use mbs_core::scene::Dimension;
 /// One key of a table.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Key {
-    /// As it is written.
+    /// Name of the key, as it is written.
     pub name: &'static str,
-    /// What stands there.
+    /// Form of the value at the key.
     pub value: KeyValue,
-    /// SI unit; empty: none.
+    /// SI unit of the value; empty: none.
     pub unit: &'static str,
     /// Must it be written?
     pub is_needed: bool,
-    /// What holds where it is not written, or when it must be; empty: nothing.
+    /// Default where the key is not written, or the case in which it must be; empty: nothing.
     pub default: String,
     /// The scenes that have it; `None`: all.
     pub dimension: Option<Dimension>,
-    /// One sentence.
+    /// Meaning of the key, in one sentence.
     pub meaning: String,
 }
 
-/// Where a table stands in a file.
+/// Standing of a table in a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Standing {
     /// Once in a file: `[scene]`.
     Once,
-    /// In a list: `[[body]]`.
+    /// In a list of tables: `[[body]]`.
     Listed,
-    /// As the value of a key: `rod = { ... }`.
+    /// Inside another table, as the value of a key: `rod = { ... }`.
     Inside,
 }
 
 /// A table of a file, of one kind.
 #[derive(Debug, Clone, PartialEq)]
 pub struct KeyTable {
-    /// Its name.
+    /// Name of the table.
     pub header: &'static str,
     /// The word at its key `kind`; `None`: it has no kinds.
     pub kind: Option<&'static str>,
-    /// Where it stands.
+    /// Standing of the table in a file.
     pub standing: Standing,
-    /// What it is, in one or a few sentences.
+    /// Meaning of the table, in one or a few sentences.
     pub meaning: String,
     /// The law of an effect, and its range; empty: it has none.
     pub law: &'static str,
-    /// Its keys, in the order in which they are explained.
+    /// Keys of the table, in the order in which they are explained.
     pub keys: Vec<Key>,
-    /// An example; `None` where that of another table shows it.
+    /// Example of the table; `None` where that of another table shows it.
     pub example: Option<Example>,
 }
 
 impl KeyTable {
-    /// Its key of that name.
+    /// Returns the key of that name.
     #[must_use]
     pub fn key(&self, name: &str) -> Option<&Key> {
         self.keys.iter().find(|key| key.name == name)
     }
 
-    /// As it stands in a file: `[scene]`, `[[body]]`; one that stands inside others has its name alone.
+    /// Title of the table, as it stands in a file: `[scene]`, `[[body]]`; one that stands inside others has its name alone.
     #[must_use]
     pub fn title(&self) -> String {
         match self.standing {
@@ -94,12 +94,12 @@ pub(super) fn may(
 }
 
 impl Key {
-    /// The same in spatial scenes alone.
+    /// Returns the key for spatial scenes alone.
     pub(super) fn in_space(self) -> Self {
         Self { dimension: Some(Dimension::Spatial), ..self }
     }
 
-    /// The same in planar scenes alone.
+    /// Returns the key for planar scenes alone.
     pub(super) fn in_the_plane(self) -> Self {
         Self { dimension: Some(Dimension::Planar), ..self }
     }

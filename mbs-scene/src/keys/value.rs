@@ -1,9 +1,9 @@
-//! What stands at a key.
+//! Forms of the values at keys.
 
 /// The header of a table whose rows stand in a file.
 pub(crate) const TABLE_FILE: &str = "table file";
 
-/// What stands at a key.
+/// Form of the value at a key.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum KeyValue {
@@ -19,7 +19,7 @@ pub enum KeyValue {
     NumberOr(Vec<&'static str>),
     /// A whole number from 1.
     Count,
-    /// So many whole numbers from 1.
+    /// Whole numbers from 1, a fixed count of them.
     Counts(usize),
     /// True or false.
     Flag,
@@ -29,39 +29,39 @@ pub enum KeyValue {
     Coordinate,
     /// A direction, or another vector that is no place: numbers for the scene's dimension.
     Vector,
-    /// So many of them.
+    /// Vectors, a fixed count of them.
     Vectors(usize),
     /// One number, or a vector.
     NumberOrVector,
     /// A place in the reference configuration.
     Place,
-    /// So many of them.
+    /// Places, a fixed count of them.
     Places(usize),
     /// Places, as many as there are.
     SomePlaces,
-    /// So many numbers.
+    /// Numbers, a fixed count of them.
     Numbers(usize),
     /// Numbers, one or more; one alone may stand without brackets.
     SomeNumbers,
     /// Rows of numbers.
     Rows,
-    /// The same, or columns of a file.
+    /// Rows of numbers, or columns of a file.
     RowsOrFile,
     /// The name of a part of the scene.
     Of(Referent),
-    /// The same, or one of these words.
+    /// The name of a part of the scene, or one of these words.
     OfOr(Referent, Vec<&'static str>),
-    /// The names of so many of them.
+    /// The names of parts of the scene, a fixed count of them.
     Several(Referent, usize),
-    /// The names of one or more of them.
+    /// The names of one or more parts of the scene.
     Some(Referent),
-    /// One name, or a list of them.
+    /// One name of a part of the scene, or a list of names.
     OneOrSome(Referent),
     /// A table of that header.
     Table(&'static str),
     /// A list of tables of that header.
     Tables(&'static str),
-    /// One of them, or a list.
+    /// A table of that header, or a list of such tables.
     TableOrTables(&'static str),
     /// Two places, or a list of tables of that header.
     PlacesOrTables(&'static str),
@@ -69,11 +69,11 @@ pub enum KeyValue {
     Parameters,
     /// A path to a number of a scene.
     Path,
-    /// One of them, or a list.
+    /// A path to a number of a scene, or a list of paths.
     PathOrPaths,
 }
 
-/// What a name refers to.
+/// Part of a scene to which a name refers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Referent {
     /// A body, or `"ground"`.
@@ -84,7 +84,7 @@ pub enum Referent {
     Joint,
     /// A coupling.
     Coupling,
-    /// What rolls.
+    /// An entry `[[rolling]]`.
     Rolling,
     /// A signal.
     Signal,
@@ -95,7 +95,7 @@ pub enum Referent {
 }
 
 impl Referent {
-    /// Its name in sentences.
+    /// Name of the part in sentences.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -111,7 +111,7 @@ impl Referent {
 }
 
 impl KeyValue {
-    /// What to write, in a few words.
+    /// Form of the value to write, in a few words.
     #[must_use]
     pub fn form(&self) -> String {
         let words = |words: &[&str]| {

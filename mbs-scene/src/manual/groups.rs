@@ -17,7 +17,7 @@ pub fn groups() -> Vec<&'static [KeyTable]> {
     groups
 }
 
-/// The same tables, those of one kind together.
+/// Returns the tables of a group, those of one kind together.
 pub fn entries(group: &'static [KeyTable]) -> Vec<&'static [KeyTable]> {
     let mut entries: Vec<&'static [KeyTable]> = Vec::new();
     let mut rest = group;

@@ -1,4 +1,4 @@
-//! What `mbs kinds` prints: the list of tables and kinds, and the page of one.
+//! Pages that `mbs kinds` prints: the list of tables and kinds, and the page of one.
 
 use super::groups::{entries, first_sentence, groups};
 use crate::keys::{Key, KeyTable};

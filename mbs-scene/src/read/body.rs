@@ -1,4 +1,4 @@
-//! `[[body]]`.
+//! Reads the table `[[body]]`.
 
 use crate::read::fields::{Fields, Read};
 use mbs_core::scene::{Body, Inertia, Number};

@@ -42,7 +42,7 @@ fn inner(texts: &mut Texts, item: &mut Item) -> Read<()> {
     }
 }
 
-/// What a scene says of a table in a file.
+/// Table in a file, as a scene names it.
 struct TableFile {
     file: (String, Span),
     columns: Vec<(String, Span)>,
@@ -163,7 +163,7 @@ fn rows(texts: &Texts, table: &TableFile, start: usize) -> Read<Vec<Item>> {
     Ok(rows)
 }
 
-/// What separates the cells of a file with this first row.
+/// Character that separates the cells of a file with this first row.
 fn separator(head: &str) -> char {
     [';', '\t'].into_iter().find(|&c| head.contains(c)).unwrap_or(',')
 }

@@ -28,7 +28,7 @@ use mbs_core::scene::{
 /// Most teeth of a wheel [-]. Chosen, not tuned: more is no count.
 const MAX_TEETH: u32 = 1_000_000;
 
-/// What is read of a kind: the terms, what their sum is, and what drives it.
+/// Sum that a kind becomes: its terms, its value, and the motion that drives it.
 type Sum = (Vec<CouplingTerm<Number>>, Number, Option<Motion<Number>>);
 
 /// Reads a coupling; without a name it is called `coupling-N`, counted from 1.
@@ -128,7 +128,7 @@ fn is_internal(fields: &Fields<'_>) -> Read<bool> {
 /// The pressure angle of teeth that name none [rad]: 20 degrees, that of standard teeth (ISO 53).
 const PRESSURE_ANGLE: &str = "0.34906585039886591538473815369772254270";
 
-/// Where teeth touch; `None`: nothing is said of it.
+/// Reads where teeth touch; `None`: nothing is said of it.
 fn read_mesh(fields: &Fields<'_>) -> Read<Option<Mesh<Number>>> {
     if fields.get("at").is_none() && fields.get("pressure_angle").is_none() {
         return Ok(None);
@@ -144,7 +144,7 @@ pub(crate) fn one() -> Number {
     Number::from(1.0)
 }
 
-/// The same digits with the other sign.
+/// Number with the same digits and the other sign.
 fn minus(x: Number) -> Number {
     let text = x.text();
     let text = text.strip_prefix('-').map_or_else(|| format!("-{text}"), str::to_owned);
@@ -188,7 +188,7 @@ fn teeth<'a>(context: &Context<'a>, item: &'a Item) -> Read<[Number; 2]> {
     Ok(teeth)
 }
 
-/// Wheels in mesh: by teeth or radii with the sense of the mesh, or by a ratio.
+/// Terms of wheels in mesh: by teeth or radii with the sense of the mesh, or by a ratio.
 fn gear<'a>(fields: &Fields<'a>, joints: &'a [Joint<Number>]) -> Read<Vec<CouplingTerm<Number>>> {
     for [one, other] in
         [["teeth", "radii"], ["teeth", "ratio"], ["radii", "ratio"], ["mesh", "ratio"]]
@@ -361,7 +361,7 @@ pub(crate) fn ball_angle<'a>(
     Ok(BallAngle::ALL.into_iter().find(|angle| has_ball && angle.name() == word))
 }
 
-/// The same as a term, with its joint and its axis.
+/// Term of the angle of a ball, with its joint and its axis; `None`: `coordinate` names another coordinate.
 pub(crate) fn ball_term<'a>(
     fields: &Fields<'a>,
     joints: &'a [Joint<Number>],
@@ -383,7 +383,7 @@ pub(crate) fn read_terms<'a>(
     list.iter().map(|item| read_term(fields, item, joints)).collect()
 }
 
-/// A term: a coordinate of a joint, or the length over points; a curve of it.
+/// Reads a term of a sum: a coordinate of a joint, or the length over points; a curve of it.
 fn read_term<'a>(
     fields: &Fields<'a>,
     item: &'a Item,
@@ -398,7 +398,7 @@ fn read_term<'a>(
     Ok(CouplingTerm { factor: term.number_or("factor", "1")?, of, curve: table::of_curve(&term)? })
 }
 
-/// What `points`, or `joint` with `coordinate`, measure.
+/// Reads the measure that `points`, or `joint` with `coordinate`, give.
 pub(crate) fn read_measure<'a>(
     fields: &Fields<'a>,
     joints: &'a [Joint<Number>],

@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 pub struct SceneFile {
     pub(super) texts: Texts,
     pub(super) root: Vec<Member>,
-    /// Where the files lie that it may include; `None`: it may not.
+    /// Folder of the files that the scene may include; `None`: it may include none.
     pub(super) folder: Option<PathBuf>,
 }
 
@@ -28,7 +28,7 @@ impl SceneFile {
         Self::parsed(text, file, None)
     }
 
-    /// The same of a text that lies in a folder, with the files that it includes.
+    /// Reads the text of a scene file that lies in a folder, with the files that it includes; see [`Self::parse`].
     ///
     /// # Errors
     /// As [`Self::parse`], and those of the included files.

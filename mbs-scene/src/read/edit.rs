@@ -108,7 +108,7 @@ fn folder_of(path: &Path) -> &Path {
     path.parent().unwrap_or(Path::new(""))
 }
 
-/// What changes in a text.
+/// Changes of a text, with the tail that is added at its end.
 struct Changes<'a> {
     text: &'a str,
     edits: Vec<(Span, String)>,

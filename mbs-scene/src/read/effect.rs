@@ -157,7 +157,7 @@ fn first_form(row: usize) -> Option<Form> {
     EFFECTS[row].fields.first().map(|field| field.form)
 }
 
-/// What holds where the key of field `i` is left out.
+/// Value of field `i` where its key is left out.
 fn default(
     fields: &Fields<'_>,
     (all, written): (&'static [Field], &[Option<Value<Number>>]),

@@ -1,4 +1,4 @@
-//! What can be wrong with a scene file.
+//! Faults of a scene file, with their messages and hints.
 
 use crate::read::coupling::{joint_to_add, no_carrier};
 use crate::read::nearest::{listing, nearest_name};
@@ -6,7 +6,7 @@ use crate::read::{Place, SweepFault, units};
 use core::fmt::{self, Display, Formatter};
 use mbs_core::scene::{Entry, SceneError, SceneFault, SignalBreak};
 
-/// What is read, or why not.
+/// Result of a reader: the value, or the error.
 pub(crate) type Read<T> = Result<T, ReadError>;
 
 /// A refused scene file: the fault, its place, and what to do.
@@ -22,12 +22,12 @@ struct Parts {
     included: Vec<String>,
 }
 
-/// What is wrong with an expression or an included file, and what to do.
+/// Fault of an expression or an included file: what is wrong, and what to do.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ExpressionFault {
-    /// What is wrong.
+    /// Message that says what is wrong.
     pub message: String,
-    /// What to do.
+    /// Hint that says what to do.
     pub hint: String,
 }
 
@@ -37,16 +37,16 @@ pub struct ExpressionFault {
 pub enum ReadFault {
     /// The file cannot be read.
     Unreadable {
-        /// What the system says.
+        /// Message of the system.
         problem: String,
     },
     /// The file is not UTF-8 text.
     NotUtf8,
     /// The file is not TOML, or not JSON.
     Syntax {
-        /// `TOML` or `JSON`.
+        /// Format of the file: `TOML` or `JSON`.
         format: &'static str,
-        /// The parser's message.
+        /// Message of the parser.
         message: String,
         /// The line it speaks about.
         line: String,
@@ -106,23 +106,23 @@ pub enum ReadFault {
     },
     /// Signals that are made of one another in a circle, by their names.
     SignalCircle {
-        /// The names; each needs the next, the last the first.
+        /// Names of the signals; each needs the next, the last the first.
         names: Vec<String>,
     },
     /// A signal that is not smooth, where a guide or a coupling needs it.
     SignalNotSmooth {
-        /// Its name.
+        /// Name of the signal.
         name: String,
-        /// Where it is not smooth.
+        /// Break of the signal: where it is not smooth.
         broken: SignalBreak,
-        /// What makes it smooth.
+        /// Advice on what makes the signal smooth.
         remedy: &'static str,
     },
-    /// What a point mass does not have, or where it is not.
+    /// A point mass that is given an orientation, or a place that it is not at.
     OfPoint {
-        /// Its name.
+        /// Name of the point mass.
         name: String,
-        /// [`SceneFault::PointTurns`] or [`SceneFault::OffPoint`].
+        /// Fault of the scene: [`SceneFault::PointTurns`] or [`SceneFault::OffPoint`].
         fault: SceneFault,
     },
     /// No body carries both parts of a drawn coupling.
@@ -138,9 +138,9 @@ pub enum ReadFault {
     NoOwnBody,
     /// A value of another type.
     WrongType {
-        /// What is needed.
+        /// Description of the value that is needed.
         expected: &'static str,
-        /// What is there.
+        /// Description of the value that is there.
         found: &'static str,
     },
     /// An expression that has no value.
@@ -151,30 +151,30 @@ pub enum ReadFault {
     Model(ExpressionFault),
     /// A number with a unit of other dimensions than the key's.
     OtherUnit {
-        /// The key.
+        /// Key at which the number stands.
         key: &'static str,
-        /// Its unit.
+        /// Unit of the key; empty: none.
         unit: &'static str,
         /// The text as written.
         text: String,
-        /// What it is.
+        /// Description of the quantity that is written.
         found: String,
     },
     /// A place has neither two nor three numbers.
     NoPlace {
-        /// How many it has.
+        /// Count of the numbers that are there.
         found: usize,
     },
     /// A guided body that is a joint.
     GuidedJoint {
-        /// Its name.
+        /// Name of the joint.
         name: String,
     },
     /// The count of numbers or entries in a list is wrong.
     WrongCount {
-        /// How many are needed.
+        /// Count that is needed.
         needed: usize,
-        /// How many are there.
+        /// Count that is there.
         found: usize,
     },
     /// A number that is infinite, not a number, or beyond the precision of the run.
@@ -184,12 +184,12 @@ pub enum ReadFault {
     },
     /// A number that must be larger than zero.
     NotPositive {
-        /// The number.
+        /// Number that is not larger than zero.
         number: f64,
     },
     /// A point with the name of another.
     SamePoint {
-        /// The name.
+        /// Name that both points have.
         name: String,
         /// The first of that name, from 0.
         first: usize,
@@ -200,9 +200,9 @@ pub enum ReadFault {
     AxesNotParallel,
     /// A joint that has not one coordinate of the kind that a coupling takes.
     NotOneOf {
-        /// What is needed.
+        /// Description of the coordinate that is needed.
         needed: &'static str,
-        /// The names of its coordinates.
+        /// The names of the coordinates of the joint.
         known: Vec<&'static str>,
     },
     /// A number that does not count anything.
@@ -214,12 +214,12 @@ pub enum ReadFault {
     },
     /// A key or table that must be there.
     Missing {
-        /// The key.
+        /// Key that is missing.
         key: &'static str,
     },
     /// Two keys that exclude each other.
     Both {
-        /// The keys.
+        /// Keys of which one may stand.
         keys: [&'static str; 2],
     },
     /// The scene is read, but cannot be meant.
@@ -233,7 +233,7 @@ impl ReadError {
         Self(Box::new(Parts { file: file.to_owned(), place, fault, included: Vec::new() }))
     }
 
-    /// The same in a file that others include.
+    /// Adds the lines for the files that include this one.
     pub(crate) fn included(mut self, by: Vec<String>) -> Self {
         self.0.included = by;
         self
@@ -265,13 +265,13 @@ impl ReadError {
         &self.0.place
     }
 
-    /// What is wrong.
+    /// Fault of the file.
     #[must_use]
     pub fn fault(&self) -> &ReadFault {
         &self.0.fault
     }
 
-    /// What to do about it, and where the file is included, where it is.
+    /// Hint that says what to do about the fault, and where the file is included, where it is.
     #[must_use]
     pub fn hint(&self) -> String {
         let included = self.0.included.iter().map(String::as_str);
@@ -280,7 +280,7 @@ impl ReadError {
         lines.join("\n")
     }
 
-    /// `file:line:column: message`, the line with a caret, and `hint: ...`; ends with a line end.
+    /// Renders the error as `file:line:column: message`, the line with a caret, and `hint: ...`; ends with a line end.
     #[must_use]
     pub fn render(&self) -> String {
         self.0.place.render(&self.0.file, &self.0.fault.to_string(), &self.hint())
@@ -359,7 +359,7 @@ impl Display for ReadFault {
     }
 }
 
-/// What cannot be meant of a scene that is read.
+/// Writes the fault of a scene that is read but cannot be meant.
 fn of_scene(error: &SceneError, f: &mut Formatter<'_>) -> fmt::Result {
     let SceneError { entry, field, fault } = error;
     match fault {
@@ -373,9 +373,9 @@ fn of_scene(error: &SceneError, f: &mut Formatter<'_>) -> fmt::Result {
     }
 }
 
-/// What an output without an owner lacks.
+/// Keys that name the owner of an output, as the message about a missing owner has them.
 pub(crate) const OWNER: &str = "joint, body, coupling, rolling, effect or signal";
-/// What a term or a measure needs of a joint with several coordinates.
+/// Coordinate, as a message has it, that a term or a measure needs of a joint with several coordinates.
 pub(crate) const NAMED: &str = "coordinate, by its name,";
 const OF_WHOM: &str = "add `joint = \"...\"` for its value, rate or reaction, `body = \"...\"` with `at = [...]` for the position, velocity or \
                        acceleration of a point, or the `coupling`, `rolling`, `effect` or `signal`; the energy, momentum and center-of-mass are of the scene";
@@ -383,7 +383,7 @@ const INERTIA: &str = "add `inertia`, about the centre of mass [kg m^2]: one num
                        to a body has zeros; instead of `center` and `inertia`, a point mass has `point = [...]`, and a slender rod \
                        `rod = { from = [...], to = [...] }`";
 
-/// What to do about a line that is no TOML.
+/// Hint for a line that is no TOML.
 fn hint_of_toml(message: &str, line: &str) -> String {
     let is_header = message.contains("duplicate key") && line.trim_start().starts_with('[');
     match units::of_line(line) {
@@ -403,7 +403,7 @@ fn hint_of_json(line: &str) -> String {
     units::of_json(line).unwrap_or_else(usual)
 }
 
-/// What is wrong with the axes of two joints.
+/// Message about the axes of two joints.
 const NOT_PARALLEL: &str =
     "the axes of the two joints are not parallel in the reference configuration";
 

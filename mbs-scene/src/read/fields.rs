@@ -10,7 +10,7 @@ use crate::read::tree::{self, Item, Member, Node, Span};
 use crate::read::values::Values;
 use mbs_core::scene::{BallAngle, BodyId, Dimension, Freedom, Joint, JointId, Number, SignalId};
 
-/// What the readers of all entries share.
+/// Context that the readers of all entries share.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Context<'a> {
     pub(crate) texts: &'a Texts,
@@ -37,7 +37,7 @@ pub(crate) struct Frames<'a> {
 }
 
 impl<'a> Frames<'a> {
-    /// What stands at a key of the frame of that name.
+    /// Item at a key of the frame of that name.
     fn value(&self, name: &str, key: &str) -> Option<&'a Item> {
         self.items.get(self.names.place(name)?)?.get(key)
     }
@@ -54,7 +54,7 @@ pub(crate) struct Fields<'a> {
 }
 
 impl<'a> Context<'a> {
-    /// That of a file whose tables refer to nothing in it; `none` are no names.
+    /// Context of a file whose tables refer to nothing in it; `none` are no names.
     pub(crate) fn of_file(texts: &'a Texts, values: &'a Values<'a>, none: &'a Names) -> Self {
         let (bodies, joints, signals) = (none, none, none);
         let frames = Frames { names: none, items: &[] };
@@ -303,7 +303,7 @@ impl<'a> Fields<'a> {
         self.context.fault(&member.key_span, fault)
     }
 
-    /// At most one of two keys.
+    /// Refuses a table with both of two keys.
     pub(crate) fn exclusive(&self, one: &'static str, other: &'static str) -> Read<()> {
         match (self.get(one), self.get(other)) {
             (Some(_), Some(item)) => {

@@ -83,7 +83,7 @@ impl SceneFile {
     }
 }
 
-/// How many guides an entry makes.
+/// Number of guides that an entry makes.
 fn n_guides(entry: &Item) -> usize {
     match entry.get("signals") {
         Some(Item { node: Node::List(signals), .. }) => signals.len(),

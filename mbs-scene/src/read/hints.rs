@@ -9,7 +9,7 @@ pub struct Hint {
     pub among: &'static str,
     /// The words, in small letters and with hyphens.
     pub words: &'static [&'static str],
-    /// What to do; empty: write `among` instead.
+    /// Advice on what to do; empty: write `among` instead.
     hint: &'static str,
 }
 

@@ -50,13 +50,13 @@ struct Includes<'a> {
     chain: Vec<PathBuf>,
 }
 
-/// One `[[include]]`.
+/// An entry `[[include]]` of a file.
 struct Include {
     file: String,
     file_span: Span,
     prefix: String,
     set: Vec<Member>,
-    /// The whole entry.
+    /// Bytes of the whole entry.
     span: Span,
 }
 
@@ -89,7 +89,7 @@ impl Includes<'_> {
         self.fault(span, ReadFault::Include(ExpressionFault { message, hint }))
     }
 
-    /// What the entries say.
+    /// Reads the entries of the list.
     fn entries(&self, list: &Item) -> Read<Vec<Include>> {
         let values = Values::none(self.texts);
         let names = Names::default();
@@ -233,7 +233,7 @@ impl Includes<'_> {
     }
 }
 
-/// Why a file cannot be read, in words.
+/// Returns in words why a file cannot be read.
 pub(super) fn plain(error: &std::io::Error) -> String {
     match error.kind() {
         std::io::ErrorKind::NotFound => "there is no such file".to_owned(),
@@ -249,7 +249,7 @@ fn name_of(path: &Path) -> String {
 /// A tree into which parts of included files are put.
 struct Merge {
     root: Vec<Member>,
-    /// How many parts of files were put into each list.
+    /// Number of parts of files that were put into each list.
     before: HashMap<String, usize>,
 }
 

@@ -1,4 +1,4 @@
-//! `[[joint]]`.
+//! Reads the table `[[joint]]`.
 
 use crate::read::ReadFault;
 use crate::read::fields::{Fields, Read};

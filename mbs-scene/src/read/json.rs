@@ -8,7 +8,7 @@ use serde_json::value::RawValue;
 /// Most lists and tables within each other [-]: a slip, or an attack. Chosen, not tuned.
 const MAX_DEPTH: usize = 64;
 
-/// What is wrong, and where.
+/// Message of a syntax error, and its place.
 type Fault = (String, Span);
 
 /// The tree of a whole file, or the message and place of its first syntax error.
@@ -77,7 +77,7 @@ impl<'a> Reader<'a> {
         Ok(members)
     }
 
-    /// Where a part of the text begins.
+    /// Byte at which a part of the text begins.
     fn start(&self, part: &str) -> usize {
         (part.as_ptr() as usize).saturating_sub(self.text.as_ptr() as usize)
     }

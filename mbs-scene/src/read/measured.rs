@@ -29,7 +29,7 @@ impl<'a> Fields<'a> {
 }
 
 impl<'a> Context<'a> {
-    /// The same for a coordinate of a kind of joint: `rad or m` is then one of them.
+    /// Context for a coordinate of a kind of joint: `rad or m` is then one of them.
     pub(crate) fn about(&self, kind: JointKind, number: usize) -> Self {
         let freedoms = kind.freedoms(self.dimension);
         let mut units =
@@ -37,12 +37,12 @@ impl<'a> Context<'a> {
         Self { is_slide: units.nth(number).map(|unit| unit == "m"), ..*self }
     }
 
-    /// The same for numbers of another unit.
+    /// Context for numbers of another unit.
     pub(crate) fn of_unit(&self, key: &'static str, unit: &'static str) -> Self {
         Self { unit: Some((key, unit)), ..*self }
     }
 
-    /// The same for entry `i` of `n`, where the unit of a list names those of its parts: `N/m and N m/rad`.
+    /// Context for entry `i` of `n`, where the unit of a list names those of its parts: `N/m and N m/rad`.
     pub(crate) fn entry(&self, i: usize, n: usize) -> Self {
         let Some((key, unit)) = self.unit else { return *self };
         let parts: Vec<_> = unit.split(", ").flat_map(|part| part.split(" and ")).collect();
@@ -92,7 +92,7 @@ impl<'a> Context<'a> {
         entries.map(|(i, entry)| self.about(kind, i).number(entry)).collect()
     }
 
-    /// Exactly `N` numbers.
+    /// Reads exactly `N` numbers.
     pub(crate) fn numbers_of<const N: usize>(
         &self,
         item: &'a Item,

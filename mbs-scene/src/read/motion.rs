@@ -1,4 +1,4 @@
-//! `[[initial]]` and `[[guide]]`.
+//! Reads the tables `[[initial]]` and `[[guide]]`.
 
 use crate::read::ReadFault;
 use crate::read::fields::{Fields, Read};
@@ -40,7 +40,7 @@ fn point_velocity(fields: &Fields<'_>) -> Read<Option<([Number; 3], [Number; 3])
     Ok(Some((fields.vector("at")?, fields.vector("velocity")?)))
 }
 
-/// Planar: one number, about z. Spatial: a vector in global axes.
+/// Angular velocity: in the plane one number, about z; in space a vector in global axes.
 fn angular_velocity(fields: &Fields<'_>) -> Read<Option<[Number; 3]>> {
     if fields.context.is_planar() {
         let about_z = fields.optional("angular_velocity")?;

@@ -25,17 +25,17 @@ pub(super) struct Named<'a> {
     places: HashMap<&'a str, &'a Item>,
     numbers: RefCell<HashMap<String, DoubleDouble>>,
     points: RefCell<HashMap<String, Point>>,
-    /// Those that need the one at hand.
+    /// Names that need the one at hand.
     chain: RefCell<Vec<String>>,
     /// Parameters that an expression has needed.
     used: RefCell<HashSet<String>>,
 }
 
-/// What gives the value of a name.
+/// Reason why a name has no value.
 pub(super) enum Missing {
-    /// There is none: message and hint.
+    /// Name that gives no value: message and hint.
     Unknown([String; 2]),
-    /// It is refused at its own place.
+    /// Value of the name that is refused at its own place.
     Refused(ReadError),
 }
 
@@ -194,7 +194,7 @@ impl<'a> Named<'a> {
         spare.into_iter().map(|member| member.key.clone()).collect()
     }
 
-    /// What to say of a name without a value.
+    /// Message and hint for a name without a value.
     fn unknown(&self, name: &str, full: &[String], span: &Span) -> [String; 2] {
         if full.iter().any(|full| self.places.contains_key(full.as_str())) {
             return [format!("`{name}` is a point"), format!("write `{name}.x`, or another axis")];

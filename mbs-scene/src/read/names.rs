@@ -6,7 +6,7 @@ use std::collections::HashMap;
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Names {
     list: Vec<String>,
-    /// Where each name stands first.
+    /// Position at which each name stands first.
     first: HashMap<String, usize>,
 }
 
@@ -24,7 +24,7 @@ impl Names {
         &self.list
     }
 
-    /// Where a name stands first.
+    /// Position at which a name stands first.
     pub(crate) fn place(&self, name: &str) -> Option<usize> {
         self.first.get(name).copied()
     }

@@ -45,7 +45,7 @@ fn distance(a: &[char], b: &[char]) -> usize {
     previous[b.len()]
 }
 
-/// What to say about a word that is not in a list: the nearest, or all.
+/// Hint for a word that is not in a list: the nearest name, or all.
 #[must_use]
 pub fn nearest_name<S: AsRef<str>>(found: &str, known: &[S], what: &str) -> String {
     if let Some(hint) = hints::of_word(found, known) {

@@ -1,4 +1,4 @@
-//! `[[output]]` and `[solver]`.
+//! Reads the tables `[[output]]` and `[solver]`.
 
 use crate::keys::{DEGREES, FORMS, GLOBAL, ORIENTATION, OWN_BODY, of_target};
 use crate::read::ReadFault;
@@ -89,7 +89,7 @@ fn frame(fields: &Fields<'_>, item: &Item, quantity: &Quantity<Number>) -> Read<
     }
 }
 
-/// What an output is of.
+/// Target of the output: what it is of.
 fn target(
     fields: &Fields<'_>,
     kind: TargetKind,

@@ -6,7 +6,7 @@ use core::ops::Range;
 /// A place in a scene file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Place {
-    /// Line, from 1.
+    /// Number of the line, from 1.
     pub line: usize,
     /// Column in characters, from 1.
     pub column: usize,
@@ -37,7 +37,7 @@ impl Place {
         }
     }
 
-    /// `file:line:column: message`, the line with carets under the offending text, and the hint.
+    /// Renders a message: `file:line:column: message`, the line with carets under the offending text, and the hint.
     #[must_use]
     pub fn render(&self, file: &str, message: &str, hint: &str) -> String {
         let Self { column, width, text, .. } = &self.shortened();
@@ -55,7 +55,7 @@ impl Place {
         out
     }
 
-    /// The same for a screen: without control characters, and long lines cut to what surrounds the offending text.
+    /// Returns the place for a screen: without control characters, and long lines cut to what surrounds the offending text.
     fn shortened(&self) -> Self {
         /// Most letters of a line that is shown: the width of a terminal.
         const MAX_WIDTH: usize = 120;

@@ -15,7 +15,7 @@ pub(super) struct Point {
     pub(super) n: usize,
 }
 
-/// What gives the values of names.
+/// Source of the values of names.
 pub(super) trait Given {
     fn texts(&self) -> &Texts;
     /// The length of an expression that stands there.
@@ -99,7 +99,7 @@ fn from(given: &dyn Given, item: &Item) -> Read<Point> {
     Ok(point)
 }
 
-/// From one place to another.
+/// Vector from one place to another.
 pub(super) fn between(
     texts: &Texts,
     [from, to]: [&[Number; 3]; 2],
@@ -117,7 +117,7 @@ fn sum(texts: &Texts, a: DoubleDouble, b: DoubleDouble, span: &Span) -> Read<Num
     rounded(texts, a + b, ("the sum", span))
 }
 
-/// The same decimal text with the other sign; zero keeps it.
+/// Number with the same digits and the other sign; zero keeps it.
 fn negative(number: &Number) -> Number {
     if number.is_zero() {
         return number.clone();
@@ -130,7 +130,7 @@ fn negative(number: &Number) -> Number {
     Number::from_decimal(&negative).unwrap_or_else(|| Number::from(-number.to_f64()))
 }
 
-/// What points to say of one that is not there.
+/// Fault of a point that is not there.
 pub(super) fn unknown<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> ReadFault {
     let mut known: Vec<String> = known.map(str::to_owned).collect();
     known.sort_unstable();

@@ -49,7 +49,7 @@ fn features(context: &Context<'_>, item: &Item) -> Read<Vec<RoadFeature<Number>>
         .collect()
 }
 
-/// One feature.
+/// Reads one feature of a road.
 fn feature(fields: &Fields<'_>) -> Read<RoadFeature<Number>> {
     let (kind, fields) = &fields.kind()?;
     Ok(match *kind {

@@ -81,7 +81,7 @@ fn kind<'a>(
     })
 }
 
-/// Those that follow the motion or have a state.
+/// Reads the kinds of signals that follow the motion or have a state.
 fn feedback<'a>(
     fields: &Fields<'a>,
     word: &str,

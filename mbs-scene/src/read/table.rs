@@ -123,7 +123,7 @@ pub(crate) fn of_curve(fields: &Fields<'_>) -> Read<Option<Curve<Number>>> {
     }))
 }
 
-/// Heights through points.
+/// Reads a feature whose heights are given by points.
 pub(crate) fn of_road(fields: &Fields<'_>) -> Read<RoadFeature<Number>> {
     let form = ["a list of points [x, z]", "a point [x, z]"];
     let points = rows((fields.at("points"), fields), "points", form)?;

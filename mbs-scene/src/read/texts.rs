@@ -8,28 +8,28 @@ use std::path::PathBuf;
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Texts(Vec<Text>);
 
-/// One of them.
+/// One of the texts of a scene.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Text {
-    /// As messages name it.
+    /// Name of the text in messages.
     pub(crate) name: String,
     pub(crate) text: String,
-    /// Where its bytes begin.
+    /// First byte of the text, counted through all texts.
     pub(crate) start: usize,
-    /// What stands before the names of its parts.
+    /// Prefix of the names of the text's parts.
     pub(crate) prefix: String,
-    /// The table that includes it.
+    /// Bytes of the table that includes the text.
     pub(crate) by: Option<Span>,
     /// Is it a file, not a value from a command line?
     pub(crate) is_file: bool,
     /// Has it the rows of a table, in columns?
     pub(crate) is_table: bool,
-    /// Where paths in it begin; `None`: the working directory.
+    /// Folder in which paths of the text begin; `None`: the working directory.
     pub(crate) folder: Option<PathBuf>,
 }
 
 impl Texts {
-    /// A text alone.
+    /// Returns the texts that consist of one text alone.
     pub(crate) fn new(name: &str, text: &str, folder: Option<PathBuf>) -> Self {
         let mut texts = Self::default();
         texts.add(Text {
@@ -42,7 +42,7 @@ impl Texts {
         texts
     }
 
-    /// Adds a text; gives the byte at which it begins.
+    /// Adds a text and returns the byte at which it begins.
     pub(crate) fn add(&mut self, text: Text) -> usize {
         // one byte between two texts: the end of one is not the begin of the next
         let start = self.0.last().map_or(0, |last| last.start + last.text.len() + 1);
@@ -93,7 +93,7 @@ impl Texts {
         core::iter::successors(Some(self.of(span)), outer)
     }
 
-    /// What stands at a span, as it is written.
+    /// Text at a span, as it is written.
     pub(crate) fn written(&self, span: &Span) -> Option<&str> {
         let text = self.of(span);
         text.text.get(span.start.checked_sub(text.start)?..span.end.checked_sub(text.start)?)

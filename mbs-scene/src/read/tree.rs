@@ -13,7 +13,7 @@ pub(crate) struct Item {
     pub(crate) node: Node,
 }
 
-/// A value.
+/// Value of an item, as it is written.
 #[derive(Debug, Clone)]
 pub(crate) enum Node {
     Text(String),
@@ -73,7 +73,7 @@ impl Item {
 }
 
 impl Node {
-    /// What it is, for messages.
+    /// Description of the value, for messages.
     pub(crate) fn description(&self) -> &'static str {
         match self {
             Self::Text(_) => "a text",

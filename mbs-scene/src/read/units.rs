@@ -20,7 +20,7 @@ fn quantity(text: &str) -> Option<(&str, &str)> {
     Some((number, rest.trim()))
 }
 
-/// What to write instead of a number with a unit.
+/// Hint that says what to write instead of a number with a unit.
 pub fn hint(text: &str) -> Option<String> {
     let (number, unit) = quantity(text)?;
     let plain = number.replace('_', "");
@@ -38,13 +38,13 @@ pub fn hint(text: &str) -> Option<String> {
     Some(format!("write {si}, in SI units, or \"{with_unit}\" in quotes"))
 }
 
-/// What to do about a line that is not TOML because a number in it has a unit.
+/// Hint for a line that is not TOML because a number in it has a unit.
 pub fn of_line(line: &str) -> Option<String> {
     let (_, value) = line.split_once('=')?;
     of_value(value.split('#').next()?)
 }
 
-/// The same in JSON.
+/// Hint for a line that is not JSON because a number in it has a unit.
 pub fn of_json(line: &str) -> Option<String> {
     of_value(line.split_once(':')?.1)
 }

@@ -24,12 +24,12 @@ impl core::fmt::Debug for Values<'_> {
 }
 
 impl<'a> Values<'a> {
-    /// None.
+    /// Returns the values of no names.
     pub(crate) fn none(texts: &'a Texts) -> Self {
         Self(Named::new(texts, &[], &[]))
     }
 
-    /// Those of a tree, each evaluated once.
+    /// Returns the values of a tree's names, each evaluated once.
     pub(crate) fn new(texts: &'a Texts, root: &'a [Member]) -> Read<Self> {
         let parameters = match tree::find(root, "parameters") {
             None => &[],

@@ -3,9 +3,9 @@
 /// A scene to begin from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Template {
-    /// Its name: that of the file without its ending.
+    /// Name of the template: that of the file without its ending.
     pub name: &'static str,
-    /// Its text.
+    /// Text of the scene file.
     pub text: &'static str,
 }
 
@@ -28,7 +28,7 @@ templates![
 ];
 
 impl Template {
-    /// What it is: the first sentence of its first comment.
+    /// Meaning of the template: the first sentence of its first comment.
     #[must_use]
     pub fn meaning(&self) -> &'static str {
         let line = self.text.lines().next().unwrap_or_default().trim_start_matches(['#', ' ']);

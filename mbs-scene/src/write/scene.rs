@@ -221,7 +221,7 @@ fn curve(keys: &mut Keys, curve: &Curve<Number>) {
     }
 }
 
-/// What the entries refer to.
+/// Writer of entries, with the scene to which they refer.
 #[derive(Clone, Copy)]
 struct Writer<'a> {
     scene: &'a Scene<Number>,

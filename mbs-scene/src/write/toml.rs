@@ -58,7 +58,7 @@ pub(crate) fn value(item: &Item) -> String {
     }
 }
 
-/// Values in brackets.
+/// Writes values in brackets.
 pub(crate) fn list(values: &[String]) -> String {
     format!("[{}]", values.join(", "))
 }

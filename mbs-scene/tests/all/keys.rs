@@ -1,4 +1,4 @@
-//! What the tables of keys say of each other, and of what the readers take.
+//! Tables of keys against each other, and against what the readers take.
 
 use mbs_scene::inside::keys::{of, of_kind};
 use mbs_scene::keys::{Base, Example, KeyTable, KeyValue, Standing, tables};

@@ -1,4 +1,4 @@
-//! Names in quotes.
+//! Names in quotes, with escapes where they need them.
 
 use mbs_scene::quoted;
 

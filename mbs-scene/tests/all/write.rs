@@ -1,4 +1,4 @@
-//! What is written reads back as the same scene, to all digits of every precision.
+//! Written scenes read back as the same scene, to all digits of every precision.
 
 use mbs_core::Real;
 use mbs_core::outputs::QUANTITIES;

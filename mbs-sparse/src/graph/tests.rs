@@ -31,7 +31,7 @@ impl Orders {
     }
 }
 
-/// xorshift64*, below `n`.
+/// Draws a number below `n`, by xorshift64*.
 fn draw(state: &mut u64, n: usize) -> usize {
     *state ^= *state >> 12;
     *state ^= *state << 25;

@@ -1,4 +1,4 @@
-//! What is not positive definite is named, never solved: the error carries the unknown and its pivot.
+//! Matrices that are not positive definite are named, never solved: the error carries the unknown and its pivot.
 
 use crate::common::Sum;
 use mbs_sparse::{FactorError, Multifrontal, Options, Pivoting, SpdSolver};

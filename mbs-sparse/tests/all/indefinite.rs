@@ -10,7 +10,7 @@ use proptest::prelude::*;
 
 /// Residuals of a stable factorisation, relative to |T| |x|: rounding times growth, with room for 100 unknowns.
 const BACKWARD: f64 = 1e-12;
-/// The same in single precision.
+/// Residuals of a stable factorisation in single precision, relative to |T| |x|.
 const BACKWARD_F32: f64 = 5e-4;
 /// Components of a null vector, from a pivot of some units of rounding.
 const NULL: f64 = 1e-10;

@@ -6,7 +6,7 @@ use proptest::prelude::*;
 
 /// Solutions agree to this many times the largest entry: condition below 1e3 times eps, with room for 100 unknowns.
 const AGREE: f64 = 1e-11;
-/// The same in single precision.
+/// Solutions in single precision agree to this many times the largest entry.
 const AGREE_F32: f64 = 2e-3;
 
 fn right_hand_side(n: usize) -> Vec<f64> {

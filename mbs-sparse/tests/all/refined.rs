@@ -28,7 +28,7 @@ impl Stiff {
         Self { masses, rows, penalty }
     }
 
-    /// The same sum with other names of the unknowns, and its elements in another order.
+    /// Returns the same sum with other names of the unknowns, and its elements in another order.
     fn renamed(&self, names: &[u32]) -> Self {
         let rename = |clique: &Vec<u32>| clique.iter().map(|&u| names[u as usize]).collect();
         let mut masses = self.masses.clone();
@@ -129,7 +129,7 @@ fn known(n: usize) -> Vec<Pair> {
     (0..n).map(|_| Pair::from_f64(random.next()) / Pair::from_f64(3.0)).collect()
 }
 
-/// What a backward stable solution in pairs may be off by: condition times epsilon, with room for the size of the sum.
+/// Error allowed of a backward stable solution in pairs: condition times epsilon, with room for the size of the sum.
 fn bound(penalty: f64) -> f64 {
     100.0 * penalty * Pair::EPSILON.to_f64()
 }

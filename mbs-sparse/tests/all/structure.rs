@@ -1,5 +1,5 @@
-//! What the analysis promises: an order that is a permutation, pivots that belong to it, fill and fronts that grow
-//! with the size of the model and no faster.
+//! Promises of the analysis: an order that is a permutation, and pivots that belong to it. Fill and fronts grow with the size of the model and no
+//! faster.
 
 use crate::common::{Random, Sum};
 use mbs_sparse::{Counters, Multifrontal, Options, Pivoting, SpdSolver};

@@ -52,7 +52,7 @@ impl<T: Real> Elimination<T> {
         }
     }
 
-    /// How good the pivots of the last factorisation are; NaN counts as zero.
+    /// Returns the quality of the pivots of the last factorisation; NaN counts as zero.
     #[must_use]
     pub fn pivots(&self) -> Pivots<T> {
         let mut found = Pivots { smallest: T::ONE, row: 0, decay: T::ONE };

@@ -23,21 +23,21 @@ use pattern::index;
 pub use order::Order;
 pub use pattern::Pattern;
 
-/// How good the pivots are, sized as in the matrix with rows of unit length and scaled columns.
+/// Quality of the pivots, sized as in the matrix with rows of unit length and scaled columns.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pivots<T> {
-    /// The smallest pivot.
+    /// Size of the smallest pivot.
     pub smallest: T,
-    /// Its row.
+    /// Row of the smallest pivot.
     pub row: u32,
     /// The smallest ratio of a pivot to itself at the last choice.
     pub decay: T,
 }
 
-/// What [`Elimination::select_pivots`] found.
+/// Result of the choice by [`Elimination::select_pivots`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PivotSelection<T> {
-    /// The rank r.
+    /// Rank r of the matrix.
     pub rank: usize,
     /// The last pivot accepted: its row and its size in the scaled matrix.
     pub last: (u32, T),
@@ -54,7 +54,7 @@ pub struct Elimination<T> {
     rows: Vec<u32>,
     /// Dependent columns in the order of elimination, then the independent ones, ascending.
     unknowns: Vec<u32>,
-    /// Where each column stands in `unknowns`.
+    /// Place of each column in `unknowns`.
     places: Vec<u32>,
     /// L without its unit diagonal, row by row; columns by place.
     lower: Triangle<T>,
@@ -133,7 +133,7 @@ impl<T: Real> Elimination<T> {
         new
     }
 
-    /// The pattern.
+    /// Pattern of the matrices.
     #[must_use]
     pub fn pattern(&self) -> &Pattern {
         &self.pattern
@@ -163,7 +163,7 @@ impl<T: Real> Elimination<T> {
     pub fn independent(&self) -> &[u32] {
         &self.unknowns[self.rank..]
     }
-    /// Where a column stands: `k < r` is the k-th dependent one, `r + i` the i-th independent one.
+    /// Place of a column: `k < r` is the k-th dependent one, `r + i` the i-th independent one.
     #[inline]
     #[must_use]
     pub fn place(&self, column: usize) -> usize {

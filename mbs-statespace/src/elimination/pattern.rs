@@ -7,7 +7,7 @@ use alloc::vec::Vec;
 pub struct Pattern {
     /// Number of columns n.
     pub n_columns: usize,
-    /// Where each row starts in `columns`, and the end of the last one: m + 1 places.
+    /// Starts of the rows in `columns`, and the end of the last row: m + 1 places.
     pub starts: Vec<u32>,
     /// The columns of the entries, distinct within a row.
     pub columns: Vec<u32>,
@@ -28,7 +28,7 @@ impl Pattern {
     }
 }
 
-/// Counts fit u32: more than 4e9 entries do not fit a memory.
+/// Returns a count as u32, which it fits: more than 4e9 entries do not fit a memory.
 pub(super) fn index(i: usize) -> u32 {
     u32::try_from(i).unwrap_or(u32::MAX)
 }

@@ -60,7 +60,7 @@ impl<T: Real> Elimination<T> {
         self.note_order();
     }
 
-    /// D: rows of D J E have unit length; rows of zeros are left.
+    /// Scales the rows by D: rows of D J E have unit length; rows of zeros are left.
     fn scale_rows(&mut self, values: &[T]) {
         for (r, scale) in self.row_scales.iter_mut().enumerate() {
             let square = self.pattern.row(r).fold(T::ZERO, |sum, t| {

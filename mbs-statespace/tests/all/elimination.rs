@@ -5,7 +5,7 @@ use mbs_statespace::elimination::{Elimination, Pattern};
 /// Rounding of some ten operations on numbers of order one, with pivots of 0.3 or more.
 const ROUNDING: f64 = 1e-12;
 
-/// The same numbers in [-1, 1] on every machine (xorshift64*).
+/// Pseudorandom numbers in [-1, 1], the same on every machine (xorshift64*).
 struct Random(u64);
 
 impl Random {

@@ -1,4 +1,4 @@
-//! What must not change a motion: the choice of independent columns, axes, precision; and what must hold at every step.
+//! Changes that leave a motion as it is: the choice of independent columns, axes, precision; and what must hold at every step.
 
 use crate::common::Bench;
 use mbs_core::model::Model;

@@ -4,17 +4,17 @@ use crate::settings::SettingsError;
 use core::fmt::{self, Display, Formatter};
 use std::io;
 
-/// Why.
+/// Reason why a checkpoint cannot be resumed.
 #[derive(Debug)]
 #[non_exhaustive]
 pub enum CheckpointError {
-    /// It cannot be read.
+    /// The file cannot be read.
     Io(io::Error),
-    /// Another process keeps a run in the directory.
+    /// A directory in which another process keeps a run.
     Busy,
     /// The file is something else.
     NotACheckpoint,
-    /// Another version of mbs has written it: this one.
+    /// A checkpoint that another version of mbs has written: this one.
     Version(String),
     /// The file has other than the bytes it says.
     Torn {
@@ -25,27 +25,27 @@ pub enum CheckpointError {
     },
     /// The sum over its bytes is another: they have changed since they were written.
     Checksum,
-    /// Its bytes are whole, but do not make a state of this scene.
+    /// The bytes are whole, but do not make a state of this scene.
     Misfit,
-    /// It belongs to another scene; these parts of it differ.
+    /// The checkpoint belongs to another scene; these parts of it differ.
     Scene(Vec<&'static str>),
-    /// It belongs to a run with another setting.
+    /// The checkpoint belongs to a run with another setting.
     Setting {
         /// Name of the setting, as on the command line.
         key: &'static str,
-        /// Its value in the checkpoint.
+        /// Value of the setting in the checkpoint.
         was: String,
-        /// Its value now.
+        /// Value of the setting now.
         is: String,
     },
-    /// What is given is refused, whatever the checkpoint.
+    /// The settings that are given are refused, whatever the checkpoint.
     Settings(SettingsError),
-    /// It was saved from a `Simulation`; there is no recorded run in it.
+    /// The checkpoint was saved from a `Simulation`; there is no recorded run in it.
     NoRun,
 }
 
 impl CheckpointError {
-    /// What to do about it.
+    /// Hint for the user: what to do about the error.
     #[must_use]
     pub fn hint(&self) -> String {
         match self {

@@ -1,4 +1,4 @@
-//! The file: a head of fixed length that says what follows, and what it belongs to.
+//! File of a checkpoint: a head of fixed length that says what follows, and what it belongs to.
 
 use super::CheckpointError;
 use super::identity::Identity;
@@ -17,12 +17,12 @@ const FORMAT: u32 = 6;
 /// Bytes before those that are counted and summed: magic, format, length, checksum.
 const N_HEAD: usize = 28;
 
-/// What is in a checkpoint.
+/// Content of a checkpoint.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
-    /// What a simulation steps on from.
+    /// State that a simulation steps on from.
     Simulation,
-    /// The same, and the record of its run so far.
+    /// State that a simulation steps on from, and the record of its run so far.
     Run,
 }
 
@@ -37,7 +37,7 @@ pub struct Checkpoint {
 }
 
 impl Checkpoint {
-    /// Reads a file.
+    /// Reads a checkpoint from a file.
     ///
     /// # Errors
     /// As [`read`](Self::read).
@@ -107,8 +107,8 @@ impl Checkpoint {
         self.settle(settings.map_err(CheckpointError::Settings)?)
     }
 
-    /// What is given, and the settings of the checkpoint's run where nothing is: what [`ResolvedMethod::new`] makes of it,
-    /// [`settle`](Self::settle) compares. The two are the halves of [`settings`](Self::settings).
+    /// Returns the settings that are given, and those of the checkpoint's run where nothing is given. [`settle`](Self::settle) compares what
+    /// [`ResolvedMethod::new`] makes of them. The two are the halves of [`settings`](Self::settings).
     ///
     /// # Errors
     /// [`CheckpointError::Setting`] for what this run did not have.
@@ -129,7 +129,7 @@ impl Checkpoint {
         identity.check(&self.identity)
     }
 
-    /// Its record, if it has one, after the state of its simulation.
+    /// Tape of the state of the simulation, and after it the record of its run, if it has one.
     pub fn body(&self) -> Eye<'_> {
         Eye(&self.body)
     }
@@ -140,7 +140,7 @@ impl Checkpoint {
     }
 }
 
-/// What comes before the state.
+/// Walks along what comes before the state: version, content, times and identity.
 fn walk(
     tape: &mut impl Tape,
     kind: &mut Kind,

@@ -7,7 +7,7 @@ use mbs_core::model::State;
 
 /// Parts that several have.
 pub(super) trait Parts: Tape {
-    /// What a formulation remembers: its numbers in their order, without their names.
+    /// Writes the history of a formulation, or reads it: its numbers in their order, without their names.
     fn history<T: Real>(&mut self, entries: &mut [Entry<T>]) -> Walked {
         entries.iter_mut().try_for_each(|Entry { shape, numbers, .. }| match numbers {
             Numbers::Reals(x) => array(self, *shape, (x, 8), Self::real),
@@ -22,13 +22,13 @@ pub(super) trait Parts: Tape {
         })
     }
 
-    /// What a control by error estimates remembers.
+    /// Writes the memory of a control by error estimates, or reads it.
     fn errors(&mut self, (memory, was_rejected): &mut (Option<f64>, bool)) -> Walked {
         self.option(memory, Tape::float)?;
         self.flag(was_rejected)
     }
 
-    /// A natural state.
+    /// Writes a state in natural coordinates, or reads it.
     fn state<T: Real>(&mut self, state: &mut State<T>) -> Walked {
         let State {
             t,

@@ -1,4 +1,4 @@
-//! What a checkpoint belongs to: the scene, part by part, and the settings of its run.
+//! Identity of a checkpoint: the scene, part by part, and the settings of its run.
 
 use super::CheckpointError;
 use super::tape::{Tape, Walked, holds};
@@ -53,7 +53,7 @@ pub struct Identity {
 }
 
 impl Identity {
-    /// Of a scene in the precision of its run. Comments, the order of keys and the name of the file have no part in it.
+    /// Makes the identity of a scene in the precision of its run. Comments, the order of keys and the name of the file have no part in it.
     pub fn new<T: Real>(scene: &Scene<T>, settings: &ResolvedMethod) -> Self {
         let (parts, values) = (fingerprints(scene), values(settings));
         Self { parts, values, asked: settings.asked.clone() }
@@ -177,7 +177,7 @@ fn fingerprints<T: Real>(scene: &Scene<T>) -> [u64; PARTS.len()] {
     ]
 }
 
-/// Of all fields, as they are derived: numbers in the shortest text that reads back as the same bits.
+/// Returns the fingerprint of all fields, as they are derived: numbers in the shortest text that reads back as the same bits.
 fn of(part: &impl Debug) -> u64 {
     let mut print = Fingerprint::new();
     // Nothing in it can fail.

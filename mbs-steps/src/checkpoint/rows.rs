@@ -10,10 +10,10 @@ use std::path::Path;
 /// Files of rows, and of steps.
 const FILES: [&str; 2] = ["run.csv", "steps.csv"];
 
-/// How far the files have come.
+/// Progress of the files: the rows that they have, and their thinning.
 #[derive(Debug, Default)]
 pub(super) struct Rows {
-    /// Rows in them.
+    /// Number of rows in the files.
     n: usize,
     /// The thinning that they have; where it has changed since, and where they could not be written, they are written anew.
     thinning: u64,
@@ -68,10 +68,10 @@ fn texts(recorder: &Recorder, from: usize) -> io::Result<[Vec<u8>; 2]> {
     Ok([rows, steps])
 }
 
-/// What stands before the rows.
+/// Head that stands before the rows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Head {
-    /// Nothing: the file has it.
+    /// No head, as the file has it.
     None,
     /// The names of the columns.
     Names,
@@ -79,7 +79,7 @@ pub enum Head {
     Units,
 }
 
-/// Rows as CSV: with all digits where there are long ones.
+/// Writes rows as CSV, with all digits where there are long ones.
 pub fn write_rows<'a>(
     (sink, channels): (impl Write, &[Channel]),
     head: Head,

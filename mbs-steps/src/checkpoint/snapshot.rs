@@ -1,4 +1,4 @@
-//! What a simulation steps on from, as plain data.
+//! Snapshot that a simulation steps on from, as plain data.
 
 use super::history::Parts;
 use super::tape::{Tape, Walked, holds};
@@ -16,11 +16,11 @@ pub struct SimulationSnapshot<T> {
     pub formulation: History<T>,
     pub control: Option<ControlSnapshot<T>>,
     pub invariant: [f64; Invariant::N_HISTORY],
-    /// What is set from outside: courses, guides and signals; of these the first number.
+    /// Inputs that are set from outside: of effects, of guides and of signals; of these the first number.
     pub inputs: [Vec<(usize, [T; 3])>; 3],
 }
 
-/// What the control of the step length remembers.
+/// Memory of the control of the step length.
 #[derive(Debug, Clone)]
 pub struct ControlSnapshot<T> {
     pub driver: DriverHistory<T>,

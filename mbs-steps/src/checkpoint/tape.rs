@@ -8,7 +8,7 @@ use crate::precision::is_finer;
 use core::time::Duration;
 use mbs_core::Real;
 
-/// What a walk comes to.
+/// Result of a walk along a tape.
 pub type Walked = Result<(), CheckpointError>;
 
 /// Largest count that a file may have: it has room to grow.
@@ -28,7 +28,7 @@ pub trait Tape: Sized {
     /// Bytes that are left to be read; nothing where they are written.
     fn left(&self) -> Option<usize>;
 
-    /// A count.
+    /// Writes a count, or reads it.
     fn count(&mut self, x: &mut u64) -> Walked {
         let mut bytes = x.to_le_bytes();
         self.bytes(&mut bytes)?;
@@ -44,7 +44,7 @@ pub trait Tape: Sized {
         Ok(())
     }
 
-    /// A small count.
+    /// Writes a count of 32 bits, or reads it.
     fn small(&mut self, x: &mut u32) -> Walked {
         let mut bytes = x.to_le_bytes();
         self.bytes(&mut bytes)?;
@@ -60,7 +60,7 @@ pub trait Tape: Sized {
         holds(*x < below)
     }
 
-    /// Yes or no.
+    /// Writes yes or no as one byte, or reads it.
     fn flag(&mut self, x: &mut bool) -> Walked {
         let mut byte = [u8::from(*x)];
         self.bytes(&mut byte)?;
@@ -76,7 +76,7 @@ pub trait Tape: Sized {
         Ok(())
     }
 
-    /// Several of them.
+    /// Writes several numbers that may be any, or reads them.
     fn floats(&mut self, x: &mut [f64]) -> Walked {
         x.iter_mut().try_for_each(|x| self.float(x))
     }
@@ -92,7 +92,7 @@ pub trait Tape: Sized {
         holds(self.left().is_none() || x.is_finite())
     }
 
-    /// As many of them as there are places.
+    /// Writes numbers of the mechanics, or reads them: as many as there are places.
     fn reals<T: Real>(&mut self, x: &mut [T]) -> Walked {
         self.places(x, Self::real)
     }
@@ -105,7 +105,7 @@ pub trait Tape: Sized {
         Ok(())
     }
 
-    /// As many things as there are places.
+    /// Writes things, or reads them: as many as there are places.
     fn places<E>(
         &mut self,
         x: &mut [E],
@@ -134,7 +134,7 @@ pub trait Tape: Sized {
         list.iter_mut().try_for_each(|x| each(self, x))
     }
 
-    /// Something, or nothing.
+    /// Writes something or nothing, or reads it.
     fn option<E: Default>(
         &mut self,
         x: &mut Option<E>,
@@ -148,7 +148,7 @@ pub trait Tape: Sized {
         x.as_mut().map_or(Ok(()), |x| each(self, x))
     }
 
-    /// A text.
+    /// Writes a text, or reads it.
     fn text(&mut self, text: &mut String) -> Walked {
         let mut bytes = core::mem::take(text).into_bytes();
         self.list(&mut bytes, 1, |tape, byte| tape.bytes(core::slice::from_mut(byte)))?;
@@ -165,12 +165,12 @@ pub trait Tape: Sized {
     }
 }
 
-/// What does not hold is a misfit.
+/// Refuses what does not hold as a misfit.
 pub fn holds(does: bool) -> Walked {
     if does { Ok(()) } else { Err(CheckpointError::Misfit) }
 }
 
-/// Writes into memory.
+/// Tape that writes into memory.
 #[derive(Debug, Default)]
 pub struct Pen(pub Vec<u8>);
 
@@ -185,7 +185,7 @@ impl Tape for Pen {
     }
 }
 
-/// Reads from memory.
+/// Tape that reads from memory.
 #[derive(Debug)]
 pub struct Eye<'a>(pub &'a [u8]);
 

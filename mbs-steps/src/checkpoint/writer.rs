@@ -1,4 +1,4 @@
-//! How a run is kept while it goes: a checkpoint now and then, and its rows in their files.
+//! Writer that keeps a run while it goes: a checkpoint now and then, and its rows in their files.
 
 use super::CheckpointError;
 use super::rows::Rows;
@@ -19,7 +19,7 @@ const EARLY: f64 = 1e-6;
 /// The bytes of a checkpoint, or why there are none.
 type Bytes = Result<Vec<u8>, CheckpointError>;
 
-/// Where and how often a run is kept.
+/// Writer of a run's checkpoints: where and how often a run is kept.
 ///
 /// At its start, and at the first step that ends at or after each multiple of a simulated time, a new checkpoint replaces that in the
 /// directory. It is written beside it, synced, renamed. No step is made shorter for it. The rows are written as the run goes, to
@@ -53,13 +53,13 @@ impl CheckpointWriter {
         Ok(Self { out, every, next: f64::NEG_INFINITY, rows, failure: None, _lock: lock })
     }
 
-    /// Where the checkpoint is.
+    /// Path of the checkpoint.
     #[must_use]
     pub fn path(&self) -> PathBuf {
         self.out.join(FILE)
     }
 
-    /// What the last attempt to write has failed by; nothing where it has not.
+    /// Error of the last attempt to write; nothing where it has not failed.
     #[must_use]
     pub fn failure(&self) -> Option<&io::Error> {
         self.failure.as_ref()

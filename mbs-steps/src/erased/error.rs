@@ -4,9 +4,9 @@ use core::fmt::{self, Display, Formatter};
 use mbs_core::scene::{Entry, Number, Scene, SceneError as Refused};
 use mbs_scene::{Place, ReadError, SweepFault, WriteError, nearest_name};
 
-/// What every error of the front door says.
+/// Error of the front door: its code, time, joint, body, hint and place in the file.
 pub trait Error: core::error::Error {
-    /// What it is, in a word that does not change.
+    /// Code of the error, a word that does not change.
     fn code(&self) -> &'static str;
     /// Time in the run [s].
     fn time(&self) -> Option<f64> {
@@ -20,7 +20,7 @@ pub trait Error: core::error::Error {
     fn body(&self) -> Option<&str> {
         None
     }
-    /// What to do.
+    /// Hint on what to do.
     fn hint(&self) -> Option<String> {
         None
     }
@@ -64,7 +64,7 @@ impl Display for UnknownName {
 }
 
 impl UnknownName {
-    /// What it would be the name of: `output`.
+    /// Returns the kind of part that has no such name: `output`.
     #[must_use]
     pub fn kind(&self) -> &'static str {
         self.word
@@ -90,7 +90,7 @@ pub enum PathError {
     Path {
         /// The path as given.
         path: String,
-        /// What is wrong with it.
+        /// Fault of the path.
         fault: SweepFault,
     },
     /// The number makes no scene of the mechanism.

@@ -1,4 +1,4 @@
-//! Why a simulation was refused or stopped.
+//! Reason why a simulation was refused or stopped.
 
 use super::error::{Error, PathError, SceneError, UnknownName};
 use crate::checkpoint::CheckpointError;
@@ -12,7 +12,7 @@ use mbs_core::step::InputError;
 use mbs_parallel::ensemble::EnsembleError;
 use mbs_scene::{Place, ReadError, WriteError};
 
-/// Why a simulation or a study was refused, or why it stopped.
+/// Reason why a simulation or a study was refused, or why it stopped.
 ///
 /// Programs branch on [`code`](Error::code), whose words are a contract (docs/CONTRACT.md); [`cause`](Self::cause) gives the typed error
 /// behind it.
@@ -46,7 +46,7 @@ impl SimulationError {
         Self(Box::new(Parts { code, message, time, joint, body, hint, place, cause }))
     }
 
-    /// The same, with the typed error behind it.
+    /// Adds the typed error behind this one.
     #[must_use]
     pub fn with_cause(mut self, cause: impl core::error::Error + Send + Sync + 'static) -> Self {
         self.0.cause = Some(Box::new(cause));
@@ -62,7 +62,7 @@ impl SimulationError {
         found.with_cause(error)
     }
 
-    /// The same, about a joint.
+    /// Sets the joint that the error is about.
     pub fn about(mut self, joint: Option<String>) -> Self {
         self.0.joint = joint;
         self
@@ -77,7 +77,7 @@ impl SimulationError {
         found.with_cause(error)
     }
 
-    /// As what stops a run.
+    /// Converts the error into one that stops a run.
     pub fn into_stop(self) -> StopError {
         match self.cause::<StopError>() {
             Some(stop) => stop.clone(),

@@ -33,7 +33,7 @@ use std::sync::Arc;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub trait OutputFunction: Send + Sync {
-    /// The number. One that is not finite stops a run, with the output's name.
+    /// Evaluates the output at an instant. A number that is not finite stops a run, with the output's name.
     fn evaluate(&self, now: &View<'_>) -> f64;
 }
 
@@ -47,7 +47,7 @@ impl<F: Fn(&View<'_>) -> f64 + Send + Sync> OutputFunction for F {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct FunctionId(pub usize);
 
-/// One, with its name. It lives beside the scene: clones share it.
+/// Output that is code, with its name. It lives beside the scene: clones share it.
 #[derive(Clone)]
 pub struct Function {
     pub name: String,
@@ -66,7 +66,7 @@ impl Debug for Function {
     }
 }
 
-/// Those of a mechanism, as columns of a run.
+/// Columns of a run for the outputs of a mechanism that are code.
 #[allow(
     missing_debug_implementations,
     reason = "it holds what has none, and is made and used in one call"

@@ -1,4 +1,4 @@
-//! What a simulation is behind its door: one implementation for every scalar and dimension.
+//! Simulations behind their door: one implementation for every scalar and dimension.
 
 use super::clock::StepClock;
 use super::inputs::Sink;
@@ -28,7 +28,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 /// A simulation without its scalar and its dimension.
 pub trait Inner: Sink + Debug + Send + Sync {
     fn clone_box(&self) -> Box<dyn Inner>;
-    /// What is read of it.
+    /// Readings of the simulation.
     fn seen(&self) -> &dyn Read;
     /// Contacts that began or ended since they are watched.
     fn events(&self) -> &[Instant];
@@ -66,13 +66,13 @@ pub trait Inner: Sink + Debug + Send + Sync {
 /// A step that an integrator divides by itself is made in parts of so many longest steps, so that an interrupt is heard between them [-].
 const INTERRUPTED: f64 = 100.0;
 
-/// It, in its scalar and dimension.
+/// Simulation in its scalar and dimension, with its settings and clock.
 #[derive(Debug)]
 struct Typed<T: Real, const D: usize> {
     seen: Seen<T, D, Simulation<T, D>>,
     settings: ResolvedMethod,
     clock: StepClock<T>,
-    /// Where contacts are watched.
+    /// Contacts, where they are watched.
     contacts: Option<Contacts<T, D>>,
 }
 

@@ -16,15 +16,15 @@ use mbs_scene::{Place, ReadError, SceneFile, WriteError, nearest_name};
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum InputTableError {
-    /// The table; its file, the place in it, what is wrong, and what to do.
+    /// Fault of the table: its file, the place in it, what is wrong, and what to do.
     Table {
         /// The file as it was named.
         file: String,
         /// Line, column and the line.
         place: Place,
-        /// What is wrong.
+        /// Message on what is wrong.
         message: String,
-        /// What to do.
+        /// Hint on what to do.
         hint: String,
     },
     /// The document is no scene.
@@ -111,7 +111,7 @@ impl Source<'_> {
 struct Table<'a> {
     /// The input of each column behind the first.
     columns: Vec<&'a InputInfo>,
-    /// Time and values.
+    /// Time and values of each row.
     rows: Vec<Vec<Number>>,
 }
 

@@ -21,21 +21,21 @@ impl InputId {
         Self(index)
     }
 
-    /// Its place in the list.
+    /// Returns the place of the input in the list.
     #[must_use]
     pub fn index(self) -> usize {
         self.0
     }
 }
 
-/// What takes the inputs: a simulation, or a run before one of its steps.
+/// Receiver of inputs: a simulation, or a run before one of its steps.
 pub trait Sink {
     fn set_effect_input(&mut self, effect: usize, value: [f64; 3]) -> Result<(), InputError>;
     fn set_guide_input(&mut self, guide: usize, motion: [f64; 3]) -> Result<(), InputError>;
     fn set_signal_input(&mut self, signal: usize, value: f64) -> Result<(), InputError>;
 }
 
-/// What an input belongs to.
+/// Part that an input belongs to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum InputOwner {
@@ -45,29 +45,29 @@ pub enum InputOwner {
     Guide(GuideId),
     /// The sum of a coupling.
     Coupling {
-        /// The coupling.
+        /// Coupling that has the sum.
         coupling: CouplingId,
-        /// Its place behind the guides of the scene.
+        /// Place of the sum behind the guides of the scene.
         sum: GuideId,
     },
     /// A signal of the scene.
     Signal(SignalId),
 }
 
-/// One input.
+/// Input of a simulation: its name, unit, owner and value at the start.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct InputInfo {
     /// `NAME` of its effect, or `NAME.x` of a vector; `JOINT`, `JOINT.rate` and `JOINT.acceleration` of a guide, likewise of a
     /// coupling by its name; `NAME` of a signal.
     pub name: String,
-    /// Its unit; empty for the input of a user's law.
+    /// Unit of the input; empty for the input of a user's law.
     pub unit: String,
-    /// What it belongs to.
+    /// Part that the input belongs to.
     pub owner: InputOwner,
-    /// Which of the owner's numbers it is.
+    /// Place of the input among the owner's numbers.
     pub component: usize,
-    /// Its value at the start.
+    /// Value of the input at the start.
     pub start: f64,
 }
 
@@ -138,7 +138,7 @@ impl Inputs {
         &self.list
     }
 
-    /// Where each of them stands among the inputs of a state.
+    /// Returns the place of each input among the inputs of a state.
     pub fn places(&self, prescribed: &Prescribed<f64>) -> Vec<usize> {
         let place = |info: &InputInfo| {
             let first = match info.owner {
@@ -225,7 +225,7 @@ impl Inputs {
         Ok(())
     }
 
-    /// Those of another simulation of the same mechanism are as many.
+    /// Checks the number of values: those of another simulation of the same mechanism are as many.
     pub fn check(&self, values: &[f64]) -> Result<(), SimulationError> {
         if values.len() == self.values.len() { Ok(()) } else { Err(self.missing(values.len())) }
     }

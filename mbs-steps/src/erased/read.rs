@@ -1,4 +1,4 @@
-//! What is read of a simulation between steps, and of a run at an instant: the same, written once.
+//! Readings of a simulation between steps, and of a run at an instant: written once for both.
 
 /// Readings of a type that has `seen`, which is read, and `stopped`, which makes an error of a reason to stop.
 #[doc(hidden)]
@@ -6,7 +6,7 @@
 macro_rules! readings {
     ($what:ty) => {
         impl $what {
-            /// Time [s]. It is a count times the step plus a rest, so that 1000 steps of 1e-3 end at 1.0.
+            /// Present time of the mechanism [s]. It is a count times the step plus a rest, so that 1000 steps of 1e-3 end at 1.0.
             #[must_use]
             pub fn time(&self) -> f64 {
                 self.seen().time()
@@ -74,7 +74,8 @@ macro_rules! readings {
                 self.seen().point(body, at)
             }
 
-            /// What the first body of a joint does to the second, at the joint's place on the second body, effort of guides included.
+            /// Force and moment of a joint's first body on the second, at the joint's place on the second, effort of guides included
+            /// [N, N m].
             ///
             /// Cost: at the first call, the balance of every body is prepared; at the first call after a step, it is solved for all joints.
             ///
@@ -87,7 +88,7 @@ macro_rules! readings {
                 self.seen().reaction(joint.index()).map_err(|error| self.stopped(error))
             }
 
-            /// What an effect exerts on its body, or on the second of its two bodies: on a joint, on the joint's second body [N, N m].
+            /// Force and moment of an effect on its body, or on the second of two: on a joint, on the joint's second body [N, N m].
             ///
             /// The moment is about the point of that body where the effect is attached, as it has moved. An effect about an angle has a moment alone;
             /// one that is disabled exerts nothing. The first of two bodies takes the opposite force along the same line.

@@ -16,7 +16,7 @@ use mbs_core::scene::{JointId, Output, Quantity, Scene};
 pub struct Readings<T: Real, const D: usize> {
     joints: Group<T, D>,
     rates: Group<T, D>,
-    /// Of a scene that names none they are the joints'.
+    /// Outputs that the scene names; where it names none, the outputs are those of the joints.
     outputs: Option<Group<T, D>>,
     /// Made where one is asked for; whether they are those of the present state.
     reactions: Option<(Box<Reactions<T, D>>, bool)>,
@@ -29,13 +29,13 @@ pub struct Readings<T: Real, const D: usize> {
 struct Group<T: Real, const D: usize> {
     channels: Channels<T, D>,
     row: Vec<T>,
-    /// Where the components of each channel are.
+    /// Places of each channel's components in the row.
     places: Vec<Range<usize>>,
     is_present: bool,
 }
 
 impl<T: Real, const D: usize> Group<T, D> {
-    /// Of these outputs alone.
+    /// Makes a group of these outputs alone.
     fn new(
         scene: &Scene<T>,
         outputs: Vec<Output<T>>,
@@ -107,7 +107,7 @@ impl<T: Real, const D: usize> Readings<T, D> {
         self.outputs.as_mut().unwrap_or(&mut self.joints)
     }
 
-    /// What was read is no longer that of the present state.
+    /// Marks what was read as out of date: the next call reads the present state.
     pub fn stale(&mut self) {
         for group in [&mut self.joints, &mut self.rates].into_iter().chain(&mut self.outputs) {
             group.is_present = false;
@@ -148,7 +148,7 @@ impl<T: Real, const D: usize> Readings<T, D> {
         written
     }
 
-    /// What the first body of a joint does to the second, at the joint's place on the second body.
+    /// Force and moment of the first body of a joint on the second, at the joint's place on the second body [N, N m].
     pub fn reaction(
         &mut self,
         joint: usize,
@@ -173,7 +173,7 @@ impl<T: Real, const D: usize> Readings<T, D> {
         })
     }
 
-    /// What an effect exerts.
+    /// Force and moment of an effect on its body, or on the second of its two bodies [N, N m].
     pub fn effect(
         &mut self,
         effect: usize,

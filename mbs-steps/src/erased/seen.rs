@@ -1,5 +1,4 @@
-//! What is read of a simulation, whatever its scalar and dimension: one implementation behind `Simulation` and
-//! [`View`](super::View).
+//! Readings of a simulation, whatever its scalar and dimension: one implementation behind `Simulation` and [`View`](super::View).
 
 use super::readings::Readings;
 use super::values::{BodyMotion, Coordinates, Energies, PointMotion, Pose, Sizes, Wrench, rows};

@@ -1,4 +1,4 @@
-//! What a simulation is read by: plain arrays, in SI units and global axes.
+//! Values that are read of a simulation: plain arrays, in SI units and global axes.
 
 use core::fmt::{self, Debug, Formatter};
 use core::ops::Deref;
@@ -59,7 +59,7 @@ impl Deref for Coordinates {
 /// Components of an output, at most six.
 pub type Components = Coordinates;
 
-/// Where a body is.
+/// Pose of a body: its centre of mass and its rotation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Pose {
@@ -112,29 +112,29 @@ impl Pose {
     }
 }
 
-/// How a body moves.
+/// Motion of a body, by its velocities and accelerations.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
 pub struct BodyMotion {
     /// Velocity of the centre of mass [m/s].
     pub velocity: [f64; 3],
-    /// Its acceleration [m/s^2].
+    /// Acceleration of the centre of mass [m/s^2].
     pub acceleration: [f64; 3],
-    /// Angular velocity [rad/s].
+    /// Angular velocity of the body [rad/s].
     pub angular_velocity: [f64; 3],
-    /// Angular acceleration [rad/s^2].
+    /// Angular acceleration of the body [rad/s^2].
     pub angular_acceleration: [f64; 3],
 }
 
-/// Where a material point is and how it moves.
+/// Motion of a material point: its position, velocity and acceleration.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct PointMotion {
-    /// Position [m].
+    /// Position of the point [m].
     pub position: [f64; 3],
-    /// Velocity [m/s].
+    /// Velocity of the point [m/s].
     pub velocity: [f64; 3],
-    /// Acceleration [m/s^2].
+    /// Acceleration of the point [m/s^2].
     pub acceleration: [f64; 3],
 }
 
@@ -142,13 +142,13 @@ pub struct PointMotion {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct ContactEvent {
-    /// When [s].
+    /// Time of the event [s].
     pub time: f64,
     /// The bumper, limit or tire.
     pub effect: EffectId,
-    /// Of a limit 0 at its lower end, 1 at its upper one; 0 else.
+    /// End of a limit: 0 at its lower end, 1 at its upper one; 0 for other effects.
     pub end: usize,
-    /// Does it begin?
+    /// Does the contact begin?
     pub is_made: bool,
 }
 
@@ -163,9 +163,9 @@ impl ContactEvent {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Energies {
-    /// Kinetic energy.
+    /// Kinetic energy of the mechanism.
     pub kinetic: f64,
-    /// Potential energy: of gravity and springs.
+    /// Potential energy of gravity and springs.
     pub potential: f64,
     /// Work of dampers, guides and inputs since the start.
     pub work: f64,
@@ -175,23 +175,23 @@ pub struct Energies {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Sizes {
-    /// Coordinates.
+    /// Number of coordinates.
     pub coordinates: usize,
-    /// Constraint equations.
+    /// Number of constraint equations.
     pub constraints: usize,
-    /// Their rank at the start.
+    /// Rank of the constraint equations at the start.
     pub rank: usize,
 }
 
 impl Sizes {
-    /// Degrees of freedom.
+    /// Returns the number of degrees of freedom.
     #[must_use]
     pub fn freedoms(&self) -> usize {
         self.coordinates - self.rank
     }
 }
 
-/// What the steps of a call did.
+/// Counts of the steps of a call, and their largest violation.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
 pub struct StepReport {
@@ -199,7 +199,7 @@ pub struct StepReport {
     pub steps: u64,
     /// Iterations of Newton's method; evaluations of the accelerations in relative coordinates.
     pub iterations: u64,
-    /// Factorisations.
+    /// Factorisations that were made.
     pub factorizations: u64,
     /// Steps that the step control rejected.
     pub rejected: u64,

@@ -1,4 +1,4 @@
-//! What is seen of a run while it goes: an observer's view, and the inputs that it may set.
+//! View of a run while it goes, for an observer, and the inputs that it may set.
 
 use super::failure::SimulationError;
 use super::inputs::{InputId, InputInfo, InputOwner, Inputs, Sink};
@@ -82,7 +82,7 @@ impl<'a> From<&Self> for View<'a> {
 /// # Ok::<(), SimulationError>(())
 /// ```
 pub trait Observer {
-    /// Before a step: inputs may be set; they hold until they are set again.
+    /// Sets inputs before a step, if any; they hold until they are set again.
     ///
     /// # Errors
     /// What stops the run.
@@ -153,7 +153,7 @@ impl RunInputs<'_> {
     }
 }
 
-/// What was set while the mechanism was seen: owner and numbers.
+/// Inputs that were set while the mechanism was seen: owner and numbers.
 #[derive(Debug, Default)]
 struct Pending(Vec<(InputOwner, [f64; 3])>);
 
@@ -197,7 +197,7 @@ impl Pending {
     }
 }
 
-/// What is read of a run for its views: made at the first one, and followed from then on.
+/// Readings of a run for its views: made at the first one, and followed from then on.
 #[allow(
     missing_debug_implementations,
     reason = "it holds what has none, and is made and used in one call"

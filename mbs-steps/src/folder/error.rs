@@ -1,4 +1,4 @@
-//! Why results cannot be written into a directory.
+//! Reason why results cannot be written into a directory.
 
 use core::fmt::{self, Display, Formatter};
 use std::io;
@@ -8,13 +8,13 @@ use std::path::PathBuf;
 #[derive(Debug)]
 #[non_exhaustive]
 pub enum FolderError {
-    /// Another process writes there; its number, where it can be read.
+    /// Directory in which another process writes; the number of the process, where it can be read.
     Busy(Option<u32>),
     /// A directory stands where a file of the results goes.
     Taken(PathBuf),
     /// A file stands where the directory should be.
     IsFile,
-    /// It cannot be made or written.
+    /// The directory cannot be made or written.
     Io(io::Error),
 }
 
@@ -31,7 +31,7 @@ impl Display for FolderError {
 }
 
 impl FolderError {
-    /// What to do about it.
+    /// Hint for the user: what to do about the error.
     #[must_use]
     pub fn hint(&self) -> &'static str {
         match self {

@@ -36,7 +36,7 @@ pub(super) fn take(folder: &Path) -> Result<File, FolderError> {
     }
 }
 
-/// Removes the file; its lock is held by the caller.
+/// Removes the lock file; its lock is held by the caller.
 pub(super) fn remove(folder: &Path) {
     let _ = fs::remove_file(folder.join(LOCK));
 }

@@ -19,7 +19,7 @@ use crate::fingerprint::Fingerprint;
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 
-/// Where results are written before they are whole.
+/// Name of the directory in which results are written before they are whole.
 pub const PART: &str = ".part";
 
 /// The id of results that depend on these texts: the scene, say, and how it is run.
@@ -63,7 +63,7 @@ impl Folder {
         }
     }
 
-    /// Where it is.
+    /// Path of the directory.
     #[must_use]
     pub fn path(&self) -> &Path {
         &self.path

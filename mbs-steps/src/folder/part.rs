@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 #[derive(Debug)]
 pub struct Part<'a> {
     folder: &'a Folder,
-    /// Of these results.
+    /// Id of these results.
     id: String,
     /// Names of what is written, in this order.
     names: Vec<String>,
@@ -24,16 +24,16 @@ pub struct Part<'a> {
 /// A file that could not be written.
 #[derive(Debug)]
 pub struct WriteError {
-    /// The file.
+    /// Path of the file.
     pub path: PathBuf,
     /// Bytes of it that were written.
     pub bytes: u64,
-    /// Why it ended there.
+    /// Error that ended the writing.
     pub error: io::Error,
 }
 
 impl Folder {
-    /// Begins new results; what an earlier start has left of others goes. Their id is in the JSON object and in the page.
+    /// Begins new results, and removes what an earlier start has left of others. The id of the results is in the JSON object and in the page.
     ///
     /// # Errors
     /// [`WriteError`] where nothing can be written.
@@ -52,7 +52,7 @@ impl Folder {
 }
 
 impl Part<'_> {
-    /// Writes a table.
+    /// Writes a table of the results.
     ///
     /// # Errors
     /// [`WriteError`]

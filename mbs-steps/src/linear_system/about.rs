@@ -19,15 +19,15 @@ use mbs_linear::{
 /// In which axes a motion is linearised.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Axes {
-    /// Those that stand.
+    /// Axes that do not turn.
     Standing,
-    /// Those that turn with the motion; it is tested that the motion is steady in them.
+    /// Axes that turn with the motion; it is tested that the motion is steady in them.
     Turning,
-    /// Those that turn, and where the motion is not steady in them those that stand: the system of the instant.
+    /// Axes that turn, and where the motion is not steady in them axes that stand: the system of the instant.
     TurningOrStanding,
 }
 
-/// What is linearised about which state.
+/// Scene to be linearised about a state, with its inputs, outputs and axes.
 pub(crate) struct About<'a, const D: usize> {
     pub(super) scene: &'a Scene<f64>,
     pub(super) placed: &'a PlacedScene<D>,
@@ -36,7 +36,7 @@ pub(crate) struct About<'a, const D: usize> {
     pub(super) axes: Axes,
 }
 
-/// What is measured about a state.
+/// Measurements about a state, and the linear motion there.
 struct At {
     layout: Layout,
     /// The coordinates that are states.
@@ -49,7 +49,7 @@ struct At {
 }
 
 impl<'a, const D: usize> About<'a, D> {
-    /// Without inputs and outputs.
+    /// Prepares the linear system of a placed scene without inputs and outputs.
     pub(crate) fn alone(scene: &'a Scene<f64>, placed: &'a PlacedScene<D>, axes: Axes) -> Self {
         let (columns, inputs) = (OutputColumns::default(), InputPlaces::default());
         Self { scene, placed, columns, inputs, axes }
@@ -194,7 +194,7 @@ impl At {
         parts.matrices(&self.layout, &self.chosen, turning).ok_or_else(singular)
     }
 
-    /// What accelerations are compared with.
+    /// Returns the sizes that accelerations are compared with.
     fn sizes(&self, length: f64) -> Sizes {
         let mut sizes = Sizes { length, rate: 0.0, lively: self.linear.lively };
         let rates = self.layout.part(1);

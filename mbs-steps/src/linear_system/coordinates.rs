@@ -10,12 +10,12 @@ pub(super) type Ball = (usize, [Option<usize>; 2]);
 pub(super) struct Coordinates {
     /// Value, rate and acceleration.
     pub(super) quantities: Vec<[Output<f64>; 3]>,
-    /// Of each component.
+    /// Name and unit of each component, and whether it is part of a rotation vector.
     pub(super) names: Vec<String>,
     pub(super) units: Vec<&'static str>,
     pub(super) turns: Vec<bool>,
     pub(super) n_of_joints: usize,
-    /// Of a joint with a vector among its coordinates: a ball, or two slides.
+    /// Whether the joint of each joint coordinate has a vector among its coordinates: a ball, or two slides.
     pub(super) of_vectors: Vec<bool>,
     /// First coordinate and number of each vector in global axes.
     pub(super) vectors: Vec<[usize; 2]>,
@@ -25,7 +25,7 @@ pub(super) struct Coordinates {
 }
 
 impl Coordinates {
-    /// Those of all joints, then centres of mass and rotations of all bodies.
+    /// Lists the coordinates of all joints, then centres of mass and rotations of all bodies.
     pub(super) fn new(scene: &Scene<f64>) -> Self {
         let mut all = Self {
             quantities: Vec::new(),

@@ -1,4 +1,4 @@
-//! A linear system: its matrices with names.
+//! Linear system of a scene: its matrices with names.
 
 use crate::placed::Place;
 use crate::rest::LeftOut;
@@ -24,11 +24,11 @@ use mbs_linear::Equilibrium;
 pub struct LinearSystem {
     /// Name of the scene.
     pub scene: String,
-    /// About which state; of one that was given nothing.
+    /// State about which the scene is linearised; nothing where the state was given.
     pub place: Option<Place>,
     /// The equilibrium, if that is the place.
     pub found: Option<Equilibrium<f64>>,
-    /// What is left out, of the equilibrium too.
+    /// Parts of the scene that are left out, of the equilibrium too.
     pub left_out: Vec<LeftOut>,
     /// Names of the states.
     pub states: Vec<String>,
@@ -52,11 +52,11 @@ pub struct LinearSystem {
     pub output_values: Vec<f64>,
     /// Joints, couplings and rollings whose reaction, effort or force is an output and not unique: the smallest is linearised.
     pub not_unique: Vec<String>,
-    /// Why the state is no rest and no steady motion, if it is none: the matrices hold for an instant.
+    /// Reason why the state is no rest and no steady motion, if it is none: the matrices hold for an instant.
     pub unsteady: Option<Unsteady>,
     /// Largest acceleration that joints ask for because bodies turn [m/s^2].
     pub turning: f64,
-    /// Number of freedoms.
+    /// Number of freedoms of the scene.
     pub(crate) n_freedoms: usize,
     /// At a rest the same motion as modes of an equilibrium have it, column by column: in coordinates that are better conditioned than the
     /// named ones. Its eigenvalues are those of A.

@@ -1,4 +1,4 @@
-//! What is measured at each state of a linearisation: outputs, and coordinates of joints and bodies with their rates.
+//! Measurements at each state of a linearisation: outputs, and coordinates of joints and bodies with their rates.
 //!
 //! About a motion rotations count from those of the motion itself, in global axes:
 //!
@@ -19,16 +19,16 @@ use mbs_linear::LinearError;
 /// Way of a difference along the velocity, relative to the scene's length [-]: its fourth power is rounding of a rate.
 const WAY: f64 = 1e-3;
 
-/// Where the numbers of a measurement are: outputs; then coordinates, rates, derivatives of the coordinates, and accelerations.
+/// Places of the numbers of a measurement: outputs; then coordinates, rates, derivatives of the coordinates, and accelerations.
 #[derive(Debug, Clone)]
 pub(super) struct Layout {
-    /// Which of the measured components are outputs, in their order, and how many there are.
+    /// Places of the outputs among the measured components, in their order, and the number of these components.
     outputs: Vec<usize>,
     n_measured: usize,
     /// The coordinates that may be states, those of joints first.
     pub(super) names: Vec<String>,
     pub(super) n_of_joints: usize,
-    /// Those of joints that are parts of a vector in the axes of a body: of a ball, or of two slides.
+    /// Whether a coordinate of a joint is part of a vector in the axes of a body: of a ball, or of two slides.
     pub(super) of_vectors: Vec<bool>,
     /// First coordinate and number of each vector in global axes: places and rotations of bodies.
     pub(super) vectors: Vec<[usize; 2]>,
@@ -43,13 +43,13 @@ impl Layout {
         move |coordinate| start + coordinate
     }
 
-    /// Outputs.
+    /// Rows of the outputs.
     pub(super) fn output_rows(&self) -> impl Iterator<Item = usize> + '_ {
         self.outputs.iter().copied()
     }
 
-    /// How coordinates that may be states change with each freedom, a row for each, of what all that is measured changes by, freedom by
-    /// freedom.
+    /// Returns the changes of coordinates that may be states with each freedom, a row for each coordinate. `of_all` has the changes of all that is
+    /// measured, freedom by freedom.
     pub(super) fn slopes(&self, of_all: &[f64]) -> Vec<Vec<f64>> {
         let all = self.n_measured + 4 * self.names.len();
         let rows = (0..self.names.len()).map(self.part(0));
@@ -84,12 +84,12 @@ pub(super) struct Measured<const D: usize> {
     reference: Option<Reference>,
     /// The scene's length [m].
     length: f64,
-    /// Why the last measurement failed.
+    /// Reason why the last measurement failed.
     pub(super) stop: Option<StopError>,
 }
 
 impl<const D: usize> Measured<D> {
-    /// Prepares it.
+    /// Prepares the measurements of a scene.
     pub(super) fn new(
         scene: &Scene<f64>,
         model: &NaturalModel<f64, D>,
@@ -212,7 +212,7 @@ impl<const D: usize> Measured<D> {
         Ok(all)
     }
 
-    /// What has a reaction, an effort or a force that was not unique.
+    /// Names of joints, couplings and rollings whose reaction, effort or force was not unique.
     pub(super) fn not_unique(&self, scene: &Scene<f64>) -> Vec<String> {
         self.outputs.as_ref().map_or_else(Vec::new, |outputs| outputs.not_unique(scene))
     }
@@ -246,7 +246,7 @@ fn along<const D: usize>(
 struct Reference {
     /// Rotation and angular velocity of each body.
     bodies: Vec<(Matrix<f64, 3>, Vector<f64, 3>)>,
-    /// All coordinates.
+    /// Values of all coordinates.
     values: Vec<f64>,
 }
 

@@ -17,7 +17,7 @@ pub(crate) struct InputPlaces {
 }
 
 impl InputPlaces {
-    /// Those with these names; `None`: all. The model may be that of the scene at rest.
+    /// Finds the inputs with these names; `None`: all. The model may be that of the scene at rest.
     pub(super) fn new<const D: usize>(
         scene: &Scene<f64>,
         model: &NaturalModel<f64, D>,
@@ -91,13 +91,13 @@ pub(super) fn signal_states<const D: usize>(
 pub(crate) struct OutputColumns {
     /// The outputs that they are components of.
     pub(super) measured: Vec<Output<f64>>,
-    /// Their places among all components of these.
+    /// Places of the columns among all components of these outputs.
     pub(super) places: Vec<usize>,
     pub(super) names: Vec<String>,
 }
 
 impl OutputColumns {
-    /// Those with these names, or all of the outputs with these; `None`: all, but for what is of a run rather than of the motion.
+    /// Finds the columns with these names, or all of the outputs with these; `None`: all, but for what is of a run rather than of the motion.
     pub(super) fn new(scene: &Scene<f64>, asked: Option<&[&str]>) -> Result<Self, UnknownName> {
         let (mut measured, mut columns) = (Vec::new(), Vec::new());
         for (output, channel) in scene.channels().into_iter().zip(Channel::of_scene(scene)) {

@@ -13,7 +13,7 @@ pub(super) struct Parts<'a> {
 }
 
 impl Parts<'_> {
-    /// What is measured, by (z, z', s) and by the inputs: [P, Q] of these rows.
+    /// Derivatives of what is measured in these rows, by (z, z', s) and by the inputs: [P, Q].
     fn of(&self, rows: impl Iterator<Item = usize>) -> [Matrix; 2] {
         let (rows, all) = (rows.collect::<Vec<_>>(), self.ports.values.len());
         let [by_states, by_inputs] = [&self.ports.outputs, &self.ports.feedthrough];

@@ -23,11 +23,11 @@ const OWN: f64 = 1e-3;
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct ModeShape {
-    /// The eigenvalue.
+    /// Eigenvalue of the mode.
     pub mode: Mode,
     /// [real, imaginary] of each state: its largest component is one. That of the conjugate eigenvalue is conjugate.
     pub states: Vec<[f64; 2]>,
-    /// The same of each output.
+    /// Complex amplitude of each output, [real, imaginary].
     pub outputs: Vec<[f64; 2]>,
 }
 

@@ -2,7 +2,7 @@
 
 use crate::tree::Matrix;
 
-/// A complex number.
+/// Complex number, by its real and imaginary part.
 pub type Complex = [f64; 2];
 
 /// The product of two complex numbers.
@@ -19,7 +19,7 @@ pub(super) fn quotient(a: Complex, [c, d]: Complex) -> Complex {
     [x / by, y / by]
 }
 
-/// The absolute value.
+/// Absolute value of a complex number.
 pub fn size([a, b]: Complex) -> f64 {
     libm::hypot(a, b)
 }
@@ -33,7 +33,7 @@ fn subtract(from: &mut Complex, [a, b]: Complex) {
 #[derive(Debug)]
 pub struct Factor {
     n: usize,
-    /// Row by row.
+    /// L and U in one matrix, row by row.
     lu: Vec<Complex>,
     rows: Vec<usize>,
     /// The smallest pivot, relative to the largest entry of the matrix.

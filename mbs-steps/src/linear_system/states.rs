@@ -1,11 +1,12 @@
-//! Which coordinates are the states: as many independent ones as there are freedoms, the first ones of the scene.
+//! Choice of the coordinates that are the states: as many independent ones as there are freedoms, the first ones of the scene.
 
 use core::ops::Range;
 
 /// Part of a coordinate that is independent of those before, relative to its size, above which it is taken in the scene's order [-].
 /// Chosen, not tuned.
 const INDEPENDENT: f64 = 0.1;
-/// The same, above which the largest one is taken where these are too few [-]: below it, states and motion have no common digits.
+/// Part of a coordinate that is independent of those before, above which the largest one is taken where these are too few [-]. Below it,
+/// states and motion have no common digits.
 const LEAST: f64 = 1e-4;
 /// Change of a coordinate with the motion that is none, relative to the largest [-]: differences leave 1e-11.
 const HELD: f64 = 1e-8;

@@ -30,7 +30,7 @@ const ROUNDINGS: f64 = 1e2;
 /// Axes that turn with a motion.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Turning {
-    /// Omega [rad/s].
+    /// Angular velocity Omega of the axes [rad/s].
     pub(super) rate: Vector<f64, 3>,
     /// C, which is 1 at the state.
     pub(super) axes: Matrix<f64, 3>,
@@ -40,12 +40,12 @@ pub(super) struct Turning {
 pub(super) type Row = Vec<f64>;
 
 impl Turning {
-    /// Axes that stand.
+    /// Returns axes that stand.
     pub(super) fn none() -> Self {
         Self { rate: Vector::zeros(), axes: Matrix::<f64, 3>::identity() }
     }
 
-    /// Those of a state, given what is measured there: the turning by which the vectors among the chosen states change.
+    /// Returns the axes of a state, given what is measured there: the turning by which the vectors among the chosen states change.
     pub(super) fn of(
         scene: &Scene<f64>,
         (layout, chosen): (&Layout, &[usize]),
@@ -128,7 +128,7 @@ fn combined(parts: impl Iterator<Item = (f64, Row)>) -> Row {
     sum
 }
 
-/// What accelerations are compared with.
+/// Sizes that accelerations are compared with.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Sizes {
     /// The scene's length [m].
@@ -155,7 +155,7 @@ impl Sizes {
         (PHASE / self.rate).min(LONGEST)
     }
 
-    /// Of a coordinate with this unit.
+    /// Returns the size of a coordinate with this unit: the scene's length for `m`, else 1.
     pub(super) fn of(&self, unit: &str) -> f64 {
         if unit == "m" { self.length } else { 1.0 }
     }

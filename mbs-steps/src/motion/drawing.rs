@@ -5,7 +5,7 @@ use mbs_core::Real;
 use mbs_core::effects::ActsOn;
 use mbs_core::scene::{BodyId, Dimension, Quantity, Scene};
 
-/// What is drawn of a scene.
+/// Scene that is drawn, with its length.
 pub(super) struct Drawing<'a, T> {
     pub(super) scene: &'a Scene<T>,
     /// The scene's length [m].

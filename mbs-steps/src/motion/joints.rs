@@ -1,4 +1,5 @@
-//! What is drawn of joints, by what they let move: pins, sockets, rails with blocks, marks of the ground; and planes on which bodies roll.
+//! Shapes that are drawn of joints, by what they let move: pins, sockets, rails with blocks, marks of the ground; and planes on which bodies
+//! roll.
 
 use super::drawing::Drawing;
 use super::pose::unit_of;

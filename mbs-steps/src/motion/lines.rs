@@ -1,4 +1,4 @@
-//! What is drawn between places on bodies: springs, dampers, bumpers, forces, bars of constant length, ropes.
+//! Lines that are drawn between places on bodies: springs, dampers, bumpers, forces, bars of constant length, ropes.
 
 use super::drawing::Drawing;
 use crate::record::{DrawnLine, LineStyle, RecordedMotion};
@@ -43,7 +43,7 @@ impl<T: Real> Drawing<'_, T> {
     }
 }
 
-/// How an effect along a line is drawn.
+/// Returns the style in which an effect along a line is drawn.
 fn style<T: Real>(kind: &EffectKind<T>) -> LineStyle {
     let of = |is_spring: bool, is_damper: bool| match (is_spring, is_damper) {
         (true, true) => LineStyle::CoilDamper,

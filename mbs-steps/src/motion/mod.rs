@@ -26,7 +26,7 @@ const EARLY: f64 = 1e-6;
 /// Most numbers in all pictures [-]: eighty megabytes. Scenes of some thousand bodies get fewer pictures.
 const MAX_NUMBERS: f64 = 1e7;
 
-/// What the poses are read of, and the motion that they fill.
+/// Recorder of the motion: functions from which the poses are read, and the motion that they fill.
 #[derive(Debug)]
 pub struct MotionRecorder<T: Real, const D: usize> {
     poses: Vec<BodyPose<T, D>>,

@@ -4,17 +4,17 @@ use mbs_core::Real;
 use mbs_core::natural::{Affine, NaturalModel};
 use mbs_core::scene::{BodyId, Inertia, Scene};
 
-/// What a pose is read of.
+/// Functions of the coordinates from which the pose of a body is read.
 #[derive(Debug)]
 pub(super) struct BodyPose<T: Real, const D: usize> {
     center: Affine<T, D>,
     turn: Turn<T, D>,
 }
 
-/// How a body's turn is read.
+/// Source from which a body's turn is read.
 #[derive(Debug)]
 enum Turn<T: Real, const D: usize> {
-    /// It has none: a point.
+    /// The body has no turn: a point.
     None,
     /// The images of the global x and y axes of the reference configuration; in the plane of x alone.
     Axes([Affine<T, D>; 2]),
@@ -39,7 +39,7 @@ impl<T: Real, const D: usize> BodyPose<T, D> {
         Self { center: model.point(id, data.center), turn }
     }
 
-    /// Where the centre of mass is [m].
+    /// Position of the centre of mass [m].
     pub(super) fn place(&self, q: &[T]) -> [f64; 3] {
         numbers(&self.center, q)
     }

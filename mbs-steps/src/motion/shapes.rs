@@ -1,4 +1,4 @@
-//! What is drawn of the bodies: rods, boxes and capsules of their inertia, wheels, strokes to their joints, planar polygons.
+//! Shapes that are drawn of the bodies: rods, boxes and capsules of their inertia, wheels, strokes to their joints, planar polygons.
 
 use super::drawing::Drawing;
 use super::pose::{cross, dot, unit_of};
@@ -247,7 +247,7 @@ fn around(mut points: Vec<[f64; 3]>) -> Vec<[f64; 3]> {
     points
 }
 
-/// A box; a capsule where two half lengths are alike and the third is longer.
+/// Form of a solid: a box, or a capsule where two half lengths are alike and the third is longer.
 fn form_of(solid: &Solid, is_clear: bool) -> ShapeForm {
     let Solid { half, axes } = solid;
     let long = (0..3).fold(0, |a, b| if half[b] > half[a] { b } else { a });

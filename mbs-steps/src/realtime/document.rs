@@ -36,7 +36,7 @@ pub fn run_document(
     read.work(Paced { settings, pacing, clock })
 }
 
-/// A paced run.
+/// Run of a scene at the pace of a clock.
 struct Paced<'a> {
     settings: &'a ResolvedMethod,
     pacing: &'a Pacing,

@@ -1,4 +1,4 @@
-//! Why a run cannot be paced as it is asked for.
+//! Reason why a run cannot be paced as it is asked for.
 
 use crate::methods::FormulationKind;
 use crate::precision::PrecisionError;
@@ -11,30 +11,30 @@ use mbs_scene::{format::significant, nearest_name};
 pub enum PacingError {
     /// A time that must be positive and finite, or not negative.
     Time {
-        /// `period` or `awake`.
+        /// Key of the time: `period` or `awake`.
         key: &'static str,
-        /// What it is [s].
+        /// Value that is refused [s].
         value: f64,
     },
     /// A quiet time that is none.
     Quiet,
     /// A level names an effect that the scene has not, or has switched off.
     NoEffect {
-        /// The name.
+        /// Name that the level gives.
         name: String,
-        /// Those that it has.
+        /// Names of the effects that the scene has on.
         known: Vec<String>,
     },
     /// Steps cannot be made longer.
     Steps {
-        /// Their lengths are controlled; else a period has not steps enough.
+        /// Whether the lengths of the steps are controlled; else a period has not steps enough.
         is_controlled: bool,
     },
     /// An effect that cannot be switched off while the scene runs.
     Fixed {
-        /// Its name.
+        /// Name of the effect.
         name: String,
-        /// Why.
+        /// Reason why it cannot be switched off.
         why: SwitchError,
     },
     /// Nothing that may be left out saves time.
@@ -44,7 +44,7 @@ pub enum PacingError {
 }
 
 impl PacingError {
-    /// What to do about it.
+    /// Hint for the user: what to do about the error.
     #[must_use]
     pub fn hint(&self) -> String {
         match self {
@@ -74,7 +74,7 @@ impl PacingError {
         }
     }
 
-    /// The whole message.
+    /// Returns the whole message, with its hint.
     #[must_use]
     pub fn render(&self) -> String {
         match self {

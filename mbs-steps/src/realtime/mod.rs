@@ -102,12 +102,12 @@ pub use words::note;
 #[cfg(doc)]
 use crate::typed::Simulation;
 
-/// How a run is paced.
+/// Settings by which a run is paced.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Pacing {
     /// Time between two boundaries [s]; else the step, or the largest one where lengths are controlled.
     pub period: Option<f64>,
-    /// What happens when a period is late.
+    /// Policy for a period that is late.
     pub overrun: Overrun,
     /// The ladder of [`Overrun::Degrade`].
     pub degrade: Degrade,
@@ -132,7 +132,7 @@ impl Default for Pacing {
     }
 }
 
-/// What levels below the full scene leave out.
+/// Ladder of levels below the full scene: what they leave out.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Degrade {
     /// Steps twice and four times as long, and effects, where they save time; what changes the outputs least goes first. Time

@@ -1,4 +1,4 @@
-//! What a pacer has measured, as it stands in files.
+//! Measurements of a pacer, as they stand in files.
 
 use crate::record::{Degraded, MarginSummary, Overrun as Logged, RealtimeSummary, Times};
 use crate::run::{PacedLevel, PacedSchedule};
@@ -8,7 +8,7 @@ use mbs_realtime::{Action, Entry, Overrun, Pacer, Spread};
 pub const OVERRUNS: [(&str, Overrun); 3] =
     [("finish", Overrun::Finish), ("hold", Overrun::Hold), ("degrade", Overrun::Degrade)];
 
-/// How a policy is written.
+/// Returns the name of a policy, as it is written.
 fn name(overrun: Overrun) -> &'static str {
     OVERRUNS.iter().find(|(_, other)| *other == overrun).map_or("", |(name, _)| name)
 }

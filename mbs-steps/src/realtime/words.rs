@@ -1,4 +1,4 @@
-//! What is said about a paced run: rows of a summary, and a note.
+//! Words about a paced run: rows of a summary, and a note.
 
 use crate::record::{Degraded, RealtimeSummary};
 use mbs_scene::format::significant;
@@ -73,7 +73,7 @@ fn level_text(level: &Degraded) -> String {
     text + &format!("; {n} {}", if n == 1 { "period" } else { "periods" })
 }
 
-/// What is to be known of a run that was degraded.
+/// Note on a run that was degraded.
 pub fn note(s: &RealtimeSummary) -> Option<String> {
     (s.degraded_periods > 0).then(|| {
         format!(

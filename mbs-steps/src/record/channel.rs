@@ -3,12 +3,12 @@
 use mbs_core::outputs::{Component, QUANTITIES};
 use mbs_core::scene::{Output, Scene};
 
-/// A recorded channel: its name and its components.
+/// Recorded channel, with its name and its components.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Channel {
     /// Name, unique among the channels.
     pub name: String,
-    /// What it measures, as scene files call it; empty of an output that is code.
+    /// Quantity that the channel measures, as scene files call it; empty of an output that is code.
     pub quantity: &'static str,
     /// Components in the order of the record; one for a number.
     pub components: Vec<Component>,

@@ -1,4 +1,4 @@
-//! What a choice by measurement was made of: who could run, what the pilot measured of each, who was chosen.
+//! Evidence of a choice by measurement: who could run, what the pilot measured of each, who was chosen.
 
 use super::alias;
 use mbs_scene::format::{duration, few, rounded, shortest, significant};
@@ -12,26 +12,26 @@ pub struct PilotReport {
     pub error: Option<f64>,
     /// Time for each frame of that length [s].
     pub deadline: Option<f64>,
-    /// What the scene is, one sentence each.
+    /// Structure of the scene, one sentence each.
     pub structure: Vec<String>,
     /// Length of the run that the pilot looked at [s].
     pub span: f64,
     /// Number of instants at which errors were taken.
     pub instants: usize,
-    /// CPU time of the pilot, and what it was allowed [s].
+    /// CPU time of the pilot [s].
     pub pilot_seconds: f64,
-    /// What it was allowed [s].
+    /// CPU time that the pilot was allowed [s].
     pub pilot_budget: f64,
-    /// What errors were taken against, and how well that is known.
+    /// Reference that errors were taken against, and how well that is known.
     pub reference: Option<PilotReference>,
-    /// How far the chosen one is from index-3, where it is in relative coordinates.
+    /// Distance of the chosen candidate from index-3, where the chosen one is in relative coordinates.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub second_look: Option<SecondLook>,
     /// All that were considered: the chosen one first, then by predicted CPU time, then those that are out.
     pub candidates: Vec<Candidate>,
     /// Candidates that were chosen and stopped in the run.
     pub fallbacks: Vec<Fallback>,
-    /// What the reader should know.
+    /// Notes that the reader should know.
     pub notes: Vec<String>,
 }
 
@@ -40,7 +40,7 @@ pub struct PilotReport {
 pub struct SecondLook {
     /// Largest distance of the outputs, each in its scale.
     pub distance: Option<f64>,
-    /// What the look itself errs by.
+    /// Error of the look itself.
     pub own_error: Option<f64>,
     /// The distance cannot be an error of either: the models differ.
     pub differs: bool,
@@ -49,11 +49,11 @@ pub struct SecondLook {
 /// The most accurate run of the pilot.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct PilotReference {
-    /// Candidate.
+    /// Name of the candidate that ran.
     pub method: String,
     /// Step [s], or tolerance.
     pub setting: f64,
-    /// Its own error, by the distance of its coarser neighbour.
+    /// Error of the reference itself, by the distance of its coarser neighbour.
     pub uncertainty: f64,
 }
 
@@ -62,32 +62,32 @@ pub struct PilotReference {
 pub struct Candidate {
     /// 1 for the chosen one; nothing for those that are out.
     pub rank: Option<usize>,
-    /// Name: formulation, integrator and control, precision.
+    /// Name of the candidate: formulation, integrator and control, precision.
     pub method: String,
-    /// Formulation.
+    /// Formulation of the candidate.
     pub formulation: String,
-    /// Integrator.
+    /// Integrator of the candidate.
     pub integrator: String,
-    /// What chooses the steps: `fixed`, `error`, `energy`; `own` with an integrator that controls its own.
+    /// Control of the steps: `fixed`, `error`, `energy`; `own` with an integrator that controls its own.
     pub control: String,
     /// Step [s], or tolerance, that it needs.
     pub setting: Option<f64>,
     /// CPU time of the whole run with it [s], predicted.
     pub seconds: Option<f64>,
-    /// That over the same of the chosen one.
+    /// Predicted CPU time over that of the chosen candidate [-].
     #[serde(flatten, serialize_with = "alias::over_chosen")]
     pub over_chosen: Option<f64>,
     /// Error with it, predicted.
     pub error: Option<f64>,
     /// The slowest step of its trials [s], where steps were timed one by one.
     pub slowest_step: Option<f64>,
-    /// What the prediction stands on.
+    /// Basis of the prediction.
     #[serde(flatten, serialize_with = "alias::basis")]
     pub basis: String,
-    /// Why it is out.
+    /// Reason why the candidate is out.
     #[serde(flatten, serialize_with = "alias::out")]
     pub out: Option<String>,
-    /// What was measured.
+    /// Trials of the candidate, as measured.
     pub trials: Vec<TrialEntry>,
 }
 
@@ -96,9 +96,9 @@ pub struct Candidate {
 pub struct TrialEntry {
     /// Step [s], or tolerance.
     pub setting: f64,
-    /// CPU time [s].
+    /// CPU time of the trial [s].
     pub seconds: f64,
-    /// Steps made.
+    /// Number of steps made.
     pub steps: u64,
     /// Share of the span that was reached.
     pub reached: f64,
@@ -111,13 +111,13 @@ pub struct TrialEntry {
 /// A candidate that stopped in the run.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct Fallback {
-    /// Candidate.
+    /// Name of the candidate that stopped.
     pub method: String,
     /// Code of what stopped it.
     pub code: String,
     /// Message of what stopped it.
     pub message: String,
-    /// When [s].
+    /// Time of the stop [s].
     pub time: f64,
     /// CPU time that was lost [s].
     pub cpu_seconds: f64,
@@ -127,7 +127,7 @@ pub struct Fallback {
 const HEAD: [&str; 6] = ["", "candidate", "step or tolerance", "CPU time", "error", "why"];
 
 impl PilotReport {
-    /// Why, one sentence each.
+    /// Returns the reasons for the choice, one sentence each.
     #[must_use]
     pub fn reasons(&self) -> Vec<String> {
         let choice = self;
@@ -269,7 +269,7 @@ pub fn write_choice(sink: impl io::Write, choice: &PilotReport) -> io::Result<()
     out.flush()
 }
 
-/// How far another model is from the chosen one.
+/// Describes how far another model is from the chosen one.
 fn second_look(look: &SecondLook) -> String {
     let distance = look.distance.map_or_else(|| "?".to_owned(), few);
     let own = look.own_error.map_or_else(

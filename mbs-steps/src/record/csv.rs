@@ -1,4 +1,4 @@
-//! CSV: one row per recorded time, written as the run goes.
+//! CSV with one row per recorded time, written as the run goes.
 
 use super::channel::Channel;
 use super::series::StepSeries;
@@ -21,7 +21,7 @@ impl<W: Write> CsvWriter<W> {
     /// Rows between two flushes. Chosen, not tuned.
     pub const FLUSH_EVERY: usize = 256;
 
-    /// Starts a file: the header is `t`, then the columns of the channels.
+    /// Starts a file with its header: `t`, then the columns of the channels.
     ///
     /// # Errors
     /// Those of the sink.
@@ -52,7 +52,7 @@ impl<W: Write> CsvWriter<W> {
         Self { out: csv::Writer::from_writer(sink), n_columns, n_rows: 0 }
     }
 
-    /// Writes one row: the time [s] and the components of all channels in order.
+    /// Writes one row with the time [s] and the components of all channels in order.
     ///
     /// # Errors
     /// Those of the sink.
@@ -63,7 +63,7 @@ impl<W: Write> CsvWriter<W> {
         self.fields(core::iter::once(&time).chain(values).map(|&x| shortest(x)))
     }
 
-    /// The same with 32 digits; the time has those of `f64`.
+    /// Writes one row of values with 32 digits; the time has those of `f64`.
     ///
     /// # Errors
     /// Those of the sink.

@@ -1,14 +1,14 @@
-//! How accurate a run is, by a second run of its motion.
+//! Accuracy of a run, by a second run of its motion.
 
 use super::outputs::Outputs;
 
 /// An estimate of the errors of a run's outputs.
 #[derive(Debug, Clone, Default, PartialEq, serde::Serialize)]
 pub struct ErrorEstimate {
-    /// What it is based on; absent where there is none.
+    /// Basis of the estimate; absent where there is none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub basis: Option<String>,
-    /// Why there is none.
+    /// Reason why there is no estimate.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub missing: Option<String>,
     /// The largest error of each component over the run, in its unit.
@@ -28,7 +28,7 @@ pub struct ErrorEstimate {
     /// Steps in a period of the stiffest force.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub steps_per_period: Option<f64>,
-    /// What makes the steps too long for the motion.
+    /// Warnings on what makes the steps too long for the motion.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub warnings: Vec<String>,
 }

@@ -1,4 +1,4 @@
-//! JSON: the summary of a run, with the keys of the scene format.
+//! Summary of a run as JSON, with the keys of the scene format.
 
 use super::choice::PilotReport;
 use super::estimate::ErrorEstimate;
@@ -14,14 +14,14 @@ pub struct RunSummary {
     pub scene: String,
     /// Formulation as asked, `auto` included.
     pub formulation: String,
-    /// Integrator that ran.
+    /// Integrator that the run used.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub integrator: String,
-    /// `f32`, `f64`, `dd`.
+    /// Precision of the run: `f32`, `f64`, `dd`.
     pub precision: String,
     /// The method that ran, and its steps.
     pub method_used: MethodUsed,
-    /// 2 or 3.
+    /// Dimension of the scene, 2 or 3.
     pub dimension: usize,
     /// Coordinates of the formulation that ran.
     pub coordinates: usize,
@@ -29,17 +29,17 @@ pub struct RunSummary {
     pub constraints: usize,
     /// Rank of their Jacobian at the start.
     pub constraint_rank: usize,
-    /// Coordinates minus rank.
+    /// Degrees of freedom: coordinates minus rank.
     pub dof: usize,
     /// Step as asked [s].
     pub step: f64,
-    /// Steps done.
+    /// Number of steps done.
     pub steps: u64,
     /// The whole duration was reached.
     pub completed: bool,
-    /// Why it was not.
+    /// Reason why the whole duration was not reached.
     pub error: Option<RunError>,
-    /// Time reached [s].
+    /// Time that the run reached [s].
     pub end_time: f64,
     /// CPU time of all threads from the first step to the last; of a paced run the time of its periods by the clock [s].
     pub cpu_seconds: f64,
@@ -47,31 +47,31 @@ pub struct RunSummary {
     pub real_time_factor: f64,
     /// The slowest step [s].
     pub worst_step_seconds: f64,
-    /// Newton iterations.
+    /// Newton iterations of all steps.
     pub iterations: u64,
-    /// Factorisations.
+    /// Factorisations of all steps.
     pub factorizations: u64,
-    /// Energy invariant.
+    /// Energy invariant over the run.
     pub energy: EnergySummary,
-    /// Largest constraint violation.
+    /// Largest constraint violation over the run.
     pub violation: ViolationSummary,
-    /// What the control of the step size did; absent where steps are fixed.
+    /// Summary of the step size control; absent where steps are fixed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub control: Option<ControlSummary>,
-    /// How the run kept up with the clock; absent where it was not paced.
+    /// Report of how the run kept up with the clock; absent where it was not paced.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub realtime: Option<RealtimeSummary>,
-    /// Channels at `end_time`.
+    /// Values of the channels at `end_time`.
     pub outputs: Outputs,
     /// Statistics of each channel over every step.
     pub channels: Vec<ChannelSummary>,
     /// The outputs as texts of 32 digits, where the run had them: most readers of JSON keep no more than 17.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub digits: Option<Outputs<String>>,
-    /// How accurate the outputs are; absent where no estimate was made.
+    /// Accuracy of the outputs; absent where no estimate was made.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub estimate: Option<ErrorEstimate>,
-    /// What `auto` chose and why.
+    /// Method that `auto` chose, and why.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub chosen: Option<MethodChoice>,
     /// Joints whose reaction is not unique; the smallest one is given.
@@ -80,7 +80,7 @@ pub struct RunSummary {
     /// When bumpers, limits and tires made and broke contact, in order.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub contacts: Vec<Contact>,
-    /// How many more there were than are listed.
+    /// Number of contacts beyond those that are listed.
     #[serde(skip_serializing_if = "is_zero")]
     pub contacts_left_out: u64,
 }
@@ -88,11 +88,11 @@ pub struct RunSummary {
 /// The method that ran, and its steps.
 #[derive(Debug, Clone, Default, PartialEq, serde::Serialize)]
 pub struct MethodUsed {
-    /// Formulation.
+    /// Formulation of the method that ran.
     pub formulation: String,
-    /// Integrator.
+    /// Integrator of the method that ran.
     pub integrator: String,
-    /// Steps done.
+    /// Number of steps done.
     pub steps: u64,
     /// The shortest step [s]; absent where the integrator makes steps within those that are observed.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -114,7 +114,7 @@ pub struct Contact {
     /// `lower` or `upper` end of a limit.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub end: Option<&'static str>,
-    /// `made` or `broken`.
+    /// Kind of event: `made` or `broken`.
     pub event: &'static str,
 }
 
@@ -123,14 +123,14 @@ fn is_zero(n: &u64) -> bool {
     *n == 0
 }
 
-/// Why a run stopped early.
+/// Reason why a run stopped early.
 #[derive(Debug, Clone, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct RunError {
     /// Short fixed word for programs, such as `not-converged`.
     pub code: String,
-    /// One sentence.
+    /// Message of one sentence.
     pub message: String,
-    /// Time reached [s].
+    /// Time that the run reached [s].
     pub time: f64,
     /// Name of the joint concerned.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -138,7 +138,7 @@ pub struct RunError {
     /// Name of the body concerned.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub body: Option<String>,
-    /// What to try.
+    /// Hint on what to try.
     pub hint: String,
 }
 
@@ -170,17 +170,17 @@ pub struct ViolationSummary {
     pub acceleration: f64,
 }
 
-/// What `auto` chose.
+/// Method that `auto` chose, and why.
 #[derive(Debug, Clone, Default, PartialEq, serde::Serialize)]
 pub struct MethodChoice {
-    /// Formulation that ran.
+    /// Formulation of the method that ran.
     pub formulation: String,
     /// Formulation, integrator, and step or tolerance that ran.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub ran: String,
-    /// Why, one sentence each.
+    /// Reasons for the choice, one sentence each.
     pub reasons: Vec<String>,
-    /// What was measured; absent where nothing was.
+    /// Evidence that was measured; absent where nothing was.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub evidence: Option<PilotReport>,
 }

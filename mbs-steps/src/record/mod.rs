@@ -1,4 +1,4 @@
-//! What a run leaves behind: plain data, and its rows and objects in files.
+//! Records that a run leaves behind: plain data, and its rows and objects in files.
 
 #[doc(hidden)]
 pub mod alias;

@@ -12,7 +12,7 @@ pub const N_POSE: usize = 7;
 /// Places on a body count from its centre of mass, in the global axes of the reference configuration; those of the ground are global.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct RecordedMotion {
-    /// 2 or 3; planar places have a third number zero.
+    /// Dimension of the scene, 2 or 3; planar places have a third number zero.
     pub dimension: usize,
     /// The direction that points up in the picture of a spatial scene; zero: +z.
     pub up: [f64; 3],
@@ -24,15 +24,15 @@ pub struct RecordedMotion {
     pub poses: Vec<f64>,
     /// The bodies, in file order.
     pub bodies: Vec<DrawnBody>,
-    /// What is drawn on bodies and on the ground.
+    /// Shapes on bodies and on the ground.
     pub shapes: Vec<DrawnShape>,
-    /// What is drawn between places on bodies.
+    /// Lines between places on bodies.
     pub lines: Vec<DrawnLine>,
     /// Points whose path is drawn.
     pub traces: Vec<DrawnPoint>,
-    /// Joints, for labels.
+    /// Places of the joints, for labels.
     pub joints: Vec<DrawnPoint>,
-    /// Where forces and moments act that outputs measure, by the names of the outputs.
+    /// Places where forces and moments act that outputs measure, by the names of the outputs.
     pub forces: Vec<DrawnForce>,
     /// The road under tires.
     pub road: Option<DrawnRoad>,
@@ -56,9 +56,9 @@ impl RecordedMotion {
 /// A body of a picture.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct DrawnBody {
-    /// Its name.
+    /// Name of the body.
     pub name: String,
-    /// Its mass [kg].
+    /// Mass of the body [kg].
     pub mass: f64,
 }
 
@@ -67,16 +67,16 @@ pub struct DrawnBody {
 pub struct BodyPlace {
     /// Number of the body.
     pub body: Option<usize>,
-    /// Where [m].
+    /// Place from the body's centre of mass in the reference configuration; on the ground from the global origin [m].
     pub at: [f64; 3],
 }
 
 /// A place with a name.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct DrawnPoint {
-    /// Its name.
+    /// Name of the place.
     pub name: String,
-    /// Where it is.
+    /// Place on a body, or on the ground.
     #[serde(flatten)]
     pub place: BodyPlace,
 }
@@ -96,13 +96,13 @@ pub struct DrawnForce {
 pub struct DrawnShape {
     /// Number of the body; none: the ground.
     pub body: Option<usize>,
-    /// The shape.
+    /// Form of the shape.
     #[serde(flatten)]
     pub form: ShapeForm,
-    /// Its colour, `#rrggbb`; none: that of its body.
+    /// Colour of the shape, `#rrggbb`; none: that of its body.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub colour: Option<String>,
-    /// From 0, not seen, to 1 [-].
+    /// Opacity from 0, not seen, to 1 [-].
     pub opacity: f64,
     /// Is it drawn only where no file of its body's meshes can be read?
     #[serde(skip)]
@@ -122,20 +122,20 @@ impl DrawnShape {
 pub enum ShapeForm {
     /// A cylinder between two places.
     Rod {
-        /// One end.
+        /// One end of the rod.
         from: [f64; 3],
-        /// The other end.
+        /// Other end of the rod.
         to: [f64; 3],
-        /// Its radius.
+        /// Radius of the rod.
         radius: f64,
     },
-    /// A box.
+    /// Box, by its centre, half lengths and axes.
     Box {
-        /// Its centre.
+        /// Centre of the box.
         at: [f64; 3],
         /// Half lengths along its axes.
         half: [f64; 3],
-        /// Its axes, as unit vectors.
+        /// Axes of the box, as unit vectors.
         axes: [[f64; 3]; 3],
         /// Is something of interest inside it?
         is_clear: bool,
@@ -144,102 +144,102 @@ pub enum ShapeForm {
     Capsule {
         /// One end of the cylinder.
         from: [f64; 3],
-        /// The other end.
+        /// Other end of the cylinder.
         to: [f64; 3],
-        /// Its radius.
+        /// Radius of the capsule.
         radius: f64,
         /// Is something of interest inside it?
         is_clear: bool,
     },
-    /// A ball; with marks where it shows that it turns.
+    /// Ball, with marks where it shows that it turns.
     Ball {
-        /// Its centre.
+        /// Centre of the ball.
         at: [f64; 3],
-        /// Its radius.
+        /// Radius of the ball.
         radius: f64,
-        /// Has it marks?
+        /// Has the ball marks?
         turns: bool,
     },
     /// A thin bar between two places.
     Stroke {
-        /// One end.
+        /// One end of the bar.
         from: [f64; 3],
-        /// The other end.
+        /// Other end of the bar.
         to: [f64; 3],
     },
     /// A surface of triangles, from a file that the page reads.
     Mesh {
-        /// The file.
+        /// File of the surface.
         #[serde(skip)]
         file: String,
-        /// Where its origin is.
+        /// Place of the mesh's origin.
         at: [f64; 3],
-        /// Its axes, times the factors of its numbers.
+        /// Axes of the mesh, times the factors of its numbers.
         axes: [[f64; 3]; 3],
     },
     /// A flat polygon across z.
     Polygon {
-        /// Its corners.
+        /// Corners of the polygon.
         points: Vec<[f64; 3]>,
     },
     /// A wheel, a disc or a gear.
     Wheel {
-        /// Its centre.
+        /// Centre of the wheel.
         at: [f64; 3],
-        /// Its axis, a unit vector.
+        /// Axis of the wheel, a unit vector.
         axis: [f64; 3],
-        /// Its radius.
+        /// Radius of the wheel.
         radius: f64,
-        /// Its width.
+        /// Width of the wheel.
         width: f64,
         /// Has its rim marks?
         turns: bool,
     },
     /// The axis of a revolute joint.
     Pin {
-        /// Where.
+        /// Place of the pin.
         at: [f64; 3],
-        /// Its axis, a unit vector.
+        /// Axis of the pin, a unit vector.
         axis: [f64; 3],
     },
-    /// A ball joint.
+    /// Socket of a ball joint.
     Socket {
-        /// Where.
+        /// Place of the socket.
         at: [f64; 3],
     },
     /// A straight guide through a place; it is as long as the other place goes along it.
     Rail {
-        /// Where.
+        /// Place on the rail.
         at: [f64; 3],
-        /// Its direction, a unit vector.
+        /// Direction of the rail, a unit vector.
         axis: [f64; 3],
-        /// What slides on it.
+        /// Place on the body that slides along the rail.
         slider: BodyPlace,
     },
     /// A block that slides on a rail.
     Block {
-        /// Where.
+        /// Place of the block.
         at: [f64; 3],
         /// The rail's direction, a unit vector.
         axis: [f64; 3],
     },
     /// A rubber ring of a bushing.
     Ring {
-        /// Where.
+        /// Place of the ring.
         at: [f64; 3],
     },
     /// A mark of the ground at a joint.
     Support {
-        /// Where.
+        /// Place of the mark.
         at: [f64; 3],
     },
     /// A plane on which bodies roll.
     Plane {
         /// A place in it.
         at: [f64; 3],
-        /// Its normal, a unit vector.
+        /// Normal of the plane, a unit vector.
         axis: [f64; 3],
-        /// What rolls on it.
+        /// Place on the body that rolls on the plane.
         slider: BodyPlace,
     },
 }
@@ -249,13 +249,13 @@ pub enum ShapeForm {
 pub struct DrawnLine {
     /// Name of the effect, joint or coupling.
     pub name: String,
-    /// How it is drawn.
+    /// Style in which the line is drawn.
     pub style: LineStyle,
     /// The places, two or more.
     pub places: Vec<BodyPlace>,
 }
 
-/// How lines are drawn.
+/// Style in which a line is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum LineStyle {
@@ -282,7 +282,7 @@ pub struct DrawnRoad {
     pub start: f64,
     /// Distance of the places [m].
     pub spacing: f64,
-    /// Strips across y: from, to, and the heights at the places [m].
+    /// Strips side by side across y, with their sides and the heights at the places [m].
     pub strips: Vec<RoadStrip>,
     /// Speed along -x [m/s].
     pub speed: f64,
@@ -291,14 +291,14 @@ pub struct DrawnRoad {
 /// A strip of a road.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct RoadStrip {
-    /// Its two sides [m].
+    /// Two sides of the strip, along y [m].
     pub sides: [f64; 2],
     /// Heights at the places [m].
     pub heights: Vec<f64>,
 }
 
 impl RecordedMotion {
-    /// Where a place is in a picture [m]; `None`: there is no such picture or body.
+    /// Returns where a place is in a picture [m]; `None`: there is no such picture or body.
     #[must_use]
     pub fn place(&self, picture: usize, place: &BodyPlace) -> Option<[f64; 3]> {
         let Some(body) = place.body else { return Some(place.at) };

@@ -1,4 +1,4 @@
-//! How a paced run kept up with the clock: an object of its JSON, and a line of CSV for each overrun.
+//! Report of how a paced run kept up with the clock: an object of its JSON, and a line of CSV for each overrun.
 
 use mbs_scene::format::shortest;
 use std::io::{self, Write};
@@ -19,19 +19,19 @@ pub struct RealtimeSummary {
     pub deadline_held: bool,
     /// Periods that were not.
     pub overruns: u64,
-    /// The longest delay.
+    /// Longest delay of a period.
     pub latest: f64,
-    /// How late periods began that nothing had delayed.
+    /// Delay at the begin of periods that nothing had delayed.
     pub jitter: Times,
-    /// How long their computation took.
+    /// Time of the computation of a period.
     pub duration: Times,
-    /// What was left until the deadline; negative where it was missed.
+    /// Time left until the deadline; negative where it was missed.
     pub margin: MarginSummary,
     /// Simulated time over the time of the computation alone.
     pub real_time_factor: f64,
     /// From the first begin to the last end.
     pub elapsed: f64,
-    /// How far behind the clock the last result came.
+    /// Delay of the last result behind the clock.
     pub behind: f64,
     /// Periods by which `hold` put the schedule off.
     pub skipped: u64,
@@ -42,36 +42,36 @@ pub struct RealtimeSummary {
     pub levels: Vec<Degraded>,
     /// Overruns and changes of level, the first thousand.
     pub log: Vec<Overrun>,
-    /// How many more there were.
+    /// Number of overruns and changes of level beyond those in the log.
     pub log_left_out: u64,
 }
 
 /// Percentiles of times [s].
 #[derive(Debug, Clone, Copy, Default, PartialEq, serde::Serialize)]
 pub struct Times {
-    /// Median.
+    /// Median of the times.
     pub p50: f64,
-    /// 99th percentile.
+    /// 99th percentile of the times.
     pub p99: f64,
-    /// The longest.
+    /// Longest of the times.
     pub max: f64,
 }
 
 /// Percentiles of margins [s].
 #[derive(Debug, Clone, Copy, Default, PartialEq, serde::Serialize)]
 pub struct MarginSummary {
-    /// The least.
+    /// Least of the margins.
     pub least: f64,
-    /// First percentile: 99 of 100 are not smaller.
+    /// First percentile of the margins: 99 of 100 are not smaller.
     pub p1: f64,
-    /// Median.
+    /// Median of the margins.
     pub p50: f64,
 }
 
 /// A level of the ladder.
 #[derive(Debug, Clone, Default, PartialEq, serde::Serialize)]
 pub struct Degraded {
-    /// Its number: 0 is the full scene.
+    /// Number of the level: 0 is the full scene.
     pub level: usize,
     /// Times the length of a step at level 0.
     pub step_times: f64,
@@ -93,15 +93,15 @@ pub struct Degraded {
 /// A period that was late, or after which the level changed.
 #[derive(Debug, Clone, Default, PartialEq, serde::Serialize)]
 pub struct Overrun {
-    /// Its number, from 0.
+    /// Number of the period, from 0.
     pub index: u64,
     /// Simulated time at its end [s].
     pub time: f64,
     /// When its computation ended, since the run began [s].
     pub at: f64,
-    /// How long it took [s].
+    /// Time that the computation took [s].
     pub duration: f64,
-    /// By how much the deadline was missed [s]; 0 where it was not.
+    /// Time by which the deadline was missed [s]; 0 where it was not.
     pub late: f64,
     /// The level at which it ran.
     pub level: usize,

@@ -1,4 +1,4 @@
-//! What a run leaves behind, as plain data: channels, pictures, energies, counts.
+//! Plain data that a run leaves behind: channels, pictures, energies, counts.
 
 use super::RecordedMotion;
 use super::channel::Channel;
@@ -9,23 +9,23 @@ use super::statistics::ComponentStatistics;
 pub struct RunRecord {
     /// Name of the scene.
     pub scene: String,
-    /// How the run was made.
+    /// Origin of the run: how it was made.
     pub provenance: Provenance,
-    /// Recorded channels.
+    /// Recorded channels of the run.
     pub channels: Vec<ChannelSeries>,
     /// The motion of the bodies, and what is drawn of them.
     pub motion: Option<RecordedMotion>,
-    /// Energies.
+    /// Energies of the mechanism over time.
     pub energy: Option<EnergySeries>,
-    /// Constraint violation.
+    /// Constraint violation over time.
     pub violation: Option<ViolationSeries>,
-    /// Newton iterations.
+    /// Newton iterations per step.
     pub iterations: Option<IterationSeries>,
     /// Lengths of the steps, where they are controlled.
     pub steps: Option<StepSeries>,
     /// Rows of the summary table: label and value.
     pub summary: Vec<(String, String)>,
-    /// What the user should know, such as redundant constraints.
+    /// Notes that the user should know, such as on redundant constraints.
     pub notes: Vec<String>,
     /// The table of a choice by measurement, its head first.
     pub choice: Vec<Vec<String>>,
@@ -33,22 +33,22 @@ pub struct RunRecord {
     pub error: Option<String>,
 }
 
-/// How a run was made; empty texts are left out.
+/// Origin of a run: how it was made; empty texts are left out.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Provenance {
     /// The command line that makes the run again.
     pub command: String,
-    /// `f32`, `f64`, `dd`.
+    /// Precision of the run: `f32`, `f64`, `dd`.
     pub precision: String,
-    /// Formulation that ran.
+    /// Formulation that the run used.
     pub formulation: String,
-    /// Integrator that ran.
+    /// Integrator that the run used.
     pub integrator: String,
     /// Step with its unit.
     pub step: String,
-    /// Version or commit.
+    /// Version or commit of the program.
     pub version: String,
-    /// Processor.
+    /// Processor of the machine.
     pub cpu: String,
 }
 
@@ -71,9 +71,9 @@ impl Provenance {
 /// A channel over time.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct ChannelSeries {
-    /// Name and components.
+    /// Name and components of the channel.
     pub channel: Channel,
-    /// Times [s].
+    /// Times of the values [s].
     pub times: Vec<f64>,
     /// One series per component, each as long as `times`.
     pub values: Vec<Vec<f64>>,
@@ -84,11 +84,11 @@ pub struct ChannelSeries {
 /// Energies over time [J].
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct EnergySeries {
-    /// Times [s].
+    /// Times of the energies [s].
     pub times: Vec<f64>,
-    /// Kinetic energy T.
+    /// Kinetic energy T of the mechanism.
     pub kinetic: Vec<f64>,
-    /// Potential energy V.
+    /// Potential energy V of the mechanism.
     pub potential: Vec<f64>,
     /// Pi(t) - Pi(0) of the invariant Pi = T + V - work.
     pub invariant_error: Vec<f64>,
@@ -97,7 +97,7 @@ pub struct EnergySeries {
 /// Largest residual at the three levels over time.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct ViolationSeries {
-    /// Times [s].
+    /// Times of the residuals [s].
     pub times: Vec<f64>,
     /// Position level [m or rad].
     pub position: Vec<f64>,
@@ -123,20 +123,20 @@ pub struct StepSeries {
     pub times: Vec<f64>,
     /// Pi(t) - Pi(0) there [J].
     pub energy_errors: Vec<f64>,
-    /// Each step.
+    /// Rows of the steps, at the same times.
     pub rows: Vec<StepRow>,
     /// Counts over all steps, those that are not kept among them.
     pub totals: ControlSummary,
 }
 
-/// A step; or several in a row where they are thinned: the shortest, and the largest of the rest.
+/// Row of a step, or of several in a row where they are thinned: the shortest, and the largest of the rest.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct StepRow {
-    /// Length [s].
+    /// Length of the step [s].
     pub length: f64,
     /// 1 or 3, in formulations that have an index.
     pub index: Option<u8>,
-    /// Iterations.
+    /// Iterations of the step.
     pub iterations: u32,
     /// Trials before it that were rejected.
     pub rejected: u32,
@@ -146,7 +146,7 @@ pub struct StepRow {
     pub penalty_energy: f64,
     /// Estimate of its error, relative to the scene's length.
     pub error_estimate: Option<f64>,
-    /// What kept the next step from being longer: `max`, `energy`, `error`, `event`, `contact`, `failure`.
+    /// Limit that kept the next step from being longer: `max`, `energy`, `error`, `event`, `contact`, `failure`.
     pub limit: Option<&'static str>,
 }
 
@@ -174,29 +174,29 @@ impl StepRow {
     }
 }
 
-/// What the control of the step size did.
+/// Summary of the control of the step size.
 #[derive(Debug, Clone, Default, PartialEq, serde::Serialize)]
 pub struct ControlSummary {
     /// `energy`, `energy-printed`, `error` or `both`.
     pub rule: &'static str,
-    /// Steps kept.
+    /// Number of steps kept.
     pub accepted: u64,
     /// Trials rejected, or shortened to end at an event.
     pub rejected: u64,
     /// The shortest step [s].
     pub smallest_step: f64,
-    /// The longest [s].
+    /// Longest step of the run [s].
     pub largest_step: f64,
     /// Changes of the index, both ways.
     pub index_changes: u64,
-    /// Steps in index-1.
+    /// Number of steps in index-1.
     pub index_1_steps: u64,
     /// Steps that ended at an event.
     pub events: u64,
 }
 
 impl ControlSummary {
-    /// Counts a step.
+    /// Counts a step that is kept.
     pub fn take(&mut self, step: &StepRow) {
         self.accepted += 1;
         self.rejected += u64::from(step.rejected);

@@ -7,11 +7,11 @@ use mbs_core::outputs::magnitudes;
 /// values agree on a turning point.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Statistics {
-    /// Least value.
+    /// Least value of the number.
     pub min: f64,
     /// When it was first reached [s].
     pub at_min: f64,
-    /// Largest value.
+    /// Largest value of the number.
     pub max: f64,
     /// When it was first reached [s].
     pub at_max: f64,
@@ -26,11 +26,11 @@ pub struct Statistics {
 pub struct ComponentStatistics {
     /// Label as in a column's name; of a magnitude `abs`, or `F` and `M` of a wrench. Empty: the channel is one number.
     pub label: String,
-    /// Unit.
+    /// Unit of the component.
     pub unit: String,
     /// Is it the magnitude of a vector?
     pub is_magnitude: bool,
-    /// Its statistics.
+    /// Statistics of the component or magnitude.
     pub of: Statistics,
 }
 
@@ -39,19 +39,19 @@ pub struct ComponentStatistics {
 pub struct ChannelSummary {
     /// Name of the channel.
     pub name: String,
-    /// What it measures; empty of an output that is code.
+    /// Quantity that the channel measures; empty of an output that is code.
     pub quantity: String,
     /// The unit of all components; absent where they differ.
     pub unit: Option<String>,
     /// Labels as in the names of columns; empty: the channel is one number.
     pub components: Vec<String>,
-    /// Their units.
+    /// Units of the components and magnitudes.
     pub units: Vec<String>,
-    /// Least values.
+    /// Least value of each.
     pub min: Vec<f64>,
     /// When they were first reached [s].
     pub at_min: Vec<f64>,
-    /// Largest values.
+    /// Largest value of each.
     pub max: Vec<f64>,
     /// When they were first reached [s].
     pub at_max: Vec<f64>,
@@ -62,7 +62,7 @@ pub struct ChannelSummary {
 }
 
 impl ChannelSummary {
-    /// Of a channel with its statistics.
+    /// Makes the summary of a channel with its statistics.
     #[must_use]
     pub fn new(channel: &Channel, stats: &[ComponentStatistics]) -> Self {
         let mut units = channel.components.iter().map(|component| &component.unit);
@@ -84,8 +84,8 @@ impl ChannelSummary {
     }
 }
 
-/// What the statistics of a channel are of: its components, then the magnitude of each vector that is no component already; with the places
-/// of what they are made of.
+/// Returns statistics without values for each component of a channel, then for the magnitude of each vector that is no component already. Each
+/// comes with the range of the components that it is made of.
 pub fn measured(channel: &Channel) -> Vec<(ComponentStatistics, core::ops::Range<usize>)> {
     let components = &channel.components;
     let one = |label: &str, unit: &str| {

@@ -7,9 +7,9 @@ use cpu_time::{ProcessTime, ThreadTime};
 #[derive(Debug)]
 pub(super) struct Clock {
     begun: Begun,
-    /// Of earlier starts.
+    /// CPU time of earlier starts.
     pub(super) before: Duration,
-    /// Of writing.
+    /// CPU time of writing.
     apart: Duration,
 }
 

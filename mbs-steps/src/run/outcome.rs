@@ -1,4 +1,4 @@
-//! What a run gives: its summary, and what its files are made of.
+//! Outcome of a run: its summary, and what its files are made of.
 
 use crate::checkpoint::{Head, write_rows};
 use crate::record::{Channel, ErrorEstimate, Provenance, RunRecord, RunSummary, StepSeries};
@@ -7,17 +7,17 @@ use crate::words::summary_rows;
 use mbs_core::real::DoubleDouble;
 use std::io;
 
-/// What a run gives.
+/// Outcome of a run: its summary, and what its files are made of.
 #[derive(Debug)]
 pub struct Outcome {
-    /// The JSON object.
+    /// Summary of the run, as the JSON object has it.
     pub summary: RunSummary,
-    /// Why it stopped early.
+    /// Reason why the run stopped early.
     pub error: Option<StopError>,
     pub(super) record: RunRecord,
     pub(super) channels: Vec<Channel>,
     pub(super) table: Vec<(f64, Vec<f64>)>,
-    /// The same numbers with all their digits, where there are more than those of `f64`.
+    /// Numbers of the table with all their digits, where there are more than those of `f64`.
     pub(super) long_table: Vec<Vec<DoubleDouble>>,
     pub(super) ranges: Vec<[f64; 2]>,
     pub(super) steps: StepSeries,
@@ -33,7 +33,7 @@ impl Outcome {
         write_rows((sink, &self.channels), Head::Names, table, self.long_table.iter().cloned())
     }
 
-    /// The same with the units as the second line.
+    /// Writes the rows as CSV, with the units as the second line.
     ///
     /// # Errors
     /// Those of the sink.
@@ -56,13 +56,13 @@ impl Outcome {
         &self.steps
     }
 
-    /// What a page of the run shows, with how the run was made.
+    /// Record that a page of the run shows, with how the run was made.
     #[must_use]
     pub fn record(&self, provenance: Provenance) -> RunRecord {
         RunRecord { provenance, ..self.record.clone() }
     }
 
-    /// The rows: time and all components of all channels.
+    /// Rows of the run: time and all components of all channels.
     #[must_use]
     pub fn rows(&self) -> &[(f64, Vec<f64>)] {
         &self.table
@@ -96,7 +96,7 @@ impl Outcome {
         &self.ranges
     }
 
-    /// What the user should know.
+    /// Notes that the user should know.
     #[must_use]
     pub fn notes(&self) -> &[String] {
         &self.record.notes

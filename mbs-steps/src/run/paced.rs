@@ -29,7 +29,7 @@ use mbs_scene::Component;
 /// The column that says at which level a row was simulated.
 const LEVEL: &str = "realtime-level";
 
-/// How simulated time is cut.
+/// Division of simulated time into periods and steps.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PacedSchedule<T> {
     /// Length of a period in the precision of the run and in `f64` [s].
@@ -49,7 +49,7 @@ pub struct PacedLevel {
     pub halvings: u32,
     /// Effects that are off.
     pub off: Vec<usize>,
-    /// What was measured of it.
+    /// Measurements of the level.
     pub measured: Degraded,
 }
 
@@ -114,11 +114,11 @@ pub fn paced<T: Real, const D: usize>(
     Ok(Run { simulation, record }.finish(report.busy, error))
 }
 
-/// Why a level is not there.
+/// Reason why a level is not there.
 enum Unready {
-    /// It cannot take the state over; the effect that was last left out.
+    /// The level cannot take the state over: the effect that was last left out, and why.
     Refused((usize, SwitchError)),
-    /// It does not start.
+    /// The simulation of the level does not start.
     Stopped(Box<StopError>),
 }
 
@@ -128,10 +128,10 @@ impl From<StopError> for Unready {
     }
 }
 
-/// What a level steps, where it is not the run's own simulation.
+/// Simulation that a level steps, where it is not the run's own, with forces and steps.
 struct Level<T: Real, const D: usize> {
     simulation: Option<Box<Simulation<T, D>>>,
-    /// Of its effects; while it runs, those of the full scene.
+    /// Forces of the level's effects; while it runs, those of the full scene.
     forces: Option<Forces<T, D>>,
     /// Steps of a period, where their lengths are fixed.
     steps: Option<u32>,

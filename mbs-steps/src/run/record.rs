@@ -1,4 +1,4 @@
-//! What a run records of its steps: rows, maxima, counts, contacts, and the alarms that end it.
+//! Record that a run makes of its steps: rows, maxima, counts, contacts, and the alarms that end it.
 
 use super::clock::Clock;
 use crate::channels::Channels;
@@ -33,7 +33,7 @@ pub(super) struct Counts {
 
 /// Columns of the rows beside those of the scene's channels.
 pub trait Columns<T: Real, const D: usize> {
-    /// Their names and units.
+    /// Returns the names and units of the columns.
     fn channels(&self) -> Vec<Channel>;
 
     /// A step was made.
@@ -63,13 +63,13 @@ pub(super) struct Record<'a, T: Real, const D: usize> {
     values: Vec<T>,
     /// Are these the values of the state, which the statistics have?
     is_measured: bool,
-    /// Where the components of the scene's channels end, and what writes those behind them.
+    /// Number of components of the scene's channels, and what writes those behind them.
     n_measured: usize,
     pub(super) others: Option<&'a mut dyn Columns<T, D>>,
-    /// What the last step left behind.
+    /// Mark that the last step left.
     mark: StepMark,
     pub(super) counts: Counts,
-    /// Time reached [s].
+    /// Time that the run has reached [s].
     pub(super) reached: f64,
     pub(super) alarm: Alarm,
     frictions: Frictions<T, D>,
@@ -79,8 +79,8 @@ pub(super) struct Record<'a, T: Real, const D: usize> {
     /// When the step began that is made next.
     begun: Instant,
     pub(super) checkpoints: Option<RunCheckpoints<'a>>,
-    /// Of a paced run: its periods, after each of which a row may be due, and how it kept up. Where there is a ladder, also the lowest
-    /// level since the last row.
+    /// Periods of a paced run, after each of which a row may be due, and how it kept up. Where there is a ladder, also the lowest level since
+    /// the last row.
     pub(super) periods: Option<u64>,
     pub(super) realtime: Option<RealtimeSummary>,
     pub(super) level: Option<f64>,
@@ -303,7 +303,7 @@ impl<T: Real, const D: usize> StepObserver<T, D> for Record<'_, T, D> {
     }
 }
 
-/// How a run is kept, and what it belongs to.
+/// Checkpoints of a run: their writer, and the identity of what they belong to.
 #[derive(Debug)]
 pub(super) struct RunCheckpoints<'a> {
     pub(super) writer: &'a mut CheckpointWriter,

@@ -16,7 +16,7 @@ pub fn is_too_long(step: f64, duration: f64) -> bool {
     step > duration * (1.0 + SAME_LENGTH)
 }
 
-/// Says so.
+/// Says that a step [s] is longer than the run.
 pub fn too_long(step: f64, duration: f64) -> String {
     format!(
         "the step of {} s is longer than the run of {} s",

@@ -5,7 +5,7 @@ use crate::choice::{IntegratorKind, Precision, StepRule};
 use crate::methods::FormulationKind;
 
 impl Method {
-    /// By this formulation; all else is the mechanism's, or its default.
+    /// Method by this formulation; all else is the mechanism's, or its default.
     ///
     /// ```
     /// use mbs::{FormulationKind, IntegratorKind, Method};
@@ -16,14 +16,14 @@ impl Method {
         Self { formulation: Some(formulation.name().to_owned()), ..Self::default() }
     }
 
-    /// With this integrator. Default: the trapezoidal rule. Those of first order (`rk4`, `rk54`, `rk853`, `gbs`, `radau5`) are of relative
-    /// coordinates: where no formulation is named they take `recursive`.
+    /// Sets the integrator of the method. Default: the trapezoidal rule. Those of first order (`rk4`, `rk54`, `rk853`, `gbs`, `radau5`) are of
+    /// relative coordinates: where no formulation is named they take `recursive`.
     #[must_use]
     pub fn integrator(self, integrator: IntegratorKind) -> Self {
         Self { integrator: Some(integrator.name().to_owned()), ..self }
     }
 
-    /// In this precision. Default: `f64`.
+    /// Sets the precision of the method. Default: `f64`.
     #[must_use]
     pub fn precision(self, precision: Precision) -> Self {
         Self { precision: Some(precision.name().to_owned()), ..self }
@@ -42,7 +42,7 @@ impl Method {
         Self { tolerance: Some(tolerance), ..self }
     }
 
-    /// What chooses the length of the steps. Default: nothing, all are as long as asked for. Lengths only shrink unless
+    /// Sets the rule that chooses the length of the steps. Default: none, all are as long as asked for. Lengths only shrink unless
     /// [`step_max`](Self::step_max) lets them grow.
     ///
     /// ```

@@ -40,7 +40,7 @@ impl ResolvedMethod {
         }
     }
 
-    /// What `auto` chose and why; nothing where a formulation was asked for.
+    /// Returns what `auto` chose and why; nothing where a formulation was asked for.
     #[must_use]
     pub fn chosen(&self) -> Option<MethodChoice> {
         let (formulation, ran) = (self.formulation.name().to_owned(), self.way());

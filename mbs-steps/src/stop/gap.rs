@@ -1,4 +1,4 @@
-//! How far a mechanism is from coming together.
+//! Distance of a mechanism from coming together.
 
 use super::StopError;
 use mbs_core::start::AssemblyError;

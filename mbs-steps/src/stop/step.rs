@@ -4,7 +4,7 @@ use mbs_core::model::Owner;
 use mbs_core::step::StepError;
 use mbs_scene::format::few;
 
-/// What a failed step is about, given whose unknowns and rows are.
+/// Part of the scene that a failed step is about, given whose unknowns and rows are.
 pub(super) fn step_owner(
     error: &StepError,
     unknown: impl Fn(usize) -> Owner,
@@ -28,10 +28,10 @@ pub(super) fn step_owner(
     })
 }
 
-/// What user-defined code did.
+/// Failure of user-defined code, in words.
 const NO_NUMBER: &str = "gave a number that is infinite or not a number";
 
-/// What happened; what to try is the hint's.
+/// Writes what happened in a failed step; what to try is the hint's.
 pub(super) fn write_step(error: &StepError, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
     match error {
         StepError::NotConverged { iterations, correction, .. } => write!(
@@ -94,7 +94,7 @@ pub(super) fn write_step(error: &StepError, f: &mut core::fmt::Formatter<'_>) ->
     }
 }
 
-/// What to try where a step could not be made.
+/// Hint for the user where a step could not be made: what to try.
 pub(super) fn step_hint(error: &StepError) -> &'static str {
     match error {
         StepError::Singular(_) => {

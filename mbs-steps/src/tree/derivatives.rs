@@ -98,7 +98,7 @@ impl Tree {
     /// Takes out of the derivatives what the rows of couplings forbid. With K = M⁻¹ and a constant row j each X becomes X − K jᵀ (j X) /
     /// (j K jᵀ), K itself at last; a row that those before it contain changes nothing.
     fn keep_rows(&mut self) {
-        /// What is left of j K jᵀ by rounding, where rows before it contain j [-].
+        /// Share of j K jᵀ that rounding leaves, where rows before it contain j [-].
         const ROUNDING: f64 = 1e-12;
         if self.loops.rows == 0 {
             return;
@@ -166,7 +166,7 @@ impl Tree {
     }
 }
 
-/// Where derivatives go, by positions, velocities and accelerations, each as large as its square from now on.
+/// Makes the matrices of derivatives by positions, velocities and accelerations square, and returns their numbers.
 fn slopes_in(squares: [&mut Matrix; 3]) -> EffortSlopes<'_, f64> {
     let [q, v, a] = squares.map(|square| {
         square.resize_rows(square.columns);

@@ -48,7 +48,7 @@ impl Tree {
         &self.loops
     }
 
-    /// g: the efforts that hold the mechanism at rest against gravity. A motor that gives them compensates gravity.
+    /// Returns g, the efforts that hold the mechanism at rest against gravity. A motor that gives them compensates gravity.
     ///
     /// ```
     /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
@@ -62,8 +62,8 @@ impl Tree {
         self.efforts(EffortTerms::Gravity)
     }
 
-    /// c + g: the efforts that keep all velocities as they are, against centrifugal and Coriolis forces, the motion of guided
-    /// joints, and gravity.
+    /// Returns c + g, the efforts that keep all velocities as they are, against centrifugal and Coriolis forces, the motion of guided joints, and
+    /// gravity.
     ///
     /// ```
     /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
@@ -134,8 +134,8 @@ impl Tree {
         Ok(self.efforts(EffortTerms::Inertia))
     }
 
-    /// Of the velocity of a body's point, which was at `at` in the reference configuration [m]: 3 × n, global axes. In the plane the third
-    /// row is zero.
+    /// Returns the Jacobian of the velocity of a body's point, which was at `at` in the reference configuration [m]: 3 × n, global axes. In the
+    /// plane the third row is zero.
     ///
     /// ```
     /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
@@ -150,7 +150,8 @@ impl Tree {
         self.jacobian(3, body, at)
     }
 
-    /// Of the velocity of a body's centre of mass (rows 0 to 2) and of its angular velocity (3 to 5): 6 × n, global axes.
+    /// Returns the Jacobian of a body's centre of mass: 6 × n, global axes. Rows 0 to 2 are of its velocity, rows 3 to 5 of the body's angular
+    /// velocity.
     ///
     /// ```
     /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
@@ -166,7 +167,7 @@ impl Tree {
         self.jacobian(6, body, center)
     }
 
-    /// Of the velocity of the centre of mass of all bodies: 3 × n, global axes.
+    /// Returns the Jacobian of the velocity of the centre of mass of all bodies: 3 × n, global axes.
     ///
     /// ```
     /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
@@ -232,7 +233,7 @@ impl Tree {
         })
     }
 
-    /// Of a point.
+    /// Computes the Jacobian of a point of a body, with this number of rows.
     pub fn jacobian(&mut self, rows: usize, body: BodyId, at: [f64; 3]) -> &Matrix {
         self.jacobian.resize_rows(rows);
         let to = &mut self.jacobian.data;

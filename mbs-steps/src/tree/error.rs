@@ -1,4 +1,4 @@
-//! What a tree refuses, with names.
+//! Errors of a tree, with names.
 
 use crate::erased::Error;
 use crate::erased::error::UnknownName;
@@ -7,17 +7,17 @@ use crate::stop::StopError;
 use mbs_core::model::Owner;
 use std::fmt;
 
-/// Why there is no tree, or why it does not answer.
+/// Reason why there is no tree, or why it does not answer.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct TreeError {
-    /// What is wrong.
+    /// Fault of the tree, or of what it was asked.
     pub kind: TreeErrorKind,
     joint: Option<String>,
     body: Option<String>,
 }
 
-/// What is wrong.
+/// Faults of a tree, or of what it was asked.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum TreeErrorKind {
@@ -29,7 +29,7 @@ pub enum TreeErrorKind {
     NoAccelerations(StopError),
     /// From the position no small motion closes the loops.
     OpenLoops(StopError),
-    /// What is asked is of open trees alone, and the joint closes a loop, or it is a coupling that ties joints.
+    /// Question for open trees alone, where the joint closes a loop, or is a coupling that ties joints.
     Loops(&'static str),
     /// No forces move the frame in some direction: it has no inertia there, because the joints do not move it so.
     Held,
@@ -52,7 +52,7 @@ pub enum TreeErrorKind {
 }
 
 impl TreeError {
-    /// About what an error of the model names.
+    /// Makes an error about the joint or body that an error of the model names.
     pub fn of_model(
         kind: fn(StopError) -> TreeErrorKind,
         (reason, names): (StopError, &Names),
@@ -114,7 +114,7 @@ impl TreeError {
         }
     }
 
-    /// The same of what was given: a joint without coordinates, or numbers.
+    /// Code, hint and message of a fault in what was given: a joint without coordinates, or numbers.
     fn words_of_arguments(&self) -> (&'static str, &'static str, String) {
         use TreeErrorKind as Kind;
         let no_coordinates = |whose| format!("a joint that {whose} has no coordinates");

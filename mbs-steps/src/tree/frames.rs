@@ -27,8 +27,8 @@ impl Tree {
         self.named(name).map(|frame| (frame.body, frame.at))
     }
 
-    /// Of the velocity of a point that moves with a body (rows 0 to 2), which was at `at` in the reference configuration [m], and of the
-    /// body's angular velocity (3 to 5): 6 × n, global axes.
+    /// Returns the Jacobian of a point that moves with a body, which was at `at` in the reference configuration [m]: 6 × n, global axes. Rows 0
+    /// to 2 are of its velocity, rows 3 to 5 of the body's angular velocity.
     ///
     /// ```
     /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");

@@ -9,7 +9,7 @@ use mbs_recursive::own::{MovingColumns, OwnFreedoms};
 use mbs_recursive::space::Space;
 use mbs_recursive::{Planar, Spatial, TreeModel, TreeState, Workspace};
 
-/// By dimension.
+/// Tree of the plane or of space.
 #[derive(Debug, Clone)]
 pub(super) enum Inner {
     Planar(Box<Typed<Planar>>),
@@ -63,7 +63,7 @@ impl Inner {
 }
 
 impl<S: Space<f64>> Typed<S> {
-    /// Why a step error of the model stops, by what it names.
+    /// Returns the reason why a step error of the model stops, by the owners of what it names.
     pub(super) fn reason(model: &TreeModel<f64, S>, error: StepError) -> StopError {
         let freedom = |unknown| model.owner_of_unknown(unknown);
         StopError::step(error, freedom, |row| model.owner_of_row(row))

@@ -14,7 +14,7 @@ use crate::erased::values::rows;
 use mbs_core::algebra::{Matrix as Square, Vector, cross, rotation_vector};
 use mbs_core::scene::{BodyId, JointId};
 
-/// Most steps [-]. A reachable place takes about ten.
+/// Largest number of steps [-]. A reachable place takes about ten.
 const MOST_STEPS: u32 = 200;
 /// Error of a place that is reached [-]: rounding of what the joints add up to.
 const REACHED: f64 = 1e-12;
@@ -24,21 +24,21 @@ const MOST_DAMPING: f64 = 1e12;
 const DAMPING: [f64; 3] = [1e-3, 0.2, 8.0];
 /// Largest step of a coordinate [rad, scene lengths].
 const LARGEST_STEP: f64 = 1.0;
-/// What the rows of a target may be off from those of a rotation [-]: six digits that somebody writes.
+/// Tolerance of a target's rows against those of a rotation [-]: six digits that somebody writes.
 const ORTHOGONAL: f64 = 1e-5;
-/// What is added to a diagonal that repeated rows of loops leave without pivot [-].
+/// Addition to a diagonal that repeated rows of loops leave without pivot, relative to its largest entry [-].
 const REPEATED: f64 = 1e-13;
 
-/// Where a body is wanted; what is `None` is free.
+/// Wanted place and rotation of a body; what is `None` is free.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct FrameTarget {
-    /// Of the point that is asked for [m], global axes.
+    /// Place of the point that is asked for [m], global axes.
     pub position: Option<[f64; 3]>,
     /// Rotation of the body from the reference configuration, by rows.
     pub rotation: Option<[[f64; 3]; 3]>,
 }
 
-/// Why a search for a position ended.
+/// Reason why a search for a position ended.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum InverseKinematicsEnd {
@@ -46,17 +46,17 @@ pub enum InverseKinematicsEnd {
     Reached,
     /// No motion of the joints takes it nearer: it is out of reach, or another start is needed.
     Nearest,
-    /// The same with these joints at an end of their range.
+    /// No motion of the joints takes the body nearer, with these joints at an end of their range.
     AtRange(Vec<JointId>),
     /// Steps still lessened the error, and were too many.
     Unfinished,
 }
 
-/// What a search for a position found. The tree stands there, at rest.
+/// Result of a search for a position. The tree stands there, at rest.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct InverseKinematics {
-    /// Why it ended.
+    /// Reason why the search ended.
     pub end: InverseKinematicsEnd,
     /// Distance of the point from its target [m]; zero without one.
     pub distance: f64,
@@ -78,8 +78,8 @@ impl Tree {
     /// Cost: some tens of outward passes, and the cube of the rows of target and loops; allocates.
     ///
     /// # Errors
-    /// [`TreeErrorKind::NotFinite`], [`TreeErrorKind::NotOrthogonal`]; [`TreeErrorKind::OpenLoops`] where loops cannot be closed at the start; the tree is then
-    /// unchanged.
+    /// [`TreeErrorKind::NotFinite`], [`TreeErrorKind::NotOrthogonal`]; [`TreeErrorKind::OpenLoops`] where loops cannot be
+    /// closed at the start; the tree is then unchanged.
     ///
     /// ```
     /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
@@ -157,8 +157,8 @@ impl Tree {
         Ok(found)
     }
 
-    /// The same for a frame by its name, which [`frame`](Self::frame) knows: `position` is of its origin and `rotation` of its axes, in global
-    /// axes.
+    /// Moves the joints as [`inverse_kinematics`](Self::inverse_kinematics) does, for a frame by its name, which [`frame`](Self::frame)
+    /// knows. The `position` is that of its origin and the `rotation` that of its axes, in global axes.
     ///
     /// # Errors
     /// As for [`inverse_kinematics`](Self::inverse_kinematics); [`TreeErrorKind::UnknownFrame`].
@@ -238,7 +238,7 @@ impl Search {
         Self { body, at, target, length, ranges: ranges.collect() }
     }
 
-    /// What is between the target and the body: lengths, then a rotation vector.
+    /// Difference of the target from the body: lengths by the scene's length, then a rotation vector [-].
     fn error(&self, tree: &mut Tree) -> Vec<f64> {
         let mut error = Vec::with_capacity(6);
         if let Some(target) = self.target.position {

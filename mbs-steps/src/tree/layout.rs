@@ -20,10 +20,10 @@ use mbs_recursive::{JointLinks, TreeModel};
 use std::ops::Range;
 
 type V3 = Vector<f64, 3>;
-/// What moves and what turns: a velocity, an acceleration, or a force with its moment.
+/// Linear and angular part of a velocity, an acceleration, or a force with its moment.
 type Pair = [V3; 2];
 
-/// Whose some coordinates are.
+/// Owner of some coordinates, and their ranges.
 #[derive(Debug, Clone)]
 struct Place {
     own: TreeRange,
@@ -33,13 +33,13 @@ struct Place {
     is_free: bool,
 }
 
-/// One coordinate.
+/// Coordinate of a link with one freedom.
 #[derive(Debug, Clone, Copy)]
 struct Single {
     link: u32,
     q: u32,
     z: u32,
-    /// Its places in v and in w.
+    /// Places of the coordinate in v and in w.
     at: [u32; 2],
 }
 
@@ -52,7 +52,7 @@ struct Turning {
     z: usize,
     /// First of what moves and of what turns, in v and in w.
     at: [[usize; 2]; 2],
-    /// How many numbers move.
+    /// Number of coordinates that move rather than turn.
     n: usize,
     pose: Pose,
 }
@@ -63,12 +63,12 @@ struct Pose {
     is_reversed: bool,
     /// P, from the base.
     point: V3,
-    /// r.
+    /// Arm r in the reference configuration.
     reference: V3,
     rotation: Matrix<f64, 3>,
-    /// s.
+    /// Arm s = R r at the present rotation.
     arm: V3,
-    /// x.
+    /// Gap x between the two points.
     gap: V3,
 }
 
@@ -132,7 +132,7 @@ impl Pose {
     }
 }
 
-/// Where each joint's numbers stand.
+/// Layout of each joint's numbers in q, v, z and w.
 #[derive(Debug, Clone)]
 pub(super) struct Layout {
     places: Vec<Place>,
@@ -149,7 +149,7 @@ pub(super) struct Layout {
 
 /// Place of v, or of efforts along v.
 const OWN: usize = 0;
-/// Place of w.
+/// Place of w, or of efforts along w.
 const TREE: usize = 1;
 
 impl Layout {
@@ -211,7 +211,7 @@ impl Layout {
         }
     }
 
-    /// Where the freedoms of each link stand, the ground's among them.
+    /// Returns where the freedoms of each link stand, the ground's among them.
     pub(super) fn freedoms(&self, n_links: usize) -> Vec<LinkFreedoms<f64>> {
         let zero = V3::zeros();
         let none =
@@ -228,7 +228,7 @@ impl Layout {
         links
     }
 
-    /// Where the numbers of a joint of the tree stand; nothing for a guided one.
+    /// Returns where the numbers of a joint of the tree stand; nothing for a guided one.
     pub(super) fn range(&self, joint: usize) -> Option<TreeRange> {
         self.range_of(|place| place.of.0 == Some(joint))
     }
@@ -241,7 +241,7 @@ impl Layout {
         Some(TreeRange { q: first.q.start..last.q.end, v: first.v.start..last.v.end })
     }
 
-    /// Where in q the numbers of each joint stand that are its angles and slides; quaternions are none.
+    /// Returns where in q the numbers of each joint stand that are its angles and slides; quaternions are none.
     pub(super) fn numbers(&self) -> impl Iterator<Item = (JointId, Range<usize>)> + '_ {
         let mut joints: Vec<usize> = self.places.iter().filter_map(|place| place.of.0).collect();
         joints.dedup();
@@ -251,12 +251,12 @@ impl Layout {
         })
     }
 
-    /// Where the numbers of a free body stand.
+    /// Returns where the numbers of a free body stand.
     pub(super) fn range_of_free(&self, body: usize) -> Option<TreeRange> {
         self.range_of(|place| place.is_free && place.of.1 == body)
     }
 
-    /// Makes quaternions unit.
+    /// Scales quaternions to unit length.
     ///
     /// # Errors
     /// [`TreeErrorKind::NoRotation`] for one without length; nothing is changed then.
@@ -281,7 +281,7 @@ impl Layout {
         }
     }
 
-    /// Where quaternions stand in q.
+    /// Returns where quaternions stand in q.
     fn quaternions(&self) -> impl Iterator<Item = Range<usize>> {
         let ends = self.turning.iter().map(|turning| turning.own.q.end);
         ends.map(|end| end - self.turns[0]..end).filter(|at| at.len() == 4)
@@ -317,7 +317,7 @@ impl Layout {
         }
     }
 
-    /// z of q.
+    /// Writes z from q.
     pub(super) fn coordinates_inward(&mut self, q: &[f64], z: &mut [f64]) {
         for single in &self.singles {
             z[single.z as usize] = q[single.q as usize];
@@ -333,7 +333,7 @@ impl Layout {
         }
     }
 
-    /// q of z.
+    /// Writes q from z.
     pub(super) fn coordinates_outward(&mut self, z: &[f64], q: &mut [f64]) {
         for single in &self.singles {
             q[single.q as usize] = z[single.z as usize];
@@ -408,7 +408,7 @@ impl Turning {
         self.pose.bias([self.pair(OWN, turns, v), self.pair(TREE, turns, w)])
     }
 
-    /// Its numbers in v or w as vectors; one number turns about z.
+    /// Returns the joint's numbers in v or w as vectors; one number turns about z.
     fn pair(&self, side: usize, turns: usize, x: &[f64]) -> Pair {
         let [moving, turning] = self.at[side];
         let mut spin = V3::zeros();
@@ -447,12 +447,12 @@ fn invert(from: &[f64], is_reversed: bool, to: &mut [f64]) {
     }
 }
 
-/// Where the numbers of a joint stand.
+/// Ranges of the numbers of a joint or of a free body.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct TreeRange {
-    /// In the coordinates.
+    /// Range in the coordinates.
     pub q: Range<usize>,
-    /// In the velocities, accelerations and efforts.
+    /// Range in the velocities, accelerations and efforts.
     pub v: Range<usize>,
 }

@@ -1,4 +1,4 @@
-//! [`Tree`]: a mechanism in relative coordinates, at any position and velocity.
+//! Mechanism in relative coordinates, at any position and velocity: [`Tree`].
 
 mod derivatives;
 mod driven;
@@ -70,15 +70,15 @@ type Weighted = (BodyId, [f64; 3], f64);
 pub struct Tree {
     inner: Inner,
     layout: Layout,
-    /// Why no accelerations follow from forces, at any position.
+    /// Reason why no accelerations follow from forces, at any position.
     lack: Option<TreeError>,
-    /// The same tree with masses, by which loops close where it has too few.
+    /// Tree with masses in place of its own, by which loops close where it has too few.
     closing: Option<Inner>,
     /// Centres of mass, each with its part of all mass.
     shares: Vec<Weighted>,
-    /// Of each body, whether the scene has a frame of its name.
+    /// Whether the scene has a frame of the name of each body.
     has_frame: Vec<bool>,
-    /// All mass [kg].
+    /// Mass of all bodies [kg].
     total: f64,
     scene: Scene<f64>,
     names: Names,
@@ -87,19 +87,19 @@ pub struct Tree {
     answer: Vec<f64>,
     /// In the tree's order.
     tree: Vec<f64>,
-    /// No velocities.
+    /// Velocities that are all zero.
     zero: Vec<f64>,
     mass: Matrix,
     loops: Matrix,
     jacobian: Matrix,
-    /// Of a frame, 6 × 6.
+    /// Mobility or inertia of a frame, 6 × 6.
     frame: Matrix,
     /// Columns of a Jacobian.
     columns: Vec<f64>,
     by_effort: AccelerationDerivatives,
     of_effort: EffortDerivatives,
     input_list: Vec<InputInfo>,
-    /// Where each input stands in a state.
+    /// Places of the inputs in a state.
     input_places: Vec<usize>,
 }
 
@@ -182,8 +182,8 @@ impl Tree {
         Ok(())
     }
 
-    /// Why no accelerations follow from forces at any position: some joint meets no inertia. Places, velocities, Jacobians, inverse
-    /// kinematics and the efforts of given accelerations need none. `None`: it has them.
+    /// Returns the reason why no accelerations follow from forces at any position: some joint meets no inertia. Places, velocities, Jacobians,
+    /// inverse kinematics and the efforts of given accelerations need none. `None`: it has them.
     ///
     /// ```
     /// use mbs::{Body, Error, GROUND, Joint, Mechanism};
@@ -236,7 +236,7 @@ impl Tree {
         self.follow_motions((*t, applied, signals), &motions)
     }
 
-    /// The same of the motions of the scene's bodies, at a time with these inputs applied and these signals.
+    /// Takes the motions of the scene's bodies, at a time with these inputs applied and these signals.
     pub fn follow_motions(
         &mut self,
         (t, inputs, signals): (f64, &[f64], &[[f64; 2]]),
@@ -264,7 +264,7 @@ impl Tree {
         Ok(())
     }
 
-    /// Where the numbers of a joint stand in q and v. A weld has none, nor has a ball by which a point mass is part of another body.
+    /// Returns where the numbers of a joint stand in q and v. A weld has none, nor has a ball by which a point mass is part of another body.
     ///
     /// # Errors
     /// [`TreeErrorKind::Cut`], [`TreeErrorKind::Guided`] or [`TreeErrorKind::Idle`] with the joint's name.
@@ -298,7 +298,7 @@ impl Tree {
         Err(TreeError::of_joint(kind, &data.name))
     }
 
-    /// Where the numbers of a free body stand, whether a free joint names it or none. Of bodies that are welded the first one in the
+    /// Returns where the numbers of a free body stand, whether a free joint names it or none. Of bodies that are welded the first one in the
     /// scene has them.
     ///
     /// ```
@@ -316,7 +316,7 @@ impl Tree {
         self.layout.range_of_free(body)
     }
 
-    /// q: the coordinates.
+    /// Returns q, the coordinates.
     ///
     /// ```
     /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
@@ -330,7 +330,7 @@ impl Tree {
         &self.q
     }
 
-    /// v: the velocities.
+    /// Returns v, the velocities.
     ///
     /// ```
     /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
@@ -345,7 +345,7 @@ impl Tree {
     }
 }
 
-/// Of each body, whether the scene has a frame of its name.
+/// Returns for each body whether the scene has a frame of its name.
 fn has_frame(scene: &Scene<f64>) -> Vec<bool> {
     let frames: HashSet<&str> = scene.frames.iter().map(|frame| frame.name.as_str()).collect();
     scene.bodies.iter().map(|body| frames.contains(body.name.as_str())).collect()

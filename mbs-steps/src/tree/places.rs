@@ -1,4 +1,4 @@
-//! Where bodies and frames of a [`Tree`] are, and their momentum.
+//! Places of bodies and frames of a [`Tree`], and their momentum.
 
 use super::Tree;
 use super::inner::{Inner, with};
@@ -14,13 +14,13 @@ use mbs_core::scene::BodyId;
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct FrameMotion {
-    /// Its origin [m].
+    /// Origin of the frame [m].
     pub position: [f64; 3],
-    /// Its axes, by rows: the columns are the directions of its x, y and z.
+    /// Axes of the frame, by rows: the columns are the directions of its x, y and z.
     pub rotation: [[f64; 3]; 3],
     /// Velocity of its origin [m/s].
     pub velocity: [f64; 3],
-    /// Angular velocity [rad/s].
+    /// Angular velocity of the frame [rad/s].
     pub angular_velocity: [f64; 3],
 }
 
@@ -30,7 +30,7 @@ pub struct FrameMotion {
 pub struct TotalMomentum {
     /// Mass times velocity of the centre of mass [kg m/s].
     pub linear: [f64; 3],
-    /// About the centre of mass [kg m²/s].
+    /// Angular momentum about the centre of mass [kg m²/s].
     pub angular: [f64; 3],
 }
 

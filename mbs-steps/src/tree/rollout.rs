@@ -25,18 +25,18 @@ pub struct Rollout<'a> {
     pub step: f64,
     /// Number of steps.
     pub n_steps: usize,
-    /// Integrator.
+    /// Integrator of the steps.
     pub integrator: IntegratorKind,
-    /// What ends it from outside.
+    /// Interrupt that ends the motion from outside.
     pub interrupt: Option<&'a Interrupt>,
 }
 
-/// Why a motion ended early, and after how many steps.
+/// Early end of a motion: its reason, and the number of steps before it.
 #[derive(Debug)]
 pub struct RolloutEnd {
     /// Steps that were made; nothing where it could not begin.
     pub steps: Option<usize>,
-    /// Why no more.
+    /// Reason why the motion ended.
     pub error: SimulationError,
 }
 

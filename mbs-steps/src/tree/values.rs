@@ -1,4 +1,4 @@
-//! What a tree answers with.
+//! Values that a tree answers with.
 
 use crate::erased::values::PointMotion;
 use mbs_core::algebra::Vector;
@@ -11,7 +11,7 @@ pub struct Matrix {
     pub rows: usize,
     /// Number of columns.
     pub columns: usize,
-    /// The numbers: entry (i, j) is `data[i * columns + j]`.
+    /// Entries, row by row: entry (i, j) is `data[i * columns + j]`.
     pub data: Vec<f64>,
 }
 
@@ -25,7 +25,7 @@ impl Matrix {
         self.data.resize(rows * self.columns, 0.0);
     }
 
-    /// A row.
+    /// Returns row `i`, from 0.
     ///
     /// # Panics
     /// If there is no such row.
@@ -48,27 +48,27 @@ impl IndexMut<(usize, usize)> for Matrix {
     }
 }
 
-/// How efforts τ = M v̇ + c + g change; each n × n, a row for each effort.
+/// Derivatives of the efforts τ = M v̇ + c + g; each n × n, a row for each effort.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct EffortDerivatives {
     /// ∂τ/∂q, along the velocities: column j is the change while v_j moves q by its unit.
     pub q: Matrix,
-    /// ∂τ/∂v.
+    /// Derivative ∂τ/∂v by the velocities.
     pub v: Matrix,
-    /// ∂τ/∂v̇ = M.
+    /// Derivative ∂τ/∂v̇ = M by the accelerations.
     pub acceleration: Matrix,
 }
 
-/// How accelerations v̇ change; each n × n, a row for each acceleration.
+/// Derivatives of the accelerations v̇; each n × n, a row for each acceleration.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct AccelerationDerivatives {
     /// ∂v̇/∂q, along the velocities: column j is the change while v_j moves q by its unit.
     pub q: Matrix,
-    /// ∂v̇/∂v.
+    /// Derivative ∂v̇/∂v by the velocities.
     pub v: Matrix,
-    /// ∂v̇/∂τ = M⁻¹.
+    /// Derivative ∂v̇/∂τ = M⁻¹ by the efforts.
     pub effort: Matrix,
 }
 

@@ -21,7 +21,7 @@ const STRIDE: u64 = 8;
 /// Steps in the first interval of an integrator that controls its own [-]: nothing else ends an interval whose steps are far too many.
 const FIRST_STEPS: u32 = 1000;
 
-/// What a pilot measures time by: a processor's clock, or one that counts work.
+/// Clock that a pilot measures time by: a processor's clock, or one that counts work.
 pub trait Clock {
     /// Time since some beginning [s].
     fn seconds(&mut self) -> f64;
@@ -39,7 +39,7 @@ pub(crate) struct SceneBench<'a, T: Real, const D: usize> {
     instants: Instants,
     channels: Vec<Channel>,
     length: f64,
-    /// What all trials begin from, or why none can.
+    /// Assembled scene that all trials begin from, or the error why none can.
     ready: &'a Result<AssembledScene<T, D>, Box<RunError>>,
     clock: &'a mut dyn Clock,
     begun: f64,
@@ -206,7 +206,7 @@ struct Recorder<'a, T: Real, const D: usize> {
     /// Is every step timed?
     is_fine: bool,
     begun: f64,
-    /// It may take no longer [s].
+    /// Longest time that the trial may take [s].
     limit: f64,
     last: f64,
     slowest: f64,

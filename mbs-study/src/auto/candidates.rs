@@ -13,7 +13,7 @@ const FINER_STEP: f64 = 4.0;
 const FIRST_ERROR_TOLERANCE: f64 = 1e-3;
 /// No tolerance is larger [-]: rssr and iltis-stairs-stiff stop with 0.1, and steps are a third shorter only.
 const LOOSEST: f64 = 0.01;
-/// ResolvedMethod that differ by no more than this, relative, are the same [-]: a quotient and its inverse round.
+/// Ratio of two settings, less one, up to which they are the same [-]: a quotient and its inverse round.
 pub(super) const ROUNDING: f64 = 2.0 * f64::EPSILON;
 
 /// A trial, and its error where it is known.
@@ -21,11 +21,11 @@ pub(super) const ROUNDING: f64 = 2.0 * f64::EPSILON;
 pub(crate) struct Tried {
     pub(crate) setting: f64,
     pub(crate) trial: Trial,
-    /// Its error by its distances from trials that differ from it, each a bound from above; infinite before there is one.
+    /// Error by distances from trials that differ from this one, each a bound from above; infinite before there is one.
     pub(crate) most: f64,
-    /// Its distances from finer trials of its method, each a bound from below.
+    /// Largest distance from finer trials of the same method, each a bound of the error from below.
     pub(crate) least: f64,
-    /// Its error by its distance from the best trial.
+    /// Error by the distance from the best trial.
     pub(crate) error: Option<f64>,
 }
 
@@ -34,7 +34,7 @@ impl Tried {
         Self { setting, trial, most: f64::INFINITY, least: 0.0, error: None }
     }
 
-    /// Its error without a better trial.
+    /// Error without a better trial: the larger of its bounds.
     ///
     /// The larger bound counts: two rules that lose a chaotic motion along the same direction agree by chance (double-pendulum at 1e-2).
     pub(crate) fn own(&self) -> f64 {
@@ -45,11 +45,11 @@ impl Tried {
 /// A method in the pilot.
 #[derive(Debug, Clone)]
 pub struct PilotCandidate {
-    /// The method.
+    /// Method that is tried.
     pub method: MethodCase,
-    /// From the coarsest.
+    /// Trials of the method, from the coarsest.
     pub(crate) trials: Vec<Tried>,
-    /// Why it is out.
+    /// Reason why the candidate is out.
     pub(crate) out: Option<String>,
     pub(crate) first: f64,
     pub(crate) coarsest: f64,
@@ -60,7 +60,7 @@ pub struct PilotCandidate {
     pub(crate) has_missed: bool,
 }
 
-/// What a candidate needs next.
+/// Next need of a candidate: another trial, none, or to be left out.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Next {
     Try(f64),
@@ -224,7 +224,7 @@ impl PilotCandidate {
         (finer < last).then_some(finer)
     }
 
-    /// What it needs to be known.
+    /// Returns what the candidate needs next to be known.
     pub(crate) fn next(&self, target: PilotTarget) -> Next {
         let Some(last) = self.trials.last() else { return Next::Try(self.fit(self.first)) };
         let finer = self.finer().unwrap_or(last.setting);

@@ -23,7 +23,7 @@ pub(crate) struct Pick {
     pub(crate) setting: f64,
 }
 
-/// Where a choice is made.
+/// Task of a choice: method as asked, its settings, the goal, and the instants of the trials.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Task<'a> {
     pub(crate) base: &'a Method,
@@ -159,7 +159,7 @@ fn candidate(
     PilotCandidate { out, ..PilotCandidate::new(*method, given.0, given.1) }
 }
 
-/// The ranked settings; on a part of the span, errors are taken to grow in proportion to it.
+/// Ranked settings; on a part of the span, errors are taken to grow in proportion to it.
 fn picks(search: &PilotSearch<'_>, places: &[PilotPlace], times: f64) -> Vec<Pick> {
     let pick = |place: &PilotPlace| {
         let candidate = &search.candidates[place.candidate];

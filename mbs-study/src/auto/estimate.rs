@@ -13,7 +13,7 @@ pub(super) const ERROR_RANGE: [f64; 2] = [0.5, 1.25];
 /// Measured exponents of the CPU time, relative to theory's, are taken within this range [-]: steps may end at the instants of the
 /// results, whatever the tolerance.
 const COST_RANGE: [f64; 2] = [0.25, 1.25];
-/// What is smaller than this fraction is small [-]. It is for the error of a trial beside its distance from a coarser one, which may agree
+/// Fraction below which a number is small beside another [-]. It is for the error of a trial beside its distance from a coarser one, which may agree
 /// with it by chance, and for the steps that it has more. It is for the error of the best trial beside the required one, and for a tolerance
 /// beside that of the trial before.
 pub(super) const SMALL: f64 = 0.1;
@@ -21,14 +21,14 @@ pub(super) const SMALL: f64 = 0.1;
 /// Exponents of a method in its setting: the step, or the tolerance.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PowerLaw {
-    /// a
+    /// Exponent a of the error.
     pub error: f64,
-    /// b
+    /// Exponent b of the CPU time, its sign changed.
     pub cost: f64,
 }
 
 impl PowerLaw {
-    /// Theory's.
+    /// Returns the exponents of theory.
     pub fn of(method: &MethodCase) -> Self {
         Self { error: method.order() * method.cost(), cost: method.cost() }
     }
@@ -54,13 +54,13 @@ pub struct Point {
     pub setting: f64,
     /// Error of the outputs.
     pub error: f64,
-    /// CPU time [s].
+    /// CPU time of the trial [s].
     pub seconds: f64,
-    /// Number of steps.
+    /// Number of steps of the trial.
     pub steps: u64,
 }
 
-/// What a prediction stands on.
+/// Basis that a prediction stands on.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Basis {
     /// A trial with this setting.
@@ -80,9 +80,9 @@ pub struct Prediction {
     pub setting: f64,
     /// Error of the outputs.
     pub error: f64,
-    /// CPU time [s].
+    /// Predicted CPU time [s].
     pub seconds: f64,
-    /// What it stands on.
+    /// Basis that the prediction stands on.
     pub basis: Basis,
 }
 
@@ -115,7 +115,7 @@ pub fn predict(
     Some(extended(from, law, setting))
 }
 
-/// What the law expects of another setting than that of a trial.
+/// Returns what the law expects of another setting than that of a trial.
 pub(crate) fn extended(from: &Point, law: PowerLaw, setting: f64) -> Prediction {
     let ratio = setting / from.setting;
     let times = ratio.powf(law.error);

@@ -1,4 +1,4 @@
-//! What is required of a run: an error, a deadline, or both; and why that may be refused.
+//! Requirements of a run: an error, a deadline, or both; and why they may be refused.
 
 use core::fmt::{self, Display, Formatter};
 use mbs::{Method, Precision};
@@ -8,7 +8,7 @@ const AIM: f64 = 0.7;
 /// With a deadline alone, no smaller error is aimed at [-]: outputs are printed with so many digits.
 pub(super) const ACCURATE: f64 = 1e-6;
 
-/// What `auto` is to reach.
+/// Goal that `auto` is to reach.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Goal {
     /// Largest error of the outputs over the run, each in its scale, as `mbs compare` takes it.
@@ -17,7 +17,7 @@ pub struct Goal {
     pub deadline: Option<f64>,
 }
 
-/// What a run is to reach.
+/// Target that a run is to reach.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PilotTarget {
     /// Error of the outputs.
@@ -71,7 +71,7 @@ const DECIDED: [Given; 6] = [
 ];
 
 impl Goal {
-    /// Is anything required?
+    /// Is an error or a deadline required?
     #[must_use]
     pub fn is_some(&self) -> bool {
         self.error.is_some() || self.deadline.is_some()
@@ -131,7 +131,7 @@ fn finest(precision: Precision) -> f64 {
 }
 
 impl GoalError {
-    /// What to do about it.
+    /// Returns a hint at what to do about the error.
     #[must_use]
     pub fn hint(&self) -> &'static str {
         match self {

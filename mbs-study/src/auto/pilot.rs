@@ -1,4 +1,4 @@
-//! The pilot: who gets the next trial, and when enough is known.
+//! Pilot: which candidate gets the next trial, and when enough is known.
 //!
 //! All trials go over the whole span, so that what happens late in the run is seen as well. The candidate with the smallest prediction is
 //! tried next, those without a trial first, until half of no prediction is below the cheapest that reaches the required error.
@@ -21,13 +21,13 @@ pub(super) const GIVE_UP: f64 = 1.5;
 /// A place in the ranking.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PilotPlace {
-    /// Its number among the candidates.
+    /// Number of the method among the candidates.
     pub candidate: usize,
-    /// What is expected of it.
+    /// Prediction of setting, error and CPU time.
     pub prediction: Prediction,
     /// Did a trial reach the required error?
     pub reaches: bool,
-    /// Its time is that of a run with this setting.
+    /// Whether the time is that of a run with this setting.
     pub is_timed: bool,
 }
 
@@ -42,7 +42,7 @@ pub(crate) struct Best {
 /// The search for the cheapest.
 pub struct PilotSearch<'a> {
     pub(crate) bench: &'a mut dyn Bench,
-    /// The candidates.
+    /// Candidates of the search.
     pub candidates: Vec<PilotCandidate>,
     pub(crate) target: PilotTarget,
     pub(crate) best: Option<Best>,
@@ -69,7 +69,7 @@ impl<'a> PilotSearch<'a> {
         Self { bench, candidates, target, best: None, is_cut: false, reserve }
     }
 
-    /// Where no candidate got to the end in the time: instants that the fastest passes in half of it.
+    /// Returns the number of instants that the fastest candidate passes in half of the time, where none got to the end in it.
     pub(crate) fn shorter(&self, count: usize) -> Option<usize> {
         let reached = self.candidates.iter().flat_map(|c| c.trials.iter().map(|t| t.trial.reached));
         let most = reached.fold(0.0, f64::max);
@@ -82,7 +82,7 @@ impl<'a> PilotSearch<'a> {
         (self.is_cut && part > 0).then_some(part)
     }
 
-    /// Ranks: the cheapest of those that reach the required error first.
+    /// Runs the trials and returns the ranking: the cheapest of those that reach the required error first.
     pub fn run(&mut self) -> Vec<PilotPlace> {
         while let Some((i, setting, limit)) = self.pick().or_else(|| self.confirming()) {
             self.attempt(i, setting, limit);
@@ -182,7 +182,7 @@ impl<'a> PilotSearch<'a> {
         predicted.or_else(next).unwrap_or(0.0)
     }
 
-    /// What the pilot may take [s].
+    /// Returns the CPU time that the pilot may take [s].
     pub(crate) fn budget(&self) -> f64 {
         let tried = |&i: &usize| !self.candidates[i].trials.is_empty();
         let run = (0..self.candidates.len()).filter(tried).map(|i| self.promise(i));
@@ -190,8 +190,9 @@ impl<'a> PilotSearch<'a> {
         BUDGET.max(BUDGET_FRACTION * run.unwrap_or(0.0))
     }
 
-    /// Where no trial came near the required error: a tolerance of a tenth of it, with the integrator of its own control that takes least by its
-    /// order. A law so far beyond its trials asks for any setting (iltis-links at 1e-6, on a machine that is busy).
+    /// Returns a place by theory where no trial came near the required error. Its tolerance is a tenth of that error.
+    /// Its integrator is the one, of those with a control of their own, that takes least by its order. A law so far beyond its trials asks for
+    /// any setting (iltis-links at 1e-6, on a machine that is busy).
     pub(crate) fn by_theory(&self, places: &[PilotPlace]) -> Option<PilotPlace> {
         let is_near = |p: &PilotPlace| p.reaches || p.prediction.error <= self.target.error / SMALL;
         if self.target.deadline.is_some() || places.first().is_some_and(is_near) {
@@ -278,7 +279,7 @@ impl<'a> PilotSearch<'a> {
         self.rate();
     }
 
-    /// Completed trials: candidate and place among its trials.
+    /// Returns the completed trials: candidate and place among its trials.
     fn done(&self) -> Vec<(usize, usize)> {
         let of = |(j, c): (usize, &PilotCandidate)| {
             let is_done =
@@ -317,7 +318,7 @@ impl<'a> PilotSearch<'a> {
         left.filter_map(|c| c.seen(self.target.error)).map(|p| p.seconds).reduce(f64::min)
     }
 
-    /// What is known of a candidate that is not out.
+    /// Returns the place of a candidate that is not out, by what is known of it.
     fn place(&self, i: usize) -> Option<PilotPlace> {
         let candidate = &self.candidates[i];
         let p = candidate.predict(self.target).filter(|_| candidate.out.is_none())?;
@@ -382,7 +383,7 @@ impl<'a> PilotSearch<'a> {
         self.finalists().iter().find_map(of)
     }
 
-    /// Those within [`GIVE_UP`] of the cheapest.
+    /// Returns the places within [`GIVE_UP`] of the cheapest.
     fn finalists(&self) -> Vec<PilotPlace> {
         let mut places = self.ranked(&[]);
         let Some(first) = places.first().copied() else { return places };
@@ -391,8 +392,8 @@ impl<'a> PilotSearch<'a> {
         places
     }
 
-    /// Those that reach the required error by their times, then the others by their times, or by their errors where a deadline gives the
-    /// time. At last come those that are out and completed a trial.
+    /// Returns the places in their order. Those that reach the required error come first, by their times. The others follow by their times, or by
+    /// their errors where a deadline gives the time. At last come those that are out and completed a trial.
     fn ranked(&self, timed: &[(usize, f64)]) -> Vec<PilotPlace> {
         let mut places: Vec<PilotPlace> =
             (0..self.candidates.len()).filter_map(|i| self.place(i)).collect();

@@ -16,12 +16,12 @@ use std::time::Instant;
 /// Settings to run with, in the order in which they are tried.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Plan {
-    /// The ranking; `≥ 1`.
+    /// Settings by rank; `≥ 1`.
     pub ranked: Vec<ResolvedMethod>,
 }
 
 impl Plan {
-    /// What runs first.
+    /// Returns the settings that run first.
     ///
     /// # Panics
     /// Never: a plan has at least one.
@@ -31,7 +31,7 @@ impl Plan {
     }
 }
 
-/// The processor's clock: CPU time of this thread, or wall time where threads share the work.
+/// Clock of the processor: CPU time of this thread, or wall time where threads share the work.
 #[derive(Debug)]
 pub enum Processor {
     /// CPU time of this thread.
@@ -57,7 +57,7 @@ impl Clock for Processor {
     }
 }
 
-/// Why there is no plan.
+/// Reason why there is no plan.
 #[derive(Debug)]
 #[non_exhaustive]
 pub enum PlanError {
@@ -130,7 +130,7 @@ fn ranked(
     ranked
 }
 
-/// What runs where the pilot has no result: every method that starts, in the order of its candidates. It has the step of the scene, or a
+/// Returns picks for a pilot without a result: every method that starts, in the order of its candidates. It has the step of the scene, or a
 /// tolerance of a tenth of the required error.
 fn blind(task: &Task<'_>, choice: &PilotReport, methods: &[MethodCase]) -> Vec<Pick> {
     let starts = |m: &&MethodCase| {

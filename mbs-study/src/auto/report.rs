@@ -9,7 +9,7 @@ use mbs::record::Candidate as Entry;
 use mbs::record::{PilotReference, PilotReport, TrialEntry};
 use mbs_scene::format::few;
 
-/// The evidence: the ranked ones first, then those that are out.
+/// Returns the evidence of the choice: the ranked candidates first, then those that are out.
 pub(super) fn evidence(
     search: &mut PilotSearch<'_>,
     places: &[PilotPlace],
@@ -85,7 +85,7 @@ pub(super) fn entry(candidate: &PilotCandidate) -> Entry {
     }
 }
 
-/// What a prediction stands on, in words.
+/// Returns in words what a prediction stands on.
 fn basis(place: &PilotPlace) -> String {
     match (place.is_timed, place.prediction.basis) {
         (true, _) => "timed with this setting".to_owned(),

@@ -1,4 +1,4 @@
-//! What a scene's structure says before anything is run: who cannot run it, and what makes it dear.
+//! Structure of a scene, known before anything is run: which methods cannot run it, and what makes it dear.
 
 use crate::compare::method::MethodCase;
 use mbs::inside::AssembledScene;
@@ -9,7 +9,7 @@ use mbs_core::scene::{BodyId, Effect, Scene};
 use mbs_recursive::space::Space;
 use mbs_recursive::{Planar, Spatial, TreeError, TreeModel};
 
-/// What is known of a scene without a step.
+/// Structure of a scene, known without a step.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Structure {
     pub(crate) dimension: usize,
@@ -77,7 +77,7 @@ fn frequency<T: Real>(scene: &Scene<T>, effect: &Effect<T>) -> f64 {
 }
 
 impl Structure {
-    /// Why a method cannot run the scene.
+    /// Returns the reason why a method cannot run the scene.
     pub(crate) fn refuses(&self, method: &MethodCase) -> Option<String> {
         let formulation = method.formulation.row();
         match (&self.loops, self.natural) {
@@ -90,7 +90,7 @@ impl Structure {
         }
     }
 
-    /// Sentences about it.
+    /// Returns sentences about the structure.
     pub(crate) fn words(&self) -> Vec<String> {
         let mut words = vec![format!(
             "{} in {} dimensions",

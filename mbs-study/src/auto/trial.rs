@@ -1,4 +1,4 @@
-//! What the choice asks of a run, and what a run gives: the border between choosing, which is counted and compared, and running.
+//! Border between choosing, which is counted and compared, and running: the request for a trial, and its result.
 
 use crate::compare::method::MethodCase;
 use mbs::record::RunError;
@@ -6,12 +6,12 @@ use mbs::record::RunError;
 /// Outputs at the instants after the start.
 pub(crate) type Rows = Vec<Vec<f64>>;
 
-/// What a trial is for.
+/// Aim of a trial.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Aim {
     /// Outputs at all instants.
     Rows,
-    /// Those, and the time of every step.
+    /// Outputs at all instants, and the time of every step.
     Steps,
     /// The time of the whole, as it is without recording.
     Time,
@@ -24,30 +24,30 @@ pub struct Trial {
     pub rows: Rows,
     /// CPU time of its steps [s].
     pub seconds: f64,
-    /// Number of steps.
+    /// Number of steps of the run.
     pub steps: u64,
     /// Fraction of the span that was reached.
     pub reached: f64,
     /// The slowest step [s], where each was timed.
     pub slowest: Option<f64>,
-    /// How it ended.
+    /// End of the trial.
     pub end: TrialEnd,
 }
 
-/// How a trial ended.
+/// End of a trial.
 #[derive(Debug, Clone, PartialEq)]
 pub enum TrialEnd {
     /// At the end of the span.
     Done,
-    /// It took longer than it was given.
+    /// Trial took longer than it was given.
     GivenUp,
-    /// It stopped.
+    /// Run stopped with this error.
     Stopped(RunError),
-    /// It did not start: no setting helps.
+    /// Run did not start: no setting helps.
     NotStarted(RunError),
 }
 
-/// Runs trials. Whoever chooses knows time by this only, so that a choice can be made on any clock.
+/// Bench that runs trials. Whoever chooses knows time by this only, so that a choice can be made on any clock.
 pub trait Bench {
     /// Runs the span with a setting, for no longer than `limit` [s].
     fn trial(&mut self, method: &MethodCase, setting: f64, aim: Aim, limit: f64) -> Trial;

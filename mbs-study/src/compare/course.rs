@@ -4,7 +4,7 @@ use super::ladder::Instants;
 use mbs::inside::{Fixed, Stretch};
 use mbs_core::Real;
 
-/// What a run does.
+/// Schedule of a run: the instants, and the steps between them.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Course {
     pub(crate) instants: Instants,

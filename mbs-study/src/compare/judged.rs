@@ -1,4 +1,4 @@
-//! What `mbs run --error` would choose on the scene, compared with the measured times of all methods.
+//! Choice of `mbs run --error` on the scene, compared with the measured times of all methods.
 
 use super::reference::Known;
 use super::store::ResultStore;

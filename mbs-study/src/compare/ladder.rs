@@ -1,11 +1,11 @@
-//! Which steps and tolerances are run, and at which instants runs are compared. None of it depends on a clock: two comparisons of
-//! a scene make the same runs.
+//! Steps and tolerances that are run, and instants at which runs are compared. None of them depends on a clock: two comparisons of a scene make
+//! the same runs.
 
 /// Steps by default, relative to the scene's [-].
 const STEPS: [f64; 9] = [10.0, 5.0, 2.0, 1.0, 0.5, 0.25, 0.125, 0.0625, 0.03125];
 /// Tolerances by default [-].
 const TOLERANCES: [f64; 8] = [1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10];
-/// Instants by default. Chosen, not tuned.
+/// Number of instants by default [-]. Chosen, not tuned.
 const INSTANTS: usize = 200;
 /// Largest relative misfit of a step that fits into the interval of two instants [-]. Chosen, not tuned.
 const FITS: f64 = 1e-6;
@@ -43,9 +43,9 @@ pub fn tolerances(asked: &[f64]) -> Vec<f64> {
 /// Equally spaced instants at which runs are compared; every step ends on one, or is made to.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Instants {
-    /// Their number after the start.
+    /// Number of instants after the start.
     pub count: usize,
-    /// Their distance [s].
+    /// Distance of the instants [s].
     pub interval: f64,
 }
 

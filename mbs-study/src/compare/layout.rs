@@ -1,4 +1,4 @@
-//! Another place in memory for each timing. Where stack and heap happen to lie decides some per cent of a time; a process that
+//! Place of stack and heap in memory, another one for each timing. Where they happen to lie decides some per cent of a time; a process that
 //! keeps them where they are measures its luck, however often it repeats.
 
 use std::hint::black_box;

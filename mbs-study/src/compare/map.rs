@@ -1,4 +1,4 @@
-//! Where index-3 and index-1 converge: short runs over step and fixed penalty.
+//! Maps of where index-3 and index-1 converge: short runs over step and fixed penalty.
 
 use super::course::Course;
 use super::ladder::{Instants, work};
@@ -16,7 +16,7 @@ const LONGEST_STEPS: f64 = 20.0;
 /// Iterations of a step for the estimate of the work. Chosen, not tuned.
 const ITERATIONS: f64 = 3.0;
 
-/// What is mapped.
+/// Plan of the maps: instants, steps, formulations and precisions.
 #[derive(Debug, Clone)]
 pub struct MapPlan {
     /// The first instants of the comparison.
@@ -56,7 +56,7 @@ impl MapPlan {
         Self { instants: Instants { count: n, ..instants }, between, formulations, precisions }
     }
 
-    /// Steps [s].
+    /// Returns the steps of the map [s].
     pub fn steps(&self) -> Vec<f64> {
         self.between.iter().map(|n| self.instants.interval / *n as f64).collect()
     }

@@ -2,29 +2,29 @@
 
 use mbs::{FormulationKind, IntegratorKind, Method, Precision};
 
-/// What chooses the length of the steps.
+/// Control of the length of the steps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Control {
-    /// Nothing: the setting is the step.
+    /// No control: the setting is the step.
     Fixed,
     /// An estimate of the local error; the setting is its tolerance.
     Error,
-    /// The energy invariant; the setting is U, and L a hundredth of it.
+    /// Control by the energy invariant; the setting is U, and L a hundredth of it.
     Energy,
-    /// The integrator itself; the setting is its tolerance.
+    /// Control by the integrator itself; the setting is its tolerance.
     Own,
 }
 
-/// A method.
+/// Method that is compared.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct MethodCase {
-    /// The formulation.
+    /// Formulation of the method.
     pub formulation: FormulationKind,
-    /// The integrator.
+    /// Integrator of the method.
     pub integrator: IntegratorKind,
-    /// What chooses the steps.
+    /// Control of the length of the steps.
     pub control: Control,
-    /// The precision.
+    /// Precision of the numbers.
     pub precision: Precision,
 }
 
@@ -75,7 +75,7 @@ impl MethodCase {
         methods
     }
 
-    /// Its name: what is usual is left out, the precision is not.
+    /// Returns the name of the method: what is usual is left out, the precision is not.
     pub fn name(&self) -> String {
         let integrator = match self.integrator {
             IntegratorKind::Trapezoidal => String::new(),
@@ -104,7 +104,7 @@ impl MethodCase {
         self.control == Control::Fixed
     }
 
-    /// How much more work the next setting is: for a step that is shorter by `ratio`, or a tolerance smaller by that.
+    /// Returns the factor by which the next setting is more work: for a step that is shorter by `ratio`, or a tolerance smaller by that.
     pub(crate) fn growth(&self, ratio: f64) -> f64 {
         ratio.powf(self.cost())
     }
@@ -134,7 +134,7 @@ impl MethodCase {
         }
     }
 
-    /// What a run of it is asked for, between instants `interval` apart, and first (or all) steps of `step` [s].
+    /// Returns the options of a run of this method, between instants `interval` apart, and first (or all) steps of `step` [s].
     pub(crate) fn overrides(&self, setting: f64, step: f64, interval: f64) -> Method {
         let control = match self.control {
             Control::Fixed | Control::Own => "fixed",

@@ -1,5 +1,5 @@
-//! What each method costs and gives on one scene: every formulation, integrator, control and precision over a range of steps or
-//! tolerances, against a reference that is not under test.
+//! Comparison of methods by their cost and error on one scene, against a reference that is not under test. It takes every formulation,
+//! integrator, control and precision over a range of steps or tolerances.
 //!
 //! Runs are recorded first, with their errors, then timed interleaved. Which runs are made follows from counts, not from a clock, so
 //! that two comparisons make the same ones. Each result is in the journal before the next run begins.
@@ -41,14 +41,14 @@ use reference::Known;
 use std::path::Path;
 use store::ResultStore;
 
-/// What is to be compared. Empty lists mean all there are, or the usual ones.
+/// Request of a comparison. Empty lists mean all there are, or the usual ones.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Request {
-    /// Formulations.
+    /// Formulations to compare.
     pub formulations: Vec<FormulationKind>,
-    /// Precisions.
+    /// Precisions to compare.
     pub precisions: Vec<Precision>,
-    /// Steps [s].
+    /// Lengths of the steps [s].
     pub steps: Vec<f64>,
     /// Tolerances of controlled steps.
     pub tolerances: Vec<f64>,
@@ -56,7 +56,7 @@ pub struct Request {
     pub errors: Vec<f64>,
     /// Length of the runs [s]; left out, the scene's.
     pub duration: Option<f64>,
-    /// How often each run is timed at least. `≥ 2`.
+    /// Least number of timings of each run. `≥ 2`.
     pub repeats: u32,
     /// CPU time of a run at most [s].
     pub time_limit: f64,
@@ -66,7 +66,7 @@ pub struct Request {
     pub maps: bool,
     /// Is the choice by measurement to be made at each error, and compared with all methods?
     pub choices: bool,
-    /// What ends the comparison from outside.
+    /// Interrupt that ends the comparison from outside.
     pub interrupt: Interrupt,
 }
 
@@ -153,7 +153,7 @@ const KIND: Kind = Kind {
     hashes: &["the scene", "an option", "the reference table"],
 };
 
-/// What a comparison is made of.
+/// Parts of a comparison: scenes, request, methods and their settings.
 struct Study<'a> {
     scenes: &'a Scenes,
     request: &'a Request,
@@ -281,7 +281,7 @@ impl<'a> Study<'a> {
         }
     }
 
-    /// What is going to be done, in words.
+    /// Returns in words what the comparison is going to do.
     fn plan(&self, resumed: usize) -> String {
         let list = |numbers: &[f64]| {
             let ends = [numbers.first(), numbers.last()].map(|x| x.copied().unwrap_or_default());
@@ -354,7 +354,7 @@ impl<'a> Study<'a> {
 }
 
 impl CompareError {
-    /// What to do about it.
+    /// Returns a hint at what to do about the error.
     #[must_use]
     pub fn hint(&self) -> String {
         match self {

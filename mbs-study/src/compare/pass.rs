@@ -31,22 +31,22 @@ pub(super) struct Scenes {
     pub(super) double: Scene<f64>,
     read: Vec<(Precision, ReadScene<'static>)>,
     n_columns: usize,
-    /// What ends all runs from outside.
+    /// Interrupt that ends all runs from outside.
     pub(super) interrupt: Interrupt,
 }
 
-/// What a recorded run leaves behind.
+/// Record that a run leaves behind.
 #[derive(Debug, Default)]
 pub(super) struct Recorded {
     /// All components of all channels at the instants reached.
     pub(super) rows: Vec<Vec<f64>>,
     /// Everything but errors and times of the whole.
     pub(super) entry: RunEntry,
-    /// Its work, the same every time [s, nominal].
+    /// Work of the run, the same every time [s, nominal].
     pub(super) work: f64,
-    /// It was given up: it took longer than allowed.
+    /// Whether the run was given up: it took longer than allowed.
     pub(super) is_given_up: bool,
-    /// It did not even start.
+    /// Whether the run did not even start.
     pub(super) is_not_started: bool,
 }
 
@@ -196,7 +196,7 @@ fn recorded<T: Real, const D: usize>(
     recorder.finish(&simulation, end.err(), &Names::new(scene))
 }
 
-/// Records a run.
+/// Recorder of a run.
 struct Recorder<T: Real, const D: usize> {
     channels: Channels<T, D>,
     alarm: Alarm,

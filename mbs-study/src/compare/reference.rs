@@ -1,4 +1,4 @@
-//! What errors are taken against: a run that is not under test, in two accuracies, beside another formulation.
+//! Reference that errors are taken against: a run that is not under test, in two accuracies, beside another formulation.
 
 use super::ladder::Instants;
 use super::table::ReferenceTable;
@@ -25,7 +25,7 @@ pub(super) type Rows = Vec<Vec<f64>>;
 pub struct RunPair {
     /// Name of the method.
     pub method: String,
-    /// The rows.
+    /// Rows of the accurate solution.
     pub rows: Rows,
     /// The less accurate rows.
     pub coarse: Rows,
@@ -54,16 +54,16 @@ pub struct Known {
     /// Rows at the instants, where they are known.
     pub(super) rows: Vec<Option<Vec<f64>>>,
     pub(super) scales: Vec<OutputScale>,
-    /// What the results say of it.
+    /// Report on the reference in the results.
     pub report: Reference,
-    /// What is doubtful.
+    /// Notes on what is doubtful in the reference.
     pub notes: Vec<String>,
     /// A table that formulations which agree are far from.
     pub is_refuted: bool,
 }
 
 impl Known {
-    /// From a table. Columns that it has not are not compared.
+    /// Makes the reference from a table. Columns that the table has not are not compared.
     pub fn of_table(
         table: ReferenceTable,
         name: &str,
@@ -160,7 +160,7 @@ impl Known {
         format!("{far} {} of `{}`", scale.unit, scale.output)
     }
 
-    /// From runs; `check` is the other formulation. `least` is the least error that is to be ranked.
+    /// Makes the reference from runs; `check` is the other formulation. `least` is the least error that is to be ranked.
     pub fn of_runs(
         best: &RunPair,
         check: Option<&RunPair>,
@@ -261,8 +261,8 @@ fn distances(scales: &[OutputScale], a: &[Vec<f64>], b: &[Vec<f64>]) -> Vec<f64>
     distances.collect()
 }
 
-/// How many instants are compared: those before the two runs part, but not less than a share, for which a larger distance is put
-/// up with.
+/// Returns the number of instants that are compared: those before the two runs part, but not less than a share. For that share a larger
+/// distance is put up with.
 fn known(parted: &[f64], bound: f64) -> usize {
     let all = parted.len();
     let within = |bound: f64| parted.iter().take_while(|d| **d <= bound).count();

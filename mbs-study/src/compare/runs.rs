@@ -16,7 +16,7 @@ const NO_BETTER: u32 = 2;
 /// Start and length of recording in the progress bar, as fractions of it [-].
 const RECORDING: [f64; 2] = [0.05, 0.3];
 
-/// What is known of a method while its settings are refined.
+/// Knowledge of a method while its settings are refined.
 #[derive(Debug, Default)]
 pub struct Refinement {
     /// Work and CPU time of the last run that was completed, with its setting.
@@ -97,7 +97,7 @@ impl Study<'_> {
         Ok(entry)
     }
 
-    /// Why a setting is not run: by the work of the one before, and in the last resort by its CPU time.
+    /// Returns the reason why a setting is not run: by the work of the one before, and in the last resort by its CPU time.
     fn too_long(&self, method: &MethodCase, setting: f64, refined: &Refinement) -> Option<String> {
         if refined.no_better >= NO_BETTER {
             return Some(format!("{NO_BETTER} finer settings in a row were no better"));

@@ -7,15 +7,15 @@ use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// What a comparison does with the runs that an earlier start left in the directory.
+/// Treatment of the runs that an earlier start of the comparison left in the directory.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Earlier {
-    /// Refuses to begin.
+    /// Refuses to begin the comparison.
     #[default]
     Refuse,
-    /// Resumes from them.
+    /// Resumes from the earlier runs.
     Resume,
-    /// Throws them away.
+    /// Throws the earlier runs away.
     Restart,
 }
 
@@ -26,7 +26,7 @@ pub struct ResultStore {
     done: BTreeMap<String, Value>,
     /// Results of an earlier start.
     pub resumed: usize,
-    /// What ends the comparison from outside.
+    /// Interrupt that ends the comparison from outside.
     pub interrupt: Interrupt,
 }
 

@@ -11,13 +11,13 @@ const SAME_TIME: f64 = 1e-9;
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum TableError {
-    /// It is no CSV, or cannot be read.
+    /// Text that is no CSV, or cannot be read.
     Unreadable(String),
-    /// Its first column is not `t`.
+    /// First column that is not `t`.
     NoTime,
     /// None of its columns is an output of the scene.
     NoOutput,
-    /// It has no rows.
+    /// Table without rows.
     Empty,
     /// A column that is no output of the scene, and those that are.
     UnknownColumn(String, Vec<String>),
@@ -31,14 +31,14 @@ pub enum TableError {
     NoInstant(String),
 }
 
-/// What the table says.
+/// Table of a reference: its values at the instants, and its digits.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ReferenceTable {
     /// Values of all columns at each instant that it has; NaN where it has not the column.
     pub rows: Vec<Option<Vec<f64>>>,
     /// Half a unit of the last digit of each column, in the root of the mean square.
     pub digits: Vec<f64>,
-    /// Which columns it has.
+    /// Whether the table has each of the columns.
     pub has: Vec<bool>,
 }
 
@@ -137,7 +137,7 @@ fn half_unit(text: &str) -> f64 {
 }
 
 impl TableError {
-    /// What to do about it.
+    /// Returns a hint at what to do about the error.
     #[must_use]
     pub fn hint(&self) -> String {
         let hint = match self {

@@ -14,7 +14,7 @@ const TIME_LIMIT: f64 = 10.0;
 const SHORT_TIME_LIMIT: f64 = 1.0;
 /// Tolerances of the reference's two runs, the best pair first [-]: their difference is the uncertainty.
 const TOLERANCES: [[f64; 2]; 3] = [[1e-13, 1e-12], [1e-11, 1e-10], [1e-9, 1e-8]];
-/// The same in double-double [-].
+/// Tolerances of the reference's two runs in double-double [-].
 const PAIR_TOLERANCES: [[f64; 2]; 1] = [[1e-20, 1e-18]];
 /// Steps of the check, relative to the scene's [-], from the finest that [`CHECK_BUDGETS`] allows: each is halved twice.
 const STEPS: [f64; 4] = [0.125, 0.25, 0.5, 1.0];
@@ -32,7 +32,7 @@ struct Made {
 }
 
 impl Study<'_> {
-    /// The reference: a table where one is given; else runs.
+    /// Returns the reference: from a table where one is given, else from runs.
     pub(super) fn known(
         &self,
         table: Option<(&str, &str)>,

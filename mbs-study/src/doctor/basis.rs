@@ -1,4 +1,4 @@
-//! What the examinations share: how much may be looked at, the start, and why a run stopped.
+//! Shared basis of the examinations: how much may be looked at, the start, and why a run stopped.
 
 use mbs::inside::AssembledScene;
 use mbs::inside::poses;
@@ -9,7 +9,7 @@ use mbs_core::rigid::RigidMotion;
 use mbs_core::scene::Scene;
 use mbs_core::start::Assembled;
 
-/// How much may be looked at.
+/// Limits of what is looked at along the motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Effort {
     /// Positions along the motion. `0`: the motion is left out.
@@ -24,7 +24,7 @@ impl Default for Effort {
     }
 }
 
-/// A start: the model, its assembled state, and where the bodies are.
+/// Start of a scene: the model, its assembled state, and where the bodies are.
 pub(super) struct Begun<const D: usize> {
     pub(super) model: NaturalModel<f64, D>,
     pub(super) start: Assembled<f64>,
@@ -42,7 +42,7 @@ pub(super) fn stopped(scene: &Scene<f64>, error: &StopError, time: f64) -> (Stri
     (format!("{}{whose}", report.message), error.hint())
 }
 
-/// Where the bodies are at a state.
+/// Returns the poses of the bodies at a state.
 pub(super) fn places<const D: usize>(
     scene: &Scene<f64>,
     model: &NaturalModel<f64, D>,

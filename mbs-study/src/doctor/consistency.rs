@@ -53,7 +53,7 @@ pub(super) fn findings(
     }
 }
 
-/// The same freedoms must come out in natural coordinates, but for idle spins.
+/// Reports freedoms that differ between natural coordinates and the joint level, idle spins aside.
 fn differs(
     diagnosis: &Diagnosis,
     dof: usize,

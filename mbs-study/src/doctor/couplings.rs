@@ -17,12 +17,13 @@ use mbs_core::scene::{Entry, Scene};
 /// Part of a gradient that others do not give, relative to it, below which it follows from them [-]: rounding of the rank's basis. Chosen,
 /// not tuned.
 const FOLLOWS: f64 = 1e-9;
-/// The same, below which it almost does [-]: ratios are written with six digits or more.
+/// Part of a gradient that others do not give, relative to it, below which it almost follows from them [-]. Ratios are written with six digits
+/// or more.
 const ALMOST: f64 = 1e-6;
 /// Most numbers of the rows that are looked at [-]: a second of work. Chosen, not tuned.
 const LARGEST: usize = 250_000;
 
-/// How many freedoms couplings and rolling take at a state; nothing where the scene is too large for it.
+/// Returns the number of freedoms that couplings and rolling take at a state; nothing where the scene is too large for it.
 pub(super) fn findings<const D: usize>(
     scene: &Scene<f64>,
     model: &NaturalModel<f64, D>,

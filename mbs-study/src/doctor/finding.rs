@@ -3,7 +3,7 @@
 use mbs_core::scene::{Entry, Scene};
 
 mbs_core::named! {
-    /// How bad a finding is.
+    /// Severity of a finding.
     pub enum Severity {
         /// Worth knowing: nothing is wrong with it.
         Note = "note",
@@ -15,7 +15,7 @@ mbs_core::named! {
 }
 
 mbs_core::named! {
-    /// What a finding is about, in the order of the report.
+    /// Subject of a finding, in the order of the report.
     pub enum Topic {
         /// Rank and freedoms.
         Rank = "rank",
@@ -39,15 +39,15 @@ mbs_core::named! {
 /// One thing that was found, with all joints and bodies it is about.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Finding {
-    /// How bad.
+    /// Severity of the finding.
     pub severity: Severity,
     /// A short fixed word for programs.
     pub code: &'static str,
-    /// What it is about.
+    /// Topic of the finding.
     pub topic: Topic,
-    /// What was found, in one or two sentences.
+    /// Message: what was found, in one or two sentences.
     pub message: String,
-    /// What would mend it; may be empty for a note.
+    /// Remedy that would mend it; may be empty for a note.
     pub remedy: String,
     /// Joints, by their indices.
     pub joints: Vec<usize>,
@@ -77,21 +77,21 @@ impl Finding {
         }
     }
 
-    /// About these joints; its place is the first of them.
+    /// Sets the joints that the finding is about; its place is the first of them.
     pub(super) fn joints(mut self, joints: Vec<usize>) -> Self {
         self.place = self.place.or(joints.first().map(|&j| (Entry::Joint(j), "name")));
         self.joints = joints;
         self
     }
 
-    /// About these bodies; its place is the first of them.
+    /// Sets the bodies that the finding is about; its place is the first of them.
     pub(super) fn bodies(mut self, bodies: Vec<usize>) -> Self {
         self.place = self.place.or(bodies.first().map(|&b| (Entry::Body(b), "name")));
         self.bodies = bodies;
         self
     }
 
-    /// At this place.
+    /// Sets the place of the finding.
     pub(super) fn at(mut self, entry: Entry, key: &'static str) -> Self {
         self.place = Some((entry, key));
         self

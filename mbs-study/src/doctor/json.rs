@@ -5,10 +5,10 @@ use crate::redundancy::{JointChange, Loop, Remedy, Set};
 use mbs_core::scene::Entry;
 use serde_json::{Value, json};
 
-/// Where an entry's key stands: the file where the scene's own includes it, and the line.
+/// Place of an entry's key: the file where the scene's own includes it, and the line.
 pub type Written<'a> = &'a dyn Fn(Entry, &str) -> Option<(Option<String>, usize)>;
 
-/// The object; `line` says where an entry's key stands.
+/// Returns the JSON object of a checkup; `line` gives the place of an entry's key.
 #[must_use]
 pub fn to_json(checkup: &Checkup, line: Written<'_>) -> Value {
     let c = checkup;

@@ -1,4 +1,4 @@
-//! Which formulations take a step of a scene with dependent equations: tried, not predicted.
+//! Formulations that take a step of a scene with dependent equations: tried, not predicted.
 
 use super::finding::{Finding, Severity, Topic};
 use mbs::typed::Simulation;
@@ -10,7 +10,7 @@ use mbs_core::scene::Scene;
 pub struct Attempt {
     /// Name of the formulation.
     pub formulation: &'static str,
-    /// Why it took none: code and message.
+    /// Reason why the formulation took no step: code and message.
     pub error: Option<(&'static str, String)>,
 }
 

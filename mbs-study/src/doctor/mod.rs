@@ -1,4 +1,4 @@
-//! What is wrong or doubtful with a scene, by names, with what would mend it.
+//! Doctor of a scene: what is wrong or doubtful, by names, with what would mend it.
 //!
 //! Rank, dependent sets, reactions and loops are looked at on the joint level ([`redundancy`](crate::redundancy)), at the assembled start and at
 //! positions of a run. What natural coordinates make of it, and which formulations take a step, is tried.
@@ -38,15 +38,15 @@ use mbs_core::scene::{Dimension, Scene};
 /// Everything the doctor found.
 #[derive(Debug, Clone)]
 pub struct Checkup {
-    /// The scene's name.
+    /// Name of the scene.
     pub scene: String,
-    /// 2 or 3.
+    /// Dimension of the scene: 2 or 3.
     pub dimension: usize,
     /// Names of the joints and bodies, for what follows.
     pub joints: Vec<String>,
     /// Names of the bodies.
     pub bodies: Vec<String>,
-    /// What was found, the worst first, then in the order of the topics.
+    /// Findings, the worst first, then in the order of the topics.
     pub findings: Vec<Finding>,
     /// Coordinates, constraints and their rank in natural coordinates; nothing without a start.
     pub natural: Option<[usize; 3]>,
@@ -54,7 +54,7 @@ pub struct Checkup {
     pub joint_level: Diagnosis,
     /// Does it stand at the assembled start? Else at the reference configuration.
     pub is_at_start: bool,
-    /// Whose reaction is determined in which components: [Fx, Fy, Mz] or all six, in global axes.
+    /// Whether each component of a joint's reaction is determined, joint by joint: [Fx, Fy, Mz] or all six, in global axes.
     pub unique: Vec<Vec<bool>>,
     /// Joints whose reactions lack the force of a coupling, with its name.
     pub lacking: Vec<(usize, String)>,
@@ -64,9 +64,9 @@ pub struct Checkup {
     pub drives: Vec<Drive>,
     /// Motions without mass; nothing where the scene is too large.
     pub massless: Option<Vec<Massless>>,
-    /// Which formulations take a step, where something is dependent.
+    /// First steps by the formulations, where something is dependent.
     pub methods: Vec<Attempt>,
-    /// What was seen along the motion.
+    /// Findings along the motion.
     pub motion: Option<Motion>,
     /// Residual of what was written before assembly, and how far it moved each body.
     pub start: Option<Moved>,
@@ -91,7 +91,7 @@ impl Checkup {
         self
     }
 
-    /// Freedoms: of the natural model, which has none for the idle spin of a rod; without a start those of the joint level.
+    /// Returns the number of freedoms of the natural model, which has none for the idle spin of a rod. Without a start it is that of the joint level.
     #[must_use]
     pub fn dof(&self) -> usize {
         match self.natural {

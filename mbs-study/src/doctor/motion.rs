@@ -1,4 +1,4 @@
-//! Along the motion: how near it comes to a singular position, and which corners of its loops straighten.
+//! Examination along the motion: how near it comes to a singular position, and which corners of its loops straighten.
 //!
 //! ```text
 //! κ(t) = σ_r / σ₁,   r: the largest rank met on the way
@@ -21,12 +21,12 @@ use mbs_core::scene::{Entry, Scene};
 use mbs_scene::format::few;
 use std::time::Instant;
 
-/// What was seen along the motion.
+/// Findings along the motion: its reach, singular positions, corners of loops, and why it stopped.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Motion {
     /// Formulation of the run.
     pub formulation: &'static str,
-    /// Positions looked at.
+    /// Number of positions looked at.
     pub positions: u64,
     /// Time that was reached [s].
     pub reached: f64,
@@ -38,20 +38,20 @@ pub struct Motion {
     pub nearest: Vec<Nearest>,
     /// Corners of loops, in the order of the loops.
     pub corners: Vec<LinearMotion>,
-    /// Why the run stopped: code, message and hint.
+    /// Reason why the run stopped: code, message and hint.
     pub error: Option<(&'static str, String, &'static str)>,
-    /// Whose: the place in the scene.
+    /// Entry of the scene that the error is about.
     pub entry: Option<Entry>,
 }
 
 /// Nearest singular position of a part.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Nearest {
-    /// Time [s].
+    /// Time of the singular position [s].
     pub time: f64,
     /// Smallest singular value over the largest, there [-]: zero where it is singular.
     pub sigma: f64,
-    /// The same at the start.
+    /// Smallest singular value over the largest, at the start [-].
     pub sigma_at_start: f64,
     /// Rank, and the rank at the start.
     pub rank: [usize; 2],
@@ -76,7 +76,7 @@ pub struct LinearMotion {
     pub changed: Option<f64>,
 }
 
-/// ScalarForce κ below which a position counts as passed through [-]. Chosen, not tuned.
+/// Value of κ below which a position counts as passed through [-]. Chosen, not tuned.
 const SINGULAR: f64 = 1e-3;
 /// Most joints of a part that is watched: decompositions of larger ones take minutes.
 const LARGEST: usize = 200;
@@ -94,7 +94,7 @@ struct Watch<'a> {
     corners: Vec<LinearMotion>,
 }
 
-/// One part, watched.
+/// Track of one part along the motion.
 struct Track<'a> {
     part: &'a Part,
     rank: [usize; 2],
@@ -178,7 +178,7 @@ impl<const D: usize> StepObserver<f64, D> for Look<'_, '_> {
     }
 }
 
-/// How many positions are decomposed.
+/// Returns the number of positions that are decomposed.
 fn positions(linkage: &Linkage, effort: &Effort) -> f64 {
     let watched = linkage.parts.iter().filter(|p| is_watched(p));
     let work =
@@ -303,7 +303,7 @@ pub fn refined(kappa: &[[f64; 2]], i: usize) -> [f64; 2] {
     }
 }
 
-/// Where κ passes zero, and by how much the samples contradict that.
+/// Returns the time at which κ passes zero, and by how much the samples contradict that.
 fn crossed(kappa: &[[f64; 2]], i: usize) -> Option<[f64; 2]> {
     if i < 2 || i + 2 >= kappa.len() {
         return None;

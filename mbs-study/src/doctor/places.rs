@@ -9,13 +9,14 @@ use mbs_scene::format::few;
 
 /// Distance between an end of an effect and another place of its body that is reported, relative to the scene's length [-]. Chosen, not tuned.
 const NEAR_ON_SCENE: f64 = 0.02;
-/// The same for an end of a rod that nothing is attached to, relative to the rod's length [-]: the other end is no candidate.
+/// Distance between a place and a rod's end that nothing is attached to, which is reported, relative to the rod's length [-]: the other end is
+/// no candidate.
 const NEAR_ON_ROD: f64 = 0.15;
 /// Distance from the centre of mass from which a place is not on a body, in sizes of the body [-]. Within one size it would be on it
 /// if it were measured from the centre.
 const FAR_FROM_CENTER: f64 = 3.0;
 
-/// What stands at a place.
+/// Owner of a place on a body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Owner {
     /// An end of the body's rod.
@@ -104,7 +105,7 @@ fn apart<'a>(scene: &Scene<f64>, here: &'a [Place], near: f64) -> Vec<(&'a Place
     pairs
 }
 
-/// How far the place that is meant may be. On a short rod both ends are near.
+/// Returns the largest distance at which the place that is meant may be [m]. On a short rod both ends are near.
 fn limit(scene: &Scene<f64>, place: &Place, (near, is_shared): (f64, bool)) -> f64 {
     let Inertia::Rod { from, to } = scene.bodies[place.body].inertia else { return near };
     let length = (Vector::from(to) - Vector::from(from)).norm();

@@ -139,7 +139,7 @@ fn of_one_pair(scene: &Scene<f64>, set: &Set) -> bool {
     set.members.iter().all(|m| pair(m) == pair(&set.members[0]))
 }
 
-/// What would be changed, in one sentence.
+/// Returns in one sentence what a remedy would change.
 pub(super) fn words(scene: &Scene<f64>, remedy: &Remedy) -> String {
     let joint = |change: &JointChange| {
         let name = &scene.joints[change.joint].name;

@@ -1,4 +1,4 @@
-//! The start: what did not fit before assembly, and how far it moved each body.
+//! Examination of the start: what did not fit before assembly, and how far it moved each body.
 
 use super::basis::{Begun, stopped};
 use super::finding::{Finding, Severity, Topic};
@@ -10,12 +10,12 @@ use mbs_core::algebra::rotation_vector;
 use mbs_core::scene::{BodyId, Entry, InitialTarget, Motion, Scene, TableNote};
 use mbs_scene::format::{counted, few};
 
-/// What assembly did.
+/// Changes by assembly: residuals before and after, and the ways and speeds of the bodies.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Moved {
     /// Largest residual of joints, guides and held values in the reference configuration [m or rad].
     pub residual_before: f64,
-    /// Largest residuals after: position, velocity, acceleration.
+    /// Largest residuals after assembly: position, velocity, acceleration.
     pub residual: [f64; 3],
     /// Way of the centre [m] and turn [rad] of each body from the reference configuration.
     pub bodies: Vec<[f64; 2]>,

@@ -30,20 +30,20 @@ const EVALUATIONS: f64 = 12.0;
 /// Most steps between two measurements: those that an integrator may try by default.
 const MOST_STEPS: f64 = 1e6;
 
-/// How a look ended.
+/// End of a look.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum End {
-    /// It saw the whole run.
+    /// Look that saw the whole run.
     Whole,
-    /// It would take too much work.
+    /// Look that would take too much work.
     Late,
-    /// It stopped; when and why.
+    /// Look that stopped; when [s] and why.
     Stopped(f64, String),
-    /// It did not start; why.
+    /// Look that did not start; why.
     NotStarted(String),
 }
 
-/// How fast the motion is for the steps of the run.
+/// Speed of the motion, relative to the steps of the run.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Pace {
     /// The largest turn of a body in a step [rad], and the body.
@@ -63,21 +63,21 @@ impl Pace {
     }
 }
 
-/// What a look saw.
+/// Result of a look.
 #[derive(Debug)]
 pub(super) struct Seen {
     /// Components at the instants that it reached.
     pub(super) values: Vec<Vec<f64>>,
-    /// How fast the motion is for the steps of the run.
+    /// Speed of the motion, relative to the steps of the run.
     pub(super) pace: Pace,
-    /// Iterations and steps.
+    /// Number of iterations and steps of the look.
     work: f64,
-    /// Their nominal time [s].
+    /// Nominal time of these iterations and steps [s].
     pub(super) seconds: f64,
     pub(super) end: End,
 }
 
-/// What is looked at.
+/// Run that is looked at.
 pub(super) struct Look<'a, const D: usize> {
     pub(super) scene: &'a Scene<f64>,
     pub(super) ready: &'a AssembledScene<f64, D>,
@@ -149,7 +149,7 @@ struct Eye<'a, const D: usize> {
     limit: Limit<'a>,
 }
 
-/// What ends a look.
+/// Limit that ends a look.
 #[derive(Clone, Copy)]
 struct Limit<'a> {
     /// Most iterations and steps.
@@ -263,7 +263,7 @@ fn counted(report: &StepReport<f64>) -> f64 {
     f64::from(report.iterations) + f64::from(report.steps)
 }
 
-/// How a look ends that stops.
+/// Returns the end of a look that stops.
 fn stopped<const D: usize>(
     scene: &Scene<f64>,
     simulation: &Simulation<f64, D>,

@@ -1,4 +1,4 @@
-//! Which comparison runs are made, in which order, and what they say.
+//! Comparison runs that are made, their order, and what they say.
 
 use super::differences;
 use super::look::{End, Look, Pace, Seen};
@@ -25,9 +25,9 @@ const EXPLICIT: &Sequence = &[
     (IntegratorKind::Rk853, 1e-12, 1.8),
     (IntegratorKind::Rk853, FINEST, 1.3),
 ];
-/// What follows the first of them where the second is not affordable.
+/// Looks that follow the first explicit one where the second is not affordable.
 const CHEAP: &Sequence = &[(IntegratorKind::Rk54, 1e-5, 1.4), (IntegratorKind::Rk54, 1e-6, 1.6)];
-/// For stiff forces.
+/// Looks for stiff forces.
 const IMPLICIT: &Sequence = &[
     (IntegratorKind::Radau5, 1e-6, 0.0),
     (IntegratorKind::Radau5, 1e-7, 1.6),
@@ -44,7 +44,7 @@ const OWN_ORDER: i32 = 5;
 /// Difference of an output, relative to its range, from which it is no small error and follows no order [-]. Chosen, not tuned.
 const LOST: f64 = 0.1;
 
-/// What an estimate is based on, and its errors.
+/// Estimate that was found: its basis, and the errors.
 pub(super) struct Found {
     pub(super) basis: String,
     pub(super) errors: Vec<f64>,
@@ -57,19 +57,19 @@ pub(super) struct Looks<'a, const D: usize> {
     pub(super) look: Look<'a, D>,
     pub(super) settings: &'a ResolvedMethod,
     pub(super) purse: Purse,
-    /// How fast the motion is for the steps of the run.
+    /// Speed of the motion, relative to the steps of the run.
     pub(super) pace: Pace,
-    /// Why looks gave no estimate.
+    /// Reasons why looks gave no estimate.
     why: Vec<String>,
 }
 
 impl<'a, const D: usize> Looks<'a, D> {
-    /// None so far.
+    /// Makes looks of which none is done yet.
     pub(super) fn new(look: Look<'a, D>, settings: &'a ResolvedMethod, purse: Purse) -> Self {
         Self { look, settings, purse, pace: Pace::default(), why: Vec::new() }
     }
 
-    /// What the best look says that is affordable; else why none says anything.
+    /// Returns what the best look says that is affordable; else why none says anything.
     pub(super) fn find(&mut self) -> Result<Found, String> {
         let instants = instants(self.look.rows, self.purse.rows(self.look.scene));
         for sequences in [&[EXPLICIT, CHEAP][..], &[IMPLICIT]] {
@@ -166,7 +166,7 @@ impl<'a, const D: usize> Looks<'a, D> {
         (0..n).map(|c| both().map(|(a, b)| (a[c] - b[c]).abs()).fold(0.0, f64::max)).collect()
     }
 
-    /// By the same method with a ratio of its steps, where that is affordable, and whether it saw the whole run.
+    /// Returns the errors by the same method with a ratio of its steps, where that is affordable, and whether the look saw the whole run.
     fn same(&mut self, ratio: f64, instants: &[usize]) -> Option<(Found, bool)> {
         let more = if ratio > 1.0 { MORE_ITERATIONS } else { 1.0 };
         if !self.purse.has(more * self.purse.of_ratio(ratio)) {
@@ -196,7 +196,7 @@ impl<'a, const D: usize> Looks<'a, D> {
         Some((Found { basis, errors, floor: true }, false))
     }
 
-    /// What rows alone say, and a look that stopped.
+    /// Returns what rows alone say, and a look that stopped.
     fn rest(&self, part: Option<Found>) -> Option<Found> {
         let rows = self.look.rows;
         let has_all_rows = self.look.n_steps + 1.0 <= rows.len() as f64;
@@ -276,7 +276,7 @@ impl<'a, const D: usize> Looks<'a, D> {
     }
 }
 
-/// Why a look gives no estimate.
+/// Returns the reason why a look gives no estimate.
 fn reason(what: &str, end: &End) -> String {
     match end {
         End::Whole | End::Late => {

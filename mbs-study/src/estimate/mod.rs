@@ -1,4 +1,4 @@
-//! How accurate a run is: the errors of its outputs, by comparison runs beside it, and what made its steps too long.
+//! Accuracy of a run: the errors of its outputs, by comparison runs beside it, and what made its steps too long.
 //!
 //! The first of these looks that sees the whole run gives the estimate:
 //!
@@ -38,7 +38,8 @@ use purse::Purse;
 const MOST_TURN: f64 = 0.3;
 /// Least steps in a period of the stiffest force [-]: with fewer its swing has a wrong period.
 const FEWEST_STEPS: f64 = 20.0;
-/// Error of an output, relative to its range, from which it shows the swing of a force that the step does not follow [-]: a stated error is off by a factor of two at times, and one of a hundredth is worth a note.
+/// Error of an output, relative to its range, from which it shows the swing of a force that the step does not follow [-]: a stated error is
+/// off by a factor of two at times, and one of a hundredth is worth a note.
 const SWINGS: f64 = 0.02;
 /// Error of an output by the iterations of a run, relative to the largest range of its unit [-]: Newton's tolerance.
 const ITERATION: f64 = 1e-10;
@@ -68,7 +69,7 @@ pub fn estimate(
     outcome.take_estimate(estimate);
 }
 
-/// A run.
+/// Judge of a run: its scene, settings and outcome.
 struct Judge<'a> {
     scene: &'a Scene<f64>,
     settings: &'a ResolvedMethod,
@@ -164,7 +165,7 @@ impl Judge<'_> {
         shares.max_by(|a, b| a.0.total_cmp(&b.0))
     }
 
-    /// What makes the steps too long. A stiff force says nothing where no output shows it: its swing is mentioned where outputs err by much.
+    /// Warns of what makes the steps too long. A stiff force says nothing where no output shows it: its swing is mentioned where outputs err by much.
     fn warn(&self, estimate: &mut ErrorEstimate, most: &Pace) {
         let (turn, body) = most.turn;
         estimate.turn_per_step = (turn > 0.0).then_some(turn);

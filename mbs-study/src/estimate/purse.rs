@@ -1,4 +1,4 @@
-//! How much work comparison runs may take: by counts, never by a clock, so that every machine makes the same ones.
+//! Work that comparison runs may take: by counts, never by a clock, so that every machine makes the same ones.
 //!
 //! ```text
 //! work of a run:    iterations and steps
@@ -62,7 +62,7 @@ pub(crate) fn nominal_step(formulation: FormulationKind, unknowns: f64) -> f64 {
     OF_STEP + of_unknown(formulation) * unknowns
 }
 
-/// What comparison runs may take, and have taken.
+/// Budget of the comparison runs: the nominal time that they may take, and have taken.
 #[derive(Debug)]
 pub(super) struct Purse {
     effects: usize,

@@ -1,4 +1,4 @@
-//! What a scene could have and has not; and what no scene has.
+//! Missing things: what a scene could have and has not; and what no scene has.
 
 use super::explanation::MissingEffect;
 use mbs_core::Real;

@@ -1,38 +1,38 @@
-//! What `mbs explain` says of a scene, as plain data with the keys of its JSON object.
+//! Explanation of a scene by `mbs explain`, as plain data with the keys of its JSON object.
 
 use mbs::record::{MethodChoice, OutputChange, PilotReport, RunError, alias};
 use serde::Serialize;
 
-/// What is simulated, what is not, and the cost of each effect. Numbers that are not finite are written as `null`.
+/// Explanation of a scene: what is simulated, what is not, and the cost of each effect. Numbers that are not finite are written as `null`.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct Explanation {
     /// Name of the scene.
     pub scene: String,
     /// Formulation as asked, `auto` included.
     pub formulation: String,
-    /// What `auto` chose and why.
+    /// Choice of `auto` and its reason.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub chosen: Option<MethodChoice>,
     /// The candidates of a choice by measurement: by structure, or with what a pilot measured.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub choice: Option<PilotReport>,
-    /// Integrator.
+    /// Name of the integrator.
     pub integrator: String,
-    /// `f32`, `f64`, `dd`.
+    /// Precision: `f32`, `f64`, `dd`.
     pub precision: String,
-    /// 2 or 3.
+    /// Dimension of the scene: 2 or 3.
     pub dimension: usize,
-    /// Step [s].
+    /// Step of the run [s].
     pub step: f64,
     /// Length of the run [s].
     pub duration: f64,
-    /// Why the scene does not start, or why the run that was measured stopped.
+    /// Reason why the scene does not start, or why the run that was measured stopped.
     pub error: Option<RunError>,
-    /// What is simulated.
+    /// Parts of the scene that are simulated.
     pub simulated: Simulated,
     /// Every effect of the scene.
     pub effects: Vec<EffectEntry>,
-    /// What the scene could have and has not.
+    /// Missing things that the scene could have.
     pub absent: Vec<MissingEffect>,
     /// Costs of the effects; `None` where the scene does not start.
     #[serde(flatten, serialize_with = "alias::prices")]
@@ -44,9 +44,9 @@ pub struct Explanation {
 pub struct Simulated {
     /// Names of the bodies.
     pub bodies: Vec<String>,
-    /// Joints by kind.
+    /// Joints of the scene by kind.
     pub joints: Vec<JointsByKind>,
-    /// Guided joints.
+    /// Guided joints of the scene.
     pub guides: Vec<GuideEntry>,
     /// Names of the couplings; the key is left out where there are none.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -62,7 +62,7 @@ pub struct Simulated {
     pub natural: Option<Sizes>,
     /// The model in relative coordinates.
     pub relative: Option<Relative>,
-    /// Why there is none.
+    /// Reason why there is no model in relative coordinates.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub relative_error: Option<RunError>,
     /// Thin rods in space.
@@ -79,7 +79,7 @@ pub struct JointsByKind {
     pub names: Vec<String>,
 }
 
-/// A guided joint.
+/// Guide of a joint.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize)]
 pub struct GuideEntry {
     /// Name of the joint.
@@ -91,15 +91,15 @@ pub struct GuideEntry {
 /// Sizes of a model at the start.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
 pub struct Sizes {
-    /// Coordinates.
+    /// Number of coordinates.
     pub coordinates: usize,
-    /// Constraint rows.
+    /// Number of constraint rows.
     pub constraints: usize,
-    /// Their rank.
+    /// Rank of the constraint rows.
     pub constraint_rank: usize,
     /// Rows beyond the rank.
     pub redundant: usize,
-    /// Coordinates minus rank.
+    /// Degrees of freedom: coordinates minus rank.
     pub dof: usize,
 }
 
@@ -119,7 +119,7 @@ pub struct Relative {
     /// Joint freedoms of the tree, equations of the loops, their rank.
     #[serde(flatten)]
     pub sizes: Sizes,
-    /// Closed loops: as many as joints are cut.
+    /// Number of closed loops: as many as joints are cut.
     pub loops: usize,
     /// Names of the joints that are cut.
     pub cut_joints: Vec<String>,
@@ -130,13 +130,13 @@ pub struct Relative {
 /// The bound of one step of bounded work: operations, by a closed formula in the structure of the model.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
 pub struct ControllerStep {
-    /// Products.
+    /// Number of products.
     pub products: u64,
-    /// Sums and differences.
+    /// Number of sums and differences.
     pub sums: u64,
-    /// Quotients.
+    /// Number of quotients.
     pub quotients: u64,
-    /// Square roots.
+    /// Number of square roots.
     pub roots: u64,
     /// Sines with cosines, and arc tangents.
     pub turns: u64,
@@ -156,11 +156,11 @@ pub struct ThinRod {
 /// An effect of the scene.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize)]
 pub struct EffectEntry {
-    /// Name.
+    /// Name of the effect.
     pub name: String,
     /// Kind, as in scene files.
     pub kind: String,
-    /// Switched on?
+    /// Is the effect switched on?
     pub enabled: bool,
 }
 
@@ -170,16 +170,16 @@ pub struct MissingEffect {
     /// A short fixed word for programs.
     #[serde(flatten, serialize_with = "alias::what")]
     pub what: String,
-    /// One line.
+    /// Description of what is missing, in one line.
     pub text: String,
 }
 
-/// What each effect costs and does, by leaving it out.
+/// Costs and changes of each effect, measured by leaving it out.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct EffectCosts {
     /// Steps of each timed run.
     pub timed_steps: u64,
-    /// How often each was timed.
+    /// Number of timings of each run.
     pub repeats: u32,
     /// CPU time per step with all effects, the least of the repeats [s].
     pub seconds_per_step: Option<f64>,
@@ -199,18 +199,18 @@ pub struct EffectCosts {
     pub kinds: Vec<EffectCost>,
 }
 
-/// What leaving effects out saves and changes.
+/// Cost of effects: what leaving them out saves and changes.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct EffectCost {
     /// Names of what is left out.
     pub names: Vec<String>,
-    /// Their kind.
+    /// Kind of the effects.
     pub kind: String,
     /// CPU time per step without them [s].
     pub seconds_per_step: Option<f64>,
     /// 1 - (CPU time per step without) / (with all); negative where it becomes slower.
     pub share: Option<f64>,
-    /// How far the second best repeat is from the best, as a share; the worse of the two runs.
+    /// Distance of the second best repeat from the best, as a share; the worse of the two runs.
     pub noise: Option<f64>,
     /// The share is not larger than the noise.
     pub below_noise: Option<bool>,
@@ -218,11 +218,11 @@ pub struct EffectCost {
     pub completed: bool,
     /// Newton iterations (or evaluations) per step in it.
     pub iterations_per_step: f64,
-    /// Why it did not.
+    /// Reason why the run without them did not reach the end.
     pub error: Option<RunError>,
     /// The largest step without them.
     pub largest_step: LargestStep,
-    /// What changes in the outputs.
+    /// Changes in the outputs.
     #[serde(flatten, serialize_with = "alias::changes")]
     pub changes: Vec<OutputChange>,
 }
@@ -242,13 +242,13 @@ impl EffectCost {
 /// The largest step with which the run completes, found by doubling.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct LargestStep {
-    /// The step [s]; `None` when the run does not even complete with the given one.
+    /// Largest step [s]; `None` when the run does not even complete with the given one.
     pub step: Option<f64>,
-    /// What ended the doubling.
+    /// End of the doubling.
     pub end: SearchEnd,
 }
 
-/// What ended the search for the largest step.
+/// End of the search for the largest step.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum SearchEnd {

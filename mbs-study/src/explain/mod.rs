@@ -1,4 +1,4 @@
-//! What a scene simulates, what it does not, and the price of each effect, measured by leaving it out.
+//! Explanation of a scene: what it simulates, what it does not, and the price of each effect, measured by leaving it out.
 //!
 //! ```text
 //! share = 1 − (CPU time per step without it) / (CPU time per step with all effects)
@@ -41,7 +41,7 @@ pub fn explain_document(
     Ok(read.work_in_hardware(Explained { settings, effort }))
 }
 
-/// An explanation.
+/// Work that explains a scene.
 struct Explained<'a> {
     settings: &'a ResolvedMethod,
     effort: &'a Effort,

@@ -1,4 +1,4 @@
-//! Leave-one-out: the same run with and without an effect.
+//! Prices of effects by leave-one-out: the same run with and without an effect.
 
 use super::explanation::{EffectCost, EffectCosts};
 use super::reach::largest_step;
@@ -16,7 +16,7 @@ const RECORDED: f64 = 2.0;
 /// Least steps of a run that is shortened. Chosen, not tuned.
 const FEWEST_STEPS: u64 = 50;
 
-/// What is left out together.
+/// Effects that are left out together.
 struct Leave {
     effects: Vec<usize>,
     kind: &'static str,
@@ -95,7 +95,7 @@ fn leaves<T: Real>(scene: &Scene<T>) -> Vec<Leave> {
     leaves
 }
 
-/// How long the runs may be.
+/// Lengths that the runs may have.
 struct Plan {
     timed_steps: u64,
     duration: f64,
@@ -143,7 +143,7 @@ fn share(with_all: &TrialTimes, without: &TrialTimes) -> EffectCost {
     }
 }
 
-/// Iterations per step.
+/// Returns the iterations per step.
 fn iterations(outcome: &Outcome) -> f64 {
     outcome.summary.iterations as f64 / outcome.summary.steps.max(1) as f64
 }

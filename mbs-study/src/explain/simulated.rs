@@ -1,4 +1,4 @@
-//! What is simulated: bodies, joints, guides, and the sizes of the model in both kinds of coordinates.
+//! Simulated parts of a scene: bodies, joints, guides, and the sizes of the model in both kinds of coordinates.
 
 use super::explanation::{
     ControllerStep, GuideEntry, JointsByKind, Relative, Simulated, Sizes, ThinRod,

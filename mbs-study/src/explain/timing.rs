@@ -21,7 +21,7 @@ impl TrialTimes {
         self.0.iter().copied().min_by(f64::total_cmp)
     }
 
-    /// How far the second best is from the best, as a share of it.
+    /// Returns the distance of the second best time from the best, as a share of it.
     pub fn noise(&self) -> Option<f64> {
         let mut sorted = self.0.clone();
         sorted.sort_by(f64::total_cmp);

@@ -4,12 +4,12 @@ use mbs::ResolvedMethod;
 use mbs_core::Real;
 use mbs_core::scene::Scene;
 
-/// How much may be measured. A scene that asks for more is measured over a shorter part of its run.
+/// Limits of what is measured. A scene that asks for more is measured over a shorter part of its run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Effort {
     /// Steps of a timed run at most. `≥ 1`.
     pub timed_steps: u64,
-    /// How often each is timed, one after the other in turn. `≥ 2`, so that there is a spread.
+    /// Number of timings of each run, one after the other in turn. `≥ 2`, so that there is a spread.
     pub repeats: u32,
     /// Time for everything [s]; what no time is left for is said to be not measured. `> 0`.
     pub seconds: f64,

@@ -38,7 +38,7 @@ impl Study {
         }
     }
 
-    /// The same of a part.
+    /// Collects the rows of a part in a directory; see [`Self::collect`].
     pub(super) fn collect_part(
         &self,
         out: &Path,
@@ -81,7 +81,7 @@ impl Study {
         Ok(())
     }
 
-    /// How it went; with `has_table` and a directory the table is written.
+    /// Returns how the sweep went; with `has_table` and a directory the table is written.
     #[must_use]
     pub fn report_of(&self, from: Collection, threads: NonZeroUsize, has_table: bool) -> Report {
         let tables = match &from.kept {

@@ -9,7 +9,7 @@ use mbs_core::Real;
 use mbs_core::scene::Scene;
 use mbs_scene::{SceneFile, SweepFile};
 
-/// What a member leaves behind.
+/// Row that a member leaves behind.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Row {
     /// The member, from 0.
@@ -18,7 +18,7 @@ pub struct Row {
     pub values: Vec<String>,
     /// Code and message of a run that was not completed.
     pub failure: Option<(String, String)>,
-    /// What was measured; nothing where the run did not start.
+    /// Values that were measured; nothing where the run did not start.
     pub measured: Option<MemberValues>,
     /// CPU time of the whole member, reading to the last step [s].
     pub cpu_seconds: f64,
@@ -27,9 +27,9 @@ pub struct Row {
 /// Numbers of a run that started.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MemberValues {
-    /// Time reached [s].
+    /// Time that the run reached [s].
     pub end_time: f64,
-    /// Steps.
+    /// Number of steps of the run.
     pub steps: u64,
     /// Largest error of the energy invariant [J].
     pub energy: f64,
@@ -40,7 +40,7 @@ pub struct MemberValues {
 }
 
 impl Row {
-    /// Of a member that did not start.
+    /// Makes the row of a member that did not start.
     #[doc(hidden)]
     #[must_use]
     pub fn failed(member: usize, values: Vec<String>, code: &str, message: &str) -> Self {
@@ -49,7 +49,7 @@ impl Row {
     }
 }
 
-/// Runs a member.
+/// Runs a member of a sweep.
 pub(super) fn run(scene: &SceneFile, sweep: &SweepFile, overrides: &Method, member: usize) -> Row {
     let cpu = ThreadTime::try_now();
     let document = sweep.member(scene, member);

@@ -56,21 +56,21 @@ pub struct Study {
 #[derive(Debug)]
 #[non_exhaustive]
 pub enum StudyError {
-    /// By the scene or the sweep, with the place in the file.
+    /// Refusal by the scene or the sweep, with the place in the file.
     Read(ReadError),
-    /// By the settings.
+    /// Refusal by the settings.
     Settings(SettingsError),
     /// An override of a number that the sweep varies; the path of the number.
     Varied(&'static str),
-    /// By the precision: members run in numbers of the hardware.
+    /// Refusal by the precision: members run in numbers of the hardware.
     Pairs,
 }
 
-/// Why the members could not be run, or their table not be written.
+/// Reason why the members could not be run, or their table not be written.
 #[derive(Debug)]
 #[non_exhaustive]
 pub enum SweepError {
-    /// No threads.
+    /// Threads that cannot be had.
     Threads(EnsembleError),
     /// The journal cannot be used.
     Journal(JournalError),
@@ -78,11 +78,11 @@ pub enum SweepError {
     Write(WriteError),
     /// Parts that cannot be joined.
     Parts(PartsError),
-    /// It was interrupted after this many of its members, which are in the journal.
+    /// Sweep that was interrupted: number of the members that are in the journal, and of all.
     Interrupted([usize; 2]),
 }
 
-/// How a sweep went.
+/// Outcome of a sweep.
 #[derive(Debug)]
 pub struct Report {
     /// Members of the sweep.
@@ -101,21 +101,21 @@ pub struct Report {
     pub cpu_seconds: f64,
     /// The rows of the table, as texts.
     pub rows: Vec<Vec<String>>,
-    /// The tables written.
+    /// Paths of the tables written.
     pub tables: Vec<PathBuf>,
-    /// Why a table could not be written; the journal has all members.
+    /// Reason why a table could not be written; the journal has all members.
     pub lost: Option<WriteError>,
 }
 
 /// The rows of members, from 0, as texts.
 type Rows = BTreeMap<usize, Vec<String>>;
 
-/// Which members run, where and how.
+/// Members of a sweep that run, where and how.
 #[derive(Debug, Clone, Copy)]
 pub struct SweepTask<'a> {
     /// The directory of journal and table.
     pub out: &'a Path,
-    /// Threads; left out: all processors.
+    /// Number of threads; left out: all processors.
     pub threads: Option<NonZeroUsize>,
     /// Is an earlier journal thrown away, whatever its sweep?
     pub anew: bool,
@@ -181,7 +181,7 @@ impl Study {
         Ok(Self { scene, sweep, overrides: overrides.clone(), settings, columns, head })
     }
 
-    /// Number of members.
+    /// Returns the number of members.
     #[must_use]
     pub fn n_members(&self) -> usize {
         self.sweep.n_members()
@@ -308,7 +308,7 @@ impl Study {
         Row::failed(index, values, "worker-lost", message)
     }
 
-    /// How it went, with all rows.
+    /// Returns the report of the sweep, with all rows.
     fn report(
         &self,
         (rows, resumed): (Rows, usize),
@@ -362,7 +362,7 @@ impl Study {
     }
 }
 
-/// Rows by member: those that have all their cells; others are of members that run again.
+/// Returns the rows by member: those that have all their cells; others are of members that run again.
 pub fn whole_rows(lines: Vec<Vec<String>>, n_cells: usize, n_members: usize) -> Rows {
     let rows = lines.into_iter().filter_map(|cells| {
         let member = cells.first()?.parse::<usize>().ok()?.checked_sub(1)?;

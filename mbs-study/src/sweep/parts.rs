@@ -18,17 +18,17 @@ use core::str::FromStr;
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct SweepPart {
-    /// N.
+    /// Number N of parts.
     pub(super) of: usize,
-    /// K, from 1.
+    /// Number K of the part, from 1.
     pub(super) number: usize,
 }
 
 impl SweepPart {
-    /// All members.
+    /// Part that has all members.
     pub(super) const WHOLE: Self = Self { of: 1, number: 1 };
 
-    /// Its members of so many, from 0.
+    /// Returns the members of the part, from 0, of `n` in all.
     pub fn members(self, n: usize) -> impl ExactSizeIterator<Item = usize> {
         (self.number - 1..n).step_by(self.of)
     }
@@ -91,7 +91,7 @@ pub enum PartsError {
 }
 
 impl PartsError {
-    /// What to do about it.
+    /// Returns a hint at what to do about the error.
     #[must_use]
     pub fn hint(&self) -> &'static str {
         match self {

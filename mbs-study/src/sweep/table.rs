@@ -16,7 +16,7 @@ pub struct Columns {
     n_parameters: usize,
 }
 
-/// What a column holds.
+/// Kind of the values in a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(not(feature = "parquet"), allow(dead_code, reason = "CSV has no types"))]
 pub(super) enum Kind {
@@ -42,7 +42,7 @@ const RUN: [(&str, Kind); 9] = [
 ];
 
 impl Columns {
-    /// Of a scene's channels, without parameters.
+    /// Makes the columns of a scene's channels, without parameters.
     pub(super) fn new(channels: &[Channel]) -> Self {
         let mut header = vec![MEMBER.to_owned()];
         header.extend(RUN.map(|(name, _)| name.to_owned()));
@@ -72,7 +72,7 @@ impl Columns {
         &self.header
     }
 
-    /// The channels' columns: number of the first of each three, which are the end, the least and the largest.
+    /// Returns the columns of the channels: number of the first of each three, which are the end, the least and the largest.
     pub fn channels(&self) -> impl Iterator<Item = usize> + '_ {
         (1 + self.n_parameters + RUN.len()..self.header.len() - 1).step_by(3)
     }

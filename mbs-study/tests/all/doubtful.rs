@@ -6,7 +6,7 @@ use mbs::{Method, ResolvedMethod, SettingsError};
 use mbs_study::doctor::{Checkup, Effort, Severity, examine};
 use mbs_testkit::repository::{field, read, text, tilted};
 
-/// No run: what is asked is seen at the start.
+/// Effort without a run: what is asked is seen at the start.
 const STILL: Effort = Effort { positions: 0, seconds: 60.0 };
 /// The second derivation of a motion, and a rule of second order at 0.1 ms.
 const CLOSE: f64 = 1e-5;
@@ -16,7 +16,7 @@ fn checkup(scene: &Scene<f64>) -> Checkup {
     examine(scene, &settings, &STILL)
 }
 
-/// What the doctor says about places, with the names in it.
+/// Messages of the doctor about places, with the names in them.
 fn places(scene: &Scene<f64>) -> Vec<String> {
     let found = checkup(scene).findings;
     found.into_iter().filter(|f| f.topic.name() == "places").map(|f| f.message).collect()

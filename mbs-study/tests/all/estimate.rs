@@ -1,4 +1,4 @@
-//! What a run says of its own accuracy.
+//! Accuracy of a run by its own estimate.
 
 mod differences;
 
@@ -255,7 +255,7 @@ fn a_stiff_force_that_does_not_swing_is_not_mentioned() {
     assert!(!outcome.notes().iter().any(|note| note.contains("stiffest force")));
 }
 
-/// All formulations.
+/// Names of all formulations.
 const FORMULATIONS: [&str; 6] =
     ["index-3", "index-1", "multi-index", "classical", "state-space", "recursive"];
 /// Ten times what the trapezoidal rule errs by in directions that turn at 8.4 rad/s, (w h)²/12 at 1 ms, relative.

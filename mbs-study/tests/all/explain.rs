@@ -10,7 +10,7 @@ use mbs_study::explain::{EffectCost, Explanation, SearchEnd};
 use mbs_study::explain::{Effort, explain};
 use mbs_testkit::repository::path;
 
-/// Little is timed; everything else is measured in full.
+/// Effort that times few steps; everything else is measured in full.
 const LITTLE: Effort = Effort { timed_steps: 20, repeats: 2, seconds: 60.0 };
 
 /// A pendulum of 1 kg and 1 m that hangs at rest 60 degrees off, with effects.

@@ -1,4 +1,4 @@
-//! What runs where a run stopped.
+//! Formulations that run where a run stopped.
 
 use crate::clock::CountedClock;
 use mbs::core::scene::Scene;

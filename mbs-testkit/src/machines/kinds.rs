@@ -6,10 +6,10 @@ use crate::Random;
 /// From one wheel to the next, and across.
 const WAY: Vector = [0.8, 0.6, 0.0];
 const ACROSS: Vector = [-0.6, 0.8, 0.0];
-/// What racks and wheels run along, and up from it.
+/// Direction in which racks and wheels run, and up from it.
 const X: Vector = [1.0, 0.0, 0.0];
 const Y: Vector = [0.0, 1.0, 0.0];
-/// How the text of a coupling begins.
+/// First lines of the text of a coupling.
 const LINK: &str = "[[coupling]]\nname = \"link\"";
 
 /// Sizes of two parts, and where the first stands.
@@ -245,9 +245,9 @@ fn wheel(of: Parts, is_on_plank: bool) -> Machine {
     Machine { what, joints, coupling, slip: touching(["one", on], line, X) }
 }
 
-/// How many kinds of machines have a coupling; they come first.
+/// Number of the kinds of machines that have a coupling; they come first.
 pub const COUPLED: usize = 15;
-/// How many kinds of machines there are. Those after the coupled ones roll.
+/// Number of all kinds of machines. Those after the coupled ones roll.
 pub const KINDS: usize = 17;
 
 /// A machine of one of the kinds, with parts of random sizes, on a frame that turns on a base that slides.

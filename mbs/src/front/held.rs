@@ -60,7 +60,7 @@ impl Mechanism {
     }
 }
 
-/// As many values as inputs, all of them finite?
+/// Checks that there are as many values as inputs, all of them finite.
 fn check(inputs: &[InputInfo], values: &[f64]) -> Result<(), SimulationError> {
     let names = || inputs.iter().map(|info| info.name.as_str()).collect::<Vec<_>>().join(", ");
     if inputs.len() != values.len() {

@@ -1,4 +1,4 @@
-//! A mechanism: its scene in decimal numbers, and the file that it came from.
+//! Mechanism as its scene in decimal numbers, and the file that it came from.
 
 use super::function::{Function, FunctionId, OutputFunction};
 use super::inputs::{InputInfo, Inputs};
@@ -14,7 +14,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::path::Path;
 use std::sync::Arc;
 
-/// A mechanism: bodies, joints and what acts on them, by name. Start with [`planar`](Self::planar) or [`spatial`](Self::spatial), or
+/// Mechanism of bodies, joints and what acts on them, by name. Start with [`planar`](Self::planar) or [`spatial`](Self::spatial), or
 /// [`read`](Self::read) a scene file.
 ///
 /// Adding parts does not fail; [`check`](Self::check) and whatever builds a model say what is wrong, with the part's name.
@@ -107,7 +107,7 @@ impl Mechanism {
         std::fs::write(path, self.to_toml()?).map_err(|e| WriteError::NotWritten(e.to_string()))
     }
 
-    /// Gravity [m/s^2]; without it there is none, and no code for it.
+    /// Sets the gravity vector [m/s^2]; without it there is none, and no code for it.
     pub fn set_gravity(&mut self, gravity: impl Into<Vector3>) -> &mut Self {
         self.scene_mut().gravity = Some(gravity.into().0);
         self
@@ -197,7 +197,7 @@ impl Mechanism {
         FunctionId(self.functions.len() - 1)
     }
 
-    /// Its outputs that are code.
+    /// Returns the outputs that are code.
     pub(super) fn functions(&self) -> &[Function] {
         &self.functions
     }
@@ -355,7 +355,7 @@ impl Mechanism {
         }
     }
 
-    /// The same of all that is data.
+    /// Returns the scene file of all that is data.
     fn data(&self) -> Result<SceneFile, WriteError> {
         match &self.file {
             Some(file) if !self.is_changed => Ok(file.clone()),

@@ -38,11 +38,11 @@ use mbs_core::scene::Number;
 pub type Body = scene::Body<Number>;
 /// A joint between two bodies.
 pub type Joint = scene::Joint<Number>;
-/// What holds exactly at the start.
+/// Condition that holds exactly at the start.
 pub type InitialCondition = scene::InitialCondition<Number>;
 /// Prescribed motion of a joint coordinate.
 pub type Guide = scene::Guide<Number>;
-/// A coupling: a sum of joint coordinates and lengths that holds.
+/// Coupling by a sum of joint coordinates and lengths that holds.
 pub type Coupling = scene::Coupling<Number>;
 /// A body that rolls without slipping, or a blade.
 pub type Rolling = scene::Rolling<Number>;

@@ -6,7 +6,7 @@ use mbs_core::scene::{
     RollingId, Scene, SignalId, StartedJoint,
 };
 
-/// What [`Mechanism::add`](crate::Mechanism::add) takes: a body, joint, initial condition, guide, coupling, rolling, signal, effect or
+/// Part that [`Mechanism::add`](crate::Mechanism::add) takes: a body, joint, initial condition, guide, coupling, rolling, signal, effect or
 /// output.
 pub trait Part: sealed::Part {
     /// The handle of such a part.
@@ -24,7 +24,7 @@ pub(super) mod sealed {
     }
 
     pub trait Id: Sized {
-        /// What such a part is called in messages, and how it is named when it has no name.
+        /// Word for such a part in messages, and in the name of one that has none.
         const WORD: &'static str;
         type Part: 'static;
         fn new(index: usize) -> Self;

@@ -36,8 +36,8 @@ impl Mechanism {
         Ok(Tree::new(&self.resolve_scene()?)?)
     }
 
-    /// The same bodies with 1 kg and 1 kg m^2 each in place of their own masses. Positions and velocities that fulfil joints and initial
-    /// conditions need no others: of a mechanism that lacks masses they are found with these.
+    /// Returns the mechanism with 1 kg and 1 kg m^2 for each body in place of its own masses. Positions and velocities that fulfil joints and
+    /// initial conditions need no others: of a mechanism that lacks masses they are found with these.
     #[must_use]
     pub fn with_fictitious_masses(&self) -> Self {
         let mut heavy = self.clone();

@@ -106,7 +106,8 @@ impl Simulation {
         self.inner.is_controlled()
     }
 
-    /// What ends [`advance_to`](Self::advance_to), and calls that make several steps of a controlled length, from now on. Copies share it with what they are copies of until they get their own.
+    /// Sets what ends [`advance_to`](Self::advance_to), and calls that make several steps of a controlled length, from now on. Copies share it
+    /// with what they are copies of until they get their own.
     pub fn set_interrupt(&mut self, interrupt: Interrupt) {
         self.inner.set_interrupt(interrupt);
     }
@@ -342,7 +343,7 @@ pub struct Snapshot {
 const MAGIC: &[u8; 10] = b"mbs-snap\x02\x00";
 
 impl Snapshot {
-    /// As bytes, for a file: the checkpoint in it knows its mechanism, method and version.
+    /// Returns the snapshot as bytes, for a file: the checkpoint in it knows its mechanism, method and version.
     #[must_use]
     pub fn to_bytes(&self) -> Vec<u8> {
         let mut bytes = MAGIC.to_vec();

@@ -19,10 +19,10 @@ use crate::settings::Method;
 use crate::statics::StaticEquilibrium;
 use mbs_core::scene::Scene;
 
-/// What is asked of a run: a method, how long, and what else.
+/// Options of a run: the method, its duration included.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Run {
-    /// How the mechanism is stepped; what it leaves open is the mechanism's.
+    /// Method by which the mechanism is stepped; what it leaves open is the mechanism's.
     pub method: Method,
 }
 
@@ -33,14 +33,14 @@ impl Run {
         Self::default()
     }
 
-    /// By this method. A [`duration`](Self::duration) that was given stays where the method has none.
+    /// Sets the method of the run. A [`duration`](Self::duration) that was given stays where the method has none.
     #[must_use]
     pub fn method(self, method: Method) -> Self {
         let duration = method.duration.or(self.method.duration);
         Self { method: Method { duration, ..method } }
     }
 
-    /// For so long [s], in place of the mechanism's duration; left out in both, 1 s.
+    /// Sets the duration [s], in place of the mechanism's; left out in both, 1 s.
     #[must_use]
     pub fn duration(mut self, duration: f64) -> Self {
         self.method.duration = Some(duration);
@@ -48,17 +48,17 @@ impl Run {
     }
 }
 
-/// What a run gives.
+/// Result of a run.
 #[derive(Debug)]
 #[non_exhaustive]
 pub struct RunResult {
-    /// Outputs over time.
+    /// Table of the outputs over time.
     pub table: Table,
-    /// Why it stopped early; the table then ends there.
+    /// Reason why the run stopped early; the table then ends there.
     pub stop: Option<SimulationError>,
-    /// Counts, energies, violations: the object that `mbs run --json` prints.
+    /// Summary of counts, energies and violations: the object that `mbs run --json` prints.
     pub summary: RunSummary,
-    /// What the user should know.
+    /// Notes that the user should know.
     pub notes: Vec<String>,
 }
 
@@ -84,7 +84,7 @@ pub fn run(m: &Mechanism, options: &Run) -> Result<RunResult, SimulationError> {
     run_with(m, options, &mut [])
 }
 
-/// [`run`], before observers: they set inputs on the way, read the mechanism after each step, and may end the run.
+/// Runs a mechanism as [`run`] does, before observers: they set inputs on the way, read the mechanism after each step, and may end the run.
 ///
 /// Where there is an observer or an output that is code, the turns of all joints are followed. A joint that turns by more than half a circle
 /// in a step then stops a run that would not have read it.
@@ -113,7 +113,7 @@ pub fn run_with(
     })
 }
 
-/// How an equilibrium is searched.
+/// Options of the search for an equilibrium.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct EquilibriumOptions {
     /// Downhill to a stable one, or to the nearest one of any kind.
@@ -248,8 +248,8 @@ pub fn linearize_steady_at(
     LinearSystem::steady_at(&scene, tree.motions())
 }
 
-/// As [`linearize_steady`], of any state: about one that is no steady motion the matrices of the instant, in axes that stand, and
-/// [`LinearSystem::unsteady`] says why.
+/// Linearises about any state, as [`linearize_steady`] does about a steady motion. About any other state it gives the matrices of the
+/// instant, in axes that stand, and [`LinearSystem::unsteady`] says why.
 ///
 /// # Errors
 /// As for [`linearize`].

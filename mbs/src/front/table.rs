@@ -40,7 +40,7 @@ impl Table {
         &self.names
     }
 
-    /// Their units.
+    /// Units of the columns.
     #[must_use]
     pub fn units(&self) -> &[String] {
         &self.units
@@ -59,7 +59,7 @@ impl Table {
         self.time.len()
     }
 
-    /// Without rows?
+    /// Is the table without rows?
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.time.is_empty()

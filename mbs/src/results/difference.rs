@@ -1,4 +1,4 @@
-//! How two runs differ, column by column.
+//! Differences of two runs, column by column.
 //!
 //! ```text
 //! d = max |a(t) - b(t)|    over the times of both, a and b linear between rows
@@ -13,28 +13,28 @@ const ROUNDING: f64 = 1e-12;
 /// Difference of the ends of two runs that counts as none, relative to them [-]: sums of steps round.
 const SAME_END: f64 = 1e-9;
 
-/// How a column differs in two runs.
+/// Difference of a column between two runs.
 #[derive(Debug, Clone, Default, PartialEq, serde::Serialize)]
 pub struct ColumnDifference {
     /// Name of the column.
     pub name: String,
-    /// Its unit.
+    /// Unit of the column.
     pub unit: String,
     /// Largest magnitude in each run.
     pub peaks: [f64; 2],
     /// Root mean square in each run.
     pub rms: [f64; 2],
-    /// The largest difference.
+    /// Largest difference of the two runs.
     pub difference: f64,
     /// When it is [s].
     pub at: f64,
     /// The range of the channel: the largest of its components that have this unit, in both runs.
     pub range: f64,
-    /// Difference over range.
+    /// Difference over range [-].
     pub relative: f64,
 }
 
-/// How two runs differ.
+/// Difference of two runs.
 #[derive(Debug, Clone, Default, PartialEq, serde::Serialize)]
 pub struct Difference {
     /// Columns that both have.

@@ -1,4 +1,4 @@
-//! What several runs have between them: the least and the largest value of a column at each time.
+//! Envelope of several runs: the least and the largest value of a column at each time.
 
 use super::difference::value;
 use super::read::ResultTable;

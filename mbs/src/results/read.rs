@@ -16,7 +16,7 @@ pub struct ResultColumn {
     pub name: String,
     /// Name of its channel.
     pub channel: String,
-    /// Unit; empty where it is not known.
+    /// Unit of the column; empty where it is not known.
     pub unit: String,
     /// Value in each row.
     pub values: Vec<f64>,
@@ -33,16 +33,16 @@ pub struct ResultTable {
     pub scene: String,
     /// Times of the rows [s], increasing.
     pub times: Vec<f64>,
-    /// Columns.
+    /// Columns of the run.
     pub columns: Vec<ResultColumn>,
 }
 
-/// Why results cannot be read.
+/// Reason why results cannot be read.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct UnreadableResults {
     /// The file that is missing or malformed.
     pub file: String,
-    /// What is wrong with it.
+    /// Fault of the file, as a message.
     pub message: String,
 }
 

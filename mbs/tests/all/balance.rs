@@ -37,12 +37,12 @@ fn three(row: &[f64]) -> Vector {
 #[derive(Debug, Clone, Default)]
 struct Placed {
     center: Vector,
-    /// Its centre in the reference configuration.
+    /// Centre of the body in the reference configuration.
     drawn: Vector,
     /// Rows of its rotation from there.
     rotation: [Vector; 3],
     force: Vector,
-    /// About its centre.
+    /// Moment on the body about its centre.
     moment: Vector,
     /// The largest force, or moment over a metre, that acts on it.
     largest: f64,
@@ -53,7 +53,7 @@ impl Placed {
         self.rotation.map(|row| dot(row, a))
     }
 
-    /// Where a point of it is.
+    /// Position of a point of the body, which is given in the reference configuration.
     fn at(&self, point: Vector) -> Vector {
         plus(self.center, 1.0, self.turned(plus(point, -1.0, self.drawn)))
     }
@@ -94,7 +94,7 @@ struct Instant<'a> {
     machine: &'a Machine,
     wording: &'a Wording,
     row: &'a [f64],
-    /// The ground last.
+    /// Bodies of the machine, the ground last.
     bodies: Vec<Placed>,
 }
 
@@ -186,7 +186,7 @@ impl<'a> Instant<'a> {
         self.bodies[ground].take(from, pull.map(|x| -x), [0.0; 3]);
     }
 
-    /// What the coupling does where it acts on the drawn machine; by its coordinates where nothing says where that is.
+    /// Applies the coupling where it acts on the drawn machine; by its coordinates where nothing says where that is.
     fn coupling(&mut self, kind: usize) {
         let effort = self.row[self.row.len() - 2];
         match kind {
@@ -211,7 +211,7 @@ impl<'a> Instant<'a> {
         [self.named("one"), self.named("two")]
     }
 
-    /// Where a joint of the frame stands.
+    /// Position of a joint of the frame.
     fn on_frame(&self, joint: &Joint<f64>) -> Vector {
         self.bodies[self.named("frame")].at(joint.points[0])
     }
@@ -284,7 +284,7 @@ impl<'a> Instant<'a> {
         self.bodies[wheels[1]].take(weight, pull.map(|x| -x), [0.0; 3]);
     }
 
-    /// What is missing on a body, in parts of the largest force on any.
+    /// Largest force or moment that is missing on a body, in parts of the largest force on any.
     fn missing(&self) -> f64 {
         let largest = self.bodies.iter().fold(0.0_f64, |most, body| most.max(body.largest));
         let mut worst = 0.0_f64;

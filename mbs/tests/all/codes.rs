@@ -101,7 +101,7 @@ fn follows_energy(method: &Method) -> bool {
     method.formulation.as_deref() == Some(FormulationKind::MultiIndex.name())
 }
 
-/// All joint coordinates.
+/// Coordinates of all joints of a mechanism.
 fn coordinates(sim: &Simulation, m: &Mechanism) -> Vec<f64> {
     m.ids::<JointId>().map(|joint| sim.value(joint)).collect()
 }

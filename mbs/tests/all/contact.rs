@@ -22,7 +22,7 @@ struct Bounce {
     gravity: f64,
     /// Square of the frequency in contact [1/s^2].
     stiffness: f64,
-    /// Its height over that of the first touch at the start, and its velocity [m, m/s].
+    /// Height over that of the first touch at the start, and velocity there [m, m/s].
     start: [f64; 2],
 }
 
@@ -201,8 +201,8 @@ impl Bounce {
     }
 }
 
-/// What a step smaller by ten leaves of an error of order two, at most: a hundredth, times what changes by where within their
-/// steps the contacts begin and end. A kink of the force at a share r of a step leaves r (1 - r) of the largest error.
+/// Share that a step smaller by ten leaves of an error of order two, at most. It is a hundredth, times what changes by where within their steps
+/// the contacts begin and end. A kink of the force at a share r of a step leaves r (1 - r) of the largest error.
 const TENTH: f64 = 0.03;
 
 /// Every bounce without a damper, and what it is.

@@ -9,14 +9,14 @@ use mbs_testkit::repository::field;
 
 /// Difference of a product from the same with another order of its factors, relative [-].
 const ROUNDING: f64 = 1e-14;
-/// The same of peaks, which are interpolated between steps [-].
+/// Difference of peaks, which are interpolated between steps, relative [-].
 const PEAKS: f64 = 1e-12;
 /// Difference of an angle by one entry of a rotation and by all of its column [rad]: columns leave length one by the violation of steps.
 const VIOLATION: f64 = 1e-8;
 /// Degrees in a radian.
 const DEGREES: f64 = 180.0 / core::f64::consts::PI;
 
-/// The same scene with these outputs, in degrees or not.
+/// Returns the scene with these outputs alone, in degrees or not.
 fn with(scene: &Scene<f64>, quantities: &[Quantity<f64>], is_in_degrees: bool) -> Scene<f64> {
     let named = |(i, quantity): (usize, &Quantity<f64>)| Output {
         is_in_degrees,

@@ -5,7 +5,7 @@ use crate::common::oracle::{Way, rows};
 /// Gear of engine and cage [-], radius of the wheels [m].
 const RATIO: f64 = 9.4;
 const RADIUS: f64 = 0.364;
-/// All bodies [kg]: chassis, engine, cage, arms, carriers with wheels.
+/// Mass of all bodies [kg]: chassis, engine, cage, arms, carriers with wheels.
 const MASS: f64 = 1210.0 + 40.0 + 10.0 + 24.0 + 4.0 * 57.35;
 /// Wheels and cage, and the engine [kg m^2].
 const INERTIAS: [f64; 2] = [4.0 * 1.6 + 0.08, 0.3];

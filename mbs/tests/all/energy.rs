@@ -27,7 +27,7 @@ fn check(name: &str, formulation: &str, limits: &[f64]) {
 
 /// Publication 2's table in joules, remade by a prototype in double precision; 6e-9 J is what rounding leaves at 1e-6.
 const DOUBLE_PENDULUM_INDEX3: [f64; 5] = [4.7e-1, 4.7e-3, 4.4e-5, 4.5e-7, 6e-9];
-/// The same for index-1, which the table follows to 1e-5.
+/// Publication 2's table in joules for index-1, which it follows to 1e-5.
 const DOUBLE_PENDULUM_INDEX1: [f64; 4] = [4.7e-1, 4.75e-3, 4.4e-5, 4.5e-7];
 /// Trapezoidal rule on the symmetric branch, remade by a prototype. At 1e-6 ten passages leave rounding: steps that differ in the seventh digit
 /// give 1.7e-9 to 2.3e-8 J.
@@ -48,7 +48,7 @@ fn double_pendulum_keeps_its_energy_in_index1_at_all_steps() {
 /// Heights of the outer crank ends may differ by this much [m]: on the symmetric branch they are equal, and each passage
 /// leaves what rounding makes of a lost constraint.
 const APART_INDEX3: f64 = 1e-6;
-/// The same for index-1, which knows the positions of a passage through its accelerations.
+/// Heights may differ by this much for index-1 [m], which knows the positions of a passage through its accelerations.
 const APART_INDEX1: f64 = 1e-4;
 /// Passages of the horizontal in 10 s.
 const PASSAGES: u32 = 10;

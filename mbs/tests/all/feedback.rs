@@ -386,7 +386,7 @@ struct Line {
 }
 
 impl Line {
-    /// Its length at an angle, and how it grows with the angle.
+    /// Length of the line at an angle, and its growth with the angle [m, m/rad].
     fn at(&self, angle: f64) -> [f64; 2] {
         let (sine, cosine) = angle.sin_cos();
         let [x, y] = self.pin;

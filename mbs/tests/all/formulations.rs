@@ -1,4 +1,4 @@
-//! What holds of every formulation alike: steps that cannot be made, clones, and the registry.
+//! Properties of every formulation alike: steps that cannot be made, clones, and the registry.
 
 use crate::common::{scene, settings};
 use mbs::core::scene::{Dimension, Scene};

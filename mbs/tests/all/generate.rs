@@ -18,7 +18,7 @@ fn scene(family: &Family<'_>) -> Scene<f64> {
     SceneFile::parse(&text, "generated.toml").and_then(|d| d.scene()).expect("can be read")
 }
 
-/// Bodies, joints, outputs.
+/// Numbers of bodies, joints and outputs.
 fn counts(scene: &Scene<f64>) -> [usize; 3] {
     [scene.bodies.len(), scene.joints.len(), scene.outputs.len()]
 }

@@ -1,4 +1,4 @@
-//! What is set between steps, and laws of a user's own: drivers, controllers and machines, in every formulation.
+//! Inputs that are set between steps, and laws of a user's own: drivers, controllers and machines, in every formulation.
 
 use crate::common;
 
@@ -20,7 +20,7 @@ fn simulation(scene: &Scene<f64>, formulation: &str) -> Simulation<f64, 2> {
     Simulation::new(scene, &settings).expect("the scene starts")
 }
 
-/// The same with an integrator, in steps of `step` [s].
+/// Starts a scene by a formulation with an integrator, in steps of `step` [s].
 fn with_integrator(
     scene: &Scene<f64>,
     (formulation, integrator): (&str, &str),
@@ -224,7 +224,7 @@ fn with(effect: EffectKind<f64>) -> Scene<f64> {
     scene
 }
 
-/// Where the second rod's far end is.
+/// Position of the second rod's far end.
 fn tip(simulation: &Simulation<f64, 2>) -> [f64; 2] {
     let point = simulation.model().point(BodyId::Body(1), [2.0, 0.0, 0.0]);
     point.value(&simulation.state().q).into()

@@ -1,4 +1,4 @@
-//! What must be kept whatever moves: angular momenta, constraints after projection, the frame of reference, and memory.
+//! Properties that must be kept whatever moves: angular momenta, constraints after projection, the frame of reference, and memory.
 
 use crate::common;
 use crate::common::allocations;
@@ -128,7 +128,7 @@ fn spinning_top_keeps_energy_and_two_angular_momenta_to_order_2() {
 
 /// The free body turns over for the first time about then [s], from Euler's equations.
 const TURNS_AT: f64 = 2.97;
-/// What the trapezoidal rule at 1e-3 s and the three digits of the reference leave [s].
+/// Error that the trapezoidal rule at 1e-3 s and the three digits of the reference leave [s].
 const TURNS_WITHIN: f64 = 0.02;
 
 #[test]

@@ -93,8 +93,8 @@ fn machines_move_as_they_are_drawn_in_whatever_words() {
     assert!(worst < 1e-9, "{worst:e} of a range");
 }
 
-/// Over 100 steps. Index-1 lets slip give way where sweeps are slow by the largest violation, in which lengths stand beside directions: over 200
-/// steps a wheel on a plank in millimetres is off by 1.8e-6 of a range.
+/// Agreement of wordings over 100 steps. Index-1 lets slip give way where sweeps are slow by the largest violation, in which lengths stand beside
+/// directions. Over 200 steps a wheel on a plank in millimetres is off by 1.8e-6 of a range.
 #[test]
 fn every_formulation_steps_alike_in_whatever_words() {
     for formulation in mbs::FormulationKind::ALL.map(mbs::FormulationKind::name) {

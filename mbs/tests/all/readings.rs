@@ -1,4 +1,4 @@
-//! What is read of a simulation between steps, in every formulation, against what it must be by definition.
+//! Readings of a simulation between steps, in every formulation, against what they must be by definition.
 
 use core::f64::consts::PI;
 use mbs::{

@@ -228,7 +228,7 @@ fn rod_power(mass: f64, x: &Motion, y: &Motion) -> f64 {
     mass * kinetic / 6.0 + mass * 9.81 * (x[1][1] + y[1][1]) / 2.0
 }
 
-/// Everything is determined: positions and velocities are as exact as their projections [m, m/s].
+/// Error where everything is determined: positions and velocities are as exact as their projections [m, m/s].
 const KINEMATICS: f64 = 1e-9;
 /// Accelerations and torque, in shares of 1 + their size: the level of the acceleration projection.
 const DYNAMICS: f64 = 1e-7;

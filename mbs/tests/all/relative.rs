@@ -25,10 +25,10 @@ const SCENES: [&str; 16] = [
     "six-joint-arm",
     "spinning-top",
 ];
-/// What accelerations may be apart, relative to the largest: natural and relative coordinates round apart, and stiff controllers and tires make
+/// Difference of accelerations, relative to the largest: natural and relative coordinates round apart, and stiff controllers and tires make
 /// forces of that.
 const ROUNDED: f64 = 1e-7;
-/// What a state may be off after it went through natural coordinates, relative to one: angles come back through arc tangents.
+/// Error of a state after it went through natural coordinates, relative to one: angles come back through arc tangents.
 const RETURNED: f64 = 1e-9;
 
 fn read(name: &str) -> Mechanism {
@@ -128,7 +128,7 @@ fn turns_of_joints_go_with_a_state() {
     }
 }
 
-/// The same motion by a simulation, step by step: rows of q.
+/// Rows of q of the same motion by a simulation, step by step.
 fn stepped(m: &Mechanism, inputs: &[f64], task: &Rollout<'_>) -> Vec<f64> {
     let method =
         Method::new(FormulationKind::Recursive).integrator(task.integrator).step(task.step);

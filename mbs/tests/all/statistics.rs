@@ -11,7 +11,7 @@ use mbs::{Method, Outcome, ResolvedMethod, StopError};
 
 /// Difference from what rows give, relative to the number's size [-]: magnitudes are summed in the same order.
 const SAME: f64 = 1e-12;
-/// The same of root mean squares [-]: a sum over up to 10^4 steps.
+/// Difference of root mean squares, relative to the number's size [-]: a sum over up to 10^4 steps.
 const SAME_RMS: f64 = 1e-9;
 
 /// A mass of 2 kg that slides on a spring of 50 N/m, 0.1 m from rest: x = 0.1 cos 5 t.
@@ -93,7 +93,7 @@ fn assert_same(found: &Statistics, expected: &Statistics, what: &str) {
 /// The largest value between rows, relative to what the row beside it differs from its neighbours [-]: of a parabola an eighth.
 const BETWEEN: f64 = 0.25;
 
-/// Compares with rows. Peaks are those of rows, or go beyond the peak of three rows within these and by little.
+/// Compares statistics with those of rows. Peaks are those of rows, or go beyond the peak of three rows within these and by little.
 fn assert_like_rows(found: &Statistics, (times, x): (&[f64], &[f64]), what: &str) {
     let rows = of_rows(times, x);
     let size = rows.min.abs().max(rows.max.abs());

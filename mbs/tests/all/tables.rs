@@ -119,7 +119,7 @@ fn a_guide_by_a_monotone_table_stays_between_its_rows() {
     );
 }
 
-/// A run's notes.
+/// Notes of a run of 0.1 s.
 fn notes(text: &str, kind: FormulationKind) -> Vec<String> {
     let m = Mechanism::parse(text).expect("a scene");
     let method = Method { step: Some(1e-3), duration: Some(0.1), ..Method::new(kind) };

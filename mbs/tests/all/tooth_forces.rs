@@ -3,7 +3,7 @@
 use crate::common::oracle::{TRAPEZOIDAL, Way, last, rows};
 use mbs_testkit::scene;
 
-/// 20 degrees.
+/// Pressure angle of 20 degrees [rad].
 const ANGLE: f64 = core::f64::consts::PI / 9.0;
 /// Forces of constant accelerations are met to this, relative: what steps of 1 ms and rounding leave of angles after half a second.
 const EXACT: f64 = 1e-6;

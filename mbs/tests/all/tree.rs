@@ -15,7 +15,7 @@ const ROUNDING: f64 = 1e-10;
 /// Central differences of this step [s] are off by its square.
 const STEP: f64 = 1e-5;
 const DIFFERENCES: f64 = 1e-6;
-/// What steps leave open of the joints.
+/// Violation of the joints that steps leave.
 const FOLLOWED: f64 = 1e-8;
 
 pub(crate) fn tree(scene: &Scene<f64>) -> Tree {

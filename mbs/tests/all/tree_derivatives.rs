@@ -14,7 +14,7 @@ const DIFFERENCES: f64 = 1e-9;
 /// Rounding through trees of some bodies.
 const ROUNDING: f64 = 1e-11;
 
-/// What is asked of a tree.
+/// Quantity that is asked of a tree.
 type Quantity<'a> = &'a dyn Fn(&mut Tree) -> Vec<f64>;
 
 /// The derivative of a quantity of a copy of the tree that `change` takes to a distance.

@@ -6,7 +6,7 @@ use mbs::{Error as _, FrameTarget, InverseKinematicsEnd as End, Mechanism, Metho
 use mbs_testkit::random::Random;
 use mbs_testkit::{close, file};
 
-/// What a place that is reached may be off, of the scene's length and in radians.
+/// Error of a place that is reached, in parts of the scene's length and in radians.
 const REACHED: f64 = 1e-11;
 
 fn pose(tree: &mut Tree, body: BodyId, at: [f64; 3]) -> FrameTarget {

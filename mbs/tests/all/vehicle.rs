@@ -106,7 +106,7 @@ fn nominal_forces_and_those_of_the_equilibrium_are_the_published_ones() {
 /// load; the reference has four to seven digits [-].
 const REFERENCE: f64 = 1e-3;
 
-/// After 5 s: x, y, yaw, roll, yaw rate, v_x, v_y of the chassis (Robotran model of UCLouvain).
+/// State after 5 s: x, y, yaw, roll, yaw rate, v_x, v_y of the chassis (Robotran model of UCLouvain).
 const RAMP_STEERS: [(&str, [f64; 7]); 3] = [
     (
         "iltis-ramp-steer-10",

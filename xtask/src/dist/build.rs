@@ -11,7 +11,7 @@ pub(super) const VERSION: &str = env!("CARGO_PKG_VERSION");
 /// Profile and target of a build.
 #[derive(Debug)]
 pub(super) struct Build<'a> {
-    /// Profile of cargo.
+    /// Cargo profile of the build.
     pub(super) profile: &'a str,
     /// Target, if it is not that of the compiler.
     pub(super) target: Option<&'a str>,

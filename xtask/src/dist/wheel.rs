@@ -15,7 +15,7 @@ const MAX_GLIBC: u32 = 34;
 /// Level of compression of the wheel [-]: the highest of deflate, which every installer reads.
 const COMPRESSION: &str = "9";
 
-/// What reads the platform of a wheel from its symbols, independently of maturin.
+/// Program that reads the platform of a wheel from its symbols, independently of maturin.
 const AUDITWHEEL: &str = "auditwheel==6.8.2";
 
 /// Builds the wheel, and tests its tag; its path.

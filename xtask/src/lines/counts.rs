@@ -1,4 +1,4 @@
-//! What is counted of a crate.
+//! Counts of the lines of a crate.
 
 use std::collections::BTreeMap;
 

@@ -19,12 +19,12 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 use table::Table;
 
-/// What is counted: the features of the command.
+/// Set of the command's features that is counted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Set {
     /// Of the first command of README.md: `f64` alone.
     First,
-    /// All precisions.
+    /// Features of all precisions.
     All,
 }
 
@@ -61,7 +61,7 @@ pub fn lines(keep: bool) -> ExitCode {
     summary::ended("lines", counted.map(Outcome::Passed))
 }
 
-/// The same as a check.
+/// Counts, and compares with the bounds as a check.
 ///
 /// # Errors
 ///

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::PathBuf;
 
-/// Where the table begins and ends.
+/// Marks at which the table begins and ends.
 const MARKS: [&str; 2] = ["<!-- lines:begin -->\n", "<!-- lines:end -->"];
 const HEAD: &str =
     "| crate | first command | bound | all precisions | bound |\n|---|---|---|---|---|\n";
@@ -15,7 +15,7 @@ const HEAD: &str =
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 struct Row {
     counts: [u64; 2],
-    /// `None`: the crate is not in the table.
+    /// Bounds of the lines; `None`: the crate is not in the table.
     bounds: Option<[u64; 2]>,
 }
 
@@ -70,7 +70,7 @@ impl Table {
         }
     }
 
-    /// What is above its bound or has none.
+    /// Faults of the crates that are above their bound or have none.
     pub(super) fn faults(&self) -> Vec<String> {
         let fault = |(name, row): (&String, &Row)| match row.bounds {
             None => Some(format!("{name} has no bound of lines in docs/PROFILES.md")),
@@ -86,7 +86,7 @@ impl Table {
         self.0.iter().filter_map(fault).collect()
     }
 
-    /// As Markdown, with sums.
+    /// The table as Markdown, with sums.
     pub(super) fn text(&self) -> String {
         let mut text = HEAD.to_owned();
         let mut sums = [0; 4];

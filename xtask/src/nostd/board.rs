@@ -22,7 +22,7 @@ pub(super) const M7: Board = Board { machine: "mps2-an500", cpu: "cortex-m7" };
 
 pub(super) const M4: Board = Board { machine: "mps2-an386", cpu: "cortex-m4" };
 
-/// An emulated board.
+/// An emulated board, by the emulator's names.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Board {
     machine: &'static str,
@@ -82,7 +82,7 @@ pub(super) fn emulate(board: &Board, elf: &Path) -> Result<String, String> {
     if out.status.success() { Ok(text) } else { Err(format!("{name}: {}\n{text}", out.status)) }
 }
 
-/// The same run on the host, in a program without the standard library.
+/// Runs a model on the host, in a program without the standard library.
 pub(super) fn on_host(model: &Path, features: &str) -> Result<String, String> {
     let folder = process::target_dir().join("firmware/host");
     let mut command = cargo();

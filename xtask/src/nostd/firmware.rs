@@ -43,7 +43,7 @@ const NEAR_VEHICLE: Option<[f64; 2]> = Some([5e-3, 5e-3]);
 /// Largest difference of the other cases in single precision from the run in double [m, rad].
 const NEARER: Option<[f64; 2]> = Some([1e-3, 1e-3]);
 
-/// The runs. `iltis-links` is the vehicle with 42 coordinates and 36 closures, whose links are bodies.
+/// Runs, and what must hold of them. `iltis-links` is the vehicle with 42 coordinates and 36 closures, whose links are bodies.
 #[rustfmt::skip]
 const CASES: &[Case] = &[
     Case { scene: "iltis-slalom", features: VEHICLE, precision: "f32", board: M7, instructions: 100_000, stack: STACK, apart: NEAR_VEHICLE },

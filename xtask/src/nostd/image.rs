@@ -1,9 +1,9 @@
-//! What an image holds: its size in flash, and what its functions call.
+//! Contents of an image: its size in flash, and what its functions call.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-/// Where RAM begins on both boards.
+/// Address at which RAM begins on both boards.
 const RAM: u64 = 0x2000_0000;
 
 /// The sizes of an image.

@@ -1,11 +1,11 @@
-//! What a run of the firmware reported.
+//! Report of a run of the firmware.
 
-/// What a coordinate is.
+/// Kind of a coordinate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Unit {
-    /// A way [m].
+    /// Coordinate that is a way [m].
     Way,
-    /// An angle [rad].
+    /// Coordinate that is an angle [rad].
     Angle,
     /// One of the four numbers of a turn.
     Turn,
@@ -31,7 +31,7 @@ impl std::fmt::Display for Apart {
     }
 }
 
-/// Lines and figures.
+/// Lines and figures that a run reports.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct RunReport {
     /// Lines of states, as they stand.
@@ -51,7 +51,7 @@ pub(super) struct RunReport {
 }
 
 impl RunReport {
-    /// Reads it.
+    /// Reads the report from what a run printed.
     ///
     /// # Errors
     ///

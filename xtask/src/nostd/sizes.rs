@@ -1,4 +1,4 @@
-//! What each effect's feature, and that of all machine elements, adds to an image: flash, static data, stack.
+//! Growth of an image by each effect's feature, and by that of all machine elements: flash, static data, stack.
 
 use super::board::{M7, build, emulate, export};
 use super::image::Image;
@@ -10,7 +10,7 @@ use std::path::Path;
 /// Of which sets of features images are made.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Sizes {
-    /// None, and all.
+    /// No feature, and all of them.
     OfAll,
     /// These, and each alone.
     OfEach,
@@ -86,7 +86,7 @@ pub(super) fn check(
     Ok(lines)
 }
 
-/// What features that are off stand for is not in an image.
+/// Checks that an image has nothing of what features stand for that are off.
 fn without_others(names: &str, set: &str) -> Result<(), String> {
     for (feature, modules) in features() {
         let is_on = set.split(',').any(|on| on == feature);

@@ -1,11 +1,11 @@
-//! What is cross-compiled: crates, feature sets, targets.
+//! Builds that are cross-compiled: crates, feature sets, targets.
 
 /// One build: a crate with a feature set.
 #[derive(Debug, PartialEq, Eq)]
 pub(crate) struct Build {
     /// Name of the crate.
     pub(crate) package: &'static str,
-    /// Its features; the default ones are always off.
+    /// Features of the build; the default ones are always off.
     pub(crate) features: &'static [&'static str],
     /// Whether the build may use `alloc`.
     pub(crate) is_alloc: bool,

@@ -43,7 +43,7 @@ pub(crate) enum Toolchain {
 }
 
 impl Toolchain {
-    /// For the summary.
+    /// Name of the toolchain for the summary.
     pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Installed => "the installed target",
@@ -94,8 +94,8 @@ pub(crate) fn find(target: &str) -> Result<Toolchain, LeftOut> {
     })
 }
 
-/// What the firmware example asks for beside a toolchain: an emulator, installed where that is possible. For the system's Rust it
-/// asks for the linker too, that of the Rust which runs this job or one in the path.
+/// Finds what the firmware example asks for beside a toolchain: an emulator, installed where that is possible. For the system's Rust it asks for
+/// the linker too, that of the Rust which runs this job or one in the path.
 ///
 /// # Errors
 ///

@@ -14,7 +14,7 @@ const BROWSERS: [&str; 4] = ["chromium", "chromium-browser", "google-chrome", "c
 const WIDTHS: [u32; 2] = [1280, 390];
 /// Colours that a reader may prefer, as the browser's own numbers.
 const THEMES: [(&str, &str); 2] = [("dark", "0"), ("light", "1")];
-/// What the browser takes light colours by.
+/// Number by which the browser takes light colours.
 pub(crate) const LIGHT: &str = THEMES[1].1;
 /// Catches what a page throws, before anything of it runs.
 const CATCH: &str = "<script>window.probeFaults = []; addEventListener(\"error\", (e) => window.probeFaults.push(e.message)); addEventListener(\"unhandledrejection\", (e) => window.probeFaults.push(String(e.reason)));</script>";
@@ -133,7 +133,7 @@ fn look_with(browser: &str, page: &Path, before: &str) -> Result<(), String> {
     if faults.is_empty() { Ok(()) } else { Err(faults.join("\n")) }
 }
 
-/// What a page reports. On a busy machine the browser's time may end before the page has drawn; then it is opened again.
+/// Returns the report of a page. On a busy machine the browser's time may end before the page has drawn; then it is opened again.
 fn heard(browser: &str, frame: &Path, theme: &str) -> Result<String, String> {
     /// How often a page is opened that says nothing.
     const TRIALS: usize = 3;
@@ -153,7 +153,7 @@ fn with_probe(html: &str, before: &str) -> String {
     html.replacen("<head>", &format!("<head>{CATCH}{before}"), 1).replacen("</body>", &probe, 1)
 }
 
-/// What the probe reported, from the page as the browser leaves it.
+/// Report of the probe, from the page as the browser leaves it.
 pub(crate) fn report_in(dom: &str) -> String {
     let text =
         dom.split_once("<pre id=\"report\">").and_then(|(_, rest)| rest.split_once("</pre>"));

@@ -13,7 +13,7 @@ use xtask::process::root;
 /// Words that are followed by the name of an item.
 const ITEMS: [&str; 8] = ["const", "enum", "fn", "static", "struct", "trait", "type", "union"];
 
-/// What a name stands for in a module.
+/// Meaning of a name in a module.
 enum Name {
     Module(usize),
     Item,
@@ -29,7 +29,7 @@ struct Module {
     paths: Vec<(usize, Vec<String>)>,
 }
 
-/// What a path leads to; nothing of another crate.
+/// Module or file that a path leads to; nothing of another crate.
 #[derive(Clone, Copy, PartialEq)]
 enum Target {
     Module(usize),
@@ -150,7 +150,7 @@ impl Crate<'_> {
         }
     }
 
-    /// What a path leads to, seen from a module; `seen` stops imports that lead back to themselves.
+    /// Targets of a path, seen from a module; `seen` stops imports that lead back to themselves.
     fn resolve(&self, from: usize, path: &[String], seen: &[(usize, String)]) -> Vec<Target> {
         let mut at = vec![Target::Module(from)];
         for (i, segment) in path.iter().enumerate() {
@@ -175,7 +175,7 @@ impl Crate<'_> {
         at
     }
 
-    /// What a name in a module stands for; `is_made`: a name that it does not show is made there by a macro.
+    /// Targets of a name in a module; `is_made`: a name that it does not show is made there by a macro.
     fn find(
         &self,
         module: usize,
@@ -325,7 +325,7 @@ impl Module {
         }
     }
 
-    /// Paths in code.
+    /// Collects the paths in code.
     fn code(&mut self, tokens: &[TokenTree]) {
         let mut i = 0;
         while i < tokens.len() {

@@ -59,7 +59,7 @@ fn comment<'a>(lines: &[&'a str], at: usize, marks: &[&str]) -> Option<[&'a str;
     Some([*found.last()?, *found.first()?])
 }
 
-/// What is wrong with the constants of a source text: line, name and reason.
+/// Faults of the constants of a source text: line, name and reason.
 fn findings(text: &str) -> Vec<String> {
     let lines: Vec<_> = text.lines().collect();
     let (mut found, mut has_table) = (Vec::new(), false);

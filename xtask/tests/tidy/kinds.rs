@@ -32,7 +32,7 @@ fn patterns(body: &str) -> Vec<&str> {
     found
 }
 
-/// What a source text asks of the kinds of joint that a new kind would pass by; equality too, if it is no test.
+/// Questions of a source text about the kinds of joint that a new kind would pass by; equality too, if it is no test.
 fn findings(text: &str, is_test: bool) -> Vec<&'static str> {
     let mut found = Vec::new();
     let after = |word: &'static str| text.match_indices(word).map(move |(at, _)| &text[at..]);

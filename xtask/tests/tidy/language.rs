@@ -52,7 +52,7 @@ fn allowed(rule: &str) -> BTreeMap<String, String> {
 
 /// Fails with what is found beyond the exceptions, and with exceptions for more than is found.
 #[track_caller]
-fn report_beyond(rule: &str, kind: &str, found: &BTreeMap<String, Vec<String>>) {
+pub(super) fn report_beyond(rule: &str, kind: &str, found: &BTreeMap<String, Vec<String>>) {
     let allowed = allowed(kind);
     let mut findings = Vec::new();
     for (place, list) in found {

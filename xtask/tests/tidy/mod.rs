@@ -1,6 +1,7 @@
 //! Rules for the text of this repository, as tests: what a reader relies on and no compiler checks.
 
 mod circles;
+mod comments;
 mod constants;
 mod crates;
 mod documents;
@@ -57,7 +58,7 @@ fn modules_named(module: &str) -> Vec<String> {
     sources.filter(|path| read(path).lines().any(is_one)).map(|path| name(&path)).collect()
 }
 
-/// What a folder holds, in order; nothing when it is not there.
+/// Entries of a folder, in order; nothing when it is not there.
 fn entries(folder: &Path) -> Vec<PathBuf> {
     let mut paths: Vec<_> =
         fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path()).collect();

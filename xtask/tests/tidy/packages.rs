@@ -23,7 +23,7 @@ const LICENCES: [&str; 9] = [
 const TWICE: [(&str, &str); 1] =
     [("glam", "optional conversions of nalgebra, never built; they are in the lock file alone")];
 
-/// What cargo says of a manifest of the repository and the versions in its lock file; from the network what is not here yet.
+/// Metadata of a manifest of the repository and of the versions in its lock file, by cargo; from the network what is not here yet.
 fn metadata(manifest: &str) -> Value {
     let ask = |more: &[&str]| {
         let mut command = cargo();

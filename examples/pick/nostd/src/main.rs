@@ -7,10 +7,10 @@ mod model;
 use mbs_nostd::{Checked, LoadError, Unwatched, operation_bound};
 use model::{MODEL, ModelSolver};
 
-/// Where the tip is after 1 s, by an extrapolation with 34 digits [m].
+/// Position of the tip after 1 s, by an extrapolation with 34 digits [m].
 const TIP: [f64; 2] = [-1.662_115_135_816_127_6, -1.041_466_667_193_224_7];
 
-/// What the trapezoidal rule is off by there with steps of 1 ms: 10.5 m/s^2 times the square of the step [m].
+/// Error of the tip after 1 s by the trapezoidal rule with steps of 1 ms: 10.5 m/s^2 times the square of the step [m].
 const OFF: f64 = 1.1e-5;
 
 fn main() -> Result<(), LoadError> {

@@ -34,7 +34,7 @@ impl Machine {
         self.load[0].map(|load| load > BUSY * cores)
     }
 
-    /// As a sentence.
+    /// Describes the machine and its load in a sentence.
     pub(crate) fn sentence(&self) -> String {
         let processor =
             if self.processor.is_empty() { "processor not named" } else { &self.processor };

@@ -1,4 +1,4 @@
-//! What the program has measured, read from its lines.
+//! Measurements of the program, read from its lines.
 
 use super::machine::Machine;
 use serde_json::Value;
@@ -20,7 +20,7 @@ pub(crate) struct Measured {
 #[derive(Debug, Clone)]
 pub(crate) struct Scene {
     pub(crate) name: String,
-    /// Sizes, as printed.
+    /// Sizes of the scene, as printed.
     pub(crate) sizes: Value,
     /// Orders of elimination with their counts, as printed.
     pub(crate) orders: Vec<Value>,
@@ -42,7 +42,7 @@ pub(crate) struct Lane {
     /// Median of a step [s]; nothing where there is a reason.
     pub(crate) seconds: Option<f64>,
     pub(crate) reason: Option<String>,
-    /// As printed.
+    /// Line of the lane, as printed.
     pub(crate) line: Value,
 }
 
@@ -62,7 +62,7 @@ impl Scene {
         }
     }
 
-    /// Takes lines over.
+    /// Takes over the lines of a scene.
     ///
     /// # Errors
     ///
@@ -121,7 +121,7 @@ impl Scene {
         self.faer.iter().rev().find_map(|line| ratio(&line["given"]))
     }
 
-    /// The same where the writing of the blocks counts for both.
+    /// Ratio to faer's time where the writing of the blocks counts for both.
     pub(crate) fn ratio_with_blocks(&self) -> Option<f64> {
         self.faer.iter().rev().find_map(ratio)
     }
@@ -165,7 +165,7 @@ pub(crate) fn ratio(faer: &Value) -> Option<f64> {
     times(faer).map(|[ours, simplicial, supernodal]| ours / simplicial.min(supernodal))
 }
 
-/// How many times as fast as the best serial time.
+/// Ratio of the best serial time to this time [-].
 pub(crate) fn speed_up(serial: f64, seconds: f64) -> f64 {
     serial / seconds
 }
@@ -182,7 +182,7 @@ pub(super) mod tests {
     use super::*;
     use serde_json::json;
 
-    /// A lane's line.
+    /// Makes the line of a lane.
     pub(crate) fn lane(formulation: &str, team: &str, threads: usize, seconds: f64) -> Value {
         json!({
             "kind": "lane", "formulation": formulation, "team": team, "threads": threads, "clocked": false,
@@ -192,7 +192,7 @@ pub(super) mod tests {
         })
     }
 
-    /// The same with its phases.
+    /// Makes the line of a lane with its phases.
     pub(crate) fn clocked(team: &str, threads: usize, seconds: f64) -> Value {
         let mut line = lane("index-3", team, threads, seconds);
         let part = seconds / 10.0;

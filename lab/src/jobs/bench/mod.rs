@@ -41,14 +41,14 @@ pub(crate) const RUNNER: [&str; 7] =
 /// The largest ones, which `--quick` leaves out.
 const LARGEST: [&str; 4] = ["net-1000", "convoy-100", "tree-4095", "chain-10000"];
 
-/// What is asked for.
+/// Options of the job.
 #[derive(Debug, Clone)]
 pub(crate) struct Asked {
     /// Sizes of teams; left out, one to as many as there are cores.
     pub(crate) threads: Option<Threads>,
-    /// Without the largest scenes, and with less time for each.
+    /// Whether the largest scenes are left out, and each scene gets less time.
     pub(crate) quick: bool,
-    /// These scenes alone.
+    /// Scenes that are measured alone.
     pub(crate) scenes: Vec<String>,
 }
 
@@ -106,7 +106,7 @@ fn measure(asked: &Asked) -> Result<Measured, String> {
     Ok(measured)
 }
 
-/// Builds the program.
+/// Builds the program that measures.
 ///
 /// # Errors
 ///

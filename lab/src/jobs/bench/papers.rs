@@ -1,12 +1,12 @@
-//! What the report says of processors, beside ours.
+//! Numbers of the report on processors, beside ours.
 //!
 //! Table IV of the report is Table II of publication 3; Table V is in the report alone.
 
 /// A formulation of the report, and ours.
 pub(crate) struct Method {
-    /// Its name in the report.
+    /// Name of the formulation in the report.
     pub(crate) printed: &'static str,
-    /// Ours.
+    /// Name of our formulation.
     pub(crate) ours: &'static str,
     /// Reduction of CPU time with 1 to 4 processors [%].
     pub(crate) reductions: [f64; 4],

@@ -34,7 +34,7 @@ impl Program {
     }
 }
 
-/// Lines of JSON.
+/// Parses lines of JSON.
 fn lines(text: &str) -> Result<Vec<Value>, String> {
     let value = |line: &str| serde_json::from_str(line).map_err(|e| format!("`{line}`: {e}"));
     text.lines().map(value).collect()

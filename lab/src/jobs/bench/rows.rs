@@ -1,4 +1,4 @@
-//! Everything as JSON: one row for each scene, formulation and team.
+//! Measurements as JSON: one row for each scene, formulation and team.
 
 use super::measured::{Lane, Measured, Scene, efficiency, number, speed_up};
 use super::papers;
@@ -8,7 +8,7 @@ use serde_json::{Map, Value, json};
 const OF_ORDER: [&str; 8] =
     ["unknowns", "elements", "fronts", "largest_front", "flops", "entries", "tasks", "parallelism"];
 
-/// The run.
+/// Returns all measurements of a run as JSON.
 pub(crate) fn json(measured: &Measured) -> Value {
     let rows: Vec<Value> = measured.scenes.iter().flat_map(rows).collect();
     let each = |lines: fn(&Scene) -> &Vec<Value>| -> Vec<Value> {
@@ -33,7 +33,7 @@ fn rows(scene: &Scene) -> Vec<Value> {
     scene.lanes.iter().filter(|lane| !lane.clocked).map(|lane| row(scene, lane)).collect()
 }
 
-/// One row.
+/// Row of a lane in a scene.
 fn row(scene: &Scene, lane: &Lane) -> Value {
     let serial = scene.serial(&lane.formulation).and_then(|lane| lane.seconds);
     let gain = serial.zip(lane.seconds).map(|(serial, seconds)| speed_up(serial, seconds));
@@ -78,7 +78,7 @@ fn phases(lane: &Lane) -> Value {
     phases
 }
 
-/// The report's numbers.
+/// Numbers of the report on processors, as JSON.
 fn report() -> Value {
     let reductions = papers::REDUCTIONS.iter().map(|method| {
         json!({ "method": method.printed, "formulation": method.ours, "reduction_percent": method.reductions })

@@ -22,12 +22,12 @@ impl Threads {
         Self([1].into_iter().chain(sizes).collect())
     }
 
-    /// The sizes.
+    /// Returns the sizes of the teams.
     pub(crate) fn sizes(&self) -> &[usize] {
         &self.0
     }
 
-    /// With commas.
+    /// Lists the sizes with commas between.
     pub(crate) fn listed(&self) -> String {
         self.0.iter().map(ToString::to_string).collect::<Vec<_>>().join(",")
     }

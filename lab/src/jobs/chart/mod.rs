@@ -10,14 +10,14 @@ pub(crate) use scale::Kind;
 use scale::Scale;
 use style::{CURRENT, Style};
 
-/// A drawing.
+/// A drawing: its axes and series.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Chart {
     /// The axis to the right.
     pub(crate) x: Axis,
-    /// The axis upwards.
+    /// Axis that points upwards.
     pub(crate) y: Axis,
-    /// What is drawn, the first below the others.
+    /// Series that are drawn, the first below the others.
     pub(crate) series: Vec<Series>,
     /// A span of x that is shaded.
     pub(crate) shade: Option<[f64; 2]>,
@@ -26,22 +26,22 @@ pub(crate) struct Chart {
 /// An axis: what it shows, with its unit.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Axis {
-    /// Its label.
+    /// Label of the axis.
     pub(crate) label: String,
-    /// How numbers lie on it.
+    /// Spacing of the numbers on the axis.
     pub(crate) kind: Kind,
 }
 
 /// Points that belong together.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Series {
-    /// Its name in the legend; none where it is empty.
+    /// Name of the series in the legend; none where it is empty.
     pub(crate) name: String,
     /// Number of its style: colour, dashes and mark.
     pub(crate) style: usize,
-    /// How it is drawn.
+    /// Look of the series: a line, marks, or both.
     pub(crate) look: Look,
-    /// Its points (x, y).
+    /// Points (x, y) of the series.
     pub(crate) points: Vec<[f64; 2]>,
 }
 
@@ -63,16 +63,16 @@ impl Series {
     }
 }
 
-/// How points are drawn.
+/// Look of a series: a line, marks, or both.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Look {
-    /// As a line.
+    /// Series as a line.
     Line,
-    /// As small marks.
+    /// Series as small marks.
     Marks,
-    /// As a line with a mark at each point.
+    /// Series as a line with a mark at each point.
     Both,
-    /// As marks of that size, without a line.
+    /// Series as marks of that size, without a line.
     Dots,
 }
 
@@ -85,7 +85,7 @@ impl Axis {
         Self { label: label.into(), kind }
     }
 
-    /// Time.
+    /// Makes the axis of time.
     pub(crate) fn time() -> Self {
         Self::new("t [s]", Kind::Linear)
     }
@@ -126,7 +126,7 @@ impl Chart {
         self.series.iter().filter(|s| !s.name.is_empty() && !s.points.is_empty())
     }
 
-    /// The drawing.
+    /// Draws the chart as SVG.
     ///
     /// # Errors
     ///

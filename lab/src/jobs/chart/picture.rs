@@ -9,7 +9,7 @@ const INK: &str = "#7D8590";
 /// Height of a line of the legend, and width of an entry; four stand beside each other.
 const ENTRY: [usize; 2] = [22, 230];
 
-/// The file.
+/// Draws the chart with its legend as an SVG file.
 ///
 /// # Errors
 ///

@@ -1,4 +1,4 @@
-//! One axis: where numbers lie on it, and which of them are written.
+//! Scale of an axis: where numbers lie on it, and which of them are written.
 
 use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
 use std::ops::Range;
@@ -6,14 +6,14 @@ use std::ops::Range;
 /// Room beyond the outermost numbers, as a share of the span.
 const MARGIN: f64 = 0.04;
 
-/// How numbers lie on an axis.
+/// Spacing of numbers on an axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Kind {
     /// Evenly, over the span of the numbers.
     Linear,
     /// Evenly, and zero is there.
     FromZero,
-    /// By their logarithm; what is not positive is left out.
+    /// Spacing by the logarithm of the numbers; what is not positive is left out.
     Log,
 }
 
@@ -50,12 +50,12 @@ impl Scale {
         (x - self.ends[0]) / (self.ends[1] - self.ends[0])
     }
 
-    /// The lowest number.
+    /// Returns the lowest number of the axis.
     pub(crate) fn low(&self) -> f64 {
         self.number(self.ends[0])
     }
 
-    /// The highest number.
+    /// Returns the highest number of the axis.
     pub(crate) fn high(&self) -> f64 {
         self.number(self.ends[1])
     }

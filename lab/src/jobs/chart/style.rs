@@ -2,13 +2,13 @@
 
 use plotters::style::RGBColor;
 
-/// Text and axes; the page gives its own ink.
+/// Colour of text and axes; the page gives its own ink.
 pub(crate) const CURRENT: RGBColor = RGBColor(125, 133, 144);
 
-/// How a series is drawn.
+/// Style of a series: colour, dashes and mark.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Style {
-    /// Its colour.
+    /// Colour of the line and its marks.
     pub(crate) color: RGBColor,
     /// Lengths of dashes and gaps; empty for a whole line.
     dashes: &'static str,
@@ -78,7 +78,7 @@ impl Style {
         self.corners.iter().map(|&(x, y)| (round(x), round(y))).collect()
     }
 
-    /// Its colour as the page writes it.
+    /// Returns the colour as the page writes it.
     fn code(self) -> String {
         code(self.color)
     }
@@ -105,7 +105,7 @@ fn code(RGBColor(r, g, b): RGBColor) -> String {
     format!("#{r:02X}{g:02X}{b:02X}")
 }
 
-/// What the drawing library cannot say: dashes, and the ink of the page.
+/// Adds what the drawing library cannot say: dashes, and the ink of the page.
 pub(crate) fn finish(svg: &str, styles: impl Iterator<Item = Style>) -> String {
     let mut text = svg.replace(&format!("\"{}\"", code(CURRENT)), "\"currentColor\"");
     for style in styles.filter(|style| !style.dashes.is_empty()) {

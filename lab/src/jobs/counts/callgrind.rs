@@ -8,7 +8,7 @@ use xtask::debian;
 use xtask::process::line;
 use xtask::summary::LeftOut;
 
-/// What one case executed.
+/// Instructions and functions that one case executed.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Case {
     /// Formulation, dimension, effect, switch.
@@ -16,11 +16,11 @@ pub(crate) struct Case {
     /// Instructions of all functions but libc's that copy and fill memory: those take a few more or less depending on where
     /// the allocator put a buffer.
     pub(crate) instructions: u64,
-    /// The functions.
+    /// Names of the functions.
     pub(crate) functions: BTreeSet<String>,
 }
 
-/// What to do where there is no valgrind, which a job needs; `None`: there is one.
+/// Returns the remedy where there is no valgrind, which a job needs; `None`: there is one.
 pub(crate) fn missing(job: &str) -> Option<LeftOut> {
     let left_out = debian::find("valgrind", "valgrind").err()?;
     let remedy = format!("{}\nThen run `cargo xtask {job}`.", left_out.remedy);
@@ -58,7 +58,7 @@ pub(crate) fn run(program: &Path, args: &[String], folder: &Path) -> Result<Vec<
     names.lines().enumerate().map(read).collect()
 }
 
-/// Reads one dump.
+/// Reads the dump of one case.
 fn case(name: &str, dump: &str) -> Case {
     let mut case = Case { name: name.to_owned(), instructions: 0, functions: BTreeSet::new() };
     let (mut function, mut is_call) = ("", false);

@@ -1,4 +1,4 @@
-//! What is claimed of the counts, each with what would contradict it.
+//! Claims on the counts, each with what would contradict it.
 
 use super::callgrind::Case;
 
@@ -14,7 +14,7 @@ const MAX_GROWTH: f64 = 2.3;
 /// A claim, and how often it was looked at and contradicted.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Claim {
-    /// One sentence.
+    /// Sentence that states the claim.
     pub(crate) text: &'static str,
     /// Number of comparisons.
     pub(crate) n_checked: usize,
@@ -40,12 +40,12 @@ impl Claim {
     }
 }
 
-/// The runs: all effects compiled, none compiled, trains of gears, and all without inlining.
+/// Runs that claims are looked at in: all effects compiled, none compiled, trains of gears, and all without inlining.
 #[derive(Debug)]
 pub(crate) struct Runs {
     pub(crate) full: Vec<Case>,
     pub(crate) lean: Vec<Case>,
-    /// What the build without effects says: effect, message.
+    /// Answers of the build without effects: effect, feature, message.
     pub(crate) refusals: Vec<[String; 3]>,
     pub(crate) trains: Vec<Case>,
     pub(crate) plain: Vec<Case>,
@@ -57,13 +57,13 @@ pub(crate) fn words(case: &Case) -> [&str; 4] {
     [0; 4].map(|_| words.next().unwrap_or(""))
 }
 
-/// The same case with another switch.
+/// Finds the same case with another switch.
 pub(crate) fn other<'a>(cases: &'a [Case], case: &Case, switch: &str) -> Option<&'a Case> {
     let [formulation, dimension, effect, _] = words(case);
     cases.iter().find(|other| words(other) == [formulation, dimension, effect, switch])
 }
 
-/// All claims.
+/// Returns all claims, each looked at.
 pub(crate) fn all(runs: &Runs) -> Vec<Claim> {
     vec![
         switched_off(runs),
@@ -170,7 +170,7 @@ fn absent(runs: &Runs) -> Claim {
     claim
 }
 
-/// Without this the two before it could hold because names are not seen.
+/// Claim that those functions are seen where they are asked for. Without it the two before it could hold because names are not seen.
 fn present(runs: &Runs) -> Claim {
     let mut claim = Claim::new("where they are asked for, those functions are seen");
     for case in &runs.plain {

@@ -48,7 +48,7 @@ pub(crate) fn counts() -> Result<bool, String> {
     Ok(claims.iter().all(Claim::holds))
 }
 
-/// Builds and runs.
+/// Builds and runs the programs, and looks at the claims.
 fn count() -> Result<(Runs, Vec<Claim>), String> {
     let counted = |profile, with_effects, steps: u64, effects: &[String]| {
         let args: Vec<_> = [steps.to_string()].into_iter().chain(effects.to_vec()).collect();
@@ -65,7 +65,7 @@ fn count() -> Result<(Runs, Vec<Claim>), String> {
     Ok((runs, claims))
 }
 
-/// What the build without effects says to each that has a feature: effect, feature, message.
+/// Answers of the build without effects to each effect that has a feature: effect, feature, message.
 fn refusals() -> Result<Vec<[String; 3]>, String> {
     let program = build("dist", false)?;
     let refusal = |(effect, feature): (String, &str)| {

@@ -1,9 +1,9 @@
-//! Which runs there are: scenes, ladders of penalties and ways, and their runs in full.
+//! Runs of the table: scenes, ladders of penalties and ways, and their runs in full.
 
 use super::outcome::{Figures, Run};
 use crate::format::{self, error, step};
 
-/// A scene.
+/// A scene of the table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Scene {
     pub(super) file: &'static str,
@@ -15,7 +15,7 @@ pub(super) const SCENES: [Scene; 2] = [
     Scene { file: "two-four-bars", what: "Two four-bars: through a singular position" },
 ];
 
-/// How the penalty is chosen for a step of 10^-k s.
+/// Choice of the penalty for a step of 10^-k s.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Ladder {
     pub(super) name: &'static str,
@@ -31,7 +31,7 @@ pub(super) const LADDERS: [Ladder; 3] = [
     Ladder { name: "10/dt⁴", exponent: |k| 4 * k + 1 },
 ];
 
-/// How a run is made.
+/// Way in which a run is made: its form and its digits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Way {
     pub(super) name: &'static str,

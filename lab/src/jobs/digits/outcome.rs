@@ -1,4 +1,4 @@
-//! What a run came to, as the program reports it.
+//! Outcome of a run, as the program reports it.
 
 use crate::format::error;
 use serde_json::Value;
@@ -6,9 +6,9 @@ use serde_json::Value;
 /// A run: its figures, or why there are none.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Run {
-    /// It reached its end, or stopped on the way, and has figures of the steps it made.
+    /// Figures of a run that reached its end, or stopped on the way: of the steps it made.
     Made(Figures),
-    /// It could not be run, or took too long.
+    /// Reason why a run could not be made, or took too long.
     None(String),
 }
 
@@ -54,7 +54,7 @@ impl Run {
         })
     }
 
-    /// Its figures, where it reached its end.
+    /// Figures of a run that reached its end.
     pub(super) fn completed(&self) -> Option<&Figures> {
         match self {
             Self::Made(figures) if figures.stopped.is_none() => Some(figures),
@@ -62,7 +62,7 @@ impl Run {
         }
     }
 
-    /// Its error [J], or when it stopped.
+    /// Writes the error of the run [J], or when it stopped.
     pub(super) fn text(&self) -> String {
         match self {
             Self::Made(Figures { steps, .. }) if self.completed().is_none() && *steps < 1.0 => {
@@ -77,7 +77,7 @@ impl Run {
         }
     }
 
-    /// Why it has no error.
+    /// Reason why the run has no error.
     pub(super) fn reason(&self) -> String {
         match self {
             Self::Made(figures) => {

@@ -1,4 +1,4 @@
-//! The section: errors and prices side by side, a drawing for each scene, and what the runs say.
+//! Section of the table: errors and prices side by side, a drawing for each scene, and what the runs say.
 
 use super::cell::{self, CORRECTION, Cell, LADDERS, OURS, PAIRS, PRINTED, REFINED, SCENES, WAYS};
 use super::outcome::Run;
@@ -9,7 +9,7 @@ use crate::lab::section::Section;
 /// Ratio of two errors within which they are the same [-]: the tables show two digits.
 const SAME_ERROR: f64 = 1.1;
 
-/// What stands first.
+/// Words that stand at the head of the section.
 const WORDS: &str = "The report finds index-3 ill-conditioned at small steps, and guesses that \"a precision environment of \
     32 digits\" could be the cure. Printed: fixed alpha, multipliers from zero, projections that solve for the vector itself \
     (publication 1, (13) and (19)). dd computes in pairs of doubles, 32 digits; refined takes the factor in doubles and refines \
@@ -94,7 +94,7 @@ fn drawing(cells: &[&Cell]) -> Option<(usize, Chart)> {
     (n > 1).then(|| (ladder, Chart::log_log("step [s]", "largest energy error [J]", series)))
 }
 
-/// What the runs of a scene say.
+/// Adds the claims on a scene, as its runs judge them.
 fn judge(section: &mut Section, what: &str, cells: &[&Cell]) {
     let scene = what.split(':').next().unwrap_or(what);
     for (way, claim) in [

@@ -64,7 +64,7 @@ fn run(count: usize, jobs: Option<usize>) -> Result<(Section, bool), String> {
     Ok((section, tallies.wrong.is_empty() && tallies.faults.is_empty()))
 }
 
-/// The page: methods by properties, then by families, and all that is wrong.
+/// Makes the page: methods by properties, then by families, and all that is wrong.
 fn section(tallies: &Tallies, (count, jobs): (usize, usize), time: Duration) -> Section {
     let mut section = Section::new("gauntlet", "Hard cases in every formulation");
     let sum = tallies.sum();

@@ -6,9 +6,9 @@ use std::collections::BTreeMap;
 /// Counts of a method's verdicts.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct Tally {
-    /// As near as the rule, with its energy.
+    /// Runs as near as the rule, with its energy.
     pub(super) right: usize,
-    /// As near as the rule, which is far off at the step.
+    /// Runs as near as the rule, which is far off at the step.
     pub(super) coarse: usize,
     /// Further off than the others, by an error of second order.
     pub(super) apart: usize,
@@ -21,7 +21,7 @@ pub(super) struct Tally {
     pub(super) steps: BTreeMap<u64, [usize; 2]>,
 }
 
-/// What was wrong.
+/// A run that was wrong, with the reason.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Wrong {
     pub(super) family: String,
@@ -31,7 +31,7 @@ pub(super) struct Wrong {
     pub(super) why: String,
 }
 
-/// Everything.
+/// Tallies of all families, with wrong runs and faults.
 #[derive(Debug, Default)]
 pub(super) struct Tallies {
     /// Methods in the order of the columns.
@@ -68,7 +68,7 @@ impl Tally {
         }
     }
 
-    /// Adds another's.
+    /// Adds the counts of another tally.
     pub(super) fn add(&mut self, other: &Self) {
         self.right += other.right;
         self.coarse += other.coarse;
@@ -84,7 +84,7 @@ impl Tally {
         }
     }
 
-    /// Runs in all.
+    /// Number of all runs.
     pub(super) fn runs(&self) -> usize {
         self.right + self.coarse + self.apart + self.unjudged + self.wrong + self.stops()
     }
@@ -101,7 +101,7 @@ impl Tally {
         sound.map(|(step, _)| *step as f64 / 1e9)
     }
 
-    /// What a cell says: pass, the largest step, the share of typed errors with their most frequent code, what is wrong.
+    /// Writes a cell: pass, the largest step, the share of typed errors with their most frequent code, what is wrong.
     pub(super) fn cell(&self) -> String {
         if self.runs() == 0 {
             return String::new();
@@ -179,7 +179,7 @@ impl Tallies {
         rows
     }
 
-    /// All verdicts together.
+    /// Sums the tallies of all families and methods.
     pub(super) fn sum(&self) -> Tally {
         let mut sum = Tally::default();
         self.families.iter().flat_map(|(_, _, tallies)| tallies).for_each(|tally| sum.add(tally));

@@ -8,13 +8,13 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::time::Duration;
 use xtask::process;
 
-/// How the cases of one worker came out, by their lines.
+/// Outcomes of the cases of one worker, by their lines.
 pub(super) type Lines = Vec<Value>;
 
-/// What a worker is about.
+/// Share of a worker in the cases, and the limit of a run.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Share {
-    /// All cases.
+    /// Number of all cases.
     pub(super) count: usize,
     /// The first of this worker, and the distance to its next.
     pub(super) first: usize,

@@ -2,42 +2,42 @@
 
 use crate::format::step;
 
-/// What chooses the steps of a run.
+/// Rule that chooses the steps of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Rule {
-    /// They are all the same.
+    /// All steps are the same.
     Fixed,
     /// The change of the energy invariant within a step, relative to the exchanged energy. A step with more is refused, and a step
     /// with less than a hundredth of it is followed by a longer one.
     Energy(f64),
-    /// The same as the report's second publication prints it.
+    /// The energy rule as the report's second publication prints it.
     Printed(f64),
     /// The error of a step as its estimate has it, as a share of the scene's length.
     Error(f64),
-    /// Both, with the same tolerance.
+    /// The energy and the error of a step, with the same tolerance.
     Both(f64),
 }
 
-/// One run.
+/// One run of an experiment.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Case {
     /// The scene, by its file.
     pub(crate) scene: &'static str,
     /// `--formulation` of `mbs run`.
     pub(crate) formulation: &'static str,
-    /// What chooses the steps.
+    /// Rule that chooses the steps.
     pub(crate) rule: Rule,
     /// The step, or the first one [s].
     pub(crate) step: f64,
     /// The largest step [s].
     pub(crate) largest: f64,
-    /// Simulated time [s]; else the scene's.
+    /// Simulated time of the run [s]; else the scene's.
     pub(crate) duration: Option<f64>,
     /// Do steps end at contacts and kinks?
     pub(crate) events: Option<bool>,
     /// Further arguments of `mbs run`.
     pub(crate) arguments: &'static [&'static str],
-    /// What is appended to the scene.
+    /// Text that is appended to the scene.
     pub(crate) appended: &'static str,
 }
 
@@ -67,12 +67,12 @@ impl Case {
         Self { rule, largest, ..Self::fixed(scene, formulation, first) }
     }
 
-    /// The same for so long [s]; `None` is the scene's own time.
+    /// Returns the run with this simulated time [s]; `None` is the scene's own time.
     pub(crate) fn lasting(self, duration: Option<f64>) -> Self {
         Self { duration, ..self }
     }
 
-    /// The same with or without steps that end at events.
+    /// Returns the run with or without steps that end at events.
     pub(crate) fn with_events(self, events: bool) -> Self {
         Self { events: Some(events), ..self }
     }
@@ -104,7 +104,7 @@ impl Case {
         if let Rule::Printed(_) = self.rule { "energy as printed" } else { self.control() }
     }
 
-    /// What it is called: formulation, rule, and step or tolerance.
+    /// Returns the name of the run: formulation, rule, and step or tolerance.
     pub(crate) fn name(&self) -> String {
         let number = match self.tolerance() {
             None => format!("{} s", size(self.step)),

@@ -102,7 +102,7 @@ fn run(case: &Case, out: Option<&Path>) -> Outcome {
     })
 }
 
-/// What its channels come to.
+/// Values of the channels at the end of a made-up run.
 fn outputs(error: f64, duration: f64) -> BTreeMap<String, Vec<f64>> {
     let values = |base: &[f64]| base.iter().map(|x| x + error / 50.0).collect::<Vec<_>>();
     [

@@ -1,4 +1,4 @@
-//! Where experiments run: cases one after the other, the least of their times, and the files of a run.
+//! Runs of experiments: cases one after the other, the least of their times, and the files of a run.
 
 pub(crate) mod case;
 #[cfg(test)]
@@ -23,37 +23,37 @@ const LONG: f64 = 30.0;
 /// A case and what came of it, with the least of its times.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Run {
-    /// The case.
+    /// Case that was run.
     pub(crate) case: Case,
-    /// What came of it.
+    /// Outcome of the run.
     pub(crate) outcome: Outcome,
     /// Distance of the watched channel from its reference at the end, where one is watched.
     pub(crate) true_error: Option<f64>,
 }
 
 impl Run {
-    /// Its figures, where it reached its end.
+    /// Figures of the run, where it reached its end.
     pub(crate) fn figures(&self) -> Option<&Figures> {
         self.outcome.figures()
     }
 
-    /// Its CPU time [s].
+    /// CPU time of the run [s].
     pub(crate) fn seconds(&self) -> Option<f64> {
         self.figures().map(|f| f.seconds)
     }
 
-    /// Its largest energy error [J].
+    /// Largest energy error of the run [J].
     pub(crate) fn energy_error(&self) -> Option<f64> {
         self.figures().map(|f| f.energy_error)
     }
 }
 
-/// Runs a case; with a folder, its files are left there.
+/// Function that runs a case; with a folder, its files are left there.
 pub(crate) type Runner<'a> = dyn Fn(&Case, Option<&Path>) -> Result<Outcome, String> + 'a;
 
-/// Where experiments run.
+/// Place where experiments run: the runner of their cases, and the folder for files.
 pub(crate) struct Lab<'a> {
-    /// Runs a case.
+    /// Function that runs a case.
     pub(crate) runner: &'a Runner<'a>,
     /// Are the finest runs left out?
     pub(crate) quick: bool,

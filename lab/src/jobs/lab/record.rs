@@ -7,12 +7,12 @@ use std::path::Path;
 const COLUMNS: [&str; 6] =
     ["t", "step", "index", "energy_error", "energy_change", "penalty_energy"];
 
-/// One recorded step.
+/// One recorded step of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Step {
-    /// Its end [s].
+    /// End of the step [s].
     pub(crate) t: f64,
-    /// Its length [s].
+    /// Length of the step [s].
     pub(crate) step: f64,
     /// Was it made in index 1?
     pub(crate) is_index_1: bool,
@@ -24,10 +24,10 @@ pub(crate) struct Step {
     pub(crate) penalty_energy: f64,
 }
 
-/// What a run left.
+/// Record that a run left: its steps and channels.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct Record {
-    /// Its recorded steps.
+    /// Steps of the run, as recorded.
     pub(crate) steps: Vec<Step>,
     /// The channels that were asked for: points (time, value).
     pub(crate) channels: Vec<Vec<[f64; 2]>>,
@@ -54,7 +54,7 @@ impl Record {
     }
 }
 
-/// A row; a start, which has no step, is none.
+/// Reads a row; a start, which has no step, is none.
 fn step([t, step, index, error, change, penalty]: [Option<f64>; 6]) -> Option<Step> {
     Some(Step {
         t: t?,

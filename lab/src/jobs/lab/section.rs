@@ -1,4 +1,4 @@
-//! What an experiment says: sentences, tables, drawings and claims, for a terminal and for a page.
+//! Sections of experiments: sentences, tables, drawings and claims, for a terminal and for a page.
 
 use super::Run;
 use crate::chart::Chart;
@@ -12,16 +12,16 @@ const LONG: usize = 16;
 /// A claim and what the runs say of it.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Claim {
-    /// What is claimed.
+    /// Statement that is claimed.
     pub(crate) what: String,
-    /// What was measured.
+    /// Measurement that the claim rests on.
     pub(crate) measured: String,
-    /// Does it hold? `None` where the runs do not say.
+    /// Does the claim hold? `None` where the runs do not say.
     pub(crate) holds: Option<bool>,
 }
 
 impl Claim {
-    /// Its verdict.
+    /// Returns the verdict on the claim.
     pub(crate) fn verdict(&self) -> &'static str {
         match self.holds {
             Some(true) => "holds",
@@ -51,30 +51,30 @@ enum Block {
     Figure(String, String),
 }
 
-/// An experiment.
+/// An experiment with what it found.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Section {
-    /// Its name on the command line.
+    /// Name of the experiment on the command line.
     pub(crate) name: &'static str,
-    /// What it is about.
+    /// Title of the experiment.
     pub(crate) title: &'static str,
-    /// All its runs.
+    /// Runs of the experiment, all of them.
     pub(crate) runs: Vec<Run>,
     blocks: Vec<Block>,
 }
 
 impl Section {
-    /// An empty one.
+    /// Makes an empty section.
     pub(crate) fn new(name: &'static str, title: &'static str) -> Self {
         Self { name, title, runs: Vec::new(), blocks: Vec::new() }
     }
 
-    /// Adds a heading.
+    /// Adds a heading to the section.
     pub(crate) fn heading(&mut self, text: impl Into<String>) {
         self.blocks.push(Block::Heading(text.into()));
     }
 
-    /// Adds sentences.
+    /// Adds sentences to the section.
     pub(crate) fn words(&mut self, text: impl Into<String>) {
         self.blocks.push(Block::Words(text.into()));
     }
@@ -90,7 +90,7 @@ impl Section {
         self.blocks.push(Block::Table(Some(title.to_owned()), owned(head), rows));
     }
 
-    /// Adds a claim.
+    /// Adds a claim with its measurement and whether it holds.
     pub(crate) fn claim(&mut self, what: impl Into<String>, measured: String, holds: Option<bool>) {
         self.blocks.push(Block::Claim(Claim { what: what.into(), measured, holds }));
     }
@@ -103,7 +103,7 @@ impl Section {
         });
     }
 
-    /// Its claims.
+    /// Returns the claims of the section.
     pub(crate) fn claims(&self) -> impl Iterator<Item = &Claim> {
         self.blocks.iter().filter_map(|block| match block {
             Block::Claim(claim) => Some(claim),
@@ -111,7 +111,7 @@ impl Section {
         })
     }
 
-    /// As text, with the captions of the drawings.
+    /// Writes the section as text, with the captions of the drawings.
     pub(crate) fn text(&self) -> String {
         let mut text = format!("{}  {}\n\n", self.name, self.title);
         for block in &self.blocks {
@@ -131,7 +131,7 @@ impl Section {
         text
     }
 
-    /// As a part of a page.
+    /// Writes the section as a part of a page.
     pub(crate) fn html(&self) -> String {
         let mut html = format!(
             "<section class=\"card\" id=\"{0}\">\n<h2><span class=\"tag\">{0}</span> {1}</h2>\n",
@@ -190,7 +190,7 @@ impl Section {
     }
 }
 
-/// One cell; its label is shown where the columns do not fit, and it may lead to a row.
+/// Writes a cell; its label is shown where the columns do not fit, and it may lead to a row.
 fn cell(label: &str, value: &str, to: Option<String>) -> String {
     // Words may be broken where the columns do not fit, numbers not.
     let class = match value {
@@ -216,7 +216,7 @@ pub(crate) fn text(sections: &[Section]) -> String {
     sections.iter().map(|section| section.text() + "\n").collect()
 }
 
-/// Names of columns.
+/// Copies the names of columns.
 fn owned(names: &[&str]) -> Vec<String> {
     names.iter().map(|&name| name.to_owned()).collect()
 }

@@ -18,7 +18,7 @@ pub(crate) struct Mbs {
 }
 
 impl Mbs {
-    /// Builds it.
+    /// Builds the command.
     ///
     /// # Errors
     ///

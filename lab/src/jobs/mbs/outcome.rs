@@ -1,27 +1,27 @@
-//! What a run of `mbs run --json` came to, read from its output.
+//! Outcome of a run of `mbs run --json`, read from its output.
 
 use serde_json::{Map, Value};
 use std::collections::BTreeMap;
 
-/// What a run came to.
+/// Outcome of a run.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Outcome {
-    /// It reached the end.
+    /// The run reached the end.
     Completed(Figures),
-    /// It stopped with a typed error.
+    /// The run stopped with a typed error.
     Stopped {
         /// The code of the error.
         code: String,
-        /// What it says.
+        /// Message of the error.
         message: String,
-        /// When [s].
+        /// Time of the stop [s].
         time: f64,
     },
-    /// It was refused: the formulation cannot run this scene, or there is no such option, and it says why.
+    /// The run was refused: the formulation cannot run this scene, or there is no such option, and the reason is said.
     Refused(String),
     /// The formulation is not built.
     NotBuilt,
-    /// It was ended after so many seconds.
+    /// The run was ended after this many seconds.
     TooLong(f64),
 }
 
@@ -36,7 +36,7 @@ impl Outcome {
         if let Self::Completed(figures) = self { Some(figures) } else { None }
     }
 
-    /// Why there are no figures; empty where there are.
+    /// Reason why there are no figures; empty where there are.
     pub(crate) fn reason(&self) -> String {
         match self {
             Self::Completed(_) => String::new(),
@@ -63,13 +63,13 @@ pub(crate) struct Figures {
     pub(crate) sizes: [u64; 3],
     /// Steps, iterations and factorisations.
     pub(crate) work: [u64; 3],
-    /// What the control of the step did, where there was one.
+    /// Work of the control of the step, where there was one.
     pub(crate) control: Option<Control>,
     /// The channels at the end.
     pub(crate) outputs: BTreeMap<String, Vec<f64>>,
 }
 
-/// What the control of the step did.
+/// Work of the control of the step.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(crate) struct Control {
     /// Trials that were taken back.

@@ -5,10 +5,10 @@ use crate::chart::{Chart, Series};
 /// The frame of all pages, and its style.
 const FRAME: &str = include_str!("../../../../mbs-report/src/page/web/frame.html");
 const STYLE: &str = include_str!("../../../../mbs-report/src/page/web/style.css");
-/// What pages of measurements have beside it.
+/// Style of pages of measurements beside that of all pages.
 const OWN_STYLE: &str = include_str!("page.css");
 
-/// A page.
+/// Makes a page of a title, a remark and its sections.
 pub(crate) fn page(title: &str, remark: &str, content: &str) -> String {
     let frame = FRAME.replace("{{style}}", &[STYLE, OWN_STYLE].concat()).replace("{{scripts}}", "");
     let frame = frame.replace("{{title}}", &escape(title)).replace("{{heading}}", &escape(title));
@@ -58,7 +58,7 @@ pub(crate) fn words(sentence: &str) -> String {
     html.split_off(1)
 }
 
-/// Text as HTML.
+/// Escapes text for HTML.
 pub(crate) fn escape(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }

@@ -13,7 +13,7 @@ pub(super) struct Solver {
 }
 
 impl Solver {
-    /// Its median time at so many digits [s].
+    /// Median time of the solver at this number of digits [s].
     pub(super) fn time(&self, digits: u8) -> Option<f64> {
         Some(median(self.turns(digits)?.to_vec()))
     }

@@ -1,4 +1,4 @@
-//! What was measured of a problem: a lane for each algorithm of each program, with its time in every turn.
+//! Measurements of a problem: a lane for each algorithm of each program, with its time in every turn.
 
 use super::problems::{Kind, Problem};
 use super::programs::{Line, Who};
@@ -62,7 +62,7 @@ pub(super) struct Measured {
 }
 
 impl Measured {
-    /// Nothing yet.
+    /// Makes the record of a problem that has no lanes yet.
     pub(super) fn new(problem: Problem) -> Self {
         Self { problem, lanes: Vec::new(), exact: Vec::new(), failed: Vec::new() }
     }
@@ -145,7 +145,7 @@ pub(super) fn ratio(ours: &[f64], peer: &[f64]) -> f64 {
     median(ours.iter().zip(peer).map(|(ours, peer)| ours / peer).collect())
 }
 
-/// The median; not a number where there is nothing.
+/// Median of numbers; not a number where there is nothing.
 pub(super) fn median(mut x: Vec<f64>) -> f64 {
     x.sort_by(f64::total_cmp);
     let n = x.len();

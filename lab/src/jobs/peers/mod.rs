@@ -13,7 +13,7 @@ use problems::{Kind, Problem, selected};
 use programs::{Asked, Who};
 use xtask::process;
 
-/// How long and how often is measured.
+/// Effort of a measurement: how long and how often is measured.
 #[derive(Debug, Clone, Copy)]
 struct Effort {
     /// Turns: each program once.
@@ -49,7 +49,7 @@ pub(crate) fn peers(quick: bool, names: &[String]) -> Result<bool, String> {
     Ok(measured.iter().all(|m| m.wrong().is_empty()))
 }
 
-/// One problem: in every turn each program that is here, ours first.
+/// Measures one problem: in every turn each program that is here, ours first.
 fn measure(problem: Problem, effort: Effort) -> Result<Measured, String> {
     let mut measured = Measured::new(problem);
     let seconds = if problem.kind == Kind::Digits { effort.point } else { effort.seconds };
@@ -71,7 +71,7 @@ fn measure(problem: Problem, effort: Effort) -> Result<Measured, String> {
     Ok(measured)
 }
 
-/// What the numbers are.
+/// Returns the remark on what the numbers are.
 fn remark(machine: &Machine, effort: Effort) -> String {
     format!(
         "CPU time of one thread; the median of {} turns, in each of which every program ran once, ours first. A ratio is the \

@@ -2,7 +2,7 @@
 
 use super::programs::Who;
 
-/// How the values of a problem are judged.
+/// Kind of a problem, by which its values are judged.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Kind {
     /// One evaluation: all are exact but for rounding.
@@ -16,13 +16,13 @@ pub(super) enum Kind {
 /// A problem in one size.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Problem {
-    /// Its name, as the programs know it.
+    /// Name of the problem, as the programs know it.
     pub(super) name: &'static str,
-    /// What it is.
+    /// Title of the problem.
     pub(super) title: &'static str,
-    /// Its size.
+    /// Size of the problem.
     pub(super) n: usize,
-    /// How it is judged.
+    /// Kind by which the problem is judged.
     pub(super) kind: Kind,
     /// Step of a whole run [s]; evaluations get the time to measure for.
     pub(super) step: Option<f64>,
@@ -33,7 +33,7 @@ pub(super) struct Problem {
 }
 
 impl Problem {
-    /// Its name with its size.
+    /// Returns the name of the problem with its size.
     pub(super) fn label(&self) -> String {
         match self.kind {
             Kind::Digits => self.name.to_owned(),
@@ -82,7 +82,7 @@ const CHAINS: &[Who] =
 const ROBOTS: [usize; 6] = [6, 9, 18, 19, 35, 50];
 const TREES: &[Who] = &[Who::PinocchioOpen, Who::MuJoCo, Who::Simbody, Who::Drake];
 
-/// All of them.
+/// Returns all problems.
 fn all() -> Vec<Problem> {
     let evaluation = |name, title, n, limit, peers| Problem {
         name,

@@ -41,7 +41,7 @@ impl Who {
         Self::Ida,
     ];
 
-    /// Its name.
+    /// Returns the name of the program.
     pub(super) fn name(self) -> &'static str {
         match self {
             Self::Ours => "mbs",
@@ -57,7 +57,7 @@ impl Who {
         }
     }
 
-    /// How it is installed.
+    /// Command or words by which the program is installed.
     pub(super) fn remedy(self) -> &'static str {
         match self {
             Self::Ours => "cargo builds it",
@@ -114,7 +114,7 @@ impl Who {
         }
     }
 
-    /// Its version, as it reports it.
+    /// Returns the version of the program, as it reports it.
     pub(super) fn version(self) -> String {
         let text = match self {
             // what Cargo.toml pins
@@ -148,7 +148,7 @@ impl Who {
     }
 }
 
-/// What a program is asked.
+/// Request to a program: a problem, its size, and its time or step.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Asked {
     pub(super) problem: &'static str,
@@ -167,7 +167,7 @@ pub(super) struct Line {
 }
 
 impl Line {
-    /// Reads one; what packages print besides is passed over.
+    /// Reads a line; what packages print besides is passed over.
     fn read(text: &str) -> Option<Self> {
         let parts: Vec<&str> = text.split(',').collect();
         let [algorithm, seconds, value, reference] = parts[..] else { return None };
@@ -180,12 +180,12 @@ impl Line {
     }
 }
 
-/// Where the sources of the programs are.
+/// Folder of the sources of the programs.
 fn sources() -> PathBuf {
     process::root().join("lab/peers")
 }
 
-/// Where the programs and the results are.
+/// Folder of the programs and the results.
 pub(super) fn folder() -> PathBuf {
     process::target_dir().join("peers")
 }

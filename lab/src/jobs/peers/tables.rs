@@ -1,4 +1,4 @@
-//! What was measured, as tables: ours beside the fastest peer, digits, peers, and every algorithm.
+//! Measurements as tables: ours beside the fastest peer, digits, peers, and every algorithm.
 
 use super::digits::{against, solvers};
 use super::lanes::{Lane, Measured};
@@ -64,7 +64,7 @@ fn beside(measured: &[Measured]) -> Table {
     (HEAD.to_vec(), rows)
 }
 
-/// The same at equal digits.
+/// Table of ours beside the fastest peer at equal digits.
 fn at_digits(measured: &Measured) -> Table {
     let solvers = solvers(measured);
     let row = |digits: u8| {
@@ -123,7 +123,7 @@ fn all(measured: &[Measured]) -> Table {
     (ALL_HEAD.to_vec(), rows)
 }
 
-/// The page's sections.
+/// Makes the sections of the page.
 pub(super) fn sections(measured: &[Measured]) -> Vec<Section> {
     let mut section = Section::new("peers", "mbs beside the fastest peer");
     section.words(
@@ -150,7 +150,7 @@ pub(super) fn sections(measured: &[Measured]) -> Vec<Section> {
     sections
 }
 
-/// What is wanted of each problem, and whether it holds.
+/// Adds the claims on each problem, and whether they hold.
 fn claims(section: &mut Section, measured: &[Measured]) {
     for m in measured.iter().filter(|m| m.problem.kind != Kind::Digits) {
         let [limit, aim] = m.problem.limit;
@@ -164,7 +164,7 @@ fn claims(section: &mut Section, measured: &[Measured]) {
     }
 }
 
-/// What is wanted at equal digits, and whether it holds where both reach them.
+/// Adds the claims at equal digits, and whether they hold where both reach them.
 fn claims_at_digits(section: &mut Section, measured: &Measured) {
     let solvers = solvers(measured);
     let mut claim = |digits: u8, name: &str, limit: f64| {
@@ -181,14 +181,14 @@ fn claims_at_digits(section: &mut Section, measured: &Measured) {
     }
 }
 
-/// For a terminal.
+/// Writes the tables for a terminal.
 pub(super) fn text(measured: &[Measured], remark: &str) -> String {
     let mut text = String::new();
     paragraph(&mut text, 0, remark);
     text + "\n" + &section::text(&sections(measured))
 }
 
-/// For a document.
+/// Writes the tables for a document.
 pub(super) fn markdown(measured: &[Measured], remark: &str) -> String {
     let mut text = format!("{remark}\n");
     let digits = measured.iter().filter(|m| m.problem.kind == Kind::Digits).map(at_digits);

@@ -1,8 +1,8 @@
-//! What callgrind writes, instruction by instruction, and what one run has more than another.
+//! Counts of callgrind, instruction by instruction, and what one run has more than another.
 
 use std::collections::BTreeMap;
 
-/// Where instructions stand.
+/// Place of instructions in a program or library.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Place {
     /// Path of the program or library.
@@ -50,8 +50,8 @@ pub(crate) fn costs(dump: &str) -> Result<Costs, String> {
     }
 }
 
-/// What the longer run executed beyond the shorter one. A place that it passed less often counts as passed as often: the order of
-/// a hash map may send either run another way before the steps.
+/// Instructions that the longer run executed beyond the shorter one. A place that it passed less often counts as passed as often: the order
+/// of a hash map may send either run another way before the steps.
 pub(crate) fn more(longer: &Costs, shorter: &Costs) -> Costs {
     let more = longer.iter().map(|(place, &count)| {
         let before = shorter.get(place).copied().unwrap_or(0);

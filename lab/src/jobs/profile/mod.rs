@@ -122,7 +122,7 @@ fn counted(program: &Path, name: &str, steps: &str) -> Result<callgrind::Costs, 
     callgrind::costs(&String::from_utf8_lossy(&bytes))
 }
 
-/// What `addr2line` says of addresses.
+/// Output of `addr2line` for addresses.
 fn functions(program: &Path, addresses: Vec<&str>) -> Result<String, String> {
     let mut command = Command::new("addr2line");
     command.args(["-a", "-f", "-i", "-C", "-e"]).arg(program);
@@ -139,7 +139,7 @@ fn functions(program: &Path, addresses: Vec<&str>) -> Result<String, String> {
     }
 }
 
-/// Where the numbers are from.
+/// Returns the remark on the origin of the numbers.
 fn remark(machine: &Machine) -> String {
     let version = |program: &str| output(Command::new(program).arg("--version"));
     let or_unknown = |what: Option<String>| what.unwrap_or_else(|| "?".to_owned());

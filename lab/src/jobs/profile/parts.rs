@@ -33,7 +33,7 @@ impl Part {
         Self::Rest,
     ];
 
-    /// As a column's heading.
+    /// Returns the name of the part, the heading of its column.
     pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Kernels => "factorisation",

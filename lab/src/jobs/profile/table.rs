@@ -5,7 +5,7 @@ use crate::format;
 use serde_json::Value;
 use std::fmt::Write;
 
-/// One scene.
+/// Profile of one scene.
 #[derive(Debug)]
 pub(crate) struct Profile {
     /// The line of `runner bench profile step`.
@@ -29,7 +29,7 @@ impl Profile {
         self.line["work"][key].as_f64().unwrap_or(f64::NAN)
     }
 
-    /// How many steps were looked at.
+    /// Number of steps that were looked at.
     fn steps(&self) -> f64 {
         self.number("to") - self.number("from")
     }
@@ -39,7 +39,7 @@ impl Profile {
         self.each(self.shares.parts.get(&part).copied().unwrap_or(0))
     }
 
-    /// Of a step.
+    /// Returns instructions as an average of each step.
     #[allow(clippy::cast_precision_loss, reason = "counts far below 2^53")]
     pub(crate) fn each(&self, instructions: u64) -> f64 {
         instructions as f64 / self.steps()
@@ -49,7 +49,7 @@ impl Profile {
 /// Functions listed of each scene.
 const FUNCTIONS: usize = 12;
 
-/// What the machine does at best.
+/// Rates of the machine at best.
 struct Rates {
     /// Operations in a second, one and two at a time.
     scalar: f64,

@@ -1,11 +1,12 @@
-//! Which methods have runs that stop, by scene: they are known to, and everything else that stops is a surprise.
+//! Methods whose runs are known to stop, by scene: everything else that stops is a surprise.
 
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// Methods with runs that stop before their end. Controlled steps at a tolerance of 1e-3 lose the pendulum's energy. Explicit integrators do not hold the nearly singular leaf springs of the vehicle
-/// on their constraints. Runs in f32 end where a tolerance is finer than their rounding. Long steps are the first of every method's range.
+/// Methods with runs that stop before their end. Controlled steps at a tolerance of 1e-3 lose the pendulum's energy. Explicit integrators do
+/// not hold the nearly singular leaf springs of the vehicle on their constraints. Runs in f32 end where a tolerance is finer than their rounding.
+/// Long steps are the first of every method's range.
 const STOPPED: [(&str, &[&str]); 4] = [
     (
         "double-pendulum",
@@ -32,7 +33,7 @@ const STOPPED: [(&str, &[&str]); 4] = [
 /// Runs that were completed, runs that stopped, and what of it is not as listed.
 #[derive(Debug, PartialEq)]
 pub(super) struct Judged {
-    /// How many runs were completed, and how many stopped.
+    /// Number of completed runs, and number of runs that stopped.
     pub(super) counts: [usize; 2],
     /// Methods that stop and are not listed, and listed ones that do not.
     pub(super) surprises: Vec<String>,

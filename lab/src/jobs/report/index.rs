@@ -1,4 +1,4 @@
-//! The first page: what each of the others shows, the command that makes it, and what was not as listed.
+//! Index of all pages: what each of the others shows, the command that makes it, and what was not as listed.
 
 use crate::bench;
 use crate::page::{escape, words};
@@ -10,7 +10,7 @@ use xtask::process;
 /// A page: its file, what it shows, and the command that makes it alone.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Page {
-    /// Where it lies in the folder.
+    /// File of the page in the folder.
     pub(super) file: &'static str,
     title: &'static str,
     shows: &'static str,
@@ -20,7 +20,7 @@ pub(super) struct Page {
     pub(super) scene: &'static str,
 }
 
-/// The report's tables.
+/// Page of the report's tables.
 pub(super) const TABLES: Page = Page {
     file: "tables.html",
     title: "The report's tables, run anew",
@@ -29,7 +29,7 @@ pub(super) const TABLES: Page = Page {
     command: "cargo xtask tables",
     scene: "",
 };
-/// Variable steps.
+/// Page of the experiments on variable steps.
 pub(super) const STEPS: Page = Page {
     file: "steps.html",
     title: "Variable steps beside fixed ones",
@@ -38,7 +38,7 @@ pub(super) const STEPS: Page = Page {
     command: "cargo xtask steps",
     scene: "",
 };
-/// Times and threads.
+/// Page of times and threads.
 pub(super) const BENCH: Page = Page {
     file: "bench.html",
     title: "What a step costs, and what threads gain",
@@ -88,7 +88,7 @@ pub(super) struct Entry {
     remark: String,
     seconds: f64,
     surprises: Vec<String>,
-    /// What the page shows, as a figure; empty without one.
+    /// Figure of what the page shows; empty without one.
     picture: String,
 }
 
@@ -99,7 +99,7 @@ impl Entry {
         Self { page: *page, remark, seconds, surprises, picture }
     }
 
-    /// The same with a picture of the page.
+    /// Adds a picture of the page.
     pub(super) fn with_picture(self, picture: String) -> Self {
         Self { picture, ..self }
     }
@@ -123,18 +123,18 @@ impl Entry {
     }
 }
 
-/// The first page.
+/// Index of the pages, which is the first page.
 #[derive(Debug)]
 pub(super) struct Index {
     quick: bool,
-    /// Where and of what it is made.
+    /// Provenance of the pages.
     provenance: String,
     /// The pages so far.
     pub(super) entries: Vec<Entry>,
 }
 
 impl Index {
-    /// An empty one.
+    /// Makes an index without pages.
     pub(super) fn new(quick: bool) -> Self {
         Self { quick, provenance: provenance(), entries: Vec::new() }
     }
@@ -166,7 +166,7 @@ impl Index {
         self.entries.iter().flat_map(|entry| entry.surprises.iter().cloned()).collect()
     }
 
-    /// The page.
+    /// Writes the index as a page.
     pub(super) fn html(&self) -> String {
         let length = if self.quick { " --quick" } else { "" };
         let remark = format!(

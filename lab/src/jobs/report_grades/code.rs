@@ -1,10 +1,10 @@
-//! What no run shows: lines of code of a formulation, and whether it searches a graph; both counted in its sources.
+//! Counts in sources that no run shows: lines of code of a formulation, and whether it searches a graph.
 
 use std::fs;
 use std::path::Path;
 use xtask::process;
 
-/// What was counted in the sources of a crate.
+/// Counts in the sources of a crate.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Counted {
     /// Lines of code, without tests, comments and empty lines.

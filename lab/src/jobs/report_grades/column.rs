@@ -9,11 +9,11 @@ use crate::lab::{Lab, Run};
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Cell {
     pub(crate) letter: Letter,
-    /// How many times what the best method needs, or what it rests on; nothing where it fails.
+    /// Ratio to what the best method needs, or what the letter rests on; nothing where the method fails.
     pub(crate) ratio: Option<f64>,
-    /// What was counted, where nothing is run.
+    /// Words on what was counted, where nothing is run.
     pub(crate) counted: String,
-    /// The runs.
+    /// Runs that the letter rests on.
     pub(crate) runs: Vec<Run>,
 }
 
@@ -25,10 +25,10 @@ pub(crate) struct Column {
     pub(crate) cells: Vec<Cell>,
 }
 
-/// How the ratios of several scenes make one.
+/// Rule that makes one ratio of those of several scenes.
 pub(crate) type Joined = fn(&[Option<f64>]) -> Option<f64>;
 
-/// What each method gave in each scene, and the runs: numbers that are better the smaller they are.
+/// Numbers that each method gave in each scene, and the runs; a number is better the smaller it is.
 type Given = Vec<(Vec<Option<f64>>, Vec<Run>)>;
 
 /// Cells from what the methods gave: each number beside the best in its scene, then over all scenes.
@@ -44,7 +44,7 @@ fn graded(given: Given, floor: f64, joined: Joined, limits: [f64; 3]) -> Vec<Cel
     given.into_iter().enumerate().map(cell).collect()
 }
 
-/// For each method: a number from each ladder, and all runs.
+/// Collects for each method a number from each ladder, and all runs.
 fn over_ladders(
     ladders: &[Ladder],
     number: impl Fn(&Ladder, &Method) -> Result<(Option<f64>, Vec<Run>), String>,

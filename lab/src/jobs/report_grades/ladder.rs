@@ -12,11 +12,11 @@ const SHORT: f64 = 1.0;
 pub(crate) struct Ladder {
     /// The scene, by its file.
     pub(crate) scene: &'static str,
-    /// The steps [s].
+    /// Steps that are tried [s].
     pub(crate) steps: &'static [f64],
-    /// Simulated time [s]; else the scene's.
+    /// Simulated time of each run [s]; else the scene's.
     pub(crate) duration: Option<f64>,
-    /// What is appended to the scene.
+    /// Text that is appended to the scene.
     pub(crate) appended: &'static str,
 }
 
@@ -42,7 +42,7 @@ pub(crate) fn share(run: &Run) -> Option<f64> {
     run.figures().map(crate::mbs::outcome::Figures::share).filter(|share| share.is_finite())
 }
 
-/// Runs one case; its least time of some where it is short.
+/// Runs one case; takes its least time of some where it is short.
 ///
 /// # Errors
 ///

@@ -1,4 +1,4 @@
-//! Letters by rule: how far a method is from the best one in the same row of runs.
+//! Letters by rule, for how much more a method needs than the best one in the same row of runs.
 
 /// A grade. "A means outstanding, B good, C fair, D poor and F signifies a failure" (the report).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -11,7 +11,7 @@ pub(crate) enum Letter {
 }
 
 impl Letter {
-    /// As it is printed.
+    /// Returns the letter as it is printed.
     pub(crate) const fn symbol(self) -> &'static str {
         match self {
             Self::A => "A",
@@ -22,7 +22,7 @@ impl Letter {
         }
     }
 
-    /// Of a number that is better the smaller it is, over the best one: A up to the first limit, and so on; none is a failure.
+    /// Letter of a number over the best one, where smaller is better: A up to the first limit, and so on; none is a failure.
     pub(crate) fn of_ratio(ratio: Option<f64>, limits: [f64; 3]) -> Self {
         let Some(ratio) = ratio.filter(|ratio| ratio.is_finite()) else { return Self::F };
         let [a, b, c] = limits;
@@ -45,7 +45,7 @@ pub(crate) fn over_best(numbers: &[Option<f64>], floor: f64) -> Vec<Option<f64>>
     numbers.iter().map(|x| lifted(x).map(|x| x / best)).collect()
 }
 
-/// The geometric mean; nothing where a number is missing.
+/// Geometric mean of the ratios; nothing where a number is missing.
 pub(crate) fn mean(ratios: &[Option<f64>]) -> Option<f64> {
     let logs = ratios.iter().map(|x| x.map(f64::ln)).collect::<Option<Vec<_>>>()?;
     #[allow(clippy::cast_precision_loss, reason = "some scenes")]
@@ -53,7 +53,7 @@ pub(crate) fn mean(ratios: &[Option<f64>]) -> Option<f64> {
     (n > 0.0).then(|| (logs.iter().sum::<f64>() / n).exp())
 }
 
-/// The largest; nothing where a number is missing.
+/// Largest of the ratios; nothing where a number is missing.
 pub(crate) fn worst(ratios: &[Option<f64>]) -> Option<f64> {
     ratios.iter().copied().collect::<Option<Vec<_>>>()?.into_iter().reduce(f64::max)
 }

@@ -15,11 +15,11 @@ use printed::{METHODS, Method};
 
 /// Steps that are tried for a wanted accuracy, and under a hard condition: half decades [s].
 const STEPS: &[f64] = &[3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 3e-5];
-/// The same under a hard condition, for small mechanisms [s].
+/// Steps that are tried under a hard condition, for small mechanisms [s].
 const FINE: &[f64] = &[3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5];
-/// The same under a hard condition, for vehicles [s].
+/// Steps that are tried under a hard condition, for vehicles [s].
 const COARSE: &[f64] = &[3e-2, 1e-2, 3e-3, 1e-3];
-/// The same for Andrews' mechanism, which is a hundred times as fast [s].
+/// Steps that are tried for Andrews' mechanism, which is a hundred times as fast [s].
 const FAST: &[f64] = &[1e-4, 3e-5, 1e-5, 3e-6, 1e-6, 3e-7];
 
 /// Problems of two to eight unknowns.
@@ -47,7 +47,7 @@ const TINY: [Ladder; 3] = [
     at("two-four-bars", &[1e-6], Some(1.0)),
     at("andrews", &[1e-6], None),
 ];
-/// Steps between.
+/// Steps between small and large ones.
 const USUAL: [Ladder; 3] = [
     at("double-pendulum", &[1e-3], None),
     at("two-four-bars", &[1e-3], None),
@@ -69,7 +69,7 @@ bodies = [\"coupler-0\", \"crank-1\"]
 at = [1.0, 1.0]
 ";
 
-/// Hard conditions.
+/// Hard conditions, each with its scenes.
 const CONDITIONS: [(&str, &[Ladder]); 5] = [
     ("changing topologies", &[Ladder::new("iltis-jump", COARSE)]),
     (
@@ -93,7 +93,7 @@ const CONDITIONS: [(&str, &[Ladder]); 5] = [
     ),
 ];
 
-/// Speed and accuracy.
+/// Grades of speed and accuracy.
 ///
 /// # Errors
 ///

@@ -3,7 +3,7 @@
 /// A method of the grades: ours, and the letters of the report and of publication 1.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Method {
-    /// Its name in our tables.
+    /// Name of the method in our tables.
     pub(crate) name: &'static str,
     /// `--formulation` of `mbs run`.
     pub(crate) formulation: &'static str,
@@ -27,7 +27,7 @@ const fn ours(
     Method { name, formulation, arguments, package, speed_and_accuracy: None, conditions: None }
 }
 
-/// The methods.
+/// Methods of the grades, one a row.
 pub(crate) const METHODS: [Method; 7] = [
     Method {
         speed_and_accuracy: Some(["AABBAAF", "AABBAAF"]),

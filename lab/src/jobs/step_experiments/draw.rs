@@ -6,11 +6,11 @@ use crate::lab::record::Record;
 
 /// Styles, the same for the same thing in every drawing. Index 3.
 pub(crate) const INDEX_3: usize = 2;
-/// Index 1.
+/// Style of index 1.
 pub(crate) const INDEX_1: usize = 1;
-/// Both indices in turn.
+/// Style of both indices in turn.
 pub(crate) const MULTI: usize = 0;
-/// Another formulation.
+/// Style of another formulation.
 const OTHER: usize = 3;
 /// A line that is alone.
 pub(crate) const ALONE: usize = 0;
@@ -25,7 +25,7 @@ pub(crate) fn style(formulation: &str) -> usize {
     }
 }
 
-/// A line.
+/// Makes a series that is a line.
 pub(crate) fn line(name: impl Into<String>, style: usize, points: Vec<[f64; 2]>) -> Series {
     Series::new(name, style, Look::Line, points)
 }

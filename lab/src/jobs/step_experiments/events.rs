@@ -1,4 +1,4 @@
-//! What it buys to end steps at contacts and at kinks of the road.
+//! Experiment on steps that end at contacts and at kinks of the road: what it buys.
 
 use super::draw::{INDEX_1, INDEX_3, curve, points};
 use super::fit::{between, median, span};
@@ -10,7 +10,7 @@ use crate::lab::case::{Case, Rule};
 use crate::lab::section::Section;
 use crate::lab::{Lab, Run};
 
-/// What is watched: the wheel behind the bump, the nose of the vehicle on the stairs, and every channel after the blow.
+/// Channels that are watched: the wheel behind the bump, the nose of the vehicle on the stairs, and every channel after the blow.
 pub(crate) const SCENES: [Watched; 3] = [
     Watched {
         scene: "iltis-suspension-stiff",
@@ -24,10 +24,10 @@ pub(crate) const SCENES: [Watched; 3] = [
 ];
 /// First and largest step [s].
 const STEPS: [f64; 2] = [1e-3, 2e-2];
-/// How often each case is run for its time.
+/// Number of runs of each case for its time.
 const REPEATS: u32 = 3;
 
-/// Runs the experiment.
+/// Runs the experiment on steps that end at events.
 pub(crate) fn run(lab: &Lab<'_>) -> Result<Section, String> {
     let mut section = Section::new("C", "Steps that end at events");
     section.words(
@@ -94,7 +94,7 @@ fn scene(watched: &Watched, runs: &[Run], section: &mut Section) {
     draw(section, "Largest energy error", "largest energy error [J]", &Run::energy_error);
 }
 
-/// How many steps ended at events.
+/// Sentence on how many steps ended at events.
 fn reached(runs: &[Run]) -> String {
     let on = runs.iter().filter(|run| run.case.events == Some(true));
     let counts = on.filter_map(|run| run.figures()?.control).map(|control| control.events);

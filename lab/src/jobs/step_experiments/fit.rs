@@ -1,4 +1,4 @@
-//! What points say: slopes, numbers between points, ranks, and whether errors fall.
+//! Findings from points: slopes, numbers between points, ranks, and whether errors fall.
 
 pub(crate) use crate::format::span;
 

@@ -8,7 +8,7 @@ use crate::lab::case::{Case, Rule, size};
 use crate::lab::section::Section;
 use crate::lab::{Lab, Run};
 
-/// What is watched.
+/// Channel that is watched, with its exact value.
 ///
 /// Half way back from the blow, by the closed form in the scene's file.
 pub(crate) const WATCHED: Watched = Watched {
@@ -22,16 +22,16 @@ pub(crate) const WATCHED: Watched = Watched {
 const STEPS: [f64; 2] = [1e-3, 5e-2];
 /// The largest fixed step [s].
 const COARSEST: f64 = 1e-2;
-/// How often it is halved at most.
+/// Largest number of halvings of the fixed step.
 const HALVINGS: i32 = 16;
 /// A fixed step whose run takes longer is the last one [s].
 const LONG: f64 = 60.0;
-/// How many times the variable run's CPU time the fixed step must take.
+/// Least ratio of the fixed step's CPU time to the variable run's that the claim asks for [-].
 const CLAIM: f64 = 10.0;
-/// How often each case is run for its time.
+/// Number of runs of each case for its time.
 const REPEATS: u32 = 3;
 
-/// Runs the experiment.
+/// Runs the experiment on the blow of a hammer.
 pub(crate) fn run(lab: &Lab<'_>) -> Result<Section, String> {
     let mut section = Section::new(
         "H",

@@ -23,10 +23,10 @@ const TIGHT: [i32; 4] = [9, 10, 11, 12];
 const THRESHOLD: f64 = 1e-4;
 /// An error that is so much larger is worse.
 const WORSE: f64 = 2.0;
-/// How often each case is run for its time.
+/// Number of runs of each case for its time.
 const REPEATS: u32 = 3;
 
-/// Runs the experiment.
+/// Runs the experiment on the change of index.
 pub(crate) fn run(lab: &Lab<'_>) -> Result<Section, String> {
     let mut section = Section::new("A", "Is the change of index needed?");
     section.words(format!(
@@ -55,7 +55,7 @@ fn cases(scene: &'static str, steps: [f64; 2], quick: bool) -> Vec<Case> {
     rules.flat_map(each).collect()
 }
 
-/// What the runs say: triples with the same tolerance, in the order of the formulations.
+/// Says what the runs show: triples with the same tolerance, in the order of the formulations.
 fn needed(runs: &[Run]) -> String {
     let smallest = runs.iter().filter_map(|r| r.figures()?.control).map(|c| c.steps[0]);
     let reached = span(smallest).map_or("No run came to its end.".to_owned(), |[least, _]| {

@@ -17,7 +17,7 @@ use crate::lab::{self, Lab};
 use crate::mbs::Mbs;
 use xtask::process;
 
-/// An experiment.
+/// Function that runs an experiment.
 type Experiment = fn(&Lab<'_>) -> Result<Section, String>;
 
 /// The experiments, by their names.
@@ -32,7 +32,7 @@ const EXPERIMENTS: [(&str, Experiment); 6] = [
 
 /// The title of the page.
 const TITLE: &str = "Variable steps beside fixed ones";
-/// What holds for all of them.
+/// Remark that holds for all experiments.
 const REMARK: &str = "Energy error: largest error of the energy invariant over every step; its share is that of the energy turned \
     over, the largest kinetic energy plus the work done. CPU: of the stepping, the least of several runs in turn.";
 
@@ -45,10 +45,10 @@ pub(crate) fn figures(lab: &Lab<'_>) -> Result<Section, String> {
     suspension::run(lab)
 }
 
-/// What the experiments came to.
+/// Page of the experiments, and what they came to.
 #[derive(Debug)]
 pub(crate) struct Steps {
-    /// The page.
+    /// Page as HTML.
     pub(crate) html: String,
     /// Claims, and how many of them hold.
     pub(crate) claims: [usize; 2],
@@ -87,7 +87,7 @@ fn perform(lab: &Lab<'_>, names: &[String]) -> Result<Vec<Section>, String> {
     wanted.map(|(_, experiment)| experiment(lab)).collect()
 }
 
-/// The page: all claims first, then each experiment.
+/// Makes the page: all claims first, then each experiment.
 fn html(sections: &[Section]) -> String {
     let mut summary = Section::new("claims", "What holds");
     for claim in sections.iter().flat_map(Section::claims) {

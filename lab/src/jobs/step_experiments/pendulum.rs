@@ -11,11 +11,11 @@ use crate::lab::section::Section;
 use crate::lab::{Lab, Run};
 use std::collections::BTreeMap;
 
-/// The scene.
+/// Scene of the experiment.
 const SCENE: &str = "double-pendulum";
 /// The acceleration of the tip, which the scene does not ask for.
 const ACCELERATION: &str = "\n[[output]]\nname = \"tip-acceleration\"\nbody = \"lower\"\nat = [2.0, 0.0]\nquantity = \"acceleration\"\n";
-/// Its vertical component.
+/// Column of the vertical component of that acceleration.
 const COLUMN: &str = "tip-acceleration.y";
 /// The fixed step that the variable run is set beside [s].
 const FIXED: f64 = 1e-3;
@@ -23,10 +23,10 @@ const FIXED: f64 = 1e-3;
 const STEPS: [f64; 2] = [1e-3, 1e-2];
 /// Tolerances that the histories are drawn for: the publication's usual one, and one that needs short steps.
 const TOLERANCES: [f64; 2] = [1e-5, 1e-8];
-/// How often each case is run for its time.
+/// Number of runs of each case for its time.
 const REPEATS: u32 = 3;
 
-/// Runs the experiment.
+/// Runs the experiment on the double pendulum.
 pub(crate) fn run(lab: &Lab<'_>) -> Result<Section, String> {
     let mut section =
         Section::new("P2", "Double pendulum: energy as a measure of the error of a step");

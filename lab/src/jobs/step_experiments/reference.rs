@@ -8,26 +8,26 @@ use crate::mbs::outcome::Figures;
 /// A channel that is watched at the end of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Watched {
-    /// The scene.
+    /// Scene by its file.
     pub(crate) scene: &'static str,
-    /// The channel; all of them where it is empty.
+    /// Channel that is watched; all of them where it is empty.
     pub(crate) channel: &'static str,
-    /// Its unit.
+    /// Unit of the channel.
     pub(crate) unit: &'static str,
-    /// When [s]; else at the scene's end.
+    /// Time at which the channel is watched [s]; else the scene's end.
     pub(crate) time: Option<f64>,
-    /// Its value, where it is printed elsewhere with all digits.
+    /// Value of the channel, where it is printed elsewhere with all digits.
     pub(crate) digits: &'static [f64],
 }
 
-/// Its value, with where it comes from and how far off it may be.
+/// Value of a watched channel, with where it comes from and how far off it may be.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Reference {
-    /// The value.
+    /// Value at the watched time.
     pub(crate) value: Vec<f64>,
-    /// How far off it may be.
+    /// Doubt of the value: how far off it may be.
     pub(crate) doubt: f64,
-    /// Where it comes from.
+    /// Source of the value, in words.
     pub(crate) source: String,
 }
 
@@ -52,13 +52,13 @@ impl Watched {
         figures.outputs.get(self.channel).cloned()
     }
 
-    /// What is measured, in words.
+    /// Returns what is measured, in words.
     pub(crate) fn label(&self) -> String {
         let channel = if self.channel.is_empty() { "all channels" } else { self.channel };
         format!("error of {channel} [{}]", self.unit)
     }
 
-    /// The reference: printed digits, else an independent formulation and integrator, else extrapolation of fixed steps.
+    /// Finds the reference: printed digits, else an independent formulation and integrator, else extrapolation of fixed steps.
     ///
     /// # Errors
     ///
@@ -120,7 +120,7 @@ impl Watched {
 }
 
 impl Reference {
-    /// Where it comes from and how far off it may be, as a sentence.
+    /// Says in a sentence where the value comes from and how far off it may be.
     pub(crate) fn sentence(&self, watched: &Watched) -> String {
         let when = watched.time.map_or("the end".to_owned(), |t| format!("{t} s"));
         let channel = if watched.channel.is_empty() { "all channels" } else { watched.channel };

@@ -1,4 +1,4 @@
-//! Runs as rows: of the tables of a section, and of the CSV.
+//! Rows of runs, for the tables of a section and for the CSV.
 
 use crate::format::{self, error, seconds, step};
 use crate::lab::Run;

@@ -5,14 +5,14 @@ use crate::format::ratio;
 use crate::lab::case::size;
 use crate::lab::section::Section;
 
-/// How much larger the error may be than that of the estimate at equal time before a rule is said not to see it.
+/// Ratio of an error to that of the estimate at equal time, above which a rule is said not to see the error [-].
 const BLIND: f64 = 10.0;
 /// The least power of the tolerance that the error of a rule follows that sees it.
 const FLAT: f64 = 0.15;
 /// Least ratio of an error to the doubt of the reference for it to be judged [-].
 const ABOVE_DOUBT: f64 = 10.0;
 
-/// What a rule sees of the error in a scene.
+/// Sight of a rule: what it sees of the error in a scene.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Sight {
     scene: &'static str,
@@ -37,7 +37,8 @@ impl Sight {
         Self { scene, rule, power: slope(points), rises, excess: None }
     }
 
-    /// Beside the estimate: points (time, error) of both. Where their times do not meet, the line of the estimate is continued.
+    /// Sets the error beside the estimate's, by points (time, error) of both. Where their times do not meet, the line of the estimate is
+    /// continued.
     pub(crate) fn beside(self, points: &[[f64; 2]], estimate: &[[f64; 2]]) -> Self {
         type Line = fn(&[[f64; 2]], f64) -> Option<f64>;
         let excess = |line: Line| {
@@ -46,7 +47,7 @@ impl Sight {
         Self { excess: excess(between).or_else(|| excess(continued)), ..self }
     }
 
-    /// How the error follows the tolerance, as a sentence.
+    /// Sentence on how the error follows the tolerance.
     pub(crate) fn behaviour(&self) -> String {
         let Some(power) = self.power else {
             return format!("With {} too few runs came to their end.", self.named());
@@ -62,7 +63,7 @@ impl Sight {
         format!("With {} it follows the tolerance to the power {power:.2}; {rises}.", self.named())
     }
 
-    /// What the error is at equal time, as a sentence; empty where it is not known.
+    /// Says in a sentence what the error is at equal time; empty where it is not known.
     pub(crate) fn at_equal_time(&self) -> String {
         self.excess.map_or(String::new(), |excess| {
             let named = self.named();
@@ -73,7 +74,7 @@ impl Sight {
         })
     }
 
-    /// Why the rule does not see the error; `None` where it does.
+    /// Reason why the rule does not see the error; `None` where it does.
     fn blindness(&self) -> Option<String> {
         let Some(power) = self.power else { return Some("too few runs came to their end".into()) };
         if power < FLAT {

@@ -1,4 +1,4 @@
-//! What a tolerance buys: true error over tolerance, for the estimate of the error of a step, for the energy, and for both.
+//! Experiment on what a tolerance buys: true error over tolerance, for the estimate of the error of a step, for the energy, and for both.
 
 use super::draw::{INDEX_1, INDEX_3, MULTI, curve, points};
 use super::reference::{Reference, Watched};
@@ -11,7 +11,7 @@ use crate::lab::case::{Case, Rule};
 use crate::lab::section::Section;
 use crate::lab::{Lab, Run};
 
-/// What is watched, with the first and the largest step [s].
+/// Channels that are watched, with the first and the largest step [s].
 const SCENES: [(Watched, [f64; 2]); 6] = [
     (
         Watched {
@@ -84,10 +84,10 @@ const RULES: [Choice; 3] = [
     (Rule::Both, "both", "both", MULTI),
     (Rule::Energy, "energy", "energy", INDEX_1),
 ];
-/// How often each case is run for its time.
+/// Number of runs of each case for its time.
 const REPEATS: u32 = 3;
 
-/// Runs the experiment.
+/// Runs the experiment on tolerances.
 pub(crate) fn run(lab: &Lab<'_>) -> Result<Section, String> {
     let mut section = Section::new("B", "What a tolerance buys");
     section.words(

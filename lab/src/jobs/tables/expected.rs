@@ -28,7 +28,7 @@ const STOPPED: &[Entry] = &[
     ("T8", "index-3, alpha = 1e9", 1e-3, "not-converged"),
 ];
 
-/// What differs from the list, in words.
+/// Says in words which rows differ from the list.
 pub(crate) fn surprises(rows: &[Row]) -> Vec<String> {
     rows.iter().filter_map(|row| surprise(row, STOPPED)).collect()
 }

@@ -3,7 +3,7 @@
 use super::report::History;
 use crate::chart::{Axis, Chart, Kind, Look, Series};
 
-/// What stands below the drawing.
+/// Caption that stands below the drawing.
 pub(crate) const CAPTION: &str =
     "Each method at its first step, and the first method at its last one.";
 

@@ -23,7 +23,7 @@ const QUICK: f64 = 1e6;
 
 /// A table that is made of sections: grades, and what the experiments on steps draw.
 type Made = fn(&Lab<'_>) -> Result<Section, String>;
-/// Those tables, by their names; F6 shows the report's Figures 6 and 7, D1 answers what it asks about 32 digits.
+/// Tables made of sections, by their names; F6 shows the report's Figures 6 and 7, D1 answers what it asks about 32 digits.
 const MADE: [(&str, Made); 4] = [
     ("G1", report_grades::g1),
     ("G2", report_grades::g2),
@@ -47,10 +47,10 @@ pub(crate) fn own() -> Vec<String> {
     names().into_iter().filter(is_own).map(str::to_owned).collect()
 }
 
-/// What the tables came to.
+/// Page of the tables, and what they came to.
 #[derive(Debug)]
 pub(crate) struct Tables {
-    /// The page.
+    /// Page as HTML.
     pub(crate) html: String,
     /// Outcomes that are not the listed ones.
     pub(crate) surprises: Vec<String>,

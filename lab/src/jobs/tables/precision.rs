@@ -4,7 +4,7 @@ use super::report::Table;
 use super::rows::Row;
 use crate::chart::{Chart, Look, Series};
 
-/// What stands below the drawing.
+/// Caption that stands below the drawing.
 pub(crate) const CAPTION: &str = "Ours, from the rows above: CPU time of the stepping over the largest energy error, a mark for each step; \
     further to the lower left is better. What stopped has no mark: its reason stands in the table.";
 

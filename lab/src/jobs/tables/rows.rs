@@ -7,15 +7,15 @@ use crate::mbs::outcome::{Figures, Outcome};
 /// One entry of a table: what was run, and what came of it.
 #[derive(Debug, Clone)]
 pub(crate) struct Row {
-    /// The table.
+    /// Table of the entry.
     pub(crate) table: &'static Table,
-    /// The method.
+    /// Method of the entry.
     pub(crate) method: &'static Method,
-    /// Step [s].
+    /// Step of the entry [s].
     pub(crate) step: f64,
-    /// Ours.
+    /// Outcome of our run.
     pub(crate) outcome: Outcome,
-    /// The report's.
+    /// Entry that the report prints.
     pub(crate) printed: Printed,
 }
 

@@ -7,7 +7,7 @@ use crate::format::step;
 use crate::lab::section::Section;
 use crate::mbs::outcome::Outcome;
 
-/// What holds for all tables.
+/// Remark that holds for all tables.
 pub(crate) const REMARK: &str = "error: largest error of the energy invariant over every step; share: of the energy turned \
     over, the largest kinetic energy plus the work done; CPU: of the stepping. The report's times are those of its authors' machines.";
 

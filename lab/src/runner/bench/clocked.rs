@@ -7,7 +7,7 @@ use serde_json::{Map, Value, json};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering::Relaxed};
 use std::time::Instant;
 
-/// What a step does.
+/// Phase of a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Phase {
     Evaluation,
@@ -19,11 +19,11 @@ pub(crate) enum Phase {
     Products,
 }
 
-/// Their names, in that order.
+/// Names of the phases, in the order of [`Phase`].
 pub(crate) const NAMES: [&str; 7] =
     ["evaluation", "forces", "bias", "residuals", "factorisation", "solves", "products"];
 
-/// What is read before and after each phase.
+/// Meter that is read before and after each phase.
 pub(crate) trait Meter: Sync {
     /// Does the work of a phase, and takes what it cost.
     fn read<R>(&self, phase: Phase, work: impl FnOnce() -> R) -> R;

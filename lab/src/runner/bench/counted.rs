@@ -12,7 +12,7 @@ thread_local! {
     static DONE: Cell<Operations> = const { Cell::new(Operations::NONE) };
 }
 
-/// What was done since the last call.
+/// Returns the operations done since the last call.
 pub(crate) fn done() -> Operations {
     DONE.replace(Operations::NONE)
 }

@@ -18,7 +18,7 @@ use mbs_sparse::Multifrontal;
 use serde_json::{Value, json};
 use std::time::Instant;
 
-/// What is run: `SCENE FORM DIGITS STEP SPAN ALPHA`.
+/// Run that is asked for: `SCENE FORM DIGITS STEP SPAN ALPHA`.
 struct Asked<'a> {
     scene: &'a str,
     form: &'a str,
@@ -81,7 +81,7 @@ fn form<T: Real>(asked: &Asked<'_>) -> Result<Form<T>, String> {
     }
 }
 
-/// What a run came to.
+/// Outcome of a run, summed over its steps.
 #[derive(Debug, Default)]
 struct Outcome {
     steps: u32,
@@ -184,7 +184,7 @@ fn plain<T: Real, C: Cliques>(cliques: &C) -> Multifrontal<T> {
     Multifrontal::analyse(cliques, mbs_sparse::Options::default())
 }
 
-/// The larger one; what is not a number is larger than all.
+/// Returns the larger number; what is not a number is larger than all.
 fn worse(a: f64, b: f64) -> f64 {
     if b <= a { a } else { b }
 }
@@ -212,7 +212,7 @@ impl<T: Real> Energy<T> {
     }
 }
 
-/// What reading the clock takes [s].
+/// Measures the time that reading the clock takes [s].
 fn reading() -> f64 {
     /// Readings that are timed together [-], as one alone is too short for the clock.
     const TIMES: u32 = 10_000;

@@ -1,4 +1,4 @@
-//! How far apart two solutions are.
+//! Distance of two solutions.
 
 /// Largest difference of two vectors over the largest number of the first.
 pub(crate) fn distance(a: &[f64], b: &[f64]) -> f64 {

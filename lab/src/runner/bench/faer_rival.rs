@@ -25,7 +25,7 @@ pub(crate) struct Rival {
 }
 
 impl Rival {
-    /// Entry by entry: the faster way for the small fronts of mechanisms.
+    /// Analyses entry by entry: the faster way for the small fronts of mechanisms.
     #[allow(dead_code, reason = "one of the programs names the way itself")]
     pub(crate) fn analyse(sum: &impl Cliques) -> Self {
         Self::analyse_by(sum, SupernodalThreshold::FORCE_SIMPLICIAL)

@@ -19,7 +19,7 @@ impl Runner for Inside<'_> {
     }
 }
 
-/// Nothing, twice.
+/// Joins two pieces of no work.
 fn fork(team: &impl Team) {
     let both = team.join(|| std::hint::black_box(1), || std::hint::black_box(2));
     std::hint::black_box(both);

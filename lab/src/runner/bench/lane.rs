@@ -12,7 +12,7 @@ use mbs_parallel::Pool;
 use mbs_sparse::Multifrontal;
 use serde_json::{Value, json};
 
-/// Which of the augmented Lagrangian formulations is stepped, at a fixed length.
+/// Augmented Lagrangian formulation that is stepped, at a fixed length.
 #[derive(Debug, Clone, Copy)]
 #[allow(clippy::large_enum_variant, reason = "there is one in each lane")]
 pub(crate) enum Method {
@@ -22,7 +22,7 @@ pub(crate) enum Method {
 }
 
 impl Method {
-    /// That of a name; nothing for formulations that are stepped as `mbs run` does.
+    /// Finds the method of a name; nothing for formulations that are stepped as `mbs run` does.
     pub(crate) fn named(name: &str) -> Option<Self> {
         Some(match name {
             "index-1" => Self::One,
@@ -71,7 +71,7 @@ impl Sums {
         self.solves += u64::from(report.solves);
     }
 
-    /// Of one step.
+    /// Returns the counts as JSON, averaged over the steps.
     pub(crate) fn json(&self) -> Value {
         #[allow(clippy::cast_precision_loss, reason = "counts of steps")]
         let each = |sum: u64| sum as f64 / self.steps.max(1) as f64;
@@ -82,12 +82,12 @@ impl Sums {
     }
 }
 
-/// What works, by name and number.
+/// Name of what works: its team with the number of threads, and its order.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Name {
     pub(crate) team: &'static str,
     pub(crate) threads: usize,
-    /// Order of elimination.
+    /// Order of elimination, by name.
     pub(crate) order: String,
 }
 
@@ -100,7 +100,7 @@ pub(crate) struct Lane<'a> {
     pub(crate) clock: Option<&'a Clock>,
     pub(crate) sums: Sums,
     steps: Steps<'a>,
-    /// Where the steps are made, if not on the caller's thread.
+    /// Pool where the steps are made, if not on the caller's thread.
     pool: Option<&'a Pool>,
 }
 
@@ -152,9 +152,9 @@ impl Runner for Lane<'_> {
 
 /// A team with its name.
 pub(crate) trait Named: Team + Send {
-    /// Its name in the lines.
+    /// Name of the team in the lines.
     fn word(&self) -> &'static str;
-    /// Where its steps are to be made.
+    /// Pool where the team's steps are to be made.
     fn pool(&self) -> Option<&Pool> {
         None
     }

@@ -1,4 +1,4 @@
-//! What a step costs and what threads gain: measured in one process, printed as lines of JSON that `cargo xtask bench` reads.
+//! Measurements of what a step costs and what threads gain: in one process, printed as lines of JSON that `cargo xtask bench` reads.
 //!
 //! ```text
 //! runner bench formulations

@@ -1,4 +1,4 @@
-//! What one step of index-3 costs and what it computes, for `cargo xtask profile`; and bare steps, for callgrind.
+//! Costs and operations of one step of index-3, for `cargo xtask profile`; and bare steps, for callgrind.
 //!
 //! ```text
 //! bench profile rates                    operations and bytes that this machine does in a second
@@ -127,7 +127,7 @@ fn step_line<const D: usize>(scene: &str, [from, to]: [u32; 2]) -> Result<Value,
     }))
 }
 
-/// How many elements have this many unknowns.
+/// Number of elements by their number of unknowns.
 fn cliques(model: &impl Cliques) -> BTreeMap<usize, usize> {
     let mut sizes = BTreeMap::new();
     for e in 0..model.n_elements() {
@@ -165,7 +165,7 @@ fn timed<const D: usize>(walk: &Plain<D>, n: u32) -> Result<(f64, Sums), String>
     }
 }
 
-/// The same steps by numbers that count.
+/// Makes the same steps by numbers that count their operations.
 fn counted<const D: usize>(scene: &str, [from, to]: [u32; 2]) -> Result<(Tally, Sums), String> {
     let prepared = Prepared::<D, Counted>::new(scenes::read(scene)?)?;
     let (tally, mut sums) = (Tally::default(), Sums::default());
@@ -179,13 +179,13 @@ fn counted<const D: usize>(scene: &str, [from, to]: [u32; 2]) -> Result<(Tally, 
     Ok((tally, sums))
 }
 
-/// What a step reads and writes, in numbers of eight bytes.
+/// Sizes of what a step reads and writes, in numbers of eight bytes.
 struct Sizes {
     counters: Counters,
-    /// Of the Jacobian, and of all terms.
+    /// Numbers of the Jacobian, and of all terms.
     jacobian: usize,
     terms: usize,
-    /// State and scratch.
+    /// Numbers of state and scratch.
     vectors: usize,
 }
 

@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 use std::time::Instant;
 
-/// What is measured: it does its work this many times.
+/// Subject of a measurement: it does its work this many times.
 pub(crate) trait Runner {
     /// Works `n` times, and says how long that took [s].
     ///
@@ -31,7 +31,7 @@ impl Timing {
         Self { median, quartiles: [low, high], rounds: samples.len(), batch }
     }
 
-    /// As keys of a line.
+    /// Returns the timing as keys of a line.
     pub(crate) fn json(&self) -> Value {
         json!({ "seconds": self.median, "quartiles": self.quartiles, "rounds": self.rounds, "batch": self.batch })
     }

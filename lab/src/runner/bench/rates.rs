@@ -1,4 +1,4 @@
-//! What this machine does in a second at best, as this program is compiled: products and sums, and bytes read.
+//! Rates of this machine at best, as this program is compiled: products and sums, and bytes read in a second.
 //!
 //! ```text
 //! packed:   x <- x p + s for 28 numbers in registers, none waiting for another

@@ -1,15 +1,15 @@
-//! What the command line asks for, and the lines that answer it.
+//! Requests on the command line, and the lines that answer them.
 //!
 //! Its test reaches no measurement, so that a test of this crate compiles no solver.
 
 use serde_json::Value;
 
-/// What is measured.
+/// Subject of the measurement.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Job {
     /// The formulations there are.
     Formulations,
-    /// What a fork of a team costs.
+    /// The cost of a fork of a team.
     Forks,
     /// A printed form in 16 or 32 digits.
     Digits(Vec<String>),
@@ -19,7 +19,7 @@ pub(crate) enum Job {
     Scene { scene: String, formulations: String },
 }
 
-/// How it is measured.
+/// Options of a job's measurements.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Request {
     /// Sizes of teams; one is always measured.

@@ -65,7 +65,7 @@ pub(crate) struct Prepared<const D: usize, T: Real = f64> {
     /// Step of the scene [s], and how many make its run.
     pub(crate) dt: f64,
     pub(crate) n_steps: u32,
-    /// What model and start took [s].
+    /// Time that model and start took [s].
     seconds: f64,
 }
 

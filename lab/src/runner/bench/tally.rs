@@ -15,7 +15,7 @@ impl Default for Tally {
 }
 
 impl Tally {
-    /// Begins anew.
+    /// Begins the counts anew.
     pub(crate) fn forget(&self) {
         done();
         if let Ok(mut sums) = self.0.lock() {

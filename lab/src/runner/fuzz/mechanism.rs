@@ -43,7 +43,7 @@ pub(crate) fn mechanism(dice: &mut Dice) -> String {
     to_toml(&scene(dice)).unwrap_or_default()
 }
 
-/// A mechanism: one to six bodies, about as many joints as make a tree or some loops, a few effects.
+/// Makes a mechanism: one to six bodies, about as many joints as make a tree or some loops, a few effects.
 fn scene(dice: &mut Dice) -> Scene<Number> {
     let dimension = [Dimension::Planar, Dimension::Spatial][dice.below(2)];
     let bodies = 1 + dice.below(6);

@@ -1,5 +1,5 @@
-//! What is read beside a scene, with bytes and numbers changed: tables of references, sweeps, price lists. Each is refused with words, or
-//! read.
+//! Files that are read beside a scene, with bytes and numbers changed: tables of references, sweeps, price lists. Each is refused with
+//! words, or read.
 
 use crate::fuzz::mutate::mutated;
 use crate::fuzz::torn::damage;
@@ -80,7 +80,7 @@ fn sweep(scene: &Scene<f64>) -> String {
     )
 }
 
-/// What `mbs explain` says of effects.
+/// Writes a price list of effects, as `mbs explain` has it.
 fn prices(scene: &Scene<f64>) -> String {
     let effect = scene.effects.first().map_or("none", |effect| &effect.name);
     format!(

@@ -40,16 +40,16 @@ fn tried() -> (Vec<[&'static str; 3]>, usize) {
 /// 1e20 N/m, the stiffest of the texts so far, `rk853` then takes three seconds; of 1e-2 it took ten minutes.
 const SHORTER: f64 = 1e-4;
 
-/// What became of a text.
+/// Verdict on a text.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Verdict {
-    /// It is no scene, and was refused with words.
+    /// The text is no scene, and was refused with words.
     Refused,
-    /// It was run.
+    /// The scene was run.
     Ran {
-        /// Completed.
+        /// Number of runs that were completed.
         completed: usize,
-        /// Stopped.
+        /// Number of runs that stopped.
         stopped: usize,
     },
     /// Something that must not be; what.

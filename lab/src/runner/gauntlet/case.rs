@@ -2,35 +2,35 @@
 
 use crate::gauntlet::vector::{Point, Turn};
 
-/// A hard case.
+/// A hard case, with its step and its truth.
 #[derive(Debug)]
 pub struct Case {
-    /// The scene.
+    /// Text of the scene.
     pub scene: String,
     /// Step, the largest where lengths are controlled [s].
     pub step: f64,
     /// Length by which errors are measured [m]; 1 where outputs are angles.
     pub size: f64,
-    /// How it is run, beside formulation and step.
+    /// Options of the run, beside formulation and step.
     pub options: Options,
-    /// What is right.
+    /// Truth that the outputs are judged by.
     pub truth: Truth,
 }
 
-/// How a case is run.
+/// Options of the run of a case.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Options {
-    /// In single precision.
+    /// Is the run in single precision?
     pub is_single: bool,
     /// Fixed penalty of the augmented formulations.
     pub penalty: Option<f64>,
 }
 
-/// What the outputs of a case are compared with.
+/// Truth that the outputs of a case are compared with.
 pub enum Truth {
     /// A closed form: all outputs at a time [s], in the order of the scene.
     Closed(Box<dyn Fn(f64) -> Vec<f64>>),
-    /// The same motion without the difficulty: its scene, and what carries its outputs to those of the case.
+    /// The motion of a twin without the difficulty: its scene, and the image that carries its outputs to those of the case.
     Twin(String, Image),
     /// The case itself, in another formulation at a tenth of the step.
     Others,
@@ -52,10 +52,10 @@ impl std::fmt::Debug for Truth {
     }
 }
 
-/// What carries a point of the twin to the case: a turn, then a change of units.
+/// Image of a point of the twin in the case: a turn, then a change of units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Image {
-    /// The turn.
+    /// Turn from the twin to the case.
     pub turn: Turn,
     /// Units of length of the case in one of the twin.
     pub scale: f64,
@@ -64,7 +64,7 @@ pub struct Image {
 }
 
 impl Image {
-    /// Nothing changes.
+    /// Makes the image that changes nothing.
     #[must_use]
     pub fn same(dimension: usize) -> Self {
         let turn = Turn([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);

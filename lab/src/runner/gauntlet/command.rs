@@ -39,7 +39,7 @@ fn number(text: &str) -> Result<u64, String> {
     text.parse().map_err(|e| format!("`{text}`: {e}"))
 }
 
-/// A line; a reader that has gone away is no error.
+/// Prints a line; a reader that has gone away is no error.
 fn print_line(line: &str) {
     let mut out = std::io::stdout().lock();
     let _ = writeln!(out, "{line}").and_then(|()| out.flush());
@@ -66,7 +66,7 @@ fn cases_of(numbers: &[&str]) -> Result<(), String> {
     Ok(())
 }
 
-/// What became of a case.
+/// Judges a case; returns the verdicts on all methods.
 fn verdicts_of((family, seed): (&Family, u64), about: &mut dyn FnMut(&str)) -> Value {
     let case = family.case(seed);
     let verdicts: serde_json::Map<String, Value> = judge(&case, about)

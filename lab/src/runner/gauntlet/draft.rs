@@ -10,29 +10,29 @@ pub const GROUND: usize = 0;
 /// Mass and shape of a body.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Body {
-    /// Mass [kg].
+    /// Mass of the body [kg].
     pub mass: f64,
-    /// Where it is.
+    /// Shape of the mass.
     pub shape: Shape,
 }
 
-/// Where the mass of a body is.
+/// Shape of the mass of a body.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Shape {
-    /// On a line.
+    /// Mass on a line between two points.
     Rod([Point; 2]),
-    /// About a centre: [xx, yy, zz, xy, yz, zx] about it [kg m^2]; of a planar body only zz counts.
+    /// Mass about a centre: [xx, yy, zz, xy, yz, zx] about it [kg m^2]; of a planar body only zz counts.
     Solid(Point, [f64; 6]),
 }
 
 /// A joint: the second body moves relative to the first.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Joint {
-    /// Its kind in scenes.
+    /// Kind of the joint in scenes.
     pub kind: &'static str,
-    /// Bodies.
+    /// Numbers of the first and the second body.
     pub bodies: [usize; 2],
-    /// Its place; of a distance joint one on each body.
+    /// Place of the joint; of a distance joint one on each body.
     pub at: Vec<Point>,
     /// None, one or two.
     pub axes: Vec<Point>,
@@ -41,17 +41,17 @@ pub struct Joint {
 /// A mechanism with the start of its motion.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Draft {
-    /// 2 or 3.
+    /// Dimension: 2 or 3.
     pub dimension: usize,
-    /// Gravity [m/s^2].
+    /// Acceleration of gravity [m/s^2].
     pub gravity: Point,
-    /// Bodies, from 1.
+    /// Bodies, numbered from 1.
     pub bodies: Vec<Body>,
-    /// Joints.
+    /// Joints of the mechanism.
     pub joints: Vec<Joint>,
     /// Joint, rate at the start.
     pub rates: Vec<(usize, f64)>,
-    /// Effects.
+    /// Effects on the bodies.
     pub effects: Vec<Effect>,
     /// Points of bodies whose motion is looked at.
     pub outputs: Vec<(usize, Point)>,
@@ -78,7 +78,7 @@ impl Draft {
         Self { dimension: 3, gravity: [0.0, 0.0, -9.81], ..Self::planar() }
     }
 
-    /// A thin rod; in space with a thickness of a twentieth of its length.
+    /// Adds a thin rod; in space with a thickness of a twentieth of its length.
     pub fn rod(&mut self, from: Point, to: Point, mass: f64) -> usize {
         let shape = if self.dimension == 2 { Shape::Rod([from, to]) } else { bar(from, to, mass) };
         self.bodies.push(Body { mass, shape });
@@ -92,7 +92,7 @@ impl Draft {
         self.bodies.len()
     }
 
-    /// A joint; its number.
+    /// Adds a joint; returns its number.
     pub fn joint(
         &mut self,
         kind: &'static str,
@@ -155,7 +155,7 @@ impl Draft {
         places.iter().map(apart).fold(0.0, f64::max)
     }
 
-    /// The same in space, its plane the x-y plane, with an axis for each joint.
+    /// Returns the mechanism in space, its plane the x-y plane, with an axis for each joint.
     #[must_use]
     pub fn raised(&self) -> Self {
         let mut draft = self.clone();
@@ -192,7 +192,7 @@ impl Draft {
         draft
     }
 
-    /// The same mechanism in other units of length and mass (1 m is `length` of them); the second stays. There are no effects.
+    /// Returns the mechanism in other units of length and mass (1 m is `length` of them); the second stays. There are no effects.
     #[must_use]
     pub fn in_units(&self, length: f64, mass: f64) -> Self {
         let mut draft = self.clone();

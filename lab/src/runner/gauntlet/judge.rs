@@ -1,4 +1,4 @@
-//! Who is right: each method against a reference that is not its own, by the error of the trapezoidal rule at that step.
+//! Judgement of each method: against a reference that is not its own, by the error of the trapezoidal rule at that step.
 //!
 //! A method is *wrong* where its outputs differ from the reference by more than ten times the rule's own error at that step and more than
 //! rounding. It is not where it has a typed error, or where the difference falls with the square of the step. The rule's own error is the
@@ -31,34 +31,34 @@ const SMALLER: [f64; 5] = [0.9, 0.8, 0.7, 0.6, 0.5];
 /// Most formulations that references are taken from. Chosen, not tuned.
 const N_REFERENCES: usize = 4;
 
-/// They, in this order.
+/// Formulations that references are taken from, in this order.
 fn reference_methods() -> Vec<&'static str> {
     FormulationKind::references().into_iter().take(N_REFERENCES).map(|f| f.name()).collect()
 }
 
-/// What a method came to.
+/// Verdict on a method in a case.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Verdict {
-    /// As near as the rule: the error, in sizes of the case.
+    /// Outputs as near as the rule: the error, in sizes of the case.
     Right(f64),
-    /// As near as the rule, which is far off at this step.
+    /// Outputs as near as the rule, which is far off at this step.
     Coarse(f64),
     /// Further off than the others allow, by an error that falls with the square of the step: the rule's own in these coordinates.
     Apart(f64),
-    /// A typed error: its code, and when [s].
+    /// Code of a typed error, and when [s].
     Stopped(String, f64),
     /// Completed with its energy and closed joints, which is all that can be known of a long motion.
     Kept,
     /// Completed, finite, with its energy, and nothing to compare it with.
     Unjudged,
-    /// What must not be.
+    /// Reason of a result that must not be.
     Wrong(String),
 }
 
 type Row = (f64, Vec<f64>);
 type Rows = Vec<Row>;
 
-/// What is right, and the formulation that says so, if any does.
+/// True rows, and the formulation that gave them, if one did.
 struct Reference {
     method: Option<&'static str>,
     rows: Rows,
@@ -127,8 +127,8 @@ fn verdict(
     }
 }
 
-/// What the others are off by at most at somewhat smaller steps: where that is more, their errors at the step were small by luck. A
-/// contact or a break is met at another part of a step there, and the error of the rule goes with that part.
+/// Largest error of the others at somewhat smaller steps: where that is more, their errors at the step were small by luck. A contact or a
+/// break is met at another part of a step there, and the error of the rule goes with that part.
 fn at_smaller(case: &Case, method: &str, references: &[Reference]) -> f64 {
     let others: Vec<&'static str> =
         reference_methods().into_iter().filter(|m| *m != method).collect();
@@ -155,8 +155,8 @@ fn is_of_the_rule(case: &Case, method: &str, error: f64, reference: &[Row]) -> b
     fine.is_some_and(|(finer, fine)| is_square(error / fine, finer))
 }
 
-/// The same of an error of the size of the motion, where no law holds yet. From a tenth of the step on it falls like that. Its limit is the
-/// reference, as exact as that can be with its own steps of a tenth.
+/// Is an error of the size of the motion that of a rule of second order? No law holds for it yet, but from a tenth of the step on it falls
+/// like that. Its limit is the reference, as exact as that can be with its own steps of a tenth.
 fn is_of_the_rule_later(case: &Case, method: &str, error: f64, reference: &[Row]) -> bool {
     let finer = [FINER, FINER * THIRD, FINER * THIRD * THIRD];
     let [Some(tenth), Some(finer), Some(finest)] = finer.map(|f| at_part(case, method, f)) else {
@@ -188,7 +188,7 @@ fn of_another<'a>(references: &'a [Reference], method: &str) -> Option<&'a Refer
     references.iter().find(|reference| reference.method != Some(method))
 }
 
-/// What is right, twice where formulations say so, so that each method has another's.
+/// Finds the references, two where formulations give them, so that each method has another's.
 fn references(
     case: &Case,
     ran: &[(&'static str, Ran)],
@@ -279,7 +279,7 @@ fn runs(
     methods.iter().filter_map(one).collect()
 }
 
-/// What each is off by.
+/// Error of each method against the reference of another.
 fn errors<'a>(
     ran: impl Iterator<Item = (&'static str, &'a [Row])>,
     references: &[Reference],
@@ -319,7 +319,7 @@ fn image_of(rows: &[Row], image: &Image) -> Rows {
     rows.iter().map(|(t, row)| (*t, image.of(row))).collect()
 }
 
-/// Of an even number the lower of the two in the middle.
+/// Median of numbers; of an even number of them the lower of the two in the middle.
 fn lower_median(mut numbers: Vec<f64>) -> Option<f64> {
     numbers.sort_by(f64::total_cmp);
     (!numbers.is_empty()).then(|| numbers[(numbers.len() - 1) / 2])

@@ -14,23 +14,23 @@ pub fn methods() -> impl Iterator<Item = &'static str> {
 /// Largest error of an invariant, relative to the exchanged energy [-]. Chosen, not tuned.
 const MOST_ENERGY: f64 = 0.1;
 
-/// What a run came to.
+/// Outcome of a run.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Ran {
-    /// To its end.
+    /// The run came to its end.
     Completed {
         /// Rows of time and outputs.
         rows: Vec<(f64, Vec<f64>)>,
-        /// How far joints were open at most [m, rad].
+        /// Largest opening of joints [m, rad].
         violation: f64,
         /// The largest share of the energy turned over that the invariant was off by, for however short a time.
         energy: f64,
     },
     /// To a typed error.
     Stopped {
-        /// Its code.
+        /// Code of the error.
         code: String,
-        /// When [s].
+        /// Time of the stop [s].
         time: f64,
     },
     /// To what must not be: a panic, a number that is none, energy out of nothing, an error without its words.
@@ -49,7 +49,7 @@ impl Ran {
 }
 
 thread_local! {
-    /// What the last panic of this thread said.
+    /// Words of the last panic of this thread.
     static LAST_PANIC: RefCell<String> = const { RefCell::new(String::new()) };
 }
 

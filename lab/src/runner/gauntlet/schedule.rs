@@ -1,4 +1,4 @@
-//! Which case has which number: all families in turn, those that take long in some rounds only.
+//! Schedule of the cases by number: all families in turn, those that take long in some rounds only.
 
 use crate::gauntlet::families::{FAMILIES, Family, LONG_FAMILIES};
 

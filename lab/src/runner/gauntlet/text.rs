@@ -5,7 +5,7 @@ use mbs::core::scene::{Dimension, JointKind, Scene};
 use mbs::scene_file::to_toml;
 use mbs::{InitialCondition, JointId, Output};
 
-/// The scene: outputs are the positions of the points that are watched.
+/// Writes the scene: outputs are the positions of the points that are watched.
 #[must_use]
 pub fn text(draft: &Draft, name: &str, duration: f64) -> String {
     let initial = |(joint, rate): &(usize, f64)| {

@@ -9,18 +9,19 @@ pub fn plus(a: Point, s: f64, b: Point) -> Point {
     [0, 1, 2].map(|i| a[i] + s * b[i])
 }
 
-/// a . b.
+/// Returns the inner product a . b.
 #[must_use]
 pub fn dot(a: Point, b: Point) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-/// a x b.
+/// Returns the cross product a x b.
 #[must_use]
 pub fn cross(a: Point, b: Point) -> Point {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
+/// Returns the distance |a - b|.
 /// |a - b|.
 #[must_use]
 pub fn distance(a: Point, b: Point) -> f64 {
@@ -48,7 +49,7 @@ impl Turn {
         Self([0, 1, 2].map(|i| [0, 1, 2].map(|j| columns[j][i])))
     }
 
-    /// R x.
+    /// Returns the turned vector R x.
     #[must_use]
     pub fn of(&self, x: Point) -> Point {
         self.0.map(|row| dot(row, x))

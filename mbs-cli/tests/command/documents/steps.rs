@@ -1,11 +1,12 @@
-//! What a document asks of its reader, in order: files, changes of files, commands, outputs to look at.
+//! Steps that a document asks of its reader, in order: files, changes of files, commands, outputs to look at.
 
 use std::path::Path;
 
 /// A fence of a document, or a line of it.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) enum Step {
-    /// A line of a fence `sh` that calls `mbs`, `cp`, `cmp` or `cut`; `cargo mbs` and `cargo xtask simulate` are `mbs`. Its status: 0, or `# status N`.
+    /// A line of a fence `sh` that calls `mbs`, `cp`, `cmp` or `cut`; `cargo mbs` and `cargo xtask simulate` are `mbs`. Its status: 0, or
+    /// `# status N`.
     Command { text: String, status: i32 },
     /// A fence `toml NAME`: the file's text.
     File { name: String, text: String },

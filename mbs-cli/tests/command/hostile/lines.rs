@@ -169,7 +169,7 @@ const OUTPUTS: &[Line] = &[
     ("$M run p.toml --no-estimate <&-", 0, ""),
 ];
 
-/// What the lines speak of.
+/// Makes the files and folders that the lines name.
 fn hostile(name: &str) -> Place {
     let place = Place::new(name);
     let scene = place.read("p.toml");

@@ -20,7 +20,7 @@ use crate::model::State;
 use crate::natural::{Affine, unwrap_rotation};
 use crate::scene::BodyId;
 
-/// Where a wrench acts on both bodies (`None`: a moment alone), and the wrench on the first.
+/// Points at which a wrench acts on both bodies (`None`: a moment alone), and the wrench on the first.
 type Pull<T> = ([Option<Vector<T, 3>>; 2], Wrench<T>);
 
 impl<T: Real, const D: usize> Load<T, D> {
@@ -80,7 +80,7 @@ impl<T: Real, const D: usize> Load<T, D> {
 }
 
 impl<T: Real, const D: usize> Measure<T, D> {
-    /// What a law pulls with at a state; `axes`: the first body's rotation. Nothing at length zero.
+    /// Pull of a law at a state; `axes`: the first body's rotation. Nothing at length zero.
     fn pull(
         &self,
         law: &Law<T>,
@@ -113,7 +113,7 @@ impl<T: Real, const D: usize> Measure<T, D> {
         })
     }
 
-    /// What a law measures at a state, and its rate; no rate at length zero.
+    /// Value that a law measures at a state, and its rate; no rate at length zero.
     pub(super) fn measure(&self, state: &State<T>) -> [T; 2] {
         match self {
             Self::Length { points } => {
@@ -169,7 +169,7 @@ pub(super) fn for_each_action<T: Real>(
     actions.iter().enumerate().for_each(|(i, action)| take(i, action));
 }
 
-/// What a law on one body sees of it, with the law's direction as it has turned.
+/// Motion of a body as a law on it sees it, with the law's direction as it has turned.
 pub(super) fn motion<T: Real, const D: usize>(
     (point, frame): (&Affine<T, D>, &Frame<T, D>),
     axis: &Vector<T, 3>,

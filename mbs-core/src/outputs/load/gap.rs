@@ -18,19 +18,19 @@ use crate::model::State;
 /// A gap [m or rad] and its rate.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Gap<T> {
-    /// The gap.
+    /// Value of the gap [m or rad].
     pub value: T,
-    /// Its rate.
+    /// Rate of the gap [m/s or rad/s].
     pub rate: T,
 }
 
 /// Gaps that one effect has at most: those of a limit, lower and upper.
 pub(in crate::outputs) const MOST_GAPS: usize = 2;
 
-/// What of an effect is watched, at a state.
+/// Watched coordinates of an effect, at a state.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(in crate::outputs) struct Reading<T> {
-    /// Its gaps, [`Load::n_gaps`] of them.
+    /// Gaps of the effect, [`Load::n_gaps`] of them.
     pub(in crate::outputs) gaps: [Gap<T>; MOST_GAPS],
     /// The coordinates of its kinks: a wheel's centre along its road and up, or a length and zero.
     pub(in crate::outputs) place: [Gap<T>; 2],
@@ -40,7 +40,7 @@ pub(in crate::outputs) struct Reading<T> {
 pub(in crate::outputs) const N_READING: usize = 8;
 
 impl<T: Real> Reading<T> {
-    /// Its numbers.
+    /// Numbers of the reading: gaps, then coordinates, each with its rate.
     pub(in crate::outputs) fn numbers(&self) -> [T; N_READING] {
         let [[a, b], [c, d]] = [self.gaps, self.place].map(|of| of.map(|g| [g.value, g.rate]));
         [a[0], a[1], b[0], b[1], c[0], c[1], d[0], d[1]]
@@ -112,7 +112,7 @@ impl<T: Real, const D: usize> Load<T, D> {
         }
     }
 
-    /// What of it is watched, at a state. Cost: one length or angle, or one wheel's nearest point of the road.
+    /// Reading of the watched coordinates, at a state. Cost: one length or angle, or one wheel's nearest point of the road.
     pub(in crate::outputs) fn reading(
         &self,
         state: &State<T>,

@@ -35,7 +35,7 @@ pub(super) struct Loads<T: Real, const D: usize> {
     tables: Tables<T>,
 }
 
-/// What one effect, or a part of one, does to the bodies.
+/// Load of one effect, or of a part of one, on the bodies.
 #[derive(Debug, Clone)]
 pub(super) enum Load<T: Real, const D: usize> {
     /// A law of what is measured between two bodies.
@@ -58,7 +58,7 @@ pub(super) enum Load<T: Real, const D: usize> {
     },
 }
 
-/// What a scalar law measures.
+/// Measure of a scalar law.
 #[derive(Debug, Clone)]
 pub(super) enum Measure<T: Real, const D: usize> {
     Length {
@@ -73,14 +73,14 @@ pub(super) enum Measure<T: Real, const D: usize> {
         /// The joint's axis, fixed in the first body, as in the reference configuration; `None`: of two axes, each in its body.
         axis: Option<Vector<T, 3>>,
         angle: Coordinate<T, D>,
-        /// Where the state remembers the angle; `None`: neither body moves.
+        /// Place at which the state remembers the angle; `None`: neither body moves.
         memory: Option<usize>,
     },
     /// A component of the rotation vector of the second body against the first.
     Rotation {
         frames: Box<[Frame<T, D>; 2]>,
         number: usize,
-        /// Where the state remembers the rotation; `None`: neither body moves.
+        /// Place at which the state remembers the rotation; `None`: neither body moves.
         memory: Option<usize>,
     },
 }
@@ -145,7 +145,7 @@ impl<T: Real, const D: usize> Loads<T, D> {
         self.prescribed.write(state.t, &state.applied, &mut [], &mut self.values);
     }
 
-    /// The effects.
+    /// Loads of the effects.
     pub(super) fn list(&self) -> &[Load<T, D>] {
         &self.list
     }

@@ -26,7 +26,7 @@ impl<T: Real, const D: usize> Load<T, D> {
         }
     }
 
-    /// What a law of one number gives; `None` of what is none.
+    /// Value, rate and tension of a law of one number; `None` of what is none.
     pub(in crate::outputs) fn scalar(
         &self,
         state: &State<T>,
@@ -38,7 +38,7 @@ impl<T: Real, const D: usize> Load<T, D> {
         Some(ScalarForce { value, rate, tension, ..ScalarForce::default() })
     }
 
-    /// Stored energy [J]; `turned` gives the rotation of a body.
+    /// Energy stored in the effect [J]; `turned` gives the rotation of a body.
     pub(in crate::outputs) fn energy(
         &self,
         (state, law_inputs): (&State<T>, &LawInputs<'_, T>),
@@ -66,7 +66,7 @@ impl<T: Real, const D: usize> Load<T, D> {
         }
     }
 
-    /// What the road does to a tire; `None` of what is none. `turned` gives the rotation of a body.
+    /// Forces of the road on a tire; `None` of what is none. `turned` gives the rotation of a body.
     pub(in crate::outputs) fn tire(
         &self,
         (state, law_inputs): (&State<T>, &LawInputs<'_, T>),

@@ -70,7 +70,7 @@ fn properties<T: Real>(
     if mass.is_zero() && !is_zero { Err(SceneFault::InertiaWithoutMass) } else { Ok(()) }
 }
 
-/// Principal moments: none negative, the largest at most the sum of the others.
+/// Checks the principal moments: none negative, the largest at most the sum of the others.
 ///
 /// Both to half the digits of `T`, relative to the largest entry: files carry tensors of turned rods and
 /// plates rounded to eight or ten digits, and those are meant.

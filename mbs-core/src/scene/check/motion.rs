@@ -145,7 +145,7 @@ pub(super) fn check_initials<T: Real>(scene: &Scene<T>) -> Result<(), SceneError
     Ok(())
 }
 
-/// Which initial entry prescribed what, by joint or body.
+/// Initial entries that prescribed values, rates and spins, by joint or body.
 struct Seen<T> {
     value: Vec<Option<usize>>,
     rate: Vec<Option<usize>>,

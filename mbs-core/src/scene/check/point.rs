@@ -9,7 +9,7 @@ use crate::effects::Value;
 use crate::natural::point_tolerance;
 use crate::scene::{BodyId, Entry, Joint, Scene, SceneError, SceneFault, SignalKind};
 
-/// Cost: nothing without points; else a pass over the scene.
+/// Checks the point masses of a scene. Cost: nothing without points; else a pass over the scene.
 pub(super) fn check<T: Real>(scene: &Scene<T>) -> Result<(), SceneError> {
     if !scene.bodies.iter().any(|body| body.is_point()) {
         return Ok(());
@@ -61,7 +61,7 @@ struct Points<'a, T: Real> {
 }
 
 impl<T: Real> Points<'_, T> {
-    /// Refuses a point.
+    /// Refuses a body that is a point mass.
     fn no_point(
         &self,
         body: BodyId,

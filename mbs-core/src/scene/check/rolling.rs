@@ -8,7 +8,7 @@ use crate::scene::{Entry, Rolling, RollingKind, Scene, SceneError, SceneFault};
 
 /// Distance from the plane that is rounding of a file's numbers [radii]. Chosen, not tuned: six digits.
 const TOUCHING: f64 = 1e-6;
-/// The same of places far from the origin, in units of their rounding [-]. Chosen, not tuned: a few sums.
+/// Distance from the plane that is rounding of places far from the origin, in units of their rounding [-]. Chosen, not tuned: a few sums.
 const ROUNDINGS: f64 = 16.0;
 
 pub(super) fn check<T: Real>(scene: &Scene<T>) -> Result<(), SceneError> {

@@ -3,7 +3,7 @@
 use crate::Real;
 use crate::scene::{Dimension, Entry, SceneError, SceneFault};
 
-/// Where a check speaks, and in which dimension.
+/// Place of a check: the entry, and the dimension of the scene.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Place {
     pub(crate) entry: Entry,
@@ -29,7 +29,7 @@ impl Place {
         if x >= T::ZERO { Ok(()) } else { self.fault(field, SceneFault::Negative(x.to_f64())) }
     }
 
-    /// Finite components; in planar scenes the third is zero.
+    /// Checks that the components are finite; in planar scenes the third is zero.
     pub(crate) fn vector<T: Real>(self, field: &'static str, v: [T; 3]) -> Result<(), SceneError> {
         for x in v {
             self.finite(field, x)?;
@@ -63,7 +63,7 @@ impl Place {
     }
 }
 
-/// The largest component.
+/// Largest absolute value of the components.
 pub(super) fn largest<T: Real>(v: [T; 3]) -> T {
     v[0].abs().max(v[1].abs()).max(v[2].abs())
 }
@@ -83,7 +83,7 @@ fn scaled<T: Real>(v: [T; 3]) -> [T; 3] {
     v.map(|x| x / size)
 }
 
-/// A planar scene.
+/// Is the scene planar?
 pub(super) fn is_planar(dimension: Dimension) -> bool {
     dimension == Dimension::Planar
 }

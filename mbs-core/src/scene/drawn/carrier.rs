@@ -23,7 +23,7 @@ pub(super) struct Element<T: Real> {
 }
 
 impl<T: Real> Element<T> {
-    /// `None`: it is no turn and no slide.
+    /// Prepares a measured coordinate; `None`: it is no turn and no slide.
     pub(super) fn new(scene: &Scene<T>, of: &CouplingMeasure<T>) -> Option<Self> {
         let &CouplingMeasure::Coordinate { joint, number } = of else { return None };
         Self::of(scene, joint, number)
@@ -210,13 +210,13 @@ pub(super) fn outer<T: Real>(scene: &Scene<T>, of: &Element<T>) -> BodyId {
     if is_first { first } else { second }
 }
 
-/// The other one.
+/// The one of a joint's bodies that is not the `outer` one.
 pub(super) fn inner<T: Real>(scene: &Scene<T>, of: &Element<T>) -> BodyId {
     let [first, second] = of.bodies;
     if outer(scene, of) == first { second } else { first }
 }
 
-/// How many joints lie between each body and the ground; `None`: none lead there.
+/// Number of joints between each body and the ground; `None`: none lead there.
 fn distances<T: Real>(scene: &Scene<T>) -> Vec<Option<usize>> {
     let place = |body: BodyId| body.index().map_or(0, |body| body + 1);
     let mut neighbours = vec![Vec::new(); scene.bodies.len() + 1];

@@ -1,4 +1,4 @@
-//! What a run notes of couplings that mean something else than in version 0.1.
+//! Notes of a run on couplings that mean something else than in version 0.1.
 
 use crate::Real;
 use crate::measure::MeshedWheels;
@@ -7,7 +7,7 @@ use alloc::format;
 use alloc::string::String;
 
 impl<T> Scene<T> {
-    /// What is to be known of the couplings of a resolved scene whose sums are not those of version 0.1, or that are not drawn.
+    /// Notes on the couplings of a resolved scene whose sums are not those of version 0.1, or that are not drawn.
     pub fn sense_notes(&self) -> impl Iterator<Item = (CouplingId, String)> {
         let noted = self.couplings.iter().enumerate();
         noted.filter_map(|(i, coupling)| {

@@ -15,7 +15,7 @@ const ROAD: [Feature<f64>; 2] = [
     Feature::Rise { start: 1.0, length: 8.0, height: 1.6, rounding: 1.0 },
     Feature::Bump { start: 4.0, length: 3.0, amplitude: 0.05 },
 ];
-/// Where the road is level, bends up, is straight, and is on the bump.
+/// Places at which the road is level, bends up, is straight, and is on the bump [m].
 const PLACES: [f64; 4] = [0.3, 1.4, 3.0, 5.1];
 
 fn wheel(leans: bool) -> TireLaw<f64> {

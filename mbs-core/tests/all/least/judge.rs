@@ -18,7 +18,7 @@ pub(super) struct Body {
 
 pub(super) struct Joint {
     pub(super) kind: &'static str,
-    /// The body before; `None`: the ground. The joint's own number is the body that it carries.
+    /// Body before the joint; `None`: the ground. The joint's own number is the body that it carries.
     pub(super) first: Option<usize>,
     pub(super) at: V,
     pub(super) axes: [V; 2],
@@ -102,7 +102,7 @@ fn solve(mut a: Vec<Vec<f64>>, mut b: Vec<f64>) -> Vec<f64> {
 }
 
 impl Joint {
-    /// Its single freedoms as turns and slides: axes in the reference configuration.
+    /// Single freedoms of the joint as turns and slides: axes in the reference configuration.
     fn freedoms(&self) -> Vec<(bool, V)> {
         let [a, b] = self.axes;
         match self.kind {
@@ -166,7 +166,7 @@ impl Mechanism {
         joint == body || self.joints[body].first.is_some_and(|first| self.carries(joint, first))
     }
 
-    /// What a freedom moves at a point of a body.
+    /// Velocity of a point of a body at a rate of one of a freedom.
     fn moves(&self, column: &Column, body: Option<usize>, point: V) -> V {
         match body {
             Some(body) if self.carries(column.joint, body) => {

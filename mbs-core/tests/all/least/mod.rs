@@ -10,13 +10,12 @@ use mbs_core::start::assemble;
 use mbs_sparse::{Multifrontal, Options};
 use mbs_testkit::{Random, scene_in};
 
-/// What follows is right to this, relative to the size and to the largest rate; ten roundings of the hundredfold condition of the joints
-/// are a hundredth of it.
+/// Error allowed, relative to the size and to the largest rate; ten roundings of the hundredfold condition of the joints are a hundredth of it.
 const RIGHT: f64 = 1e-10;
-/// The same in single precision.
+/// Error allowed in single precision, relative to the size and to the largest rate.
 const RIGHT_IN_F32: f64 = 1e-4;
 
-/// What a body is found to do: centre, two directions, and their rates.
+/// Motion found for each body: centre, two directions, and their rates.
 type Found = Vec<[V; 6]>;
 
 fn unit(x: V) -> V {
@@ -155,7 +154,7 @@ fn text(m: &Mechanism, size: f64, mass: f64) -> String {
     text
 }
 
-/// What the library finds, in units of size one; nothing where it refuses.
+/// Motion that the library finds, in units of size one; nothing where it refuses.
 fn found<T: Real, const D: usize>(m: &Mechanism, size: f64, mass: f64) -> Found {
     let text = text(m, size, mass);
     let scene = scene_in::<T>(&text);
@@ -187,7 +186,7 @@ fn found<T: Real, const D: usize>(m: &Mechanism, size: f64, mass: f64) -> Found 
     (0..m.bodies.len()).map(all).collect()
 }
 
-/// What the judge finds; `None` where its way ends.
+/// Motion that the judge finds; `None` where its way ends.
 fn expected(m: &Mechanism) -> Option<Found> {
     let (poses, z) = m.positions()?;
     let rates = m.velocities(&z);

@@ -29,7 +29,7 @@ fn ring(axes: &[[f64; 3]]) -> Scene<f64> {
     Scene { bodies: bodies.collect(), joints, ..Scene::empty("", Dimension::Spatial, 1.0) }
 }
 
-/// The axis z.
+/// Direction of the axis z.
 const Z: [f64; 3] = [0.0, 0.0, 1.0];
 
 #[test]

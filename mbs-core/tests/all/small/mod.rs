@@ -8,7 +8,7 @@ use mbs_core::scene::{
 };
 use mbs_testkit::scenes::empty;
 
-/// The fixed frame.
+/// Body of the fixed frame.
 pub(crate) const GROUND: BodyId = BodyId::Ground;
 
 /// A scene without bodies.
@@ -57,7 +57,7 @@ pub(crate) fn hold(scene: &mut Scene<f64>, joint: usize, value: &[f64], rate: &[
     });
 }
 
-/// Guides a joint.
+/// Guides the first coordinate of a joint by a law.
 pub(crate) fn guide(scene: &mut Scene<f64>, joint: usize, law: Motion<f64>) {
     scene.guides.push(Guide { joint: JointId::new(joint), number: 0, law });
 }

@@ -2,7 +2,7 @@
 
 use mbs_core::inside::start::{pivoted_rank, sparse_rank};
 
-/// The same numbers in (-1/2, 1/2) on every machine.
+/// Pseudorandom number in (-1/2, 1/2), the same on every machine.
 fn random(state: &mut u32) -> f64 {
     *state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
     f64::from(*state) / f64::from(u32::MAX) - 0.5

@@ -6,7 +6,7 @@ use crate::Real;
 /// A, its eigenvalues, and the basis in which it is diagonal: see [`Coefficients::new`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Coefficients<T> {
-    /// c.
+    /// Nodes c of the stages.
     pub(super) nodes: [T; 3],
     /// Real eigenvalue γ of A⁻¹.
     pub(super) real: T,
@@ -14,7 +14,7 @@ pub(super) struct Coefficients<T> {
     pub(super) complex: Complex<T>,
     /// Columns t₁, t₂, t₃ with A⁻¹ t₁ = γ t₁ and A⁻¹ (t₂ + i t₃) = (α − i β)(t₂ + i t₃).
     pub(super) basis: [[T; 3]; 3],
-    /// Its inverse.
+    /// Inverse of the basis.
     pub(super) inverse: [[T; 3]; 3],
     /// Weights d of the stages in the error f + Σ dᵢ zᵢ / h.
     pub(super) error: [T; 3],

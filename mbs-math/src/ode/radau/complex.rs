@@ -51,7 +51,7 @@ pub(super) trait Number<T>:
     Copy + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
 {
     fn of(x: T) -> Self;
-    /// |re| + |im|.
+    /// Size |re| + |im| of the number.
     fn size(self) -> T;
 }
 

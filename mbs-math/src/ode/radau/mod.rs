@@ -58,7 +58,7 @@ pub struct Radau<T> {
     evaluations: u64,
 }
 
-/// What a [`Radau`] remembers from step to step.
+/// History of a [`Radau`] from step to step.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct RadauHistory<T> {
     /// J, row by row.

@@ -8,7 +8,7 @@ use crate::ode::Rates;
 use alloc::vec;
 use alloc::vec::Vec;
 
-/// Most iterations [-]: from the published range of 7 to 10 (Hairer and Wanner II, IV.8).
+/// Most iterations of a step [-]: from the published range of 7 to 10 (Hairer and Wanner II, IV.8).
 const MAX_ITERATIONS: i32 = 8;
 /// Largest remaining error of the iteration, in tolerances of the step [-]: from the published range of 0.01 to 0.1 (IV.8).
 const MAX_REMAINDER: f64 = 0.03;
@@ -31,9 +31,9 @@ pub(super) enum End {
 /// Stages, in n numbers each, and what the iteration needs.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Newton<T> {
-    /// z₁, z₂, z₃.
+    /// Stages z₁, z₂, z₃.
     pub(super) z: Vec<T>,
-    /// The same in the basis of the eigenvectors.
+    /// Stages in the basis of the eigenvectors.
     w: Vec<T>,
     pub(super) rates: Vec<T>,
     pub(super) stage: Vec<T>,

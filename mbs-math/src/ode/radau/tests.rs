@@ -150,7 +150,7 @@ fn pairs_reach_20_digits() {
     assert!(off < 1e-19, "{off:e}");
 }
 
-/// Where the slopes are those of the whole motion, they are found once, and the matrices of one length of step made once.
+/// Slopes that are those of the whole motion are found once, and the matrices of one length of step made once.
 #[test]
 fn slopes_and_factors_are_kept_while_they_serve() {
     let mut y = [0.0, 1.0];
@@ -209,7 +209,7 @@ fn a_stiff_contact_that_ends_is_not_held_by_its_slopes() {
     }
 }
 
-/// Where nothing is absolute, a component that begins with nothing has no tolerance yet.
+/// A component that begins with nothing has no tolerance yet, where nothing is absolute.
 #[test]
 fn a_relative_tolerance_alone_is_one() {
     let (mut driver, mut y) = (Adaptive::new(Radau::new(2, 1), 1e-3), [1.0, 0.0]);

@@ -14,7 +14,7 @@ pub(crate) fn us(n: u64) -> Duration {
     Duration::from_micros(n)
 }
 
-/// Instants in milliseconds.
+/// Instants at these times in milliseconds.
 pub(crate) fn at(times: &[u64]) -> Vec<Duration> {
     times.iter().map(|&t| ms(t)).collect()
 }

@@ -90,7 +90,7 @@ impl<S: Space<f64>> Run<S> {
         self.drift_of(n, |run| run.step(dt))
     }
 
-    /// The same for other steps.
+    /// The largest change of the invariant over `n` steps of any kind.
     pub(crate) fn drift_of(
         &mut self,
         n: u32,
@@ -126,7 +126,7 @@ impl<S: Space<f64>> Run<S> {
         )
     }
 
-    /// The same of order 8.
+    /// Error control over `dt` by the Runge-Kutta method of order 8.
     pub(crate) fn rk853(&mut self, dt: f64) -> Result<StepReport<f64>, StepError> {
         mbs_recursive::rk853_step(
             &self.model,
@@ -137,7 +137,7 @@ impl<S: Space<f64>> Run<S> {
         )
     }
 
-    /// The same by collocation at Radau points.
+    /// Error control over `dt` by collocation at Radau points.
     pub(crate) fn radau5(&mut self, dt: f64) -> Result<StepReport<f64>, StepError> {
         mbs_recursive::radau5_step(
             &self.model,

@@ -1,13 +1,13 @@
-//! What is said of a drawn coupling whose parts no body carries.
+//! Message and hint for a drawn coupling whose parts no body carries.
 
-/// What is wrong: the bodies that carry one part each, and the joint about whose axis one would have to turn on the other.
+/// Message of the fault: the bodies that carry one part each, and the joint about whose axis one would have to turn on the other.
 pub(crate) fn no_carrier([one, other]: &[String; 2], joint: &str) -> String {
     format!(
         "no body carries both axes: `{other}` does not turn on `{one}` about the axis of `{joint}`"
     )
 }
 
-/// What to do.
+/// Hint that names the joint to add.
 pub(crate) fn joint_to_add([one, other]: &[String; 2], joint: &str) -> String {
     format!(
         "add a joint between `{one}` and `{other}` on the axis of `{joint}`, or write the sum as `linear`"

@@ -6,16 +6,16 @@ use crate::read::fields::{Fields, Read};
 use crate::read::tree::Item;
 use mbs_core::scene::{CouplingMeasure, CouplingTerm, Freedom, Joint, JointId, Number};
 
-/// What a kind takes of a joint.
+/// Coordinate that a kind takes of a joint.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Needed {
-    /// Its one turn about an axis.
+    /// The one turn of the joint about an axis.
     Turn,
-    /// Its one slide.
+    /// The one slide of the joint.
     Slide,
-    /// Its only coordinate.
+    /// The only coordinate of the joint.
     Only,
-    /// The same, where a key can name one of several.
+    /// The only coordinate of the joint, where a key can name one of several.
     Named,
 }
 

@@ -11,15 +11,15 @@ const MAX_DEPTH: usize = 64;
 const MAX_POWER: i32 = 64;
 /// Functions of one number, then those of two.
 const FUNCTIONS: [&str; 8] = ["sqrt", "sin", "cos", "tan", "abs", "atan2", "min", "max"];
-/// How many of them take one number.
+/// Number of the functions that take one number.
 const N_UNARY: usize = 5;
 
-/// What is wrong with an expression, and where in its text.
+/// Fault of an expression, and where in its text.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EvaluationFault {
-    /// What is wrong.
+    /// Message that says what is wrong.
     pub message: String,
-    /// What to do.
+    /// Hint that says what to do.
     pub hint: String,
     /// Bytes of the text.
     pub span: Range<usize>,
@@ -75,7 +75,7 @@ fn fault(message: &str, hint: &str, span: Range<usize>) -> EvaluationFault {
     EvaluationFault { message: message.to_owned(), hint: hint.to_owned(), span }
 }
 
-/// Where in a text reading stands.
+/// Reader of an expression, with the place in its text at which reading stands.
 struct Reader<'a> {
     text: &'a str,
     at: usize,

@@ -62,7 +62,7 @@ pub(crate) fn of_name(name: &str) -> Option<&'static Unit> {
 /// A product of units, as it is read.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Product {
-    /// Its numerator and denominator in SI units.
+    /// Numerator and denominator of the product in SI units.
     factor: [DoubleDouble; 2],
     pub(crate) dimensions: Dimensions,
 }
@@ -110,7 +110,7 @@ pub fn of_key(unit: &str) -> Vec<Dimensions> {
     ways.collect::<Option<Vec<_>>>().unwrap_or_default()
 }
 
-/// What has these dimensions, in words.
+/// Quantity that has these dimensions, in words.
 pub(crate) fn described(dimensions: Dimensions) -> String {
     let known = [
         (LENGTH, "a length"),

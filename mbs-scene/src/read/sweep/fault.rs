@@ -1,4 +1,4 @@
-//! What can be wrong with a sweep, beside what can be wrong with any file.
+//! Faults of a sweep, beside those of any file.
 
 use crate::format::significant;
 use crate::read::nearest::nearest_name;
@@ -14,7 +14,7 @@ pub enum SweepFault {
     NoKey {
         /// The table, as the path names it; empty for the file itself.
         at: String,
-        /// The key.
+        /// Key that the table lacks.
         key: String,
         /// The keys that are written there.
         known: Vec<String>,
@@ -23,7 +23,7 @@ pub enum SweepFault {
     NoEntry {
         /// The list, such as `body`.
         table: String,
-        /// The name.
+        /// Name that no entry has.
         name: String,
         /// The names that are there.
         known: Vec<String>,
@@ -41,16 +41,16 @@ pub enum SweepFault {
         at: String,
         /// The index, from 0.
         index: usize,
-        /// Entries there.
+        /// Number of the entries there.
         count: usize,
     },
     /// A path that ends at something else than a number, or continues where it should end.
     NotANumber {
         /// The place, as the path names it.
         at: String,
-        /// What is there.
+        /// Description of what is there.
         found: &'static str,
-        /// What to do.
+        /// Advice on what to do.
         advice: String,
     },
     /// A number that makes another scene of it.
@@ -72,7 +72,7 @@ pub enum SweepFault {
     NotLogarithmic,
     /// A step that leads away from the end, or over it.
     Step {
-        /// First value.
+        /// First value of the range.
         from: f64,
         /// End of the range.
         to: f64,
@@ -81,22 +81,22 @@ pub enum SweepFault {
     TooMany(f64),
     /// Values that pair off with none of the others.
     ZipCount {
-        /// The first parameter.
+        /// Name of the first parameter.
         first: String,
-        /// Its values.
+        /// Number of values of the first parameter.
         needed: usize,
-        /// The values here.
+        /// Number of values of this parameter.
         found: usize,
     },
     /// A value that the scene refuses.
     Refused {
-        /// The value.
+        /// Value that the scene refuses.
         value: String,
-        /// The parameter.
+        /// Name of the parameter.
         name: String,
-        /// What the scene says.
+        /// Problem, as the scene says it.
         problem: String,
-        /// What to do.
+        /// Advice on what to do.
         advice: String,
     },
 }
@@ -150,7 +150,7 @@ impl Display for SweepFault {
 }
 
 impl SweepFault {
-    /// What to do about it.
+    /// Hint that says what to do about the fault.
     #[must_use]
     pub fn hint(&self) -> String {
         match self {

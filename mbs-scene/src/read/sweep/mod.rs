@@ -32,10 +32,10 @@ pub struct SweepFile {
 #[derive(Debug, Clone)]
 struct PlaceOfScene {
     address: Address,
-    /// What the scene says.
+    /// Value that the scene has there.
     base: f64,
     set_by: Option<usize>,
-    /// Parameters that shift it, with what the scene says at their paths.
+    /// Parameters that shift the number, each with the value of the scene at its path.
     shifts: Vec<(usize, f64)>,
 }
 

@@ -14,7 +14,7 @@ use super::SweepFault;
 use crate::read::SceneFile;
 use crate::read::tree::{Item, Member, Node, Span};
 
-/// Where a number stands in the tree: child by child.
+/// Address of a number in the tree: child by child.
 pub(in crate::read) type Address = Vec<usize>;
 
 /// A part of a path.
@@ -234,7 +234,7 @@ impl Walk {
     }
 }
 
-/// What an entry goes by: its name, else its joint or body; an effect without name as in the scene's outputs.
+/// Name by which an entry goes: its own, else that of its joint or body; an effect without name as in the scene's outputs.
 fn called(item: &Item, table: &str, index: usize) -> String {
     let keys: &[&str] =
         if matches!(table, "initial" | "guide") { &["joint", "body"] } else { &["name"] };

@@ -15,7 +15,7 @@ use crate::read::{ReadFault, SceneFile};
 const COMBINE: [&str; 3] = ["grid", "zip", "latin-hypercube"];
 const SCALES: [&str; 2] = ["linear", "log"];
 
-/// How values are combined, and the parameters in the order of the file.
+/// Reads how values are combined, and the parameters in the order of the file.
 pub(super) fn read(sweep: &SceneFile, scene: &SceneFile) -> Read<(Combine, Vec<Parameter>)> {
     let none = Names::default();
     let values = Values::new(&sweep.texts, sweep.root())?;
@@ -121,7 +121,7 @@ fn address(context: &Context<'_>, item: &Item, scene: &SceneFile) -> Read<Addres
     path::address(scene, path).or_else(|found| fault(context, &item.span, found))
 }
 
-/// `values = [..]`; they keep their decimal text.
+/// Reads `values = [..]`; the numbers keep their decimal text.
 fn read_values(fields: &Fields<'_>, combine: Combine, parameter: &mut Parameter) -> Read<()> {
     let context = fields.context;
     fields.unused(&["from", "to", "count", "step", "scale"])?;

@@ -20,9 +20,9 @@ const ROUNDING: f64 = 1e-9;
 /// Numbers between two ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ValueRange {
-    /// The first number.
+    /// First number of the range.
     pub from: f64,
-    /// The last number.
+    /// Last number of the range.
     pub to: f64,
     /// Are distances equal in the logarithm?
     pub is_log: bool,

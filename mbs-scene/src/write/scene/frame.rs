@@ -1,4 +1,4 @@
-//! `[[frame]]`.
+//! Writes the table `[[frame]]`.
 
 use super::{Keys, Writer};
 use crate::write::WriteError;

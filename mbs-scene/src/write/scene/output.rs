@@ -1,4 +1,4 @@
-//! `[[output]]`.
+//! Writes the table `[[output]]`.
 
 use super::{Keys, Node, WriteError, Writer};
 use crate::keys::{DEGREES, GLOBAL, OWN_BODY};

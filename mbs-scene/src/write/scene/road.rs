@@ -4,7 +4,7 @@ use super::{Keys, Node, Writer, list};
 use mbs_core::scene::{Number, Road, RoadFeature};
 
 impl Writer<'_> {
-    /// The road; `None` where there is none.
+    /// Table of the road; `None` where there is none.
     pub(super) fn road(self) -> Option<Keys> {
         let Road { left, right, speed } = &self.scene.road;
         let (mut keys, features) = (Keys::default(), |track: &[RoadFeature<Number>]| {

@@ -1,4 +1,4 @@
-//! `[[rolling]]`.
+//! Writes the table `[[rolling]]`.
 
 use super::{Keys, Node, WriteError, Writer};
 use mbs_core::scene::{Dimension, Number, Rolling, RollingKind};

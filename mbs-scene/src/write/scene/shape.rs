@@ -1,4 +1,4 @@
-//! Shapes.
+//! Writes the table `[[shape]]`.
 
 use super::{Keys, Writer, list};
 use crate::read::tree::Node;

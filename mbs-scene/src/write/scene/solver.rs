@@ -1,4 +1,4 @@
-//! `[solver]`.
+//! Writes the table `[solver]`.
 
 use super::Keys;
 use crate::read::tree::Node;

@@ -45,7 +45,7 @@ fn every_kind_on_a_ball_is_a_sum_of_one_term() {
     assert_eq!(limit.lower, -core::f64::consts::PI);
 }
 
-/// What is refused of a torsion spring, with place, message and hint.
+/// Torsion springs that are refused, with place, message and hint.
 const REFUSED: &[[&str; 4]] = &[
     [
         "joint = \"a\"\ncoordinate = \"swing\"\naxis = [0, 0, 1]",

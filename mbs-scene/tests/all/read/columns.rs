@@ -63,7 +63,7 @@ fn the_text_of_a_scene_has_that_of_its_tables() {
     assert_ne!(whole("one", FORCES), whole("two", &FORCES.replace("2.5", "2.25")));
 }
 
-/// What a scene is refused for with other files, or another guide.
+/// Refusal of a scene with other files, or another guide.
 fn refusal(name: &str, (strokes, forces): (&str, &str), guide: &str) -> String {
     folder(name, strokes, forces, &scene(guide, FORCE, CURVE)).refusal("x.toml")
 }

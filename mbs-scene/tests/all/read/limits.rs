@@ -1,4 +1,4 @@
-//! What a joint is meant to keep to: read, written, and refused at its place.
+//! Limits that a joint is meant to keep to: read, written, and refused at their place.
 
 use super::{PLANAR, read, refused};
 use mbs_core::scene::*;

@@ -33,7 +33,7 @@ kind = "free"
 bodies = ["ground", "ball"]
 "#;
 
-/// The same in the plane; entries follow from line 23 on.
+/// A point mass in the plane, on an arm; entries follow from line 23 on.
 const PLANE: &str = r#"[scene]
 dimension = 2
 duration = 1.0
@@ -195,7 +195,7 @@ const IN_SPACE: &[[&str; 3]] = &[
     ],
 ];
 
-/// What is refused of the pin of the planar scene, whose angle is that of a point.
+/// Entries that are refused on the pin of the planar scene, whose angle is that of a point, with their place.
 const IN_THE_PLANE: &[[&str; 2]] = &[
     ["[[initial]]\njoint = \"pin\"\nvalue = 0.1", "24:9"],
     ["[[guide]]\njoint = \"pin\"\nramp = { rate = 1.0 }", "24:9"],

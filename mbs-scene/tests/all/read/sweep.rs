@@ -150,7 +150,7 @@ fn what_only_a_member_can_show_is_no_refusal() {
     assert!(sweep.member(&scene(), 0).scene::<f64>().is_ok());
 }
 
-/// What is refused: the text of the file, the text that the place points to, and a word of message and hint.
+/// Case that is refused: the text of the file, the text that the place points to, and a word of message and hint.
 type Case = (String, &'static str, &'static str, &'static str);
 
 /// Reads each, and looks at place, message and hint.

@@ -110,7 +110,7 @@ impl Saddle {
         self.change_mass(|u, v, x| if is_chosen(u) || is_chosen(v) { 0.0 } else { x }, n);
     }
 
-    /// Multiplies W.
+    /// Multiplies W by a factor.
     pub(crate) fn shrink_mass(&mut self, factor: f64) {
         let n = self.n_primal as u32;
         self.change_mass(|_, _, x| x * factor, n);
@@ -143,7 +143,7 @@ impl Saddle {
         }
     }
 
-    /// The same matrix with other elements first.
+    /// Shuffles the elements of the sum, whose matrix stays the same.
     pub(crate) fn shuffled(mut self, seed: u64) -> Self {
         let mut random = Random(seed);
         for e in (1..self.sum.cliques.len()).rev() {
@@ -155,7 +155,7 @@ impl Saddle {
         self
     }
 
-    /// The same matrix with every clique written backwards.
+    /// Returns the same matrix with every clique written backwards.
     pub(crate) fn with_turned_cliques(&self) -> Self {
         let mut turned = self.clone();
         for (clique, block) in turned.sum.cliques.iter_mut().zip(&mut turned.sum.blocks) {

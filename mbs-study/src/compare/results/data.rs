@@ -1,9 +1,9 @@
-//! What `mbs compare` finds, as plain data with the keys of its JSON object.
+//! Results of `mbs compare`, as plain data with the keys of its JSON object.
 
 use mbs::record::RunError;
 use serde::{Deserialize, Serialize};
 
-/// What each method costs and gives on one scene.
+/// Comparison of the methods on one scene by their cost and error.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct Comparison {
     /// Name of the scene.
@@ -16,28 +16,28 @@ pub struct Comparison {
     pub instants: usize,
     /// Distance of the instants [s].
     pub interval: f64,
-    /// How often each run was timed at least.
+    /// Least number of timings of each run.
     pub repeats: u32,
-    /// What errors of each output are divided by.
+    /// Scales that errors of each output are divided by.
     pub outputs: Vec<OutputScale>,
-    /// What errors are taken against.
+    /// Reference that errors are taken against.
     pub reference: Reference,
     /// The methods, in a fixed order.
     pub methods: Vec<MethodRuns>,
     /// Who is fastest at which error.
     pub ranking: Vec<RankLevel>,
-    /// What `auto` chooses at which error; empty where that was not asked for.
+    /// Choices of `auto` at each error; empty where that was not asked for.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub choices: Vec<JudgedChoice>,
-    /// Where the augmented formulations converge, over step and penalty.
+    /// Maps of where the augmented formulations converge, over step and penalty.
     pub maps: Vec<ConvergenceMap>,
-    /// What the reader should know.
+    /// Notes for the reader.
     pub notes: Vec<String>,
-    /// How this was made.
+    /// Origin of the comparison: how it was made.
     pub provenance: Origin,
 }
 
-/// How a comparison was made.
+/// Origin of a comparison: how it was made.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize)]
 pub struct Origin {
     /// The command line that makes it again.
@@ -48,7 +48,7 @@ pub struct Origin {
     pub commit: String,
     /// Profile and target features of the build.
     pub build: String,
-    /// Processor.
+    /// Name of the processor.
     pub cpu: String,
     /// Hash of the scene file's text.
     pub scene_hash: String,
@@ -80,39 +80,39 @@ pub struct OutputScale {
     pub scale: Option<f64>,
     /// The largest range of a component over the reference.
     pub range: f64,
-    /// Their columns in a row of all components.
+    /// Columns of these components in a row of all components.
     #[serde(skip)]
     pub columns: Vec<usize>,
 }
 
-/// What errors are taken against.
+/// Reference that errors are taken against.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Reference {
-    /// `computed` or `table`.
+    /// Kind of the reference: `computed` or `table`.
     pub kind: String,
-    /// What it is, in one line.
+    /// Description of the reference in one line.
     pub method: String,
-    /// How well it is known: the largest distance of its two runs, or half a unit of the last digit of a table; on the scale of
-    /// the errors.
+    /// Uncertainty of the reference, on the scale of the errors. It is the largest distance of its two runs, or half a unit of the last digit
+    /// of a table.
     pub uncertainty: f64,
-    /// The same reference by another formulation.
+    /// Check of the reference by another formulation.
     pub cross_check: Option<CrossCheck>,
     /// The instant after which it is not known well enough [s].
     pub known_until: Option<f64>,
-    /// Another method agrees with it within its uncertainty, or it is a table.
+    /// Whether another method agrees with the reference within its uncertainty, or the reference is a table.
     pub is_verified: bool,
 }
 
 /// The reference against another formulation.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct CrossCheck {
-    /// What it is, in one line.
+    /// Description of the check in one line.
     pub method: String,
     /// Largest distance from the reference, on the scale of the errors.
     pub difference: f64,
-    /// Its own uncertainty: the distance of its two extrapolations.
+    /// Uncertainty of the check itself: the distance of its two extrapolations.
     pub own_uncertainty: f64,
-    /// The same under the name that other references have for it.
+    /// Uncertainty of the check itself, under the name that other references have for it.
     #[serde(default)]
     pub uncertainty: f64,
 }
@@ -130,15 +130,15 @@ impl CrossCheck {
 pub struct MethodRuns {
     /// Name: formulation, integrator and control, precision.
     pub name: String,
-    /// Formulation.
+    /// Name of the formulation.
     pub formulation: String,
-    /// Integrator.
+    /// Name of the integrator.
     pub integrator: String,
-    /// What chooses the steps: `fixed`, `error`, `energy`; `own` with an integrator that controls its own.
+    /// Control of the steps: `fixed`, `error`, `energy`; `own` with an integrator that controls its own.
     pub control: String,
-    /// `f32`, `f64`, `dd`.
+    /// Precision: `f32`, `f64`, `dd`.
     pub precision: String,
-    /// Its runs.
+    /// Runs of the method.
     pub runs: Vec<RunEntry>,
     /// Slope of the error against the step.
     pub fit: Option<Fit>,
@@ -146,16 +146,16 @@ pub struct MethodRuns {
     pub at_error: Vec<Option<f64>>,
 }
 
-/// What became of a run.
+/// Status of a run.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Status {
-    /// It was not made: it would take too long, or would show nothing more.
+    /// Run that was not made: it would take too long, or would show nothing more.
     #[default]
     NotRun,
-    /// It reached the end.
+    /// Run that reached the end.
     Completed,
-    /// It stopped, or did not start.
+    /// Run that stopped, or did not start.
     Failed,
 }
 
@@ -164,17 +164,17 @@ pub enum Status {
 pub struct RunEntry {
     /// Step [s], or tolerance.
     pub setting: f64,
-    /// What became of it.
+    /// Status of the run.
     pub status: Status,
-    /// Why it stopped.
+    /// Error with which the run stopped.
     pub failure: Option<RunError>,
-    /// Why it was not made.
+    /// Reason why the run was not made.
     pub not_run: Option<String>,
-    /// Steps made.
+    /// Number of steps made.
     pub steps: u64,
     /// Time reached over steps made [s].
     pub mean_step: f64,
-    /// Iterations, or evaluations.
+    /// Number of iterations, or evaluations.
     pub iterations: u64,
     /// Largest error over outputs and instants, in their scales.
     pub error: Option<f64>,
@@ -188,7 +188,7 @@ pub struct RunEntry {
     pub cpu_least: Option<f64>,
     /// CPU time of the run whose steps were timed one by one [s]: longer, as the clock is read at every step.
     pub clocked_seconds: f64,
-    /// The energy invariant.
+    /// Energy invariant of the run.
     pub energy: Energy,
     /// Largest violation of the constraints: positions, velocities, accelerations.
     pub violation: [f64; 3],
@@ -216,7 +216,7 @@ pub struct StepTimes {
     pub p50: f64,
     /// All but one in a hundred take less.
     pub p99: f64,
-    /// The slowest.
+    /// Time of the slowest step.
     pub max: f64,
     /// Lower edge of a class and the steps in it; ten classes a decade.
     pub classes: Vec<(f64, u64)>,
@@ -225,11 +225,11 @@ pub struct StepTimes {
 /// Slope of a method's error against its step.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct Fit {
-    /// The slope: the order; nothing where no three runs lie on a line.
+    /// Order, the slope of the line; nothing where no three runs lie on a line.
     pub order: Option<f64>,
     /// Largest and smallest step of the runs on the line [s].
     pub steps: Option<[f64; 2]>,
-    /// Their number.
+    /// Number of the runs on the line.
     pub points: usize,
     /// The step below which errors grow again as it falls [s]: rounding.
     pub rounding_below: Option<f64>,
@@ -238,30 +238,30 @@ pub struct Fit {
 /// Who is fastest at an error.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct RankLevel {
-    /// The error.
+    /// Error of the outputs at which methods are ranked.
     pub error: f64,
-    /// Why there is no ranking at it.
+    /// Reason why there is no ranking at this error.
     pub note: Option<String>,
     /// Up to this factor times are called equal to the fastest of their rank.
     pub apart: f64,
-    /// Those that reach it, by rank; those of a rank in the order of the methods.
+    /// Formulations with integrators that reach the error, by rank; those of a rank in the order of the methods.
     pub ranks: Vec<Rank>,
-    /// Those that do not.
+    /// Formulations with integrators that do not reach the error.
     pub not_reached: Vec<String>,
 }
 
 /// A choice by measurement, compared with the times of all methods.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct JudgedChoice {
-    /// The wanted error.
+    /// Error that is wanted.
     pub error: f64,
     /// The method that was chosen.
     pub method: String,
-    /// Its step [s], or tolerance.
+    /// Setting of the method: its step [s], or tolerance.
     pub setting: f64,
     /// CPU time of the run as the pilot predicted it [s].
     pub predicted_seconds: Option<f64>,
-    /// Its error as the pilot predicted it.
+    /// Error of the run as the pilot predicted it.
     pub predicted_error: Option<f64>,
     /// CPU time of the pilot [s].
     pub pilot_seconds: f64,
@@ -269,11 +269,11 @@ pub struct JudgedChoice {
     pub stopped: Vec<String>,
     /// CPU time of the run [s], the least of several; nothing where all stopped.
     pub cpu_seconds: Option<f64>,
-    /// Its error against the reference.
+    /// Error of the run against the reference.
     pub true_error: Option<f64>,
     /// The method that takes least at this error.
     pub best_method: Option<String>,
-    /// Its time, measured interleaved with the chosen run [s].
+    /// CPU time of the best method, measured interleaved with the chosen run [s].
     pub best_seconds: Option<f64>,
     /// The chosen run's time over that.
     pub over_best: Option<f64>,
@@ -284,7 +284,7 @@ pub struct JudgedChoice {
 pub struct Rank {
     /// 1 plus the number of those that are faster; the same for those that are called equal.
     pub rank: usize,
-    /// Formulation and integrator.
+    /// Name of the formulation and integrator.
     pub name: String,
     /// The method that is meant.
     pub method: String,
@@ -297,9 +297,9 @@ pub struct Rank {
 /// Does Newton's method converge, and how large is the error, over step and fixed penalty?
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct ConvergenceMap {
-    /// Formulation.
+    /// Name of the formulation.
     pub formulation: String,
-    /// Precision.
+    /// Name of the precision.
     pub precision: String,
     /// Length of the runs [s].
     pub span: f64,
@@ -316,7 +316,7 @@ pub struct ConvergenceMap {
 /// A run with one step and one penalty.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Cell {
-    /// Largest error; nothing where the run stopped.
+    /// Largest error of the run; nothing where it stopped.
     pub error: Option<f64>,
     /// Mean number of iterations.
     pub iterations: f64,

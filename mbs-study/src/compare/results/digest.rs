@@ -1,4 +1,4 @@
-//! What follows from the runs: orders, times at an error, ranks.
+//! Digest of the runs: orders, times at an error, ranks.
 
 use super::data::{Comparison, MethodRuns, Rank, RankLevel, RunEntry, Status};
 use super::{fit, front, rank};
@@ -124,8 +124,8 @@ impl MethodRuns {
         Some(self.at_error(level, instants)?[0])
     }
 
-    /// The same method with its timed runs beside an error alone, each with the error that it counts with, whose times are left out:
-    /// to be timed again.
+    /// Returns the method with its timed runs beside an error alone. Each run has the error that it counts with, but no times: it is to be timed
+    /// again.
     #[must_use]
     pub fn beside_alone(&self, level: f64) -> Self {
         let untimed = |(i, error): (usize, f64)| RunEntry {

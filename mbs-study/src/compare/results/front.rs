@@ -1,6 +1,6 @@
 //! CPU time at an error, between the runs of one method.
 
-/// A completed run: its error, and CPU times that are to be interpolated [s].
+/// Point of a completed run: its error, and CPU times that are to be interpolated [s].
 pub(super) type Point<const N: usize> = (f64, [f64; N]);
 
 /// The runs beside an error: the last that misses it, the first that reaches it, by their indices, and where between them it lies.

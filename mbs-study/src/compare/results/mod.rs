@@ -1,4 +1,4 @@
-//! What a comparison of methods says: orders, times at an error, ranks; as data, JSON and CSV.
+//! Results of a comparison of methods: orders, times at an error, ranks; as data, JSON and CSV.
 
 mod csv;
 mod data;

@@ -1,4 +1,4 @@
-//! How far outputs are from a reference, beside what they are.
+//! Scales of outputs, with which their distances from a reference are compared.
 
 use super::data::OutputScale;
 use mbs::record::Channel;

@@ -15,9 +15,9 @@ use mbs_study::inside::compare::{Control, MethodCase};
 /// Outputs at the instants.
 type Rows = Vec<Vec<f64>>;
 
-/// Longest step [s].
+/// Longest step of a candidate [s].
 const LONGEST: f64 = 0.05;
-/// Largest tolerance [-].
+/// Largest tolerance of a candidate [-].
 const LOOSEST: f64 = 0.1;
 
 /// How a method behaves: error and CPU time [s] at a setting of 0.01, by its law from there; settings at which it stops.
@@ -34,7 +34,7 @@ struct Nature {
 const TAME: Nature =
     Nature { error: 1.0, seconds: 1.0, stops_above: f64::INFINITY, stops_below: 0.0, held: 0.0 };
 
-/// Runs nothing: gives what the natures say, and counts.
+/// Bench that runs nothing: it gives what the natures say, and counts.
 struct Fake<F: Fn(&MethodCase) -> Nature> {
     nature: F,
     spent: f64,
@@ -140,7 +140,7 @@ fn all() -> Vec<MethodCase> {
     MethodCase::all(&[], &[Precision::F64])
 }
 
-/// Those that a pilot tries where there is a tree.
+/// Methods that a pilot tries where there is a tree.
 fn few(mut methods: Vec<MethodCase>) -> Vec<MethodCase> {
     let is_relative = |m: &MethodCase| m.formulation.row().relative;
     let is_one = |m: &MethodCase| match is_relative(m) {

@@ -1,4 +1,4 @@
-//! Noise of times.
+//! Noise in the times of trials.
 
 use mbs_study::inside::TrialTimes;
 

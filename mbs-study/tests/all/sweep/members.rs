@@ -1,4 +1,4 @@
-//! What becomes of members that fail in ways no scene can ask for. Members are given here, and not run.
+//! Members that fail in ways no scene can ask for, and what becomes of them. Members are given here, and not run.
 
 use mbs::Method;
 use mbs::scene_file::{SceneFile, SweepFile};

@@ -1,4 +1,4 @@
-//! That no bytes do harm: a checkpoint that was changed ends in an error at worst.
+//! No bytes do harm: a checkpoint that was changed ends in an error at worst.
 
 use super::items::{CASE, Case, saved};
 use super::layout::{Parts, sealed};

@@ -1,4 +1,4 @@
-//! That every item of a simulation's checkpoint matters.
+//! Every item of a simulation's checkpoint matters.
 
 use super::layout::Parts;
 use crate::common::scene;
@@ -88,7 +88,7 @@ impl Case {
         simulation
     }
 
-    /// What is left to the end of the run, where lengths are controlled; else a step.
+    /// Time that is left to the end of the run, where lengths are controlled; else a step [s].
     pub(super) fn rest(&self) -> f64 {
         if self.control == "fixed" { self.step } else { 1e3 }
     }
@@ -133,16 +133,16 @@ type Item = (&'static str, Left);
 
 #[derive(Debug, Clone, Copy)]
 enum Left {
-    /// What stands there in a simulation that has made no step.
+    /// Bytes of a simulation that has made no step.
     Fresh,
-    /// These bytes.
+    /// Bytes that are given here.
     Bytes(&'static [u8]),
-    /// What comes of the bytes that stand there.
+    /// Bytes that a function makes of those that stand there.
     Of(fn(&[u8]) -> Vec<u8>),
 }
 
-/// That the bits after a checkpoint are those without it, wherever it is, and that they are not where one of the items is left
-/// out, at some of the places: not every one matters everywhere.
+/// Asserts that the bits after a checkpoint are those without it, wherever it is. They are not where one of the items is left out, at some of the
+/// places: not every one matters everywhere.
 fn every_item_matters<const D: usize>(case: Case, items: &[Item]) {
     let scene = case.scene();
     let settings = case.settings(&scene);
@@ -180,7 +180,7 @@ fn all(part: &[u8], x: f64) -> Vec<u8> {
     bytes
 }
 
-/// What every formulation in natural coordinates goes on from.
+/// Items with which every formulation in natural coordinates continues.
 const STATE: [Item; 7] = [
     ("time", Left::Fresh),
     ("positions", Left::Fresh),
@@ -191,7 +191,7 @@ const STATE: [Item; 7] = [
     ("inputs", Left::Fresh),
 ];
 
-/// What those add that carry rounding and multipliers.
+/// Items beside [`STATE`] of the formulations that carry rounding and multipliers.
 const CARRIED: [Item; 6] = [
     ("length of the last step", Left::Fresh),
     ("rounding of positions", Left::Fresh),

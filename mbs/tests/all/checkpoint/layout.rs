@@ -1,4 +1,4 @@
-//! Where the parts of a checkpoint are among its bytes: a second reader of the format, by docs/CHECKPOINT.md.
+//! Places of the parts of a checkpoint among its bytes: a second reader of the format, by docs/CHECKPOINT.md.
 
 use core::ops::Range;
 use mbs::{FormulationKind, ResolvedMethod};
@@ -39,7 +39,7 @@ impl Parts {
         &self.bytes
     }
 
-    /// Where a part is.
+    /// Range of a part among the bytes.
     pub(super) fn place(&self, name: &str) -> Range<usize> {
         let found = self.places.iter().find(|(part, _)| *part == name);
         found.unwrap_or_else(|| panic!("no part {name}")).1.clone()
@@ -265,7 +265,7 @@ impl<'a> Walk<'a> {
         self.named("energies", |walk| walk.numbers(2))
     }
 
-    /// What controls a step inside a step.
+    /// Passes over what controls a step inside a step.
     fn adaptive(&mut self) -> Option<()> {
         self.numbers(1)?;
         self.errors()?;
@@ -289,7 +289,7 @@ impl<'a> Walk<'a> {
         Some(())
     }
 
-    /// What a run has beside its simulation.
+    /// Passes over what a run has beside its simulation.
     fn record(&mut self) -> Option<()> {
         self.named("count of steps", |walk| walk.numbers(1))?;
         self.numbers(1)?;
@@ -326,7 +326,7 @@ impl<'a> Walk<'a> {
         self.named("CPU time", |walk| walk.numbers(1))
     }
 
-    /// What one step left behind.
+    /// Passes over what one step left behind.
     fn mark(&mut self) -> Option<()> {
         self.numbers(8)?;
         self.option(|walk| walk.skip(1))?;

@@ -1,4 +1,4 @@
-//! That every item of a run's record matters.
+//! Every item of a run's record matters.
 
 use super::layout::Parts;
 use super::{results, scratch};
@@ -46,8 +46,8 @@ fn kept<const D: usize>(
     (whole, [first, bytes].map(|bytes| Parts::of_run(bytes, settings)))
 }
 
-/// That a run gives the same from its checkpoint before time `at`, and something else where one of the items is left out: it is
-/// then as in a run that has made no step.
+/// Asserts that a run gives the same from its checkpoint before time `at`, and something else where one of the items is left out. An item that is
+/// left out is as in a run that has made no step.
 fn every_item_matters<const D: usize>(name: &str, overrides: &Method, at: f64, items: &[&str]) {
     let scene = scene(name);
     let settings = ResolvedMethod::new(&scene, overrides).expect("good settings");

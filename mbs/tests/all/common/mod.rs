@@ -1,4 +1,4 @@
-//! What the test binaries share: scenes of the repository, and stepping without recording.
+//! Helpers that the test binaries share: scenes of the repository, and stepping without recording.
 pub(crate) mod files;
 pub(crate) mod oracle;
 
@@ -39,7 +39,7 @@ pub(crate) fn run_in(scene: &Scene<f64>, formulation: &str, step: Option<f64>) -
     run_by(scene, &settings(scene, formulation, step))
 }
 
-/// A formulation; what is left out is the scene's.
+/// Method of a formulation; what is left out is the scene's.
 pub(crate) fn by(formulation: &str) -> Method {
     Method { formulation: Some(formulation.to_owned()), ..Method::default() }
 }
@@ -120,7 +120,7 @@ pub(crate) fn distance<const D: usize>(a: [f64; D], b: [f64; D]) -> f64 {
     a.iter().zip(b).map(|(x, y)| (x - y) * (x - y)).sum::<f64>().sqrt()
 }
 
-/// The largest value; NaN if any value is.
+/// The larger of two values; NaN if any value is.
 pub(crate) fn worst(a: f64, b: f64) -> f64 {
     if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) }
 }

@@ -5,7 +5,7 @@ use super::common::scene;
 use super::*;
 use mbs::core::scene::InitialTarget;
 
-/// The same hundred numbers between -1 and 1, always.
+/// A hundred pseudorandom numbers between -1 and 1, always the same.
 fn spread() -> impl Iterator<Item = f64> {
     let mut seed = 2_463_534_242_u32;
     std::iter::repeat_with(move || {

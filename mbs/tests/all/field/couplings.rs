@@ -95,7 +95,7 @@ fn a_free_body_in_space_keeps_to_a_line_whatever_the_order_of_the_bodies() {
     ends_with("reversed", &scene, &[(0, found[0]), (1, found[1]), (2, found[2])]);
 }
 
-/// What the first wheel needs for itself: 0.7 − 0.02 α, and 0.04 α 2/3 for the second.
+/// Torque beyond what the first wheel needs for itself: 0.7 − 0.02 α, and 0.04 α 2/3 for the second.
 #[test]
 fn efforts_are_torques_forces_and_tensions_of_the_drawn_machine() {
     let torque = -(0.7 - 0.02 * WHEELS[0] / 0.4);

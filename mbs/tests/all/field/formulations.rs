@@ -1,4 +1,4 @@
-//! What single formulations stopped at: sizes, light pieces, friction, axes that are almost parallel.
+//! Scenes that stop single formulations: sizes, light pieces, friction, axes that are almost parallel.
 
 use super::{field, read, text, tilted};
 use crate::common::random::tree;
@@ -11,11 +11,11 @@ use mbs::{Method, ResolvedMethod, StopError};
 
 /// Formulations in natural coordinates with steps of fixed length.
 const NATURAL: [&str; 4] = ["index-3", "index-1", "classical", "state-space"];
-/// What formulations differ by that make the same step: the tolerance of their iterations, summed over a run [m or rad].
+/// Difference of formulations that make the same step: the tolerance of their iterations, summed over a run [m or rad].
 const AGREED: f64 = 1e-9;
-/// What the rule's first steps from rest add to a creep of ten seconds [-].
+/// Share that the rule's first steps from rest add to a creep of ten seconds [-].
 const CREEP: f64 = 1e-2;
-/// What the rule's first steps from rest leave of a creep of a hundred steps [-].
+/// Share that the rule's first steps from rest leave in a creep of a hundred steps [-].
 const RINGING: f64 = 1e-4;
 /// Tolerances of the iterations, of 1e-10 a step, over the steps of a motion from rest [lengths].
 const ALIKE: f64 = 1e-7;

@@ -23,7 +23,7 @@ fn let_go_at(angle: &str) -> Scene<f64> {
     read(&text, "wheel in rubber")
 }
 
-/// The same in space, about an axis that is no axis of the bushing: 0.36 5 + 0.64 11.25 = 9 N m/rad along it.
+/// The wheel in rubber in space, about an axis that is no axis of the bushing: 0.36 5 + 0.64 11.25 = 9 N m/rad along it.
 fn in_space(angle: &str, rate: &str) -> Scene<f64> {
     let text = format!(
         r#"
@@ -67,7 +67,7 @@ fn value<const D: usize>(scene: &Scene<f64>, formulation: &str, step: f64) -> f6
 /// q(1 s) = q0 cos(sqrt(9/0.4)).
 const LET_GO: [(&str, f64); 2] = [("3.0", 0.093_067_6), ("4.0", 0.124_090_1)];
 
-/// That both steps err by the rule, of second order, and nothing else: the extrapolated value is right.
+/// Asserts that both steps err by the rule, of second order, and by nothing else: the extrapolated value is right.
 fn errs_by_the_rule_alone([coarse, fine]: [f64; 2], right: f64, what: &str) {
     let extrapolated = fine + (fine - coarse) / 3.0;
     assert!((extrapolated - right).abs() < 1e-6, "{what}: {extrapolated}");

@@ -25,7 +25,7 @@ fn efforts_of_a_cross_with_oblique_axes_are_about_its_axes() {
     }
 }
 
-/// What goes through the joint at each instant: its moment times the turn of the dish against the mast [W].
+/// Power through the joint at each instant: its moment times the turn of the dish against the mast [W].
 #[test]
 fn the_power_of_a_cross_is_its_moment_times_the_turn() {
     let oblique = text("60-guided-cross");
@@ -75,7 +75,7 @@ fn a_rotation_vector_does_not_depend_on_the_steps() {
     }
 }
 
-/// Where guide and slide are at 2 s [m]: the equations of both slides by another program.
+/// Place of guide and slide at 2 s [m]: the equations of both slides by another program.
 const SLID: f64 = -0.322_743_35;
 
 /// A blade holds the rail: it rests, and the rates of both slides cancel. What is left of its speed is their rounding.

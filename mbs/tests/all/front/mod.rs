@@ -17,7 +17,7 @@ fn scene(m: &Mechanism) -> Scene<Number> {
     m.to_file().expect("no code").numbers().expect("a scene")
 }
 
-/// scenes/double-pendulum.toml.
+/// The mechanism of scenes/double-pendulum.toml, in code.
 fn double_pendulum() -> Mechanism {
     let mut m = Mechanism::planar("double pendulum");
     m.set_gravity([0.0, -9.81]).set_duration(10.0);

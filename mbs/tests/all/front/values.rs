@@ -1,4 +1,4 @@
-//! Quaternions of poses.
+//! Poses with rotations as quaternions.
 
 use mbs::Pose;
 

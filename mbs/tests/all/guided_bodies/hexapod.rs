@@ -53,14 +53,14 @@ impl Leg {
         [u, b, cross_of(u, b)]
     }
 
-    /// Its rotation from the reference configuration.
+    /// Rotation of the leg from the reference configuration.
     fn rotation(&self, t: f64) -> Matrix {
         let [before, now] = [minus(self.top, self.base), self.way(t)].map(|way| self.frame(way));
         product(&transposed(&now), &before)
     }
 }
 
-/// Where a point of the platform is.
+/// Position of a point of the platform at a time.
 fn on_platform(x: Vector, t: f64) -> Vector {
     add(AT, MOTION.place(minus(x, AT), t))
 }
@@ -80,7 +80,7 @@ fn energy(
     0.5 * body.mass * dot(v, v) + 0.5 * turning + body.mass * 9.81 * center(t)[2]
 }
 
-/// All of it: the platform is the first body, then cylinder and rod of each leg.
+/// Energy of the whole hexapod [J]: the platform is the first body, then cylinder and rod of each leg.
 fn total(scene: &Scene<f64>, legs: &[Leg; 6], t: f64) -> f64 {
     let center = |body: usize| scene.bodies[body].center;
     let mut sum = energy((scene, 0), |t| on_platform(center(0), t), |t| MOTION.rotation_at(t), t);

@@ -45,7 +45,7 @@ fn scene() -> String {
     .concat()
 }
 
-/// What the scene shows, by hand.
+/// Outputs of the scene, by hand.
 fn expected(t: f64) -> [Vec<f64>; 7] {
     let m = motion();
     let of = |x: Vector| move |t: f64| add(AT, m.place(minus(x, AT), t));
@@ -133,8 +133,8 @@ const BOB: Vector = [0.9, 0.1, 0.8];
 const BOB_MASS: f64 = 2.0;
 const BOB_INERTIA: f64 = 0.05;
 
-/// Its acceleration by the virtual power of one rate: m (a − g)·u + I ω'·n, each linear in it. The body has the same inertia about
-/// all axes, so that ω × I ω is zero.
+/// Angular acceleration of the pendulum by the virtual power of one rate: m (a − g)·u + I ω'·n, each linear in it. The body has the same inertia
+/// about all axes, so that ω × I ω is zero.
 fn swing(m: &Motion, t: f64, [angle, speed]: [f64; 2]) -> f64 {
     let residual = |second: f64| {
         let at = |s: f64| angle + speed * (s - t) + 0.5 * second * (s - t) * (s - t);

@@ -73,7 +73,7 @@ fn places() -> Vec<Row> {
     ]
 }
 
-/// Masses and inertias.
+/// Hints on masses and inertias.
 fn masses() -> Vec<Row> {
     vec![
         row(

@@ -9,14 +9,14 @@ use mbs::core::scene::Scene;
 use mbs::scene_file::SceneFile;
 use mbs::{Method, ResolvedMethod};
 
-/// What a row changes: passages of its scene, each of which stands once in it.
+/// Change that a row makes: passages of its scene, each of which stands once in it.
 type Change = &'static [(&'static str, &'static str)];
 
-/// One hint.
+/// A hint, with what provokes it and what mends it.
 struct Row {
     /// The scene that is spoiled.
     base: &'static str,
-    /// What provokes the hint.
+    /// Change that provokes the hint.
     spoil: Change,
     /// A part of the message.
     message: &'static str,

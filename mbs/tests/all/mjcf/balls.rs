@@ -11,12 +11,12 @@ fn a_time_and_a_damping_ratio_of_a_ball_follow_from_the_mean_of_what_it_moves() 
     turns(&model, "b", RIGHT);
 }
 
-/// That state in the coordinates of the file.
+/// State of the ball whose damping ratio is given, in the coordinates of the file.
 const KEY: [&str; 2] = [
     "0.9937565077045984 0.09979179683625425 0.049895898418127124 0.0",
     "-0.04958437376078141 0.09916874752156282 0.4875519966052396",
 ];
-/// Its angular acceleration.
+/// Angular acceleration of the ball whose damping ratio is given [rad/s²].
 const RIGHT: [f64; 3] = [-8.95344183343061, -1.7383496680042083, -12.48438525854519];
 
 #[test]

@@ -11,7 +11,7 @@ mod springs;
 use crate::common::oracle::{self, Way};
 use mbs_import::{ImportOptions, import};
 
-/// What both programs may round apart, relative to one or to the value.
+/// Difference by the rounding of both programs, relative to one or to the value.
 const ROUNDED: f64 = 1e-9;
 
 /// The scene of a model at that keyframe.

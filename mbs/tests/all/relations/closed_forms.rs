@@ -6,7 +6,7 @@ use mbs::core::scene::Scene;
 
 /// Steps of the runs that are compared with equations [s], and how long they last [s].
 const TIMES: (f64, f64) = (1e-3, 0.6);
-/// What methods of order eight leave of a motion of order one in steps of 1 ms, and of its accelerations where directions are oblique.
+/// Error of methods of order eight for a motion of order one in steps of 1 ms, and of its accelerations where directions are oblique.
 const EXACT: f64 = 1e-11;
 
 /// Two bodies on oblique slides u and w with (1 + x)(1 + y) = 1, from x = 0.5 with a rate.

@@ -1,4 +1,4 @@
-//! Envelopes of runs.
+//! Envelopes of the results of runs.
 
 use mbs::results::ResultColumn;
 use mbs::results::{ResultTable, envelope};

@@ -1,4 +1,4 @@
-//! What a contact does: forces, energy, and what it is on a slope, on a moving plane and with a joint beside it.
+//! Rolling contacts: forces, energy, and what they are on a slope, on a moving plane and with a joint beside them.
 
 use super::{WAYS, end, run};
 use crate::common::oracle::{Way, last};

@@ -1,4 +1,4 @@
-//! What is refused, with its place.
+//! Rolling contacts that are refused, with their place.
 
 use crate::common::oracle::{Way, rows};
 use mbs_testkit::scene;

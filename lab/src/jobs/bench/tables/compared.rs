@@ -1,4 +1,4 @@
-//! Beside others: faer's sparse Cholesky, other orders of elimination, the report's processors.
+//! Comparison with others: faer's sparse Cholesky, other orders of elimination, the report's processors.
 
 use super::super::measured::{Measured, number, ratio, speed_up, times};
 use super::super::papers;

@@ -1,4 +1,4 @@
-//! What a step costs, what it is made of, and where its time goes.
+//! Costs of a step: in all, by its parts, and where its time goes.
 
 use super::super::measured::{Lane, Measured, Scene, number};
 use super::numbers::{average, by_size, count, percent, ratio, span, time};
@@ -77,7 +77,7 @@ fn details(scene: &Scene, lane: &Lane) -> Vec<String> {
     ]
 }
 
-/// Which formulation steps how many scenes fastest.
+/// Sentence on how many scenes each formulation steps fastest.
 fn fastest(measured: &Measured) -> String {
     let mut wins = vec![0; measured.formulations.len()];
     for scene in &measured.scenes {
@@ -209,7 +209,7 @@ pub(super) fn phases(measured: &Measured) -> Section {
     section
 }
 
-/// What the clock adds to a step, as a share of it.
+/// Time that the clock adds to a step, as a share of the step.
 fn overhead(scene: &Scene, lane: &Lane) -> Option<f64> {
     let plain = scene.lane(&lane.formulation, &lane.team, lane.threads)?.seconds?;
     Some(lane.seconds? / plain - 1.0)

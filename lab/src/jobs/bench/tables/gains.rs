@@ -1,4 +1,4 @@
-//! What threads gain.
+//! Gains of a step by threads.
 
 use super::super::measured::{Measured, Scene, efficiency, number, speed_up};
 use super::numbers::{by_size, percent, ratio, time};
@@ -69,7 +69,7 @@ pub(super) fn threads(measured: &Measured) -> Section {
     section
 }
 
-/// What a table of gains shows.
+/// Says what a table of gains shows.
 fn verdict(measured: &Measured, formulation: &str, several: &[usize]) -> String {
     let mut best: Option<(f64, String)> = None;
     let (mut n_scenes, mut n_without) = (0, 0);
@@ -128,7 +128,7 @@ fn chart(measured: &Measured, several: &[usize]) -> Chart {
     Chart::new(x, Axis::new("speed-up", Kind::FromZero), series.collect())
 }
 
-/// Empty forks.
+/// Section on the time of empty forks.
 pub(super) fn forks(measured: &Measured) -> Section {
     let mut section = Section::new("K", "Time of an empty fork");
     let rows = measured.forks.iter().map(|fork| {

@@ -8,7 +8,7 @@ mod numbers;
 use super::measured::Measured;
 use crate::lab::section::Section;
 
-/// What holds for all of them.
+/// Returns the remark that holds for all sections.
 pub(crate) fn remark(measured: &Measured) -> String {
     format!(
         "{} Times are medians of repeated measurements, interleaved in one process, with their quartiles; steps continue from the \
@@ -17,7 +17,7 @@ pub(crate) fn remark(measured: &Measured) -> String {
     )
 }
 
-/// All sections.
+/// Returns all sections of the page.
 pub(crate) fn sections(measured: &Measured) -> Vec<Section> {
     vec![
         costs::steps(measured),

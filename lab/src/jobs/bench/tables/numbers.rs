@@ -22,12 +22,12 @@ pub(super) fn average(x: Option<f64>) -> String {
     x.map(|x| format!("{x:.1}")).unwrap_or_default()
 }
 
-/// A ratio; empty where there is none.
+/// Writes a ratio; empty where there is none.
 pub(super) fn ratio(x: Option<f64>) -> String {
     x.map(|x| format!("{x:.2}")).unwrap_or_default()
 }
 
-/// A share.
+/// Writes a share in percent.
 pub(super) fn percent(x: f64) -> String {
     // Without a minus on zero.
     format!("{:.0} %", (x * 100.0).round() + 0.0)

@@ -59,7 +59,7 @@ fn is_on_bump(t: f64) -> bool {
     BUMP[0] < t && t <= BUMP[1]
 }
 
-/// Where the steps of the variable run are short.
+/// Says where the steps of the variable run are short.
 fn shortest(record: &Record) -> String {
     let steps = |on: bool| record.steps.iter().filter(move |s| is_on_bump(s.t) == on);
     let spans = [true, false].map(|on| span(steps(on).map(|s| s.step)));
@@ -78,7 +78,7 @@ fn shortest(record: &Record) -> String {
     )
 }
 
-/// How much of the energy error of the variable run comes about on the bump.
+/// Caption with the share of the variable run's energy changes that are made on the bump.
 fn largest_change(record: &Record) -> String {
     let sum = |steps: &mut dyn Iterator<Item = f64>| steps.sum::<f64>();
     let all = sum(&mut record.steps.iter().map(|s| s.energy_change.abs()));
@@ -99,7 +99,7 @@ fn percent(share: f64) -> String {
     format!("{:.0} %", 100.0 * share)
 }
 
-/// How far the heights of two runs are apart.
+/// Caption with the largest distance of the heights of two runs [m].
 fn apart(a: &Record, b: &Record) -> String {
     let (Some(a), Some(b)) = (a.channels.first(), b.channels.first()) else {
         return "Height of the wheel.".into();

@@ -12,15 +12,15 @@ use crate::lab::section::Section;
 use crate::lab::{Lab, Run};
 use histories::{COARSE, FINE};
 
-/// The scenes: the damper as printed there, and the suspension whose rubber stop the bump hits.
+/// Scenes of the experiment: the damper as printed there, and the suspension whose rubber stop the bump hits.
 const SCENES: [&str; 2] = ["iltis-suspension-halved", "iltis-suspension-stiff"];
 /// First step of the variable run [s].
 const FIRST_STEP: f64 = 1e-3;
-/// The report's tolerance.
+/// Tolerance of the report [-].
 const TOLERANCE: f64 = 1e-6;
 /// Tolerances that are tried.
 const TOLERANCES: [f64; 3] = [1e-5, TOLERANCE, 1e-7];
-/// How often each case is run for its time.
+/// Number of runs of each case for its time.
 const REPEATS: u32 = 5;
 /// CPU times that the report prints, in the order of its runs [s].
 const PRINTED: [f64; 3] = [8.41, 36.07, 155.0];
@@ -30,7 +30,7 @@ const QUARTER: f64 = 0.25;
 /// Largest share of the time of the cheapest fixed step that the claim allows.
 const CHEAPEST: f64 = 0.7;
 
-/// Runs the experiment.
+/// Runs the experiment on the front suspension.
 pub(crate) fn run(lab: &Lab<'_>) -> Result<Section, String> {
     let mut section =
         Section::new("F6", "Front suspension over a bump: the report's own experiment");

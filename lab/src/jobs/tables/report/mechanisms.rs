@@ -12,7 +12,7 @@ const T3_INDEX3: &[Printed] = &[Wrong, NoConvergence, NoConvergence];
 /// P1, Table II, state-space and fully recursive.
 const T2_FAILS: &[Printed] = &[DoesNotWork, DoesNotWork, DoesNotWork, DoesNotWork];
 
-/// Where the double pendulum's tip is after 10 s.
+/// Place of the double pendulum's tip after 10 s.
 const TIP: Reference = Reference {
     channel: "tip",
     label: "tip off by [m]",

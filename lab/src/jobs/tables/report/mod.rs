@@ -11,7 +11,7 @@ use mechanisms::{T1, T1P, T2, T3};
 pub(crate) use table::{History, Method, Printed, Table};
 use vehicle::{T4, T5_1, T5_2, T5_3, T8};
 
-/// The tables.
+/// Tables of the report, as printed.
 pub(crate) const TABLES: [Table; 9] = [T1, T1P, T2, T3, T4, T5_1, T5_2, T5_3, T8];
 
 #[cfg(test)]

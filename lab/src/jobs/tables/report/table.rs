@@ -1,17 +1,17 @@
-//! What a table of the report has: its methods with their steps, and what is printed for each.
+//! Tables of the report: their methods with their steps, and what is printed for each.
 
-/// What the report prints for one method and one step.
+/// Entry that the report prints for one method and one step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Printed {
     /// Error, and CPU time [s] where there is one.
     Numbers(f64, Option<f64>),
     /// CPU time [s] alone.
     Time(f64),
-    /// "No convergent."
+    /// "No convergent." in place of numbers.
     NoConvergence,
-    /// "Wrong results".
+    /// "Wrong results" in place of numbers.
     Wrong,
-    /// "Does not work".
+    /// "Does not work" in place of numbers.
     DoesNotWork,
     /// The table has no such entry.
     Nothing,
@@ -20,7 +20,7 @@ pub(crate) enum Printed {
 /// A method of a table: how we run it, and the report's row for it.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Method {
-    /// Its name in our tables.
+    /// Name of the method in our tables.
     pub(crate) name: &'static str,
     /// `--formulation` of `mbs run`.
     pub(crate) formulation: &'static str,
@@ -45,54 +45,54 @@ impl Method {
 /// A channel whose value at the end is known from elsewhere.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Reference {
-    /// The channel.
+    /// Name of the channel.
     pub(crate) channel: &'static str,
-    /// What its distance from the reference is called, with its unit.
+    /// Label of the distance from the reference, with its unit.
     pub(crate) label: &'static str,
-    /// Its components at the end.
+    /// Components of the channel at the end.
     pub(crate) value: &'static [f64],
 }
 
 /// A channel whose history is drawn: of each method at its first step, and of the first method at its last one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct History {
-    /// Its column in the CSV of a run.
+    /// Column of the channel in the CSV of a run.
     pub(crate) column: &'static str,
-    /// What it is, with its unit.
+    /// Label of the history, with its unit.
     pub(crate) label: &'static str,
-    /// What a number of the column is multiplied by.
+    /// Factor that a number of the column is multiplied by.
     pub(crate) scale: f64,
 }
 
-/// One table.
+/// One table of the report.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Table {
-    /// Short name.
+    /// Short name of the table.
     pub(crate) name: &'static str,
-    /// What it is about.
+    /// Title of the table.
     pub(crate) title: &'static str,
-    /// Where it is printed.
+    /// Source where the table is printed.
     pub(crate) source: &'static str,
     /// The scene, by its file.
     pub(crate) scene: &'static str,
-    /// Simulated time [s].
+    /// Simulated time of each run [s].
     pub(crate) duration: f64,
-    /// Step sizes [s].
+    /// Step sizes of the table [s].
     pub(crate) dt: &'static [f64],
-    /// The methods.
+    /// Methods of the table.
     pub(crate) methods: &'static [Method],
-    /// A known end.
+    /// Channel whose value at the end is known.
     pub(crate) reference: Option<Reference>,
     /// A history to be drawn.
     pub(crate) history: Option<History>,
     /// Sizes of the report's models, by the formulation.
     pub(crate) sizes: &'static [(&'static str, &'static str)],
-    /// What a reader must know.
+    /// Note that a reader must know.
     pub(crate) note: &'static str,
 }
 
 impl Table {
-    /// All entries: methods, and their steps.
+    /// Lists all entries: methods, and their steps.
     pub(crate) fn entries(&self) -> impl Iterator<Item = (&'static Method, f64)> {
         let dt = self.dt;
         self.methods.iter().flat_map(move |method| {
@@ -119,7 +119,7 @@ impl Table {
         (self.duration / step).ceil()
     }
 
-    /// What the report prints for a method and a step of this table.
+    /// Returns what the report prints for a method and a step of this table.
     pub(crate) fn printed(&self, method: &Method, step: f64) -> Printed {
         let dt = if method.dt.is_empty() { self.dt } else { method.dt };
         let place = dt.iter().position(|dt| dt.to_bits() == step.to_bits());

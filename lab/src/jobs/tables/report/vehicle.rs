@@ -30,7 +30,7 @@ const VEHICLE_SIZES: &[(&str, &str)] = &[
 ];
 /// P3, Modeling for natural coordinates.
 const NATURAL: &str = "168 variables, 157 constraints and 1 guide, 11 freedoms with the guided one";
-/// P1, fourth example.
+/// Sizes of P1's fourth example, by the formulation.
 const SUSPENSION_SIZES: &[(&str, &str)] =
     &[("index-1", SUSPENSION), ("index-3", SUSPENSION), ("state-space", SUSPENSION)];
 /// P1, fourth example, for all methods but the recursive one.
@@ -45,11 +45,11 @@ const ACCELERATION: History = History {
 const LAGRANGIAN: &str = "Augmented Lagr.";
 /// Steps of the vehicle with rubber stops.
 const STIFF: &[f64] = &[5e-3, 1e-3];
-/// What every table of the vehicle must say.
+/// Note that every table of the vehicle must have.
 const VEHICLE: &str = "The dimensions of the report's roads are lost: those of the scenes are chosen anew. The first step of a \
     method is the largest that the report found workable; it gives no errors.";
 
-/// What the tables of the vehicle share.
+/// Fields that the tables of the vehicle share.
 const ON_A_ROAD: Table = Table {
     name: "",
     title: "",

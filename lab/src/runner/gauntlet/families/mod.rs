@@ -14,9 +14,9 @@ use mbs::scene_file::Dice;
 /// A property that makes cases hard, and the generator of such cases.
 #[derive(Debug, Clone, Copy)]
 pub struct Family {
-    /// Its name.
+    /// Name of the family.
     pub name: &'static str,
-    /// What is hard about it: a column of the table.
+    /// Property that is hard about it: a column of the table.
     pub property: &'static str,
     /// Rounds of all families in which it has one case.
     pub every: u64,
@@ -55,7 +55,7 @@ const PENALTIES: &str = "ill-scaled penalties";
 const LOOPS: &str = "many loops";
 const SINGLE: &str = "single precision";
 
-/// All of them.
+/// Families of hard cases, all of them.
 pub const FAMILIES: [Family; 29] = [
     Family::new("parallelogram chain through the horizontal", SINGULAR, singular::parallelograms),
     Family::new("four-bar with a change point", SINGULAR, singular::change_point),

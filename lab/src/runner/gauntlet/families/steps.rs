@@ -33,7 +33,7 @@ pub(super) fn penalties(dice: &mut Dice) -> Case {
     Case { options: Options { penalty: Some(penalty), ..Options::default() }, ..case }
 }
 
-/// Single precision; the reference is in double.
+/// Case in single precision; the reference is in double.
 pub(super) fn single(dice: &mut Dice) -> Case {
     let draft = any(dice);
     let time = time(dice, &[1e-2, 3e-3, 1e-3], 0.5);

@@ -11,7 +11,7 @@ pub(super) fn effect(kind: EffectKind<f64>) -> Vec<Effect<f64>> {
     vec![Effect { name: "e".into(), enabled: true, kind }]
 }
 
-/// What is refused of an effect, by key.
+/// Key and fault that an effect is refused for.
 fn fault(scene: Scene<f64>, kind: EffectKind<f64>) -> (&'static str, SceneFault) {
     let (entry, field, fault) = refused(scene, |s| s.effects = effect(kind));
     assert_eq!(entry, Entry::Effect(0));

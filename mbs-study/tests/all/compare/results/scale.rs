@@ -1,4 +1,4 @@
-//! Scales of outputs.
+//! Scales of outputs, and distances of rows by them.
 
 use mbs::record::Channel;
 use mbs_core::outputs::Component;

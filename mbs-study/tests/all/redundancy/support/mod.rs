@@ -75,7 +75,7 @@ pub(crate) fn sets(d: &Diagnosis) -> Vec<(Vec<usize>, usize, Nature)> {
     d.sets.iter().map(|s| (joints(s), s.redundant, s.nature)).collect()
 }
 
-/// Freedoms.
+/// Number of freedoms by a diagnosis.
 pub(crate) fn dof(d: &Diagnosis) -> usize {
     d.sizes[1] - d.sizes[2]
 }

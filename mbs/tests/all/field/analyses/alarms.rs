@@ -1,4 +1,4 @@
-//! What the alarm of the energy, and limits of residuals, let pass and what they stop.
+//! Alarm of the energy, and limits of residuals: what they let pass and what they stop.
 
 use super::super::{field, read, text};
 use crate::common::{by, run};

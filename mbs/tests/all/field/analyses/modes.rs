@@ -1,4 +1,4 @@
-//! Modes about equilibria.
+//! Modes of scenes about their equilibria.
 
 use super::super::{field, read, text};
 use mbs::core::scene::Scene;
