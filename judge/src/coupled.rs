@@ -30,8 +30,8 @@ impl Now<'_> {
         row
     }
 
-    /// Returns what a multiplier of a sign does to bodies where the machine says where it acts. Its power is the same in all motions that joints
-    /// allow.
+    /// Returns what a multiplier of a sign does to bodies where the scene says where the coupling acts. In all motions that joints allow, its
+    /// power is that of the row.
     pub(crate) fn seated(&self, coupling: &Coupling, row: &Row, sign: f64) -> Option<Parts> {
         match &coupling.seat {
             Seat::Nowhere => None,

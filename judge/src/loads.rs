@@ -1,4 +1,4 @@
-//! Loads: which forces act from and on; bodies in their places at a time, and the sums on each.
+//! Loads: the sums of forces on each body, and the state from which they follow, bodies in their places at a time.
 
 use crate::rows::{Frame, Places, Row};
 use crate::scene::{Carrier, Scene};

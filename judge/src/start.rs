@@ -110,7 +110,7 @@ impl Mechanism {
         }
     }
 
-    /// Returns the turns that turns of joints are counted from: what is held or guided, those of couplings as they came to be, else zero.
+    /// Returns the values from which turns of joints are counted: what is held or guided, those of couplings as they came to be, else zero.
     fn given_turns(&self, found: &[[f64; 3]]) -> Vec<[f64; 3]> {
         let n = self.scene.joints.len();
         let mut turns = vec![[0.0; 3]; n];

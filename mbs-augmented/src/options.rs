@@ -36,9 +36,9 @@ pub struct Options<T> {
     pub penalty: Penalty<T>,
     /// Newton tolerance, relative to the displacement per step; in index-1, to the accelerations [-].
     pub tolerance: T,
-    /// Share of the first correction of a step below which the iteration of index-3 also ends where effects act [-]. Compared with it is what a
-    /// correction leaves, at least a tenth of the correction. The first correction is three times the error of the trapezoidal rule in the step.
-    /// Zero, and with a fixed alpha: the tolerance alone.
+    /// Share of the first correction of a step below which the iteration of index-3 also ends where effects act [-]. What a correction
+    /// leaves is compared with it, and counts as a tenth of the correction at least. The first correction is three times the error of the
+    /// trapezoidal rule in the step. Zero, and with a fixed alpha: the tolerance alone.
     pub truncation_share: T,
     /// Iterations allowed in one step.
     pub max_iterations: u32,
@@ -98,8 +98,8 @@ impl<T: Real> Options<T> {
         }
     }
 
-    /// Returns the defaults of index-1: penalty 1e6 effective masses, at most 4 iterations, since iterating on at a singular position leads away
-    /// from the solution there. Eight times as many where what is left is not small.
+    /// Returns the defaults of index-1: penalty 1e6 effective masses, at most 4 iterations. To iterate on at a singular position leads away from
+    /// the solution there. Eight times as many iterations are made where what is left is not small.
     #[must_use]
     pub fn index1() -> Self {
         Self {

@@ -152,7 +152,7 @@ pub(crate) struct PenaltyAdaptation<T> {
     pub(crate) weakest_combination: Vec<T>,
     /// Part rho of the weakest combination that one correction left in the last step [-].
     pub(crate) contraction: T,
-    /// Part of all combinations that is added to the weakest one where that is well determined, so that no combination stays out of sight, m.
+    /// Combination of all rows that is added to the weakest one where that is well determined, so that no combination stays out of sight, m.
     probe_seed: Vec<T>,
 }
 

@@ -31,7 +31,7 @@ pub(crate) struct Arguments {
     json: bool,
 }
 
-/// Sizes of a scene that passes, coordinates, constraints and rank, and notes on it.
+/// Sizes of a scene that passes (coordinates, constraints, rank), and notes on it.
 type Sizes = ([usize; 3], Vec<String>);
 
 /// Why a scene does not pass: an object for programs, and the text.

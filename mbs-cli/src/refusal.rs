@@ -103,7 +103,7 @@ impl Refusal {
         Self { status: STOPPED, ..self }
     }
 
-    /// Refusal of what was interrupted, and what there is of it.
+    /// Refusal that says what was interrupted, and what there is of it.
     pub(crate) fn interrupted(message: impl Display, hint: &str) -> Self {
         Self::new(INTERRUPTED, message, hint).stopped()
     }

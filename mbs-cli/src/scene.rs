@@ -55,7 +55,8 @@ impl SceneArgument {
         self.document_for(false)
     }
 
-    /// Reads the tree of the file, with the values that are set. Where `geometry_alone` it is for places: inertias that no body has are left out.
+    /// Reads the tree of the file, with the values that are set; else returns the refusal. With `geometry_alone` the tree is for places:
+    /// inertias that no body has are left out.
     pub(crate) fn document_for(&self, geometry_alone: bool) -> Result<SceneFile, Refusal> {
         let options = (of_words(&self.import)?, geometry_alone);
         let mut document = input::document(&self.scene, "scene file", options)?;

@@ -376,7 +376,7 @@ impl<T: Real> GuideInput<T> {
         self.offset
     }
 
-    /// Law of the guide; of a table through its knots, with their [`curvature`](Self::curvature).
+    /// Law of the guide; a table goes through its knots, with their [`curvature`](Self::curvature).
     #[must_use]
     pub fn law(&self) -> &Motion<T> {
         &self.law
@@ -444,7 +444,7 @@ impl<T: Real> SignalInput<T> {
         self
     }
 
-    /// Course of the effect; of a road that moves a constant that is not read.
+    /// Course of the effect; a road that moves has a constant that is not read.
     #[must_use]
     pub fn course(&self) -> &Signal<T> {
         &self.course

@@ -38,7 +38,7 @@ pub(crate) fn find(
     })
 }
 
-/// Paths at which the file of a place may be, which a file of this folder writes. A package or model is looked for in the folder that is
+/// Paths at which a file may be whose place is written in a file of this folder. A package or model is looked for in the folder that is
 /// given for it, those of the search path, then upwards.
 ///
 /// # Errors

@@ -5,17 +5,17 @@ use crate::source::{Origin, Sources};
 /// Way in which an element came into the scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum FindingKind {
-    /// Element replaced by something that acts nearly the same.
+    /// In the form of something that acts nearly the same.
     Approximated,
     /// Not at all, and it could act.
     Ignored,
     /// Not at all, since it is for the eye alone.
     Appearance,
-    /// Exactly as the file has it, where the format or what was asked for leaves a choice.
+    /// Just as the file has it, where the format or what was asked for leaves a choice.
     Noted,
 }
 
-/// Finding about an element that is not in the scene as the file has it.
+/// Finding that says what became of an element that is not in the scene as the file has it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ModelFinding {
     /// Way in which the element came into the scene.

@@ -39,8 +39,8 @@ pub enum Instant {
 const SWEEPS: u32 = 60;
 /// Largest move that closes the constraints, relative to a difference [-]: their curvature takes some 1e-4.
 const CURVED: f64 = 0.1;
-/// Move that closes the constraints, at which a difference gets shorter, in its reach [-]: 0.001 at the default. The modes of a chain of
-/// 60 links then have nine digits, and five at ten times this.
+/// Move that closes the constraints, relative to a difference, above which the difference gets shorter, in its reach [-]: 0.001 at the default.
+/// The modes of a chain of 60 links then have nine digits, and five at ten times this.
 const FLAT: f64 = 10.0;
 /// Largest part by which such a difference gets shorter at once [-]. Chosen, not tuned.
 const SHORTER: f64 = 1.0 / 64.0;

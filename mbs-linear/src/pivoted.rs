@@ -12,7 +12,7 @@ pub(crate) struct Pivoted<T> {
     rows: Vec<usize>,
     columns: Vec<usize>,
     rank: usize,
-    /// Stiffness that stands on the diagonal from the rank on.
+    /// Number that stands on the diagonal from the rank on.
     least: T,
 }
 

@@ -24,7 +24,7 @@ use mbs_core::{Real, SymmetricSolver};
 pub struct Ports<'a, T> {
     /// The place of each input among [`State::inputs`]: see [`Prescribed`](mbs_core::inputs::Prescribed).
     pub inputs: &'a [usize],
-    /// Measure of the outputs; always as many numbers.
+    /// Measure of the outputs, which always gives as many numbers.
     pub outputs: &'a mut OutputMeasure<'a, T>,
     /// Coordinates x in place of z: of dy/dz, p x f, it makes dx/dz, f x f, both column by column; nothing where no x determine z. Without
     /// it they are z.
@@ -78,7 +78,7 @@ impl<T: Real> LinearPorts<T> {
 /// At [`Instant::Rest`] rates and accelerations of guides are zero at the state, and derivatives by them are taken about zero.
 ///
 /// Cost: that of [`linearise`](crate::linearise()) with a measurement at each evaluation, 6 evaluations for each input, and 5
-/// factorisations for one that moves a guide; 4 f factorisations more where coordinates are chosen; allocates.
+/// factorisations for one that moves a guide. Where coordinates are chosen, 4 f factorisations more; allocates.
 ///
 /// # Errors
 /// As [`linearise`](crate::linearise()), and what `ports.outputs` answers with; [`LinearError::Singular`] where no coordinates are

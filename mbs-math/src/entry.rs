@@ -33,7 +33,7 @@ pub trait EntryWriter<T> {
     fn flag(&mut self, x: bool);
     /// The number of a variant, which an expression names.
     fn tag(&mut self, tag: u32);
-    /// Writes nothing, as `None`.
+    /// Writes that there is nothing, `None`.
     fn none(&mut self);
     /// Something, which is written next; [`text`](Self::text) closes it.
     fn some(&mut self);

@@ -68,7 +68,7 @@ pub trait Real:
     }
     /// The nearest number to a decimal text such as `9.81` or `1.0e-3`; `None` when it is not one.
     fn from_decimal(text: &str) -> Option<Self>;
-    /// Nearest `f64` of the number.
+    /// Nearest `f64` to the number.
     fn to_f64(self) -> f64;
     /// The number as the sum of two `f64`, to the last bit; the second is zero where one holds it.
     #[inline]

@@ -57,7 +57,7 @@ pub enum LoadError {
     Format,
     /// The text has a law that this build leaves out, or the text is not what a model is written as.
     Record {
-        /// Place in the text where the entry begins that cannot be read [bytes].
+        /// Number of bytes in the text before the entry that cannot be read.
         byte: usize,
     },
     /// The text ends before the model does, or continues after it.

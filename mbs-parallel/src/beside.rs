@@ -42,7 +42,7 @@ pub fn beside<R: Send>(
     })
 }
 
-/// Does a job as [`beside`], but a `look` that breaks leaves the job to itself: it ends on its own, and what it gives is lost.
+/// Does a job as [`beside`] does, but a `look` that breaks leaves the job to itself. The job then ends on its own, and what it gives is lost.
 ///
 /// # Errors
 /// As for [`beside`].

@@ -34,7 +34,7 @@ pub struct Margin {
 pub struct Report {
     /// Tasks that were done.
     pub tasks: u64,
-    /// Delays of the begins of tasks after their planned times; those that the task before delayed are not counted.
+    /// Delays with which tasks began; tasks that the one before delayed are not counted.
     pub jitter: Spread,
     /// Durations of tasks, from their begin to their end.
     pub duration: Spread,

@@ -1,5 +1,4 @@
-//! Checks of what has no direction left after a step: parts of ropes without length, twists of balls whose axes are opposite, discs that
-//! lie flat.
+//! Checks of what has no direction left after a step: parts of ropes without length, twists of balls with opposite axes, flat discs.
 
 use crate::coupled::{HAS_BALL_ANGLES, HAS_LINES};
 use crate::fault::failure;

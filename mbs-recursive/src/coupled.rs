@@ -127,7 +127,7 @@ pub struct Couplings<'a, T: Real, S: Space<T>> {
     pub terms: &'a [SumTerm<T>],
     /// Points of lines, and directions of balls.
     pub points: &'a [LinePoint<T, S>],
-    /// Links on which lines have points.
+    /// Links at which the rows of lines and of balls begin.
     pub starts: &'a [LinkStart],
     /// Curves of terms and signals.
     pub curves: &'a [CurveTable<T>],
@@ -408,7 +408,7 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
     }
 }
 
-/// Coordinate or link by whose motion a sum grows, and how much.
+/// Coordinate or link by whose motion a sum grows, with the growth.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum SumEnd<T: Real, S: Space<T>> {
     /// The coordinate of a link.

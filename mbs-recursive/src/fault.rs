@@ -1,4 +1,4 @@
-//! Faults that stop a pass, and the error of a step that each is.
+//! Faults that stop a pass, and the step error that each of them becomes.
 
 use crate::indexing::Outside;
 use crate::joint::NoInertia;

@@ -17,7 +17,7 @@ use mbs_core::laws::spin::spin;
 /// A joint that meets no inertia.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NoInertia<T> {
-    /// Number of the link whose joint it is.
+    /// Number of the link that the joint carries.
     pub link: u32,
     /// Pivot that was found: bᵀ I b.
     pub pivot: T,

@@ -152,8 +152,8 @@ pub struct ArticulatedInertia<T: Real, S: Space<T>> {
     pub drive: S::Motion,
     /// Torque or force of effects along a joint of one freedom.
     pub effort: T,
-    /// Inertia that rotors and effects add to bᵀ I b of a joint of one freedom: effects by their resistance to its acceleration within a
-    /// step.
+    /// Inertia that rotors and effects add to bᵀ I b of a joint of one freedom. Effects add by their resistance to its acceleration within
+    /// a step.
     pub resistance: T,
 }
 

@@ -56,8 +56,8 @@ impl<T: Real> Closure<T> {
 }
 
 impl<T: Real> Default for Options<T> {
-    /// Returns the defaults: trapezoidal rule; tolerance 1e-10 (64 roundings in single precision); 50 iterations, 30 sweeps; error 1e-8, a
-    /// million steps; ε = √rounding / 256.
+    /// Returns the trapezoidal rule; tolerance 1e-10 (64 roundings in single precision); 50 iterations, 30 sweeps; error 1e-8, a million
+    /// steps; ε = √rounding / 256.
     fn default() -> Self {
         /// Tolerance of corrections, relative to the displacement by accelerations in a step [-].
         const TOLERANCE: f64 = 1e-10;

@@ -97,7 +97,7 @@ pub struct Update {
 /// Lists of the order of all loops.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Plan<'a> {
-    /// Work at each link, one entry a link.
+    /// Loops at each link; see [`Station`].
     pub stations: &'a [Station],
     /// Sides that pass joints; see [`Pass`].
     pub passes: &'a [Pass],

@@ -66,7 +66,7 @@ const STALLED: f64 = 0.1;
 /// Chosen, not tuned.
 const STALLED_SINGULAR: f64 = 1e2;
 
-/// Share of their scales that may be left of Φ and Φ̇: rounding.
+/// Share of the scales of Φ and Φ̇ that may be left of them: rounding.
 pub(crate) fn rounding<T: Real>() -> T {
     T::EPSILON * T::from_f64(ROUNDINGS)
 }

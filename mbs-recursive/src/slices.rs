@@ -42,7 +42,7 @@ pub struct TreeSlices<'a, T: Real, S: Space<T>> {
 pub struct FeedbackMeasure<T> {
     /// Number of the measure among all that is measured.
     pub number: u32,
-    /// Length or angle of a ball that is measured.
+    /// Length, or angle of a ball, that is measured.
     pub of: SumMeasure<T>,
     /// The links on which it has points.
     pub starts: Span,
@@ -56,7 +56,7 @@ pub struct FeedbackSlices<'a, T> {
     pub steps: &'a [FeedbackStep<T>],
     /// The link of each measured coordinate; [`NONE`](crate::coupled::NONE): what is measured is no coordinate.
     pub links: &'a [u32],
-    /// Lengths and angles of balls that are measured and are no coordinates.
+    /// Lengths, and angles of balls, that are measured and are no coordinates.
     pub measures: &'a [FeedbackMeasure<T>],
     /// Number of states of signals.
     pub n_states: usize,

@@ -43,7 +43,7 @@ const ROUNDINGS: f64 = 64.0;
 const PLACE_ROUNDINGS: f64 = 8.0;
 /// Correction with which a stalled iteration may end without effects, relative to the displacement by accelerations [-]. Chosen, not tuned.
 const ENOUGH: f64 = 1e-2;
-/// Correction with which a stalled iteration may end with effects, relative to the displacement by accelerations [-]: a stiff effect makes
+/// Correction with which a stalled iteration may end with effects, relative to the displacement by accelerations [-]. A stiff effect makes
 /// much of what is left in its place. Chosen, not tuned.
 const ENOUGH_WITH_EFFECTS: f64 = 1e-6;
 /// Correction with which a stalled iteration may end near a singular position, relative to the displacement by accelerations [-]: rounding

@@ -56,7 +56,7 @@ pub struct TreeModel<T: Real, S: Space<T>> {
     pub(crate) feedback: Feedback<T>,
     /// The link of each coordinate that signals measure.
     pub(crate) measured: Vec<u32>,
-    /// Lengths and angles of balls that signals measure.
+    /// Lengths, and angles of balls, that signals measure.
     pub(crate) measures: Vec<FeedbackMeasure<T>>,
     pub(crate) order: Order,
     /// Forces at centres of mass where gravity has a factor, then the effects.

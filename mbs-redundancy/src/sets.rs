@@ -17,7 +17,7 @@ pub struct Member {
     pub joint: usize,
     /// Directions of its reaction that nothing determines: forces, moments about its place, and both together.
     pub open: [usize; 3],
-    /// Whether each component of its reaction is determined: [Fx, Fy, Mz], or all six, in global axes.
+    /// Whether each component of the joint's reaction is determined: [Fx, Fy, Mz], or all six, in global axes.
     pub is_unique: Vec<bool>,
     /// Is its guide among the dependent equations?
     pub guide: bool,

@@ -176,7 +176,7 @@ fn reactions(c: &Checkup) -> Section {
     Section { caption, ..Section::new("Reactions", &[], rows) }
 }
 
-/// Counts how many forces and moments of a joint are open, whatever the axes.
+/// Returns in words how many forces and moments of a joint are open, whatever the axes.
 fn directions(c: &Checkup, joint: usize) -> String {
     let exact = c.joint_level.sets.iter().filter(|set| set.is_exact);
     let member = exact.flat_map(|set| &set.members).find(|m| m.joint == joint);

@@ -43,7 +43,7 @@ pub struct Options {
 
 impl Default for Options {
     /// Options without pivoting; one dense front up to 8 unknowns. Measured on chains of 4, 6 and 12 unknowns an element. Dense is 8 %
-    /// faster at n = 6, equal at 8 and 9, 6 to 13 % slower at 12, and takes 1.5 to 1.7 times as long at 24.
+    /// faster at n = 6, equal at 8 and 9, and 6 to 13 % slower at 12. It takes 1.5 to 1.7 times as long at 24.
     fn default() -> Self {
         Self { pivoting: Pivoting::None, dense_up_to: 8, ordering: Ordering::Chosen, grain: 5_000 }
     }

@@ -58,7 +58,7 @@ pub(crate) struct Tasks {
     pub(crate) sizes: [usize; 2],
 }
 
-/// Property of neighbouring tasks with all below them.
+/// Data that belong to neighbouring tasks with all below them.
 pub(crate) trait Owned: Send + Sized {
     /// Parts of the tasks before `cut`, and of the rest; the first of all is `begin`.
     fn cut(self, begin: &Task, cut: &Task) -> (Self, Self);

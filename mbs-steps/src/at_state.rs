@@ -8,7 +8,7 @@ use mbs_core::scene::Scene;
 use mbs_core::{Cliques, instances};
 use mbs_linear::Matrix;
 
-/// Motions of the bodies of a scene at a state: where they are, and how they move.
+/// Returns the motions of the bodies of a scene at a state: where they are, and how they move.
 pub fn poses<const D: usize>(
     scene: &Scene<f64>,
     model: &NaturalModel<f64, D>,

@@ -38,7 +38,7 @@ fn ranges<'a, T: Real>(scene: &Scene<T>, run: &'a Outcome) -> OutputRanges<'a> {
 }
 
 impl<'a> OutputRanges<'a> {
-    /// Ranges of the outputs of a run.
+    /// Takes the ranges of the outputs of a run.
     pub fn new<T: Real>(scene: &Scene<T>, run: &'a Outcome) -> Self {
         if T::HAS_INSTANCES {
             return found::<New<T>>(NEW)(scene, run);

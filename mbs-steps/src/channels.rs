@@ -17,7 +17,7 @@ pub struct Channels<T: Real, const D: usize> {
     forces: Option<Forces<T, D>>,
     /// The coordinates that the first state knows with their turns.
     remembered: Vec<RememberedAngle<T>>,
-    /// Joints, then couplings, then rollings whose reaction, effort or force is an output and was not unique at some row.
+    /// Joints, then couplings, then rollings, by number, whose reaction, effort or force is an output and was not unique at some row.
     not_unique: Vec<usize>,
     asked: Vec<usize>,
     /// Number of joints, and of joints and couplings.

@@ -67,7 +67,7 @@ impl Watched {
         tape.floats(&mut self.most)
     }
 
-    /// Notes on the limits that the joint has left.
+    /// Notes on the limits that the joint has passed.
     fn notes<T>(&self, scene: &Scene<T>) -> impl Iterator<Item = String> {
         let joint = &scene.joints[self.joint];
         let unit = joint.kind.single(scene.dimension).map_or("", |freedom| freedom.unit());

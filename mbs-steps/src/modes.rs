@@ -25,7 +25,7 @@ pub struct Modes {
     pub place: Place,
     /// The equilibrium, if that is the place.
     pub found: Option<Equilibrium<f64>>,
-    /// Parts of the scene that are left out, of the equilibrium too.
+    /// Parts that are left out of the scene, and of its equilibrium too.
     pub left_out: Vec<LeftOut>,
     /// Number of freedoms of the scene.
     pub dof: usize,

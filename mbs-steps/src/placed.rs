@@ -32,7 +32,7 @@ pub struct PlacedScene<const D: usize> {
     pub ready: AssembledScene<f64, D>,
     /// The equilibrium, if that is the place.
     pub found: Option<Equilibrium<f64>>,
-    /// Parts of the scene that are left out; of a moving state, of the search of its equilibrium alone.
+    /// Parts that are left out of the scene; for a moving state, out of the search for its equilibrium alone.
     pub left_out: Vec<LeftOut>,
     /// Motion of the guides at the place.
     pub instant: Instant,

@@ -56,7 +56,7 @@ pub struct Method {
     pub penalty: Option<f64>,
     /// Tolerance of the iterations, relative to what accelerations move in a step; with error control the error of a step.
     pub tolerance: Option<f64>,
-    /// Threads that share the work of a step.
+    /// Number of threads that share the work of a step.
     pub threads: Option<usize>,
     /// Interrupt that ends the run from outside.
     pub interrupt: Interrupt,
@@ -394,8 +394,8 @@ fn method<T>(
     Ok((asked, formulation, integrator))
 }
 
-/// Rule that chooses the length of the steps. First comes what the command line names, then what it gives tolerances for; then what the
-/// scene names, and last what it gives the other tolerance for. The energy limits of a scene are meant for multi-index, which has the
+/// Rule that chooses the length of the steps. The rule that the command line names comes first, then one that it gives tolerances for. Next is
+/// the rule that the scene names, and last the one of its error tolerance. The energy limits of a scene are meant for multi-index, which has the
 /// energy rule anyway.
 fn step_rule<T>(
     solver: &SolverTable<T>,

@@ -14,7 +14,7 @@ use mbs_core::step::{Step, StepError, StepReport};
 #[derive(Debug, Clone)]
 pub struct SignalEnds<T>(SignalTimes<T>);
 
-/// Distance from a jump of a signal at which a step ends before it and the next begins behind it, in units of rounding of the time [-].
+/// Distance at which a step ends before a jump of a signal, and the next begins behind it, in units of rounding of the time [-].
 /// It is more than the rounding of the times of rows in the thousandth period.
 const BESIDE_JUMP: f64 = 32.0;
 /// Time to a jump or a corner that is no step, in the same units [-]. Chosen, not tuned.

@@ -135,8 +135,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         })
     }
 
-    /// Returns the error that a part of a rope loses its length in a step that failed, where its motion leads there. Of a controlled step, within
-    /// two of the last one's length.
+    /// Returns the error that a part of a rope loses its length, where its motion in a step that failed leads there. Of a controlled step,
+    /// no more than twice the length of the last one counts.
     fn collapsing(&self, rest: T) -> Option<StepError> {
         let State { v, a, dt, .. } = &self.state;
         let h = if *dt > T::ZERO { rest.min(T::TWO * *dt) } else { rest };

@@ -66,7 +66,7 @@ pub enum StopError {
         code: &'static str,
         /// Message of the error.
         message: Box<str>,
-        /// Hint what to try; empty where the error gives none.
+        /// Hint on what to try; empty where the error gives none.
         hint: Box<str>,
     },
     /// An output whose value is not finite.

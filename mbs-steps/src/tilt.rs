@@ -40,7 +40,8 @@ impl core::fmt::Display for AlmostDependent {
     }
 }
 
-/// Notes on the axes that are off by a little: those that are taken as parallel, or as across each other, and one whose tilt takes freedoms.
+/// Notes on the axes that are off by a little: those that are taken as parallel, or as across each other. An axis whose tilt takes freedoms
+/// has a note too.
 pub fn notes<T: Real>(scene: &Scene<T>) -> Vec<(usize, String)> {
     if T::HAS_INSTANCES {
         return found::<Notes<T>>(NOTES)(scene);

@@ -11,7 +11,7 @@ pub enum Unsteady {
     Accelerates {
         /// Name of the state.
         state: String,
-        /// Acceleration of the state [rad/s^2 or m/s^2].
+        /// Magnitude of the acceleration of the state [rad/s^2 or m/s^2].
         by: f64,
         /// Unit of the acceleration.
         unit: &'static str,

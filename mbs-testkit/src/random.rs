@@ -30,7 +30,7 @@ impl Random {
         bits as f64 / (1_u64 << 52) as f64 - 1.0
     }
 
-    /// Random number below `n`.
+    /// Random whole number below `n`.
     pub fn below(&mut self, n: usize) -> usize {
         (((self.next() + 1.0) * 0.5 * n as f64) as usize).min(n - 1)
     }

@@ -77,7 +77,7 @@ pub fn centres<T: Real, const D: usize>(
     (0..scene.bodies.len()).map(place).collect()
 }
 
-/// Centres of mass of all bodies [m] with the names of the bodies, and in the order of these.
+/// Centres of mass of all bodies [m], each with the name of its body, in the order of the names.
 #[must_use]
 pub fn named_centres<T: Real, const D: usize>(
     scene: &Scene<T>,

@@ -47,7 +47,7 @@ type Check = fn() -> Result<Outcome, String>;
 
 type Listed = (&'static str, Check);
 
-/// Checks that a mistake while writing fails at, first.
+/// Checks that fail first where a mistake was made in writing.
 const BEFORE_THE_TESTS: [Listed; 2] = [("format", format), ("lints", lints)];
 
 /// Checks that run on the build of the tests, on all cores: one after another. `lean` leaves a lean `mbs` where later jobs look for the whole

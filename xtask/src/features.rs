@@ -1,4 +1,4 @@
-//! Builds that the tests of the workspace leave out: crates with each set of their features, the command in `f64` alone, our side of the peers.
+//! Builds that the tests of the workspace leave out: crates with each set of features, the command in `f64` alone, our side of the peers.
 
 use crate::process::{self, cargo, output, run};
 use crate::summary::Outcome;

@@ -13,7 +13,7 @@ const SMALL: [u32; 2] = [400, 240];
 /// Width and height of a picture in README.md or a guide [pixels]: as wide as the text on a forge.
 const LARGE: [u32; 2] = [720, 300];
 
-/// Views of scenes that are not at a third of their run from the usual side: as the address of the page has it.
+/// Views of scenes whose picture is not taken at a third of the run from the usual side: as the address of the page has them.
 const LOOKS: [(&str, &str); 5] = [
     ("iltis-stairs", "t=6.4"),
     ("iltis-stairs-stiff", "t=6.4"),

@@ -65,7 +65,7 @@ pub fn cases() -> Vec<Case> {
     list
 }
 
-/// Place that the first body of a joint has.
+/// Kind of a joint's first body: the ground, a body welded to it, or a moving one.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Place {
     Ground,

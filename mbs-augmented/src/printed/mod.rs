@@ -47,7 +47,7 @@ impl<T: Real> Options<T> {
         Self { integrator, alpha, tolerance, max_iterations: MAX_ITERATIONS }
     }
 
-    /// Returns these options as the formulation has them that has all strategies, with none of them.
+    /// Returns these options as options of the formulation that has all strategies, with every strategy off.
     fn of_index3(&self) -> crate::Options<T> {
         let Self { integrator, alpha, tolerance, max_iterations } = *self;
         crate::Options {

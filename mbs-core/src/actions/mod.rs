@@ -31,7 +31,7 @@ pub type Attachment<T> = (BodyId, [T; 3]);
 pub enum Action<T> {
     /// A law along the line of two places.
     Length {
-        /// Places at both ends of the length.
+        /// Places at both ends of the line.
         ends: [Attachment<T>; 2],
         /// Law of the tension along the line.
         law: Law<T>,

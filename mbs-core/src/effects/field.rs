@@ -1,4 +1,4 @@
-//! Fields and values that describe effects: a field has a key, a form, a unit and a default, and a value has one of these forms.
+//! Fields and values that describe effects. A field has a key, a form, a unit and a default; a value has one of these forms.
 //!
 //! Reader, writer, checks, documents and tests go through fields and values; none of them has a list of kinds.
 
@@ -45,7 +45,7 @@ pub enum Form {
     Bodies,
     /// A body that moves.
     Body,
-    /// A joint, with its need where no coordinate is given.
+    /// A joint, with the requirement on it where no coordinate is given.
     Joint(JointNeed),
     /// A coordinate of the joint, by name or number from 0; `None`: the one that the joint's need means.
     Coordinate,
@@ -89,7 +89,7 @@ pub enum Form {
     BodyLaw,
 }
 
-/// Need of an effect for a joint whose coordinate is not given.
+/// Requirement of an effect on a joint whose coordinate is not given.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum JointNeed {
     /// One rotation, or one coordinate alone.

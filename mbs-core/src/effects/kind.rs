@@ -69,7 +69,7 @@ pub(crate) trait EffectModel<T: Real>: EffectData<T> {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Row {
-    /// Module of the kind, with the kind's name in small letters.
+    /// Name of the kind's module: that of the kind in small letters.
     pub module: &'static str,
     /// Names of the kind in scene files; none for a law in code.
     pub names: &'static [&'static str],

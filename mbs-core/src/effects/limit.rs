@@ -114,7 +114,7 @@ mod data {
     }
 
     impl<T: Real> Limit<T> {
-        /// Returns the coordinates of the stops, lower and upper [rad or m]; `None` where they are those of a joint's range, and the joint has none.
+        /// Returns the coordinates of the stops, lower and upper [rad or m]. `None`: they are those of a joint's range, and the joint has none.
         #[must_use]
         pub fn ends(&self, joints: &[Joint<T>]) -> Option<[T; 2]> {
             if !self.range {

@@ -31,7 +31,7 @@ pub(crate) fn swing<T: Real, const D: usize>(pair: &Pair<T, D>) -> T {
     s.atan2(c)
 }
 
-/// Gradient of the swing by both directions; zero at no swing.
+/// Gradient of the swing by both directions; zero where they are parallel.
 pub(crate) fn swing_gradient<T: Real, const D: usize>(pair: &Pair<T, D>) -> Pair<T, D> {
     let ([c, s], n) = swing_parts(pair);
     if s == T::ZERO {

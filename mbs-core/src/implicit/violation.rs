@@ -13,7 +13,7 @@ use crate::team::{add, norm_inf};
 /// Violation that is accepted when no sweep lowers it further, relative to what the vector and the scene move [-]: five digits more
 /// than steps of practical length are exact to.
 const ACCEPTED: f64 = 5e-10;
-/// Violation that is accepted where rounding decides [EPSILON]: sums over the coordinates of a long row of bodies.
+/// Violation that is accepted where rounding decides, relative as `ACCEPTED` is [EPSILON]: sums over the coordinates of a long row of bodies.
 const ACCEPTED_ROUNDING: f64 = 1024.0;
 /// A violation of velocities that is rounding [EPSILON of the largest velocity]: some products in a row.
 const VELOCITY_ROUNDING: f64 = 16.0;
@@ -40,7 +40,7 @@ pub struct ResidualLimits<T> {
     pub goal: T,
     /// Violation that sweeps may leave.
     pub enough: T,
-    /// Violation that sweeps may leave where another one does not shrink it.
+    /// Violation that sweeps may leave where they no longer shrink it.
     pub limit: T,
     /// Size that the violation is compared with: that of the vector, with what keeps it from zero.
     pub size: T,

@@ -57,7 +57,7 @@ impl<T: Real> Coefficients<T> {
     }
 }
 
-/// Side force of the tire, its aligning torque and its slope.
+/// Side force of the tire with its slope, and the aligning torque.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Side<T> {
     /// Side force Fy [N].

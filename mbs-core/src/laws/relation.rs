@@ -134,8 +134,8 @@ const STEPS: [f64; 3] = [1e-3, 1e-5, 1e-7];
 /// Difference of a derivative that is right from a quotient of differences, relative [-]: such errors are of second order in the step, and
 /// those of a wrong formula of order one. Chosen, not tuned.
 const AGREEMENT: f64 = 1e-3;
-/// Difference of a right derivative, beside the largest derivative [-]: where one is zero, its quotient is what the third derivatives make of it.
-/// Chosen, not tuned.
+/// Difference of a derivative that is right from a quotient of differences, beside the largest derivative [-]. Where a derivative is zero,
+/// its quotient is what the third derivatives make of it. Chosen, not tuned.
 const BESIDE_LARGEST: f64 = 1e-6;
 /// Rounding of a value, in units of that of its size [-]: a formula has a few dozen operations. Chosen, not tuned.
 const ROUNDINGS: f64 = 64.0;

@@ -39,7 +39,7 @@ pub struct RoadContact<T> {
     pub distance: T,
     /// Unit normal of the road there: along x, and up.
     pub normal: [T; 2],
-    /// Second derivative h'' of the road there; on a sharp crest so far below zero that [`turn`](Self::turn) is that of a point [1/m].
+    /// Second derivative h'' of the height there; on a sharp crest so far below zero that [`turn`](Self::turn) is that of a point [1/m].
     pub bend: T,
 }
 

@@ -298,7 +298,7 @@ impl<T: Real> TireLaw<T> {
 }
 
 impl<T: Real> WrenchesLaw<T> for TireLaw<T> {
-    /// Counts the actions, in order: radial force; rolling resistance; side force and aligning torque; force by slip.
+    /// Number of actions: radial force; rolling resistance; side force and aligning torque; force by slip.
     fn n_actions(&self) -> usize {
         if self.longitudinal.is_some() {
             5

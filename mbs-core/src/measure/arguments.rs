@@ -14,7 +14,7 @@ use crate::laws::relation::{MAX_ARGUMENTS, Relation};
 pub struct Arguments<T> {
     n: usize,
     at: [f64; MAX_ARGUMENTS],
-    /// Rests of the numbers, which doubles do not hold.
+    /// Remainders of the numbers, which doubles do not hold.
     rest: [T; MAX_ARGUMENTS],
     rates: [f64; MAX_ARGUMENTS],
     gradient: [f64; MAX_ARGUMENTS],

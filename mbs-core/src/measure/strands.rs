@@ -70,7 +70,7 @@ impl<T: Real> Strands<T> {
         Ok(Self { wheels, radii })
     }
 
-    /// Strands of the belt, where the first axis is `n` and the axes stand at these places.
+    /// Two strands of the belt, where the first axis is `n` and the axes stand at these places.
     pub(crate) fn at(&self, n: &Vector<T, 3>, [from, to]: [Vector<T, 3>; 2]) -> [Strand<T>; 2] {
         let [r1, r2] = self.radii;
         let way = to - from;

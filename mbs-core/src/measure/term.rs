@@ -53,7 +53,7 @@ impl<T: Real> TermInput<T> {
         Self::measured(&CouplingMeasure::Length { points: points.to_vec() })
     }
 
-    /// Length that a measured one over these points counts from [m]: that in the reference configuration, or zero where it counts whole.
+    /// Length from which a measured length over these points counts [m]: that in the reference configuration, or zero where it counts whole.
     #[must_use]
     pub fn reference_of(&self, points: &[[T; 3]; 2]) -> T {
         let [p, q] = points.map(Vector::<T, 3>::from);

@@ -14,7 +14,7 @@ use alloc::vec::Vec;
 use core::convert::Infallible;
 
 impl<T: Real> Builder<'_, T> {
-    /// Adds the measures of signals; the check of a scene refuses coordinates that nothing measures.
+    /// Adds the measures that signals read; the check of a scene refuses coordinates that nothing measures.
     pub(super) fn add_measured(&mut self, feedback: &Feedback<T>) {
         for term in &feedback.measured {
             let measures = self.coupled_draft(term, T::ONE).measures;

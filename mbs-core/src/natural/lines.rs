@@ -10,8 +10,8 @@ use crate::model::{Owner, State};
 use crate::step::StepError;
 
 impl<T: Real, const D: usize> NaturalModel<T, D> {
-    /// Returns the error of an effect that has no direction after a step `dq` from a state. The cause is an open twist, or a part of a line if
-    /// the effect acts before or after the step.
+    /// Returns the error of an effect that has no direction after a step `dq` from a state. The cause is an open twist, or a part of a
+    /// line without length if the effect acts before or after the step.
     ///
     /// Cost: nothing without such effects; else the gap of each part.
     pub(super) fn undirected_effect(&self, state: &State<T>, dq: &[T]) -> Option<StepError> {

@@ -46,7 +46,7 @@ pub struct NaturalModel<T: Real, const D: usize> {
     pub(super) curves: Vec<PreparedCurve<T>>,
     /// Joint and coordinate of each angle that couplings remember, with its place.
     pub(super) coupled_angles: Vec<((usize, usize), T, u32)>,
-    /// Measures of the signals that follow the motion; `feedback` has the operations that give the signals.
+    /// Measures that signals read of the motion; `feedback` has the operations that make the signals of them.
     pub(super) measured: Vec<Signed<T>>,
     /// Measures of each number that signals measure: the number is their sum.
     pub(super) measured_numbers: Vec<Span>,
@@ -114,7 +114,7 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         self.length
     }
 
-    /// Guides and signals by their numbers: they name the places of a state's inputs, and set them.
+    /// Guides, signals and courses of effects: they name the places of a state's inputs, and set them.
     #[must_use]
     pub fn prescribed(&self) -> &Prescribed<T> {
         &self.prescribed

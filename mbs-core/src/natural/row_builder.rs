@@ -72,7 +72,7 @@ pub(crate) struct CoupledDraft<T: Real> {
     pub(crate) curve: PreparedCurve<T>,
 }
 
-/// Quantity that a term of a coupling measures, in terms of entities.
+/// Quantity that a term of a coupling measures, by combinations of entities.
 #[derive(Debug, Clone)]
 pub(crate) enum MeasureDraft<T: Real> {
     Angle { x1: Combination<T>, x2: Combination<T>, y: Combination<T>, sign: T, of: (usize, usize) },
@@ -135,7 +135,7 @@ impl<T: Real> RowDraft<T> {
     }
 }
 
-/// Measure or load of an effect group, in terms of entities.
+/// Measure or load of an effect group, by combinations of entities.
 #[derive(Debug, Clone)]
 pub(crate) enum EffectDraft<T: Real> {
     Length {

@@ -24,7 +24,7 @@ pub struct Instant {
     pub t: f64,
     /// Index of the effect in the scene.
     pub effect: usize,
-    /// End of a limit: 0 its lower end, 1 its upper one. 0 else.
+    /// End of a limit: 0 the lower, 1 the upper; 0 for other effects.
     pub end: usize,
     /// Is the contact made, and not broken?
     pub makes: bool,

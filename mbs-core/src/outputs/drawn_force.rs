@@ -78,7 +78,7 @@ impl<T: Real, const D: usize> DrawnForce<T, D> {
         }
     }
 
-    /// Returns what acts at an end of the line, one of `ends`: at the rim it acts on the drum. Adds its moment about the drum's axis.
+    /// Returns what acts at end number `end` of the `ends` of the line: at the rim it acts on the drum. Adds its moment about the drum's axis.
     pub(super) fn moved(
         &self,
         (end, ends): (usize, usize),

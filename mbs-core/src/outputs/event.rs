@@ -45,7 +45,7 @@ pub struct Events<T: Real, const D: usize> {
     trials: u32,
 }
 
-/// History of [`Events`] from the beginning of a step.
+/// History of [`Events`] at the beginning of a step.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct EventHistory<T> {
     /// When it begins [s].

@@ -43,7 +43,7 @@ impl<T: Real, const D: usize> EffectWrenches<T, D> {
     }
 
     /// Wrench of an effect at a state: on its body, or on the second of its two, global axes. The moment is about the point of that body
-    /// where the effect is attached, as it has moved; an effect about an angle has a moment alone. Zero where the effect is not there.
+    /// where the effect is attached, as it has moved. An effect about an angle has a moment alone. Zero where the effect is not there.
     ///
     /// Cost: one evaluation of the effect's laws, and one look at each other effect; no allocation.
     pub fn of(&mut self, effect: usize, state: &State<T>) -> Wrench<T> {

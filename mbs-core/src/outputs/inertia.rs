@@ -1,4 +1,4 @@
-//! Energy and momentum of bodies at a state, as masses in motion.
+//! Energy and momentum of bodies with mass, at a state.
 //!
 //! ```text
 //! E = 1/2 sum (m c'.c' + omega.I omega),   V = -sum s m g.c,   P = sum m c'

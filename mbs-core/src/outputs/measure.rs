@@ -129,7 +129,7 @@ impl<T: Real, const D: usize> Measures<T, D> {
         &self.memory
     }
 
-    /// Values of [`memory`](Self::memory), to restore others.
+    /// Mutable values of [`memory`](Self::memory), to restore others.
     pub fn memory_mut(&mut self) -> &mut [T] {
         &mut self.memory
     }
@@ -145,8 +145,8 @@ impl<T: Real, const D: usize> Measures<T, D> {
         self.follow(state, |_, _| None, true)
     }
 
-    /// Follows all joint coordinates where angles, by joint and number, are known with their turns, as most of a tree are. Its steps may
-    /// be any number of steps of its rule: rates do not determine the turns between them, and nothing is refused.
+    /// Follows all joint coordinates to `state`, where angles, by joint and number, are known with their turns, as most of a tree are. Its
+    /// steps may be any number of steps of its rule: rates do not determine the turns between them, and nothing is refused.
     pub fn track_with(&mut self, state: &State<T>, known: impl Fn(usize, usize) -> Option<T>) {
         // Without a check there is no error.
         let _ = self.follow(state, known, false);

@@ -356,7 +356,7 @@ impl<T: Real, const D: usize> Placed<T, D> {
         }
     }
 
-    /// Places the body at a state; returns what all joints and effects must give: [m (c'' - g); I omega' + omega x I omega].
+    /// Places the body at a state; returns what all joints and effects together must give: [m (c'' - g); I omega' + omega x I omega].
     fn update(&mut self, state: &State<T>) -> Wrench<T> {
         let BodyInertia { frame, center, mass, inertia, .. } = &self.body;
         let r = frame.rotation(&state.q);

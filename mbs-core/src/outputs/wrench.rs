@@ -182,7 +182,7 @@ pub(super) struct WrenchBasis<T: Real, const D: usize> {
     transmission: Transmission<T>,
 }
 
-/// Transmission of a joint or a contact.
+/// Wrenches that a joint or a contact transmits.
 #[derive(Debug, Clone)]
 enum Transmission<T: Real> {
     Joint(JointWrenches<T>),

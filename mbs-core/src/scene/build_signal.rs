@@ -47,7 +47,7 @@ impl From<SignalKind<f64>> for SignalKind<Number> {
 }
 
 impl Road<Number> {
-    /// Features whose heights add up, equal under all wheels; they come along -x towards a standing vehicle at a speed [m/s].
+    /// Features under all wheels alike, whose heights add up; they come along -x towards a standing vehicle at a speed [m/s].
     pub fn new(
         features: impl IntoIterator<Item = RoadFeature<f64>>,
         speed: impl Into<Number>,

@@ -97,8 +97,8 @@ impl<T> Coupling<T> {
     }
 
     /// Effort of the coupling over the force that its sum takes to change; one where no other effort is named. The effort of a gear and a
-    /// differential is the torque on the first wheel [N m]. That of a belt is the difference of its strands [N], that of a rack and a screw
-    /// the force along the slide [N], that of a rope its tension [N].
+    /// differential is the torque on the first wheel [N m]. That of a belt is the difference of its strands [N]. Of a rack and a screw it is
+    /// the force along the slide [N], of a rope its tension [N].
     #[must_use]
     pub fn effort_factor(&self) -> T
     where
@@ -275,7 +275,7 @@ impl Coupling<Number> {
         self
     }
 
-    /// Marks the coupling as meant as drawn: no run notes that its sum is another one than in version 0.1.
+    /// Marks the coupling as one that is meant as drawn: no run notes that its sum is another one than in version 0.1.
     #[must_use]
     pub fn as_drawn(mut self) -> Self {
         if let Some(drawn) = &mut self.drawn {

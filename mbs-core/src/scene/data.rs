@@ -199,7 +199,7 @@ pub enum Motion<T> {
     Signal(SignalId),
 }
 
-/// Surroundings of an effect: the parts of its scene that it refers to.
+/// Surroundings of an effect: the parts of its scene that it may refer to.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Surroundings<'a, T> {
     pub(crate) dimension: Dimension,

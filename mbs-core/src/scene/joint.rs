@@ -271,7 +271,7 @@ impl JointKind {
         self.freedoms(dimension).iter().map(|freedom| freedom.n_rotations()).sum()
     }
 
-    /// Only freedom of the kind, where that has one coordinate.
+    /// Freedom of a kind that has one coordinate alone; `None` of other kinds.
     #[must_use]
     pub fn single(self, dimension: Dimension) -> Option<Freedom> {
         match self.freedoms(dimension) {

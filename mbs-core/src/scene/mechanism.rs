@@ -125,7 +125,7 @@ impl<T> Scene<T> {
 }
 
 impl<T> Scene<T> {
-    /// Whether a joint or a contact that rolls names each body: the others move freely.
+    /// Flag of each body: a joint or a contact that rolls names it. The other bodies move freely.
     #[must_use]
     pub fn held_bodies(&self) -> Vec<bool> {
         let mut held = alloc::vec![false; self.bodies.len()];

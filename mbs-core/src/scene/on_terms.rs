@@ -18,7 +18,7 @@ impl Effect<Number> {
         Self { name: String::new(), enabled: true, kind: rope.into() }
     }
 
-    /// Puts the law on a sum of terms, in place of its joint or its points. An effect without such a form stays as it is; so does a spring along
+    /// Puts the law on a sum of terms, in place of its joint or its points. An effect without such a form stays as it is. So does a spring along
     /// a line, whose free length is no value of a sum.
     #[must_use]
     pub fn on_terms(mut self, terms: Vec<CouplingTerm<Number>>) -> Self {

@@ -359,7 +359,8 @@ impl<T> SignalKind<T> {
 }
 
 impl<T: Real> SignalKind<T> {
-    /// First break for smooth operands from time zero on: whether it is a jump, else a corner, and its time. `None`: it is smooth.
+    /// First break of the signal from time zero on, for smooth operands; `None`: it has none. Whether the break is a jump, not a corner, and
+    /// its time where that is known.
     fn own_break(&self) -> Option<(bool, Option<f64>)> {
         let at = |is_jump, time: &T| Some((is_jump, Some(time.to_f64())));
         let is_within = |time: &T| *time > T::ZERO;
@@ -429,7 +430,7 @@ pub fn signal_order<T>(signals: &[NamedSignal<T>]) -> Result<Vec<usize>, Vec<usi
     }
 }
 
-/// Returns the worst break of each signal, its own or of what it is made of; of equal ones the first that it is made of.
+/// Returns the worst break of each signal, its own or of what it is made of. Of equal ones it is the first that the signal is made of.
 ///
 /// A spline is smooth within its rows; [`Scene::check_run`](crate::scene::Scene::check_run) looks at its ends.
 ///

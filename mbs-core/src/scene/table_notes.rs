@@ -201,7 +201,7 @@ impl Spline {
     }
 }
 
-/// Zeros of the rate of a cubic within its piece of length h and rise, with curvatures of its ends, from the beginning.
+/// Zeros of the rate of a cubic within its piece, counted from the beginning. The piece has a length h, a rise, and curvatures at both ends.
 fn turning((h, rise): (f64, f64), [c0, c1]: [f64; 2]) -> impl Iterator<Item = f64> {
     // m + c0 s + (c1 - c0) s^2 / (2 h) = 0
     let m = rise / h - h * (2.0 * c0 + c1) / 6.0;

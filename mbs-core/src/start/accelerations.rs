@@ -81,7 +81,7 @@ pub fn accelerations<T: Real, M: Model<T>>(
     Ok(residual)
 }
 
-/// Writes multipliers, `phi`, remembered angles, signals, inputs and power of a state that has its accelerations.
+/// Writes auxiliary accelerations, multipliers, `phi`, remembered angles, signals, applied inputs and power of a state with accelerations.
 fn keep<T: Real, M: Model<T>>(model: &M, s: &mut State<T>, lambda: &[T], terms: &Terms<T>) {
     s.a_aux.copy_from_slice(&s.a);
     for x in [&mut s.lambda, &mut s.lambda_previous, &mut s.reaction] {

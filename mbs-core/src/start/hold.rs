@@ -32,7 +32,7 @@ enum Kind<T: Real, const D: usize> {
 #[derive(Debug, Clone)]
 pub(super) struct StartRow<T: Real, const D: usize> {
     kind: Kind<T, D>,
-    /// Value that the row holds, or `None` if only the rate; `rate` is the held rate, or `None` if only the value.
+    /// Held value, `None` where only the rate is held; `rate` is the held rate, `None` where only the value is.
     pub(super) value: Option<T>,
     pub(super) rate: Option<T>,
     /// Index of the `[[initial]]` entry.

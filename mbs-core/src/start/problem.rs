@@ -276,7 +276,7 @@ impl<T: Real, const D: usize> BlockSource<T> for Sweep<'_, '_, T, D> {
     }
 }
 
-/// Number of raises of the penalties: in double precision to 1e9 effective masses, in single precision to 15,000.
+/// Number of raises that penalties may have: in double precision to 1e9 effective masses, in single precision to 15,000.
 pub(super) fn raises<T: Real>() -> u32 {
     if T::EPSILON < T::from_f64(1e-12) { 2 } else { 1 }
 }

@@ -119,7 +119,7 @@ pub enum StepError {
 pub enum InputError {
     /// There is no such effect or guide, it is switched off, or its values come from the scene.
     NotAnInput {
-        /// Number of the input: of the effect or guide in the scene, of the course or guide in an exported model.
+        /// Number that is no input: of the effect or guide in the scene, of the course or guide in an exported model.
         number: usize,
     },
     /// A component is infinite or NaN.

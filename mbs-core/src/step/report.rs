@@ -1,4 +1,4 @@
-//! Request of a step, and the report on what it did, in counts.
+//! Request for a step, and the report on what it did, in counts.
 
 use super::error::StepError;
 use crate::Real;
@@ -56,7 +56,7 @@ pub struct Counts {
 /// Report on what a step did. Counts only; time is measured from outside.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StepReport<T> {
-    /// Number of iterations made; of evaluations of the accelerations in relative coordinates.
+    /// Number of iterations made; in relative coordinates, of evaluations of the accelerations.
     pub iterations: u32,
     /// Number of factorisations made.
     pub factorizations: u32,
@@ -68,7 +68,7 @@ pub struct StepReport<T> {
     pub rejected: u32,
     /// Last correction of a coordinate [m or -].
     pub correction: T,
-    /// Reason that ended the iteration.
+    /// Reason why the iteration ended.
     pub stop: Stop,
     /// Largest |phi|, |phi'|, |phi''| after the step [m, m/s, m/s^2].
     pub violation: [T; 3],

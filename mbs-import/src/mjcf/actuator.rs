@@ -252,7 +252,7 @@ impl Actuator {
         self.time
     }
 
-    /// Number of the numbers of a keyframe that are its activation; `None` where only its own program knows.
+    /// Count of the numbers in a keyframe that are the actuator's activation; `None` where only its own program knows.
     pub(super) fn activations(&self) -> Option<usize> {
         match (self.by.as_str(), self.dynamics.as_str()) {
             ("muscle", _) => Some(1),

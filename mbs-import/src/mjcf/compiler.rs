@@ -217,7 +217,7 @@ impl Compiler {
     }
 }
 
-/// Number of the word that a value is, among some words.
+/// Index in `known` of the word that a value is.
 pub(super) fn word(attribute: &Attribute, known: &[&str]) -> Read<usize> {
     known.iter().position(|word| *word == attribute.value.trim()).ok_or_else(|| {
         attribute.fault(

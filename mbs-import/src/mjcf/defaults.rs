@@ -115,7 +115,7 @@ impl<'a> Classes<'a> {
         self.view_as(element, &element.name, scope)
     }
 
-    /// An element with what its class says, whose defaults have another name: `tendon` for `fixed`.
+    /// An element whose defaults have another name, with what its class says: `tendon` for `fixed`.
     pub(super) fn view_as(
         &'a self,
         element: &'a Element,

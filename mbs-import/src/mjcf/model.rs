@@ -171,7 +171,7 @@ pub(super) struct Control {
     pub(super) activation: Option<usize>,
     /// Factor of its control and its activation in the file.
     pub(super) factor: f64,
-    /// Number of the activation's numbers in the file, if that is known.
+    /// Count of the numbers that the activation has in the file, if that is known.
     pub(super) activations: Option<usize>,
 }
 

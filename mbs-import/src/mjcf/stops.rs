@@ -145,8 +145,8 @@ impl Factor {
         Some(Self { of: of.collect(), rows, tree })
     }
 
-    /// Inertia that each joint of the file moves while others give way: one over the diagonal of the inverse of M, of several coordinates over
-    /// its mean.
+    /// Inertia that each joint of the file moves while others give way. It is one over the diagonal of the inverse of M; of several
+    /// coordinates, one over its mean.
     fn moved(&self, motions: usize) -> Vec<f64> {
         let mut found = vec![(0.0, 0.0); motions];
         for (number, column) in self.tree.columns.iter().enumerate() {

@@ -152,7 +152,7 @@ fn row<T: Real>(of: Row) -> [T; 12] {
     weights
 }
 
-/// Number of a decimal text; NaN where it is none, and then in every step.
+/// Number of a decimal text; NaN where it is none, as every step would then be too.
 fn number<T: Real>(text: &str) -> T {
     T::from_decimal(text).unwrap_or_else(|| T::from_f64(f64::NAN))
 }

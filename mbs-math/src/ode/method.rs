@@ -1,4 +1,4 @@
-//! Method as the control of the step asks it, options of its caller, and the size of an error.
+//! Method as the control of the step sees it, options of its caller, and the size of an error.
 
 use super::Rates;
 use crate::Real;
@@ -44,7 +44,7 @@ pub trait Method<T: Real> {
         false
     }
 
-    /// Factor that the method makes of that by which its next step may be longer: a change may not be worth its cost.
+    /// Factor for the next step, which may be longer by `factor`, as the method wants it: a change may not be worth its cost.
     fn worth(&self, factor: T) -> T {
         factor
     }

@@ -62,7 +62,7 @@ fn advance<T: Real, S: Space<T>>(kind: LinkKind) -> Operations {
     }
 }
 
-/// Operations that carry a link to a parent that is not the ground: with its inertia, and its force alone.
+/// Operations that add a link to a parent that is not the ground: its inertia with its force, and its force alone.
 fn shift<T: Real, S: Space<T>>() -> [Operations; 2] {
     if is_spatial::<T, S>() { [ops(60, 81), ops(6, 12)] } else { [ops(8, 19), ops(2, 5)] }
 }

@@ -61,7 +61,7 @@ pub enum Load<T: Real, S: Space<T>> {
         link: u32,
         /// The point, from the link's origin, reference axes.
         point: S::Point,
-        /// Number of the signal that the force follows.
+        /// Number of the course that the force follows.
         course: u32,
         /// Does it turn with the body?
         turns: bool,
@@ -70,7 +70,7 @@ pub enum Load<T: Real, S: Space<T>> {
     Torque {
         /// Number of the link.
         link: u32,
-        /// Number of the signal that the torque follows.
+        /// Number of the course that the torque follows.
         course: u32,
     },
     /// A law on one body.

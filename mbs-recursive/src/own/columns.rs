@@ -192,8 +192,8 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
         self.write_columns(&m, s.placed);
     }
 
-    /// Puts the links on the way from a link to the ground alone where a state has them, and their columns; `self.way` has that way from
-    /// the ground on.
+    /// Puts the links on the way from a link to the ground alone where a state has them, and their columns. `self.way` then has that way,
+    /// from the ground on.
     pub(super) fn place_way(
         &mut self,
         model: &TreeModel<T, S>,

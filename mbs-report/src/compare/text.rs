@@ -264,7 +264,7 @@ pub(super) fn reason(run: &RunEntry) -> (String, String) {
     (format!("{}: {}", e.code, e.message), place)
 }
 
-/// Writes a number with three digits.
+/// Returns a number as text with three digits.
 pub(super) fn short(x: f64) -> String {
     significant(rounded(x, 3))
 }

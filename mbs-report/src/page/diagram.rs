@@ -31,7 +31,7 @@ pub(crate) struct Diagram {
     pub(crate) across: Vec<(f64, &'static str)>,
     /// Vertical lines of the diagram: value and name.
     pub(crate) upright: Vec<(f64, &'static str)>,
-    /// Side of the rail: at the top or at the right.
+    /// Side of the rail: `top` or `right`; empty: there is none.
     pub(crate) rail: &'static str,
     /// A line through the points without marks: a histogram.
     pub(crate) is_plain: bool,

@@ -90,7 +90,7 @@ pub(crate) struct PlotFrame {
 /// Frame of a diagram: what it has beside its points.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct DiagramFrame {
-    /// Kind of the diagram, and its number among those of the kind in the pack: `diagram` or `map`.
+    /// Kind of the diagram, `diagram` or `map`, and its number among those of the kind in the pack.
     pub(crate) place: (&'static str, usize),
     pub(crate) title: String,
     pub(crate) caption: String,

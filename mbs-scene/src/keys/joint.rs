@@ -97,7 +97,7 @@ fn axis(kind: JointKind, dimension: Dimension) -> &'static str {
     }
 }
 
-/// Keys of the limits that a joint is meant to keep. Kinds with one coordinate take it; others are refused with their place.
+/// Keys of the limits that a joint is meant to keep. Kinds with one coordinate take them; those of others are refused with their place.
 fn limits(kind: JointKind) -> Vec<Key> {
     let has_one = [Dimension::Planar, Dimension::Spatial]
         .into_iter()

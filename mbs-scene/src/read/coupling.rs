@@ -361,7 +361,7 @@ pub(crate) fn ball_angle<'a>(
     Ok(BallAngle::ALL.into_iter().find(|angle| has_ball && angle.name() == word))
 }
 
-/// Term of the angle of a ball, with its joint and its axis; `None`: `coordinate` names another coordinate.
+/// Term of the angle of a ball, with its joint and its axis; `None`: `coordinate` names no such angle.
 pub(crate) fn ball_term<'a>(
     fields: &Fields<'a>,
     joints: &'a [Joint<Number>],

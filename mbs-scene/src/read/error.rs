@@ -375,7 +375,7 @@ fn of_scene(error: &SceneError, f: &mut Formatter<'_>) -> fmt::Result {
 
 /// Keys that name the owner of an output, as the message about a missing owner has them.
 pub(crate) const OWNER: &str = "joint, body, coupling, rolling, effect or signal";
-/// Coordinate, as a message has it, that a term or a measure needs of a joint with several coordinates.
+/// Words of a message for the coordinate that a term or a measure needs of a joint with several.
 pub(crate) const NAMED: &str = "coordinate, by its name,";
 const OF_WHOM: &str = "add `joint = \"...\"` for its value, rate or reaction, `body = \"...\"` with `at = [...]` for the position, velocity or \
                        acceleration of a point, or the `coupling`, `rolling`, `effect` or `signal`; the energy, momentum and center-of-mass are of the scene";
@@ -403,7 +403,7 @@ fn hint_of_json(line: &str) -> String {
     units::of_json(line).unwrap_or_else(usual)
 }
 
-/// Message about the axes of two joints.
+/// Message about two joints whose axes are not parallel.
 const NOT_PARALLEL: &str =
     "the axes of the two joints are not parallel in the reference configuration";
 

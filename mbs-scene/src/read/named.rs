@@ -33,9 +33,9 @@ pub(super) struct Named<'a> {
 
 /// Reason why a name has no value.
 pub(super) enum Missing {
-    /// Name that gives no value: message and hint.
+    /// The name stands for no value of this kind: message and hint.
     Unknown([String; 2]),
-    /// Value of the name that is refused at its own place.
+    /// The value of the name is refused at its own place.
     Refused(ReadError),
 }
 

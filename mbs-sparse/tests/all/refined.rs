@@ -129,7 +129,7 @@ fn known(n: usize) -> Vec<Pair> {
     (0..n).map(|_| Pair::from_f64(random.next()) / Pair::from_f64(3.0)).collect()
 }
 
-/// Error allowed of a backward stable solution in pairs: condition times epsilon, with room for the size of the sum.
+/// Error allowed to a backward stable solution in pairs: condition times epsilon, with room for the size of the sum.
 fn bound(penalty: f64) -> f64 {
     100.0 * penalty * Pair::EPSILON.to_f64()
 }

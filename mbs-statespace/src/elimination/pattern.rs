@@ -28,7 +28,7 @@ impl Pattern {
     }
 }
 
-/// Returns a count as u32, which it fits: more than 4e9 entries do not fit a memory.
+/// Returns a count as u32: it fits, since more than 4e9 entries do not fit a memory.
 pub(super) fn index(i: usize) -> u32 {
     u32::try_from(i).unwrap_or(u32::MAX)
 }

@@ -14,7 +14,7 @@ pub enum CheckpointError {
     Busy,
     /// The file is something else.
     NotACheckpoint,
-    /// A checkpoint that another version of mbs has written: this one.
+    /// The checkpoint was written by another version of mbs, which is given here.
     Version(String),
     /// The file has other than the bytes it says.
     Torn {

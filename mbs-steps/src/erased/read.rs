@@ -88,7 +88,8 @@ macro_rules! readings {
                 self.seen().reaction(joint.index()).map_err(|error| self.stopped(error))
             }
 
-            /// Force and moment of an effect on its body, or on the second of two: on a joint, on the joint's second body [N, N m].
+            /// Force and moment of an effect on its body, or on the second of its two bodies [N, N m]. For an effect on a joint this is the joint's
+            /// second body.
             ///
             /// The moment is about the point of that body where the effect is attached, as it has moved. An effect about an angle has a moment alone;
             /// one that is disabled exerts nothing. The first of two bodies takes the opposite force along the same line.

@@ -175,7 +175,7 @@ pub struct Energies {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Sizes {
-    /// Number of coordinates.
+    /// Number of coordinates of the mechanism.
     pub coordinates: usize,
     /// Number of constraint equations.
     pub constraints: usize,

@@ -15,7 +15,7 @@ pub(super) struct Coordinates {
     pub(super) units: Vec<&'static str>,
     pub(super) turns: Vec<bool>,
     pub(super) n_of_joints: usize,
-    /// Whether the joint of each joint coordinate has a vector among its coordinates: a ball, or two slides.
+    /// Whether each coordinate of a joint belongs to a joint with a vector among its coordinates: a ball, or two slides.
     pub(super) of_vectors: Vec<bool>,
     /// First coordinate and number of each vector in global axes.
     pub(super) vectors: Vec<[usize; 2]>,

@@ -28,7 +28,7 @@ pub struct LinearSystem {
     pub place: Option<Place>,
     /// The equilibrium, if that is the place.
     pub found: Option<Equilibrium<f64>>,
-    /// Parts of the scene that are left out, of the equilibrium too.
+    /// Parts that are left out of the scene, and of its equilibrium too.
     pub left_out: Vec<LeftOut>,
     /// Names of the states.
     pub states: Vec<String>,

@@ -97,7 +97,8 @@ pub(crate) struct OutputColumns {
 }
 
 impl OutputColumns {
-    /// Finds the columns with these names, or all of the outputs with these; `None`: all, but for what is of a run rather than of the motion.
+    /// Finds the columns with these names, or all of the outputs with these names. `None`: all columns, but for those of a run rather than of the
+    /// motion.
     pub(super) fn new(scene: &Scene<f64>, asked: Option<&[&str]>) -> Result<Self, UnknownName> {
         let (mut measured, mut columns) = (Vec::new(), Vec::new());
         for (output, channel) in scene.channels().into_iter().zip(Channel::of_scene(scene)) {

@@ -1,5 +1,5 @@
-//! Shapes that are drawn of joints, by what they let move: pins, sockets, rails with blocks, marks of the ground; and planes on which bodies
-//! roll.
+//! Shapes that are drawn of joints, by what they let move: pins, sockets, rails with blocks, marks of the ground. Planes on which bodies roll
+//! are drawn here too.
 
 use super::drawing::Drawing;
 use super::pose::unit_of;

@@ -21,7 +21,7 @@ pub struct RealtimeSummary {
     pub overruns: u64,
     /// Longest delay of a period.
     pub latest: f64,
-    /// Delay at the begin of periods that nothing had delayed.
+    /// Delay with which periods began that no period before had delayed.
     pub jitter: Times,
     /// Time of the computation of a period.
     pub duration: Times,

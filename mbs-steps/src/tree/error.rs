@@ -29,7 +29,7 @@ pub enum TreeErrorKind {
     NoAccelerations(StopError),
     /// From the position no small motion closes the loops.
     OpenLoops(StopError),
-    /// Question for open trees alone, where the joint closes a loop, or is a coupling that ties joints.
+    /// The question is for open trees alone, but the joint closes a loop, or it is a coupling that ties joints.
     Loops(&'static str),
     /// No forces move the frame in some direction: it has no inertia there, because the joints do not move it so.
     Held,

@@ -183,7 +183,7 @@ impl Tree {
     }
 
     /// Returns the reason why no accelerations follow from forces at any position: some joint meets no inertia. Places, velocities, Jacobians,
-    /// inverse kinematics and the efforts of given accelerations need none. `None`: it has them.
+    /// inverse kinematics and the efforts of given accelerations need none. `None`: accelerations follow.
     ///
     /// ```
     /// use mbs::{Body, Error, GROUND, Joint, Mechanism};

@@ -39,7 +39,7 @@ pub(crate) struct SceneBench<'a, T: Real, const D: usize> {
     instants: Instants,
     channels: Vec<Channel>,
     length: f64,
-    /// Assembled scene that all trials begin from, or the error why none can.
+    /// Assembled scene that all trials begin from, or the error that keeps them from it.
     ready: &'a Result<AssembledScene<T, D>, Box<RunError>>,
     clock: &'a mut dyn Clock,
     begun: f64,

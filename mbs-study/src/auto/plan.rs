@@ -130,7 +130,7 @@ fn ranked(
     ranked
 }
 
-/// Returns picks for a pilot without a result: every method that starts, in the order of its candidates. It has the step of the scene, or a
+/// Returns picks for a pilot without a result: every method that starts, in the order of its candidates. Each has the step of the scene, or a
 /// tolerance of a tenth of the required error.
 fn blind(task: &Task<'_>, choice: &PilotReport, methods: &[MethodCase]) -> Vec<Pick> {
     let starts = |m: &&MethodCase| {

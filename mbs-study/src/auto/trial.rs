@@ -39,11 +39,11 @@ pub struct Trial {
 pub enum TrialEnd {
     /// At the end of the span.
     Done,
-    /// Trial took longer than it was given.
+    /// Trial that took longer than it was given.
     GivenUp,
-    /// Run stopped with this error.
+    /// Run that stopped with this error.
     Stopped(RunError),
-    /// Run did not start: no setting helps.
+    /// Run that did not start: no setting helps.
     NotStarted(RunError),
 }
 

@@ -64,9 +64,9 @@ pub struct Checkup {
     pub drives: Vec<Drive>,
     /// Motions without mass; nothing where the scene is too large.
     pub massless: Option<Vec<Massless>>,
-    /// First steps by the formulations, where something is dependent.
+    /// Attempts of the formulations at a step, where something is dependent.
     pub methods: Vec<Attempt>,
-    /// Findings along the motion.
+    /// Observations along the motion.
     pub motion: Option<Motion>,
     /// Residual of what was written before assembly, and how far it moved each body.
     pub start: Option<Moved>,

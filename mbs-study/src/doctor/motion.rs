@@ -21,7 +21,7 @@ use mbs_core::scene::{Entry, Scene};
 use mbs_scene::format::few;
 use std::time::Instant;
 
-/// Findings along the motion: its reach, singular positions, corners of loops, and why it stopped.
+/// Observations along the motion: the time reached, singular positions, corners of loops, and why it stopped.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Motion {
     /// Formulation of the run.

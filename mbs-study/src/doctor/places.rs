@@ -9,7 +9,7 @@ use mbs_scene::format::few;
 
 /// Distance between an end of an effect and another place of its body that is reported, relative to the scene's length [-]. Chosen, not tuned.
 const NEAR_ON_SCENE: f64 = 0.02;
-/// Distance between a place and a rod's end that nothing is attached to, which is reported, relative to the rod's length [-]: the other end is
+/// Distance that is reported between a place and a rod's end to which nothing is attached, relative to the rod's length [-]. The other end is
 /// no candidate.
 const NEAR_ON_ROD: f64 = 0.15;
 /// Distance from the centre of mass from which a place is not on a body, in sizes of the body [-]. Within one size it would be on it

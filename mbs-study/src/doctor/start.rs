@@ -10,7 +10,7 @@ use mbs_core::algebra::rotation_vector;
 use mbs_core::scene::{BodyId, Entry, InitialTarget, Motion, Scene, TableNote};
 use mbs_scene::format::{counted, few};
 
-/// Changes by assembly: residuals before and after, and the ways and speeds of the bodies.
+/// Changes by assembly: residuals before and after, and the way and speed of each body.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Moved {
     /// Largest residual of joints, guides and held values in the reference configuration [m or rad].

@@ -38,7 +38,7 @@ use purse::Purse;
 const MOST_TURN: f64 = 0.3;
 /// Least steps in a period of the stiffest force [-]: with fewer its swing has a wrong period.
 const FEWEST_STEPS: f64 = 20.0;
-/// Error of an output, relative to its range, from which it shows the swing of a force that the step does not follow [-]: a stated error is
+/// Error of an output, relative to its range, from which it shows the swing of a force that the step does not follow [-]. A stated error is
 /// off by a factor of two at times, and one of a hundredth is worth a note.
 const SWINGS: f64 = 0.02;
 /// Error of an output by the iterations of a run, relative to the largest range of its unit [-]: Newton's tolerance.

@@ -1,4 +1,4 @@
-//! Input that is doubtful: it is told, or refused, with what mends it.
+//! Input that is doubtful: it is reported, or refused, with what mends it.
 
 use mbs::core::scene::{Inertia, Scene};
 use mbs::scene_file::SceneFile;

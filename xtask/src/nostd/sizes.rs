@@ -86,7 +86,7 @@ pub(super) fn check(
     Ok(lines)
 }
 
-/// Checks that an image has nothing of what features stand for that are off.
+/// Checks that an image has no code of features that are off, and that the search finds what is on.
 fn without_others(names: &str, set: &str) -> Result<(), String> {
     for (feature, modules) in features() {
         let is_on = set.split(',').any(|on| on == feature);

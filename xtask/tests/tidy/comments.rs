@@ -10,7 +10,7 @@ const BEGINNINGS: [&str; 20] = [
     "Which", "Whose", "Their", "These", "Both", "By", "Another", "Without",
 ];
 
-/// Words that a first sentence has beyond its subject, or it says nothing of it [-].
+/// Least number of words in a first sentence [-]: one with fewer names its subject and says nothing of it.
 const FEWEST_WORDS: usize = 4;
 
 /// The doc comments of a file as one line each, with the number of their first line.

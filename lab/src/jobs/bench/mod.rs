@@ -48,7 +48,7 @@ pub(crate) struct Asked {
     pub(crate) threads: Option<Threads>,
     /// Whether the largest scenes are left out, and each scene gets less time.
     pub(crate) quick: bool,
-    /// Scenes that are measured alone.
+    /// Scenes that are measured, and no others; empty: the usual ones.
     pub(crate) scenes: Vec<String>,
 }
 

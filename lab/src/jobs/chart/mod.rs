@@ -72,7 +72,7 @@ pub(crate) enum Look {
     Marks,
     /// Series as a line with a mark at each point.
     Both,
-    /// Series as marks of that size, without a line.
+    /// Series as marks of the size in `Both`, without a line.
     Dots,
 }
 

@@ -40,7 +40,7 @@ impl Claim {
     }
 }
 
-/// Runs that claims are looked at in: all effects compiled, none compiled, trains of gears, and all without inlining.
+/// Runs in which the claims are looked at: all effects compiled, none compiled, trains of gears, and all without inlining.
 #[derive(Debug)]
 pub(crate) struct Runs {
     pub(crate) full: Vec<Case>,
@@ -170,7 +170,8 @@ fn absent(runs: &Runs) -> Claim {
     claim
 }
 
-/// Claim that those functions are seen where they are asked for. Without it the two before it could hold because names are not seen.
+/// Claim that three-dimensional functions and those of effects and guides are seen where they are asked for. Without it the two claims before
+/// it could hold because names are not seen.
 fn present(runs: &Runs) -> Claim {
     let mut claim = Claim::new("where they are asked for, those functions are seen");
     for case in &runs.plain {

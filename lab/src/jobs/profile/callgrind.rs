@@ -50,7 +50,7 @@ pub(crate) fn costs(dump: &str) -> Result<Costs, String> {
     }
 }
 
-/// Instructions that the longer run executed beyond the shorter one. A place that it passed less often counts as passed as often: the order
+/// Instructions that the longer run executed beyond the shorter one. A place that it passed less often counts as passed as often. The order
 /// of a hash map may send either run another way before the steps.
 pub(crate) fn more(longer: &Costs, shorter: &Costs) -> Costs {
     let more = longer.iter().map(|(place, &count)| {

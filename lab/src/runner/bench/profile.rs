@@ -127,7 +127,7 @@ fn step_line<const D: usize>(scene: &str, [from, to]: [u32; 2]) -> Result<Value,
     }))
 }
 
-/// Number of elements by their number of unknowns.
+/// Count of the elements for each number of unknowns.
 fn cliques(model: &impl Cliques) -> BTreeMap<usize, usize> {
     let mut sizes = BTreeMap::new();
     for e in 0..model.n_elements() {

@@ -22,7 +22,6 @@ pub fn cross(a: Point, b: Point) -> Point {
 }
 
 /// Returns the distance |a - b|.
-/// |a - b|.
 #[must_use]
 pub fn distance(a: Point, b: Point) -> f64 {
     let d = plus(a, -1.0, b);

@@ -27,7 +27,7 @@ pub struct Gap<T> {
 /// Gaps that one effect has at most: those of a limit, lower and upper.
 pub(in crate::outputs) const MOST_GAPS: usize = 2;
 
-/// Watched coordinates of an effect, at a state.
+/// Gaps and coordinates of an effect that are watched, at a state.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(in crate::outputs) struct Reading<T> {
     /// Gaps of the effect, [`Load::n_gaps`] of them.
@@ -112,7 +112,7 @@ impl<T: Real, const D: usize> Load<T, D> {
         }
     }
 
-    /// Reading of the watched coordinates, at a state. Cost: one length or angle, or one wheel's nearest point of the road.
+    /// Reads the gaps and coordinates that are watched, at a state. Cost: one length or angle, or one wheel's nearest point of the road.
     pub(in crate::outputs) fn reading(
         &self,
         state: &State<T>,

@@ -58,7 +58,7 @@ pub(super) enum Load<T: Real, const D: usize> {
     },
 }
 
-/// Measure of a scalar law.
+/// Kind of number that a scalar law measures.
 #[derive(Debug, Clone)]
 pub(super) enum Measure<T: Real, const D: usize> {
     Length {

@@ -235,7 +235,7 @@ pub(super) fn check_measured<T>(
     Ok(())
 }
 
-/// Checks that start values give the sum of a coupling, where all its coordinates have one.
+/// Checks that start values give the sum of each coupling whose coordinates all have one.
 pub(super) fn check_starts<T: Real>(scene: &Scene<T>) -> Result<(), SceneError> {
     if scene.couplings.is_empty() {
         return Ok(());

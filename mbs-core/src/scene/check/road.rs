@@ -116,7 +116,7 @@ fn hollow<T: Real>(feature: &RoadFeature<T>, wheel: T, place: Place) -> Result<(
     place.fault(field, SceneFault::TightHollow { hollow, wheel: wheel.to_f64() })
 }
 
-/// Largest curvature of a piecewise cubic function; it is linear between the knots.
+/// Largest curvature of a piecewise cubic function, whose curvature is linear between the knots.
 fn largest_curvature<T: Real>(points: &[[T; 2]], way: Interpolation) -> T {
     knots(points, way, false).1.into_iter().fold(T::ZERO, T::max)
 }

@@ -126,7 +126,7 @@ impl<S: Space<f64>> Run<S> {
         )
     }
 
-    /// Error control over `dt` by the Runge-Kutta method of order 8.
+    /// Steps over `dt` with error control, by the Runge-Kutta method of order 8.
     pub(crate) fn rk853(&mut self, dt: f64) -> Result<StepReport<f64>, StepError> {
         mbs_recursive::rk853_step(
             &self.model,
@@ -137,7 +137,7 @@ impl<S: Space<f64>> Run<S> {
         )
     }
 
-    /// Error control over `dt` by collocation at Radau points.
+    /// Steps over `dt` with error control, by collocation at Radau points.
     pub(crate) fn radau5(&mut self, dt: f64) -> Result<StepReport<f64>, StepError> {
         mbs_recursive::radau5_step(
             &self.model,

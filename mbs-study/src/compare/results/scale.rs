@@ -1,4 +1,4 @@
-//! Scales of outputs, with which their distances from a reference are compared.
+//! Scales of outputs, and distances from a reference relative to them.
 
 use super::data::OutputScale;
 use mbs::record::Channel;

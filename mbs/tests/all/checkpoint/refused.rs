@@ -22,7 +22,7 @@ fn saved() -> Vec<u8> {
     bytes
 }
 
-/// Restores a checkpoint in a scene with settings; the state must be as it was on an error.
+/// Restores a checkpoint in a scene with settings, and asserts that an error leaves the state as it was.
 fn restored(scene: &Scene<f64>, overrides: &Method, bytes: &[u8]) -> Result<(), CheckpointError> {
     let settings = settings(scene, overrides);
     let mut simulation = Simulation::<f64, 2>::new(scene, &settings).expect("it starts");
