@@ -301,7 +301,7 @@ fn of_an_obj_with_several_objects_the_first_has_mass_as_in_mujoco_4() {
 fn moved_back(text: &str) -> String {
     let moved = text.lines().map(|line| {
         match line.strip_prefix("v ").and_then(|rest| rest.split_once(' ')) {
-            Some((x, rest)) => format!("v {} {rest}\n", x.parse::<f64>().unwrap() - 3.0),
+            Some((x, rest)) => format!("v {} {rest}\n", x.parse::<f64>().expect("a number") - 3.0),
             None => format!("{line}\n"),
         }
     });
