@@ -9,7 +9,8 @@ use crate::summary::Outcome;
 use std::process::Stdio;
 
 /// Units of one word; rustdoc does not look at `[N/m]`.
-const UNITS: [&str; 11] = ["m", "m²", "s", "kg", "N", "J", "W", "Hz", "rad", "Pa", "KiB"];
+const UNITS: [&str; 14] =
+    ["m", "m²", "m³", "m⁴", "m⁵", "s", "kg", "N", "J", "W", "Hz", "rad", "Pa", "KiB"];
 
 /// Builds the documentation of the workspace.
 ///
