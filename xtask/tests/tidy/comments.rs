@@ -16,22 +16,20 @@ const FEWEST_WORDS: usize = 4;
 /// The doc comments of a file as one line each, with the number of their first line.
 fn doc_comments(text: &str) -> Vec<(usize, String)> {
     let mut found: Vec<(usize, String)> = Vec::new();
-    let mut last = None;
+    let mut continues = false;
     for (number, line) in text.lines().enumerate() {
         let line = line.trim_start();
         let doc = ["///", "//!"].iter().find_map(|mark| line.strip_prefix(mark));
-        let Some(doc) = doc.filter(|doc| !doc.starts_with('/')) else {
-            last = None;
-            continue;
-        };
-        match (last, found.last_mut()) {
-            (Some(_), Some((_, comment))) => {
+        let doc = doc.filter(|doc| !doc.starts_with('/')).map(str::trim);
+        match (doc, found.last_mut()) {
+            (Some(doc), Some((_, comment))) if continues => {
                 comment.push(' ');
-                comment.push_str(doc.trim());
+                comment.push_str(doc);
             }
-            _ => found.push((number + 1, doc.trim().to_owned())),
+            (Some(doc), _) => found.push((number + 1, doc.to_owned())),
+            (None, _) => {}
         }
-        last = Some(number);
+        continues = doc.is_some();
     }
     found
 }
