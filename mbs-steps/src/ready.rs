@@ -114,10 +114,10 @@ impl<T: Real, const D: usize> AssembledScene<T, D> {
 fn assemble_scene<T: Real, const D: usize>(
     scene: &Scene<T>,
 ) -> Result<AssembledScene<T, D>, StopError> {
-    let (scene, lock) = tilt::meant::<T, D>(scene);
+    let (scene, locks) = tilt::meant::<T, D>(scene);
     let scene = &*scene;
     let model = NaturalModel::new(scene).map_err(|e| StopError::Start(e.into()))?;
-    if let Some(tilt) = lock {
+    if let Some(tilt) = tilt::lock::<T, D>(scene, &locks) {
         return Err(StopError::AlmostDependent(tilt));
     }
     let analyse = mbs_sparse::Options::default();

@@ -64,23 +64,31 @@ fn notes_here<T: Real>(scene: &Scene<T>) -> Vec<(usize, String)> {
     tilts(scene, T::from_f64(MEANT)).iter().map(note).chain(binding_note(scene)).collect()
 }
 
-/// The scene as natural coordinates take it, and the axis whose tilt alone holds loops that cannot move with it, in the reference configuration.
+/// The scene as natural coordinates take it, and its tilts in loops that cannot move with them, for [`lock`].
 ///
 /// Tilts of the fifth digit that take freedoms of loops which move with them too are none: near such a place motions with a tilt, however
 /// small, differ from those without by more than it. Cost: nothing but the search for tilts where there is none; else the ranks of the
 /// constraints for some variants of the scene.
 pub(crate) fn meant<T: Real, const D: usize>(
     scene: &Scene<T>,
-) -> (Cow<'_, Scene<T>>, Option<AlmostDependent>) {
+) -> (Cow<'_, Scene<T>>, Vec<Tilt<T>>) {
     let [locks, mut others] = doubtful::<T, D>(scene);
-    let lock = binding::<T, D>(scene, &locks).map(|(tilt, _)| AlmostDependent::new(&tilt));
     let is_spatial = scene.dimension == Dimension::Spatial;
     others.retain(|tilt| is_spatial && tilt.angle <= T::from_f64(FIVE_DIGITS));
     let meant = match binding::<T, D>(scene, &others) {
         Some(_) => Cow::Owned(align(scene, &others)),
         None => Cow::Borrowed(scene),
     };
-    (meant, lock)
+    (meant, locks)
+}
+
+/// The axis whose tilt alone holds loops that cannot move with it, in the reference configuration. Cost: nothing without such tilts; else the
+/// ranks of the constraints for some variants of the scene.
+pub(crate) fn lock<T: Real, const D: usize>(
+    scene: &Scene<T>,
+    locks: &[Tilt<T>],
+) -> Option<AlmostDependent> {
+    binding::<T, D>(scene, locks).map(|(tilt, _)| AlmostDependent::new(&tilt))
 }
 
 /// Tilts that are too large to be taken as none, and small enough to be errors of the file: those in loops that cannot move with them, and
