@@ -14,9 +14,10 @@
 use crate::collapse::check_parts;
 use crate::coupled_rows;
 use crate::evaluate::{Level, accelerations, accelerations_ahead, respond};
-use crate::fault::{Fault, failure};
+use crate::failure::failure;
 use crate::indexing::{Outside, at_mut, copy};
 use crate::loads::{Reach, check_rotations};
+use crate::loops::Fault;
 use crate::options::{Closure, Options};
 use crate::passes::kinematics;
 use crate::project::advance;

@@ -1,7 +1,7 @@
 //! Checks of what has no direction left after a step: parts of ropes without length, twists of balls with opposite axes, flat discs.
 
 use crate::coupled::{HAS_BALL_ANGLES, HAS_LINES};
-use crate::fault::failure;
+use crate::failure::failure;
 use crate::indexing::{Outside, at};
 use crate::loads::{Load, SumLoad};
 use crate::loops::index;

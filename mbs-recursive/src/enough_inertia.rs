@@ -2,10 +2,9 @@
 
 use crate::coupled::Couplings;
 use crate::error::TreeError;
-use crate::fault::Fault;
 use crate::indexing::own;
 use crate::link::{ArticulatedInertia, LinkMotion};
-use crate::loops::{LoopStore, Loops, Regularisation};
+use crate::loops::{Fault, LoopStore, Loops, Regularisation};
 use crate::passes;
 use crate::plan::Plan;
 use crate::space::{Numbers, Space};

@@ -12,13 +12,12 @@
 
 use crate::closed_loop::ClosedLoop;
 use crate::coupled_rows::{self, Largest};
-use crate::fault::Fault;
 use crate::feedback::follow_motion;
 use crate::indexing::{Outside, at, at_mut, copy};
 use crate::inverse;
 use crate::link::ArticulatedInertia;
 use crate::loads::Reach;
-use crate::loops::{Regularisation, index};
+use crate::loops::{Fault, Regularisation, index};
 use crate::options::{Closure, Options};
 use crate::passes;
 use crate::rotor;

@@ -11,7 +11,7 @@
 use crate::collapse::check_lines;
 use crate::energy_balance;
 use crate::evaluate::{Level, accelerations, is_redundant, is_tight};
-use crate::fault::failure;
+use crate::failure::failure;
 use crate::indexing::Outside;
 use crate::link::{Link, LinkKind};
 use crate::loads::check_rotations;

@@ -28,7 +28,7 @@ mod enough_inertia;
 mod error;
 mod evaluate;
 pub mod explicit;
-mod fault;
+mod failure;
 pub mod feedback;
 #[cfg(feature = "alloc")]
 mod formulation;

@@ -32,10 +32,12 @@ macro_rules! sized {
 
 mod carry;
 mod eliminate;
+mod fault;
 mod release;
 
 pub(crate) use carry::{held, pass, pass_again};
 pub(crate) use eliminate::{close, close_again};
+pub use fault::Fault;
 pub(crate) use release::open;
 
 use crate::closed_loop::ClosedLoop;

@@ -10,7 +10,7 @@
 //! Inertias and forces are shifted to the parent's origin on the way in. p = −Q̂. Loops join in at their common ancestors
 //! (`loops`), where the source has one derivation by hand for each mechanism.
 
-pub use crate::fault::Fault;
+pub use crate::loops::Fault;
 
 use crate::indexing::{Outside, at, at_mut};
 use crate::joint::{self, NoInertia};

@@ -15,11 +15,10 @@
 use crate::closed_loop::ClosedLoop;
 use crate::coupled_rows::{self, Largest};
 use crate::evaluate::{note_rank, respond};
-use crate::fault::Fault;
 use crate::indexing::{Outside, at, at_mut, part, part_mut};
 use crate::inverse::spread_each;
 use crate::link::{Link, LinkKind};
-use crate::loops::index;
+use crate::loops::{Fault, index};
 use crate::options::Options;
 use crate::passes::kinematics;
 use crate::slices::{Store, TreeSlices};

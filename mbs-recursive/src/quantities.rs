@@ -6,7 +6,7 @@
 //! ```
 
 use crate::evaluate::{Level, accelerations_under};
-use crate::fault::failure;
+use crate::failure::failure;
 use crate::indexing::own;
 use crate::inverse;
 use crate::loops::Loops;

@@ -4,7 +4,7 @@ use crate::bounded::{self, BoundedReport, Bounds, Unwatched};
 use crate::energy_balance;
 use crate::evaluate::{Level, accelerations, evaluate_rows};
 use crate::explicit;
-use crate::fault::failure;
+use crate::failure::failure;
 use crate::feedback::follow_motion;
 use crate::indexing::own;
 use crate::inverse;

@@ -2,12 +2,13 @@
 
 use crate::error::TreeError;
 use crate::evaluate::{Level, accelerations};
-use crate::fault::{Fault, failure};
+use crate::failure::failure;
 use crate::graph::Branch;
 use crate::indexing::own;
 use crate::inverse;
 use crate::joint::write;
 use crate::link::{LinkKind, LinkMotion};
+use crate::loops::Fault;
 use crate::options::{Closure, Options};
 use crate::passes::kinematics;
 use crate::project::{project, rounding};

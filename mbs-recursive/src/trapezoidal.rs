@@ -21,7 +21,7 @@ use crate::anderson::Mixing;
 use crate::collapse::check_lines;
 use crate::coupled_rows;
 use crate::evaluate::{Level, accelerations, accelerations_ahead, is_redundant, note_rank};
-use crate::fault::failure;
+use crate::failure::failure;
 use crate::indexing::{Outside, at, at_mut, copy};
 use crate::loads::{Reach, check_rotations};
 use crate::options::{Closure, Options};

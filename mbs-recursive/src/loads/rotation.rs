@@ -3,7 +3,7 @@
 //! Beyond it the half angles of a tree give the turn the other way round: the rotation vector has changed its sign.
 
 use super::{Instant, Load, Measure};
-use crate::fault::failure;
+use crate::failure::failure;
 use crate::indexing::{Outside, at};
 use crate::joint::{HAS_GUIDED_BALLS, guided_vector};
 use crate::link::LinkKind;

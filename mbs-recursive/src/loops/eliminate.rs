@@ -1,8 +1,8 @@
 //! Loops eliminated at the link where their two sides meet.
 
+use super::fault::Fault;
 use super::{LoopStore, Loops, RankLost, Regularisation, index, inner};
 use crate::closed_loop::ClosedLoop;
-use crate::fault::Fault;
 use crate::indexing::{Outside, apart, at, at_mut, part, part_mut, range};
 use crate::link::ArticulatedInertia;
 use crate::plan::{End, LoopCoupling, Update};

@@ -1,39 +1,10 @@
-//! Faults that stop a pass, and the step error that each of them becomes.
+//! The step error that a fault of a pass becomes.
 
-use crate::indexing::Outside;
-use crate::joint::NoInertia;
-use crate::loops::RankLost;
+use crate::loops::Fault;
 use crate::slices::TreeSlices;
 use crate::space::Space;
 use mbs_core::Real;
 use mbs_core::step::StepError;
-
-/// Reason why a pass stops.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Fault<T> {
-    /// The tables do not fit each other.
-    Outside,
-    /// A joint meets no inertia.
-    NoInertia(NoInertia<T>),
-    /// The regularised rows of loops cannot be factored.
-    RankLost(RankLost<T>),
-    /// The equations of loops do not come to their level.
-    Unreached {
-        /// 0 position, 1 velocity, 2 acceleration.
-        level: u8,
-        /// The row that is violated most.
-        row: u32,
-        /// Violation that is left.
-        violation: T,
-    },
-}
-
-impl<T> From<Outside> for Fault<T> {
-    #[inline(always)]
-    fn from(_: Outside) -> Self {
-        Self::Outside
-    }
-}
 
 /// The fault of a pass as the error of a step.
 pub(crate) fn failure<T: Real, S: Space<T>>(
