@@ -49,6 +49,7 @@ pub mod loops;
 mod options;
 #[cfg(feature = "alloc")]
 mod order;
+mod overturned;
 #[cfg(feature = "alloc")]
 pub mod own;
 #[cfg(feature = "alloc")]

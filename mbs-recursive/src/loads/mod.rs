@@ -18,7 +18,6 @@ pub use body_load::BodyLoad;
 pub use instant::Instant;
 pub use measure::Measure;
 pub use reach::Reach;
-pub(crate) use rotation::check_rotations;
 pub use sum::SumLoad;
 
 use crate::indexing::{Outside, at_mut};

@@ -20,8 +20,8 @@ pub(super) enum Sizes {
 const OF_TIRES: [&str; 5] =
     ["4laws4tire", "4laws12road_contact", "4laws7calspan", "4laws4road", "4laws7feature"];
 
-/// The module of rotations in space, which bushings alone measure.
-const OF_BUSHINGS: &str = "5loads8rotation";
+/// The modules of rotations in space, which bushings alone measure.
+const OF_BUSHINGS: [&str; 2] = ["5loads8rotation", "10overturned"];
 
 /// Modules of machine elements, and the feature of all of these.
 const OF_ELEMENTS: (&str, [&str; 5]) =
@@ -34,7 +34,7 @@ fn features() -> Vec<(&'static str, Vec<String>)> {
         let mut modules = vec![format!("7effects{}{module}", module.len())];
         match module {
             "tire" => modules.extend(OF_TIRES.map(str::to_owned)),
-            "bushing" => modules.push(OF_BUSHINGS.to_owned()),
+            "bushing" => modules.extend(OF_BUSHINGS.map(str::to_owned)),
             "polynomial" => modules.push("4laws10polynomial".to_owned()),
             _ => {}
         }
