@@ -1,7 +1,7 @@
 //! The tables of couplings, filled while a tree is built.
 
 use crate::coupled::{CoupledRow, Couplings, LinePoint, LinkStart, NONE, SumMeasure, SumTerm};
-use crate::curves::CurveTables;
+use crate::curve_tables::CurveTables;
 use crate::space::Space;
 use alloc::vec::Vec;
 use mbs_core::Real;

@@ -10,7 +10,6 @@ use crate::plan::Span;
 use crate::related::ARGUMENTS;
 use crate::rows::Row;
 use crate::space::{Numbers, Space};
-use crate::state::TreeState;
 use crate::tree::TreeModel;
 use alloc::vec::Vec;
 use mbs_core::Real;
@@ -256,16 +255,5 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
                 value.row[0].abs() <= value.parts[0] * T::from_f64(ROUNDING).max(T::EPSILON)
             })
         })
-    }
-
-    /// The effort of `scene.couplings[coupling]`: the force along a coordinate is its factor times this [N m or N, by one of the factor].
-    /// Nothing of one whose joints are all guided.
-    #[must_use]
-    pub fn coupling_effort(&self, state: &TreeState<T>, coupling: usize) -> Option<T> {
-        let (_, coupled) = self.loops.split_at_checked(self.couplings.n_cut as usize)?;
-        let lap = coupled.iter().find(|lap| lap.joint as usize == coupling)?;
-        let row = lap.first as usize;
-        let Some(Row::Coupled(of)) = self.rows.get(row) else { return None };
-        Some(-*state.lambda.get(row)? * of.inverse)
     }
 }

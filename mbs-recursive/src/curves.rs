@@ -2,12 +2,8 @@
 
 use crate::indexing::{Outside, at, part, range};
 use crate::plan::Span;
-#[cfg(feature = "alloc")]
-use alloc::vec::Vec;
 use mbs_core::Real;
 use mbs_core::elements::NONE;
-#[cfg(feature = "alloc")]
-use mbs_core::measure::PreparedCurve;
 use mbs_core::measure::{polynomial, spline_curve};
 
 /// Are curves of couplings and sums in this build?
@@ -54,65 +50,4 @@ pub(crate) fn function<T: Real>(
             polynomial(range(numbers, coefficients.range())?, x)
         }
     })
-}
-
-/// The owner of curves, which are added one by one.
-#[cfg(feature = "alloc")]
-#[derive(Debug, Clone, PartialEq)]
-pub struct CurveTables<T> {
-    curves: Vec<CurveTable<T>>,
-    knots: Vec<[T; 2]>,
-    numbers: Vec<T>,
-}
-
-#[cfg(feature = "alloc")]
-impl<T> Default for CurveTables<T> {
-    fn default() -> Self {
-        Self { curves: Vec::new(), knots: Vec::new(), numbers: Vec::new() }
-    }
-}
-
-#[cfg(feature = "alloc")]
-impl<T: Real> CurveTables<T> {
-    /// A copy of curves, with their numbers.
-    #[must_use]
-    pub fn copied((curves, knots, numbers): CurveSlices<'_, T>) -> Self {
-        Self { curves: curves.to_vec(), knots: knots.to_vec(), numbers: numbers.to_vec() }
-    }
-
-    /// Returns the curves, with their knots and numbers.
-    #[must_use]
-    pub fn slices(&self) -> CurveSlices<'_, T> {
-        (&self.curves, &self.knots, &self.numbers)
-    }
-
-    /// Adds a curve; returns its number.
-    pub fn add(&mut self, curve: &PreparedCurve<T>) -> u32 {
-        let table = match curve {
-            PreparedCurve::Identity => return NONE,
-            PreparedCurve::Spline { knots, curvature, period } => CurveTable::Spline {
-                knots: extend(&mut self.knots, knots),
-                first: extend(&mut self.numbers, curvature).first,
-                period: *period,
-            },
-            PreparedCurve::Polynomial(coefficients) => {
-                CurveTable::Polynomial { coefficients: extend(&mut self.numbers, coefficients) }
-            }
-        };
-        self.curves.push(table);
-        index(self.curves.len() - 1)
-    }
-}
-
-/// Adds a list to another; where it stands there.
-#[cfg(feature = "alloc")]
-fn extend<X: Copy>(to: &mut Vec<X>, list: &[X]) -> Span {
-    let first = index(to.len());
-    to.extend_from_slice(list);
-    Span { first, end: index(to.len()) }
-}
-
-#[cfg(feature = "alloc")]
-fn index(i: usize) -> u32 {
-    u32::try_from(i).unwrap_or(u32::MAX)
 }

@@ -238,3 +238,17 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         ([first.0, second.0], [first.1, second.1])
     }
 }
+
+impl<T: Real, S: Space<T>> Load<T, S> {
+    /// Is it on one link, and that the ground?
+    pub(crate) fn is_idle(&self) -> bool {
+        match self {
+            Self::Between { .. } | Self::Sum(_) => false,
+            Self::Angle { link, .. }
+            | Self::Constant { link, .. }
+            | Self::Force { link, .. }
+            | Self::Torque { link, .. }
+            | Self::BodyLoad(BodyLoad { link, .. }) => *link == 0,
+        }
+    }
+}

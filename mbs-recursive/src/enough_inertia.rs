@@ -2,9 +2,9 @@
 
 use crate::coupled::Couplings;
 use crate::error::TreeError;
-use crate::indexing::own;
 use crate::link::{ArticulatedInertia, LinkMotion};
 use crate::loops::{Fault, LoopStore, Loops, Regularisation};
+use crate::own_tables::own;
 use crate::passes;
 use crate::plan::Plan;
 use crate::space::{Numbers, Space};

@@ -91,26 +91,9 @@ pub(crate) fn accelerations_ahead<T: Real, S: Space<T>>(
     finish(m, options, level, s)
 }
 
-/// Evaluates the accelerations under efforts along the freedoms; the loads are those of gravity.
-#[cfg(feature = "alloc")]
-pub(crate) fn accelerations_under<T: Real, S: Space<T>>(
-    m: &TreeSlices<'_, T, S>,
-    options: &Options<T>,
-    (level, efforts): (Level, &[T]),
-    s: &mut Store<'_, T, S>,
-) -> Result<T, Fault<T>> {
-    let mut condensed = begin(m, s)?;
-    for load in m.loads {
-        load.apply(&s.instant(m), condensed)?;
-    }
-    inverse::add_efforts(m.links, s.placed, efforts, condensed)?;
-    core::mem::swap(&mut s.condensed, &mut condensed);
-    finish(m, options, level, s)
-}
-
 /// Places and own inertias; the articulated bodies are handed out for the loads. Images for controllers keep one copy.
 #[cfg_attr(feature = "alloc", inline(always))]
-fn begin<'b, T: Real, S: Space<T>>(
+pub(crate) fn begin<'b, T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
     s: &mut Store<'b, T, S>,
 ) -> Result<&'b mut [ArticulatedInertia<T, S>], Outside> {
@@ -123,7 +106,7 @@ fn begin<'b, T: Real, S: Space<T>>(
 }
 
 /// Second and third pass, and the sweeps.
-fn finish<T: Real, S: Space<T>>(
+pub(crate) fn finish<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
     options: &Options<T>,
     level: Level,

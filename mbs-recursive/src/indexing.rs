@@ -62,13 +62,3 @@ pub(crate) fn copy<X: Copy>(from: &[X], to: &mut [X]) -> Result<(), Outside> {
     to.copy_from_slice(from);
     Ok(())
 }
-
-/// Returns the result of tables that fit because a tree made them all.
-///
-/// # Panics
-/// If they do not.
-#[cfg(feature = "alloc")]
-#[track_caller]
-pub(crate) fn own<X>(done: Result<X, Outside>) -> X {
-    done.unwrap_or_else(|Outside| unreachable!("the tables of a tree fit each other"))
-}

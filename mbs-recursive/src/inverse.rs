@@ -125,35 +125,3 @@ pub(crate) fn effort<T: Real, S: Space<T>>(
         }
     }
 }
-
-/// Lets efforts act along the freedoms; between two links those of a ball act on both.
-#[cfg(feature = "alloc")]
-pub(crate) fn add_efforts<T: Real, S: Space<T>>(
-    links: &[Link<T, S>],
-    placed: &[LinkMotion<T, S>],
-    efforts: &[T],
-    condensed: &mut [ArticulatedInertia<T, S>],
-) -> Result<(), Outside> {
-    for (i, link) in links.iter().enumerate().skip(1) {
-        let (rotation, first) = (&at(placed, i)?.rotation, link.v as usize);
-        let wrench = match link.kind {
-            LinkKind::Revolute | LinkKind::Prismatic => {
-                at_mut(condensed, i)?.effort += *at(efforts, first)?;
-                continue;
-            }
-            LinkKind::GuidedRevolute | LinkKind::GuidedPrismatic | LinkKind::GuidedBall => continue,
-            LinkKind::Ball => {
-                S::motion(S::rotate_spin(rotation, &read(efforts, first)?), S::Point::zero())
-            }
-            LinkKind::Free => S::motion(
-                S::rotate_spin(rotation, &read(efforts, first)?),
-                read(efforts, first + S::Spin::N)?,
-            ),
-        };
-        at_mut(condensed, i)?.force -= wrench;
-        if link.parent > 0 {
-            at_mut(condensed, link.parent as usize)?.force += wrench;
-        }
-    }
-    Ok(())
-}

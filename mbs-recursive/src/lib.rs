@@ -18,6 +18,8 @@ mod coupled_rows;
 mod coupling_tables;
 #[cfg(feature = "alloc")]
 mod couplings;
+#[cfg(feature = "alloc")]
+mod curve_tables;
 pub mod curves;
 #[cfg(feature = "alloc")]
 mod cut;
@@ -53,6 +55,8 @@ mod overturned;
 #[cfg(feature = "alloc")]
 pub mod own;
 #[cfg(feature = "alloc")]
+mod own_tables;
+#[cfg(feature = "alloc")]
 mod owners;
 pub mod passes;
 pub mod plan;
@@ -78,8 +82,12 @@ mod tree;
 #[cfg(feature = "alloc")]
 mod turns;
 #[cfg(feature = "alloc")]
+mod under_efforts;
+#[cfg(feature = "alloc")]
 mod weights;
 
+#[cfg(feature = "alloc")]
+pub use curve_tables::CurveTables;
 #[cfg(feature = "alloc")]
 pub use error::{LanesError, TreeError};
 #[cfg(feature = "alloc")]

@@ -40,29 +40,6 @@ pub fn kinematics<T: Real, S: Space<T>>(
     Ok(())
 }
 
-/// Places alone of some links, each behind its parent; velocities and velocity products stay as they are.
-///
-/// # Errors
-/// [`Outside`] if the tables do not fit each other.
-#[cfg(feature = "alloc")]
-#[inline]
-pub(crate) fn positions<T: Real, S: Space<T>>(
-    links: &[Link<T, S>],
-    some: impl Iterator<Item = usize>,
-    (z, v, guides): (&[T], &[T], &[[T; 3]]),
-    placed: &mut [LinkMotion<T, S>],
-) -> Result<(), Outside> {
-    for i in some {
-        let link = at(links, i)?;
-        let parent = at(placed, link.parent as usize)?;
-        let here = joint::place::<T, S, false>(link, parent, z, v, guides)?;
-        let p = at_mut(placed, i)?;
-        (p.rotation, p.position, p.arm) = (here.rotation, here.position, here.arm);
-        (p.freedom, p.center) = (here.freedom, here.center);
-    }
-    Ok(())
-}
-
 /// A body's own inertia about its link's origin, and its velocity forces: M and −Q without effects [P3 (24)–(25)].
 #[inline(always)]
 pub(crate) fn body<T: Real, S: Space<T>>(

@@ -5,18 +5,19 @@
 //! τ = bᵀ f                                        by the passes of `inverse`
 //! ```
 
-use crate::evaluate::{Level, accelerations_under};
+use crate::evaluate::Level;
 use crate::failure::failure;
-use crate::indexing::own;
 use crate::inverse;
 use crate::loops::Loops;
 use crate::options::Options;
+use crate::own_tables::own;
 use crate::passes::kinematics;
 use crate::rotor;
 use crate::slices::TreeSlices;
 use crate::space::{Numbers, Space};
 use crate::state::{TreeState, Workspace};
 use crate::tree::TreeModel;
+use crate::under_efforts::accelerations_under;
 use core::ops::Range;
 use mbs_core::Real;
 use mbs_core::step::StepError;

@@ -44,22 +44,8 @@ pub(crate) fn add_efforts<T: Real, S: Space<T>>(
     Ok(())
 }
 
-/// Kinetic energy of the rotors [J].
-#[cfg(feature = "alloc")]
-pub(crate) fn kinetic<T: Real, S: Space<T>>(
-    m: &TreeSlices<'_, T, S>,
-    (v, guides): (&[T], &[[T; 3]]),
-) -> Result<T, Outside> {
-    let mut twice = T::ZERO;
-    for rotor in m.rotors {
-        let rate = of_link(m.links, rotor.link, v, (guides, 1))?;
-        twice += rotor.inertia * rate * rate;
-    }
-    Ok(twice * T::HALF)
-}
-
 /// The number of a link's coordinate among those of the freedoms; of a guided one that derivative of its guide.
-fn of_link<T: Real, S: Space<T>>(
+pub(crate) fn of_link<T: Real, S: Space<T>>(
     links: &[Link<T, S>],
     link: u32,
     numbers: &[T],

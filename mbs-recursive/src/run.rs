@@ -6,12 +6,14 @@ use crate::evaluate::{Level, accelerations, evaluate_rows};
 use crate::explicit;
 use crate::failure::failure;
 use crate::feedback::follow_motion;
-use crate::indexing::own;
+use crate::indexing::Outside;
 use crate::inverse;
 use crate::options::Options;
+use crate::own_tables::own;
 use crate::passes::kinematics;
 use crate::rotor;
-use crate::slices::{Inputs, Store};
+use crate::rows::Row;
+use crate::slices::{Inputs, Store, TreeSlices};
 use crate::space::{Numbers, Space};
 use crate::state::{Explicit, TreeState, Workspace};
 use crate::trapezoidal;
@@ -363,7 +365,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         let m = self.mechanism();
         let mut s = workspace.store();
         self.place_in(state, &mut s);
-        let rotors = own(rotor::kinetic(&m, (s.v, s.guides)));
+        let rotors = own(kinetic(&m, (s.v, s.guides)));
         [
             energy_balance::kinetic(m.links, s.placed) + rotors,
             own(energy_balance::potential(&m, &s.instant(&m))),
@@ -440,12 +442,36 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         }
     }
 
+    /// The effort of `scene.couplings[coupling]`: the force along a coordinate is its factor times this [N m or N, by one of the factor].
+    /// Nothing of one whose joints are all guided.
+    #[must_use]
+    pub fn coupling_effort(&self, state: &TreeState<T>, coupling: usize) -> Option<T> {
+        let (_, coupled) = self.loops.split_at_checked(self.couplings.n_cut as usize)?;
+        let lap = coupled.iter().find(|lap| lap.joint as usize == coupling)?;
+        let row = lap.first as usize;
+        let Some(Row::Coupled(of)) = self.rows.get(row) else { return None };
+        Some(-*state.lambda.get(row)? * of.inverse)
+    }
+
     /// The joint's place on the parent, from the base.
     fn parent_place(&self, seat: &TreePlace, s: &Store<'_, T, S>) -> S::Point {
         let first = &self.links[seat.first as usize];
         let parent = &s.placed[first.parent as usize];
         parent.position + S::rotate(&parent.rotation, &first.offset)
     }
+}
+
+/// Kinetic energy of the rotors [J].
+fn kinetic<T: Real, S: Space<T>>(
+    m: &TreeSlices<'_, T, S>,
+    (v, guides): (&[T], &[[T; 3]]),
+) -> Result<T, Outside> {
+    let mut twice = T::ZERO;
+    for rotor in m.rotors {
+        let rate = rotor::of_link(m.links, rotor.link, v, (guides, 1))?;
+        twice += rotor.inertia * rate * rate;
+    }
+    Ok(twice * T::HALF)
 }
 
 /// Returns the wrench of effects and rotors along the coordinates of a joint, on its last link about its origin.

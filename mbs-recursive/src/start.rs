@@ -4,12 +4,12 @@ use crate::error::TreeError;
 use crate::evaluate::{Level, accelerations};
 use crate::failure::failure;
 use crate::graph::Branch;
-use crate::indexing::own;
 use crate::inverse;
 use crate::joint::write;
 use crate::link::{LinkKind, LinkMotion};
 use crate::loops::Fault;
 use crate::options::{Closure, Options};
+use crate::own_tables::own;
 use crate::passes::kinematics;
 use crate::project::{project, rounding};
 use crate::slices::{Inputs, Store, TreeSlices};
@@ -298,7 +298,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
             if part.kind == LinkKind::Ball {
                 // A ball stands alone, or with slides.
                 let own = child.rotation.transpose() * turning;
-                crate::indexing::own(write(&S::spin_from(&own), v, 0));
+                crate::own_tables::own(write(&S::spin_from(&own), v, 0));
                 spin = child.omega;
                 continue;
             }

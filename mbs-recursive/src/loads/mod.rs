@@ -79,19 +79,6 @@ pub enum Load<T: Real, S: Space<T>> {
 }
 
 impl<T: Real, S: Space<T>> Load<T, S> {
-    /// Is it on one link, and that the ground?
-    #[cfg(feature = "alloc")]
-    pub(crate) fn is_idle(&self) -> bool {
-        match self {
-            Self::Between { .. } | Self::Sum(_) => false,
-            Self::Angle { link, .. }
-            | Self::Constant { link, .. }
-            | Self::Force { link, .. }
-            | Self::Torque { link, .. }
-            | Self::BodyLoad(BodyLoad { link, .. }) => *link == 0,
-        }
-    }
-
     /// Adds the load's forces: p −= (τ, f).
     ///
     /// # Errors

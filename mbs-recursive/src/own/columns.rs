@@ -1,10 +1,11 @@
 //! Columns of the freedoms: which there are, and where they stand at a position.
 
 use super::six::{Moments, Six, V3};
-use crate::indexing::own;
+use crate::indexing::{Outside, at, at_mut};
+use crate::joint;
 use crate::link::{Link, LinkKind, LinkMotion};
 use crate::loops::index;
-use crate::passes::positions;
+use crate::own_tables::own;
 use crate::slices::TreeSlices;
 use crate::space::{Numbers, Space};
 use crate::state::{TreeState, Workspace};
@@ -321,4 +322,26 @@ fn tensor<T: Real, S: Space<T>>(tensor: &S::Tensor) -> [T; 6] {
     };
     let [x, y, z] = [column(0), column(1), column(2)];
     [x[0], y[0], z[0], y[1], z[1], z[2]]
+}
+
+/// Places alone of some links, each behind its parent; velocities and velocity products stay as they are.
+///
+/// # Errors
+/// [`Outside`] if the tables do not fit each other.
+#[inline]
+fn positions<T: Real, S: Space<T>>(
+    links: &[Link<T, S>],
+    some: impl Iterator<Item = usize>,
+    (z, v, guides): (&[T], &[T], &[[T; 3]]),
+    placed: &mut [LinkMotion<T, S>],
+) -> Result<(), Outside> {
+    for i in some {
+        let link = at(links, i)?;
+        let parent = at(placed, link.parent as usize)?;
+        let here = joint::place::<T, S, false>(link, parent, z, v, guides)?;
+        let p = at_mut(placed, i)?;
+        (p.rotation, p.position, p.arm) = (here.rotation, here.position, here.arm);
+        (p.freedom, p.center) = (here.freedom, here.center);
+    }
+    Ok(())
 }
