@@ -11,12 +11,14 @@ use mbs_core::Real;
 use mbs_core::effects::bushing;
 use mbs_core::laws::Part;
 use mbs_recursive::link::LinkKind;
+use mbs_recursive::link::curves;
+use mbs_recursive::link::plan::Span;
 use mbs_recursive::loads::{Load, Measure, sum};
-use mbs_recursive::plan::Span;
 use mbs_recursive::rows::Row;
+use mbs_recursive::rows::coupled;
 use mbs_recursive::slices::TreeSlices;
 use mbs_recursive::space::Space;
-use mbs_recursive::{coupled, curves, feedback, rotor};
+use mbs_recursive::{feedback, rotor};
 
 /// Reason why a model is not loaded.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -3,11 +3,12 @@
 use crate::inputs::{Motion, SignalLaw};
 use crate::model::Model;
 use mbs_core::Real;
-use mbs_recursive::coupled::{NONE, SumMeasure};
+use mbs_recursive::link::curves;
 use mbs_recursive::loads::{Load, sum};
-use mbs_recursive::rows::Row;
+use mbs_recursive::rows::coupled::{self, NONE, SumMeasure};
+use mbs_recursive::rows::{Row, rolling};
 use mbs_recursive::space::Space;
-use mbs_recursive::{coupled, curves, feedback, rolling, rotor};
+use mbs_recursive::{feedback, rotor};
 
 /// A machine element that a build may leave out.
 #[derive(Debug, Clone, Copy)]

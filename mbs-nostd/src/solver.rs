@@ -7,13 +7,14 @@ use mbs_core::Real;
 use mbs_core::feedback::{CourseSlope, SignalStates};
 use mbs_core::step::{InputError, StepError};
 use mbs_recursive::bounded::{self, BoundedReport, Bounds, Watch};
+use mbs_recursive::feedback;
+use mbs_recursive::link::curves;
 use mbs_recursive::link::{ArticulatedInertia, LinkMotion};
 use mbs_recursive::loops::LoopStore;
 use mbs_recursive::slices::{Counts, Inputs, Store, TreeSlices};
 use mbs_recursive::space::{Numbers, Space};
 use mbs_recursive::trapezoidal::Start;
 use mbs_recursive::{Options, Outside};
-use mbs_recursive::{curves, feedback};
 
 /// State, scratch and inputs of a model with at most `L` links (the ground among them), `Z` coordinates, `V` freedoms and `R`
 /// rows of loops. It has at most `B` numbers in blocks of Λ, `N` gains, `G` guides and `C` courses. It has at most

@@ -1,6 +1,6 @@
 //! The part of couplings in what is done with all rows: each function is called where there are couplings alone.
 
-use crate::indexing::{Outside, at, at_mut};
+use crate::link::indexing::{Outside, at, at_mut};
 use crate::loops::index;
 use crate::slices::{Store, TreeSlices};
 use crate::space::Space;

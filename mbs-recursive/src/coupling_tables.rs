@@ -1,7 +1,9 @@
 //! The tables of couplings, filled while a tree is built.
 
-use crate::coupled::{CoupledRow, Couplings, LinePoint, LinkStart, NONE, SumMeasure, SumTerm};
 use crate::curve_tables::CurveTables;
+use crate::rows::coupled::{
+    CoupledRow, Couplings, LinePoint, LinkStart, NONE, SumMeasure, SumTerm,
+};
 use crate::space::Space;
 use alloc::vec::Vec;
 use mbs_core::Real;

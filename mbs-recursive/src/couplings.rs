@@ -1,14 +1,14 @@
 //! The rows of couplings, from the scene.
 
-use crate::closed_loop::ClosedLoop;
-use crate::coupled::{CoupledRow, LinePoint, LinkStart, NONE, SumMeasure, SumTerm};
 use crate::error::TreeError;
 use crate::feedback::FeedbackMeasure;
+use crate::link::plan::Span;
 use crate::link::{Link, LinkKind};
 use crate::loops::index;
-use crate::plan::Span;
-use crate::related::ARGUMENTS;
 use crate::rows::Row;
+use crate::rows::closed_loop::ClosedLoop;
+use crate::rows::coupled::{CoupledRow, LinePoint, LinkStart, NONE, SumMeasure, SumTerm};
+use crate::rows::related::ARGUMENTS;
 use crate::space::{Numbers, Space};
 use crate::tree::TreeModel;
 use alloc::vec::Vec;

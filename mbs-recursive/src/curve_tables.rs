@@ -1,7 +1,7 @@
 //! The tables of curves, filled while a tree is built.
 
-use crate::curves::{CurveSlices, CurveTable};
-use crate::plan::Span;
+use crate::link::curves::{CurveSlices, CurveTable};
+use crate::link::plan::Span;
 use alloc::vec::Vec;
 use mbs_core::Real;
 use mbs_core::elements::NONE;

@@ -1,7 +1,7 @@
 //! Energies, and the power that enters through dampers, courses and guides.
 
-use crate::indexing::{Outside, at};
 use crate::inverse;
+use crate::link::indexing::{Outside, at};
 use crate::link::{Link, LinkKind, LinkMotion};
 use crate::loads::Instant;
 use crate::rotor;

@@ -1,12 +1,12 @@
 //! Does every joint of a tree meet inertia, so that accelerations follow from forces?
 
-use crate::coupled::Couplings;
 use crate::error::TreeError;
+use crate::link::plan::Plan;
 use crate::link::{ArticulatedInertia, LinkMotion};
 use crate::loops::{Fault, LoopStore, Loops, Regularisation};
 use crate::own_tables::own;
 use crate::passes;
-use crate::plan::Plan;
+use crate::rows::coupled::Couplings;
 use crate::space::{Numbers, Space};
 use crate::tree::TreeModel;
 use alloc::vec;

@@ -10,17 +10,17 @@
 //! The report's own closure is an option: λ = α (Φ̈ + 2 μ Ω Φ̇ + Ω² Φ)   [P3 (39)–(41)]. It is the same elimination with
 //! ε = 1/α, bias + 2 μ Ω Φ̇ + Ω² Φ in place of the bias, and one sweep.
 
-use crate::closed_loop::ClosedLoop;
 use crate::coupled_rows::{self, Largest};
 use crate::feedback::follow_motion;
-use crate::indexing::{Outside, at, at_mut, copy};
 use crate::inverse;
 use crate::link::ArticulatedInertia;
+use crate::link::indexing::{Outside, at, at_mut, copy};
+use crate::link::options::{Closure, Options};
 use crate::loads::Reach;
 use crate::loops::{Fault, Regularisation, index};
-use crate::options::{Closure, Options};
 use crate::passes;
 use crate::rotor;
+use crate::rows::closed_loop::ClosedLoop;
 use crate::slices::{Store, TreeSlices};
 use crate::space::{Numbers, Space};
 use mbs_core::Real;

@@ -1,7 +1,7 @@
 //! Signals that follow the motion, in relative coordinates: joint coordinates are those of links.
 
-use crate::coupled::{self, NONE};
-use crate::indexing::{Outside, at, copy};
+use crate::link::indexing::{Outside, at, copy};
+use crate::rows::coupled::{self, NONE};
 pub use crate::slices::{FeedbackMeasure, FeedbackSlices};
 use crate::slices::{Store, TreeSlices};
 use crate::space::Space;

@@ -1,7 +1,7 @@
 //! The formulation of this crate behind the common trait: [`Tree`], whose state is written in natural coordinates too, for the outputs.
 
 use crate::history::History as OfWorkspace;
-use crate::options::Options;
+use crate::link::options::Options;
 use crate::space::Space;
 use crate::state::{TreeState, Workspace};
 use crate::tree::TreeModel;

@@ -1,6 +1,6 @@
 //! Memory that one step leaves for the next beside the state, to read and to restore.
 
-use crate::options::Options;
+use crate::link::options::Options;
 use crate::space::Space;
 use crate::state::Workspace;
 use alloc::vec::Vec;

@@ -6,8 +6,8 @@
 //! ```
 
 use crate::coupled_rows;
-use crate::indexing::{Outside, at, at_mut};
-use crate::joint::{read, write};
+use crate::link::indexing::{Outside, at, at_mut};
+use crate::link::joint::{read, write};
 use crate::link::{ArticulatedInertia, Link, LinkKind, LinkMotion};
 use crate::passes;
 use crate::slices::{Store, TreeSlices};

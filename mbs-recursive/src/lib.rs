@@ -7,12 +7,8 @@ extern crate alloc;
 pub mod anderson;
 #[cfg(feature = "alloc")]
 mod angles;
-mod ball;
 pub mod bounded;
-pub mod closed_loop;
 mod collapse;
-pub mod coupled;
-mod coupled_lines;
 mod coupled_rows;
 #[cfg(feature = "alloc")]
 mod coupling_tables;
@@ -20,7 +16,6 @@ mod coupling_tables;
 mod couplings;
 #[cfg(feature = "alloc")]
 mod curve_tables;
-pub mod curves;
 #[cfg(feature = "alloc")]
 mod cut;
 pub mod energy_balance;
@@ -38,9 +33,7 @@ mod formulation;
 mod graph;
 #[cfg(feature = "alloc")]
 mod history;
-mod indexing;
 pub mod inverse;
-pub mod joint;
 #[cfg(feature = "alloc")]
 mod joint_facts;
 #[cfg(feature = "alloc")]
@@ -48,7 +41,6 @@ mod lanes;
 pub mod link;
 pub mod loads;
 pub mod loops;
-mod options;
 #[cfg(feature = "alloc")]
 mod order;
 mod overturned;
@@ -59,13 +51,9 @@ mod own_tables;
 #[cfg(feature = "alloc")]
 mod owners;
 pub mod passes;
-pub mod plan;
 mod project;
 #[cfg(feature = "alloc")]
 mod quantities;
-#[cfg(feature = "alloc")]
-mod related;
-pub mod rolling;
 pub mod rotor;
 pub mod rows;
 #[cfg(feature = "alloc")]
@@ -94,9 +82,9 @@ pub use error::{LanesError, TreeError};
 pub use formulation::{Tree, TreeStep};
 #[cfg(feature = "alloc")]
 pub use history::History;
-pub use indexing::Outside;
+pub use link::indexing::Outside;
+pub use link::options::{Closure, Options};
 pub use mbs_core::step::{OptionError, StepError, StepReport, Stop};
-pub use options::{Closure, Options};
 #[cfg(feature = "alloc")]
 pub use quantities::{EffortTerms, JointLinks};
 #[cfg(feature = "alloc")]

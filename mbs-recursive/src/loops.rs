@@ -22,7 +22,7 @@ macro_rules! sized {
         let sizes = $sizes;
         if sizes == $common {
             $function($common, $($argument),*)
-        } else if crate::coupled::IS_BUILT && sizes == $single {
+        } else if crate::rows::coupled::IS_BUILT && sizes == $single {
             $function($single, $($argument),*)
         } else {
             $function(sizes, $($argument),*)
@@ -40,10 +40,10 @@ pub(crate) use eliminate::{close, close_again};
 pub use fault::Fault;
 pub(crate) use release::open;
 
-use crate::closed_loop::ClosedLoop;
-use crate::coupled::{self, CoupledRow, Couplings};
-use crate::plan::Plan;
+use crate::link::plan::Plan;
 use crate::rows::Row;
+use crate::rows::closed_loop::ClosedLoop;
+use crate::rows::coupled::{self, CoupledRow, Couplings};
 use crate::space::Space;
 use mbs_core::Real;
 

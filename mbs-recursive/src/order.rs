@@ -1,14 +1,14 @@
-//! Builds the lists of [`Plan`](crate::plan::Plan): who meets whom on the way inward, and in which order loops are eliminated.
+//! Builds the lists of [`Plan`](crate::link::plan::Plan): who meets whom on the way inward, and in which order loops are eliminated.
 //!
 //! Ancestors are taken from the outside in. At the same ancestor the loop with the fewest couplings left comes first
 //! (minimum degree), so that many loops through the ground stay sparse.
 
-use crate::closed_loop::ClosedLoop;
 use crate::coupling_tables::{Begin, CouplingTables};
 use crate::link::Link;
+use crate::link::plan::{End, LoopCoupling, Pair, Pass, Plan, Span, Station, Update};
 use crate::loops::index;
-use crate::plan::{End, LoopCoupling, Pair, Pass, Plan, Span, Station, Update};
 use crate::rows::Row;
+use crate::rows::closed_loop::ClosedLoop;
 use crate::space::Space;
 use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::vec;

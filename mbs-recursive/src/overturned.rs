@@ -3,8 +3,8 @@
 //! Beyond it the half angles of a tree give the turn the other way round: the rotation vector has changed its sign.
 
 use crate::failure::failure;
-use crate::indexing::Outside;
 use crate::link::LinkMotion;
+use crate::link::indexing::Outside;
 use crate::loads::{Instant, Load, Measure};
 use crate::slices::{Inputs, Start, Store, TreeSlices};
 use crate::space::Space;

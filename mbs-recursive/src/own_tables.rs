@@ -1,6 +1,6 @@
 //! The tables of a tree fit each other: where one of them does not, the tree was made wrong.
 
-use crate::indexing::Outside;
+use crate::link::indexing::Outside;
 
 /// Returns the result of tables that fit because a tree made them all.
 ///

@@ -12,8 +12,8 @@
 
 pub use crate::loops::Fault;
 
-use crate::indexing::{Outside, at, at_mut};
-use crate::joint::{self, NoInertia};
+use crate::link::indexing::{Outside, at, at_mut};
+use crate::link::joint::{self, NoInertia};
 use crate::link::{ArticulatedInertia, Link, LinkKind, LinkMotion};
 use crate::loops::{self, LoopStore, Loops, Regularisation, index};
 use crate::space::{Numbers, Space};

@@ -12,15 +12,15 @@
 //! new state. Inertias are then those of the last iteration: with effects their resistance to accelerations within the step is part of
 //! the weight, so that stiff springs are spared. Cost: an evaluation of the rows and about a fifth of a condensation for each sweep.
 
-use crate::closed_loop::ClosedLoop;
 use crate::coupled_rows::{self, Largest};
 use crate::evaluate::{note_rank, respond};
-use crate::indexing::{Outside, at, at_mut, part, part_mut};
 use crate::inverse::spread_each;
+use crate::link::indexing::{Outside, at, at_mut, part, part_mut};
+use crate::link::options::Options;
 use crate::link::{Link, LinkKind};
 use crate::loops::{Fault, index};
-use crate::options::Options;
 use crate::passes::kinematics;
+use crate::rows::closed_loop::ClosedLoop;
 use crate::slices::{Store, TreeSlices};
 use crate::space::{Numbers, Space};
 use mbs_core::Real;

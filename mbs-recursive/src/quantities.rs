@@ -8,8 +8,8 @@
 use crate::evaluate::Level;
 use crate::failure::failure;
 use crate::inverse;
+use crate::link::options::Options;
 use crate::loops::Loops;
-use crate::options::Options;
 use crate::own_tables::own;
 use crate::passes::kinematics;
 use crate::rotor;

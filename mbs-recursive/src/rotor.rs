@@ -4,7 +4,7 @@
 //! D += I        τ += I z̈,   E = ½ I ż²          I: the rotor's inertia times the square of its ratio
 //! ```
 
-use crate::indexing::{Outside, at, at_mut};
+use crate::link::indexing::{Outside, at, at_mut};
 use crate::link::{ArticulatedInertia, Link, LinkRotor};
 use crate::slices::TreeSlices;
 use crate::space::Space;

@@ -1,10 +1,10 @@
 //! A mechanism and its scratch as slices, so that every step runs on memory of the caller's choice.
 
-use crate::coupled::SumMeasure;
+use crate::link::plan::Span;
 use crate::link::{ArticulatedInertia, Link, LinkMotion, LinkRotor};
 use crate::loads::{Instant, Load};
 use crate::loops::{LoopStore, Loops};
-use crate::plan::Span;
+use crate::rows::coupled::SumMeasure;
 use crate::space::Space;
 use mbs_core::Real;
 use mbs_core::feedback::{FeedbackStep, SignalStates};
@@ -49,12 +49,12 @@ pub struct FeedbackMeasure<T> {
 }
 
 /// The operations that give signals which follow the motion, with the links whose coordinates they measure. Functions are those of
-/// [`Couplings`](crate::coupled::Couplings).
+/// [`Couplings`](crate::rows::coupled::Couplings).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FeedbackSlices<'a, T> {
     /// Operations that give the signals.
     pub steps: &'a [FeedbackStep<T>],
-    /// The link of each measured coordinate; [`NONE`](crate::coupled::NONE): what is measured is no coordinate.
+    /// The link of each measured coordinate; [`NONE`](crate::rows::coupled::NONE): what is measured is no coordinate.
     pub links: &'a [u32],
     /// Lengths, and angles of balls, that are measured and are no coordinates.
     pub measures: &'a [FeedbackMeasure<T>],

@@ -1,6 +1,5 @@
 //! [`TreeModel`]: a scene as a tree of links with cut joints. Built once; constant from then on.
 
-use crate::closed_loop::ClosedLoop;
 use crate::coupling_tables::CouplingTables;
 use crate::error::TreeError;
 use crate::feedback::{FeedbackMeasure, FeedbackSlices};
@@ -12,6 +11,7 @@ use crate::loops::{Loops, index};
 use crate::order::Order;
 use crate::own_tables::own;
 use crate::rows::Row;
+use crate::rows::closed_loop::ClosedLoop;
 use crate::slices::{Inputs, TreeSlices};
 use crate::space::{Numbers, Space};
 use alloc::vec;
@@ -278,7 +278,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
             }
             if link.kind == LinkKind::Free {
                 let at = link.z as usize + S::FREE - S::Point::N;
-                own(crate::joint::write(&S::point_from(&(origin - self.base)), z, at));
+                own(crate::link::joint::write(&S::point_from(&(origin - self.base)), z, at));
             }
         }
     }

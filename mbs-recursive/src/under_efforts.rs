@@ -1,11 +1,11 @@
 //! Accelerations under efforts along the freedoms.
 
 use crate::evaluate::{Level, begin, finish};
-use crate::indexing::{Outside, at, at_mut};
-use crate::joint::read;
+use crate::link::indexing::{Outside, at, at_mut};
+use crate::link::joint::read;
+use crate::link::options::Options;
 use crate::link::{ArticulatedInertia, Link, LinkKind, LinkMotion};
 use crate::loops::Fault;
-use crate::options::Options;
 use crate::slices::{Store, TreeSlices};
 use crate::space::{Numbers, Space};
 use mbs_core::Real;

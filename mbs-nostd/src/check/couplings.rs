@@ -3,11 +3,11 @@
 use super::{Look, ends_by, ensure, fault, is_within, sides};
 use crate::check::LoadError;
 use mbs_core::Real;
-use mbs_recursive::closed_loop::ClosedLoop;
-use mbs_recursive::coupled::{CoupledRow, LinkStart, NONE, SumMeasure};
-use mbs_recursive::curves::CurveTable;
+use mbs_recursive::link::curves::CurveTable;
+use mbs_recursive::link::plan::Span;
 use mbs_recursive::loads::SumLoad;
-use mbs_recursive::plan::Span;
+use mbs_recursive::rows::closed_loop::ClosedLoop;
+use mbs_recursive::rows::coupled::{CoupledRow, LinkStart, NONE, SumMeasure};
 use mbs_recursive::space::Space;
 
 impl<T: Real, S: Space<T>> Look<'_, '_, T, S> {

@@ -3,7 +3,7 @@
 use super::{Look, ends_by, ensure, is_within, sides};
 use crate::check::LoadError;
 use mbs_core::Real;
-use mbs_recursive::coupled;
+use mbs_recursive::rows::coupled;
 use mbs_recursive::space::Space;
 
 impl<T: Real, S: Space<T>> Look<'_, '_, T, S> {

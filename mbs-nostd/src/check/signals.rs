@@ -5,7 +5,7 @@ use crate::check::LoadError;
 use crate::model::Model;
 use mbs_core::Real;
 use mbs_core::feedback::{FeedbackOperation as Operation, NO_STATE};
-use mbs_recursive::coupled::NONE;
+use mbs_recursive::rows::coupled::NONE;
 use mbs_recursive::space::Space;
 
 impl<T: Real, S: Space<T>> Look<'_, '_, T, S> {

@@ -6,7 +6,7 @@ use crate::tables::{HEAD, WITH_CURVES, WITH_LINES, WITH_ROTORS, WITH_SIGNALS};
 use alloc::vec::Vec;
 use mbs_core::Real;
 use mbs_core::laws::entry::{Entry, EntryWriter};
-use mbs_recursive::coupled::Couplings;
+use mbs_recursive::rows::coupled::Couplings;
 
 impl Bytes {
     /// A list of what laws refer to.

@@ -9,8 +9,8 @@ use mbs_core::laws::Part;
 use mbs_core::measure::PreparedCurve;
 use mbs_core::scene::{Interpolation, SignalId, SignalKind};
 use mbs_recursive::CurveTables;
-use mbs_recursive::coupled::Couplings;
 use mbs_recursive::feedback::FeedbackSlices;
+use mbs_recursive::rows::coupled::Couplings;
 use mbs_recursive::slices::TreeSlices;
 use mbs_recursive::space::Space;
 

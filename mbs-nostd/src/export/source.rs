@@ -9,7 +9,7 @@ use alloc::string::String;
 use alloc::vec::Vec;
 use mbs_core::Real;
 use mbs_core::laws::entry::{Entry, EntryWriter};
-use mbs_recursive::coupled::Couplings;
+use mbs_recursive::rows::coupled::Couplings;
 
 /// Begins an expression of a struct.
 pub(crate) fn open(name: &str, to: &mut String) {

@@ -5,7 +5,7 @@ use super::macros::{record_enum, record_struct};
 use crate::inputs::{Rise, SignalLaw};
 use mbs_core::Real;
 use mbs_core::feedback::{FeedbackOperation, FeedbackStep};
-use mbs_recursive::curves::CurveTable;
+use mbs_recursive::link::curves::CurveTable;
 
 record_enum!([T: Real + Record] SignalLaw<T> = SignalLaw {
     0 Input { 0 value },

@@ -5,12 +5,12 @@ use super::{Axes, Record};
 use crate::inputs::Motion;
 use mbs_core::Real;
 use mbs_core::laws::Part;
-use mbs_recursive::closed_loop::ClosedLoop;
-use mbs_recursive::coupled::{CoupledRow, LinePoint, LinkStart, SumMeasure, SumTerm};
+use mbs_recursive::link::plan::{End, LoopCoupling, Pair, Pass, Span, Station, Update};
 use mbs_recursive::link::{Link, LinkKind, LinkRotor};
 use mbs_recursive::loads::{BodyLoad, Load, Measure, SumLoad};
-use mbs_recursive::plan::{End, LoopCoupling, Pair, Pass, Span, Station, Update};
 use mbs_recursive::rows::Row;
+use mbs_recursive::rows::closed_loop::ClosedLoop;
+use mbs_recursive::rows::coupled::{CoupledRow, LinePoint, LinkStart, SumMeasure, SumTerm};
 
 record_enum!([] LinkKind = LinkKind {
     0 Revolute {}, 1 Prismatic {}, 2 Ball {}, 3 Free {}, 4 GuidedRevolute {}, 5 GuidedPrismatic {},

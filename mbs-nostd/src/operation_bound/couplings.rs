@@ -10,10 +10,10 @@ use super::curves::function;
 use super::{Operations, count};
 use crate::check::n_sides;
 use mbs_core::Real;
-use mbs_recursive::coupled::{CoupledRow, Couplings, NONE, SumMeasure, SumTerm};
+use mbs_recursive::link::plan::Span;
 use mbs_recursive::loads::{Load, SumLoad};
-use mbs_recursive::plan::Span;
 use mbs_recursive::rows::Row;
+use mbs_recursive::rows::coupled::{CoupledRow, Couplings, NONE, SumMeasure, SumTerm};
 use mbs_recursive::slices::TreeSlices;
 use mbs_recursive::space::{Numbers, Space};
 

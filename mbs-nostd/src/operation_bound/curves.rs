@@ -2,8 +2,8 @@
 
 use super::{Operations, count};
 use mbs_core::Real;
-use mbs_recursive::coupled::Couplings;
-use mbs_recursive::curves::CurveTable;
+use mbs_recursive::link::curves::CurveTable;
+use mbs_recursive::rows::coupled::Couplings;
 use mbs_recursive::space::Space;
 
 const fn ops(products: u64, sums: u64) -> Operations {

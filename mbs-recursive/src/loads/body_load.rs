@@ -5,8 +5,8 @@
 //! ```
 
 use super::{Instant, Reach};
-use crate::indexing::{Outside, part_mut};
 use crate::link::ArticulatedInertia;
+use crate::link::indexing::{Outside, part_mut};
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
 use mbs_core::algebra::Vector;

@@ -1,8 +1,8 @@
 //! Instant at which loads are evaluated: its places, velocities and inputs.
 
-use crate::coupled::{Couplings, Here};
-use crate::indexing::{Outside, at, at_mut};
+use crate::link::indexing::{Outside, at, at_mut};
 use crate::link::{ArticulatedInertia, Link, LinkKind, LinkMotion};
+use crate::rows::coupled::{Couplings, Here};
 use crate::space::Space;
 use mbs_core::Real;
 use mbs_core::algebra::Vector;

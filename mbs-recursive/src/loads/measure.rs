@@ -8,7 +8,7 @@
 //! ```
 
 use super::Instant;
-use crate::indexing::Outside;
+use crate::link::indexing::Outside;
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
 use mbs_core::algebra::rotation_gradient;
@@ -69,7 +69,7 @@ impl<T: Real, S: Space<T>> Measure<T, S> {
                 let first = S::rotation_into(&at.placed(links[0])?.rotation);
                 let moment = first * rotation_gradient(&w, i.min(2));
                 let g = S::motion(S::spin_from(&moment), S::Point::zero());
-                (*crate::indexing::at(w.as_slice(), i)?, [-g, g])
+                (*crate::link::indexing::at(w.as_slice(), i)?, [-g, g])
             }
             Self::Turn if S::DIMENSION == 2 => {
                 let (mut x, mut y) = (S::Point::zero(), S::Point::zero());

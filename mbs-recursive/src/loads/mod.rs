@@ -20,8 +20,8 @@ pub use measure::Measure;
 pub use reach::Reach;
 pub use sum::SumLoad;
 
-use crate::indexing::{Outside, at_mut};
 use crate::link::ArticulatedInertia;
+use crate::link::indexing::{Outside, at_mut};
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
 use mbs_core::laws::scalar::Law;

@@ -1,9 +1,9 @@
 //! Rotations in space, which bushings act on: the rotation vector of two links.
 
 use super::Instant;
-use crate::indexing::{Outside, at};
-use crate::joint::{HAS_GUIDED_BALLS, guided_vector};
 use crate::link::LinkKind;
+use crate::link::indexing::{Outside, at};
+use crate::link::joint::{HAS_GUIDED_BALLS, guided_vector};
 use crate::space::Space;
 use mbs_core::Real;
 use mbs_core::algebra::{Vector, norm};

@@ -11,10 +11,10 @@
 //! The last is enough for the iteration to contract: (Σ xₖ)² is at most n Σ xₖ². Of one end it is n = 2, the answer itself.
 
 use super::{Instant, Reach};
-use crate::coupled::{CoupledRow, Couplings, Here, NONE, SumEnd};
-use crate::indexing::{Outside, at, at_mut};
 use crate::link::ArticulatedInertia;
-use crate::plan::Span;
+use crate::link::indexing::{Outside, at, at_mut};
+use crate::link::plan::Span;
+use crate::rows::coupled::{CoupledRow, Couplings, Here, NONE, SumEnd};
 use crate::space::Space;
 use mbs_core::Real;
 use mbs_core::laws::apart::is_apart;

@@ -15,8 +15,8 @@
 //! Accelerations that no longer change do not depend on κ: only the iterates do. Friction and slip have the slope of their secants in it.
 
 use super::{Instant, Load, Reach};
-use crate::indexing::{Outside, at, at_mut};
 use crate::link::ArticulatedInertia;
+use crate::link::indexing::{Outside, at, at_mut};
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
 

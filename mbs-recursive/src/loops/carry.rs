@@ -1,13 +1,12 @@
 //! Rows carried over a joint: inward with their gains, and what they hold back there, outward.
 
 use super::{LoopStore, Loops, inner};
-use crate::closed_loop::ClosedLoop;
-use crate::coupled::{self, CoupledRow};
-use crate::indexing::{Outside, at, at_mut, part, part_mut, range};
-use crate::joint;
-use crate::link::{ArticulatedInertia, LinkKind, LinkMotion};
-use crate::plan::{Pair, Pass};
+use crate::link::indexing::{Outside, at, at_mut, part, part_mut, range};
+use crate::link::plan::{Pair, Pass};
+use crate::link::{ArticulatedInertia, LinkKind, LinkMotion, joint};
 use crate::rows::Row;
+use crate::rows::closed_loop::ClosedLoop;
+use crate::rows::coupled::{self, CoupledRow};
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
 

@@ -2,11 +2,11 @@
 
 use super::fault::Fault;
 use super::{LoopStore, Loops, RankLost, Regularisation, index, inner};
-use crate::closed_loop::ClosedLoop;
-use crate::indexing::{Outside, apart, at, at_mut, part, part_mut, range};
 use crate::link::ArticulatedInertia;
-use crate::plan::{End, LoopCoupling, Update};
+use crate::link::indexing::{Outside, apart, at, at_mut, part, part_mut, range};
+use crate::link::plan::{End, LoopCoupling, Update};
 use crate::rows::Row;
+use crate::rows::closed_loop::ClosedLoop;
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
 

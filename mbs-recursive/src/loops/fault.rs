@@ -1,8 +1,8 @@
 //! Faults that stop a pass.
 
 use super::RankLost;
-use crate::indexing::Outside;
-use crate::joint::NoInertia;
+use crate::link::indexing::Outside;
+use crate::link::joint::NoInertia;
 
 /// Reason why a pass stops.
 #[derive(Debug, Clone, Copy, PartialEq)]

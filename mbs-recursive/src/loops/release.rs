@@ -2,9 +2,9 @@
 
 use super::eliminate::ends_at;
 use super::{LoopStore, Loops};
-use crate::closed_loop::ClosedLoop;
-use crate::indexing::{Outside, apart, at, at_mut, part, part_mut, range};
-use crate::plan::{End, LoopCoupling};
+use crate::link::indexing::{Outside, apart, at, at_mut, part, part_mut, range};
+use crate::link::plan::{End, LoopCoupling};
+use crate::rows::closed_loop::ClosedLoop;
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
 

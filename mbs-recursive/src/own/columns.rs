@@ -1,9 +1,8 @@
 //! Columns of the freedoms: which there are, and where they stand at a position.
 
 use super::six::{Moments, Six, V3};
-use crate::indexing::{Outside, at, at_mut};
-use crate::joint;
-use crate::link::{Link, LinkKind, LinkMotion};
+use crate::link::indexing::{Outside, at, at_mut};
+use crate::link::{Link, LinkKind, LinkMotion, joint};
 use crate::loops::index;
 use crate::own_tables::own;
 use crate::slices::TreeSlices;

@@ -3,8 +3,8 @@
 use super::OwnFreedoms;
 use super::columns::six;
 use crate::evaluate::evaluate_rows;
-use crate::indexing::{Outside, at, part_mut};
 use crate::link::LinkMotion;
+use crate::link::indexing::{Outside, at, part_mut};
 use crate::own_tables::own;
 use crate::slices::Store;
 use crate::space::Space;

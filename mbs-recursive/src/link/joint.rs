@@ -7,7 +7,7 @@
 //! pass       rows K of loops: K ← K − (K b) D⁻¹ Uᵀ
 //! ```
 
-use crate::indexing::{Outside, at, at_mut, part, part_mut};
+use crate::link::indexing::{Outside, at, at_mut, part, part_mut};
 use crate::link::{ArticulatedInertia, Link, LinkKind, LinkMotion};
 use crate::space::{Numbers, Space};
 use mbs_core::Real;

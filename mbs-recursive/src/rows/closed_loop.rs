@@ -10,10 +10,9 @@
 //! length        (g·g − L²)/(2L)                   K₂ = (s₂ × g, g)/L,  K₁ = −(s₁ × g, g)/L
 //! ```
 
-use crate::indexing::{Outside, at, part};
 use crate::link::LinkMotion;
-use crate::rolling;
-use crate::rows::{Row, RowValue};
+use crate::link::indexing::{Outside, at, part};
+use crate::rows::{Row, RowValue, rolling};
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
 

@@ -7,8 +7,8 @@
 //!
 //! The terms of such a row have a number of their relation in place of a curve: their slopes are noted, as those of curves are.
 
-use crate::coupled::{CoupledRow, CoupledValue, Couplings, Gradients, Here, NONE};
-use crate::indexing::{Outside, at_mut, range};
+use crate::link::indexing::{Outside, at_mut, range};
+use crate::rows::coupled::{CoupledRow, CoupledValue, Couplings, Gradients, Here, NONE};
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
 use mbs_core::laws::code::NumberedRelation;

@@ -10,10 +10,10 @@
 //!                                            bias = Σ (n·s̈ + (ḋ·ḋ − (n·ḋ)²)/|d|)
 //! ```
 
-use crate::curves::{self, CurveTable};
-use crate::indexing::{Outside, at, at_mut, range};
+use crate::link::curves::{self, CurveTable};
+use crate::link::indexing::{Outside, at, at_mut, range};
+use crate::link::plan::Span;
 use crate::link::{Link, LinkMotion};
-use crate::plan::Span;
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
 pub use mbs_core::elements::NONE;

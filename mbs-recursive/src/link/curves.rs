@@ -1,7 +1,7 @@
 //! Curves in tables: functions of the numbers that couplings, sums and signals measure.
 
-use crate::indexing::{Outside, at, part, range};
-use crate::plan::Span;
+use crate::link::indexing::{Outside, at, part, range};
+use crate::link::plan::Span;
 use mbs_core::Real;
 use mbs_core::elements::NONE;
 use mbs_core::measure::{polynomial, spline_curve};

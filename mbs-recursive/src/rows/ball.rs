@@ -8,10 +8,10 @@
 //!
 //! The half angles keep their sign from step to step: the twist is known up to a whole turn to both sides. Beyond, they begin anew.
 
-use crate::coupled::{CoupledRow, Couplings, Here, LinkStart, NONE, SumMeasure};
-use crate::indexing::{Outside, at, range};
 use crate::link::LinkMotion;
-use crate::plan::Span;
+use crate::link::indexing::{Outside, at, range};
+use crate::link::plan::Span;
+use crate::rows::coupled::{CoupledRow, Couplings, Here, LinkStart, NONE, SumMeasure};
 use crate::space::Space;
 use mbs_core::Real;
 use mbs_core::algebra::{Vector, cross, norm};
@@ -29,7 +29,7 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
     ) -> Result<Axes<T>, Outside> {
         let starts: &[LinkStart] = range(self.starts, starts.range())?;
         let [first, second] = range(self.points, axes.range())? else { return Err(Outside) };
-        let one = |of: &crate::coupled::LinePoint<T, S>| {
+        let one = |of: &crate::rows::coupled::LinePoint<T, S>| {
             let link = at(starts, of.start as usize)?.link;
             let rotation = &at(placed, link as usize)?.rotation;
             Ok((link, S::point_into(&S::rotate(rotation, &of.point))))

@@ -1,9 +1,9 @@
 //! Lines over points of links, part by part: lengths, how they grow, and where they are lost.
 
-use crate::coupled::{CoupledRow, Couplings, LinePoint, LinkStart, SumMeasure, SumTerm};
-use crate::indexing::{Outside, at, at_mut, range};
 use crate::link::LinkMotion;
-use crate::plan::Span;
+use crate::link::indexing::{Outside, at, at_mut, range};
+use crate::link::plan::Span;
+use crate::rows::coupled::{CoupledRow, Couplings, LinePoint, LinkStart, SumMeasure, SumTerm};
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
 use mbs_core::elements::has_collapsed;

@@ -7,8 +7,8 @@
 //! bias = u.(w_1 x (r' - v_1) - w_2 x (r' - v_2)) + u'.(v_1 + w_1 x r_1 - v_2 - w_2 x r_2)
 //! ```
 
-use crate::indexing::{Outside, at};
 use crate::link::LinkMotion;
+use crate::link::indexing::{Outside, at};
 use crate::rows::{Row, RowValue};
 use crate::space::Space;
 use mbs_core::Real;

@@ -1,6 +1,6 @@
 //! The equations of loops: of cut joints, of what rolls, and of couplings.
 
-use crate::coupled::CoupledRow;
+use crate::rows::coupled::CoupledRow;
 use crate::space::Space;
 use mbs_core::Real;
 

@@ -1,6 +1,6 @@
 //! A link: one body, or a massless one between the parts of a composed joint, with the joint to its parent.
 
-use crate::indexing::{Outside, at};
+use crate::link::indexing::{Outside, at};
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
 

@@ -1,0 +1,10 @@
+//! Links with the joint to their parents, and the numbers, tables and options that every other room reads.
+
+pub mod curves;
+pub(crate) mod indexing;
+pub mod joint;
+mod links;
+pub(crate) mod options;
+pub mod plan;
+
+pub use links::{ArticulatedInertia, Link, LinkKind, LinkMotion, LinkRotor};
