@@ -10,15 +10,13 @@ use crate::model::Model;
 use mbs_core::Real;
 use mbs_core::effects::bushing;
 use mbs_core::laws::Part;
-use mbs_recursive::link::LinkKind;
-use mbs_recursive::link::curves;
 use mbs_recursive::link::plan::Span;
+use mbs_recursive::link::{LinkKind, curves};
 use mbs_recursive::loads::{Load, Measure, sum};
-use mbs_recursive::rows::Row;
-use mbs_recursive::rows::coupled;
-use mbs_recursive::slices::TreeSlices;
+use mbs_recursive::passes::slices::TreeSlices;
+use mbs_recursive::passes::{feedback, rotor};
+use mbs_recursive::rows::{Row, coupled};
 use mbs_recursive::space::Space;
-use mbs_recursive::{feedback, rotor};
 
 /// Reason why a model is not loaded.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

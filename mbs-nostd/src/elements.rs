@@ -5,10 +5,10 @@ use crate::model::Model;
 use mbs_core::Real;
 use mbs_recursive::link::curves;
 use mbs_recursive::loads::{Load, sum};
+use mbs_recursive::passes::{feedback, rotor};
 use mbs_recursive::rows::coupled::{self, NONE, SumMeasure};
 use mbs_recursive::rows::{Row, rolling};
 use mbs_recursive::space::Space;
-use mbs_recursive::{feedback, rotor};
 
 /// A machine element that a build may leave out.
 #[derive(Debug, Clone, Copy)]

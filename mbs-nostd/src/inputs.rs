@@ -3,8 +3,8 @@
 use mbs_core::Real;
 use mbs_core::laws::{Part, guide};
 use mbs_core::step::InputError;
-use mbs_recursive::feedback;
-use mbs_recursive::slices::Inputs;
+use mbs_recursive::passes::feedback;
+use mbs_recursive::passes::slices::Inputs;
 
 /// A guide as a function of time.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -2,7 +2,7 @@
 
 use crate::inputs::Prescriptions;
 use mbs_core::Real;
-use mbs_recursive::slices::TreeSlices;
+use mbs_recursive::passes::slices::TreeSlices;
 use mbs_recursive::space::Space;
 
 /// A scene as tables, in flash or in memory of the caller's.

@@ -13,15 +13,15 @@ pub use mbs_core::laws::road::Feature;
 pub use mbs_core::laws::scalar::Law;
 pub use mbs_core::laws::slip::LongitudinalSlip;
 pub use mbs_core::laws::{LawInputs, Part};
-pub use mbs_recursive::feedback::FeedbackSlices;
 pub use mbs_recursive::link::curves::CurveTable;
 pub use mbs_recursive::link::plan::{End, LoopCoupling, Pair, Pass, Plan, Span, Station, Update};
 pub use mbs_recursive::link::{Link, LinkKind, LinkRotor};
 pub use mbs_recursive::loads::{BodyLoad, Load, Measure, SumLoad};
 pub use mbs_recursive::loops::Loops;
+pub use mbs_recursive::passes::feedback::FeedbackSlices;
+pub use mbs_recursive::passes::slices::TreeSlices;
 pub use mbs_recursive::rows::Row;
 pub use mbs_recursive::rows::closed_loop::ClosedLoop;
 pub use mbs_recursive::rows::coupled::{
     CoupledRow, Couplings, LinePoint, LinkStart, SumMeasure, SumTerm,
 };
-pub use mbs_recursive::slices::TreeSlices;

@@ -9,16 +9,16 @@ use mbs_core::Real;
 use mbs_core::feedback::FeedbackStep;
 use mbs_core::laws::entry::Entry;
 use mbs_core::laws::{CurvatureEntry, FeatureEntry, KnotEntry, LawInputs, LawTables, PieceEntry};
-use mbs_recursive::feedback::FeedbackSlices;
 use mbs_recursive::link::curves::CurveTable;
 use mbs_recursive::link::plan::{End, LoopCoupling, Pair, Pass, Plan, Station, Update};
 use mbs_recursive::link::{Link, LinkRotor};
 use mbs_recursive::loads::Load;
 use mbs_recursive::loops::Loops;
+use mbs_recursive::passes::feedback::FeedbackSlices;
+use mbs_recursive::passes::slices::TreeSlices;
 use mbs_recursive::rows::Row;
 use mbs_recursive::rows::closed_loop::ClosedLoop;
 use mbs_recursive::rows::coupled::{Couplings, LinePoint, LinkStart, SumTerm};
-use mbs_recursive::slices::TreeSlices;
 use mbs_recursive::space::Space;
 
 /// First numbers of a model's text: its mark, and the version.

@@ -11,18 +11,18 @@
 //! the projected end, and with one outward pass for both projections. The accelerations that a step starts from are those
 //! of the last evaluation, which differ from the converged ones by O(h²).
 
-use crate::collapse::check_parts;
-use crate::coupled_rows;
-use crate::evaluate::{Level, accelerations, accelerations_ahead, respond};
-use crate::failure::failure;
 use crate::link::indexing::{Outside, at_mut, copy};
 use crate::link::options::{Closure, Options};
 use crate::loads::Reach;
 use crate::loops::Fault;
-use crate::overturned::check_rotations;
+use crate::passes::collapse::check_parts;
+use crate::passes::coupled_rows;
+use crate::passes::evaluate::{Level, accelerations, accelerations_ahead, respond};
+use crate::passes::failure::failure;
 use crate::passes::kinematics;
+use crate::passes::overturned::check_rotations;
+use crate::passes::slices::{Counts, Inputs, Start, Store, TreeSlices};
 use crate::project::advance;
-use crate::slices::{Counts, Inputs, Start, Store, TreeSlices};
 use crate::space::Space;
 use crate::trapezoidal::reach_end;
 use mbs_core::Real;

@@ -1,10 +1,10 @@
 //! The rows of couplings, from the scene.
 
 use crate::error::TreeError;
-use crate::feedback::FeedbackMeasure;
 use crate::link::plan::Span;
 use crate::link::{Link, LinkKind};
 use crate::loops::index;
+use crate::passes::feedback::FeedbackMeasure;
 use crate::rows::Row;
 use crate::rows::closed_loop::ClosedLoop;
 use crate::rows::coupled::{CoupledRow, LinePoint, LinkStart, NONE, SumMeasure, SumTerm};

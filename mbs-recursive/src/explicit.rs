@@ -8,16 +8,16 @@
 //! Positions and velocities are projected on the loops after each accepted step, quaternions made unit at the end. The stages
 //! are those of [`mbs_core::ode`].
 
-use crate::collapse::check_lines;
-use crate::energy_balance;
-use crate::evaluate::{Level, accelerations, is_redundant, is_tight};
-use crate::failure::failure;
 use crate::link::indexing::Outside;
 use crate::link::options::{Closure, Options};
 use crate::link::{Link, LinkKind};
-use crate::overturned::check_rotations;
+use crate::passes::collapse::check_lines;
+use crate::passes::energy_balance;
+use crate::passes::evaluate::{Level, accelerations, is_redundant, is_tight};
+use crate::passes::failure::failure;
+use crate::passes::overturned::check_rotations;
+use crate::passes::slices::{Counts, Inputs, Start, Store, TreeSlices};
 use crate::project::{self, project};
-use crate::slices::{Counts, Inputs, Start, Store, TreeSlices};
 use crate::space::{Numbers, Space};
 use crate::trapezoidal::violations;
 use mbs_core::Real;

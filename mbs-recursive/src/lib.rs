@@ -4,12 +4,9 @@
 #[cfg(feature = "alloc")]
 extern crate alloc;
 
-pub mod anderson;
 #[cfg(feature = "alloc")]
 mod angles;
 pub mod bounded;
-mod collapse;
-mod coupled_rows;
 #[cfg(feature = "alloc")]
 mod coupling_tables;
 #[cfg(feature = "alloc")]
@@ -18,22 +15,17 @@ mod couplings;
 mod curve_tables;
 #[cfg(feature = "alloc")]
 mod cut;
-pub mod energy_balance;
 #[cfg(feature = "alloc")]
 mod enough_inertia;
 #[cfg(feature = "alloc")]
 mod error;
-mod evaluate;
 pub mod explicit;
-mod failure;
-pub mod feedback;
 #[cfg(feature = "alloc")]
 mod formulation;
 #[cfg(feature = "alloc")]
 mod graph;
 #[cfg(feature = "alloc")]
 mod history;
-pub mod inverse;
 #[cfg(feature = "alloc")]
 mod joint_facts;
 #[cfg(feature = "alloc")]
@@ -43,7 +35,6 @@ pub mod loads;
 pub mod loops;
 #[cfg(feature = "alloc")]
 mod order;
-mod overturned;
 #[cfg(feature = "alloc")]
 pub mod own;
 #[cfg(feature = "alloc")]
@@ -54,11 +45,9 @@ pub mod passes;
 mod project;
 #[cfg(feature = "alloc")]
 mod quantities;
-pub mod rotor;
 pub mod rows;
 #[cfg(feature = "alloc")]
 mod run;
-pub mod slices;
 pub mod space;
 #[cfg(feature = "alloc")]
 mod start;

@@ -12,16 +12,16 @@
 //! new state. Inertias are then those of the last iteration: with effects their resistance to accelerations within the step is part of
 //! the weight, so that stiff springs are spared. Cost: an evaluation of the rows and about a fifth of a condensation for each sweep.
 
-use crate::coupled_rows::{self, Largest};
-use crate::evaluate::{note_rank, respond};
-use crate::inverse::spread_each;
 use crate::link::indexing::{Outside, at, at_mut, part, part_mut};
 use crate::link::options::Options;
 use crate::link::{Link, LinkKind};
 use crate::loops::{Fault, index};
+use crate::passes::coupled_rows::{self, Largest};
+use crate::passes::evaluate::{note_rank, respond};
+use crate::passes::inverse::spread_each;
 use crate::passes::kinematics;
+use crate::passes::slices::{Store, TreeSlices};
 use crate::rows::closed_loop::ClosedLoop;
-use crate::slices::{Store, TreeSlices};
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
 

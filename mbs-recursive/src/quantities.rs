@@ -5,15 +5,14 @@
 //! τ = bᵀ f                                        by the passes of `inverse`
 //! ```
 
-use crate::evaluate::Level;
-use crate::failure::failure;
-use crate::inverse;
 use crate::link::options::Options;
 use crate::loops::Loops;
 use crate::own_tables::own;
-use crate::passes::kinematics;
-use crate::rotor;
-use crate::slices::TreeSlices;
+use crate::passes::evaluate::Level;
+use crate::passes::failure::failure;
+use crate::passes::inverse;
+use crate::passes::slices::TreeSlices;
+use crate::passes::{kinematics, rotor};
 use crate::space::{Numbers, Space};
 use crate::state::{TreeState, Workspace};
 use crate::tree::TreeModel;

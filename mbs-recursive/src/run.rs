@@ -1,19 +1,18 @@
 //! Work that a caller asks of a tree: steps, energies, efforts, mass matrix, reactions.
 
 use crate::bounded::{self, BoundedReport, Bounds, Unwatched};
-use crate::energy_balance;
-use crate::evaluate::{Level, accelerations, evaluate_rows};
 use crate::explicit;
-use crate::failure::failure;
-use crate::feedback::follow_motion;
-use crate::inverse;
 use crate::link::indexing::Outside;
 use crate::link::options::Options;
 use crate::own_tables::own;
-use crate::passes::kinematics;
-use crate::rotor;
+use crate::passes::energy_balance;
+use crate::passes::evaluate::{Level, accelerations, evaluate_rows};
+use crate::passes::failure::failure;
+use crate::passes::feedback::follow_motion;
+use crate::passes::inverse;
+use crate::passes::slices::{Inputs, Store, TreeSlices};
+use crate::passes::{kinematics, rotor};
 use crate::rows::Row;
-use crate::slices::{Inputs, Store, TreeSlices};
 use crate::space::{Numbers, Space};
 use crate::state::{Explicit, TreeState, Workspace};
 use crate::trapezoidal;

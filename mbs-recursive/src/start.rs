@@ -1,18 +1,18 @@
 //! Joint coordinates read from the motions of the bodies, and the motions written from them.
 
 use crate::error::TreeError;
-use crate::evaluate::{Level, accelerations};
-use crate::failure::failure;
 use crate::graph::Branch;
-use crate::inverse;
 use crate::link::joint::write;
 use crate::link::options::{Closure, Options};
 use crate::link::{LinkKind, LinkMotion};
 use crate::loops::Fault;
 use crate::own_tables::own;
+use crate::passes::evaluate::{Level, accelerations};
+use crate::passes::failure::failure;
+use crate::passes::inverse;
 use crate::passes::kinematics;
+use crate::passes::slices::{Inputs, Store, TreeSlices};
 use crate::project::{project, rounding};
-use crate::slices::{Inputs, Store, TreeSlices};
 use crate::space::{Numbers, Space};
 use crate::state::{TreeState, Workspace};
 use crate::tree::{Part, TreeModel, TreePlace, parts};
@@ -186,7 +186,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         let fault = |fault| failure(&m, fault);
         onto_loops(&m, &mut s).map_err(fault)?;
         accelerations(&m, &options, Level::Fine, &mut s).map_err(fault)?;
-        state.power = own(crate::energy_balance::power(&m, &mut s));
+        state.power = own(crate::passes::energy_balance::power(&m, &mut s));
         state.signals.copy_from_slice(s.signals.ends);
         state.applied.copy_from_slice(&state.inputs);
         state.z.copy_from_slice(s.z);

@@ -15,19 +15,19 @@
 //! Differs from the source: increments in place of hats, which round less; rotations are quaternions, q exp(δ). Positions and
 //! velocities are projected on the loops afterwards, and the accelerations are those of the projected state.
 
-pub use crate::slices::Start;
+pub use crate::passes::slices::Start;
 
-use crate::anderson::Mixing;
-use crate::collapse::check_lines;
-use crate::coupled_rows;
-use crate::evaluate::{Level, accelerations, accelerations_ahead, is_redundant, note_rank};
-use crate::failure::failure;
 use crate::link::indexing::{Outside, at, at_mut, copy};
 use crate::link::options::{Closure, Options};
 use crate::loads::Reach;
-use crate::overturned::check_rotations;
+use crate::passes::anderson::Mixing;
+use crate::passes::collapse::check_lines;
+use crate::passes::coupled_rows;
+use crate::passes::evaluate::{Level, accelerations, accelerations_ahead, is_redundant, note_rank};
+use crate::passes::failure::failure;
+use crate::passes::overturned::check_rotations;
+use crate::passes::slices::{Inputs, Store, TreeSlices};
 use crate::project::{advance, project, rounding};
-use crate::slices::{Inputs, Store, TreeSlices};
 use crate::space::Space;
 use mbs_core::Real;
 use mbs_core::algebra::norm_inf;
@@ -64,7 +64,7 @@ pub fn step<T: Real, S: Space<T>>(
     (start, aux): (Start<'_, T>, &[T]),
     s: &mut Store<'_, T, S>,
 ) -> Result<StepReport<T>, StepError> {
-    s.counts = crate::slices::Counts::default();
+    s.counts = crate::passes::slices::Counts::default();
     let mut projects = false;
     if options.closure == Closure::Constraints && is_redundant(s) {
         // A factor at the start, to project with.

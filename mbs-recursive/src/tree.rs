@@ -2,7 +2,6 @@
 
 use crate::coupling_tables::CouplingTables;
 use crate::error::TreeError;
-use crate::feedback::{FeedbackMeasure, FeedbackSlices};
 use crate::graph::{Branch, span};
 use crate::joint_facts::JointFacts;
 use crate::link::{Link, LinkKind, LinkRotor};
@@ -10,9 +9,10 @@ use crate::loads::Load;
 use crate::loops::{Loops, index};
 use crate::order::Order;
 use crate::own_tables::own;
+use crate::passes::feedback::{FeedbackMeasure, FeedbackSlices};
+use crate::passes::slices::{Inputs, TreeSlices};
 use crate::rows::Row;
 use crate::rows::closed_loop::ClosedLoop;
-use crate::slices::{Inputs, TreeSlices};
 use crate::space::{Numbers, Space};
 use alloc::vec;
 use alloc::vec::Vec;

@@ -1,12 +1,12 @@
 //! Accelerations under efforts along the freedoms.
 
-use crate::evaluate::{Level, begin, finish};
 use crate::link::indexing::{Outside, at, at_mut};
 use crate::link::joint::read;
 use crate::link::options::Options;
 use crate::link::{ArticulatedInertia, Link, LinkKind, LinkMotion};
 use crate::loops::Fault;
-use crate::slices::{Store, TreeSlices};
+use crate::passes::evaluate::{Level, begin, finish};
+use crate::passes::slices::{Store, TreeSlices};
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
 

@@ -11,8 +11,8 @@ use mbs_core::laws::Part;
 use mbs_core::scene::{Motion as SceneLaw, Signal};
 use mbs_recursive::loads::{Load, Measure};
 use mbs_recursive::loops::Loops;
+use mbs_recursive::passes::slices::TreeSlices;
 use mbs_recursive::rows::Row;
-use mbs_recursive::slices::TreeSlices;
 use mbs_recursive::space::Space;
 use mbs_recursive::{TreeModel, TreeState};
 

@@ -9,9 +9,9 @@ use mbs_core::laws::Part;
 use mbs_core::measure::PreparedCurve;
 use mbs_core::scene::{Interpolation, SignalId, SignalKind};
 use mbs_recursive::CurveTables;
-use mbs_recursive::feedback::FeedbackSlices;
+use mbs_recursive::passes::feedback::FeedbackSlices;
+use mbs_recursive::passes::slices::TreeSlices;
 use mbs_recursive::rows::coupled::Couplings;
-use mbs_recursive::slices::TreeSlices;
 use mbs_recursive::space::Space;
 
 /// A function of time that tables do not have, or a signal that guides follow and that is neither constant nor a spline or a step.

@@ -12,9 +12,9 @@ use crate::check::n_sides;
 use mbs_core::Real;
 use mbs_recursive::link::plan::Span;
 use mbs_recursive::loads::{Load, SumLoad};
+use mbs_recursive::passes::slices::TreeSlices;
 use mbs_recursive::rows::Row;
 use mbs_recursive::rows::coupled::{CoupledRow, Couplings, NONE, SumMeasure, SumTerm};
-use mbs_recursive::slices::TreeSlices;
 use mbs_recursive::space::{Numbers, Space};
 
 /// Entries that the value of a term looks up [-]: those of a gear train on a Cortex-M7, rounded up.

@@ -7,7 +7,7 @@ use super::curves::SPLINE;
 use crate::inputs::{Motion, Prescriptions, SignalLaw};
 use mbs_core::Real;
 use mbs_recursive::loads::{Load, Measure};
-use mbs_recursive::slices::TreeSlices;
+use mbs_recursive::passes::slices::TreeSlices;
 use mbs_recursive::space::Space;
 
 const fn ops(products: u64, sums: u64) -> Operations {

@@ -7,8 +7,8 @@
 
 use super::{Operations, count, couplings, joints};
 use mbs_core::Real;
+use mbs_recursive::passes::slices::TreeSlices;
 use mbs_recursive::rows::Row;
-use mbs_recursive::slices::TreeSlices;
 use mbs_recursive::space::{Numbers, Space};
 
 /// Entries that the values of a row look up, and its residual [-]: a slider-crank's on a Cortex-M7, rounded up.

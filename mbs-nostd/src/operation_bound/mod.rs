@@ -112,7 +112,9 @@ fn moves<T: Real, S: Space<T>>(links: &[Link<T, S>]) -> Operations {
 }
 
 /// A response to rows alone.
-fn response<T: Real, S: Space<T>>(m: &mbs_recursive::slices::TreeSlices<'_, T, S>) -> Operations {
+fn response<T: Real, S: Space<T>>(
+    m: &mbs_recursive::passes::slices::TreeSlices<'_, T, S>,
+) -> Operations {
     let mut sum = loops::response(m);
     for link in skip_ground(m.links) {
         sum += joints::response::<T, S>(link);

@@ -4,7 +4,7 @@ use super::Operations;
 use super::curves::function;
 use mbs_core::Real;
 use mbs_core::feedback::FeedbackOperation;
-use mbs_recursive::slices::TreeSlices;
+use mbs_recursive::passes::slices::TreeSlices;
 use mbs_recursive::space::Space;
 
 const fn ops(products: u64, sums: u64) -> Operations {

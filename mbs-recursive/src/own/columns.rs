@@ -5,7 +5,7 @@ use crate::link::indexing::{Outside, at, at_mut};
 use crate::link::{Link, LinkKind, LinkMotion, joint};
 use crate::loops::index;
 use crate::own_tables::own;
-use crate::slices::TreeSlices;
+use crate::passes::slices::TreeSlices;
 use crate::space::{Numbers, Space};
 use crate::state::{TreeState, Workspace};
 use crate::tree::TreeModel;

@@ -2,11 +2,11 @@
 
 use super::OwnFreedoms;
 use super::columns::six;
-use crate::evaluate::evaluate_rows;
 use crate::link::LinkMotion;
 use crate::link::indexing::{Outside, at, part_mut};
 use crate::own_tables::own;
-use crate::slices::Store;
+use crate::passes::evaluate::evaluate_rows;
+use crate::passes::slices::Store;
 use crate::space::Space;
 use crate::state::{TreeState, Workspace};
 use crate::tree::TreeModel;

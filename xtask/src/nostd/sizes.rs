@@ -21,7 +21,7 @@ const OF_TIRES: [&str; 5] =
     ["4laws4tire", "4laws12road_contact", "4laws7calspan", "4laws4road", "4laws7feature"];
 
 /// The modules of rotations in space, which bushings alone measure.
-const OF_BUSHINGS: [&str; 2] = ["5loads8rotation", "10overturned"];
+const OF_BUSHINGS: [&str; 2] = ["5loads8rotation", "6passes10overturned"];
 
 /// Modules of machine elements, and the feature of all of these.
 const OF_ELEMENTS: (&str, [&str; 5]) =

@@ -6,7 +6,7 @@
 
 use crate::link::indexing::{Outside, at, at_mut};
 use crate::link::{ArticulatedInertia, Link, LinkRotor};
-use crate::slices::TreeSlices;
+use crate::passes::slices::TreeSlices;
 use crate::space::Space;
 use mbs_core::Real;
 

@@ -5,12 +5,12 @@
 //! inward    f = M Ż − Q + Σ children,   τ = bᵀ f
 //! ```
 
-use crate::coupled_rows;
 use crate::link::indexing::{Outside, at, at_mut};
 use crate::link::joint::{read, write};
 use crate::link::{ArticulatedInertia, Link, LinkKind, LinkMotion};
 use crate::passes;
-use crate::slices::{Store, TreeSlices};
+use crate::passes::coupled_rows;
+use crate::passes::slices::{Store, TreeSlices};
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
 

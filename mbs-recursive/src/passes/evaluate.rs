@@ -10,18 +10,18 @@
 //! The report's own closure is an option: λ = α (Φ̈ + 2 μ Ω Φ̇ + Ω² Φ)   [P3 (39)–(41)]. It is the same elimination with
 //! ε = 1/α, bias + 2 μ Ω Φ̇ + Ω² Φ in place of the bias, and one sweep.
 
-use crate::coupled_rows::{self, Largest};
-use crate::feedback::follow_motion;
-use crate::inverse;
 use crate::link::ArticulatedInertia;
 use crate::link::indexing::{Outside, at, at_mut, copy};
 use crate::link::options::{Closure, Options};
 use crate::loads::Reach;
 use crate::loops::{Fault, Regularisation, index};
 use crate::passes;
-use crate::rotor;
+use crate::passes::coupled_rows::{self, Largest};
+use crate::passes::feedback::follow_motion;
+use crate::passes::inverse;
+use crate::passes::rotor;
+use crate::passes::slices::{Store, TreeSlices};
 use crate::rows::closed_loop::ClosedLoop;
-use crate::slices::{Store, TreeSlices};
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
 

@@ -2,11 +2,11 @@
 //!
 //! Beyond it the half angles of a tree give the turn the other way round: the rotation vector has changed its sign.
 
-use crate::failure::failure;
 use crate::link::LinkMotion;
 use crate::link::indexing::Outside;
 use crate::loads::{Instant, Load, Measure};
-use crate::slices::{Inputs, Start, Store, TreeSlices};
+use crate::passes::failure::failure;
+use crate::passes::slices::{Inputs, Start, Store, TreeSlices};
 use crate::space::Space;
 use mbs_core::Real;
 use mbs_core::effects::bushing;

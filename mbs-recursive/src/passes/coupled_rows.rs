@@ -2,7 +2,7 @@
 
 use crate::link::indexing::{Outside, at, at_mut};
 use crate::loops::index;
-use crate::slices::{Store, TreeSlices};
+use crate::passes::slices::{Store, TreeSlices};
 use crate::space::Space;
 use mbs_core::Real;
 

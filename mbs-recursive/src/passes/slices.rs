@@ -115,7 +115,7 @@ pub struct Store<'a, T: Real, S: Space<T>> {
     pub zdd: &'a mut [T],
     /// Increments of the step being made, or accelerations of the last iteration.
     pub scratch: &'a mut [T],
-    /// Memory of the iteration of a step with effects: [`history`](crate::anderson::history) numbers, or none, and the iteration is a plain
+    /// Memory of the iteration of a step with effects: [`history`](crate::passes::anderson::history) numbers, or none, and the iteration is a plain
     /// one.
     pub history: &'a mut [T],
     /// The most rows that had an effect so far.

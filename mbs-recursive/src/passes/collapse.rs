@@ -1,14 +1,14 @@
 //! Checks of what has no direction left after a step: parts of ropes without length, twists of balls with opposite axes, flat discs.
 
-use crate::failure::failure;
 use crate::link::indexing::{Outside, at};
 use crate::loads::{Load, SumLoad};
 use crate::loops::index;
+use crate::passes::failure::failure;
 use crate::passes::kinematics;
+use crate::passes::slices::{Inputs, Start, Store, TreeSlices};
 use crate::rows::Row;
 use crate::rows::coupled::{HAS_BALL_ANGLES, HAS_LINES};
 use crate::rows::rolling::{self, is_flat};
-use crate::slices::{Inputs, Start, Store, TreeSlices};
 use crate::space::Space;
 use mbs_core::Real;
 use mbs_core::step::StepError;

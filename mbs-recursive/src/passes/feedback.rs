@@ -1,9 +1,9 @@
 //! Signals that follow the motion, in relative coordinates: joint coordinates are those of links.
 
 use crate::link::indexing::{Outside, at, copy};
+pub use crate::passes::slices::{FeedbackMeasure, FeedbackSlices};
+use crate::passes::slices::{Store, TreeSlices};
 use crate::rows::coupled::{self, NONE};
-pub use crate::slices::{FeedbackMeasure, FeedbackSlices};
-use crate::slices::{Store, TreeSlices};
 use crate::space::Space;
 use mbs_core::Real;
 use mbs_core::feedback::{follow, note_followed};

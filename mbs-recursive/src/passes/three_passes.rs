@@ -10,12 +10,10 @@
 //! Inertias and forces are shifted to the parent's origin on the way in. p = −Q̂. Loops join in at their common ancestors
 //! (`loops`), where the source has one derivation by hand for each mechanism.
 
-pub use crate::loops::Fault;
-
 use crate::link::indexing::{Outside, at, at_mut};
 use crate::link::joint::{self, NoInertia};
 use crate::link::{ArticulatedInertia, Link, LinkKind, LinkMotion};
-use crate::loops::{self, LoopStore, Loops, Regularisation, index};
+use crate::loops::{self, Fault, LoopStore, Loops, Regularisation, index};
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
 

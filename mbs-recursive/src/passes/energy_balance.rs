@@ -1,11 +1,11 @@
 //! Energies, and the power that enters through dampers, courses and guides.
 
-use crate::inverse;
 use crate::link::indexing::{Outside, at};
 use crate::link::{Link, LinkKind, LinkMotion};
 use crate::loads::Instant;
-use crate::rotor;
-use crate::slices::{Store, TreeSlices};
+use crate::passes::inverse;
+use crate::passes::rotor;
+use crate::passes::slices::{Store, TreeSlices};
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
 

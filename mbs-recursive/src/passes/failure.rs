@@ -1,7 +1,7 @@
 //! The step error that a fault of a pass becomes.
 
 use crate::loops::Fault;
-use crate::slices::TreeSlices;
+use crate::passes::slices::TreeSlices;
 use crate::space::Space;
 use mbs_core::Real;
 use mbs_core::step::StepError;
