@@ -22,7 +22,7 @@ pub use inputs::{Motion, Prescriptions, Rise, SignalLaw, Values};
 pub use ladder::DegradationLadder;
 pub use mbs_core::Real;
 pub use mbs_core::step::{InputError, StepError};
-pub use mbs_recursive::bounded::{BoundedReport, Bounds, Unwatched, Watch};
+pub use mbs_recursive::step::bounded::{BoundedReport, Bounds, Unwatched, Watch};
 pub use mbs_recursive::{Options, Planar, Spatial};
 pub use model::{Model, StartState};
 pub use solver::Solver;

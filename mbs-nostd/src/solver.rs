@@ -6,13 +6,13 @@ use crate::ladder::DegradationLadder;
 use mbs_core::Real;
 use mbs_core::feedback::{CourseSlope, SignalStates};
 use mbs_core::step::{InputError, StepError};
-use mbs_recursive::bounded::{self, BoundedReport, Bounds, Watch};
 use mbs_recursive::link::{ArticulatedInertia, LinkMotion, curves};
 use mbs_recursive::loops::LoopStore;
 use mbs_recursive::passes::feedback;
 use mbs_recursive::passes::slices::{Counts, Inputs, Store, TreeSlices};
 use mbs_recursive::space::{Numbers, Space};
-use mbs_recursive::trapezoidal::Start;
+use mbs_recursive::step::bounded::{self, BoundedReport, Bounds, Watch};
+use mbs_recursive::step::trapezoidal::Start;
 use mbs_recursive::{Options, Outside};
 
 /// State, scratch and inputs of a model with at most `L` links (the ground among them), `Z` coordinates, `V` freedoms and `R`

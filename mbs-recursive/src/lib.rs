@@ -6,7 +6,6 @@ extern crate alloc;
 
 #[cfg(feature = "alloc")]
 mod angles;
-pub mod bounded;
 #[cfg(feature = "alloc")]
 mod coupling_tables;
 #[cfg(feature = "alloc")]
@@ -19,7 +18,6 @@ mod cut;
 mod enough_inertia;
 #[cfg(feature = "alloc")]
 mod error;
-pub mod explicit;
 #[cfg(feature = "alloc")]
 mod formulation;
 #[cfg(feature = "alloc")]
@@ -42,7 +40,6 @@ mod own_tables;
 #[cfg(feature = "alloc")]
 mod owners;
 pub mod passes;
-mod project;
 #[cfg(feature = "alloc")]
 mod quantities;
 pub mod rows;
@@ -53,7 +50,7 @@ pub mod space;
 mod start;
 #[cfg(feature = "alloc")]
 mod state;
-pub mod trapezoidal;
+pub mod step;
 #[cfg(feature = "alloc")]
 mod tree;
 #[cfg(feature = "alloc")]

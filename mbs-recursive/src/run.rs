@@ -1,7 +1,5 @@
 //! Work that a caller asks of a tree: steps, energies, efforts, mass matrix, reactions.
 
-use crate::bounded::{self, BoundedReport, Bounds, Unwatched};
-use crate::explicit;
 use crate::link::indexing::Outside;
 use crate::link::options::Options;
 use crate::own_tables::own;
@@ -15,7 +13,9 @@ use crate::passes::{kinematics, rotor};
 use crate::rows::Row;
 use crate::space::{Numbers, Space};
 use crate::state::{Explicit, TreeState, Workspace};
-use crate::trapezoidal;
+use crate::step::bounded::{self, BoundedReport, Bounds, Unwatched};
+use crate::step::explicit;
+use crate::step::trapezoidal;
 use crate::tree::{TreeModel, TreePlace};
 use mbs_core::Real;
 use mbs_core::algebra::{Vector, cross};

@@ -27,9 +27,9 @@ use crate::model::Model;
 use mbs_core::Real;
 pub use mbs_core::laws::operations::Operations;
 use mbs_core::laws::operations::count;
-use mbs_recursive::bounded::Bounds;
 use mbs_recursive::link::Link;
 use mbs_recursive::space::{Numbers, Space};
+use mbs_recursive::step::bounded::Bounds;
 
 /// Entries that a step looks up beside those of links and loops [-]: a pendulum's of two links on a Cortex-M7, rounded up.
 const STEP_ENTRIES: u64 = 8;

@@ -3,9 +3,8 @@
 use crate::link::indexing::{Outside, at};
 use crate::link::{Link, LinkKind, LinkMotion};
 use crate::loads::Instant;
-use crate::passes::inverse;
-use crate::passes::rotor;
 use crate::passes::slices::{Store, TreeSlices};
+use crate::passes::{inverse, rotor};
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
 

@@ -27,8 +27,8 @@ use crate::passes::evaluate::{Level, accelerations, accelerations_ahead, is_redu
 use crate::passes::failure::failure;
 use crate::passes::overturned::check_rotations;
 use crate::passes::slices::{Inputs, Store, TreeSlices};
-use crate::project::{advance, project, rounding};
 use crate::space::Space;
+use crate::step::project::{advance, project, rounding};
 use mbs_core::Real;
 use mbs_core::algebra::norm_inf;
 use mbs_core::integrator::Integrator;

@@ -1,0 +1,6 @@
+//! Steps of a mechanism in slices: the trapezoidal rule, work that is bounded, methods with error control, projections.
+
+pub mod bounded;
+pub mod explicit;
+pub(crate) mod project;
+pub mod trapezoidal;
