@@ -5,10 +5,9 @@
 //! whose laws have pieces are refused. A spring must have a length in every lane. Steps decide by numbers for all lanes at once: integrate
 //! lane by lane, or by steps of fixed length around [`TreeModel::accelerate`].
 
-use crate::error::LanesError;
+use crate::build::{LanesError, TreeModel};
 use crate::space::Space;
 use crate::state::TreeState;
-use crate::tree::TreeModel;
 use mbs_core::real::Lanes;
 use mbs_core::scene::Scene;
 

@@ -7,38 +7,18 @@ extern crate alloc;
 #[cfg(feature = "alloc")]
 mod angles;
 #[cfg(feature = "alloc")]
-mod coupling_tables;
-#[cfg(feature = "alloc")]
-mod couplings;
-#[cfg(feature = "alloc")]
-mod curve_tables;
-#[cfg(feature = "alloc")]
-mod cut;
-#[cfg(feature = "alloc")]
-mod enough_inertia;
-#[cfg(feature = "alloc")]
-mod error;
+mod build;
 #[cfg(feature = "alloc")]
 mod formulation;
 #[cfg(feature = "alloc")]
-mod graph;
-#[cfg(feature = "alloc")]
 mod history;
-#[cfg(feature = "alloc")]
-mod joint_facts;
 #[cfg(feature = "alloc")]
 mod lanes;
 pub mod link;
 pub mod loads;
 pub mod loops;
 #[cfg(feature = "alloc")]
-mod order;
-#[cfg(feature = "alloc")]
 pub mod own;
-#[cfg(feature = "alloc")]
-mod own_tables;
-#[cfg(feature = "alloc")]
-mod owners;
 pub mod passes;
 #[cfg(feature = "alloc")]
 mod quantities;
@@ -52,18 +32,12 @@ mod start;
 mod state;
 pub mod step;
 #[cfg(feature = "alloc")]
-mod tree;
-#[cfg(feature = "alloc")]
 mod turns;
 #[cfg(feature = "alloc")]
 mod under_efforts;
-#[cfg(feature = "alloc")]
-mod weights;
 
 #[cfg(feature = "alloc")]
-pub use curve_tables::CurveTables;
-#[cfg(feature = "alloc")]
-pub use error::{LanesError, TreeError};
+pub use build::{CurveTables, LanesError, TreeError, TreeModel};
 #[cfg(feature = "alloc")]
 pub use formulation::{Tree, TreeStep};
 #[cfg(feature = "alloc")]
@@ -82,5 +56,3 @@ pub use space::{Planar, Spatial};
 pub use start::StartError;
 #[cfg(feature = "alloc")]
 pub use state::{TreeState, Workspace};
-#[cfg(feature = "alloc")]
-pub use tree::TreeModel;

@@ -5,9 +5,10 @@
 //! τ = bᵀ f                                        by the passes of `inverse`
 //! ```
 
+use crate::build::TreeModel;
+use crate::build::own_tables::own;
 use crate::link::options::Options;
 use crate::loops::Loops;
-use crate::own_tables::own;
 use crate::passes::evaluate::Level;
 use crate::passes::failure::failure;
 use crate::passes::inverse;
@@ -15,7 +16,6 @@ use crate::passes::slices::TreeSlices;
 use crate::passes::{kinematics, rotor};
 use crate::space::{Numbers, Space};
 use crate::state::{TreeState, Workspace};
-use crate::tree::TreeModel;
 use crate::under_efforts::accelerations_under;
 use core::ops::Range;
 use mbs_core::Real;

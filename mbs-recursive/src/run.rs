@@ -1,8 +1,9 @@
 //! Work that a caller asks of a tree: steps, energies, efforts, mass matrix, reactions.
 
+use crate::build::own_tables::own;
+use crate::build::tree::{TreeModel, TreePlace};
 use crate::link::indexing::Outside;
 use crate::link::options::Options;
-use crate::own_tables::own;
 use crate::passes::energy_balance;
 use crate::passes::evaluate::{Level, accelerations, evaluate_rows};
 use crate::passes::failure::failure;
@@ -14,9 +15,7 @@ use crate::rows::Row;
 use crate::space::{Numbers, Space};
 use crate::state::{Explicit, TreeState, Workspace};
 use crate::step::bounded::{self, BoundedReport, Bounds, Unwatched};
-use crate::step::explicit;
-use crate::step::trapezoidal;
-use crate::tree::{TreeModel, TreePlace};
+use crate::step::{explicit, trapezoidal};
 use mbs_core::Real;
 use mbs_core::algebra::{Vector, cross};
 use mbs_core::ode::{Adaptive, Extrapolation, Method, Radau, Tableau};

@@ -1,12 +1,13 @@
 //! Joint coordinates read from the motions of the bodies, and the motions written from them.
 
-use crate::error::TreeError;
-use crate::graph::Branch;
+use crate::build::TreeError;
+use crate::build::graph::Branch;
+use crate::build::own_tables::own;
+use crate::build::tree::{Part, TreeModel, TreePlace, parts};
 use crate::link::joint::write;
 use crate::link::options::{Closure, Options};
 use crate::link::{LinkKind, LinkMotion};
 use crate::loops::Fault;
-use crate::own_tables::own;
 use crate::passes::evaluate::{Level, accelerations};
 use crate::passes::failure::failure;
 use crate::passes::slices::{Inputs, Store, TreeSlices};
@@ -14,7 +15,6 @@ use crate::passes::{inverse, kinematics};
 use crate::space::{Numbers, Space};
 use crate::state::{TreeState, Workspace};
 use crate::step::project::{project, rounding};
-use crate::tree::{Part, TreeModel, TreePlace, parts};
 use alloc::vec;
 use alloc::vec::Vec;
 use mbs_core::Real;
@@ -297,7 +297,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
             if part.kind == LinkKind::Ball {
                 // A ball stands alone, or with slides.
                 let own = child.rotation.transpose() * turning;
-                crate::own_tables::own(write(&S::spin_from(&own), v, 0));
+                crate::build::own_tables::own(write(&S::spin_from(&own), v, 0));
                 spin = child.omega;
                 continue;
             }

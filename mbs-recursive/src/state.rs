@@ -1,12 +1,12 @@
 //! The state of a mechanism in relative coordinates, and the scratch of a step.
 
+use crate::build::TreeModel;
 use crate::link::{ArticulatedInertia, LinkMotion};
 use crate::loops::LoopStore;
 use crate::passes::anderson::history;
 use crate::passes::slices::{Counts, Start, Store};
 use crate::space::{Numbers, Space};
 use crate::step::explicit::n_components;
-use crate::tree::TreeModel;
 use alloc::vec;
 use alloc::vec::Vec;
 use mbs_core::Real;

@@ -3,12 +3,12 @@
 //! A coordinate of a joint begins nearest to its given value. A free link has the turns of the matrix alone, within half a turn.
 //! What is between a free link and others may lack whole turns, which the natural state remembers.
 
+use crate::build::TreeModel;
+use crate::build::own_tables::own;
 use crate::link::{Link, LinkKind};
 use crate::loads::{Instant, Load, Measure};
-use crate::own_tables::own;
 use crate::space::{Numbers, Space};
 use crate::state::TreeState;
-use crate::tree::TreeModel;
 use alloc::vec;
 use alloc::vec::Vec;
 use mbs_core::Real;

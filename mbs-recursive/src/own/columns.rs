@@ -1,14 +1,14 @@
 //! Columns of the freedoms: which there are, and where they stand at a position.
 
 use super::six::{Moments, Six, V3};
+use crate::build::TreeModel;
+use crate::build::own_tables::own;
 use crate::link::indexing::{Outside, at, at_mut};
 use crate::link::{Link, LinkKind, LinkMotion, joint};
 use crate::loops::index;
-use crate::own_tables::own;
 use crate::passes::slices::TreeSlices;
 use crate::space::{Numbers, Space};
 use crate::state::{TreeState, Workspace};
-use crate::tree::TreeModel;
 use alloc::vec;
 use alloc::vec::Vec;
 use core::ops::Range;

@@ -3,9 +3,9 @@
 use super::OwnFreedoms;
 use super::moving::{MovingColumns, move_to};
 use super::six::V3;
+use crate::build::TreeModel;
 use crate::space::Space;
 use crate::state::{TreeState, Workspace};
-use crate::tree::TreeModel;
 use mbs_core::Real;
 use mbs_core::algebra::cross;
 use mbs_core::scene::BodyId;

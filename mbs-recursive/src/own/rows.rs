@@ -2,14 +2,14 @@
 
 use super::OwnFreedoms;
 use super::columns::six;
+use crate::build::TreeModel;
+use crate::build::own_tables::own;
 use crate::link::LinkMotion;
 use crate::link::indexing::{Outside, at, part_mut};
-use crate::own_tables::own;
 use crate::passes::evaluate::evaluate_rows;
 use crate::passes::slices::Store;
 use crate::space::Space;
 use crate::state::{TreeState, Workspace};
-use crate::tree::TreeModel;
 use mbs_core::Real;
 
 impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {

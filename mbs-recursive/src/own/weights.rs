@@ -9,10 +9,10 @@ use super::OwnFreedoms;
 use super::columns::{ColumnPart, NONE, PartKind};
 use super::moving::MovingColumns;
 use super::six::Moments;
+use crate::build::TreeModel;
 use crate::link::LinkMotion;
 use crate::loads::Load;
 use crate::space::{Numbers, Space};
-use crate::tree::TreeModel;
 use mbs_core::Real;
 
 impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {

@@ -7,7 +7,7 @@ pub(super) const OWNED: [(&str, &str); 4] = [
     ("mbs_core", "natural"),
     ("mbs_core", "start"),
     ("mbs_core", "outputs"),
-    ("mbs_recursive", "tree"),
+    ("mbs_recursive", "build::tree"),
 ];
 
 /// The counts of a crate.

@@ -140,8 +140,8 @@ fn owned(definition: &[u8]) -> Option<usize> {
     let (_, name) = name.split_once("@")?;
     let (_, path) = name.split_once("Cs")?.1.split_once('_')?;
     OWNED.iter().position(|(owner, module)| {
-        path.strip_prefix(&format!("{}{owner}", owner.len()))
-            .is_some_and(|rest| rest.starts_with(&format!("{}{module}", module.len())))
+        let words = [*owner].into_iter().chain(module.split("::"));
+        path.starts_with(&words.map(|word| format!("{}{word}", word.len())).collect::<String>())
     })
 }
 
@@ -158,6 +158,9 @@ mod tests {
         let of = |name: &str| owned(format!("define internal void @{name}(ptr %x) {{").as_bytes());
         let natural = "_RNvMs_NtNtCs6fU_8mbs_core7natural10from_sceneINtNtB4_5model12NaturalModeldKj2_E5build";
         assert_eq!(of(natural), Some(0));
+        let tree =
+            "_RNvMNtNtCs6fU_13mbs_recursive5build4treeINtB2_9TreeModeldNtNtB6_5space6PlanarE5build";
+        assert_eq!(of(tree), Some(3));
         let dropped = "_RINvNtCs9aB_4core3ptr13drop_in_placeNtNtCs6fU_8mbs_core7natural5modelE";
         assert_eq!(of(dropped), None);
         assert_eq!(of("main"), None);

@@ -1,14 +1,14 @@
 //! Does every joint of a tree meet inertia, so that accelerations follow from forces?
 
-use crate::error::TreeError;
+use crate::build::error::TreeError;
+use crate::build::own_tables::own;
+use crate::build::tree::TreeModel;
 use crate::link::plan::Plan;
 use crate::link::{ArticulatedInertia, LinkMotion};
 use crate::loops::{Fault, LoopStore, Loops, Regularisation};
-use crate::own_tables::own;
 use crate::passes;
 use crate::rows::coupled::Couplings;
 use crate::space::{Numbers, Space};
-use crate::tree::TreeModel;
 use alloc::vec;
 use alloc::vec::Vec;
 use mbs_core::Real;

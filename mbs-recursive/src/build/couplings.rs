@@ -1,6 +1,7 @@
 //! The rows of couplings, from the scene.
 
-use crate::error::TreeError;
+use crate::build::error::TreeError;
+use crate::build::tree::TreeModel;
 use crate::link::plan::Span;
 use crate::link::{Link, LinkKind};
 use crate::loops::index;
@@ -10,7 +11,6 @@ use crate::rows::closed_loop::ClosedLoop;
 use crate::rows::coupled::{CoupledRow, LinePoint, LinkStart, NONE, SumMeasure, SumTerm};
 use crate::rows::related::ARGUMENTS;
 use crate::space::{Numbers, Space};
-use crate::tree::TreeModel;
 use alloc::vec::Vec;
 use mbs_core::Real;
 use mbs_core::algebra::{Vector, along};

@@ -1,6 +1,6 @@
 //! The tables of couplings, filled while a tree is built.
 
-use crate::curve_tables::CurveTables;
+use crate::build::curve_tables::CurveTables;
 use crate::rows::coupled::{
     CoupledRow, Couplings, LinePoint, LinkStart, NONE, SumMeasure, SumTerm,
 };

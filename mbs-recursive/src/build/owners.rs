@@ -1,10 +1,10 @@
 //! Owners of the freedoms, links and rows of a tree, for messages.
 
+use crate::build::tree::TreeModel;
 use crate::link::Link;
 use crate::loops::index;
 use crate::rows::Row;
 use crate::space::Space;
-use crate::tree::TreeModel;
 use mbs_core::Real;
 use mbs_core::model::Owner;
 

@@ -9,14 +9,14 @@
 //! | ball | none |
 //! | link | (p·p − L²)/(2L); hinged: p·a |
 
-use crate::error::TreeError;
+use crate::build::error::TreeError;
+use crate::build::tree::TreeModel;
 use crate::link::LinkRotor;
 use crate::loads::{BodyLoad, Load, Measure, SumLoad};
 use crate::loops::index;
 use crate::rows::Row;
 use crate::rows::closed_loop::ClosedLoop;
 use crate::space::{Numbers, Space};
-use crate::tree::TreeModel;
 use alloc::vec::Vec;
 use mbs_core::Real;
 use mbs_core::actions::{self, Action};

@@ -3,7 +3,7 @@
 //! Ancestors are taken from the outside in. At the same ancestor the loop with the fewest couplings left comes first
 //! (minimum degree), so that many loops through the ground stay sparse.
 
-use crate::coupling_tables::{Begin, CouplingTables};
+use crate::build::coupling_tables::{Begin, CouplingTables};
 use crate::link::Link;
 use crate::link::plan::{End, LoopCoupling, Pair, Pass, Plan, Span, Station, Update};
 use crate::loops::index;

@@ -4,9 +4,9 @@
 //! F = m g (s − 1)        s: the body's `gravity_scale`
 //! ```
 
+use crate::build::tree::TreeModel;
 use crate::loads::Load;
 use crate::space::{Numbers, Space};
-use crate::tree::TreeModel;
 use mbs_core::Real;
 use mbs_core::cluster::mass_properties;
 use mbs_core::scene::{BodyId, Scene};

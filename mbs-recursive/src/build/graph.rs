@@ -14,7 +14,7 @@
 //! What the ground does not reach starts from a root of its own, which is free: a body with a free joint to the ground, or
 //! the heaviest one. Links are always cut; other free joints between moving bodies constrain nothing.
 
-use crate::error::TreeError;
+use crate::build::error::TreeError;
 use alloc::collections::BinaryHeap;
 use alloc::vec;
 use alloc::vec::Vec;

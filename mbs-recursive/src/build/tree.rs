@@ -1,14 +1,14 @@
 //! [`TreeModel`]: a scene as a tree of links with cut joints. Built once; constant from then on.
 
-use crate::coupling_tables::CouplingTables;
-use crate::error::TreeError;
-use crate::graph::{Branch, span};
-use crate::joint_facts::JointFacts;
+use crate::build::coupling_tables::CouplingTables;
+use crate::build::error::TreeError;
+use crate::build::graph::{Branch, span};
+use crate::build::joint_facts::JointFacts;
+use crate::build::order::Order;
+use crate::build::own_tables::own;
 use crate::link::{Link, LinkKind, LinkRotor};
 use crate::loads::Load;
 use crate::loops::{Loops, index};
-use crate::order::Order;
-use crate::own_tables::own;
 use crate::passes::feedback::{FeedbackMeasure, FeedbackSlices};
 use crate::passes::slices::{Inputs, TreeSlices};
 use crate::rows::Row;
