@@ -3,12 +3,12 @@
 use super::six::{Moments, Six, V3};
 use crate::build::TreeModel;
 use crate::build::own_tables::own;
+use crate::host::{TreeState, Workspace};
 use crate::link::indexing::{Outside, at, at_mut};
 use crate::link::{Link, LinkKind, LinkMotion, joint};
 use crate::loops::index;
 use crate::passes::slices::TreeSlices;
 use crate::space::{Numbers, Space};
-use crate::state::{TreeState, Workspace};
 use alloc::vec;
 use alloc::vec::Vec;
 use core::ops::Range;

@@ -13,8 +13,8 @@ use super::columns::{ColumnPart, NONE, PartKind};
 use super::moving::{MovingColumns, move_to};
 use super::{OwnFreedoms, six::Six};
 use crate::build::TreeModel;
+use crate::host::{TreeState, Workspace};
 use crate::space::Space;
-use crate::state::{TreeState, Workspace};
 use mbs_core::Real;
 
 /// Derivatives of efforts to be written, each a square of the freedoms, row by row: a row for each effort.

@@ -3,9 +3,9 @@
 use super::OwnFreedoms;
 use super::six::{Moments, V3};
 use crate::build::TreeModel;
+use crate::host::{TreeState, Workspace};
 use crate::link::{Link, LinkMotion};
 use crate::space::Space;
-use crate::state::{TreeState, Workspace};
 use mbs_core::Real;
 
 impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {

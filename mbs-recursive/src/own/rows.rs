@@ -4,12 +4,12 @@ use super::OwnFreedoms;
 use super::columns::six;
 use crate::build::TreeModel;
 use crate::build::own_tables::own;
+use crate::host::{TreeState, Workspace};
 use crate::link::LinkMotion;
 use crate::link::indexing::{Outside, at, part_mut};
 use crate::passes::evaluate::evaluate_rows;
 use crate::passes::slices::Store;
 use crate::space::Space;
-use crate::state::{TreeState, Workspace};
 use mbs_core::Real;
 
 impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {

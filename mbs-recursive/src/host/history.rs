@@ -1,8 +1,8 @@
 //! Memory that one step leaves for the next beside the state, to read and to restore.
 
+use crate::host::state::Workspace;
 use crate::link::options::Options;
 use crate::space::Space;
-use crate::state::Workspace;
 use alloc::vec::Vec;
 use mbs_core::Real;
 use mbs_core::ode::{

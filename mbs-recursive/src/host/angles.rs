@@ -1,9 +1,9 @@
 //! Joint coordinates with their turns, as the tree has them: nothing of them is measured.
 
 use crate::build::tree::{TreeModel, parts};
+use crate::host::state::TreeState;
 use crate::link::LinkKind;
 use crate::space::Space;
-use crate::state::TreeState;
 use alloc::vec;
 use alloc::vec::Vec;
 use mbs_core::Real;

@@ -6,8 +6,8 @@
 //! lane by lane, or by steps of fixed length around [`TreeModel::accelerate`].
 
 use crate::build::{LanesError, TreeModel};
+use crate::host::state::TreeState;
 use crate::space::Space;
-use crate::state::TreeState;
 use mbs_core::real::Lanes;
 use mbs_core::scene::Scene;
 

@@ -2,6 +2,7 @@
 
 use crate::build::own_tables::own;
 use crate::build::tree::{TreeModel, TreePlace};
+use crate::host::state::{Explicit, TreeState, Workspace};
 use crate::link::indexing::Outside;
 use crate::link::options::Options;
 use crate::passes::energy_balance;
@@ -13,7 +14,6 @@ use crate::passes::slices::{Inputs, Store, TreeSlices};
 use crate::passes::{kinematics, rotor};
 use crate::rows::Row;
 use crate::space::{Numbers, Space};
-use crate::state::{Explicit, TreeState, Workspace};
 use crate::step::bounded::{self, BoundedReport, Bounds, Unwatched};
 use crate::step::{explicit, trapezoidal};
 use mbs_core::Real;

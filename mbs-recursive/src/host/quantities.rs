@@ -7,6 +7,8 @@
 
 use crate::build::TreeModel;
 use crate::build::own_tables::own;
+use crate::host::state::{TreeState, Workspace};
+use crate::host::under_efforts::accelerations_under;
 use crate::link::options::Options;
 use crate::loops::Loops;
 use crate::passes::evaluate::Level;
@@ -15,8 +17,6 @@ use crate::passes::inverse;
 use crate::passes::slices::TreeSlices;
 use crate::passes::{kinematics, rotor};
 use crate::space::{Numbers, Space};
-use crate::state::{TreeState, Workspace};
-use crate::under_efforts::accelerations_under;
 use core::ops::Range;
 use mbs_core::Real;
 use mbs_core::step::StepError;

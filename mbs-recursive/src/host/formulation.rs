@@ -1,10 +1,10 @@
 //! The formulation of this crate behind the common trait: [`Tree`], whose state is written in natural coordinates too, for the outputs.
 
 use crate::build::TreeModel;
-use crate::history::History as OfWorkspace;
+use crate::host::history::History as OfWorkspace;
+use crate::host::state::{TreeState, Workspace};
 use crate::link::options::Options;
 use crate::space::Space;
-use crate::state::{TreeState, Workspace};
 use alloc::vec::Vec;
 use mbs_core::Real;
 use mbs_core::actions::{Action, Actions};

@@ -5,10 +5,10 @@
 
 use crate::build::TreeModel;
 use crate::build::own_tables::own;
+use crate::host::state::TreeState;
 use crate::link::{Link, LinkKind};
 use crate::loads::{Instant, Load, Measure};
 use crate::space::{Numbers, Space};
-use crate::state::TreeState;
 use alloc::vec;
 use alloc::vec::Vec;
 use mbs_core::Real;
