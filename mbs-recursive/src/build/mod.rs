@@ -1,5 +1,6 @@
 //! A scene becomes a tree of links with its tables: built once, before any step.
 
+mod coordinate_links;
 mod coupling_tables;
 mod couplings;
 mod curve_tables;

@@ -1,48 +1,12 @@
 //! Joint coordinates with their turns, as the tree has them: nothing of them is measured.
 
-use crate::build::tree::{TreeModel, parts};
+use crate::build::TreeModel;
 use crate::host::state::TreeState;
-use crate::link::LinkKind;
 use crate::space::Space;
-use alloc::vec;
-use alloc::vec::Vec;
 use mbs_core::Real;
-use mbs_core::scene::{BodyId, Scene};
+use mbs_core::scene::BodyId;
 
 impl<T: Real, S: Space<T>> TreeModel<T, S> {
-    /// The links that have the coordinates of each joint, by joint and number; none for those of cut joints and of rotations in space.
-    #[must_use]
-    pub fn coordinate_links(&self, scene: &Scene<T>) -> Vec<Vec<Option<u32>>> {
-        let count = |joint: &mbs_core::scene::Joint<T>| joint.kind.n_coordinates(scene.dimension);
-        let mut links: Vec<_> = scene.joints.iter().map(|joint| vec![None; count(joint)]).collect();
-        for seat in &self.seats {
-            let Some(joint) = seat.branch.joint else { continue };
-            let kind = self.links[seat.link as usize].kind;
-            match kind {
-                // The first coordinate of a free link in the plane is its angle against the ground, the last one of its joint.
-                LinkKind::Free => {
-                    let is_plain = S::DIMENSION == 2 && !seat.branch.is_reversed;
-                    if let (true, Some(last)) = (is_plain, links[joint].last_mut()) {
-                        *last = Some(seat.link);
-                    }
-                }
-                LinkKind::Revolute
-                | LinkKind::Prismatic
-                | LinkKind::Ball
-                | LinkKind::GuidedRevolute
-                | LinkKind::GuidedPrismatic
-                | LinkKind::GuidedBall => {
-                    let parts = parts(scene, &seat.branch, kind.is_guided());
-                    for (link, part) in (seat.first..).zip(parts) {
-                        let is_known = !matches!(part.kind, LinkKind::Ball | LinkKind::GuidedBall);
-                        links[joint][part.number] = is_known.then_some(link);
-                    }
-                }
-            }
-        }
-        links
-    }
-
     /// The coordinate of a link of one freedom, or the angle of a free one in the plane, with its turns [rad or m].
     ///
     /// Cost: none; for a guided joint, its law.
