@@ -21,7 +21,7 @@ const OF_TIRES: [&str; 5] =
     ["4laws4tire", "4laws12road_contact", "4laws7calspan", "4laws4road", "4laws7feature"];
 
 /// The modules of rotations in space, which bushings alone measure.
-const OF_BUSHINGS: [&str; 2] = ["5loads8rotation", "6passes10overturned"];
+const OF_BUSHINGS: [&str; 2] = ["5loads8rotation", "10overturned"];
 
 /// Modules of machine elements, and the feature of all of these.
 const OF_ELEMENTS: (&str, [&str; 5]) =
@@ -97,7 +97,7 @@ fn without_others(names: &str, set: &str) -> Result<(), String> {
     }
     let (elements, of_elements) = (OF_ELEMENTS.0, &OF_ELEMENTS.1[..]);
     for (on, modules) in
-        [("tire", &OF_TIRES[..]), ("bushing", &[OF_BUSHINGS]), (elements, of_elements)]
+        [("tire", &OF_TIRES[..]), ("bushing", &OF_BUSHINGS[..]), (elements, of_elements)]
     {
         if set.contains(on) && !modules.iter().any(|module| names.contains(module)) {
             return Err(format!(
