@@ -27,5 +27,11 @@ mod data {
             let course = to.course(&self.course);
             to.length(self.bodies, self.points, TorqueLaw::new(course));
         }
+        fn drawn_as(&self) -> EffectPicture<T> {
+            EffectPicture::Line(LineLook::Actuator)
+        }
+        fn unit_hints(&self, _: &[Joint<T>]) -> Vec<UnitHint<T>> {
+            Vec::new()
+        }
     }
 }

@@ -26,5 +26,11 @@ mod data {
             let course = to.course(&self.course);
             to.push(Action::Torque { body, course });
         }
+        fn drawn_as(&self) -> EffectPicture<T> {
+            EffectPicture::Nothing
+        }
+        fn unit_hints(&self, _: &[Joint<T>]) -> Vec<UnitHint<T>> {
+            Vec::new()
+        }
     }
 }

@@ -99,6 +99,12 @@ mod data {
             let touch = norm(&(q - p)) - self.clearance;
             to.length(self.bodies, self.points, BumperLaw { law, touch });
         }
+        fn drawn_as(&self) -> EffectPicture<T> {
+            EffectPicture::Line(LineLook::Bumper)
+        }
+        fn unit_hints(&self, _: &[Joint<T>]) -> Vec<UnitHint<T>> {
+            Vec::new()
+        }
         fn stores_energy(&self) -> bool {
             !self.stiffness.is_zero()
         }

@@ -48,6 +48,12 @@ mod data {
                 }
             }
         }
+        fn drawn_as(&self) -> EffectPicture<T> {
+            EffectPicture::Ring(self.bodies[0], self.at)
+        }
+        fn unit_hints(&self, _: &[Joint<T>]) -> Vec<UnitHint<T>> {
+            Vec::new()
+        }
         fn stores_energy(&self) -> bool {
             self.stiffness.iter().any(|k| !k.is_zero())
         }

@@ -1,5 +1,6 @@
 //! Names with which the files of effects describe their data.
 
+pub(super) use super::answers::{EffectPicture, LineLook, RoadWheel, RotorInertia, UnitHint};
 pub(super) use super::field::Default::{
     As, Needed, NeededWith, NeededWithout, Nothing, Number, Open, OpenWith, Times,
 };
@@ -12,8 +13,9 @@ pub(super) use crate::Real;
 pub(super) use crate::actions::{Action, Compiler};
 pub(super) use crate::scene::check::Place;
 pub(super) use crate::scene::{
-    BodyId, CouplingTerm, JointId, SceneError, SceneFault, Signal, Surroundings,
+    BodyId, CouplingTerm, Joint, JointId, SceneError, SceneFault, Signal, Surroundings,
 };
+pub(super) use alloc::vec::Vec;
 
 /// Numbers that are zero where nothing is written.
 pub(super) const ZERO: super::Default = Number("0");

@@ -85,6 +85,12 @@ mod data {
             let &Self { body, at, area_coefficient, density } = self;
             to.on_body((body, at), unit(0).into(), DragLaw { area_coefficient, density });
         }
+        fn drawn_as(&self) -> EffectPicture<T> {
+            EffectPicture::Nothing
+        }
+        fn unit_hints(&self, _: &[Joint<T>]) -> Vec<UnitHint<T>> {
+            Vec::new()
+        }
         fn dissipates(&self) -> bool {
             true
         }

@@ -41,5 +41,11 @@ mod data {
             };
             to.push(action);
         }
+        fn drawn_as(&self) -> EffectPicture<T> {
+            EffectPicture::Nothing
+        }
+        fn unit_hints(&self, _: &[Joint<T>]) -> Vec<UnitHint<T>> {
+            Vec::new()
+        }
     }
 }

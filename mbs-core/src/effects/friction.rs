@@ -156,7 +156,7 @@ impl<T: Real> TensionLaw<T> for FrictionLaw<T> {
 #[cfg(feature = "alloc")]
 pub use data::Friction;
 #[cfg(feature = "alloc")]
-pub(super) use data::{check_levels, leave_levels};
+pub(super) use data::{check_levels, leave_levels, rise};
 
 #[cfg(feature = "alloc")]
 mod data {
@@ -194,6 +194,11 @@ mod data {
             return Ok(());
         }
         place.fault("static", SceneFault::StaticBelowCoulomb([slow.to_f64(), fast.to_f64()]))
+    }
+
+    /// Rate below which dry friction rises from zero; what is viscous alone rises nowhere.
+    pub(in crate::effects) fn rise<T: Real>(levels: [T; 2], regularisation: T) -> Option<T> {
+        (levels[0].max(levels[1]) > T::ZERO).then_some(regularisation)
     }
 
     /// Takes out dry friction, and says so where there is some.
@@ -239,6 +244,15 @@ mod data {
                 FrictionLaw { coulomb, r#static, stribeck, viscous, regularisation, course: None };
             let law = law.by(&self.factor, to);
             to.on_joint((joint, coordinate), law);
+        }
+        fn drawn_as(&self) -> EffectPicture<T> {
+            EffectPicture::Nothing
+        }
+        fn unit_hints(&self, _: &[Joint<T>]) -> Vec<UnitHint<T>> {
+            Vec::new()
+        }
+        fn sticking(&self) -> Option<T> {
+            rise([self.coulomb, self.r#static], self.regularisation)
         }
         fn dissipates(&self) -> bool {
             true

@@ -85,5 +85,11 @@ mod data {
             let law = to.torque_law(&self.course, to.coordinate(on));
             to.on_joint(on, law);
         }
+        fn drawn_as(&self) -> EffectPicture<T> {
+            EffectPicture::Nothing
+        }
+        fn unit_hints(&self, _: &[Joint<T>]) -> Vec<UnitHint<T>> {
+            Vec::new()
+        }
     }
 }

@@ -1,10 +1,15 @@
 //! The enum of kinds, what each kind says of itself, and the table of all.
 
-use super::{EffectData, EffectKind, Field, Value};
+use super::{
+    EffectData, EffectKind, EffectPicture, Field, Form, RoadWheel, RotorInertia, SignalForm,
+    UnitHint, Value,
+};
 use crate::Real;
 use crate::actions::Compiler;
 use crate::scene::check::Place;
-use crate::scene::{BodyId, CouplingMeasure, JointId, SceneError, Surroundings, UserLaw};
+use crate::scene::{
+    BodyId, CouplingMeasure, Joint, JointId, SceneError, Signal, Surroundings, UserLaw,
+};
 use alloc::vec::Vec;
 
 /// The key of springs that are slack below their free length.
@@ -41,6 +46,41 @@ pub(crate) trait EffectModel<T: Real>: EffectData<T> {
     /// Adds the actions of the effect.
     fn actions(&self, to: &mut Compiler<'_, T>);
 
+    /// Picture of the effect.
+    fn drawn_as(&self) -> EffectPicture<T>;
+
+    /// Numbers whose size may show that they were written in another unit; none where every size is likely.
+    fn unit_hints(&self, joints: &[Joint<T>]) -> Vec<UnitHint<T>>;
+
+    /// Inertia of the rotor that the effect is.
+    fn rotor(&self) -> Option<RotorInertia<T>> {
+        None
+    }
+
+    /// Wheel by which the effect touches the road.
+    fn road_wheel(&self) -> Option<RoadWheel<T>> {
+        None
+    }
+
+    /// Rate below which friction rises steeply from zero [rad/s or m/s]; `None`: none does.
+    fn sticking(&self) -> Option<T> {
+        None
+    }
+
+    /// Number at a key that was left out and follows from the mass that the effect's coordinate moves [kg or kg m^2].
+    fn open(&self, _key: &str, _mass: f64) -> Option<f64> {
+        None
+    }
+
+    /// Signal that the effect follows, the form of its components and their unit; `None`: it follows none.
+    fn signal(&self) -> Option<(Signal<T>, SignalForm, &'static str)> {
+        let entries = Self::FIELDS.iter().zip(self.values());
+        entries.into_iter().find_map(|(field, value)| match (field.form, value) {
+            (Form::Signal(form), Value::Signal(signal)) => Some((signal, form, field.unit)),
+            _ => None,
+        })
+    }
+
     /// Can it store energy?
     fn stores_energy(&self) -> bool {
         false
@@ -53,10 +93,8 @@ pub(crate) trait EffectModel<T: Real>: EffectData<T> {
 
     /// Does it follow time or an input?
     fn follows_time(&self) -> bool {
-        use super::Value::Signal;
-        let is_constant =
-            |s: &crate::scene::Signal<T>| matches!(s, crate::scene::Signal::Constant(_));
-        self.values().iter().any(|value| matches!(value, Signal(s) if !is_constant(s)))
+        let is_constant = |s: &Signal<T>| matches!(s, Signal::Constant(_));
+        self.values().iter().any(|value| matches!(value, Value::Signal(s) if !is_constant(s)))
     }
 
     /// Takes out what only motion makes, and names parts that could act at rest or on small motions about it; false: nothing stays.
@@ -164,6 +202,15 @@ impl<T: Clone> EffectKind<T> {
             field.key == PULLS_ONLY && matches!(value, Value::Flag(true))
         };
         self.row().fields.iter().zip(self.values()).any(is_set)
+    }
+
+    /// Number of the joint coordinate that the effect names; `None`: it names none.
+    #[must_use]
+    pub fn coordinate(&self) -> Option<usize> {
+        self.values().into_iter().find_map(|value| match value {
+            Value::Coordinate(number) => number,
+            _ => None,
+        })
     }
 
     /// Does it act on one side only?
@@ -283,6 +330,63 @@ macro_rules! kinds {
             pub(crate) fn actions(&self, to: &mut Compiler<'_, T>) {
                 match self {
                     $(Self::$Kind(kind) => kind.actions(to),)*
+                }
+            }
+
+            /// Picture of the effect.
+            #[must_use]
+            pub fn drawn_as(&self) -> EffectPicture<T> {
+                match self {
+                    $(Self::$Kind(kind) => kind.drawn_as(),)*
+                }
+            }
+
+            /// Numbers whose size may show that they were written in another unit, among the joints of the scene.
+            #[must_use]
+            pub fn unit_hints(&self, joints: &[Joint<T>]) -> Vec<UnitHint<T>> {
+                match self {
+                    $(Self::$Kind(kind) => kind.unit_hints(joints),)*
+                }
+            }
+
+            /// Inertia of the rotor that the effect is; `None`: it is none.
+            #[must_use]
+            pub fn rotor(&self) -> Option<RotorInertia<T>> {
+                match self {
+                    $(Self::$Kind(kind) => kind.rotor(),)*
+                }
+            }
+
+            /// Wheel by which the effect touches the road; `None`: it does not.
+            #[must_use]
+            pub fn road_wheel(&self) -> Option<RoadWheel<T>> {
+                match self {
+                    $(Self::$Kind(kind) => kind.road_wheel(),)*
+                }
+            }
+
+            /// Rate below which friction rises steeply from zero [rad/s or m/s]; `None`: none does.
+            #[must_use]
+            pub fn sticking(&self) -> Option<T> {
+                match self {
+                    $(Self::$Kind(kind) => kind.sticking(),)*
+                }
+            }
+
+            /// Number at a key that was left out and follows from the mass that the effect's coordinate moves [kg or kg m^2]; `None` at
+            /// other keys.
+            #[must_use]
+            pub fn open(&self, key: &str, mass: f64) -> Option<f64> {
+                match self {
+                    $(Self::$Kind(kind) => kind.open(key, mass),)*
+                }
+            }
+
+            /// Signal that the effect follows, the form of its components and their unit; `None`: it follows none.
+            #[must_use]
+            pub fn signal(&self) -> Option<(Signal<T>, SignalForm, &'static str)> {
+                match self {
+                    $(Self::$Kind(kind) => kind.signal(),)*
                 }
             }
 

@@ -113,6 +113,12 @@ mod data {
             let law = to.body_code(&self.law, &self.input);
             to.on_body((self.body, self.at), crate::actions::direction_of(self.axis), law);
         }
+        fn drawn_as(&self) -> EffectPicture<T> {
+            EffectPicture::Nothing
+        }
+        fn unit_hints(&self, _: &[Joint<T>]) -> Vec<UnitHint<T>> {
+            Vec::new()
+        }
         fn dissipates(&self) -> bool {
             true
         }

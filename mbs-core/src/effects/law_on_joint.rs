@@ -32,6 +32,12 @@ mod data {
             let law = to.force_code(&self.law, &self.input);
             to.on_joint((self.joint, self.coordinate), law);
         }
+        fn drawn_as(&self) -> EffectPicture<T> {
+            EffectPicture::Nothing
+        }
+        fn unit_hints(&self, _: &[Joint<T>]) -> Vec<UnitHint<T>> {
+            Vec::new()
+        }
         fn stores_energy(&self) -> bool {
             true
         }

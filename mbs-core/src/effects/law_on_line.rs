@@ -146,6 +146,12 @@ mod data {
             let law = to.force_code(&self.law, &self.input);
             to.length(self.bodies, self.points, law);
         }
+        fn drawn_as(&self) -> EffectPicture<T> {
+            EffectPicture::Line(LineLook::Actuator)
+        }
+        fn unit_hints(&self, _: &[Joint<T>]) -> Vec<UnitHint<T>> {
+            Vec::new()
+        }
         fn stores_energy(&self) -> bool {
             true
         }

@@ -4,6 +4,8 @@
 //! tension = F(m - upper, m') above the range,   -F(lower - m, -m') below it,   0 within
 //! left out: stiffness m/tau^2, damping 2 m/tau     m: the mass that the coordinate moves alone, tau: 20 ms
 //! ```
+//!
+//! Spring and damper are then critically damped: what runs into a stop with rate v enters it by v tau/e.
 
 use crate::Real;
 use crate::laws::LawInputs;
@@ -91,7 +93,9 @@ pub(super) use data::check_range;
 mod data {
     use super::LimitLaw;
     use crate::effects::data::*;
-    use crate::scene::Joint;
+
+    /// Time in which a stop takes up a motion [s]: some steps of 1 to 5 ms, and short beside the motions of machines.
+    const STOPPING_TIME: f64 = 0.02;
 
     effect! {
         /// Elastic stops of a joint's coordinate.
@@ -152,6 +156,23 @@ mod data {
             let &Self { joint, coordinate, stiffness, damping, .. } = self;
             let Some([lower, upper]) = self.ends(to.among.joints) else { return };
             to.on_joint((joint, coordinate), LimitLaw { lower, upper, stiffness, damping });
+        }
+        fn drawn_as(&self) -> EffectPicture<T> {
+            EffectPicture::Nothing
+        }
+        /// The upper end, where the joint turns.
+        fn unit_hints(&self, joints: &[Joint<T>]) -> Vec<UnitHint<T>> {
+            let (key, of) = (if self.range { "range" } else { "upper" }, Some(self.joint));
+            let upper = self.ends(joints).map(|[_, value]| UnitHint::Angle { key, value, of });
+            upper.into_iter().collect()
+        }
+        /// A spring and a damper that take a motion up in their time, critically damped.
+        fn open(&self, key: &str, mass: f64) -> Option<f64> {
+            match key {
+                "stiffness" => Some(mass / (STOPPING_TIME * STOPPING_TIME)),
+                "damping" => Some(2.0 * mass / STOPPING_TIME),
+                _ => None,
+            }
         }
         fn stores_energy(&self) -> bool {
             !self.stiffness.is_zero()

@@ -7,7 +7,6 @@ pub use data::LineActuator;
 mod data {
     use crate::effects::data::*;
     use crate::effects::joint_torque::TorqueLaw;
-    use alloc::vec::Vec;
 
     effect! {
         /// A force along a line over points of bodies that follows a signal, positive when it lengthens the line.
@@ -25,6 +24,12 @@ mod data {
         fn actions(&self, to: &mut Compiler<'_, T>) {
             let course = to.course(&self.course);
             to.on_line(&self.points, TorqueLaw::new(course));
+        }
+        fn drawn_as(&self) -> EffectPicture<T> {
+            EffectPicture::Line(LineLook::Actuator)
+        }
+        fn unit_hints(&self, _: &[Joint<T>]) -> Vec<UnitHint<T>> {
+            Vec::new()
         }
     }
 }

@@ -8,7 +8,6 @@ mod data {
     use crate::effects::data::*;
     use crate::effects::polynomial::{DAMPER, SPRING, check_pieces, law_of};
     use crate::scene::PolynomialPiece;
-    use alloc::vec::Vec;
 
     effect! {
         /// A piecewise polynomial along a line over points of bodies: tension of its length (a spring) or of its rate (a damper).
@@ -35,6 +34,12 @@ mod data {
         fn actions(&self, to: &mut Compiler<'_, T>) {
             let law = law_of(&self.pieces, self.of_rate, to);
             to.on_line(&self.points, law);
+        }
+        fn drawn_as(&self) -> EffectPicture<T> {
+            EffectPicture::Line(LineLook::Coil)
+        }
+        fn unit_hints(&self, _: &[Joint<T>]) -> Vec<UnitHint<T>> {
+            Vec::new()
         }
         fn stores_energy(&self) -> bool {
             !self.of_rate

@@ -77,7 +77,6 @@ mod data {
     use crate::effects::data::*;
     use crate::effects::spring_damper::SpringDamperLaw;
     use crate::laws::scalar::Law;
-    use alloc::vec::Vec;
 
     effect! {
         /// Spring and damper along a line over points of bodies, with one tension: an elastic rope without friction.
@@ -127,6 +126,12 @@ mod data {
         fn actions(&self, to: &mut Compiler<'_, T>) {
             let law = law_of([self.stiffness, self.damping, self.free()], self.pulls_only);
             to.on_line(&self.points, law);
+        }
+        fn drawn_as(&self) -> EffectPicture<T> {
+            EffectPicture::Line(LineLook::of([!self.stiffness.is_zero(), !self.damping.is_zero()]))
+        }
+        fn unit_hints(&self, _: &[Joint<T>]) -> Vec<UnitHint<T>> {
+            Vec::new()
         }
         fn stores_energy(&self) -> bool {
             !self.stiffness.is_zero()

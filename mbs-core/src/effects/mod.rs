@@ -2,6 +2,8 @@
 //! all.
 
 #[cfg(feature = "alloc")]
+mod answers;
+#[cfg(feature = "alloc")]
 mod data;
 #[cfg(feature = "alloc")]
 mod example;
@@ -13,6 +15,8 @@ mod law;
 mod list;
 mod table;
 
+#[cfg(feature = "alloc")]
+pub use answers::{EffectPicture, LineLook, RoadWheel, RotorInertia, UnitHint};
 #[cfg(feature = "alloc")]
 pub use example::Places;
 #[cfg(feature = "alloc")]
@@ -32,7 +36,7 @@ use crate::actions::Compiler;
 #[cfg(feature = "alloc")]
 use crate::scene::check::Place;
 #[cfg(feature = "alloc")]
-use crate::scene::{SceneError, Surroundings};
+use crate::scene::{Joint, SceneError, Signal, Surroundings};
 #[cfg(feature = "alloc")]
 use alloc::vec::Vec;
 

@@ -79,7 +79,6 @@ mod data {
     use crate::effects::data::*;
     use crate::laws::polynomial::{MAX_COEFFICIENTS, Piece, link};
     use crate::scene::PolynomialPiece;
-    use alloc::vec::Vec;
 
     const KEY: &str = "coefficients";
     pub(in crate::effects) const SPRING: &str = "polynomial-spring";
@@ -169,6 +168,12 @@ mod data {
                     to.along(self.bodies, self.points, direction, law);
                 }
             }
+        }
+        fn drawn_as(&self) -> EffectPicture<T> {
+            EffectPicture::Line(LineLook::of([!self.of_rate, self.of_rate]))
+        }
+        fn unit_hints(&self, _: &[Joint<T>]) -> Vec<UnitHint<T>> {
+            Vec::new()
         }
         fn stores_energy(&self) -> bool {
             !self.of_rate

@@ -12,7 +12,6 @@ pub use data::Rotor;
 #[cfg(feature = "alloc")]
 mod data {
     use crate::effects::data::*;
-    use crate::measure::RotorInput;
 
     effect! {
         /// A rotor that turns by ratio times a joint's coordinate: kinetic energy inertia (ratio rate)² / 2.
@@ -28,6 +27,13 @@ mod data {
         }
     }
 
+    impl<T: Real> Rotor<T> {
+        /// Inertia that the rotor adds to that of its coordinate [kg m^2, of a slide kg].
+        fn at_joint(&self) -> T {
+            self.inertia * self.ratio * self.ratio
+        }
+    }
+
     impl<T: Real> EffectModel<T> for Rotor<T> {
         const LAW: &'static str = "adds `inertia` `ratio`² to the inertia of the coordinate";
         const HAS_BRANCHES: bool = false;
@@ -37,7 +43,7 @@ mod data {
             if among.joints.get(self.joint.index()).is_some_and(is_free) {
                 return place.fault("joint", SceneFault::FreeRotor);
             }
-            let at_joint = RotorInput::at_joint(self);
+            let at_joint = self.at_joint();
             if at_joint.is_finite() && at_joint > T::ZERO {
                 return Ok(());
             }
@@ -45,5 +51,15 @@ mod data {
         }
 
         fn actions(&self, _: &mut Compiler<'_, T>) {}
+        fn drawn_as(&self) -> EffectPicture<T> {
+            EffectPicture::Nothing
+        }
+        fn unit_hints(&self, _: &[Joint<T>]) -> Vec<UnitHint<T>> {
+            Vec::new()
+        }
+        fn rotor(&self) -> Option<RotorInertia<T>> {
+            let inertia = self.at_joint();
+            Some(RotorInertia { joint: self.joint, coordinate: self.coordinate, inertia })
+        }
     }
 }

@@ -87,6 +87,12 @@ mod data {
             let axis = crate::actions::direction_of(direction);
             to.on_body((body, at), axis, SpeedHoldLaw { speed, gain, limit });
         }
+        fn drawn_as(&self) -> EffectPicture<T> {
+            EffectPicture::Nothing
+        }
+        fn unit_hints(&self, _: &[Joint<T>]) -> Vec<UnitHint<T>> {
+            Vec::new()
+        }
         fn rest(&mut self, leave: &mut dyn FnMut(&'static str)) -> bool {
             leave("drive");
             false

@@ -84,6 +84,18 @@ mod data {
             let (stiffness, damping, free) = (self.stiffness, self.damping, self.free_length);
             to.length(self.bodies, self.points, SpringDamperLaw { stiffness, damping, free });
         }
+        fn drawn_as(&self) -> EffectPicture<T> {
+            EffectPicture::Line(LineLook::of([!self.stiffness.is_zero(), !self.damping.is_zero()]))
+        }
+        fn unit_hints(&self, _: &[Joint<T>]) -> Vec<UnitHint<T>> {
+            let [p, q] = self.points;
+            let gap = [0, 1, 2].map(|i| q[i] - p[i]);
+            let in_place = gap.iter().fold(T::ZERO, |sum, x| sum + *x * *x).sqrt();
+            let (key, value) = ("free_length", self.free_length);
+            let length = UnitHint::FreeLength { key, value, in_place };
+            let (key, value, bodies) = ("stiffness", self.stiffness, self.bodies);
+            [length, UnitHint::Stiffness { key, value, bodies }].into()
+        }
         fn stores_energy(&self) -> bool {
             !self.stiffness.is_zero()
         }

@@ -6,8 +6,7 @@ pub use data::SumFriction;
 #[cfg(feature = "alloc")]
 mod data {
     use crate::effects::data::*;
-    use crate::effects::friction::{FrictionLaw, check_levels, leave_levels};
-    use alloc::vec::Vec;
+    use crate::effects::friction::{FrictionLaw, check_levels, leave_levels, rise};
 
     effect! {
         /// Stribeck friction of a sum, regularised; with a signal a clutch.
@@ -41,6 +40,15 @@ mod data {
                 FrictionLaw { coulomb, r#static, stribeck, viscous, regularisation, course: None };
             let law = law.by(&self.factor, to);
             to.on_sum(&self.terms, law);
+        }
+        fn drawn_as(&self) -> EffectPicture<T> {
+            EffectPicture::Nothing
+        }
+        fn unit_hints(&self, _: &[Joint<T>]) -> Vec<UnitHint<T>> {
+            Vec::new()
+        }
+        fn sticking(&self) -> Option<T> {
+            rise([self.coulomb, self.r#static], self.regularisation)
         }
         fn dissipates(&self) -> bool {
             true

@@ -7,7 +7,6 @@ pub use data::SumLimit;
 mod data {
     use crate::effects::data::*;
     use crate::effects::limit::{LimitLaw, check_range};
-    use alloc::vec::Vec;
 
     effect! {
         /// Elastic stops of a sum. The play of a gear is a range of half of it on both sides.
@@ -36,6 +35,12 @@ mod data {
         fn actions(&self, to: &mut Compiler<'_, T>) {
             let &Self { ref terms, lower, upper, stiffness, damping } = self;
             to.on_sum(terms, LimitLaw { lower, upper, stiffness, damping });
+        }
+        fn drawn_as(&self) -> EffectPicture<T> {
+            EffectPicture::Nothing
+        }
+        fn unit_hints(&self, _: &[Joint<T>]) -> Vec<UnitHint<T>> {
+            Vec::new()
         }
         fn stores_energy(&self) -> bool {
             !self.stiffness.is_zero()

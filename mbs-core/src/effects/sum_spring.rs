@@ -7,7 +7,6 @@ pub use data::SumSpring;
 mod data {
     use crate::effects::data::*;
     use crate::effects::line_spring::law_of;
-    use alloc::vec::Vec;
 
     effect! {
         /// Tension of a sum = stiffness (sum - free_value) + damping rate; each coordinate has minus its factor times that.
@@ -41,6 +40,12 @@ mod data {
         fn actions(&self, to: &mut Compiler<'_, T>) {
             let law = law_of([self.stiffness, self.damping, self.free_value], self.pulls_only);
             to.on_sum(&self.terms, law);
+        }
+        fn drawn_as(&self) -> EffectPicture<T> {
+            EffectPicture::Nothing
+        }
+        fn unit_hints(&self, _: &[Joint<T>]) -> Vec<UnitHint<T>> {
+            Vec::new()
         }
         fn stores_energy(&self) -> bool {
             !self.stiffness.is_zero()

@@ -7,7 +7,6 @@ pub use data::SumTorque;
 mod data {
     use crate::effects::data::*;
     use crate::effects::joint_torque::TorqueLaw;
-    use alloc::vec::Vec;
 
     effect! {
         /// A torque or force in the sense in which a sum grows: each coordinate has its factor times that.
@@ -26,6 +25,12 @@ mod data {
         fn actions(&self, to: &mut Compiler<'_, T>) {
             let course = to.course(&self.course);
             to.on_sum(&self.terms, TorqueLaw::new(course));
+        }
+        fn drawn_as(&self) -> EffectPicture<T> {
+            EffectPicture::Nothing
+        }
+        fn unit_hints(&self, _: &[Joint<T>]) -> Vec<UnitHint<T>> {
+            Vec::new()
         }
     }
 }

@@ -11,7 +11,7 @@ mod data {
     use crate::algebra::unit;
     use crate::effects::data::*;
     use crate::scene::check::is_parallel;
-    use crate::scene::{Axis, CalspanCoefficients, Joint, LongitudinalSlip};
+    use crate::scene::{Axis, CalspanCoefficients, LongitudinalSlip};
 
     effect! {
         /// A wheel on the scene's road.
@@ -89,6 +89,15 @@ mod data {
             let axis = axis.map_or_else(|| unit(2).into(), crate::actions::direction_of);
             to.on_body((body, self.center), axis, law);
         }
+        fn drawn_as(&self) -> EffectPicture<T> {
+            EffectPicture::Wheel(self.as_wheel())
+        }
+        fn unit_hints(&self, _: &[Joint<T>]) -> Vec<UnitHint<T>> {
+            Vec::new()
+        }
+        fn road_wheel(&self) -> Option<RoadWheel<T>> {
+            Some(self.as_wheel())
+        }
         fn stores_energy(&self) -> bool {
             !self.stiffness.is_zero()
         }
@@ -112,6 +121,12 @@ mod data {
     }
 
     impl<T: Real> Tire<T> {
+        /// The tire as a wheel.
+        const fn as_wheel(&self) -> RoadWheel<T> {
+            let &Self { body, center, axis, radius, spin, .. } = self;
+            RoadWheel { body, center, axis, radius, spin }
+        }
+
         /// The joint about which the wheel turns, and the body that turns there: not the one that carries it, unless that is fixed.
         fn wheel<'a>(&self, among: Surroundings<'a, T>) -> Option<(&'a Joint<T>, BodyId)> {
             let joint = among.joints.get(self.spin?.index())?;

@@ -34,6 +34,13 @@ mod data {
             let law = SpringDamperLaw { stiffness, damping, free };
             to.on_joint((self.joint, self.coordinate), law);
         }
+        fn drawn_as(&self) -> EffectPicture<T> {
+            EffectPicture::Nothing
+        }
+        fn unit_hints(&self, _: &[Joint<T>]) -> Vec<UnitHint<T>> {
+            let (key, value) = ("free_value", self.free_value);
+            [UnitHint::Angle { key, value, of: None }].into()
+        }
         fn stores_energy(&self) -> bool {
             !self.stiffness.is_zero()
         }

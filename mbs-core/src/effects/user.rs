@@ -97,10 +97,9 @@ pub use data::Own;
 mod data {
     use super::{UserBodyEntry, UserScalarEntry};
     use crate::effects::data::*;
-    use crate::effects::{EffectData, Field, Value};
+    use crate::effects::{EffectData, Field, SignalForm, Value};
     use crate::scene::UserLaw;
     use crate::scene::check::{check_coordinate, check_pair, known_body};
-    use alloc::vec::Vec;
 
     /// A law of a user's own, in code only.
     #[derive(Debug, Clone, PartialEq)]
@@ -164,6 +163,16 @@ mod data {
                     to.on_body((body, at), axis, UserBodyEntry { law, course });
                 }
             }
+        }
+        /// Nothing: its places are no values.
+        fn drawn_as(&self) -> EffectPicture<T> {
+            EffectPicture::Nothing
+        }
+        fn unit_hints(&self, _: &[Joint<T>]) -> Vec<UnitHint<T>> {
+            Vec::new()
+        }
+        fn signal(&self) -> Option<(Signal<T>, SignalForm, &'static str)> {
+            Some((self.course.clone(), SignalForm::Three, ""))
         }
         fn stores_energy(&self) -> bool {
             true

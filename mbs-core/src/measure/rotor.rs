@@ -1,7 +1,7 @@
 //! The rotors of a scene: what each adds to the inertia of a joint coordinate.
 
 use crate::Real;
-use crate::effects::{EffectKind, Rotor};
+use crate::effects::RotorInertia;
 use crate::scene::Scene;
 
 /// An enabled rotor of a scene.
@@ -22,16 +22,11 @@ impl<T: Real> RotorInput<T> {
     pub fn all(scene: &Scene<T>) -> impl Iterator<Item = Self> + '_ {
         let effects = scene.effects.iter().enumerate().filter(|(_, effect)| effect.enabled);
         effects.filter_map(|(effect, of)| {
-            let EffectKind::Rotor(rotor) = &of.kind else { return None };
-            let joint = rotor.joint.index();
+            let RotorInertia { joint, coordinate, inertia } = of.kind.rotor()?;
+            let joint = joint.index();
             let kind = scene.joints.get(joint)?.kind;
-            let number = kind.coordinate_or_default(rotor.coordinate, scene.dimension)?;
-            Some(Self { effect, joint, number, inertia: Self::at_joint(rotor) })
+            let number = kind.coordinate_or_default(coordinate, scene.dimension)?;
+            Some(Self { effect, joint, number, inertia })
         })
-    }
-
-    /// Inertia that a rotor adds to that of its coordinate [kg m^2, of a slide kg].
-    pub(crate) fn at_joint(rotor: &Rotor<T>) -> T {
-        rotor.inertia * rotor.ratio * rotor.ratio
     }
 }

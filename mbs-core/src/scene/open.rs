@@ -1,25 +1,16 @@
-//! Numbers of effects that are left out and follow from the scene: stops of a joint as stiff as its mass asks for.
-//!
-//! ```text
-//! stiffness = m/tau^2,   damping = 2 m/tau          m: the mass that the coordinate moves [kg or kg m^2]
-//! ```
-//!
-//! Spring and damper are then critically damped: what runs into a stop with rate v enters it by v tau/e.
+//! Numbers of effects that are left out and follow from the scene: each kind says what it makes of the mass that its coordinate moves.
 
 use crate::Real;
-use crate::effects::EffectKind;
-use crate::scene::{Entry, Number, Scene, SceneError, SceneFault};
+use crate::effects::{Default, Value};
+use crate::scene::{Effect, Entry, JointId, Number, Scene, SceneError, SceneFault};
 use crate::start::moved_mass;
 use alloc::vec::Vec;
 
-/// Time in which a stop takes up a motion [s]: some steps of 1 to 5 ms, and short beside the motions of machines.
-const STOPPING_TIME: f64 = 0.02;
-
-/// A stop that leaves numbers open: its effect, and the numbers that it leaves open.
-struct OpenStop {
+/// A number that an effect leaves open: the place of the effect, that of the number among its values, and what it is.
+struct OpenNumber {
     effect: usize,
-    stiffness: Option<f64>,
-    damping: Option<f64>,
+    place: usize,
+    number: f64,
 }
 
 /// Computes what `source` leaves open in its enabled effects; in `f64`, and so the same number in every precision.
@@ -33,43 +24,54 @@ pub(super) fn fill<T: Real>(
     source: &Scene<Number>,
     scene: &mut Scene<T>,
 ) -> Result<(), SceneError> {
-    for stop in stops(source)? {
-        let EffectKind::Limit(limit) = &mut scene.effects[stop.effect].kind else { continue };
-        if let Some(stiffness) = stop.stiffness {
-            limit.stiffness = T::from_f64(stiffness);
-        }
-        if let Some(damping) = stop.damping {
-            limit.damping = T::from_f64(damping);
+    for OpenNumber { effect, place, number } in numbers(source)? {
+        let kind = &mut scene.effects[effect].kind;
+        let mut values = kind.values();
+        values[place] = Value::Number(T::from_f64(number));
+        if let Some(filled) = kind.with(values) {
+            *kind = filled;
         }
     }
     Ok(())
 }
 
-/// The stops that leave numbers open, in the order of the effects.
-fn stops(source: &Scene<Number>) -> Result<Vec<OpenStop>, SceneError> {
+/// The numbers that are left open, in the order of the effects and of their fields.
+fn numbers(source: &Scene<Number>) -> Result<Vec<OpenNumber>, SceneError> {
     let mut scene = None;
-    let mut stops = Vec::new();
+    let mut numbers = Vec::new();
     for (i, effect) in source.effects.iter().enumerate().filter(|(_, effect)| effect.enabled) {
-        let EffectKind::Limit(limit) = &effect.kind else { continue };
-        let is_open = [limit.stiffness.is_open(), limit.damping.is_open()];
-        if !is_open.contains(&true) {
-            continue;
-        }
+        let (places, joint) = (open_places(effect), joint_of(effect));
+        let (Some(&(_, field)), Some(joint)) = (places.first(), joint) else { continue };
         if scene.is_none() {
             scene = Some(source.map(&mut Number::value::<f64>)?);
         }
         let Some(scene) = &scene else { continue };
-        let kind = source.joints[limit.joint].kind;
-        let number = kind.coordinate_or_default(limit.coordinate, source.dimension);
-        let mass = number.and_then(|number| moved_mass(scene, (limit.joint, number)));
-        let field = if is_open[0] { "stiffness" } else { "damping" };
+        let kind = source.joints[joint].kind;
+        let number = kind.coordinate_or_default(effect.kind.coordinate(), source.dimension);
+        let mass = number.and_then(|number| moved_mass(scene, (joint, number)));
         let fault = SceneFault::NoMovedMass;
         let mass = mass.ok_or(SceneError { entry: Entry::Effect(i), field, fault })?;
-        stops.push(OpenStop {
-            effect: i,
-            stiffness: is_open[0].then(|| mass / (STOPPING_TIME * STOPPING_TIME)),
-            damping: is_open[1].then(|| 2.0 * mass / STOPPING_TIME),
-        });
+        let of_key = |key| scene.effects[i].kind.open(key, mass);
+        let found = places.iter().filter_map(|&(place, key)| Some((place, of_key(key)?)));
+        numbers.extend(found.map(|(place, number)| OpenNumber { effect: i, place, number }));
     }
-    Ok(stops)
+    Ok(numbers)
+}
+
+/// The places and the keys of the numbers that an effect leaves open.
+fn open_places(effect: &Effect<Number>) -> Vec<(usize, &'static str)> {
+    let fields = effect.kind.row().fields.iter().zip(effect.kind.values()).enumerate();
+    let open = fields.filter(|(_, (field, value))| {
+        let may_be_open = matches!(field.default, Default::Open | Default::OpenWith(_));
+        may_be_open && matches!(value, Value::Number(number) if number.is_open())
+    });
+    open.map(|(place, (field, _))| (place, field.key)).collect()
+}
+
+/// The joint that an effect is on.
+fn joint_of(effect: &Effect<Number>) -> Option<JointId> {
+    effect.kind.values().into_iter().find_map(|value| match value {
+        Value::Joint(joint) => Some(joint),
+        _ => None,
+    })
 }

@@ -13,8 +13,7 @@ use crate::dense::Dense;
 use crate::model::{Model, State};
 use crate::natural::NaturalModel;
 use crate::scene::{
-    Coupling, CouplingMeasure, CouplingTerm, Dimension, Effect, EffectKind, Guide, JointId, Motion,
-    Scene,
+    Coupling, CouplingMeasure, CouplingTerm, Dimension, Effect, Guide, JointId, Motion, Scene,
 };
 use alloc::vec;
 use alloc::vec::Vec;
@@ -41,7 +40,7 @@ fn moving(scene: &Scene<f64>, (joint, number): (JointId, usize)) -> Scene<f64> {
     let terms = vec![CouplingTerm { factor: 1.0, of, curve: None }];
     let motion = Some(Motion::Ramp { rate: 1.0 });
     let rate_of_one = Coupling { motion, ..Coupling::sum(terms, 0.0) };
-    let is_rotor = |effect: &&Effect<f64>| matches!(effect.kind, EffectKind::Rotor(_));
+    let is_rotor = |effect: &&Effect<f64>| effect.kind.rotor().is_some();
     let rotors = scene.effects.iter().filter(is_rotor);
     Scene {
         bodies: scene.bodies.clone(),

@@ -2,8 +2,10 @@
 //! docs/EFFECTS.md is written from it.
 
 use crate::document::written;
-use mbs_core::effects::{Default, EFFECTS, Field, Form, JointNeed, Row, Value};
-use mbs_core::scene::{Dimension, EffectKind};
+use mbs_core::effects::{
+    ActsOn, Default, EFFECTS, EffectPicture, Field, Form, JointNeed, Places, Row, UnitHint, Value,
+};
+use mbs_core::scene::{BodyId, Dimension, EffectKind, JointId};
 use mbs_testkit::effects;
 use std::collections::BTreeSet;
 use std::fmt::Write;
@@ -56,6 +58,65 @@ fn values_make_the_effect_that_they_came_from() {
             assert_eq!(EffectKind::of(row, values), None, "{what}");
         }
     }
+}
+
+/// An example of each kind that has a name in scene files, with its row.
+fn examples() -> impl Iterator<Item = (&'static Row, EffectKind<f64>)> {
+    let pair = ([BodyId::Ground, BodyId::Body(0)], [[0.0; 3], [3.0, 4.0, 0.0]]);
+    let (body, joint) = ((BodyId::Body(0), [1.0, 0.0, 0.0]), JointId::new(0));
+    let places = Places { pair, body, joint };
+    let rows = EFFECTS.iter().enumerate();
+    rows.filter_map(move |(i, row)| Some((row, EffectKind::example(i, &places)?)))
+}
+
+#[test]
+fn a_kind_is_drawn_as_where_it_acts_and_what_stands_on_the_road_is_a_wheel() {
+    for (row, kind) in examples() {
+        let picture = kind.drawn_as();
+        let is_line = matches!(picture, EffectPicture::Line(_));
+        assert_eq!(is_line, kind.acts_on() == ActsOn::Line, "{}: {picture:?}", row.module);
+        let wheel = kind.road_wheel();
+        assert_eq!(wheel.is_some(), row.needs_road, "{}", row.module);
+        let drawn = if let EffectPicture::Wheel(wheel) = picture { Some(wheel) } else { None };
+        assert_eq!(drawn, wheel, "{}", row.module);
+    }
+}
+
+#[test]
+fn what_a_kind_says_of_its_numbers_is_of_its_fields() {
+    let mut hinted = Vec::new();
+    for (row, kind) in examples() {
+        let has = |key: &str| row.fields.iter().any(|field| field.key == key);
+        let unit = |key: &str| row.fields.iter().find(|field| field.key == key).map(|f| f.unit);
+        for hint in kind.unit_hints(&[]) {
+            let (key, units) = match hint {
+                UnitHint::Angle { key, .. } => (key, &["rad", "rad or m"][..]),
+                UnitHint::FreeLength { key, in_place, .. } => {
+                    assert_eq!(in_place, 5.0, "{}", row.module);
+                    (key, &["m"][..])
+                }
+                UnitHint::Stiffness { key, .. } => (key, &["N/m"][..]),
+            };
+            assert!(unit(key).is_some_and(|unit| units.contains(&unit)), "{}: {key}", row.module);
+            hinted.push((row.module, key));
+        }
+        // What rises within a small rate may hold by it, and steps must not pass it over.
+        assert_eq!(kind.sticking().is_some(), has("regularisation"), "{}", row.module);
+        for field in row.fields {
+            let is_open = matches!(field.default, Default::Open | Default::OpenWith(_));
+            let answer = kind.open(field.key, 2.0);
+            assert_eq!(answer.is_some(), is_open, "{}: {}", row.module, field.key);
+        }
+        let has_signal = row.fields.iter().any(|field| matches!(field.form, Form::Signal(_)));
+        assert_eq!(kind.signal().is_some(), has_signal, "{}", row.module);
+    }
+    let seen = [
+        ("spring_damper", "free_length"),
+        ("spring_damper", "stiffness"),
+        ("torsion_spring", "free_value"),
+        ("limit", "upper"),
+    ];
+    assert_eq!(hinted, seen, "the numbers whose units the doctor looks at");
 }
 
 #[test]

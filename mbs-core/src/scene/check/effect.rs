@@ -14,10 +14,7 @@ pub(super) fn check<T: Real>(
 ) -> Result<(), SceneError> {
     let among = scene.surroundings();
     let values = effect.values();
-    let given = values.iter().find_map(|value| match value {
-        Value::Coordinate(number) => *number,
-        _ => None,
-    });
+    let given = effect.coordinate();
     for (field, value) in effect.row().fields.iter().zip(values) {
         let key = field.key;
         match value {

@@ -4,8 +4,7 @@ use super::vector::{Place, is_planar};
 use crate::Real;
 use crate::measure::knots;
 use crate::scene::{
-    CurveShape, EffectKind, Entry, Interpolation, Road, RoadFeature, Scene, SceneError, SceneFault,
-    TableEnds,
+    CurveShape, Entry, Interpolation, Road, RoadFeature, Scene, SceneError, SceneFault, TableEnds,
 };
 
 pub(super) fn check<T: Real>(scene: &Scene<T>) -> Result<(), SceneError> {
@@ -73,11 +72,8 @@ fn numbers<T: Real>(feature: &RoadFeature<T>, place: Place) -> Result<(), SceneE
 
 /// The radius of the largest wheel: what it can roll through, all can.
 fn largest_wheel<T: Real>(scene: &Scene<T>) -> T {
-    let radius = |kind: &EffectKind<T>| match kind {
-        EffectKind::Tire(tire) => tire.radius,
-        _ => T::ZERO,
-    };
-    scene.effects.iter().map(|effect| radius(&effect.kind)).fold(T::ZERO, T::max)
+    let wheels = scene.effects.iter().filter_map(|effect| effect.kind.road_wheel());
+    wheels.map(|wheel| wheel.radius).fold(T::ZERO, T::max)
 }
 
 /// A wheel touches a hollow in one point only where the hollow is wider than the wheel: h'' R < 1.
