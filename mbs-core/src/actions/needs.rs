@@ -116,30 +116,35 @@ fn of_measure<T: Copy>(of: &CouplingMeasure<T>, take: &mut impl FnMut(Need<T>)) 
 }
 
 fn of_output<T: Copy>(scene: &Scene<T>, quantity: &Quantity<T>, mut take: impl FnMut(Need<T>)) {
-    match (quantity.target(), quantity) {
-        (Target::Point(body, at), _) => take(Need::Point(body, at)),
-        (Target::RelativePoint(RelativePoint { body, at, relative_to, origin }), quantity) => {
+    let turns = quantity.row().needs_rotation;
+    match quantity.target() {
+        Target::Point(body, at) => take(Need::Point(body, at)),
+        Target::RelativePoint(RelativePoint { body, at, relative_to, origin }) => {
             take(Need::Point(body, at));
             take(Need::Point(relative_to, origin));
-            if !matches!(quantity, Quantity::Distance(_)) {
+            if turns {
                 take(Need::Orientation(relative_to));
             }
         }
-        (Target::RelativeBody(body, other), _) => {
+        Target::RelativeBody(body, other) => {
             [body, other].into_iter().for_each(|body| take(Need::Orientation(body)));
         }
-        (Target::WheelCarrier(of), _) => {
+        Target::WheelCarrier(of) => {
             [of.body, of.relative_to].into_iter().for_each(|body| take(Need::Orientation(body)));
         }
-        (Target::Body(_), Quantity::BodyKineticEnergy { .. })
-        | (Target::Joint(_), Quantity::Reaction { .. }) => {}
-        (Target::Body(body), _) => take(Need::Orientation(body)),
-        (Target::Joint(joint), _) => {
+        Target::Body(body) if turns => take(Need::Orientation(body)),
+        Target::Joint(joint) if turns => {
             let Some(joint) = scene.joints.get(joint.index()) else { return };
             if joint.kind.n_rotations(scene.dimension) > 0 {
                 joint.bodies.into_iter().for_each(|body| take(Need::Orientation(body)));
             }
         }
-        _ => {}
+        Target::Body(_)
+        | Target::Joint(_)
+        | Target::Coupling(_)
+        | Target::Rolling(_)
+        | Target::Effect(_)
+        | Target::Signal(_)
+        | Target::Scene => {}
     }
 }

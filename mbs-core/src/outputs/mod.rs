@@ -39,8 +39,9 @@ pub use exerted::EffectWrenches;
 pub use forces::Forces;
 pub use measure::{Measures, start_values};
 pub use quantity::{
-    Component, ComponentForm, Magnitude, QUANTITIES, Quantity, QuantityDefinition, QuantityRow,
-    RelativePoint, Target, TargetKind, VehicleSide, WheelCarrier, in_radians, magnitudes,
+    Component, ComponentForm, Magnitude, OutputPicture, QUANTITIES, Quantity, QuantityDefinition,
+    QuantityRow, RelativePoint, Target, TargetKind, VehicleSide, WheelCarrier, in_radians,
+    magnitudes,
 };
 pub use reaction::{LARGEST_BLOCK, Reactions};
 pub use turns::Turns;

@@ -16,7 +16,8 @@ pub(super) const ROW: QuantityRow = QuantityRow::new(
         sign: "never negative",
         contents: "Without rotors.",
     },
-);
+)
+.without_rotation();
 
 /// The body; the ground has none.
 #[derive(Debug, Clone)]

@@ -1,6 +1,6 @@
 //! The components of a quantity: how many there are, their labels and their units.
 
-use crate::scene::{Dimension, Freedom};
+use crate::scene::{Dimension, Freedom, SceneFault};
 use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
@@ -122,6 +122,26 @@ impl ComponentForm {
     #[must_use]
     pub const fn is_of_tire(self) -> bool {
         matches!(self, Self::Tire(_) | Self::TirePoint)
+    }
+
+    /// Fault of a quantity of an effect that has no components of this form.
+    pub(crate) const fn fault_of_effect(self) -> SceneFault {
+        match self {
+            Self::Contact => SceneFault::NoContact,
+            Self::Deflection => SceneFault::NoDeflection,
+            Self::Tire(_) | Self::TirePoint => SceneFault::NotATire,
+            Self::Vector(_)
+            | Self::Axial(_)
+            | Self::Coordinates(_)
+            | Self::Efforts
+            | Self::Number(_)
+            | Self::Measured(_)
+            | Self::Length
+            | Self::Matrix
+            | Self::Force
+            | Self::Orientation
+            | Self::Wrench => SceneFault::NoMeasure,
+        }
     }
 
     /// Each component; of a joint with these freedoms, of a coupling or an effect with the unit of what it measures.

@@ -15,7 +15,8 @@ pub(super) const ROW: QuantityRow = QuantityRow::new(
         sign: "never negative",
         contents: "",
     },
-);
+)
+.without_rotation();
 
 /// The point.
 #[derive(Debug, Clone)]

@@ -1,7 +1,7 @@
 //! Force of an effect.
 
 use super::kind::{Instant, Maker, Measured};
-use super::{ComponentForm, QuantityDefinition, QuantityRow, TargetKind};
+use super::{ComponentForm, OutputPicture, QuantityDefinition, QuantityRow, TargetKind};
 use crate::Real;
 use crate::scene::EffectId;
 use core::marker::PhantomData;
@@ -21,7 +21,8 @@ pub(super) const ROW: QuantityRow = QuantityRow::new(
             the point of the effect on that body, as it has moved.",
     },
 )
-.of_effects();
+.of_effects()
+.drawn_as(OutputPicture::Force);
 
 /// The effect.
 #[derive(Debug, Clone)]

@@ -15,7 +15,8 @@ pub(super) use channel::Channel;
 pub use components::{Component, ComponentForm, Magnitude, in_radians, magnitudes};
 pub(super) use kind::{Instant, Maker};
 pub use row::{
-    QuantityDefinition, QuantityRow, RelativePoint, Target, TargetKind, VehicleSide, WheelCarrier,
+    OutputPicture, QuantityDefinition, QuantityRow, RelativePoint, Target, TargetKind, VehicleSide,
+    WheelCarrier,
 };
 
 use crate::scene::{BodyId, CouplingId, EffectId, JointId, RollingId, SignalId};

@@ -2,7 +2,7 @@
 
 use super::components::{Component, ComponentForm, Magnitude, in_degrees, magnitudes};
 use super::effect_deflection::has_free_value;
-use super::{Quantity, RelativePoint, Target, WheelCarrier};
+use super::{OutputPicture, Quantity, RelativePoint, Target, WheelCarrier};
 use crate::effects::{ActsOn, Value};
 use crate::scene::{
     BodyId, CouplingId, CouplingMeasure, CouplingTerm, DrawnKind, EffectId, Freedom, JointId,
@@ -57,6 +57,17 @@ impl<T: Clone> Quantity<T> {
             Target::RelativePoint(RelativePoint { relative_to, .. })
             | Target::RelativeBody(_, relative_to) => relative_to,
             _ => BodyId::Ground,
+        }
+    }
+
+    /// The body and the point whose way pictures draw, reference configuration [m]; `None`: they draw none.
+    #[must_use]
+    pub fn traced(&self) -> Option<(BodyId, [T; 3])> {
+        match self.target() {
+            Target::Point(body, at) => {
+                (self.row().picture == OutputPicture::Trace).then_some((body, at))
+            }
+            _ => None,
         }
     }
 
@@ -180,12 +191,8 @@ fn unit_of_measure<T: Clone>(scene: &Scene<T>, effect: EffectId) -> Option<&'sta
     match kind.acts_on() {
         ActsOn::Line => Some("m"),
         ActsOn::Joint(joint) => {
-            let given = kind.values().into_iter().find_map(|value| match value {
-                Value::Coordinate(number) => number,
-                _ => None,
-            });
             let of = scene.joints.get(joint.index())?.kind;
-            let number = of.coordinate_or_default(given, scene.dimension);
+            let number = of.coordinate_or_default(kind.coordinate(), scene.dimension);
             Some(number.map_or("rad", |number| unit_of_coordinate(scene, joint, number)))
         }
         ActsOn::Sum => kind.values().iter().find_map(|value| match value {

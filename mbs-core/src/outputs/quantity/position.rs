@@ -1,7 +1,7 @@
 //! Position of a material point.
 
 use super::kind::{Instant, Maker, Measured};
-use super::{ComponentForm, QuantityDefinition, QuantityRow, TargetKind};
+use super::{ComponentForm, OutputPicture, QuantityDefinition, QuantityRow, TargetKind};
 use crate::Real;
 use crate::natural::Affine;
 
@@ -16,7 +16,8 @@ pub(super) const ROW: QuantityRow = QuantityRow::new(
         contents: "The point goes with its body from where it is in the reference \
             configuration.",
     },
-);
+)
+.drawn_as(OutputPicture::Trace);
 
 /// The point.
 #[derive(Debug, Clone)]

@@ -1,7 +1,7 @@
 //! Reaction of a joint.
 
 use super::kind::{Instant, Maker, Measured};
-use super::{ComponentForm, QuantityDefinition, QuantityRow, TargetKind};
+use super::{ComponentForm, OutputPicture, QuantityDefinition, QuantityRow, TargetKind};
 use crate::Real;
 use crate::scene::JointId;
 use core::marker::PhantomData;
@@ -23,7 +23,9 @@ pub(super) const ROW: QuantityRow = QuantityRow::new(
             marked.",
     },
 )
-.of_reactions();
+.of_reactions()
+.without_rotation()
+.drawn_as(OutputPicture::Force);
 
 /// The joint.
 #[derive(Debug, Clone)]

@@ -163,6 +163,17 @@ pub struct QuantityDefinition {
     pub contents: &'static str,
 }
 
+/// Picture of a quantity of an output.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum OutputPicture {
+    /// Nothing is drawn of it.
+    Nothing,
+    /// The way of its point.
+    Trace,
+    /// An arrow where it acts.
+    Force,
+}
+
 /// A kind of quantity.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
@@ -181,6 +192,10 @@ pub struct QuantityRow {
     pub needs_reactions: bool,
     /// Is it read of effects?
     pub needs_effects: bool,
+    /// Is it read of the rotation of its body, of the bodies of its joint, or of the one that it is seen from?
+    pub needs_rotation: bool,
+    /// Picture of the quantity.
+    pub picture: OutputPicture,
     /// Is it of the run rather than of the motion? Such numbers do not converge with those of other runs.
     pub is_of_run: bool,
 }
@@ -201,6 +216,8 @@ impl QuantityRow {
             definition,
             needs_reactions: false,
             needs_effects: false,
+            needs_rotation: true,
+            picture: OutputPicture::Nothing,
             is_of_run: false,
         }
     }
@@ -213,6 +230,16 @@ impl QuantityRow {
     /// The same, read of effects too.
     pub(super) const fn of_effects(self) -> Self {
         Self { needs_effects: true, ..self }
+    }
+
+    /// Row that is read without a rotation.
+    pub(super) const fn without_rotation(self) -> Self {
+        Self { needs_rotation: false, ..self }
+    }
+
+    /// Row with a picture.
+    pub(super) const fn drawn_as(self, picture: OutputPicture) -> Self {
+        Self { picture, ..self }
     }
 
     /// The same, of the run itself.

@@ -65,13 +65,7 @@ fn of_target<T: Real>(
         Target::Effect(effect) => match scene.effects.get(effect.index()) {
             None => place.fault("effect", SceneFault::UnknownReference),
             Some(_) if quantity.components(scene).is_empty() => {
-                let fault = match quantity {
-                    Quantity::EffectContact { .. } => SceneFault::NoContact,
-                    Quantity::EffectDeflection { .. } => SceneFault::NoDeflection,
-                    _ if quantity.row().components.is_of_tire() => SceneFault::NotATire,
-                    _ => SceneFault::NoMeasure,
-                };
-                place.fault("quantity", fault)
+                place.fault("quantity", quantity.row().components.fault_of_effect())
             }
             Some(_) => Ok(()),
         },

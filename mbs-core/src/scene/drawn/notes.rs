@@ -2,7 +2,8 @@
 
 use crate::Real;
 use crate::measure::MeshedWheels;
-use crate::scene::{CouplingId, CouplingKind, DrawnKind, Quantity, Scene, Sense};
+use crate::outputs::{ComponentForm, Target};
+use crate::scene::{CouplingId, CouplingKind, DrawnKind, Scene, Sense};
 use alloc::format;
 use alloc::string::String;
 
@@ -57,8 +58,11 @@ impl<T: Real> Scene<T> {
 
     /// Outputs of reactions that lack the force of a coupling.
     pub fn reaction_notes(&self) -> impl Iterator<Item = String> {
-        let reactions = self.outputs.iter().filter_map(|output| match output.quantity {
-            Quantity::Reaction { joint } => Some((output, joint)),
+        let reactions = self.outputs.iter().filter_map(|output| match output.quantity.target() {
+            Target::Joint(joint) => {
+                let is_one = output.quantity.row().components == ComponentForm::Wrench;
+                is_one.then_some((output, joint))
+            }
             _ => None,
         });
         reactions.flat_map(|(output, joint)| {
@@ -87,9 +91,11 @@ impl<T: Real> Scene<T> {
     /// Outputs of couplings that version 0.1 gave otherwise.
     pub fn effort_notes(&self) -> impl Iterator<Item = String> {
         self.outputs.iter().filter_map(|output| {
-            let (coupling, is_effort) = match output.quantity {
-                Quantity::Effort { coupling } => (coupling, true),
-                Quantity::CouplingPower { coupling } => (coupling, false),
+            let Target::Coupling(coupling) = output.quantity.target() else { return None };
+            // by the names that files of version 0.1 have: there are no others
+            let is_effort = match output.quantity.row().name {
+                "effort" => true,
+                "power" => false,
                 _ => return None,
             };
             let of = self.couplings.get(coupling.index())?;
