@@ -13,6 +13,7 @@ use crate::settings::ResolvedMethod;
 use crate::simulation::Simulation;
 use crate::stop::StopError;
 use mbs_core::Real;
+use mbs_core::effects::{ActsOn, Value};
 use mbs_core::model::State;
 use mbs_core::natural::NaturalModel;
 use mbs_core::outputs::CoordinateMotion;
@@ -39,27 +40,23 @@ fn watched<T: Real, const D: usize>(
     model: &NaturalModel<T, D>,
     kind: &EffectKind<T>,
 ) -> Watched<T, D> {
+    let regularisation = kind.sticking()?;
     let motion = |joint: JointId, number| {
         CoordinateMotion::new(scene, model, (&scene.joints[joint], number))
     };
-    let (terms, levels, regularisation) = match kind {
-        EffectKind::Friction(law) => {
-            let terms = motion(law.joint, law.coordinate).map(|of| vec![(T::ONE, of)]);
-            (terms, [law.coulomb, law.r#static], law.regularisation)
-        }
-        EffectKind::SumFriction(law) => {
-            let term = |term: &CouplingTerm<T>| {
-                let (joint, number) = term.of.coordinate().filter(|_| term.curve.is_none())?;
-                Some((term.factor, motion(joint, Some(number))?))
-            };
-            let terms = law.terms.iter().map(term).collect();
-            (terms, [law.coulomb, law.r#static], law.regularisation)
-        }
-        _ => return None,
+    let term = |term: &CouplingTerm<T>| {
+        let (joint, number) = term.of.coordinate().filter(|_| term.curve.is_none())?;
+        Some((term.factor, motion(joint, Some(number))?))
     };
-    // What is viscous alone rises nowhere.
-    let has_rise = levels[0].max(levels[1]) > T::ZERO;
-    terms.filter(|_| has_rise).map(|terms| (terms, regularisation))
+    let terms = match kind.acts_on() {
+        ActsOn::Joint(joint) => motion(joint, kind.coordinate()).map(|of| vec![(T::ONE, of)]),
+        ActsOn::Sum => kind.values().iter().find_map(|value| match value {
+            Value::Terms(terms) => terms.iter().map(term).collect(),
+            _ => None,
+        }),
+        ActsOn::Line | ActsOn::Bodies => None,
+    };
+    terms.map(|terms| (terms, regularisation))
 }
 
 impl<T: Real, const D: usize> Friction<T, D> {

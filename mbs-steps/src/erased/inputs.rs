@@ -1,7 +1,6 @@
 //! Inputs of a mechanism: numbers by name that are set between steps.
 
 use super::failure::SimulationError;
-use mbs_core::effects::{Form, Value};
 use mbs_core::inputs::Prescribed;
 use mbs_core::scene::{
     Coupling, CouplingId, Dimension, EffectId, EffectKind, Freedom, GuideId, Motion, Scene, Signal,
@@ -289,14 +288,6 @@ fn signal(
     kind: &EffectKind<f64>,
     dimension: Dimension,
 ) -> Option<(Signal<f64>, usize, &'static str)> {
-    if let EffectKind::Own(own) = kind {
-        return Some((own.course.clone(), 3, ""));
-    }
-    let entries = kind.row().fields.iter().zip(kind.values());
-    entries.into_iter().find_map(|(field, value)| match (field.form, value) {
-        (Form::Signal(form), Value::Signal(signal)) => {
-            Some((signal, form.n_components(dimension), field.unit))
-        }
-        _ => None,
-    })
+    let (signal, form, unit) = kind.signal()?;
+    Some((signal, form.n_components(dimension), unit))
 }

@@ -1,6 +1,7 @@
 //! The coordinates that may be states of a linear motion: those of joints, then places and rotations of bodies.
 
 use crate::record::Channel;
+use mbs_core::outputs::Target;
 use mbs_core::scene::{BodyId, Dimension, Freedom, JointId, Output, Quantity, Scene};
 
 /// First coordinate of a ball, with the bodies of its joint; the ground is none.
@@ -41,7 +42,7 @@ impl Coordinates {
         let joints = Scene { outputs: Vec::new(), ..scene.clone() };
         let channels = Channel::of_scene(&joints);
         for (output, channel) in joints.channels().iter().zip(&channels) {
-            let Quantity::JointValue { joint } = output.quantity else { continue };
+            let Target::Joint(joint) = output.quantity.target() else { continue };
             all.add_joint(scene, joint, channel);
         }
         all.n_of_joints = all.names.len();

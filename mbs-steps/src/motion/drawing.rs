@@ -3,6 +3,7 @@
 use crate::record::{BodyPlace, DrawnForce, DrawnPoint};
 use mbs_core::Real;
 use mbs_core::effects::ActsOn;
+use mbs_core::outputs::{OutputPicture, Target};
 use mbs_core::scene::{BodyId, Dimension, Quantity, Scene};
 
 /// Scene that is drawn, with its length.
@@ -24,31 +25,40 @@ impl<T: Real> Drawing<'_, T> {
 
     pub(super) fn traces(&self) -> Vec<DrawnPoint> {
         let outputs = self.scene.outputs.iter();
-        let trace = |output: &mbs_core::scene::Output<T>| match output.quantity {
-            Quantity::Position { body, at } => {
-                Some(DrawnPoint { name: output.name.clone(), place: self.place(body, at) })
-            }
-            _ => None,
+        let trace = |output: &mbs_core::scene::Output<T>| {
+            let (body, at) = output.quantity.traced()?;
+            Some(DrawnPoint { name: output.name.clone(), place: self.place(body, at) })
         };
         outputs.filter_map(trace).collect()
     }
 
     /// Reactions act on the second body of their joint, effects on their last body; those along a length have no vector and are left out.
     pub(super) fn forces(&self) -> Vec<DrawnForce> {
-        let acts = |quantity: &Quantity<T>| match quantity {
-            Quantity::Reaction { joint } => {
+        let acts = |quantity: &Quantity<T>| match quantity.target() {
+            Target::Joint(joint) => {
                 let joint = &self.scene.joints[joint.index()];
                 Some((joint.bodies[1], joint.points[1]))
             }
-            Quantity::EffectForce { effect } => {
+            Target::Effect(effect) => {
                 let kind = &self.scene.effects[effect.index()].kind;
                 let is_vector = kind.acts_on() != ActsOn::Line;
                 let places = kind.places().into_iter().filter(|_| is_vector);
                 places.last().map(|(_, body, at)| (body, at))
             }
-            _ => None,
+            Target::Point(..)
+            | Target::RelativePoint(_)
+            | Target::Body(_)
+            | Target::RelativeBody(..)
+            | Target::WheelCarrier(_)
+            | Target::Coupling(_)
+            | Target::Rolling(_)
+            | Target::Signal(_)
+            | Target::Scene => None,
         };
-        let outputs = self.scene.outputs.iter();
+        let is_force = |output: &&mbs_core::scene::Output<T>| {
+            output.quantity.row().picture == OutputPicture::Force
+        };
+        let outputs = self.scene.outputs.iter().filter(is_force);
         let force = |output: &mbs_core::scene::Output<T>| {
             let (body, at) = acts(&output.quantity)?;
             let point = DrawnPoint { name: output.name.clone(), place: self.place(body, at) };

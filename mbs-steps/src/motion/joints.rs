@@ -5,11 +5,11 @@ use super::drawing::Drawing;
 use super::pose::unit_of;
 use crate::record::{DrawnPoint, DrawnShape, RecordedMotion, ShapeForm};
 use mbs_core::Real;
-use mbs_core::effects::EffectKind;
+use mbs_core::effects::EffectPicture;
 use mbs_core::scene::{Axis, BodyId, Dimension, Joint, Rotation, Translation};
 
 impl<T: Real> Drawing<'_, T> {
-    /// Adds what is drawn of every joint, and of bushings.
+    /// Adds what is drawn of every joint, and rings of effects.
     pub(super) fn add_joints(&self, motion: &mut RecordedMotion) {
         for joint in self.scene.joints.iter().filter(|joint| !joint.kind.is_free()) {
             let place = self.place(joint.bodies[1], joint.points[1]);
@@ -17,8 +17,8 @@ impl<T: Real> Drawing<'_, T> {
             self.add_joint(joint, &mut motion.shapes);
         }
         for effect in self.scene.effects.iter().filter(|effect| effect.enabled) {
-            if let EffectKind::Bushing(bushing) = &effect.kind {
-                let place = self.place(bushing.bodies[0], bushing.at);
+            if let EffectPicture::Ring(body, at) = effect.kind.drawn_as() {
+                let place = self.place(body, at);
                 let form = ShapeForm::Ring { at: place.at };
                 motion.shapes.push(DrawnShape::new(place.body, form));
             }

@@ -3,16 +3,16 @@
 use super::drawing::Drawing;
 use crate::record::{DrawnLine, LineStyle, RecordedMotion};
 use mbs_core::Real;
-use mbs_core::effects::{ActsOn, EffectKind};
+use mbs_core::effects::{EffectPicture, LineLook};
 use mbs_core::scene::{BodyId, CouplingMeasure};
 
 impl<T: Real> Drawing<'_, T> {
     /// Adds the lines of effects, of links and of couplings.
     pub(super) fn add_lines(&self, motion: &mut RecordedMotion) {
         for effect in self.scene.effects.iter().filter(|effect| effect.enabled) {
-            if effect.kind.acts_on() == ActsOn::Line {
+            if let EffectPicture::Line(look) = effect.kind.drawn_as() {
                 let places = effect.kind.places().into_iter().map(|(_, body, at)| (body, at));
-                self.add_line((&effect.name, style(&effect.kind)), places, motion);
+                self.add_line((&effect.name, style(look)), places, motion);
             }
         }
         for joint in self.scene.joints.iter().filter(|joint| joint.kind.is_link()) {
@@ -43,23 +43,13 @@ impl<T: Real> Drawing<'_, T> {
     }
 }
 
-/// Returns the style in which an effect along a line is drawn.
-fn style<T: Real>(kind: &EffectKind<T>) -> LineStyle {
-    let of = |is_spring: bool, is_damper: bool| match (is_spring, is_damper) {
-        (true, true) => LineStyle::CoilDamper,
-        (false, true) => LineStyle::Damper,
-        _ => LineStyle::Coil,
-    };
-    match kind {
-        EffectKind::SpringDamper(spring) => {
-            of(!spring.stiffness.is_zero(), !spring.damping.is_zero())
-        }
-        EffectKind::LineSpring(spring) => {
-            of(!spring.stiffness.is_zero(), !spring.damping.is_zero())
-        }
-        EffectKind::Polynomial(polynomial) => of(!polynomial.of_rate, polynomial.of_rate),
-        EffectKind::Bumper(_) => LineStyle::Bumper,
-        EffectKind::LinePolynomial(_) => LineStyle::Coil,
-        _ => LineStyle::Actuator,
+/// Returns the style of a line with a look.
+const fn style(look: LineLook) -> LineStyle {
+    match look {
+        LineLook::Coil => LineStyle::Coil,
+        LineLook::Damper => LineStyle::Damper,
+        LineLook::CoilDamper => LineStyle::CoilDamper,
+        LineLook::Bumper => LineStyle::Bumper,
+        LineLook::Actuator => LineStyle::Actuator,
     }
 }

@@ -3,7 +3,6 @@
 use crate::record::{BodyPlace, DrawnRoad, RecordedMotion, RoadStrip};
 use mbs_core::Real;
 use mbs_core::actions::track_heights;
-use mbs_core::effects::EffectKind;
 use mbs_core::scene::{Dimension, RoadFeature, Scene};
 
 /// Distance of the places where a road is drawn [m]: an edge rounded over 0.3 m has three.
@@ -19,15 +18,10 @@ const PLANAR: f64 = 0.3;
 
 /// The road of a scene with tires, from a margin before the way of all tires to one behind it; `None` without tires.
 pub(super) fn under<T: Real>(scene: &Scene<T>, motion: &RecordedMotion) -> Option<DrawnRoad> {
-    let tires = scene.effects.iter().filter(|effect| effect.enabled);
-    let tires: Vec<_> = tires
-        .filter_map(|effect| match &effect.kind {
-            EffectKind::Tire(tire) => Some((tire.body, tire.center)),
-            _ => None,
-        })
-        .collect();
+    let enabled = scene.effects.iter().filter(|effect| effect.enabled);
+    let wheels = enabled.filter_map(|effect| effect.kind.road_wheel());
     let ways: Vec<BodyPlace> =
-        tires.iter().map(|(b, at)| super::drawing::place(scene, *b, *at)).collect();
+        wheels.map(|wheel| super::drawing::place(scene, wheel.body, wheel.center)).collect();
     let pictures = 0..motion.times.len();
     let places = pictures.flat_map(|k| ways.iter().filter_map(move |way| motion.place(k, way)));
     let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);

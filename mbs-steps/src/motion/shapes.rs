@@ -6,7 +6,7 @@ use super::principal::principal;
 
 use crate::record::{DrawnShape, RecordedMotion, ShapeForm};
 use mbs_core::Real;
-use mbs_core::effects::{EffectKind, Tire};
+use mbs_core::effects::{EffectPicture, RoadWheel};
 use mbs_core::scene::{Axis, BodyId, Dimension, Inertia, JointId, RollingKind, ShapeKind};
 
 /// Radius of a rod, relative to the scene's length [-].
@@ -127,10 +127,7 @@ impl<T: Real> Drawing<'_, T> {
         let of_joints = of_joints.flat_map(|j| j.bodies.into_iter().zip(j.points));
         let lines = scene.effects.iter().filter(|e| e.enabled).flat_map(|e| e.kind.places());
         let lines = lines.filter(|(key, ..)| *key == "points").map(|(_, b, at)| (b, at));
-        let outputs = scene.outputs.iter().filter_map(|output| match output.quantity {
-            mbs_core::scene::Quantity::Position { body, at } => Some((body, at)),
-            _ => None,
-        });
+        let outputs = scene.outputs.iter().filter_map(|output| output.quantity.traced());
         let mut places: Vec<[f64; 3]> = Vec::new();
         for (of, at) in of_joints.chain(lines).chain(outputs) {
             let at = self.place(of, at).at;
@@ -149,16 +146,14 @@ impl<T: Real> Drawing<'_, T> {
             bodies.extend(body.index());
         };
         for effect in self.scene.effects.iter().filter(|effect| effect.enabled) {
-            if let EffectKind::Tire(tire) = &effect.kind {
-                let (body, axis) = self.wheel_of(tire);
-                let (at, radius) = (self.place(body, tire.center).at, tire.radius.to_f64());
+            if let EffectPicture::Wheel(wheel) = effect.kind.drawn_as() {
+                let (body, axis) = self.wheel_of(&wheel);
+                let (at, radius) = (self.place(body, wheel.center).at, wheel.radius.to_f64());
                 let width = TIRE_WIDTH * radius;
-                let turns = tire.spin.is_some() || self.is_planar();
+                let turns = wheel.spin.is_some() || self.is_planar();
                 add(body, ShapeForm::Wheel { at, axis, radius, width, turns });
-                add(
-                    tire.body,
-                    ShapeForm::Stroke { from: [0.0; 3], to: self.place(tire.body, tire.center).at },
-                );
+                let to = self.place(wheel.body, wheel.center).at;
+                add(wheel.body, ShapeForm::Stroke { from: [0.0; 3], to });
             }
         }
         for rolling in &self.scene.rollings {
@@ -187,13 +182,13 @@ impl<T: Real> Drawing<'_, T> {
         bodies
     }
 
-    /// The body that a tire turns with, and its axis.
-    fn wheel_of(&self, tire: &Tire<T>) -> (BodyId, [f64; 3]) {
-        let joint = tire.spin.map(|joint| &self.scene.joints[joint]);
-        let others = joint.map(|joint| joint.bodies.into_iter().find(|body| *body != tire.body));
-        let body = others.flatten().filter(|body| body.index().is_some()).unwrap_or(tire.body);
+    /// The body that a wheel turns with, and its axis.
+    fn wheel_of(&self, wheel: &RoadWheel<T>) -> (BodyId, [f64; 3]) {
+        let joint = wheel.spin.map(|joint| &self.scene.joints[joint]);
+        let others = joint.map(|joint| joint.bodies.into_iter().find(|body| *body != wheel.body));
+        let body = others.flatten().filter(|body| body.index().is_some()).unwrap_or(wheel.body);
         let of_joint = || joint.map(|joint| joint.direction(Axis::First).into());
-        let axis = tire.axis.or_else(of_joint).map(|axis: [T; 3]| unit_of(axis.map(Real::to_f64)));
+        let axis = wheel.axis.or_else(of_joint).map(|axis: [T; 3]| unit_of(axis.map(Real::to_f64)));
         // without an axis: across the direction of travel
         let across = if self.is_planar() { [0.0, 0.0, 1.0] } else { [0.0, 1.0, 0.0] };
         (body, axis.filter(|_| !self.is_planar()).unwrap_or(across))
