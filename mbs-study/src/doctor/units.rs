@@ -2,9 +2,8 @@
 
 use super::finding::{Finding, Severity, Topic, body_names};
 use mbs_core::cluster::{mass_properties, scene_length};
-use mbs_core::scene::{
-    BodyId, EffectKind, Entry, Freedom, InitialTarget, JointId, Motion, Scene, SpringDamper,
-};
+use mbs_core::effects::UnitHint;
+use mbs_core::scene::{BodyId, Effect, Entry, Freedom, InitialTarget, JointId, Motion, Scene};
 use mbs_scene::format::few;
 
 /// Bounds of mass over the cube of the size [kg/m^3]: a slender rod of a metre and a kilogram has 1, a block of steel 8000.
@@ -20,8 +19,9 @@ pub(super) fn findings(scene: &Scene<f64>, findings: &mut Vec<Finding>) {
     gravity(scene, findings);
     bodies(scene, findings);
     angles(scene, findings);
-    for effect in 0..scene.effects.len() {
-        findings.extend(spring(scene, effect));
+    for (i, effect) in scene.effects.iter().enumerate().filter(|(_, e)| e.enabled) {
+        let mut hints = effect.kind.unit_hints(&scene.joints).into_iter();
+        findings.extend(hints.find_map(|hint| spring(scene, (i, effect), hint)));
     }
 }
 
@@ -139,57 +139,56 @@ fn angles(scene: &Scene<f64>, findings: &mut Vec<Finding>) {
         }
     }
     for (i, effect) in scene.effects.iter().enumerate().filter(|(_, e)| e.enabled) {
-        match &effect.kind {
-            EffectKind::TorsionSpring(spring) if like_degrees(spring.free_value) => {
-                report(spring.free_value, Entry::Effect(i), "free_value");
+        for hint in effect.kind.unit_hints(&scene.joints) {
+            if let UnitHint::Angle { key, value, of } = hint
+                && of.is_none_or(turns)
+                && like_degrees(value)
+            {
+                report(value, Entry::Effect(i), key);
             }
-            EffectKind::Limit(stop) if turns(stop.joint) => {
-                let field = if stop.range { "range" } else { "upper" };
-                let upper = stop.ends(&scene.joints).map(|[_, upper]| upper);
-                if let Some(upper) = upper.filter(|upper| like_degrees(*upper)) {
-                    report(upper, Entry::Effect(i), field);
-                }
-            }
-            _ => {}
         }
     }
 }
 
 /// A spring whose length at rest is far from its length in place, or whose frequency no machine has.
-fn spring(scene: &Scene<f64>, index: usize) -> Option<Finding> {
-    let effect = &scene.effects[index];
-    let EffectKind::SpringDamper(spring) = &effect.kind else { return None };
-    let &SpringDamper { bodies, points, stiffness, free_length, .. } = spring;
-    if !effect.enabled {
-        return None;
+fn spring(
+    scene: &Scene<f64>,
+    (index, effect): (usize, &Effect<f64>),
+    hint: UnitHint<f64>,
+) -> Option<Finding> {
+    match hint {
+        UnitHint::Angle { .. } => None,
+        UnitHint::FreeLength { key, value, in_place } => {
+            (in_place > 0.0 && value > LENGTHS * in_place).then(|| {
+                let message = format!(
+                    "spring `{}` is {} m long without tension and {} m in place: looks like millimetres",
+                    effect.name,
+                    few(value),
+                    few(in_place)
+                );
+                let remedy = format!("write {key} in m");
+                doubt("spring-length-unit", message, &remedy).at(Entry::Effect(index), key)
+            })
+        }
+        UnitHint::Stiffness { key, value, bodies } => {
+            let mass = bodies.iter().filter_map(|body| match body {
+                BodyId::Body(b) => Some(mass_properties(scene, *b).0),
+                BodyId::Ground => None,
+            });
+            let lightest = mass.filter(|m| *m > 0.0).fold(f64::INFINITY, f64::min);
+            let frequency = (value / lightest).sqrt();
+            (frequency > FASTEST).then(|| {
+                let message = format!(
+                    "spring `{}` on {} kg swings with {} rad/s: no part of a machine is that stiff",
+                    effect.name,
+                    few(lightest),
+                    few(frequency)
+                );
+                let remedy = format!(
+                    "write {key} in N/m (1 N/mm is 1000 N/m); use a joint for what does not give"
+                );
+                doubt("stiffness-unit", message, &remedy).at(Entry::Effect(index), key)
+            })
+        }
     }
-    let gap = [0, 1, 2].map(|i| points[1][i] - points[0][i]);
-    let length = gap.iter().map(|x| x * x).sum::<f64>().sqrt();
-    if length > 0.0 && free_length > LENGTHS * length {
-        let message = format!(
-            "spring `{}` is {} m long without tension and {} m in place: looks like millimetres",
-            effect.name,
-            few(free_length),
-            few(length)
-        );
-        let finding = doubt("spring-length-unit", message, "write free_length in m");
-        return Some(finding.at(Entry::Effect(index), "free_length"));
-    }
-    let mass = bodies.iter().filter_map(|body| match body {
-        BodyId::Body(b) => Some(mass_properties(scene, *b).0),
-        BodyId::Ground => None,
-    });
-    let lightest = mass.filter(|m| *m > 0.0).fold(f64::INFINITY, f64::min);
-    let frequency = (stiffness / lightest).sqrt();
-    (frequency > FASTEST).then(|| {
-        let message = format!(
-            "spring `{}` on {} kg swings with {} rad/s: no part of a machine is that stiff",
-            effect.name,
-            few(lightest),
-            few(frequency)
-        );
-        let remedy =
-            "write stiffness in N/m (1 N/mm is 1000 N/m); use a joint for what does not give";
-        doubt("stiffness-unit", message, remedy).at(Entry::Effect(index), "stiffness")
-    })
 }
