@@ -7,7 +7,7 @@ use crate::recording::{Recording, Tape, poses};
 use crate::stepping::{Tapes, inputs};
 use crate::watch::{Ear, Reached, silent, whole};
 use crate::{settings, values};
-use mbs::{ContactEvent, EffectKind, InputId, Interrupt, Method, SimulationError, Snapshot, Tree};
+use mbs::{ContactEvent, InputId, Interrupt, Method, SimulationError, Snapshot, Tree};
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
@@ -216,8 +216,7 @@ impl Simulation {
         let effects = &self.this().shared.scene.effects;
         let event = |event: ContactEvent| {
             let effect = &effects[event.effect.index()];
-            let is_limit = matches!(effect.kind, EffectKind::Limit { .. });
-            let end = is_limit.then(|| ["lower", "upper"][event.end.min(1)]);
+            let end = effect.kind.row().ends.get(event.end).copied();
             values::make(py, "Event", (event.time, &effect.name, event.is_made, end))
         };
         moving.simulation.events().map(event).collect()
