@@ -1,6 +1,40 @@
-//! Joints are data: code that asks for a kind by its name forgets the next kind.
+//! Joints, effects and quantities are data: code that asks for a kind by its name forgets the next kind.
+//!
+//! A kind of effect is named in its own file, and at the doors by which scenes are built in Rust. These have a constructor for each kind:
+//! one that is forgotten is missed by who calls it, and nothing is silently wrong.
 
+use super::language::report_beyond;
 use super::{crate_folders, files, name, read, report};
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+/// The list of the kinds of effect.
+const EFFECTS: &str = include_str!("../../../mbs-core/src/effects/list.rs");
+
+/// Folders of tables of kinds, with the enum that each declares.
+const TABLES: [(&str, &str); 2] =
+    [("EffectKind", "mbs-core/src/effects/"), ("Quantity", "mbs-core/src/outputs/quantity/")];
+
+/// Files of mbs-core with constructors of effects for scenes in Rust.
+const DOORS: [&str; 3] = ["/build.rs", "/on_terms.rs", "/joint_limits.rs"];
+
+/// Crates that are no product: they try the others, measure them, or derive the same once more.
+const TRIALS: [&str; 4] = ["judge/", "lab/", "mbs-testkit/", "xtask/"];
+
+/// The sources of the product, with their names: no tests, benches or examples.
+fn product() -> impl Iterator<Item = (PathBuf, String)> {
+    let all = crate_folders().into_iter().flat_map(|folder| files(&folder, "rs"));
+    let is_other = |name: &str| {
+        TRIALS.iter().any(|of| name.starts_with(of))
+            || ["/tests", "/benches/", "/examples/"].iter().any(|part| name.contains(part))
+    };
+    all.map(|path| (path.clone(), name(&path))).filter(move |(_, name)| !is_other(name))
+}
+
+/// The text without its comments.
+fn code(text: &str) -> String {
+    text.lines().map(|line| line.split("//").next().unwrap_or_default().to_owned() + "\n").collect()
+}
 
 /// The text between the bracket that `text` begins with and its partner.
 fn enclosed(text: &str, [open, close]: [char; 2]) -> &str {
@@ -32,29 +66,61 @@ fn patterns(body: &str) -> Vec<&str> {
     found
 }
 
-/// Questions of a source text about the kinds of joint that a new kind would pass by; equality too, if it is no test.
-fn findings(text: &str, is_test: bool) -> Vec<&'static str> {
+/// Questions of a source text about the kinds of an enum that a new kind would pass by. In tests equality and `let` may stand.
+fn findings(text: &str, of: &str, is_test: bool) -> Vec<String> {
     let mut found = Vec::new();
+    let kind = format!("{of}::");
+    let names = |text: &str| {
+        let is_start = |at: usize| !text[..at].ends_with(|c: char| c.is_alphanumeric() || c == '_');
+        text.match_indices(&kind).any(|(at, _)| is_start(at))
+    };
     let after = |word: &'static str| text.match_indices(word).map(move |(at, _)| &text[at..]);
-    if after("matches!(").any(|rest| enclosed(&rest[8..], ['(', ')']).contains("JointKind::")) {
-        found.push("`matches!` on JointKind");
+    if after("matches!(").any(|rest| names(enclosed(&rest[8..], ['(', ')']))) {
+        found.push(format!("`matches!` on {of}"));
     }
     let has_hole = |rest: &str| {
         let Some(start) = rest.find('{') else { return false };
         let arms = patterns(enclosed(&rest[start..], ['{', '}']));
         let is_rest = |pattern: &&str| *pattern == "_" || pattern.starts_with("_ if");
-        arms.iter().any(|arm| arm.contains("JointKind::")) && arms.iter().any(is_rest)
+        arms.iter().any(|arm| names(arm)) && arms.iter().any(is_rest)
     };
     if after("match ").any(has_hole) {
-        found.push("`_ =>` in a match on JointKind");
+        found.push(format!("`_ =>` in a match on {of}"));
     }
-    if text.contains("JointKind as ") {
-        found.push("another name for JointKind");
+    if text.contains(&format!("{of} as ")) {
+        found.push(format!("another name for {of}"));
     }
-    if !is_test && ["== JointKind::", "!= JointKind::"].iter().any(|word| text.contains(word)) {
-        found.push("a comparison with one JointKind");
+    let has = |word: &str| text.contains(&format!("{word} {kind}"));
+    if !is_test && ["==", "!="].into_iter().any(has) {
+        found.push(format!("a comparison with one {of}"));
+    }
+    if !is_test && ["let", "let &", "let Some("].into_iter().any(has) {
+        found.push(format!("a `let` of one {of}"));
     }
     found
+}
+
+/// The kinds of effect that a source text names: as variants, or as types that it imports.
+fn effects_named(text: &str) -> Vec<&'static str> {
+    let text = code(text);
+    let of_list = EFFECTS.lines().filter_map(|line| line.trim().split_once(" in "));
+    let kinds = of_list.filter(|(_, rest)| rest.contains('(')).map(|(kind, _)| kind);
+    let is_in_word = |c: char| c.is_alphanumeric() || c == '_';
+    let imports: Vec<&str> = text
+        .match_indices("use ")
+        .filter_map(|(at, _)| text[at..].split(';').next())
+        .filter(|import| ["scene", "effects", "kinds"].iter().any(|part| import.contains(part)))
+        .collect();
+    let is_named = |kind: &&str| {
+        let paths = ["EffectKind", "scene", "effects", "kinds"].map(|of| format!("{of}::{kind}"));
+        let is_path = |path: &String| {
+            let ends = text.match_indices(path.as_str()).map(|(at, _)| &text[at + path.len()..]);
+            ends.into_iter().any(|rest| !rest.starts_with(is_in_word))
+        };
+        let has = |import: &&str| import.split(|c| !is_in_word(c)).any(|word| word == *kind);
+        paths.iter().any(is_path) || imports.iter().any(has)
+    };
+    kinds.filter(is_named).collect()
 }
 
 #[test]
@@ -64,21 +130,64 @@ fn no_code_asks_for_a_kind_of_joint_in_a_way_that_forgets_the_next() {
         let (text, name) = (read(&path), name(&path));
         let is_test = name.contains("/tests") || name.starts_with("xtask/");
         if !name.ends_with("tidy/kinds.rs") {
-            all.extend(findings(&text, is_test).iter().map(|finding| format!("{name}: {finding}")));
+            let found = findings(&text, "JointKind", is_test);
+            all.extend(found.iter().map(|finding| format!("{name}: {finding}")));
         }
     }
     report("Ask the table of joints (`mbs-core/src/scene/joint.rs`), or match every kind", &all);
 }
 
 #[test]
+fn no_product_asks_for_an_effect_or_a_quantity_in_a_way_that_forgets_the_next() {
+    let mut all = Vec::new();
+    for (path, name) in product() {
+        let text = code(&read(&path));
+        for (of, _) in TABLES.iter().filter(|(_, folder)| !name.starts_with(folder)) {
+            let found = findings(&text, of, false);
+            all.extend(found.iter().map(|finding| format!("{name}: {finding}")));
+        }
+    }
+    report("Ask a method of the effects or the row of the quantity, or match every kind", &all);
+}
+
+#[test]
+fn product_files_outside_the_effects_name_no_kind_of_effect() {
+    let mut found: BTreeMap<String, Vec<String>> = BTreeMap::new();
+    for (path, name) in product() {
+        let is_own = name.starts_with(TABLES[0].1);
+        let is_door = name.starts_with("mbs-core/src/") && DOORS.iter().any(|d| name.ends_with(d));
+        let named = effects_named(&read(&path));
+        if !is_own && !is_door && !named.is_empty() {
+            found.insert(name.clone(), vec![format!("{name}: {}", named.join(", "))]);
+        }
+    }
+    let rule = "Ask a method of the effects (`mbs-core/src/effects/kind.rs`) that the kind's own file answers";
+    report_beyond(rule, "kind", &found);
+}
+
+#[test]
 fn what_forgets_a_kind_is_found() {
-    let of = |text| findings(text, false).len();
+    let of = |text| findings(text, "JointKind", false).len();
     assert_eq!(of("if matches!(joint.kind, JointKind::Weld | JointKind::Free) {}"), 1);
     assert_eq!(of("match (kind, d) {\n(JointKind::Weld, _) => f(),\n_ => g(),\n}"), 1);
     assert_eq!(of("match kind {\nJointKind::Weld => {\n_ => 1\n}\n_ if x => 2,\n}"), 1);
     assert_eq!(of("let is_weld = kind == JointKind::Weld;"), 1);
-    assert_eq!(findings("kind == JointKind::Weld", true).len(), 0);
+    assert_eq!(findings("kind == JointKind::Weld", "JointKind", true).len(), 0);
     assert_eq!(of("match kind {\nJointKind::Weld => match x {\n_ => 1\n},\n}"), 0);
     assert_eq!(of("match n {\n0 => JointKind::Weld,\n_ => JointKind::Free,\n}"), 0);
     assert_eq!(of("matches!(freedom, Freedom::Turn(_))"), 0);
+    let of = |text| findings(text, "Quantity", false).len();
+    assert_eq!(of("let Quantity::Position { body, at } = quantity else { return };"), 1);
+    assert_eq!(of("match quantity {\nQuantity::Position { body, at } => f(),\n_ => g(),\n}"), 1);
+    assert_eq!(of("let value = |joint| Quantity::JointValue { joint };"), 0);
+    assert_eq!(of("match kind {\nOtherQuantity::Energy => f(),\n_ => g(),\n}"), 0);
+}
+
+#[test]
+fn the_effects_that_a_text_names_are_found() {
+    assert_eq!(effects_named("if let EffectKind::Tire(tire) = kind {}"), ["Tire"]);
+    assert_eq!(effects_named("use mbs_core::scene::{\n    BodyId, Limit,\n};"), ["Limit"]);
+    assert_eq!(effects_named("let tire = mbs_core::effects::Tire { body };"), ["Tire"]);
+    assert!(effects_named("// an EffectKind::Tire\nuse mbs_core::control::Limit;").is_empty());
+    assert!(effects_named("EffectKind::TireOfOldTimes; LineStyle::Bumper").is_empty());
 }
