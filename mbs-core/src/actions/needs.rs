@@ -2,8 +2,10 @@
 
 use crate::Real;
 use crate::actions::{Action, Actions};
-use crate::outputs::{Quantity, RelativePoint, Target};
-use crate::scene::{BallAngle, BodyId, CouplingMeasure, Entry, InitialTarget, Scene, SignalKind};
+use crate::scene::{
+    BallAngle, BodyId, CouplingMeasure, Entry, InitialTarget, Quantity, RelativePoint, Scene,
+    SignalKind, Target,
+};
 
 /// Need of an entry of the scene: a point, a direction, a rotation, or coordinates of a joint.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,11 +1,10 @@
 //! [`Scene`]: a mechanism and what is asked of it, with its effects and outputs; the entries of its lists by their handles.
 
 use crate::effects::EffectKind;
-use crate::outputs::Quantity;
 use crate::scene::{
     Body, BodyFrame, BodyId, BodyShape, Coupling, CouplingId, Dimension, EffectId, Guide, GuideId,
-    InitialCondition, InitialId, Joint, JointId, NamedSignal, OutputId, Road, Rolling, RollingId,
-    SignalId, SolverTable, Start, Surroundings,
+    InitialCondition, InitialId, Joint, JointId, NamedSignal, OutputId, Quantity, Road, Rolling,
+    RollingId, SignalId, SolverTable, Start, Surroundings,
 };
 use alloc::format;
 use alloc::string::String;

@@ -53,6 +53,8 @@ mod on_terms;
 #[cfg(feature = "alloc")]
 mod open;
 #[cfg(feature = "alloc")]
+pub(crate) mod quantity;
+#[cfg(feature = "alloc")]
 mod resolve;
 #[cfg(feature = "alloc")]
 mod rolling;
@@ -67,8 +69,6 @@ mod table_notes;
 
 #[cfg(feature = "alloc")]
 pub use crate::effects::{EffectKind, kinds::*};
-#[cfg(feature = "alloc")]
-pub use crate::outputs::Quantity;
 #[cfg(feature = "alloc")]
 pub use axes::transverse;
 #[cfg(feature = "alloc")]
@@ -111,6 +111,8 @@ pub use joint::{Axis, Freedom, JOINTS, JointForm, JointKind, Rotation, Translati
 pub use mechanism::{Effect, Output, Scene};
 #[cfg(feature = "alloc")]
 pub use number::{Number, Vector3};
+#[cfg(feature = "alloc")]
+pub use quantity::{Quantity, RelativePoint, Target, VehicleSide, WheelCarrier};
 #[cfg(feature = "alloc")]
 pub use rolling::{Rolling, RollingKind, RollingPlane};
 #[cfg(feature = "alloc")]

@@ -2,15 +2,17 @@
 
 use super::components::{Component, ComponentForm, Magnitude, in_degrees, magnitudes};
 use super::effect_deflection::has_free_value;
-use super::{Quantity, RelativePoint, Target, WheelCarrier};
+use super::table;
 use crate::effects::{ActsOn, Value};
+use crate::scene::quantity::list;
 use crate::scene::{
     BodyId, CouplingId, CouplingMeasure, CouplingTerm, DrawnKind, EffectId, Freedom, JointId,
-    Number, Output, RollingId, Scene, SignalId, SignalKind, Vector3,
+    Number, Output, Quantity, RelativePoint, RollingId, Scene, SignalId, SignalKind, Target,
+    Vector3, WheelCarrier,
 };
 use alloc::vec::Vec;
 
-super::list::list!(constructors);
+list::list!(table::constructors);
 
 impl<T: Clone> Output<T> {
     /// Its components in a scene: those of its quantity, then the magnitudes that it has columns for; in its units.

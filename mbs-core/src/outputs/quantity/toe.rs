@@ -2,7 +2,8 @@
 
 use super::kind::{Instant, Maker, Measured};
 use super::wheel::CarrierDirection;
-use super::{ComponentForm, QuantityDefinition, QuantityRow, TargetKind, WheelCarrier};
+use super::{ComponentForm, QuantityDefinition, QuantityRow, TargetKind};
+use crate::scene::WheelCarrier;
 use crate::Real;
 
 pub(super) const ROW: QuantityRow = QuantityRow::new(

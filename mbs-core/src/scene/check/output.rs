@@ -3,8 +3,11 @@
 use super::reference::known_body;
 use super::vector::{Place, is_parallel};
 use crate::Real;
-use crate::outputs::{Quantity, RelativePoint, Target, WheelCarrier, magnitudes};
-use crate::scene::{BodyId, Dimension, Output, Scene, SceneError, SceneFault};
+use crate::outputs::magnitudes;
+use crate::scene::{
+    BodyId, Dimension, Output, Quantity, RelativePoint, Scene, SceneError, SceneFault, Target,
+    WheelCarrier,
+};
 
 pub(super) fn check<T: Real>(
     scene: &Scene<T>,

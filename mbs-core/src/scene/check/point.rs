@@ -172,7 +172,7 @@ impl<T: Real> Points<'_, T> {
 
     /// Is an output of this body, not relative to it?
     fn is_owner(&self, output: usize, body: BodyId) -> bool {
-        use crate::outputs::{RelativePoint, Target};
+        use crate::scene::{RelativePoint, Target};
         match self.scene.outputs[output].quantity.target() {
             Target::RelativePoint(RelativePoint { relative_to, .. }) => relative_to != body,
             Target::RelativeBody(owner, _) => owner == body,

@@ -1,12 +1,12 @@
 //! The list of quantities: all that the rest of the workspace knows of them.
 //!
 //! A line has what the quantity is, its kind and its module, under what it is of; the first line of a body's, a joint's, a coupling's or an
-//! effect's is the quantity where a scene file names none. The module is the constructor's name.
+//! effect's is the quantity where a scene file names none. The module, in `outputs/quantity`, is the constructor's name.
 
-/// Hands the list of quantities to a macro of `table`.
+/// Hands the list of quantities to a macro, which is given by its path.
 macro_rules! list {
-    ($then:ident) => {
-        crate::outputs::quantity::table::$then! {
+    ($($then:tt)+) => {
+        $($then)+! {
             point {
                 /// Position of a point of a body [m], global axes.
                 Position in position;
@@ -147,4 +147,4 @@ macro_rules! list {
     };
 }
 
-pub(super) use list;
+pub(crate) use list;
