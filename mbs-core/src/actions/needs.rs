@@ -1,7 +1,7 @@
 //! Material points, directions and rotations that the entries of a scene ask of its bodies. Joints are looked at by themselves.
 
 use crate::Real;
-use crate::actions::{Action, Actions};
+use crate::effects::action::{Action, Actions};
 use crate::scene::{
     BallAngle, BodyId, CouplingMeasure, Entry, InitialTarget, Quantity, RelativePoint, Scene,
     SignalKind, Target,

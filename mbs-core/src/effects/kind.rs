@@ -1,9 +1,9 @@
 //! The enum of kinds, what each kind says of itself, and the table of all.
 
+use super::action::Compiler;
 use super::{EffectData, EffectKind, Field, Value};
 use crate::Real;
-use crate::actions::Compiler;
-use crate::scene::check::Place;
+use crate::scene::place::Place;
 use crate::scene::{BodyId, CouplingMeasure, JointId, SceneError, Surroundings, UserLaw};
 use alloc::vec::Vec;
 

@@ -5,8 +5,7 @@
 //! ```
 
 use crate::Real;
-use crate::laws::LawInputs;
-use crate::laws::bumper;
+use crate::laws::{LawInputs, bumper};
 use crate::laws::entry::entry;
 use crate::laws::operations::Operations;
 use crate::laws::scalar::{ScalarForce, TensionLaw};
@@ -76,7 +75,7 @@ mod data {
     use crate::algebra::{self, norm};
     use crate::effects::data::*;
     use crate::effects::spring_damper::SpringDamperLaw;
-    use crate::laws::scalar::Law;
+    use crate::effects::Law;
     use alloc::vec::Vec;
 
     effect! {

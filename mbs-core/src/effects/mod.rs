@@ -2,6 +2,9 @@
 //! all.
 
 #[cfg(feature = "alloc")]
+pub(crate) mod action;
+mod apart;
+#[cfg(feature = "alloc")]
 mod data;
 #[cfg(feature = "alloc")]
 mod example;
@@ -11,8 +14,11 @@ mod field;
 mod kind;
 mod law;
 mod list;
+#[cfg(feature = "alloc")]
+pub(crate) mod reference;
 mod table;
 
+pub use apart::is_apart;
 #[cfg(feature = "alloc")]
 pub use example::Places;
 #[cfg(feature = "alloc")]
@@ -28,11 +34,11 @@ pub use law::{BodyLaw, Law, laws};
 #[cfg(feature = "alloc")]
 use crate::Real;
 #[cfg(feature = "alloc")]
-use crate::actions::Compiler;
-#[cfg(feature = "alloc")]
-use crate::scene::check::Place;
+use crate::scene::place::Place;
 #[cfg(feature = "alloc")]
 use crate::scene::{SceneError, Surroundings};
+#[cfg(feature = "alloc")]
+use action::Compiler;
 #[cfg(feature = "alloc")]
 use alloc::vec::Vec;
 

@@ -10,7 +10,7 @@ mod data {
     use super::TireLaw;
     use crate::algebra::unit;
     use crate::effects::data::*;
-    use crate::scene::check::is_parallel;
+    use crate::scene::place::is_parallel;
     use crate::scene::{Axis, CalspanCoefficients, Joint, LongitudinalSlip};
 
     effect! {
@@ -86,7 +86,7 @@ mod data {
                 up: to.among.dimension.count() - 1,
                 leans: axis.is_some() && !to.is_planar(),
             };
-            let axis = axis.map_or_else(|| unit(2).into(), crate::actions::direction_of);
+            let axis = axis.map_or_else(|| unit(2).into(), crate::effects::action::direction_of);
             to.on_body((body, self.center), axis, law);
         }
         fn stores_energy(&self) -> bool {

@@ -3,7 +3,7 @@
 use super::layout::effect_of;
 use super::model::NaturalModel;
 use crate::Real;
-use crate::actions::{Action, Actions};
+use crate::effects::action::{Action, Actions};
 use crate::model::Owner;
 use crate::scene::{Freedom, Scene};
 use alloc::vec::Vec;

@@ -5,7 +5,7 @@ use super::error::ModelError;
 use super::layout::layout;
 use super::model::NaturalModel;
 use crate::Real;
-use crate::actions::Actions;
+use crate::effects::action::Actions;
 use crate::scene::Scene;
 use crate::scene::align::aligned;
 

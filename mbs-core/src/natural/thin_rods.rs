@@ -1,9 +1,10 @@
 //! Spatial rods that may stay two points: only balls hold them, every point used lies on them, nothing needs their spin.
 
 use crate::Real;
-use crate::actions::{Actions, Need, needs};
+use crate::actions::{Need, needs};
 use crate::algebra::{Vector, cross, norm};
 use crate::cluster::{Cluster, Clusters};
+use crate::effects::action::Actions;
 use crate::scene::{BodyId, Scene};
 use alloc::vec;
 use alloc::vec::Vec;

@@ -2,14 +2,16 @@
 //!
 //! Points and vectors are in global axes, reference configuration, with two numbers in the plane and three in space.
 
-use crate::effects::Value;
+use crate::effects::{
+    Actuator, AeroDrag, BodyTorque, Bumper, Bushing, EffectKind, Force, Friction, JointTorque,
+    LawOnBody, LawOnJoint, LawOnLine, Limit, Polynomial, SpeedHold, SpringDamper, Tire,
+    TorsionSpring, Value,
+};
 use crate::laws::code::{BodyLaw, ForceLaw};
 use crate::scene::{
-    Actuator, AeroDrag, Axis, AxisFrame, Body, BodyId, BodyTorque, Bumper, Bushing, Coupling,
-    Dimension, Effect, EffectKind, Force, Freedom, Friction, Guide, Inertia, InitialCondition,
-    InitialTarget, Joint, JointId, JointKind, JointLimits, JointTorque, LawOnBody, LawOnJoint,
-    LawOnLine, Limit, Motion, NamedSignal, Number, Output, Polynomial, PolynomialPiece, Rotation,
-    Signal, SpeedHold, SpringDamper, Tire, TorsionSpring, Vector3,
+    Axis, AxisFrame, Body, BodyId, Coupling, Dimension, Effect, Freedom, Guide, Inertia,
+    InitialCondition, InitialTarget, Joint, JointId, JointKind, JointLimits, Motion, NamedSignal,
+    Number, Output, PolynomialPiece, Rotation, Signal, Vector3,
 };
 use alloc::string::String;
 use alloc::vec::Vec;

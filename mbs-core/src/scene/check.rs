@@ -12,18 +12,15 @@ mod joint;
 mod motion;
 mod output;
 mod point;
-mod reference;
 mod road;
 mod rolling;
 mod shape;
 mod signal;
-mod vector;
 
 use crate::Real;
+use crate::scene::place::Place;
 use crate::scene::{Entry, Scene, SceneError, SceneFault};
 use alloc::vec::Vec;
-pub(crate) use reference::{check_coordinate, check_pair, known_body};
-pub(crate) use vector::{Place, is_parallel};
 
 impl<T: Real> Scene<T> {
     /// Refuses a scene that cannot be meant: the first fault found, with its entry and key.

@@ -1,6 +1,7 @@
 //! Limits that a joint is meant to keep to, in code, and the stops that keep it there.
 
-use crate::scene::{Effect, Joint, JointId, Limit, Number};
+use crate::effects::Limit;
+use crate::scene::{Effect, Joint, JointId, Number};
 use alloc::string::String;
 
 impl Joint<Number> {

@@ -53,6 +53,8 @@ mod on_terms;
 #[cfg(feature = "alloc")]
 mod open;
 #[cfg(feature = "alloc")]
+pub(crate) mod place;
+#[cfg(feature = "alloc")]
 pub(crate) mod quantity;
 #[cfg(feature = "alloc")]
 mod resolve;

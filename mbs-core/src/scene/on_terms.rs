@@ -1,7 +1,7 @@
 //! Effects on sums and lines in code: a law of one joint's coordinate, taken to a sum of several; elastic ropes.
 
-use crate::effects::{EFFECTS, Field, Form, Value};
-use crate::scene::{BodyId, CouplingTerm, Effect, EffectKind, LineSpring, Number, Vector3};
+use crate::effects::{EFFECTS, EffectKind, Field, Form, LineSpring, Value};
+use crate::scene::{BodyId, CouplingTerm, Effect, Number, Vector3};
 use alloc::string::String;
 use alloc::vec::Vec;
 

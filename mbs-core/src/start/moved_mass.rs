@@ -10,11 +10,11 @@ use super::hold::StartRow;
 use super::problem::Problem;
 use super::sweeps::Assembly;
 use crate::dense::Dense;
+use crate::effects::EffectKind;
 use crate::model::{Model, State};
 use crate::natural::NaturalModel;
 use crate::scene::{
-    Coupling, CouplingMeasure, CouplingTerm, Dimension, Effect, EffectKind, Guide, JointId, Motion,
-    Scene,
+    Coupling, CouplingMeasure, CouplingTerm, Dimension, Effect, Guide, JointId, Motion, Scene,
 };
 use alloc::vec;
 use alloc::vec::Vec;

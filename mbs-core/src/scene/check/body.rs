@@ -1,9 +1,9 @@
 //! Mass properties: what a rigid body can have. What is welded together is one body.
 
-use super::vector::{Place, is_planar};
 use crate::Real;
 use crate::algebra::Matrix;
 use crate::cluster::{Clusters, mass_properties};
+use crate::scene::place::{Place, is_planar};
 use crate::scene::{Body, Entry, Inertia, Scene, SceneError, SceneFault};
 use alloc::vec::Vec;
 use core::mem::discriminant;

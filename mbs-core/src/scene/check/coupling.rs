@@ -1,12 +1,12 @@
 //! Couplings: their terms, and whether start values contradict them.
 
 use super::motion::{agreement, check_law};
-use super::vector::Place;
 use crate::Real;
 use crate::algebra::{Vector, norm};
 use crate::inputs::SignalGraph;
 use crate::laws::relation::{self, MAX_ARGUMENTS, Relation, RelationFault};
 use crate::measure::{CouplingInput, MeshedWheels, Strands, TermInput, given_values};
+use crate::scene::place::Place;
 use crate::scene::{
     BodyId, CouplingKind, CouplingMeasure, CouplingTerm, Curve, Entry, Freedom, JointId, Mesh,
     Scene, SceneError, SceneFault,

@@ -1,8 +1,8 @@
 //! Courses over time: constants, tables, inputs and signals by name.
 
-use super::vector::{Place, check_times, is_planar};
 use crate::Real;
 use crate::effects::SignalForm;
+use crate::scene::place::{Place, check_times, is_planar};
 use crate::scene::{SceneError, SceneFault, Signal};
 
 /// Finite numbers, in the plane where a vector is meant, zero where one number is; and increasing times. Without a form all are free.

@@ -1,11 +1,11 @@
 //! Effects: references and numbers, field by field, then what the kind itself refuses.
 
-use super::reference::{check_coordinate, check_pair, known_body};
-use super::vector::{Place, is_planar};
 use super::{coupling, course};
 use crate::Real;
-use crate::effects::{Form, JointNeed, Sign, Value};
-use crate::scene::{EffectKind, Scene, SceneError, SceneFault};
+use crate::effects::reference::{check_coordinate, check_pair, known_body};
+use crate::effects::{EffectKind, Form, JointNeed, Sign, Value};
+use crate::scene::place::{Place, is_planar};
+use crate::scene::{Scene, SceneError, SceneFault};
 
 pub(super) fn check<T: Real>(
     scene: &Scene<T>,

@@ -1,7 +1,7 @@
 //! Frames: names apart from those of other bodies, and axes.
 
-use super::vector::{Place, is_parallel, is_planar};
 use crate::Real;
+use crate::scene::place::{Place, is_parallel, is_planar};
 use crate::scene::{BodyFrame, Entry, Scene, SceneError, SceneFault};
 
 pub(super) fn check<T: Real>(scene: &Scene<T>) -> Result<(), SceneError> {

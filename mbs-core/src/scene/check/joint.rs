@@ -1,8 +1,8 @@
 //! Joints: bodies, place and axes that fit the kind.
 
-use super::reference::check_pair;
-use super::vector::{Place, is_parallel, is_planar};
 use crate::Real;
+use crate::effects::reference::check_pair;
+use crate::scene::place::{Place, is_parallel, is_planar};
 use crate::scene::{Joint, JointLimits, Scene, SceneError, SceneFault};
 
 pub(super) fn check<T: Real>(

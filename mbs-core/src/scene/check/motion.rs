@@ -1,12 +1,12 @@
 //! Guides and initial conditions, and whether they agree.
 
-use super::reference::known_body;
-use super::vector::{Place, check_times, is_planar};
 use crate::Real;
 use crate::cluster::Clusters;
+use crate::effects::reference::known_body;
 use crate::inputs::{GuideInput, SignalGraph};
 use crate::laws::guide::{largest_rate, spline};
 use crate::measure::knots;
+use crate::scene::place::{Place, check_times, is_planar};
 use crate::scene::{
     Entry, Guide, InitialCondition, InitialTarget, Interpolation, JointId, Motion, Scene,
     SceneError, SceneFault, TableEnds,

@@ -1,9 +1,9 @@
 //! Output channels: references and places.
 
-use super::reference::known_body;
-use super::vector::{Place, is_parallel};
 use crate::Real;
+use crate::effects::reference::known_body;
 use crate::outputs::magnitudes;
+use crate::scene::place::{Place, is_parallel};
 use crate::scene::{
     BodyId, Dimension, Output, Quantity, RelativePoint, Scene, SceneError, SceneFault, Target,
     WheelCarrier,

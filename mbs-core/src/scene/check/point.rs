@@ -1,12 +1,13 @@
 //! Point masses: what asks for their orientation, or for another place than theirs, is refused.
 
-use super::vector::Place;
 use crate::Real;
-use crate::actions::{Actions, Need, needs};
+use crate::actions::{Need, needs};
 use crate::algebra::{Vector, norm};
 use crate::cluster::scene_length;
 use crate::effects::Value;
+use crate::effects::action::Actions;
 use crate::natural::point_tolerance;
+use crate::scene::place::Place;
 use crate::scene::{BodyId, Entry, Joint, Scene, SceneError, SceneFault, SignalKind};
 
 /// Checks the point masses of a scene. Cost: nothing without points; else a pass over the scene.

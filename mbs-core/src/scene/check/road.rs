@@ -1,11 +1,11 @@
 //! The road: its features, and whether every wheel can roll through its hollows.
 
-use super::vector::{Place, is_planar};
 use crate::Real;
+use crate::effects::EffectKind;
 use crate::measure::knots;
+use crate::scene::place::{Place, is_planar};
 use crate::scene::{
-    CurveShape, EffectKind, Entry, Interpolation, Road, RoadFeature, Scene, SceneError, SceneFault,
-    TableEnds,
+    CurveShape, Entry, Interpolation, Road, RoadFeature, Scene, SceneError, SceneFault, TableEnds,
 };
 
 pub(super) fn check<T: Real>(scene: &Scene<T>) -> Result<(), SceneError> {

@@ -1,9 +1,9 @@
 //! Rollings: bodies, shapes, and that they touch their plane.
 
-use super::vector::{Place, is_planar};
 use crate::Real;
 use crate::algebra::norm_inf;
 use crate::measure::RollingInput;
+use crate::scene::place::{Place, is_planar};
 use crate::scene::{Entry, Rolling, RollingKind, Scene, SceneError, SceneFault};
 
 /// Distance from the plane that is rounding of a file's numbers [radii]. Chosen, not tuned: six digits.

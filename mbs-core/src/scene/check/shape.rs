@@ -1,7 +1,7 @@
 //! Shapes: bodies, forms of the scene's dimension, and sizes.
 
-use super::vector::{Place, is_parallel, is_planar};
 use crate::Real;
+use crate::scene::place::{Place, is_parallel, is_planar};
 use crate::scene::{BodyShape, Entry, Scene, SceneError, SceneFault, ShapeKind};
 
 pub(super) fn check<T: Real>(scene: &Scene<T>) -> Result<(), SceneError> {

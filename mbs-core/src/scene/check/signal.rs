@@ -2,8 +2,8 @@
 
 use super::coupling::{check_curve, check_measure};
 use super::motion::check_slopes;
-use super::vector::{Place, check_times};
 use crate::Real;
+use crate::scene::place::{Place, check_times};
 use crate::scene::{
     BallAngle, CouplingMeasure, Entry, Motion, Scene, SceneError, SceneFault, SignalId, SignalKind,
     first_of, signal_breaks, signal_order,

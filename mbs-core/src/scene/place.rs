@@ -1,4 +1,4 @@
-//! Checks of single numbers and vectors.
+//! Places of checks, and checks of single numbers and vectors there.
 
 use crate::Real;
 use crate::scene::{Dimension, Entry, SceneError, SceneFault};
@@ -64,7 +64,7 @@ impl Place {
 }
 
 /// Largest absolute value of the components.
-pub(super) fn largest<T: Real>(v: [T; 3]) -> T {
+pub(crate) fn largest<T: Real>(v: [T; 3]) -> T {
     v[0].abs().max(v[1].abs()).max(v[2].abs())
 }
 
@@ -84,12 +84,12 @@ fn scaled<T: Real>(v: [T; 3]) -> [T; 3] {
 }
 
 /// Is the scene planar?
-pub(super) fn is_planar(dimension: Dimension) -> bool {
+pub(crate) fn is_planar(dimension: Dimension) -> bool {
     dimension == Dimension::Planar
 }
 
 /// At least one row; each time later than the one before.
-pub(super) fn check_times<T: Real>(
+pub(crate) fn check_times<T: Real>(
     times: impl Iterator<Item = T>,
     place: Place,
 ) -> Result<(), SceneError> {

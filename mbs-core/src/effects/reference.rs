@@ -1,7 +1,7 @@
 //! Checks of what an entry refers to: its bodies and its joint.
 
-use super::vector::Place;
-use crate::effects::JointNeed;
+use super::JointNeed;
+use crate::scene::place::Place;
 use crate::scene::{BodyId, Joint, JointId, SceneError, SceneFault, Surroundings};
 
 /// The entry's two bodies exist and differ.

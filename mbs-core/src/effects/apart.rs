@@ -1,7 +1,7 @@
 //! Laws that act on one side only: where they do not act.
 
+use super::Law;
 use crate::Real;
-use crate::effects::Law;
 
 /// Does a law act on one side only, and not at this value? Its gaps are open.
 ///

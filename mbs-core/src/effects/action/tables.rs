@@ -19,7 +19,7 @@ pub struct Tables<T> {
 
 impl<T: Real> Tables<T> {
     /// Returns tables without entries.
-    pub(super) fn empty() -> Self {
+    pub(crate) fn empty() -> Self {
         Self {
             pieces: Vec::new(),
             features: Vec::new(),

@@ -5,12 +5,11 @@ use crate::Real;
 use crate::algebra::{Vector, norm};
 use crate::effects::joint_torque::TorqueLaw;
 use crate::effects::laws::{CodeBodyLaw, CodeLaw};
+use crate::effects::{BodyLaw, Law};
 use crate::inputs::SignalInput;
 use crate::laws::Part;
-use crate::laws::body::BodyLaw;
 use crate::laws::code::{BodyLaw as BodyCode, Code, ForceLaw};
 use crate::laws::relation::Relation;
-use crate::laws::scalar::Law;
 use crate::measure::TermInput;
 use crate::scene::{BodyId, CouplingTerm, Dimension, Freedom, JointId, Signal, Surroundings};
 use alloc::vec;
@@ -18,11 +17,11 @@ use alloc::vec;
 /// Compiler of the effects of a scene: each kind of effect adds its actions here.
 pub(crate) struct Compiler<'a, T> {
     pub(crate) among: Surroundings<'a, T>,
-    pub(super) effect: usize,
+    pub(crate) effect: usize,
     /// Features of the left and the right track, and the course of a moving road, once a tire asks.
-    pub(super) roads: Option<([Part; 2], Option<u32>)>,
+    pub(crate) roads: Option<([Part; 2], Option<u32>)>,
     /// The course of time itself, once a law asks.
-    pub(super) clock: Option<u32>,
+    pub(crate) clock: Option<u32>,
     pub(crate) actions: Actions<T>,
 }
 
@@ -72,7 +71,7 @@ impl<T: Real> Compiler<'_, T> {
     }
 
     /// The relation of a coupling that is an object.
-    pub(super) fn relation(&mut self, coupling: usize, relation: &Code<dyn Relation>) {
+    pub(crate) fn relation(&mut self, coupling: usize, relation: &Code<dyn Relation>) {
         self.actions.tables.codes.add_relation(number(coupling), relation);
     }
 
