@@ -7,6 +7,8 @@ extern crate alloc;
 #[cfg(feature = "alloc")]
 pub mod actions;
 #[cfg(feature = "alloc")]
+mod check;
+#[cfg(feature = "alloc")]
 pub mod cluster;
 pub mod control;
 mod delegate;
@@ -24,6 +26,8 @@ pub mod inputs;
 pub mod integrator;
 pub mod laws;
 pub mod measure;
+#[cfg(feature = "alloc")]
+pub mod mechanism;
 #[cfg(feature = "alloc")]
 pub mod model;
 mod named;
@@ -72,8 +76,8 @@ pub mod inside {
     }
 
     #[cfg(feature = "alloc")]
-    pub mod scene {
-        pub use crate::scene::check::body::principal_moments;
+    pub mod check {
+        pub use crate::check::body::principal_moments;
     }
 
     #[cfg(feature = "alloc")]

@@ -3,9 +3,8 @@
 use super::ActionError;
 use crate::Real;
 use crate::effects::action::{Actions, Compiler, Tables};
-use crate::inputs::Prescribed;
-use crate::measure::CouplingInput;
-use crate::scene::Scene;
+use crate::inputs::{CouplingInput, Prescribed};
+use crate::mechanism::Scene;
 use alloc::vec::Vec;
 
 impl<T: Real> Actions<T> {

@@ -2,9 +2,10 @@
 
 use crate::Real;
 use crate::effects::action::{Action, Actions};
+use crate::mechanism::Scene;
 use crate::scene::{
-    BallAngle, BodyId, CouplingMeasure, Entry, InitialTarget, Quantity, RelativePoint, Scene,
-    SignalKind, Target,
+    BallAngle, BodyId, CouplingMeasure, Entry, InitialTarget, Quantity, RelativePoint, SignalKind,
+    Target,
 };
 
 /// Need of an entry of the scene: a point, a direction, a rotation, or coordinates of a joint.

@@ -4,7 +4,7 @@
 //! E = inertia (ratio q')^2 / 2          nothing else: no moment on the housing but that about the joint's axis
 //! ```
 //!
-//! It is an inertia and no force: models take it from [`RotorInput`](crate::measure::RotorInput).
+//! It is an inertia and no force: models take it from [`RotorInput`](crate::mechanism::RotorInput).
 
 #[cfg(feature = "alloc")]
 pub use data::Rotor;
@@ -12,7 +12,6 @@ pub use data::Rotor;
 #[cfg(feature = "alloc")]
 mod data {
     use crate::effects::data::*;
-    use crate::measure::RotorInput;
 
     effect! {
         /// A rotor that turns by ratio times a joint's coordinate: kinetic energy inertia (ratio rate)² / 2.
@@ -28,6 +27,13 @@ mod data {
         }
     }
 
+    impl<T: Real> Rotor<T> {
+        /// Inertia that a rotor adds to that of its coordinate [kg m^2, of a slide kg].
+        pub(crate) fn at_joint(&self) -> T {
+            self.inertia * self.ratio * self.ratio
+        }
+    }
+
     impl<T: Real> EffectModel<T> for Rotor<T> {
         const LAW: &'static str = "adds `inertia` `ratio`² to the inertia of the coordinate";
         const HAS_BRANCHES: bool = false;
@@ -37,7 +43,7 @@ mod data {
             if among.joints.get(self.joint.index()).is_some_and(is_free) {
                 return place.fault("joint", SceneFault::FreeRotor);
             }
-            let at_joint = RotorInput::at_joint(self);
+            let at_joint = self.at_joint();
             if at_joint.is_finite() && at_joint > T::ZERO {
                 return Ok(());
             }

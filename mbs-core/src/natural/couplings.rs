@@ -12,7 +12,8 @@ use crate::elements::{
     Coupled, CoupledForm, CoupledTables, Curves, Measurand, NONE, Span, add_measure_gradient,
     combine, has_collapsed, measured_value,
 };
-use crate::measure::{Arguments, CouplingInput, PreparedCurve, TermInput};
+use crate::inputs::CouplingInput;
+use crate::measure::{Arguments, PreparedCurve, TermInput};
 use crate::model::{Owner, Terms};
 use crate::scene::{BallAngle, BodyId, CouplingMeasure, Dimension, transverse};
 use alloc::vec;

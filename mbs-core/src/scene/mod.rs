@@ -7,15 +7,7 @@
 #[cfg(feature = "alloc")]
 mod advice;
 #[cfg(feature = "alloc")]
-pub mod align;
-#[cfg(feature = "alloc")]
 mod axes;
-#[cfg(feature = "alloc")]
-mod build;
-#[cfg(feature = "alloc")]
-mod build_signal;
-#[cfg(feature = "alloc")]
-pub(crate) mod check;
 #[cfg(feature = "alloc")]
 mod coupling;
 #[cfg(feature = "alloc")]
@@ -25,8 +17,6 @@ mod curve;
 #[cfg(feature = "alloc")]
 mod data;
 mod dimension;
-#[cfg(feature = "alloc")]
-mod drawn;
 #[cfg(feature = "alloc")]
 mod drawn_kind;
 #[cfg(feature = "alloc")]
@@ -43,21 +33,11 @@ mod id;
 mod inertia;
 mod joint;
 #[cfg(feature = "alloc")]
-mod joint_limits;
-#[cfg(feature = "alloc")]
-mod mechanism;
-#[cfg(feature = "alloc")]
 mod number;
-#[cfg(feature = "alloc")]
-mod on_terms;
-#[cfg(feature = "alloc")]
-mod open;
 #[cfg(feature = "alloc")]
 pub(crate) mod place;
 #[cfg(feature = "alloc")]
 pub(crate) mod quantity;
-#[cfg(feature = "alloc")]
-mod resolve;
 #[cfg(feature = "alloc")]
 mod rolling;
 #[cfg(feature = "alloc")]
@@ -66,15 +46,15 @@ mod shape;
 mod signal;
 #[cfg(feature = "alloc")]
 mod solver;
-#[cfg(feature = "alloc")]
-mod table_notes;
 
+#[cfg(feature = "alloc")]
+pub use crate::check::TableNote;
 #[cfg(feature = "alloc")]
 pub use crate::effects::{EffectKind, kinds::*};
 #[cfg(feature = "alloc")]
-pub use axes::transverse;
+pub use crate::mechanism::{Effect, Output, Scene, StartedJoint, align};
 #[cfg(feature = "alloc")]
-pub use build::StartedJoint;
+pub use axes::transverse;
 #[cfg(feature = "alloc")]
 pub use coupling::{Coupling, CouplingKind, Mesh};
 #[cfg(feature = "alloc")]
@@ -110,8 +90,6 @@ pub use id::{
 pub(crate) use inertia::steiner;
 pub use joint::{Axis, Freedom, JOINTS, JointForm, JointKind, Rotation, Translation};
 #[cfg(feature = "alloc")]
-pub use mechanism::{Effect, Output, Scene};
-#[cfg(feature = "alloc")]
 pub use number::{Number, Vector3};
 #[cfg(feature = "alloc")]
 pub use quantity::{Quantity, RelativePoint, Target, VehicleSide, WheelCarrier};
@@ -127,5 +105,3 @@ pub use signal::{
 };
 #[cfg(feature = "alloc")]
 pub use solver::SolverTable;
-#[cfg(feature = "alloc")]
-pub use table_notes::TableNote;

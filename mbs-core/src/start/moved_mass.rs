@@ -11,11 +11,10 @@ use super::problem::Problem;
 use super::sweeps::Assembly;
 use crate::dense::Dense;
 use crate::effects::EffectKind;
+use crate::mechanism::{Effect, Scene};
 use crate::model::{Model, State};
 use crate::natural::NaturalModel;
-use crate::scene::{
-    Coupling, CouplingMeasure, CouplingTerm, Dimension, Effect, Guide, JointId, Motion, Scene,
-};
+use crate::scene::{Coupling, CouplingMeasure, CouplingTerm, Dimension, Guide, JointId, Motion};
 use alloc::vec;
 use alloc::vec::Vec;
 

@@ -15,11 +15,10 @@ use super::sweeps::Assembly;
 use crate::Real;
 use crate::blocks::{Cliques, SpdSolver};
 use crate::effects::action::{Action, Actions};
-use crate::measure::given_values;
+use crate::mechanism::{Scene, given_values};
 use crate::model::{Model, Owner, State};
 use crate::natural::NaturalModel;
 use crate::outputs::start_values;
-use crate::scene::Scene;
 use alloc::vec::Vec;
 
 /// Sweeps without halving the smallest residual after which the search ends [-]: entries that contradict each other drift. Chosen, not tuned.

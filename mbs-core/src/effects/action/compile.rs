@@ -3,8 +3,7 @@
 use super::{Action, Actions, Attachment};
 use crate::Real;
 use crate::algebra::{Vector, norm};
-use crate::effects::joint_torque::TorqueLaw;
-use crate::effects::laws::{CodeBodyLaw, CodeLaw};
+use crate::effects::laws::{CodeBodyLaw, CodeLaw, TorqueLaw};
 use crate::effects::{BodyLaw, Law};
 use crate::inputs::SignalInput;
 use crate::laws::Part;

@@ -1,6 +1,6 @@
 //! Principal moments of inertia.
 
-use mbs_core::inside::scene::principal_moments;
+use mbs_core::inside::check::principal_moments;
 
 #[test]
 fn principal_moments_of_a_turned_tensor_by_hand() {
