@@ -24,6 +24,7 @@ pub mod implicit;
 #[cfg(feature = "alloc")]
 pub mod inputs;
 pub mod integrator;
+pub mod joint;
 pub mod laws;
 pub mod measure;
 #[cfg(feature = "alloc")]
@@ -38,11 +39,15 @@ pub mod outputs;
 pub mod rigid;
 #[cfg(feature = "alloc")]
 pub mod saddle;
+#[cfg(feature = "alloc")]
 pub mod scene;
 #[cfg(feature = "alloc")]
 pub mod start;
 pub mod step;
 
+/// Scene data, of which a build without `alloc` has the table of joints alone.
+#[cfg(not(feature = "alloc"))]
+pub use joint as scene;
 #[cfg(feature = "instances")]
 pub use mbs_math::instances;
 pub use mbs_math::{

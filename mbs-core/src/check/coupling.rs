@@ -4,13 +4,14 @@ use super::motion::{agreement, check_law};
 use crate::Real;
 use crate::algebra::{Vector, norm};
 use crate::inputs::{CouplingInput, SignalGraph};
+use crate::joint::Freedom;
 use crate::laws::relation::{self, MAX_ARGUMENTS, Relation, RelationFault};
 use crate::measure::TermInput;
 use crate::mechanism::{MeshedWheels, Scene, Strands, given_values};
 use crate::scene::place::Place;
 use crate::scene::{
-    BodyId, CouplingKind, CouplingMeasure, CouplingTerm, Curve, Entry, Freedom, JointId, Mesh,
-    SceneError, SceneFault,
+    BodyId, CouplingKind, CouplingMeasure, CouplingTerm, Curve, Entry, JointId, Mesh, SceneError,
+    SceneFault,
 };
 use alloc::vec::Vec;
 

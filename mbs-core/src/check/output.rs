@@ -2,12 +2,11 @@
 
 use crate::Real;
 use crate::effects::reference::known_body;
+use crate::joint::Dimension;
 use crate::mechanism::{Output, Scene};
 use crate::outputs::magnitudes;
 use crate::scene::place::{Place, is_parallel};
-use crate::scene::{
-    BodyId, Dimension, Quantity, RelativePoint, SceneError, SceneFault, Target, WheelCarrier,
-};
+use crate::scene::{BodyId, Quantity, RelativePoint, SceneError, SceneFault, Target, WheelCarrier};
 
 pub(super) fn check<T: Real>(
     scene: &Scene<T>,

@@ -1,8 +1,9 @@
 //! From a scene of decimal numbers to one in the scalar of a run.
 
 use crate::Real;
+use crate::joint::Dimension;
 use crate::mechanism::Scene;
-use crate::scene::{Dimension, Number, SceneError, SceneFault};
+use crate::scene::{Number, SceneError, SceneFault};
 
 #[cfg(feature = "instances")]
 type Resolve<T> = fn(&Scene<Number>) -> Result<Scene<T>, SceneError>;

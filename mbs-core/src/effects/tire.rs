@@ -11,7 +11,8 @@ mod data {
     use crate::algebra::unit;
     use crate::effects::data::*;
     use crate::scene::place::is_parallel;
-    use crate::scene::{Axis, CalspanCoefficients, Joint, LongitudinalSlip};
+    use crate::scene::{CalspanCoefficients, Joint, LongitudinalSlip};
+    use crate::joint::Axis;
 
     effect! {
         /// A wheel on the scene's road.

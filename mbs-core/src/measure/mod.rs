@@ -6,24 +6,19 @@ mod arguments;
 mod contact;
 mod curve;
 #[cfg(feature = "alloc")]
-mod monotone;
-#[cfg(feature = "alloc")]
-mod rolling;
-#[cfg(feature = "alloc")]
-mod term;
+mod prepared;
 
 #[cfg(feature = "alloc")]
-pub use crate::inputs::CouplingInput;
-#[cfg(feature = "alloc")]
-pub use crate::mechanism::{RotorInput, given_values};
+pub use crate::{
+    inputs::CouplingInput,
+    mechanism::{RotorInput, given_values},
+};
 pub use arguments::Arguments;
 pub use contact::{Moving, lies_flat, lowest_place, lowest_point};
 #[cfg(feature = "alloc")]
-pub use curve::PreparedCurve;
-#[cfg(feature = "alloc")]
-pub(crate) use curve::{knots, within};
+pub(crate) use curve::within;
 pub use curve::{polynomial, polynomial_change, spline_change, spline_curve};
 #[cfg(feature = "alloc")]
-pub use rolling::RollingInput;
+pub(crate) use prepared::knots;
 #[cfg(feature = "alloc")]
-pub use term::TermInput;
+pub use prepared::{PreparedCurve, RollingInput, TermInput};

@@ -2,10 +2,11 @@
 
 use crate::Real;
 use crate::algebra::{Vector, along, cross, norm};
+use crate::joint::Freedom;
 use crate::mechanism::Scene;
 use crate::scene::{
-    BodyId, Coupling, CouplingId, CouplingKind, CouplingMeasure, CouplingTerm, DrawnKind, Freedom,
-    Joint, JointId,
+    BodyId, Coupling, CouplingId, CouplingKind, CouplingMeasure, CouplingTerm, DrawnKind, Joint,
+    JointId,
 };
 
 /// Largest distance of what should be at one place, over the size of what it belongs to [-]. Chosen, not tuned: digits of a file.

@@ -7,12 +7,12 @@ use crate::effects::{
     LawOnBody, LawOnJoint, LawOnLine, Limit, Polynomial, SpeedHold, SpringDamper, Tire,
     TorsionSpring, Value,
 };
+use crate::joint::{Axis, Dimension, Freedom, JointKind, Rotation};
 use crate::laws::code::{BodyLaw, ForceLaw};
 use crate::mechanism::{Effect, Output};
 use crate::scene::{
-    Axis, AxisFrame, Body, BodyId, Coupling, Dimension, Freedom, Guide, Inertia, InitialCondition,
-    InitialTarget, Joint, JointId, JointKind, JointLimits, Motion, NamedSignal, Number,
-    PolynomialPiece, Rotation, Signal, Vector3,
+    AxisFrame, Body, BodyId, Coupling, Guide, Inertia, InitialCondition, InitialTarget, Joint,
+    JointId, JointLimits, Motion, NamedSignal, Number, PolynomialPiece, Signal, Vector3,
 };
 use alloc::string::String;
 use alloc::vec::Vec;

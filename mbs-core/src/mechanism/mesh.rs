@@ -7,8 +7,9 @@
 
 use crate::Real;
 use crate::algebra::{Vector, along, cross, norm};
+use crate::joint::Freedom;
 use crate::mechanism::Scene;
-use crate::scene::{BodyId, CouplingMeasure, CouplingTerm, Freedom};
+use crate::scene::{BodyId, CouplingMeasure, CouplingTerm};
 
 /// Two wheels on parallel axes in one body, which a coupling of two terms has in mesh.
 #[derive(Debug, Clone, PartialEq)]

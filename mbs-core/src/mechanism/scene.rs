@@ -1,8 +1,9 @@
 //! [`Scene`]: a mechanism and what is asked of it, with its effects and outputs; the entries of its lists by their handles.
 
 use crate::effects::EffectKind;
+use crate::joint::Dimension;
 use crate::scene::{
-    Body, BodyFrame, BodyId, BodyShape, Coupling, CouplingId, Dimension, EffectId, Guide, GuideId,
+    Body, BodyFrame, BodyId, BodyShape, Coupling, CouplingId, EffectId, Guide, GuideId,
     InitialCondition, InitialId, Joint, JointId, NamedSignal, OutputId, Quantity, Road, Rolling,
     RollingId, SignalId, SolverTable, Start, Surroundings,
 };

@@ -9,8 +9,9 @@
 use super::MeshedWheels;
 use crate::Real;
 use crate::algebra::{Vector, cross, norm};
+use crate::joint::Freedom;
 use crate::mechanism::Scene;
-use crate::scene::{Coupling, DrawnKind, Freedom, NotStrands};
+use crate::scene::{Coupling, DrawnKind, NotStrands};
 
 /// A belt whose strands are known.
 #[derive(Debug, Clone, PartialEq)]

@@ -10,9 +10,10 @@ use crate::Real;
 use crate::algebra::Vector;
 use crate::cluster::{Clusters, scene_length};
 use crate::effects::action::Actions;
+use crate::joint::Dimension;
 use crate::mechanism::{RotorInput, Scene};
 use crate::model::Owner;
-use crate::scene::{BodyId, Dimension};
+use crate::scene::BodyId;
 use alloc::vec::Vec;
 
 /// Dependent entities that share an element with their body [-]. Each further one is an element of its own, as the block of a hub with

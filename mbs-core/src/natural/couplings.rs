@@ -13,9 +13,10 @@ use crate::elements::{
     combine, has_collapsed, measured_value,
 };
 use crate::inputs::CouplingInput;
+use crate::joint::Dimension;
 use crate::measure::{Arguments, PreparedCurve, TermInput};
 use crate::model::{Owner, Terms};
-use crate::scene::{BallAngle, BodyId, CouplingMeasure, Dimension, transverse};
+use crate::scene::{BallAngle, BodyId, CouplingMeasure, transverse};
 use alloc::vec;
 use alloc::vec::Vec;
 

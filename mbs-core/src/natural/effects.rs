@@ -10,8 +10,9 @@ use crate::algebra::{Vector, unit};
 use crate::effects::Law;
 use crate::effects::action::{Action, Attachment};
 use crate::effects::joint_torque::TorqueLaw;
+use crate::joint::Dimension;
 use crate::model::Owner;
-use crate::scene::{BodyId, Dimension};
+use crate::scene::BodyId;
 use alloc::vec::Vec;
 
 impl<T: Real> Builder<'_, T> {

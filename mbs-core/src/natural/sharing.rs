@@ -8,8 +8,9 @@ use super::spatial_index::SpatialIndex;
 use crate::Real;
 use crate::algebra::{Vector, cross, norm};
 use crate::cluster::{Clusters, point_tolerance, root};
+use crate::joint::{Dimension, Translation};
 use crate::mechanism::Scene;
-use crate::scene::{Dimension, Joint, Translation};
+use crate::scene::Joint;
 use alloc::collections::BTreeSet;
 use alloc::vec::Vec;
 

@@ -1,7 +1,8 @@
 //! Places of checks, and checks of single numbers and vectors there.
 
 use crate::Real;
-use crate::scene::{Dimension, Entry, SceneError, SceneFault};
+use crate::joint::Dimension;
+use crate::scene::{Entry, SceneError, SceneFault};
 
 /// Place of a check: the entry, and the dimension of the scene.
 #[derive(Debug, Clone, Copy)]

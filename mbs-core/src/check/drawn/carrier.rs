@@ -2,8 +2,9 @@
 
 use crate::Real;
 use crate::algebra::{Vector, along, cross, norm};
+use crate::joint::Freedom;
 use crate::mechanism::Scene;
-use crate::scene::{BodyId, CouplingMeasure, Freedom, Joint, JointId};
+use crate::scene::{BodyId, CouplingMeasure, Joint, JointId};
 use alloc::collections::VecDeque;
 use alloc::vec;
 use alloc::vec::Vec;

@@ -6,11 +6,12 @@ use crate::algebra::{Vector, norm};
 use crate::effects::laws::{CodeBodyLaw, CodeLaw, TorqueLaw};
 use crate::effects::{BodyLaw, Law};
 use crate::inputs::SignalInput;
+use crate::joint::{Dimension, Freedom};
 use crate::laws::Part;
 use crate::laws::code::{BodyLaw as BodyCode, Code, ForceLaw};
 use crate::laws::relation::Relation;
 use crate::measure::TermInput;
-use crate::scene::{BodyId, CouplingTerm, Dimension, Freedom, JointId, Signal, Surroundings};
+use crate::scene::{BodyId, CouplingTerm, JointId, Signal, Surroundings};
 use alloc::vec;
 
 /// Compiler of the effects of a scene: each kind of effect adds its actions here.

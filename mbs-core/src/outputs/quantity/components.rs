@@ -1,6 +1,6 @@
 //! The components of a quantity: how many there are, their labels and their units.
 
-use crate::scene::{Dimension, Freedom};
+use crate::joint::{Dimension, Freedom};
 use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;

@@ -4,12 +4,12 @@ use super::components::{Component, ComponentForm, Magnitude, in_degrees, magnitu
 use super::effect_deflection::has_free_value;
 use super::table;
 use crate::effects::{ActsOn, Value};
+use crate::joint::Freedom;
 use crate::mechanism::{Output, Scene};
 use crate::scene::quantity::list;
 use crate::scene::{
-    BodyId, CouplingId, CouplingMeasure, CouplingTerm, DrawnKind, EffectId, Freedom, JointId,
-    Number, Quantity, RelativePoint, RollingId, SignalId, SignalKind, Target, Vector3,
-    WheelCarrier,
+    BodyId, CouplingId, CouplingMeasure, CouplingTerm, DrawnKind, EffectId, JointId, Number,
+    Quantity, RelativePoint, RollingId, SignalId, SignalKind, Target, Vector3, WheelCarrier,
 };
 use alloc::vec::Vec;
 

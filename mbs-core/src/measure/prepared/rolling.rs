@@ -1,9 +1,10 @@
 //! Rollings, as models take them: unit directions, the plane with two directions along it, the point of contact.
 
-use super::{lies_flat, lowest_place};
 use crate::Real;
 use crate::algebra::{Vector, along, cross, unit};
-use crate::scene::{BodyId, Dimension, Rolling, RollingKind, transverse};
+use crate::joint::Dimension;
+use crate::measure::{lies_flat, lowest_place};
+use crate::scene::{BodyId, Rolling, RollingKind, transverse};
 
 /// An entry of a scene's rollings, reference configuration.
 #[derive(Debug, Clone, Copy, PartialEq)]
