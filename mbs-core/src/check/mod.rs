@@ -1,5 +1,7 @@
 //! Checks of a scene as a whole: what cannot be meant is refused, what is merely unusual passes.
 //!
+//! A scene is resolved to the scalar of a run here, and what passes may be noted.
+//!
 //! Order: names, numbers and references of each entry, then what entries say about one another. Comparisons
 //! are written so that a NaN fails them.
 

@@ -3,7 +3,7 @@
 
 #[cfg(feature = "alloc")]
 pub(crate) mod action;
-mod apart;
+pub mod apart;
 #[cfg(feature = "alloc")]
 mod data;
 #[cfg(feature = "alloc")]
@@ -18,7 +18,6 @@ mod list;
 pub(crate) mod reference;
 mod table;
 
-pub use apart::is_apart;
 #[cfg(feature = "alloc")]
 pub use example::Places;
 #[cfg(feature = "alloc")]

@@ -26,5 +26,6 @@ pub mod spin;
 pub mod tire;
 pub mod user;
 
+pub use crate::effects::apart;
 pub use law_inputs::{CurvatureEntry, FeatureEntry, KnotEntry, LawInputs, LawTables, PieceEntry};
 pub use part::Part;

@@ -4,7 +4,7 @@ use super::forces::Measure;
 use super::group::index;
 use super::model::NaturalModel;
 use crate::Real;
-use crate::effects::is_apart;
+use crate::effects::apart::is_apart;
 use crate::elements::{Span, combine, measured_value};
 use crate::model::{Owner, State};
 use crate::step::StepError;

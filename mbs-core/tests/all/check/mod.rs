@@ -4,6 +4,7 @@ use mbs_core::scene::*;
 use proptest::prelude::*;
 
 mod body;
+mod drawn;
 mod effects;
 
 fn body(name: &str, mass: f64, inertia: Inertia<f64>) -> Body<f64> {
