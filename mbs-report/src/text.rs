@@ -2,7 +2,7 @@
 
 /// Puts parts in the places of their marks, which stand in this order. One pass, so that what they contain is never taken for a
 /// mark.
-pub(super) fn fill(template: &str, parts: &[(&str, &str)]) -> String {
+pub(crate) fn fill(template: &str, parts: &[(&str, &str)]) -> String {
     let mut out = String::new();
     let mut rest = template;
     for (mark, part) in parts {
