@@ -1,7 +1,7 @@
 //! Writer that keeps a run while it goes: a checkpoint now and then, and its rows in their files.
 
-use super::CheckpointError;
 use super::rows::Rows;
+use crate::checkpoint::CheckpointError;
 use crate::folder::{PART, write_whole};
 use crate::recorder::Recorder;
 use std::fs::{self, File, TryLockError};

@@ -1,9 +1,9 @@
 //! A simulation saved and restored.
 
-use super::tape::{Tape, Walked, holds};
-use super::{Checkpoint, CheckpointError, Identity, Kind, whole};
+use super::Simulation;
+use crate::checkpoint::tape::{Tape, Walked, holds};
+use crate::checkpoint::{Checkpoint, CheckpointError, Identity, Kind, whole};
 use crate::settings::ResolvedMethod;
-use crate::simulation::Simulation;
 use mbs_core::Real;
 use mbs_core::scene::Scene;
 use std::io::{Read, Write};
