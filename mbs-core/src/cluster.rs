@@ -3,7 +3,8 @@
 
 use crate::Real;
 use crate::algebra::{Matrix, Vector, cross, norm};
-use crate::scene::{Body, BodyId, Inertia, Joint, Scene, steiner};
+use crate::mechanism::Scene;
+use crate::scene::{Body, BodyId, Inertia, Joint, steiner};
 use alloc::vec;
 use alloc::vec::Vec;
 
@@ -180,4 +181,15 @@ pub fn scene_length<T: Real>(scene: &Scene<T>) -> T {
         visit(mass_properties(scene, i).1);
     }
     if length > T::ZERO { length } else { T::ONE }
+}
+
+/// Distance below which features are one, relative to the scene's length (points) or as an angle (directions) [-]. Chosen, not tuned.
+pub const TOLERANCE: f64 = 1e-9;
+
+/// Least tolerance, in units of rounding [-]: it counts in `f32` alone. Chosen, not tuned.
+const ROUNDINGS: f64 = 64.0;
+
+/// [`TOLERANCE`], or [`ROUNDINGS`] where the scalar has fewer digits.
+pub(crate) fn point_tolerance<T: Real>() -> T {
+    T::from_f64(TOLERANCE).max(T::EPSILON * T::from_f64(ROUNDINGS))
 }

@@ -1,10 +1,12 @@
 //! Prescribed functions of time: guide laws and courses, prepared once.
 
 mod breaks;
+mod coupling;
 mod feedback;
 mod signals;
 
 pub use breaks::{SignalTime, SignalTimes};
+pub use coupling::CouplingInput;
 pub use feedback::Feedback;
 pub use signals::SignalGraph;
 

@@ -7,6 +7,8 @@ extern crate alloc;
 #[cfg(feature = "alloc")]
 pub mod actions;
 #[cfg(feature = "alloc")]
+mod check;
+#[cfg(feature = "alloc")]
 pub mod cluster;
 pub mod control;
 mod delegate;
@@ -22,8 +24,11 @@ pub mod implicit;
 #[cfg(feature = "alloc")]
 pub mod inputs;
 pub mod integrator;
+pub mod joint;
 pub mod laws;
 pub mod measure;
+#[cfg(feature = "alloc")]
+pub mod mechanism;
 #[cfg(feature = "alloc")]
 pub mod model;
 mod named;
@@ -34,11 +39,15 @@ pub mod outputs;
 pub mod rigid;
 #[cfg(feature = "alloc")]
 pub mod saddle;
+#[cfg(feature = "alloc")]
 pub mod scene;
 #[cfg(feature = "alloc")]
 pub mod start;
 pub mod step;
 
+/// Scene data, of which a build without `alloc` has the table of joints alone.
+#[cfg(not(feature = "alloc"))]
+pub use joint as scene;
 #[cfg(feature = "instances")]
 pub use mbs_math::instances;
 pub use mbs_math::{
@@ -72,8 +81,8 @@ pub mod inside {
     }
 
     #[cfg(feature = "alloc")]
-    pub mod scene {
-        pub use crate::scene::check::body::principal_moments;
+    pub mod check {
+        pub use crate::check::body::principal_moments;
     }
 
     #[cfg(feature = "alloc")]

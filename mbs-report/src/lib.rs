@@ -6,6 +6,7 @@ mod explanation;
 mod page;
 mod report;
 mod table;
+mod text;
 
 pub use compare::comparison_page;
 pub use diagnosis::report as diagnosis;

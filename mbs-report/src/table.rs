@@ -1,6 +1,6 @@
 //! A titled table, as text and as a card of a page.
 
-use crate::page::escape;
+use crate::text::escape;
 use core::fmt::Write;
 
 /// Letters of a cell beyond which the cells of a row stand below each other on a narrow screen. Chosen, not tuned.

@@ -1,7 +1,8 @@
 //! A scene document, run in the precision that its settings name.
 
-use crate::checkpoint::{Checkpoint, CheckpointError, CheckpointWriter};
+use crate::checkpoint::{Checkpoint, CheckpointError};
 use crate::driver::StepObserver;
+use crate::kept::CheckpointWriter;
 use crate::precision::{PrecisionError, ReadScene, SceneWork};
 use crate::run::{Outcome, run, run_kept};
 use crate::settings::ResolvedMethod;

@@ -32,6 +32,7 @@ pub mod friction;
 pub mod interrupt;
 #[doc(hidden)]
 pub mod joint_limits;
+mod kept;
 #[doc(hidden)]
 pub mod linear_system;
 mod loop_alone;

@@ -9,8 +9,9 @@ mod summary;
 
 pub use paced::{PacedLevel, PacedSchedule, paced};
 
-use crate::checkpoint::{Checkpoint, CheckpointError, CheckpointWriter, Identity};
+use crate::checkpoint::{Checkpoint, CheckpointError, Identity};
 use crate::driver::{StepObserver, Stretch, drive, multiple};
+use crate::kept::CheckpointWriter;
 use crate::names::Names;
 use crate::record::{Channel, ControlSummary, Outputs, RunRecord, RunSummary};
 use crate::recorder::RecordRows;

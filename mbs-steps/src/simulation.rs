@@ -1,6 +1,7 @@
 //! A scene that can step: model, consistent state and formulation in one place.
 
 mod carry;
+mod checkpoint;
 
 use crate::checkpoint::{SimulationSnapshot, inputs};
 use crate::control::Control;

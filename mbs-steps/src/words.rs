@@ -1,5 +1,7 @@
 //! Words about a run: rows of a summary, notes, and when and why it stopped.
 
+pub mod paced;
+
 pub use mbs_scene::format::{duration, few, size};
 
 use crate::choice::IntegratorKind;
@@ -35,7 +37,7 @@ pub fn summary_rows(s: &RunSummary) -> Vec<(String, String)> {
         row("slowest step", duration(s.worst_step_seconds)),
     ];
     rows.extend(s.control.as_ref().map(|c| row("control of the step", control(c))));
-    let paced = s.realtime.iter().flat_map(crate::realtime::rows);
+    let paced = s.realtime.iter().flat_map(paced::rows);
     rows.extend(paced.map(|(label, value)| row(label, value)));
     rows.extend(contacts(s).map(|text| row("contacts", text)));
     rows.extend(s.estimate.iter().flat_map(estimate).map(|(label, value)| row(label, value)));
@@ -223,7 +225,7 @@ pub fn notes<T: Real>(
         )
     }));
     notes.extend(summed::<T>(settings, s));
-    notes.extend(s.realtime.as_ref().and_then(crate::realtime::note));
+    notes.extend(s.realtime.as_ref().and_then(paced::note));
     for joint in &s.not_unique {
         notes.push(not_unique(joint));
     }

@@ -114,6 +114,11 @@ pub(crate) fn paragraph(text: &mut String, margin: usize, words: &str) {
     let _ = writeln!(text, "{:margin$}{line}", "");
 }
 
+/// Escapes text for HTML.
+pub(crate) fn escape(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

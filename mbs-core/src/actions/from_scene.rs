@@ -1,11 +1,10 @@
 //! The actions of a scene: each of its effects adds its own.
 
-use super::compile::Compiler;
-use super::{ActionError, Actions, Tables};
+use super::ActionError;
 use crate::Real;
-use crate::inputs::Prescribed;
-use crate::measure::CouplingInput;
-use crate::scene::Scene;
+use crate::effects::action::{Actions, Compiler, Tables};
+use crate::inputs::{CouplingInput, Prescribed};
+use crate::mechanism::Scene;
 use alloc::vec::Vec;
 
 impl<T: Real> Actions<T> {

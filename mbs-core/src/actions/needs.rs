@@ -1,9 +1,12 @@
 //! Material points, directions and rotations that the entries of a scene ask of its bodies. Joints are looked at by themselves.
 
 use crate::Real;
-use crate::actions::{Action, Actions};
-use crate::outputs::{Quantity, RelativePoint, Target};
-use crate::scene::{BallAngle, BodyId, CouplingMeasure, Entry, InitialTarget, Scene, SignalKind};
+use crate::effects::action::{Action, Actions};
+use crate::mechanism::Scene;
+use crate::scene::{
+    BallAngle, BodyId, CouplingMeasure, Entry, InitialTarget, Quantity, RelativePoint, SignalKind,
+    Target,
+};
 
 /// Need of an entry of the scene: a point, a direction, a rotation, or coordinates of a joint.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,5 +1,6 @@
 //! Names with which the files of effects describe their data.
 
+pub(super) use super::action::{Action, Compiler};
 pub(super) use super::answers::{EffectPicture, LineLook, RoadWheel, RotorInertia, UnitHint};
 pub(super) use super::field::Default::{
     As, Needed, NeededWith, NeededWithout, Nothing, Number, Open, OpenWith, Times,
@@ -10,8 +11,7 @@ pub(super) use super::field::SignalForm::{Moment, Scalar, Three, Vector};
 pub(super) use super::field::effect;
 pub(super) use super::kind::EffectModel;
 pub(super) use crate::Real;
-pub(super) use crate::actions::{Action, Compiler};
-pub(super) use crate::scene::check::Place;
+pub(super) use crate::scene::place::Place;
 pub(super) use crate::scene::{
     BodyId, CouplingTerm, Joint, JointId, SceneError, SceneFault, Signal, Surroundings,
 };

@@ -1,8 +1,9 @@
 //! An example of any kind, made of its fields alone: for tests and measurements that go over all kinds.
 
 use super::{EFFECTS, Field, Form, Sign, SignalForm, Value};
+use crate::effects::EffectKind;
 use crate::scene::{
-    AxisFrame, BodyId, CouplingMeasure, CouplingTerm, EffectKind, JointId, PolynomialPiece, Signal,
+    AxisFrame, BodyId, CouplingMeasure, CouplingTerm, JointId, PolynomialPiece, Signal,
 };
 use alloc::vec;
 use alloc::vec::Vec;

@@ -2,9 +2,10 @@
 //!
 //! Reader, writer, checks, documents and tests go through fields and values; none of them has a list of kinds.
 
+use crate::joint::Dimension;
 use crate::laws::code::{BodyLaw, Code, ForceLaw};
 use crate::scene::{
-    AxisFrame, BodyId, CalspanCoefficients, CouplingTerm, Dimension, JointId, LongitudinalSlip,
+    AxisFrame, BodyId, CalspanCoefficients, CouplingTerm, JointId, LongitudinalSlip,
     PolynomialPiece, Signal,
 };
 use alloc::vec::Vec;

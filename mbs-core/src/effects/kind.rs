@@ -1,12 +1,12 @@
 //! The enum of kinds, what each kind says of itself, and the table of all.
 
+use super::action::Compiler;
 use super::{
     EffectData, EffectKind, EffectPicture, Field, Form, RoadWheel, RotorInertia, SignalForm,
     UnitHint, Value,
 };
 use crate::Real;
-use crate::actions::Compiler;
-use crate::scene::check::Place;
+use crate::scene::place::Place;
 use crate::scene::{
     BodyId, CouplingMeasure, Joint, JointId, SceneError, Signal, Surroundings, UserLaw,
 };

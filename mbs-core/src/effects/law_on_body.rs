@@ -111,7 +111,7 @@ mod data {
         }
         fn actions(&self, to: &mut Compiler<'_, T>) {
             let law = to.body_code(&self.law, &self.input);
-            to.on_body((self.body, self.at), crate::actions::direction_of(self.axis), law);
+            to.on_body((self.body, self.at), crate::effects::action::direction_of(self.axis), law);
         }
         fn drawn_as(&self) -> EffectPicture<T> {
             EffectPicture::Nothing

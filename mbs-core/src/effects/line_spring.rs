@@ -5,11 +5,10 @@
 //! ```
 
 use crate::Real;
-use crate::laws::LawInputs;
-use crate::laws::bumper;
 use crate::laws::entry::entry;
 use crate::laws::operations::Operations;
 use crate::laws::scalar::{ScalarForce, TensionLaw};
+use crate::laws::{LawInputs, bumper};
 
 /// Pulls where the value has risen above `free`, never pushes: see [`contact`](crate::laws::bumper).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -74,9 +73,9 @@ pub(super) use data::law_of;
 mod data {
     use super::PullLaw;
     use crate::algebra::{self, norm};
+    use crate::effects::Law;
     use crate::effects::data::*;
     use crate::effects::spring_damper::SpringDamperLaw;
-    use crate::laws::scalar::Law;
 
     effect! {
         /// Spring and damper along a line over points of bodies, with one tension: an elastic rope without friction.

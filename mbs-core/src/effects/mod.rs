@@ -2,7 +2,10 @@
 //! all.
 
 #[cfg(feature = "alloc")]
+pub(crate) mod action;
+#[cfg(feature = "alloc")]
 mod answers;
+pub mod apart;
 #[cfg(feature = "alloc")]
 mod data;
 #[cfg(feature = "alloc")]
@@ -13,6 +16,8 @@ mod field;
 mod kind;
 mod law;
 mod list;
+#[cfg(feature = "alloc")]
+pub(crate) mod reference;
 mod table;
 
 #[cfg(feature = "alloc")]
@@ -32,11 +37,11 @@ pub use law::{BodyLaw, Law, laws};
 #[cfg(feature = "alloc")]
 use crate::Real;
 #[cfg(feature = "alloc")]
-use crate::actions::Compiler;
-#[cfg(feature = "alloc")]
-use crate::scene::check::Place;
+use crate::scene::place::Place;
 #[cfg(feature = "alloc")]
 use crate::scene::{Joint, SceneError, Signal, Surroundings};
+#[cfg(feature = "alloc")]
+use action::Compiler;
 #[cfg(feature = "alloc")]
 use alloc::vec::Vec;
 

@@ -140,7 +140,7 @@ mod data {
         let piece = |p: &PolynomialPiece<T>| Piece::new([p.lower, p.upper], &p.coefficients);
         all.extend(pieces.iter().filter_map(piece));
         link(&mut all[first..]);
-        PolynomialLaw { pieces: crate::actions::part(first, all.len()), of_rate }
+        PolynomialLaw { pieces: crate::effects::action::part(first, all.len()), of_rate }
     }
 
     impl<T: Real> EffectModel<T> for Polynomial<T> {
@@ -164,7 +164,7 @@ mod data {
             match self.direction {
                 None => to.length(self.bodies, self.points, law),
                 Some(d) => {
-                    let direction = crate::actions::direction_of(d);
+                    let direction = crate::effects::action::direction_of(d);
                     to.along(self.bodies, self.points, direction, law);
                 }
             }

@@ -4,7 +4,7 @@
 //! E = inertia (ratio q')^2 / 2          nothing else: no moment on the housing but that about the joint's axis
 //! ```
 //!
-//! It is an inertia and no force: models take it from [`RotorInput`](crate::measure::RotorInput).
+//! It is an inertia and no force: models take it from [`RotorInput`](crate::mechanism::RotorInput).
 
 #[cfg(feature = "alloc")]
 pub use data::Rotor;

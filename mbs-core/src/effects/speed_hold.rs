@@ -84,7 +84,7 @@ mod data {
             let &Self { body, direction, speed, gain, limit } = self;
             let Some(index) = body.index() else { return };
             let at = to.among.bodies[index].mass_properties().1.into();
-            let axis = crate::actions::direction_of(direction);
+            let axis = crate::effects::action::direction_of(direction);
             to.on_body((body, at), axis, SpeedHoldLaw { speed, gain, limit });
         }
         fn drawn_as(&self) -> EffectPicture<T> {

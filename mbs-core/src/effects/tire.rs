@@ -10,8 +10,9 @@ mod data {
     use super::TireLaw;
     use crate::algebra::unit;
     use crate::effects::data::*;
-    use crate::scene::check::is_parallel;
-    use crate::scene::{Axis, CalspanCoefficients, LongitudinalSlip};
+    use crate::joint::Axis;
+    use crate::scene::place::is_parallel;
+    use crate::scene::{CalspanCoefficients, LongitudinalSlip};
 
     effect! {
         /// A wheel on the scene's road.
@@ -86,7 +87,7 @@ mod data {
                 up: to.among.dimension.count() - 1,
                 leans: axis.is_some() && !to.is_planar(),
             };
-            let axis = axis.map_or_else(|| unit(2).into(), crate::actions::direction_of);
+            let axis = axis.map_or_else(|| unit(2).into(), crate::effects::action::direction_of);
             to.on_body((body, self.center), axis, law);
         }
         fn drawn_as(&self) -> EffectPicture<T> {

@@ -97,9 +97,9 @@ pub use data::Own;
 mod data {
     use super::{UserBodyEntry, UserScalarEntry};
     use crate::effects::data::*;
+    use crate::effects::reference::{check_coordinate, check_pair, known_body};
     use crate::effects::{EffectData, Field, SignalForm, Value};
     use crate::scene::UserLaw;
-    use crate::scene::check::{check_coordinate, check_pair, known_body};
 
     /// A law of a user's own, in code only.
     #[derive(Debug, Clone, PartialEq)]
@@ -159,7 +159,7 @@ mod data {
                     to.on_joint((joint, None), UserScalarEntry { law, course });
                 }
                 UserLaw::Body { body, at, axis, law } => {
-                    let axis = crate::actions::direction_of(axis);
+                    let axis = crate::effects::action::direction_of(axis);
                     to.on_body((body, at), axis, UserBodyEntry { law, course });
                 }
             }

@@ -4,7 +4,6 @@
 //! ask for its place, velocity and spin. A law whose Cargo feature is off is not compiled; springs, dampers and given forces
 //! always are.
 
-pub mod apart;
 pub mod body;
 pub mod bumper;
 pub mod calspan;
@@ -27,5 +26,6 @@ pub mod spin;
 pub mod tire;
 pub mod user;
 
+pub use crate::effects::apart;
 pub use law_inputs::{CurvatureEntry, FeatureEntry, KnotEntry, LawInputs, LawTables, PieceEntry};
 pub use part::Part;

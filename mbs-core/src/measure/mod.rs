@@ -2,48 +2,23 @@
 //!
 //! Held, such a sum is a [coupling](crate::scene::Coupling). Here too: where something that rolls touches its plane.
 
-#[cfg(feature = "alloc")]
-mod acting;
 mod arguments;
 mod contact;
-#[cfg(feature = "alloc")]
-mod coupling;
 mod curve;
 #[cfg(feature = "alloc")]
-mod given;
-#[cfg(feature = "alloc")]
-mod mesh;
-#[cfg(feature = "alloc")]
-mod monotone;
-#[cfg(feature = "alloc")]
-mod rolling;
-#[cfg(feature = "alloc")]
-mod rotor;
-#[cfg(feature = "alloc")]
-mod strands;
-#[cfg(feature = "alloc")]
-mod term;
+mod prepared;
 
 #[cfg(feature = "alloc")]
-pub(crate) use acting::Acting;
+pub use crate::{
+    inputs::CouplingInput,
+    mechanism::{RotorInput, given_values},
+};
 pub use arguments::Arguments;
 pub use contact::{Moving, lies_flat, lowest_place, lowest_point};
 #[cfg(feature = "alloc")]
-pub use coupling::CouplingInput;
-#[cfg(feature = "alloc")]
-pub use curve::PreparedCurve;
-#[cfg(feature = "alloc")]
-pub(crate) use curve::{knots, within};
+pub(crate) use curve::within;
 pub use curve::{polynomial, polynomial_change, spline_change, spline_curve};
 #[cfg(feature = "alloc")]
-pub use given::given_values;
+pub(crate) use prepared::knots;
 #[cfg(feature = "alloc")]
-pub(crate) use mesh::MeshedWheels;
-#[cfg(feature = "alloc")]
-pub use rolling::RollingInput;
-#[cfg(feature = "alloc")]
-pub use rotor::RotorInput;
-#[cfg(feature = "alloc")]
-pub(crate) use strands::Strands;
-#[cfg(feature = "alloc")]
-pub use term::TermInput;
+pub use prepared::{PreparedCurve, RollingInput, TermInput};

@@ -3,9 +3,10 @@
 use super::layout::effect_of;
 use super::model::NaturalModel;
 use crate::Real;
-use crate::actions::{Action, Actions};
+use crate::effects::action::{Action, Actions};
+use crate::joint::Freedom;
+use crate::mechanism::Scene;
 use crate::model::Owner;
-use crate::scene::{Freedom, Scene};
 use alloc::vec::Vec;
 
 /// An angle of a joint that a state remembers.

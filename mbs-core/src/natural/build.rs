@@ -7,12 +7,13 @@ use super::row_builder::{Constants, GroupDraft, MeasureDraft, RowDraft};
 use super::sharing::{Entity, EntityKind, Sharing};
 use super::thin_rods::ThinRods;
 use crate::Real;
-use crate::actions::Actions;
 use crate::algebra::Vector;
 use crate::cluster::{Clusters, scene_length};
-use crate::measure::RotorInput;
+use crate::effects::action::Actions;
+use crate::joint::Dimension;
+use crate::mechanism::{RotorInput, Scene};
 use crate::model::Owner;
-use crate::scene::{BodyId, Dimension, Scene};
+use crate::scene::BodyId;
 use alloc::vec::Vec;
 
 /// Dependent entities that share an element with their body [-]. Each further one is an element of its own, as the block of a hub with

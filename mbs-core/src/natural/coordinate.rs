@@ -13,7 +13,8 @@ use super::model::NaturalModel;
 use super::row_builder::difference;
 use crate::Real;
 use crate::algebra::Vector;
-use crate::scene::{BodyId, Dimension, Freedom, Joint};
+use crate::joint::{Dimension, Freedom};
+use crate::scene::{BodyId, Joint};
 
 /// The points and directions that a freedom is measured by.
 #[derive(Debug, Clone)]

@@ -12,9 +12,11 @@ use crate::elements::{
     Coupled, CoupledForm, CoupledTables, Curves, Measurand, NONE, Span, add_measure_gradient,
     combine, has_collapsed, measured_value,
 };
-use crate::measure::{Arguments, CouplingInput, PreparedCurve, TermInput};
+use crate::inputs::CouplingInput;
+use crate::joint::Dimension;
+use crate::measure::{Arguments, PreparedCurve, TermInput};
 use crate::model::{Owner, Terms};
-use crate::scene::{BallAngle, BodyId, CouplingMeasure, Dimension, transverse};
+use crate::scene::{BallAngle, BodyId, CouplingMeasure, transverse};
 use alloc::vec;
 use alloc::vec::Vec;
 

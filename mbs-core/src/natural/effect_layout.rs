@@ -7,8 +7,8 @@ use super::layout::{Columns, Layout, extend};
 use super::on_body::BodyElement;
 use super::row_builder::{CoupledDraft, EffectDraft, GroupDraft};
 use crate::Real;
+use crate::effects::Law;
 use crate::elements::{Measurand, Signed, Span};
-use crate::laws::scalar::Law;
 use alloc::vec;
 
 impl<T: Real, const D: usize> Layout<T, D> {

@@ -6,12 +6,13 @@ use super::coordinate::{Coordinate, Places};
 use super::error::ModelError;
 use super::row_builder::{EffectDraft, GroupDraft, difference, lifted};
 use crate::Real;
-use crate::actions::{Action, Attachment};
 use crate::algebra::{Vector, unit};
+use crate::effects::Law;
+use crate::effects::action::{Action, Attachment};
 use crate::effects::joint_torque::TorqueLaw;
-use crate::laws::scalar::Law;
+use crate::joint::Dimension;
 use crate::model::Owner;
-use crate::scene::{BodyId, Dimension};
+use crate::scene::BodyId;
 use alloc::vec::Vec;
 
 impl<T: Real> Builder<'_, T> {

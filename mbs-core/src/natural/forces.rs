@@ -9,9 +9,10 @@
 use super::rotation::{rotation, unwrap};
 use crate::Real;
 use crate::algebra::{Vector, cross, lowered, norm, raised};
+use crate::effects::Law;
 use crate::elements::{CoupledTables, Curves, Span, Term, combine};
 use crate::laws::LawInputs;
-use crate::laws::scalar::{Law, ScalarForce};
+use crate::laws::scalar::ScalarForce;
 
 /// Quantity that a scalar law measures, by combinations of entities.
 #[derive(Debug, Clone, Copy, PartialEq)]

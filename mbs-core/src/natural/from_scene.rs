@@ -5,9 +5,9 @@ use super::error::ModelError;
 use super::layout::layout;
 use super::model::NaturalModel;
 use crate::Real;
-use crate::actions::Actions;
-use crate::scene::Scene;
-use crate::scene::align::aligned;
+use crate::effects::action::Actions;
+use crate::mechanism::Scene;
+use crate::mechanism::align::aligned;
 
 #[cfg(feature = "instances")]
 type New<T, const D: usize> = fn(&Scene<T>) -> Result<NaturalModel<T, D>, ModelError>;

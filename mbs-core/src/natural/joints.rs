@@ -15,7 +15,8 @@ use super::coordinate::{Coordinate, Places};
 use super::row_builder::{RowDraft, difference};
 use crate::Real;
 use crate::algebra::{Vector, norm, unit};
-use crate::scene::{Axis, Joint, Rotation};
+use crate::joint::{Axis, Rotation};
+use crate::scene::Joint;
 use alloc::vec::Vec;
 
 impl<T: Real> Builder<'_, T> {

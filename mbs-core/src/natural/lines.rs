@@ -4,8 +4,8 @@ use super::forces::Measure;
 use super::group::index;
 use super::model::NaturalModel;
 use crate::Real;
+use crate::effects::apart::is_apart;
 use crate::elements::{Span, combine, measured_value};
-use crate::laws::apart::is_apart;
 use crate::model::{Owner, State};
 use crate::step::StepError;
 

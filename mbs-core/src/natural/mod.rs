@@ -39,6 +39,7 @@ pub(crate) mod spatial_index;
 mod thin_rods;
 mod threaded;
 
+pub use crate::cluster::TOLERANCE;
 pub use affine::Affine;
 pub(crate) use affine::Shape;
 pub use angle_memory::RememberedAngle;
@@ -48,6 +49,4 @@ pub use error::ModelError;
 pub(crate) use group::{add_squares, index, packed};
 pub use model::{NaturalModel, NaturalRotor};
 pub use rotation::{unwrap, unwrap_rotation};
-pub use sharing::TOLERANCE;
-pub(crate) use sharing::tolerance as point_tolerance;
 pub use threaded::Threaded;

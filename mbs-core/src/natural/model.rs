@@ -7,10 +7,10 @@ use super::group::Group;
 use super::incidence::Incidence;
 use super::on_body::BodyElement;
 use crate::Real;
-use crate::actions::Tables;
 use crate::algebra::{Coef, Vector};
 use crate::blocks::Cliques;
 use crate::cluster::Clusters;
+use crate::effects::action::Tables;
 use crate::elements::{
     Coupled, CoupledTerm, Distance, Dot, Guided, Linear, RollingRows, Signed, Span, Term,
 };

@@ -7,9 +7,10 @@
 
 use crate::Real;
 use crate::algebra::{Vector, cross, lowered, raised};
+use crate::effects::BodyLaw;
 use crate::elements::{Span, Term, add_gradient, combine};
 use crate::laws::LawInputs;
-use crate::laws::body::{BodyLaw, BodyMotion, MAX_ACTIONS, UnitWrench};
+use crate::laws::body::{BodyMotion, MAX_ACTIONS, UnitWrench};
 use crate::laws::scalar::ScalarForce;
 
 /// A law on a body, with its rows' place in the Jacobian store and its measures' place among the measures.

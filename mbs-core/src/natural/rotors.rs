@@ -16,7 +16,8 @@ use crate::algebra::{Coef, Vector, unit};
 use crate::elements::{
     CoupledForm, Measurand, Signed, Span, combine, measured_value, rate_and_bias,
 };
-use crate::measure::{PreparedCurve, RotorInput};
+use crate::measure::PreparedCurve;
+use crate::mechanism::RotorInput;
 use crate::model::{Owner, State};
 use crate::scene::BodyId;
 use alloc::vec;

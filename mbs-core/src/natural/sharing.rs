@@ -1,19 +1,18 @@
 //! Points and directions that bodies share, by union-find over (body, point) and (body, direction) in file order.
 //!
 //! The rule: a joint names what its two bodies keep common. A point (direction) named again on the same body at the
-//! same place (parallel, either sign) within [`TOLERANCE`] of the scene's length is the same feature. Features joined by
+//! same place (parallel, either sign) within [`TOLERANCE`](crate::cluster::TOLERANCE) of the scene's length is the same feature. Features joined by
 //! any chain of joints are one *entity*. An entity that the ground has is a constant.
 
 use super::spatial_index::SpatialIndex;
 use crate::Real;
 use crate::algebra::{Vector, cross, norm};
-use crate::cluster::{Clusters, root};
-use crate::scene::{Dimension, Joint, Scene, Translation};
+use crate::cluster::{Clusters, point_tolerance, root};
+use crate::joint::{Dimension, Translation};
+use crate::mechanism::Scene;
+use crate::scene::Joint;
 use alloc::collections::BTreeSet;
 use alloc::vec::Vec;
-
-/// Distance below which features are one, relative to the scene's length (points) or as an angle (directions) [-]. Chosen, not tuned.
-pub const TOLERANCE: f64 = 1e-9;
 
 /// Kind of an entity: a point or a direction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -55,10 +54,10 @@ impl<T: Real> Sharing<T> {
             features: Vec::new(),
             parent: Vec::new(),
             by_owner: Vec::new(),
-            tolerance: length * tolerance::<T>(),
+            tolerance: length * point_tolerance::<T>(),
         };
         table.by_owner.resize_with(clusters.clusters.len() + 1, || {
-            [SpatialIndex::new(table.tolerance), SpatialIndex::new(tolerance::<T>())]
+            [SpatialIndex::new(table.tolerance), SpatialIndex::new(point_tolerance::<T>())]
         });
         for joint in &scene.joints {
             let owners = joint.bodies.map(|b| clusters.of(b));
@@ -70,14 +69,6 @@ impl<T: Real> Sharing<T> {
         }
         table.collect(clusters.clusters.len())
     }
-}
-
-/// Least tolerance, in units of rounding [-]: it counts in `f32` alone. Chosen, not tuned.
-const ROUNDINGS: f64 = 64.0;
-
-/// [`TOLERANCE`], or [`ROUNDINGS`] where the scalar has fewer digits.
-pub(crate) fn tolerance<T: Real>() -> T {
-    T::from_f64(TOLERANCE).max(T::EPSILON * T::from_f64(ROUNDINGS))
 }
 
 /// Point and direction that a joint keeps common, where it has them.
@@ -120,7 +111,8 @@ impl<T: Real> Table<T> {
                 (points, found)
             }
             EntityKind::Direction => {
-                let same = |f: usize| norm(&cross(&features[f].at, &at)) <= self::tolerance::<T>();
+                let same =
+                    |f: usize| norm(&cross(&features[f].at, &at)) <= self::point_tolerance::<T>();
                 let found = directions.first(&[at, -at], same, place);
                 (directions, found)
             }

@@ -1,10 +1,12 @@
 //! Spatial rods that may stay two points: only balls hold them, every point used lies on them, nothing needs their spin.
 
 use crate::Real;
-use crate::actions::{Actions, Need, needs};
+use crate::actions::{Need, needs};
 use crate::algebra::{Vector, cross, norm};
 use crate::cluster::{Cluster, Clusters};
-use crate::scene::{BodyId, Scene};
+use crate::effects::action::Actions;
+use crate::mechanism::Scene;
+use crate::scene::BodyId;
 use alloc::vec;
 use alloc::vec::Vec;
 
@@ -23,7 +25,7 @@ impl<T: Real> ThinRods<T> {
         clusters: &Clusters<T>,
         length: T,
     ) -> Self {
-        let relative = super::sharing::tolerance::<T>();
+        let relative = crate::cluster::point_tolerance::<T>();
         let mut ends = vec![None; scene.bodies.len()];
         for cluster in &clusters.clusters {
             if let Some(rod) = cluster.rod {

@@ -8,9 +8,9 @@ use super::frame::Frame;
 use super::quantity::magnitudes;
 use crate::Real;
 use crate::algebra::Vector;
+use crate::mechanism::{Output, Scene};
 use crate::model::State;
 use crate::natural::NaturalModel;
-use crate::scene::{Output, Scene};
 use alloc::vec::Vec;
 use core::ops::Range;
 

@@ -8,9 +8,9 @@
 use super::cubic::Cubic;
 use super::load::{Gap, Loads, MOST_GAPS};
 use crate::Real;
+use crate::mechanism::Scene;
 use crate::model::State;
 use crate::natural::{ModelError, NaturalModel};
-use crate::scene::Scene;
 use alloc::vec;
 use alloc::vec::Vec;
 

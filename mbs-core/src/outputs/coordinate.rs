@@ -4,9 +4,11 @@ use super::frame::Frame;
 use super::wrench::Wrench;
 use crate::Real;
 use crate::algebra::{Vector, cross, norm, raised, rotation_vector, unit};
+use crate::joint::{Freedom, Rotation};
+use crate::mechanism::Scene;
 use crate::model::State;
 use crate::natural::{self, Affine, NaturalModel, Places, unwrap, unwrap_rotation};
-use crate::scene::{BodyId, Freedom, Joint, JointId, Rotation, Scene};
+use crate::scene::{BodyId, Joint, JointId};
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 

@@ -11,10 +11,10 @@ use super::coordinate::Coordinate;
 use super::wrench::{Applied, Wrench};
 use crate::Real;
 use crate::algebra::{Vector, cross, raised};
-use crate::measure::Acting;
+use crate::mechanism::{Acting, Scene};
 use crate::model::State;
 use crate::natural::{Affine, NaturalModel};
-use crate::scene::{BodyId, Coupling, Scene};
+use crate::scene::{BodyId, Coupling};
 
 /// A force that acts elsewhere than along the coordinates of its coupling.
 #[derive(Debug, Clone)]

@@ -29,9 +29,9 @@ use super::load::{Gap, Load, Loads, N_READING, Reading};
 use crate::Real;
 use crate::control::Event;
 use crate::laws::corner::LawCorner;
+use crate::mechanism::Scene;
 use crate::model::State;
 use crate::natural::{ModelError, NaturalModel};
-use crate::scene::Scene;
 use alloc::vec::Vec;
 
 /// Compares gaps and kinks at the ends of trial steps with those at their beginning.

@@ -8,9 +8,10 @@ use crate::Real;
 use crate::algebra::Matrix;
 use crate::laws::body::TireForces;
 use crate::laws::scalar::ScalarForce;
+use crate::mechanism::Scene;
 use crate::model::State;
 use crate::natural::{ModelError, NaturalModel};
-use crate::scene::{BodyId, Scene};
+use crate::scene::BodyId;
 use alloc::vec::Vec;
 
 /// The wrenches of a scene's effects.

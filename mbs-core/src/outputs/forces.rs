@@ -4,9 +4,9 @@ use super::error::ReactionError;
 use super::exerted::EffectWrenches;
 use super::reaction::Reactions;
 use crate::Real;
+use crate::mechanism::{Output, Scene};
 use crate::model::State;
 use crate::natural::NaturalModel;
-use crate::scene::{Output, Scene};
 
 /// Reactions and effects, where outputs of a scene ask for them.
 #[derive(Debug, Clone)]

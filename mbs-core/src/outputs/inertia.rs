@@ -10,9 +10,10 @@
 use super::frame::Frame;
 use crate::Real;
 use crate::algebra::{Matrix, Vector, cross, raised};
+use crate::mechanism::Scene;
 use crate::model::State;
 use crate::natural::{Affine, NaturalModel};
-use crate::scene::{BodyId, Scene};
+use crate::scene::BodyId;
 
 /// A body with its mass.
 #[derive(Debug, Clone)]

@@ -31,6 +31,7 @@ mod tooth_force;
 mod turns;
 mod wrench;
 
+pub use crate::scene::{Quantity, RelativePoint, Target, VehicleSide, WheelCarrier};
 pub use contact::{Contacts, Instant, MOST_INSTANTS};
 pub use coordinate::CoordinateMotion;
 pub use error::ReactionError;
@@ -39,9 +40,8 @@ pub use exerted::EffectWrenches;
 pub use forces::Forces;
 pub use measure::{Measures, start_values};
 pub use quantity::{
-    Component, ComponentForm, Magnitude, OutputPicture, QUANTITIES, Quantity, QuantityDefinition,
-    QuantityRow, RelativePoint, Target, TargetKind, VehicleSide, WheelCarrier, in_radians,
-    magnitudes,
+    Component, ComponentForm, Magnitude, OutputPicture, QUANTITIES, QuantityDefinition,
+    QuantityRow, TargetKind, in_radians, magnitudes,
 };
 pub use reaction::{LARGEST_BLOCK, Reactions};
 pub use turns::Turns;

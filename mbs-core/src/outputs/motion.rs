@@ -3,10 +3,11 @@
 use super::frame::Frame;
 use crate::Real;
 use crate::algebra::{Vector, raised};
+use crate::mechanism::Scene;
 use crate::model::State;
 use crate::natural::NaturalModel;
 use crate::rigid::RigidMotion;
-use crate::scene::{BodyId, Scene};
+use crate::scene::BodyId;
 
 impl<T: Real, const D: usize> NaturalModel<T, D> {
     /// The motion of `scene.bodies[body]` about its centre of mass at a state. A thin rod on balls has no spin about itself:

@@ -20,9 +20,10 @@ use super::rotor::RotorTorque;
 use super::wrench::{Applied, Wrench, WrenchBasis};
 use crate::Real;
 use crate::algebra::{Matrix, Vector, cross, raised};
+use crate::mechanism::Scene;
 use crate::model::State;
 use crate::natural::{ModelError, NaturalModel};
-use crate::scene::{BodyId, Scene};
+use crate::scene::BodyId;
 use alloc::vec;
 use alloc::vec::Vec;
 

@@ -8,10 +8,9 @@ use super::coupled_sum::Part;
 use super::wrench::Applied;
 use crate::Real;
 use crate::laws::scalar::ScalarForce;
-use crate::measure::RotorInput;
+use crate::mechanism::{RotorInput, Scene};
 use crate::model::State;
 use crate::natural::NaturalModel;
-use crate::scene::Scene;
 use alloc::vec::Vec;
 
 /// Enabled rotor of a scene.

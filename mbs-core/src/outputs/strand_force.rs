@@ -11,10 +11,10 @@ use super::coordinate::Coordinate;
 use super::wrench::{Applied, Wrench};
 use crate::Real;
 use crate::algebra::{Vector, raised};
-use crate::measure::Strands;
+use crate::mechanism::{Scene, Strands};
 use crate::model::State;
 use crate::natural::{Affine, NaturalModel};
-use crate::scene::{Coupling, CouplingKind, Scene};
+use crate::scene::{Coupling, CouplingKind};
 
 /// The forces of strands.
 #[derive(Debug, Clone)]

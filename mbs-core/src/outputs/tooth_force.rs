@@ -12,10 +12,10 @@ use super::coordinate::Coordinate;
 use super::wrench::{Applied, Wrench};
 use crate::Real;
 use crate::algebra::{Vector, cross, norm, raised};
-use crate::measure::MeshedWheels;
+use crate::mechanism::{MeshedWheels, Scene};
 use crate::model::State;
 use crate::natural::{Affine, NaturalModel};
-use crate::scene::{BodyId, Coupling, CouplingKind, Scene};
+use crate::scene::{BodyId, Coupling, CouplingKind};
 
 /// The force of teeth.
 #[derive(Debug, Clone)]

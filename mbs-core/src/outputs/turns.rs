@@ -9,9 +9,9 @@
 
 use super::coordinate::Coordinate;
 use crate::Real;
+use crate::mechanism::Scene;
 use crate::model::State;
 use crate::natural::NaturalModel;
-use crate::scene::Scene;
 use crate::step::StepError;
 use alloc::vec::Vec;
 

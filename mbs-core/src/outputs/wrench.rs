@@ -14,11 +14,11 @@
 use super::frame::normalised;
 use crate::Real;
 use crate::algebra::{Matrix, Vector, cross, raised, unit};
+use crate::joint::{Axis, Dimension, Freedom, Rotation, Translation};
 use crate::measure::{RollingInput, lowest_place};
+use crate::mechanism::Scene;
 use crate::natural::{Affine, NaturalModel};
-use crate::scene::{
-    Axis, BodyId, Dimension, Freedom, Joint, Rotation, Scene, Translation, transverse,
-};
+use crate::scene::{BodyId, Joint, transverse};
 use alloc::vec::Vec;
 
 /// Wrench with its place: a body and, for a force, a point.

@@ -1,8 +1,9 @@
 //! Directions of a joint in the reference configuration, by its freedoms.
 
-use super::{Axis, Dimension, Freedom, Joint, Rotation, Translation};
+use super::Joint;
 use crate::Real;
 use crate::algebra::{Vector, across, along, cross, unit};
+use crate::joint::{Axis, Dimension, Freedom, Rotation, Translation};
 
 /// Two directions across `axis`, the second a quarter turn after the first, right-handed about the axis.
 pub fn transverse<T: Real>(axis: &Vector<T, 3>, dimension: Dimension) -> [Vector<T, 3>; 2] {

@@ -1,6 +1,7 @@
 //! Bodies, joints, initial conditions and guides.
 
-use crate::scene::{BodyId, Dimension, JointId, JointKind, NamedSignal, Road, SignalId, TableEnds};
+use crate::joint::{Dimension, JointKind};
+use crate::scene::{BodyId, JointId, NamedSignal, Road, SignalId, TableEnds};
 use alloc::string::String;
 use alloc::vec::Vec;
 

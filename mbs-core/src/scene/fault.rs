@@ -1,6 +1,7 @@
 //! Faults that a scene can have, and what to do about them.
 
-use super::{BodyId, Dimension, JointKind, NotDrawn, NotStrands};
+use super::{BodyId, NotDrawn, NotStrands};
+use crate::joint::{Dimension, JointKind};
 use crate::laws::relation::RelationFault;
 use crate::scene::SignalBreak;
 use core::fmt::{self, Display, Formatter};

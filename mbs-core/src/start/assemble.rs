@@ -9,10 +9,10 @@ use super::sweeps::Assembly;
 use crate::Real;
 use crate::algebra::norm_inf;
 use crate::blocks::SpdSolver;
+use crate::mechanism::Scene;
 use crate::model::{Model, State};
 use crate::natural::NaturalModel;
 use crate::rigid::RigidMotion;
-use crate::scene::Scene;
 
 /// A consistent state, and what was done to get it.
 #[derive(Debug, Clone, PartialEq)]

@@ -2,8 +2,10 @@
 
 use crate::Real;
 use crate::algebra::{Matrix, Vector, cross, lowered, raised, rotation, unit};
+use crate::joint::Dimension;
+use crate::mechanism::Scene;
 use crate::natural::{Affine, Coordinate, NaturalModel, Places, unwrap};
-use crate::scene::{BodyId, Dimension, Inertia, InitialTarget, Joint, Scene};
+use crate::scene::{BodyId, Inertia, InitialTarget, Joint};
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 

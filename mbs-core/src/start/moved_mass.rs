@@ -10,11 +10,11 @@ use super::hold::StartRow;
 use super::problem::Problem;
 use super::sweeps::Assembly;
 use crate::dense::Dense;
+use crate::joint::Dimension;
+use crate::mechanism::{Effect, Scene};
 use crate::model::{Model, State};
 use crate::natural::NaturalModel;
-use crate::scene::{
-    Coupling, CouplingMeasure, CouplingTerm, Dimension, Effect, Guide, JointId, Motion, Scene,
-};
+use crate::scene::{Coupling, CouplingMeasure, CouplingTerm, Guide, JointId, Motion};
 use alloc::vec;
 use alloc::vec::Vec;
 

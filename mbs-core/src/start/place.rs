@@ -3,9 +3,10 @@
 use crate::Real;
 use crate::algebra::{Matrix, Vector, rotation};
 use crate::cluster::Clusters;
-use crate::measure::given_values;
+use crate::joint::{Dimension, Freedom};
+use crate::mechanism::{Scene, given_values};
 use crate::rigid::RigidMotion;
-use crate::scene::{BodyId, Dimension, Freedom, Joint, Scene};
+use crate::scene::{BodyId, Joint};
 use alloc::vec;
 use alloc::vec::Vec;
 

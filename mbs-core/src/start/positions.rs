@@ -13,13 +13,12 @@ use super::place::Placement;
 use super::problem::{Level, MAX_SWEEPS, SLOW_RATIO, raises};
 use super::sweeps::Assembly;
 use crate::Real;
-use crate::actions::{Action, Actions};
 use crate::blocks::{Cliques, SpdSolver};
-use crate::measure::given_values;
+use crate::effects::action::{Action, Actions};
+use crate::mechanism::{Scene, given_values};
 use crate::model::{Model, Owner, State};
 use crate::natural::NaturalModel;
 use crate::outputs::start_values;
-use crate::scene::Scene;
 use alloc::vec::Vec;
 
 /// Sweeps without halving the smallest residual after which the search ends [-]: entries that contradict each other drift. Chosen, not tuned.

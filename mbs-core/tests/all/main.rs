@@ -5,6 +5,7 @@ mod small;
 
 mod axes;
 mod balls;
+mod check;
 mod codes;
 mod control;
 mod coupling_kinds;
@@ -49,6 +50,10 @@ mod laws {
     mod tire;
 }
 
+mod mechanism {
+    mod align;
+}
+
 mod measure {
     mod curve;
     mod monotone;
@@ -57,10 +62,4 @@ mod measure {
 mod natural {
     mod coordinate_sets;
     mod spatial_index;
-}
-
-mod scene {
-    mod align;
-    mod check;
-    mod drawn;
 }

@@ -10,4 +10,3 @@ pub use bytes::bytes;
 pub use collect::{Collected, elements, needs};
 pub use signals::MovingSignal;
 pub use source::source;
-pub(crate) use source::{Source, close, name, open};

@@ -1,11 +1,9 @@
 //! Force laws and their tables, whose numbers mbs-core lists.
 
 #[cfg(feature = "export")]
-use super::Bytes;
+use super::{Bytes, Source};
 use super::{Reader, Record};
 use crate::check::LoadError;
-#[cfg(feature = "export")]
-use crate::export::Source;
 #[cfg(feature = "export")]
 use alloc::string::String;
 use mbs_core::Real;

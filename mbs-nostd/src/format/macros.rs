@@ -15,12 +15,12 @@ macro_rules! record_struct {
             }
             #[cfg(feature = "export")]
             fn source(&self, to: &mut alloc::string::String) {
-                $crate::export::open(stringify!($name), to);
+                $crate::format::open(stringify!($name), to);
                 $(
-                    $crate::export::name(stringify!($field), to);
+                    $crate::format::name(stringify!($field), to);
                     $crate::format::Record::source(&self.$field, to);
                 )*
-                $crate::export::close(to);
+                $crate::format::close(to);
             }
         }
     };
@@ -66,15 +66,15 @@ macro_rules! record_enum {
                     $(
                         $(#[$meta])*
                         $name::$variant { $($field: $own),* } => {
-                            $crate::export::open(
+                            $crate::format::open(
                                 concat!(stringify!($name), "::", stringify!($variant)),
                                 to,
                             );
                             $(
-                                $crate::export::name(stringify!($field), to);
+                                $crate::format::name(stringify!($field), to);
                                 $crate::format::Record::source($own, to);
                             )*
-                            $crate::export::close(to);
+                            $crate::format::close(to);
                         }
                     )*
                     _ => to.push_str("NotExported"),

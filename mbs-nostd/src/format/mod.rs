@@ -11,11 +11,15 @@ mod laws;
 mod macros;
 mod numbers;
 mod signals;
+#[cfg(feature = "export")]
+mod source;
 mod tables;
 
 #[cfg(feature = "export")]
 pub use bytes::Bytes;
 pub use numbers::Axes;
+#[cfg(feature = "export")]
+pub(crate) use source::{Source, close, name, open};
 
 use crate::check::LoadError;
 

@@ -1,6 +1,6 @@
 //! The terms that a page uses, from the one text of the glossary: docs/GLOSSARY.md has the same, which a test compares.
 
-use super::text::escape;
+use crate::text::escape;
 use core::fmt::Write;
 
 /// The glossary as Markdown: a paragraph for each term, which begins with the term in bold.

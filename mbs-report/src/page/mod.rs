@@ -20,7 +20,6 @@ mod statistics;
 mod sweep;
 #[cfg(test)]
 pub(crate) mod tests;
-mod text;
 
 pub(crate) use diagram::{Diagram, DiagramLine, Look};
 pub(crate) use motion::still_view;
@@ -29,4 +28,3 @@ pub use results::{difference_page, plots_page};
 pub use run::{paced_page, page};
 pub(crate) use section::{DiagramFrame, Page, PageSection};
 pub use sweep::sweep_page;
-pub(crate) use text::escape;

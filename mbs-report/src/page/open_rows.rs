@@ -1,7 +1,7 @@
 //! A table whose rows open: each has a table of its own below it, without scripts.
 
-use super::text::escape;
 use crate::table::Section;
+use crate::text::escape;
 use core::fmt::Write;
 
 /// A table whose rows open.

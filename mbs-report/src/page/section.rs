@@ -2,8 +2,8 @@
 
 use super::glossary;
 use super::open_rows::OpenRows;
-use super::text::{escape, fill};
 use crate::table::Section;
+use crate::text::{escape, fill};
 use core::fmt::Write;
 
 /// The frame of all pages.

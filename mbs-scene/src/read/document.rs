@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 /// A scene file: syntax tree, texts and name. Numbers are decimal text. What it includes is in its tree.
 #[derive(Debug, Clone, Default)]
 pub struct SceneFile {
-    pub(super) texts: Texts,
+    pub(crate) texts: Texts,
     pub(super) root: Vec<Member>,
     /// Folder of the files that the scene may include; `None`: it may include none.
     pub(super) folder: Option<PathBuf>,

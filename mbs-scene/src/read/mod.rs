@@ -4,7 +4,7 @@ mod body;
 mod columns;
 mod coupling;
 mod document;
-mod edit;
+pub(crate) mod edit;
 mod effect;
 mod error;
 pub(crate) mod expression;

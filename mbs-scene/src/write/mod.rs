@@ -1,5 +1,6 @@
 //! A scene as text: TOML, and serde both ways.
 
+mod edited;
 mod scene;
 mod serde;
 pub(crate) mod toml;

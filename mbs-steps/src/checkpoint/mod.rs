@@ -12,19 +12,15 @@ mod error;
 mod file;
 mod history;
 mod identity;
-mod rows;
-mod simulation;
 mod snapshot;
 pub mod tape;
-mod writer;
 
+pub use crate::kept::{CheckpointWriter, FILE, Head, write_rows};
 pub use error::CheckpointError;
 pub use file::Checkpoint;
-pub use writer::{CheckpointWriter, FILE};
 
 pub use file::{Kind, whole};
 pub use identity::Identity;
-pub use rows::{Head, write_rows};
 pub use snapshot::{ControlSnapshot, SimulationSnapshot, inputs};
 
 #[cfg(doc)]

@@ -85,8 +85,8 @@ mod error;
 mod ladder;
 mod measure;
 mod summary;
-mod words;
 
+pub use crate::words::paced::rows;
 pub use document::run_document;
 pub use error::PacingError;
 pub use mbs_realtime::{
@@ -94,10 +94,9 @@ pub use mbs_realtime::{
     SystemClock, Task, Work,
 };
 pub use summary::OVERRUNS;
-pub use words::rows;
 
+pub use crate::words::paced::note;
 pub use summary::summary;
-pub use words::note;
 
 #[cfg(doc)]
 use crate::typed::Simulation;

@@ -1,6 +1,6 @@
 //! Outcome of a run: its summary, and what its files are made of.
 
-use crate::checkpoint::{Head, write_rows};
+use crate::kept::{Head, write_rows};
 use crate::record::{Channel, ErrorEstimate, Provenance, RunRecord, RunSummary, StepSeries};
 use crate::stop::StopError;
 use crate::words::summary_rows;

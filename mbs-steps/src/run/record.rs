@@ -2,11 +2,12 @@
 
 use super::clock::Clock;
 use crate::channels::Channels;
-use crate::checkpoint::{CheckpointWriter, Identity};
+use crate::checkpoint::Identity;
 use crate::driver::StepObserver;
 use crate::energy_alarm::Alarm;
 use crate::friction::Frictions;
 use crate::joint_limits::LimitWatch;
+use crate::kept::CheckpointWriter;
 use crate::motion::MotionRecorder;
 use crate::one_way::OneWayWatch;
 use crate::record::{Channel, ControlSummary, RealtimeSummary, StepRow};

@@ -134,7 +134,7 @@ fn no_code_asks_for_a_kind_of_joint_in_a_way_that_forgets_the_next() {
             all.extend(found.iter().map(|finding| format!("{name}: {finding}")));
         }
     }
-    report("Ask the table of joints (`mbs-core/src/scene/joint.rs`), or match every kind", &all);
+    report("Ask the table of joints (`mbs-core/src/joint/table.rs`), or match every kind", &all);
 }
 
 #[test]

@@ -34,7 +34,7 @@ const MAX_WORDS: usize = 25;
 const ALLOWED: &str = include_str!("allow.txt");
 
 /// The exceptions of a rule: the file or name they are for, and what is allowed there.
-fn allowed(rule: &str) -> BTreeMap<String, String> {
+pub(super) fn allowed(rule: &str) -> BTreeMap<String, String> {
     let lines = ALLOWED.lines().filter(|line| !line.starts_with('#') && !line.trim().is_empty());
     let mut found = BTreeMap::new();
     for line in lines {

@@ -5,6 +5,7 @@ mod comments;
 mod constants;
 mod crates;
 mod documents;
+mod imports;
 mod kinds;
 mod language;
 mod packages;

@@ -1,7 +1,7 @@
 //! A drawing with its legend as one SVG file, for documents; its ink is readable on light and on dark paper.
 
 use super::{Chart, SIZE};
-use crate::page::escape;
+use crate::format::escape;
 use std::fmt::Write;
 
 /// Ink of text and axes: grey of the same contrast on both papers.

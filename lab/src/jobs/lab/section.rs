@@ -2,8 +2,9 @@
 
 use super::Run;
 use crate::chart::Chart;
+use crate::format::escape;
 use crate::format::paragraph;
-use crate::page::{escape, figure, words};
+use crate::page::{figure, words};
 use std::fmt::Write;
 
 /// Letters of a cell that is never broken.

@@ -1,6 +1,7 @@
 //! HTML pages that need nothing else: their frame and style, drawings with their legends.
 
 use crate::chart::{Chart, Series};
+use crate::format::escape;
 
 /// The frame of all pages, and its style.
 const FRAME: &str = include_str!("../../../../mbs-report/src/page/web/frame.html");
@@ -56,11 +57,6 @@ pub(crate) fn words(sentence: &str) -> String {
     }
     // before the first word there is a space
     html.split_off(1)
-}
-
-/// Escapes text for HTML.
-pub(crate) fn escape(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
 #[cfg(test)]

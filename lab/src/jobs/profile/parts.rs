@@ -115,7 +115,7 @@ impl Frame<'_> {
             "natural/group.rs" => None,
             "inputs.rs" => Some(Part::Evaluation),
             _ => {
-                let folders = ["natural/", "elements/", "laws/", "actions/"];
+                let folders = ["natural/", "elements/", "laws/", "effects/action/"];
                 folders.iter().any(|f| path.starts_with(f)).then_some(Part::Evaluation)
             }
         }

@@ -1,7 +1,8 @@
 //! Index of all pages: what each of the others shows, the command that makes it, and what was not as listed.
 
 use crate::bench;
-use crate::page::{escape, words};
+use crate::format::escape;
+use crate::page::words;
 use std::path::Path;
 use std::process::Command;
 use std::time::Instant;

@@ -1,8 +1,10 @@
 //! What one channel reads: a quantity of each kind.
 
-use super::Quantity;
 use super::kind::{Followed, Instant, Maker, Measured};
 use super::seen::SeenPoint;
+use super::table;
 use crate::Real;
+use crate::scene::Quantity;
+use crate::scene::quantity::list;
 
-super::list::list!(channels);
+list::list!(table::channels);

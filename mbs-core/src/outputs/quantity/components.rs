@@ -1,6 +1,7 @@
 //! The components of a quantity: how many there are, their labels and their units.
 
-use crate::scene::{Dimension, Freedom, SceneFault};
+use crate::joint::{Dimension, Freedom};
+use crate::scene::SceneFault;
 use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;

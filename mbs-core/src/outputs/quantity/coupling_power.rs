@@ -4,7 +4,7 @@ use super::super::coupled_sum::CoupledSum;
 use super::kind::{Instant, Maker, Measured};
 use super::{ComponentForm, QuantityDefinition, QuantityRow, TargetKind};
 use crate::Real;
-use crate::measure::CouplingInput;
+use crate::inputs::CouplingInput;
 use crate::scene::CouplingId;
 
 pub(super) const ROW: QuantityRow = QuantityRow::new(

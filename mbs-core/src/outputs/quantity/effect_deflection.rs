@@ -4,8 +4,8 @@ use super::kind::{Instant, Maker, Measured};
 use super::{ComponentForm, QuantityDefinition, QuantityRow, TargetKind};
 use crate::Real;
 use crate::algebra::{Vector, norm};
-use crate::effects::Value;
-use crate::scene::{BodyId, EffectId, EffectKind};
+use crate::effects::{EffectKind, Value};
+use crate::scene::{BodyId, EffectId};
 
 pub(super) const ROW: QuantityRow = QuantityRow::new(
     "deflection",

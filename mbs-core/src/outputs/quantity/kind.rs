@@ -6,9 +6,10 @@ use super::super::inertia::BodyInertia;
 use super::super::reaction::Reactions;
 use super::super::rotor::RotorTorque;
 use crate::Real;
+use crate::mechanism::Scene;
 use crate::model::State;
 use crate::natural::NaturalModel;
-use crate::scene::{BodyId, JointId, Scene};
+use crate::scene::{BodyId, JointId};
 use alloc::vec;
 use alloc::vec::Vec;
 

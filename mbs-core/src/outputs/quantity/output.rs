@@ -1,16 +1,20 @@
 //! Outputs by what they measure, and the components of a quantity.
 
+use super::OutputPicture;
 use super::components::{Component, ComponentForm, Magnitude, in_degrees, magnitudes};
 use super::effect_deflection::has_free_value;
-use super::{OutputPicture, Quantity, RelativePoint, Target, WheelCarrier};
+use super::table;
 use crate::effects::{ActsOn, Value};
+use crate::joint::Freedom;
+use crate::mechanism::{Output, Scene};
+use crate::scene::quantity::list;
 use crate::scene::{
-    BodyId, CouplingId, CouplingMeasure, CouplingTerm, DrawnKind, EffectId, Freedom, JointId,
-    Number, Output, RollingId, Scene, SignalId, SignalKind, Vector3,
+    BodyId, CouplingId, CouplingMeasure, CouplingTerm, DrawnKind, EffectId, JointId, Number,
+    Quantity, RelativePoint, RollingId, SignalId, SignalKind, Target, Vector3, WheelCarrier,
 };
 use alloc::vec::Vec;
 
-super::list::list!(constructors);
+list::list!(table::constructors);
 
 impl<T: Clone> Output<T> {
     /// Its components in a scene: those of its quantity, then the magnitudes that it has columns for; in its units.

@@ -5,12 +5,12 @@
 //! ```
 
 use super::super::frame::Frame;
-use super::RelativePoint;
 use super::kind::Maker;
 use crate::Real;
 use crate::algebra::{Vector, cross, norm, raised};
 use crate::model::State;
 use crate::natural::Affine;
+use crate::scene::RelativePoint;
 
 /// A point, and the body that it is seen from.
 #[derive(Debug, Clone)]

@@ -1,7 +1,7 @@
-//! What the list of quantities is made into: modules, the enum with its targets and rows, constructors, and the enum that reads them.
+//! What the list of quantities is made into: modules, rows, constructors, and the enum that reads them.
 
-/// Makes a list of quantities.
-macro_rules! quantities {
+/// Modules and rows of a list of quantities.
+macro_rules! rows {
     (
         point { $($(#[doc = $point_doc:literal])+ $Point:ident in $point:ident;)* }
         relative { $($(#[doc = $relative_doc:literal])+ $Relative:ident in $relative:ident;)* }
@@ -18,49 +18,6 @@ macro_rules! quantities {
         $(mod $carrier;)*
         $($(mod $module;)*)*
         $(mod $scene;)*
-
-        /// What a channel measures.
-        #[derive(Debug, Clone, PartialEq)]
-        #[non_exhaustive]
-        pub enum Quantity<T> {
-            $(
-                $(#[doc = $point_doc])+
-                $Point {
-                    /// Body.
-                    body: BodyId,
-                    /// Point in the reference configuration [m].
-                    at: [T; 3],
-                },
-            )*
-            $(
-                $(#[doc = $relative_doc])+
-                $Relative(RelativePoint<T>),
-            )*
-            $(
-                $(#[doc = $turning_doc])+
-                $Turning {
-                    /// Body.
-                    body: BodyId,
-                    /// The other body.
-                    relative_to: BodyId,
-                },
-            )*
-            $(
-                $(#[doc = $carrier_doc])+
-                $Carrier(WheelCarrier<T>),
-            )*
-            $($(
-                $(#[doc = $doc])+
-                $Kind {
-                    #[doc = concat!(stringify!($Target), ".")]
-                    $id: $Id,
-                },
-            )*)*
-            $(
-                $(#[doc = $scene_doc])+
-                $Scene,
-            )*
-        }
 
         /// Every kind of quantity, in the order of the format.
         pub const QUANTITIES: &[QuantityRow] =
@@ -111,50 +68,6 @@ macro_rules! quantities {
                     $(Target::Scene if $scene::ROW.has_name(name) => Self::$Scene,)*
                     _ => return None,
                 })
-            }
-
-            /// What it is of.
-            #[must_use]
-            pub fn target(&self) -> Target<T>
-            where
-                T: Clone,
-            {
-                match self {
-                    $(Self::$Point { body, at } => Target::Point(*body, at.clone()),)*
-                    $(Self::$Relative(of) => Target::RelativePoint(of.clone()),)*
-                    $(Self::$Turning { body, relative_to } => Target::RelativeBody(*body, *relative_to),)*
-                    $(Self::$Carrier(of) => Target::WheelCarrier(of.clone()),)*
-                    $($(Self::$Kind { $id } => Target::$Target(*$id),)*)*
-                    $(Self::$Scene => Target::Scene,)*
-                }
-            }
-
-            /// The same with every number as `f` gives it.
-            pub fn map<U>(&self, f: &mut impl FnMut(&T) -> U) -> Quantity<U> {
-                match self {
-                    $(Self::$Point { body, at } => {
-                        Quantity::$Point { body: *body, at: at.each_ref().map(f) }
-                    })*
-                    $(Self::$Relative(of) => Quantity::$Relative(RelativePoint {
-                        body: of.body,
-                        at: of.at.each_ref().map(&mut *f),
-                        relative_to: of.relative_to,
-                        origin: of.origin.each_ref().map(f),
-                    }),)*
-                    $(Self::$Turning { body, relative_to } => {
-                        Quantity::$Turning { body: *body, relative_to: *relative_to }
-                    })*
-                    $(Self::$Carrier(of) => Quantity::$Carrier(WheelCarrier {
-                        body: of.body,
-                        relative_to: of.relative_to,
-                        side: of.side,
-                        up: of.up.each_ref().map(&mut *f),
-                        forward: of.forward.each_ref().map(&mut *f),
-                        axis: of.axis.as_ref().map(|axis| axis.each_ref().map(f)),
-                    }),)*
-                    $($(Self::$Kind { $id } => Quantity::$Kind { $id: *$id },)*)*
-                    $(Self::$Scene => Quantity::$Scene,)*
-                }
             }
         }
     };
@@ -287,4 +200,4 @@ macro_rules! channels {
     };
 }
 
-pub(super) use {channels, constructors, quantities};
+pub(super) use {channels, constructors, rows};

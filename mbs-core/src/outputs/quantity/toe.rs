@@ -2,8 +2,9 @@
 
 use super::kind::{Instant, Maker, Measured};
 use super::wheel::CarrierDirection;
-use super::{ComponentForm, QuantityDefinition, QuantityRow, TargetKind, WheelCarrier};
+use super::{ComponentForm, QuantityDefinition, QuantityRow, TargetKind};
 use crate::Real;
+use crate::scene::WheelCarrier;
 
 pub(super) const ROW: QuantityRow = QuantityRow::new(
     "toe",

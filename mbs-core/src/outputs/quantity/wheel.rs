@@ -12,10 +12,10 @@
 
 use super::super::frame::{Frame, normalised};
 use super::kind::Maker;
-use super::{VehicleSide, WheelCarrier};
 use crate::Real;
 use crate::algebra::{Vector, cross};
 use crate::model::State;
+use crate::scene::{VehicleSide, WheelCarrier};
 
 /// Carrier and vehicle body, and directions of both in the reference configuration.
 #[derive(Debug, Clone)]

@@ -1,0 +1,239 @@
+//! [`Scene`]: a mechanism and what is asked of it, with its effects and outputs; the entries of its lists by their handles.
+
+use crate::effects::EffectKind;
+use crate::joint::Dimension;
+use crate::scene::{
+    Body, BodyFrame, BodyId, BodyShape, Coupling, CouplingId, EffectId, Guide, GuideId,
+    InitialCondition, InitialId, Joint, JointId, NamedSignal, OutputId, Quantity, Road, Rolling,
+    RollingId, SignalId, SolverTable, Start, Surroundings,
+};
+use alloc::format;
+use alloc::string::String;
+use alloc::vec::Vec;
+use core::ops::{Index, IndexMut};
+
+/// A mechanism and what is asked of it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Scene<T> {
+    /// Name of the scene, for reports.
+    pub name: String,
+    /// Dimension of the scene: planar or spatial.
+    pub dimension: Dimension,
+    /// Acceleration of gravity [m/s^2]; `None`: no gravity and no gravity code.
+    pub gravity: Option<[T; 3]>,
+    /// Length of the run [s].
+    pub duration: T,
+    /// Bodies of the scene; the ground is not among them.
+    pub bodies: Vec<Body<T>>,
+    /// Joints of the scene.
+    pub joints: Vec<Joint<T>>,
+    /// Conditions that hold exactly at the start; the rest follows.
+    pub initials: Vec<InitialCondition<T>>,
+    /// Kinematic guidance of joint coordinates.
+    pub guides: Vec<Guide<T>>,
+    /// Relations of joint coordinates and lengths that hold.
+    pub couplings: Vec<Coupling<T>>,
+    /// Bodies that roll without slipping, and blades.
+    pub rollings: Vec<Rolling<T>>,
+    /// Numbers over time by name, that guides, couplings and effects follow.
+    pub signals: Vec<NamedSignal<T>>,
+    /// The road of tires; empty: level ground at height zero.
+    pub road: Road<T>,
+    /// Configuration that the run starts from.
+    pub start: Start,
+    /// Named places on bodies.
+    pub frames: Vec<BodyFrame<T>>,
+    /// Forms that pictures draw; a body without one is drawn by its inertia.
+    pub shapes: Vec<BodyShape<T>>,
+    /// Opt-in effects of the scene. Those with `enabled: false` are not built.
+    pub effects: Vec<Effect<T>>,
+    /// Channels that are recorded; empty: every joint coordinate.
+    pub outputs: Vec<Output<T>>,
+    /// Wishes of the scene for the solver.
+    pub solver: SolverTable<T>,
+}
+
+impl<T: Default> Scene<T> {
+    /// A scene of that name, dimension and duration [s], without gravity and with nothing in it.
+    #[must_use]
+    pub fn empty(name: &str, dimension: Dimension, duration: T) -> Self {
+        Self {
+            name: String::from(name),
+            dimension,
+            gravity: None,
+            duration,
+            bodies: Vec::new(),
+            joints: Vec::new(),
+            initials: Vec::new(),
+            guides: Vec::new(),
+            couplings: Vec::new(),
+            rollings: Vec::new(),
+            signals: Vec::new(),
+            road: Road::default(),
+            start: Start::default(),
+            frames: Vec::new(),
+            shapes: Vec::new(),
+            effects: Vec::new(),
+            outputs: Vec::new(),
+            solver: SolverTable::default(),
+        }
+    }
+}
+
+/// An opt-in effect, with its name.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Effect<T> {
+    /// Unique name among the effects (given, or `effect-N`).
+    pub name: String,
+    /// Switched off when false: then nothing of it is built.
+    pub enabled: bool,
+    /// Kind of the effect, with its data.
+    pub kind: EffectKind<T>,
+}
+
+/// A channel: what is recorded, under which name.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Output<T> {
+    /// Unique name of the channel.
+    pub name: String,
+    /// Quantity that is measured.
+    pub quantity: Quantity<T>,
+    /// The body in whose axes its vectors have their components, the ground for global ones; `None`: the axes of its quantity. A thin rod
+    /// on balls turns by the smallest rotation that carries its line.
+    pub frame: Option<BodyId>,
+    /// Has it a column with the magnitude of each of its vectors?
+    pub magnitude: bool,
+    /// Are its angles in degrees: what has a unit of rad, rad/s or rad/s^2 by itself?
+    pub is_in_degrees: bool,
+}
+
+impl<T> Output<T> {
+    /// An output without a name.
+    #[must_use]
+    pub const fn new(quantity: Quantity<T>) -> Self {
+        let name = String::new();
+        Self { name, quantity, frame: None, magnitude: false, is_in_degrees: false }
+    }
+}
+
+impl<T> Scene<T> {
+    /// Surroundings that the effects of the scene act among.
+    pub(crate) fn surroundings(&self) -> Surroundings<'_, T> {
+        let Self { dimension, ref bodies, ref joints, ref road, ref signals, .. } = *self;
+        Surroundings { dimension, bodies, joints, road, signals }
+    }
+}
+
+impl<T> Scene<T> {
+    /// Flag of each body: a joint or a contact that rolls names it. The other bodies move freely.
+    #[must_use]
+    pub fn held_bodies(&self) -> Vec<bool> {
+        let mut held = alloc::vec![false; self.bodies.len()];
+        let joints = self.joints.iter().map(|joint| joint.bodies);
+        let rollings = self.rollings.iter().map(|rolling| [rolling.body, rolling.on]);
+        for body in joints.chain(rollings).flatten().filter_map(BodyId::index) {
+            held[body] = true;
+        }
+        held
+    }
+}
+
+impl<T> Scene<T> {
+    /// Is it a point mass?
+    #[must_use]
+    pub fn is_point(&self, body: BodyId) -> bool {
+        body.index().and_then(|body| self.bodies.get(body)).is_some_and(Body::is_point)
+    }
+
+    /// Does a joint measure a turn of a point mass, which has none?
+    #[must_use]
+    pub fn turns_point(&self, joint: &Joint<T>) -> bool {
+        joint.kind.n_rotations(self.dimension) > 0
+            && joint.bodies.into_iter().any(|body| self.is_point(body))
+    }
+
+    /// Gives joints that name a point mass the [kind](crate::scene::JointKind::of_points) that their name means there.
+    pub(crate) fn name_points(&mut self) {
+        for i in 0..self.joints.len() {
+            let bodies = self.joints[i].bodies;
+            if bodies.into_iter().any(|body| self.is_point(body)) {
+                self.joints[i].kind = self.joints[i].kind.of_points();
+            }
+        }
+    }
+}
+
+impl<T: Clone> Scene<T> {
+    /// Outputs of the scene; where it names none, the coordinates of every joint that has some, under the joint's name. Points do not turn:
+    /// joints that hold them have none.
+    #[must_use]
+    pub fn channels(&self) -> Vec<Output<T>> {
+        if !self.outputs.is_empty() {
+            return self.outputs.clone();
+        }
+        let moves = |joint: &Joint<T>| {
+            joint.kind.n_coordinates(self.dimension) > 0 && !self.turns_point(joint)
+        };
+        let joints = self.joints.iter().enumerate().filter(|(_, joint)| moves(joint));
+        let value = |index| Quantity::JointValue { joint: JointId::new(index) };
+        joints.map(|(i, joint)| Output::new(value(i)).named(&joint.name)).collect()
+    }
+
+    /// Adds value, rate and reaction of every joint, and the force of every effect that is not switched off; what an output measures already is
+    /// not repeated. The value of a joint has its name, the rest the name and what it is; where an output has that, a number follows.
+    pub fn show_all(&mut self)
+    where
+        T: PartialEq,
+    {
+        for i in 0..self.joints.len() {
+            let (joint, at) = (JointId::new(i), &self.joints[i]);
+            let name = at.name.clone();
+            if at.kind.n_coordinates(self.dimension) > 0 && !self.turns_point(at) {
+                self.show(name.clone(), Quantity::JointValue { joint });
+                self.show(format!("{name} rate"), Quantity::JointRate { joint });
+            }
+            self.show(format!("{name} reaction"), Quantity::Reaction { joint });
+        }
+        for i in 0..self.effects.len() {
+            if self.effects[i].enabled {
+                let name = format!("{} force", self.effects[i].name);
+                self.show(name, Quantity::EffectForce { effect: EffectId::new(i) });
+            }
+        }
+    }
+
+    /// Adds an output, unless there is one of the same quantity.
+    fn show(&mut self, name: String, quantity: Quantity<T>)
+    where
+        T: PartialEq,
+    {
+        if self.outputs.iter().any(|output| output.quantity == quantity) {
+            return;
+        }
+        // one of these is free: there are more of them than outputs
+        let numbered = (2..self.outputs.len() + 3).map(|i| format!("{name} {i}"));
+        let is_free = |name: &String| self.outputs.iter().all(|output| output.name != *name);
+        let name = core::iter::once(name.clone()).chain(numbered).find(is_free);
+        self.outputs.push(Output::new(quantity).named(&name.unwrap_or_default()));
+    }
+}
+
+macro_rules! by_handle {
+    ($($id:ident of $entry:ident),*) => {$(
+        impl<T> Index<$id> for Vec<$entry<T>> {
+            type Output = $entry<T>;
+
+            fn index(&self, id: $id) -> &$entry<T> {
+                &self[id.index()]
+            }
+        }
+
+        impl<T> IndexMut<$id> for Vec<$entry<T>> {
+            fn index_mut(&mut self, id: $id) -> &mut $entry<T> {
+                &mut self[id.index()]
+            }
+        }
+    )*};
+}
+
+by_handle!(JointId of Joint, InitialId of InitialCondition, GuideId of Guide, CouplingId of Coupling, RollingId of Rolling, SignalId of NamedSignal, EffectId of Effect, OutputId of Output);

@@ -1,0 +1,90 @@
+//! A simulation saved and restored.
+
+use super::Simulation;
+use crate::checkpoint::tape::{Tape, Walked, holds};
+use crate::checkpoint::{Checkpoint, CheckpointError, Identity, Kind, whole};
+use crate::settings::ResolvedMethod;
+use mbs_core::Real;
+use mbs_core::scene::Scene;
+use std::io::{Read, Write};
+
+impl<T: Real, const D: usize> Simulation<T, D> {
+    /// Writes a checkpoint of the simulation, which was made of this scene and these settings. It has all that the next
+    /// steps depend on, inputs that were set included. They have the same bits after [`restore`](Self::restore).
+    ///
+    /// Cost: the bytes are gathered in memory, about eight times as many as coordinates and multipliers have places, times eight.
+    ///
+    /// # Errors
+    /// Those of the sink.
+    ///
+    /// # Examples
+    /// ```
+    /// use mbs::{Method, ResolvedMethod, scene_file::SceneFile};
+    /// use mbs::typed::Simulation;
+    /// # let text = r#"
+    /// # [scene]
+    /// # dimension = 2
+    /// # duration = 1.0
+    /// # gravity = [0.0, -9.81]
+    /// # [[body]]
+    /// # name = "bob"
+    /// # mass = 1.0
+    /// # center = [1.0, 0.0]
+    /// # inertia = 0.0
+    /// # [[joint]]
+    /// # name = "pivot"
+    /// # kind = "revolute"
+    /// # bodies = ["ground", "bob"]
+    /// # at = [0.0, 0.0]
+    /// # "#;
+    /// let scene = SceneFile::parse(text, "pendulum.toml")?.scene::<f64>()?;
+    /// let settings = ResolvedMethod::new(&scene, &Method::default())?;
+    /// let mut first = Simulation::<f64, 2>::new(&scene, &settings)?;
+    /// first.step(1e-3)?;
+    /// let mut bytes = Vec::new();
+    /// first.save((&scene, &settings), &mut bytes)?;
+    /// first.step(1e-3)?;
+    ///
+    /// let mut second = Simulation::<f64, 2>::new(&scene, &settings)?;
+    /// second.restore((&scene, &settings), &bytes[..])?;
+    /// second.step(1e-3)?;
+    /// assert_eq!(first.state(), second.state());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn save(
+        &self,
+        (scene, settings): (&Scene<T>, &ResolvedMethod),
+        mut sink: impl Write,
+    ) -> Result<(), CheckpointError> {
+        let (identity, t) = (Identity::new(scene, settings), self.state().t.to_f64());
+        let mut snapshot = self.snapshot();
+        let bytes = whole(&identity, (Kind::Simulation, [t, 0.0]), |pen| snapshot.walk(pen))?;
+        Ok(sink.write_all(&bytes)?)
+    }
+
+    /// Restores a checkpoint of the same scene and settings: one of [`save`](Self::save), or the state in that of a run.
+    ///
+    /// # Errors
+    /// [`CheckpointError`]; the simulation is then as it was, but that a state-space one may choose its coordinates anew.
+    pub fn restore(
+        &mut self,
+        (scene, settings): (&Scene<T>, &ResolvedMethod),
+        source: impl Read,
+    ) -> Result<(), CheckpointError> {
+        let checkpoint = Checkpoint::read(source)?;
+        checkpoint.check(&Identity::new(scene, settings))?;
+        self.restore_from(&mut checkpoint.body())
+    }
+
+    /// Restores the state at which a tape is.
+    pub fn restore_from(&mut self, tape: &mut impl Tape) -> Walked {
+        let before = self.snapshot();
+        let mut snapshot = before.clone();
+        snapshot.walk(tape)?;
+        if self.restore_snapshot(&snapshot) {
+            return Ok(());
+        }
+        let _ = self.restore_snapshot(&before);
+        holds(false)
+    }
+}
