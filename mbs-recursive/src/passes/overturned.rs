@@ -1,4 +1,4 @@
-//! Where the laws of rotations in space end: at a whole turn.
+//! The end of the laws of rotations in space: a whole turn.
 //!
 //! Beyond it the half angles of a tree give the turn the other way round: the rotation vector has changed its sign.
 
