@@ -20,7 +20,7 @@ mod signal;
 mod vector;
 
 use crate::Real;
-use crate::scene::{Entry, Scene, SceneError, SceneFault};
+use crate::scene::{Entry, Scene, SceneError, SceneFault, Setting, SettingValue};
 use alloc::vec::Vec;
 pub(crate) use reference::{check_coordinate, check_pair, known_body};
 pub(crate) use vector::{Place, is_parallel};
@@ -113,25 +113,12 @@ impl<T: Real> Scene<T> {
 
     fn check_solver(&self) -> Result<(), SceneError> {
         let place = self.place(Entry::Solver);
-        let solver = &self.solver;
-        for (field, number) in [
-            ("step", solver.step),
-            ("step_max", solver.step_max),
-            ("tolerance", solver.tolerance),
-            ("penalty", solver.penalty),
-            ("error_tolerance", solver.error_tolerance),
-            ("energy_alarm", solver.energy_alarm),
-        ] {
-            if let Some(number) = number {
-                place.positive(field, number)?;
-            }
-        }
-        if let Some([upper, lower]) = solver.energy_tolerance {
-            place.positive("energy_tolerance", upper)?;
-            place.positive("energy_tolerance", lower)?;
-            if upper <= lower {
-                let limits = [upper.to_f64(), lower.to_f64()];
-                return place.fault("energy_tolerance", SceneFault::LimitOrder(limits));
+        for (key, _) in Setting::of_table("solver") {
+            match self.solver.value(key) {
+                Some(SettingValue::Number(x)) => place.positive(key, x)?,
+                Some(SettingValue::Pair(limits)) => place.descending(key, limits)?,
+                Some(SettingValue::Word(_) | SettingValue::Flag(_) | SettingValue::Count(_))
+                | None => {}
             }
         }
         Ok(())

@@ -57,6 +57,8 @@ mod resolve;
 #[cfg(feature = "alloc")]
 mod rolling;
 #[cfg(feature = "alloc")]
+mod setting;
+#[cfg(feature = "alloc")]
 mod shape;
 #[cfg(feature = "alloc")]
 mod signal;
@@ -114,6 +116,8 @@ pub use number::{Number, Vector3};
 #[cfg(feature = "alloc")]
 pub use rolling::{Rolling, RollingKind, RollingPlane};
 #[cfg(feature = "alloc")]
+pub use setting::{NotASetting, Setting, SettingForm, SettingSlot, SettingValue};
+#[cfg(feature = "alloc")]
 pub use shape::{BodyShape, ShapeKind};
 #[cfg(feature = "alloc")]
 pub(crate) use signal::first_of;
@@ -122,6 +126,6 @@ pub use signal::{
     Interpolation, NamedSignal, SignalBreak, SignalKind, Smoothness, signal_breaks, signal_order,
 };
 #[cfg(feature = "alloc")]
-pub use solver::SolverTable;
+pub use solver::{SETTINGS, SolverTable};
 #[cfg(feature = "alloc")]
 pub use table_notes::TableNote;

@@ -25,6 +25,7 @@ mod outputs;
 mod quantities;
 mod reactions;
 mod relative;
+mod settings;
 mod signals;
 mod start;
 mod sums;
