@@ -11,7 +11,7 @@ const PENALTY: f64 = 1e6;
 const PENALTY_OF_SINGLE: f64 = 3e3;
 /// EPSILON from which a scalar is coarser in this sense [-]: between that of f64 and that of f32.
 const COARSE: f64 = 1e-12;
-/// Newton tolerance [displacement per step]: below it a correction is at the rounding of forces in most scenes.
+/// Tolerance of the iterations [displacement by accelerations in a step]: below it a correction is at the rounding of forces in most scenes.
 const TOLERANCE: f64 = 1e-10;
 /// The least tolerance [EPSILON]: six binary digits are left to rounding.
 const MIN_TOLERANCE: f64 = 64.0;
@@ -34,7 +34,7 @@ pub struct Options<T> {
     pub integrator: Integrator<T>,
     /// Penalty on the constraints.
     pub penalty: Penalty<T>,
-    /// Newton tolerance, relative to the displacement per step; in index-1, to the accelerations [-].
+    /// Tolerance of the iterations, relative to the displacement by accelerations in a step; in index-1, to the accelerations [-].
     pub tolerance: T,
     /// Share of the first correction of a step below which the iteration of index-3 also ends where effects act [-]. What a correction
     /// leaves is compared with it, and counts as a tenth of the correction at least. The first correction is three times the error of the

@@ -4,7 +4,7 @@ use mbs_core::Real;
 use mbs_core::integrator::Integrator;
 use mbs_core::step::OptionError;
 
-/// Newton tolerance [displacement per step]: below it a correction is at the rounding of forces in most scenes.
+/// Tolerance of the iterations [displacement by accelerations in a step]: below it a correction is at the rounding of forces in most scenes.
 const TOLERANCE: f64 = 1e-10;
 /// The least tolerance [EPSILON]: six binary digits are left to rounding.
 const MIN_TOLERANCE: f64 = 64.0;
@@ -23,7 +23,7 @@ const MIN_RANK: f64 = 300.0;
 pub struct Options<T> {
     /// Time integrator of the steps.
     pub integrator: Integrator<T>,
-    /// Newton tolerance, relative to the displacement per step [-].
+    /// Tolerance of the iterations, relative to the displacement by accelerations in a step [-].
     pub tolerance: T,
     /// Iterations allowed in one step.
     pub max_iterations: u32,

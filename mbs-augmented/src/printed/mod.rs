@@ -33,7 +33,7 @@ pub struct Options<T> {
     pub integrator: Integrator<T>,
     /// Penalty alpha, the same on every row [N/m].
     pub alpha: T,
-    /// Newton tolerance, relative to the displacement per step [-].
+    /// Tolerance of the iterations, relative to the displacement by accelerations in a step [-].
     pub tolerance: T,
     /// Iterations allowed in one step.
     pub max_iterations: u32,

@@ -28,7 +28,7 @@ pub use table_notes::TableNote;
 use crate::Real;
 use crate::mechanism::Scene;
 use crate::scene::place::Place;
-use crate::scene::{Entry, SceneError, SceneFault};
+use crate::scene::{Entry, SceneError, SceneFault, Setting, SettingValue};
 use alloc::vec::Vec;
 
 impl<T: Real> Scene<T> {
@@ -119,25 +119,12 @@ impl<T: Real> Scene<T> {
 
     fn check_solver(&self) -> Result<(), SceneError> {
         let place = self.place(Entry::Solver);
-        let solver = &self.solver;
-        for (field, number) in [
-            ("step", solver.step),
-            ("step_max", solver.step_max),
-            ("tolerance", solver.tolerance),
-            ("penalty", solver.penalty),
-            ("error_tolerance", solver.error_tolerance),
-            ("energy_alarm", solver.energy_alarm),
-        ] {
-            if let Some(number) = number {
-                place.positive(field, number)?;
-            }
-        }
-        if let Some([upper, lower]) = solver.energy_tolerance {
-            place.positive("energy_tolerance", upper)?;
-            place.positive("energy_tolerance", lower)?;
-            if upper <= lower {
-                let limits = [upper.to_f64(), lower.to_f64()];
-                return place.fault("energy_tolerance", SceneFault::LimitOrder(limits));
+        for (key, _) in Setting::of_table("solver") {
+            match self.solver.value(key) {
+                Some(SettingValue::Number(x)) => place.positive(key, x)?,
+                Some(SettingValue::Pair(limits)) => place.descending(key, limits)?,
+                Some(SettingValue::Word(_) | SettingValue::Flag(_) | SettingValue::Count(_))
+                | None => {}
             }
         }
         Ok(())

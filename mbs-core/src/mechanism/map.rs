@@ -5,7 +5,7 @@ use crate::scene::{
     Body, BodyFrame, BodyShape, CalspanCoefficients, Coupling, CouplingKind, CouplingMeasure,
     CouplingTerm, Curve, Entry, Guide, Inertia, InitialCondition, InitialTarget, Joint,
     JointLimits, Mesh, Motion, NamedSignal, Number, Road, RoadFeature, Rolling, RollingKind,
-    RollingPlane, SceneError, SceneFault, ShapeKind, SolverTable,
+    RollingPlane, SceneError, SceneFault, ShapeKind,
 };
 use alloc::vec::Vec;
 
@@ -24,7 +24,10 @@ fn rows<T, U, const N: usize>(x: &[[T; N]], f: &mut impl FnMut(&T) -> U) -> Vec<
 
 impl<T: Clone> Scene<T> {
     /// The scene with other numbers; refused where an effect is a law in code.
-    pub(crate) fn map<U>(&self, f: &mut impl FnMut(&T) -> U) -> Result<Scene<U>, SceneError> {
+    pub(crate) fn map<U: Default>(
+        &self,
+        f: &mut impl FnMut(&T) -> U,
+    ) -> Result<Scene<U>, SceneError> {
         let effect = |(i, effect): (usize, &Effect<T>), f: &mut dyn FnMut(&T) -> U| {
             let refused =
                 SceneError { entry: Entry::Effect(i), field: "kind", fault: SceneFault::InCode };
@@ -311,33 +314,5 @@ impl<T> Output<T> {
         let Self { frame, magnitude, is_in_degrees, .. } = *self;
         let (name, quantity) = (self.name.clone(), self.quantity.map(f));
         Output { name, quantity, frame, magnitude, is_in_degrees }
-    }
-}
-
-impl<T> SolverTable<T> {
-    fn map<U>(&self, f: &mut impl FnMut(&T) -> U) -> SolverTable<U> {
-        let [step, step_max, tolerance, penalty, error_tolerance, energy_alarm] = [
-            &self.step,
-            &self.step_max,
-            &self.tolerance,
-            &self.penalty,
-            &self.error_tolerance,
-            &self.energy_alarm,
-        ]
-        .map(|x| x.as_ref().map(&mut *f));
-        SolverTable {
-            formulation: self.formulation.clone(),
-            integrator: self.integrator.clone(),
-            step,
-            step_max,
-            tolerance,
-            penalty,
-            step_control: self.step_control.clone(),
-            energy_tolerance: self.energy_tolerance.as_ref().map(|limits| all(limits, f)),
-            error_tolerance,
-            locate_events: self.locate_events,
-            energy_alarm,
-            unused: self.unused.clone(),
-        }
     }
 }

@@ -21,6 +21,7 @@ mod number;
 pub(crate) mod place;
 pub(crate) mod quantity;
 mod rolling;
+mod setting;
 mod shape;
 mod signal;
 mod solver;
@@ -55,9 +56,10 @@ pub(crate) use inertia::steiner;
 pub use number::{Number, Vector3};
 pub use quantity::{Quantity, RelativePoint, Target, VehicleSide, WheelCarrier};
 pub use rolling::{Rolling, RollingKind, RollingPlane};
+pub use setting::{NotASetting, Setting, SettingForm, SettingSlot, SettingValue};
 pub use shape::{BodyShape, ShapeKind};
 pub(crate) use signal::first_of;
 pub use signal::{
     Interpolation, NamedSignal, SignalBreak, SignalKind, Smoothness, signal_breaks, signal_order,
 };
-pub use solver::SolverTable;
+pub use solver::{SETTINGS, SolverTable};

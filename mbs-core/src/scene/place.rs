@@ -25,6 +25,20 @@ impl Place {
         if x > T::ZERO { Ok(()) } else { self.fault(field, SceneFault::NotPositive(x.to_f64())) }
     }
 
+    /// Two numbers above zero, the larger one first.
+    pub(crate) fn descending<T: Real>(
+        self,
+        field: &'static str,
+        [upper, lower]: [T; 2],
+    ) -> Result<(), SceneError> {
+        self.positive(field, upper)?;
+        self.positive(field, lower)?;
+        if upper > lower {
+            return Ok(());
+        }
+        self.fault(field, SceneFault::LimitOrder([upper.to_f64(), lower.to_f64()]))
+    }
+
     pub(crate) fn not_negative<T: Real>(self, field: &'static str, x: T) -> Result<(), SceneError> {
         self.finite(field, x)?;
         if x >= T::ZERO { Ok(()) } else { self.fault(field, SceneFault::Negative(x.to_f64())) }

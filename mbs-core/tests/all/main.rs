@@ -26,6 +26,7 @@ mod outputs;
 mod quantities;
 mod reactions;
 mod relative;
+mod settings;
 mod signals;
 mod start;
 mod sums;

@@ -31,6 +31,7 @@ mod scene;
 mod set;
 mod shape;
 mod signal;
+mod solver;
 pub(crate) mod sweep;
 mod syntax;
 mod table;

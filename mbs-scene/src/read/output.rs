@@ -1,4 +1,4 @@
-//! Reads the tables `[[output]]` and `[solver]`.
+//! Reads the tables `[[output]]`.
 
 use crate::keys::{DEGREES, FORMS, GLOBAL, ORIENTATION, OWN_BODY, of_target};
 use crate::read::ReadFault;
@@ -9,7 +9,7 @@ use crate::read::tree::Item;
 use mbs_core::outputs::{
     QUANTITIES, Quantity, QuantityRow, RelativePoint, Target, TargetKind, VehicleSide, WheelCarrier,
 };
-use mbs_core::scene::{BodyId, CouplingId, EffectId, Number, Output, RollingId, SolverTable};
+use mbs_core::scene::{BodyId, CouplingId, EffectId, Number, Output, RollingId};
 
 /// Keys that say what an output is of; one at most.
 const OWNERS: [&str; 6] = ["joint", "body", "coupling", "rolling", "effect", "signal"];
@@ -150,31 +150,4 @@ fn wheel(fields: &Fields<'_>, [body, relative_to]: [BodyId; 2]) -> Read<WheelCar
     };
     let (up, forward) = (or("up", [0.0, 0.0, 1.0])?, or("forward", [1.0, 0.0, 0.0])?);
     Ok(WheelCarrier { body, relative_to, side, up, forward, axis: fields.optional_vector("axis")? })
-}
-
-pub(crate) fn read_solver(fields: &Fields<'_>) -> Read<SolverTable<Number>> {
-    let context = fields.context;
-    let word = |key| -> Read<Option<String>> {
-        fields.get(key).map(|item| context.text(item).map(str::to_owned)).transpose()
-    };
-    let flag = |key| -> Read<Option<bool>> {
-        fields.get(key).map(|_| fields.flag(key, false)).transpose()
-    };
-    let two =
-        |item| fields.at("energy_tolerance").numbers_of(item, "a list of two numbers: [U, L]");
-    let energy_tolerance = fields.get("energy_tolerance").map(two).transpose()?;
-    Ok(SolverTable {
-        formulation: word("formulation")?,
-        integrator: word("integrator")?,
-        step: fields.optional("step")?,
-        step_max: fields.optional("step_max")?,
-        tolerance: fields.optional("tolerance")?,
-        penalty: fields.optional("penalty")?,
-        step_control: word("step_control")?,
-        energy_tolerance,
-        error_tolerance: fields.optional("error_tolerance")?,
-        locate_events: flag("locate_events")?,
-        energy_alarm: fields.optional("energy_alarm")?,
-        unused: Vec::new(),
-    })
 }

@@ -8,7 +8,7 @@ use crate::read::tree::{Item, Member, Node};
 use crate::read::values::Values;
 use crate::read::{
     Place, ReadError, ReadFault, body, coupling, effect, frame, joint, motion, output, road,
-    rolling, shape, signal,
+    rolling, shape, signal, solver,
 };
 use mbs_core::Real;
 use mbs_core::scene::{
@@ -111,7 +111,7 @@ impl SceneFile {
     }
 
     fn solver(&self, context: &Context<'_>) -> Read<SolverTable<Number>> {
-        self.top("solver").map_or(Ok(SolverTable::default()), |item| read_solver(context, item))
+        self.top("solver").map_or(Ok(SolverTable::default()), |item| solver::read(context, item))
     }
 
     /// The joints of a file, then those of its guided bodies; and the guides.
@@ -331,10 +331,6 @@ fn with_asked(header: &Fields<'_>, mut scene: Scene<Number>) -> Read<Scene<Numbe
         }
         word => header.unknown_word("outputs", word, &["all"]),
     }
-}
-
-fn read_solver<'a>(context: &Context<'a>, item: &'a Item) -> Read<SolverTable<Number>> {
-    output::read_solver(&context.table(item, "a table: [solver]", "solver")?)
 }
 
 fn read_start(header: &Fields<'_>) -> Read<Start> {

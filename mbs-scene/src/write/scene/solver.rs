@@ -1,24 +1,23 @@
-//! Writes the table `[solver]`.
+//! Writes the table `[solver]`, by the table of settings of mbs-core.
 
 use super::Keys;
 use crate::read::tree::Node;
-use mbs_core::scene::{Number, SolverTable};
+use mbs_core::scene::{Number, Setting, SettingValue, SolverTable};
 
 impl Keys {
     /// The keys of the table that are written.
     pub(super) fn of_solver(solver: &SolverTable<Number>) -> Self {
         let mut keys = Self::default();
-        keys.push_some("formulation", solver.formulation.as_deref());
-        keys.push_some("integrator", solver.integrator.as_deref());
-        keys.push_some("step", solver.step.as_ref());
-        keys.push_some("step_max", solver.step_max.as_ref());
-        keys.push_some("tolerance", solver.tolerance.as_ref());
-        keys.push_some("penalty", solver.penalty.as_ref());
-        keys.push_some("step_control", solver.step_control.as_deref());
-        keys.push_some("energy_tolerance", solver.energy_tolerance.as_ref());
-        keys.push_some("error_tolerance", solver.error_tolerance.as_ref());
-        keys.push_some("locate_events", solver.locate_events.map(Node::Bool));
-        keys.push_some("energy_alarm", solver.energy_alarm.as_ref());
+        for (key, _) in Setting::of_table("solver") {
+            let node = solver.value(key).map(|value| match value {
+                SettingValue::Word(word) => Node::from(word.as_str()),
+                SettingValue::Number(x) => Node::from(&x),
+                SettingValue::Pair(x) => Node::from(&x),
+                SettingValue::Count(n) => Node::Number(n.to_string()),
+                SettingValue::Flag(flag) => Node::Bool(flag),
+            });
+            keys.push_some(key, node);
+        }
         keys
     }
 }

@@ -1,0 +1,199 @@
+//! What a setting of a method says of itself, and its values.
+
+use super::solver::SETTINGS;
+use alloc::format;
+use alloc::string::String;
+
+/// One setting of a method.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Setting {
+    /// Name of the setting in code and in Python.
+    pub name: &'static str,
+    /// Table and key in scene files, with a dot between them; empty: the setting is of a run alone.
+    pub path: &'static str,
+    /// Names of its option on the command line, the first one in help; empty: as `name`.
+    pub options: &'static [&'static str],
+    /// Form of the value, and what is refused.
+    pub form: SettingForm,
+    /// Letter that stands for the value in the help of the command line.
+    pub letter: &'static str,
+    /// SI unit of the value; empty: none.
+    pub unit: &'static str,
+    /// Value where neither the command line nor the scene gives one; empty: a scene always gives one.
+    pub default: &'static str,
+    /// Methods that take the setting, where not all do; empty: all.
+    pub takers: &'static str,
+    /// Meaning of the setting, in one sentence.
+    pub meaning: &'static str,
+    /// Further sentences on the setting.
+    pub more: &'static [&'static str],
+}
+
+/// Form of the value of a setting, and what is refused.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SettingForm {
+    /// One of these words.
+    Word(&'static [&'static str]),
+    /// A number above zero.
+    Positive,
+    /// Two numbers above zero, the larger one first.
+    Descending,
+    /// True or false, on the command line on or off.
+    Flag,
+    /// A whole number from 1.
+    Count,
+}
+
+/// Value of a setting.
+#[derive(Debug, Clone, PartialEq)]
+pub enum SettingValue<T> {
+    /// Value in the form [`SettingForm::Word`].
+    Word(String),
+    /// Value in the form [`SettingForm::Positive`].
+    Number(T),
+    /// Value in the form [`SettingForm::Descending`].
+    Pair([T; 2]),
+    /// Value in the form [`SettingForm::Flag`].
+    Flag(bool),
+    /// Value in the form [`SettingForm::Count`].
+    Count(usize),
+}
+
+/// Field of a setting in a struct that has them all; `None` there leaves the setting open.
+#[derive(Debug)]
+pub enum SettingSlot<'a, T> {
+    /// Field for a value in the form [`SettingForm::Word`].
+    Word(&'a mut Option<String>),
+    /// Field for a value in the form [`SettingForm::Positive`].
+    Number(&'a mut Option<T>),
+    /// Field for a value in the form [`SettingForm::Descending`].
+    Pair(&'a mut Option<[T; 2]>),
+    /// Field for a value in the form [`SettingForm::Flag`].
+    Flag(&'a mut Option<bool>),
+    /// Field for a value in the form [`SettingForm::Count`].
+    Count(&'a mut Option<usize>),
+}
+
+/// Error of a setting that is not there, or has a value of another form.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct NotASetting;
+
+impl core::fmt::Display for NotASetting {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.write_str("no setting has this name and takes this value; SETTINGS lists names and forms")
+    }
+}
+
+impl core::error::Error for NotASetting {}
+
+impl Setting {
+    /// Returns the setting of that name.
+    #[must_use]
+    pub fn named(name: &str) -> Option<&'static Self> {
+        SETTINGS.iter().find(|row| row.name == name)
+    }
+
+    /// Returns the settings that a table of scene files has, with their keys in it.
+    pub fn of_table(table: &str) -> impl Iterator<Item = (&'static str, &'static Self)> {
+        SETTINGS.iter().filter_map(move |row| {
+            let (header, key) = row.path.split_once('.')?;
+            (header == table).then_some((key, row))
+        })
+    }
+
+    /// Name of the option on the command line.
+    #[must_use]
+    pub fn option(&self) -> &'static str {
+        self.options.first().copied().unwrap_or(self.name)
+    }
+
+    /// Reads a value as the command line has it: words and numbers, `U,L`, `on` or `off`. Nothing for a text of another form.
+    #[must_use]
+    pub fn parse(&self, text: &str) -> Option<SettingValue<f64>> {
+        let number = |text: &str| text.trim().parse::<f64>().ok();
+        Some(match self.form {
+            SettingForm::Word(_) => SettingValue::Word(String::from(text)),
+            SettingForm::Positive => SettingValue::Number(number(text)?),
+            SettingForm::Descending => {
+                let (upper, lower) = text.split_once(',')?;
+                SettingValue::Pair([number(upper)?, number(lower)?])
+            }
+            SettingForm::Flag => match text {
+                "on" => SettingValue::Flag(true),
+                "off" => SettingValue::Flag(false),
+                _ => return None,
+            },
+            SettingForm::Count => SettingValue::Count(text.trim().parse().ok()?),
+        })
+    }
+
+    /// Returns the meaning with the unit of the value.
+    #[must_use]
+    pub fn sentence(&self) -> String {
+        let Self { meaning, unit, .. } = self;
+        match meaning.strip_suffix('.') {
+            Some(words) if !unit.is_empty() => format!("{words} [{unit}]."),
+            _ => String::from(*meaning),
+        }
+    }
+
+    /// Returns what is to say beside the meaning: who takes the setting, then the further sentences.
+    pub fn further(&self) -> impl Iterator<Item = String> {
+        let takers = Some(self.takers).filter(|takers| !takers.is_empty());
+        let taken = takers.map(|takers| format!("Taken by {takers}."));
+        taken.into_iter().chain(self.more.iter().map(|more| String::from(*more)))
+    }
+}
+
+impl<T> SettingValue<T> {
+    /// Returns the value with every number as `f` gives it.
+    pub fn map<U>(self, f: &mut impl FnMut(T) -> U) -> SettingValue<U> {
+        match self {
+            Self::Word(word) => SettingValue::Word(word),
+            Self::Number(x) => SettingValue::Number(f(x)),
+            Self::Pair(x) => SettingValue::Pair(x.map(f)),
+            Self::Flag(flag) => SettingValue::Flag(flag),
+            Self::Count(n) => SettingValue::Count(n),
+        }
+    }
+
+    /// Text of the value, which [`Setting::parse`] reads back; `number` writes a number.
+    pub fn text(&self, number: impl Fn(&T) -> String) -> String {
+        match self {
+            Self::Word(word) => word.clone(),
+            Self::Number(x) => number(x),
+            Self::Pair([upper, lower]) => format!("{},{}", number(upper), number(lower)),
+            Self::Flag(flag) => String::from(if *flag { "on" } else { "off" }),
+            Self::Count(n) => format!("{n}"),
+        }
+    }
+}
+
+impl<T> SettingSlot<'_, T> {
+    /// Takes the value out of the field.
+    pub fn take(self) -> Option<SettingValue<T>> {
+        match self {
+            Self::Word(field) => field.take().map(SettingValue::Word),
+            Self::Number(field) => field.take().map(SettingValue::Number),
+            Self::Pair(field) => field.take().map(SettingValue::Pair),
+            Self::Flag(field) => field.take().map(SettingValue::Flag),
+            Self::Count(field) => field.take().map(SettingValue::Count),
+        }
+    }
+
+    /// Sets the field.
+    ///
+    /// # Errors
+    /// [`NotASetting`] for a value of another form: the field stays as it was.
+    pub fn set(self, value: SettingValue<T>) -> Result<(), NotASetting> {
+        match (self, value) {
+            (Self::Word(field), SettingValue::Word(word)) => *field = Some(word),
+            (Self::Number(field), SettingValue::Number(x)) => *field = Some(x),
+            (Self::Pair(field), SettingValue::Pair(x)) => *field = Some(x),
+            (Self::Flag(field), SettingValue::Flag(flag)) => *field = Some(flag),
+            (Self::Count(field), SettingValue::Count(n)) => *field = Some(n),
+            _ => return Err(NotASetting),
+        }
+        Ok(())
+    }
+}
