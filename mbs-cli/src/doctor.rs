@@ -1,10 +1,11 @@
 //! Command `mbs doctor SCENE`: faults and doubts of a scene, with remedies.
 
+use crate::method::{MethodArguments, OfDoctor};
 use crate::refusal::Refusal;
 use crate::say::say;
 use crate::scene::SceneArgument;
 use crate::status::STOPPED;
-use crate::{files, signals};
+use crate::{files, method, signals};
 use clap::Args;
 use mbs::core::scene::Entry;
 use mbs::record::{Provenance, RecordedMotion};
@@ -33,15 +34,8 @@ pub(crate) struct Arguments {
     /// Directory for doctor.json and doctor.html; created if missing. Default: no files.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Formulation of the run that is examined. Default: the scene's, else auto.
-    #[arg(long, value_name = "F")]
-    formulation: Option<String>,
-    /// Step of that run [s]. Default: the scene's, else 0.001.
-    #[arg(long, value_name = "H", allow_hyphen_values = true)]
-    step: Option<f64>,
-    /// Duration of that run [s]. Default: the scene's.
-    #[arg(long, value_name = "T", allow_hyphen_values = true)]
-    duration: Option<f64>,
+    #[command(flatten)]
+    method: MethodArguments<OfDoctor>,
     /// Examine the start only, without a run.
     #[arg(long)]
     still: bool,
@@ -50,12 +44,9 @@ pub(crate) struct Arguments {
 /// Runs the command `mbs doctor`.
 pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     let overrides = Method {
-        formulation: arguments.formulation.clone(),
-        step: arguments.step,
-        duration: arguments.duration,
         precision: Some(Precision::F64.name().to_owned()),
         interrupt: signals::heeded(),
-        ..Method::default()
+        ..arguments.method.given.clone()
     };
     let place = (arguments.out.as_deref(), &["doctor.json", "doctor.html"][..]);
     let begun = match files::begin(&arguments.scene, &overrides, place) {
@@ -86,11 +77,7 @@ fn at_start(begun: &files::Begun) -> Option<RecordedMotion> {
 /// Files, then JSON or text; the exit status says whether there is a fault.
 fn write_results(begun: &files::Begun, checkup: &Checkup, arguments: &Arguments) -> ExitCode {
     let files::Begun { document, scene, settings, .. } = begun;
-    let options = [
-        ("formulation", arguments.formulation.clone()),
-        ("step", arguments.step.map(|x| x.to_string())),
-        ("duration", arguments.duration.map(|x| x.to_string())),
-    ];
+    let options = method::written(&arguments.method.given);
     let command = if arguments.still { "doctor --still" } else { "doctor" };
     let provenance = files::provenance((command, &arguments.scene), &options, settings);
     let line = |entry: Entry, key: &str| {

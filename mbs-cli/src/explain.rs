@@ -1,12 +1,13 @@
 //! Command `mbs explain SCENE`: effects that a scene simulates, and their measured cost.
 
+use crate::method::{MethodArguments, OfExplain};
 use crate::precision::NO_PAIRS;
 use crate::refusal::Refusal;
 use crate::run::unplanned;
 use crate::say::{say, warn};
 use crate::scene::SceneArgument;
 use crate::status::STOPPED;
-use crate::{files, signals};
+use crate::{files, method, signals};
 use clap::Args;
 use mbs::{Method, words};
 use mbs_study::auto::{Goal, Processor, plan, time};
@@ -20,15 +21,8 @@ use std::process::ExitCode;
 pub(crate) struct Arguments {
     #[command(flatten)]
     pub(crate) scene: SceneArgument,
-    /// Formulation. Default: the scene's, else auto.
-    #[arg(long, value_name = "F")]
-    formulation: Option<String>,
-    /// Step [s]. Default: the scene's, else 0.001.
-    #[arg(long, value_name = "H", allow_hyphen_values = true)]
-    step: Option<f64>,
-    /// Duration [s]. Default: the scene's.
-    #[arg(long, value_name = "T", allow_hyphen_values = true)]
-    duration: Option<f64>,
+    #[command(flatten)]
+    pub(crate) method: MethodArguments<OfExplain>,
     /// Required error, as in `mbs run`: runs the pilot and reports what each candidate would cost. Default: none.
     #[arg(long, value_name = "E", allow_hyphen_values = true)]
     error: Option<f64>,
@@ -41,12 +35,6 @@ pub(crate) struct Arguments {
     /// Print one JSON object on standard output and nothing else.
     #[arg(long)]
     json: bool,
-    /// Precision: f32 or f64. Default: f64.
-    #[arg(long, value_name = "P")]
-    pub(crate) precision: Option<String>,
-    /// Integrator. Default: the scene's, else trapezoidal.
-    #[arg(long, value_name = "I")]
-    integrator: Option<String>,
 }
 
 /// Runs the command `mbs explain`.
@@ -58,15 +46,7 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
 }
 
 fn explain(arguments: &Arguments) -> Result<(files::Begun, Explanation), Refusal> {
-    let overrides = Method {
-        formulation: arguments.formulation.clone(),
-        integrator: arguments.integrator.clone(),
-        precision: arguments.precision.clone(),
-        step: arguments.step,
-        duration: arguments.duration,
-        interrupt: signals::heeded(),
-        ..Method::default()
-    };
+    let overrides = Method { interrupt: signals::heeded(), ..arguments.method.given.clone() };
     let place = (arguments.out.as_deref(), &["explain.json", "explain.html"][..]);
     let begun = files::begin(&arguments.scene, &overrides, place)?;
     let files::Begun { document, scene, settings, .. } = &begun;
@@ -96,15 +76,11 @@ fn write_results(
     explanation: &Explanation,
     arguments: &Arguments,
 ) -> ExitCode {
-    let options = [
-        ("formulation", arguments.formulation.clone()),
-        ("step", arguments.step.map(|x| x.to_string())),
-        ("duration", arguments.duration.map(|x| x.to_string())),
-        ("precision", arguments.precision.clone()),
-        ("integrator", arguments.integrator.clone()),
+    let goal = [
         ("error", arguments.error.map(|x| x.to_string())),
         ("deadline", arguments.deadline.map(|x| x.to_string())),
     ];
+    let options = [&method::written(&arguments.method.given)[..], &goal].concat();
     let provenance = files::provenance(("explain", &arguments.scene), &options, &begun.settings);
     let report = mbs_report::explanation(explanation, provenance);
     let error = explanation.error.as_ref();

@@ -22,6 +22,7 @@ mod inspect;
 mod keep;
 mod line;
 mod manual;
+mod method;
 mod model;
 mod new;
 mod plot;
@@ -216,10 +217,10 @@ impl Command {
     /// of one that it never has.
     fn precisions(&self) -> Result<Vec<Precision>, [&'static str; 2]> {
         let (name, scene) = match self {
-            Self::Run(arguments) => (&arguments.precision, &arguments.scene),
-            Self::Explain(arguments) => (&arguments.precision, &arguments.scene),
+            Self::Run(arguments) => (&arguments.method.given.precision, &arguments.scene),
+            Self::Explain(arguments) => (&arguments.method.given.precision, &arguments.scene),
             Self::Export(arguments) => (&arguments.precision, &arguments.scene),
-            Self::Sweep(arguments) => (&arguments.precision, &arguments.scene),
+            Self::Sweep(arguments) => (&arguments.method.given.precision, &arguments.scene),
             Self::Compare(arguments) if arguments.scene.is_there() => {
                 return Ok(arguments.precisions());
             }

@@ -2,12 +2,13 @@
 
 use crate::bar::{bar, ticks};
 use crate::files::Begun;
+use crate::method::{All, MethodArguments};
 use crate::precision::{named, unbuilt};
 use crate::refusal::Refusal;
 use crate::say::{say, warn};
 use crate::scene::SceneArgument;
 use crate::status::STOPPED;
-use crate::{files, keep, realtime, show, signals, table};
+use crate::{files, keep, method, realtime, show, signals, table};
 use clap::Args;
 use indicatif::ProgressBar;
 use mbs::folder::{Folder, WriteError};
@@ -32,69 +33,13 @@ const NOT_CHOSEN: [&str; 3] = ["checkpoint", "resume", "realtime"];
 pub(crate) struct Arguments {
     #[command(flatten)]
     pub(crate) scene: SceneArgument,
-    /// Formulation: auto, index-1, index-3, multi-index, classical, state-space or recursive. Default: the scene's, else auto.
-    #[arg(long, value_name = "F")]
-    formulation: Option<String>,
-    /// Step [s]; the first step where its length is controlled, and with rk54, rk853, gbs and radau5. Default: the scene's, else 0.001.
-    #[arg(long, value_name = "H", allow_hyphen_values = true)]
-    step: Option<f64>,
-    /// Longest step where lengths are controlled, and with rk54, rk853, gbs and radau5 [s]. Default: the scene's, else the step.
-    ///
-    /// It is also the distance of recorded rows.
-    #[arg(long, value_name = "H", allow_hyphen_values = true)]
-    step_max: Option<f64>,
-    /// Rule for the length of steps: fixed, energy, energy-published, error or both.
-    ///
-    /// Default: the rule of the tolerance that is given; else energy in multi-index, and fixed in the others.
-    ///
-    /// energy: by the change of the energy invariant; energy-published: the same as publication 2 prints it.
-    ///
-    /// error: by an estimate of the local error; both: by the shorter of the two steps.
-    ///
-    /// energy-printed is the same as energy-published.
-    #[arg(long, value_name = "C")]
-    step_control: Option<String>,
-    /// Limits U,L of the invariant's change in a step, relative to the energy that moves. Default: the scene's, else 1e-5,1e-7.
-    ///
-    /// A step that changes it by more than U is repeated with a shorter length.
-    ///
-    /// Below L the next step is longer, up to the largest step.
-    #[arg(long, value_name = "U,L", value_parser = two_numbers, allow_hyphen_values = true)]
-    energy_tolerance: Option<[f64; 2]>,
-    /// Tolerance of the estimated local error of a step, relative to the scene's length. Default: the scene's, else 1e-6.
-    #[arg(long, value_name = "E", allow_hyphen_values = true)]
-    error_tolerance: Option<f64>,
-    /// on or off: controlled steps end where a contact begins or ends, and at kinks of the road. Default: the scene's, else on.
-    #[arg(long, visible_alias = "locate-events", value_name = "WORD", value_parser = switch, action = clap::ArgAction::Set)]
-    events: Option<bool>,
-    /// Largest error of the energy invariant, relative to the exchanged energy; the run stops beyond it. Default: the scene's, else 0.1.
-    #[arg(long, value_name = "RATIO", allow_hyphen_values = true)]
-    energy_alarm: Option<f64>,
-    /// Duration [s]. Default: the scene's.
-    #[arg(long, value_name = "T", allow_hyphen_values = true)]
-    duration: Option<f64>,
-    /// Fixed penalty alpha: N/m in index-3 and in the long steps of multi-index, kg in index-1. Default: the scene's, else in proportion to the mass.
-    ///
-    /// In classical it is a regularisation of 1/alpha, in recursive it gives the report's closing forces. Default there: neither.
-    #[arg(long, value_name = "A", allow_hyphen_values = true)]
-    penalty: Option<f64>,
-    /// Newton tolerance, relative to the displacement per step. Default: the scene's, else 1e-10.
-    ///
-    /// With rk54, rk853, gbs and radau5: the error of each step, relative to the size of each coordinate. Default: 1e-8, with gbs 2e-10.
-    ///
-    /// The errors of the steps add up.
-    #[arg(long, value_name = "E", allow_hyphen_values = true)]
-    tolerance: Option<f64>,
+    #[command(flatten)]
+    pub(crate) method: MethodArguments<All>,
     /// Table (CSV) that the scene's inputs follow: a first column `t` [s], then columns with names of inputs. Default: they keep their start.
     ///
     /// Values are linear between rows and held outside. A guide or a coupling follows the spline through its values.
     #[arg(long, value_name = "FILE")]
     inputs: Option<PathBuf>,
-    /// Threads that share the work of a step in index-3, index-1, multi-index and classical. Default: 1.
-    ///
-    /// Results are the same to the last bit. Threads save time above some hundred bodies.
-    #[arg(long, value_name = "N")]
-    threads: Option<usize>,
     /// Directory for run.csv, steps.csv, run.json and run.html, with --realtime also realtime.csv; created if missing. Default: no files.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -111,16 +56,6 @@ pub(crate) struct Arguments {
     /// Write the units as the second line of run.csv.
     #[arg(long, requires = "out")]
     units: bool,
-    /// Precision: f32, f64 or dd (pairs of doubles, 32 digits, for reference runs). Default: f64.
-    #[arg(long, value_name = "P")]
-    pub(crate) precision: Option<String>,
-    /// Integrator: trapezoidal, newmark, generalised-alpha or hht. Default: the scene's, else trapezoidal.
-    ///
-    /// recursive also has rk4, rk54, rk853 (order 8) and gbs (extrapolation, for reference runs).
-    ///
-    /// recursive also has radau5 (implicit, of order 5, for stiff effects; give it a longer --step-max).
-    #[arg(long, value_name = "I")]
-    integrator: Option<String>,
     /// Required error: the largest over the run, relative to each output's range, as in `mbs compare`. Default: none.
     ///
     /// A short pilot measures which formulation, integrator and step reach it in the least time, and reports why.
@@ -145,67 +80,19 @@ pub(crate) struct Arguments {
 }
 
 impl Arguments {
-    fn overrides(&self) -> Method {
-        Method {
-            formulation: self.formulation.clone(),
-            integrator: self.integrator.clone(),
-            precision: self.precision.clone(),
-            step: self.step,
-            step_max: self.step_max,
-            step_control: self.step_control.clone(),
-            energy_tolerance: self.energy_tolerance,
-            error_tolerance: self.error_tolerance,
-            events: self.events,
-            energy_alarm: self.energy_alarm,
-            duration: self.duration,
-            penalty: self.penalty,
-            tolerance: self.tolerance,
-            threads: self.threads,
-            ..Method::default()
-        }
-    }
-
-    fn provenance(&self, o: &Method, settings: &ResolvedMethod) -> Provenance {
+    fn provenance(&self, overrides: &Method, settings: &ResolvedMethod) -> Provenance {
         let options = [
-            ("formulation", o.formulation.clone()),
-            ("step", o.step.map(|x| x.to_string())),
-            ("step-max", o.step_max.map(|x| x.to_string())),
-            ("step-control", o.step_control.clone()),
-            ("energy-tolerance", o.energy_tolerance.map(|[u, l]| format!("{u},{l}"))),
-            ("error-tolerance", o.error_tolerance.map(|x| x.to_string())),
-            ("events", o.events.map(|on| if on { "on" } else { "off" }.to_owned())),
-            ("energy-alarm", o.energy_alarm.map(|x| x.to_string())),
-            ("duration", o.duration.map(|x| x.to_string())),
-            ("penalty", o.penalty.map(|x| x.to_string())),
-            ("tolerance", o.tolerance.map(|x| x.to_string())),
-            ("precision", o.precision.clone()),
-            ("integrator", o.integrator.clone()),
             ("inputs", self.inputs.as_ref().map(|file| file.display().to_string())),
             ("error", self.error.map(|x| x.to_string())),
             ("deadline", self.deadline.map(|x| x.to_string())),
         ];
-        let options: Vec<_> = options.into_iter().chain(self.realtime.options()).collect();
+        let others = options.into_iter().chain(self.realtime.options());
+        let options: Vec<_> = method::written(overrides).into_iter().chain(others).collect();
         files::provenance(("run", &self.scene), &options, settings)
     }
 
     fn goal(&self) -> Goal {
         Goal { error: self.error, deadline: self.deadline }
-    }
-}
-
-/// Reads the two numbers of `U,L`.
-fn two_numbers(text: &str) -> Result<[f64; 2], String> {
-    let number = |text: &str| text.trim().parse::<f64>().ok();
-    let both = text.split_once(',').and_then(|(u, l)| Some([number(u)?, number(l)?]));
-    both.ok_or_else(|| "write two numbers with a comma, such as 1e-5,1e-7".to_owned())
-}
-
-/// Reads the word `on` or `off`.
-fn switch(text: &str) -> Result<bool, String> {
-    match text {
-        "on" => Ok(true),
-        "off" => Ok(false),
-        _ => Err("write on or off".to_owned()),
     }
 }
 
@@ -215,7 +102,7 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
         let inputs: Vec<_> = arguments.inputs.as_deref().into_iter().collect();
         return show::watch(&arguments.scene, &inputs, arguments.out.as_deref());
     }
-    let mut clock = Processor::new(arguments.threads.unwrap_or(1));
+    let mut clock = Processor::new(arguments.method.given.threads.unwrap_or(1));
     match begin(arguments) {
         Ok(begun) => go(arguments, begun, &mut clock),
         Err(Stop::Refused(refusal)) => refusal.report(),
@@ -262,7 +149,7 @@ fn begin(arguments: &Arguments) -> Result<Run, Stop> {
     let out = arguments.show.out(arguments.out.as_deref());
     let pacing = arguments.realtime.pacing()?;
     let mut kept = arguments.keep.begin(out)?;
-    let mut overrides = kept.overrides(arguments.overrides())?;
+    let mut overrides = kept.overrides(arguments.method.given.clone())?;
     overrides.interrupt = signals::heeded();
     // Of a scene that is not there that is said.
     if let Some(missing) = named(&overrides.precision).filter(|p| !p.is_built())

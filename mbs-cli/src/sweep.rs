@@ -2,6 +2,7 @@
 
 use crate::bar::bar;
 use crate::diff::label;
+use crate::method::{MethodArguments, OfSweep};
 use crate::refusal::Refusal;
 use crate::say::{say, warn};
 use crate::scene::SceneArgument;
@@ -52,40 +53,11 @@ pub(crate) struct Arguments {
     /// Print one JSON object on standard output and nothing else.
     #[arg(long)]
     json: bool,
-    /// Formulation of all members. Default: the scene's, else auto.
-    #[arg(long, value_name = "F")]
-    formulation: Option<String>,
-    /// Integrator of all members. Default: the scene's, else trapezoidal.
-    #[arg(long, value_name = "I")]
-    integrator: Option<String>,
-    /// Precision: f32 or f64. Default: f64.
-    #[arg(long, value_name = "P")]
-    pub(crate) precision: Option<String>,
-    /// Step [s]. Default: the scene's, else 0.001.
-    #[arg(long, value_name = "H", allow_hyphen_values = true)]
-    step: Option<f64>,
-    /// Tolerance of the estimated local error of a step, relative to the scene's length. Default: the scene's, else fixed steps.
-    #[arg(long, value_name = "E", allow_hyphen_values = true)]
-    error_tolerance: Option<f64>,
-    /// Duration [s]. Default: the scene's.
-    #[arg(long, value_name = "T", allow_hyphen_values = true)]
-    duration: Option<f64>,
+    #[command(flatten)]
+    pub(crate) method: MethodArguments<OfSweep>,
 }
 
 impl Arguments {
-    fn overrides(&self) -> Method {
-        Method {
-            formulation: self.formulation.clone(),
-            integrator: self.integrator.clone(),
-            precision: self.precision.clone(),
-            step: self.step,
-            error_tolerance: self.error_tolerance,
-            duration: self.duration,
-            interrupt: signals::heeded(),
-            ..Method::default()
-        }
-    }
-
     /// Returns the directory of the results: the one that is given, or one with the name of the sweep file.
     fn out(&self) -> PathBuf {
         let of_sweep = || PathBuf::from(self.sweep.file_stem().unwrap_or("sweep".as_ref()));
@@ -104,7 +76,7 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
 fn run(arguments: &Arguments) -> Result<(Report, PathBuf), Refusal> {
     let (document, _) = arguments.scene.read()?;
     let sweep = input::document(&arguments.sweep, "sweep file", (None, false))?;
-    let overrides = arguments.overrides();
+    let overrides = Method { interrupt: signals::heeded(), ..arguments.method.given.clone() };
     let study = Study::new(document.clone(), &sweep, &overrides);
     let study = study.map_err(|error| refused(&error, &document))?;
     let out = arguments.out();

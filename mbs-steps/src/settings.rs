@@ -1,65 +1,203 @@
 //! Settings of a run: the scene's `[solver]` table, overridden by the command line, checked against what is built.
 
+mod decide;
+mod error;
 pub mod length;
-mod method;
 mod way;
 
-use crate::choice::{INTEGRATORS, IntegratorKind, PRECISIONS, Precision, STEP_RULES, StepRule};
+use crate::choice::{IntegratorKind, PRECISIONS, Precision, StepRule};
 use crate::interrupt::Interrupt;
-use crate::methods::{FORMULATIONS, FormulationKind, PenaltyUse};
+use crate::methods::FormulationKind;
 use crate::precision::is_finer;
-use crate::precision::{PrecisionError, not_built_hint};
 use crate::record::PilotReport;
-use mbs_core::control::EnergyRule;
+use decide::{checked, energy_limits, method, named, ordered, positive, step_rule};
+pub use error::SettingsError;
 use mbs_core::once::found;
-use mbs_core::scene::{Scene, SceneError, SolverTable};
+use mbs_core::scene::{NotASetting, Scene, SettingSlot, SettingValue};
 use mbs_core::{Real, instances};
-use mbs_scene::format::significant;
 
 /// Most steps of a run [-]: at a microsecond each they take eleven days.
 const MOST_STEPS: f64 = 1e12;
 /// Step when neither scene nor command line gives one [s].
 pub const DEFAULT_STEP: f64 = 1e-3;
 
-/// Error of a step by its estimate when neither gives one, relative to the scene's length [-]. Chosen, not tuned.
+/// Tolerance of the estimated local error of a step when neither gives one, relative to the scene's length [-]. Chosen, not tuned.
 const DEFAULT_ERROR: f64 = 1e-6;
 /// Largest error of the invariant before a run stops, relative to the exchanged energy [-]. Chosen, not tuned.
 const DEFAULT_ALARM: f64 = 0.1;
 
-/// Settings that the command line (or a caller) gives; `None` leaves a setting to the scene.
+/// Settings that the command line (or a caller) gives; `None` leaves a setting to the scene. [`SETTINGS`](mbs_core::scene::SETTINGS)
+/// has their defaults, and who takes them.
+///
+/// ```
+/// use mbs::{FormulationKind, IntegratorKind, Method};
+/// let method = Method::new(FormulationKind::Recursive).integrator(IntegratorKind::Rk4).step(1e-3);
+/// ```
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Method {
-    /// Name of the formulation.
+    /// Formulation of the equations of motion.
     pub formulation: Option<String>,
-    /// Name of the integrator.
+    /// Integrator of the equations of motion.
     pub integrator: Option<String>,
-    /// Name of the precision.
+    /// Precision of the numbers.
     pub precision: Option<String>,
-    /// Length of a step [s]; of a controlled length the first one.
+    /// Length of a step; of the first one where lengths are controlled [s].
     pub step: Option<f64>,
-    /// Largest step of a controlled length [s].
+    /// Longest step, and the distance of recorded rows [s].
     pub step_max: Option<f64>,
-    /// Name of the rule that chooses the length of the steps; left out, the tolerances that are given.
+    /// Rule for the length of steps.
     pub step_control: Option<String>,
-    /// [U, L] of the energy rule.
+    /// Limits U and L of the invariant's change in a step, relative to the energy that moves.
     pub energy_tolerance: Option<[f64; 2]>,
-    /// Error of a step by its estimate, relative to the scene's length.
+    /// Tolerance of the estimated local error of a step, relative to the scene's length.
     pub error_tolerance: Option<f64>,
-    /// Do steps of a controlled length end at contacts and kinks of the road?
+    /// Whether steps end where contacts begin or end, and at kinks of the road and of signals.
     pub events: Option<bool>,
-    /// Share of the energy turned over that the invariant may be off by.
+    /// Largest error of the energy invariant, relative to the exchanged energy; beyond it the run stops.
     pub energy_alarm: Option<f64>,
     /// Duration of the run [s].
     pub duration: Option<f64>,
-    /// Fixed penalty [N/m in index-3, kg in index-1]; in classical the regularisation 1/alpha, in recursive the report's
-    /// closure forces; state-space has none.
+    /// Fixed penalty of the augmented Lagrangian, the printed alpha [N/m; index-1: kg].
     pub penalty: Option<f64>,
-    /// Tolerance of the iterations, relative to what accelerations move in a step; with error control the error of a step.
+    /// Tolerance of the iterations, relative to the displacement by accelerations in a step.
     pub tolerance: Option<f64>,
-    /// Number of threads that share the work of a step.
+    /// Threads that share the work of a step.
     pub threads: Option<usize>,
     /// Interrupt that ends the run from outside.
     pub interrupt: Interrupt,
+}
+
+impl Method {
+    /// Field of a setting; nothing for a name that is not in [`SETTINGS`](mbs_core::scene::SETTINGS).
+    pub fn slot(&mut self, name: &str) -> Option<SettingSlot<'_, f64>> {
+        Some(match name {
+            "formulation" => SettingSlot::Word(&mut self.formulation),
+            "integrator" => SettingSlot::Word(&mut self.integrator),
+            "precision" => SettingSlot::Word(&mut self.precision),
+            "step" => SettingSlot::Number(&mut self.step),
+            "step_max" => SettingSlot::Number(&mut self.step_max),
+            "step_control" => SettingSlot::Word(&mut self.step_control),
+            "energy_tolerance" => SettingSlot::Pair(&mut self.energy_tolerance),
+            "error_tolerance" => SettingSlot::Number(&mut self.error_tolerance),
+            "events" => SettingSlot::Flag(&mut self.events),
+            "energy_alarm" => SettingSlot::Number(&mut self.energy_alarm),
+            "duration" => SettingSlot::Number(&mut self.duration),
+            "penalty" => SettingSlot::Number(&mut self.penalty),
+            "tolerance" => SettingSlot::Number(&mut self.tolerance),
+            "threads" => SettingSlot::Count(&mut self.threads),
+            _ => return None,
+        })
+    }
+
+    /// Value of a setting, where it is given. Cost: a copy of the method.
+    #[must_use]
+    pub fn value(&self, name: &str) -> Option<SettingValue<f64>> {
+        self.clone().slot(name)?.take()
+    }
+
+    /// Sets a setting by its name.
+    ///
+    /// # Errors
+    /// [`NotASetting`] for a name that no setting has, and for a value of another form.
+    pub fn set(&mut self, name: &str, value: SettingValue<f64>) -> Result<(), NotASetting> {
+        self.slot(name).ok_or(NotASetting)?.set(value)
+    }
+
+    /// Makes a method by this formulation; all else is the mechanism's, or its default.
+    #[must_use]
+    pub fn new(formulation: FormulationKind) -> Self {
+        Self::default().formulation(formulation)
+    }
+
+    /// Sets [`formulation`](Self#structfield.formulation).
+    #[must_use]
+    pub fn formulation(self, formulation: FormulationKind) -> Self {
+        Self { formulation: Some(formulation.name().to_owned()), ..self }
+    }
+
+    /// Sets [`integrator`](Self#structfield.integrator). Those of first order (`rk4`, `rk54`, `rk853`, `gbs`, `radau5`) are of relative
+    /// coordinates: where no formulation is named they take `recursive`.
+    #[must_use]
+    pub fn integrator(self, integrator: IntegratorKind) -> Self {
+        Self { integrator: Some(integrator.name().to_owned()), ..self }
+    }
+
+    /// Sets [`precision`](Self#structfield.precision).
+    #[must_use]
+    pub fn precision(self, precision: Precision) -> Self {
+        Self { precision: Some(precision.name().to_owned()), ..self }
+    }
+
+    /// Sets [`step`](Self#structfield.step) [s].
+    #[must_use]
+    pub fn step(self, dt: f64) -> Self {
+        Self { step: Some(dt), ..self }
+    }
+
+    /// Sets [`step_max`](Self#structfield.step_max) [s].
+    #[must_use]
+    pub fn step_max(self, dt: f64) -> Self {
+        Self { step_max: Some(dt), ..self }
+    }
+
+    /// Sets [`step_control`](Self#structfield.step_control). Lengths only shrink unless [`step_max`](Self::step_max) lets them grow.
+    ///
+    /// ```
+    /// use mbs::{Method, StepRule};
+    /// let method = Method::default().control(StepRule::Error).error_tolerance(1e-7).step(1e-4).step_max(1e-2);
+    /// ```
+    #[must_use]
+    pub fn control(self, control: StepRule) -> Self {
+        Self { step_control: Some(control.name().to_owned()), ..self }
+    }
+
+    /// Sets [`energy_tolerance`](Self#structfield.energy_tolerance), the larger limit first.
+    #[must_use]
+    pub fn energy_tolerance(self, limits: [f64; 2]) -> Self {
+        Self { energy_tolerance: Some(limits), ..self }
+    }
+
+    /// Sets [`error_tolerance`](Self#structfield.error_tolerance).
+    #[must_use]
+    pub fn error_tolerance(self, error: f64) -> Self {
+        Self { error_tolerance: Some(error), ..self }
+    }
+
+    /// Sets [`events`](Self#structfield.events).
+    #[must_use]
+    pub fn events(self, are_located: bool) -> Self {
+        Self { events: Some(are_located), ..self }
+    }
+
+    /// Sets [`energy_alarm`](Self#structfield.energy_alarm).
+    #[must_use]
+    pub fn energy_alarm(self, ratio: f64) -> Self {
+        Self { energy_alarm: Some(ratio), ..self }
+    }
+
+    /// Sets [`duration`](Self#structfield.duration) [s].
+    #[must_use]
+    pub fn duration(self, duration: f64) -> Self {
+        Self { duration: Some(duration), ..self }
+    }
+
+    /// Sets [`penalty`](Self#structfield.penalty) [N/m in index-3, kg in index-1].
+    #[must_use]
+    pub fn penalty(self, alpha: f64) -> Self {
+        Self { penalty: Some(alpha), ..self }
+    }
+
+    /// Sets [`tolerance`](Self#structfield.tolerance).
+    #[must_use]
+    pub fn tolerance(self, tolerance: f64) -> Self {
+        Self { tolerance: Some(tolerance), ..self }
+    }
+
+    /// Sets [`threads`](Self#structfield.threads).
+    #[must_use]
+    pub fn threads(self, n: usize) -> Self {
+        Self { threads: Some(n), ..self }
+    }
 }
 
 /// Settings of a run, with everything decided.
@@ -73,25 +211,25 @@ pub struct ResolvedMethod {
     pub integrator: IntegratorKind,
     /// Precision of the run.
     pub precision: Precision,
-    /// Length of a step [s]; with a controlled step size the first one.
+    /// Length of a step; of the first one where lengths are controlled [s].
     pub step: f64,
-    /// Largest step of a controlled step size [s], and the distance of recorded rows: `step` when left out.
+    /// Longest step, and the distance of recorded rows [s].
     pub step_max: f64,
-    /// Rule that chooses the length of the steps.
+    /// Rule for the length of steps.
     pub rule: StepRule,
-    /// [U, L] of the energy rule.
+    /// Limits U and L of the invariant's change in a step, relative to the energy that moves.
     pub energy_tolerance: [f64; 2],
-    /// Error of a step by its estimate, relative to the scene's length.
+    /// Tolerance of the estimated local error of a step, relative to the scene's length.
     pub error_tolerance: f64,
-    /// Do steps of a controlled length end at contacts and kinks of the road?
+    /// Whether steps end where contacts begin or end, and at kinks of the road and of signals.
     pub events: bool,
-    /// Share of the energy turned over that the invariant may be off by before the run stops.
+    /// Largest error of the energy invariant, relative to the exchanged energy; beyond it the run stops.
     pub energy_alarm: f64,
     /// Duration of the run [s].
     pub duration: f64,
-    /// Fixed penalty, if any.
+    /// Fixed penalty of the augmented Lagrangian, the printed alpha; `None`: by the formulation's own rule.
     pub penalty: Option<f64>,
-    /// Tolerance of the iterations, if any.
+    /// Tolerance of the iterations; `None`: that of the formulation, or of the integrator.
     pub tolerance: Option<f64>,
     /// Threads that share the work of a step.
     pub threads: usize,
@@ -111,137 +249,6 @@ pub struct Lengths<T> {
     /// Duration of the run.
     pub duration: T,
 }
-
-/// A setting that is refused.
-#[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
-pub enum SettingsError {
-    /// A name that is unknown or not built yet.
-    NotBuilt {
-        /// Key of the setting.
-        key: &'static str,
-        /// The value asked for.
-        value: String,
-        /// Names that are built.
-        built: &'static [&'static str],
-        /// The scene asks for it, not the command line.
-        from_scene: bool,
-    },
-    /// A precision that this build does not have.
-    NotInBuild(Precision),
-    /// A number that must be positive and finite.
-    NotPositive {
-        /// Key of the setting.
-        key: &'static str,
-        /// Value of the setting.
-        value: f64,
-    },
-    /// U and L of the energy rule, the smaller one first.
-    LimitOrder([f64; 2]),
-    /// Names that do not go together.
-    NotTogether {
-        /// Formulation that does not know the option.
-        formulation: FormulationKind,
-        /// The option that it does not know.
-        option: String,
-    },
-    /// The scene cannot be meant in a run of this length.
-    Scene(SceneError),
-    /// A step of fixed length that is longer than the run.
-    StepTooLong {
-        /// Length of a step [s].
-        step: f64,
-        /// Duration of the run [s].
-        duration: f64,
-    },
-    /// The step is so short that the run would not end.
-    TooManySteps {
-        /// Length of a step [s].
-        step: f64,
-        /// Duration of the run [s].
-        duration: f64,
-    },
-}
-
-impl SettingsError {
-    /// The key of the setting that it is about, where that is one.
-    #[must_use]
-    pub fn key(&self) -> Option<&str> {
-        match self {
-            Self::NotBuilt { key, .. } | Self::NotPositive { key, .. } => Some(key),
-            Self::NotInBuild(_) => Some("precision"),
-            Self::NotTogether { option, .. } => option.split(' ').next(),
-            Self::TooManySteps { .. } | Self::StepTooLong { .. } => Some("step"),
-            Self::LimitOrder(_) | Self::Scene(_) => None,
-        }
-    }
-
-    /// Hint for the user: what to do about the error.
-    #[must_use]
-    pub fn hint(&self) -> String {
-        match self {
-            Self::NotBuilt { value, built, .. } => mbs_scene::nearest_name(value, built, "built are"),
-            Self::NotInBuild(precision) => not_built_hint(*precision),
-            Self::NotPositive { .. } => "write a number larger than zero".to_owned(),
-            Self::LimitOrder(_) => "write the larger one first: U, then L".to_owned(),
-            Self::NotTogether { option, .. } if option.starts_with("step control") => {
-                "rk54, rk853, gbs and radau5 control their own step by --tolerance; the others need an implicit one-step rule"
-                    .to_owned()
-            }
-            Self::NotTogether { option, .. } if option == "threads" => {
-                let names = FormulationKind::names(|row| row.threads, "and");
-                format!("threads share the steps of {names}")
-            }
-            Self::NotTogether { option, .. } if option == "penalty" => {
-                "leave the penalty out".to_owned()
-            }
-            Self::NotTogether { .. } => {
-                let name = FormulationKind::RELATIVE.name();
-                format!("rk4, rk54, rk853, gbs and radau5 need formulation `{name}`")
-            }
-            Self::TooManySteps { .. } => "write a longer step, or a shorter duration".to_owned(),
-            Self::Scene(error) => error.fault.advice().to_owned(),
-            Self::StepTooLong { duration, .. } => {
-                format!("write a step of {} s at most, or a longer duration", significant(*duration))
-            }
-        }
-    }
-}
-
-impl core::fmt::Display for SettingsError {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        match self {
-            Self::NotBuilt { key, value, .. } => write!(f, "unknown {key} `{value}`"),
-            Self::NotInBuild(precision) => PrecisionError::NotBuilt(*precision).fmt(f),
-            Self::NotPositive { key, value } => {
-                write!(f, "{key} must be positive and finite, but is {}", significant(*value))
-            }
-            Self::LimitOrder([upper, lower]) => write!(
-                f,
-                "energy_tolerance: U must be larger than L, but U is {} and L is {}",
-                significant(*upper),
-                significant(*lower)
-            ),
-            Self::NotTogether { formulation, option } => {
-                write!(f, "formulation `{}` has no `{option}`", formulation.name())
-            }
-            Self::Scene(SceneError { entry, field, fault }) => {
-                write!(f, "`{field}` of {entry} {fault:#}")
-            }
-            Self::StepTooLong { step, duration } => {
-                f.write_str(&length::too_long(*step, *duration))
-            }
-            Self::TooManySteps { step, duration } => write!(
-                f,
-                "a step of {} s is too short for a run of {} s: more than {MOST_STEPS:e} steps",
-                significant(*step),
-                significant(*duration)
-            ),
-        }
-    }
-}
-
-impl core::error::Error for SettingsError {}
 
 type New<T> = fn(&Scene<T>, &Method) -> Result<ResolvedMethod, SettingsError>;
 instances!(NEW: New<T> = ResolvedMethod::of::<T>, {});
@@ -322,6 +329,29 @@ impl ResolvedMethod {
         })
     }
 
+    /// Returns the method that asks for all that is decided.
+    #[must_use]
+    pub fn decided(&self) -> Method {
+        let name = |name: &str| Some(name.to_owned());
+        Method {
+            formulation: name(self.formulation.name()),
+            integrator: name(self.integrator.name()),
+            precision: name(self.precision.name()),
+            step: Some(self.step),
+            step_max: Some(self.step_max),
+            step_control: name(self.rule.name()),
+            energy_tolerance: Some(self.energy_tolerance),
+            error_tolerance: Some(self.error_tolerance),
+            events: Some(self.events),
+            energy_alarm: Some(self.energy_alarm),
+            duration: Some(self.duration),
+            penalty: self.penalty,
+            tolerance: self.tolerance,
+            threads: Some(self.threads),
+            interrupt: self.interrupt.clone(),
+        }
+    }
+
     /// Step, largest step and duration in the precision of the run.
     #[must_use]
     pub fn lengths<T: Real>(&self, scene: &Scene<T>) -> Lengths<T> {
@@ -358,115 +388,4 @@ pub fn exact<T: Real>(scene: &Scene<T>, x: f64) -> T {
     let written = [Some(scene.duration), scene.solver.step, scene.solver.step_max];
     let same = written.into_iter().flatten().find(|&w| w.to_f64().to_bits() == x.to_bits());
     same.or_else(|| T::from_decimal(&format!("{x:e}"))).unwrap_or(T::from_f64(x))
-}
-
-/// The formulation as asked and as it runs, and the integrator.
-fn method<T>(
-    solver: &SolverTable<T>,
-    overrides: &Method,
-) -> Result<(String, FormulationKind, IntegratorKind), SettingsError> {
-    let (asked, formulation) = named(
-        "formulation",
-        (&overrides.formulation, &solver.formulation, "auto"),
-        &FORMULATIONS,
-        // `auto` stands before them.
-        core::array::from_fn(|i| i.checked_sub(1).map(|i| FormulationKind::ALL[i])),
-    )?;
-    let (_, integrator) = named(
-        "integrator",
-        (&overrides.integrator, &solver.integrator, "trapezoidal"),
-        &INTEGRATORS,
-        IntegratorKind::ALL,
-    )?;
-    let formulation = match formulation {
-        Some(formulation) => formulation,
-        None if integrator.is_of_first_order() => FormulationKind::RELATIVE,
-        None => FormulationKind::DEFAULT,
-    };
-    if !formulation.runs_with(integrator) {
-        let option = format!("integrator {}", integrator.name());
-        return Err(SettingsError::NotTogether { formulation, option });
-    }
-    if formulation.row().penalty == PenaltyUse::None && overrides.penalty.is_some() {
-        let option = "penalty".to_owned();
-        return Err(SettingsError::NotTogether { formulation, option });
-    }
-    Ok((asked, formulation, integrator))
-}
-
-/// Rule that chooses the length of the steps. The rule that the command line names comes first, then one that it gives tolerances for. Next is
-/// the rule that the scene names, and last the one of its error tolerance. The energy limits of a scene are meant for multi-index, which has the
-/// energy rule anyway.
-fn step_rule<T>(
-    solver: &SolverTable<T>,
-    overrides: &Method,
-    (formulation, integrator): (FormulationKind, IntegratorKind),
-) -> Result<StepRule, SettingsError> {
-    let of_formulation = formulation.row().energy_rule;
-    let given = [overrides.energy_tolerance.is_some(), overrides.error_tolerance.is_some()];
-    let is_named = overrides.step_control.is_some() || solver.step_control.is_some();
-    let (from_caller, default) = if overrides.step_control.is_none() && given != [false; 2] {
-        let rule = StepRule::of(given[0] || of_formulation, given[1]);
-        (Some(rule.name().to_owned()), rule)
-    } else {
-        let default = StepRule::of(of_formulation, solver.error_tolerance.is_some());
-        (overrides.step_control.clone(), default)
-    };
-    let [from_caller, from_scene] = [&from_caller, &solver.step_control]
-        .map(|name| name.as_deref().map(|name| StepRule::canonical(name).to_owned()));
-    let names = (&from_caller, &from_scene, default.name());
-    let (_, rule) = named("step_control", names, &STEP_RULES, StepRule::ALL)?;
-    if rule == StepRule::Fixed || !integrator.is_of_first_order() {
-        return Ok(rule);
-    }
-    // A tolerance in the scene is for integrators that can use it.
-    if !is_named && given == [false; 2] {
-        return Ok(StepRule::Fixed);
-    }
-    let option = format!("step control {} beside integrator {}", rule.name(), integrator.name());
-    Err(SettingsError::NotTogether { formulation, option })
-}
-
-/// U and L of the energy rule: the caller's, the scene's, or the usual ones.
-fn energy_limits<T: Real>(solver: &SolverTable<T>, overrides: &Method) -> [f64; 2] {
-    let of_scene = solver.energy_tolerance.map(|limits| limits.map(T::to_f64));
-    let usual = EnergyRule::default();
-    overrides.energy_tolerance.or(of_scene).unwrap_or([usual.upper, usual.lower])
-}
-
-/// The value that belongs to the first name given: override, scene, default.
-fn named<U: Copy, const N: usize>(
-    key: &'static str,
-    (from_caller, from_scene, default): (&Option<String>, &Option<String>, &str),
-    names: &'static [&'static str; N],
-    values: [U; N],
-) -> Result<(String, U), SettingsError> {
-    let name = from_caller.as_deref().or(from_scene.as_deref()).unwrap_or(default);
-    match names.iter().position(|n| *n == name) {
-        Some(i) => Ok((name.to_owned(), values[i])),
-        None => Err(SettingsError::NotBuilt {
-            key,
-            value: name.to_owned(),
-            built: names,
-            from_scene: from_caller.is_none(),
-        }),
-    }
-}
-
-fn positive(key: &'static str, value: f64) -> Result<f64, SettingsError> {
-    if value > 0.0 && value.is_finite() {
-        Ok(value)
-    } else {
-        Err(SettingsError::NotPositive { key, value })
-    }
-}
-
-/// U and L of the energy rule.
-fn ordered([upper, lower]: [f64; 2]) -> Result<[f64; 2], SettingsError> {
-    let limits = [positive("energy_tolerance", upper)?, positive("energy_tolerance", lower)?];
-    if upper > lower { Ok(limits) } else { Err(SettingsError::LimitOrder(limits)) }
-}
-
-fn checked(key: &'static str, value: Option<f64>) -> Result<Option<f64>, SettingsError> {
-    value.map(|x| positive(key, x)).transpose()
 }

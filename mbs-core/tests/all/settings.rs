@@ -6,7 +6,10 @@ use mbs_core::scene::{NotASetting, SETTINGS, Setting, SettingForm, SettingValue,
 const MAX_WORDS: usize = 25;
 
 /// Files that say the meaning of a setting at a field of its own, with the first line behind those fields.
-const FILES: [(&str, &str); 1] = [("src/scene/solver.rs", "/// Further keys")];
+const FILES: [(&str, &str); 2] = [
+    ("src/scene/solver.rs", "/// Further keys"),
+    ("../mbs-steps/src/settings.rs", "/// Interrupt that ends"),
+];
 
 /// A value that the setting takes.
 fn some_value(row: &Setting) -> SettingValue<f64> {

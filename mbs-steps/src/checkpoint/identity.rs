@@ -6,7 +6,7 @@ use crate::fingerprint::Fingerprint;
 use crate::settings::{Method, ResolvedMethod};
 use core::fmt::{Debug, Write};
 use mbs_core::Real;
-use mbs_core::scene::Scene;
+use mbs_core::scene::{SETTINGS, Scene, Setting};
 
 /// Parts of a scene, as a file calls them.
 const PARTS: [&str; 12] = [
@@ -24,32 +24,49 @@ const PARTS: [&str; 12] = [
     "[solver]",
 ];
 
-/// Settings that a checkpoint holds to, as the command line calls them.
-const KEYS: [&str; 13] = [
+/// Settings that a checkpoint holds to, in the order of its format; others follow in the order of the table.
+const FIRST: [&str; 13] = [
     "formulation",
     "integrator",
     "precision",
     "step",
-    "step-max",
-    "step-control",
-    "energy-tolerance",
-    "error-tolerance",
+    "step_max",
+    "step_control",
+    "energy_tolerance",
+    "error_tolerance",
     "events",
-    "energy-alarm",
+    "energy_alarm",
     "duration",
     "penalty",
     "tolerance",
 ];
 
+/// Setting that a checkpoint does not hold to: the bits are the same for any number of threads.
+const FREE: &str = "threads";
+
+/// Returns the settings that a checkpoint holds to.
+fn held() -> impl Iterator<Item = &'static Setting> {
+    let is_other = |row: &&Setting| row.name != FREE && !FIRST.contains(&row.name);
+    let first = FIRST.into_iter().filter_map(Setting::named);
+    first.chain(SETTINGS.iter().filter(is_other))
+}
+
 /// Scene and settings of a run.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Identity {
     /// A number for each of [`PARTS`].
     parts: [u64; PARTS.len()],
-    /// A text for each of [`KEYS`]; empty: left out.
-    values: [String; KEYS.len()],
+    /// A text for each of [`held`]; empty: left out.
+    values: Vec<String>,
     /// The formulation as asked, `auto` among them.
     asked: String,
+}
+
+impl Default for Identity {
+    fn default() -> Self {
+        let values = held().map(|_| String::new()).collect();
+        Self { parts: [0; PARTS.len()], values, asked: String::new() }
+    }
 }
 
 impl Identity {
@@ -68,54 +85,31 @@ impl Identity {
     }
 
     fn check_settings(&self, kept: &Self) -> Walked {
-        match (0..KEYS.len()).find(|&i| self.values[i] != kept.values[i]) {
+        let mut rows = held().zip(kept.values.iter().zip(&self.values));
+        match rows.find(|(_, (was, is))| was != is) {
             None => Ok(()),
-            Some(i) => {
-                let [was, is] = [kept, self].map(|of| of.values[i].clone());
-                Err(CheckpointError::Setting { key: KEYS[i], was, is })
+            Some((row, (was, is))) => {
+                let (was, is) = (was.clone(), is.clone());
+                Err(CheckpointError::Setting { key: row.option(), was, is })
             }
         }
     }
 
     /// The settings of a checkpoint where `given` says nothing else.
     pub(super) fn overrides(&self, given: &Method) -> Result<Method, CheckpointError> {
-        let [formulation, integrator, precision, numbers @ ..] = &self.values;
-        let [step, step_max, control, energy, error, events, alarm, rest @ ..] = numbers;
-        let [duration, penalty, tolerance] = rest;
-        let text = |given: &Option<String>, kept: &String| given.clone().or(Some(kept.clone()));
-        let number = |given: Option<f64>, kept: &String| match given {
-            Some(_) => Ok(given),
-            None if kept.is_empty() => Ok(None),
-            None => kept.parse().map(Some).map_err(|_| CheckpointError::Misfit),
-        };
-        let is_asked = given.formulation.as_ref().is_none_or(|f| *f == self.asked);
-        let energy = match energy.split_once(',') {
-            Some((u, l)) => [number(None, &u.to_owned())?, number(None, &l.to_owned())?],
-            None => [None; 2],
-        };
-        Ok(Method {
-            formulation: if is_asked {
-                Some(formulation.clone())
-            } else {
-                given.formulation.clone()
-            },
-            integrator: text(&given.integrator, integrator),
-            precision: text(&given.precision, precision),
-            step: number(given.step, step)?,
-            step_max: number(given.step_max, step_max)?,
-            step_control: text(&given.step_control, control),
-            energy_tolerance: given
-                .energy_tolerance
-                .or(energy[0].zip(energy[1]).map(<[f64; 2]>::from)),
-            error_tolerance: number(given.error_tolerance, error)?,
-            events: given.events.or(Some(events == "on")),
-            energy_alarm: number(given.energy_alarm, alarm)?,
-            duration: number(given.duration, duration)?,
-            penalty: number(given.penalty, penalty)?,
-            tolerance: number(given.tolerance, tolerance)?,
-            threads: given.threads,
-            interrupt: given.interrupt.clone(),
-        })
+        let mut method = given.clone();
+        // what was asked for stands for what it was decided to be
+        if method.formulation.as_ref() == Some(&self.asked) {
+            method.formulation = None;
+        }
+        for (row, kept) in held().zip(&self.values) {
+            if kept.is_empty() || method.value(row.name).is_some() {
+                continue;
+            }
+            let value = row.parse(kept).ok_or(CheckpointError::Misfit)?;
+            method.set(row.name, value).map_err(|_| CheckpointError::Misfit)?;
+        }
+        Ok(method)
     }
 
     /// The settings, where they are those of the checkpoint; what was asked for is what its run was asked for.
@@ -185,42 +179,10 @@ fn of(part: &impl Debug) -> u64 {
     print.get()
 }
 
-/// A text for each of [`KEYS`].
-fn values(settings: &ResolvedMethod) -> [String; KEYS.len()] {
-    let ResolvedMethod {
-        asked: _,
-        formulation,
-        integrator,
-        precision,
-        step,
-        step_max,
-        rule,
-        energy_tolerance: [upper, lower],
-        error_tolerance,
-        events,
-        energy_alarm,
-        duration,
-        penalty,
-        tolerance,
-        // The bits are the same for any number of them, and however the rest was chosen.
-        threads: _,
-        choice: _,
-        interrupt: _,
-    } = settings;
-    let optional = |x: &Option<f64>| x.map_or_else(String::new, |x| format!("{x:?}"));
-    [
-        formulation.name().to_owned(),
-        integrator.name().to_owned(),
-        precision.name().to_owned(),
-        format!("{step:?}"),
-        format!("{step_max:?}"),
-        rule.name().to_owned(),
-        format!("{upper:?},{lower:?}"),
-        format!("{error_tolerance:?}"),
-        if *events { "on" } else { "off" }.to_owned(),
-        format!("{energy_alarm:?}"),
-        format!("{duration:?}"),
-        optional(penalty),
-        optional(tolerance),
-    ]
+/// A text for each of [`held`].
+fn values(settings: &ResolvedMethod) -> Vec<String> {
+    let decided = settings.decided();
+    let text =
+        |row: &Setting| decided.value(row.name).map(|value| value.text(|x| format!("{x:?}")));
+    held().map(|row| text(row).unwrap_or_default()).collect()
 }

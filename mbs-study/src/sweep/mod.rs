@@ -25,6 +25,7 @@ use mbs::folder::{PART, WriteError, write_whole};
 use mbs::record::Channel;
 use mbs::results::ResultTable;
 use mbs::{Method, Precision, ResolvedMethod, SettingsError};
+use mbs_core::scene::{SETTINGS, Setting};
 use mbs_parallel::ensemble::{Ensemble, EnsembleError, Panicked, available};
 use mbs_parallel::most_threads;
 use mbs_scene::{ReadError, SceneFile, SweepFile};
@@ -133,18 +134,6 @@ pub trait Watch {
 
 impl Watch for () {}
 
-/// Numbers that callers may override, with their paths in a scene.
-type Given = (&'static str, fn(&Method) -> bool);
-const GIVEN: [Given; 7] = [
-    ("solver.step", |o| o.step.is_some()),
-    ("solver.step_max", |o| o.step_max.is_some()),
-    ("solver.tolerance", |o| o.tolerance.is_some()),
-    ("solver.penalty", |o| o.penalty.is_some()),
-    ("solver.error_tolerance", |o| o.error_tolerance.is_some()),
-    ("solver.energy_alarm", |o| o.energy_alarm.is_some()),
-    ("scene.duration", |o| o.duration.is_some()),
-];
-
 impl Study {
     /// Reads a sweep of a scene and tries its values.
     ///
@@ -167,8 +156,9 @@ impl Study {
         let head = Head::new(KIND, &[&scene.whole_text(), sweep.text(), &options]);
         let sweep = SweepFile::read(sweep, &scene, columns.taken()).map_err(StudyError::Read)?;
         let varied = |path: &str| sweep.varies(&scene, path);
-        if let Some((path, _)) = GIVEN.into_iter().find(|(p, is)| is(overrides) && varied(p)) {
-            return Err(StudyError::Varied(path));
+        let is_given = |row: &&Setting| overrides.value(row.name).is_some() && varied(row.path);
+        if let Some(row) = SETTINGS.iter().find(is_given) {
+            return Err(StudyError::Varied(row.path));
         }
         let check = sweep.check(&scene, |scene| match ResolvedMethod::new(scene, overrides) {
             Err(error @ SettingsError::NotPositive { .. }) => {

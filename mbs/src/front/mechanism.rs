@@ -7,7 +7,7 @@ use super::{Id, Part, PathError, SceneError, UnknownName};
 use crate::settings::Method;
 use mbs_core::Real;
 use mbs_core::scene::{
-    Dimension, Entry, Number, Road, Scene, SceneError as RefusedScene, SceneFault, Vector3,
+    Dimension, Entry, Number, Road, Scene, SceneError as RefusedScene, SceneFault, Setting, Vector3,
 };
 use mbs_scene::{ReadError, SceneFile, WriteError};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -145,29 +145,12 @@ impl Mechanism {
     /// ```
     pub fn set_method(&mut self, method: &Method) -> &mut Self {
         let scene = self.scene_mut();
-        let table = &mut scene.solver;
-        let words = [
-            (&mut table.formulation, &method.formulation),
-            (&mut table.integrator, &method.integrator),
-            (&mut table.step_control, &method.step_control),
-        ];
-        let numbers = [
-            (&mut table.step, method.step),
-            (&mut table.step_max, method.step_max),
-            (&mut table.tolerance, method.tolerance),
-            (&mut table.penalty, method.penalty),
-            (&mut table.error_tolerance, method.error_tolerance),
-            (&mut table.energy_alarm, method.energy_alarm),
-        ];
-        for (to, word) in words {
-            *to = word.clone().or(to.take());
+        for (key, row) in Setting::of_table("solver") {
+            if let (Some(value), Some(slot)) = (method.value(row.name), scene.solver.slot(key)) {
+                // both have the form of the row
+                let _ = slot.set(value.map(&mut Number::from));
+            }
         }
-        for (to, number) in numbers {
-            *to = number.map(Number::from).or(to.take());
-        }
-        let limits = method.energy_tolerance.map(|limits| limits.map(Number::from));
-        table.energy_tolerance = limits.or(table.energy_tolerance.take());
-        table.locate_events = method.events.or(table.locate_events);
         if let Some(duration) = method.duration {
             scene.duration = duration.into();
         }

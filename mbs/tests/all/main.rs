@@ -54,6 +54,7 @@ mod results;
 mod rolling;
 mod ropes;
 mod rotors;
+mod settings;
 mod signal_times;
 mod signals;
 mod slack_ropes;

@@ -1,0 +1,177 @@
+//! Options of a method, one for each setting that the command takes, by the table of settings of mbs-core.
+
+use clap::{Arg, ArgMatches, Args, Command, Error, FromArgMatches};
+use core::fmt::Debug;
+use core::marker::PhantomData;
+use mbs::Method;
+use mbs::core::scene::{SETTINGS, Setting, SettingForm, SettingValue};
+
+/// Setting that no command line of a record has: results are the same for any number of threads.
+const UNRECORDED: &str = "threads";
+
+/// Set of settings that a command takes.
+pub(crate) trait SettingSet: Debug + Clone + Send + Sync + 'static {
+    /// Is the setting one of the set?
+    fn has(row: &Setting) -> bool;
+
+    /// Whether help says all on a setting, or the first paragraph alone.
+    const IS_WHOLE: bool = false;
+    /// Words that the settings of the set do not take.
+    const WITHOUT: &[&str] = &[];
+}
+
+/// Set of all settings.
+#[derive(Debug, Clone)]
+pub(crate) struct All;
+
+impl SettingSet for All {
+    fn has(_: &Setting) -> bool {
+        true
+    }
+
+    const IS_WHOLE: bool = true;
+}
+
+/// Declares sets of settings by the names in them.
+macro_rules! sets {
+    ($($(#[$about:meta])* $Set:ident = [$($name:literal),*] without [$($word:literal),*];)*) => {
+        $(
+            $(#[$about])*
+            #[derive(Debug, Clone)]
+            pub(crate) struct $Set;
+
+            impl SettingSet for $Set {
+                fn has(row: &Setting) -> bool {
+                    [$($name),*].contains(&row.name)
+                }
+
+                const WITHOUT: &[&str] = &[$($word),*];
+            }
+        )*
+    };
+}
+
+sets! {
+    /// Set of the settings of `mbs explain`.
+    OfExplain = ["formulation", "integrator", "step", "duration", "precision"] without ["dd"];
+    /// Set of the settings of `mbs sweep`.
+    OfSweep = ["formulation", "integrator", "step", "error_tolerance", "duration", "precision"] without ["dd"];
+    /// Set of the settings of `mbs doctor`.
+    OfDoctor = ["formulation", "step", "duration"] without [];
+}
+
+/// Method that the options of a set give.
+#[derive(Debug, Clone)]
+pub(crate) struct MethodArguments<S> {
+    pub(crate) given: Method,
+    set: PhantomData<S>,
+}
+
+impl<S: SettingSet> Args for MethodArguments<S> {
+    fn augment_args(command: Command) -> Command {
+        command.args(rows::<S>().map(|row| option::<S>(row)))
+    }
+
+    fn augment_args_for_update(command: Command) -> Command {
+        Self::augment_args(command)
+    }
+}
+
+impl<S: SettingSet> FromArgMatches for MethodArguments<S> {
+    fn from_arg_matches(matches: &ArgMatches) -> Result<Self, Error> {
+        let mut given = Method::default();
+        for row in rows::<S>() {
+            if let Some(value) = matches.get_one::<SettingValue<f64>>(row.name) {
+                // the value was read in the form of the row
+                let _ = given.set(row.name, value.clone());
+            }
+        }
+        Ok(Self { given, set: PhantomData })
+    }
+
+    fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), Error> {
+        *self = Self::from_arg_matches(matches)?;
+        Ok(())
+    }
+}
+
+/// The options of a method as they are written, for the command line of a record.
+pub(crate) fn written(method: &Method) -> Vec<(&'static str, Option<String>)> {
+    let recorded = SETTINGS.iter().filter(|row| row.name != UNRECORDED);
+    let text = |row: &Setting| method.value(row.name).map(|value| value.text(f64::to_string));
+    recorded.map(|row| (row.option(), text(row))).collect()
+}
+
+/// The rows of a set.
+fn rows<S: SettingSet>() -> impl Iterator<Item = &'static Setting> {
+    SETTINGS.iter().filter(|row| S::has(row))
+}
+
+/// The option of a setting.
+fn option<S: SettingSet>(row: &'static Setting) -> Arg {
+    let read = |text: &str| row.parse(text).ok_or(wanted(row.form));
+    let is_number = matches!(row.form, SettingForm::Positive | SettingForm::Descending);
+    let first = format!("{} {}", meaning(row, S::WITHOUT), default(row));
+    let further: Vec<String> = row.further().map(|text| of_options(&text)).collect();
+    let others = row.options.get(1..).unwrap_or_default();
+    let option = Arg::new(row.name)
+        .long(row.option())
+        .visible_aliases(others.iter().copied())
+        .value_name(row.letter)
+        .value_parser(read)
+        .allow_hyphen_values(is_number)
+        .help(first.trim_end_matches('.').to_owned());
+    if !S::IS_WHOLE || further.is_empty() {
+        return option;
+    }
+    option.long_help([vec![first], further].concat().join("\n\n"))
+}
+
+/// Meaning of a setting with the words that it takes.
+fn meaning(row: &Setting, without: &[&str]) -> String {
+    let words: &[&str] = match row.form {
+        SettingForm::Word(words) => words,
+        SettingForm::Flag => &["on", "off"],
+        SettingForm::Positive | SettingForm::Descending | SettingForm::Count => &[],
+    };
+    let words: Vec<_> = words.iter().copied().filter(|word| !without.contains(word)).collect();
+    let sentence = row.sentence();
+    match (&words[..], sentence.strip_suffix('.')) {
+        ([others @ .., last], Some(sentence)) => {
+            format!("{sentence}: {} or {last}.", others.join(", "))
+        }
+        _ => sentence,
+    }
+}
+
+/// Default of a setting, in a sentence.
+fn default(row: &Setting) -> String {
+    let default = match row.form {
+        SettingForm::Flag if row.default == "true" => "on".to_owned(),
+        SettingForm::Descending => row.default.replace(['[', ']', ' '], ""),
+        _ => of_options(row.default),
+    };
+    match (row.path.is_empty(), default.is_empty()) {
+        (true, _) => format!("Default: {default}."),
+        (false, true) => "Default: the scene's.".to_owned(),
+        (false, false) => format!("Default: the scene's, else {default}."),
+    }
+}
+
+/// A text with the options of the settings that it names.
+fn of_options(text: &str) -> String {
+    SETTINGS.iter().fold(text.to_owned(), |text, row| {
+        text.replace(&format!("`{}`", row.name), &format!("--{}", row.option()))
+    })
+}
+
+/// What to write as a value of a form.
+fn wanted(form: SettingForm) -> &'static str {
+    match form {
+        SettingForm::Word(_) => "write a word",
+        SettingForm::Positive => "write a number, such as 0.001",
+        SettingForm::Descending => "write two numbers with a comma, such as 1e-5,1e-7",
+        SettingForm::Flag => "write on or off",
+        SettingForm::Count => "write a whole number from 1",
+    }
+}
