@@ -28,6 +28,13 @@ impl Joint {
         places.along(self.bodies, &self.seats(places), u, true)
     }
 
+    /// Rows that hold the points on a line of the first body along the axis.
+    fn sides(&self, places: &Places, planar: bool) -> Vec<Row> {
+        let a = self.axes[0];
+        let sides = if planar { vec![cross(EZ, a)] } else { across(a).to_vec() };
+        sides.into_iter().map(|u| self.slide(places, u)).collect()
+    }
+
     /// u · w, u fixed in the first body and w in the second.
     fn cosine(&self, places: &Places, u: Vector, w: Vector) -> Row {
         let (u, w) = (places.direction(self.bodies[0], u), places.direction(self.bodies[1], w));
@@ -51,7 +58,9 @@ impl Joint {
     pub(crate) fn rows(&self, places: &Places, planar: bool) -> Vec<Row> {
         let [a, b] = self.axes;
         match self.kind {
-            Kind::Free => Vec::new(),
+            Kind::Free | Kind::FreePoint => Vec::new(),
+            // the pin stays on the line of the slot, and turns as it likes
+            Kind::PinInSlot => self.sides(places, planar),
             Kind::Revolute if planar => self.coincidence(places, true),
             Kind::Revolute => [self.coincidence(places, false), self.parallel(places, a)].concat(),
             Kind::Spherical => self.coincidence(places, planar),
@@ -64,14 +73,9 @@ impl Joint {
                 [self.coincidence(places, planar), self.same_turn(places, planar)].concat()
             }
             Kind::Prismatic => {
-                let sides = if planar { vec![cross(EZ, a)] } else { across(a).to_vec() };
-                let sides = sides.into_iter().map(|u| self.slide(places, u)).collect();
-                [sides, self.same_turn(places, planar)].concat()
+                [self.sides(places, planar), self.same_turn(places, planar)].concat()
             }
-            Kind::Cylindrical => {
-                let sides = across(a).map(|u| self.slide(places, u)).to_vec();
-                [sides, self.parallel(places, a)].concat()
-            }
+            Kind::Cylindrical => [self.sides(places, false), self.parallel(places, a)].concat(),
             Kind::Planar => [vec![self.slide(places, a)], self.parallel(places, a)].concat(),
             Kind::Distance => {
                 let length = norm(sub(self.points[1], self.points[0]));
@@ -142,6 +146,10 @@ impl Joint {
             }
             Kind::Universal => self.universal(places, near),
             Kind::Spherical => self.ball(places, turns, near),
+            Kind::PinInSlot if planar => vec![self.slide(places, a), plane_turn()],
+            Kind::PinInSlot => {
+                [vec![self.slide(places, a)], self.ball(places, turns, near)].concat()
+            }
             Kind::Planar => vec![
                 self.slide(places, d),
                 self.slide(places, cross(a, d)),
@@ -150,6 +158,8 @@ impl Joint {
             Kind::Free if planar => {
                 vec![self.slide(places, EX), self.slide(places, EY), plane_turn()]
             }
+            Kind::FreePoint if planar => vec![self.slide(places, EX), self.slide(places, EY)],
+            Kind::FreePoint => [EX, EY, EZ].map(|e| self.slide(places, e)).to_vec(),
             Kind::Free => {
                 let slides = [EX, EY, EZ].map(|e| self.slide(places, e)).to_vec();
                 [slides, self.ball(places, turns, near)].concat()
@@ -161,11 +171,6 @@ impl Joint {
     pub(crate) fn turning(&self, planar: bool) -> Range<usize> {
         let [slides, turns] = self.kind.coordinates(planar);
         slides..slides + turns
-    }
-
-    /// The number of the one rotation that effects act about.
-    pub(crate) fn rotation(&self, planar: bool) -> Option<usize> {
-        Some(self.turning(planar)).filter(|turns| turns.len() == 1).map(|turns| turns.start)
     }
 
     /// The first of three coordinates that are a rotation vector.

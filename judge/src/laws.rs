@@ -1,8 +1,9 @@
 //! Laws of forces: gravity, the bodies' own turning, and every effect of the contract.
 
-use crate::loads::{Loads, Now, contact};
+use crate::loads::{Exerted, Loads, Now, contact};
+use crate::polynomial;
 use crate::rows::Row;
-use crate::scene::{Carrier, Effect, Line};
+use crate::scene::{Carrier, Effect, Given, Line, Path};
 use crate::vector::{
     Vector, ZERO, add, compose, conjugate, cross, dot, followed, norm, scale, sub, times,
     transpose, transposed_times,
@@ -21,12 +22,6 @@ impl Now<'_> {
         data.coordinates(self.places, self.scene.planar, turns, self.turns[joint])
     }
 
-    /// The coordinate that effects of a joint act on.
-    pub(crate) fn turn(&self, joint: usize) -> Row {
-        let number = self.scene.joints[joint].rotation(self.scene.planar).unwrap_or(0);
-        self.coordinates(joint).swap_remove(number)
-    }
-
     fn line(&self, line: &Line) -> Row {
         let seats = [0, 1].map(|i| self.places.seat(line.bodies[i], line.points[i]));
         match line.direction {
@@ -38,9 +33,17 @@ impl Now<'_> {
         }
     }
 
+    fn path(&self, path: &Path) -> Row {
+        match path {
+            Path::Ends(line) => self.line(line),
+            Path::Points(points) => self.length(points),
+            Path::Sum(terms) => self.sum(terms),
+        }
+    }
+
     /// Returns all forces on the bodies.
     pub(crate) fn loads(&self) -> Loads {
-        let mut loads = Loads { on: vec![[0.0; 6]; self.frames.len()], potential: 0.0, power: 0.0 };
+        let mut loads = Loads::none(self.frames.len());
         for (b, body) in self.scene.bodies.iter().enumerate() {
             let placed = self.places.of(Some(b));
             let weight = scale(body.mass * body.gravity_scale, self.scene.gravity);
@@ -48,100 +51,124 @@ impl Now<'_> {
             loads.potential -= dot(weight, placed.r);
         }
         for effect in &self.scene.effects {
-            let before = loads.on.clone();
-            let (stored, rate) = self.effect(effect, &mut loads);
-            loads.potential += stored;
-            let all: f64 = loads
-                .on
-                .iter()
-                .zip(&before)
-                .zip(self.frames)
-                .map(|((f, g), frame)| {
-                    (0..3)
-                        .map(|i| (f[i] - g[i]) * frame.v[i] + (f[i + 3] - g[i + 3]) * frame.w[i])
-                        .sum::<f64>()
-                })
-                .sum();
-            loads.power += all + rate;
+            let mut own = Loads::none(self.frames.len());
+            let exerted = self.effect(effect, &mut own);
+            loads.add(&own);
+            loads.potential += exerted.stored;
+            loads.power += own.power_on(self.frames) + exerted.stored_rate;
         }
         loads
     }
 
-    /// Adds the forces of an effect; returns what it stores and the rate of that.
+    /// Adds the forces of an effect.
     #[allow(clippy::too_many_lines, reason = "one arm for each kind")]
-    fn effect(&self, effect: &Effect, loads: &mut Loads) -> (f64, f64) {
+    pub(crate) fn effect(&self, effect: &Effect, loads: &mut Loads) -> Exerted {
         let p = self.places;
         match effect {
-            Effect::SpringDamper(line, [k, c, free]) => {
-                let row = self.line(line);
-                let (x, rate) = (row.value - free, row.rate(p));
-                loads.along(&row, -(k * x + c * rate));
-                return (0.5 * k * x * x, k * x * rate);
+            Effect::Spring(path, numbers, pulls) => {
+                let row = self.path(path);
+                self.spring(loads, row, *numbers, *pulls)
             }
-            Effect::Polynomial(line, pieces, of_rate) => {
-                let row = self.line(line);
-                let x = if *of_rate { row.rate(p) } else { row.value };
-                loads.along(&row, -polynomial(pieces, x));
+            Effect::Polynomial(path, pieces, of_rate) => {
+                let row = self.path(path);
+                let (value, rate) = (row.value, row.rate(p));
+                let x = if *of_rate { rate } else { value };
+                let tension = polynomial::value(pieces, x);
+                let mut exerted = Exerted::along(loads, row, -tension);
+                if !of_rate {
+                    exerted.stored = polynomial::integral(pieces, value);
+                    exerted.stored_rate = tension * rate;
+                }
+                exerted
             }
             Effect::Bumper(line, [k, c, clearance]) => {
                 let row = self.line(line);
                 let x = norm(sub(line.points[1], line.points[0])) - clearance - row.value;
-                loads.along(&row, contact(*k, *c, x, -row.rate(p)));
+                let rate = -row.rate(p);
+                let push = contact(*k, *c, x, rate);
+                Exerted::along(loads, row, push).touching(*k, x, rate)
             }
-            Effect::Actuator(line, force) => {
-                let row = self.line(line);
-                loads.along(&row, self.given(force)[0]);
+            Effect::Push(path, force) => {
+                Exerted::along(loads, self.path(path), self.given(force)[0])
             }
             Effect::Bushing(bodies, at, [k, c]) => self.bushing(loads, *bodies, *at, k, c),
-            Effect::TorsionSpring(sum, [k, c, free]) => {
-                let row = self.sum(sum);
-                let (x, rate) = (row.value - free, row.rate(p));
-                loads.along(&row, -(k * x + c * rate));
-                return (0.5 * k * x * x, k * x * rate);
-            }
-            Effect::JointTorque(sum, torque) => {
-                loads.along(&self.sum(sum), self.given(torque)[0]);
-            }
             // an inertia, no force
-            Effect::Rotor(..) => {}
+            Effect::Rotor(joint, number, _) => {
+                Exerted::along(loads, self.coordinates(*joint).swap_remove(*number), 0.0)
+            }
             Effect::BodyTorque(body, torque) => {
-                loads.wrench(Some(*body), ZERO, self.given(torque));
+                let torque = self.given(torque);
+                Exerted::on(loads, Some(*body), ZERO, [ZERO, torque])
             }
             Effect::Limit(sum, [lower, upper, k, c]) => {
                 let row = self.sum(sum);
-                let rate = row.rate(p);
-                let push = contact(*k, *c, lower - row.value, -rate)
-                    - contact(*k, *c, row.value - upper, rate);
-                loads.along(&row, push);
+                let (value, rate) = (row.value, row.rate(p));
+                let [below, above] = [lower - value, value - upper];
+                let push = contact(*k, *c, below, -rate) - contact(*k, *c, above, rate);
+                let exerted = Exerted::along(loads, row, push);
+                if below > above {
+                    exerted.touching(*k, below, -rate)
+                } else {
+                    exerted.touching(*k, above, rate)
+                }
             }
-            Effect::Friction(sum, [coulomb, sticking, stribeck, viscous, e]) => {
+            Effect::Friction(sum, [coulomb, sticking, stribeck, viscous, e], factor) => {
                 let row = self.sum(sum);
                 let r = row.rate(p);
                 let ratio = r / stribeck;
                 let level = coulomb + (sticking - coulomb) / (1.0 + ratio * ratio);
-                loads.along(&row, -(level * r / (r * r + e * e).sqrt() + viscous * r));
+                let level = level * self.given(factor)[0].max(0.0);
+                let force = -(level * r / (r * r + e * e).sqrt() + viscous * r);
+                Exerted::along(loads, row, force)
             }
-            Effect::Force(body, at, force, turns) => {
-                let mut force = self.given(force);
+            Effect::Force(body, at, given, turns) => {
+                let mut force = self.given(given);
                 if *turns {
                     force = p.direction(Some(*body), force);
                 }
-                loads.at_point(Some(*body), p.seat(Some(*body), *at).arm, force);
+                let seat = p.seat(Some(*body), *at);
+                let mut exerted = Exerted::on(loads, Some(*body), seat.arm, [force, ZERO]);
+                if matches!(given, Given::Constant(_)) && !turns {
+                    exerted.stored = -dot(force, seat.p);
+                    exerted.stored_rate = -dot(force, seat.v);
+                }
+                exerted
             }
             Effect::Drag(body, at, [area, density]) => {
                 let seat = p.seat(Some(*body), *at);
                 let force = scale(-0.5 * density * area * norm(seat.v), seat.v);
-                loads.at_point(Some(*body), seat.arm, force);
+                Exerted::on(loads, Some(*body), seat.arm, [force, ZERO])
             }
             Effect::SpeedHold(body, direction, [speed, gain, limit]) => {
                 let u = p.direction(Some(*body), *direction);
-                let x = gain * (speed - dot(u, p.of(Some(*body)).v));
+                let placed = p.of(Some(*body));
+                let x = gain * (speed - dot(u, placed.v));
                 let force = scale(x / (1.0 + (x / limit) * (x / limit)).sqrt(), u);
-                loads.at_point(Some(*body), ZERO, force);
+                Exerted::on(loads, Some(*body), ZERO, [force, ZERO])
             }
-            Effect::Tire(tire) => wheel::load(self, tire, loads),
+            Effect::Tire(tire) => {
+                let tread = wheel::tread(self, tire);
+                let seat = p.seat(Some(tire.body), tire.center);
+                Exerted::on(loads, Some(tire.body), seat.arm, tread.wrench).touching(
+                    tire.numbers[1],
+                    tread.depth,
+                    tread.rate,
+                )
+            }
         }
-        (0.0, 0.0)
+    }
+
+    /// A spring with a damper along a row: stiffness, damping, free value; where it only pulls its damper fades in.
+    fn spring(&self, loads: &mut Loads, row: Row, [k, c, free]: [f64; 3], pulls: bool) -> Exerted {
+        let (x, rate) = (row.value - free, row.rate(self.places));
+        if pulls {
+            let tension = contact(k, c, x, rate);
+            let exerted = Exerted::along(loads, row, -tension).touching(k, x, rate);
+            return Exerted { deflection: x, ..exerted };
+        }
+        let (stored, stored_rate) = (0.5 * k * x * x, k * x * rate);
+        let exerted = Exerted::along(loads, row, -(k * x + c * rate));
+        Exerted { deflection: x, stored, stored_rate, ..exerted }
     }
 
     /// Springs and dampers along axes of the first body, and about them by the rotation vector.
@@ -152,32 +179,44 @@ impl Now<'_> {
         at: Vector,
         k: &[f64; 6],
         c: &[f64; 6],
-    ) {
+    ) -> Exerted {
         let p = self.places;
         let seats = bodies.map(|b| p.seat(b, at));
+        let (mut on_second, mut stored, mut stored_rate) = (ZERO, 0.0, 0.0);
         for i in 0..3 {
             let mut e = ZERO;
             e[i] = 1.0;
-            let row = p.along(bodies, &seats, p.direction(bodies[0], e), true);
-            let force = -(k[i] * row.value + c[i] * row.rate(p));
+            let e = p.direction(bodies[0], e);
+            let row = p.along(bodies, &seats, e, true);
+            let rate = row.rate(p);
+            let force = -(k[i] * row.value + c[i] * rate);
             loads.along(&row, force);
+            on_second = add(on_second, scale(force, e));
+            stored += 0.5 * k[i] * row.value * row.value;
+            stored_rate += k[i] * row.value * rate;
         }
         let turn = p.of(bodies[0]).turn;
         let relative = sub(p.of(bodies[1]).w, p.of(bodies[0]).w);
-        let torque = if self.scene.planar {
+        let (phi, inverse) = if self.scene.planar {
             let angle = p.angle(bodies[1]) - p.angle(bodies[0]);
-            [0.0, 0.0, -(k[5] * angle + c[5] * relative[2])]
+            ([0.0, 0.0, angle], crate::vector::UNIT)
         } else {
             let [q1, q2] = self.quaternions(bodies);
             // the quaternions have followed their bodies, beyond half a turn too
             let phi = followed(compose(conjugate(q1), q2));
-            let inverse = inverse_tangent(phi);
-            let rate = times(&inverse, transposed_times(&turn, relative));
-            let load = [0, 1, 2].map(|i| k[i + 3] * phi[i] + c[i + 3] * rate[i]);
-            times(&turn, scale(-1.0, times(&transpose(&inverse), load)))
+            (phi, inverse_tangent(phi))
         };
+        let rate = times(&inverse, transposed_times(&turn, relative));
+        let load = [0, 1, 2].map(|i| k[i + 3] * phi[i] + c[i + 3] * rate[i]);
+        let torque = times(&turn, scale(-1.0, times(&transpose(&inverse), load)));
+        for i in 0..3 {
+            stored += 0.5 * k[i + 3] * phi[i] * phi[i];
+            stored_rate += k[i + 3] * phi[i] * rate[i];
+        }
         loads.wrench(bodies[1], ZERO, torque);
         loads.wrench(bodies[0], ZERO, scale(-1.0, torque));
+        let wrench = Some([on_second, torque]);
+        Exerted { wrench, stored, stored_rate, ..Exerted::default() }
     }
 
     /// Turns of all joints, nearest to those of before.
@@ -212,25 +251,4 @@ fn inverse_tangent(phi: Vector) -> [[f64; 3]; 3] {
         add(add(e, scale(-0.5, once)), scale(factor, cross(phi, once)))
     };
     transpose(&[column([1.0, 0.0, 0.0]), column([0.0, 1.0, 0.0]), column([0.0, 0.0, 1.0])])
-}
-
-/// The piece that holds, or its tangent where none does.
-fn polynomial(pieces: &[Vec<f64>], x: f64) -> f64 {
-    let value = |piece: &[f64], x: f64| {
-        let (mut sum, mut slope) = (0.0, 0.0);
-        for c in piece[2..].iter().rev() {
-            slope = slope * x + sum;
-            sum = sum * x + c;
-        }
-        [sum, slope]
-    };
-    let (Some(first), Some(last)) = (pieces.first(), pieces.last()) else { return 0.0 };
-    let tangent = |piece: &[f64], at: f64| {
-        let [sum, slope] = value(piece, at);
-        sum + slope * (x - at)
-    };
-    if x < first[0] {
-        return tangent(first, first[0]);
-    }
-    pieces.iter().find(|p| x < p[1]).map_or_else(|| tangent(last, last[1]), |p| value(p, x)[0])
 }

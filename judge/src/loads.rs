@@ -18,7 +18,67 @@ pub(crate) struct Loads {
     pub(crate) power: f64,
 }
 
+/// Numbers of an effect at an instant, beside its forces on bodies.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Exerted {
+    /// Row that it measures, with the force along growth of that.
+    pub(crate) along: Option<(Row, f64)>,
+    /// Force on its body, of two on the second, and moment about its point there.
+    pub(crate) wrench: Option<[Vector; 2]>,
+    /// Measured number less its free value, or the depth of its contact.
+    pub(crate) deflection: f64,
+    /// Energy that it stores [J].
+    pub(crate) stored: f64,
+    /// Rate of that energy [W].
+    pub(crate) stored_rate: f64,
+    /// Is it in contact?
+    pub(crate) touches: bool,
+}
+
+impl Exerted {
+    /// A force along a row.
+    pub(crate) fn along(loads: &mut Loads, row: Row, force: f64) -> Self {
+        loads.along(&row, force);
+        Self { along: Some((row, force)), ..Self::default() }
+    }
+
+    /// A force and a moment on a body at a point, given by its arm from the centre of mass.
+    pub(crate) fn on(loads: &mut Loads, body: Carrier, arm: Vector, wrench: [Vector; 2]) -> Self {
+        let [force, moment] = wrench;
+        loads.at_point(body, arm, force);
+        loads.wrench(body, [0.0; 3], moment);
+        Self { wrench: Some(wrench), ..Self::default() }
+    }
+
+    /// Adds what a contact stores at a depth with a rate.
+    pub(crate) fn touching(self, stiffness: f64, depth: f64, rate: f64) -> Self {
+        let x = depth.max(0.0);
+        let (stored, stored_rate) = (0.5 * stiffness * x * x, stiffness * x * rate);
+        Self { deflection: x, stored, stored_rate, touches: depth > 0.0, ..self }
+    }
+}
+
 impl Loads {
+    /// No forces on any of these bodies.
+    pub(crate) fn none(n_bodies: usize) -> Self {
+        Self { on: vec![[0.0; 6]; n_bodies], potential: 0.0, power: 0.0 }
+    }
+
+    /// Adds the forces of others.
+    pub(crate) fn add(&mut self, other: &Self) {
+        for (to, more) in self.on.iter_mut().zip(&other.on) {
+            to.iter_mut().zip(more).for_each(|(x, y)| *x += y);
+        }
+    }
+
+    /// The power of the forces on bodies that move [W].
+    pub(crate) fn power_on(&self, frames: &[Frame]) -> f64 {
+        let of = |(f, frame): (&[f64; 6], &Frame)| {
+            (0..3).map(|i| f[i] * frame.v[i] + f[i + 3] * frame.w[i]).sum::<f64>()
+        };
+        self.on.iter().zip(frames).map(of).sum()
+    }
+
     /// A force along a row that stores energy in part.
     pub(crate) fn along(&mut self, row: &Row, force: f64) {
         for (body, part) in &row.parts {

@@ -83,6 +83,8 @@ pub(crate) enum Owner {
     Rolling(usize, Vector),
     /// A guide of a coordinate of a joint.
     Guide(usize, usize),
+    /// A guide of the rotation vector of a joint, along a direction.
+    Turn(usize, Vector),
 }
 
 /// A saddle system as factored.
@@ -121,7 +123,9 @@ impl Mechanism {
                 }
             }
         }
-        Self { scene, columns, n, scales }
+        let mut mechanism = Self { scene, columns, n, scales };
+        mechanism.fill_limits();
+        mechanism
     }
 
     /// The reference configuration at rest.
@@ -163,6 +167,11 @@ impl Mechanism {
 
     /// All constraints, each with what it belongs to.
     pub(crate) fn rows(&self, now: &Now<'_>) -> Vec<(Owner, Row)> {
+        self.rows_at(now, 1.0)
+    }
+
+    /// All constraints, with a share of the rotation vectors that guides give.
+    pub(crate) fn rows_at(&self, now: &Now<'_>, share: f64) -> Vec<(Owner, Row)> {
         let mut rows = Vec::new();
         for (j, joint) in self.scene.joints.iter().enumerate() {
             let own = joint.rows(now.places, self.scene.planar);
@@ -175,13 +184,7 @@ impl Mechanism {
             let own = now.rolling(rolling);
             rows.extend(own.into_iter().map(|(along, row)| (Owner::Rolling(k, along), row)));
         }
-        for guide in &self.scene.guides {
-            let mut row = now.coordinates(guide.joint).swap_remove(guide.coordinate);
-            let [value, rate, acceleration] = guide.law.at(now.t);
-            row.value -= value;
-            row.given = [rate, acceleration];
-            rows.push((Owner::Guide(guide.joint, guide.coordinate), row));
-        }
+        rows.extend(now.guided(share));
         rows
     }
 
@@ -189,7 +192,9 @@ impl Mechanism {
     pub(crate) fn rotors(&self, now: &Now<'_>) -> Vec<(f64, Row)> {
         let effects = self.scene.effects.iter();
         let rotors = effects.filter_map(|effect| match effect {
-            Effect::Rotor(joint, inertia) => Some((*inertia, now.turn(*joint))),
+            Effect::Rotor(joint, number, inertia) => {
+                Some((*inertia, now.coordinates(*joint).swap_remove(*number)))
+            }
             _ => None,
         });
         rotors.collect()
@@ -367,6 +372,12 @@ impl Mechanism {
                     moved.efforts[joint][coordinate] = *lambda;
                     joint
                 }
+                Owner::Turn(joint, along) => {
+                    let first = self.scene.joints[joint].turning(self.scene.planar).start;
+                    let effort = moved.efforts[joint][first..].iter_mut();
+                    effort.zip(along).for_each(|(x, a)| *x += lambda * a);
+                    joint
+                }
                 Owner::Joint(joint) => joint,
             };
             let wrench = self.wrench(joint, row, *lambda, &places);
@@ -427,7 +438,9 @@ impl Mechanism {
             let is_open = x.abs() >= 1e-6;
             moved.is_redundant |= is_open;
             match owner {
-                Owner::Joint(joint) | Owner::Guide(joint, _) => moved.unique[joint] &= !is_open,
+                Owner::Joint(joint) | Owner::Guide(joint, _) | Owner::Turn(joint, _) => {
+                    moved.unique[joint] &= !is_open;
+                }
                 Owner::Coupling(k) => moved.unique_couplings[k] &= !is_open,
                 Owner::Rolling(k, _) => moved.unique_contacts[k] &= !is_open,
             }

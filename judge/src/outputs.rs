@@ -1,77 +1,17 @@
 //! Outputs that channels show.
 
 use crate::motion::{Mechanism, State};
-use crate::scene::{Coupled, Measure, Quantity};
-use crate::vector::{Vector, add, cross, followed, rotation, sub};
-
-impl Quantity {
-    /// Names of those of a body's point.
-    pub const OF_POINTS: &[&str] = &["position", "velocity", "acceleration", "proper-acceleration"];
-    /// Names of those of a body.
-    pub const OF_BODIES: &[&str] = &[
-        "angular-velocity",
-        "angular-acceleration",
-        "orientation",
-        "rotation-vector",
-        "rotation-matrix",
-        "kinetic-energy",
-    ];
-    /// Names of those of a joint.
-    pub const OF_JOINTS: &[&str] =
-        &["value", "rate", "acceleration", "effort", "power", "reaction"];
-
-    /// Names of those of a signal.
-    pub const OF_SIGNALS: &[&str] = &["value", "rate"];
-    /// Names of those of what rolls.
-    pub const OF_ROLLINGS: &[&str] = &["force"];
-    /// Names of those of a coupling.
-    pub const OF_COUPLINGS: &[&str] = &["effort", "value", "length", "rate", "power"];
-
-    /// Returns the quantity of a coupling by its name.
-    pub(crate) fn of_coupling(name: &str, number: usize) -> Option<Self> {
-        let what = match name {
-            "effort" | "force" => Coupled::Effort,
-            "value" => Coupled::Value,
-            "length" => Coupled::Length,
-            "rate" => Coupled::Rate,
-            "power" => Coupled::Power,
-            _ => return None,
-        };
-        Some(Self::Coupling(number, what))
-    }
-
-    /// Returns the quantity of a body, or of its point, by its name.
-    pub(crate) fn of_body(name: &str, body: usize, at: Option<Vector>) -> Option<Self> {
-        Some(match (name, at) {
-            ("position", Some(at)) => Self::Position(body, at),
-            ("velocity", Some(at)) => Self::Velocity(body, at),
-            ("acceleration", Some(at)) => Self::Acceleration(body, at),
-            ("proper-acceleration", Some(at)) => Self::ProperAcceleration(body, at),
-            ("angular-velocity", None) => Self::AngularVelocity(body),
-            ("angular-acceleration", None) => Self::AngularAcceleration(body),
-            ("orientation", None) => Self::Orientation(body),
-            ("rotation-vector", None) => Self::RotationVector(body),
-            ("rotation-matrix", None) => Self::RotationMatrix(body),
-            ("kinetic-energy", None) => Self::KineticEnergy(body),
-            _ => return None,
-        })
-    }
-
-    /// Returns the quantity of a joint by its name.
-    pub(crate) fn of_joint(name: &str, joint: usize) -> Option<Self> {
-        Some(match name {
-            "value" => Self::Value(joint),
-            "rate" => Self::Rate(joint),
-            "acceleration" => Self::JointAcceleration(joint),
-            "effort" => Self::Effort(joint),
-            "power" => Self::Power(joint),
-            "reaction" => Self::Reaction(joint),
-            _ => return None,
-        })
-    }
-}
+use crate::scene::{Coupled, Measure, Output, Quantity};
+use crate::vector::{Vector, add, cross, followed, rotation, sub, transposed_times};
 
 impl Mechanism {
+    /// Components of a channel.
+    #[must_use]
+    pub fn channel(&self, state: &State, output: &Output) -> Vec<f64> {
+        let unit = if output.degrees { 1.0_f64.to_degrees() } else { 1.0 };
+        self.show(state, output.quantity).into_iter().map(|x| unit * x).collect()
+    }
+
     /// Components of a quantity.
     #[must_use]
     pub fn show(&self, state: &State, quantity: Quantity) -> Vec<f64> {
@@ -94,11 +34,16 @@ impl Mechanism {
             Quantity::AngularVelocity(body) => {
                 places.of(Some(body)).w[if planar { 2 } else { 0 }..].to_vec()
             }
-            Quantity::RelativeAngularVelocity(body, other) => {
-                let [w, of_other] = [body, other].map(|b| places.of(Some(b)).w);
-                sub(w, of_other)[if planar { 2 } else { 0 }..].to_vec()
+            Quantity::RelativeAngularVelocity(body, other, is_global) => {
+                let [w, of_other] = [Some(body), other].map(|b| *places.of(b));
+                let w = sub(w.w, of_other.w);
+                let w = if is_global { w } else { transposed_times(&of_other.turn, w) };
+                w[if planar { 2 } else { 0 }..].to_vec()
             }
-            Quantity::Energy => vec![self.evaluate(state).energy.iter().sum()],
+            Quantity::Seen(point, what) => self.seen(state, &point, what),
+            Quantity::Leaning(leaning) => vec![self.leaning(state, &leaning)],
+            Quantity::Effect(number, what) => self.exerted(state, number, what),
+            Quantity::Whole(what) => self.whole(state, what),
             Quantity::AngularAcceleration(body) => {
                 self.evaluate(state).accelerations[body][if planar { 5 } else { 3 }..].to_vec()
             }
@@ -125,13 +70,7 @@ impl Mechanism {
         let coordinates = |joint: usize| self.now(state, &places).coordinates(joint);
         match quantity {
             Quantity::JointAcceleration(joint) => {
-                let moved = self.evaluate(state).accelerations;
-                let of = |(body, part): &(Option<usize>, [f64; 6])| {
-                    let gain = |b: usize| part.iter().zip(&moved[b]).map(|(x, a)| x * a).sum();
-                    body.map_or(0.0, gain)
-                };
-                let rows = coordinates(joint);
-                rows.iter().map(|row| row.parts.iter().map(of).sum::<f64>() + row.bias).collect()
+                coordinates(joint).iter().map(|row| self.accelerated(state, row)).collect()
             }
             Quantity::Effort(joint) => {
                 let n = coordinates(joint).len();

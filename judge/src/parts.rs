@@ -151,8 +151,8 @@ pub enum Source {
     Sine([f64; 4]),
     /// Chirp: amplitude, frequency, phase, offset, last frequency, duration.
     Chirp([f64; 6]),
-    /// Ramp: rate, start, end.
-    Ramp([f64; 3]),
+    /// Ramp: rate, start, end, rounding.
+    Ramp([f64; 4]),
     /// Step: from, to, when it begins, how long it takes.
     Step([f64; 4]),
     /// Sum of factors times numbers.
@@ -189,6 +189,8 @@ pub struct Signal {
 /// A vector over time.
 #[derive(Debug, Clone)]
 pub enum Given {
+    /// Vector that is the same at all times.
+    Constant(Vector),
     /// Rows of time and vector, linear between them, held outside; one row is a constant.
     Rows(Vec<(f64, Vector)>),
     /// A signal for each component.

@@ -3,14 +3,14 @@
 use crate::names::Names;
 use crate::node::{Node, Read, Table, fault, parse};
 use crate::read_coupling::Reader;
-use crate::read_curve::{coordinate, law, rows, word};
+use crate::read_curve::{rows, word};
 use crate::read_effect;
+use crate::read_guide;
+use crate::read_output::output;
 use crate::read_rolling::rolling;
 use crate::read_signal;
-use crate::scene::{
-    Body, Feature, Guide, InitialCondition, Joint, Kind, Output, Quantity, Scene, Spline,
-};
-use crate::vector::{Vector, ZERO, across, add, dot, norm, scale, sub, unit};
+use crate::scene::{Body, Feature, InitialCondition, Joint, Kind, Output, Quantity, Scene, Spline};
+use crate::vector::{ZERO, across, add, dot, norm, scale, sub, unit};
 
 /// Reads the text of a scene.
 ///
@@ -51,14 +51,15 @@ pub fn read(text: &str) -> Read<Scene> {
     scene.initials = initials.into_iter().map(|t| initial(t, &names)).collect::<Read<_>>()?;
     let signals = root.tables("signal")?;
     scene.signals = read_signal::Reader::new(signals, &names, &scene.joints)?.all()?;
-    let guides = root.tables("guide")?;
-    let of = |t| guide(t, &names, &scene);
-    scene.guides = guides.into_iter().map(of).collect::<Read<_>>()?;
+    for table in root.tables("guide")? {
+        read_guide::guide(table, &mut names, &mut scene)?;
+    }
     couplings(root.tables("coupling")?, &names, &mut scene)?;
     let rollings = root.tables("rolling")?.into_iter().enumerate();
     scene.rollings = rollings.map(|(i, t)| rolling(t, &names, i)).collect::<Read<_>>()?;
-    for table in root.tables("effect")? {
-        scene.effects.extend(read_effect::effect(table, &names, &scene)?);
+    let mut effects = read_effect::Reader { names: &names, scene: &mut scene };
+    for (number, table) in root.tables("effect")?.into_iter().enumerate() {
+        effects.effect(table, number)?;
     }
     if let Some(table) = root.table("road")? {
         road(table, &mut scene)?;
@@ -71,8 +72,11 @@ pub fn read(text: &str) -> Read<Scene> {
     if scene.outputs.is_empty() {
         let is_shown = |j: &usize| scene.joints[*j].kind.coordinates(planar) != [0, 0];
         let shown = (0..scene.joints.len()).filter(is_shown);
-        let channel =
-            |j: usize| Output { name: scene.joints[j].name.clone(), quantity: Quantity::Value(j) };
+        let channel = |j: usize| Output {
+            name: scene.joints[j].name.clone(),
+            quantity: Quantity::Value(j),
+            degrees: false,
+        };
         scene.outputs = shown.map(channel).collect();
     }
     root.done("the scene")?;
@@ -113,9 +117,12 @@ fn joint(mut table: Table, name: String, names: &Names, all: &[Body]) -> Read<Jo
         return fault(format!("no kind of joint `{word}`"));
     };
     let bodies = names.pair(&mut table)?;
+    let is_point = |b: usize| all[b].inertia == [ZERO; 3];
+    let of_point = kind == Kind::Free && bodies.into_iter().flatten().any(is_point);
+    let kind = if of_point { Kind::FreePoint } else { kind };
     let points = match kind {
         Kind::Distance => table.two_vectors("points")?,
-        Kind::Free => {
+        Kind::Free | Kind::FreePoint => {
             let default = bodies[1].or(bodies[0]).map_or(ZERO, |b| all[b].center);
             [table.vector_or_none("at")?.unwrap_or(default); 2]
         }
@@ -128,7 +135,8 @@ fn joint(mut table: Table, name: String, names: &Names, all: &[Body]) -> Read<Jo
         axes = table.two_vectors("axes")?;
     }
     // what a joint is meant to keep to does not act on its motion
-    for key in ["range", "effort_limit", "velocity_limit"] {
+    let range = if table.has("range") { Some(table.exactly("range")?) } else { None };
+    for key in ["effort_limit", "velocity_limit"] {
         let _ = table.take(key);
     }
     table.done(&name)?;
@@ -138,7 +146,7 @@ fn joint(mut table: Table, name: String, names: &Names, all: &[Body]) -> Read<Jo
         _ if norm(axes[1]) > 0.0 => unit(sub(axes[1], scale(dot(axes[1], axes[0]), axes[0]))),
         _ => across(axes[0])[0],
     };
-    Ok(Joint { name, kind, bodies, points, axes, hinged: hinge.is_some() })
+    Ok(Joint { name, kind, bodies, points, axes, hinged: hinge.is_some(), range })
 }
 
 /// Reads the couplings of a scene.
@@ -172,16 +180,6 @@ fn initial(mut table: Table, names: &Names) -> Read<InitialCondition> {
     };
     table.done("initial")?;
     Ok(initial)
-}
-
-fn guide(mut table: Table, names: &Names, scene: &Scene) -> Read<Guide> {
-    let joint = names.joint(&table.text("joint")?)?;
-    let coordinate = coordinate(&mut table, scene.joints[joint].kind)?.unwrap_or(0);
-    let Some(law) = law(&mut table, &scene.signals)? else {
-        return fault("a guide without a motion");
-    };
-    table.done("guide")?;
-    Ok(Guide { joint, coordinate, law })
 }
 
 fn road(mut table: Table, scene: &mut Scene) -> Read<()> {
@@ -247,48 +245,4 @@ fn feature(kind: &str, mut table: Table) -> Read<Vec<Feature>> {
     };
     table.done("feature")?;
     Ok(features)
-}
-
-/// `at`, or the centre of mass of a quantity of a point.
-fn place(table: &mut Table, kind: &str, body: usize, all: &[Body]) -> Read<Option<Vector>> {
-    let at = table.vector_or_none("at")?;
-    Ok(at.or_else(|| Quantity::OF_POINTS.contains(&kind).then(|| all[body].center)))
-}
-
-fn output(mut table: Table, names: &Names, scene: &Scene) -> Read<Output> {
-    let name = table.text("name")?;
-    let default = match (table.has("coupling"), table.has("rolling")) {
-        (true, _) => "effort",
-        (_, true) => "force",
-        _ => "value",
-    };
-    let kind = if table.has("quantity") { table.text("quantity")? } else { default.to_owned() };
-    let quantity = if let Some(Node::Text(signal)) = table.take("signal") {
-        let number = scene.signals.iter().position(|known| known.name == signal);
-        number.map(|number| Quantity::Signal(number, kind == "rate"))
-    } else if let Some(Node::Text(rolling)) = table.take("rolling") {
-        let number = scene.rollings.iter().position(|known| known.name == rolling);
-        number.filter(|_| kind == "force").map(Quantity::Contact)
-    } else if let Some(Node::Text(coupling)) = table.take("coupling") {
-        let number = scene.couplings.iter().position(|known| known.name == coupling);
-        number.and_then(|number| Quantity::of_coupling(&kind, number))
-    } else if let Some(Node::Text(joint)) = table.take("joint") {
-        Quantity::of_joint(&kind, names.joint(&joint)?)
-    } else if let Some(Node::Text(body)) = table.take("body") {
-        let body = names.body(&body)?;
-        match table.take("relative_to") {
-            Some(Node::Text(other)) if kind == "angular-velocity" => {
-                let global = table.has("frame") && table.text("frame")? == "global";
-                let other = names.body(&other)?;
-                global.then_some(Quantity::RelativeAngularVelocity(body, other))
-            }
-            Some(_) => None,
-            None => Quantity::of_body(&kind, body, place(&mut table, &kind, body, &scene.bodies)?),
-        }
-    } else {
-        (kind == "energy").then_some(Quantity::Energy)
-    };
-    let Some(quantity) = quantity else { return fault(format!("no quantity `{kind}`")) };
-    table.done("output")?;
-    Ok(Output { name, quantity })
 }

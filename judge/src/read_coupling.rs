@@ -12,6 +12,9 @@ use core::f64::consts::PI;
 /// Largest distance of a rope's end from the rim of its drum, relative to the radius [-]. Chosen, not tuned.
 const AT_RIM: f64 = 1e-6;
 
+/// Largest cosine of a screw's axis and the slide of its nut that is none [-]. Chosen, not tuned.
+const ACROSS: f64 = 1e-9;
+
 /// Reader of couplings: the parts of the scene that they are read with.
 pub(crate) struct Reader<'a> {
     pub(crate) names: &'a Names,
@@ -182,9 +185,15 @@ impl Reader<'_> {
             let terms = vec![Term::of(joint, 0, 1.0), Term::of(joint, 1, -lead)];
             return Ok(Sum { passed: Some((joint, 0, 1.0)), ..Sum::plain(terms, 0.0) });
         }
-        let pair @ [_, slide] = self.joints_of(t)?;
+        let pair @ [turn, slide] = self.joints_of(t)?;
         let [turns, slides] = pair.map(|j| &self.joints[j]);
         let axis = drawn::axis(turns, self.planar);
+        if dot(axis, slides.axes[0]).abs() < ACROSS {
+            // nothing is drawn of a thread across its nut: the coordinates are taken as they are written
+            let number = only(turns, self.planar)?;
+            let terms = vec![Term::of(slide, 0, 1.0), Term::of(turn, number, -lead)];
+            return Ok(Sum { passed: Some((slide, 0, 1.0)), ..Sum::plain(terms, 0.0) });
+        }
         let Some((carrier, [screw, nut])) = drawn::carrier(self.joints, pair, self.planar) else {
             return fault("no body carries the screw and the nut");
         };
@@ -225,7 +234,7 @@ impl Reader<'_> {
             if number == 0 {
                 gain = teeth * sign;
             }
-            if held.is_some() {
+            if held.is_some() || self.turns_beside(joint, moved, axis) {
                 terms.push(self.wheel([body, moved], axis, teeth));
             } else {
                 // a shaft that leads to a knuckle: its turn in there
@@ -235,6 +244,18 @@ impl Reader<'_> {
         }
         let passed = Some((a, only(&self.joints[a], self.planar)?, 1.0));
         Ok(Sum { gain, passed, ..Sum::plain(terms, 0.0) })
+    }
+
+    /// Does the body that a wheel stands in turn about the axis by a joint of its own? A knuckle does not.
+    fn turns_beside(&self, wheel: usize, moved: Option<usize>, axis: Vector) -> bool {
+        let stand = self.joints[wheel].bodies.into_iter().find(|b| *b != moved).flatten();
+        let turns = |(j, joint): (usize, &Joint)| {
+            j != wheel
+                && joint.bodies.contains(&stand)
+                && matches!(joint.kind, Kind::Revolute | Kind::Cylindrical)
+                && dot(drawn::axis(joint, self.planar), axis).abs() > 1.0 - 1e-9
+        };
+        stand.is_some() && self.joints.iter().enumerate().any(turns)
     }
 
     fn mimic(&self, t: &mut Table) -> Read<Sum> {

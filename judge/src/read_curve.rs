@@ -82,8 +82,11 @@ fn coordinate_names(kind: Kind, planar: bool) -> &'static [&'static str] {
         Kind::Cylindrical => &["slide", "turn"],
         Kind::Universal => &["first", "second"],
         Kind::Planar => &["x", "y", "turn"],
+        Kind::PinInSlot if planar => &["slide", "turn"],
+        Kind::PinInSlot => &["slide"],
         Kind::Free if planar => &["x", "y", "turn"],
-        Kind::Free => &["x", "y", "z"],
+        Kind::FreePoint if planar => &["x", "y"],
+        Kind::Free | Kind::FreePoint => &["x", "y", "z"],
         Kind::Spherical | Kind::Weld | Kind::Distance => &[],
     }
 }
@@ -112,7 +115,7 @@ pub(crate) fn only(joint: &Joint, planar: bool) -> Read<usize> {
 }
 
 /// `points` of a line.
-fn points(table: &mut Table, names: &Names) -> Read<Vec<(Carrier, Vector)>> {
+pub(crate) fn points(table: &mut Table, names: &Names) -> Read<Vec<(Carrier, Vector)>> {
     let one = |mut point: Table| Ok((names.carrier(&point.text("body")?)?, point.vector("at")?));
     table.tables("points")?.into_iter().map(one).collect()
 }

@@ -125,10 +125,9 @@ fn of_time(kind: &str, t: &mut Table) -> Read<Option<Source>> {
             let (to, duration) = (t.number("to_frequency")?, t.number("duration")?);
             Source::Chirp([a, f, phase, offset, to, duration])
         }
-        "ramp" if t.has("rounding") => return fault("the corners of a rounded ramp"),
         "ramp" => {
             let (start, end) = (t.number_or("start", 0.0)?, t.number_or("end", f64::MAX)?);
-            Source::Ramp([t.number("rate")?, start, end])
+            Source::Ramp([t.number("rate")?, start, end, t.number_or("rounding", 0.0)?])
         }
         "step" => {
             let (from, to) = (t.number_or("from", 0.0)?, t.number("to")?);
@@ -140,8 +139,13 @@ fn of_time(kind: &str, t: &mut Table) -> Read<Option<Source>> {
 
 /// A force over time: `value`, `table` or `signal`; a number, or a vector.
 pub(crate) fn given(table: &mut Table, signals: &[Signal], is_vector: bool) -> Read<Given> {
+    let is_input = matches!(table.take("input"), Some(Node::Flag(true)));
     let Some(node) = table.take("signal") else {
-        return Ok(Given::Rows(table.signal(is_vector)?));
+        let is_constant = table.has("value") && !is_input;
+        return Ok(match table.signal(is_vector)?.as_slice() {
+            [(_, value)] if is_constant => Given::Constant(*value),
+            rows => Given::Rows(rows.to_vec()),
+        });
     };
     let mut sources = [None, None, None];
     match &node {

@@ -20,6 +20,21 @@ fn wave(amplitude: f64, offset: f64, angle: Jet) -> Jet {
     [x + offset, rate, bend]
 }
 
+/// max(x, 0) with its corner rounded: the rate rises by u² (3 - 2 u), u = (x + r/2)/r.
+fn corner(x: f64, rounding: f64) -> Jet {
+    let half = 0.5 * rounding;
+    if x >= half {
+        return [x, 1.0, 0.0];
+    }
+    if x <= -half {
+        return [0.0; 3];
+    }
+    let u = (x + half) / rounding;
+    // the integral of u² (3 - 2 u)
+    let value = rounding * (u.powi(3) - 0.5 * u.powi(4));
+    [value, u * u * (3.0 - 2.0 * u), 6.0 * u * (1.0 - u) / rounding]
+}
+
 /// Returns the ratio of what limits leave of a number: L/x beyond them.
 fn limit_ratio([x, dx, ddx]: Jet, [lower, upper]: [f64; 2]) -> Jet {
     if (lower..=upper).contains(&x) {
@@ -48,9 +63,9 @@ impl Source {
                 let angle = [turns + phase / (2.0 * PI), frequency, growth];
                 wave(*amplitude, *offset, angle.map(|x| 2.0 * PI * x))
             }
-            Self::Ramp([rate, start, end]) => {
-                let moves = (*start..*end).contains(&t);
-                [rate * (t.clamp(*start, *end) - start), if moves { *rate } else { 0.0 }, 0.0]
+            Self::Ramp([rate, start, end, rounding]) => {
+                let (begun, ended) = (corner(t - start, *rounding), corner(t - end, *rounding));
+                [0, 1, 2].map(|i| rate * (begun[i] - ended[i]))
             }
             Self::Step([from, to, at, rise]) => {
                 if t < *at {
@@ -106,7 +121,10 @@ impl Source {
             Self::Table(Curve::Spline(spline)) => {
                 times.extend(spline.knots.first().iter().chain(&spline.knots.last()).map(|k| k[0]));
             }
-            Self::Ramp([_, start, end]) => times.extend([*start, *end]),
+            Self::Ramp([_, start, end, rounding]) => {
+                let half = 0.5 * rounding;
+                times.extend([*start, *end].iter().flat_map(|t| [t - half, t + half]));
+            }
             Self::Step([_, _, at, rise]) => times.extend([*at, at + rise]),
             Self::Chirp([.., duration]) => times.push(*duration),
             Self::Sum(terms) => terms.iter().for_each(|(_, source)| source.corners(times)),
@@ -196,6 +214,7 @@ impl Now<'_> {
     /// A vector over time.
     pub(crate) fn given(&self, given: &Given) -> Vector {
         match given {
+            Given::Constant(value) => *value,
             Given::Rows(rows) => linear(rows, self.t),
             Given::Named(sources) => {
                 [0, 1, 2].map(|i| sources[i].as_ref().map_or(0.0, |source| self.source(source)[0]))

@@ -136,6 +136,10 @@ impl Mechanism {
         for guide in &self.scene.guides {
             give(guide.joint, guide.coordinate, &[guide.law.at(0.0)[0]]);
         }
+        for guide in &self.scene.guided_turns {
+            let first = self.scene.joints[guide.joint].turning(self.scene.planar).start;
+            give(guide.joint, first, &guide.laws.each_ref().map(|law| law.at(0.0)[0]));
+        }
         for initial in &self.scene.initials {
             if let InitialCondition::Joint { joint, value: Some(value), .. } = initial {
                 give(*joint, 0, value);
@@ -158,6 +162,9 @@ impl Mechanism {
         for guide in &self.scene.guides {
             note(guide.joint, guide.coordinate, guide.law.at(0.0)[0]);
         }
+        for law in self.scene.guided_turns.iter().flat_map(|guide| &guide.laws) {
+            largest = largest.max(law.at(0.0)[0].abs());
+        }
         for coupling in &self.scene.couplings {
             let unit = coupling.terms.iter().fold(0.0_f64, |a, term| a.max(term.factor.abs()));
             largest = largest.max(given(coupling).abs() / unit.max(f64::MIN_POSITIVE));
@@ -169,9 +176,9 @@ impl Mechanism {
     fn start_rows(&self, state: &State, places: &Places, share: f64) -> Vec<Row> {
         let now = self.now(state, places);
         let (mut rows, mut guides) = (Vec::new(), self.scene.guides.iter());
-        for (owner, mut row) in self.rows(&now) {
+        for (owner, mut row) in self.rows_at(&now, share) {
             let whole = match owner {
-                Owner::Joint(_) | Owner::Rolling(..) => 0.0,
+                Owner::Joint(_) | Owner::Rolling(..) | Owner::Turn(..) => 0.0,
                 Owner::Coupling(k) => given(&self.scene.couplings[k]),
                 Owner::Guide(..) => guides.next().map_or(0.0, |guide| guide.law.at(0.0)[0]),
             };

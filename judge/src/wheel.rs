@@ -1,10 +1,9 @@
 //! A wheel on its road.
 
 use crate::curves::height;
-use crate::loads::{Loads, Now};
-use crate::rows::six;
+use crate::loads::Now;
 use crate::scene::{Calspan, Feature, Tire};
-use crate::vector::{Vector, add, cross, dot, scale, sub, unit};
+use crate::vector::{Vector, ZERO, add, cross, dot, scale, sub, unit};
 
 /// Speed below which slip is regularised [m/s]: the law's own number.
 const STANDING: f64 = 0.1;
@@ -27,23 +26,61 @@ fn foot(features: &[Feature], x: f64, y: f64) -> f64 {
     at
 }
 
-/// Adds the forces of a tire.
-pub(crate) fn load(now: &Now<'_>, tire: &Tire, loads: &mut Loads) {
+/// Forces of the road on a tire, with its depth and its lowest point.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Tread {
+    /// Depth of the contact; below zero above the road.
+    pub(crate) depth: f64,
+    /// Rate of the depth.
+    pub(crate) rate: f64,
+    /// Force along the normal, on the side of the wheel that touches.
+    pub(crate) load: f64,
+    /// Force along the axis.
+    pub(crate) side: f64,
+    /// Force along the wheel's plane.
+    pub(crate) longitudinal: f64,
+    /// Slip angle of a tire with a side force.
+    pub(crate) slip_angle: f64,
+    /// Moment about the normal.
+    pub(crate) aligning: f64,
+    /// Lowest point of the tire.
+    pub(crate) point: Vector,
+    /// Force, and moment about the centre of the wheel.
+    pub(crate) wrench: [Vector; 2],
+}
+
+/// The road at the point nearest to the centre of a wheel: normal, tangent, distance, and what the normal turns by for a way of the centre.
+struct Ground {
+    n: Vector,
+    t: Vector,
+    d: f64,
+    turning: f64,
+}
+
+/// The road under the centre of a wheel.
+fn ground(now: &Now<'_>, tire: &Tire, center: Vector) -> Ground {
     let up = if now.scene.planar { 1 } else { 2 };
-    let body = Some(tire.body);
-    let seat = now.places.seat(body, tire.center);
-    let [radius, k, c, resistance] = tire.numbers;
     let features = &now.scene.road[usize::from(!now.scene.planar && tire.center[1] < 0.0)];
-    let way = now.scene.road_speed * now.t;
-    let x = seat.p[0] + way;
-    let at = foot(features, x, seat.p[up]);
+    let x = center[0] + now.scene.road_speed * now.t;
+    let at = foot(features, x, center[up]);
     let [h, slope, bend] = height(features, at);
-    let mut n = [0.0; 3];
+    let mut n = ZERO;
     (n[0], n[up]) = (-slope, 1.0);
     let n = unit(n);
-    let mut t = [0.0; 3];
+    let mut t = ZERO;
     (t[0], t[up]) = (n[up], -n[0]);
-    let d = (x - at) * n[0] + (seat.p[up] - h) * n[up];
+    let d = (x - at) * n[0] + (center[up] - h) * n[up];
+    // dn/ds = -κ t, by the foot's own way over 1 - κ d
+    let curvature = bend / (1.0 + slope * slope).powf(1.5);
+    Ground { n, t, d, turning: -curvature / (1.0 - curvature * d) }
+}
+
+/// Returns the forces of the road on a tire.
+pub(crate) fn tread(now: &Now<'_>, tire: &Tire) -> Tread {
+    let body = Some(tire.body);
+    let seat = now.places.seat(body, tire.center);
+    let [radius, k, c, _] = tire.numbers;
+    let Ground { n, t, d, turning } = ground(now, tire, seat.p);
     let mut velocity = seat.v;
     velocity[0] += now.scene.road_speed;
     let axis = tire.axis.map(|a| now.places.direction(body, a));
@@ -52,49 +89,106 @@ pub(crate) fn load(now: &Now<'_>, tire: &Tire, loads: &mut Loads) {
     // beyond 84 degrees the camber is held: then it does not change either
     let counts = cosine > LEAST_COSINE;
     let held = cosine.max(LEAST_COSINE);
-    // the normal turns with the way of the centre: dn/ds = -κ t, by the foot's own way over 1 - κ d
-    let curvature = bend / (1.0 + slope * slope).powf(1.5);
-    let turning = -curvature / (1.0 - curvature * d);
     let n_rate = scale(turning * dot(t, velocity), t);
     let w = now.places.of(body).w;
-    let axis_rate = axis.map_or([0.0; 3], |a| cross(w, a));
+    let axis_rate = axis.map_or(ZERO, |a| cross(w, a));
     let sine_rate = dot(axis_rate, n) + axis.map_or(0.0, |a| dot(a, n_rate));
-    let d_rate = dot(n, velocity);
     let depth = radius - d / held;
     let leaning = if counts { d * sine / held.powi(3) } else { 0.0 };
-    let radial = crate::loads::contact(k, c, depth, -d_rate / held - leaning * sine_rate);
-    if radial <= 0.0 {
-        return;
-    }
-    let size = radial / held;
+    let rate = -dot(n, velocity) / held - leaning * sine_rate;
+    let radial = crate::loads::contact(k, c, depth, rate);
+    let load = radial / held;
     // from the centre to the contact point
     let down = axis.map_or(scale(-1.0, n), |a| unit(sub(scale(sine, a), n)));
-    let arm = add(seat.arm, scale(d / held, down));
-    let hub = if counts { arm } else { seat.arm };
-    loads.wrench(body, scale(size, n), cross(hub, scale(size, n)));
+    let arm = scale(d / held, down);
     // what turns the normal as the centre moves
     let along = axis.map_or(0.0, |a| dot(a, t));
     let bent = radial * leaning * along * turning;
-    loads.wrench(body, scale(bent, t), cross(seat.arm, scale(bent, t)));
-    let Some(axis) = axis else { return };
-    // forward: along the wheel's plane and the road
-    let forward = unit(cross(axis, n));
-    let left = cross(n, forward);
-    let vx = dot(forward, velocity);
-    let ve = (vx * vx + STANDING * STANDING).sqrt();
-    let drag = scale(-resistance * size * vx / ve, forward);
-    loads.wrench(body, drag, cross(seat.arm, drag));
-    let Some(side) = &tire.side else { return };
-    let mut contact_velocity = add(seat.v, cross(w, sub(arm, seat.arm)));
-    contact_velocity[0] += now.scene.road_speed;
-    let slip = (dot(left, contact_velocity) / ve).atan();
-    let (force, moment) = side.at(size, slip, sine.asin());
-    let force: Vector = scale(force, left);
-    let pair = six(force, add(cross(arm, force), scale(moment * vx / ve, n)));
-    loads.wrench(body, [pair[0], pair[1], pair[2]], [pair[3], pair[4], pair[5]]);
+    let force = add(scale(load, n), scale(bent, t));
+    let moment = if counts { cross(arm, scale(load, n)) } else { ZERO };
+    let mut tread = Tread {
+        depth,
+        rate,
+        load,
+        side: 0.0,
+        longitudinal: 0.0,
+        slip_angle: 0.0,
+        aligning: 0.0,
+        point: add(seat.p, arm),
+        wrench: [force, moment],
+    };
+    if radial > 0.0 {
+        // in the plane a wheel turns about z
+        let of_plane = now.scene.planar.then_some([0.0, 0.0, 1.0]);
+        if let Some(axis) = axis.or(of_plane) {
+            let sliding = Sliding { axis, n, down, arm, velocity, w, sine };
+            sliding.load(tire, &mut tread);
+        }
+    }
+    tread
+}
+
+/// Motion of a tire over the road: axis, normal, down in its plane, its contact point from the centre, velocity of the centre over the road,
+/// angular velocity, and sine of the camber.
+struct Sliding {
+    axis: Vector,
+    n: Vector,
+    down: Vector,
+    arm: Vector,
+    velocity: Vector,
+    w: Vector,
+    sine: f64,
+}
+
+impl Sliding {
+    /// Adds the forces across and along the wheel's plane.
+    fn load(&self, tire: &Tire, tread: &mut Tread) {
+        let [radius, _, _, resistance] = tire.numbers;
+        // forward: along the wheel's plane and the road
+        let forward = unit(cross(self.axis, self.n));
+        let left = cross(self.n, forward);
+        let vx = dot(forward, self.velocity);
+        let ve = (vx * vx + STANDING * STANDING).sqrt();
+        let below = |arm: Vector| add(self.velocity, cross(self.w, arm));
+        let vy = dot(left, below(self.arm));
+        let drag = -resistance * tread.load * vx / ve;
+        let rim = scale(radius, self.down);
+        let (by_slip, share) = tire.slip.map_or((0.0, 1.0), |[stiffness, friction]| {
+            let most = friction * tread.load;
+            let x = stiffness * dot(forward, below(rim)) / ve / most;
+            let cornering = tire.side.as_ref().map_or(0.0, |side| side.cornering(tread.load));
+            let y = cornering * vy / ve / most;
+            let r = (x * x + y * y).sqrt();
+            (-most * x * slides(r), slides(r) / slides(y.abs()))
+        });
+        tread.longitudinal = drag + by_slip;
+        if let Some(side) = &tire.side {
+            tread.slip_angle = (vy / ve).atan();
+            let (force, moment) = side.at(tread.load, tread.slip_angle, self.sine.asin());
+            tread.side = share * force;
+            tread.aligning = share * moment * vx / ve;
+        }
+        let [force, moment] = &mut tread.wrench;
+        let across = scale(tread.side, left);
+        *force = add(*force, add(scale(tread.longitudinal, forward), across));
+        *moment = add(*moment, cross(self.arm, across));
+        *moment = add(*moment, cross(rim, scale(by_slip, forward)));
+        *moment = add(*moment, scale(tread.aligning, self.n));
+    }
+}
+
+/// s(r) of what slides: 1 - r/3 + r²/27, and 1/r where the whole patch slides.
+fn slides(r: f64) -> f64 {
+    if r < 3.0 { 1.0 - r / 3.0 + r * r / 27.0 } else { 1.0 / r }
 }
 
 impl Calspan {
+    /// Side force by a small slip angle at a load.
+    fn cornering(&self, load: f64) -> f64 {
+        let [a0, a1, a2, ..] = self.a;
+        if load <= self.omega * a2 { a0 - a1 * load * (load - a2) / a2 } else { a0 }
+    }
+
     /// Side force and aligning torque at a load, a slip angle and a camber.
     fn at(&self, load: f64, slip: f64, camber: f64) -> (f64, f64) {
         let ([a0, a1, a2, a3, a4], [b1, b3, b4]) = (self.a, self.b);

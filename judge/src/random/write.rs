@@ -35,7 +35,7 @@ pub(crate) fn pair(bodies: [Option<usize>; 2]) -> String {
 }
 
 fn kind(kind: Kind) -> &'static str {
-    Kind::NAMES.into_iter().find(|(known, _)| *known == kind).map_or("", |(_, name)| name)
+    Kind::NAMES.into_iter().find(|(known, _)| *known == kind).map_or("free", |(_, name)| name)
 }
 
 impl Draft {
@@ -131,10 +131,12 @@ impl Draft {
             Kind::Universal => writeln!(out, "at = {at}\naxes = [{axis}, {second}]"),
             Kind::Planar => writeln!(out, "at = {at}\naxis = {axis}\ndirection = {second}"),
             Kind::Revolute if p => writeln!(out, "at = {at}"),
-            Kind::Revolute | Kind::Prismatic | Kind::Cylindrical => {
+            Kind::Revolute | Kind::Prismatic | Kind::Cylindrical | Kind::PinInSlot => {
                 writeln!(out, "at = {at}\naxis = {axis}")
             }
-            Kind::Spherical | Kind::Weld | Kind::Free => writeln!(out, "at = {at}"),
+            Kind::Spherical | Kind::Weld | Kind::Free | Kind::FreePoint => {
+                writeln!(out, "at = {at}")
+            }
         };
     }
 
@@ -162,6 +164,16 @@ impl Draft {
         for (i, (_, has_rate)) in self.signals.iter().enumerate() {
             for quantity in &Quantity::OF_SIGNALS[..1 + usize::from(*has_rate)] {
                 output(&format!("signal = \"s{i}\""), &format!("s{i}"), quantity);
+            }
+        }
+        // all but the error of a run itself
+        let of_scenes = Quantity::OF_SCENES.iter().filter(|name| **name != "invariant-error");
+        of_scenes.for_each(|quantity| output("", "scene", quantity));
+        for block in &self.blocks {
+            let named = block.strip_prefix("[[effect]]\nname = \"");
+            let Some((name, _)) = named.and_then(|rest| rest.split_once('"')) else { continue };
+            for quantity in ["force", "energy", "power"] {
+                output(&format!("effect = \"{name}\""), name, quantity);
             }
         }
         for i in 0..self.rollings.len() {

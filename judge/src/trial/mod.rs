@@ -1,10 +1,13 @@
 //! A scene through the crates, beside the judge: this folder alone knows them.
 
+pub mod compare;
 pub mod oracle;
 pub mod seeds;
 
 use crate::scene::{Coupled, Output, Quantity};
 use crate::{Mechanism, State};
+use compare::compare;
+pub use compare::{Part, parts};
 use mbs::core::scene::Scene;
 use mbs::scene_file::SceneFile;
 use mbs::{FormulationKind, Method, ResolvedMethod};
@@ -14,8 +17,6 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 pub const ERROR_FACTOR: f64 = 10.0;
 /// Difference that is rounding, relative to a channel's size [-]. Chosen, not tuned.
 pub const ROUNDING: f64 = 1e-7;
-/// Least size of a channel, relative to the largest of its kind [-]. Chosen, not tuned.
-const SMALLEST: f64 = 1e-2;
 /// Tolerance of the judge's steps [-]. Chosen, not tuned.
 const TOLERANCE: f64 = 1e-11;
 
@@ -98,7 +99,7 @@ pub fn judge(text: &str, step: f64, steps: u32) -> Result<Judged, String> {
     }
     let outputs = mechanism.scene.outputs.clone();
     let show = |state: &State| -> Vec<Vec<f64>> {
-        outputs.iter().map(|o| mechanism.show(state, o.quantity)).collect()
+        outputs.iter().map(|o| mechanism.channel(state, o)).collect()
     };
     let first = show(&state);
     // the turn of a thin rod about itself is no one's
@@ -268,172 +269,4 @@ fn by_two(
         Ok((coarse, fine)) => compare(judged, &judged.rows, &coarse, &fine),
         Err(verdict) => verdict,
     }
-}
-
-/// The kind of a channel, whose sizes are compared.
-fn kind(quantity: Quantity) -> usize {
-    match quantity {
-        Quantity::Position(..) => 0,
-        Quantity::Velocity(..) => 1,
-        Quantity::Acceleration(..)
-        | Quantity::ProperAcceleration(..)
-        | Quantity::AngularAcceleration(..)
-        | Quantity::JointAcceleration(..) => 2,
-        Quantity::Value(..)
-        | Quantity::Orientation(..)
-        | Quantity::RotationVector(..)
-        | Quantity::RotationMatrix(..) => 3,
-        Quantity::Rate(..)
-        | Quantity::AngularVelocity(..)
-        | Quantity::RelativeAngularVelocity(..) => 4,
-        Quantity::Coupling(_, Coupled::Value | Coupled::Length) | Quantity::Signal(_, false) => 3,
-        Quantity::Coupling(_, Coupled::Rate) | Quantity::Signal(_, true) => 4,
-        Quantity::Contact(..)
-        | Quantity::Reaction(..)
-        | Quantity::Effort(..)
-        | Quantity::Coupling(_, Coupled::Effort) => 5,
-        Quantity::KineticEnergy(..) | Quantity::Energy => 6,
-        Quantity::Power(..) | Quantity::Coupling(_, Coupled::Power) => 7,
-    }
-}
-
-/// Part of a channel: its output and its components, parted where these have different units.
-#[derive(Debug)]
-pub struct Part {
-    /// Index of the output.
-    pub output: usize,
-    /// Range of the components in a row.
-    pub components: std::ops::Range<usize>,
-    kind: usize,
-}
-
-/// The channels of a scene that are unique.
-#[must_use]
-pub fn parts(judged: &Judged) -> Vec<Part> {
-    let (mut at, mut list) = (0, Vec::new());
-    let scene = &judged.mechanism.scene;
-    for (output, &(n, unique)) in judged.channels.iter().enumerate() {
-        let quantity = scene.outputs[output].quantity;
-        // forces and moments, translations and rotations
-        let cut = match (quantity, n) {
-            (Quantity::Reaction(_), n) => {
-                if scene.planar {
-                    2
-                } else {
-                    n / 2
-                }
-            }
-            (
-                Quantity::Value(j)
-                | Quantity::Rate(j)
-                | Quantity::JointAcceleration(j)
-                | Quantity::Effort(j),
-                n,
-            ) => match (n, scene.joints[j].kind) {
-                (2 | 6, _) => n / 2,
-                (3, crate::scene::Kind::Spherical) => 0,
-                (3, _) => 2,
-                (1, crate::scene::Kind::Prismatic) => 1,
-                _ => 0,
-            },
-            (
-                Quantity::AngularVelocity(_)
-                | Quantity::RelativeAngularVelocity(..)
-                | Quantity::AngularAcceleration(_)
-                | Quantity::Orientation(_)
-                | Quantity::RotationVector(_)
-                | Quantity::RotationMatrix(_),
-                _,
-            ) => 0,
-            _ => n,
-        };
-        let of = |second: bool| 2 * kind(quantity) + usize::from(second);
-        if unique {
-            for (range, second) in [(at..at + cut, false), (at + cut..at + n, true)] {
-                if !range.is_empty() {
-                    list.push(Part { output, components: range, kind: of(second) });
-                }
-            }
-        }
-        at += n;
-    }
-    list
-}
-
-fn largest(rows: &Rows, range: &std::ops::Range<usize>) -> f64 {
-    rows.iter().flat_map(|row| &row[range.clone()]).fold(0.0, |a: f64, x| a.max(x.abs()))
-}
-
-fn difference(a: &Rows, b: &Rows, range: &std::ops::Range<usize>) -> f64 {
-    let mut worst = 0.0_f64;
-    for (x, y) in a.iter().zip(b) {
-        for (x, y) in x[range.clone()].iter().zip(&y[range.clone()]) {
-            if !((x - y).abs() <= worst) {
-                worst = (x - y).abs();
-            }
-        }
-    }
-    worst
-}
-
-/// The least size of channels of each kind: from the mechanism's length and weight, and the time in which it moves.
-fn least_sizes(judged: &Judged) -> [f64; 16] {
-    let mechanism = &judged.mechanism;
-    let (l, t) = (mechanism.length(), judged.time);
-    let m = mechanism.scene.bodies.iter().map(|b| b.mass).fold(0.0, f64::max);
-    let force = m * l / (t * t);
-    let energy = force * l;
-    // two for each kind: lengths and angles, forces and moments
-    let pairs = [
-        [l, l],
-        [l / t, l / t],
-        [l / (t * t), 1.0 / (t * t)],
-        [l, 1.0],
-        [l / t, 1.0 / t],
-        [force, force * l],
-        [energy, energy],
-        [energy / t, energy / t],
-    ];
-    let least: [f64; 16] = core::array::from_fn(|i| pairs[i / 2][i % 2]);
-    least.map(|x| SMALLEST * x)
-}
-
-fn compare(judged: &Judged, right: &Rows, coarse: &Rows, fine: &Rows) -> Verdict {
-    if fine.first().map(Vec::len) != right.first().map(Vec::len) {
-        return Verdict::Differs {
-            channel: "number of components".to_owned(),
-            off: f64::NAN,
-            allowed: 0.0,
-            size: 0.0,
-            start: true,
-        };
-    }
-    let parts = parts(judged);
-    let mut group = least_sizes(judged);
-    for part in &parts {
-        group[part.kind] = group[part.kind].max(largest(right, &part.components));
-    }
-    // what begins wrong is said as such
-    let first = [right, fine].map(|rows| rows[..1].to_vec());
-    let mut worst = (1.0, Verdict::Agrees);
-    for start in [true, false] {
-        for part in &parts {
-            let size = largest(right, &part.components).max(SMALLEST * group[part.kind]);
-            let own = if start { 0.0 } else { difference(coarse, fine, &part.components) };
-            let off = if start {
-                difference(&first[0], &first[1], &part.components)
-            } else {
-                difference(fine, right, &part.components)
-            };
-            let allowed = (ERROR_FACTOR * own).max(ROUNDING * size);
-            if off.is_nan() || off > allowed * worst.0 {
-                let channel = judged.mechanism.scene.outputs[part.output].name.clone();
-                worst = (off / allowed, Verdict::Differs { channel, off, allowed, size, start });
-            }
-        }
-        if worst.1 != Verdict::Agrees {
-            break;
-        }
-    }
-    worst.1
 }
