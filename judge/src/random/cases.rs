@@ -147,10 +147,10 @@ fn case(
             let mut effects =
                 Effects { dice: &mut dice, draft: &mut draft, focus: Some((body, joint)) };
             let text = effects.one(what)?;
-            draft.blocks.push(format!("[[effect]]\n{text}"));
+            draft.blocks.push(format!("[[effect]]\nname = \"e\"\n{text}"));
         }
     }
-    let contacts = ["tire", "tire-side", "bumper", "limit"];
+    let contacts = ["tire", "tire-side", "tire-slip", "bumper", "limit"];
     if contacts.contains(&what) {
         touch(&mut draft);
     }

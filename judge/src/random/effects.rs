@@ -1,13 +1,13 @@
 //! Effects in the units of a mechanism, as text.
 
 use super::dice::Dice;
-use super::draft::Draft;
+use super::draft::{Draft, GRAVITY};
 use super::write::{name, pair, vector};
 use crate::scene::{Carrier, Kind};
 use crate::vector::{norm, scale, sub};
 
 /// The kinds of effect.
-pub(crate) const KINDS: [&str; 18] = [
+pub(crate) const KINDS: [&str; 22] = [
     "spring-damper",
     "polynomial-spring",
     "polynomial-damper",
@@ -26,6 +26,10 @@ pub(crate) const KINDS: [&str; 18] = [
     "tire",
     "tire-side",
     "actuator-table",
+    "spring-points",
+    "polynomial-points",
+    "actuator-points",
+    "tire-slip",
 ];
 
 /// Draws up to five effects, each on what it can act on.
@@ -99,6 +103,30 @@ impl Effects<'_> {
         let length = norm(sub(ends[1].1, ends[0].1));
         let [p, q] = ends.map(|e| vector(e.1, self.draft.planar));
         (format!("bodies = {}\npoints = [{p}, {q}]\n", pair(ends.map(|e| e.0))), length)
+    }
+
+    /// A line over three points of two bodies, and its length.
+    fn points(&mut self) -> (String, f64) {
+        let a = self.body();
+        let b = self.other(a);
+        let places = [Some(a), b, Some(a)].map(|body| (body, self.draft.point(self.dice, body)));
+        let parts = places.windows(2).map(|pair| norm(sub(pair[1].1, pair[0].1)));
+        let length = parts.sum();
+        let points = places.map(|(body, at)| {
+            let at = vector(at, self.draft.planar);
+            format!("{{ body = \"{}\", at = {at} }}", name(body))
+        });
+        (format!("points = [{}]\n", points.join(", ")), length)
+    }
+
+    /// A rope that pulls from about its first length on.
+    fn elastic_rope(&mut self) -> String {
+        let (points, length) = self.points();
+        let [k, c] = self.spring();
+        let free = length * self.dice.between(0.6, 1.05);
+        format!(
+            "kind = \"spring-damper\"\n{points}stiffness = {k:?}\ndamping = {c:?}\nfree_length = {free:?}\npulls_only = true"
+        )
     }
 
     /// A stiffness by a frequency, and a damping by a share of the critical one.
@@ -211,7 +239,23 @@ impl Effects<'_> {
                     "kind = \"speed-hold\"\nbody = \"b{b}\"\ndirection = {direction}\nspeed = {speed:?}\ngain = {gain:?}\nlimit = {limit:?}"
                 ))
             }
-            _ => Some(self.tire(kind == "tire-side")),
+            "spring-points" => Some(self.elastic_rope()),
+            "polynomial-points" => {
+                let (points, l) = self.points();
+                let ([k1, _], [k2, _]) = (self.spring(), self.spring());
+                let end = 3.0 * l;
+                Some(format!(
+                    "kind = \"polynomial-spring\"\n{points}coefficients = [[0.0, {l:?}, {:?}, {k1:?}], [{l:?}, {end:?}, {:?}, {k2:?}]]",
+                    -k1 * l,
+                    -k2 * l
+                ))
+            }
+            "actuator-points" => {
+                let (points, _) = self.points();
+                let value = self.force(-1.0);
+                Some(format!("kind = \"actuator\"\n{points}value = {value:?}"))
+            }
+            _ => Some(self.tire(kind)),
         }
     }
 
@@ -352,7 +396,9 @@ impl Effects<'_> {
     }
 
     /// A wheel that stands on the level road with a tenth of its radius, or is near to it.
-    fn tire(&mut self, side: bool) -> String {
+    fn tire(&mut self, kind: &str) -> String {
+        let slips = kind == "tire-slip";
+        let side = kind == "tire-side" || (slips && self.dice.chance(0.5));
         let (b, p) = (self.body(), self.draft.planar);
         let l = self.draft.length;
         let radius = 0.4 * l;
@@ -364,10 +410,17 @@ impl Effects<'_> {
             name(Some(b)),
             vector(center, p)
         );
+        if slips {
+            let stiffness = self.draft.mass * GRAVITY * self.dice.between(1.0, 10.0);
+            let friction = self.dice.between(0.3, 1.0);
+            text += &format!(
+                "\nlongitudinal = {{ stiffness = {stiffness:?}, friction = {friction:?} }}"
+            );
+        }
         if p {
             return text;
         }
-        if side || self.dice.chance(0.5) {
+        if side || slips || self.dice.chance(0.5) {
             let axis = self.dice.direction(true);
             let axis = [axis[0], axis[1], self.dice.between(-0.3, 0.3)];
             text += &format!(

@@ -12,15 +12,17 @@ use crate::vector::{
 /// Least pivot of the scaled saddle matrix with which a mechanism begins [-]: with a smaller one it is nearly locked. Chosen, not tuned.
 const NEAR_LOCKED: f64 = 3e-3;
 
-pub(crate) const PLANE: [(Kind, f64); 5] = [
-    (Kind::Revolute, 0.46),
-    (Kind::Prismatic, 0.22),
+pub(crate) const PLANE: [(Kind, f64); 6] = [
+    (Kind::Revolute, 0.42),
+    (Kind::Prismatic, 0.18),
+    (Kind::PinInSlot, 0.08),
     (Kind::Weld, 0.08),
     (Kind::Free, 0.12),
     (Kind::Distance, 0.12),
 ];
-pub(crate) const SPACE: [(Kind, f64); 9] = [
-    (Kind::Revolute, 0.22),
+pub(crate) const SPACE: [(Kind, f64); 10] = [
+    (Kind::Revolute, 0.16),
+    (Kind::PinInSlot, 0.06),
     (Kind::Prismatic, 0.12),
     (Kind::Cylindrical, 0.12),
     (Kind::Universal, 0.12),
@@ -30,10 +32,15 @@ pub(crate) const SPACE: [(Kind, f64); 9] = [
     (Kind::Free, 0.08),
     (Kind::Distance, 0.08),
 ];
-const PLANE_LOOPS: [(Kind, f64); 3] =
-    [(Kind::Revolute, 0.5), (Kind::Prismatic, 0.2), (Kind::Distance, 0.3)];
-const SPACE_LOOPS: [(Kind, f64); 7] = [
-    (Kind::Revolute, 0.2),
+const PLANE_LOOPS: [(Kind, f64); 4] = [
+    (Kind::Revolute, 0.45),
+    (Kind::Prismatic, 0.2),
+    (Kind::PinInSlot, 0.1),
+    (Kind::Distance, 0.25),
+];
+const SPACE_LOOPS: [(Kind, f64); 8] = [
+    (Kind::Revolute, 0.15),
+    (Kind::PinInSlot, 0.05),
     (Kind::Prismatic, 0.1),
     (Kind::Cylindrical, 0.1),
     (Kind::Universal, 0.15),
@@ -286,7 +293,7 @@ impl Draft {
                 self.numbers(dice, kind, size * 1.4, size * 0.4),
                 self.numbers(dice, kind, size * 1.5 / self.time, size * 0.7 / self.time),
             );
-            let spins = matches!(kind, Kind::Spherical | Kind::Free) && !planar;
+            let spins = kind.coordinates(planar)[1] == 3;
             let rods = self.links[i].bodies.iter().flatten().any(|&b| self.bodies[b].rod.is_some());
             if value.is_empty() || (spins && rods) {
                 continue;

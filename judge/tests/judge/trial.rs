@@ -16,11 +16,16 @@ fn the_judge_knows_every_quantity_of_the_table() {
         rows.map(|row| row.name).collect::<Vec<_>>()
     };
     assert_eq!(of(TargetKind::Point), Quantity::OF_POINTS);
+    assert_eq!(of(TargetKind::RelativePoint), Quantity::OF_SEEN_POINTS);
+    assert_eq!(of(TargetKind::RelativeBody), Quantity::OF_SEEN_BODIES);
+    assert_eq!(of(TargetKind::WheelCarrier), Quantity::OF_CARRIERS);
     assert_eq!(of(TargetKind::Body), Quantity::OF_BODIES);
     assert_eq!(of(TargetKind::Joint), Quantity::OF_JOINTS);
     assert_eq!(of(TargetKind::Coupling), Quantity::OF_COUPLINGS);
     assert_eq!(of(TargetKind::Rolling), Quantity::OF_ROLLINGS);
+    assert_eq!(of(TargetKind::Effect), Quantity::OF_EFFECTS);
     assert_eq!(of(TargetKind::Signal), Quantity::OF_SIGNALS);
+    assert_eq!(of(TargetKind::Scene), Quantity::OF_SCENES);
 }
 
 #[test]
@@ -71,8 +76,8 @@ fn every_kind_is_in_a_twentieth_or_a_hundredth_of_the_random_scenes_at_least() {
     };
     let rare: Vec<_> = counts.iter().filter(|(kind, n)| **n < least(kind)).collect();
     assert!(rare.is_empty(), "{rare:?}");
-    // Nine kinds of joints and fifteen of effects, plane and space, three numbers of loops, guides, starts.
-    assert!(counts.len() >= 54, "{}", counts.len());
+    // Ten kinds of joints and nineteen of effects, plane and space, three numbers of loops, guides, starts.
+    assert!(counts.len() >= 59, "{}", counts.len());
 }
 
 #[test]
