@@ -1,7 +1,9 @@
 //! The judge judged: closed forms, conserved quantities, order, differences, invariance.
 
+mod channels;
 mod closed;
 mod controller;
+mod kinds;
 mod machines;
 mod rests;
 mod rules;
