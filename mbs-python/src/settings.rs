@@ -1,31 +1,24 @@
 //! How a mechanism is stepped, by keyword arguments.
 
 use crate::error::{unknown_name, usage};
+use mbs::core::scene::{SETTINGS, SettingSlot};
 use mbs::{Interrupt, Method};
 use pyo3::exceptions::{PyOverflowError, PyTypeError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
+use std::sync::{Arc, LazyLock};
 
-/// Names of the settings.
-const NAMES: [&str; 15] = [
-    "duration",
-    "energy_alarm",
-    "energy_tolerance",
-    "error_tolerance",
-    "events",
-    "formulation",
-    "integrator",
-    "penalty",
-    "precision",
-    "step",
-    "step_control",
-    "step_max",
-    "threads",
-    "tolerance",
-    "estimate",
-];
+/// Argument that is no setting of a method: whether an estimate of the errors is asked for.
+const ESTIMATE: &str = "estimate";
+
+/// Names of the settings in the order of the alphabet, then that of the estimate.
+static NAMES: LazyLock<Vec<&'static str>> = LazyLock::new(|| {
+    let mut names: Vec<_> = SETTINGS.iter().map(|row| row.name).collect();
+    names.sort_unstable();
+    names.push(ESTIMATE);
+    names
+});
 
 /// A method of keyword arguments, and whether an estimate of the errors is asked for. None leaves a setting to the scene.
 pub(crate) fn method(settings: &Bound<'_, PyDict>) -> PyResult<(Method, bool)> {
@@ -58,23 +51,17 @@ fn set(
     estimate: &mut bool,
     (name, value): (&str, &Bound<'_, PyAny>),
 ) -> PyResult<()> {
-    match name {
-        "duration" => method.duration = Some(value.extract()?),
-        "energy_alarm" => method.energy_alarm = Some(value.extract()?),
-        "energy_tolerance" => method.energy_tolerance = Some(value.extract()?),
-        "error_tolerance" => method.error_tolerance = Some(value.extract()?),
-        "events" => method.events = Some(value.extract()?),
-        "formulation" => method.formulation = Some(value.extract()?),
-        "integrator" => method.integrator = Some(value.extract()?),
-        "penalty" => method.penalty = Some(value.extract()?),
-        "precision" => method.precision = Some(value.extract()?),
-        "step" => method.step = Some(value.extract()?),
-        "step_control" => method.step_control = Some(value.extract()?),
-        "step_max" => method.step_max = Some(value.extract()?),
-        "threads" => method.threads = Some(value.extract()?),
-        "tolerance" => method.tolerance = Some(value.extract()?),
-        "estimate" => *estimate = value.extract()?,
-        _ => return Err(unknown(value.py(), name)),
+    if name == ESTIMATE {
+        *estimate = value.extract()?;
+        return Ok(());
+    }
+    let slot = method.slot(name).ok_or_else(|| unknown(value.py(), name))?;
+    match slot {
+        SettingSlot::Word(field) => *field = Some(value.extract()?),
+        SettingSlot::Number(field) => *field = Some(value.extract()?),
+        SettingSlot::Pair(field) => *field = Some(value.extract()?),
+        SettingSlot::Flag(field) => *field = Some(value.extract()?),
+        SettingSlot::Count(field) => *field = Some(value.extract()?),
     }
     Ok(())
 }
