@@ -61,12 +61,14 @@ fn fields_have_the_sentences_of_the_table() {
         let text = std::fs::read_to_string(path).expect("a source file");
         let text = text.split(end).next().unwrap_or_default();
         for row in &SETTINGS {
-            let key = row.path.strip_prefix("solver.").unwrap_or(row.name);
-            let Some((before, _)) = text.split_once(&format!("\n    pub {key}: ")) else {
-                continue;
-            };
-            let doc = before.rsplit('\n').next().unwrap_or_default().trim();
-            assert_eq!(doc, format!("/// {}", row.sentence()), "{file}: {key}");
+            // a table has the key, a method the name
+            for key in [row.path.trim_start_matches("solver."), row.name] {
+                let Some((before, _)) = text.split_once(&format!("\n    pub {key}: ")) else {
+                    continue;
+                };
+                let doc = before.rsplit('\n').next().unwrap_or_default().trim();
+                assert_eq!(doc, format!("/// {}", row.sentence()), "{file}: {key}");
+            }
         }
     }
 }
