@@ -210,6 +210,7 @@ impl Kind {
                     "mbs_core::natural::forces",
                     "mbs_core::natural::on_body",
                     "mbs_recursive::loads",
+                    "mbs_recursive::passes::overturned",
                 ],
                 &["::evaluate_forces", "::add_transverse", "::remember"],
             ),
