@@ -99,7 +99,7 @@ pub struct QuantityRow {
     pub needs_reactions: bool,
     /// Is it read of effects?
     pub needs_effects: bool,
-    /// Is it read of the rotation of its body, of the bodies of its joint, or of the one that it is seen from?
+    /// Is it read of the rotation of its body, of the bodies of its joint, or of the one that it is seen from? It counts for these alone.
     pub needs_rotation: bool,
     /// Picture of the quantity.
     pub picture: OutputPicture,
