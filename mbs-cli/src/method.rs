@@ -18,6 +18,8 @@ pub(crate) trait SettingSet: Debug + Clone + Send + Sync + 'static {
     const IS_WHOLE: bool = false;
     /// Words that the settings of the set do not take.
     const WITHOUT: &[&str] = &[];
+    /// Names of settings with what the command does where nothing gives them, if that is not the default of the table.
+    const OWN_DEFAULTS: &[(&str, &str)] = &[];
 }
 
 /// Set of all settings.
@@ -34,7 +36,7 @@ impl SettingSet for All {
 
 /// Declares sets of settings by the names in them.
 macro_rules! sets {
-    ($($(#[$about:meta])* $Set:ident = [$($name:literal),*] without [$($word:literal),*];)*) => {
+    ($($(#[$about:meta])* $Set:ident = [$($name:literal),*] without [$($word:literal),*] $(, $own:literal = $default:literal)?;)*) => {
         $(
             $(#[$about])*
             #[derive(Debug, Clone)]
@@ -46,6 +48,7 @@ macro_rules! sets {
                 }
 
                 const WITHOUT: &[&str] = &[$($word),*];
+                const OWN_DEFAULTS: &[(&str, &str)] = &[$(($own, $default))?];
             }
         )*
     };
@@ -55,7 +58,8 @@ sets! {
     /// Set of the settings of `mbs explain`.
     OfExplain = ["formulation", "integrator", "step", "duration", "precision"] without ["dd"];
     /// Set of the settings of `mbs sweep`.
-    OfSweep = ["formulation", "integrator", "step", "error_tolerance", "duration", "precision"] without ["dd"];
+    OfSweep = ["formulation", "integrator", "step", "error_tolerance", "duration", "precision"] without ["dd"],
+        "error_tolerance" = "fixed steps";
     /// Set of the settings of `mbs doctor`.
     OfDoctor = ["formulation", "step", "duration"] without [];
 }
@@ -111,7 +115,7 @@ fn rows<S: SettingSet>() -> impl Iterator<Item = &'static Setting> {
 fn option<S: SettingSet>(row: &'static Setting) -> Arg {
     let read = |text: &str| row.parse(text).ok_or(wanted(row.form));
     let is_number = matches!(row.form, SettingForm::Positive | SettingForm::Descending);
-    let first = format!("{} {}", meaning(row, S::WITHOUT), default(row));
+    let first = format!("{} {}", meaning(row, S::WITHOUT), default(row, S::OWN_DEFAULTS));
     let further: Vec<String> = row.further().map(|text| of_options(&text)).collect();
     let others = row.options.get(1..).unwrap_or_default();
     let option = Arg::new(row.name)
@@ -144,9 +148,11 @@ fn meaning(row: &Setting, without: &[&str]) -> String {
     }
 }
 
-/// Default of a setting, in a sentence.
-fn default(row: &Setting) -> String {
+/// Default of a setting, in a sentence; `own` are those of the command.
+fn default(row: &Setting, own: &[(&str, &str)]) -> String {
+    let own = own.iter().find(|(name, _)| *name == row.name);
     let default = match row.form {
+        _ if own.is_some() => own.map_or_else(String::new, |(_, words)| (*words).to_owned()),
         SettingForm::Flag if row.default == "true" => "on".to_owned(),
         SettingForm::Descending => row.default.replace(['[', ']', ' '], ""),
         _ => of_options(row.default),

@@ -82,8 +82,8 @@ pub(crate) fn meant<T: Real, const D: usize>(
     (meant, locks)
 }
 
-/// The axis whose tilt alone holds loops that cannot move with it, in the reference configuration. Cost: nothing without such tilts; else the
-/// ranks of the constraints for some variants of the scene.
+/// The axis whose tilt alone holds loops that cannot move with it, in the reference configuration: of the scene and the tilts that [`meant`]
+/// gives. Cost: nothing without such tilts; else the ranks of the constraints for some variants of the scene.
 pub(crate) fn lock<T: Real, const D: usize>(
     scene: &Scene<T>,
     locks: &[Tilt<T>],

@@ -122,7 +122,7 @@ pub const SETTINGS: [Setting; 14] = [
             "energy-published",
         ]),
         letter: "C",
-        default: "error beside `error_tolerance`, energy in multi-index, else fixed",
+        default: "by its tolerances, energy in multi-index, else fixed",
         takers: "the implicit one-step integrators",
         meaning: "Rule for the length of steps.",
         more: &[
