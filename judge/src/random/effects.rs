@@ -105,10 +105,13 @@ impl Effects<'_> {
         (format!("bodies = {}\npoints = [{p}, {q}]\n", pair(ends.map(|e| e.0))), length)
     }
 
-    /// A line over three points of two bodies, and its length.
-    fn points(&mut self) -> (String, f64) {
+    /// A line over three points of two bodies, and its length; none of thin rods, which it would turn about themselves.
+    fn points(&mut self) -> Option<(String, f64)> {
         let a = self.body();
         let b = self.other(a);
+        if [Some(a), b].into_iter().flatten().any(|body| self.draft.bodies[body].rod.is_some()) {
+            return None;
+        }
         let places = [Some(a), b, Some(a)].map(|body| (body, self.draft.point(self.dice, body)));
         let parts = places.windows(2).map(|pair| norm(sub(pair[1].1, pair[0].1)));
         let length = parts.sum();
@@ -116,17 +119,17 @@ impl Effects<'_> {
             let at = vector(at, self.draft.planar);
             format!("{{ body = \"{}\", at = {at} }}", name(body))
         });
-        (format!("points = [{}]\n", points.join(", ")), length)
+        Some((format!("points = [{}]\n", points.join(", ")), length))
     }
 
     /// A rope that pulls from about its first length on.
-    fn elastic_rope(&mut self) -> String {
-        let (points, length) = self.points();
+    fn elastic_rope(&mut self) -> Option<String> {
+        let (points, length) = self.points()?;
         let [k, c] = self.spring();
         let free = length * self.dice.between(0.6, 1.05);
-        format!(
+        Some(format!(
             "kind = \"spring-damper\"\n{points}stiffness = {k:?}\ndamping = {c:?}\nfree_length = {free:?}\npulls_only = true"
-        )
+        ))
     }
 
     /// A stiffness by a frequency, and a damping by a share of the critical one.
@@ -239,9 +242,9 @@ impl Effects<'_> {
                     "kind = \"speed-hold\"\nbody = \"b{b}\"\ndirection = {direction}\nspeed = {speed:?}\ngain = {gain:?}\nlimit = {limit:?}"
                 ))
             }
-            "spring-points" => Some(self.elastic_rope()),
+            "spring-points" => self.elastic_rope(),
             "polynomial-points" => {
-                let (points, l) = self.points();
+                let (points, l) = self.points()?;
                 let ([k1, _], [k2, _]) = (self.spring(), self.spring());
                 let end = 3.0 * l;
                 Some(format!(
@@ -251,7 +254,7 @@ impl Effects<'_> {
                 ))
             }
             "actuator-points" => {
-                let (points, _) = self.points();
+                let (points, _) = self.points()?;
                 let value = self.force(-1.0);
                 Some(format!("kind = \"actuator\"\n{points}value = {value:?}"))
             }

@@ -188,6 +188,11 @@ impl Draft {
         mechanism.evaluate(&reference).least_pivot > NEAR_LOCKED && freedoms >= 1
     }
 
+    /// Number of freedoms of the mechanism in its reference configuration.
+    fn freedoms(&self) -> usize {
+        mechanism_of(self).map_or(0, |mechanism| mechanism.freedoms(&mechanism.reference()))
+    }
+
     pub(crate) fn mark_loop(&mut self, a: usize, b: Carrier) {
         let path = |mut body: Carrier| {
             let mut list = Vec::new();
@@ -229,8 +234,11 @@ impl Draft {
             let first = laws.next().unwrap_or_default();
             let rest = laws.map(|law| format!("\n\n[[guide]]\njoint = \"j{i}\"\n{law}"));
             let guide = first + &rest.collect::<String>();
+            let before = self.freedoms();
             self.links[i].guide = Some(guide);
-            if held && !(self.moves() && starts(self)) {
+            // a coordinate that a loop locks cannot be guided
+            let takes = self.freedoms() + sizes.len() == before;
+            if held && !(takes && self.moves() && starts(self)) {
                 self.links[i].guide = None;
             }
         }
