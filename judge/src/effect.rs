@@ -1,7 +1,6 @@
 //! Effects of a scene, as the judge reads them.
 
-use crate::parts::{Carrier, Given, Term};
-use crate::sums::reference_length;
+use crate::parts::{Carrier, Given, Term, reference_length};
 use crate::vector::{Vector, norm, sub};
 
 /// Two points, one a body.

@@ -359,27 +359,7 @@ impl Mechanism {
         let mut moved = self.blank();
         for ((&owner, row), lambda) in owners.iter().zip(&rows).zip(&multipliers) {
             power += lambda * row.given[0];
-            let joint = match owner {
-                Owner::Coupling(k) => {
-                    moved.couplings[k] = *lambda;
-                    continue;
-                }
-                Owner::Rolling(k, along) => {
-                    moved.contacts[k] = add(moved.contacts[k], scale(*lambda, along));
-                    continue;
-                }
-                Owner::Guide(joint, coordinate) => {
-                    moved.efforts[joint][coordinate] = *lambda;
-                    joint
-                }
-                Owner::Turn(joint, along) => {
-                    let first = self.scene.joints[joint].turning(self.scene.planar).start;
-                    let effort = moved.efforts[joint][first..].iter_mut();
-                    effort.zip(along).for_each(|(x, a)| *x += lambda * a);
-                    joint
-                }
-                Owner::Joint(joint) => joint,
-            };
+            let Some(joint) = self.give(owner, *lambda, &mut moved) else { continue };
             let wrench = self.wrench(joint, row, *lambda, &places);
             moved.reactions[joint].iter_mut().zip(wrench).for_each(|(r, w)| *r += w);
         }
@@ -388,6 +368,31 @@ impl Mechanism {
         }
         let least_pivot = saddle.factors.least_pivot;
         Moved { accelerations, energy: [kinetic, potential], power, least_pivot, unmet, ..moved }
+    }
+
+    /// Gives a multiplier to what it belongs to; returns the joint that carries it.
+    fn give(&self, owner: Owner, lambda: f64, moved: &mut Moved) -> Option<usize> {
+        match owner {
+            Owner::Coupling(k) => {
+                moved.couplings[k] = lambda;
+                None
+            }
+            Owner::Rolling(k, along) => {
+                moved.contacts[k] = add(moved.contacts[k], scale(lambda, along));
+                None
+            }
+            Owner::Guide(joint, coordinate) => {
+                moved.efforts[joint][coordinate] = lambda;
+                Some(joint)
+            }
+            Owner::Turn(joint, along) => {
+                let first = self.scene.joints[joint].turning(self.scene.planar).start;
+                let effort = moved.efforts[joint][first..].iter_mut();
+                effort.zip(along).for_each(|(x, a)| *x += lambda * a);
+                Some(joint)
+            }
+            Owner::Joint(joint) => Some(joint),
+        }
     }
 
     /// Teeth are driven apart whatever the sense of their effort: rows whose multipliers are below zero; are there any?

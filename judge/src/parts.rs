@@ -1,6 +1,6 @@
 //! Laws, curves, sums and couplings of a scene, as the judge reads them.
 
-use crate::vector::Vector;
+use crate::vector::{Vector, norm, sub};
 
 /// A body, or the ground.
 pub type Carrier = Option<usize>;
@@ -195,4 +195,9 @@ pub enum Given {
     Rows(Vec<(f64, Vector)>),
     /// A signal for each component.
     Named([Option<Box<Source>>; 3]),
+}
+
+/// The length of a line in the reference configuration.
+pub(crate) fn reference_length(points: &[(Carrier, Vector)]) -> f64 {
+    points.windows(2).map(|ends| norm(sub(ends[1].1, ends[0].1))).sum()
 }

@@ -67,20 +67,23 @@ pub fn read(text: &str) -> Read<Scene> {
     if let Some(mut table) = root.table("solver")? {
         scene.step = table.take("step").map(|n| n.number()).transpose()?;
     }
-    let outputs = root.tables("output")?;
-    scene.outputs = outputs.into_iter().map(|t| output(t, &names, &scene)).collect::<Read<_>>()?;
-    if scene.outputs.is_empty() {
-        let is_shown = |j: &usize| scene.joints[*j].kind.coordinates(planar) != [0, 0];
-        let shown = (0..scene.joints.len()).filter(is_shown);
-        let channel = |j: usize| Output {
-            name: scene.joints[j].name.clone(),
-            quantity: Quantity::Value(j),
-            degrees: false,
-        };
-        scene.outputs = shown.map(channel).collect();
-    }
+    scene.outputs = channels(root.tables("output")?, &names, &scene)?;
     root.done("the scene")?;
     Ok(scene)
+}
+
+/// The channels of a scene; where there are none, the coordinates of all joints.
+fn channels(tables: Vec<Table>, names: &Names, scene: &Scene) -> Read<Vec<Output>> {
+    if !tables.is_empty() {
+        return tables.into_iter().map(|t| output(t, names, scene)).collect();
+    }
+    let is_shown = |j: &usize| scene.joints[*j].kind.coordinates(scene.planar) != [0, 0];
+    let channel = |j: usize| Output {
+        name: scene.joints[j].name.clone(),
+        quantity: Quantity::Value(j),
+        degrees: false,
+    };
+    Ok((0..scene.joints.len()).filter(is_shown).map(channel).collect())
 }
 
 fn body(mut table: Table) -> Read<Body> {

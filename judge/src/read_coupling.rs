@@ -3,9 +3,9 @@
 use crate::drawn::{self, sense};
 use crate::names::Names;
 use crate::node::{Node, Read, Table, fault};
+use crate::parts::reference_length;
 use crate::read_curve::{curve, law, only, terms};
 use crate::scene::{Coupling, Joint, Kind, Measure, Seat, Signal, Term, Wheel};
-use crate::sums::reference_length;
 use crate::vector::{Vector, dot, norm, scale, sub};
 use core::f64::consts::PI;
 

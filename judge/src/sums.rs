@@ -2,9 +2,10 @@
 
 use crate::joints::turn_about;
 use crate::loads::Now;
+use crate::parts::reference_length;
 use crate::rows::Row;
 use crate::scene::{Carrier, Measure, Term};
-use crate::vector::{Vector, add, compose, conjugate, cross, dot, norm, scale, sub, unit};
+use crate::vector::{Vector, add, compose, conjugate, cross, dot, norm, scale, unit};
 
 impl Now<'_> {
     /// Returns what is measured, with its gradient.
@@ -82,11 +83,6 @@ impl Now<'_> {
         of_curve.bias += bend * rate * rate;
         of_curve
     }
-}
-
-/// The length of a line in the reference configuration.
-pub(crate) fn reference_length(points: &[(Carrier, Vector)]) -> f64 {
-    points.windows(2).map(|ends| norm(sub(ends[1].1, ends[0].1))).sum()
 }
 
 /// An angle within half a turn.

@@ -1,6 +1,6 @@
 //! Rows of channels beside the judge's: parts with one unit, their sizes, and what is off most.
 
-use super::{ERROR_FACTOR, Judged, ROUNDING, Rows, Verdict};
+use super::product::{ERROR_FACTOR, Judged, ROUNDING, Rows, Verdict};
 use crate::scene::{Coupled, Exerts, Quantity, Seen, Whole};
 
 /// Least size of a channel, relative to the largest of its kind [-]. Chosen, not tuned.
