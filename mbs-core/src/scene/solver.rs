@@ -208,6 +208,22 @@ pub const SETTINGS: [Setting; 14] = [
     },
 ];
 
+impl Setting {
+    /// Returns the setting of that name.
+    #[must_use]
+    pub fn named(name: &str) -> Option<&'static Self> {
+        SETTINGS.iter().find(|row| row.name == name)
+    }
+
+    /// Returns the settings that a table of scene files has, with their keys in it.
+    pub fn of_table(table: &str) -> impl Iterator<Item = (&'static str, &'static Self)> {
+        SETTINGS.iter().filter_map(move |row| {
+            let (header, key) = row.path.split_once('.')?;
+            (header == table).then_some((key, row))
+        })
+    }
+}
+
 /// The `[solver]` table: all optional; the command line overrides.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct SolverTable<T> {
