@@ -59,7 +59,7 @@ pub const SETTINGS: [Setting; 14] = [
         meaning: "Integrator of the equations of motion.",
         more: &[
             "Formulation recursive alone has rk4, rk54, rk853 (order 8) and gbs (extrapolation, for reference runs).",
-            "It alone has radau5 (implicit, of order 5, for stiff effects; give it a longer `step_max`).",
+            "radau5, also of recursive alone, is implicit and of order 5, for stiff effects; give it a longer `step_max`.",
         ],
         ..ROW
     },
