@@ -171,7 +171,7 @@ fn of_options(text: &str) -> String {
     })
 }
 
-/// What to write as a value of a form.
+/// Hint at what to write as a value of a form.
 fn wanted(form: SettingForm) -> &'static str {
     match form {
         SettingForm::Word(_) => "write a word",

@@ -1,23 +1,23 @@
 //! Settings of a run: the scene's `[solver]` table, overridden by the command line, checked against what is built.
 
-mod decide;
 mod error;
 pub mod length;
+mod range;
 mod way;
 
-use crate::choice::{IntegratorKind, PRECISIONS, Precision, StepRule};
+use crate::choice::{INTEGRATORS, IntegratorKind, PRECISIONS, Precision, STEP_RULES, StepRule};
 use crate::interrupt::Interrupt;
-use crate::methods::FormulationKind;
+use crate::methods::{FORMULATIONS, FormulationKind, PenaltyUse};
 use crate::precision::is_finer;
 use crate::record::PilotReport;
-use decide::{checked, energy_limits, method, named, ordered, positive, step_rule};
 pub use error::SettingsError;
+use length::MOST_STEPS;
+use mbs_core::control::EnergyRule;
 use mbs_core::once::found;
-use mbs_core::scene::{NotASetting, Scene, SettingSlot, SettingValue};
+use mbs_core::scene::{NotASetting, Scene, SettingSlot, SettingValue, SolverTable};
 use mbs_core::{Real, instances};
+use range::{checked, named, ordered, positive};
 
-/// Most steps of a run [-]: at a microsecond each they take eleven days.
-const MOST_STEPS: f64 = 1e12;
 /// Step when neither scene nor command line gives one [s].
 pub const DEFAULT_STEP: f64 = 1e-3;
 
@@ -109,38 +109,38 @@ impl Method {
         Self::default().formulation(formulation)
     }
 
-    /// Sets [`formulation`](Self#structfield.formulation).
+    /// Sets [`formulation`](Self#structfield.formulation) of the method.
     #[must_use]
     pub fn formulation(self, formulation: FormulationKind) -> Self {
         Self { formulation: Some(formulation.name().to_owned()), ..self }
     }
 
-    /// Sets [`integrator`](Self#structfield.integrator). Those of first order (`rk4`, `rk54`, `rk853`, `gbs`, `radau5`) are of relative
+    /// Sets [`integrator`](Self#structfield.integrator) of the method. Those of first order (`rk4`, `rk54`, `rk853`, `gbs`, `radau5`) are of relative
     /// coordinates: where no formulation is named they take `recursive`.
     #[must_use]
     pub fn integrator(self, integrator: IntegratorKind) -> Self {
         Self { integrator: Some(integrator.name().to_owned()), ..self }
     }
 
-    /// Sets [`precision`](Self#structfield.precision).
+    /// Sets [`precision`](Self#structfield.precision) of the method.
     #[must_use]
     pub fn precision(self, precision: Precision) -> Self {
         Self { precision: Some(precision.name().to_owned()), ..self }
     }
 
-    /// Sets [`step`](Self#structfield.step) [s].
+    /// Sets [`step`](Self#structfield.step) of the method [s].
     #[must_use]
     pub fn step(self, dt: f64) -> Self {
         Self { step: Some(dt), ..self }
     }
 
-    /// Sets [`step_max`](Self#structfield.step_max) [s].
+    /// Sets [`step_max`](Self#structfield.step_max) of the method [s].
     #[must_use]
     pub fn step_max(self, dt: f64) -> Self {
         Self { step_max: Some(dt), ..self }
     }
 
-    /// Sets [`step_control`](Self#structfield.step_control). Lengths only shrink unless [`step_max`](Self::step_max) lets them grow.
+    /// Sets [`step_control`](Self#structfield.step_control) of the method. Lengths only shrink unless [`step_max`](Self::step_max) lets them grow.
     ///
     /// ```
     /// use mbs::{Method, StepRule};
@@ -151,49 +151,49 @@ impl Method {
         Self { step_control: Some(control.name().to_owned()), ..self }
     }
 
-    /// Sets [`energy_tolerance`](Self#structfield.energy_tolerance), the larger limit first.
+    /// Sets [`energy_tolerance`](Self#structfield.energy_tolerance) of the method, the larger limit first.
     #[must_use]
     pub fn energy_tolerance(self, limits: [f64; 2]) -> Self {
         Self { energy_tolerance: Some(limits), ..self }
     }
 
-    /// Sets [`error_tolerance`](Self#structfield.error_tolerance).
+    /// Sets [`error_tolerance`](Self#structfield.error_tolerance) of the method.
     #[must_use]
     pub fn error_tolerance(self, error: f64) -> Self {
         Self { error_tolerance: Some(error), ..self }
     }
 
-    /// Sets [`events`](Self#structfield.events).
+    /// Sets [`events`](Self#structfield.events) of the method.
     #[must_use]
     pub fn events(self, are_located: bool) -> Self {
         Self { events: Some(are_located), ..self }
     }
 
-    /// Sets [`energy_alarm`](Self#structfield.energy_alarm).
+    /// Sets [`energy_alarm`](Self#structfield.energy_alarm) of the method.
     #[must_use]
     pub fn energy_alarm(self, ratio: f64) -> Self {
         Self { energy_alarm: Some(ratio), ..self }
     }
 
-    /// Sets [`duration`](Self#structfield.duration) [s].
+    /// Sets [`duration`](Self#structfield.duration) of the method [s].
     #[must_use]
     pub fn duration(self, duration: f64) -> Self {
         Self { duration: Some(duration), ..self }
     }
 
-    /// Sets [`penalty`](Self#structfield.penalty) [N/m in index-3, kg in index-1].
+    /// Sets [`penalty`](Self#structfield.penalty) of the method [N/m in index-3, kg in index-1].
     #[must_use]
     pub fn penalty(self, alpha: f64) -> Self {
         Self { penalty: Some(alpha), ..self }
     }
 
-    /// Sets [`tolerance`](Self#structfield.tolerance).
+    /// Sets [`tolerance`](Self#structfield.tolerance) of the method.
     #[must_use]
     pub fn tolerance(self, tolerance: f64) -> Self {
         Self { tolerance: Some(tolerance), ..self }
     }
 
-    /// Sets [`threads`](Self#structfield.threads).
+    /// Sets [`threads`](Self#structfield.threads) of the method.
     #[must_use]
     pub fn threads(self, n: usize) -> Self {
         Self { threads: Some(n), ..self }
@@ -388,4 +388,78 @@ pub fn exact<T: Real>(scene: &Scene<T>, x: f64) -> T {
     let written = [Some(scene.duration), scene.solver.step, scene.solver.step_max];
     let same = written.into_iter().flatten().find(|&w| w.to_f64().to_bits() == x.to_bits());
     same.or_else(|| T::from_decimal(&format!("{x:e}"))).unwrap_or(T::from_f64(x))
+}
+
+/// The formulation as asked and as it runs, and the integrator.
+fn method<T>(
+    solver: &SolverTable<T>,
+    overrides: &Method,
+) -> Result<(String, FormulationKind, IntegratorKind), SettingsError> {
+    let (asked, formulation) = named(
+        "formulation",
+        (&overrides.formulation, &solver.formulation, "auto"),
+        &FORMULATIONS,
+        // `auto` stands before them.
+        core::array::from_fn(|i| i.checked_sub(1).map(|i| FormulationKind::ALL[i])),
+    )?;
+    let (_, integrator) = named(
+        "integrator",
+        (&overrides.integrator, &solver.integrator, "trapezoidal"),
+        &INTEGRATORS,
+        IntegratorKind::ALL,
+    )?;
+    let formulation = match formulation {
+        Some(formulation) => formulation,
+        None if integrator.is_of_first_order() => FormulationKind::RELATIVE,
+        None => FormulationKind::DEFAULT,
+    };
+    if !formulation.runs_with(integrator) {
+        let option = format!("integrator {}", integrator.name());
+        return Err(SettingsError::NotTogether { formulation, option });
+    }
+    if formulation.row().penalty == PenaltyUse::None && overrides.penalty.is_some() {
+        let option = "penalty".to_owned();
+        return Err(SettingsError::NotTogether { formulation, option });
+    }
+    Ok((asked, formulation, integrator))
+}
+
+/// Rule that chooses the length of the steps. The rule that the command line names comes first, then one that it gives tolerances for. Next is
+/// the rule that the scene names, and last the one of its error tolerance. The energy limits of a scene are meant for multi-index, which has the
+/// energy rule anyway.
+fn step_rule<T>(
+    solver: &SolverTable<T>,
+    overrides: &Method,
+    (formulation, integrator): (FormulationKind, IntegratorKind),
+) -> Result<StepRule, SettingsError> {
+    let of_formulation = formulation.row().energy_rule;
+    let given = [overrides.energy_tolerance.is_some(), overrides.error_tolerance.is_some()];
+    let is_named = overrides.step_control.is_some() || solver.step_control.is_some();
+    let (from_caller, default) = if overrides.step_control.is_none() && given != [false; 2] {
+        let rule = StepRule::of(given[0] || of_formulation, given[1]);
+        (Some(rule.name().to_owned()), rule)
+    } else {
+        let default = StepRule::of(of_formulation, solver.error_tolerance.is_some());
+        (overrides.step_control.clone(), default)
+    };
+    let [from_caller, from_scene] = [&from_caller, &solver.step_control]
+        .map(|name| name.as_deref().map(|name| StepRule::canonical(name).to_owned()));
+    let names = (&from_caller, &from_scene, default.name());
+    let (_, rule) = named("step_control", names, &STEP_RULES, StepRule::ALL)?;
+    if rule == StepRule::Fixed || !integrator.is_of_first_order() {
+        return Ok(rule);
+    }
+    // A tolerance in the scene is for integrators that can use it.
+    if !is_named && given == [false; 2] {
+        return Ok(StepRule::Fixed);
+    }
+    let option = format!("step control {} beside integrator {}", rule.name(), integrator.name());
+    Err(SettingsError::NotTogether { formulation, option })
+}
+
+/// U and L of the energy rule: the caller's, the scene's, or the usual ones.
+fn energy_limits<T: Real>(solver: &SolverTable<T>, overrides: &Method) -> [f64; 2] {
+    let of_scene = solver.energy_tolerance.map(|limits| limits.map(T::to_f64));
+    let usual = EnergyRule::default();
+    overrides.energy_tolerance.or(of_scene).unwrap_or([usual.upper, usual.lower])
 }

@@ -1,6 +1,5 @@
-//! What a setting of a method says of itself, and its values.
+//! A setting of a method: what its row says, and its values.
 
-use super::solver::SETTINGS;
 use alloc::format;
 use alloc::string::String;
 
@@ -87,20 +86,6 @@ impl core::fmt::Display for NotASetting {
 impl core::error::Error for NotASetting {}
 
 impl Setting {
-    /// Returns the setting of that name.
-    #[must_use]
-    pub fn named(name: &str) -> Option<&'static Self> {
-        SETTINGS.iter().find(|row| row.name == name)
-    }
-
-    /// Returns the settings that a table of scene files has, with their keys in it.
-    pub fn of_table(table: &str) -> impl Iterator<Item = (&'static str, &'static Self)> {
-        SETTINGS.iter().filter_map(move |row| {
-            let (header, key) = row.path.split_once('.')?;
-            (header == table).then_some((key, row))
-        })
-    }
-
     /// Name of the option on the command line.
     #[must_use]
     pub fn option(&self) -> &'static str {
@@ -181,7 +166,7 @@ impl<T> SettingSlot<'_, T> {
         }
     }
 
-    /// Sets the field.
+    /// Sets the field to a value.
     ///
     /// # Errors
     /// [`NotASetting`] for a value of another form: the field stays as it was.

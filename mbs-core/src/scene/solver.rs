@@ -59,7 +59,7 @@ pub const SETTINGS: [Setting; 14] = [
         meaning: "Integrator of the equations of motion.",
         more: &[
             "Formulation recursive alone has rk4, rk54, rk853 (order 8) and gbs (extrapolation, for reference runs).",
-            "It alone has radau5 (implicit, of order 5, for stiff effects; give it a longer `step_max`).",
+            "radau5, also of recursive alone, is implicit and of order 5, for stiff effects; give it a longer `step_max`.",
         ],
         ..ROW
     },
@@ -207,6 +207,22 @@ pub const SETTINGS: [Setting; 14] = [
         ..ROW
     },
 ];
+
+impl Setting {
+    /// Returns the setting of that name.
+    #[must_use]
+    pub fn named(name: &str) -> Option<&'static Self> {
+        SETTINGS.iter().find(|row| row.name == name)
+    }
+
+    /// Returns the settings that a table of scene files has, with their keys in it.
+    pub fn of_table(table: &str) -> impl Iterator<Item = (&'static str, &'static Self)> {
+        SETTINGS.iter().filter_map(move |row| {
+            let (header, key) = row.path.split_once('.')?;
+            (header == table).then_some((key, row))
+        })
+    }
+}
 
 /// The `[solver]` table: all optional; the command line overrides.
 #[derive(Debug, Clone, PartialEq, Default)]

@@ -25,7 +25,7 @@ const PARTS: [&str; 12] = [
 ];
 
 /// Settings that a checkpoint holds to, in the order of its format; others follow in the order of the table.
-const FIRST: [&str; 13] = [
+const FORMAT: [&str; 13] = [
     "formulation",
     "integrator",
     "precision",
@@ -46,8 +46,8 @@ const FREE: &str = "threads";
 
 /// Returns the settings that a checkpoint holds to.
 fn held() -> impl Iterator<Item = &'static Setting> {
-    let is_other = |row: &&Setting| row.name != FREE && !FIRST.contains(&row.name);
-    let first = FIRST.into_iter().filter_map(Setting::named);
+    let is_other = |row: &&Setting| row.name != FREE && !FORMAT.contains(&row.name);
+    let first = FORMAT.into_iter().filter_map(Setting::named);
     first.chain(SETTINGS.iter().filter(is_other))
 }
 

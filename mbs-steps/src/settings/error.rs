@@ -1,6 +1,6 @@
 //! Settings that are refused, and what to do about it.
 
-use super::{MOST_STEPS, length};
+use super::length::{self, MOST_STEPS};
 use crate::choice::Precision;
 use crate::methods::FormulationKind;
 use crate::precision::{PrecisionError, not_built_hint};

@@ -6,6 +6,9 @@ use mbs_scene::format::significant;
 /// Relative difference below which two lengths of time are the same, written in fewer digits [-]. Chosen, not tuned.
 pub const SAME_LENGTH: f64 = 1e-9;
 
+/// Most steps of a run [-]: at a microsecond each they take eleven days.
+pub(super) const MOST_STEPS: f64 = 1e12;
+
 /// Is the length of the steps controlled, by the integrator or by a rule?
 pub(super) fn is_controlled(integrator: IntegratorKind, rule: StepRule) -> bool {
     integrator.controls_its_step() || rule != StepRule::Fixed
