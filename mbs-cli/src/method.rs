@@ -113,7 +113,7 @@ fn rows<S: SettingSet>() -> impl Iterator<Item = &'static Setting> {
 
 /// The option of a setting.
 fn option<S: SettingSet>(row: &'static Setting) -> Arg {
-    let read = |text: &str| row.parse(text).ok_or(wanted(row.form));
+    let read = |text: &str| row.parse(text).ok_or_else(|| wanted(row.form, text));
     let is_number = matches!(row.form, SettingForm::Positive | SettingForm::Descending);
     let first = format!("{} {}", meaning(row, S::WITHOUT), default(row, S::OWN_DEFAULTS));
     let further: Vec<String> = row.further().map(|text| of_options(&text)).collect();
@@ -171,9 +171,11 @@ fn of_options(text: &str) -> String {
     })
 }
 
-/// Hint at what to write as a value of a form.
-fn wanted(form: SettingForm) -> &'static str {
+/// Hint at what to write as a value of a form, where a text is none.
+fn wanted(form: SettingForm, text: &str) -> &'static str {
+    let is_whole = text.bytes().all(|byte| byte.is_ascii_digit());
     match form {
+        SettingForm::Count if is_whole && !text.is_empty() => "the number is too large",
         SettingForm::Word(_) => "write a word",
         SettingForm::Positive => "write a number, such as 0.001",
         SettingForm::Descending => "write two numbers with a comma, such as 1e-5,1e-7",

@@ -69,15 +69,14 @@ fn the_help_says_what_the_options_of_radau5_mean() {
     let flat = help.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(
         flat.contains(
-            "radau5 (implicit, of order 5, for stiff effects; give it a longer --step-max)"
+            "radau5, also of recursive alone, is implicit and of order 5, for stiff effects; give it a longer --step-max"
         ),
         "{flat}"
     );
-    assert!(flat.contains("radau5: the error of each step"), "{flat}");
+    assert!(flat.contains("gbs and radau5 it is the error of each step"), "{flat}");
+    assert!(flat.contains("--step-max <H> Longest step"), "{flat}");
     assert!(
-        flat.contains(
-            "Longest step where lengths are controlled, and with rk54, rk853, gbs and radau5"
-        ),
+        flat.contains("Taken by steps of controlled length, and by rk54, rk853, gbs and radau5"),
         "{flat}"
     );
 }
