@@ -46,13 +46,23 @@ const DEFAULT: usize = 8;
 pub(crate) struct Arguments {
     #[command(flatten)]
     scene: SceneArgument,
-    /// State, JSON: {"joints": {NAME: {"value": X, "rate": X, "effort": X}}, "base": {..}}, each a number or a list; `base` is the only free joint. What it leaves out stays as it is drawn, or follows a loop. Default: the start of the scene.
+    /// State, JSON: {"joints": {NAME: {"value": X, "rate": X, "effort": X}}, "base": {..}}. Default: the start of the scene.
+    ///
+    /// Each is a number or a list; `base` is the only free joint. What it leaves out stays as it is drawn, or follows a loop.
     #[arg(long, value_name = "FILE")]
     state: Option<PathBuf>,
-    /// Value of a joint with one coordinate, and its rate; may be repeated. Other joints stay as they are drawn, or follow a loop. Default: the start of the scene.
+    /// Value of a joint with one coordinate, and its rate; may be repeated. Default: the start of the scene.
+    ///
+    /// Other joints stay as they are drawn, or follow a loop.
     #[arg(long, value_name = "NAME=VALUE[,RATE]", allow_hyphen_values = true)]
     joint: Vec<String>,
-    /// What is computed: accelerations, efforts (that keep all rates), gravity, bias, mass-matrix, loops, momentum, frames (of a body without a frame of its name its centre of mass), centers (of mass of all bodies), jacobians (of all frames), derivatives (of accelerations). Default: all but the last three.
+    /// Quantities that are computed, with commas between them. Default: all but the last three.
+    ///
+    /// They are accelerations, efforts (that keep all rates), gravity, bias, mass-matrix, loops, momentum, frames, centers, jacobians and derivatives.
+    ///
+    /// A body without a frame of its name has its centre of mass as one; centers are those of all bodies.
+    ///
+    /// jacobians are those of all frames, derivatives those of the accelerations.
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     what: Vec<String>,
     /// Print one JSON object on standard output and nothing else.

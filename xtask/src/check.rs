@@ -103,7 +103,9 @@ fn format() -> Result<Outcome, String> {
     let mut args: Vec<String> = ["fmt", "--all", "--check", "--"].map(str::to_owned).to_vec();
     for folder in BY_MACRO {
         let files = std::fs::read_dir(process::root().join(folder)).map_err(|e| e.to_string())?;
-        args.extend(files.flatten().map(|file| file.path().display().to_string()));
+        let files = files.flatten().map(|file| file.path());
+        let sources = files.filter(|path| path.extension().is_some_and(|end| end == "rs"));
+        args.extend(sources.map(|path| path.display().to_string()));
     }
     let args: Vec<&str> = args.iter().map(String::as_str).collect();
     component("fmt", "rustfmt", &args)

@@ -3,13 +3,15 @@
 use super::{json, run, scene, text};
 use std::path::Path;
 
-pub(super) const COMMANDS: [&str; 17] = [
+pub(super) const COMMANDS: [&str; 19] = [
     "run",
     "compare",
     "diff",
     "explain",
     "doctor",
     "export",
+    "import",
+    "inspect",
     "equilibrium",
     "modes",
     "generate",

@@ -80,6 +80,9 @@ pub enum Head {
 }
 
 /// Writes rows as CSV, with all digits where there are long ones.
+///
+/// # Errors
+/// What the sink refuses.
 pub fn write_rows<'a>(
     (sink, channels): (impl Write, &[Channel]),
     head: Head,
