@@ -198,6 +198,7 @@ fn the_files_of_a_crate_import_one_way() {
 
 /// Prints the plan of each crate, which `--nocapture` shows.
 #[test]
+#[allow(clippy::print_stdout, reason = "the plan is shown with --nocapture")]
 fn the_rooms_of_a_crate_import_one_way() {
     let listed: BTreeSet<String> = allowed("up").into_keys().collect();
     let (mut up, mut findings) = (BTreeMap::new(), Vec::new());
