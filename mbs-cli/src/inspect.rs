@@ -48,7 +48,9 @@ pub(crate) struct Arguments {
     scene: SceneArgument,
     /// State, JSON: {"joints": {NAME: {"value": X, "rate": X, "effort": X}}, "base": {..}}. Default: the start of the scene.
     ///
-    /// Each is a number or a list; `base` is the only free joint. What it leaves out stays as it is drawn, or follows a loop.
+    /// Each is a number or a list; `base` is the only free joint.
+    ///
+    /// What it leaves out stays as it is drawn, or follows a loop.
     #[arg(long, value_name = "FILE")]
     state: Option<PathBuf>,
     /// Value of a joint with one coordinate, and its rate; may be repeated. Default: the start of the scene.
