@@ -2,7 +2,7 @@
 
 use crate::motion::{Mechanism, State};
 use crate::scene::{Coupled, Measure, Output, Quantity};
-use crate::vector::{Vector, add, cross, followed, rotation, sub, transposed_times};
+use crate::vector::{add, cross, followed, rotation, sub, transposed_times};
 
 impl Mechanism {
     /// Components of a channel.
@@ -17,35 +17,32 @@ impl Mechanism {
     pub fn show(&self, state: &State, quantity: Quantity) -> Vec<f64> {
         let places = self.places(state);
         let planar = self.scene.planar;
-        let vector = |v: Vector| v[..if planar { 2 } else { 3 }].to_vec();
         match quantity {
-            Quantity::Position(body, at) => vector(places.seat(Some(body), at).p),
-            Quantity::Velocity(body, at) => vector(places.seat(Some(body), at).v),
+            Quantity::Position(body, at) => self.components(places.seat(Some(body), at).p),
+            Quantity::Velocity(body, at) => self.components(places.seat(Some(body), at).v),
             Quantity::Acceleration(body, at) => {
                 let seat = places.seat(Some(body), at);
                 let a = self.evaluate(state).accelerations[body];
                 let turning = add(cross([a[3], a[4], a[5]], seat.arm), seat.bias);
-                vector(add([a[0], a[1], a[2]], turning))
+                self.components(add([a[0], a[1], a[2]], turning))
             }
             Quantity::ProperAcceleration(body, at) => {
                 let moved = self.show(state, Quantity::Acceleration(body, at)).into_iter();
                 moved.zip(self.scene.gravity).map(|(a, g)| a - g).collect()
             }
-            Quantity::AngularVelocity(body) => {
-                places.of(Some(body)).w[if planar { 2 } else { 0 }..].to_vec()
-            }
+            Quantity::AngularVelocity(body) => self.turning(places.of(Some(body)).w),
             Quantity::RelativeAngularVelocity(body, other, is_global) => {
                 let [w, of_other] = [Some(body), other].map(|b| *places.of(b));
                 let w = sub(w.w, of_other.w);
-                let w = if is_global { w } else { transposed_times(&of_other.turn, w) };
-                w[if planar { 2 } else { 0 }..].to_vec()
+                self.turning(if is_global { w } else { transposed_times(&of_other.turn, w) })
             }
             Quantity::Seen(point, what) => self.seen(state, &point, what),
             Quantity::Leaning(leaning) => vec![self.leaning(state, &leaning)],
             Quantity::Effect(number, what) => self.exerted(state, number, what),
             Quantity::Whole(what) => self.whole(state, what),
             Quantity::AngularAcceleration(body) => {
-                self.evaluate(state).accelerations[body][if planar { 5 } else { 3 }..].to_vec()
+                let [.., x, y, z] = self.evaluate(state).accelerations[body];
+                self.turning([x, y, z])
             }
             Quantity::Orientation(body) if planar => vec![state.frames[body].angle],
             Quantity::Orientation(body) => state.frames[body].q.to_vec(),
@@ -58,7 +55,7 @@ impl Mechanism {
                 let jet = self.now(state, &places).source(&self.scene.signals[number].source);
                 vec![jet[usize::from(is_rate)]]
             }
-            Quantity::Contact(number) => vector(self.evaluate(state).contacts[number]),
+            Quantity::Contact(number) => self.components(self.evaluate(state).contacts[number]),
             Quantity::Coupling(number, what) => vec![self.coupled(state, number, what)],
             of_joint => self.of_joint(state, of_joint),
         }

@@ -9,12 +9,12 @@ use crate::wheel::{self, Tread};
 
 impl Mechanism {
     /// The components of a vector that there are.
-    fn components(&self, v: Vector) -> Vec<f64> {
+    pub(crate) fn components(&self, v: Vector) -> Vec<f64> {
         v[..if self.scene.planar { 2 } else { 3 }].to_vec()
     }
 
     /// The components of a turn that there are.
-    fn turning(&self, w: Vector) -> Vec<f64> {
+    pub(crate) fn turning(&self, w: Vector) -> Vec<f64> {
         w[if self.scene.planar { 2 } else { 0 }..].to_vec()
     }
 
