@@ -151,12 +151,12 @@ fn meaning(row: &Setting, without: &[&str]) -> String {
 /// Default of a setting, in a sentence; `own` are those of the command.
 fn default(row: &Setting, own: &[(&str, &str)]) -> String {
     let own = own.iter().find(|(name, _)| *name == row.name);
-    let default = match row.form {
-        _ if own.is_some() => own.map_or_else(String::new, |(_, words)| (*words).to_owned()),
+    let of_table = || match row.form {
         SettingForm::Flag if row.default == "true" => "on".to_owned(),
         SettingForm::Descending => row.default.replace(['[', ']', ' '], ""),
         _ => of_options(row.default),
     };
+    let default = own.map_or_else(of_table, |(_, words)| (*words).to_owned());
     match (row.path.is_empty(), default.is_empty()) {
         (true, _) => format!("Default: {default}."),
         (false, true) => "Default: the scene's.".to_owned(),
