@@ -91,12 +91,12 @@ fn drawn(name: &str) -> Option<random::Drawn> {
 /// Channels of a scene that are off by more than `1e-7` of their size, by steps over `share`: as the crates and the judge have them.
 fn look(drawn: &random::Drawn, method: Way, share: u32) -> String {
     let mut out = random::kinds(&drawn.text).join(", ");
-    let (judged, scene) =
-        match (trial::judge(&drawn.text, drawn.step, drawn.steps), trial::document(&drawn.text)) {
-            (Ok(judged), Ok(scene)) => (judged, scene),
+    let (judged, product) =
+        match (trial::judge(&drawn.text, drawn.step, drawn.steps), trial::product(&drawn.text)) {
+            (Ok(judged), Ok(product)) => (judged, product),
             (Err(why), _) | (_, Err(why)) => return why,
         };
-    let rows = match trial::rows(&scene, method, (drawn.step, drawn.steps), share) {
+    let rows = match trial::rows(&product, method, (drawn.step, drawn.steps), share) {
         Ok(rows) => rows,
         Err(verdict) => return format!("{out}\n{verdict:?}\n"),
     };

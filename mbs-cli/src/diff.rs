@@ -9,7 +9,7 @@ use crate::signals;
 use crate::status::STOPPED;
 use clap::Args;
 use mbs::results::{ColumnDifference, Difference, ResultTable, difference};
-use mbs::{Method, run_document};
+use mbs::{Method, Run};
 use mbs_report::difference_page;
 use serde_json::json;
 use std::path::{Path, PathBuf};
@@ -115,9 +115,9 @@ pub(crate) fn results(path: &Path, set: &[String]) -> Result<ResultTable, Refusa
     }
     let overrides = Method { interrupt: signals::heeded(), ..Method::default() };
     let begun = files::begin(&SceneArgument::new(path, set), &overrides, (None, &[]))?;
-    let outcome = run_document((&begun.document, &begun.scene), &begun.settings, &mut |_| {});
-    let outcome = outcome.map_err(|error| Refusal::scene(&error))?;
-    ResultTable::of_outcome(&outcome).map_err(|error| unreadable(&error))
+    let result = mbs::run(&begun.mechanism, &Run::new().method(overrides));
+    let result = result.map_err(|error| files::refused(&error, &begun.document))?;
+    ResultTable::of_outcome(result.outcome()).map_err(|error| unreadable(&error))
 }
 
 fn report(arguments: &Arguments, found: &Difference) -> ExitCode {

@@ -9,7 +9,7 @@ use crate::{files, method, signals};
 use clap::Args;
 use mbs::core::scene::Entry;
 use mbs::record::{Provenance, RecordedMotion};
-use mbs::{Method, Precision, ResolvedMethod, run_document};
+use mbs::{Method, Precision, Run};
 use mbs_report::diagnosis;
 use mbs_study::doctor::{Checkup, Effort, Severity, examine, to_json};
 use std::path::PathBuf;
@@ -62,20 +62,24 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     if overrides.interrupt.is_set() {
         return Refusal::interrupted("interrupted by a signal", "start it again").report();
     }
-    write_results(&begun, &checkup, arguments)
+    let motion = at_start(&begun, overrides);
+    write_results(&begun, (&checkup, motion), arguments)
 }
 
 /// The scene at its start, for a page: a run of one step.
-fn at_start(begun: &files::Begun) -> Option<RecordedMotion> {
-    let files::Begun { document, scene, settings, folder } = begun;
-    folder.as_ref()?;
-    let settings = ResolvedMethod { duration: settings.step, ..settings.clone() };
-    let outcome = run_document((document, scene), &settings, &mut |_| {});
-    outcome.ok()?.record(Provenance::default()).motion
+fn at_start(begun: &files::Begun, given: Method) -> Option<RecordedMotion> {
+    begun.folder.as_ref()?;
+    let duration = Some(begun.settings.step);
+    let result = mbs::run(&begun.mechanism, &Run::new().method(Method { duration, ..given }));
+    result.ok()?.outcome().record(Provenance::default()).motion
 }
 
 /// Files, then JSON or text; the exit status says whether there is a fault.
-fn write_results(begun: &files::Begun, checkup: &Checkup, arguments: &Arguments) -> ExitCode {
+fn write_results(
+    begun: &files::Begun,
+    (checkup, motion): (&Checkup, Option<RecordedMotion>),
+    arguments: &Arguments,
+) -> ExitCode {
     let files::Begun { document, scene, settings, .. } = begun;
     let options = method::written(&arguments.method.given);
     let command = if arguments.still { "doctor --still" } else { "doctor" };
@@ -84,7 +88,7 @@ fn write_results(begun: &files::Begun, checkup: &Checkup, arguments: &Arguments)
         let (file, place) = document.place(entry, key);
         Some(((file != document.file()).then(|| file.to_owned()), place.line))
     };
-    let (report, text) = diagnosis(scene, checkup, &line, (at_start(begun), provenance));
+    let (report, text) = diagnosis(scene, checkup, &line, (motion, provenance));
     let mut status = match checkup.worst() {
         Some(Severity::Fault) => ExitCode::from(STOPPED),
         _ => ExitCode::SUCCESS,

@@ -3,16 +3,15 @@
 use crate::method::{MethodArguments, OfExplain};
 use crate::precision::NO_PAIRS;
 use crate::refusal::Refusal;
-use crate::run::unplanned;
 use crate::say::{say, warn};
 use crate::scene::SceneArgument;
 use crate::status::STOPPED;
 use crate::{files, method, signals};
 use clap::Args;
-use mbs::{Method, words};
-use mbs_study::auto::{Goal, Processor, plan, time};
+use mbs::{Goal, Method, Run, words};
+use mbs_study::auto::time;
 use mbs_study::explain::Explanation;
-use mbs_study::explain::{Effort, explain_document};
+use mbs_study::explain::{Effort, explain_run};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -49,24 +48,15 @@ fn explain(arguments: &Arguments) -> Result<(files::Begun, Explanation), Refusal
     let overrides = Method { interrupt: signals::heeded(), ..arguments.method.given.clone() };
     let place = (arguments.out.as_deref(), &["explain.json", "explain.html"][..]);
     let begun = files::begin(&arguments.scene, &overrides, place)?;
-    let files::Begun { document, scene, settings, .. } = &begun;
     let goal = Goal { error: arguments.error, deadline: arguments.deadline };
-    let chosen = (&overrides, settings.clone());
-    let plan = plan((document, scene), chosen, goal, &mut Processor::new(settings.threads));
-    let is_interrupted = || match overrides.interrupt.is_set() {
-        true => Err(Refusal::interrupted("interrupted by a signal", "start it again")),
-        false => Ok(()),
-    };
-    is_interrupted()?;
-    let measured = plan.map_err(|error| unplanned(&error))?.first().choice.clone();
-    let explained = explain_document((document, scene), settings, &Effort::default());
-    is_interrupted()?;
-    let explained = explained.map_err(|error| Refusal::scene(&error))?;
-    let mut explanation =
-        explained.ok_or_else(|| Refusal::new("settings-refused", NO_PAIRS[0], NO_PAIRS[1]))?;
-    if let Some(choice) = measured {
-        explanation.choice = Some(*choice);
+    let options = Run::new().method(overrides).goal(goal);
+    let explained = explain_run(&begun.mechanism, &options, &Effort::default());
+    if options.method.interrupt.is_set() {
+        return Err(Refusal::interrupted("interrupted by a signal", "start it again"));
     }
+    let explained = explained.map_err(|error| files::refused(&error, &begun.document))?;
+    let explanation =
+        explained.ok_or_else(|| Refusal::new("settings-refused", NO_PAIRS[0], NO_PAIRS[1]))?;
     Ok((begun, explanation))
 }
 

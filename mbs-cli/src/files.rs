@@ -7,14 +7,19 @@ use crate::scene::SceneArgument;
 use mbs::core::scene::{Entry, Scene};
 use mbs::folder::{Folder, WriteError, id, write_file};
 use mbs::record::{PilotReport, Provenance};
-use mbs::scene_file::SceneFile;
 use mbs::scene_file::format::significant;
-use mbs::{InputTableError, Method, ResolvedMethod, SettingsError};
+use mbs::scene_file::{ReadError, SceneFile};
+use mbs::{
+    Error as _, INTERRUPTED, InputTable, InputTableError, Mechanism, Method, ResolvedMethod,
+    SettingsError, SimulationError,
+};
 use std::path::Path;
 use std::process::ExitCode;
 
 /// Scene, settings and folder of results with which a command that runs a scene begins.
 pub(crate) struct Begun {
+    pub(crate) mechanism: Mechanism,
+    /// Scene file of the mechanism.
     pub(crate) document: SceneFile,
     pub(crate) scene: Scene<f64>,
     pub(crate) settings: ResolvedMethod,
@@ -29,31 +34,36 @@ pub(crate) fn begin(
     overrides: &Method,
     (out, files): (Option<&Path>, &[&str]),
 ) -> Result<Begun, Refusal> {
-    let (document, scene) = scene.read()?;
+    let document = scene.document()?;
+    let mechanism = Mechanism::of_file(document.clone());
+    let mechanism = mechanism.map_err(|error| Refusal::read("scene-refused", &error))?;
+    let scene = mechanism.resolve().map_err(|error| refused(&error, &document))?;
     let settings = ResolvedMethod::new(&scene, overrides)
         .and_then(|settings| settings.check_step(&scene, overrides).map(|()| settings))
         .map_err(|e| refusal(&e, &document))?;
     let folder = out.map(|out| folder(out, files)).transpose()?;
-    Ok(Begun { document, scene, settings, folder })
+    Ok(Begun { mechanism, document, scene, settings, folder })
 }
 
-/// A scene whose inputs follow the table of a file; else the refusal.
-pub(crate) fn with_inputs(
-    document: &SceneFile,
-    table: &Path,
-) -> Result<(SceneFile, Scene<f64>), Refusal> {
-    let bytes = read(table, "table of inputs")?;
-    let document = mbs::with_inputs(document, &bytes, &table.display().to_string());
-    let document = document.map_err(|error| match error {
-        InputTableError::Table { file, place, message, hint } => {
-            Refusal::new("inputs-refused", message, hint).at(&file, place)
-        }
-        InputTableError::Read(error) => Refusal::read("scene-refused", &error),
-        other => Refusal::new("inputs-refused", other, "keep the inputs as they are"),
-    })?;
-    let scene = document.scene::<f64>();
-    let scene = scene.map_err(|error| Refusal::read("scene-refused", &error))?;
-    Ok((document, scene))
+/// The table of a file that inputs follow; else the refusal.
+pub(crate) fn input_table(file: &Path) -> Result<InputTable, Refusal> {
+    Ok(InputTable::csv(&read(file, "table of inputs")?, &file.display().to_string()))
+}
+
+/// The refusal of a run, with its place where it has one.
+pub(crate) fn refused(error: &SimulationError, document: &SceneFile) -> Refusal {
+    if let Some(error) = error.cause::<ReadError>() {
+        return Refusal::read("scene-refused", error);
+    }
+    if let Some(error) = error.cause::<SettingsError>() {
+        return refusal(error, document);
+    }
+    let refusal = Refusal::new(error.code(), error.message(), error.hint().unwrap_or_default());
+    match error.cause::<InputTableError>() {
+        Some(InputTableError::Table { file, place, .. }) => refusal.at(file, place.clone()),
+        _ if error.code() == INTERRUPTED => refusal.stopped(),
+        _ => refusal,
+    }
 }
 
 /// Takes a directory for results in these files; else the refusal.

@@ -3,9 +3,7 @@
 use crate::refusal::Refusal;
 use crate::say::warn;
 use clap::Args;
-use mbs::{
-    CHECKPOINT, Checkpoint, CheckpointError, CheckpointWriter, Method, ResolvedMethod, words,
-};
+use mbs::{CHECKPOINT, Checkpoint, CheckpointError, CheckpointWriter, Method, RunConflict, words};
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
@@ -15,27 +13,22 @@ pub(crate) struct Arguments {
     /// Write DIR/checkpoint.mbs at the start and after each SECONDS of simulated time. Default: no checkpoint.
     ///
     /// Rows are written while the run advances, so that --resume can continue a run that was killed. Steps and results do not change.
-    #[arg(
-        long,
-        value_name = "SECONDS",
-        requires = "out",
-        conflicts_with = "realtime",
-        allow_hyphen_values = true
-    )]
+    #[arg(long, value_name = "SECONDS", requires = "out", allow_hyphen_values = true)]
     checkpoint: Option<f64>,
     /// Resume from DIR/checkpoint.mbs, or from FILE, with the settings of its run. Results have the bits of an uninterrupted run.
-    #[arg(long, value_name = "FILE", num_args = 0..=1, require_equals = true, conflicts_with_all = ["restart", "realtime"])]
+    #[arg(long, value_name = "FILE", num_args = 0..=1, require_equals = true, conflicts_with = "restart")]
     resume: Option<Option<PathBuf>>,
     /// Discard the checkpoint that an earlier start left in the directory.
     #[arg(long, requires = "out")]
     restart: bool,
 }
 
-/// Checkpoint that a run resumes from, and the writer of its checkpoints.
+/// Checkpoint that a run resumes from, and the time between its own.
 #[derive(Debug, Default)]
 pub(crate) struct RunCheckpoints {
     pub(crate) from: Option<Checkpoint>,
-    pub(crate) writer: Option<CheckpointWriter>,
+    /// Folder of the run's checkpoints, and the simulated time between two of them [s].
+    pub(crate) into: Option<(PathBuf, f64)>,
     /// Path of the checkpoint in the directory of the results.
     checkpoint: Option<PathBuf>,
 }
@@ -43,21 +36,14 @@ pub(crate) struct RunCheckpoints {
 impl Arguments {
     /// Reads the checkpoint to resume from, where there is one; else the refusal.
     pub(crate) fn begin(&self, out: Option<&Path>) -> Result<RunCheckpoints, Refusal> {
-        if let Some(every) = self.checkpoint
-            && !(every > 0.0 && every.is_finite())
-        {
-            return Err(Refusal::new(
-                "settings-refused",
-                format!("the time between checkpoints must be positive and finite, but is {every}"),
-                "give simulated seconds, such as --checkpoint 1",
-            ));
-        }
+        let interval = self.checkpoint.map_or(Ok(()), RunConflict::check_interval);
+        interval.map_err(|error| Refusal::new("settings-refused", error, error.hint()))?;
         let checkpoint = out.map(|out| out.join(CHECKPOINT));
         let Some(path) = self.resumed(out)? else {
             return Ok(RunCheckpoints { checkpoint, ..RunCheckpoints::default() });
         };
         let from = Checkpoint::open(&path).map_err(|error| refusal(&path, &error))?;
-        Ok(RunCheckpoints { from: Some(from), writer: None, checkpoint })
+        Ok(RunCheckpoints { from: Some(from), into: None, checkpoint })
     }
 
     /// The file to resume from.
@@ -100,8 +86,7 @@ impl Arguments {
         let stored =
             |from: &Checkpoint| if from.every() > 0.0 { from.every() } else { f64::INFINITY };
         if let Some(every) = self.checkpoint.or(kept.from.as_ref().map(stored)) {
-            let writer = CheckpointWriter::new(out, every);
-            kept.writer = Some(writer.map_err(|error| Refusal::checkpoint(&error))?);
+            kept.into = Some((out.to_owned(), every));
         }
         Ok(())
     }
@@ -127,16 +112,10 @@ impl RunCheckpoints {
         from.overrides(&given).map_err(|error| Refusal::checkpoint(&error))
     }
 
-    /// The settings, where they are those of the checkpoint; else the refusal.
-    pub(crate) fn settle(&self, settings: ResolvedMethod) -> Result<ResolvedMethod, Refusal> {
-        let Some(from) = &self.from else { return Ok(settings) };
-        from.settle(settings).map_err(|error| Refusal::checkpoint(&error))
-    }
-
     /// The run has ended and its results are written: there is nothing to resume, unless it was interrupted. Reports what could not be
     /// written on the way.
-    pub(crate) fn end(&self, is_interrupted: bool) {
-        if let Some(writer) = &self.writer
+    pub(crate) fn end(&self, writer: Option<&CheckpointWriter>, is_interrupted: bool) {
+        if let Some(writer) = writer
             && let Some(error) = writer.failure()
         {
             let (path, error) = (writer.path(), crate::say::plain(error));
@@ -145,7 +124,7 @@ impl RunCheckpoints {
                 path.display()
             ));
         }
-        if is_interrupted && self.writer.is_some() {
+        if is_interrupted && writer.is_some() {
             return;
         }
         if let Some(checkpoint) = &self.checkpoint {

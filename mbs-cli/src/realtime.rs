@@ -2,14 +2,9 @@
 
 use crate::refusal::Refusal;
 use clap::Args;
-use mbs::core::scene::Scene;
 use mbs::folder::{Part, WriteError};
-use mbs::realtime::{
-    Degrade, OVERRUNS, Overrun, Pacing, PacingError, Recovery, SystemClock, run_document,
-};
+use mbs::realtime::{Degrade, OVERRUNS, Overrun, Pacing, Recovery};
 use mbs::record::{RunSummary, write_overruns};
-use mbs::scene_file::SceneFile;
-use mbs::{Outcome, ResolvedMethod};
 
 /// Options of a paced run.
 #[derive(Debug, Args)]
@@ -83,19 +78,6 @@ impl Arguments {
 fn policy(text: &str) -> Result<Overrun, String> {
     let found = OVERRUNS.iter().find(|(name, _)| *name == text).map(|(_, overrun)| *overrun);
     found.ok_or_else(|| "write finish, hold or degrade".to_owned())
-}
-
-/// Runs at the pace of the system's clock; else the refusal.
-pub(crate) fn run(
-    scene: (&SceneFile, &Scene<f64>),
-    settings: &ResolvedMethod,
-    pacing: &Pacing,
-) -> Result<Outcome, Refusal> {
-    let run = run_document(scene, settings, pacing, &mut SystemClock::new());
-    run.map_err(|error| match &error {
-        PacingError::Read(error) => Refusal::scene(error),
-        error => Refusal::new("pacing-refused", error, error.hint()),
-    })
 }
 
 /// Writes realtime.csv of a paced run.

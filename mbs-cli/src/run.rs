@@ -1,7 +1,6 @@
 //! Command `mbs run SCENE`: simulation of a scene.
 
 use crate::bar::{bar, ticks};
-use crate::files::Begun;
 use crate::method::{All, MethodArguments};
 use crate::precision::{named, unbuilt};
 use crate::refusal::Refusal;
@@ -12,21 +11,17 @@ use crate::{files, keep, method, realtime, show, signals, table};
 use clap::Args;
 use indicatif::ProgressBar;
 use mbs::folder::{Folder, WriteError};
-use mbs::realtime::Pacing;
 use mbs::record::{Provenance, RunError};
 use mbs::scene_file::SceneFile;
 use mbs::scene_file::format::significant;
 use mbs::{
-    CHECKPOINT, Method, Outcome, Precision, ResolvedMethod, StopError, run_document_kept, words,
+    CHECKPOINT, Goal, Method, Outcome, Precision, ResolvedMethod, Run, RunResult, StopError,
+    Watchers, words,
 };
-use mbs_study::auto::{Clock, Goal, Plan, PlanError, Processor, plan, run_plan, time};
-use mbs_study::estimate::estimate;
-use mbs_study::remedy::name_what_runs;
+use mbs_study::auto::time;
+use mbs_study::run_with;
 use std::path::PathBuf;
 use std::process::ExitCode;
-
-/// Options that go with one method alone: a run that may fall back on another has none of them.
-const NOT_CHOSEN: [&str; 3] = ["checkpoint", "resume", "realtime"];
 
 /// Arguments of `mbs run`.
 #[derive(Debug, Args)]
@@ -61,14 +56,14 @@ pub(crate) struct Arguments {
     /// A short pilot measures which formulation, integrator and step reach it in the least time, and reports why.
     ///
     /// --formulation and --integrator narrow the choice.
-    #[arg(long, value_name = "E", allow_hyphen_values = true, conflicts_with_all = NOT_CHOSEN)]
+    #[arg(long, value_name = "E", allow_hyphen_values = true)]
     error: Option<f64>,
     /// Deadline of a frame [s, or 1ms, 500us]. Default: none.
     ///
     /// The run is made in frames of this length. Each is computed within this time, also where its steps are slowest.
     ///
     /// The error is then the smallest that fits; with --error, the cost is the smallest that reaches the error.
-    #[arg(long, value_name = "S", value_parser = time, allow_hyphen_values = true, conflicts_with_all = NOT_CHOSEN)]
+    #[arg(long, value_name = "S", value_parser = time, allow_hyphen_values = true)]
     deadline: Option<f64>,
     /// Leave out the estimate of the outputs' errors, which takes up to 30 % of the run's time, or 0.1 s.
     ///
@@ -90,10 +85,6 @@ impl Arguments {
         let options: Vec<_> = method::written(overrides).into_iter().chain(others).collect();
         files::provenance(("run", &self.scene), &options, settings)
     }
-
-    fn goal(&self) -> Goal {
-        Goal { error: self.error, deadline: self.deadline }
-    }
 }
 
 /// Runs the command `mbs run`.
@@ -102,9 +93,8 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
         let inputs: Vec<_> = arguments.inputs.as_deref().into_iter().collect();
         return show::watch(&arguments.scene, &inputs, arguments.out.as_deref());
     }
-    let mut clock = Processor::new(arguments.method.given.threads.unwrap_or(1));
-    match begin(arguments) {
-        Ok(begun) => go(arguments, begun, &mut clock),
+    match begin(arguments).and_then(|begun| go(arguments, begun)) {
+        Ok(status) => status,
         Err(Stop::Refused(refusal)) => refusal.report(),
         Err(Stop::Unbuilt(precision)) => unbuilt(precision),
     }
@@ -124,11 +114,9 @@ impl From<Refusal> for Stop {
 }
 
 /// A run that may begin.
-struct Run {
-    begun: Begun,
-    plan: Plan,
-    overrides: Method,
-    pacing: Option<Pacing>,
+struct Begun {
+    begun: files::Begun,
+    options: Run,
     kept: keep::RunCheckpoints,
 }
 
@@ -144,8 +132,8 @@ const FILES: [&str; 8] = [
     CHECKPOINT,
 ];
 
-/// Reads what is run, and what it resumes from, and chooses where a target is given; else the refusal.
-fn begin(arguments: &Arguments) -> Result<Run, Stop> {
+/// Reads what is run, and what it resumes from; else the refusal.
+fn begin(arguments: &Arguments) -> Result<Begun, Stop> {
     let out = arguments.show.out(arguments.out.as_deref());
     let pacing = arguments.realtime.pacing()?;
     let mut kept = arguments.keep.begin(out)?;
@@ -157,81 +145,47 @@ fn begin(arguments: &Arguments) -> Result<Run, Stop> {
     {
         return Err(Stop::Unbuilt(missing));
     }
-    let mut begun = files::begin(&arguments.scene, &overrides, (out, &FILES))?;
-    begun.settings = kept.settle(begun.settings)?;
-    if let Some(table) = &arguments.inputs {
-        (begun.document, begun.scene) = files::with_inputs(&begun.document, table)?;
-    }
+    let begun = files::begin(&arguments.scene, &overrides, (out, &FILES))?;
+    let inputs = arguments.inputs.as_deref().map(files::input_table).transpose()?;
     arguments.keep.keep(out, &mut kept)?;
-    let clock = &mut Processor::new(begun.settings.threads);
-    let chosen = (&overrides, begun.settings.clone());
-    let plan = plan((&begun.document, &begun.scene), chosen, arguments.goal(), clock);
-    if arguments.goal().is_some() && overrides.interrupt.is_set() {
-        let hint = "the choice was not made, and nothing was run; start it again";
-        return Err(Refusal::interrupted("interrupted by a signal", hint).into());
-    }
-    let plan = plan.map_err(|error| unplanned(&error))?;
-    Ok(Run { begun, plan, overrides, pacing, kept })
+    let options = Run {
+        method: overrides,
+        goal: Goal { error: arguments.error, deadline: arguments.deadline },
+        inputs,
+        resume: kept.from.take(),
+        checkpoints: kept.into.take(),
+        estimate: !arguments.no_estimate && pacing.is_none(),
+        pacing,
+        last_row_alone: false,
+    };
+    Ok(Begun { begun, options, kept })
 }
 
-/// The refusal of a goal.
-pub(crate) fn unplanned(error: &PlanError) -> Refusal {
-    match error {
-        PlanError::Goal(error) => Refusal::new("goal-refused", error, error.hint()),
-        PlanError::Read(error) => Refusal::scene(error),
-        other => Refusal::new("goal-refused", other.render(), ""),
-    }
-}
-
-fn go(arguments: &Arguments, mut run: Run, clock: &mut dyn Clock) -> ExitCode {
-    match outcome(arguments, &mut run, clock) {
-        Ok((outcome, settings)) => report(&outcome, arguments, (&run, &settings)),
-        Err(refusal) => refusal.report(),
-    }
-}
-
-/// Runs it, at the pace of a clock or as fast as it can, and reports with what settings; else the refusal.
-fn outcome(
-    arguments: &Arguments,
-    run: &mut Run,
-    clock: &mut dyn Clock,
-) -> Result<(Outcome, ResolvedMethod), Refusal> {
-    let Run { begun, plan, overrides, pacing, kept } = run;
-    let (document, scene) = (&begun.document, &begun.scene);
-    let settings = plan.first();
-    if let Some(pacing) = pacing {
-        let run = realtime::run((document, scene), settings, pacing);
-        return run.map(|outcome| (outcome, settings.clone()));
-    }
-    let mut bar = Bar::new(settings.duration, arguments.json);
+/// Runs it before a progress bar, and reports; else the refusal.
+fn go(arguments: &Arguments, run: Begun) -> Result<ExitCode, Stop> {
+    let Begun { begun, options, .. } = &run;
+    let is_quiet = arguments.json || options.pacing.is_some();
+    let mut bar = Bar::new(begun.settings.duration, is_quiet);
     let mut reached = |t| bar.reached(t);
-    if settings.choice.is_some() {
-        let run = run_plan((document, scene), plan, &mut reached);
-        bar.bar.finish_and_clear();
-        return run.map_err(|error| Refusal::scene(&error));
-    }
-    let parts = (kept.from.as_ref(), kept.writer.as_mut());
-    let outcome = run_document_kept((document, scene), settings, &mut reached, parts);
+    let result = run_with(&begun.mechanism, options, &mut Watchers::progress(&mut reached));
     bar.bar.finish_and_clear();
-    match outcome {
-        Ok(Ok(mut outcome)) => {
-            if !arguments.no_estimate {
-                estimate(scene, settings, &mut outcome, clock);
-                name_what_runs(scene, (overrides, settings), &mut outcome);
-            }
-            Ok((outcome, settings.clone()))
-        }
-        Ok(Err(error)) => Err(Refusal::checkpoint(&error)),
-        Err(error) => Err(Refusal::scene(&error)),
-    }
+    let result = result.map_err(|error| files::refused(&error, &begun.document))?;
+    let document = result.mechanism().to_file().map_err(|error| unwritten(&error))?;
+    Ok(report(&result, arguments, (&run, &document)))
+}
+
+/// The refusal of a mechanism without text.
+fn unwritten(error: &mbs::WriteError) -> Refusal {
+    Refusal::new("inputs-refused", error, "keep the inputs as they are")
 }
 
 /// Files, then JSON or table; the exit status says whether the run was completed, and whether its results are where they should be.
 fn report(
-    outcome: &Outcome,
+    result: &RunResult,
     arguments: &Arguments,
-    (run, settings): (&Run, &ResolvedMethod),
+    (run, document): (&Begun, &SceneFile),
 ) -> ExitCode {
+    let (outcome, settings) = (result.outcome(), result.settings());
     let error = outcome.error.as_ref();
     let mut status = if error.is_some() { ExitCode::from(STOPPED) } else { ExitCode::SUCCESS };
     let mut object = outcome.summary.to_json();
@@ -241,14 +195,15 @@ fn report(
             let out = folder.path().display();
             warn(&format!("note: no step was made: the results that are in `{out}` stay there"));
         } else {
-            let provenance = arguments.provenance(&run.overrides, settings);
-            let id = files::results_id(&run.begun.document, settings);
+            let provenance = arguments.provenance(&run.options.method, settings);
+            let id = files::results_id(document, settings);
             let provenance =
                 Provenance { step: words::steps(&outcome.summary.method_used), ..provenance };
             let whole = write_files(outcome, folder, (provenance, &id), arguments.units);
             if let Some(whole) = Refusal::unless_lost(whole, &mut status) {
                 (object, written) = (whole, Some(folder.path()));
-                run.kept.end(matches!(error, Some(StopError::Interrupted)));
+                let is_interrupted = matches!(error, Some(StopError::Interrupted));
+                run.kept.end(result.checkpoints(), is_interrupted);
             }
         }
     }
@@ -259,7 +214,7 @@ fn report(
     }
     if let Some(error) = error.filter(|_| !arguments.json) {
         let report = outcome.summary.error.as_ref();
-        let text = report.map(|report| stopped("stopped", report, error, &run.begun.document));
+        let text = report.map(|report| stopped("stopped", report, error, document));
         warn(&text.unwrap_or_default());
     }
     status

@@ -1,7 +1,7 @@
 //! Errors of the libraries as exceptions of Python.
 
 use mbs::scene_file::{Place, ReadError};
-use mbs::{Error, InputTableError, SettingsError, SimulationError, StopError, UnknownName};
+use mbs::{Error, SettingsError, SimulationError, StopError, UnknownName};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -97,10 +97,9 @@ pub(crate) fn unknown_name<S: AsRef<str>>(
 }
 
 /// Codes of texts that are refused.
-const OF_TEXTS: [&str; 7] = [
+const OF_TEXTS: [&str; 6] = [
     "scene-refused",
     "model-refused",
-    "inputs-refused",
     "sweep-refused",
     "set-refused",
     "file-unreadable",
@@ -161,23 +160,6 @@ pub(crate) fn fields(error: &SimulationError) -> Fields {
 /// A text that is refused.
 pub(crate) fn unread(py: Python<'_>, error: &ReadError) -> PyErr {
     raised(py, &SimulationError::from(error.clone()), Class::Scene)
-}
-
-/// A table of inputs that is refused.
-pub(crate) fn no_inputs(py: Python<'_>, error: InputTableError) -> PyErr {
-    let fields = match error {
-        InputTableError::Read(error) => return unread(py, &error),
-        InputTableError::Table { message, hint, .. } => {
-            Fields { code: "inputs-refused".to_owned(), message, hint, ..Fields::default() }
-        }
-        other => Fields {
-            code: "inputs-refused".to_owned(),
-            message: other.to_string(),
-            hint: "keep the inputs as they are".to_owned(),
-            ..Fields::default()
-        },
-    };
-    exception(py, Class::Usage, &Fields { argument: Some("inputs".to_owned()), ..fields })
 }
 
 /// Does something whose panic is an error too.

@@ -5,7 +5,7 @@ use crate::error::{Class, guarded, raised, unknown_name};
 use crate::mechanism::{Mechanism, channels};
 use mbs::core::scene::BodyId;
 use mbs::record::{ChannelSeries, N_POSE, Provenance, RecordedMotion, RunRecord};
-use mbs::{Method, ResolvedMethod, Simulation, SimulationError, run_document};
+use mbs::{Method, ResolvedMethod, Run, Simulation, SimulationError};
 use pyo3::prelude::*;
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -91,11 +91,10 @@ pub(crate) fn poses(simulation: &Simulation, n_bodies: usize) -> Vec<f64> {
 
 /// Returns the drawing of a scene, with its start as the only picture: a run of one step.
 pub(crate) fn drawing(mechanism: &Mechanism) -> Result<Option<RecordedMotion>, SimulationError> {
-    let (file, scene) = (&mechanism.shared.file, &mechanism.shared.scene);
-    let settings = ResolvedMethod::new(scene, &Method::default())?;
-    let settings = ResolvedMethod { duration: settings.step, ..settings };
-    let outcome = run_document((file, scene), &settings, &mut |_| {})?;
-    let motion = outcome.record(Provenance::default()).motion;
+    let shared = &mechanism.shared;
+    let settings = ResolvedMethod::new(&shared.scene, &Method::default())?;
+    let result = mbs::run(&shared.mechanism, &Run::new().duration(settings.step))?;
+    let motion = result.outcome().record(Provenance::default()).motion;
     Ok(motion.map(|mut motion| {
         let n = motion.bodies.len() * N_POSE;
         motion.times.truncate(1);

@@ -8,11 +8,11 @@ use crate::{settings, value, values};
 use mbs::core::scene::Entry;
 use mbs::{
     EquilibriumOptions, FormulationKind, Interrupt, LinearSystem, LinearizeOptions, Matrix, Method,
-    Place, Precision, ResolvedMethod, Search, SimulationError, Tree,
+    Place, Precision, ResolvedMethod, Run, Search, SimulationError, Tree,
 };
 use mbs_study::compare::{self, Earlier, Request};
 use mbs_study::doctor::{Effort, examine, to_json};
-use mbs_study::explain;
+use mbs_study::explain::{self, explain_run};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use serde_json::Value;
@@ -128,14 +128,13 @@ impl Mechanism {
         py: Python<'py>,
         settings: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let (_, resolved, flag) = self.settings(py, settings)?;
-        let (file, scene) = (&self.shared.file, &self.shared.scene);
+        let (method, _, flag) = self.settings(py, settings)?;
+        let options = Run::new().method(method);
         let reached = Reached::default();
         let explained = whole(py, &flag, &silent(&reached), || {
-            explain::explain_document((file, scene), &resolved, &explain::Effort::default())
+            explain_run(&self.shared.mechanism, &options, &explain::Effort::default())
         })?;
-        let explained =
-            explained.map_err(|e| raised(py, &SimulationError::from(e), Class::Usage))?;
+        let explained = explained.map_err(|error| raised(py, &error, Class::Usage))?;
         let Some(explained) = explained else {
             let hint = "leave precision out, or give f32";
             let message = "an explanation is made in f64 or f32";

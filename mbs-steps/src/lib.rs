@@ -13,8 +13,6 @@ pub mod choice;
 #[doc(hidden)]
 pub mod control;
 #[doc(hidden)]
-pub mod document;
-#[doc(hidden)]
 pub mod driver;
 #[doc(hidden)]
 pub mod energy_alarm;
@@ -92,6 +90,6 @@ pub use mbs_core as core;
 /// A scene in one scalar and dimension: for those who write generic code.
 pub mod typed {
     pub use crate::driver::{StepInputs, StepObserver};
-    pub use crate::run::{run, run_kept};
+    pub use crate::run::{Recording, run, run_recorded};
     pub use crate::simulation::Simulation;
 }

@@ -36,72 +36,73 @@ pub fn run<T: Real, const D: usize>(
     settings: &ResolvedMethod,
     observer: &mut dyn StepObserver<T, D>,
 ) -> Outcome {
-    run_keeping(scene, settings, observer, RecordRows::All)
-}
-
-/// [`run`], with all rows and pictures, or with the last row and no picture.
-pub fn run_keeping<T: Real, const D: usize>(
-    scene: &Scene<T>,
-    settings: &ResolvedMethod,
-    observer: &mut dyn StepObserver<T, D>,
-    keep: RecordRows,
-) -> Outcome {
     if T::HAS_INSTANCES {
-        return found::<RunKeeping<T, D>>(RUN_KEEPING)(scene, settings, observer, keep);
+        return found::<RunHere<T, D>>(RUN)(scene, settings, observer);
     }
-    run_here(scene, settings, observer, keep)
+    run_here(scene, settings, observer)
 }
 
-type RunKeeping<T, const D: usize> =
-    fn(&Scene<T>, &ResolvedMethod, &mut dyn StepObserver<T, D>, RecordRows) -> Outcome;
-instances!(RUN_KEEPING: RunKeeping<T, D> = run_here::<T, D>);
+type RunHere<T, const D: usize> =
+    fn(&Scene<T>, &ResolvedMethod, &mut dyn StepObserver<T, D>) -> Outcome;
+instances!(RUN: RunHere<T, D> = run_here::<T, D>);
 
 fn run_here<T: Real, const D: usize>(
     scene: &Scene<T>,
     settings: &ResolvedMethod,
     observer: &mut dyn StepObserver<T, D>,
-    keep: RecordRows,
 ) -> Outcome {
-    match Run::<T, D>::begin(scene, settings, (keep, None)) {
+    match Run::<T, D>::begin(scene, settings, (RecordRows::All, None)) {
         Ok(run) => run.complete(observer),
         Err(outcome) => *outcome,
     }
 }
 
-/// [`run`], with more columns.
-pub fn run_columns<T: Real, const D: usize>(
-    scene: &Scene<T>,
-    settings: &ResolvedMethod,
-    observer: &mut dyn StepObserver<T, D>,
-    columns: &mut dyn Columns<T, D>,
-) -> Outcome {
-    match Run::<T, D>::begin(scene, settings, (RecordRows::All, Some(columns))) {
-        Ok(run) => run.complete(observer),
-        Err(outcome) => *outcome,
+/// What a run reads and writes beside its scene and its settings.
+#[allow(
+    missing_debug_implementations,
+    reason = "it holds what has none, and is made and used in one call"
+)]
+pub struct Recording<'a, T: Real, const D: usize> {
+    /// Rows that stay in memory.
+    pub keep: RecordRows,
+    /// Columns beside those of the scene.
+    pub columns: Option<&'a mut dyn Columns<T, D>>,
+    /// Checkpoint to resume from.
+    pub from: Option<&'a Checkpoint>,
+    /// Writer of checkpoints.
+    pub writer: Option<&'a mut CheckpointWriter>,
+}
+
+impl<T: Real, const D: usize> Default for Recording<'_, T, D> {
+    fn default() -> Self {
+        Self { keep: RecordRows::All, columns: None, from: None, writer: None }
     }
 }
 
-/// [`run`], from a checkpoint if there is one, and kept while it goes if it is to be.
+/// [`run`], from a checkpoint if there is one, and kept while it advances if it is to be.
 ///
 /// # Errors
 /// [`CheckpointError`] for a checkpoint of something else.
-pub fn run_kept<T: Real, const D: usize>(
-    scene: &Scene<T>,
-    settings: &ResolvedMethod,
+pub fn run_recorded<'a, T: Real, const D: usize>(
+    scene: &'a Scene<T>,
+    settings: &'a ResolvedMethod,
     observer: &mut dyn StepObserver<T, D>,
-    (from, writer): (Option<&Checkpoint>, Option<&mut CheckpointWriter>),
+    recording: Recording<'a, T, D>,
 ) -> Result<Outcome, CheckpointError> {
-    let identity = Identity::new(scene, settings);
-    let mut run = match Run::<T, D>::begin(scene, settings, (RecordRows::All, None)) {
+    let Recording { keep, columns, from, writer } = recording;
+    let mut run = match Run::<T, D>::begin(scene, settings, (keep, columns)) {
         Ok(run) => run,
         Err(outcome) => return Ok(*outcome),
     };
-    if let Some(checkpoint) = from {
-        run.resume(checkpoint, &identity)?;
+    if from.is_some() || writer.is_some() {
+        let identity = Identity::new(scene, settings);
+        if let Some(checkpoint) = from {
+            run.resume(checkpoint, &identity)?;
+        }
+        run.record.checkpoints = writer.map(|writer| RunCheckpoints { writer, identity });
+        let Run { simulation, record } = &mut run;
+        record.keep(simulation, record.done);
     }
-    run.record.checkpoints = writer.map(|writer| RunCheckpoints { writer, identity });
-    let Run { simulation, record } = &mut run;
-    record.keep(simulation, record.done);
     Ok(run.complete(observer))
 }
 

@@ -1,13 +1,69 @@
 //! Studies of a mechanism that take many runs of it.
 
+use crate::auto::{Processor, plan, run_plan};
 use crate::compare::results::Comparison;
 use crate::compare::{self, Earlier, Request as Compare};
+use crate::estimate::estimate;
+use crate::remedy::name_what_runs;
 use crate::sweep::{Columns, Row, Study};
 use core::num::NonZeroUsize;
-use mbs::{Mechanism, Method, Number, PathError, SimulationError};
+use mbs::inside::PreparedRun;
+use mbs::{Mechanism, Method, Number, PathError, Run, RunResult, SimulationError, Watchers};
 use mbs_scene::SceneFile;
 use std::io;
 use std::path::Path;
+
+/// Runs a mechanism as [`mbs::run`] does, and what that refuses: for a goal the method is chosen by a pilot, and an estimate of the errors
+/// follows the run.
+///
+/// For a goal a run that stops is made anew by the next of the ranking; the settings that ran are in
+/// [`settings`](RunResult::settings).
+///
+/// # Errors
+/// [`SimulationError`] for a mechanism or options that are refused, and for an interrupt while the method is chosen.
+///
+/// # Examples
+/// ```
+/// use mbs::{Body, GROUND, Goal, Joint, Mechanism, Run};
+/// let mut m = Mechanism::planar("pendulum");
+/// m.set_gravity([0.0, -9.81]);
+/// let bob = m.add(Body::planar([1.0, 0.0], 1.0, 0.0));
+/// m.add(Joint::revolute([GROUND, bob], [0.0, 0.0]).named("pivot"));
+/// let goal = Goal { error: Some(1e-4), deadline: None };
+/// let result = mbs_study::run(&m, &Run::new().duration(1.0).goal(goal))?;
+/// let angle = result.table().column("pivot").unwrap().last().unwrap();
+/// // let go at the horizontal, the bob has turned by -2.9758 rad after 1 s
+/// assert!((angle + 2.9758).abs() < 1e-3 && result.summary().chosen.is_some());
+/// # Ok::<(), mbs::SimulationError>(())
+/// ```
+pub fn run(m: &Mechanism, options: &Run) -> Result<RunResult, SimulationError> {
+    run_with(m, options, &mut Watchers::default())
+}
+
+/// Runs a mechanism as [`run`] does, before watchers.
+///
+/// # Errors
+/// As for [`run`].
+pub fn run_with(
+    m: &Mechanism,
+    options: &Run,
+    watchers: &mut Watchers<'_, '_>,
+) -> Result<RunResult, SimulationError> {
+    let prepared = PreparedRun::new(m, options)?;
+    let clock = &mut Processor::new(prepared.settings.threads);
+    if options.goal.is_some() {
+        let plan = plan(&prepared, clock)?;
+        let (outcome, settings) = run_plan(&prepared, &plan, watchers)?;
+        return Ok(prepared.result(outcome, settings));
+    }
+    let mut result = prepared.run(watchers)?;
+    if options.estimate {
+        let (outcome, settings) = result.outcome_mut();
+        estimate(&prepared.scene, settings, outcome, clock);
+        name_what_runs(&prepared.scene, (&prepared.method, settings), outcome);
+    }
+    Ok(result)
+}
 
 /// Compares every formulation, integrator and step on a mechanism by cost and error, against a reference that is not under test.
 ///

@@ -17,7 +17,7 @@ pub mod sweep;
 pub use mbs_redundancy as redundancy;
 
 pub use compare::Request as Compare;
-pub use front::{Sweep, SweepResult, compare, sweep};
+pub use front::{Sweep, SweepResult, compare, run, run_with, sweep};
 
 /// Items that the tests of this crate call; no part of its interface.
 #[doc(hidden)]
@@ -35,7 +35,7 @@ pub mod inside {
         pub use crate::auto::check::check;
         pub use crate::auto::choose::methods;
         pub use crate::auto::estimate::{Basis, Point, PowerLaw, Prediction, predict};
-        pub use crate::auto::goal::PilotTarget;
+        pub use crate::auto::goal::{PilotTarget, check_goal};
         pub use crate::auto::pilot::{BUDGET, BUDGET_FRACTION, PilotPlace, PilotSearch};
         pub use crate::auto::trial::{Aim, Bench, Trial, TrialEnd};
     }

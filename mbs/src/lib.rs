@@ -4,9 +4,8 @@ mod front;
 pub mod results;
 
 use mbs_steps::{
-    checkpoint, choice, document, equilibrium, erased, fingerprint, interrupt, linear_system,
-    methods, modes, names, placed, precision, rest, run, settings, sizes, statics, stop, tilt,
-    tree,
+    checkpoint, choice, equilibrium, erased, fingerprint, interrupt, linear_system, methods, modes,
+    names, placed, precision, rest, run, settings, sizes, statics, stop, tilt, tree,
 };
 pub use mbs_steps::{export, folder, realtime, record, typed, words};
 
@@ -23,16 +22,15 @@ pub use mbs_statespace as statespace;
 
 pub use checkpoint::{Checkpoint, CheckpointError, CheckpointWriter, FILE as CHECKPOINT};
 pub use choice::{INTEGRATORS, IntegratorKind, PRECISIONS, Precision, STEP_RULES, StepRule};
-pub use document::{run_document, run_document_kept};
 pub use equilibrium::{Search, equilibrium_start, find_equilibrium};
 pub use front::{
     Body, BodyMotion, Components, ContactEvent, Coordinates, Coupling, Effect, Energies,
-    EquilibriumOptions, Error, FunctionId, Guide, Id, InitialCondition, InputId, InputInfo,
-    InputOwner, InputTableError, Joint, Mechanism, NamedSignal, Observer, Output, OutputFunction,
-    Part, PathError, PointMotion, Pose, Rolling, Run, RunInputs, RunResult, SceneError, Simulation,
-    SimulationError, Sizes, Snapshot, StepReport, Table, UnknownName, View, Wrench, equilibrium,
-    linearize, linearize_at, linearize_frozen, linearize_frozen_at, linearize_steady,
-    linearize_steady_at, modes, run, run_with, with_inputs,
+    EquilibriumOptions, Error, FunctionId, Goal, Guide, Id, InitialCondition, InputId, InputInfo,
+    InputOwner, InputTable, InputTableError, Joint, Mechanism, NamedSignal, Observer, Output,
+    OutputFunction, Part, PathError, PointMotion, Pose, Rolling, Run, RunConflict, RunInputs,
+    RunResult, SceneError, Simulation, SimulationError, Sizes, Snapshot, StepReport, Table,
+    UnknownName, View, Watchers, Wrench, equilibrium, linearize, linearize_at, linearize_frozen,
+    linearize_frozen_at, linearize_steady, linearize_steady_at, modes, run, run_with,
 };
 pub use interrupt::Interrupt;
 pub use linear_system::{LinearSystem, LinearizeOptions, ModeShape, Unsteady};
@@ -67,6 +65,7 @@ pub use tilt::AlmostDependent;
 /// Items that the studies of mbs-study share with this crate, and that its tests call; no part of its interface.
 #[doc(hidden)]
 pub mod inside {
+    pub use crate::front::prepared::PreparedRun;
     pub use mbs_steps::at_state::{Gradient, gradients, poses};
     pub use mbs_steps::changes::OutputRanges;
     pub use mbs_steps::channels::Channels;
@@ -77,8 +76,7 @@ pub mod inside {
     pub use mbs_steps::precision::{ReadScene, SceneWork, in_space, not_built_hint};
     pub use mbs_steps::ready::AssembledScene;
     pub use mbs_steps::ready::constraint_rank as rank;
-    pub use mbs_steps::recorder::RecordRows;
-    pub use mbs_steps::run::{run_keeping, step};
+    pub use mbs_steps::run::step;
     pub use mbs_steps::settings::DEFAULT_STEP;
     pub use mbs_steps::settings::length::{SAME_LENGTH, is_too_long, too_long};
     pub use mbs_steps::stiffness::shortest_period;
@@ -91,7 +89,7 @@ pub mod inside {
         pub use mbs_steps::linear_system::states::choose;
         pub use mbs_steps::motion::pose::{of_axes, smallest};
         pub use mbs_steps::motion::principal::principal;
-        pub use mbs_steps::realtime::document::parts;
+        pub use mbs_steps::realtime::run::parts;
     }
 }
 

@@ -7,9 +7,10 @@ pub mod seeds;
 
 use compare::compare;
 pub use compare::{Part, parts};
-use mbs::core::scene::Scene;
 use product::is_steered;
-pub use product::{ERROR_FACTOR, Judged, ROUNDING, Rows, Verdict, Way, document, judge, rows};
+pub use product::{
+    ERROR_FACTOR, Judged, ROUNDING, Rows, Verdict, Way, document, judge, product, rows,
+};
 
 /// Divisor of the step with which a run that stops is tried again. Chosen, not tuned.
 const QUARTER: u32 = 4;
@@ -21,8 +22,14 @@ const GONE: f64 = 0.4;
 /// Holds a method against the judge. A run that stops on its way is tried by quarter steps. What is off is looked at once more with short
 /// steps. Two steps may hide the error of a rule across a kink of a law, which goes with the step. What is wrong stays.
 #[must_use]
-pub fn trial(judged: &Judged, scene: &Scene<f64>, method: Way, step: f64, steps: u32) -> Verdict {
-    let by = |share| by_two(judged, scene, method, (step, steps), share);
+pub fn trial(
+    judged: &Judged,
+    product: &mbs::Mechanism,
+    method: Way,
+    step: f64,
+    steps: u32,
+) -> Verdict {
+    let by = |share| by_two(judged, product, method, (step, steps), share);
     let first = match by(1) {
         Verdict::Stops { code, .. } if code != "refused" => by(QUARTER),
         verdict => verdict,
@@ -42,12 +49,12 @@ pub fn trial(judged: &Judged, scene: &Scene<f64>, method: Way, step: f64, steps:
 /// Verdict by steps over `share` and half of them.
 fn by_two(
     judged: &Judged,
-    scene: &Scene<f64>,
+    product: &mbs::Mechanism,
     method: Way,
     step: (f64, u32),
     share: u32,
 ) -> Verdict {
-    let by = |share| rows(scene, method, step, share);
+    let by = |share| rows(product, method, step, share);
     match by(share).and_then(|coarse| Ok((coarse, by(2 * share)?))) {
         Ok((coarse, fine)) if is_steered(method[0]) => {
             let ends: Rows =

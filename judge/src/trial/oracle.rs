@@ -1,8 +1,7 @@
 //! Oracle by enumeration: every case of joints and effects, by every formulation with every integrator.
 
-use super::{Judged, Verdict, Way, compare, document, judge, rows, trial};
+use super::{Judged, Verdict, Way, compare, judge, product, rows, trial};
 use crate::random::{Case, STEPS};
-use mbs::core::scene::Scene;
 use std::collections::BTreeMap;
 use std::num::NonZero;
 use std::panic::resume_unwind;
@@ -61,12 +60,12 @@ fn case(case: &Case, tally: &mut Tally) {
         Ok(judged) => judged,
         Err(why) => return tally.wrong.push(format!("{}: {why}", case.name)),
     };
-    let scene = match document(&case.text) {
-        Ok(scene) => scene,
+    let product = match product(&case.text) {
+        Ok(product) => product,
         Err(why) => return tally.wrong.push(format!("{}: {why}", case.name)),
     };
     for method in methods() {
-        match briefly(&judged, &scene, method, case.step, STEPS) {
+        match briefly(&judged, &product, method, case.step, STEPS) {
             Verdict::Agrees => tally.agree += 1,
             Verdict::Stops { code, message, .. } if code == "refused" => {
                 *tally.left_out.entry(reason(&message)).or_default() += 1;
@@ -77,9 +76,15 @@ fn case(case: &Case, tally: &mut Tally) {
 }
 
 /// Verdict by steps of h alone where these agree with the judge to rounding.
-fn briefly(judged: &Judged, scene: &Scene<f64>, method: Way, step: f64, steps: u32) -> Verdict {
+fn briefly(
+    judged: &Judged,
+    product: &mbs::Mechanism,
+    method: Way,
+    step: f64,
+    steps: u32,
+) -> Verdict {
     if method[1] != "trapezoidal" {
-        match rows(scene, method, (step, steps), 1) {
+        match rows(product, method, (step, steps), 1) {
             Err(verdict) => return verdict,
             Ok(rows) if rows.len() == judged.rows.len() => {
                 if compare(judged, &judged.rows, &rows, &rows) == Verdict::Agrees {
@@ -89,7 +94,7 @@ fn briefly(judged: &Judged, scene: &Scene<f64>, method: Way, step: f64, steps: u
             Ok(_) => {}
         }
     }
-    trial(judged, scene, method, step, steps)
+    trial(judged, product, method, step, steps)
 }
 
 /// The kind of a refusal: its message without what is quoted.

@@ -4,7 +4,7 @@ use crate::scene::{Coupled, Output, Quantity};
 use crate::{Mechanism, State};
 use mbs::core::scene::Scene;
 use mbs::scene_file::SceneFile;
-use mbs::{FormulationKind, Method, ResolvedMethod};
+use mbs::{FormulationKind, Method, Run};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// Largest error of a rule, relative to its own error by steps of h and h/2 [-]. Chosen, not tuned.
@@ -154,6 +154,17 @@ fn followed(
     channels
 }
 
+/// Reads a mechanism, as the crates read it.
+///
+/// # Errors
+/// Its refusal.
+pub fn product(text: &str) -> Result<mbs::Mechanism, String> {
+    let document = SceneFile::parse(text, "drawn.toml").map_err(|e| e.render())?;
+    let mechanism = mbs::Mechanism::of_file(document).map_err(|e| e.render())?;
+    mechanism.resolve().map_err(|e| e.to_string())?;
+    Ok(mechanism)
+}
+
 /// A scene as the crates read it.
 ///
 /// # Errors
@@ -168,7 +179,7 @@ pub fn document(text: &str) -> Result<Scene<f64>, String> {
 /// # Errors
 /// What became of a run that does not end well.
 pub fn rows(
-    scene: &Scene<f64>,
+    product: &mbs::Mechanism,
     [formulation, integrator]: Way,
     (step, steps): (f64, u32),
     share: u32,
@@ -191,23 +202,19 @@ pub fn rows(
         time,
         message,
     };
-    let settings =
-        ResolvedMethod::new(scene, &overrides).map_err(|e| stops("refused", 0.0, e.to_string()))?;
-    let outcome = catch_unwind(AssertUnwindSafe(|| match scene.dimension {
-        mbs::core::scene::Dimension::Planar => mbs::typed::run::<f64, 2>(scene, &settings, &mut ()),
-        mbs::core::scene::Dimension::Spatial => {
-            mbs::typed::run::<f64, 3>(scene, &settings, &mut ())
-        }
-    }));
-    let Ok(outcome) = outcome else { return Err(Verdict::Panics) };
-    if let Some(error) = outcome.summary.error {
-        return Err(stops(&error.code, error.time, error.message));
+    let options = Run::new().method(overrides);
+    let Ok(result) = catch_unwind(AssertUnwindSafe(|| mbs::run(product, &options))) else {
+        return Err(Verdict::Panics);
+    };
+    let result = result.map_err(|e| stops("refused", 0.0, e.message().to_owned()))?;
+    if let Some(error) = &result.summary().error {
+        return Err(stops(&error.code, error.time, error.message.clone()));
     }
     // steps that are steered end at the grid's end alone
     let wanted = (0..=steps).filter(|i| !is_steered(formulation) || *i == 0 || *i == steps);
     let wanted = wanted.map(|i| f64::from(i) * step);
     let mut rows = Vec::new();
-    let mut all = outcome.rows().iter();
+    let mut all = result.outcome().rows().iter();
     for t in wanted {
         match all.find(|row| (row.0 - t).abs() < 1e-6 * step) {
             Some(row) => rows.push(row.1.clone()),

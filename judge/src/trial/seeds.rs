@@ -47,8 +47,8 @@ impl Tally {
                 return out;
             }
         };
-        let scene = match trial::document(&drawn.text) {
-            Ok(scene) => scene,
+        let product = match trial::product(&drawn.text) {
+            Ok(product) => product,
             Err(why) => {
                 self.unjudged += 1;
                 let _ = writeln!(out, "{seed:5} unread: {why}");
@@ -59,7 +59,7 @@ impl Tally {
             if only.is_some_and(|o| o != method[0]) {
                 continue;
             }
-            let verdict = trial::trial(&judged, &scene, method, drawn.step, drawn.steps);
+            let verdict = trial::trial(&judged, &product, method, drawn.step, drawn.steps);
             let (key, line) = self.judge((seed, &drawn, &judged), method, &verdict);
             out.push_str(&line);
             *self.verdicts.entry((method[0].to_owned(), key)).or_default() += 1;

@@ -168,8 +168,8 @@ fn kinds_in(text: &str) -> BTreeSet<String> {
 /// Runs a scene on both sides; the channel that is off most.
 fn run(small: &Small) -> Result<Option<String>, String> {
     let judged = trial::judge(&small.text, small.step, STEPS)?;
-    let scene = trial::document(&small.text)?;
-    let rows = match trial::rows(&scene, METHOD, (small.step, STEPS), SHARE) {
+    let product = trial::product(&small.text)?;
+    let rows = match trial::rows(&product, METHOD, (small.step, STEPS), SHARE) {
         Ok(rows) => rows,
         Err(verdict) => return Ok(Some(format!("{verdict:?}"))),
     };

@@ -309,10 +309,9 @@ fn the_rear_wheels_stand_on_the_drawn_road_at_the_start_and_at_the_landing_behin
 }
 
 fn page_of(file: &mbs_scene::SceneFile) -> String {
-    let scene = file.scene::<f64>().expect("a scene");
-    let settings = mbs::ResolvedMethod::new(&scene, &mbs::Method::default()).expect("settings");
-    let outcome = mbs::run_document((file, &scene), &settings, &mut |_| {}).expect("a run");
-    page(&outcome.record(Provenance::default()))
+    let mechanism = mbs::Mechanism::of_file(file.clone()).expect("a scene");
+    let result = mbs::run(&mechanism, &mbs::Run::new()).expect("a run");
+    page(&result.outcome().record(Provenance::default()))
 }
 
 #[test]

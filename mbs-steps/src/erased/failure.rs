@@ -1,9 +1,11 @@
 //! Reason why a simulation was refused or stopped.
 
 use super::error::{Error, PathError, SceneError, UnknownName};
+use super::input_table::InputTableError;
 use crate::checkpoint::CheckpointError;
 use crate::names::Names;
 use crate::precision::PrecisionError;
+use crate::realtime::PacingError;
 use crate::settings::SettingsError;
 use crate::stop::StopError;
 use crate::tree::TreeError;
@@ -75,6 +77,25 @@ impl SimulationError {
         let mut found = Self::new(error.code(), report.message, report.hint);
         (found.0.time, found.0.joint, found.0.body) = (Some(time), report.joint, report.body);
         found.with_cause(error)
+    }
+
+    /// A checkpoint that a run cannot be resumed from.
+    #[must_use]
+    pub fn not_resumed(error: CheckpointError) -> Self {
+        Self::new("checkpoint-refused", &error, error.hint()).with_cause(error)
+    }
+
+    /// Message of the error, without its place, time and hint.
+    #[must_use]
+    pub fn message(&self) -> &str {
+        &self.0.message
+    }
+
+    /// Puts another hint in place of that of the error.
+    #[must_use]
+    pub fn with_hint(mut self, hint: String) -> Self {
+        self.0.hint = hint;
+        self
     }
 
     /// Converts the error into one that stops a run.
@@ -155,6 +176,19 @@ impl From<PrecisionError> for SimulationError {
 impl From<SettingsError> for SimulationError {
     fn from(error: SettingsError) -> Self {
         Self::new("settings-refused", &error, error.hint()).with_cause(error)
+    }
+}
+
+impl From<PacingError> for SimulationError {
+    fn from(error: PacingError) -> Self {
+        Self::new("pacing-refused", &error, error.hint()).with_cause(error)
+    }
+}
+
+impl From<InputTableError> for SimulationError {
+    fn from(error: InputTableError) -> Self {
+        let hint = error.hint().to_owned();
+        Self::new("inputs-refused", error.message(), hint).with_cause(error)
     }
 }
 

@@ -1,22 +1,83 @@
-//! Inputs that follow a table of times: a scene document in which they are tables.
+//! Inputs that follow a table of times: in the scene they are tables then.
 //!
 //! The first column is `t`, the others have the names of inputs. Values are linear between rows and held outside; the motion of a
 //! guide or a coupling is the cubic spline through its values.
 
-use super::inputs::{InputInfo, InputOwner, Inputs};
+use super::inputs::{InputInfo, InputOwner};
 use core::fmt::{self, Display, Formatter};
 use csv::{ReaderBuilder, StringRecord};
 use mbs_core::effects::Value;
 use mbs_core::scene::{
     Effect, Interpolation, Motion, Number, Scene, Signal, SignalKind, TableEnds,
 };
-use mbs_scene::{Place, ReadError, SceneFile, WriteError, nearest_name};
+use mbs_scene::{Place, nearest_name};
+
+/// A table over time that inputs follow, from numbers or from CSV. Its names are those of inputs of a mechanism.
+///
+/// ```
+/// use mbs::{InputTable, Mechanism, NamedSignal, SignalKind};
+/// let mut m = Mechanism::planar("pump");
+/// m.add(NamedSignal::input("load", 0.0));
+/// let table = InputTable::new([0.0, 1.0], [("load", vec![0.0, 2.5])]);
+/// assert!(m.following(&table)?.to_toml()?.contains("table = [[0.0, 0.0], [1.0, 2.5]]"));
+/// let same = InputTable::csv(b"t,load\n0,0\n1,2.5\n", "load.csv");
+/// assert!(m.following(&same)? == m.following(&table)?);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct InputTable(Data);
+
+#[derive(Debug, Clone, PartialEq)]
+enum Data {
+    Csv { file: String, text: String },
+    Numbers { times: Vec<f64>, columns: Vec<(String, Vec<f64>)> },
+}
+
+impl InputTable {
+    /// Makes a table of times [s] and of columns, each with the name of its input and a value for each time.
+    pub fn new<N: Into<String>>(
+        times: impl Into<Vec<f64>>,
+        columns: impl IntoIterator<Item = (N, Vec<f64>)>,
+    ) -> Self {
+        let columns = columns.into_iter().map(|(name, values)| (name.into(), values)).collect();
+        Self(Data::Numbers { times: times.into(), columns })
+    }
+
+    /// Takes the text of a CSV file, by whose name errors speak of it. The first column is `t`.
+    #[must_use]
+    pub fn csv(bytes: &[u8], file: &str) -> Self {
+        let text = String::from_utf8_lossy(bytes).into_owned();
+        Self(Data::Csv { file: file.to_owned(), text })
+    }
+
+    /// Lets the inputs of a scene follow the table.
+    ///
+    /// # Errors
+    /// [`InputTableError`] for unknown names, columns that come twice, a first column other than `t`, times that do not increase, and
+    /// numbers that are none.
+    pub fn put_into(
+        &self,
+        scene: &mut Scene<Number>,
+        inputs: &[InputInfo],
+    ) -> Result<(), InputTableError> {
+        let table = match &self.0 {
+            Data::Csv { file, text } => Table::read(Source::Csv { file, text }, inputs)?,
+            Data::Numbers { times, columns } => Table::of(times, columns, inputs)?,
+        };
+        for (k, info) in table.columns.iter().enumerate() {
+            if table.columns[..k].iter().all(|other| other.owner != info.owner) {
+                table.write(scene, info.owner);
+            }
+        }
+        Ok(())
+    }
+}
 
 /// A table of inputs that is refused.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum InputTableError {
-    /// Fault of the table: its file, the place in it, what is wrong, and what to do.
+    /// Fault of a file: its name, the place in it, what is wrong, and what to do.
     Table {
         /// The file as it was named.
         file: String,
@@ -27,10 +88,31 @@ pub enum InputTableError {
         /// Hint on what to do.
         hint: String,
     },
-    /// The document is no scene.
-    Read(ReadError),
-    /// The scene has no text.
-    Write(WriteError),
+    /// Fault of a table of numbers: what is wrong, and what to do.
+    Numbers {
+        /// Message on what is wrong.
+        message: String,
+        /// Hint on what to do.
+        hint: String,
+    },
+}
+
+impl InputTableError {
+    /// Returns what is wrong, without its place.
+    #[must_use]
+    pub fn message(&self) -> &str {
+        match self {
+            Self::Table { message, .. } | Self::Numbers { message, .. } => message,
+        }
+    }
+
+    /// Hint on what to do.
+    #[must_use]
+    pub fn hint(&self) -> &str {
+        match self {
+            Self::Table { hint, .. } | Self::Numbers { hint, .. } => hint,
+        }
+    }
 }
 
 impl Display for InputTableError {
@@ -39,51 +121,18 @@ impl Display for InputTableError {
             Self::Table { file, place, message, .. } => {
                 write!(f, "{file}:{}:{}: {message}", place.line, place.column)
             }
-            Self::Read(error) => error.fmt(f),
-            Self::Write(error) => error.fmt(f),
+            Self::Numbers { message, .. } => f.write_str(message),
         }
     }
 }
 
 impl core::error::Error for InputTableError {}
 
-/// The document of a scene whose inputs follow the table of a file.
-///
-/// ```
-/// use mbs::{InputTableError, scene_file::SceneFile, with_inputs};
-/// let scene = "[scene]\ndimension = 2\nduration = 1\n[[signal]]\nname = \"load\"\nkind = \"input\"\n";
-/// let document = SceneFile::parse(scene, "scene.toml")?;
-/// let document = with_inputs(&document, b"t,load\n0,0\n1,2.5\n", "load.csv")?;
-/// assert!(document.text().contains("table = [[0.0, 0.0], [1.0, 2.5]]"));
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-///
-/// # Errors
-/// [`InputTableError`] for unknown names, columns that come twice, a first column other than `t`, times that do not increase, and
-/// numbers that are none.
-pub fn with_inputs(
-    document: &SceneFile,
-    csv: &[u8],
-    file: &str,
-) -> Result<SceneFile, InputTableError> {
-    let mut scene = document.numbers().map_err(InputTableError::Read)?;
-    let resolved = document.scene::<f64>().map_err(InputTableError::Read)?;
-    let inputs = Inputs::new(&resolved);
-    let text = String::from_utf8_lossy(csv);
-    let table = Table::read(Source { file, text: &text }, inputs.list())?;
-    for (k, info) in table.columns.iter().enumerate() {
-        if table.columns[..k].iter().all(|other| other.owner != info.owner) {
-            table.write(&mut scene, info.owner);
-        }
-    }
-    document.updated(&scene).map_err(InputTableError::Write)
-}
-
-/// The text of a table, and its file.
+/// Where a table comes from: the text of a file, or numbers.
 #[derive(Clone, Copy)]
-struct Source<'a> {
-    file: &'a str,
-    text: &'a str,
+enum Source<'a> {
+    Csv { file: &'a str, text: &'a str },
+    Numbers,
 }
 
 impl Source<'_> {
@@ -94,16 +143,19 @@ impl Source<'_> {
         message: String,
         hint: impl Into<String>,
     ) -> Result<R, InputTableError> {
+        let hint = hint.into();
+        let Self::Csv { file, text } = self else {
+            return Err(InputTableError::Numbers { message, hint });
+        };
         let line = usize::try_from(line).unwrap_or(usize::MAX).max(1);
-        let text = self.text.lines().nth(line - 1).unwrap_or_default().to_owned();
+        let text = text.lines().nth(line - 1).unwrap_or_default().to_owned();
         // quotes may hide commas
         let field = if text.contains('"') { 0 } else { field };
         let before: usize = text.split(',').take(field).map(|s| s.chars().count() + 1).sum();
         let rest: String = text.chars().skip(before).collect();
         let width = rest.split(',').next().map_or(1, |s| s.chars().count().max(1));
         let place = Place { line, column: before + 1, width, text };
-        let (file, hint) = (self.file.to_owned(), hint.into());
-        Err(InputTableError::Table { file, place, message, hint })
+        Err(InputTableError::Table { file: file.to_owned(), place, message, hint })
     }
 }
 
@@ -116,12 +168,49 @@ struct Table<'a> {
 }
 
 const HINT_TIME: &str = "begin each row with its time [s], later than that of the row before";
+const HINT_NUMBER: &str = "write a finite decimal number";
 
 impl<'a> Table<'a> {
+    /// Takes a table of numbers.
+    fn of(
+        times: &[f64],
+        columns: &[(String, Vec<f64>)],
+        inputs: &'a [InputInfo],
+    ) -> Result<Self, InputTableError> {
+        let source = Source::Numbers;
+        let names = columns.iter().map(|(name, _)| name.as_str());
+        let head = head(source, 1, core::iter::once("t").chain(names), inputs)?;
+        let all =
+            || core::iter::once(("t", times)).chain(columns.iter().map(|(n, v)| (&**n, &**v)));
+        for (name, values) in all() {
+            if values.len() != times.len() {
+                let (n, of) = (values.len(), times.len());
+                let message = format!("input `{name}` has {n} values, and `t` {of}");
+                return source.fault((1, 0), message, "give one value for each time");
+            }
+            if let Some(bad) = values.iter().find(|x| !x.is_finite()) {
+                let message = format!("`{bad}` of `{name}` is not a finite number");
+                return source.fault((1, 0), message, HINT_NUMBER);
+            }
+        }
+        if let Some(pair) = times.windows(2).find(|pair| pair[1] <= pair[0]) {
+            return source.fault((1, 0), not_after(&pair[1].to_string()), HINT_TIME);
+        }
+        if times.is_empty() {
+            return source.fault((1, 0), NO_ROW.to_owned(), HINT_TIME);
+        }
+        let row = |i: usize| all().map(|(_, values)| Number::from(values[i])).collect();
+        Ok(Self { columns: head, rows: (0..times.len()).map(row).collect() })
+    }
+
+    /// Reads a table of CSV.
     fn read(source: Source<'_>, inputs: &'a [InputInfo]) -> Result<Self, InputTableError> {
+        let Source::Csv { text, .. } = source else {
+            return source.fault((1, 0), NO_ROW.to_owned(), HINT_TIME);
+        };
         let mut reader = ReaderBuilder::new();
         let reader = reader.has_headers(false).flexible(true).trim(csv::Trim::All);
-        let mut reader = reader.from_reader(source.text.as_bytes());
+        let mut reader = reader.from_reader(text.as_bytes());
         let (mut columns, mut rows): (Option<Vec<&InputInfo>>, Vec<Vec<Number>>) =
             (None, Vec::new());
         let mut record = StringRecord::new();
@@ -134,21 +223,20 @@ impl<'a> Table<'a> {
             }
             let line = record.position().map_or(line, csv::Position::line);
             let Some(columns) = &columns else {
-                columns = Some(head(source, (line, &record), inputs)?);
+                columns = Some(head(source, line, record.iter(), inputs)?);
                 continue;
             };
             let row = row(source, (line, &record), columns.len() + 1)?;
             let time = |row: &[Number]| row.first().map_or(f64::NAN, Number::to_f64);
             if rows.last().is_some_and(|before| time(&row) <= time(before)) {
-                let message = format!("the time `{}` is not after that before it", &record[0]);
-                return source.fault((line, 0), message, HINT_TIME);
+                return source.fault((line, 0), not_after(&record[0]), HINT_TIME);
             }
             rows.push(row);
         }
-        let n_lines = source.text.lines().count() as u64;
+        let n_lines = text.lines().count() as u64;
         match columns {
             Some(columns) if !rows.is_empty() => Ok(Self { columns, rows }),
-            _ => source.fault((n_lines, 0), "there is no row of values".into(), HINT_TIME),
+            _ => source.fault((n_lines, 0), NO_ROW.to_owned(), HINT_TIME),
         }
     }
 
@@ -183,19 +271,28 @@ impl<'a> Table<'a> {
     }
 }
 
+/// Message on a table without rows.
+const NO_ROW: &str = "there is no row of values";
+
+fn not_after(time: &str) -> String {
+    format!("the time `{time}` is not after that before it")
+}
+
 /// The inputs of the columns.
-fn head<'a>(
+fn head<'a, 'n>(
     source: Source<'_>,
-    (line, record): (u64, &StringRecord),
+    line: u64,
+    mut names: impl Iterator<Item = &'n str>,
     inputs: &'a [InputInfo],
 ) -> Result<Vec<&'a InputInfo>, InputTableError> {
-    if record.get(0) != Some("t") {
-        let message = format!("the first column is `{}`, not `t`", record.get(0).unwrap_or(""));
+    let first = names.next().unwrap_or("");
+    if first != "t" {
+        let message = format!("the first column is `{first}`, not `t`");
         return source.fault((line, 0), message, "write the times [s] into a first column `t`");
     }
     let mut columns: Vec<&InputInfo> = Vec::new();
-    for (field, name) in record.iter().enumerate().skip(1) {
-        let at = (line, field);
+    for (field, name) in names.enumerate() {
+        let at = (line, field + 1);
         let mut named = inputs.iter().filter(|input| input.name == name);
         let (Some(info), other) = (named.next(), named.next()) else {
             let known: Vec<_> = inputs.iter().map(|input| input.name.clone()).collect();
@@ -243,7 +340,7 @@ fn row(
             Some(number) => row.push(number),
             None => {
                 let message = format!("`{text}` is not a finite number");
-                return source.fault((line, field), message, "write a finite decimal number");
+                return source.fault((line, field), message, HINT_NUMBER);
             }
         }
     }

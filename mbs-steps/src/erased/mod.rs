@@ -9,10 +9,10 @@ pub mod input_table;
 pub mod inputs;
 pub mod read;
 pub mod readings;
+pub mod scene_run;
 pub mod seen;
 pub mod values;
 pub mod view;
-pub mod watched;
 
 pub use error::{Error, PathError, SceneError, UnknownName};
 pub use failure::SimulationError;

@@ -52,7 +52,7 @@ impl<'a> From<&Self> for View<'a> {
 /// use core::ops::ControlFlow;
 /// use mbs::{
 ///     Body, Effect, EffectId, GROUND, Joint, JointId, Mechanism, Observer, Run, RunInputs, Signal,
-///     SimulationError, StepReport, View, run_with,
+///     SimulationError, StepReport, View, Watchers, run_with,
 /// };
 ///
 /// /// Holds an arm where it is by PD control, and ends the run when it is at rest.
@@ -75,10 +75,10 @@ impl<'a> From<&Self> for View<'a> {
 /// let arm = m.add(Body::rod([0.0, 0.0], [1.0, 0.0], 3.0));
 /// let pivot = m.add(Joint::revolute([GROUND, arm], [0.0, 0.0]));
 /// let motor = m.add(Effect::torque(pivot, Signal::input(0.0)));
-/// let result = run_with(&m, &Run::new().duration(5.0), &mut [&mut Hold { motor, pivot }])?;
-/// let angle = result.table.column("joint-1").unwrap().last().unwrap();
+/// let result = run_with(&m, &Run::new().duration(5.0), &mut Watchers::observers(&mut [&mut Hold { motor, pivot }]))?;
+/// let angle = result.table().column("joint-1").unwrap().last().unwrap();
 /// // inertia 1 kg m², stiffness 200 N m/rad, damping 20 N m s/rad: e^(−10 t) falls to 1e-6 well before 5 s
-/// assert!((angle - 0.5).abs() < 1e-6 && result.summary.end_time < 2.5);
+/// assert!((angle - 0.5).abs() < 1e-6 && result.summary().end_time < 2.5);
 /// # Ok::<(), SimulationError>(())
 /// ```
 pub trait Observer {

@@ -1,7 +1,6 @@
 //! Reason why a run cannot be paced as it is asked for.
 
 use crate::methods::FormulationKind;
-use crate::precision::PrecisionError;
 use mbs_core::formulation::SwitchError;
 use mbs_scene::{format::significant, nearest_name};
 
@@ -39,8 +38,6 @@ pub enum PacingError {
     },
     /// Nothing that may be left out saves time.
     NoLadder,
-    /// The scene cannot be had in the precision of the run.
-    Read(PrecisionError),
 }
 
 impl PacingError {
@@ -70,16 +67,6 @@ impl PacingError {
                 "write a shorter --step, name effects with --degrade, or take --overrun finish"
                     .to_owned()
             }
-            Self::Read(_) => String::new(),
-        }
-    }
-
-    /// Returns the whole message, with its hint.
-    #[must_use]
-    pub fn render(&self) -> String {
-        match self {
-            Self::Read(error) => error.render(),
-            _ => format!("error: {self}\nhint: {}", self.hint()),
         }
     }
 }
@@ -108,7 +95,6 @@ impl core::fmt::Display for PacingError {
             Self::NoLadder => {
                 write!(f, "degrade: nothing that may be left out was measured to save time")
             }
-            Self::Read(error) => write!(f, "{error}"),
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Real time: a scene at the pace of a clock, or a loop of your own around a [`Simulation`].
 //!
-//! `mbs run SCENE --realtime` is [`run_document`]; docs/REALTIME.md says what its policies do and what was measured. There is no
+//! `mbs run SCENE --realtime` is a run with a [`Pacing`]; docs/REALTIME.md says what its policies do and what was measured. There is no
 //! clock in a solver: the pacer of [`mbs_realtime`] stands around the steps.
 //!
 //! # A loop of your own
@@ -80,14 +80,13 @@
 //! A ladder of one's own: a second [`Simulation`] of the same scene with effects switched off takes the state over with
 //! [`Simulation::take_over`] when [`Task::level`] changes. Inputs are set in both.
 
-pub mod document;
 mod error;
 mod ladder;
 mod measure;
+pub mod run;
 mod summary;
 
 pub use crate::words::paced::rows;
-pub use document::run_document;
 pub use error::PacingError;
 pub use mbs_realtime::{
     Action, Clock, Entry, Margin, Overrun, Pace, PaceError, Pacer, Recovery, Report, Spread,

@@ -2,7 +2,7 @@
 
 use super::bench::{Clock, SceneBench};
 use super::candidates::{self, PilotCandidate};
-use super::goal::{Goal, GoalError, PilotTarget};
+use super::goal::{GoalError, PilotTarget};
 use super::pilot::{BUDGET, PilotPlace, PilotSearch};
 use super::structure::{self, Structure};
 use super::{check, report};
@@ -10,7 +10,7 @@ use crate::compare::ladder::Instants;
 use crate::compare::method::{Control, MethodCase};
 use mbs::inside::{AssembledScene, SceneWork};
 use mbs::record::PilotReport;
-use mbs::{IntegratorKind, Method, Names, Precision, ResolvedMethod};
+use mbs::{Goal, IntegratorKind, Method, Names, Precision, ResolvedMethod};
 use mbs_core::Real;
 use mbs_core::scene::Scene;
 

@@ -1,21 +1,12 @@
 //! Requirements of a run: an error, a deadline, or both; and why they may be refused.
 
 use core::fmt::{self, Display, Formatter};
-use mbs::{Method, Precision};
+use mbs::{Goal, Method, Precision, SimulationError};
 
 /// Error that is aimed at, relative to the required one [-]: predictions may be off by as much.
 const AIM: f64 = 0.7;
 /// With a deadline alone, no smaller error is aimed at [-]: outputs are printed with so many digits.
 pub(super) const ACCURATE: f64 = 1e-6;
-
-/// Goal that `auto` is to reach.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct Goal {
-    /// Largest error of the outputs over the run, each in its scale, as `mbs compare` takes it.
-    pub error: Option<f64>,
-    /// The run is made in frames of this length [s], each computed within the same time.
-    pub deadline: Option<f64>,
-}
 
 /// Target that a run is to reach.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -70,40 +61,32 @@ const DECIDED: [Given; 6] = [
     ("--tolerance", |o| o.tolerance.is_some()),
 ];
 
-impl Goal {
-    /// Is an error or a deadline required?
-    #[must_use]
-    pub fn is_some(&self) -> bool {
-        self.error.is_some() || self.deadline.is_some()
+/// Refuses what cannot be meant, beside other options and a run of `duration` [s] in some precision.
+///
+/// # Errors
+/// [`GoalError`].
+pub fn check_goal(
+    goal: &Goal,
+    overrides: &Method,
+    (duration, precision): (f64, Precision),
+) -> Result<(), GoalError> {
+    if let Some(error) = goal.error.filter(|e| !(*e > 0.0 && *e < 1.0)) {
+        return Err(GoalError::Error(error));
     }
-
-    /// Refuses what cannot be meant, beside other options and a run of `duration` [s] in some precision.
-    ///
-    /// # Errors
-    /// [`GoalError`].
-    pub fn check(
-        &self,
-        overrides: &Method,
-        (duration, precision): (f64, Precision),
-    ) -> Result<(), GoalError> {
-        if let Some(error) = self.error.filter(|e| !(*e > 0.0 && *e < 1.0)) {
-            return Err(GoalError::Error(error));
+    if let Some(error) = goal.error.filter(|e| *e < finest(precision)) {
+        return Err(GoalError::TooFine(error, precision));
+    }
+    if let Some(deadline) = goal.deadline {
+        if !(deadline > 0.0 && deadline.is_finite()) {
+            return Err(GoalError::Deadline(deadline));
         }
-        if let Some(error) = self.error.filter(|e| *e < finest(precision)) {
-            return Err(GoalError::TooFine(error, precision));
+        if deadline > duration {
+            return Err(GoalError::TooLong(deadline, duration));
         }
-        if let Some(deadline) = self.deadline {
-            if !(deadline > 0.0 && deadline.is_finite()) {
-                return Err(GoalError::Deadline(deadline));
-            }
-            if deadline > duration {
-                return Err(GoalError::TooLong(deadline, duration));
-            }
-        }
-        match DECIDED.into_iter().find(|(_, is_given)| is_given(overrides)) {
-            Some((option, _)) => Err(GoalError::Chosen(option)),
-            None => Ok(()),
-        }
+    }
+    match DECIDED.into_iter().find(|(_, is_given)| is_given(overrides)) {
+        Some((option, _)) => Err(GoalError::Chosen(option)),
+        None => Ok(()),
     }
 }
 
@@ -204,3 +187,9 @@ impl Display for GoalError {
 }
 
 impl core::error::Error for GoalError {}
+
+impl From<GoalError> for SimulationError {
+    fn from(error: GoalError) -> Self {
+        Self::new("goal-refused", &error, error.hint()).with_cause(error)
+    }
+}

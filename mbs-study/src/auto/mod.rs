@@ -17,5 +17,6 @@ pub(crate) mod trial;
 
 pub use bench::Clock;
 pub(crate) use choose::{Pick, Pilot, Task, candidates, methods};
-pub use goal::{Goal, GoalError, time};
-pub use plan::{Plan, PlanError, Processor, plan, run_plan};
+pub use goal::{GoalError, time};
+pub use mbs::Goal;
+pub use plan::{Plan, Processor, plan, run_plan};

@@ -3,14 +3,13 @@
 use super::bench::{self, Clock};
 use super::choose::{Pick, Pilot, Task, instants, methods};
 use super::estimate::SMALL;
-use super::goal::{ACCURATE, Goal, GoalError};
+use super::goal::{ACCURATE, GoalError, check_goal};
 use crate::compare::method::MethodCase;
 use cpu_time::ThreadTime;
-use mbs::inside::ReadScene;
+use mbs::inside::PreparedRun;
 use mbs::record::{Fallback, PilotReport};
-use mbs::{Method, Names, Outcome, PrecisionError, ResolvedMethod, StopError, run_document};
+use mbs::{INTERRUPTED, Names, Outcome, ResolvedMethod, SimulationError, StopError, Watchers};
 use mbs_core::scene::Scene;
-use mbs_scene::SceneFile;
 use std::time::Instant;
 
 /// Settings to run with, in the order in which they are tried.
@@ -57,51 +56,29 @@ impl Clock for Processor {
     }
 }
 
-/// Reason why there is no plan.
-#[derive(Debug)]
-#[non_exhaustive]
-pub enum PlanError {
-    /// The goal cannot be meant.
-    Goal(GoalError),
-    /// The scene cannot be had in the precision asked for.
-    Read(PrecisionError),
-}
-
-impl PlanError {
-    /// The refusal with its hint.
-    #[must_use]
-    pub fn render(&self) -> String {
-        match self {
-            Self::Goal(error) => format!("error: {error}\nhint: {}", error.hint()),
-            Self::Read(error) => error.render(),
-        }
-    }
-}
-
 /// Decides how a scene is run: as the settings say where nothing is required, else by a pilot.
 ///
 /// # Errors
-/// A goal that cannot be meant beside these options; a scene that is none in the precision asked for.
-pub fn plan(
-    (document, scene): (&SceneFile, &Scene<f64>),
-    (base, settings): (&Method, ResolvedMethod),
-    goal: Goal,
-    clock: &mut dyn Clock,
-) -> Result<Plan, PlanError> {
+/// A goal that cannot be meant beside these options; a scene that is none in the precision asked for; an interrupt.
+pub fn plan(run: &PreparedRun<'_>, clock: &mut dyn Clock) -> Result<Plan, SimulationError> {
+    let (goal, base, settings) = (run.options().goal, &run.method, &run.settings);
     if !goal.is_some() {
-        return Ok(Plan { ranked: vec![settings] });
+        return Ok(Plan { ranked: vec![settings.clone()] });
     }
-    goal.check(base, (settings.duration, settings.precision)).map_err(PlanError::Goal)?;
-    let methods = methods(scene, base, &settings, &goal).map_err(PlanError::Goal)?;
+    check_goal(&goal, base, (settings.duration, settings.precision))?;
+    let methods = methods(&run.scene, base, settings, &goal)?;
     let instants = instants(settings.duration, &goal);
-    let task = Task { base, settings: &settings, goal, instants };
-    let read = ReadScene::new((document, scene), settings.precision).map_err(PlanError::Read)?;
-    let (picks, choice) = read.work(Pilot { task: &task, methods: &methods, clock });
+    let task = Task { base, settings, goal, instants };
+    let (picks, choice) = run.read()?.work(Pilot { task: &task, methods: &methods, clock });
+    if base.interrupt.is_set() {
+        let hint = "the choice was not made, and nothing was run; start it again";
+        return Err(SimulationError::new(INTERRUPTED, "interrupted by a signal", hint));
+    }
     if let Some(look) = choice.second_look.as_ref().filter(|look| look.differs) {
         let apart = look.distance.unwrap_or(f64::INFINITY);
-        return Err(PlanError::Goal(GoalError::Differs(apart)));
+        return Err(GoalError::Differs(apart).into());
     }
-    Ok(Plan { ranked: ranked(scene, &task, (&picks, &methods), &choice) })
+    Ok(Plan { ranked: ranked(&run.scene, &task, (&picks, &methods), &choice) })
 }
 
 /// Settings of the picks; where there is none, those that were there, which will say why nothing runs.
@@ -151,23 +128,22 @@ fn blind(task: &Task<'_>, choice: &PilotReport, methods: &[MethodCase]) -> Vec<P
 /// that got furthest is given.
 ///
 /// # Errors
-/// As for [`run_document`].
+/// As for [`plan`], and a run that is refused.
 pub fn run_plan(
-    (document, scene): (&SceneFile, &Scene<f64>),
+    run: &PreparedRun<'_>,
     plan: &Plan,
-    reached: &mut dyn FnMut(f64),
-) -> Result<(Outcome, ResolvedMethod), PrecisionError> {
-    run_ranked(plan, Names::new(scene), |settings| {
-        run_document((document, scene), settings, reached)
-    })
+    watchers: &mut Watchers<'_, '_>,
+) -> Result<(Outcome, ResolvedMethod), SimulationError> {
+    let (read, names) = (run.read()?, Names::new(&run.scene));
+    run_ranked(plan, &names, |settings| run.run_by(&read, settings, watchers))
 }
 
 /// [`run_plan`] with what a run is.
 pub(super) fn run_ranked(
     plan: &Plan,
-    names: Names,
-    mut run: impl FnMut(&ResolvedMethod) -> Result<Outcome, PrecisionError>,
-) -> Result<(Outcome, ResolvedMethod), PrecisionError> {
+    names: &Names,
+    mut run: impl FnMut(&ResolvedMethod) -> Result<Outcome, SimulationError>,
+) -> Result<(Outcome, ResolvedMethod), SimulationError> {
     let mut lost: Vec<Fallback> = Vec::new();
     let mut furthest: Option<(Outcome, ResolvedMethod)> = None;
     for settings in &plan.ranked {
@@ -180,7 +156,7 @@ pub(super) fn run_ranked(
         if *error == StopError::Interrupted {
             return Ok((outcome, settings));
         }
-        let report = error.report(outcome.summary.end_time, &names);
+        let report = error.report(outcome.summary.end_time, names);
         lost.push(Fallback {
             method: method_name(&settings),
             code: report.code,

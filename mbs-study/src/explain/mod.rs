@@ -18,27 +18,34 @@ pub use explanation::{
 };
 pub use trials::Effort;
 
-use mbs::inside::{ReadScene, SceneWork};
+use crate::auto::{Processor, plan};
+use mbs::inside::{PreparedRun, SceneWork};
 use mbs::typed::Simulation;
-use mbs::{Names, PrecisionError, ResolvedMethod, StepRule, StopError};
+use mbs::{Mechanism, Names, ResolvedMethod, Run, SimulationError, StepRule, StopError};
 use mbs_core::Real;
 use mbs_core::scene::Scene;
-use mbs_scene::SceneFile;
 
-/// Explains a scene in the precision of its settings: as it was read in `f64`, or read anew from its document. Nothing in pairs of
-/// doubles: prices are those of numbers of the hardware.
+/// Explains what a run of a mechanism simulates. A goal adds what its pilot measured. Nothing in pairs of doubles: prices are those of
+/// numbers of the hardware.
 ///
-/// The same as [`explain`]; programs that take what precision comes compile it only once.
+/// Cost: the sizes take two assemblies; the prices about `effort.seconds`, less for small scenes.
 ///
 /// # Errors
-/// [`PrecisionError`] where the scene cannot be had in that precision.
-pub fn explain_document(
-    document: (&SceneFile, &Scene<f64>),
-    settings: &ResolvedMethod,
+/// [`SimulationError`] for a mechanism or options that are refused.
+pub fn explain_run(
+    m: &Mechanism,
+    options: &Run,
     effort: &Effort,
-) -> Result<Option<Explanation>, PrecisionError> {
-    let read = ReadScene::new(document, settings.precision)?;
-    Ok(read.work_in_hardware(Explained { settings, effort }))
+) -> Result<Option<Explanation>, SimulationError> {
+    let run = PreparedRun::new(m, options)?;
+    let plan = plan(&run, &mut Processor::new(run.settings.threads))?;
+    let work = Explained { settings: &run.settings, effort };
+    let explained = run.read()?.work_in_hardware(work);
+    let choice = plan.first().choice.as_deref().cloned();
+    Ok(explained.map(|explanation| match choice {
+        Some(_) => Explanation { choice, ..explanation },
+        None => explanation,
+    }))
 }
 
 /// Work that explains a scene.

@@ -2,11 +2,9 @@
 
 use core::time::Duration;
 use cpu_time::ThreadTime;
-use mbs::inside::{ReadScene, RecordRows, SceneWork, run_keeping};
+use mbs::inside::PreparedRun;
 use mbs::results::ResultTable;
-use mbs::{Method, Outcome, ResolvedMethod};
-use mbs_core::Real;
-use mbs_core::scene::Scene;
+use mbs::{Error as _, Mechanism, Method, Outcome, Precision, Run, SimulationError, Watchers};
 use mbs_scene::{SceneFile, SweepFile};
 
 /// Row that a member leaves behind.
@@ -54,7 +52,7 @@ pub(super) fn run(scene: &SceneFile, sweep: &SweepFile, overrides: &Method, memb
     let cpu = ThreadTime::try_now();
     let document = sweep.member(scene, member);
     let values = sweep.values(member).map(str::to_owned).collect();
-    let row = run_in(&document, overrides, member, values);
+    let row = run_in(document, overrides, member, values);
     let cpu = cpu.and_then(|cpu| cpu.try_elapsed()).unwrap_or(Duration::ZERO);
     Row { cpu_seconds: cpu.as_secs_f64(), ..row }
 }
@@ -66,27 +64,29 @@ pub(super) fn rows(
     overrides: &Method,
     member: usize,
 ) -> Option<ResultTable> {
-    let outcome = outcome(&sweep.member(scene, member), overrides, RecordRows::All).ok()?;
+    let outcome = outcome(sweep.member(scene, member), overrides, false).ok()?;
     ResultTable::of_outcome(&outcome).ok()
 }
 
 /// The run of a member; else code and message.
 fn outcome(
-    document: &SceneFile,
-    overrides: &Method,
-    rows: RecordRows,
+    document: SceneFile,
+    method: &Method,
+    last_row_alone: bool,
 ) -> Result<Outcome, (&'static str, String)> {
-    let scene = document.scene().map_err(|error| ("scene-refused", error.to_string()))?;
-    let settings = ResolvedMethod::new(&scene, overrides)
-        .map_err(|error| ("settings-refused", error.to_string()))?;
-    let read = ReadScene::new((document, &scene), settings.precision)
-        .map_err(|error| ("scene-refused", error.to_string()))?;
-    let none = || ("settings-refused", "sweeps run in f64 or f32".to_owned());
-    read.work_in_hardware(Kept(&settings, rows)).ok_or_else(none)
+    let refused = |error: SimulationError| (error.code(), error.message().to_owned());
+    let mechanism = Mechanism::of_file(document).map_err(|error| refused(error.into()))?;
+    let options = Run { method: method.clone(), last_row_alone, ..Run::new() };
+    let run = PreparedRun::new(&mechanism, &options).map_err(refused)?;
+    if run.settings.precision == Precision::DoubleDouble {
+        return Err(("settings-refused", "sweeps run in f64 or f32".to_owned()));
+    }
+    let read = run.read().map_err(refused)?;
+    run.run_by(&read, &run.settings, &mut Watchers::default()).map_err(refused)
 }
 
-fn run_in(document: &SceneFile, overrides: &Method, member: usize, values: Vec<String>) -> Row {
-    let outcome = match outcome(document, overrides, RecordRows::Last) {
+fn run_in(document: SceneFile, overrides: &Method, member: usize, values: Vec<String>) -> Row {
+    let outcome = match outcome(document, overrides, true) {
         Ok(outcome) => outcome,
         Err((code, message)) => return Row::failed(member, values, code, &message),
     };
@@ -94,17 +94,6 @@ fn run_in(document: &SceneFile, overrides: &Method, member: usize, values: Vec<S
     let failure = summary.error.as_ref().map(|error| (error.code.clone(), error.message.clone()));
     let measured = measured(&outcome);
     Row { member, values, failure, measured, cpu_seconds: 0.0 }
-}
-
-/// A run of which these rows are kept.
-struct Kept<'a>(&'a ResolvedMethod, RecordRows);
-
-impl SceneWork for Kept<'_> {
-    type Done = Outcome;
-
-    fn done<T: Real, const D: usize>(self, scene: &Scene<T>) -> Outcome {
-        run_keeping::<T, D>(scene, self.0, &mut (), self.1)
-    }
 }
 
 fn measured(outcome: &Outcome) -> Option<MemberValues> {

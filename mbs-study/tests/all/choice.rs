@@ -1,27 +1,37 @@
 //! The choice by measurement on real scenes. What is timed is not asserted: whatever is chosen must keep what was wanted.
 
 use crate::clock::CountedClock;
-use mbs::scene_file::SceneFile;
-use mbs::{Method, ResolvedMethod};
-use mbs_core::scene::Scene;
-use mbs_study::auto::{Goal, Plan, plan, run_plan};
+use mbs::inside::PreparedRun;
+use mbs::{Goal, Mechanism, Method, Outcome, ResolvedMethod, Run, Watchers};
+use mbs_study::auto::{Plan, plan, run_plan};
 
 fn file(name: &str) -> String {
     format!("{}/../scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"))
 }
 
-fn read(name: &str) -> (SceneFile, Scene<f64>) {
-    let text = std::fs::read_to_string(file(name)).expect("the scene is there");
-    let document = SceneFile::parse(&text, name).expect("it is a document");
-    let scene = document.scene::<f64>().expect("it is a scene");
-    (document, scene)
+fn read(name: &str) -> Mechanism {
+    Mechanism::read(file(name)).expect("it is a scene")
+}
+
+/// Plans a run, and does something with both.
+fn with_plan<R>(
+    (mechanism, base): (&Mechanism, &Method),
+    goal: Goal,
+    work: impl FnOnce(&PreparedRun<'_>, Plan) -> R,
+) -> R {
+    let options = Run::new().method(base.clone()).goal(goal);
+    let run = PreparedRun::new(mechanism, &options).expect("the settings go together");
+    let plan = plan(&run, &mut CountedClock::default()).expect("the goal can be meant");
+    work(&run, plan)
+}
+
+/// Runs a plan.
+fn outcome(run: &PreparedRun<'_>, plan: &Plan) -> (Outcome, ResolvedMethod) {
+    run_plan(run, plan, &mut Watchers::default()).expect("a run")
 }
 
 fn planned(name: &str, base: &Method, goal: Goal) -> Plan {
-    let (document, scene) = read(name);
-    let settings = ResolvedMethod::new(&scene, base).expect("the settings go together");
-    plan((&document, &scene), (base, settings), goal, &mut CountedClock::default())
-        .expect("the goal can be meant")
+    with_plan((&read(name), base), goal, |_, plan| plan)
 }
 
 fn error(e: f64) -> Goal {
@@ -46,12 +56,8 @@ fn the_required_error_is_kept_on_the_pendulum_against_its_closed_form() {
     let last: Vec<f64> =
         table.lines().last().unwrap().split(',').map(|cell| cell.parse().unwrap()).collect();
     for wanted in [1e-2, 1e-4, 1e-6] {
-        let (document, scene) = read("simple-pendulum");
-        let base = Method::default();
-        let settings = ResolvedMethod::new(&scene, &base).unwrap();
-        let clock = &mut CountedClock::default();
-        let plan = plan((&document, &scene), (&base, settings), error(wanted), clock).unwrap();
-        let (outcome, settings) = run_plan((&document, &scene), &plan, &mut |_| {}).unwrap();
+        let both = (&read("simple-pendulum"), &Method::default());
+        let (outcome, settings) = with_plan(both, error(wanted), |run, plan| outcome(run, &plan));
         let (t, row) = outcome.rows().last().unwrap();
         assert!((t - last[0]).abs() < 1e-9 && outcome.error.is_none());
         // the error of each coordinate beside its own range, as it is wanted
@@ -92,31 +98,27 @@ fn a_formulation_that_is_asked_for_is_kept_and_the_rest_is_chosen() {
 #[test]
 fn where_the_first_stops_the_next_runs_and_the_choice_says_so() {
     // relative coordinates at small steps stop at the four-bar's singular position, index-3 passes it
-    let (document, scene) = read("four-bar");
-    let base = Method::default();
-    let settings = ResolvedMethod::new(&scene, &base).unwrap();
-    let of = |formulation: &str| {
-        let overrides =
-            Method { formulation: Some(formulation.into()), step: Some(1e-3), ..base.clone() };
-        let choice = plan(
-            (&document, &scene),
-            (&base, settings.clone()),
-            error(1e-2),
-            &mut CountedClock::default(),
-        );
-        let choice = choice.unwrap().first().choice.clone();
-        ResolvedMethod { choice, ..ResolvedMethod::new(&scene, &overrides).unwrap() }
-    };
-    let plan = Plan { ranked: vec![of("recursive"), of("index-3")] };
-    let (outcome, settings) = run_plan((&document, &scene), &plan, &mut |_| {}).unwrap();
-    assert!(outcome.summary.completed);
-    assert_eq!(settings.formulation, mbs::FormulationKind::Index3);
-    let lost = &outcome.summary.chosen.unwrap().evidence.unwrap().fallbacks;
-    assert_eq!((lost.len(), lost[0].code.as_str()), (1, "violated"));
-    // none gets to the end: the one that got furthest is told
-    let plan = Plan { ranked: vec![of("recursive"), of("state-space")] };
-    let (outcome, _) = run_plan((&document, &scene), &plan, &mut |_| {}).unwrap();
-    assert!(!outcome.summary.completed && outcome.summary.end_time > 3.0);
+    let (mechanism, base) = (read("four-bar"), Method::default());
+    let scene = mechanism.resolve().expect("a scene");
+    with_plan((&mechanism, &base), error(1e-2), |run, plan| {
+        let choice = plan.first().choice.clone();
+        let of = |formulation: &str| {
+            let overrides =
+                Method { formulation: Some(formulation.into()), step: Some(1e-3), ..base.clone() };
+            let settings = ResolvedMethod::new(&scene, &overrides).unwrap();
+            ResolvedMethod { choice: choice.clone(), ..settings }
+        };
+        let plan = Plan { ranked: vec![of("recursive"), of("index-3")] };
+        let (first, settings) = outcome(run, &plan);
+        assert!(first.summary.completed);
+        assert_eq!(settings.formulation, mbs::FormulationKind::Index3);
+        let lost = &first.summary.chosen.unwrap().evidence.unwrap().fallbacks;
+        assert_eq!((lost.len(), lost[0].code.as_str()), (1, "violated"));
+        // none gets to the end: the one that got furthest is told
+        let plan = Plan { ranked: vec![of("recursive"), of("state-space")] };
+        let (furthest, _) = outcome(run, &plan);
+        assert!(!furthest.summary.completed && furthest.summary.end_time > 3.0);
+    });
 }
 
 #[test]

@@ -4,10 +4,10 @@ mod differences;
 
 use crate::clock::CountedClock;
 use mbs::core::scene::{Dimension, Scene};
+use mbs::inside::PreparedRun;
 use mbs::record::ErrorEstimate;
-use mbs::scene_file::SceneFile;
-use mbs::{Method, Outcome, ResolvedMethod};
-use mbs_study::auto::{Goal, plan, run_plan};
+use mbs::{Goal, Mechanism, Method, Outcome, ResolvedMethod, Run, Watchers};
+use mbs_study::auto::{plan, run_plan};
 use mbs_study::estimate::estimate;
 use mbs_testkit::repository::{field, read, text};
 
@@ -299,14 +299,11 @@ fn a_choice_by_measurement_is_right_or_refused_where_coordinates_disagree() {
         ("17-torque-on-reversed-cylindrical", 1, 5.317_300_217),
     ];
     for (name, component, right) in cases {
-        let document = SceneFile::parse(&text(name), name).expect("it is a document");
-        let scene = document.scene::<f64>().expect("it is a scene");
-        let base = Method::default();
-        let settings = ResolvedMethod::new(&scene, &base).expect("the settings go together");
-        let goal = Goal { error: Some(1e-4), deadline: None };
-        let clock = &mut CountedClock::default();
-        let Ok(plan) = plan((&document, &scene), (&base, settings), goal, clock) else { continue };
-        let (outcome, settings) = run_plan((&document, &scene), &plan, &mut |_| {}).unwrap();
+        let mechanism = Mechanism::parse(&text(name)).expect("it is a scene");
+        let options = Run::new().goal(Goal { error: Some(1e-4), deadline: None });
+        let run = PreparedRun::new(&mechanism, &options).expect("the settings go together");
+        let Ok(plan) = plan(&run, &mut CountedClock::default()) else { continue };
+        let (outcome, settings) = run_plan(&run, &plan, &mut Watchers::default()).unwrap();
         let rate = last(&outcome, "j_rate")[component];
         let limit = 1e-3 * right;
         assert!((rate - right).abs() < limit, "{name}: {rate} by {:?}", settings.formulation);
@@ -316,14 +313,13 @@ fn a_choice_by_measurement_is_right_or_refused_where_coordinates_disagree() {
 #[test]
 fn a_choice_for_a_vehicle_that_jumps_sees_its_landing_and_keeps_its_error() {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/iltis-jump.toml");
-    let document = SceneFile::parse(&std::fs::read_to_string(path).unwrap(), path).unwrap();
-    let scene = document.scene::<f64>().expect("it is a scene");
+    let mechanism = Mechanism::read(path).expect("it is a scene");
+    let scene = mechanism.resolve().expect("it is a scene");
     let base = Method { formulation: Some("auto".to_owned()), ..Method::default() };
-    let settings = ResolvedMethod::new(&scene, &base).expect("the settings go together");
-    let goal = Goal { error: Some(1e-2), deadline: None };
-    let plan =
-        plan((&document, &scene), (&base, settings), goal, &mut CountedClock::default()).unwrap();
-    let (outcome, settings) = run_plan((&document, &scene), &plan, &mut |_| {}).unwrap();
+    let options = Run::new().method(base).goal(Goal { error: Some(1e-2), deadline: None });
+    let prepared = PreparedRun::new(&mechanism, &options).expect("the settings go together");
+    let plan = plan(&prepared, &mut CountedClock::default()).unwrap();
+    let (outcome, settings) = run_plan(&prepared, &plan, &mut Watchers::default()).unwrap();
     let exact = Method { step: Some(0.05), ..by("recursive", "rk853", Some(1e-10)) };
     let (_, reference) = run(&scene, &exact);
     let chassis = |row: &[f64]| [row[0], row[2]];

@@ -28,7 +28,7 @@ fn the_runs_of_a_sweep_are_those_of_the_mechanism_with_each_number() {
         m.set("body.bob.center.0", lengths[k / 2]).expect("a path");
         m.set("body.bob.mass", masses[k % 2]).expect("a path");
         let result = run(&m, &Run::new().method(method.clone())).expect("it runs");
-        assert_eq!(result.table.column("pivot").and_then(<[f64]>::last), Some(&angle), "{k}");
+        assert_eq!(result.table().column("pivot").and_then(<[f64]>::last), Some(&angle), "{k}");
     }
 }
 
@@ -57,7 +57,7 @@ fn a_sweep_says_what_it_refuses_and_which_runs_fail() {
 fn the_duration_of_a_run_outlives_its_method() {
     // rows of steps of 1 ms
     let m = pendulum();
-    let rows = |options: &Run| run(&m, options).expect("it runs").table.len();
+    let rows = |options: &Run| run(&m, options).expect("it runs").table().len();
     assert_eq!(rows(&Run::new().duration(0.1).method(Method::default())), 101);
     assert_eq!(rows(&Run::new().method(Method::default()).duration(0.1)), 101);
     let of_method = Method { duration: Some(0.05), ..Method::default() };

@@ -3,6 +3,7 @@
 use super::failure::SimulationError;
 use super::inputs::{InputInfo, InputOwner};
 use super::mechanism::Mechanism;
+use crate::erased::input_table::InputTable;
 use mbs_core::effects::Value;
 use mbs_core::scene::{Effect, Motion, Number, Signal, SignalKind};
 
@@ -57,6 +58,20 @@ impl Mechanism {
             }
         }
         Ok(self)
+    }
+}
+
+impl Mechanism {
+    /// The mechanism with inputs that follow a table over time: in it they are tables. Values are linear between the times and held outside;
+    /// a guide or a coupling follows the cubic spline through its values.
+    ///
+    /// # Errors
+    /// [`SimulationError`] for a table that is refused, and as [`inputs`](Self::inputs).
+    pub fn following(&self, table: &InputTable) -> Result<Self, SimulationError> {
+        let inputs = self.inputs()?;
+        let mut driven = self.clone();
+        table.put_into(driven.scene_mut(), &inputs)?;
+        Ok(driven)
     }
 }
 

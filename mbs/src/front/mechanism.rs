@@ -3,7 +3,7 @@
 use super::function::{Function, FunctionId, OutputFunction};
 use super::inputs::{InputInfo, Inputs};
 use super::part::sealed::Id as _;
-use super::{Id, Part, PathError, SceneError, UnknownName};
+use super::{Id, Part, PathError, SceneError, SimulationError, UnknownName};
 use crate::settings::Method;
 use mbs_core::Real;
 use mbs_core::scene::{
@@ -279,6 +279,17 @@ impl Mechanism {
     /// [`SceneError`] with the part's name and key, and the place in the file that it came from.
     pub fn check(&self) -> Result<(), SceneError> {
         self.resolve_scene().map(|_| ())
+    }
+
+    /// The scene in `f64`, checked. A fault of a scene that came from a file has its place there.
+    ///
+    /// # Errors
+    /// [`SimulationError`] as [`check`](Self::check).
+    pub fn resolve(&self) -> Result<Scene<f64>, SimulationError> {
+        self.resolve_scene().map_err(|error| match (&self.file, self.data()) {
+            (Some(_), Ok(file)) => file.meaning(*error.error()).into(),
+            _ => error.into(),
+        })
     }
 
     /// The scene in `f64`, checked.

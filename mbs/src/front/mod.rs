@@ -1,28 +1,35 @@
 //! The front door: a mechanism as a list of named parts, in code or from a file.
 
+mod conflict;
 mod held;
 mod mechanism;
 mod part;
+pub(crate) mod prepared;
 mod relative;
+mod result;
+mod run;
 mod simulate;
 mod simulation;
 mod study;
 mod table;
 
-use crate::erased::{error, failure, function, inner, inputs, seen, values, view, watched};
+use crate::erased::{error, failure, function, inner, inputs, seen, values, view};
 use crate::tree;
 
-pub use crate::erased::input_table::{InputTableError, with_inputs};
+pub use crate::erased::input_table::{InputTable, InputTableError};
+pub use conflict::RunConflict;
 pub use error::{Error, PathError, SceneError, UnknownName};
 pub use failure::SimulationError;
 pub use function::{FunctionId, OutputFunction};
 pub use inputs::{InputId, InputInfo, InputOwner};
 pub use mechanism::Mechanism;
 pub use part::{Id, Part};
+pub use result::RunResult;
+pub use run::{Goal, Run, Watchers, run, run_with};
 pub use simulation::{Simulation, Snapshot};
 pub use study::{
-    EquilibriumOptions, Run, RunResult, equilibrium, linearize, linearize_at, linearize_frozen,
-    linearize_frozen_at, linearize_steady, linearize_steady_at, modes, run, run_with,
+    EquilibriumOptions, equilibrium, linearize, linearize_at, linearize_frozen,
+    linearize_frozen_at, linearize_steady, linearize_steady_at, modes,
 };
 pub use table::Table;
 pub use values::{

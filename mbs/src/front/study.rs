@@ -1,117 +1,16 @@
-//! Studies of a mechanism: what needs a model or a whole run of it, each with a typed result.
+//! Studies of a mechanism that need a model of it: equilibrium and linear systems, each with a typed result.
 
 use super::failure::SimulationError;
 use super::inner::started;
-use super::inputs::Inputs;
 use super::mechanism::Mechanism;
-use super::table::Table;
 use super::tree::Tree;
-use super::view::Observer;
-use super::watched::Watched;
 use crate::equilibrium::Search;
 use crate::linear_system::{LinearSystem, LinearizeOptions};
 use crate::modes::Modes;
 use crate::names::Names;
 use crate::placed::Place;
-use crate::record::RunSummary;
-use crate::run::Outcome;
-use crate::settings::Method;
 use crate::statics::StaticEquilibrium;
 use mbs_core::scene::Scene;
-
-/// Options of a run: the method, its duration included.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Run {
-    /// Method by which the mechanism is stepped; what it leaves open is the mechanism's.
-    pub method: Method,
-}
-
-impl Run {
-    /// A run as the mechanism asks for it.
-    #[must_use]
-    pub fn new() -> Self {
-        Self::default()
-    }
-
-    /// Sets the method of the run. A [`duration`](Self::duration) that was given stays where the method has none.
-    #[must_use]
-    pub fn method(self, method: Method) -> Self {
-        let duration = method.duration.or(self.method.duration);
-        Self { method: Method { duration, ..method } }
-    }
-
-    /// Sets the duration [s], in place of the mechanism's; left out in both, 1 s.
-    #[must_use]
-    pub fn duration(mut self, duration: f64) -> Self {
-        self.method.duration = Some(duration);
-        self
-    }
-}
-
-/// Result of a run.
-#[derive(Debug)]
-#[non_exhaustive]
-pub struct RunResult {
-    /// Table of the outputs over time.
-    pub table: Table,
-    /// Reason why the run stopped early; the table then ends there.
-    pub stop: Option<SimulationError>,
-    /// Summary of counts, energies and violations: the object that `mbs run --json` prints.
-    pub summary: RunSummary,
-    /// Notes that the user should know.
-    pub notes: Vec<String>,
-}
-
-/// Runs a mechanism to its end. One that stops early is a result with [`stop`](RunResult::stop).
-///
-/// # Errors
-/// [`SimulationError`] for a mechanism or a method that is refused.
-///
-/// # Examples
-/// ```
-/// use mbs::{Body, GROUND, Joint, Mechanism, Run, run};
-/// let mut m = Mechanism::planar("pendulum");
-/// m.set_gravity([0.0, -9.81]);
-/// let bob = m.add(Body::planar([1.0, 0.0], 1.0, 0.0));
-/// m.add(Joint::revolute([GROUND, bob], [0.0, 0.0]).named("pivot"));
-/// let result = run(&m, &Run::new().duration(1.0))?;
-/// let angle = result.table.column("pivot").unwrap().last().unwrap();
-/// // let go at the horizontal, the bob has turned by -2.9758 rad after 1 s
-/// assert!((angle + 2.9758).abs() < 1e-4 && result.stop.is_none());
-/// # Ok::<(), mbs::SimulationError>(())
-/// ```
-pub fn run(m: &Mechanism, options: &Run) -> Result<RunResult, SimulationError> {
-    run_with(m, options, &mut [])
-}
-
-/// Runs a mechanism as [`run`] does, before observers: they set inputs on the way, read the mechanism after each step, and may end the run.
-///
-/// Where there is an observer or an output that is code, the turns of all joints are followed. A joint that turns by more than half a circle
-/// in a step then stops a run that would not have read it.
-///
-/// # Errors
-/// As for [`run`].
-pub fn run_with(
-    m: &Mechanism,
-    options: &Run,
-    observers: &mut [&mut dyn Observer],
-) -> Result<RunResult, SimulationError> {
-    let (read, settings, scene) = m.prepared(&options.method)?;
-    settings.check_step(&scene, &options.method)?;
-    let names = Names::new(&scene);
-    let inputs = Inputs::new(&scene);
-    let functions = m.functions();
-    let watched = Watched { settings: &settings, names: &names, inputs, observers, functions };
-    let outcome = watched.run(&read);
-    let Outcome { summary, error, .. } = &outcome;
-    let stop = error.clone().map(|e| SimulationError::stopped(e, summary.end_time, &names));
-    Ok(RunResult {
-        table: Table::new(outcome.channels(), outcome.rows()),
-        stop,
-        summary: outcome.summary.clone(),
-        notes: outcome.notes().to_vec(),
-    })
-}
 
 /// Options of the search for an equilibrium.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

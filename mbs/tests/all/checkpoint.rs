@@ -7,8 +7,8 @@ use mbs::record::Provenance;
 use mbs::scene_file::SceneFile;
 use mbs::typed::Simulation;
 use mbs::{
-    CHECKPOINT, Checkpoint, CheckpointWriter, FormulationKind, Method, Outcome, ResolvedMethod,
-    run_document, run_document_kept,
+    CHECKPOINT, Checkpoint, FormulationKind, Mechanism, Method, Outcome, ResolvedMethod, Run,
+    Watchers, run, run_with,
 };
 use std::time::Duration;
 
@@ -55,15 +55,13 @@ const COARSE: Duration = Duration::from_millis(20);
 fn split(name: &str, overrides: &Method, every: f64) -> Outcome {
     let document = std::fs::read(path(name)).expect("the scene is in the repository");
     let document = SceneFile::from_bytes(&document, name).expect("TOML");
-    let scene = document.scene::<f64>().expect("a scene");
-    let settings = ResolvedMethod::new(&scene, overrides).expect("good settings");
-    let both = (&document, &scene);
+    let mechanism = Mechanism::of_file(document).expect("a scene");
+    let options = Run::new().method(overrides.clone());
     let what = format!("{name} {overrides:?}");
-    let whole = run_document(both, &settings, &mut |_| {}).expect("a scene");
+    let whole = run(&mechanism, &options).expect("a scene").into_outcome();
 
     let out = scratch(&format!("checkpoint-split-{:?}-{name}", std::thread::current().id()));
-    let (mut writer, mut kept) =
-        (CheckpointWriter::new(&out, every).expect("a directory of ours"), Vec::<Vec<u8>>::new());
+    let mut kept = Vec::<Vec<u8>>::new();
     let mut of_last = None;
     let mut look = |_| {
         let file = out.join(CHECKPOINT);
@@ -78,18 +76,19 @@ fn split(name: &str, overrides: &Method, every: f64) -> Outcome {
             kept.push(now);
         }
     };
-    let outcome = run_document_kept(both, &settings, &mut look, (None, Some(&mut writer)));
-    let outcome = outcome.expect("a scene").expect("no checkpoint to refuse");
-    same(&results(&whole), &results(&outcome), &what);
+    let options = options.checkpoints(&out, every);
+    let result = run_with(&mechanism, &options, &mut Watchers::progress(&mut look));
+    let result = result.expect("a folder of ours");
+    same(&results(&whole), &results(result.outcome()), &what);
+    let writer = result.checkpoints().expect("it is kept");
     assert!(writer.failure().is_none() && kept.len() >= 3, "{what}: {} kept", kept.len());
 
     for bytes in &kept {
         let checkpoint = Checkpoint::read(&bytes[..]).expect("it is whole");
-        let settings = checkpoint.settings(&scene, &Method::default()).expect("they agree");
-        let parts = (Some(&checkpoint), None);
-        let outcome = run_document_kept(both, &settings, &mut |_| {}, parts);
-        let outcome = outcome.expect("a scene").unwrap_or_else(|e| panic!("{what}: {e}"));
-        same(&results(&whole), &results(&outcome), &format!("{what} from {} s", checkpoint.time()));
+        let from = format!("{what} from {} s", checkpoint.time());
+        let result = run(&mechanism, &Run::new().resume(checkpoint));
+        let result = result.unwrap_or_else(|e| panic!("{from}: {e}"));
+        same(&results(&whole), &results(result.outcome()), &from);
     }
     let _ = std::fs::remove_dir_all(out);
     whole

@@ -201,8 +201,8 @@ fn equilibrium_modes_and_runs_see_laws_in_code() {
         assert!((x.frequency() - y.frequency()).abs() < 1e-7, "{x:?} {y:?}");
     }
     let [a, b] = [&library, &code].map(|m| run(m, &Run::new()).expect("a run"));
-    assert!(a.stop.is_none() && b.stop.is_none());
-    let ends = [&a, &b].map(|r| r.table.column("joint-2").expect("an angle").last().copied());
+    assert!(a.stop().is_none() && b.stop().is_none());
+    let ends = [&a, &b].map(|r| r.table().column("joint-2").expect("an angle").last().copied());
     assert!((ends[0].unwrap_or(0.0) - ends[1].unwrap_or(1.0)).abs() < 1e-11, "{ends:?}");
     // A tree has the joints; forces of effects act nowhere there.
     assert_eq!(code.tree().expect("a tree").coordinates().len(), 2);

@@ -29,21 +29,21 @@ fn limits(range: [f64; 2], velocity: f64) -> JointLimits<Number> {
 fn a_run_notes_each_limit_once_with_joint_and_time_in_every_formulation() {
     for kind in FormulationKind::listed() {
         let run = |limits| mbs::run(&wheel(limits), &by(kind)).expect("it runs");
-        let noted = run(limits([-1.0, 0.99], 1.5)).notes;
+        let noted = run(limits([-1.0, 0.99], 1.5)).notes().to_vec();
         let expected = [
             "joint `hinge` leaves its range above 0.99 rad at t = 0.5 s, by up to 1.01 rad",
             "the rate of joint `hinge` passes its limit of 1.5 rad/s at t = 0 s, by up to 0.5 rad/s",
         ];
         assert_eq!(noted, expected, "{}", kind.name());
-        let below = run(limits([0.5, 3.0], 2.5)).notes;
+        let below = run(limits([0.5, 3.0], 2.5)).notes().to_vec();
         let expected =
             ["joint `hinge` leaves its range below 0.5 rad at t = 0 s, by up to 0.5 rad"];
         assert_eq!(below, expected, "{}", kind.name());
         // what is not left is not noted, and nothing moves otherwise
         let plain = run(JointLimits::NONE);
-        assert_eq!(plain.notes, [""; 0], "{}", kind.name());
+        assert_eq!(plain.notes(), [""; 0], "{}", kind.name());
         for other in [run(limits([-1.0, 2.5], 2.5)), run(limits([-1.0, 0.5], 1.0))] {
-            assert_eq!(other.table, plain.table, "{}", kind.name());
+            assert_eq!(other.table(), plain.table(), "{}", kind.name());
         }
     }
 }
@@ -60,7 +60,7 @@ fn turns_count_and_a_guide_that_reaches_the_end_of_its_range_does_not_leave_it()
     let sine = Motion::Sine { amplitude: most, frequency, phase };
     m.add(Guide::new(hinge, sine));
     for kind in FormulationKind::listed() {
-        let notes = |m: &Mechanism| mbs::run(m, &by(kind)).expect("it runs").notes;
+        let notes = |m: &Mechanism| mbs::run(m, &by(kind)).expect("it runs").notes().to_vec();
         assert!(notes(&m).iter().all(|note| !note.contains("range")), "{:?}", notes(&m));
         let mut narrow = m.clone();
         narrow.part_mut(hinge).limits.range = Some([(-6.5).into(), 7.0.into()]);
@@ -93,7 +93,7 @@ fn stops_without_numbers_are_those_of_the_moved_inertia() {
     for kind in FormulationKind::listed() {
         let run = |stops| {
             let method = Method { step: Some(1e-3), ..Method::new(kind) };
-            mbs::run(&pendulum(stops), &Run::new().method(method)).expect("it runs").table
+            mbs::run(&pendulum(stops), &Run::new().method(method)).expect("it runs").table().clone()
         };
         let (found, expected) = (run(Effect::stops(hinge)), run(explicit.clone()));
         let [found, expected] = [&found, &expected].map(|t| t.column("hinge").expect("a column"));

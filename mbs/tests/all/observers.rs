@@ -6,7 +6,7 @@ use mbs::core::control::Accepted;
 use mbs::{
     Body, Effect, EffectId, Error, FormulationKind, GROUND, InputId, IntegratorKind, Joint,
     JointId, Mechanism, Method, Observer, Output, OutputId, ResolvedMethod, Run, RunInputs, Signal,
-    SimulationError, StepReport, StopError, View, run, run_with, typed,
+    SimulationError, StepReport, StopError, View, Watchers, run, run_with, typed,
 };
 
 /// Length of a step [s].
@@ -94,8 +94,9 @@ fn a_controller_in_a_run_has_the_bits_of_one_around_a_simulation() {
     for method in methods() {
         let mut hold = Hold::new(&arm);
         let options = Run::new().method(method.clone());
-        let result = run_with(&arm.mechanism, &options, &mut [&mut hold]).expect("it runs");
-        assert_eq!((result.stop.map(|e| e.to_string()), hold.ends), (None, 1));
+        let result = run_with(&arm.mechanism, &options, &mut Watchers::observers(&mut [&mut hold]))
+            .expect("it runs");
+        assert_eq!((result.stop().map(|e| e.to_string()), hold.ends), (None, 1));
 
         let mut sim = arm.mechanism.simulate(&method).expect("it starts");
         let input = sim.input_of(arm.motor).expect("it has one");
@@ -106,10 +107,10 @@ fn a_controller_in_a_run_has_the_bits_of_one_around_a_simulation() {
             let own = [sim.time(), tip[0], tip[1]].map(f64::to_bits);
             assert_eq!(hold.seen[k].map(f64::to_bits), own, "{method:?}, step {k}");
         }
-        let of = |name| result.table.column(name).expect("an output");
+        let of = |name| result.table().column(name).expect("an output");
         for (row, seen) in hold.seen.iter().enumerate() {
             let recorded =
-                [result.table.time()[row + 1], of("tip.x")[row + 1], of("tip.y")[row + 1]];
+                [result.table().time()[row + 1], of("tip.x")[row + 1], of("tip.y")[row + 1]];
             assert_eq!(recorded.map(f64::to_bits), seen.map(f64::to_bits), "{method:?}, row {row}");
         }
     }
@@ -156,16 +157,18 @@ fn an_observer_ends_a_run_and_its_rows_stay() {
     {
         let is_break = code.is_none();
         let mut ends = Ends { at: 0.1, by, is_break, stop: None };
-        let result = run_with(&arm.mechanism, &Run::new(), &mut [&mut ends]).expect("it starts");
-        assert_eq!(result.stop.as_ref().map(Error::code), code);
+        let result =
+            run_with(&arm.mechanism, &Run::new(), &mut Watchers::observers(&mut [&mut ends]))
+                .expect("it starts");
+        assert_eq!(result.stop().as_ref().map(Error::code), code);
         assert_eq!(ends.stop.as_deref(), code);
-        let hint = result.stop.as_ref().and_then(Error::hint);
+        let hint = result.stop().as_ref().and_then(Error::hint);
         assert_eq!(hint.as_deref() == Some("wait"), code == Some("too-hot"));
-        assert_eq!(result.summary.completed, is_break);
-        assert!((result.summary.end_time - 0.1).abs() < 1e-12);
-        let n = result.table.len();
+        assert_eq!(result.summary().completed, is_break);
+        assert!((result.summary().end_time - 0.1).abs() < 1e-12);
+        let n = result.table().len();
         assert_eq!(n, 101);
-        assert_eq!(result.table.column("tip.y"), whole.table.column("tip.y").map(|y| &y[..n]));
+        assert_eq!(result.table().column("tip.y"), whole.table().column("tip.y").map(|y| &y[..n]));
     }
 }
 
@@ -177,8 +180,9 @@ fn an_observer_that_only_looks_changes_no_bit() {
     for method in methods() {
         let options = Run::new().method(method);
         let alone = run(&arm.mechanism, &options).expect("it runs");
-        let seen = run_with(&arm.mechanism, &options, &mut [&mut Looks]).expect("it runs");
-        assert_eq!(alone.table, seen.table);
+        let seen = run_with(&arm.mechanism, &options, &mut Watchers::observers(&mut [&mut Looks]))
+            .expect("it runs");
+        assert_eq!(alone.table(), seen.table());
     }
 }
 
@@ -192,14 +196,14 @@ fn an_output_in_code_is_a_column_and_a_reading_with_the_same_bits() {
     let reach = m.add_function("reach", reach);
     for method in methods() {
         let result = run(&m, &Run::new().method(method.clone())).expect("it runs");
-        let column = result.table.column("reach").expect("a column");
+        let column = result.table().column("reach").expect("a column");
         let mut sim = m.simulate(&method).expect("it starts");
         for value in column {
             assert_eq!(value.to_bits(), sim.function(reach).to_bits());
             sim.step(STEP).expect("it steps");
         }
         let other = run(&arm().mechanism, &Run::new().method(method)).expect("it runs");
-        assert_eq!(result.table.column("tip.x"), other.table.column("tip.x"));
+        assert_eq!(result.table().column("tip.x"), other.table().column("tip.x"));
     }
 }
 
@@ -216,7 +220,7 @@ fn outputs_in_code_are_shared_by_clones_and_have_no_text() {
     // numbers by path, with the function kept
     m.set("body.body-1.mass", 2.5).expect("a path");
     let result = run(&m, &Run::new()).expect("it runs");
-    assert!(result.table.column("twice").is_some());
+    assert!(result.table().column("twice").is_some());
     // names are unique, and what is not finite is said
     m.add_function("tip", |_: &View<'_>| 0.0);
     let twice = m.check().expect_err("a name twice").to_string();
@@ -231,10 +235,10 @@ fn outputs_in_code_are_shared_by_clones_and_have_no_text() {
     let mut m = arm().mechanism;
     m.add_function("late", |now: &View<'_>| if now.time() < 0.1 { 0.0 } else { f64::NAN });
     let result = run(&m, &Run::new()).expect("it starts");
-    let stop = result.stop.expect("it stops");
+    let stop = result.stop().expect("it stops");
     assert_eq!(stop.code(), "output-not-finite");
     assert!(stop.to_string().contains("`late`"), "{stop}");
-    assert_eq!(result.table.len(), 100);
+    assert_eq!(result.table().len(), 100);
 }
 
 /// Keeps the coordinates after each step.

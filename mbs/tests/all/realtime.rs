@@ -5,10 +5,12 @@ mod document;
 
 use crate::common;
 use crate::common::allocations;
-use mbs::realtime::{Clock, Degrade, Overrun, Pacing, PacingError, Recovery, run_document};
+use mbs::realtime::{Clock, Degrade, Overrun, Pacing, PacingError, Recovery};
 use mbs::scene_file::SceneFile;
 use mbs::typed::Simulation;
-use mbs::{Method, Outcome, ResolvedMethod, SwitchError};
+use mbs::{
+    Mechanism, Method, Outcome, ResolvedMethod, Run, RunResult, SwitchError, Watchers, run_with,
+};
 use std::cell::Cell;
 use std::time::Duration;
 
@@ -55,9 +57,18 @@ fn paced(
     pacing: &Pacing,
     clock: &mut ScriptedClock,
 ) -> Result<Outcome, PacingError> {
-    let scene = document.scene::<f64>().expect("a scene");
-    let settings = ResolvedMethod::new(&scene, overrides).expect("settings");
-    run_document((document, &scene), &settings, pacing, clock)
+    let mechanism = Mechanism::of_file(document.clone()).expect("a scene");
+    let options = Run::new().method(overrides.clone()).pacing(pacing.clone());
+    let run = run_with(&mechanism, &options, &mut Watchers::clock(clock));
+    run.map(RunResult::into_outcome)
+        .map_err(|error| error.cause::<PacingError>().expect("a refusal of the pace").clone())
+}
+
+/// The same run, as fast as it can.
+fn plain(document: &SceneFile, overrides: &Method) -> Outcome {
+    let mechanism = Mechanism::of_file(document.clone()).expect("a scene");
+    let run = mbs::run(&mechanism, &Run::new().method(overrides.clone()));
+    run.expect("a run").into_outcome()
 }
 
 fn asked(formulation: &str, step: f64, duration: f64) -> Method {
@@ -82,9 +93,7 @@ fn pacing_changes_no_bit_of_the_results() {
         // Not a multiple: the last period is shorter.
         let step = document.scene::<f64>().expect("a scene").duration / 2000.5;
         let overrides = Method { duration: None, ..asked(formulation, step, 1.0) };
-        let scene = document.scene::<f64>().expect("a scene");
-        let settings = ResolvedMethod::new(&scene, &overrides).expect("settings");
-        let plain = mbs::run_document((&document, &scene), &settings, &mut |_| {}).expect("a run");
+        let plain = plain(&document, &overrides);
         let run = paced(&document, &overrides, &Pacing::default(), &mut ScriptedClock::default());
         let run = run.expect("it is paced");
         assert!(plain.summary.completed && run.summary.completed, "{name}");
@@ -98,9 +107,7 @@ fn pacing_changes_no_bit_of_the_results() {
 fn a_period_of_several_steps_has_the_results_of_these_steps() {
     let document = document("double-pendulum");
     let fine = asked("index-3", 1e-3, 0.5);
-    let scene = document.scene::<f64>().expect("a scene");
-    let settings = ResolvedMethod::new(&scene, &fine).expect("settings");
-    let plain = mbs::run_document((&document, &scene), &settings, &mut |_| {}).expect("a run");
+    let plain = plain(&document, &fine);
     let pacing = Pacing { period: Some(5e-3), ..Pacing::default() };
     let run = paced(&document, &fine, &pacing, &mut ScriptedClock::default()).expect("it is paced");
     assert_eq!((run.rows().len(), run.summary.steps), (101, 500));
@@ -255,7 +262,7 @@ fn degraded(document: &SceneFile, overrides: &Method, words: &[&str]) -> (Outcom
     let late = Duration::from_millis(200);
     let mut clock = ScriptedClock { oversleeps: Some((100, late)), ..ScriptedClock::default() };
     let run = paced(document, overrides, &pacing, &mut clock);
-    (run.unwrap_or_else(|e| panic!("{}", e.render())), clock)
+    (run.unwrap_or_else(|e| panic!("{e}")), clock)
 }
 
 #[test]
@@ -384,7 +391,7 @@ fn what_cannot_be_left_out_while_a_scene_runs_is_refused() {
     assert_eq!(refused(&slider(), "index-3", &["steps"], 1e-3), steps(false));
     assert_eq!(refused(&slider(), "index-3", &["steps", "steps", "steps"], 4e-3), steps(false));
     let unknown = refused(&slider(), "index-3", &["sprig"], 4e-3).expect("there is no such effect");
-    assert!(unknown.hint().contains("`spring`"), "{}", unknown.render());
+    assert!(unknown.hint().contains("`spring`"), "{}", unknown);
     for (period, awake) in [(0.0, 0.0), (-1.0, 0.0), (f64::NAN, 0.0), (1e-3, -1.0), (1e-3, 2.0)] {
         let pacing = Pacing { period: Some(period), awake, ..Pacing::default() };
         let run =

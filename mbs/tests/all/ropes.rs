@@ -25,13 +25,13 @@ fn a_part_that_has_no_length_left_stops_the_run_in_every_formulation() {
     for kind in FormulationKind::listed() {
         let method = Method { step: Some(1e-3), ..Method::new(kind) };
         let result = mbs::run(&atwood(), &Run::new().method(method)).expect("it starts");
-        let stop = result.stop.unwrap_or_else(|| panic!("{} does not stop", kind.name()));
+        let stop = result.stop().unwrap_or_else(|| panic!("{} does not stop", kind.name()));
         assert_eq!(stop.code(), "rope-collapsed", "{}: {stop}", kind.name());
         let message = stop.to_string();
         for part in ["`hoist`", "from `ground` to `body-2`", "part 3", "no length left"] {
             assert!(message.contains(part), "{}: {message}", kind.name());
         }
-        let time = *result.table.time().last().expect("a row");
+        let time = *result.table().time().last().expect("a row");
         assert!((0.0..2e-3).contains(&(meeting - time)), "{}: {time}, {meeting}", kind.name());
     }
 }
@@ -47,7 +47,7 @@ fn a_part_that_only_turns_keeps_its_rope() {
     for kind in FormulationKind::listed() {
         let method = Method { step: Some(5e-3), ..Method::new(kind) };
         let result = mbs::run(&m, &Run::new().method(method)).expect("it starts");
-        assert!(result.stop.is_none(), "{}: {:?}", kind.name(), result.stop);
+        assert!(result.stop().is_none(), "{}: {:?}", kind.name(), result.stop());
     }
 }
 
@@ -62,9 +62,9 @@ fn explicit_steps_and_methods_with_error_control_stop_there_too() {
     };
     for integrator in ["rk4", "rk54", "rk853", "gbs", "radau5"] {
         let result = mbs::run(&atwood(), &Run::new().method(by(integrator))).expect("it starts");
-        let stop = result.stop.unwrap_or_else(|| panic!("{integrator} does not stop"));
+        let stop = result.stop().unwrap_or_else(|| panic!("{integrator} does not stop"));
         assert_eq!(stop.code(), "rope-collapsed", "{integrator}: {stop}");
-        let time = *result.table.time().last().expect("a row");
+        let time = *result.table().time().last().expect("a row");
         assert!((0.0..2e-3).contains(&(meeting - time)), "{integrator}: {time}, {meeting}");
     }
 }
@@ -93,7 +93,7 @@ fn a_rope_that_would_have_to_push_is_noted_with_its_time_and_force() {
         let notes = |frequency: f64, coupling: &str| {
             let m = Mechanism::parse(&text(frequency, coupling)).expect("a scene");
             let method = Method { step: Some(1e-3), ..Method::new(kind) };
-            mbs::run(&m, &Run::new().method(method)).expect("it runs").notes
+            mbs::run(&m, &Run::new().method(method)).expect("it runs").notes().to_vec()
         };
         // 0.1 (2 pi f)^2 = 9.81 at 1.576 Hz
         assert_eq!(notes(1.5, rope), [""; 0], "{}", kind.name());

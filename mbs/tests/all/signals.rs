@@ -6,7 +6,9 @@ use mbs::core::scene::{
 };
 use mbs::scene_file::SceneFile;
 use mbs::typed::Simulation;
-use mbs::{InputOwner, InputTableError, Mechanism, Method, ResolvedMethod, with_inputs};
+use mbs::{
+    InputOwner, InputTable, InputTableError, Mechanism, Method, ResolvedMethod, SimulationError,
+};
 use mbs_testkit::scene;
 
 /// Every formulation with the trapezoidal rule and fixed steps.
@@ -240,18 +242,23 @@ fn motor(course: &str) -> String {
     format!("{WHEEL}[[effect]]\nname = \"motor\"\nkind = \"torque\"\njoint = \"axle\"\n{course}\n")
 }
 
+/// A mechanism whose inputs follow a table of CSV.
+fn following(document: SceneFile, csv: &[u8], file: &str) -> Result<Mechanism, SimulationError> {
+    Mechanism::of_file(document).expect("a scene").following(&InputTable::csv(csv, file))
+}
+
 #[test]
 fn inputs_that_follow_a_file_are_the_tables_of_it() {
     let file = |text: &str| SceneFile::parse(text, "wheel.toml").expect("TOML");
     let document = file(&motor("value = 7\ninput = true"));
     let csv = "t, motor\n0.1,0\n0.25, 1.5 # no\n".replace(" # no", "");
-    let followed = with_inputs(&document, csv.as_bytes(), "motor.csv").expect("a table");
+    let followed = following(document, csv.as_bytes(), "motor.csv").expect("a table");
     let inline = file(&motor("table = [[0.1, 0], [0.25, 1.5]]")).scene::<f64>().expect("a scene");
-    assert_eq!(followed.scene::<f64>().expect("a scene"), inline);
+    assert_eq!(followed.resolve().expect("a scene"), inline);
     let of_signal = "signal = \"s\"\n[[signal]]\nname = \"s\"\nkind = \"input\"\n";
     let document = file(&motor(of_signal));
-    let followed = with_inputs(&document, b"t,s\n0.1,0\n0.25,1.5\n", "s.csv").expect("a table");
-    let named = followed.scene::<f64>().expect("a scene");
+    let followed = following(document, b"t,s\n0.1,0\n0.25,1.5\n", "s.csv").expect("a table");
+    let named = followed.resolve().expect("a scene");
     for ((formulation, mut a), (_, mut b)) in simulations(&inline).zip(simulations(&named)) {
         for _ in 0..300 {
             a.step(1e-3).expect("a regular step");
@@ -261,8 +268,8 @@ fn inputs_that_follow_a_file_are_the_tables_of_it() {
     }
     let of_guide = "[[guide]]\njoint = \"axle\"\ninput = { value = 0 }\n";
     let document = file(&format!("{}{of_guide}", WHEEL.replace("rate = 0.0\n", "")));
-    let followed = with_inputs(&document, b"t,axle\n0,0\n1,1\n2,4\n", "axle.csv").expect("a table");
-    let law = &followed.scene::<f64>().expect("a scene").guides[0].law;
+    let followed = following(document, b"t,axle\n0,0\n1,1\n2,4\n", "axle.csv").expect("a table");
+    let law = &followed.resolve().expect("a scene").guides[0].law;
     let rows = vec![[0.0, 0.0], [1.0, 1.0], [2.0, 4.0]];
     assert_eq!(*law, Motion::Table { rows, ends: TableEnds::Natural });
 }
@@ -284,7 +291,8 @@ fn tables_of_inputs_that_cannot_be_meant_are_refused_at_their_place() {
         ("t\n0\n", "1:1: there is no input beside `t`"),
         ("", "1:1: there is no row of values"),
     ] {
-        let refused = with_inputs(&document, csv.as_bytes(), "m.csv").expect_err(csv);
+        let refused = following(document.clone(), csv.as_bytes(), "m.csv").expect_err(csv);
+        let refused = refused.cause::<InputTableError>().expect("a table").clone();
         assert_eq!(refused.to_string(), format!("m.csv:{message}"));
         let InputTableError::Table { hint, .. } = refused else { panic!("a table") };
         assert!(!hint.is_empty(), "{csv}");

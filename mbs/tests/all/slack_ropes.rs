@@ -211,7 +211,7 @@ fn the_message_names_effect_part_and_bodies() {
     for kind in FormulationKind::listed() {
         let method = Method { step: Some(1e-3), ..Method::new(kind) };
         let result = mbs::run(&m, &Run::new().method(method)).expect("it starts");
-        let stop = result.stop.unwrap_or_else(|| panic!("{} does not stop", kind.name()));
+        let stop = result.stop().unwrap_or_else(|| panic!("{} does not stop", kind.name()));
         assert_eq!(stop.code(), "rope-collapsed", "{}: {stop}", kind.name());
         let message = stop.to_string();
         for part in ["`hoist`", "from `ground` to `body-2`", "part 3", "no length left"] {

@@ -123,7 +123,7 @@ fn a_guide_by_a_monotone_table_stays_between_its_rows() {
 fn notes(text: &str, kind: FormulationKind) -> Vec<String> {
     let m = Mechanism::parse(text).expect("a scene");
     let method = Method { step: Some(1e-3), duration: Some(0.1), ..Method::new(kind) };
-    mbs::run(&m, &Run::new().method(method)).expect("it runs").notes
+    mbs::run(&m, &Run::new().method(method)).expect("it runs").notes().to_vec()
 }
 
 /// A shaft at 2 rad/s, whose cam holds a follower of 2 kg up or down on a vertical slide, or turns it.

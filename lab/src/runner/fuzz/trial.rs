@@ -5,7 +5,7 @@ use crate::fuzz::torn::torn;
 use mbs::core::scene::Scene;
 use mbs::scene_file::Dice;
 use mbs::scene_file::SceneFile;
-use mbs::{FormulationKind, Method, ResolvedMethod};
+use mbs::{FormulationKind, Mechanism, Method, Run, SettingsError};
 
 /// Steps of a run.
 const STEPS: f64 = 6.0;
@@ -67,6 +67,10 @@ pub fn trial(text: &[u8], turn: usize) -> Verdict {
         Ok(scene) => scene,
         Err(error) => return refusal(&error.render()),
     };
+    let mechanism = match Mechanism::of_file(document.clone()) {
+        Ok(mechanism) => mechanism,
+        Err(error) => return refusal(&error.render()),
+    };
     let precision = match turn % OTHER_PRECISIONS {
         0 => "f32",
         1 if scene.bodies.len() <= SMALL => "dd",
@@ -82,7 +86,7 @@ pub fn trial(text: &[u8], turn: usize) -> Verdict {
             continue;
         }
         let share = if i < always { 1.0 } else { SHORTER };
-        match run((&document, &scene), method, (precision, share)) {
+        match run((&mechanism, &scene), method, (precision, share)) {
             Ok(Some(true)) => completed += 1,
             Ok(Some(false)) => stopped += 1,
             Ok(None) => {}
@@ -113,7 +117,7 @@ fn refusal(words: &str) -> Verdict {
 
 /// Runs a scene for some steps, of a share of its own step: was it completed? Nothing where it is refused.
 fn run(
-    (document, scene): (&SceneFile, &Scene<f64>),
+    (mechanism, scene): (&Mechanism, &Scene<f64>),
     [formulation, integrator, control]: [&str; 3],
     (precision, share): (&str, f64),
 ) -> Result<Option<bool>, String> {
@@ -128,14 +132,15 @@ fn run(
         duration: Some((STEPS * step).min(scene.duration)),
         ..Method::default()
     };
-    let Ok(settings) = ResolvedMethod::new(scene, &overrides) else { return Ok(None) };
-    let outcome = match mbs::run_document((document, scene), &settings, &mut |_| {}) {
-        Ok(outcome) => outcome,
-        Err(error) => match refusal(&error.render()) {
+    let result = match mbs::run(mechanism, &Run::new().method(overrides)) {
+        Ok(result) => result,
+        Err(error) if error.cause::<SettingsError>().is_some() => return Ok(None),
+        Err(error) => match refusal(&error.to_string()) {
             Verdict::Wrong(why) => return Err(why),
             _ => return Ok(None),
         },
     };
+    let outcome = result.outcome();
     let is_finite = outcome.rows().iter().flat_map(|(_, row)| row).all(|x| x.is_finite());
     match (outcome.summary.completed, &outcome.summary.error) {
         (true, Some(_)) => Err("completed with an error".to_owned()),

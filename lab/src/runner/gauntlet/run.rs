@@ -2,7 +2,7 @@
 
 use crate::gauntlet::case::Options;
 use mbs::scene_file::SceneFile;
-use mbs::{FormulationKind, Method, ResolvedMethod};
+use mbs::{FormulationKind, Mechanism, Method, Run};
 use std::cell::RefCell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -92,18 +92,15 @@ fn go(scene: &str, overrides: &Method) -> Ran {
         Ok(document) => document,
         Err(error) => return Ran::Broken(format!("refused: {}", error.render())),
     };
-    let scene = match document.scene::<f64>() {
-        Ok(scene) => scene,
+    let mechanism = match Mechanism::of_file(document) {
+        Ok(mechanism) => mechanism,
         Err(error) => return Ran::Broken(format!("refused: {}", error.render())),
     };
-    let settings = match ResolvedMethod::new(&scene, overrides) {
-        Ok(settings) => settings,
+    let result = match mbs::run(&mechanism, &Run::new().method(overrides.clone())) {
+        Ok(result) => result,
         Err(error) => return Ran::Broken(format!("refused: {error}")),
     };
-    let outcome = match mbs::run_document((&document, &scene), &settings, &mut |_| {}) {
-        Ok(outcome) => outcome,
-        Err(error) => return Ran::Broken(format!("refused: {}", error.render())),
-    };
+    let outcome = result.outcome();
     if !outcome.rows().iter().flat_map(|(_, row)| row).all(|x| x.is_finite()) {
         return Ran::Broken("a row that is not finite".to_owned());
     }

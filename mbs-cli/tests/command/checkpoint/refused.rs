@@ -3,7 +3,7 @@
 use crate::files::{path, scratch};
 use crate::{json, run};
 use mbs::scene_file::SceneFile;
-use mbs::{CHECKPOINT, CheckpointWriter, Method, ResolvedMethod, run_document_kept};
+use mbs::{CHECKPOINT, Mechanism, Run};
 use std::path::{Path, PathBuf};
 
 /// The command is refused with exit status 1, and says all of these words.
@@ -24,13 +24,9 @@ fn left(name: &str) -> (PathBuf, PathBuf) {
     std::fs::copy(path("double-pendulum"), &file).expect("a copy");
     let read = std::fs::read(&file).expect("it was copied");
     let document = SceneFile::from_bytes(&read, "scene.toml").expect("TOML");
-    let scene = document.scene::<f64>().expect("a scene");
-    let overrides = Method { duration: Some(0.2), ..Method::default() };
-    let settings = ResolvedMethod::new(&scene, &overrides).expect("good settings");
-    let mut writer = CheckpointWriter::new(&out, 0.05).expect("a directory of ours");
-    let parts = (None, Some(&mut writer));
-    let done = run_document_kept((&document, &scene), &settings, &mut |_| {}, parts);
-    assert!(done.expect("a scene").is_ok_and(|outcome| outcome.summary.completed));
+    let mechanism = Mechanism::of_file(document).expect("a scene");
+    let done = mbs::run(&mechanism, &Run::new().duration(0.2).checkpoints(&out, 0.05));
+    assert!(done.is_ok_and(|result| result.summary().completed));
     (out, file)
 }
 

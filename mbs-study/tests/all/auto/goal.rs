@@ -2,6 +2,7 @@
 
 use mbs::{Method, Precision};
 use mbs_study::auto::{Goal, GoalError, time};
+use mbs_study::inside::auto::check_goal;
 
 #[test]
 fn times_are_read_with_their_units_and_minutes_are_not_guessed() {
@@ -17,17 +18,19 @@ fn times_are_read_with_their_units_and_minutes_are_not_guessed() {
 #[test]
 fn malformed_goals_are_refused() {
     let none = Method::default();
-    let error =
-        |e: f64| Goal { error: Some(e), deadline: None }.check(&none, (10.0, Precision::F64));
+    let check = |error: Option<f64>, deadline: Option<f64>| {
+        check_goal(&Goal { error, deadline }, &none, (10.0, Precision::F64))
+    };
+    let error = |e: f64| check(Some(e), None);
     for e in [0.0, -1e-3, 1.0, 20.0, f64::NAN, f64::INFINITY] {
         assert!(matches!(error(e), Err(GoalError::Error(_))), "{e}");
     }
     assert_eq!(error(1e-4), Ok(()));
-    let deadline =
-        |d: f64| Goal { error: None, deadline: Some(d) }.check(&none, (10.0, Precision::F64));
+    let deadline = |d: f64| check(None, Some(d));
     assert!(matches!(deadline(-1.0), Err(GoalError::Deadline(_))));
     assert!(matches!(deadline(20.0), Err(GoalError::TooLong(..))));
     let given = Method { step: Some(1e-3), ..Method::default() };
     let both = Goal { error: Some(1e-3), deadline: Some(1e-3) };
-    assert_eq!(both.check(&given, (10.0, Precision::F64)), Err(GoalError::Chosen("--step")));
+    let refused = check_goal(&both, &given, (10.0, Precision::F64));
+    assert_eq!(refused, Err(GoalError::Chosen("--step")));
 }

@@ -4,7 +4,7 @@ use super::items::{CASE, Case, saved};
 use super::layout::{Parts, sealed};
 use super::scratch;
 use mbs::core::scene::Scene;
-use mbs::typed::{Simulation, run_kept};
+use mbs::typed::{Recording, Simulation, run_recorded};
 use mbs::{Checkpoint, CheckpointError, CheckpointWriter, Method, ResolvedMethod};
 use proptest::prelude::*;
 use proptest::test_runner::{TestRng, TestRunner};
@@ -40,7 +40,12 @@ fn run_bytes(case: Case) -> (Scene<f64>, ResolvedMethod, Vec<u8>) {
     let settings = ResolvedMethod::new(&scene, &overrides).expect("good settings");
     let out = scratch("bytes");
     let mut writer = CheckpointWriter::new(&out, 0.01).expect("a directory of ours");
-    let done = run_kept::<f64, 2>(&scene, &settings, &mut (), (None, Some(&mut writer)));
+    let done = run_recorded::<f64, 2>(
+        &scene,
+        &settings,
+        &mut (),
+        Recording { writer: Some(&mut writer), ..Recording::default() },
+    );
     assert!(done.is_ok_and(|outcome| outcome.summary.completed));
     let bytes = std::fs::read(writer.path()).expect("it is there");
     std::fs::remove_dir_all(&out).expect("it is ours");
@@ -77,8 +82,8 @@ fn no_bytes_do_harm() {
                 // to the end it may be far, in steps that suit such a state
                 let _ = (0..20).try_for_each(|_| simulation.advance(case.rest()).map(|_| ()));
             } else if case.integrator == "trapezoidal" {
-                let from = (Some(&checkpoint), None);
-                let _ = run_kept::<f64, 2>(&scene, &settings, &mut (), from);
+                let from = Recording { from: Some(&checkpoint), ..Recording::default() };
+                let _ = run_recorded::<f64, 2>(&scene, &settings, &mut (), from);
             }
             Ok(())
         });

@@ -4,7 +4,7 @@ use super::layout::Parts;
 use super::{results, scratch};
 use crate::common::scene;
 use mbs::core::scene::Scene;
-use mbs::typed::{StepInputs, StepObserver, run_kept};
+use mbs::typed::{Recording, StepInputs, StepObserver, run_recorded};
 use mbs::{Checkpoint, CheckpointWriter, Method, ResolvedMethod, StopError};
 use std::path::PathBuf;
 
@@ -39,7 +39,12 @@ fn kept<const D: usize>(
     let mut writer = CheckpointWriter::new(&out, settings.step).expect("a directory of ours");
     let near = at - 2.0 * settings.step_max..at;
     let mut copies = Copies { near, path: writer.path(), first: Vec::new(), bytes: Vec::new() };
-    let whole = run_kept::<f64, D>(scene, settings, &mut copies, (None, Some(&mut writer)));
+    let whole = run_recorded::<f64, D>(
+        scene,
+        settings,
+        &mut copies,
+        Recording { writer: Some(&mut writer), ..Recording::default() },
+    );
     let whole = results(&whole.expect("no checkpoint to refuse"));
     std::fs::remove_dir_all(&out).expect("it is ours");
     let Copies { first, bytes, .. } = copies;
@@ -59,8 +64,8 @@ fn every_item_matters<const D: usize>(name: &str, overrides: &Method, at: f64, i
 
     let again = |bytes: &[u8]| {
         let checkpoint = read(bytes);
-        let from = (Some(&checkpoint), None);
-        results(&run_kept::<f64, D>(&scene, &settings, &mut (), from).expect("it is ours"))
+        let from = Recording { from: Some(&checkpoint), ..Recording::default() };
+        results(&run_recorded::<f64, D>(&scene, &settings, &mut (), from).expect("it is ours"))
     };
     assert!(whole == again(kept.bytes()), "{name}: what is kept is not all");
     for item in items {
@@ -125,7 +130,7 @@ fn processor_time_is_that_of_all_starts() {
     let nanoseconds: u64 = 100_000_000_000;
     let bytes = first.with("CPU time", &nanoseconds.to_le_bytes());
     let checkpoint = Checkpoint::read(&bytes[..]).expect("it is whole");
-    let from = (Some(&checkpoint), None);
-    let outcome = run_kept::<f64, 2>(&scene, &settings, &mut (), from).expect("it is ours");
+    let from = Recording { from: Some(&checkpoint), ..Recording::default() };
+    let outcome = run_recorded::<f64, 2>(&scene, &settings, &mut (), from).expect("it is ours");
     assert!(outcome.summary.cpu_seconds > 100.0);
 }

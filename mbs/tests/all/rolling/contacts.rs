@@ -192,7 +192,7 @@ fn a_contact_that_pulls_is_noted_with_its_time_and_force() {
         let notes = |frequency: f64| {
             let m = mbs::Mechanism::parse(&text(frequency)).expect("a scene");
             let run = mbs::run(&m, &mbs::Run::new().method(method()));
-            run.unwrap_or_else(|e| panic!("{formulation}: {e}")).notes
+            run.unwrap_or_else(|e| panic!("{formulation}: {e}")).notes().to_vec()
         };
         // 0.1 (2 pi f)^2 = 9.81 at 1.576 Hz
         assert_eq!(notes(1.5), [""; 0], "{formulation}");

@@ -1,4 +1,4 @@
-//! A scene document at the pace of a clock.
+//! A run at the pace of a clock.
 
 use super::error::PacingError;
 use super::ladder::{Sought, listed};
@@ -6,7 +6,6 @@ use super::measure::measured;
 use super::{Degrade, Overrun, Pace, Pacer, Pacing};
 use crate::choice::StepRule;
 use crate::precision::is_finer;
-use crate::precision::{ReadScene, SceneWork};
 use crate::run::{Outcome, PacedLevel, PacedSchedule, paced};
 use crate::settings::ResolvedMethod;
 use crate::settings::length::SAME_LENGTH;
@@ -14,11 +13,8 @@ use core::time::Duration;
 use mbs_core::Real;
 use mbs_core::scene::Scene;
 use mbs_realtime::Clock;
-use mbs_scene::SceneFile;
 
-/// Runs a scene at the pace of a clock, as `run_document` runs one as fast as it goes.
-///
-/// Programs that take what clock comes compile the steps only once.
+/// Runs a scene at the pace of a clock.
 ///
 /// With [`Overrun::Degrade`] and [`Degrade::Measured`] some seconds pass before the run begins.
 ///
@@ -26,32 +22,7 @@ use mbs_scene::SceneFile;
 ///
 /// # Errors
 /// [`PacingError`] for what cannot be paced as it is asked for; a run that stops is an [`Outcome`] with its error.
-pub fn run_document(
-    (document, scene): (&SceneFile, &Scene<f64>),
-    settings: &ResolvedMethod,
-    pacing: &Pacing,
-    clock: &mut dyn Clock,
-) -> Result<Outcome, PacingError> {
-    let read = ReadScene::new((document, scene), settings.precision).map_err(PacingError::Read)?;
-    read.work(Paced { settings, pacing, clock })
-}
-
-/// Run of a scene at the pace of a clock.
-struct Paced<'a> {
-    settings: &'a ResolvedMethod,
-    pacing: &'a Pacing,
-    clock: &'a mut dyn Clock,
-}
-
-impl SceneWork for Paced<'_> {
-    type Done = Result<Outcome, PacingError>;
-
-    fn done<T: Real, const D: usize>(self, scene: &Scene<T>) -> Self::Done {
-        run::<T, D>(scene, self.settings, self.pacing, self.clock)
-    }
-}
-
-fn run<T: Real, const D: usize>(
+pub fn run<T: Real, const D: usize>(
     scene: &Scene<T>,
     settings: &ResolvedMethod,
     pacing: &Pacing,

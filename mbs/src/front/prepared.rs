@@ -1,0 +1,131 @@
+//! A run that may begin: what a mechanism and the options of its run give together.
+
+use super::conflict::RunConflict;
+use super::mechanism::Mechanism;
+use super::result::RunResult;
+use super::run::{Run, Watchers};
+use crate::checkpoint::CheckpointWriter;
+use crate::erased::SimulationError;
+use crate::erased::inputs::Inputs;
+use crate::erased::scene_run::SceneRun;
+use crate::names::Names;
+use crate::precision::ReadScene;
+use crate::run::Outcome;
+use crate::settings::{Method, ResolvedMethod};
+use mbs_core::scene::Scene;
+use mbs_steps::realtime::{Clock, SystemClock};
+use std::borrow::Cow;
+use std::sync::OnceLock;
+
+/// A run that may begin: mechanism, scene and settings go together, and the options do not contradict each other.
+#[derive(Debug)]
+pub struct PreparedRun<'a> {
+    mechanism: Cow<'a, Mechanism>,
+    options: &'a Run,
+    /// Method as asked for, with the settings of the checkpoint to resume from.
+    pub method: Method,
+    /// Scene in `f64`, with the table that inputs follow.
+    pub scene: Scene<f64>,
+    /// Settings of the run; a pilot finds others where there is a goal.
+    pub settings: ResolvedMethod,
+}
+
+impl<'a> PreparedRun<'a> {
+    /// Checks mechanism and options, and decides what is left open.
+    ///
+    /// # Errors
+    /// [`SimulationError`] for what is refused.
+    pub fn new(m: &'a Mechanism, options: &'a Run) -> Result<Self, SimulationError> {
+        RunConflict::check(options, m.functions().len())?;
+        let method = match &options.resume {
+            Some(from) => from.overrides(&options.method).map_err(SimulationError::not_resumed)?,
+            None => options.method.clone(),
+        };
+        let mechanism = match &options.inputs {
+            Some(table) => Cow::Owned(m.following(table)?),
+            None => Cow::Borrowed(m),
+        };
+        let scene = mechanism.resolve()?;
+        let settings = ResolvedMethod::new(&scene, &method)?;
+        settings.check_step(&scene, &method)?;
+        let settings = match &options.resume {
+            Some(from) => from.settle(settings).map_err(SimulationError::not_resumed)?,
+            None => settings,
+        };
+        Ok(Self { mechanism, options, method, scene, settings })
+    }
+
+    /// Options of the run.
+    pub fn options(&self) -> &Run {
+        self.options
+    }
+
+    /// The scene in the precision of its run.
+    ///
+    /// # Errors
+    /// [`SimulationError`] where it cannot be had.
+    pub fn read(&self) -> Result<ReadScene<'_>, SimulationError> {
+        ReadScene::of(&*self.mechanism, Cow::Borrowed(&self.scene), self.settings.precision)
+    }
+
+    /// Runs to the end.
+    ///
+    /// # Errors
+    /// [`SimulationError`] for options that contradict their watchers, a folder of checkpoints that another run has, a checkpoint of
+    /// something else, and a pacing that is refused.
+    pub fn run(&self, watchers: &mut Watchers<'_, '_>) -> Result<RunResult, SimulationError> {
+        RunConflict::check_watchers(self.options, watchers)?;
+        let checkpoints = self.options.checkpoints.as_ref();
+        let writer = checkpoints.map(|(folder, every)| CheckpointWriter::new(folder, *every));
+        let mut writer = writer.transpose().map_err(SimulationError::not_resumed)?;
+        let read = self.read()?;
+        let outcome = self.outcome(&read, &self.settings, (watchers, writer.as_mut()))?;
+        let settings = self.settings.clone();
+        Ok(RunResult { checkpoints: writer, ..self.result(outcome, settings) })
+    }
+
+    /// Runs by one of several settings, which are of the same precision.
+    ///
+    /// # Errors
+    /// As for [`run`](Self::run).
+    pub fn run_by(
+        &self,
+        read: &ReadScene<'_>,
+        settings: &ResolvedMethod,
+        watchers: &mut Watchers<'_, '_>,
+    ) -> Result<Outcome, SimulationError> {
+        RunConflict::check_watchers(self.options, watchers)?;
+        self.outcome(read, settings, (watchers, None))
+    }
+
+    /// Result of an outcome with its settings.
+    pub fn result(&self, outcome: Outcome, settings: ResolvedMethod) -> RunResult {
+        let (names, mechanism) = (Names::new(&self.scene), self.mechanism.clone().into_owned());
+        let (checkpoints, table) = (None, OnceLock::new());
+        RunResult { outcome, settings, names, mechanism, checkpoints, table }
+    }
+
+    fn outcome(
+        &self,
+        read: &ReadScene<'_>,
+        settings: &ResolvedMethod,
+        (watchers, writer): (&mut Watchers<'_, '_>, Option<&mut CheckpointWriter>),
+    ) -> Result<Outcome, SimulationError> {
+        let mut system = SystemClock::new();
+        let clock: &mut dyn Clock = match &mut watchers.clock {
+            Some(clock) => *clock,
+            None => &mut system,
+        };
+        let run = SceneRun {
+            settings,
+            names: &Names::new(&self.scene),
+            keep: self.options.keep(),
+            functions: self.mechanism.functions(),
+            observers: (&mut *watchers.observers, Inputs::new(&self.scene)),
+            progress: watchers.progress.as_deref_mut().map(|listener| listener as _),
+            checkpoints: (self.options.resume.as_ref(), writer),
+            pace: self.options.pacing.as_ref().map(|pacing| (pacing, clock)),
+        };
+        run.run(read)
+    }
+}
