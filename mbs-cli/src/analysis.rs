@@ -4,7 +4,7 @@ use crate::files::folder;
 use crate::refusal::Refusal;
 use crate::run::stopped;
 use crate::say::{say, warn};
-use crate::scene::SceneArgument;
+use crate::scene::{CheckedScene, SceneArgument};
 use crate::status::STOPPED;
 use crate::table::fixed;
 use clap::{Args, ValueEnum};
@@ -109,7 +109,7 @@ fn command(
         let folder = common.out.as_ref().map(|out| folder(out, &[file])).transpose()?;
         Ok((both, folder))
     });
-    let ((document, scene), folder) = match begun {
+    let (CheckedScene { document, scene }, folder) = match begun {
         Ok(begun) => begun,
         Err(refusal) => return refusal.report(),
     };

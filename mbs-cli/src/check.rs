@@ -4,7 +4,7 @@ use crate::files;
 use crate::refusal::Refusal;
 use crate::run::stopped;
 use crate::say::{say, warn};
-use crate::scene::SceneArgument;
+use crate::scene::{CheckedScene, SceneArgument};
 use crate::status::REFUSED;
 use clap::Args;
 use mbs::scene_file::format::counted;
@@ -69,7 +69,7 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
 /// Reads a scene, checks its settings, and assembles it.
 fn check(path: &Path) -> Result<Sizes, Failure> {
     let refused = |refusal: Refusal| (refusal.error(), refusal.text());
-    let (document, scene) = SceneArgument::new(path, &[]).read().map_err(refused)?;
+    let CheckedScene { document, scene } = SceneArgument::new(path, &[]).read().map_err(refused)?;
     let settings = ResolvedMethod::new(&scene, &Method::default());
     settings.map_err(|error| refused(files::refusal(&error, &document)))?;
     let sizes = sizes_at_start(&scene).map_err(|error| {

@@ -1,7 +1,7 @@
 //! Command `mbs export SCENE`: a scene as constant tables for a controller.
 
 use crate::refusal::Refusal;
-use crate::scene::SceneArgument;
+use crate::scene::{CheckedScene, SceneArgument};
 use crate::{files, input};
 use clap::Args;
 use mbs::export::{ExportError, export, ladder};
@@ -37,7 +37,7 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
 }
 
 fn written(arguments: &Arguments) -> Result<(), Refusal> {
-    let (document, scene) = arguments.scene.read()?;
+    let CheckedScene { document, scene } = arguments.scene.read()?;
     let overrides = Method {
         formulation: Some("recursive".to_owned()),
         integrator: Some("trapezoidal".to_owned()),

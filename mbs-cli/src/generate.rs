@@ -99,7 +99,7 @@ fn text(arguments: &Arguments) -> Result<String, Refusal> {
                 let hint = "give the scene of one vehicle, such as --of scenes/iltis-stairs.toml";
                 return missing("a convoy needs --of", hint);
             };
-            let (vehicle, _): (SceneFile, _) = crate::scene::SceneArgument::new(of, &[]).read()?;
+            let vehicle = crate::scene::SceneArgument::new(of, &[]).read()?.document;
             let spacing = arguments.spacing.unwrap_or(SPACING);
             make(Family::Convoy { vehicle: &vehicle, count, spacing })
         }

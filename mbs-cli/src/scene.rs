@@ -23,6 +23,12 @@ pub(crate) struct SceneArgument {
     import: Vec<String>,
 }
 
+/// A scene file, and its scene in `f64`.
+pub(crate) struct CheckedScene {
+    pub(crate) document: SceneFile,
+    pub(crate) scene: Scene<f64>,
+}
+
 impl Deref for SceneArgument {
     type Target = Path;
 
@@ -43,11 +49,11 @@ impl SceneArgument {
     }
 
     /// Reads the tree of the file and the scene; else returns the refusal.
-    pub(crate) fn read(&self) -> Result<(SceneFile, Scene<f64>), Refusal> {
+    pub(crate) fn read(&self) -> Result<CheckedScene, Refusal> {
         let document = self.document()?;
         let scene = document.scene::<f64>();
         let scene = scene.map_err(|error| Refusal::read("scene-refused", &error))?;
-        Ok((document, scene))
+        Ok(CheckedScene { document, scene })
     }
 
     /// Reads the tree of the file, with the values that are set; else returns the refusal.

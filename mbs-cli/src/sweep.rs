@@ -74,7 +74,7 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
 }
 
 fn run(arguments: &Arguments) -> Result<(Report, PathBuf), Refusal> {
-    let (document, _) = arguments.scene.read()?;
+    let document = arguments.scene.read()?.document;
     let sweep = input::document(&arguments.sweep, "sweep file", (None, false))?;
     let overrides = Method { interrupt: signals::heeded(), ..arguments.method.given.clone() };
     let study = Study::new(document.clone(), &sweep, &overrides);

@@ -21,6 +21,17 @@ def sim(**settings: Any) -> mbs.Simulation:
     return pendulum().simulate(**settings)
 
 
+def driven() -> mbs.Mechanism:
+    return mbs.Mechanism(
+        {
+            "scene": {"dimension": 2, "duration": 1.0},
+            "body": [{"name": "slide", "mass": 1.0, "center": [0, 0], "inertia": 1.0}],
+            "joint": [{"name": "rail", "kind": "prismatic", "bodies": ["ground", "slide"], "at": [0, 0], "axis": [1, 0]}],
+            "effect": [{"name": "push", "kind": "torque", "joint": "rail", "coordinate": "slide", "value": 0.0, "input": True}],
+        }
+    )
+
+
 def rollout(q: Any = ((0, 0),), v: Any = ((0, 0),), **words: Any) -> mbs.Rollout:
     return pendulum().rollout(q, v, **{"steps": 2, **words})
 
@@ -28,7 +39,7 @@ def rollout(q: Any = ((0, 0),), v: Any = ((0, 0),), **words: Any) -> mbs.Rollout
 MASKED = np.ma.masked_array([0.0, 0.0], mask=[True, False])
 REST = np.zeros((3, 2))
 BROKEN = np.array([[0.0, 0.0], [0.0, np.nan], [0.0, 0.0]])
-REFUSED: dict[str, tuple[Callable[[], object], str, str]] = {
+REFUSED: dict[str, tuple[Callable[[], object], str, str | None]] = {
     "texts as numbers": (lambda: pendulum().bias(["1", "2"], [0, 0]), "wrong-type", "q"),
     "complex numbers": (lambda: pendulum().bias([1j, 0], [0, 0]), "wrong-type", "q"),
     "times as numbers": (lambda: pendulum().bias(np.array([0, 0], "datetime64[s]"), [0, 0]), "wrong-type", "q"),
@@ -56,6 +67,11 @@ REFUSED: dict[str, tuple[Callable[[], object], str, str]] = {
     "several numbers for one": (lambda: pendulum().replace({"body.upper.mass": [1, 2]}), "wrong-shape", "body.upper.mass"),  # type: ignore[dict-item]
     "a list in place of inputs": (lambda: pendulum().run(0.1, inputs=[1]), "wrong-type", "inputs"),  # type: ignore[arg-type]
     "inputs without times": (lambda: pendulum().run(0.1, inputs={"x": [1.0]}), "inputs-refused", "inputs"),
+    "an unknown input of a run": (lambda: driven().run(0.1, inputs={"t": [0.0], "puhs": [1.0]}), "inputs-refused", "inputs"),
+    "inputs of another length": (lambda: driven().run(0.1, inputs={"t": [0.0, 1.0], "push": [1.0]}), "inputs-refused", "inputs"),
+    "a step beside an error": (lambda: pendulum().run(0.1, error=1e-3, step=1e-3), "goal-refused", "error"),
+    "a checkpoint beside an error": (lambda: pendulum().run(0.1, error=1e-3, checkpoints=(".", 0.1)), "settings-refused", None),
+    "a checkpoint of nothing": (lambda: pendulum().run(0.1, resume="nothing.mbs"), "checkpoint-refused", "resume"),
     "fewer threads than none": (lambda: pendulum().run(0.1, threads=-1), "settings-refused", "threads"),
     "a number as a method": (lambda: pendulum().run(0.1, formulation=3), "settings-refused", "formulation"),  # type: ignore[arg-type]
     "a negative step": (lambda: pendulum().run(0.1, step=-1.0), "settings-refused", "step"),

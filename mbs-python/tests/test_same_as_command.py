@@ -62,3 +62,49 @@ def test_each_formulation_has_the_bits_of_the_command(name: str, formulation: st
     result = mbs.Mechanism(path).run(DURATION, step=1e-3, formulation=formulation)
     assert without_times(result.summary) == without_times(summary)
     assert same_bits(result.array, table[:, 1:])
+
+
+WHEEL = """
+[scene]
+dimension = 2
+duration = 0.3
+[[body]]
+name = "wheel"
+mass = 1
+center = [0, 0]
+inertia = 2
+[[joint]]
+name = "axle"
+kind = "revolute"
+bodies = ["ground", "wheel"]
+at = [0, 0]
+[[effect]]
+name = "motor"
+kind = "torque"
+joint = "axle"
+value = 2
+input = true
+"""
+
+
+def test_inputs_as_arrays_are_those_of_a_file(tmp_path: Path) -> None:
+    scene, table = tmp_path / "wheel.toml", tmp_path / "motor.csv"
+    scene.write_text(WHEEL)
+    table.write_text("t,motor\n0.05,0\n0.1,3.7\n0.25,-0.001\n")
+    program = Path(sys.executable).with_name("mbs")
+    done = subprocess.run([program, "run", scene, "--inputs", table, "--no-estimate", "--out", tmp_path / "out"], capture_output=True)
+    assert done.returncode == 0
+    with (tmp_path / "out" / "run.csv").open() as lines:
+        rows = np.array([[float(cell) for cell in row] for row in list(csv.reader(lines))[1:]])
+    result = mbs.Mechanism(scene).run(inputs={"motor": [0.0, 3.7, -1e-3], "t": [0.05, 0.1, 0.25]})
+    assert same_bits(result.array, rows[:, 1:])
+
+
+def test_a_resumed_run_has_the_bits_of_the_whole(tmp_path: Path) -> None:
+    pendulum = mbs.Mechanism(SCENES / "double-pendulum.toml")
+    whole = pendulum.run(DURATION)
+    kept = pendulum.run(DURATION, checkpoints=(tmp_path, 0.15))
+    resumed = pendulum.run(resume=tmp_path / "checkpoint.mbs")
+    for run in (kept, resumed):
+        assert same_bits(run.array, whole.array)
+        assert without_times(run.summary) == without_times(whole.summary)

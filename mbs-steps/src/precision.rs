@@ -56,17 +56,6 @@ pub enum ReadScene<'a> {
 }
 
 impl<'a> ReadScene<'a> {
-    /// The scene as it was read in `f64`, or read anew from its document in another precision.
-    ///
-    /// # Errors
-    /// [`PrecisionError`] where it is not built, or the text is no scene in it.
-    pub fn new(
-        (document, scene): (&SceneFile, &'a Scene<f64>),
-        precision: Precision,
-    ) -> Result<Self, PrecisionError> {
-        Self::of(document, Cow::Borrowed(scene), precision)
-    }
-
     /// Takes the scene from any source that has it in `f64`, or reads it anew from the source in another precision.
     ///
     /// # Errors

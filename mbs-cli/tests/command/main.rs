@@ -27,6 +27,7 @@ mod link_frames;
 mod manual;
 mod models;
 mod new;
+mod one_run;
 mod plot;
 mod realtime;
 mod refusals;

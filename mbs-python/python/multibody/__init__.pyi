@@ -239,12 +239,15 @@ class Mechanism:
         error: float | None = None,
         inputs: Mapping[str, ArrayLike] | None = None,
         progress: Callable[[float, float], object] | None = None,
+        checkpoints: tuple[str | PathLike[str], float] | None = None,
+        resume: str | PathLike[str] | None = None,
         threads: int = 1,
         **settings: Any,
     ) -> Result:
         """Runs the mechanism, as `mbs run` does. None leaves a setting to the scene; `error` chooses the method by a pilot. `inputs` is
         `{"t": times, NAME: values}`. `progress` is called with time and duration [s], at most ten times a second. A run that stops early is
-        a result with `error`. Ctrl-C raises KeyboardInterrupt, whose `result` has what was recorded."""
+        a result with `error`. Ctrl-C raises KeyboardInterrupt, whose `result` has what was recorded. `checkpoints` is a folder and the
+        simulated time between two checkpoints [s]; `resume` is the file of one, `checkpoint.mbs`."""
     def simulate(
         self,
         *,

@@ -16,6 +16,7 @@ use mbs_core::Real;
 use mbs_core::control::Accepted;
 use mbs_core::scene::Scene;
 use mbs_scene::SceneFile;
+use std::borrow::Cow;
 
 /// Time from which one run is a timing [s]; shorter runs are repeated, and the least time counts. Chosen, not tuned.
 const SHORT: f64 = 0.01;
@@ -58,7 +59,7 @@ impl Scenes {
     ) -> Result<Self, PrecisionError> {
         let double = document.scene::<f64>()?;
         let read = |precision: Precision| {
-            let scene = ReadScene::new((document, &double), precision)?;
+            let scene = ReadScene::of(document, Cow::Borrowed(&double), precision)?;
             Ok((precision, scene.into_owned()))
         };
         let others = precisions.iter().copied().filter(|&precision| precision != Precision::F64);
