@@ -5,7 +5,7 @@ use crate::refusal::Refusal;
 use crate::say::{out, warn};
 use crate::status::STOPPED;
 use clap::{Args, ValueEnum};
-use mbs::scene_file::{Family, GenerateError, SceneFile, generate};
+use mbs::scene_file::{Family, GenerateError, generate};
 use std::path::PathBuf;
 use std::process::ExitCode;
 

@@ -83,9 +83,8 @@ impl Arguments {
             }
             _ => {}
         }
-        let stored =
-            |from: &Checkpoint| if from.every() > 0.0 { from.every() } else { f64::INFINITY };
-        if let Some(every) = self.checkpoint.or(kept.from.as_ref().map(stored)) {
+        let stored = kept.from.as_ref().map(Checkpoint::every).filter(|every| *every > 0.0);
+        if let Some(every) = self.checkpoint.or(stored) {
             kept.into = Some((out.to_owned(), every));
         }
         Ok(())

@@ -170,13 +170,8 @@ fn go(arguments: &Arguments, run: Begun) -> Result<ExitCode, Stop> {
     let result = run_with(&begun.mechanism, options, &mut Watchers::progress(&mut reached));
     bar.bar.finish_and_clear();
     let result = result.map_err(|error| files::refused(&error, &begun.document))?;
-    let document = result.mechanism().to_file().map_err(|error| unwritten(&error))?;
-    Ok(report(&result, arguments, (&run, &document)))
-}
-
-/// The refusal of a mechanism without text.
-fn unwritten(error: &mbs::WriteError) -> Refusal {
-    Refusal::new("inputs-refused", error, "keep the inputs as they are")
+    let driven = result.driven_mechanism().and_then(|mechanism| mechanism.to_file().ok());
+    Ok(report(&result, arguments, (&run, driven.as_ref().unwrap_or(&begun.document))))
 }
 
 /// Files, then JSON or table; the exit status says whether the run was completed, and whether its results are where they should be.
@@ -281,6 +276,9 @@ impl Bar {
 
     fn reached(&mut self, t: f64) {
         let ticks = ticks(t / self.duration, TICKS);
+        if ticks >= TICKS {
+            return self.bar.finish_and_clear();
+        }
         if ticks != self.bar.position() {
             self.bar.set_position(ticks);
             self.bar.set_message(format!(

@@ -4,9 +4,11 @@ use crate::error::{Class, exception, guarded, refused, usage};
 use crate::mechanism::Mechanism;
 use crate::watch::{Progress, Reached, watched};
 use crate::{settings, value};
+use mbs::core::scene::{SETTINGS, SettingValue};
 use mbs::record::Provenance;
 use mbs::{
-    Checkpoint, Goal, InputTable, Method, Outcome, Run, RunResult, SimulationError, Watchers,
+    Checkpoint, CheckpointWriter, Goal, InputTable, Method, Outcome, ResolvedMethod, Run,
+    RunResult, SimulationError, Watchers,
 };
 use mbs_study::run_with;
 use numpy::{IntoPyArray, PyArrayMethods};
@@ -53,8 +55,26 @@ fn table(inputs: &Bound<'_, PyAny>) -> PyResult<InputTable> {
 }
 
 /// Arguments that the errors of a run are about, by their code.
-const ARGUMENTS: [(&str, &str); 3] =
-    [("goal-refused", "error"), ("inputs-refused", "inputs"), ("checkpoint-refused", "resume")];
+fn arguments(is_resumed: bool) -> [(&'static str, &'static str); 3] {
+    let of_checkpoint = if is_resumed { "resume" } else { "checkpoints" };
+    [("goal-refused", "error"), ("inputs-refused", "inputs"), ("checkpoint-refused", of_checkpoint)]
+}
+
+/// Sets the settings that ran, for a result that is made anew in another process.
+fn set_settings(given: &Bound<'_, PyDict>, ran: &ResolvedMethod) -> PyResult<()> {
+    let method = ran.decided();
+    for row in &SETTINGS {
+        match method.value(row.name) {
+            None => Ok(()),
+            Some(SettingValue::Word(word)) => given.set_item(row.name, word),
+            Some(SettingValue::Number(x)) => given.set_item(row.name, x),
+            Some(SettingValue::Pair(pair)) => given.set_item(row.name, pair),
+            Some(SettingValue::Flag(is_set)) => given.set_item(row.name, is_set),
+            Some(SettingValue::Count(n)) => given.set_item(row.name, n),
+        }?;
+    }
+    given.set_item("duration", ran.duration)
+}
 
 /// A result of Python.
 fn result<'py>(
@@ -87,7 +107,10 @@ fn result<'py>(
         version: env!("CARGO_PKG_VERSION").to_owned(),
         ..Provenance::default()
     };
-    let notes = outcome.notes().to_vec();
+    let mut notes = outcome.notes().to_vec();
+    if let Some(error) = result.checkpoints().and_then(CheckpointWriter::failure) {
+        notes.push(format!("the last checkpoint could not be written: {error}"));
+    }
     let record = Record { outcome: result.into_outcome(), provenance };
     let fields = (
         t.into_pyarray(py),
@@ -107,9 +130,10 @@ fn result<'py>(
 impl Mechanism {
     /// Runs the mechanism, as `mbs run` does. None leaves a setting to the scene; `error` chooses the method by a pilot. `inputs` is
     /// `{"t": times, NAME: values}`. `progress` is called with time and duration [s], at most ten times a second. A run that stops early is a
-    /// result with `error`. Ctrl-C raises KeyboardInterrupt, whose `result` has what was recorded.
+    /// result with `error`. Ctrl-C raises KeyboardInterrupt, whose `result` has what was recorded; None where a method was still sought.
     ///
-    /// `checkpoints` is a folder and the simulated time between two checkpoints [s]; `resume` is the file of one, `checkpoint.mbs`.
+    /// `checkpoints` is a folder and the simulated time between two checkpoints [s]; the last one, `checkpoint.mbs`, stays there, and the next
+    /// run replaces it. `resume` is such a file.
     #[pyo3(signature = (duration = None, *, error = None, inputs = None, progress = None, checkpoints = None, resume = None, **settings))]
     #[allow(clippy::too_many_arguments, reason = "they are keywords of Python")]
     fn run<'py>(
@@ -129,7 +153,8 @@ impl Mechanism {
         given.set_item("duration", duration)?;
         given.set_item("error", error)?;
         given.set_item("inputs", inputs)?;
-        let refuse = |error| refused(py, &error, Class::Start, &ARGUMENTS);
+        let is_resumed = resume.is_some();
+        let refuse = |error| refused(py, &error, Class::Start, &arguments(is_resumed));
         let resume = resume.map(|file| Checkpoint::open(&file)).transpose();
         let options = Run {
             method,
@@ -142,13 +167,18 @@ impl Mechanism {
         };
         let reached = Reached::default();
         let progress = Progress { call: progress, counts: false, reached: &reached };
-        let duration = duration.unwrap_or(shared.scene.duration);
+        let of_checkpoint = options.resume.as_ref().map(|from| from.overrides(&options.method));
+        let of_checkpoint = of_checkpoint.and_then(Result::ok).and_then(|method| method.duration);
+        let duration = of_checkpoint.or(duration).unwrap_or(shared.scene.duration);
         let (done, raised_by) = watched(py, &flag, &progress, || {
             let mut look = |t: f64| reached.set(t, duration);
             run_with(&shared.mechanism, &options, &mut Watchers::progress(&mut look))
         })?;
         match done {
             Ok(done) => {
+                if is_resumed {
+                    set_settings(&given, done.settings())?;
+                }
                 let result = result(py, done, (slf, &given))?;
                 match raised_by {
                     Some(error) => {
@@ -158,7 +188,14 @@ impl Mechanism {
                     None => Ok(result),
                 }
             }
-            Err(error) => Err(raised_by.unwrap_or_else(|| refuse(error))),
+            Err(error) => Err(match raised_by {
+                // the choice of a method was interrupted: there is no run
+                Some(interrupt) => {
+                    interrupt.value(py).setattr("result", py.None())?;
+                    interrupt
+                }
+                None => refuse(error),
+            }),
         }
     }
 }

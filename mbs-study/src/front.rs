@@ -13,8 +13,8 @@ use mbs_scene::SceneFile;
 use std::io;
 use std::path::Path;
 
-/// Runs a mechanism as [`mbs::run`] does, and what that refuses: for a goal the method is chosen by a pilot, and an estimate of the errors
-/// follows the run.
+/// Runs a mechanism as [`mbs::run`] does, and what that refuses: for a goal the method is chosen by a pilot. Without a goal an estimate of the
+/// errors follows the run, if it is asked for.
 ///
 /// For a goal a run that stops is made anew by the next of the ranking; the settings that ran are in
 /// [`settings`](RunResult::settings).
@@ -29,8 +29,7 @@ use std::path::Path;
 /// m.set_gravity([0.0, -9.81]);
 /// let bob = m.add(Body::planar([1.0, 0.0], 1.0, 0.0));
 /// m.add(Joint::revolute([GROUND, bob], [0.0, 0.0]).named("pivot"));
-/// let goal = Goal { error: Some(1e-4), deadline: None };
-/// let result = mbs_study::run(&m, &Run::new().duration(1.0).goal(goal))?;
+/// let result = mbs_study::run(&m, &Run::new().duration(1.0).goal(Goal::error(1e-4)))?;
 /// let angle = result.table().column("pivot").unwrap().last().unwrap();
 /// // let go at the horizontal, the bob has turned by -2.9758 rad after 1 s
 /// assert!((angle + 2.9758).abs() < 1e-3 && result.summary().chosen.is_some());
@@ -50,6 +49,7 @@ pub fn run_with(
     watchers: &mut Watchers<'_, '_>,
 ) -> Result<RunResult, SimulationError> {
     let prepared = PreparedRun::new(m, options)?;
+    prepared.check(watchers)?;
     let clock = &mut Processor::new(prepared.settings.threads);
     if options.goal.is_some() {
         let plan = plan(&prepared, clock)?;

@@ -2,22 +2,27 @@
 
 use crate::files::scratch;
 use crate::{json, plain, run, scene, status, text, written};
+use mbs::typed::Simulation;
 use mbs::{
-    Checkpoint, Error as _, Goal, InputTable, Mechanism, Method, Run, RunResult, SimulationError,
+    Checkpoint, Error as _, Goal, InputTable, Mechanism, Method, ResolvedMethod, Run, RunResult,
+    SimulationError,
 };
 use serde_json::Value;
-use std::path::Path;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Steps of each scene: enough for a row of every channel, and few enough for all scenes.
 const STEPS: f64 = 20.0;
 
 /// Rows and summary of a run by the command.
 fn by_command(scene: &str, arguments: &[&str]) -> (String, Value) {
-    let out = scratch("one-run");
-    let output =
-        run("run", &[&[scene, "--json", "--out", out.to_str().unwrap()], arguments].concat());
+    static CALLS: AtomicUsize = AtomicUsize::new(0);
+    let out = scratch(&format!("one-run-{}", CALLS.fetch_add(1, Ordering::Relaxed)));
+    let folder = ["--json", "--out", out.to_str().expect("plain letters")];
+    let output = run("run", &[&[scene], &folder[..], arguments].concat());
     assert!([0, 2].contains(&status(&output)), "{scene}: {}", text(&output.stderr));
+    assert_eq!(status(&output) == 2, !json(&output)["error"].is_null(), "{scene}");
     let rows = std::fs::read_to_string(out.join("run.csv")).expect("its rows");
+    std::fs::remove_dir_all(out).expect("it is ours");
     (rows, untimed(json(&output)))
 }
 
@@ -109,7 +114,7 @@ fn inputs_as_numbers_are_those_of_a_file() {
 fn the_settings_that_a_goal_chose_give_its_rows() {
     let file = scene("double-pendulum");
     let mechanism = Mechanism::read(&file).expect("a scene");
-    let goal = Goal { error: Some(1e-3), deadline: None };
+    let goal = Goal::error(1e-3);
     let result = mbs_study::run(&mechanism, &Run::new().duration(0.5).goal(goal)).expect("a run");
     assert!(result.summary().completed && result.summary().chosen.is_some());
     let again = Run::new().method(result.settings().decided());
@@ -136,7 +141,7 @@ fn contradictions_are_refused_alike_by_command_and_rust() {
     let out = scratch("one-run-refused");
     let kept = plain(out.clone());
     let mechanism = Mechanism::read(&wheel).expect("a scene");
-    let goal = Goal { error: Some(1e-3), deadline: None };
+    let goal = Goal::error(1e-3);
     let step = Method { step: Some(1e-3), ..Method::default() };
     let paced = || Run::new().pacing(mbs::realtime::Pacing::default());
     let numbers = |name: &str, values: Vec<f64>| {
@@ -151,7 +156,7 @@ fn contradictions_are_refused_alike_by_command_and_rust() {
         (paced().goal(goal), &["--error", "1e-3", "--realtime"]),
         (paced().checkpoints(&out, 0.1), &["--realtime", "--checkpoint", "0.1", "--out", &kept]),
         (Run::new().checkpoints(&out, -1.0), &["--checkpoint", "-1", "--out", &kept]),
-        (Run::new().goal(Goal { error: Some(2.0), deadline: None }), &["--error", "2"]),
+        (Run::new().goal(Goal::error(2.0)), &["--error", "2"]),
         (numbers("moter", vec![0.0, 1.0]), &["--inputs", &bad_name]),
     ];
     for (options, arguments) in cases {
@@ -162,18 +167,54 @@ fn contradictions_are_refused_alike_by_command_and_rust() {
     for (options, words) in [
         (numbers("motor", vec![0.0]), "1 values, and `t` 2"),
         (numbers("motor", vec![0.0, f64::NAN]), "not a finite number"),
-        (paced().estimate(), "no estimate"),
+        (paced().estimate(), "an estimate of the errors"),
+        (Run::new().estimate().last_row_alone(), "compares rows"),
     ] {
         let error = mbs_study::run(&mechanism, &options).expect_err("it contradicts itself");
         assert!(error.to_string().contains(words) && error.hint().is_some(), "{error}");
     }
-    assert!(!Path::new(&kept).join(mbs::CHECKPOINT).exists());
+}
+
+#[test]
+fn a_scene_that_is_none_in_single_precision_is_refused_at_its_place() {
+    // both times are 1 in f32
+    let tabled = "table = [[0, 0], [1, 1], [1.00000001, 2]]";
+    let text = WHEEL.replace("value = 2\ninput = true", tabled);
+    let file = written("one-run-f32.toml", &text);
+    let output = run("run", &[&file, "--precision", "f32", "--json"]);
+    let error = &json(&output)["error"];
+    assert_eq!((status(&output), &error["code"]), (1, &Value::from("scene-refused")));
+    assert!(error["line"].is_u64() && error["file"].is_string(), "{error}");
+    let options = Run::new().method(Method { precision: Some("f32".into()), ..Method::default() });
+    let mechanism = Mechanism::read(&file).expect("a scene in f64");
+    let error = mbs::run(&mechanism, &options).expect_err("no scene in f32");
+    assert!(error.to_string().contains("one-run-f32.toml:"), "{error}");
+}
+
+#[test]
+fn a_state_of_a_simulation_is_no_run_to_resume() {
+    let file = scene("double-pendulum");
+    let mechanism = Mechanism::read(&file).expect("a scene");
+    let scene = mechanism.resolve().expect("a scene");
+    let settings = ResolvedMethod::new(&scene, &Method::default()).expect("settings");
+    let mut simulation = Simulation::<f64, 2>::new(&scene, &settings).expect("a start");
+    let out = scratch("one-run-state");
+    let state = out.join("state.mbs");
+    let sink = std::fs::File::create(&state).expect("the folder is ours");
+    simulation.save((&scene, &settings), sink).expect("written");
+    let resume = format!("--resume={}", plain(state.clone()));
+    let [code, message, _] =
+        refused_by_command(&[&file, &resume, "--out", &plain(out.join("results"))]);
+    let checkpoint = Checkpoint::open(&state).expect("a checkpoint");
+    let error = mbs::run(&mechanism, &Run::new().resume(checkpoint)).expect_err("it has no rows");
+    assert_eq!([code, message], [error.code().to_owned(), error.message().to_owned()]);
+    assert_eq!(error.code(), "checkpoint-refused");
 }
 
 #[test]
 fn the_front_door_refuses_what_is_for_the_studies_by_their_name() {
     let mechanism = Mechanism::read(scene("four-bar")).expect("a scene");
-    let goal = Goal { error: Some(1e-3), deadline: None };
+    let goal = Goal::error(1e-3);
     for options in [Run::new().goal(goal), Run::new().estimate()] {
         let error = mbs::run(&mechanism, &options).expect_err("it is for the studies");
         assert_eq!(error.code(), "settings-refused");

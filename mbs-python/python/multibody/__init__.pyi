@@ -246,8 +246,9 @@ class Mechanism:
     ) -> Result:
         """Runs the mechanism, as `mbs run` does. None leaves a setting to the scene; `error` chooses the method by a pilot. `inputs` is
         `{"t": times, NAME: values}`. `progress` is called with time and duration [s], at most ten times a second. A run that stops early is
-        a result with `error`. Ctrl-C raises KeyboardInterrupt, whose `result` has what was recorded. `checkpoints` is a folder and the
-        simulated time between two checkpoints [s]; `resume` is the file of one, `checkpoint.mbs`."""
+        a result with `error`. Ctrl-C raises KeyboardInterrupt, whose `result` has what was recorded; None where a method was still sought.
+        `checkpoints` is a folder and the simulated time between two checkpoints [s]; the last one, `checkpoint.mbs`, stays there, and the
+        next run replaces it. `resume` is such a file."""
     def simulate(
         self,
         *,

@@ -33,12 +33,12 @@ pub struct CheckpointWriter {
     next: f64,
     rows: Rows,
     failure: Option<io::Error>,
-    /// Holds the lock on the directory.
-    _lock: Option<File>,
+    /// Lock on the directory, until it is released.
+    lock: Option<File>,
 }
 
 impl CheckpointWriter {
-    /// Into a directory, made if missing, each `every` [s] of simulated time. The directory is locked until this is dropped.
+    /// Into a directory, made if missing, each `every` [s] of simulated time. The directory is locked until this is dropped or released.
     ///
     /// # Errors
     /// [`CheckpointError::Busy`] where another process keeps a run there, [`CheckpointError::Io`] where there is no directory.
@@ -50,7 +50,12 @@ impl CheckpointWriter {
             return Err(CheckpointError::Busy);
         }
         let (out, rows) = (out.to_owned(), Rows::default());
-        Ok(Self { out, every, next: f64::NEG_INFINITY, rows, failure: None, _lock: lock })
+        Ok(Self { out, every, next: f64::NEG_INFINITY, rows, failure: None, lock })
+    }
+
+    /// Frees the directory for other runs.
+    pub fn release(&mut self) {
+        self.lock = None;
     }
 
     /// Path of the checkpoint.

@@ -19,4 +19,5 @@ pub use bench::Clock;
 pub(crate) use choose::{Pick, Pilot, Task, candidates, methods};
 pub use goal::{GoalError, time};
 pub use mbs::Goal;
+#[doc(hidden)]
 pub use plan::{Plan, Processor, plan, run_plan};

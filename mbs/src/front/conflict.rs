@@ -10,23 +10,25 @@ use core::fmt::{self, Display, Formatter};
 pub enum RunConflict {
     /// A goal or an estimate is for `mbs_study::run`.
     Study,
-    /// A checkpoint beside a goal: the methods that are tried have none.
-    CheckpointAndGoal,
-    /// A pace beside a goal.
-    PaceAndGoal,
-    /// A pace beside a checkpoint.
-    PaceAndCheckpoint,
-    /// A pace beside an estimate: the runs of an estimate have no pace.
-    PaceAndEstimate,
-    /// A pace beside observers or outputs in code.
-    PaceAndCode,
-    /// A checkpoint beside observers or outputs in code, whose state it does not have.
-    CheckpointAndCode,
-    /// Observers beside a goal: a run that stops is made anew by another method.
-    ObserversAndGoal,
+    /// Two parts of a run exclude each other.
+    Together {
+        /// The two parts.
+        parts: [&'static str; 2],
+        /// Reason why they exclude each other.
+        why: &'static str,
+    },
     /// A time between checkpoints that is not positive and finite [s].
     Interval(f64),
 }
+
+/// Words for the parts of a run.
+const GOAL: &str = "a required error or deadline";
+const CHECKPOINTS: &str = "checkpoints";
+const PACE: &str = "the pace of a clock";
+const ESTIMATE: &str = "an estimate of the errors";
+const OBSERVERS: &str = "observers";
+const FUNCTIONS: &str = "outputs in code";
+const LAST_ROW: &str = "the last row alone";
 
 impl RunConflict {
     /// Finds what excludes each other in the options of a run; `n_functions` counts outputs in code.
@@ -34,28 +36,26 @@ impl RunConflict {
     /// # Errors
     /// The first conflict.
     pub(super) fn check(run: &Run, n_functions: usize) -> Result<(), Self> {
-        let has_checkpoint = run.resume.is_some() || run.checkpoints.is_some();
-        let (is_paced, has_code) = (run.pacing.is_some(), n_functions > 0);
-        let rules = [
-            (run.goal.is_some() && has_checkpoint, Self::CheckpointAndGoal),
-            (run.goal.is_some() && is_paced, Self::PaceAndGoal),
-            (is_paced && has_checkpoint, Self::PaceAndCheckpoint),
-            (is_paced && run.estimate, Self::PaceAndEstimate),
-            (is_paced && has_code, Self::PaceAndCode),
-            (has_checkpoint && has_code, Self::CheckpointAndCode),
-        ];
-        if let Some((_, conflict)) = rules.into_iter().find(|(is_so, _)| *is_so) {
-            return Err(conflict);
-        }
+        let has_goal = run.goal.is_some();
+        let is_kept = run.resume.is_some() || run.checkpoints.is_some();
+        let (is_paced, is_estimated) = (run.pacing.is_some(), run.estimate);
+        let (has_functions, is_last) = (n_functions > 0, run.last_row_alone);
+        first([
+            (has_goal && is_kept, [GOAL, CHECKPOINTS], "they are of one method"),
+            (has_goal && is_paced, [GOAL, PACE], "a paced run has one method"),
+            (is_paced && is_kept, [PACE, CHECKPOINTS], "a paced run has none"),
+            (is_paced && is_estimated, [PACE, ESTIMATE], "the runs of an estimate have no pace"),
+            (is_paced && has_functions, [PACE, FUNCTIONS], "a paced run has no columns of code"),
+            (
+                is_kept && has_functions,
+                [CHECKPOINTS, FUNCTIONS],
+                "a checkpoint has not their state",
+            ),
+            (is_last && is_paced, [LAST_ROW, PACE], "a paced run keeps all rows"),
+            (is_last && is_estimated, [LAST_ROW, ESTIMATE], "an estimate compares rows"),
+            (is_last && is_kept, [LAST_ROW, CHECKPOINTS], "a checkpoint has all rows"),
+        ])?;
         run.checkpoints.as_ref().map_or(Ok(()), |(_, every)| Self::check_interval(*every))
-    }
-
-    /// Checks the simulated time between two checkpoints [s].
-    ///
-    /// # Errors
-    /// [`Interval`](Self::Interval) for one that is not positive and finite.
-    pub fn check_interval(every: f64) -> Result<(), Self> {
-        if every > 0.0 && every.is_finite() { Ok(()) } else { Err(Self::Interval(every)) }
     }
 
     /// Finds what in the options of a run excludes its observers.
@@ -66,12 +66,21 @@ impl RunConflict {
         if watchers.observers.is_empty() {
             return Ok(());
         }
-        let rules = [
-            (run.goal.is_some(), Self::ObserversAndGoal),
-            (run.pacing.is_some(), Self::PaceAndCode),
-            (run.resume.is_some() || run.checkpoints.is_some(), Self::CheckpointAndCode),
-        ];
-        rules.into_iter().find(|(is_so, _)| *is_so).map_or(Ok(()), |(_, conflict)| Err(conflict))
+        let is_kept = run.resume.is_some() || run.checkpoints.is_some();
+        first([
+            (run.goal.is_some(), [OBSERVERS, GOAL], "several methods may run"),
+            (run.estimate, [OBSERVERS, ESTIMATE], "the runs of an estimate have none"),
+            (run.pacing.is_some(), [OBSERVERS, PACE], "a paced run has none"),
+            (is_kept, [OBSERVERS, CHECKPOINTS], "a checkpoint has not their state"),
+        ])
+    }
+
+    /// Checks the simulated time between two checkpoints [s].
+    ///
+    /// # Errors
+    /// [`Interval`](Self::Interval) for one that is not positive and finite.
+    pub fn check_interval(every: f64) -> Result<(), Self> {
+        if every > 0.0 && every.is_finite() { Ok(()) } else { Err(Self::Interval(every)) }
     }
 
     /// Hint on what to do.
@@ -79,40 +88,34 @@ impl RunConflict {
     pub fn hint(&self) -> &'static str {
         match self {
             Self::Study => "call mbs_study::run with the same options, or leave them out",
-            Self::Interval(_) => "give simulated seconds, such as --checkpoint 1",
-            _ => "leave one of them out",
+            Self::Together { .. } => "leave one of them out",
+            Self::Interval(_) => "give simulated seconds, such as 1",
         }
     }
 }
 
+/// The first of some conflicts that is one.
+fn first<const N: usize>(
+    rules: [(bool, [&'static str; 2], &'static str); N],
+) -> Result<(), RunConflict> {
+    let found = rules.into_iter().find(|(is_so, ..)| *is_so);
+    found.map_or(Ok(()), |(_, parts, why)| Err(RunConflict::Together { parts, why }))
+}
+
 impl Display for RunConflict {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Study => "mbs::run takes no goal and no estimate, which need more runs than one",
-            Self::CheckpointAndGoal => {
-                "a run with checkpoints has one method: none can be chosen for an error or a deadline"
+        match self {
+            Self::Study => {
+                f.write_str("mbs::run takes no goal and no estimate, which need more runs than one")
             }
-            Self::PaceAndGoal => {
-                "a run at the pace of a clock has one method: none can be chosen for an error or a deadline"
+            Self::Together { parts: [a, b], why } => {
+                write!(f, "{a} and {b} exclude each other: {why}")
             }
-            Self::PaceAndCheckpoint => "a run at the pace of a clock has no checkpoints",
-            Self::PaceAndEstimate => "a run at the pace of a clock has no estimate of its errors",
-            Self::PaceAndCode => {
-                "a run at the pace of a clock has no observers and no outputs in code"
-            }
-            Self::CheckpointAndCode => {
-                "a checkpoint has no state of observers and of outputs in code: a run with them cannot be resumed"
-            }
-            Self::ObserversAndGoal => {
-                "a run for an error or a deadline may be made by several methods: it has no observers"
-            }
-            Self::Interval(every) => {
-                return write!(
-                    f,
-                    "the time between checkpoints must be positive and finite, but is {every}"
-                );
-            }
-        })
+            Self::Interval(every) => write!(
+                f,
+                "the time between checkpoints must be positive and finite, but is {every}"
+            ),
+        }
     }
 }
 

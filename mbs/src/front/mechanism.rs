@@ -286,10 +286,15 @@ impl Mechanism {
     /// # Errors
     /// [`SimulationError`] as [`check`](Self::check).
     pub fn resolve(&self) -> Result<Scene<f64>, SimulationError> {
-        self.resolve_scene().map_err(|error| match (&self.file, self.data()) {
+        self.resolve_scene().map_err(|error| self.located(error))
+    }
+
+    /// A refusal of the scene; of one that came from a file with its place there.
+    pub(super) fn located(&self, error: SceneError) -> SimulationError {
+        match (&self.file, self.data()) {
             (Some(_), Ok(file)) => file.meaning(*error.error()).into(),
             _ => error.into(),
-        })
+        }
     }
 
     /// The scene in `f64`, checked.

@@ -45,14 +45,24 @@ impl<'a> PreparedRun<'a> {
             Some(table) => Cow::Owned(m.following(table)?),
             None => Cow::Borrowed(m),
         };
-        let scene = mechanism.resolve()?;
-        let settings = ResolvedMethod::new(&scene, &method)?;
-        settings.check_step(&scene, &method)?;
+        let own = m.resolve()?;
+        // what a table begins and ends with is not held against the ends of the run
+        let settings = ResolvedMethod::new(&own, &method)?;
+        settings.check_step(&own, &method)?;
+        let scene = if options.inputs.is_some() { mechanism.resolve()? } else { own };
         let settings = match &options.resume {
             Some(from) => from.settle(settings).map_err(SimulationError::not_resumed)?,
             None => settings,
         };
         Ok(Self { mechanism, options, method, scene, settings })
+    }
+
+    /// Checks that the options go together with who watches the run.
+    ///
+    /// # Errors
+    /// [`SimulationError`] with a [`RunConflict`].
+    pub fn check(&self, watchers: &Watchers<'_, '_>) -> Result<(), SimulationError> {
+        Ok(RunConflict::check_watchers(self.options, watchers)?)
     }
 
     /// Options of the run.
@@ -74,12 +84,15 @@ impl<'a> PreparedRun<'a> {
     /// [`SimulationError`] for options that contradict their watchers, a folder of checkpoints that another run has, a checkpoint of
     /// something else, and a pacing that is refused.
     pub fn run(&self, watchers: &mut Watchers<'_, '_>) -> Result<RunResult, SimulationError> {
-        RunConflict::check_watchers(self.options, watchers)?;
+        self.check(watchers)?;
         let checkpoints = self.options.checkpoints.as_ref();
         let writer = checkpoints.map(|(folder, every)| CheckpointWriter::new(folder, *every));
         let mut writer = writer.transpose().map_err(SimulationError::not_resumed)?;
         let read = self.read()?;
         let outcome = self.outcome(&read, &self.settings, (watchers, writer.as_mut()))?;
+        if let Some(writer) = &mut writer {
+            writer.release();
+        }
         let settings = self.settings.clone();
         Ok(RunResult { checkpoints: writer, ..self.result(outcome, settings) })
     }
@@ -94,13 +107,17 @@ impl<'a> PreparedRun<'a> {
         settings: &ResolvedMethod,
         watchers: &mut Watchers<'_, '_>,
     ) -> Result<Outcome, SimulationError> {
-        RunConflict::check_watchers(self.options, watchers)?;
+        self.check(watchers)?;
         self.outcome(read, settings, (watchers, None))
     }
 
     /// Result of an outcome with its settings.
     pub fn result(&self, outcome: Outcome, settings: ResolvedMethod) -> RunResult {
-        let (names, mechanism) = (Names::new(&self.scene), self.mechanism.clone().into_owned());
+        let mechanism = match &self.mechanism {
+            Cow::Owned(driven) => Some(driven.clone()),
+            Cow::Borrowed(_) => None,
+        };
+        let names = Names::new(&self.scene);
         let (checkpoints, table) = (None, OnceLock::new());
         RunResult { outcome, settings, names, mechanism, checkpoints, table }
     }

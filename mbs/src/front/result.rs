@@ -16,7 +16,7 @@ pub struct RunResult {
     pub(super) outcome: Outcome,
     pub(super) settings: ResolvedMethod,
     pub(super) names: Names,
-    pub(super) mechanism: Mechanism,
+    pub(super) mechanism: Option<Mechanism>,
     pub(super) checkpoints: Option<CheckpointWriter>,
     pub(super) table: OnceLock<Table>,
 }
@@ -58,10 +58,10 @@ impl RunResult {
         &self.settings
     }
 
-    /// The mechanism that was run: with the table that its inputs followed.
+    /// The mechanism with the table that its inputs followed; none where they followed no table.
     #[must_use]
-    pub fn mechanism(&self) -> &Mechanism {
-        &self.mechanism
+    pub fn driven_mechanism(&self) -> Option<&Mechanism> {
+        self.mechanism.as_ref()
     }
 
     /// Outcome of the run: what its files and its page are made of.
@@ -76,7 +76,7 @@ impl RunResult {
         self.outcome
     }
 
-    /// Writer of the run's checkpoints: what it could not write, if anything, and the lock on its folder.
+    /// Writer of the run's checkpoints, which says what it could not write, if anything. The folder is free again.
     #[must_use]
     pub fn checkpoints(&self) -> Option<&CheckpointWriter> {
         self.checkpoints.as_ref()

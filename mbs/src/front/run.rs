@@ -24,6 +24,18 @@ pub struct Goal {
 }
 
 impl Goal {
+    /// Requires an error of the outputs, relative to their ranges [-].
+    #[must_use]
+    pub fn error(error: f64) -> Self {
+        Self { error: Some(error), deadline: None }
+    }
+
+    /// Requires that each frame of this length [s] is computed within the same time.
+    #[must_use]
+    pub fn deadline(frame: f64) -> Self {
+        Self { error: None, deadline: Some(frame) }
+    }
+
     /// Is an error or a deadline required?
     #[must_use]
     pub fn is_some(&self) -> bool {
@@ -48,7 +60,8 @@ pub struct Run {
     pub checkpoints: Option<(PathBuf, f64)>,
     /// Pace of a run that follows a clock.
     pub pacing: Option<Pacing>,
-    /// Whether the errors of the outputs are estimated after the run, and a method that runs is sought where it stops.
+    /// Whether the errors of the outputs are estimated after the run, and a method that runs is sought where it stops. Beside a goal nothing is
+    /// estimated: its pilot states what it measured.
     pub estimate: bool,
     /// Whether the last row alone is kept; statistics are those of all rows.
     pub last_row_alone: bool,
@@ -93,13 +106,14 @@ impl Run {
         Self { resume: Some(checkpoint), ..self }
     }
 
-    /// Keeps checkpoints in a folder, each `every` [s] of simulated time.
+    /// Keeps checkpoints in a folder, each `every` [s] of simulated time. The last one stays there, and the first of the next run replaces it:
+    /// look for it before, and [`resume`](Self::resume) from it. [`RunResult::checkpoints`] says what could not be written.
     #[must_use]
     pub fn checkpoints(self, folder: impl AsRef<Path>, every: f64) -> Self {
         Self { checkpoints: Some((folder.as_ref().to_owned(), every)), ..self }
     }
 
-    /// Runs at the pace of a clock, by default that of the system.
+    /// Runs at the pace of a clock, by default that of the system. A paced run reports no progress.
     #[must_use]
     pub fn pacing(self, pacing: Pacing) -> Self {
         Self { pacing: Some(pacing), ..self }
@@ -140,6 +154,18 @@ impl Debug for Watchers<'_, '_> {
 }
 
 impl<'a, 'b> Watchers<'a, 'b> {
+    /// No watchers.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Adds a listener to the progress.
+    #[must_use]
+    pub fn with_progress(self, listener: &'a mut dyn FnMut(f64)) -> Self {
+        Self { progress: Some(listener), ..self }
+    }
+
     /// Observers alone.
     pub fn observers(observers: &'a mut [&'b mut dyn Observer]) -> Self {
         Self { observers, progress: None, clock: None }

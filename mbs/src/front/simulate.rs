@@ -71,6 +71,6 @@ impl Source for Mechanism {
     type Error = SimulationError;
 
     fn scene_in<T: Real>(&self) -> Result<Scene<T>, SimulationError> {
-        Ok(self.resolved()?)
+        self.resolved().map_err(|error| self.located(error))
     }
 }
