@@ -197,7 +197,7 @@ fn a_state_of_a_simulation_is_no_run_to_resume() {
     let mechanism = Mechanism::read(&file).expect("a scene");
     let scene = mechanism.resolve().expect("a scene");
     let settings = ResolvedMethod::new(&scene, &Method::default()).expect("settings");
-    let mut simulation = Simulation::<f64, 2>::new(&scene, &settings).expect("a start");
+    let simulation = Simulation::<f64, 2>::new(&scene, &settings).expect("a start");
     let out = scratch("one-run-state");
     let state = out.join("state.mbs");
     let sink = std::fs::File::create(&state).expect("the folder is ours");

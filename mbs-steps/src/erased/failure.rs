@@ -1,7 +1,6 @@
 //! Reason why a simulation was refused or stopped.
 
 use super::error::{Error, PathError, SceneError, UnknownName};
-use super::input_table::InputTableError;
 use crate::checkpoint::CheckpointError;
 use crate::names::Names;
 use crate::precision::PrecisionError;
@@ -182,13 +181,6 @@ impl From<SettingsError> for SimulationError {
 impl From<PacingError> for SimulationError {
     fn from(error: PacingError) -> Self {
         Self::new("pacing-refused", &error, error.hint()).with_cause(error)
-    }
-}
-
-impl From<InputTableError> for SimulationError {
-    fn from(error: InputTableError) -> Self {
-        let hint = error.hint().to_owned();
-        Self::new("inputs-refused", error.message(), hint).with_cause(error)
     }
 }
 

@@ -3,6 +3,7 @@
 //! The first column is `t`, the others have the names of inputs. Values are linear between rows and held outside; the motion of a
 //! guide or a coupling is the cubic spline through its values.
 
+use super::failure::SimulationError;
 use super::inputs::{InputInfo, InputOwner};
 use core::fmt::{self, Display, Formatter};
 use csv::{ReaderBuilder, StringRecord};
@@ -127,6 +128,13 @@ impl Display for InputTableError {
 }
 
 impl core::error::Error for InputTableError {}
+
+impl From<InputTableError> for SimulationError {
+    fn from(error: InputTableError) -> Self {
+        let hint = error.hint().to_owned();
+        Self::new("inputs-refused", error.message(), hint).with_cause(error)
+    }
+}
 
 /// Where a table comes from: the text of a file, or numbers.
 #[derive(Clone, Copy)]

@@ -1,6 +1,6 @@
 //! Options of a run that exclude each other.
 
-use super::run::{Run, Watchers};
+use super::options::{Run, Watchers};
 use crate::erased::SimulationError;
 use core::fmt::{self, Display, Formatter};
 
@@ -12,7 +12,7 @@ pub enum RunConflict {
     Study,
     /// Two parts of a run exclude each other.
     Together {
-        /// The two parts.
+        /// Parts that exclude each other.
         parts: [&'static str; 2],
         /// Reason why they exclude each other.
         why: &'static str,

@@ -3,6 +3,7 @@
 mod conflict;
 mod held;
 mod mechanism;
+mod options;
 mod part;
 pub(crate) mod prepared;
 mod relative;
@@ -23,9 +24,10 @@ pub use failure::SimulationError;
 pub use function::{FunctionId, OutputFunction};
 pub use inputs::{InputId, InputInfo, InputOwner};
 pub use mechanism::Mechanism;
+pub use options::{Goal, Run, Watchers};
 pub use part::{Id, Part};
 pub use result::RunResult;
-pub use run::{Goal, Run, Watchers, run, run_with};
+pub use run::{run, run_with};
 pub use simulation::{Simulation, Snapshot};
 pub use study::{
     EquilibriumOptions, equilibrium, linearize, linearize_at, linearize_frozen,

@@ -2,18 +2,18 @@
 
 use super::conflict::RunConflict;
 use super::mechanism::Mechanism;
+use super::options::{Run, Watchers};
 use super::result::RunResult;
-use super::run::{Run, Watchers};
 use crate::checkpoint::CheckpointWriter;
 use crate::erased::SimulationError;
 use crate::erased::inputs::Inputs;
 use crate::erased::scene_run::SceneRun;
 use crate::names::Names;
 use crate::precision::ReadScene;
-use crate::run::Outcome;
 use crate::settings::{Method, ResolvedMethod};
 use mbs_core::scene::Scene;
 use mbs_steps::realtime::{Clock, SystemClock};
+use mbs_steps::run::Outcome;
 use std::borrow::Cow;
 use std::sync::OnceLock;
 

@@ -6,8 +6,8 @@ use crate::checkpoint::CheckpointWriter;
 use crate::erased::SimulationError;
 use crate::names::Names;
 use crate::record::RunSummary;
-use crate::run::Outcome;
 use crate::settings::ResolvedMethod;
+use mbs_steps::run::Outcome;
 use std::sync::OnceLock;
 
 /// Result of a run: its table, its summary, and why it stopped early, if it did.

@@ -64,7 +64,7 @@ fn paced(
         .map_err(|error| error.cause::<PacingError>().expect("a refusal of the pace").clone())
 }
 
-/// The same run, as fast as it can.
+/// A run that has no pace.
 fn plain(document: &SceneFile, overrides: &Method) -> Outcome {
     let mechanism = Mechanism::of_file(document.clone()).expect("a scene");
     let run = mbs::run(&mechanism, &Run::new().method(overrides.clone()));
