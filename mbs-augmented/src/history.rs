@@ -14,6 +14,6 @@ pub struct History<T> {
     pub contraction: T,
     /// Combination of constraints that is most weakly determined, m.
     pub weakest_combination: Vec<T>,
-    /// Counts of a change of index that no step has reported yet.
+    /// Counts of the work for a change of index, which the report of no step contains yet.
     pub settled: Counts,
 }

@@ -31,9 +31,9 @@ pub fn take_inputs<T: Real, M: Model<T>, S: SpdSolver<T>>(
     Ok(true)
 }
 
-/// Makes accelerations, multipliers and power of `s`, just before a signal jumps, those just after, at time `to` [s].
+/// Replaces accelerations, multipliers and power of `s` just before a signal jumps by those just after the jump, at time `to` [s].
 ///
-/// Cost: as for inputs that change.
+/// Cost: as [`take_inputs`] when an input was changed.
 ///
 /// # Errors
 /// [`StepError`]; the state is then unchanged.

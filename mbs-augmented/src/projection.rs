@@ -40,7 +40,7 @@ const SLOW_CONTRACTION: f64 = 0.1;
 /// With which matrix and rows velocities and accelerations are projected.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum ProjectionStrategy {
-    /// The rows of now, with a factor of them.
+    /// Constraint rows at the present positions, with a matrix that is factored from them.
     Exact,
     /// The factor that there is, with the rows that it was made with.
     Reused,

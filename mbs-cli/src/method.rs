@@ -148,7 +148,7 @@ fn meaning(row: &Setting, without: &[&str]) -> String {
     }
 }
 
-/// Default of a setting, in a sentence; `own` are those of the command.
+/// Text for the default of a setting. `own` lists names and texts of the defaults that this command replaces.
 fn default(row: &Setting, own: &[(&str, &str)]) -> String {
     let own = own.iter().find(|(name, _)| *name == row.name);
     let of_table = || match row.form {

@@ -302,7 +302,8 @@ pub struct State<T> {
     pub lambda: Vec<T>,
     /// Multipliers of the step before, m.
     pub lambda_previous: Vec<T>,
-    /// Multipliers of dynamic equilibrium with the projected accelerations: what reactions are made of, m.
+    /// Multipliers of dynamic equilibrium with the projected accelerations, m. Power and the most loaded row follow from them; measured
+    /// reactions come from the balance of bodies.
     pub reaction: Vec<T>,
     /// phi carried along without rounding, m.
     pub phi: Vec<T>,

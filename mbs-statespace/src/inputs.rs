@@ -6,8 +6,8 @@ use mbs_core::model::{Load, Model, State, System, Tangent};
 use mbs_core::step::{StepError, add_response, has_new_inputs, load_at};
 use mbs_core::{Real, SpdSolver};
 
-/// Makes accelerations, multipliers and power those of the inputs that are set now, if others were set since the last step; says
-/// whether they were. Every step begins with this; a caller that keeps a state to go back to calls it before.
+/// Recomputes accelerations, multipliers and power if an input was changed since the last step; returns whether one was. Every step calls
+/// this first. A caller that saves the state to undo a step calls it before saving.
 ///
 /// ```text
 /// R^T M R y = R^T dQ,   da = R y,   J_d^T dl = (dQ - M da)_d

@@ -57,7 +57,7 @@ fn run_here<T: Real, const D: usize>(
     }
 }
 
-/// What a run reads and writes beside its scene and its settings.
+/// Rows, columns and checkpoints of a run.
 #[allow(
     missing_debug_implementations,
     reason = "it holds what has none, and is made and used in one call"
@@ -69,7 +69,7 @@ pub struct Recording<'a, T: Real, const D: usize> {
     pub columns: Option<&'a mut dyn Columns<T, D>>,
     /// Checkpoint to resume from.
     pub from: Option<&'a Checkpoint>,
-    /// Writer of checkpoints.
+    /// Writer that keeps checkpoints of the run.
     pub writer: Option<&'a mut CheckpointWriter>,
 }
 

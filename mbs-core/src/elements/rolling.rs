@@ -77,7 +77,7 @@ impl<T: Real> Placed<T> {
         parts.fold(self.point[1], |sum, ([_, e_t], [x, _])| sum + e_t * *x)
     }
 
-    /// Part of the point's acceleration that the change of these components adds.
+    /// Sum of ė_i ẋ_i: part of the point's acceleration from the rates ẋ_i of its components along the moving directions e_i.
     fn drift(&self, x: &[[T; 2]; 3]) -> Vector<T, 3> {
         let parts = self.axes.iter().zip(x);
         parts.fold(Vector::zeros(), |sum, ([_, e_t], [_, x_t])| sum + e_t * *x_t)

@@ -162,7 +162,8 @@ impl<T: Real> Search<'_, T> {
         last
     }
 
-    /// D'', or that of a straight road where D'' may vanish.
+    /// Divisor of Newton's step: the second derivative D'' of half the squared distance. Where it is small or negative, the value for a
+    /// straight road of the same slope.
     fn pivot(&self, height: &Height<T>) -> T {
         /// Least D'', relative to that of a straight road [-]: steps are at most ten times as long. Chosen, not tuned.
         const LEAST_PIVOT: f64 = 0.1;

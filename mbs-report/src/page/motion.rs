@@ -15,7 +15,8 @@ const TURN_STEP: f64 = 1.0 / 16_384.0;
 /// Step of times, relative to the time of the run [-].
 pub(super) const TIME_STEP: f64 = 1e-6;
 
-/// The view of a mechanism at its start with the names of bodies and joints, behind notes, and its pack; `None`: there is nothing to draw.
+/// Sections of a page that show a mechanism at its start with names, notes first, and the packed data for the viewer. `None` if there is
+/// nothing to draw.
 pub(crate) fn still_view(motion: &RecordedMotion) -> Option<(Vec<PageSection>, String)> {
     let mut first = motion.clone();
     first.times.truncate(1);

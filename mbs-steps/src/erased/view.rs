@@ -108,7 +108,7 @@ pub trait Observer {
         Ok(ControlFlow::Continue(()))
     }
 
-    /// The run has ended; why, where it stopped early.
+    /// Receives the end of a run; `stop` is the reason if it stopped early.
     fn end(&mut self, now: &View<'_>, stop: Option<&SimulationError>) {
         let _ = (now, stop);
     }
