@@ -1,8 +1,8 @@
 //! Andrews' squeezing mechanism to 0.03 s by explicit methods with error control, from coarse to fine.
 
 use crate::clock::time_of;
+use crate::line::{Failure, print_line};
 use crate::space::in_space;
-use crate::{Failure, print_line};
 use mbs_core::model::Owner;
 use mbs_core::scene::Scene;
 use mbs_core::step::{StepError, StepReport};

@@ -5,8 +5,8 @@
 //! ```
 
 use crate::clock::time_of;
+use crate::line::{Failure, print_line};
 use crate::scenes::{GRAVITY, add_joint, add_rod, empty};
-use crate::{Failure, print_line};
 use mbs_core::model::Owner;
 use mbs_core::scene::{BodyId, Dimension, JointKind, Scene};
 use mbs_recursive::space::Space;

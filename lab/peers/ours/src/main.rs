@@ -5,6 +5,7 @@
 
 mod andrews;
 mod clock;
+mod line;
 mod loops;
 mod open;
 mod robots;
@@ -13,26 +14,13 @@ mod scenes;
 mod space;
 mod step;
 
-use std::error::Error;
+use line::Failure;
 use std::process::ExitCode;
-
-/// Why a problem cannot be run.
-type Failure = Box<dyn Error>;
 
 const USAGE: &str = "ours (chain | tree | inverse | four-bars | step) N SECONDS\n\
                      ours robot-(forward | inverse | mass | jacobian | derivatives) N SECONDS\n\
                      ours (double-pendulum | n-four-bars) N STEP\n\
                      ours andrews 7 SECONDS";
-
-/// The same number in any precision.
-fn exactly<T: mbs_core::Real>(x: f64) -> T {
-    T::from_f64(x)
-}
-
-/// One line.
-fn print_line(algorithm: &str, seconds: f64, value: f64, reference: &str) {
-    println!("{algorithm},{seconds:.6e},{value:.17e},{reference}");
-}
 
 fn run() -> Result<(), Failure> {
     let words: Vec<String> = std::env::args().skip(1).collect();

@@ -1,8 +1,8 @@
 //! Open mechanisms: accelerations of chains and trees, efforts of chains.
 
 use crate::clock::time_of;
+use crate::line::{Failure, exactly, print_line};
 use crate::scenes::{GRAVITY, Shape, states};
-use crate::{Failure, exactly, print_line};
 use mbs_core::Real;
 use mbs_core::model::Owner;
 use mbs_core::real::DoubleDouble;

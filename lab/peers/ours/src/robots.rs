@@ -1,7 +1,7 @@
 //! Robots of published models: what is asked of them, by the front door's tree.
 
 use crate::clock::{STATES, time_of};
-use crate::{Failure, print_line};
+use crate::line::{Failure, print_line};
 use mbs::core::scene::{BodyId, Scene};
 use mbs::{JointId, Tree};
 use mbs_core::Real;

@@ -1,7 +1,7 @@
 //! Whole runs of the repository's scenes with a fixed step, each method in turn; seconds are CPU time of the steps alone.
 
+use crate::line::{Failure, print_line};
 use crate::space::in_space;
-use crate::{Failure, print_line};
 use cpu_time::ProcessTime;
 use mbs::typed::Simulation;
 use mbs::{Method, ResolvedMethod};

@@ -1,7 +1,7 @@
 //! The mechanisms: uniform rods of 1 m and 1 kg on revolute joints about z, and the states that they are in.
 
 use crate::clock::STATES;
-use crate::exactly;
+use crate::line::exactly;
 use mbs_core::Real;
 use mbs_core::scene::{Body, BodyId, Dimension, Inertia, Joint, JointKind, Scene};
 
@@ -30,7 +30,13 @@ pub(crate) fn add_rod<T: Real>(scene: &mut Scene<T>, from: [T; 2], [c, s]: [T; 2
         ]),
     };
     let center = [from[0] + T::HALF * c, from[1] + T::HALF * s, T::ZERO];
-    scene.bodies.push(Body { name: String::new(), mass: T::ONE, center, inertia, gravity_scale: None });
+    scene.bodies.push(Body {
+        name: String::new(),
+        mass: T::ONE,
+        center,
+        inertia,
+        gravity_scale: None,
+    });
     BodyId::Body(scene.bodies.len() - 1)
 }
 
@@ -44,7 +50,14 @@ pub(crate) fn add_joint<T: Real>(
     let [needs_axis, _] = kind.needs_axes(scene.dimension);
     let axis = needs_axis.then_some([T::ZERO, T::ZERO, T::ONE]);
     let points = [[x, y, T::ZERO]; 2];
-    scene.joints.push(Joint { name: String::new(), kind, bodies, points, axes: [axis, None], limits: Default::default() });
+    scene.joints.push(Joint {
+        name: String::new(),
+        kind,
+        bodies,
+        points,
+        axes: [axis, None],
+        limits: Default::default(),
+    });
 }
 
 /// Adds a rod along x with its joint, 1 m from its parent's; returns the body.

@@ -1,6 +1,6 @@
 //! A planar scene as a spatial one, which moves in the same way: what mbs takes where it does not know that a scene is planar.
 
-use crate::Failure;
+use crate::line::Failure;
 use mbs_core::scene::{Dimension, Inertia, JointKind, Scene};
 use mbs_recursive::{Planar, TreeModel};
 

@@ -1,9 +1,9 @@
 //! One step of Runge-Kutta's method of order 4, of 1 ms.
 
 use crate::clock::time_of_steps;
+use crate::line::{Failure, exactly, print_line};
 use crate::open::Open;
 use crate::scenes::{GRAVITY, Shape};
-use crate::{Failure, exactly, print_line};
 use mbs_core::Real;
 use mbs_core::real::DoubleDouble;
 use mbs_core::scene::{Dimension, Scene};
