@@ -4,6 +4,7 @@ use crate::debian;
 use crate::documentation;
 use crate::features;
 use crate::lines;
+use crate::lists;
 use crate::nostd;
 use crate::package;
 use crate::pages;
@@ -12,6 +13,7 @@ use crate::process::{self, cargo, run};
 use crate::python;
 use crate::summary::{LeftOut, Outcome, Summary};
 use crate::test::{self, DOCUMENTS};
+use std::path::Path;
 use std::process::{Command, ExitCode, Stdio};
 
 /// Scope of the checks: what is left out of them, and what is added.
@@ -36,11 +38,34 @@ pub fn check(scope: Scope) -> ExitCode {
         test::run(&mut summary);
     }
     listed(&AFTER_THE_TESTS, &mut summary);
-    summary.beside(BESIDE.map(|list| move |part: &mut Summary| listed(list, part)));
+    summary.beside(|| {
+        lists::run(BESIDE.len(), |i, report| {
+            let words = ["check", "--list", &i.to_string(), &report.display().to_string()];
+            words.map(str::to_owned).to_vec()
+        })
+    });
     if scope.is_long {
         long(&mut summary);
     }
     summary.end("cargo xtask check")
+}
+
+/// Runs one of the lists beside each other, by its number, and writes how its checks ended into a file.
+pub fn list(words: &[String]) -> ExitCode {
+    let number = words.first().and_then(|word| word.parse::<usize>().ok());
+    let (Some(list), Some(report)) = (number.and_then(|i| BESIDE.get(i)), words.get(1)) else {
+        eprintln!("there is no such list");
+        return ExitCode::FAILURE;
+    };
+    let mut summary = Summary::default();
+    listed(list, &mut summary);
+    match lists::write(Path::new(report), &summary.ended) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(why) => {
+            eprintln!("{why}");
+            ExitCode::FAILURE
+        }
+    }
 }
 
 type Check = fn() -> Result<Outcome, String>;

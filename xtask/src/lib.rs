@@ -10,6 +10,7 @@ mod documentation;
 pub mod effects;
 mod features;
 pub mod lines;
+mod lists;
 pub mod nostd;
 pub mod package;
 pub mod pages;

@@ -62,6 +62,9 @@ enum Job {
         /// Then the jobs that take hours: packages, races, the whole gauntlet, long fuzzing, choice, report, peers, notebooks
         #[arg(long)]
         long: bool,
+        /// One of the lists beside each other, and the file that says how its checks ended: how the check starts itself
+        #[arg(long, hide = true, num_args = 2, value_names = ["NUMBER", "FILE"])]
+        list: Option<Vec<String>>,
     },
     /// Build and run each package of examples/pick: mbs-core and one formulation alone
     Pick,
@@ -112,7 +115,8 @@ fn main() -> ExitCode {
             "`cargo xtask check --long` runs every check, then the long list",
         ),
         Job::Test { strict, .. } => test::test(strict),
-        Job::Check { tested, strict, long } => {
+        Job::Check { list: Some(words), .. } => check::list(&words),
+        Job::Check { tested, strict, long, .. } => {
             check::check(check::Scope { is_tested: tested, is_strict: strict, is_long: long })
         }
         Job::Pick => pick::pick(),

@@ -65,15 +65,16 @@ pub fn output(command: &mut Command) -> Option<String> {
     out.status.success().then(|| text.trim().to_owned())
 }
 
-/// CPU time of the child processes that have ended, and of theirs [s]; `None` where the system does not say.
-pub fn children_seconds() -> Option<f64> {
+/// CPU time of this process, of the child processes that have ended, and of theirs [s]; `None` where the system does not say.
+pub fn cpu_seconds() -> Option<f64> {
     // Linux counts in hundredths of a second, whatever its own clock.
     const TICKS: f64 = 100.0;
     let stat = fs::read_to_string("/proc/self/stat").ok()?;
-    // After the name, which may hold anything but ends with the last parenthesis: the state is field 3, these are 16 and 17.
+    // After the name, which may hold anything but ends with the last parenthesis: the state is field 3, fields 14 to 17 are the times.
     let (_, fields) = stat.rsplit_once(')')?;
-    let mut times = fields.split_whitespace().skip(13).map(str::parse::<f64>);
-    Some((times.next()?.ok()? + times.next()?.ok()?) / TICKS)
+    let times: Vec<f64> =
+        fields.split_whitespace().skip(11).take(4).filter_map(|time| time.parse().ok()).collect();
+    (times.len() == 4).then(|| times.iter().sum::<f64>() / TICKS)
 }
 
 /// The commit of the repository, and whether anything was changed since; `None` where it is not asked for with git.

@@ -1,9 +1,7 @@
 //! Summary of what ran, what was left out and how to get it: the last lines of `cargo xtask test` and `cargo xtask check`.
 
-use crate::process::children_seconds;
-use std::panic::resume_unwind;
+use crate::process::cpu_seconds;
 use std::process::ExitCode;
-use std::thread;
 use std::time::Instant;
 
 /// How a check ended, when it did not fail.
@@ -39,23 +37,41 @@ pub fn ended(name: &str, outcome: Result<Outcome, String>) -> ExitCode {
     ExitCode::FAILURE
 }
 
+/// A check that has ended.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Ended {
+    /// Name of the check.
+    pub name: String,
+    /// Time by the clock [s].
+    pub seconds: f64,
+    /// CPU time of this process and of all that it waited for [s]; `None` where the system does not say.
+    pub cpu: Option<f64>,
+    /// How it ended: what it found, or why it failed.
+    pub outcome: Result<Outcome, String>,
+}
+
 /// The checks so far.
 #[derive(Debug, Default)]
 pub struct Summary {
+    /// Every check that has ended, in their order.
+    pub(crate) ended: Vec<Ended>,
     lines: Vec<String>,
     left_out: Vec<(String, LeftOut)>,
     /// Names of the checks that failed, and why.
     failures: Vec<String>,
     /// A check that cannot run here fails.
     is_strict: bool,
-    /// Other checks run at the same time: processor seconds are not those of one.
-    is_beside: bool,
 }
 
-/// Processor seconds of child processes since a count of them.
-fn since(cpu: Option<f64>) -> String {
-    cpu.zip(children_seconds())
-        .map_or(String::new(), |(before, after)| format!(" {:>7.1} s of CPU", after - before))
+/// The seconds of a line: by the clock, and of CPU time where the system says them.
+fn times(seconds: f64, cpu: Option<f64>) -> String {
+    let cpu = cpu.map_or(String::new(), |cpu| format!(" {cpu:>7.1} s of CPU"));
+    format!("{seconds:>7.1} s{cpu}")
+}
+
+/// CPU time since a count of it [s].
+fn since(cpu: Option<f64>) -> Option<f64> {
+    cpu.zip(cpu_seconds()).map(|(before, after)| after - before)
 }
 
 impl Summary {
@@ -67,25 +83,42 @@ impl Summary {
     /// Runs one check and notes how it ended. One that fails does not keep the next from running: one run says all there is to mend.
     pub fn check(&mut self, name: &str, job: impl FnOnce() -> Result<Outcome, String>) {
         eprintln!("== {name}");
-        let (start, cpu) = (Instant::now(), children_seconds());
+        let (start, cpu) = (Instant::now(), cpu_seconds());
         let outcome = job();
-        let seconds = start.elapsed().as_secs_f64();
+        let (seconds, cpu) = (start.elapsed().as_secs_f64(), since(cpu));
+        if let Err(why) = &outcome {
+            eprintln!("== {name} failed: {why}");
+        }
+        self.note(Ended { name: name.to_owned(), seconds, cpu, outcome });
+    }
+
+    /// Notes how a check ended.
+    pub(crate) fn note(&mut self, ended: Ended) {
+        self.ended.push(ended.clone());
+        let Ended { name, seconds, cpu, outcome } = ended;
+        let times = times(seconds, cpu);
         match outcome {
             Ok(Outcome::Passed(remark)) => {
-                let cpu = if self.is_beside { String::new() } else { since(cpu) };
-                self.lines.push(format!("  ok        {name:<14} {seconds:>7.1} s{cpu}  {remark}"));
+                self.lines.push(format!("  ok        {name:<14} {times}  {remark}"));
             }
             Ok(Outcome::LeftOut(left_out)) => {
                 let how = if self.is_strict { "FAILED  " } else { "left out" };
                 self.lines.push(format!("  {how}  {name}"));
-                self.left_out.push((name.to_owned(), left_out));
+                self.left_out.push((name, left_out));
             }
             Err(why) => {
-                eprintln!("== {name} failed: {why}");
-                self.lines.push(format!("  FAILED    {name:<14} {seconds:>7.1} s"));
+                self.lines.push(format!("  FAILED    {name:<14} {times}"));
                 self.failures.push(format!("{name} failed: {why}"));
             }
         }
+    }
+
+    /// Notes checks that ran beside each other, list by list, and the time that all of them took together.
+    pub(crate) fn beside(&mut self, run: impl FnOnce() -> Vec<Ended>) {
+        let (start, cpu) = (Instant::now(), cpu_seconds());
+        run().into_iter().for_each(|ended| self.note(ended));
+        let times = times(start.elapsed().as_secs_f64(), since(cpu));
+        self.lines.push(format!("  together  {:<14} {times}", ""));
     }
 
     /// Returns the result at the end of all checks.
@@ -100,30 +133,6 @@ impl Summary {
             failures.push(format!("This machine cannot run: {}", names.join(", ")));
         }
         if failures.is_empty() { Ok(()) } else { Err(failures.join("\n")) }
-    }
-
-    /// Runs lists of checks beside each other; their lines follow list by list. Processor seconds are reported for all of them together.
-    pub fn beside<F: FnOnce(&mut Self) + Send, const N: usize>(&mut self, lists: [F; N]) {
-        let (start, cpu) = (Instant::now(), children_seconds());
-        let is_strict = self.is_strict;
-        let ended: Vec<Self> = thread::scope(|scope| {
-            let run = |list: F| {
-                scope.spawn(move || {
-                    let mut part = Self { is_beside: true, ..Self::new(is_strict) };
-                    list(&mut part);
-                    part
-                })
-            };
-            let all: Vec<_> = lists.into_iter().map(run).collect();
-            all.into_iter().map(|one| one.join().unwrap_or_else(|e| resume_unwind(e))).collect()
-        });
-        for part in ended {
-            self.lines.extend(part.lines);
-            self.left_out.extend(part.left_out);
-            self.failures.extend(part.failures);
-        }
-        let seconds = start.elapsed().as_secs_f64();
-        self.lines.push(format!("  together  {:<14} {seconds:>7.1} s{}", "", since(cpu)));
     }
 
     /// Notes a check that was not asked for.
@@ -162,7 +171,7 @@ impl Summary {
 
 #[cfg(test)]
 mod tests {
-    use super::{LeftOut, Outcome, Summary};
+    use super::{Ended, LeftOut, Outcome, Summary};
 
     fn missing_target() -> LeftOut {
         LeftOut { why: "no target".into(), remedy: "add it".into() }
@@ -193,15 +202,19 @@ mod tests {
     fn every_failure_is_reported_of_checks_one_after_another_and_beside() {
         let mut summary = Summary::default();
         summary.check("format", || Err("two lines".into()));
-        summary.beside([true, false].map(|fails| {
-            move |part: &mut Summary| {
-                part.check(if fails { "fuzz" } else { "pick" }, || {
-                    if fails { Err("one".into()) } else { Ok(Outcome::Passed("all".into())) }
-                });
-            }
-        }));
+        let ended = |name: &str, outcome| Ended {
+            name: name.into(),
+            seconds: 1.5,
+            cpu: Some(12.25),
+            outcome,
+        };
+        summary.beside(|| {
+            vec![ended("fuzz", Err("one".into())), ended("pick", Ok(Outcome::Passed("all".into())))]
+        });
         assert_eq!(summary.complete(), Err("format failed: two lines\nfuzz failed: one".into()));
         let text = summary.text("cargo xtask check");
-        assert!(text.contains("FAILED    fuzz") && text.contains("ok        pick"), "{text}");
+        assert!(text.contains("FAILED    fuzz") && text.contains("together"), "{text}");
+        let line = "  ok        pick               1.5 s    12.2 s of CPU  all";
+        assert!(text.contains(line), "{text}");
     }
 }
