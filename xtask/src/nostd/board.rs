@@ -4,8 +4,10 @@ use super::image::Image;
 use super::toolchain::Toolchain;
 use crate::child::watched;
 use crate::process::{self, cargo, output, run};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
 /// The target of both boards.
@@ -82,8 +84,14 @@ pub(super) fn emulate(board: &Board, elf: &Path) -> Result<String, String> {
     if out.status.success() { Ok(text) } else { Err(format!("{name}: {}\n{text}", out.status)) }
 }
 
-/// Runs a model on the host, in a program without the standard library.
+/// Runs a model on the host, in a program without the standard library. A process asks for each run once.
 pub(super) fn on_host(model: &Path, features: &str) -> Result<String, String> {
+    static RUNS: Mutex<BTreeMap<(PathBuf, String), String>> = Mutex::new(BTreeMap::new());
+    let mut runs = RUNS.lock().unwrap_or_else(PoisonError::into_inner);
+    let asked = (model.to_owned(), features.to_owned());
+    if let Some(text) = runs.get(&asked) {
+        return Ok(text.clone());
+    }
     let folder = process::target_dir().join("firmware/host");
     let mut command = cargo();
     command.args(["build", "--release", "--quiet", "--locked"]);
@@ -91,7 +99,10 @@ pub(super) fn on_host(model: &Path, features: &str) -> Result<String, String> {
     command.arg("--target-dir").arg(&folder).env("MBS_MODEL", model);
     run(command.current_dir(process::root().join("mbs-nostd/firmware/host")))?;
     let program = folder.join("release/mbs-firmware-host");
-    output(&mut Command::new(&program)).ok_or_else(|| format!("{} failed", program.display()))
+    let text = output(&mut Command::new(&program));
+    let text = text.ok_or_else(|| format!("{} failed", program.display()))?;
+    runs.insert(asked, text.clone());
+    Ok(text)
 }
 
 /// Features as the firmware names them: machine elements are those of mbs-nostd, effects those of mbs-core.

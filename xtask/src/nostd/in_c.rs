@@ -13,7 +13,8 @@ use std::process::Command;
 /// What failed, or that a bit differs.
 pub(super) fn check(models: &Path) -> Result<String, String> {
     let here = process::root().join("mbs-nostd/ffi");
-    let folder = process::target_dir().join("firmware/ffi");
+    // Other people's crates are those of the host's run.
+    let folder = process::target_dir().join("firmware/host");
     let mut library = cargo();
     library.args(["build", "--release", "--quiet", "--locked", "--target-dir"]).arg(&folder);
     run(library.current_dir(&here))?;

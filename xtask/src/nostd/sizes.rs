@@ -1,20 +1,12 @@
 //! Growth of an image by each effect's feature, and by that of all machine elements: flash, static data, stack.
 
 use super::board::{M7, build, emulate, export};
+use super::form::Form;
 use super::image::Image;
 use super::run_report::RunReport;
 use super::toolchain::Toolchain;
 use crate::effects::{self, Listed};
 use std::path::Path;
-
-/// Of which sets of features images are made.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Sizes {
-    /// No feature, and all of them.
-    OfAll,
-    /// These, and each alone.
-    OfEach,
-}
 
 /// Modules of the law of tires, which no other effect shares.
 const OF_TIRES: [&str; 5] =
@@ -52,12 +44,12 @@ fn features() -> Vec<(&'static str, Vec<String>)> {
 pub(super) fn check(
     (toolchain, lld): (Toolchain, Option<&Path>),
     models: &Path,
-    of: Sizes,
+    form: Form,
 ) -> Result<Vec<String>, String> {
     let model = export("six-joint-arm", "f32", models)?;
     let all: Vec<&str> = features().into_iter().map(|(feature, _)| feature).collect();
     let mut sets = vec![String::new()];
-    if of == Sizes::OfEach {
+    if form == Form::Whole {
         sets.extend(all.iter().map(|&feature| feature.to_owned()));
     }
     sets.push(all.join(","));

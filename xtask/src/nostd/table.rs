@@ -1,5 +1,7 @@
 //! Builds that are cross-compiled: crates, feature sets, targets.
 
+use super::form::Form;
+
 /// One build: a crate with a feature set.
 #[derive(Debug, PartialEq, Eq)]
 pub(crate) struct Build {
@@ -39,6 +41,11 @@ const BUILDS: &[Build] = &[
 /// The targets: Cortex-M4F and Cortex-M7 with hardware floating point; Cortex-M0 without; RISC-V without.
 pub(crate) const TARGETS: &[&str] =
     &["thumbv7em-none-eabihf", "thumbv6m-none-eabi", "riscv32imac-unknown-none-elf"];
+
+/// The targets of a form. RISC-V has nothing in types and names that the two before it lack: it is left to the whole.
+pub(super) fn targets(form: Form) -> &'static [&'static str] {
+    if form == Form::Whole { TARGETS } else { &TARGETS[..2] }
+}
 
 /// The builds for a target: every set for the first target; for the others the first and the last set of each crate. A set between
 /// them has no code for a target that the ends lack.
