@@ -114,7 +114,11 @@ enum Job {
         jobs: Option<usize>,
     },
     /// Count the instructions of a step under callgrind: what is absent or switched off costs nothing
-    Counts,
+    Counts {
+        /// Leave out the build that has no effects: the cost of effects in a scene without them, and their refusals
+        #[arg(long)]
+        short: bool,
+    },
     /// Try malformed scenes, mutated text and random mechanisms; what breaks or hangs is kept under target/fuzz
     Fuzz {
         /// For so long [s]
@@ -154,7 +158,7 @@ fn run(job: Job) -> Result<bool, String> {
         Job::Peers { quick, names } => return peers::peers(quick, &names),
         Job::Profile { keep, scenes } => profile::profile(keep, &scenes)?,
         Job::Gauntlet { count, jobs } => return gauntlet::gauntlet(count, jobs),
-        Job::Counts => return counts::counts(),
+        Job::Counts { short } => return counts::counts(short),
         Job::Fuzz { seconds, seed, count } => fuzz::fuzz(seconds, seed, count)?,
     }
     Ok(true)

@@ -47,11 +47,18 @@ impl Claim {
 #[derive(Debug)]
 pub(crate) struct Runs {
     pub(crate) full: Vec<Case>,
-    pub(crate) lean: Vec<Case>,
-    /// Answers of the build without effects: effect, feature, message.
-    pub(crate) refusals: Vec<[String; 3]>,
+    /// Build without effects; `None` in the short form.
+    pub(crate) lean: Option<Lean>,
     pub(crate) trains: Vec<Case>,
     pub(crate) plain: Vec<Case>,
+}
+
+/// Runs of the build without effects.
+#[derive(Debug)]
+pub(crate) struct Lean {
+    pub(crate) cases: Vec<Case>,
+    /// Answers to effects: effect, feature, message.
+    pub(crate) refusals: Vec<[String; 3]>,
 }
 
 /// Cases by the words of their names: formulation, dimension, effect, switch.
@@ -66,18 +73,13 @@ pub(crate) fn other<'a>(cases: &'a [Case], case: &Case, switch: &str) -> Option<
     cases.iter().find(|other| words(other) == [formulation, dimension, effect, switch])
 }
 
-/// Returns all claims, each looked at.
+/// Returns all claims, each looked at; those on the build without effects first, where there is one.
 pub(crate) fn all(runs: &Runs) -> Vec<Claim> {
-    vec![
-        switched_off(runs),
-        left_out(runs),
-        refused(runs),
-        planar(runs),
-        absent(runs),
-        present(runs),
-        gears(runs),
-        growth(runs),
-    ]
+    let of_lean =
+        runs.lean.iter().flat_map(|lean| [left_out(&runs.full, &lean.cases), refused(lean)]);
+    let others =
+        [switched_off(runs), planar(runs), absent(runs), present(runs), gears(runs), growth(runs)];
+    of_lean.chain(others).collect()
 }
 
 /// Instructions of a train with its gears `on` or `out`.
@@ -121,23 +123,22 @@ fn switched_off(runs: &Runs) -> Claim {
 }
 
 #[allow(clippy::cast_precision_loss, reason = "counts are far below 2^53")]
-fn left_out(runs: &Runs) -> Claim {
+fn left_out(all: &[Case], lean: &[Case]) -> Claim {
     let mut claim = Claim::new(
         "a scene without effects costs at most 1 % more where all effects are compiled than where none is",
     );
-    for lean in runs.lean.iter().filter(|case| words(case)[3] == "out") {
-        let full =
-            other(&runs.full, lean, "out").map_or(f64::INFINITY, |case| case.instructions as f64);
+    for lean in lean.iter().filter(|case| words(case)[3] == "out") {
+        let full = other(all, lean, "out").map_or(f64::INFINITY, |case| case.instructions as f64);
         let share = full / lean.instructions as f64 - 1.0;
         claim.check(share.abs() <= MAX_OVERHEAD, || format!("{}: {share:+.4}", lean.name));
     }
     claim
 }
 
-fn refused(runs: &Runs) -> Claim {
+fn refused(lean: &Lean) -> Claim {
     let mut claim =
         Claim::new("an effect that is not compiled is refused, with the feature's name");
-    for [effect, feature, message] in &runs.refusals {
+    for [effect, feature, message] in &lean.refusals {
         claim.check(message.contains(&format!("`{feature}`")), || format!("{effect}: {message:?}"));
     }
     claim
@@ -256,10 +257,10 @@ mod tests {
             case("index-3 planar tire off", 101, &[]),
         ];
         let lean = vec![case("index-3 planar bumper out", 98, &[])];
-        let runs = Runs { full, lean, refusals: vec![], trains: vec![], plain: vec![] };
+        let runs = Runs { full, lean: None, trains: vec![], plain: vec![] };
         assert_eq!(switched_off(&runs).n_checked, 2);
         assert_eq!(switched_off(&runs).against.len(), 1);
-        assert_eq!(left_out(&runs).against.len(), 1);
+        assert_eq!(left_out(&runs.full, &lean).against.len(), 1);
         assert!(!planar(&runs).holds(), "what was not looked at does not hold");
     }
 

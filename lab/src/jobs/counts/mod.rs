@@ -10,7 +10,7 @@ mod claims;
 use crate::format;
 use callgrind::Case;
 pub(crate) use callgrind::missing as missing_valgrind;
-use claims::{Claim, Runs};
+use claims::{Claim, Lean, Runs};
 use serde_json::{Value, json};
 use std::path::PathBuf;
 use std::process::Command;
@@ -29,17 +29,17 @@ fn cases() -> Vec<String> {
     effects::all().flat_map(Listed::cases).chain([GUIDE.to_owned()]).collect()
 }
 
-/// Counts, prints the table and writes it as JSON; says whether every claim holds.
+/// Counts, prints the table and writes it as JSON; says whether every claim holds. The short form has no build without effects.
 ///
 /// # Errors
 ///
 /// What could not be built or run.
 #[allow(clippy::print_stdout, reason = "the table is what this job is for")]
-pub(crate) fn counts() -> Result<bool, String> {
+pub(crate) fn counts(is_short: bool) -> Result<bool, String> {
     if let Some(left_out) = callgrind::missing("counts") {
         return Err(format!("{}\n{}", left_out.why, left_out.remedy));
     }
-    let (runs, claims) = count()?;
+    let (runs, claims) = count(is_short)?;
     print!("{}\n{}", table(&runs), verdict(&claims));
     let json = format!("{:#}\n", json(&runs, &claims));
     process::write(&folder().join("counts.json"), json.as_bytes())?;
@@ -49,15 +49,18 @@ pub(crate) fn counts() -> Result<bool, String> {
 }
 
 /// Builds and runs the programs, and looks at the claims.
-fn count() -> Result<(Runs, Vec<Claim>), String> {
+fn count(is_short: bool) -> Result<(Runs, Vec<Claim>), String> {
     let counted = |profile, with_effects, steps: u64, effects: &[String]| {
         let args: Vec<_> = [steps.to_string()].into_iter().chain(effects.to_vec()).collect();
         callgrind::run(&build(profile, with_effects)?, &args, &folder().join("callgrind"))
     };
+    let lean = || {
+        let cases = counted("dist", false, STEPS, &["spring-damper".to_owned()])?;
+        Ok::<_, String>(Lean { cases, refusals: refusals()? })
+    };
     let runs = Runs {
+        lean: if is_short { None } else { Some(lean()?) },
         full: counted("dist", true, STEPS, &cases())?,
-        lean: counted("dist", false, STEPS, &["spring-damper".to_owned()])?,
-        refusals: refusals()?,
         trains: counted("dist", true, STEPS, &TRAINS.map(str::to_owned))?,
         plain: counted("plain", true, 1, &["bumper".to_owned(), GUIDE.to_owned()])?,
     };
@@ -104,7 +107,8 @@ fn json(runs: &Runs, claims: &[Claim]) -> Value {
     };
     let claim = |c: &Claim| json!({ "claim": c.text, "holds": c.holds(), "comparisons": c.n_checked, "against": c.against });
     let claims: Value = claims.iter().map(claim).collect();
-    json!({ "all_effects": cases(&runs.full), "claims": claims, "no_effects": cases(&runs.lean), "steps": STEPS, "trains": cases(&runs.trains) })
+    let lean = runs.lean.as_ref().map(|lean| cases(&lean.cases));
+    json!({ "all_effects": cases(&runs.full), "claims": claims, "no_effects": lean, "steps": STEPS, "trains": cases(&runs.trains) })
 }
 
 /// Instructions of a step: one row for each effect, one column for each formulation and dimension; left out / switched off / on.
@@ -131,10 +135,11 @@ fn table(runs: &Runs) -> String {
         let switches: &[&str] = if effect == GUIDE { &["on"] } else { &["out", "off", "on"] };
         row(&runs.full, &effect, &effect, switches)
     };
-    let lean = row(&runs.lean, "none compiled", "spring-damper", &["out"]);
+    let lean = runs.lean.as_ref();
+    let lean = lean.map(|lean| row(&lean.cases, "none compiled", "spring-damper", &["out"]));
     let headings = columns.iter().map(|column| column.join(", "));
     let head: Vec<_> = ["effect".to_owned()].into_iter().chain(headings).collect();
-    let effects = format::markdown(&head, [lean].into_iter().chain(cases().into_iter().map(full)));
+    let effects = format::markdown(&head, lean.into_iter().chain(cases().into_iter().map(full)));
     format!("{effects}\n{}", of_trains(&runs.trains))
 }
 
