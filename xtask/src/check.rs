@@ -83,14 +83,13 @@ const AFTER_THE_TESTS: [Listed; 3] =
 /// Lists beside each other: each alone leaves a core idle half of the time. What they use of the target folder of the tests is built there by
 /// now, with the features of the tests.
 const BESIDE: [&[Listed]; 3] = [
-    &[
-        ("fuzz", fuzz),
-        ("pages", pages::check),
-        ("documentation", documentation::check),
-        ("counts", counts),
-    ],
+    &[("fuzz", fuzz), ("pages", pages::check), ("counts", counts)],
     &[("check-nostd", nostd::check), ("pick", pick::check)],
-    &[("features", features::check), ("lines", lines::check)],
+    &[
+        ("features", features::check),
+        ("documentation", documentation::check),
+        ("lines", lines::check),
+    ],
 ];
 
 fn listed(list: &[Listed], summary: &mut Summary) {
@@ -102,22 +101,40 @@ fn listed(list: &[Listed], summary: &mut Summary) {
 /// Seconds of the long fuzzing.
 const LONG_FUZZ: &str = "1800";
 
-/// Runs the long list: what each of the checks above has in a short form, whole, and what takes other programs.
+/// A job of the long list.
+#[derive(Debug, Clone, Copy)]
+enum LongJob {
+    /// Function of this program.
+    Here(Check),
+    /// Words of the command line, for a job that ends the process it runs in.
+    Words(&'static [&'static str]),
+}
+
+/// The long list: what each of the checks above has in a short form, whole, and what takes other programs.
+const LONG: [(&str, LongJob); 13] = [
+    ("packages", LongJob::Here(package::check)),
+    ("notebooks", LongJob::Here(python::notebooks)),
+    ("features, more", LongJob::Here(features::more)),
+    ("pages, whole", LongJob::Here(pages::whole)),
+    ("counts, whole", LongJob::Words(&["counts"])),
+    ("lines, whole", LongJob::Words(&["counts", "--lines"])),
+    ("check-nostd, whole", LongJob::Words(&["check-nostd"])),
+    ("races", LongJob::Words(&["races"])),
+    ("gauntlet, whole", LongJob::Words(&["gauntlet"])),
+    ("fuzz, long", LongJob::Words(&["fuzz", "--seconds", LONG_FUZZ])),
+    ("choice", LongJob::Words(&["choice"])),
+    ("report", LongJob::Words(&["report"])),
+    ("peers", LongJob::Words(&["peers", "--quick"])),
+];
+
 fn long(summary: &mut Summary) {
-    let jobs: [(&str, &[&str]); 7] = [
-        ("check-nostd, whole", &["check-nostd"]),
-        ("races", &["races"]),
-        ("gauntlet, whole", &["gauntlet"]),
-        ("fuzz, long", &["fuzz", "--seconds", LONG_FUZZ]),
-        ("choice", &["choice"]),
-        ("report", &["report"]),
-        ("peers", &["peers", "--quick"]),
-    ];
-    summary.check("packages", package::check);
-    summary.check("notebooks", python::notebooks);
-    for (name, words) in jobs {
-        let job = || passed(Command::new(std::env::current_exe().unwrap_or_default()).args(words));
-        summary.check(name, job);
+    for (name, job) in LONG {
+        summary.check(name, || match job {
+            LongJob::Here(check) => check(),
+            LongJob::Words(words) => {
+                passed(Command::new(std::env::current_exe().unwrap_or_default()).args(words))
+            }
+        });
     }
 }
 
@@ -136,9 +153,9 @@ fn format() -> Result<Outcome, String> {
     component("fmt", "rustfmt", &args)
 }
 
-/// With the benches, and the rival that they name: here alone they are compiled.
+/// With the benches, the rival that they name, our side of the peers and the program `counts`: here alone they have lints.
 fn lints() -> Result<Outcome, String> {
-    let benches = ["clippy", "--workspace", "--features", "lab/benches"];
+    let benches = ["clippy", "--workspace", "--features", "lab/benches,lab/effects,lab/ours"];
     let args = ["--all-targets", "--quiet", "--", "--deny", "warnings"];
     component("clippy", "clippy", &[&benches[..], &args[..]].concat())
 }
@@ -160,7 +177,7 @@ fn fuzz() -> Result<Outcome, String> {
 
 fn counts() -> Result<Outcome, String> {
     match debian::find("valgrind", "valgrind") {
-        Ok(()) => lab(&["counts"]),
+        Ok(()) => lab(&["counts", "--short"]),
         Err(left_out) => Ok(Outcome::LeftOut(left_out)),
     }
 }
@@ -210,5 +227,16 @@ mod tests {
         let lists =
             [names(&BEFORE_THE_TESTS), vec!["tests", "python"], names(&AFTER_THE_TESTS), beside];
         assert_eq!(numbered.collect::<Vec<_>>(), lists.concat());
+    }
+
+    #[test]
+    fn contributing_lists_the_long_list_in_its_order() {
+        let text = include_str!("../../CONTRIBUTING.md");
+        let (_, after) = text.split_once("The long list has").expect("a paragraph on it");
+        let named = after.lines().skip(1).skip_while(|line| !line.starts_with("- `"));
+        let named = named.take_while(|line| !line.is_empty());
+        let named = named.filter_map(|line| line.strip_prefix("- `")?.split_once("`: "));
+        let names: Vec<_> = named.map(|(name, _)| name).collect();
+        assert_eq!(names, LONG.map(|(name, _)| name));
     }
 }

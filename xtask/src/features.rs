@@ -1,30 +1,20 @@
-//! Builds that the tests of the workspace leave out: crates with each set of features, the command in `f64` alone, our side of the peers.
+//! Builds that the tests of the workspace leave out: crates with sets of their features, the command in `f64` alone.
 
 use crate::process::{self, cargo, output, run};
 use crate::summary::Outcome;
 use std::fs;
 use std::path::PathBuf;
+use std::process::Stdio;
 
-/// Crates with features, and the sets of them that must build on the host.
-const FEATURES: [(&str, &[&str]); 8] = [
+/// Crates with the sets of their features.
+type Sets = [(&'static str, &'static [&'static str])];
+
+/// Sets that the check looks at: none, each feature on in one set and off in another. All features together are those of `lints` and of the tests, and
+/// the command in `f64` alone is that of `lean`. With `alloc` mbs-core takes a quarter of a minute for each set, so that crates above it have its sets.
+const SHORT: &Sets = &[
     ("mbs-math", &["", "alloc", "f32,dd"]),
-    // Of the effects: laws with tables, laws that share a file, laws of both kinds, and all without scenes.
-    (
-        "mbs-core",
-        &[
-            "",
-            "alloc",
-            "std",
-            "alloc,polynomial",
-            "alloc,limit,friction",
-            "alloc,bushing,bumper",
-            "alloc,tire,speed-hold",
-            "alloc,own-laws,drag",
-            "effects",
-            "instances",
-            "instances,f32,dd",
-        ],
-    ),
+    // Of the effects: each kind of law with tables in another set, and with it laws that share no file with it.
+    ("mbs-core", &["", "alloc", POLYNOMIAL, TIRE, OWN_LAWS, "effects"]),
     // Of the elements: those with rows, those without, and all.
     (
         "mbs-recursive",
@@ -35,25 +25,55 @@ const FEATURES: [(&str, &[&str]); 8] = [
             "lines,sums",
             "rotors,signals",
             "alloc",
-            "alloc,mbs-core/tire",
-            "alloc,mbs-core/effects",
+        ],
+    ),
+    (
+        "mbs-nostd",
+        &["", "mbs-core/tire", "couplings,rotors", "lines,signals,sums", "elements", "export"],
+    ),
+    // The rest of lab is in `lints`.
+    ("lab", &["jobs"]),
+];
+
+const POLYNOMIAL: &str = "alloc,polynomial,limit,bumper";
+const TIRE: &str = "alloc,tire,friction,drag";
+const OWN_LAWS: &str = "alloc,own-laws,bushing,speed-hold";
+
+/// Further sets, of the long list: each effect alone, laws that share a file, tables of functions with and without precisions, and the
+/// precisions alone.
+const MORE: &Sets = &[
+    (
+        "mbs-core",
+        &[
+            "std",
+            "alloc,polynomial",
+            "alloc,bumper",
+            "alloc,limit",
+            "alloc,friction",
+            "alloc,bushing",
+            "alloc,drag",
+            "alloc,speed-hold",
+            "alloc,tire",
+            "alloc,own-laws",
+            "alloc,limit,friction",
+            "alloc,bushing,bumper",
+            "alloc,tire,speed-hold",
+            "alloc,own-laws,drag",
             "instances",
             "instances,f32,dd",
         ],
     ),
     (
+        "mbs-recursive",
+        &["alloc,mbs-core/tire", "alloc,mbs-core/effects", "instances", "instances,f32,dd"],
+    ),
+    (
         "mbs-nostd",
         &[
-            "",
-            "mbs-core/tire",
             "mbs-core/polynomial,mbs-core/speed-hold",
             "mbs-core/effects",
-            "couplings,rotors",
             "couplings,curves",
             "rolling",
-            "lines,signals,sums",
-            "elements",
-            "export",
             "export,mbs-core/effects",
         ],
     ),
@@ -66,15 +86,27 @@ const FEATURES: [(&str, &[&str]); 8] = [
 /// The variable that names the command in `f64` alone to its tests.
 const LEAN: &str = "MBS_LEAN";
 
-/// Checks crates with each of their feature sets alone, with lints where they are installed.
+/// Checks crates with the sets of the short form, with lints where they are installed.
 ///
 /// # Errors
 ///
 /// The first set that fails.
 pub(crate) fn check() -> Result<Outcome, String> {
+    check_sets(SHORT)
+}
+
+/// Checks crates with the sets of the long list.
+///
+/// # Errors
+///
+/// The first set that fails.
+pub(crate) fn more() -> Result<Outcome, String> {
+    check_sets(MORE)
+}
+
+fn check_sets(all: &Sets) -> Result<Outcome, String> {
     let has_lints = output(cargo().args(["clippy", "--version"])).is_some();
-    let sets =
-        FEATURES.iter().flat_map(|(package, sets)| sets.iter().map(move |set| (package, set)));
+    let sets = all.iter().flat_map(|(package, sets)| sets.iter().map(move |set| (package, set)));
     for (package, set) in sets {
         let mut command = cargo();
         command.args([if has_lints { "clippy" } else { "check" }, "--quiet", "--package", package]);
@@ -84,16 +116,12 @@ pub(crate) fn check() -> Result<Outcome, String> {
         }
         run(command.current_dir(process::root()))?;
     }
-    // What is compared with other programs stands outside the workspace: nothing else would show that it still fits.
-    let mut peers = cargo();
-    peers.args(["check", "--quiet", "--locked", "--manifest-path", "lab/peers/ours/Cargo.toml"]);
-    run(peers.args(["--target-dir", "target/peers/check"]).current_dir(process::root()))?;
     let names = |sets: &[&str]| {
         let names = sets.iter().map(|set| if set.is_empty() { "none" } else { set });
         names.collect::<Vec<_>>().join(", ")
     };
-    let remarks = FEATURES.map(|(package, sets)| format!("{package} with {}", names(sets)));
-    Ok(Outcome::Passed(remarks.join("; ")))
+    let remarks = all.iter().map(|(package, sets)| format!("{package} with {}", names(sets)));
+    Ok(Outcome::Passed(remarks.collect::<Vec<_>>().join("; ")))
 }
 
 /// Tests the command in `f64` alone, which the repository's first command builds: what asks for more must be known by its exit status.
@@ -121,7 +149,8 @@ pub(crate) fn lean() -> Result<Outcome, String> {
 /// Crates of the command that the profile of the tests raises above its own level.
 const RAISED: [&str; 3] = ["mbs-nostd", "mbs-scene", "mbs-steps"];
 
-/// Builds the command in `f64` alone; its path. Nothing long runs, so that all of ours is at level 0: a fifth of the work of a release.
+/// Builds the command in `f64` alone; its path. Nothing long runs, so that all of ours is at level 0: a fifth of the work of a release. A warning
+/// fails it: no lints look at this set of features.
 fn lean_command() -> Result<PathBuf, String> {
     let mut build = cargo();
     build.args(["build", "--quiet", "--package", "mbs-cli", "--bin", "mbs"]);
@@ -129,7 +158,14 @@ fn lean_command() -> Result<PathBuf, String> {
     for raised in RAISED {
         build.args(["--config", &format!("profile.dev.package.{raised}.opt-level=0")]);
     }
-    run(build.env("CARGO_PROFILE_DEV_OPT_LEVEL", "0").current_dir(process::root()))?;
+    build.env("CARGO_PROFILE_DEV_OPT_LEVEL", "0").stdin(Stdio::null());
+    let line = process::line(&build);
+    let out = build.current_dir(process::root()).output();
+    let out = out.map_err(|e| format!("cannot start `{line}`: {e}"))?;
+    let messages = String::from_utf8_lossy(&out.stderr);
+    if !out.status.success() || messages.contains("warning: ") {
+        return Err(format!("`{line}`: {}\n{messages}", out.status));
+    }
     let [built, kept] =
         ["debug", "lean"].map(|folder| process::target_dir().join(folder).join("mbs"));
     let copied = fs::create_dir_all(process::target_dir().join("lean"));
@@ -137,4 +173,67 @@ fn lean_command() -> Result<PathBuf, String> {
         .and_then(|()| fs::copy(&built, &kept))
         .map_err(|e| format!("{}: {e}", kept.display()))?;
     Ok(kept)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeSet;
+    use std::path::Path;
+
+    fn of(sets: &'static Sets, package: &str) -> Vec<BTreeSet<&'static str>> {
+        let sets = sets.iter().filter(|(name, _)| *name == package).flat_map(|(_, sets)| *sets);
+        sets.map(|set| set.split(',').filter(|feature| !feature.is_empty()).collect()).collect()
+    }
+
+    #[test]
+    fn each_effect_is_on_without_each_other_in_the_long_list_and_with_two_in_the_short_form() {
+        let effects: BTreeSet<_> =
+            crate::effects::all().filter_map(|listed| listed.feature).collect();
+        let of_effects = |sets| -> Vec<BTreeSet<_>> {
+            let all = of(sets, "mbs-core").into_iter().filter(|set| set.contains("alloc"));
+            all.map(|set| set.intersection(&effects).copied().collect()).collect()
+        };
+        let (short, more) = (of_effects(SHORT), of_effects(MORE));
+        for effect in &effects {
+            assert_eq!(short.iter().filter(|set| set.contains(effect)).count(), 1, "{effect}");
+            assert!(more.contains(&BTreeSet::from([*effect])), "{effect} alone");
+        }
+    }
+
+    #[test]
+    fn each_element_is_on_and_off_in_the_short_form() {
+        let sets = of(SHORT, "mbs-recursive");
+        for element in ["couplings", "curves", "lines", "rolling", "rotors", "signals", "sums"] {
+            let n = sets.iter().filter(|set| set.contains(element)).count();
+            assert!((1..sets.len()).contains(&n), "{element}");
+        }
+    }
+
+    /// Sets with features that only forward are left to the long list.
+    #[test]
+    fn features_that_only_forward_are_asked_for_nowhere() {
+        fn text(folder: &Path) -> String {
+            let entries = fs::read_dir(folder).expect("a folder").flatten().map(|e| e.path());
+            let each = entries.map(|path| {
+                if path.is_dir() {
+                    text(&path)
+                } else {
+                    fs::read_to_string(path).unwrap_or_default()
+                }
+            });
+            each.collect()
+        }
+        for (package, features) in [
+            ("mbs-core", &["std"][..]),
+            ("mbs", &["f32", "dd"]),
+            ("mbs-study", &["f32", "dd"]),
+            ("mbs-cli", &["f32", "dd"]),
+        ] {
+            let text = text(&process::root().join(package).join("src"));
+            let asked =
+                features.iter().find(|name| text.contains(&format!("feature = \"{name}\"")));
+            assert_eq!(asked, None, "{package}: put a set with it into the short form");
+        }
+    }
 }

@@ -51,7 +51,7 @@ enum Job {
         #[arg(long, hide = true)]
         long: bool,
     },
-    /// Every check, also behind one that fails: format, lints, tests, python, rules, lean, documents, fuzz, pages, documentation, counts, check-nostd, pick, features, lines
+    /// Every check, also behind one that fails: format, lints, tests, python, rules, lean, documents, fuzz, pages, counts, check-nostd, pick, features, documentation, lines
     Check {
         /// Without the tests, which `cargo xtask test` has run
         #[arg(long)]
@@ -59,7 +59,7 @@ enum Job {
         /// Fail where a check cannot run for want of a tool
         #[arg(long)]
         strict: bool,
-        /// Then the jobs that take hours: packages, races, the whole gauntlet, long fuzzing, choice, report, peers, notebooks
+        /// Then the long list: what the check has in a short form, and jobs that take hours (CONTRIBUTING.md)
         #[arg(long)]
         long: bool,
         /// One of the lists beside each other, and the file that says how its checks ended: how the check starts itself

@@ -22,12 +22,35 @@ const CATCH: &str = "<script>window.probeFaults = []; addEventListener(\"error\"
 /// Takes WebGL away from a page.
 const WITHOUT_WEBGL: &str = "<script>window.probeWithoutWebGL = true; const whole = HTMLCanvasElement.prototype.getContext; HTMLCanvasElement.prototype.getContext = function (kind, ...rest) { return /webgl/.test(kind) ? null : whole.call(this, kind, ...rest); };</script>";
 
-/// Makes the pages of runs, a comparison, a difference, a diagnosis and a sweep, and looks at them.
+/// A look at a page: its width in pixels, and the colours as a word and as the browser's own number.
+type Look = (u32, (&'static str, &'static str));
+
+/// Looks of the short form: each width and each colours once.
+const SHORT: [Look; 2] = [(WIDTHS[0], THEMES[0]), (WIDTHS[1], THEMES[1])];
+
+/// Makes the pages of runs, a comparison, a difference, a diagnosis and a sweep, and looks at them: at each width and in each colours once.
 ///
 /// # Errors
 ///
 /// What is wrong with a page, by its width.
 pub(crate) fn check() -> Result<Outcome, String> {
+    check_with(&SHORT)
+}
+
+/// Looks at the same pages at every width in all colours.
+///
+/// # Errors
+///
+/// What is wrong with a page, by its width.
+pub(crate) fn whole() -> Result<Outcome, String> {
+    check_with(&all_looks())
+}
+
+fn all_looks() -> Vec<Look> {
+    WIDTHS.iter().flat_map(|width| THEMES.map(|theme| (*width, theme))).collect()
+}
+
+fn check_with(looks: &[Look]) -> Result<Outcome, String> {
     let Some(browser) = browser() else {
         return Ok(Outcome::LeftOut(LeftOut {
             why: "there is no chromium".to_owned(),
@@ -37,10 +60,12 @@ pub(crate) fn check() -> Result<Outcome, String> {
     let folder = process::target_dir().join("pages");
     let pages = made(&folder)?;
     for page in pages {
-        look(browser, &folder.join(page))?;
+        look_with(browser, &folder.join(page), (looks, ""))?;
     }
-    look_with(browser, &folder.join("run.html"), WITHOUT_WEBGL)?;
-    Ok(Outcome::Passed(format!("{} at {WIDTHS:?} px, light and dark", pages.join(", "))))
+    look_with(browser, &folder.join("run.html"), (looks, WITHOUT_WEBGL))?;
+    let looks: Vec<_> =
+        looks.iter().map(|(width, (theme, _))| format!("{width} {theme}")).collect();
+    Ok(Outcome::Passed(format!("{} at {} px", pages.join(", "), looks.join(", "))))
 }
 
 /// Makes the pages in a folder.
@@ -107,16 +132,16 @@ pub fn browser() -> Option<&'static str> {
 ///
 /// What is wrong with it.
 pub fn look(browser: &str, page: &Path) -> Result<(), String> {
-    look_with(browser, page, "")
+    look_with(browser, page, (&all_looks(), ""))
 }
 
 /// Looks at a page with a script before anything of it.
-fn look_with(browser: &str, page: &Path, before: &str) -> Result<(), String> {
+fn look_with(browser: &str, page: &Path, (looks, before): (&[Look], &str)) -> Result<(), String> {
     let place = |e: std::io::Error| format!("{}: {e}", page.display());
     let html = fs::read_to_string(page).map_err(place)?;
     let probed = page.with_extension("probed.html");
     let mut faults = Vec::new();
-    for (width, theme) in WIDTHS.iter().flat_map(|w| THEMES.map(|theme| (w, theme))) {
+    for (width, theme) in looks {
         let before = format!("{before}<script>window.probeTheme = \"{}\";</script>", theme.0);
         fs::write(&probed, with_probe(&html, &before)).map_err(place)?;
         let frame = page.with_extension("frame.html");
@@ -203,6 +228,13 @@ fn mbs(arguments: &[&str]) -> Result<(), String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_short_form_has_each_width_and_each_colours() {
+        assert!(WIDTHS.iter().all(|width| SHORT.iter().any(|look| look.0 == *width)));
+        assert!(THEMES.iter().all(|theme| SHORT.iter().any(|look| look.1 == *theme)));
+        assert_eq!(all_looks().len(), WIDTHS.len() * THEMES.len());
+    }
 
     #[test]
     fn a_page_gets_the_probe_and_its_report_is_read() {
