@@ -77,7 +77,7 @@ fn run(arguments: &Arguments) -> Result<(Report, PathBuf), Refusal> {
     let document = arguments.scene.read()?.document;
     let sweep = input::document(&arguments.sweep, "sweep file", (None, false))?;
     let overrides = Method { interrupt: signals::heeded(), ..arguments.method.given.clone() };
-    let study = Study::new(document.clone(), &sweep, &overrides);
+    let study = Study::new(document.clone(), &sweep.into(), &overrides);
     let study = study.map_err(|error| refused(&error, &document))?;
     let out = arguments.out();
     let &Arguments { part, threads, restart: anew, .. } = arguments;

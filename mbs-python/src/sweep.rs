@@ -84,7 +84,7 @@ impl Sweep {
         let py = mechanism.py();
         let (method, _) = settings::method(settings)?;
         let (method, flag) = settings::interruptible(method);
-        let file = SceneFile::parse(text, "sweep").map_err(|error| unread(py, &error))?;
+        let file = SceneFile::parse(text, "sweep").map_err(|error| unread(py, &error))?.into();
         let scene = mechanism.get().shared.file.clone();
         let study =
             guarded(py, || Study::new(scene, &file, &method).map_err(|error| refused(py, error)))?;

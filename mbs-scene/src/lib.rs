@@ -13,7 +13,10 @@ pub use dice::Dice;
 pub use generate::{Family, GenerateError, MOST_BODIES, generate};
 pub use mbs_core::outputs::Component;
 pub use mbs_mesh::{MESH_ENDINGS, MeshFault, Solid, TriangleMesh, VolumeRule, hull, mesh_ending};
-pub use read::{Place, ReadError, ReadFault, SceneFile, SweepFault, SweepFile, nearest_name};
+pub use read::{
+    Place, ReadError, ReadFault, SceneFile, SceneSweep, SweepFault, SweepRefusal, SweepSource,
+    nearest_name,
+};
 pub use write::{WriteError, quoted, to_toml};
 
 /// Items that the tests of this crate call; no part of its interface.

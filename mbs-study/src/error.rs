@@ -8,6 +8,9 @@ impl From<StudyError> for SimulationError {
     fn from(error: StudyError) -> Self {
         match error {
             StudyError::Read(error) => error.into(),
+            StudyError::Path { ref fault, .. } => {
+                Self::new("scene-refused", &error, fault.hint()).with_cause(error)
+            }
             StudyError::Settings(error) => error.into(),
             other => {
                 let hint = "leave the option out, or do not vary the number";

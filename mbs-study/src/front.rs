@@ -9,7 +9,7 @@ use crate::sweep::{Columns, Row, Study};
 use core::num::NonZeroUsize;
 use mbs::inside::PreparedRun;
 use mbs::{Mechanism, Method, Number, PathError, Run, RunResult, SimulationError, Watchers};
-use mbs_scene::SceneFile;
+use mbs_scene::{SceneFile, SweepSource};
 use std::io;
 use std::path::Path;
 
@@ -111,29 +111,26 @@ pub fn compare(m: &Mechanism, options: &Compare) -> Result<Comparison, Simulatio
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sweep {
-    text: String,
+    source: SweepSource,
     method: Method,
     threads: Option<NonZeroUsize>,
-    /// The first path with a value that is not finite.
-    not_finite: Option<String>,
 }
 
 impl Sweep {
     /// Each value with each; the last path changes fastest.
     #[must_use]
     pub fn grid() -> Self {
-        Self::of("combine = \"grid\"")
+        Self::of(SweepSource::grid())
     }
 
     /// The first values together, then the second ones, and so on: all paths have as many.
     #[must_use]
     pub fn zip() -> Self {
-        Self::of("combine = \"zip\"")
+        Self::of(SweepSource::zip())
     }
 
-    fn of(combine: &str) -> Self {
-        let text = format!("[sweep]\n{combine}\n");
-        Self { text, method: Method::default(), threads: None, not_finite: None }
+    fn of(source: SweepSource) -> Self {
+        Self { source, method: Method::default(), threads: None }
     }
 
     /// Reads the sweep of a file, as `mbs sweep` reads it.
@@ -141,9 +138,7 @@ impl Sweep {
     /// # Errors
     /// Where it cannot be read. What it says is checked by [`sweep`].
     pub fn read(path: impl AsRef<Path>) -> Result<Self, SimulationError> {
-        let file = SceneFile::read(path)?;
-        let text = file.text().to_owned();
-        Ok(Self { text, method: Method::default(), threads: None, not_finite: None })
+        Ok(Self::of(SceneFile::read(path)?.into()))
     }
 
     /// Varies a number by its path, as [`Mechanism::set`] names it; the path is the name of its column too.
@@ -153,15 +148,7 @@ impl Sweep {
         path: &str,
         values: impl IntoIterator<Item = N>,
     ) -> Self {
-        let values: Vec<Number> = values.into_iter().map(Into::into).collect();
-        if values.iter().any(|value| !value.to_f64().is_finite()) {
-            self.not_finite.get_or_insert_with(|| path.to_owned());
-        }
-        let texts: Vec<String> = values.iter().map(Number::to_string).collect();
-        // text of JSON is text of TOML
-        let path = serde_json::Value::from(path);
-        self.text +=
-            &format!("\n[[vary]]\nname = {path}\npath = {path}\nvalues = [{}]\n", texts.join(", "));
+        self.source.vary(path, values.into_iter().map(Into::into).collect());
         self
     }
 
@@ -197,8 +184,7 @@ impl SweepResult {
     #[must_use]
     pub fn column(&self, name: &str) -> Option<Vec<f64>> {
         let place = self.names().iter().position(|n| n == name)?;
-        let number = |row| self.columns.cells(row)[place].parse().unwrap_or(f64::NAN);
-        Some(self.rows.iter().map(number).collect())
+        Some(self.rows.iter().map(|row| self.columns.numbers(row)[place]).collect())
     }
 
     /// The runs that were not completed: member from 0, code and message.
@@ -236,14 +222,14 @@ impl SweepResult {
 /// The rows do not depend on the number of threads.
 ///
 /// # Errors
-/// [`SimulationError`] for a path or a value that is refused, with its place in the sweep; for a mechanism that has a part in code.
+/// [`SimulationError`] for a path or a value that is refused, with its path in code or its place in the file; for a mechanism that has a part in code.
 pub fn sweep(m: &Mechanism, sweep: &Sweep) -> Result<SweepResult, SimulationError> {
     m.check()?;
-    if let Some(path) = sweep.not_finite.clone() {
-        return Err(PathError::NotFinite { path }.into());
+    let is_finite = |values: &[Number]| values.iter().all(|value| value.to_f64().is_finite());
+    if let Some((path, _)) = sweep.source.varied().find(|(_, values)| !is_finite(values)) {
+        return Err(PathError::NotFinite { path: path.to_owned() }.into());
     }
-    let file = SceneFile::parse(&sweep.text, "sweep")?;
-    let study = Study::new(m.to_file()?, &file, &sweep.method)?;
+    let study = Study::new(m.to_file()?, &sweep.source, &sweep.method)?;
     let rows = study.rows(sweep.threads, &mut ())?;
     Ok(SweepResult { columns: study.columns().clone(), rows })
 }

@@ -44,4 +44,4 @@ pub use document::SceneFile;
 pub use error::{ReadError, ReadFault};
 pub use nearest::nearest_name;
 pub use place::Place;
-pub use sweep::{SweepFault, SweepFile};
+pub use sweep::{SceneSweep, SweepFault, SweepRefusal, SweepSource};

@@ -2,7 +2,7 @@
 
 use mbs_scene::inside::keys::{of, of_kind};
 use mbs_scene::keys::{Base, Example, KeyTable, KeyValue, Standing, tables};
-use mbs_scene::{SceneFile, SweepFile};
+use mbs_scene::{SceneFile, SceneSweep};
 use std::collections::BTreeSet;
 use std::path::Path;
 
@@ -28,7 +28,7 @@ fn every_table_of_files_has_an_example_that_reads_in_all_precisions() {
         if example.base == Base::Sweep {
             let scene = SceneFile::parse(Base::Planar.text(), "scene.toml").expect("TOML");
             let sweep = SceneFile::parse(example.text, "sweep.toml").expect("TOML");
-            SweepFile::read(&sweep, &scene, &[]).unwrap_or_else(|e| panic!("{}", e.render()));
+            SceneSweep::new(&sweep.into(), &scene, &[]).unwrap_or_else(|e| panic!("{e:?}"));
             continue;
         }
         let file = SceneFile::parse_in(&whole(example), "example.toml", folder());

@@ -5,7 +5,7 @@ use cpu_time::ThreadTime;
 use mbs::inside::PreparedRun;
 use mbs::results::ResultTable;
 use mbs::{Error as _, Mechanism, Method, Outcome, Precision, Run, SimulationError, Watchers};
-use mbs_scene::{SceneFile, SweepFile};
+use mbs_scene::{SceneFile, SceneSweep};
 
 /// Row that a member leaves behind.
 #[derive(Debug, Clone, PartialEq)]
@@ -48,7 +48,7 @@ impl Row {
 }
 
 /// Runs a member of a sweep.
-pub(super) fn run(scene: &SceneFile, sweep: &SweepFile, overrides: &Method, member: usize) -> Row {
+pub(super) fn run(scene: &SceneFile, sweep: &SceneSweep, overrides: &Method, member: usize) -> Row {
     let cpu = ThreadTime::try_now();
     let document = sweep.member(scene, member);
     let values = sweep.values(member).map(str::to_owned).collect();
@@ -60,7 +60,7 @@ pub(super) fn run(scene: &SceneFile, sweep: &SweepFile, overrides: &Method, memb
 /// Runs a member anew for its rows; nothing where it does not start.
 pub(super) fn rows(
     scene: &SceneFile,
-    sweep: &SweepFile,
+    sweep: &SceneSweep,
     overrides: &Method,
     member: usize,
 ) -> Option<ResultTable> {

@@ -28,7 +28,7 @@ use mbs::{Method, Precision, ResolvedMethod, SettingsError};
 use mbs_core::scene::{SETTINGS, Setting};
 use mbs_parallel::ensemble::{Ensemble, EnsembleError, Panicked, available};
 use mbs_parallel::most_threads;
-use mbs_scene::{ReadError, SceneFile, SweepFile};
+use mbs_scene::{ReadError, SceneFile, SceneSweep, SweepFault, SweepRefusal, SweepSource};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -45,7 +45,7 @@ const KIND: Kind = Kind {
 #[derive(Debug)]
 pub struct Study {
     scene: SceneFile,
-    sweep: SweepFile,
+    sweep: SceneSweep,
     overrides: Method,
     settings: ResolvedMethod,
     columns: Columns,
@@ -57,8 +57,15 @@ pub struct Study {
 #[derive(Debug)]
 #[non_exhaustive]
 pub enum StudyError {
-    /// Refusal by the scene or the sweep, with the place in the file.
+    /// Refusal by the scene or the file of the sweep, with the place in the file.
     Read(ReadError),
+    /// Refusal of what code varies.
+    Path {
+        /// Path of the numbers; empty where there are none.
+        path: String,
+        /// Fault of the path or of a number.
+        fault: SweepFault,
+    },
     /// Refusal by the settings.
     Settings(SettingsError),
     /// An override of a number that the sweep varies; the path of the number.
@@ -135,7 +142,7 @@ pub trait Watch {
 impl Watch for () {}
 
 impl Study {
-    /// Reads a sweep of a scene and tries its values.
+    /// Lays a sweep out over a scene and tries its values.
     ///
     /// Cost: the scene is read once for each value of a list, and a few times for each range.
     ///
@@ -143,7 +150,7 @@ impl Study {
     /// What the scene, the sweep or the settings refuse. What shows only when values meet is left to the members.
     pub fn new(
         scene: SceneFile,
-        sweep: &SceneFile,
+        sweep: &SweepSource,
         overrides: &Method,
     ) -> Result<Self, StudyError> {
         let data = scene.scene::<f64>().map_err(StudyError::Read)?;
@@ -153,8 +160,8 @@ impl Study {
         }
         let columns = Columns::new(&Channel::of_scene(&data));
         let options = format!("{overrides:?}");
-        let head = Head::new(KIND, &[&scene.whole_text(), sweep.text(), &options]);
-        let sweep = SweepFile::read(sweep, &scene, columns.taken()).map_err(StudyError::Read)?;
+        let head = Head::new(KIND, &[&scene.whole_text(), &sweep.text(), &options]);
+        let sweep = SceneSweep::new(sweep, &scene, columns.taken())?;
         let varied = |path: &str| sweep.varies(&scene, path);
         let is_given = |row: &&Setting| overrides.value(row.name).is_some() && varied(row.path);
         if let Some(row) = SETTINGS.iter().find(is_given) {
@@ -166,7 +173,7 @@ impl Study {
             }
             _ => Ok(()),
         });
-        check.map_err(StudyError::Read)?;
+        check?;
         let columns = columns.with_parameters(sweep.names());
         Ok(Self { scene, sweep, overrides: overrides.clone(), settings, columns, head })
     }
@@ -361,6 +368,15 @@ pub fn whole_rows(lines: Vec<Vec<String>>, n_cells: usize, n_members: usize) -> 
     rows.collect()
 }
 
+impl From<SweepRefusal> for StudyError {
+    fn from(refusal: SweepRefusal) -> Self {
+        match refusal {
+            SweepRefusal::File(error) => Self::Read(error),
+            SweepRefusal::Numbers { path, fault } => Self::Path { path, fault },
+        }
+    }
+}
+
 impl From<PartsError> for SweepError {
     fn from(error: PartsError) -> Self {
         Self::Parts(error)
@@ -382,6 +398,8 @@ impl Display for StudyError {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match self {
             Self::Read(error) => write!(f, "{error}"),
+            Self::Path { path, fault } if path.is_empty() => write!(f, "{fault}"),
+            Self::Path { path, fault } => write!(f, "`{path}`: {fault}"),
             Self::Settings(error) => write!(f, "{error}"),
             Self::Varied(path) => write!(f, "the sweep varies `{path}`, which is given as well"),
             Self::Pairs => write!(f, "a sweep runs in `f32` or `f64`, not in `dd`"),

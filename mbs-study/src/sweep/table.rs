@@ -41,6 +41,41 @@ const RUN: [(&str, Kind); 9] = [
     ("violation_acceleration", Kind::Number),
 ];
 
+/// Cell of a row, before it is a text or a number.
+#[derive(Debug, Clone, Copy)]
+enum Cell<'a> {
+    Count(u64),
+    Number(f64),
+    /// The decimal text of a varied number.
+    Decimal(&'a str),
+    Flag(bool),
+    Text(&'a str),
+    /// No value, since nothing was measured.
+    Empty,
+}
+
+impl Cell<'_> {
+    fn text(&self) -> String {
+        match *self {
+            Self::Count(count) => count.to_string(),
+            Self::Number(number) => shortest(number),
+            Self::Decimal(text) => text.to_owned(),
+            Self::Flag(flag) => flag.to_string(),
+            Self::Text(text) => text.replace(char::is_control, " "),
+            Self::Empty => String::new(),
+        }
+    }
+
+    fn number(&self) -> f64 {
+        match *self {
+            Self::Count(count) => count as f64,
+            Self::Number(number) => number,
+            Self::Decimal(text) => text.parse().unwrap_or(f64::NAN),
+            Self::Flag(_) | Self::Text(_) | Self::Empty => f64::NAN,
+        }
+    }
+}
+
 impl Columns {
     /// Makes the columns of a scene's channels, without parameters.
     pub(super) fn new(channels: &[Channel]) -> Self {
@@ -106,18 +141,29 @@ impl Columns {
     /// A row as it stands in journal and table; what was not measured is empty. Members count from 1.
     #[must_use]
     pub fn cells(&self, row: &Row) -> Vec<String> {
-        let mut cells = vec![(row.member + 1).to_string()];
-        cells.extend_from_slice(&row.values);
-        let (code, message) = row.failure.clone().unwrap_or_default();
-        let message = message.replace(char::is_control, " ");
-        cells.extend([row.failure.is_none().to_string(), code, message]);
+        self.cells_of(row).iter().map(Cell::text).collect()
+    }
+
+    /// The numbers of a row, one for each column; NaN for words, and for what was not measured.
+    pub(crate) fn numbers(&self, row: &Row) -> Vec<f64> {
+        self.cells_of(row).iter().map(Cell::number).collect()
+    }
+
+    /// The cells of a row, one for each column.
+    fn cells_of<'a>(&self, row: &'a Row) -> Vec<Cell<'a>> {
+        let mut cells = vec![Cell::Count(row.member as u64 + 1)];
+        cells.extend(row.values.iter().map(|value| Cell::Decimal(value)));
+        let failure = row.failure.as_ref();
+        let (code, message) = failure.map_or(("", ""), |(code, message)| (code, message));
+        cells.extend([Cell::Flag(failure.is_none()), Cell::Text(code), Cell::Text(message)]);
         if let Some(measured) = &row.measured {
-            cells.extend([shortest(measured.end_time), measured.steps.to_string()]);
-            cells.extend([measured.energy].into_iter().chain(measured.violation).map(shortest));
-            cells.extend(measured.outputs.iter().flatten().map(|x| shortest(*x)));
+            cells.extend([Cell::Number(measured.end_time), Cell::Count(measured.steps)]);
+            let sizes = [measured.energy].into_iter().chain(measured.violation);
+            let numbers = sizes.chain(measured.outputs.iter().flatten().copied());
+            cells.extend(numbers.map(Cell::Number));
         }
-        cells.resize(self.len() - 1, String::new());
-        cells.push(shortest(row.cpu_seconds));
+        cells.resize(self.len() - 1, Cell::Empty);
+        cells.push(Cell::Number(row.cpu_seconds));
         cells
     }
 

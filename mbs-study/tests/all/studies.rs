@@ -40,7 +40,8 @@ fn a_sweep_says_what_it_refuses_and_which_runs_fail() {
     assert!(error.to_string().contains("bib"), "{error}");
     assert!(error.hint().is_some_and(|hint| hint.contains("bob")), "{error}");
     let error = refused(Sweep::grid().vary("body.bob.mass", [-1.0]));
-    assert!(error.place().is_some(), "{error}");
+    assert_eq!((error.code(), error.place()), ("scene-refused", None), "{error}");
+    assert!(error.to_string().starts_with("`body.bob.mass`: the scene refuses -1.0"), "{error}");
     // neither mass nor inertia: that run alone has no motion
     let of = Sweep::zip().vary("body.bob.mass", [0.0, 1.0]).vary("body.bob.inertia", [0.0, 0.1]);
     let runs = sweep(&m, &of).expect("it runs");
@@ -51,6 +52,36 @@ fn a_sweep_says_what_it_refuses_and_which_runs_fail() {
     let mut table = Vec::new();
     runs.write_csv(&mut table).expect("memory");
     assert!(table.starts_with(b"member,body.bob.mass,body.bob.inertia,completed"));
+    // columns of numbers are those of the table; words and what was not measured are no numbers
+    let table = String::from_utf8(table).expect("text");
+    let mut lines = table.lines().map(|line| line.split(',').collect::<Vec<_>>());
+    let (header, rows) = (lines.next().expect("a header"), lines.collect::<Vec<_>>());
+    assert_eq!((header.len(), rows.len()), (runs.names().len(), 2));
+    for (i, name) in header.iter().enumerate() {
+        let numbers = runs.column(name).expect("a column");
+        let cells = rows.iter().map(|row| row[i].parse().unwrap_or(f64::NAN));
+        assert!(cells.zip(&numbers).all(|(cell, x)| cell.total_cmp(x).is_eq()), "{name}");
+    }
+}
+
+#[test]
+fn a_sweep_of_a_file_shows_the_place_of_its_fault_there() {
+    let path = std::env::temp_dir().join(format!("mbs-studies-{}.toml", std::process::id()));
+    let swept = |text: &str, vary: fn(Sweep) -> Sweep| {
+        std::fs::write(&path, text).expect("a file");
+        let read = Sweep::read(&path).expect("TOML");
+        std::fs::remove_file(&path).expect("the file");
+        sweep(&pendulum(), &vary(read))
+    };
+    let masses = "[[vary]]\npath = 'body.bob.mass'\nvalues = [1, -2]\n";
+    let error = swept(masses, |sweep| sweep).expect_err("a negative mass");
+    let text = error.to_string();
+    assert_eq!(error.place().map(|place| (place.line, place.column)), Some((3, 14)), "{text}");
+    assert!(text.contains("mbs-studies-") && text.contains(":3:14: "), "{text}");
+    let more = |sweep: Sweep| sweep.vary("scene.duration", [0.1, 0.2]);
+    let runs = swept(&masses.replace("-2", "2"), more).expect("it runs");
+    assert_eq!(runs.column("end_time"), Some(vec![0.1, 0.2, 0.1, 0.2]));
+    assert_eq!(runs.column("body.bob.mass"), Some(vec![1.0, 1.0, 2.0, 2.0]));
 }
 
 #[test]

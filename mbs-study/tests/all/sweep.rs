@@ -16,7 +16,7 @@ fn read(name: &str) -> SceneFile {
 fn a_sweep_in_pairs_of_doubles_is_refused_before_its_members() {
     let (scene, sweep) = (read("double-pendulum"), read("sweeps/double-pendulum-lengths"));
     let overrides = Method { precision: Some("dd".to_owned()), ..Method::default() };
-    assert!(matches!(Study::new(scene, &sweep, &overrides), Err(StudyError::Pairs)));
+    assert!(matches!(Study::new(scene, &sweep.into(), &overrides), Err(StudyError::Pairs)));
 }
 
 #[test]
@@ -26,7 +26,7 @@ fn the_sweeps_of_the_repository_fit_their_scenes() {
         ("iltis-stairs-vehicles", "iltis-stairs", 200),
     ] {
         let (scene, sweep) = (read(scene_name), read(&format!("sweeps/{name}")));
-        let study = Study::new(scene, &sweep, &Method::default());
+        let study = Study::new(scene, &sweep.into(), &Method::default());
         let study = study.unwrap_or_else(|error| panic!("{error}"));
         assert_eq!(study.n_members(), members);
         let row = study.member(members - 1);

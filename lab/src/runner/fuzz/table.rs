@@ -28,7 +28,7 @@ pub(crate) fn tables(
     }
     let sweep = damaged(&sweep(scene), dice);
     let sweep = match SceneFile::parse(&sweep, "fuzzed-sweep.toml") {
-        Ok(sweep) => Study::new(document.clone(), &sweep, &Method::default()).map(drop),
+        Ok(sweep) => Study::new(document.clone(), &sweep.into(), &Method::default()).map(drop),
         Err(error) => Err(StudyError::Read(error)),
     };
     match sweep {

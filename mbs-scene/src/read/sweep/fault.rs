@@ -4,7 +4,7 @@ use crate::format::significant;
 use crate::read::nearest::nearest_name;
 use core::fmt::{self, Display, Formatter};
 
-/// The faults of a sweep file.
+/// The faults of a sweep.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum SweepFault {
@@ -66,6 +66,8 @@ pub enum SweepFault {
     NoValues,
     /// A seed that is none.
     NotASeed(String),
+    /// A list of values in a Latin hypercube, which samples ranges.
+    NotSampled,
     /// A range whose ends are equal.
     NoRange,
     /// A logarithmic range that reaches zero or less.
@@ -128,6 +130,9 @@ impl Display for SweepFault {
             Self::SetTwice { by } => write!(f, "this place is already set by `{by}`"),
             Self::NameTaken(name) => write!(f, "the table has another column `{name}`"),
             Self::NoValues => write!(f, "there is nothing to vary"),
+            Self::NotSampled => {
+                write!(f, "a Latin hypercube samples ranges, and this is a list of values")
+            }
             Self::NotASeed(text) => write!(f, "`{text}` is no seed"),
             Self::NoRange => write!(f, "the range ends where it begins"),
             Self::NotLogarithmic => write!(f, "a logarithmic range must stay above zero"),
@@ -177,6 +182,7 @@ impl SweepFault {
             Self::NoValues => {
                 "add [[vary]] with `path` and `values`, or with `from`, `to` and `count`".to_owned()
             }
+            Self::NotSampled => "write the range in the file of the sweep".to_owned(),
             Self::NotASeed(_) => "write a whole number from 0".to_owned(),
             Self::NoRange => "write two different ends, or `values = [..]`".to_owned(),
             Self::NotLogarithmic => {

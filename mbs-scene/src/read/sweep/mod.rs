@@ -1,27 +1,32 @@
-//! Sweep files: which numbers of a scene are varied, and how.
+//! Sweeps: which numbers of a scene are varied, and how.
 
 mod fault;
 mod parameter;
 pub(crate) mod path;
 mod reader;
+mod refusal;
+mod source;
 pub(crate) mod values;
 
 pub use fault::SweepFault;
+pub use refusal::SweepRefusal;
+pub use source::SweepSource;
 
 use crate::format::rounded;
-use crate::read::fields::Read;
+use crate::read::texts::Texts;
 use crate::read::tree::Span;
-use crate::read::{ReadError, ReadFault, SceneFile};
+use crate::read::{ReadFault, SceneFile};
 use fault::MOST_MEMBERS;
 use mbs_core::scene::{Scene, SceneFault};
 use parameter::{Combine, Parameter};
 use path::Address;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// A sweep: parameters with their values, and the members that these make. Numbers are decimal text, as in a scene.
+/// Sweep of a scene: parameters with their values, and the members that these make. Numbers are decimal text, as in a scene.
 #[derive(Debug, Clone)]
-pub struct SweepFile {
-    document: SceneFile,
+pub struct SceneSweep {
+    /// Texts in which the bytes of parameters are places.
+    texts: Texts,
     combine: Combine,
     parameters: Vec<Parameter>,
     places: Vec<PlaceOfScene>,
@@ -42,19 +47,19 @@ struct PlaceOfScene {
 /// Significant digits that a sum of decimals keeps: what every decimal text keeps through `f64`.
 const DIGITS: usize = 15;
 
-impl SweepFile {
-    /// Reads a sweep of a scene. `columns` are the names that parameters must not have.
+impl SceneSweep {
+    /// Lays a sweep out over a scene. `columns` are the names that parameters must not have.
     ///
     /// # Errors
-    /// What is unknown, missing, or cannot be meant in the sweep file, with its place there.
-    pub fn read(
-        sweep: &SceneFile,
+    /// What is unknown, missing, or cannot be meant in the sweep: with its place in the file, or with the path that code gave.
+    pub fn new(
+        source: &SweepSource,
         scene: &SceneFile,
         columns: &[String],
-    ) -> Result<Self, ReadError> {
-        let (combine, parameters) = reader::read(sweep, scene)?;
-        let mut sweep =
-            Self { document: sweep.clone(), combine, parameters, places: Vec::new(), n_members: 0 };
+    ) -> Result<Self, SweepRefusal> {
+        let (combine, parameters) = source.parameters(scene)?;
+        let texts = source.texts();
+        let mut sweep = Self { texts, combine, parameters, places: Vec::new(), n_members: 0 };
         sweep.check_names(columns)?;
         sweep.places = sweep.lay_out(scene)?;
         sweep.n_members = sweep.count()?;
@@ -67,7 +72,7 @@ impl SweepFile {
         self.n_members
     }
 
-    /// The names of the parameters, in the order of the file.
+    /// The names of the parameters, in the order in which they are given.
     pub fn names(&self) -> impl ExactSizeIterator<Item = &str> {
         self.parameters.iter().map(|parameter| parameter.name.as_str())
     }
@@ -94,12 +99,12 @@ impl SweepFile {
     /// Cost: each trial reads the scene.
     ///
     /// # Errors
-    /// [`SweepFault::Refused`] at the place of the value.
+    /// [`SweepFault::Refused`] at the place of the value, or with the path that code gave.
     pub fn check(
         &self,
         scene: &SceneFile,
         also: impl Fn(&Scene<f64>) -> Result<(), (String, String)>,
-    ) -> Result<(), ReadError> {
+    ) -> Result<(), SweepRefusal> {
         for (p, parameter) in self.parameters.iter().enumerate() {
             let texts = parameter.texts.iter().enumerate();
             let is_list = parameter.ends.is_empty();
@@ -120,7 +125,7 @@ impl SweepFile {
                 if let Some((problem, advice)) = refused {
                     let (value, name) = (text.clone(), parameter.name.clone());
                     let fault = SweepFault::Refused { value, name, problem, advice };
-                    return self.fault(span, fault);
+                    return self.fault(parameter, span, fault);
                 }
             }
         }
@@ -134,8 +139,17 @@ impl SweepFile {
         address.is_ok_and(|address| self.places.iter().any(|place| place.address == address))
     }
 
-    fn fault<R>(&self, span: &Span, fault: SweepFault) -> Read<R> {
-        Err(self.document.error(span, ReadFault::Sweep(fault)))
+    /// Refuses something of a parameter, at some bytes of its file.
+    fn fault<R>(
+        &self,
+        parameter: &Parameter,
+        span: &Span,
+        fault: SweepFault,
+    ) -> Result<R, SweepRefusal> {
+        Err(match parameter.is_in_code {
+            true => SweepRefusal::Numbers { path: parameter.name.clone(), fault },
+            false => self.texts.error(span, ReadFault::Sweep(fault)).into(),
+        })
     }
 
     /// The values of a member, by index.
@@ -175,19 +189,20 @@ impl SweepFile {
         document
     }
 
-    fn check_names(&self, columns: &[String]) -> Read<()> {
+    fn check_names(&self, columns: &[String]) -> Result<(), SweepRefusal> {
         let mut taken: BTreeSet<&str> = columns.iter().map(String::as_str).collect();
         for parameter in &self.parameters {
             let name = &parameter.name;
             if name.is_empty() || !taken.insert(name) {
-                return self.fault(&parameter.span, SweepFault::NameTaken(name.clone()));
+                let fault = SweepFault::NameTaken(name.clone());
+                return self.fault(parameter, &parameter.span, fault);
             }
         }
         Ok(())
     }
 
     /// The places of the scene, each with the parameters that change it.
-    fn lay_out(&self, scene: &SceneFile) -> Read<Vec<PlaceOfScene>> {
+    fn lay_out(&self, scene: &SceneFile) -> Result<Vec<PlaceOfScene>, SweepRefusal> {
         let mut places: BTreeMap<&Address, PlaceOfScene> = BTreeMap::new();
         let base =
             |address: &Address| scene.number_at(address).map_or(0.0, |number| number.to_f64());
@@ -202,14 +217,14 @@ impl SweepFile {
                 let place = places.entry(address).or_insert_with(|| blank(address));
                 if let Some(first) = place.set_by.replace(p) {
                     let by = self.parameters[first].name.clone();
-                    return self.fault(span, SweepFault::SetTwice { by });
+                    return self.fault(parameter, span, SweepFault::SetTwice { by });
                 }
             }
             for (address, span) in &parameter.shifts {
                 let place = places.entry(address).or_insert_with(|| blank(address));
                 if parameter.sets.iter().any(|(set, _)| set == address) {
                     let by = parameter.name.clone();
-                    return self.fault(span, SweepFault::SetTwice { by });
+                    return self.fault(parameter, span, SweepFault::SetTwice { by });
                 }
                 place.shifts.push((p, base(&parameter.sets[0].0)));
             }
@@ -217,16 +232,16 @@ impl SweepFile {
         Ok(places.into_values().collect())
     }
 
-    fn count(&self) -> Read<usize> {
+    fn count(&self) -> Result<usize, SweepRefusal> {
         let counts = self.parameters.iter().map(|p| p.texts.len());
         match self.combine {
             Combine::Latin(n) => Ok(n as usize),
             Combine::Grid => {
                 #[allow(clippy::cast_precision_loss, reason = "sizes of lists")]
                 let product: f64 = counts.clone().map(|n| n as f64).product();
-                if product > f64::from(MOST_MEMBERS) {
-                    let last = self.parameters.last().map_or(&(0..0), |p| &p.span);
-                    return self.fault(last, SweepFault::TooMany(product));
+                let last = self.parameters.last().filter(|_| product > f64::from(MOST_MEMBERS));
+                if let Some(last) = last {
+                    return self.fault(last, &last.span, SweepFault::TooMany(product));
                 }
                 Ok(counts.product())
             }
@@ -238,7 +253,7 @@ impl SweepFile {
                     if found != needed {
                         let first = first.name.clone();
                         let fault = SweepFault::ZipCount { first, needed, found };
-                        return self.fault(&parameter.span, fault);
+                        return self.fault(parameter, &parameter.span, fault);
                     }
                 }
                 Ok(needed)

@@ -15,8 +15,12 @@ use crate::read::{ReadFault, SceneFile};
 const COMBINE: [&str; 3] = ["grid", "zip", "latin-hypercube"];
 const SCALES: [&str; 2] = ["linear", "log"];
 
-/// Reads how values are combined, and the parameters in the order of the file.
-pub(super) fn read(sweep: &SceneFile, scene: &SceneFile) -> Read<(Combine, Vec<Parameter>)> {
+/// Reads how values are combined, and the parameters in the order of the file; `has_more`: code gives further ones.
+pub(super) fn read(
+    sweep: &SceneFile,
+    scene: &SceneFile,
+    has_more: bool,
+) -> Read<(Combine, Vec<Parameter>)> {
     let none = Names::default();
     let values = Values::new(&sweep.texts, sweep.root())?;
     let context = Context::of_file(&sweep.texts, &values, &none);
@@ -29,7 +33,7 @@ pub(super) fn read(sweep: &SceneFile, scene: &SceneFile) -> Read<(Combine, Vec<P
     };
     let parameters: Vec<Parameter> = sweep
         .entries(&context, "vary", |i, fields| read_parameter(fields, scene, (combine, seed, i)))?;
-    if parameters.is_empty() {
+    if parameters.is_empty() && !has_more {
         return fault(&context, &(0..0), SweepFault::NoValues);
     }
     Ok((combine, parameters))
@@ -87,6 +91,7 @@ fn read_parameter(
         texts: Vec::new(),
         value_spans: Vec::new(),
         ends: Vec::new(),
+        is_in_code: false,
     };
     parameter.sets.extend(addresses(fields, "also", scene)?);
     if let Some(item) = fields.get("name") {

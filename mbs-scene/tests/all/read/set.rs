@@ -1,7 +1,7 @@
 //! Values that a command line sets, scenes in JSON, and paths to expressions.
 
 use super::*;
-use mbs_scene::SweepFile;
+use mbs_scene::SceneSweep;
 
 const SCENE: &str = "\
 [scene]
@@ -83,7 +83,7 @@ fn a_sweep_reaches_expressions_parameters_and_points() {
     let sweep = "[[vary]]\npath = \"parameter.k\"\nvalues = [1.0, 2.0]\n[[vary]]\npath = \"point.top[1]\"\nvalues = [3.0]\n\
                  [[vary]]\npath = \"body.b.mass\"\nshift = \"body.b.center[0]\"\nvalues = [4.0]\n";
     let sweep = SceneFile::parse(sweep, "sweep.toml").expect("TOML");
-    let sweep = SweepFile::read(&sweep, &file(), &[]).unwrap_or_else(|e| panic!("{}", e.render()));
+    let sweep = SceneSweep::new(&sweep.into(), &file(), &[]).unwrap_or_else(|e| panic!("{e:?}"));
     let member = sweep.member(&file(), 1).scene::<f64>().expect("a scene");
     let effects = format!("{:?}", member.effects);
     assert!(effects.contains("2.0") && effects.contains("3.0"), "{effects}");

@@ -1,6 +1,9 @@
 //! Members of sweeps, and each refusal with its place.
 
-use mbs_scene::{ReadError, ReadFault, SceneFile, SweepFault, SweepFile};
+use mbs_core::scene::Number;
+use mbs_scene::{
+    ReadError, ReadFault, SceneFile, SceneSweep, SweepFault, SweepRefusal, SweepSource,
+};
 
 const SCENE: &str = r#"[scene]
 name = "one"
@@ -56,15 +59,30 @@ fn scene() -> SceneFile {
     SceneFile::parse(SCENE, "scene.toml").expect("the scene is TOML")
 }
 
-fn read(text: &str) -> Result<SweepFile, ReadError> {
-    let sweep = SceneFile::parse(text, "sweep.toml").expect("the sweep is TOML");
-    let sweep = SweepFile::read(&sweep, &scene(), &["member".to_owned()])?;
+fn file(text: &str) -> SweepSource {
+    SceneFile::parse(text, "sweep.toml").expect("the sweep is TOML").into()
+}
+
+/// Lays a sweep out over the scene and tries its values.
+fn laid_out(source: &SweepSource) -> Result<SceneSweep, SweepRefusal> {
+    let sweep = SceneSweep::new(source, &scene(), &["member".to_owned()])?;
     sweep.check(&scene(), |_| Ok(()))?;
     Ok(sweep)
 }
 
+fn read(text: &str) -> Result<SceneSweep, ReadError> {
+    laid_out(&file(text)).map_err(|refusal| match refusal {
+        SweepRefusal::File(error) => error,
+        SweepRefusal::Numbers { .. } => panic!("{refusal:?}"),
+    })
+}
+
 fn members(text: &str) -> Vec<Vec<String>> {
-    let sweep = read(text).unwrap_or_else(|error| panic!("{}", error.render()));
+    values(&read(text).unwrap_or_else(|error| panic!("{}", error.render())))
+}
+
+/// The values of each member.
+fn values(sweep: &SceneSweep) -> Vec<Vec<String>> {
     (0..sweep.n_members()).map(|i| sweep.values(i).map(str::to_owned).collect()).collect()
 }
 
@@ -293,12 +311,104 @@ fn a_refusal_has_its_type() {
 fn what_the_settings_refuse_is_refused_too_and_varied_paths_are_known() {
     let scene = SceneFile::parse(&format!("{SCENE}[solver]\nstep = 1e-3\n"), "scene.toml").unwrap();
     let text = vary("solver.step", "values = [1e-3, 2.0]");
-    let document = SceneFile::parse(&text, "sweep.toml").unwrap();
-    let sweep = SweepFile::read(&document, &scene, &[]).expect("the path is there");
+    let sweep = SceneSweep::new(&file(&text), &scene, &[]).expect("the path is there");
     let error = sweep.check(&scene, |scene| match scene.solver.step {
         Some(step) if step > 1.0 => Err(("not so".to_owned(), "shorter".to_owned())),
         _ => Ok(()),
     });
-    assert_eq!(error.expect_err("a step beyond the limit").hint(), "shorter");
+    let Err(SweepRefusal::File(error)) = error else { panic!("{error:?}") };
+    assert_eq!(error.hint(), "shorter");
     assert!(sweep.varies(&scene, "solver.step") && !sweep.varies(&scene, "scene.duration"));
+}
+
+/// A sweep in code.
+fn numbers(mut sweep: SweepSource, varied: &[(&str, &[f64])]) -> SweepSource {
+    for (path, values) in varied {
+        sweep.vary(path, values.iter().map(|&x| Number::from(x)).collect());
+    }
+    sweep
+}
+
+#[test]
+fn numbers_of_code_make_the_members_of_their_text() {
+    let varied: [(&str, &[f64]); 2] =
+        [("body.lower.mass", &[1.0, 2.5e-7]), ("scene.gravity[1]", &[-10.0, 1e16])];
+    let text =
+        vary(varied[0].0, "values = [1.0, 2.5e-7]") + &vary(varied[1].0, "values = [-10.0, 1e16]");
+    for (head, source) in
+        [("", SweepSource::grid()), ("[sweep]\ncombine = 'zip'\n", SweepSource::zip())]
+    {
+        let text = head.to_owned() + &text;
+        let sweep = laid_out(&numbers(source, &varied)).expect("a good sweep");
+        assert_eq!(values(&sweep), members(&text));
+        let last = sweep.n_members() - 1;
+        let of_text = read(&text).expect("a good sweep").member(&scene(), last);
+        let scene = sweep.member(&scene(), last).scene::<f64>();
+        assert_eq!(scene.expect("a scene"), of_text.scene::<f64>().expect("a scene"));
+        assert_eq!(sweep.names().collect::<Vec<_>>(), varied.map(|(path, _)| path));
+    }
+    // all digits of a number are kept
+    let mut long = SweepSource::grid();
+    let digits = "1.00000000000000000000000001";
+    long.vary("body.lower.mass", Number::from_decimal(digits).into_iter().collect());
+    assert_eq!(values(&laid_out(&long).expect("a good sweep")), [[digits]]);
+}
+
+#[test]
+fn code_varies_more_than_a_file_does() {
+    let of_file = file(
+        &("[sweep]\ncombine = 'zip'\n".to_owned() + &vary("scene.duration", "values = [1, 2]")),
+    );
+    let sweep = numbers(of_file.clone(), &[("body.lower.mass", &[3.0, 4.0])]);
+    let both = laid_out(&sweep).expect("a good sweep");
+    assert_eq!(values(&both), [["1", "3.0"], ["2", "4.0"]]);
+    assert!(sweep != of_file && sweep.text().starts_with(&of_file.text()));
+    // a file may leave all to code
+    let sweep = numbers(file("[sweep]\ncombine = 'zip'\n"), &[("body.lower.mass", &[3.0, 4.0])]);
+    assert_eq!(values(&laid_out(&sweep).expect("a good sweep")), [["3.0"], ["4.0"]]);
+}
+
+#[test]
+fn numbers_of_code_are_refused_with_their_path() {
+    let latin = "[sweep]\ncombine = 'latin-hypercube'\nsamples = 2\nseed = 1\n".to_owned()
+        + &vary("scene.duration", "from = 1\nto = 2");
+    let mass = "body.lower.mass";
+    let one: &[f64] = &[1.0];
+    let lists: [(SweepSource, Vec<(&str, &[f64])>, &str, &str); 9] = [
+        (SweepSource::grid(), vec![], "", "nothing to vary"),
+        (SweepSource::grid(), vec![(mass, &[])], mass, "nothing to vary"),
+        (SweepSource::grid(), vec![("body.lowr.mass", one)], "body.lowr.mass", "called `lowr`"),
+        (
+            SweepSource::grid(),
+            vec![(mass, &[1.0, -2.5])],
+            mass,
+            "refuses -2.5 as `body.lower.mass`",
+        ),
+        (SweepSource::grid(), vec![(mass, one), (mass, one)], mass, "another column"),
+        (
+            SweepSource::grid(),
+            vec![(mass, one), ("body[1].mass", one)],
+            "body[1].mass",
+            "already set by `body.lower.mass`",
+        ),
+        (
+            SweepSource::zip(),
+            vec![(mass, one), ("scene.duration", &[1.0, 2.0])],
+            "scene.duration",
+            "here are 2",
+        ),
+        (
+            file(&vary(mass, "values = [1]\nname = 'm'")),
+            vec![(mass, one)],
+            mass,
+            "already set by `m`",
+        ),
+        (file(&latin), vec![(mass, one)], mass, "samples ranges"),
+    ];
+    for (source, varied, at, message) in lists {
+        let refusal = laid_out(&numbers(source, &varied)).expect_err(message);
+        let SweepRefusal::Numbers { path, fault } = refusal else { panic!("{refusal:?}") };
+        assert_eq!(path, at, "{fault}");
+        assert!(fault.to_string().contains(message) && !fault.hint().is_empty(), "{fault}");
+    }
 }

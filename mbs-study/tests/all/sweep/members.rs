@@ -1,7 +1,7 @@
 //! Members that fail in ways no scene can ask for, and what becomes of them. Members are given here, and not run.
 
 use mbs::Method;
-use mbs::scene_file::{SceneFile, SweepFile};
+use mbs::scene_file::{SceneFile, SceneSweep};
 use mbs_study::inside::{Journal, MemberValues, whole_rows};
 use mbs_study::sweep::{JournalError, PartsError, Row, Study, SweepError, SweepPart, SweepTask};
 use std::num::NonZeroUsize;
@@ -34,13 +34,13 @@ fn files() -> [SceneFile; 2] {
 
 fn study() -> Study {
     let [scene, sweep] = files();
-    Study::new(scene, &sweep, &Method::default()).expect("a good sweep")
+    Study::new(scene, &sweep.into(), &Method::default()).expect("a good sweep")
 }
 
 /// A member that was completed.
 fn completed(member: usize) -> Row {
     let [scene, sweep] = files();
-    let sweep = SweepFile::read(&sweep, &scene, &[]).expect("a good sweep");
+    let sweep = SceneSweep::new(&sweep.into(), &scene, &[]).expect("a good sweep");
     let (end_time, steps, energy, violation) = (0.1, 10, 1e-9, [1e-12; 3]);
     let measured = MemberValues { end_time, steps, energy, violation, outputs: Vec::new() };
     let values = sweep.values(member).map(str::to_owned).collect();
