@@ -187,8 +187,8 @@ impl Mechanism {
 
 /// The channels of a scene without magnitudes, in the order of its columns.
 pub(crate) fn channels(scene: &Scene<f64>) -> Vec<Channel> {
-    let outputs = scene.outputs.iter().map(|o| Output { magnitude: false, ..o.clone() });
-    Channel::of_scene(&Scene { outputs: outputs.collect(), ..scene.clone() })
+    let outputs = scene.channels().into_iter().map(|o| Output { magnitude: false, ..o });
+    Channel::of_outputs(outputs, scene)
 }
 
 /// Codes of joints without coordinates.

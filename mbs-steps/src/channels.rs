@@ -7,7 +7,7 @@ use mbs_core::model::State;
 use mbs_core::natural::{NaturalModel, RememberedAngle};
 use mbs_core::once::find;
 use mbs_core::outputs::{Forces, Measures, Target};
-use mbs_core::scene::Scene;
+use mbs_core::scene::{Output, Scene};
 use mbs_core::{Real, instances};
 
 /// Measures and forces of a scene.
@@ -29,7 +29,7 @@ pub struct Channels<T: Real, const D: usize> {
 }
 
 type New<T, const D: usize> =
-    fn(&Scene<T>, &NaturalModel<T, D>) -> Result<Channels<T, D>, StopError>;
+    fn(&[Output<T>], &Scene<T>, &NaturalModel<T, D>) -> Result<Channels<T, D>, StopError>;
 type Track<T, const D: usize> = fn(&mut Channels<T, D>, &Simulation<T, D>) -> Result<(), StopError>;
 type Write<T, const D: usize> =
     fn(&mut Channels<T, D>, &State<T>, &mut [T]) -> Result<(), StopError>;
@@ -41,13 +41,30 @@ impl<T: Real, const D: usize> Channels<T, D> {
     /// # Errors
     /// [`StopError`] for an output that cannot be measured.
     pub fn new(scene: &Scene<T>, model: &NaturalModel<T, D>) -> Result<Self, StopError> {
-        find::<New<T, D>>(NEW).ok_or(StopError::NotBuilt)?(scene, model)
+        Self::of_outputs(&scene.channels(), scene, model)
     }
 
-    fn new_here(scene: &Scene<T>, model: &NaturalModel<T, D>) -> Result<Self, StopError> {
-        let measures = Measures::new(scene, model).map_err(|e| StopError::Start(e.into()))?;
-        let forces = Forces::new(scene, model).map_err(StopError::Reaction)?;
-        let asked = scene.outputs.iter().filter(|o| o.quantity.row().needs_reactions);
+    /// Creates channels of these outputs, whatever outputs the scene has.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn of_outputs(
+        outputs: &[Output<T>],
+        scene: &Scene<T>,
+        model: &NaturalModel<T, D>,
+    ) -> Result<Self, StopError> {
+        find::<New<T, D>>(NEW).ok_or(StopError::NotBuilt)?(outputs, scene, model)
+    }
+
+    fn new_here(
+        outputs: &[Output<T>],
+        scene: &Scene<T>,
+        model: &NaturalModel<T, D>,
+    ) -> Result<Self, StopError> {
+        let measures = Measures::of_outputs(outputs, scene, model);
+        let measures = measures.map_err(|e| StopError::Start(e.into()))?;
+        let forces = Forces::of_outputs(outputs, scene, model).map_err(StopError::Reaction)?;
+        let asked = outputs.iter().filter(|o| o.quantity.row().needs_reactions);
         let n_joints = scene.joints.len();
         let n_both = n_joints + scene.couplings.len();
         let asked: Vec<usize> = asked

@@ -105,9 +105,9 @@ impl<T: Real, const D: usize> LimitWatch<T, D> {
             let joint = JointId::new(watched.joint);
             [Quantity::JointValue { joint }, Quantity::JointRate { joint }]
         });
-        let outputs = quantities.map(Output::new).collect();
-        let scene = Scene { outputs, ..scene.clone() };
-        let measures = Measures::new(&scene, model).map_err(|e| StopError::Start(e.into()))?;
+        let outputs: Vec<_> = quantities.map(Output::new).collect();
+        let measures = Measures::of_outputs(&outputs, scene, model);
+        let measures = measures.map_err(|e| StopError::Start(e.into()))?;
         let values = vec![T::ZERO; measures.n_components()];
         Ok(Self { all, measures: Some(measures), values })
     }

@@ -84,7 +84,7 @@ impl StaticEquilibrium {
             Output::new(quantity).named(&joint.name)
         };
         let reactions = scene.joints.iter().enumerate().map(reaction).collect();
-        let joints = Scene { outputs: Vec::new(), ..scene.clone() }.channels();
+        let joints = scene.joint_outputs();
         let stability = stability(&model, &state);
         let values = |outputs| measured(outputs, scene, &model, &state);
         let (joints, _) = values(joints)?;
@@ -198,9 +198,8 @@ fn measured<const D: usize>(
     if outputs.is_empty() {
         return Ok(Default::default());
     }
-    let scene = &Scene { outputs, ..scene.clone() };
-    let mut measures = Channels::new(scene, model)?;
-    let channels = Channel::of_scene(scene);
+    let mut measures = Channels::of_outputs(&outputs, scene, model)?;
+    let channels = Channel::of_outputs(outputs, scene);
     let mut values = vec![0.0; channels.iter().map(|c| c.components.len()).sum()];
     measures.write_at(state, &mut values)?;
     let mut rest = values.into_iter();

@@ -171,6 +171,12 @@ impl<T: Clone> Scene<T> {
         if !self.outputs.is_empty() {
             return self.outputs.clone();
         }
+        self.joint_outputs()
+    }
+
+    /// Outputs of the coordinates of every joint that has some, under the joint's name.
+    #[must_use]
+    pub fn joint_outputs(&self) -> Vec<Output<T>> {
         let moves = |joint: &Joint<T>| {
             joint.kind.n_coordinates(self.dimension) > 0 && !self.turns_point(joint)
         };

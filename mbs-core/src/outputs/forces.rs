@@ -21,7 +21,19 @@ impl<T: Real, const D: usize> Forces<T, D> {
     /// # Errors
     /// As [`Reactions::new`].
     pub fn new(scene: &Scene<T>, model: &NaturalModel<T, D>) -> Result<Self, ReactionError> {
-        let asked = |asks: fn(&Output<T>) -> bool| scene.outputs.iter().any(asks);
+        Self::of_outputs(&scene.outputs, scene, model)
+    }
+
+    /// Prepares what these outputs ask for, whatever outputs the scene has.
+    ///
+    /// # Errors
+    /// As [`Reactions::new`].
+    pub fn of_outputs(
+        outputs: &[Output<T>],
+        scene: &Scene<T>,
+        model: &NaturalModel<T, D>,
+    ) -> Result<Self, ReactionError> {
+        let asked = |asks: fn(&Output<T>) -> bool| outputs.iter().any(asks);
         let reactions = asked(|output| output.quantity.row().needs_reactions);
         let effects = asked(|output| output.quantity.row().needs_effects);
         Ok(Self {

@@ -83,12 +83,23 @@ impl<T: Real, const D: usize> Measures<T, D> {
     /// # Errors
     /// [`ModelError::Dimension`] when the scene's dimension is not D.
     pub fn new(scene: &Scene<T>, model: &NaturalModel<T, D>) -> Result<Self, ModelError> {
+        Self::of_outputs(&scene.channels(), scene, model)
+    }
+
+    /// Prepares channels of these outputs, whatever outputs the scene has.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn of_outputs(
+        outputs: &[Output<T>],
+        scene: &Scene<T>,
+        model: &NaturalModel<T, D>,
+    ) -> Result<Self, ModelError> {
         if scene.dimension.count() != D {
             return Err(ModelError::Dimension);
         }
         let starts = start_values(scene);
         let mut maker = Maker { scene, model, starts: &starts, values: Vec::new() };
-        let outputs = scene.channels();
         let channels = outputs.iter().map(|output| Recorded::new(output, &mut maker));
         let channels: Vec<_> = channels.collect();
         let n_components = channels.iter().map(Recorded::len).sum();

@@ -38,11 +38,10 @@ impl<T: Real, const D: usize> Group<T, D> {
     /// Makes a group of these outputs alone.
     fn new(
         scene: &Scene<T>,
-        outputs: Vec<Output<T>>,
+        outputs: &[Output<T>],
         simulation: &Simulation<T, D>,
     ) -> Result<Self, StopError> {
-        let scene = Scene { outputs, ..scene.clone() };
-        let mut channels = Channels::new(&scene, simulation.model())?;
+        let mut channels = Channels::of_outputs(outputs, scene, simulation.model())?;
         channels.track(simulation)?;
         let mut end = 0;
         let places = channels.lengths().map(|n| {
@@ -78,15 +77,13 @@ impl<T: Real, const D: usize> Readings<T, D> {
     /// Prepares the readings of a simulation at its start.
     pub fn new(scene: &Scene<T>, simulation: &Simulation<T, D>) -> Result<Self, StopError> {
         let of_joints = |quantity: fn(JointId) -> Quantity<T>| {
-            Group::new(
-                scene,
-                (0..scene.joints.len()).map(JointId::new).map(quantity).map(Output::new).collect(),
-                simulation,
-            )
+            let joints = (0..scene.joints.len()).map(JointId::new);
+            let outputs: Vec<_> = joints.map(quantity).map(Output::new).collect();
+            Group::new(scene, &outputs, simulation)
         };
         let outputs = scene.outputs.iter().map(|o| Output { magnitude: false, ..o.clone() });
         let outputs: Vec<_> = outputs.collect();
-        let outputs = (!outputs.is_empty()).then(|| Group::new(scene, outputs, simulation));
+        let outputs = (!outputs.is_empty()).then(|| Group::new(scene, &outputs, simulation));
         Ok(Self {
             joints: of_joints(|joint| Quantity::JointValue { joint })?,
             rates: of_joints(|joint| Quantity::JointRate { joint })?,

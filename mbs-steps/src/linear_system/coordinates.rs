@@ -39,9 +39,9 @@ impl Coordinates {
             rotations: Vec::new(),
             balls: Vec::new(),
         };
-        let joints = Scene { outputs: Vec::new(), ..scene.clone() };
-        let channels = Channel::of_scene(&joints);
-        for (output, channel) in joints.channels().iter().zip(&channels) {
+        let joints = scene.joint_outputs();
+        let channels = Channel::of_outputs(joints.clone(), scene);
+        for (output, channel) in joints.iter().zip(&channels) {
             let Target::Joint(joint) = output.quantity.target() else { continue };
             all.add_joint(scene, joint, channel);
         }

@@ -95,13 +95,11 @@ impl<const D: usize> Measured<D> {
         model: &NaturalModel<f64, D>,
         columns: &OutputColumns,
     ) -> Result<Self, StopError> {
-        let channels = |outputs: Vec<Output<f64>>| {
-            let scene = Scene { outputs, ..scene.clone() };
-            // without outputs a scene has other channels
-            let is_none = scene.outputs.is_empty();
-            (!is_none).then(|| Channels::new(&scene, model)).transpose()
+        let channels = |outputs: &[Output<f64>]| {
+            let is_none = outputs.is_empty();
+            (!is_none).then(|| Channels::of_outputs(outputs, scene, model)).transpose()
         };
-        let outputs = channels(columns.measured.clone())?;
+        let outputs = channels(&columns.measured)?;
         let n_measured = outputs.as_ref().map_or(0, |outputs| outputs.lengths().sum());
         let coordinates = Coordinates::new(scene);
         let [mut values, mut rates, mut accelerations] = [Vec::new(), Vec::new(), Vec::new()];
@@ -110,7 +108,7 @@ impl<const D: usize> Measured<D> {
             rates.push(rate);
             accelerations.push(acceleration);
         }
-        let three = [channels(values)?, channels(rates)?, channels(accelerations)?];
+        let three = [channels(&values)?, channels(&rates)?, channels(&accelerations)?];
         let measured = match three {
             [Some(values), Some(rates), Some(accelerations)] => {
                 Some([values, rates, accelerations])

@@ -30,12 +30,21 @@ impl Channel {
     /// If an output points to a joint that is not there; [`Scene::check`] refuses those.
     #[must_use]
     pub fn of_scene<T: Clone>(scene: &Scene<T>) -> Vec<Self> {
+        Self::of_outputs(scene.channels(), scene)
+    }
+
+    /// The channels of outputs of a scene, as [`of_scene`](Self::of_scene) has those of all.
+    #[must_use]
+    pub fn of_outputs<T: Clone>(
+        outputs: impl IntoIterator<Item = Output<T>>,
+        scene: &Scene<T>,
+    ) -> Vec<Self> {
         let channel = |output: Output<T>| Self {
             quantity: output.quantity.row().name,
             components: output.components(scene),
             name: output.name,
         };
-        scene.channels().into_iter().map(channel).collect()
+        outputs.into_iter().map(channel).collect()
     }
 
     /// The names of its columns: `name`, or `name.x`, `name.y`, ...
