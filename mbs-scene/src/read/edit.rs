@@ -47,10 +47,10 @@ impl SceneFile {
     /// The file with another number at a path; all else keeps its text, comments too. Where it includes others, none of the texts is
     /// changed.
     ///
-    /// Cost: the text is parsed again.
+    /// Cost: a copy of text and tree; nothing is parsed again.
     ///
     /// # Errors
-    /// As [`Self::number`].
+    /// As [`Self::number`], and a number that is not finite.
     pub fn with_number(&self, path: &str, number: &Number) -> Result<Self, SweepFault> {
         let address = path::address(self, path)?;
         if self.texts.list().len() > 1 {
@@ -60,9 +60,33 @@ impl SceneFile {
             return Ok(file);
         }
         let span = path::span(self.root(), &address).unwrap_or(0..0);
-        let text = spliced(self.text(), vec![(span, number.text())]);
+        let new = number.text();
+        if is_literal(&new) {
+            return Ok(self.respelled(&address, &span, new));
+        }
+        let text = spliced(self.text(), vec![(span, new)]);
         let not_toml = |_| SweepFault::PathSyntax("the number is not finite");
         Self::parsed(&text, self.file(), self.folder.clone()).map_err(not_toml)
+    }
+
+    /// Returns the file with another number at an address, whose text stands at `old` in the only text.
+    fn respelled(&self, address: &[usize], old: &Span, new: String) -> Self {
+        let mut file = self.clone();
+        file.texts.replace(old.clone(), &new);
+        let end = old.start + new.len();
+        let moved = |byte: usize| if byte < old.end { byte } else { byte - old.end + end };
+        file.root_mut().iter_mut().for_each(|member| member.move_spans(&moved));
+        path::replace(file.root_mut(), address, new);
+        file
+    }
+}
+
+/// Is the text of a number one in TOML and in JSON: finite, without a plus sign and leading zeros?
+fn is_literal(text: &str) -> bool {
+    match text.strip_prefix('-').unwrap_or(text).as_bytes() {
+        [b'0', next, ..] => !next.is_ascii_digit(),
+        [first, ..] => first.is_ascii_digit(),
+        [] => false,
     }
 }
 

@@ -116,7 +116,7 @@ fn read(value: &str, at: usize) -> Item {
     const KEY: &str = "v=";
     let toml = tree::parse(&format!("{KEY}{value}")).ok();
     if let Some(Ok([mut member])) = toml.map(<[Member; 1]>::try_from) {
-        member.item.shift(at - KEY.len());
+        member.item.move_spans(&|byte| byte + at - KEY.len());
         return member.item;
     }
     let text = value.trim();

@@ -19,7 +19,7 @@ pub(super) fn read(texts: &Texts, start: usize) -> Result<Vec<Member>, ReadError
     };
     match tree {
         Ok(mut root) => {
-            root.iter_mut().for_each(|member| member.shift(start));
+            root.iter_mut().for_each(|member| member.move_spans(&|byte| start + byte));
             Ok(root)
         }
         Err((message, span)) => {

@@ -50,6 +50,13 @@ impl Texts {
         start
     }
 
+    /// Replaces some bytes of the file, which is the only text.
+    pub(crate) fn replace(&mut self, span: Span, new: &str) {
+        if let [main] = &mut self.0[..] {
+            main.text.replace_range(span, new);
+        }
+    }
+
     pub(crate) fn list(&self) -> &[Text] {
         &self.0
     }

@@ -39,10 +39,10 @@ pub(crate) fn find<'a>(members: &'a [Member], key: &str) -> Option<&'a Item> {
 }
 
 impl Member {
-    /// Moves the spans of a whole branch.
-    pub(crate) fn shift(&mut self, by: usize) {
-        self.key_span = self.key_span.start + by..self.key_span.end + by;
-        self.item.shift(by);
+    /// Moves the spans of a whole branch, byte by byte.
+    pub(crate) fn move_spans(&mut self, moved: &impl Fn(usize) -> usize) {
+        self.key_span = moved(self.key_span.start)..moved(self.key_span.end);
+        self.item.move_spans(moved);
     }
 }
 
@@ -61,12 +61,14 @@ impl Item {
         }
     }
 
-    /// Moves the spans of a whole branch.
-    pub(crate) fn shift(&mut self, by: usize) {
-        self.span = self.span.start + by..self.span.end + by;
+    /// Moves the spans of a whole branch, byte by byte.
+    pub(crate) fn move_spans(&mut self, moved: &impl Fn(usize) -> usize) {
+        self.span = moved(self.span.start)..moved(self.span.end);
         match &mut self.node {
-            Node::List(items) => items.iter_mut().for_each(|item| item.shift(by)),
-            Node::Table(members) => members.iter_mut().for_each(|member| member.shift(by)),
+            Node::List(items) => items.iter_mut().for_each(|item| item.move_spans(moved)),
+            Node::Table(members) => {
+                members.iter_mut().for_each(|member| member.move_spans(moved));
+            }
             Node::Text(_) | Node::Number(_) | Node::Bool(_) | Node::Date => {}
         }
     }

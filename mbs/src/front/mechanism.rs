@@ -11,6 +11,7 @@ use mbs_core::scene::{
 };
 use mbs_scene::{ReadError, SceneFile, WriteError};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use std::borrow::Cow;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -248,7 +249,7 @@ impl Mechanism {
 
     /// Sets a number by its path. A mechanism from a file keeps the rest of its text.
     ///
-    /// Cost: the text is read again.
+    /// Cost: the scene is read again from the tree of its file; no text is parsed.
     ///
     /// # Errors
     /// As [`get`](Self::get), and a number that is not finite. One that cannot be meant is refused by [`check`](Self::check).
@@ -350,16 +351,16 @@ impl Mechanism {
     pub fn to_file(&self) -> Result<SceneFile, WriteError> {
         match self.functions.first() {
             Some(function) => Err(WriteError::InCode(format!("output `{}`", function.name))),
-            None => self.data(),
+            None => self.data().map(Cow::into_owned),
         }
     }
 
     /// Returns the scene file of all that is data.
-    fn data(&self) -> Result<SceneFile, WriteError> {
+    fn data(&self) -> Result<Cow<'_, SceneFile>, WriteError> {
         match &self.file {
-            Some(file) if !self.is_changed => Ok(file.clone()),
-            Some(file) => file.updated(&self.scene),
-            None => SceneFile::of(&self.scene),
+            Some(file) if !self.is_changed => Ok(Cow::Borrowed(file)),
+            Some(file) => file.updated(&self.scene).map(Cow::Owned),
+            None => SceneFile::of(&self.scene).map(Cow::Owned),
         }
     }
 }

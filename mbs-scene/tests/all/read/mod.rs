@@ -7,6 +7,7 @@ use mbs_scene::{ReadError, ReadFault, SceneFile, to_toml};
 mod balls;
 mod columns;
 mod couplings;
+mod edit;
 mod effects;
 mod expression;
 mod expressions;
