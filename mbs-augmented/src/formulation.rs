@@ -2,7 +2,6 @@
 
 use crate::history::History as OfWorkspace;
 use crate::index_change::{ConstraintIndex, IndexChange, IndexHistory};
-use crate::inputs::{pass_jump, take_inputs};
 use crate::options::{Options, Penalty};
 use crate::workspace::Workspace;
 use crate::{index1, index3};
@@ -10,6 +9,7 @@ use alloc::boxed::Box;
 use core::fmt::Debug;
 use mbs_core::formulation::{Formulation, SwitchError, energies};
 use mbs_core::history::{Book, History, RestoreError, Restored};
+use mbs_core::implicit::{pass_jump, take_inputs};
 use mbs_core::model::{Model, State, Terms};
 use mbs_core::natural::NaturalModel;
 use mbs_core::step::{OptionError, Step, StepError, StepReport};
@@ -116,7 +116,7 @@ where
         model: &NaturalModel<T, D>,
         state: &mut State<T>,
     ) -> Result<(), StepError> {
-        take_inputs(model, state, &mut self.workspace).map(drop)
+        take_inputs(model, self.form.options(), state, &mut *self.workspace).map(drop)
     }
 
     fn pass_jump(
@@ -125,7 +125,7 @@ where
         state: &mut State<T>,
         to: T,
     ) -> Result<(), StepError> {
-        pass_jump(model, state, &mut self.workspace, to)
+        pass_jump(model, self.form.options(), state, &mut *self.workspace, to)
     }
 
     fn prepare(

@@ -13,16 +13,13 @@
 
 mod constrain;
 
-use crate::inputs::take_inputs;
 use crate::options::Options;
 use crate::workspace::Workspace;
 use constrain::{constrain, velocities};
-use mbs_core::implicit::ConstraintLevel;
+use mbs_core::implicit::{self, ConstraintLevel, Solved};
 use mbs_core::integrator::{Rule, is_far};
 use mbs_core::model::{Model, State};
-use mbs_core::step::{
-    Step, StepError, StepReport, Stop, check_lines, check_rotations, largest, largest_or_nan,
-};
+use mbs_core::step::{Step, StepError, StepReport, Stop, largest, largest_or_nan};
 use mbs_core::team::{add_product, norm_inf, set_sum, subtract};
 use mbs_core::{Real, SpdSolver};
 
@@ -46,23 +43,17 @@ pub fn step<T: Real, M: Model<T>, S: SpdSolver<T>>(
     s: &mut State<T>,
     w: &mut Workspace<T, S>,
 ) -> Result<StepReport<T>, StepError> {
-    let Step { dt, length } = step.checked()?;
-    options.validate()?;
-    take_inputs(model, s, w)?;
-    let rule = options.integrator.rule(dt);
-    let size = norm_inf(model.team(), &s.a);
-    begin(model, (&rule, is_far(size * dt * dt * T::HALF, length)), options, s, w);
-    let newton = iterate(model, (&rule, size, length), options, s, w)?;
-    let velocity = constrain(model, (&rule, length, false), options, s, w)?;
-    let limits =
-        ConstraintLevel::Acceleration.limits(model, &w.end, length, &mut w.equations.terms)?;
-    let projector = w.projector(model, ConstraintLevel::Acceleration);
-    let acceleration = projector.project(limits, options.max_sweeps)?;
-    check_rotations(model, w.terms())?;
-    check_lines(model, s, &w.end.dq)?;
-    w.commit(model, (&rule, options.compensated, T::ONE), s);
-    let violation = [norm_inf(model.team(), &w.terms().phi), velocity, acceleration];
-    Ok(w.report(newton, violation))
+    implicit::step(model, step, options, s, w, |(rule, length), s, w| {
+        let size = norm_inf(model.team(), &s.a);
+        begin(model, (rule, is_far(size * rule.dt * rule.dt * T::HALF, length)), options, s, w);
+        let newton = iterate(model, (rule, size, length), options, s, w)?;
+        let velocity = constrain(model, (rule, length, false), options, s, w)?;
+        let level = ConstraintLevel::Acceleration;
+        let limits = level.limits(model, &w.end, length, &mut w.equations.terms)?;
+        let acceleration = w.projector(model, level).project(limits, options.max_sweeps)?;
+        let violation = [norm_inf(model.team(), &w.terms().phi), velocity, acceleration];
+        Ok(Solved { newton, violation, unit: T::ONE })
+    })
 }
 
 /// The iteration for the accelerations, whose last ones have this `size`. Returns what is reported of it.

@@ -15,16 +15,15 @@
 
 mod project;
 
-use crate::inputs::take_inputs;
 use crate::multipliers::MultiplierStart::{self, Filtered};
 use crate::multipliers::{filter, update_multipliers};
 use crate::newton::{FactorReuse, StopRule, residual_with_reused_jacobian};
 use crate::options::{Options, Penalty};
 use crate::workspace::Workspace;
-use mbs_core::implicit::Newton;
+use mbs_core::implicit::{self, Newton, Solved};
 use mbs_core::integrator::{Rule, is_far};
 use mbs_core::model::{Model, State};
-use mbs_core::step::{Step, StepError, StepReport, Stop, check_lines, check_rotations, step_scale};
+use mbs_core::step::{Step, StepError, StepReport, Stop, step_scale};
 use mbs_core::team::{add_product, set_sum};
 use mbs_core::{Real, SpdSolver};
 use project::project;
@@ -43,16 +42,11 @@ pub fn step<T: Real, M: Model<T>, S: SpdSolver<T>>(
     s: &mut State<T>,
     w: &mut Workspace<T, S>,
 ) -> Result<StepReport<T>, StepError> {
-    let Step { dt, length } = step.checked()?;
-    options.validate()?;
-    take_inputs(model, s, w)?;
-    let rule = options.integrator.rule(dt);
-    let (newton, since) = solve(model, (&rule, length), (options, Filtered), s, w)?;
-    let violation = project(model, (&rule, since, length), options, w)?;
-    check_rotations(model, w.terms())?;
-    check_lines(model, s, &w.end.dq)?;
-    w.commit(model, (&rule, options.compensated, rule.acceleration), s);
-    Ok(w.report(newton, violation))
+    implicit::step(model, step, options, s, w, |(rule, length), s, w| {
+        let (newton, since) = solve(model, (rule, length), (options, Filtered), s, w)?;
+        let violation = project(model, (rule, since, length), options, w)?;
+        Ok(Solved { newton, violation, unit: rule.acceleration })
+    })
 }
 
 /// q, v, a and lambda at the end of the step, where the equations of motion and phi = 0 hold. Returns what is reported of the iteration, and

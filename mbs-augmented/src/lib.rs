@@ -22,7 +22,7 @@ mod workspace;
 pub use formulation::{Augmented, Form};
 pub use history::History;
 pub use index_change::{ConstraintIndex, IndexChange, IndexHistory};
-pub use inputs::{pass_jump, take_inputs};
+pub use mbs_core::implicit::{pass_jump, take_inputs};
 pub use mbs_core::step::{OptionError, Step, StepError, StepReport, Stop};
 pub use options::{Options, Penalty};
 pub use workspace::Workspace;

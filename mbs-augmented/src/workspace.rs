@@ -2,16 +2,16 @@
 
 use crate::equations::Equations;
 use crate::history::History;
-use crate::options::Penalty;
+use crate::options::{Options, Penalty};
 use crate::penalty::{PenaltyAdaptation, PenaltyScale};
 use crate::projection::{Projection, Projector};
 use alloc::vec;
 use alloc::vec::Vec;
 use core::mem::take;
-use mbs_core::implicit::{ConstraintLevel, StepEnd, commit};
-use mbs_core::integrator::Rule;
+use mbs_core::implicit::{ConstraintLevel, StepEnd, StepScratch, commit};
+use mbs_core::integrator::{Integrator, Rule};
 use mbs_core::model::{Model, State, Terms};
-use mbs_core::step::{Counts, StepReport, Stop};
+use mbs_core::step::{Counts, OptionError, StepReport, Stop};
 use mbs_core::{Real, SpdSolver};
 
 /// Scratch of the augmented Lagrangian steps over a solver `S`. Nothing is allocated after [`Workspace::new`].
@@ -177,9 +177,19 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
         let Self { equations, scale, projection: scratch, .. } = self;
         Projector { model, level, x, equations, scale, scratch }
     }
+}
 
-    /// Takes the finished step over; `unit` turns `lambda` into multipliers of the equations of motion.
-    pub(crate) fn commit<M: Model<T>>(
+impl<T: Real, S: SpdSolver<T>> StepScratch<T> for Workspace<T, S> {
+    fn checked(options: &Options<T>) -> Result<(&Integrator<T>, bool), OptionError> {
+        options.validate()?;
+        Ok((&options.integrator, options.compensated))
+    }
+
+    fn reached(&self) -> (&StepEnd<T>, &Terms<T>) {
+        (&self.end, &self.equations.terms)
+    }
+
+    fn commit<M: Model<T>>(
         &mut self,
         model: &M,
         (rule, compensated, unit): (&Rule<T>, bool, T),
@@ -192,7 +202,7 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
     }
 
     /// Returns the report of a step, with the change of index before it.
-    pub(crate) fn report(&mut self, newton: (u32, T, Stop), violation: [T; 3]) -> StepReport<T> {
+    fn report(&mut self, newton: (u32, T, Stop), violation: [T; 3]) -> StepReport<T> {
         let (settled, counts) = (take(&mut self.settled), self.equations.counts);
         let counts = Counts {
             factorizations: counts.factorizations + settled.factorizations,

@@ -1,12 +1,13 @@
 //! The formulation of this crate behind the common trait: [`Classical`], in index-3.
 
+use crate::index3;
 use crate::options::Options;
 use crate::workspace::Workspace;
-use crate::{index3, pass_jump, take_inputs};
 use alloc::boxed::Box;
 use core::fmt::Debug;
 use mbs_core::formulation::{Formulation, energies};
 use mbs_core::history::{Book, History, RestoreError, Restored};
+use mbs_core::implicit::{pass_jump, take_inputs};
 use mbs_core::model::{Model, Owner, State, Terms};
 use mbs_core::natural::NaturalModel;
 use mbs_core::step::{OptionError, Step, StepError, StepReport};
@@ -68,7 +69,7 @@ where
         model: &NaturalModel<T, D>,
         state: &mut State<T>,
     ) -> Result<(), StepError> {
-        take_inputs(model, &self.options, state, &mut self.workspace).map(drop)
+        take_inputs(model, &self.options, state, &mut *self.workspace).map(drop)
     }
 
     fn pass_jump(
@@ -77,7 +78,7 @@ where
         state: &mut State<T>,
         to: T,
     ) -> Result<(), StepError> {
-        pass_jump(model, &self.options, state, &mut self.workspace, to)
+        pass_jump(model, &self.options, state, &mut *self.workspace, to)
     }
 
     fn history(&self) -> History<T> {

@@ -15,15 +15,12 @@
 //! Differs from the source: the published system is solved once per evaluation, here the corrections of an implicit rule. The
 //! position projection is mass-orthogonal in correction form, as those of velocities and accelerations.
 
-use crate::inputs::take_inputs;
 use crate::options::{Options, Stabilisation};
 use crate::workspace::{Mass, Workspace};
-use mbs_core::implicit::{ConstraintLevel, Newton, ResidualLimits};
+use mbs_core::implicit::{self, ConstraintLevel, Newton, ResidualLimits, Solved, check_guides};
 use mbs_core::integrator::{Rule, is_far};
 use mbs_core::model::{Model, State};
-use mbs_core::step::{
-    Step, StepError, StepReport, Stop, check_guides, check_lines, check_rotations, step_scale,
-};
+use mbs_core::step::{Step, StepError, StepReport, Stop, step_scale};
 use mbs_core::team::{norm_inf, on_stretches};
 use mbs_core::{Real, SymmetricSolver};
 
@@ -45,34 +42,37 @@ pub fn step<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     s: &mut State<T>,
     w: &mut Workspace<T, S>,
 ) -> Result<StepReport<T>, StepError> {
-    let Step { dt, length } = step.checked()?;
-    options.validate()?;
-    take_inputs(model, options, s, w)?;
-    let rule = options.integrator.rule(dt);
-    w.begin(options.regularisation);
-    let scale = step_scale(model.team(), dt, &s.a);
-    w.end.predict(model, (&rule, T::ONE, is_far(scale, length)), s);
-    w.lambda.copy_from_slice(&s.lambda);
-    model.set_inputs(s.t + dt, s, &mut w.terms);
-    evaluate(model, options, s, w);
-    let scale = scale.max(norm_inf(model.team(), &s.v) * dt * T::EPSILON);
-    let newton = Newton::new((scale, options.tolerance, length));
-    let newton = iterate(model, (&rule, newton), options, s, w)?;
-    let violation = if options.stabilisation == Stabilisation::Projection {
-        positions(model, &rule, length, options, s, w)?;
-        w.project_velocities_and_accelerations(model, (length, T::ONE), options.max_sweeps)?
-    } else {
-        check_guides(model, &w.end.q, &w.terms)?;
-        w.mu.copy_from_slice(&w.lambda);
-        let velocity = w.violation(model, ConstraintLevel::Velocity);
-        model.evaluate_bias(&w.end.q, &w.end.v, &mut w.terms);
-        let acceleration = w.violation(model, ConstraintLevel::Acceleration);
-        [norm_inf(model.team(), &w.terms.phi), velocity, acceleration]
-    };
-    check_rotations(model, &w.terms)?;
-    check_lines(model, s, &w.end.dq)?;
-    w.commit(model, (&rule, options.compensated, T::ONE), s);
-    Ok(StepReport::of_newton(newton, w.counts, violation))
+    implicit::step(model, step, options, s, w, |(rule, length), s, w| {
+        w.begin(options.regularisation);
+        let scale = step_scale(model.team(), rule.dt, &s.a);
+        w.end.predict(model, (rule, T::ONE, is_far(scale, length)), s);
+        w.lambda.copy_from_slice(&s.lambda);
+        model.set_inputs(s.t + rule.dt, s, &mut w.terms);
+        evaluate(model, options, s, w);
+        let scale = scale.max(norm_inf(model.team(), &s.v) * rule.dt * T::EPSILON);
+        let newton = Newton::new((scale, options.tolerance, length));
+        let newton = iterate(model, (rule, newton), options, s, w)?;
+        let violation = if options.stabilisation == Stabilisation::Projection {
+            positions(model, rule, length, options, s, w)?;
+            w.project_velocities_and_accelerations(model, (length, T::ONE), options.max_sweeps)?
+        } else {
+            violations(model, w)?
+        };
+        Ok(Solved { newton, violation, unit: T::ONE })
+    })
+}
+
+/// Violations of the three levels that the iteration left; multipliers are in `mu`.
+fn violations<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
+    model: &M,
+    w: &mut Workspace<T, S>,
+) -> Result<[T; 3], StepError> {
+    check_guides(model, &w.end.q, &w.terms)?;
+    w.mu.copy_from_slice(&w.lambda);
+    let velocity = w.violation(model, ConstraintLevel::Velocity);
+    model.evaluate_bias(&w.end.q, &w.end.v, &mut w.terms);
+    let acceleration = w.violation(model, ConstraintLevel::Acceleration);
+    Ok([norm_inf(model.team(), &w.terms.phi), velocity, acceleration])
 }
 
 /// phi, J, phi_t, bias and forces at the current q, v.

@@ -13,13 +13,12 @@
 //! matrix does not depend on the step but for forces. The start value of lambda is extrapolated; projections are in correction
 //! form. The geometric stiffness, which the print neglects, is in W; delta is zero unless regularised.
 
-use crate::inputs::take_inputs;
 use crate::options::Options;
 use crate::workspace::{Mass, Workspace};
-use mbs_core::implicit::Newton;
+use mbs_core::implicit::{self, Newton, Solved};
 use mbs_core::integrator::{Rule, is_far};
 use mbs_core::model::{Model, State};
-use mbs_core::step::{Step, StepError, StepReport, Stop, check_lines, check_rotations, step_scale};
+use mbs_core::step::{Step, StepError, StepReport, Stop, step_scale};
 use mbs_core::team::on_stretches;
 use mbs_core::{Real, SymmetricSolver};
 
@@ -41,31 +40,24 @@ pub fn step<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     s: &mut State<T>,
     w: &mut Workspace<T, S>,
 ) -> Result<StepReport<T>, StepError> {
-    let Step { dt, length } = step.checked()?;
-    options.validate()?;
-    take_inputs(model, options, s, w)?;
-    let rule = options.integrator.rule(dt);
-    w.begin(options.regularisation);
-    let scale = step_scale(model.team(), dt, &s.a);
-    predict(model, (&rule, is_far(scale, length)), options, s, w);
-    let newton = Newton::new((scale, options.tolerance, length));
-    let newton = iterate(model, (&rule, newton), options, s, w)?;
+    implicit::step(model, step, options, s, w, |(rule, length), s, w| {
+        w.begin(options.regularisation);
+        let scale = step_scale(model.team(), rule.dt, &s.a);
+        predict(model, (rule, is_far(scale, length)), options, s, w);
+        let newton = Newton::new((scale, options.tolerance, length));
+        let newton = iterate(model, (rule, newton), options, s, w)?;
 
-    // The accelerations leave the unit of the iteration.
-    w.end.scale_accelerations(model, rule.acceleration);
-    // The factor belongs to the configuration before the last correction: near enough when that was small.
-    if newton.1 > length * T::from_f64(MAX_CORRECTION_OF_FACTOR) {
-        factor(model, &rule, options, w)?;
-    }
-    let violation = w.project_velocities_and_accelerations(
-        model,
-        (length, rule.acceleration),
-        options.max_sweeps,
-    )?;
-    check_rotations(model, &w.terms)?;
-    check_lines(model, s, &w.end.dq)?;
-    w.commit(model, (&rule, options.compensated, rule.acceleration), s);
-    Ok(StepReport::of_newton(newton, w.counts, violation))
+        // The accelerations leave the unit of the iteration.
+        let unit = rule.acceleration;
+        w.end.scale_accelerations(model, unit);
+        // The factor belongs to the configuration before the last correction: near enough when that was small.
+        if newton.1 > length * T::from_f64(MAX_CORRECTION_OF_FACTOR) {
+            factor(model, rule, options, w)?;
+        }
+        let most = options.max_sweeps;
+        let violation = w.project_velocities_and_accelerations(model, (length, unit), most)?;
+        Ok(Solved { newton, violation, unit })
+    })
 }
 
 /// q, v, a and lambda at the end of the step by extrapolation, and everything evaluated there.

@@ -12,7 +12,7 @@ mod projection;
 mod workspace;
 
 pub use formulation::Classical;
-pub use inputs::{pass_jump, take_inputs};
+pub use mbs_core::implicit::{pass_jump, take_inputs};
 pub use mbs_core::saddle::Saddle;
 pub use mbs_core::step::{OptionError, Step, StepError, StepReport, Stop};
 pub use options::{Options, Stabilisation};

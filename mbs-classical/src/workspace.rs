@@ -1,12 +1,13 @@
 //! Scratch of a step, made once: the saddle system, its factor, and what its failure means.
 
+use crate::options::Options;
 use alloc::vec;
 use alloc::vec::Vec;
-use mbs_core::implicit::{Newton, StepEnd, commit};
-use mbs_core::integrator::Rule;
+use mbs_core::implicit::{Newton, StepEnd, StepScratch, commit};
+use mbs_core::integrator::{Integrator, Rule};
 use mbs_core::model::{Load, Model, Owner, State, Tangent, Terms};
 use mbs_core::saddle::{Saddle, SaddleSystem};
-use mbs_core::step::{Counts, StepError, Stop, largest};
+use mbs_core::step::{Counts, OptionError, StepError, StepReport, Stop, largest};
 use mbs_core::team::{norm_inf, on_elements, subtract};
 use mbs_core::{FactorError, Real, SymmetricSolver};
 
@@ -330,9 +331,19 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
         };
         self.solver.assemble(&system, &mut self.f);
     }
+}
 
-    /// Takes the finished step over; `unit` turns `lambda` into multipliers of the equations of motion.
-    pub(crate) fn commit<M: Model<T>>(
+impl<T: Real, S: SymmetricSolver<T>> StepScratch<T> for Workspace<T, S> {
+    fn checked(options: &Options<T>) -> Result<(&Integrator<T>, bool), OptionError> {
+        options.validate()?;
+        Ok((&options.integrator, options.compensated))
+    }
+
+    fn reached(&self) -> (&StepEnd<T>, &Terms<T>) {
+        (&self.end, &self.terms)
+    }
+
+    fn commit<M: Model<T>>(
         &mut self,
         model: &M,
         (rule, compensated, unit): (&Rule<T>, bool, T),
@@ -341,5 +352,9 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
         let mu = &self.mu;
         let multipliers = (&self.lambda[..], unit, |row: usize, _| mu[row]);
         commit(model, (rule, compensated), &self.end, multipliers, &mut self.terms, s);
+    }
+
+    fn report(&mut self, newton: (u32, T, Stop), violation: [T; 3]) -> StepReport<T> {
+        StepReport::of_newton(newton, self.counts, violation)
     }
 }

@@ -2,12 +2,13 @@
 
 use crate::history::History as OfWorkspace;
 use crate::options::Options;
+use crate::step::step;
 use crate::workspace::Workspace;
-use crate::{pass_jump, step::step, take_inputs};
 use alloc::boxed::Box;
 use mbs_core::Real;
 use mbs_core::formulation::Formulation;
 use mbs_core::history::{Book, History, RestoreError, Restored};
+use mbs_core::implicit::{pass_jump, take_inputs};
 use mbs_core::model::{Model, State, Terms};
 use mbs_core::natural::NaturalModel;
 use mbs_core::step::{OptionError, Step, StepError, StepReport};
@@ -59,7 +60,7 @@ impl<T: Real, const D: usize> Formulation<T, D> for StateSpace<T> {
         model: &NaturalModel<T, D>,
         state: &mut State<T>,
     ) -> Result<(), StepError> {
-        take_inputs(model, state, &mut self.workspace).map(drop)
+        take_inputs(model, &self.options, state, &mut *self.workspace).map(drop)
     }
 
     fn pass_jump(
@@ -68,7 +69,7 @@ impl<T: Real, const D: usize> Formulation<T, D> for StateSpace<T> {
         state: &mut State<T>,
         to: T,
     ) -> Result<(), StepError> {
-        pass_jump(model, state, &mut self.workspace, to)
+        pass_jump(model, &self.options, state, &mut *self.workspace, to)
     }
 
     fn history(&self) -> History<T> {

@@ -19,7 +19,7 @@ mod workspace;
 
 pub use formulation::StateSpace;
 pub use history::History;
-pub use inputs::{pass_jump, take_inputs};
+pub use mbs_core::implicit::{pass_jump, take_inputs};
 pub use mbs_core::step::{OptionError, Step, StepError, StepReport, Stop};
 pub use options::{Coordinates, Options, PivotChange};
 pub use step::step;

@@ -12,16 +12,17 @@
 //! geometric stiffness, the curvature of the surface on which R lives, which makes Newton quadratic but for velocity terms.
 //! Without it (an option) it is the published one. f is evaluated as (M a - Q)_i + J_i^T lambda, the same without R.
 
-use crate::inputs::take_inputs;
 use crate::options::{Coordinates, Options, PivotChange};
 use crate::pivots::select_pivots;
 use crate::workspace::Workspace;
 use mbs_core::algebra::norm_inf;
+use mbs_core::implicit::{
+    add_work, check_guides, check_lines, check_rotations, take_coordinates, take_inputs,
+};
 use mbs_core::integrator::{Rule, is_far};
 use mbs_core::model::{Load, Model, State, System, Tangent};
 use mbs_core::step::{
-    Counts, Step, StepError, StepReport, Stop, add_work, check_guides, check_lines,
-    check_rotations, largest, largest_or_nan, step_scale, take_coordinates,
+    Counts, Step, StepError, StepReport, Stop, largest, largest_or_nan, step_scale,
 };
 use mbs_core::{FactorError, Real, SpdSolver};
 
@@ -55,7 +56,7 @@ pub fn step<T: Real, M: Model<T>>(
         return Err(StepError::VelocityRows);
     }
     options.validate()?;
-    take_inputs(model, s, w)?;
+    take_inputs(model, options, s, w)?;
     let rule = options.integrator.rule(dt);
     w.counts = Counts::default();
     let is_new = w.is_stale || options.pivot_change == PivotChange::EveryStep;

@@ -13,13 +13,14 @@ use crate::stop::StopError;
 use mbs_core::control::{Accepted, Invariant, Limit, TrialStep};
 use mbs_core::effects::{Field, Value};
 use mbs_core::formulation::{Formulation, energies};
+use mbs_core::implicit::check_lines;
 use mbs_core::inputs::SignalGraph;
 use mbs_core::model::{Model, Owner, State};
 use mbs_core::natural::NaturalModel;
 use mbs_core::once::find;
 use mbs_core::scene::{EffectKind, Scene, Signal};
 use mbs_core::start::Assembled;
-use mbs_core::step::{InputError, Step, StepError, check_lines, largest};
+use mbs_core::step::{InputError, Step, StepError, largest};
 use mbs_core::{Real, instances};
 
 /// A scene ready to step, in D dimensions and scalar T.

@@ -11,14 +11,13 @@
 mod projection;
 
 use crate::index3;
-use crate::inputs::take_inputs;
 use crate::multipliers::{MultiplierStart, balance};
 use crate::options::Penalty;
 use crate::workspace::Workspace;
-use mbs_core::implicit::ConstraintLevel;
+use mbs_core::implicit::{self, ConstraintLevel, Solved};
 use mbs_core::integrator::Integrator;
 use mbs_core::model::{Model, State};
-use mbs_core::step::{Step, StepError, StepReport, check_lines, check_rotations};
+use mbs_core::step::{Step, StepError, StepReport};
 use mbs_core::team::norm_inf;
 use mbs_core::{Real, SpdSolver};
 use projection::{Published, project};
@@ -99,32 +98,27 @@ fn published<T: Real, M: Model<T>, S: SpdSolver<T>>(
     s: &mut State<T>,
     w: &mut Workspace<T, S>,
 ) -> Result<StepReport<T>, StepError> {
-    let Step { dt, length } = step.checked()?;
-    let options = options.of_index3();
-    options.validate()?;
-    take_inputs(model, s, w)?;
-    let rule = options.integrator.rule(dt);
-    let (newton, _) = index3::solve(model, (&rule, length), (&options, start), s, w)?;
-
-    let mut violation = [norm_inf(model.team(), &w.terms().phi), T::ZERO, T::ZERO];
-    if projection == Published::ByMass {
-        // W = M + J^T alpha J with alpha as it is: the penalty of the iteration is alpha / a'
-        w.scale.weights.iter_mut().for_each(|s| *s *= rule.acceleration);
-    }
-    for (k, level) in [(1, ConstraintLevel::Velocity), (2, ConstraintLevel::Acceleration)] {
-        level.limits(model, &w.end, length, &mut w.equations.terms)?;
-        if projection == Published::ByMass && k == 1 {
-            w.factor_mass(model)?;
+    let options = &options.of_index3();
+    implicit::step(model, step, options, s, w, |(rule, length), s, w| {
+        let (newton, _) = index3::solve(model, (rule, length), (options, start), s, w)?;
+        let unit = rule.acceleration;
+        let mut violation = [norm_inf(model.team(), &w.terms().phi), T::ZERO, T::ZERO];
+        if projection == Published::ByMass {
+            // W = M + J^T alpha J with alpha as it is: the penalty of the iteration is alpha / a'
+            w.scale.weights.iter_mut().for_each(|s| *s *= unit);
         }
-        violation[k] = project(w.projector(model, level), projection);
-    }
-    if model.has_guides() {
-        let Workspace { equations: eq, end, lambda, scale, projection, .. } = w;
-        let multipliers = (&lambda[..], rule.acceleration, &mut projection.sigma[..]);
-        balance(model, eq, (&end.a, &scale.weights), multipliers);
-    }
-    check_rotations(model, w.terms())?;
-    check_lines(model, s, &w.end.dq)?;
-    w.commit(model, (&rule, false, rule.acceleration), s);
-    Ok(w.report(newton, violation))
+        for (k, level) in [(1, ConstraintLevel::Velocity), (2, ConstraintLevel::Acceleration)] {
+            level.limits(model, &w.end, length, &mut w.equations.terms)?;
+            if projection == Published::ByMass && k == 1 {
+                w.factor_mass(model)?;
+            }
+            violation[k] = project(w.projector(model, level), projection);
+        }
+        if model.has_guides() {
+            let Workspace { equations: eq, end, lambda, scale, projection, .. } = w;
+            let multipliers = (&lambda[..], unit, &mut projection.sigma[..]);
+            balance(model, eq, (&end.a, &scale.weights), multipliers);
+        }
+        Ok(Solved { newton, violation, unit })
+    })
 }

@@ -16,9 +16,65 @@ use crate::team::norm_inf;
 /// Sweeps of a response at most [-]: the first leaves 1e-6 of it or less, one or two more go to rounding.
 const MAX_SWEEPS: u32 = 12;
 
+/// Scratch of a formulation that solves for what a change of loads does at a state.
+pub trait InputResponse<T: Real> {
+    /// Choices for a step.
+    type Options;
+
+    /// From the loads of `s` to those of the inputs that are set, at time `to` [s].
+    ///
+    /// # Errors
+    /// [`StepError`]; the state is then unchanged.
+    fn take_loads<M: Model<T>>(
+        &mut self,
+        model: &M,
+        options: &Self::Options,
+        s: &mut State<T>,
+        to: T,
+    ) -> Result<(), StepError>;
+}
+
+/// Makes accelerations, multipliers and power those of the inputs that are set now, if others were set since the last step; says
+/// whether they were. Every step begins with this; a caller that keeps a state to go back to calls it before.
+///
+/// Cost: nothing without a change; no allocation.
+///
+/// # Errors
+/// [`StepError`]; the state is then unchanged.
+pub fn take_inputs<T: Real, M: Model<T>, W: InputResponse<T>>(
+    model: &M,
+    options: &W::Options,
+    s: &mut State<T>,
+    w: &mut W,
+) -> Result<bool, StepError> {
+    if !has_new_inputs(model, s) {
+        return Ok(false);
+    }
+    w.take_loads(model, options, s, s.t)?;
+    Ok(true)
+}
+
+/// Makes accelerations, multipliers and power of `s`, just before a signal jumps, those just after, at time `to` [s].
+///
+/// Cost: as for inputs that change.
+///
+/// # Errors
+/// [`StepError`]; the state is then unchanged.
+pub fn pass_jump<T: Real, M: Model<T>, W: InputResponse<T>>(
+    model: &M,
+    options: &W::Options,
+    s: &mut State<T>,
+    w: &mut W,
+    to: T,
+) -> Result<(), StepError> {
+    w.take_loads(model, options, s, to)?;
+    s.t = to;
+    Ok(())
+}
+
 /// Are inputs set to other values than those that the accelerations of `s` were made with?
 #[inline]
-pub fn has_new_inputs<T: Real, M: Model<T>>(model: &M, s: &State<T>) -> bool {
+fn has_new_inputs<T: Real, M: Model<T>>(model: &M, s: &State<T>) -> bool {
     model.inputs().is_some_and(|inputs| inputs.differs(&s.inputs, &s.applied))
 }
 

@@ -1,0 +1,65 @@
+//! Frame of an implicit step in natural coordinates: what stands before and after the equations of a formulation.
+//!
+//! ```text
+//! checked,  inputs,  rule;   predict, iterate, project: the formulation;   rotations, lines,  state,  report
+//! ```
+
+use super::{InputResponse, StepEnd, check_lines, check_rotations, take_inputs};
+use crate::Real;
+use crate::integrator::{Integrator, Rule};
+use crate::model::{Model, State, Terms};
+use crate::step::{OptionError, Step, StepError, StepReport, Stop};
+
+/// Scratch of the implicit steps of one crate, whose formulations differ in their equations alone.
+pub trait StepScratch<T: Real>: InputResponse<T> {
+    /// Integrator of the options, and whether increments are carried, if all are in their ranges.
+    ///
+    /// # Errors
+    /// [`OptionError`] names the option.
+    fn checked(options: &Self::Options) -> Result<(&Integrator<T>, bool), OptionError>;
+
+    /// End of the step, with the terms as last evaluated there.
+    fn reached(&self) -> (&StepEnd<T>, &Terms<T>);
+
+    /// Takes the finished step over into the state; `unit` turns multipliers of the iteration into those of the equations of motion.
+    fn commit<M: Model<T>>(&mut self, model: &M, how: (&Rule<T>, bool, T), s: &mut State<T>);
+
+    /// Returns the report of the step.
+    fn report(&mut self, newton: (u32, T, Stop), violation: [T; 3]) -> StepReport<T>;
+}
+
+/// A step whose equations are solved.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Solved<T> {
+    /// Number of iterations, the last correction [m or -], and what ended them.
+    pub newton: (u32, T, Stop),
+    /// Largest |phi|, |phi'|, |phi''| that the projections left [m, m/s, m/s^2].
+    pub violation: [T; 3],
+    /// Factor from multipliers of the iteration to those of the equations of motion.
+    pub unit: T,
+}
+
+/// Advances `s` by one [`Step`]: `solve` finds the end of it by the rule, in a scene of the given length [m].
+///
+/// # Errors
+/// [`StepError`]; the state is then unchanged.
+#[inline]
+pub fn step<T: Real, M: Model<T>, W: StepScratch<T>>(
+    model: &M,
+    step: Step<T>,
+    options: &W::Options,
+    s: &mut State<T>,
+    w: &mut W,
+    solve: impl FnOnce((&Rule<T>, T), &State<T>, &mut W) -> Result<Solved<T>, StepError>,
+) -> Result<StepReport<T>, StepError> {
+    let Step { dt, length } = step.checked()?;
+    let (integrator, compensated) = W::checked(options)?;
+    take_inputs(model, options, s, w)?;
+    let rule = integrator.rule(dt);
+    let Solved { newton, violation, unit } = solve((&rule, length), s, w)?;
+    let (end, terms) = w.reached();
+    check_rotations(model, terms)?;
+    check_lines(model, s, &end.dq)?;
+    w.commit(model, (&rule, compensated, unit), s);
+    Ok(w.report(newton, violation))
+}
