@@ -22,8 +22,7 @@ pub mod step;
 pub use build::{CurveTables, LanesError, TreeError, TreeModel};
 #[cfg(feature = "alloc")]
 pub use host::{
-    EffortTerms, History, JointLinks, StartError, Tree, TreeState, TreeStep, Workspace,
-    bounded_step, extrapolated_step, radau5_step, rk4_step, rk54_step, rk853_step, step,
+    EffortTerms, History, JointLinks, StartError, Tree, TreeMethod, TreeState, Workspace,
 };
 pub use link::indexing::Outside;
 pub use link::options::{Closure, Options};

@@ -15,7 +15,7 @@ use mbs_core::start::AssemblyError;
 use mbs_core::step::OptionError;
 use mbs_parallel::{Threads, most_threads};
 use mbs_recursive::space::Space;
-use mbs_recursive::{Closure, Planar, Spatial, StartError, Tree, TreeModel, TreeStep};
+use mbs_recursive::{Closure, Planar, Spatial, StartError, Tree, TreeMethod, TreeModel};
 use mbs_sparse::{Indefinite, Multifrontal};
 use mbs_statespace::StateSpace;
 
@@ -280,7 +280,7 @@ fn tree<T: Real, S: Space<T>, const D: usize>(request: Request<'_, T, D>) -> Bui
     let Request { scene, demands, model: natural, state, .. } = request;
     let model = TreeModel::<T, S>::new(scene).map_err(StopError::tree)?;
     let start = model.start(scene, natural, state).map_err(|e| not_started(e, &model))?;
-    let method = (tree_options(&demands), tree_step(demands.integrator));
+    let method = (tree_options(&demands), tree_method(demands.integrator));
     boxed(Tree::new(scene, (model, start), method, (natural, state)))
 }
 
@@ -308,17 +308,17 @@ pub fn tree_options<T: Real>(demands: &Demands<T>) -> mbs_recursive::Options<T> 
     options
 }
 
-pub fn tree_step<T: Real, S: Space<T>>(integrator: IntegratorKind) -> TreeStep<T, S> {
+pub fn tree_method(integrator: IntegratorKind) -> TreeMethod {
     match integrator {
-        IntegratorKind::Rk4 => mbs_recursive::rk4_step,
-        IntegratorKind::Rk54 => mbs_recursive::rk54_step,
-        IntegratorKind::Rk853 => mbs_recursive::rk853_step,
-        IntegratorKind::Extrapolation => mbs_recursive::extrapolated_step,
-        IntegratorKind::Radau5 => mbs_recursive::radau5_step,
+        IntegratorKind::Rk4 => TreeMethod::Rk4,
+        IntegratorKind::Rk54 => TreeMethod::Rk54,
+        IntegratorKind::Rk853 => TreeMethod::Rk853,
+        IntegratorKind::Extrapolation => TreeMethod::Extrapolation,
+        IntegratorKind::Radau5 => TreeMethod::Radau5,
         IntegratorKind::Trapezoidal
         | IntegratorKind::Newmark
         | IntegratorKind::GeneralisedAlpha
-        | IntegratorKind::Hht => mbs_recursive::step,
+        | IntegratorKind::Hht => TreeMethod::Trapezoidal,
     }
 }
 

@@ -7,7 +7,7 @@ use mbs::core::scene::{Dimension, Scene};
 use mbs_nostd::export::Collected;
 use mbs_nostd::{Bounds, Checked, Solver, Unwatched};
 use mbs_recursive::space::Space;
-use mbs_recursive::{Options, Planar, Spatial, TreeError, TreeModel, Workspace, bounded_step};
+use mbs_recursive::{Options, Planar, Spatial, TreeError, TreeModel, Workspace};
 
 /// Room for two bodies: links, coordinates, freedoms, rows, blocks, gains, guides, courses.
 type Room<S> = Solver<f64, S, 12, 16, 12, 8, 64, 256, 2, 8>;
@@ -26,7 +26,7 @@ fn is_followed<S: Space<f64>, const D: usize>(scene: &Scene<f64>, name: &str, st
     let (options, bounds) = (Options::default(), Bounds::default());
     let (mut state, mut workspace) = (start.clone(), Workspace::new(&tree));
     for _ in 0..random::STEPS {
-        bounded_step(&tree, (step, &options, bounds), &mut state, &mut workspace)
+        tree.bounded_step((step, &options, bounds), &mut state, &mut workspace)
             .unwrap_or_else(|e| panic!("{name}: {e}"));
         solver.step(&model, step, &mut Unwatched).unwrap_or_else(|e| panic!("{name}: {e}"));
         assert_eq!(solver.coordinates(), &state.z[..], "{name}");

@@ -12,8 +12,8 @@ use mbs_core::dense::Dense;
 use mbs_core::natural::NaturalModel;
 use mbs_core::scene::{Dimension, Scene};
 use mbs_core::start::assemble;
-use mbs_core::step::{Step, StepError, StepReport};
-use mbs_recursive::{Planar, Spatial, TreeModel, TreeState, space::Space};
+use mbs_core::step::Step;
+use mbs_recursive::{Planar, Spatial, TreeMethod, TreeModel, space::Space};
 use std::error::Error;
 use std::process::ExitCode;
 
@@ -71,7 +71,11 @@ fn formulations<const D: usize, S: Space<f64>>(
 ) -> Result<(), Box<dyn Error>> {
     let model = NaturalModel::<f64, D>::new(scene)?;
     index_3(scene, &model, name, steps)?;
-    recursive::<D, S>((scene, &model), &format!("recursive {name}"), (steps, mbs_recursive::step))
+    recursive::<D, S>(
+        (scene, &model),
+        &format!("recursive {name}"),
+        (steps, TreeMethod::Trapezoidal),
+    )
 }
 
 /// Steps of index-3 augmented Lagrangian.
@@ -90,27 +94,18 @@ fn index_3<const D: usize>(
     })
 }
 
-/// A step of the recursive formulation.
-type TreeStep<S> = fn(
-    &TreeModel<f64, S>,
-    f64,
-    &mbs_recursive::Options<f64>,
-    &mut TreeState<f64>,
-    &mut mbs_recursive::Workspace<f64, S>,
-) -> Result<StepReport<f64>, StepError>;
-
 /// Steps of the recursive formulation.
 fn recursive<const D: usize, S: Space<f64>>(
     (scene, model): (&Scene<f64>, &NaturalModel<f64, D>),
     name: &str,
-    (steps, step): (usize, TreeStep<S>),
+    (steps, method): (usize, TreeMethod),
 ) -> Result<(), Box<dyn Error>> {
     let natural = assemble(scene, model, |p| Dense::new(p), &mut Dense::new(model))?.state;
     let tree = TreeModel::<f64, S>::new(scene)?;
     let mut workspace = mbs_recursive::Workspace::new(&tree);
     let mut state = tree.start(scene, model, &natural)?;
     let options = mbs_recursive::Options::default();
-    count(name, steps, || step(&tree, STEP, &options, &mut state, &mut workspace))
+    count(name, steps, || tree.step(method, STEP, &options, &mut state, &mut workspace))
 }
 
 /// Counts a train of wheels without gears or with them.
@@ -120,7 +115,7 @@ fn train(n: usize, has_gears: bool, steps: usize) -> Result<(), Box<dyn Error>> 
     let model = NaturalModel::<f64, 2>::new(&scene)?;
     let switch = if has_gears { "on" } else { "out" };
     let name = format!("rk4 planar train-{n} {switch}");
-    recursive::<2, Planar>((&scene, &model), &name, (steps, mbs_recursive::rk4_step))
+    recursive::<2, Planar>((&scene, &model), &name, (steps, TreeMethod::Rk4))
 }
 
 /// Warms up, prints the name and counts.

@@ -7,7 +7,7 @@ use mbs_core::step::{OptionError, StepError};
 use mbs_nostd::export::{Collected, bytes, elements, needs, source};
 use mbs_nostd::table::{Law, Load, Measure};
 use mbs_nostd::{Bounds, Checked, LoadError, Options, Planar, Solver, Spatial, Tables, Unwatched};
-use mbs_recursive::{TreeModel, TreeState, Workspace, bounded_step, step};
+use mbs_recursive::{TreeMethod, TreeModel, TreeState, Workspace};
 use mbs_testkit::file;
 
 /// Room for the vehicle.
@@ -33,7 +33,7 @@ fn a_solver_of_fixed_capacity_gives_the_bits_of_the_recursion() {
         let (mut state, mut workspace) = (begin.clone(), Workspace::new(&tree));
         let (options, bounds) = (Options::default(), Bounds::default());
         for _ in 0..500 {
-            bounded_step(&tree, (1e-3, &options, bounds), &mut state, &mut workspace)
+            tree.bounded_step((1e-3, &options, bounds), &mut state, &mut workspace)
                 .unwrap_or_else(|e| panic!("{name}: {e}"));
             for (solver, model) in solvers.iter_mut().zip([&flash, &read]) {
                 solver.step(model, 1e-3, &mut Unwatched).unwrap_or_else(|e| panic!("{name}: {e}"));
@@ -70,7 +70,7 @@ fn apart_on_controller(text: &str) -> Result<f64, LoadError> {
     let (options, bounds) = (Options::default(), Bounds::default());
     let mut worst = 0.0_f64;
     for _ in 0..500 {
-        bounded_step(&tree, (1e-3, &options, bounds), &mut state, &mut workspace).expect("a step");
+        tree.bounded_step((1e-3, &options, bounds), &mut state, &mut workspace).expect("a step");
         for (solver, model) in solvers.iter_mut().zip([&flash, &read]) {
             solver.step(model, 1e-3, &mut Unwatched).expect("a step");
             let own = solver.coordinates().iter().chain(solver.accelerations());
@@ -150,7 +150,7 @@ fn the_drive_line_of_a_vehicle_has_the_bits_of_the_recursion() {
     let (mut state, mut workspace) = (begin.clone(), Workspace::new(&tree));
     let (options, bounds) = (Options::default(), Bounds::default());
     for _ in 0..200 {
-        bounded_step(&tree, (1e-3, &options, bounds), &mut state, &mut workspace).expect("a step");
+        tree.bounded_step((1e-3, &options, bounds), &mut state, &mut workspace).expect("a step");
         solver.step(&model, 1e-3, &mut Unwatched).expect("a step");
         assert_eq!(solver.coordinates(), &state.z[..]);
         assert_eq!(solver.accelerations(), &state.a[..]);
@@ -208,9 +208,9 @@ fn apart(name: &str, evaluations: u32) -> f64 {
     let bounds = Bounds { evaluations, ..Bounds::default() };
     let mut largest = 0.0_f64;
     for _ in 0..10_000 {
-        bounded_step(&tree, (1e-3, &options, bounds), &mut state, &mut workspace)
+        tree.bounded_step((1e-3, &options, bounds), &mut state, &mut workspace)
             .unwrap_or_else(|e| panic!("{name}: {e}"));
-        step(&tree, 1e-3, &options, &mut exact, &mut other)
+        tree.step(TreeMethod::Trapezoidal, 1e-3, &options, &mut exact, &mut other)
             .unwrap_or_else(|e| panic!("{name}: {e}"));
         for (x, y) in state.z.iter().zip(&exact.z) {
             largest = largest.max((x - y).abs());

@@ -4,8 +4,8 @@ use crate::support::start;
 use mbs_core::scene::{Effect, EffectKind, JointId, JointTorque, Motion, Scene, Signal, TableEnds};
 use mbs_nostd::export::{Collected, bytes};
 use mbs_nostd::{Bounds, Checked, InputError, Options, Planar, Solver, Tables, Unwatched};
+use mbs_recursive::Workspace;
 use mbs_recursive::own::OwnFreedoms;
-use mbs_recursive::{Workspace, bounded_step};
 use mbs_testkit::file;
 
 type Room = Solver<f64, Planar, 8, 16, 16, 16, 256, 256, 2, 4>;
@@ -84,7 +84,7 @@ fn a_solver_of_fixed_capacity_takes_inputs_as_the_recursion_does() {
         solver.set_guide(0, motion).expect("an input");
         solver.set_input(course, torque).expect("an input");
         let work = (1e-3, &Options::default(), Bounds::default());
-        bounded_step(&host, work, &mut state, &mut workspace).expect("a regular step");
+        host.bounded_step(work, &mut state, &mut workspace).expect("a regular step");
         solver.step(&flash, 1e-3, &mut Unwatched).expect("a regular step");
         // the host evaluates to rounding where inputs change, the solver with its bounded sweeps
         for (x, y) in solver.velocities().iter().zip(&state.v) {
@@ -118,7 +118,7 @@ fn steps_from_bytes(law: Motion<f64>) {
     let mut workspace = Workspace::new(&host);
     for k in 1..=150 {
         let work = (1e-3, &Options::default(), Bounds::default());
-        bounded_step(&host, work, &mut state, &mut workspace).expect("a regular step");
+        host.bounded_step(work, &mut state, &mut workspace).expect("a regular step");
         solver.step(&model, 1e-3, &mut Unwatched).expect("a regular step");
         for (x, y) in solver.velocities().iter().zip(&state.v) {
             assert!((x - y).abs() < 1e-9 * (1.0 + y.abs()), "step {k}: {x} {y}");

@@ -8,7 +8,7 @@ use mbs_nostd::table::{Couplings, CurveTable, Span, SumMeasure};
 use mbs_nostd::{
     Bounds, Checked, LoadError, Options, Planar, Real, Solver, Spatial, Tables, Unwatched,
 };
-use mbs_recursive::{Workspace, bounded_step};
+use mbs_recursive::Workspace;
 use mbs_testkit::{allocations, repository};
 
 type Room<T, S> = Solver<T, S, 8, 16, 16, 8, 64, 64, 2, 12, 2, 12, 6, 8>;
@@ -41,7 +41,7 @@ fn apart<S: Axes<f64>, const D: usize>(text: &str) -> Result<f64, LoadError> {
     let mut worst = 0.0_f64;
     for step in 0..STEPS {
         let work = (1e-3, &Options::default(), Bounds::default());
-        bounded_step(&tree, work, &mut state, &mut workspace)
+        tree.bounded_step(work, &mut state, &mut workspace)
             .unwrap_or_else(|e| panic!("step {step}: {e}"));
         for (solver, model) in solvers.iter_mut().zip([&flash, &read]) {
             let before = allocations::count();

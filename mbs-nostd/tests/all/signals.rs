@@ -8,7 +8,7 @@ use mbs_nostd::table::{FeedbackOperation, FeedbackStep};
 use mbs_nostd::{
     Bounds, Checked, LoadError, Options, Planar, SignalLaw, Solver, Spatial, Tables, Unwatched,
 };
-use mbs_recursive::{Workspace, bounded_step};
+use mbs_recursive::Workspace;
 use mbs_testkit::allocations;
 
 type Room<S> = Solver<f64, S, 40, 64, 48, 40, 1024, 1024, 4, 48, 8, 48>;
@@ -223,7 +223,7 @@ fn apart<S: Axes<f64>, const D: usize>(scene: &Scene<f64>) -> f64 {
                     solver.set_input(signal, [value, 0.0, 0.0]).expect("an input");
                 }
                 let work = (1e-3, &Options::default(), Bounds::default());
-                bounded_step(&tree, work, &mut state, &mut workspace).expect("a step");
+                tree.bounded_step(work, &mut state, &mut workspace).expect("a step");
                 let before = allocations::count();
                 solver.step(&model, 1e-3, &mut Unwatched).expect("a step");
                 assert_eq!(allocations::count(), before, "step {k}");

@@ -3,6 +3,7 @@
 use crate::build::TreeModel;
 use crate::host::history::History as OfWorkspace;
 use crate::host::state::{TreeState, Workspace};
+use crate::host::step::TreeMethod;
 use crate::link::options::Options;
 use crate::space::Space;
 use alloc::vec::Vec;
@@ -17,15 +18,6 @@ use mbs_core::ode::{AdaptiveHistory, RadauHistory};
 use mbs_core::rigid::RigidMotion;
 use mbs_core::scene::{BodyId, Scene};
 use mbs_core::step::{OptionError, Step, StepError, StepReport};
-
-/// A step of a tree by one of its methods, such as [`step`](crate::step()) or [`rk54_step`](crate::rk54_step).
-pub type TreeStep<T, S> = fn(
-    &TreeModel<T, S>,
-    T,
-    &Options<T>,
-    &mut TreeState<T>,
-    &mut Workspace<T, S>,
-) -> Result<StepReport<T>, StepError>;
 
 /// An angle that the tree has with its turns.
 #[derive(Debug, Clone, Copy)]
@@ -72,7 +64,7 @@ pub struct Tree<T: Real, S: Space<T>> {
     saved: TreeState<T>,
     workspace: Workspace<T, S>,
     options: Options<T>,
-    step: TreeStep<T, S>,
+    method: TreeMethod,
     motions: Vec<RigidMotion<T>>,
     terms: Terms<T>,
     /// The links that have the coordinates of each joint.
@@ -92,7 +84,7 @@ impl<T: Real, S: Space<T>> Tree<T, S> {
     pub fn new<const D: usize>(
         scene: &Scene<T>,
         (model, start): (TreeModel<T, S>, TreeState<T>),
-        (options, step): (Options<T>, TreeStep<T, S>),
+        (options, method): (Options<T>, TreeMethod),
         (natural, state): (&NaturalModel<T, D>, &mut State<T>),
     ) -> Result<Self, OptionError> {
         options.validate()?;
@@ -107,7 +99,7 @@ impl<T: Real, S: Space<T>> Tree<T, S> {
             state: start,
             workspace,
             options,
-            step,
+            method,
             motions,
             terms: natural.terms(),
             rank,
@@ -162,7 +154,7 @@ impl<T: Real, S: Space<T>, const D: usize> Formulation<T, D> for Tree<T, S> {
         state: &mut State<T>,
     ) -> Result<StepReport<T>, StepError> {
         let Self { model, options, workspace, .. } = self;
-        let report = (self.step)(model, step.dt, options, &mut self.state, workspace)?;
+        let report = model.step(self.method, step.dt, options, &mut self.state, workspace)?;
         self.write(natural, state);
         Ok(report)
     }

@@ -8,14 +8,13 @@ mod quantities;
 mod run;
 mod start;
 pub(crate) mod state;
+mod step;
 mod turns;
 mod under_efforts;
 
-pub use formulation::{Tree, TreeStep};
+pub use formulation::Tree;
 pub use history::History;
 pub use quantities::{EffortTerms, JointLinks};
-pub use run::{
-    bounded_step, extrapolated_step, radau5_step, rk4_step, rk54_step, rk853_step, step,
-};
 pub use start::StartError;
 pub use state::{TreeState, Workspace};
+pub use step::TreeMethod;

@@ -106,7 +106,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
 }
 
 /// Scratch of the steps of one model. Nothing is allocated after [`Workspace::new`], but for the matrices of
-/// [`radau5_step`](crate::radau5_step) by the first call of it.
+/// [`Radau5`](crate::TreeMethod::Radau5) by the first step of it.
 #[derive(Debug, Clone)]
 pub struct Workspace<T: Real, S: Space<T>> {
     placed: Vec<LinkMotion<T, S>>,

@@ -11,7 +11,7 @@ use mbs_core::outputs::Measures;
 use mbs_core::real::DoubleDouble as Pair;
 use mbs_core::rigid::RigidMotion;
 use mbs_core::scene::{JointId, Output, Quantity, Scene};
-use mbs_recursive::{Options, Planar, TreeModel, TreeState, Workspace};
+use mbs_recursive::{Options, Planar, TreeMethod, TreeModel, TreeState, Workspace};
 use mbs_testkit::{file_in, start_in};
 
 fn pair(text: &str) -> Pair {
@@ -60,14 +60,9 @@ impl Run {
         self.options.first_step.get_or_insert(part * Pair::from_f64(0.1));
         for _ in 0..n {
             let (state, workspace) = (&mut self.state, &mut self.workspace);
-            let report = mbs_recursive::extrapolated_step(
-                &self.model,
-                part,
-                &self.options,
-                state,
-                workspace,
-            )
-            .unwrap_or_else(|e| panic!("after {} s: {e}", self.state.t));
+            let method = TreeMethod::Extrapolation;
+            let report = self.model.step(method, part, &self.options, state, workspace);
+            let report = report.unwrap_or_else(|e| panic!("after {} s: {e}", self.state.t));
             self.steps += report.steps;
             self.evaluations += report.iterations;
             self.model.write_motions(&self.state, &mut self.workspace, &mut self.motions);

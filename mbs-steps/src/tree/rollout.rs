@@ -5,7 +5,7 @@ use super::{Tree, checked};
 use crate::choice::IntegratorKind;
 use crate::erased::failure::SimulationError;
 use crate::interrupt::Interrupt;
-use crate::methods::{Demands, tree_options, tree_step};
+use crate::methods::{Demands, tree_method, tree_options};
 use crate::names::Names;
 use crate::stop::StopError;
 use mbs_core::step::StepError;
@@ -151,7 +151,8 @@ impl Tree {
                 model.prescribed().apply(&state.inputs, &mut state.applied);
             }
             let options = tree_options(&demands);
-            let made = tree_step(task.integrator)(model, dt, &options, state, workspace);
+            let method = tree_method(task.integrator);
+            let made = model.step(method, dt, &options, state, workspace);
             #[allow(clippy::cast_precision_loss, reason = "steps stay far below 2^53")]
             let end = (k + 1) as f64 * dt;
             match made {

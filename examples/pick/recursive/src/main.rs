@@ -4,7 +4,7 @@
 mod double_pendulum;
 
 use double_pendulum::{TRAPEZOIDAL, check, double_pendulum};
-use mbs_recursive::{Options, Planar, TreeModel, TreeState, Workspace, step};
+use mbs_recursive::{Options, Planar, TreeMethod, TreeModel, TreeState, Workspace};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let scene = double_pendulum();
@@ -15,7 +15,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
     let options = Options::default();
     for _ in 0..1000 {
-        step(&model, 1e-3, &options, &mut state, &mut workspace)?;
+        model.step(TreeMethod::Trapezoidal, 1e-3, &options, &mut state, &mut workspace)?;
     }
 
     // The elbow's angle is that of the lower rod on the upper one.

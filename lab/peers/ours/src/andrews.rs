@@ -5,12 +5,8 @@ use crate::line::{Failure, print_line};
 use crate::space::in_space;
 use mbs_core::model::Owner;
 use mbs_core::scene::Scene;
-use mbs_core::step::{StepError, StepReport};
 use mbs_recursive::space::Space;
-use mbs_recursive::{
-    Options, Planar, Spatial, TreeModel, TreeState, Workspace, extrapolated_step, rk54_step,
-    rk853_step,
-};
+use mbs_recursive::{Options, Planar, Spatial, TreeMethod, TreeModel, TreeState, Workspace};
 use mbs_scene::SceneFile;
 use std::hint::black_box;
 
@@ -32,14 +28,12 @@ const ANGLES: [(&str, f64, f64); 7] = [
     ("lower-arm-pivot", 1.230_547_444_549_821_2, 1.048_080_741_041_938),
 ];
 
-/// A method that goes to the end in as many steps as its error asks for.
-type Method<S> = fn(
-    &TreeModel<f64, S>,
-    f64,
-    &Options<f64>,
-    &mut TreeState<f64>,
-    &mut Workspace<f64, S>,
-) -> Result<StepReport<f64>, StepError>;
+/// Methods that go to the end in as many steps as their error asks for.
+const METHODS: [(&str, TreeMethod); 3] = [
+    ("rk54", TreeMethod::Rk54),
+    ("rk853", TreeMethod::Rk853),
+    ("extrapolation", TreeMethod::Extrapolation),
+];
 
 /// Three methods in the plane and in space, each at its errors; the value is the number of right digits.
 pub(crate) fn andrews(seconds: f64) -> Result<(), Failure> {
@@ -54,12 +48,7 @@ fn runs<S: Space<f64>>(space: &str, scene: &Scene<f64>, seconds: f64) -> Result<
     let mut start = TreeState::at_rest(&model);
     model.settle(&mut start, &mut Workspace::new(&model))?;
     let seats = seats(scene, &model)?;
-    let methods: [(&str, Method<S>); 3] = [
-        ("rk54", rk54_step::<f64, S>),
-        ("rk853", rk853_step::<f64, S>),
-        ("extrapolation", extrapolated_step::<f64, S>),
-    ];
-    for (name, method) in methods {
+    for (name, method) in METHODS {
         for i in 0..=20 {
             let error = 10_f64.powf(-2.0 - 0.5 * f64::from(i));
             let options = Options { error, first_step: Some(FIRST), ..Options::default() };
@@ -67,7 +56,7 @@ fn runs<S: Space<f64>>(space: &str, scene: &Scene<f64>, seconds: f64) -> Result<
             let mut run = || {
                 state.copy_from(&start);
                 // As fresh as the peers' solvers.
-                method(&model, END, &options, &mut state, &mut Workspace::new(&model))
+                model.step(method, END, &options, &mut state, &mut Workspace::new(&model))
             };
             if let Err(why) = run() {
                 eprintln!("{space} {name} {error:.1e}: {why}");

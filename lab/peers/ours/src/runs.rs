@@ -7,7 +7,7 @@ use mbs::typed::Simulation;
 use mbs::{Method, ResolvedMethod};
 use mbs_core::scene::Scene;
 use mbs_recursive::space::Space;
-use mbs_recursive::{Options, Planar, Spatial, TreeModel, Workspace, rk4_step, step};
+use mbs_recursive::{Options, Planar, Spatial, TreeMethod, TreeModel, Workspace};
 use mbs_scene::SceneFile;
 use std::f64::consts::FRAC_PI_2;
 
@@ -105,13 +105,10 @@ fn kernel<S: Space<f64>, const D: usize>(
     let start = assembled::<D>(scene, dt, METHODS[0])?;
     let mut state = model.start(scene, start.model(), start.state())?;
     let start: f64 = model.energies(&state, &mut workspace).iter().sum();
+    let method = if is_explicit { TreeMethod::Rk4 } else { TreeMethod::Trapezoidal };
     let (clock, mut worst) = (ProcessTime::now(), 0.0_f64);
     for _ in 0..n {
-        if is_explicit {
-            rk4_step(&model, dt, &options, &mut state, &mut workspace)?;
-        } else {
-            step(&model, dt, &options, &mut state, &mut workspace)?;
-        }
+        model.step(method, dt, &options, &mut state, &mut workspace)?;
         if is_watched && judge == Judge::Energy {
             let energy: f64 = model.energies(&state, &mut workspace).iter().sum();
             worst = worst.max((energy - start).abs());
@@ -147,6 +144,7 @@ fn simulated<const D: usize>(
 ) -> Result<[f64; 2], Failure> {
     let mut simulation = assembled::<D>(scene, dt, method)?;
     let start: f64 = simulation.initial_energies().iter().sum();
+    let method = if is_explicit { TreeMethod::Rk4 } else { TreeMethod::Trapezoidal };
     let (clock, mut worst) = (ProcessTime::now(), 0.0_f64);
     for _ in 0..n {
         simulation.step(dt)?;

@@ -8,7 +8,7 @@ use mbs_core::Real;
 use mbs_core::real::DoubleDouble;
 use mbs_core::scene::{Dimension, Scene};
 use mbs_recursive::space::Space;
-use mbs_recursive::{Options, Planar, Spatial, extrapolated_step, rk4_step};
+use mbs_recursive::{Options, Planar, Spatial, TreeMethod};
 use std::hint::black_box;
 
 /// Length of the step [s].
@@ -22,7 +22,8 @@ pub(crate) fn step(n: usize, seconds: f64) -> Result<(), Failure> {
         Open::<DoubleDouble, Spatial>::new(&Shape::Chain.scene(n, Dimension::Spatial, GRAVITY))?;
     let options = Options { error: exactly(FINE), ..Options::default() };
     let state = &mut exact.states[0];
-    extrapolated_step(&exact.model, exactly(STEP), &options, state, &mut exact.workspace)?;
+    let method = TreeMethod::Extrapolation;
+    exact.model.step(method, exactly(STEP), &options, state, &mut exact.workspace)?;
     print_line("reference", 0.0, state.z[exact.first].to_f64(), "exact");
     let scene = |dimension| Shape::Chain.scene(n, dimension, GRAVITY);
     timed::<Planar>("planar RK4", &scene(Dimension::Planar), seconds)?;
@@ -33,12 +34,13 @@ fn timed<S: Space<f64>>(name: &str, scene: &Scene<f64>, seconds: f64) -> Result<
     let Open { model, states, mut workspace, first } = Open::<f64, S>::new(scene)?;
     let options = Options::default();
     let mut state = states[0].clone();
-    rk4_step(&model, STEP, &options, &mut state, &mut workspace)?;
+    model.step(TreeMethod::Rk4, STEP, &options, &mut state, &mut workspace)?;
     let value = state.z[first];
     let time = time_of_steps(seconds, |n| {
         state.copy_from(&states[0]);
         for _ in 0..n {
-            black_box(rk4_step(&model, STEP, &options, &mut state, &mut workspace).is_ok());
+            let made = model.step(TreeMethod::Rk4, STEP, &options, &mut state, &mut workspace);
+            black_box(made.is_ok());
         }
     });
     print_line(name, time, value, "exact");

@@ -6,7 +6,7 @@ use mbs_core::rigid::RigidMotion;
 use mbs_core::scene::Scene;
 use mbs_core::step::{StepError, StepReport};
 use mbs_recursive::space::Space;
-use mbs_recursive::{Options, TreeModel, TreeState, Workspace};
+use mbs_recursive::{Options, TreeMethod, TreeModel, TreeState, Workspace};
 use nalgebra::Vector3;
 
 pub(crate) mod random;
@@ -74,9 +74,14 @@ impl<S: Space<f64>> Run<S> {
             .expect("a regular position");
     }
 
+    /// One step of a method.
+    pub(crate) fn by(&mut self, method: TreeMethod, dt: f64) -> Result<StepReport<f64>, StepError> {
+        self.model.step(method, dt, &self.options, &mut self.state, &mut self.workspace)
+    }
+
     /// One step of the trapezoidal rule.
     pub(crate) fn step(&mut self, dt: f64) -> Result<StepReport<f64>, StepError> {
-        mbs_recursive::step(&self.model, dt, &self.options, &mut self.state, &mut self.workspace)
+        self.by(TreeMethod::Trapezoidal, dt)
     }
 
     /// The invariant T + V - work [J].
@@ -106,46 +111,22 @@ impl<S: Space<f64>> Run<S> {
 
     /// One step of the Runge-Kutta method of order 4.
     pub(crate) fn rk4(&mut self, dt: f64) -> Result<StepReport<f64>, StepError> {
-        mbs_recursive::rk4_step(
-            &self.model,
-            dt,
-            &self.options,
-            &mut self.state,
-            &mut self.workspace,
-        )
+        self.by(TreeMethod::Rk4, dt)
     }
 
     /// Error control over `dt`.
     pub(crate) fn rk54(&mut self, dt: f64) -> Result<StepReport<f64>, StepError> {
-        mbs_recursive::rk54_step(
-            &self.model,
-            dt,
-            &self.options,
-            &mut self.state,
-            &mut self.workspace,
-        )
+        self.by(TreeMethod::Rk54, dt)
     }
 
     /// Steps over `dt` with error control, by the Runge-Kutta method of order 8.
     pub(crate) fn rk853(&mut self, dt: f64) -> Result<StepReport<f64>, StepError> {
-        mbs_recursive::rk853_step(
-            &self.model,
-            dt,
-            &self.options,
-            &mut self.state,
-            &mut self.workspace,
-        )
+        self.by(TreeMethod::Rk853, dt)
     }
 
     /// Steps over `dt` with error control, by collocation at Radau points.
     pub(crate) fn radau5(&mut self, dt: f64) -> Result<StepReport<f64>, StepError> {
-        mbs_recursive::radau5_step(
-            &self.model,
-            dt,
-            &self.options,
-            &mut self.state,
-            &mut self.workspace,
-        )
+        self.by(TreeMethod::Radau5, dt)
     }
 
     /// The motions of the bodies.

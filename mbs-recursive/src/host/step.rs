@@ -1,0 +1,190 @@
+//! Steps of a tree on the host, by each of its methods.
+
+use crate::build::own_tables::own;
+use crate::build::tree::TreeModel;
+use crate::host::state::{Explicit, TreeState, Workspace};
+use crate::link::options::Options;
+use crate::passes::energy_balance;
+use crate::passes::slices::{Inputs, Start, Store, TreeSlices};
+use crate::space::Space;
+use crate::step::bounded::{self, BoundedReport, Bounds, Unwatched};
+use crate::step::{explicit, trapezoidal};
+use mbs_core::Real;
+use mbs_core::ode::{Adaptive, Extrapolation, Radau, Tableau};
+use mbs_core::step::{Step, StepError, StepReport};
+
+/// Method of a step.
+///
+/// Those with error control advance by exactly the length that is asked for, in as many steps as `options.error` asks for. The first
+/// step tried is `options.first_step`; the workspace remembers the last good one for the next call.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum TreeMethod {
+    /// The trapezoidal rule, or another of the Newmark and generalised-alpha families by `options.integrator`.
+    ///
+    /// Cost: see [`trapezoidal::step`].
+    Trapezoidal,
+    /// The Runge-Kutta method of order 4.
+    ///
+    /// Cost: see [`explicit::rk4`].
+    Rk4,
+    /// The pair 5(4) of Dormand and Prince, with error control.
+    ///
+    /// Cost: six evaluations for each step tried, with loops up to seven and about a quarter to take from its error what a projection takes
+    /// from the state.
+    Rk54,
+    /// The method 8(5,3) of Dormand and Prince, with error control: for six digits and more, where the motion is smooth.
+    ///
+    /// Cost: twelve evaluations for each step tried, and a half with loops.
+    Rk853,
+    /// Extrapolation with error control, of the order that it is worth. For reference runs: in double-double the error may be 1e-28.
+    ///
+    /// Cost: k² evaluations for each step tried with k columns, one more with loops.
+    Extrapolation,
+    /// Collocation at three Radau points with error control, implicit and of order 5: for stiff effects, which do not limit the step.
+    /// Steps are of one length where possible.
+    ///
+    /// Cost: about ten evaluations for each step; for n components n + 1 more where slopes are found anew, and (n/2)³ products five
+    /// times where the step changes. The first call allocates 4 n² numbers.
+    Radau5,
+}
+
+impl<T: Real, S: Space<T>> TreeModel<T, S> {
+    /// Advances `state` by one step of length `dt` [s] of a method.
+    ///
+    /// Cost: that of the [`TreeMethod`]; no allocation but where it says so.
+    ///
+    /// # Errors
+    /// [`StepError`]; the state is then unchanged.
+    pub fn step(
+        &self,
+        method: TreeMethod,
+        dt: T,
+        options: &Options<T>,
+        state: &mut TreeState<T>,
+        workspace: &mut Workspace<T, S>,
+    ) -> Result<StepReport<T>, StepError> {
+        self.begin_step((dt, options), state, workspace)?;
+        let (m, inputs) = (self.mechanism(), self.inputs(state));
+        let (mut s, scratch) = workspace.parts();
+        let start = (state.start(), &state.a_aux[..]);
+        let report = make(&m, &inputs, (method, dt, options), (start, &mut *scratch), &mut s);
+        let report = report.map_err(|error| self.with_effect(error))?;
+        let power = own(energy_balance::power(&m, &mut s));
+        state.work += if method == TreeMethod::Trapezoidal {
+            // Work by the trapezoidal rule in time.
+            (state.power + power) * dt * T::HALF
+        } else {
+            scratch.y.last().copied().unwrap_or(T::ZERO)
+        };
+        take(options, (dt, power), &s, state);
+        Ok(report)
+    }
+
+    /// Advances `state` by one step of length `dt` [s] of bounded work: what a controller does, here on the host.
+    ///
+    /// The ledger of work is not kept.
+    ///
+    /// Cost: see [`bounded::step`]; no allocation.
+    ///
+    /// # Errors
+    /// [`StepError`]; the state is then unchanged.
+    pub fn bounded_step(
+        &self,
+        (dt, options, bounds): (T, &Options<T>, Bounds),
+        state: &mut TreeState<T>,
+        workspace: &mut Workspace<T, S>,
+    ) -> Result<BoundedReport<T>, StepError> {
+        self.begin_step((dt, options), state, workspace)?;
+        let (m, mut s) = (self.mechanism(), workspace.store());
+        let start = (state.start(), &mut Unwatched);
+        let report = bounded::step(&m, &self.inputs(state), (dt, options, bounds), start, &mut s);
+        let report = report.map_err(|error| self.with_effect(error))?;
+        take(options, (dt, state.power), &s, state);
+        Ok(report)
+    }
+
+    /// Checks that the step can be made, and makes the state that of the inputs that are set now. The tree's length has no part in it.
+    fn begin_step(
+        &self,
+        (dt, options): (T, &Options<T>),
+        state: &mut TreeState<T>,
+        workspace: &mut Workspace<T, S>,
+    ) -> Result<(), StepError> {
+        Step { dt, length: T::ONE }.checked()?;
+        options.validate()?;
+        self.take_inputs(options, state, workspace).map(drop)
+    }
+
+    /// The error with the effect of a load in place of its number.
+    fn with_effect(&self, error: StepError) -> StepError {
+        let of = |load: u32| {
+            let effect = self.effects.get(load as usize).copied().unwrap_or(usize::MAX);
+            u32::try_from(effect).unwrap_or(u32::MAX)
+        };
+        match error {
+            StepError::Overturned { effect } => StepError::Overturned { effect: of(effect) },
+            StepError::TwistOpen { effect } => StepError::TwistOpen { effect: of(effect) },
+            StepError::LineCollapsed { effect, part } => {
+                StepError::LineCollapsed { effect: of(effect), part }
+            }
+            error => error,
+        }
+    }
+}
+
+/// Makes one step of a method: the end is in `s`, and the work done, but for that of the trapezoidal rule, in the last place of `y`.
+fn make<T: Real, S: Space<T>>(
+    m: &TreeSlices<'_, T, S>,
+    inputs: &impl Inputs<T>,
+    (method, dt, options): (TreeMethod, T, &Options<T>),
+    ((start, aux), scratch): ((Start<'_, T>, &[T]), &mut Explicit<T>),
+    s: &mut Store<'_, T, S>,
+) -> Result<StepReport<T>, StepError> {
+    let Explicit { y, scratch, pair, eighth, extrapolation, radau } = scratch;
+    let (n, first) = (y.len(), options.first_step.unwrap_or(dt));
+    let memory = (start, &mut y[..], &mut scratch[..]);
+    match method {
+        TreeMethod::Trapezoidal => trapezoidal::step(m, inputs, (dt, options), (memory.0, aux), s),
+        TreeMethod::Rk4 => explicit::rk4(m, inputs, (dt, options), memory, s),
+        TreeMethod::Rk54 => {
+            let new = || Adaptive::new(Tableau::dormand_prince(), first);
+            let driver = pair.get_or_insert_with(new);
+            explicit::controlled(m, inputs, (dt, options, driver), memory, s)
+        }
+        TreeMethod::Rk853 => {
+            let new = || Adaptive::new(Tableau::dormand_prince_8(), first);
+            let driver = eighth.get_or_insert_with(new);
+            explicit::controlled(m, inputs, (dt, options, driver), memory, s)
+        }
+        TreeMethod::Extrapolation => {
+            let new = || Adaptive::new(Extrapolation::for_tolerance(options.error), first);
+            let driver = extrapolation.get_or_insert_with(new);
+            explicit::controlled(m, inputs, (dt, options, driver), memory, s)
+        }
+        TreeMethod::Radau5 => {
+            let new = || Adaptive::new(Radau::new(n, m.n_coordinates), first);
+            let driver = radau.get_or_insert_with(new);
+            explicit::controlled(m, inputs, (dt, options, driver), memory, s)
+        }
+    }
+}
+
+/// The end of a step enters the state.
+fn take<T: Real, S: Space<T>>(
+    options: &Options<T>,
+    (dt, power): (T, T),
+    s: &Store<'_, T, S>,
+    state: &mut TreeState<T>,
+) {
+    for ((aux, a), &next) in state.a_aux.iter_mut().zip(&mut state.a).zip(&*s.zdd) {
+        *aux = options.integrator.auxiliary(next, [*a, *aux]);
+        *a = next;
+    }
+    state.applied.copy_from_slice(&state.inputs);
+    state.t += dt;
+    state.power = power;
+    state.z.copy_from_slice(s.z);
+    state.v.copy_from_slice(s.v);
+    state.lambda.copy_from_slice(s.lambda);
+    state.signals.copy_from_slice(s.signals.ends);
+}
