@@ -7,7 +7,7 @@ use crate::workspace::Workspace;
 use crate::{index1, index3};
 use alloc::boxed::Box;
 use core::fmt::Debug;
-use mbs_core::formulation::{Formulation, SwitchError, energies};
+use mbs_core::formulation::{Describe, Formulation, SwitchError, Trials, energies};
 use mbs_core::history::{Book, History, RestoreError, Restored};
 use mbs_core::implicit::{pass_jump, take_inputs};
 use mbs_core::model::{Model, State, Terms};
@@ -128,6 +128,51 @@ where
         pass_jump(model, self.form.options(), state, &mut *self.workspace, to)
     }
 
+    fn history(&self) -> History<T> {
+        let (mut own, mut terms) = (self.workspace.history(), self.workspace.terms().clone());
+        let mut form = self.form;
+        Book::write(|book| walk(&mut own, &mut form, &mut terms, book)).unwrap_or_default()
+    }
+
+    fn set_history(&mut self, history: &History<T>) -> Result<(), RestoreError> {
+        let Self { form, workspace, .. } = self;
+        let mut own = workspace.history();
+        Book::read(history, |book| walk(&mut own, form, workspace.terms_mut(), book))?;
+        if workspace.set_history(&own) { Ok(()) } else { Err(RestoreError) }
+    }
+
+    fn terms(&self) -> Option<&Terms<T>> {
+        Some(self.workspace.terms())
+    }
+
+    fn energies(&self, model: &NaturalModel<T, D>, state: &State<T>) -> [f64; 3] {
+        let terms = Some(self.workspace.terms());
+        with_team!(model, &self.team, |model| energies(model, state, terms))
+    }
+
+    fn can_take_over(&self, other: &dyn Formulation<T, D>) -> Result<(), SwitchError> {
+        if other.as_any().is::<Self>() { Ok(()) } else { Err(SwitchError::Formulation) }
+    }
+
+    fn refresh(
+        &mut self,
+        model: &NaturalModel<T, D>,
+        state: &mut State<T>,
+    ) -> Result<(), StepError> {
+        let options = Options::index1();
+        index1::settle(model, model.length(), &options, state, &mut self.workspace)
+    }
+}
+
+impl<T: Real, S: SpdSolver<T>, W, const D: usize> Trials<T, D> for Augmented<T, S, W> {
+    fn save_trial(&mut self) {
+        self.workspace.save();
+    }
+
+    fn restore_trial(&mut self) {
+        self.workspace.restore();
+    }
+
     fn prepare(
         &mut self,
         model: &NaturalModel<T, D>,
@@ -162,37 +207,9 @@ where
             change.accept();
         }
     }
+}
 
-    fn save_trial(&mut self) {
-        self.workspace.save();
-    }
-
-    fn restore_trial(&mut self) {
-        self.workspace.restore();
-    }
-
-    fn history(&self) -> History<T> {
-        let (mut own, mut terms) = (self.workspace.history(), self.workspace.terms().clone());
-        let mut form = self.form;
-        Book::write(|book| walk(&mut own, &mut form, &mut terms, book)).unwrap_or_default()
-    }
-
-    fn set_history(&mut self, history: &History<T>) -> Result<(), RestoreError> {
-        let Self { form, workspace, .. } = self;
-        let mut own = workspace.history();
-        Book::read(history, |book| walk(&mut own, form, workspace.terms_mut(), book))?;
-        if workspace.set_history(&own) { Ok(()) } else { Err(RestoreError) }
-    }
-
-    fn terms(&self) -> Option<&Terms<T>> {
-        Some(self.workspace.terms())
-    }
-
-    fn energies(&self, model: &NaturalModel<T, D>, state: &State<T>) -> [f64; 3] {
-        let terms = Some(self.workspace.terms());
-        with_team!(model, &self.team, |model| energies(model, state, terms))
-    }
-
+impl<T: Real, S, W: Team, const D: usize> Describe<T, D> for Augmented<T, S, W> {
     fn threads(&self) -> usize {
         self.team.size()
     }
@@ -205,19 +222,6 @@ where
                 (if change.index() == ConstraintIndex::One { 1 } else { 3 }, change.changes())
             }
         })
-    }
-
-    fn can_take_over(&self, other: &dyn Formulation<T, D>) -> Result<(), SwitchError> {
-        if other.as_any().is::<Self>() { Ok(()) } else { Err(SwitchError::Formulation) }
-    }
-
-    fn refresh(
-        &mut self,
-        model: &NaturalModel<T, D>,
-        state: &mut State<T>,
-    ) -> Result<(), StepError> {
-        let options = Options::index1();
-        index1::settle(model, model.length(), &options, state, &mut self.workspace)
     }
 }
 

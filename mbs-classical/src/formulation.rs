@@ -5,7 +5,7 @@ use crate::options::Options;
 use crate::workspace::Workspace;
 use alloc::boxed::Box;
 use core::fmt::Debug;
-use mbs_core::formulation::{Formulation, energies};
+use mbs_core::formulation::{Describe, Formulation, Trials, energies};
 use mbs_core::history::{Book, History, RestoreError, Restored};
 use mbs_core::implicit::{pass_jump, take_inputs};
 use mbs_core::model::{Model, Owner, State, Terms};
@@ -98,7 +98,11 @@ where
         let terms = Some(self.workspace.terms());
         with_team!(model, &self.team, |model| energies(model, state, terms))
     }
+}
 
+impl<T: Real, S, W, const D: usize> Trials<T, D> for Classical<T, S, W> {}
+
+impl<T: Real, S, W: Team, const D: usize> Describe<T, D> for Classical<T, S, W> {
     fn threads(&self) -> usize {
         self.team.size()
     }

@@ -6,7 +6,7 @@ use crate::step::step;
 use crate::workspace::Workspace;
 use alloc::boxed::Box;
 use mbs_core::Real;
-use mbs_core::formulation::Formulation;
+use mbs_core::formulation::{Describe, Formulation, Trials};
 use mbs_core::history::{Book, History, RestoreError, Restored};
 use mbs_core::implicit::{pass_jump, take_inputs};
 use mbs_core::model::{Model, State, Terms};
@@ -87,6 +87,10 @@ impl<T: Real, const D: usize> Formulation<T, D> for StateSpace<T> {
         Some(self.workspace.terms())
     }
 }
+
+impl<T: Real, const D: usize> Trials<T, D> for StateSpace<T> {}
+
+impl<T: Real, const D: usize> Describe<T, D> for StateSpace<T> {}
 
 /// Over all that is remembered.
 fn walk<T: Real>(

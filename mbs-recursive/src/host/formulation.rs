@@ -9,7 +9,7 @@ use crate::space::Space;
 use alloc::vec::Vec;
 use mbs_core::Real;
 use mbs_core::actions::{Action, Actions};
-use mbs_core::formulation::{Formulation, SwitchError};
+use mbs_core::formulation::{Describe, Formulation, SwitchError, Trials};
 use mbs_core::history::{Book, History, RestoreError, Restored};
 use mbs_core::laws::code::Codes;
 use mbs_core::model::{Model, Owner, State, Terms};
@@ -182,16 +182,6 @@ impl<T: Real, S: Space<T>, const D: usize> Formulation<T, D> for Tree<T, S> {
         Ok(())
     }
 
-    fn save_trial(&mut self) {
-        self.saved.copy_from(&self.state);
-        self.saved_energies = self.energies;
-    }
-
-    fn restore_trial(&mut self) {
-        self.state.copy_from(&self.saved);
-        self.energies = self.saved_energies;
-    }
-
     fn history(&self) -> History<T> {
         let (mut state, mut own) = (self.state.clone(), self.workspace.history());
         let mut energies = self.energies;
@@ -213,32 +203,9 @@ impl<T: Real, S: Space<T>, const D: usize> Formulation<T, D> for Tree<T, S> {
         None
     }
 
-    fn codes<'a>(&'a self, _natural: &'a NaturalModel<T, D>) -> &'a Codes {
-        self.model.codes()
-    }
-
     fn energies(&self, _natural: &NaturalModel<T, D>, state: &State<T>) -> [f64; 3] {
         let [kinetic, potential] = self.energies;
         [kinetic, potential, state.work.to_f64()]
-    }
-
-    /// Freedoms of the tree, equations of its cut joints, their rank.
-    fn sizes(&self) -> Option<[usize; 3]> {
-        Some([self.state.v.len(), self.model.n_rows(), self.rank])
-    }
-
-    /// Nothing where the joint is cut, or turns in space.
-    fn coordinate(&self, joint: usize, number: usize) -> Option<T> {
-        let link = (*self.coordinates.get(joint)?.get(number)?)?;
-        Some(self.model.coordinate(&self.state, link))
-    }
-
-    fn owner_of_unknown(&self, _natural: &NaturalModel<T, D>, unknown: usize) -> Owner {
-        self.model.owner_of_unknown(unknown)
-    }
-
-    fn owner_of_row(&self, _natural: &NaturalModel<T, D>, row: usize) -> Owner {
-        self.model.owner_of_row(row)
     }
 
     fn set_time(&mut self, t: T) {
@@ -278,6 +245,43 @@ impl<T: Real, S: Space<T>, const D: usize> Formulation<T, D> for Tree<T, S> {
         self.model.settle(&mut self.state, &mut self.workspace)?;
         self.write(natural, state);
         Ok(())
+    }
+}
+
+impl<T: Real, S: Space<T>, const D: usize> Trials<T, D> for Tree<T, S> {
+    fn save_trial(&mut self) {
+        self.saved.copy_from(&self.state);
+        self.saved_energies = self.energies;
+    }
+
+    fn restore_trial(&mut self) {
+        self.state.copy_from(&self.saved);
+        self.energies = self.saved_energies;
+    }
+}
+
+impl<T: Real, S: Space<T>, const D: usize> Describe<T, D> for Tree<T, S> {
+    /// Freedoms of the tree, equations of its cut joints, their rank.
+    fn sizes(&self) -> Option<[usize; 3]> {
+        Some([self.state.v.len(), self.model.n_rows(), self.rank])
+    }
+
+    /// Nothing where the joint is cut, or turns in space.
+    fn coordinate(&self, joint: usize, number: usize) -> Option<T> {
+        let link = (*self.coordinates.get(joint)?.get(number)?)?;
+        Some(self.model.coordinate(&self.state, link))
+    }
+
+    fn owner_of_unknown(&self, _natural: &NaturalModel<T, D>, unknown: usize) -> Owner {
+        self.model.owner_of_unknown(unknown)
+    }
+
+    fn owner_of_row(&self, _natural: &NaturalModel<T, D>, row: usize) -> Owner {
+        self.model.owner_of_row(row)
+    }
+
+    fn codes<'a>(&'a self, _natural: &'a NaturalModel<T, D>) -> &'a Codes {
+        self.model.codes()
     }
 }
 

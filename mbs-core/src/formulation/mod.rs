@@ -1,9 +1,14 @@
-//! Formulation as a program sees it: [`Formulation`], implemented by the formulation's own crate.
+//! Formulation as a program sees it: [`Formulation`] with [`Trials`] and [`Describe`], implemented by the formulation's own crate.
+
+mod describe;
+mod trials;
+
+pub use describe::Describe;
+pub use trials::Trials;
 
 use crate::Real;
 use crate::history::{History, RestoreError};
-use crate::laws::code::Codes;
-use crate::model::{Model, Owner, State, Terms};
+use crate::model::{Model, State, Terms};
 use crate::natural::NaturalModel;
 use crate::step::{Step, StepError, StepReport};
 use alloc::boxed::Box;
@@ -14,7 +19,9 @@ use core::fmt::Debug;
 ///
 /// What a formulation keeps beside that state is its own: scratch, what it remembers from step to step, a state in other coordinates.
 /// Those that step natural coordinates implement few of the methods: the defaults are theirs.
-pub trait Formulation<T: Real, const D: usize>: Debug + Send + Sync + Erased<T, D> {
+pub trait Formulation<T: Real, const D: usize>:
+    Trials<T, D> + Describe<T, D> + Erased<T, D> + Debug + Send + Sync
+{
     /// Advances the state by one step.
     ///
     /// # Errors
@@ -75,35 +82,6 @@ pub trait Formulation<T: Real, const D: usize>: Debug + Send + Sync + Erased<T, 
         Ok((report, self.energies(model, state)))
     }
 
-    /// Called before a trial that follows `reductions` of it in a row; says whether it has changed the state.
-    fn prepare(
-        &mut self,
-        _model: &NaturalModel<T, D>,
-        _step: Step<T>,
-        _reductions: u32,
-        _state: &mut State<T>,
-    ) -> bool {
-        false
-    }
-
-    /// A step of fixed length has failed: does the next trial of it go otherwise? Then so do the steps after it, until the trial is
-    /// [undone](Self::restore_trial).
-    fn strengthen(&mut self, _error: &StepError) -> bool {
-        false
-    }
-
-    /// A trial of length `dt` [s] has come to its end, whether it is accepted or not.
-    fn tried(&mut self, _dt: T) {}
-
-    /// The last trial is the step.
-    fn accept(&mut self) {}
-
-    /// Saves what stands beside the natural state, so that trials after it can be undone.
-    fn save_trial(&mut self) {}
-
-    /// Goes back to what was saved; the natural state is the caller's.
-    fn restore_trial(&mut self) {}
-
     /// History from which the next step resumes, beside the natural state.
     fn history(&self) -> History<T>;
 
@@ -116,44 +94,9 @@ pub trait Formulation<T: Real, const D: usize>: Debug + Send + Sync + Erased<T, 
     /// The terms of the natural-coordinate model as last evaluated; nothing where other coordinates are stepped.
     fn terms(&self) -> Option<&Terms<T>>;
 
-    /// The user-defined laws by which it steps: whether one of them failed.
-    fn codes<'a>(&'a self, model: &'a NaturalModel<T, D>) -> &'a Codes {
-        model.codes()
-    }
-
     /// Kinetic and potential energy, and the work so far [J].
     fn energies(&self, model: &NaturalModel<T, D>, state: &State<T>) -> [f64; 3] {
         energies(model, state, self.terms())
-    }
-
-    /// Coordinates, constraints and their rank at the start, where other coordinates than natural ones are stepped.
-    fn sizes(&self) -> Option<[usize; 3]> {
-        None
-    }
-
-    /// Threads that share the work of a step, this one among them.
-    fn threads(&self) -> usize {
-        1
-    }
-
-    /// The index in which the next step would be made, and the changes of it so far; nothing where there is none.
-    fn index(&self) -> Option<(u8, u32)> {
-        None
-    }
-
-    /// An angle or slide of a joint with its turns, by joint and number, where the formulation's own coordinates have it.
-    fn coordinate(&self, _joint: usize, _number: usize) -> Option<T> {
-        None
-    }
-
-    /// Part of the scene that an unknown of the formulation belongs to.
-    fn owner_of_unknown(&self, model: &NaturalModel<T, D>, unknown: usize) -> Owner {
-        model.owner_of_unknown(unknown)
-    }
-
-    /// Part of the scene that a constraint row of the formulation belongs to.
-    fn owner_of_row(&self, model: &NaturalModel<T, D>, row: usize) -> Owner {
-        model.owner_of_row(row)
     }
 
     /// Sets the clock of a state that is not the natural one.
