@@ -34,8 +34,8 @@ pub trait InputResponse<T: Real> {
     ) -> Result<(), StepError>;
 }
 
-/// Makes accelerations, multipliers and power those of the inputs that are set now, if others were set since the last step; says
-/// whether they were. Every step begins with this; a caller that keeps a state to go back to calls it before.
+/// Recomputes accelerations, multipliers and power if an input was changed since the last step; returns whether one was. Every step calls
+/// this first. A caller that saves the state to undo a step calls it before saving.
 ///
 /// Cost: nothing without a change; no allocation.
 ///
@@ -54,7 +54,7 @@ pub fn take_inputs<T: Real, M: Model<T>, W: InputResponse<T>>(
     Ok(true)
 }
 
-/// Makes accelerations, multipliers and power of `s`, just before a signal jumps, those just after, at time `to` [s].
+/// Replaces accelerations, multipliers and power of `s` just before a signal jumps by those just after the jump, at time `to` [s].
 ///
 /// Cost: as for inputs that change.
 ///
