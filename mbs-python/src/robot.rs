@@ -116,13 +116,8 @@ impl Mechanism {
         q: &Bound<'py, PyAny>,
         strict: bool,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let [nq, nv] = self.sizes(py)?;
-        let at_rest = vec![0.0; nv];
-        self.each(py, (&[(q, "q", nq)], strict), &[nv, nv], |tree, x, out| {
-            tree.set(x[0], &at_rest)?;
-            copy(tree.mass_matrix(), out);
-            Ok(())
-        })
+        let nv = self.sizes(py)?[1];
+        self.at_rest(py, (q, strict), &[nv, nv], |tree, out| copy(tree.mass_matrix(), out))
     }
 
     /// Efforts (nv,) that keep all velocities as they are: centrifugal and Coriolis forces, and gravity.
@@ -134,11 +129,9 @@ impl Mechanism {
         v: &Bound<'py, PyAny>,
         strict: bool,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let [nq, nv] = self.sizes(py)?;
-        self.each(py, (&[(q, "q", nq), (v, "v", nv)], strict), &[nv], |tree, x, out| {
-            tree.set(x[0], x[1])?;
+        let nv = self.sizes(py)?[1];
+        self.moving(py, ([q, v], strict), &[nv], |tree, out| {
             out.copy_from_slice(tree.bias_forces());
-            Ok(())
         })
     }
 
@@ -150,12 +143,9 @@ impl Mechanism {
         q: &Bound<'py, PyAny>,
         strict: bool,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let [nq, nv] = self.sizes(py)?;
-        let at_rest = vec![0.0; nv];
-        self.each(py, (&[(q, "q", nq)], strict), &[nv], |tree, x, out| {
-            tree.set(x[0], &at_rest)?;
+        let nv = self.sizes(py)?[1];
+        self.at_rest(py, (q, strict), &[nv], |tree, out| {
             out.copy_from_slice(tree.gravity_forces());
-            Ok(())
         })
     }
 
@@ -170,7 +160,7 @@ impl Mechanism {
         q: Option<&Bound<'py, PyAny>>,
         strict: bool,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let [nq, nv] = self.sizes(py)?;
+        let nv = self.sizes(py)?[1];
         let Some(last) = q.or(at) else {
             return Err(usage(py, "missing", "q is missing", "give the coordinates", "q"));
         };
@@ -183,12 +173,7 @@ impl Mechanism {
             }
             None => place.map_err(|_| self.no_frame(py, ("frame", body)))?,
         };
-        let at_rest = vec![0.0; nv];
-        self.each(py, (&[(q, "q", nq)], strict), &[6, nv], |tree, x, out| {
-            tree.set(x[0], &at_rest)?;
-            copy(tree.jacobian_at(body, at), out);
-            Ok(())
-        })
+        self.at_rest(py, (q, strict), &[6, nv], |tree, out| copy(tree.jacobian_at(body, at), out))
     }
 
     /// Jacobian (rows, nv) of the joints that close loops.
@@ -199,14 +184,9 @@ impl Mechanism {
         q: &Bound<'py, PyAny>,
         strict: bool,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let [nq, nv] = self.sizes(py)?;
+        let nv = self.sizes(py)?[1];
         let rows = self.with_tree(py, |tree| tree.loop_jacobian().rows)?;
-        let at_rest = vec![0.0; nv];
-        self.each(py, (&[(q, "q", nq)], strict), &[rows, nv], |tree, x, out| {
-            tree.set(x[0], &at_rest)?;
-            copy(tree.loop_jacobian(), out);
-            Ok(())
-        })
+        self.at_rest(py, (q, strict), &[rows, nv], |tree, out| copy(tree.loop_jacobian(), out))
     }
 
     /// Kinetic energy, and potential energy of gravity, constant forces and springs [J].
@@ -216,13 +196,9 @@ impl Mechanism {
         q: &Bound<'py, PyAny>,
         v: &Bound<'py, PyAny>,
     ) -> PyResult<Bound<'py, PyTuple>> {
-        let [nq, nv] = self.sizes(py)?;
-        let both =
-            self.each(py, (&[(q, "q", nq), (v, "v", nv)], false), &[2], |tree, x, out| {
-                tree.set(x[0], x[1])?;
-                out.copy_from_slice(&tree.energies());
-                Ok(())
-            })?;
+        let both = self.moving(py, ([q, v], false), &[2], |tree, out| {
+            out.copy_from_slice(&tree.energies());
+        })?;
         let columns = both.getattr("T")?;
         PyTuple::new(py, [columns.get_item(0)?, columns.get_item(1)?])
     }
@@ -234,15 +210,11 @@ impl Mechanism {
         q: &Bound<'py, PyAny>,
         v: &Bound<'py, PyAny>,
     ) -> PyResult<Bound<'py, PyTuple>> {
-        let [nq, nv] = self.sizes(py)?;
-        let all =
-            self.each(py, (&[(q, "q", nq), (v, "v", nv)], false), &[2, 3], |tree, x, out| {
-                tree.set(x[0], x[1])?;
-                let momentum = tree.momentum();
-                out[..3].copy_from_slice(&momentum.linear);
-                out[3..].copy_from_slice(&momentum.angular);
-                Ok(())
-            })?;
+        let all = self.moving(py, ([q, v], false), &[2, 3], |tree, out| {
+            let momentum = tree.momentum();
+            out[..3].copy_from_slice(&momentum.linear);
+            out[3..].copy_from_slice(&momentum.angular);
+        })?;
         let first = |i: usize| {
             let ellipsis = py.import("builtins")?.getattr("Ellipsis")?;
             all.get_item((ellipsis, i, pyo3::types::PySlice::full(py)))
@@ -273,12 +245,8 @@ impl Mechanism {
         py: Python<'py>,
         q: &Bound<'py, PyAny>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let [nq, nv] = self.sizes(py)?;
-        let at_rest = vec![0.0; nv];
-        self.each(py, (&[(q, "q", nq)], false), &[3], |tree, x, out| {
-            tree.set(x[0], &at_rest)?;
+        self.at_rest(py, (q, false), &[3], |tree, out| {
             out.copy_from_slice(&tree.center_of_mass().position);
-            Ok(())
         })
     }
 
@@ -414,6 +382,39 @@ fn rows(value: &Bound<'_, PyAny>) -> PyResult<[[f64; 3]; 3]> {
 }
 
 impl Mechanism {
+    /// Evaluates numbers of coordinates alone, of one state or of many.
+    fn at_rest<'py>(
+        &self,
+        py: Python<'py>,
+        (q, strict): (&Bound<'py, PyAny>, bool),
+        shape: &[usize],
+        one: impl Fn(&mut Tree, &mut [f64]) + Sync,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let [nq, nv] = self.sizes(py)?;
+        let at_rest = vec![0.0; nv];
+        self.each(py, (&[(q, "q", nq)], strict), shape, |tree, x, out| {
+            tree.set(x[0], &at_rest)?;
+            one(tree, out);
+            Ok(())
+        })
+    }
+
+    /// Evaluates numbers of coordinates and velocities, of one state or of many.
+    fn moving<'py>(
+        &self,
+        py: Python<'py>,
+        ([q, v], strict): ([&Bound<'py, PyAny>; 2], bool),
+        shape: &[usize],
+        one: impl Fn(&mut Tree, &mut [f64]) + Sync,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let [nq, nv] = self.sizes(py)?;
+        self.each(py, (&[(q, "q", nq), (v, "v", nv)], strict), shape, |tree, x, out| {
+            tree.set(x[0], x[1])?;
+            one(tree, out);
+            Ok(())
+        })
+    }
+
     /// The three derivatives of one kind of dynamics, of one state or of many.
     fn derivatives<'py>(
         &self,
