@@ -8,13 +8,12 @@ use crate::host::state::{TreeState, Workspace};
 use crate::link::joint::write;
 use crate::link::options::{Closure, Options};
 use crate::link::{LinkKind, LinkMotion};
-use crate::loops::Fault;
 use crate::passes::evaluate::{Level, accelerations};
 use crate::passes::failure::failure;
-use crate::passes::slices::{Inputs, Store, TreeSlices};
+use crate::passes::slices::{Inputs, TreeSlices};
 use crate::passes::{inverse, kinematics};
 use crate::space::{Numbers, Space};
-use crate::step::project::{project, rounding};
+use crate::step::project::onto_loops;
 use alloc::vec;
 use alloc::vec::Vec;
 use mbs_core::Real;
@@ -162,7 +161,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         s.z.copy_from_slice(&state.z);
         s.v.fill(T::ZERO);
         self.prescribed.write(state.t, &state.applied, s.guides, s.courses);
-        onto_loops(&m, &mut s).map_err(|fault| failure(&m, fault))?;
+        onto_loops(&m, &Options::default(), &mut s).map_err(|fault| failure(&m, fault))?;
         state.z.copy_from_slice(s.z);
         Ok(())
     }
@@ -183,7 +182,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         self.inputs(state).evaluate(state.t, s.guides, s.courses);
         own(s.begin_signals(T::ZERO, &state.signals));
         let fault = |fault| failure(&m, fault);
-        onto_loops(&m, &mut s).map_err(fault)?;
+        onto_loops(&m, &options, &mut s).map_err(fault)?;
         accelerations(&m, &options, Level::Fine, &mut s).map_err(fault)?;
         state.power = own(crate::passes::energy_balance::power(&m, &mut s));
         state.signals.copy_from_slice(s.signals.ends);
@@ -372,20 +371,6 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         // no rows take more freedoms than there are
         Ok(counted.min(self.n_freedoms()))
     }
-}
-
-/// Brings positions and velocities of the store onto the loops.
-fn onto_loops<T: Real, S: Space<T>>(
-    m: &TreeSlices<'_, T, S>,
-    s: &mut Store<'_, T, S>,
-) -> Result<(), Fault<T>> {
-    if m.loops.rows.is_empty() {
-        return Ok(());
-    }
-    let options = Options::default();
-    accelerations(m, &options, Level::Once, s)?;
-    project(m, (&options, rounding()), s)?;
-    Ok(())
 }
 
 /// Returns how far the child of a branch turned against the parent: the last coordinates of its joint, in reverse the other way round.

@@ -17,7 +17,7 @@ use crate::link::options::Options;
 use crate::link::{Link, LinkKind};
 use crate::loops::{Fault, index};
 use crate::passes::coupled_rows::{self, Largest};
-use crate::passes::evaluate::{note_rank, respond};
+use crate::passes::evaluate::{Level, accelerations, note_rank, respond};
 use crate::passes::inverse::spread_each;
 use crate::passes::kinematics;
 use crate::passes::slices::{Store, TreeSlices};
@@ -73,6 +73,21 @@ pub(crate) fn rounding<T: Real>() -> T {
 /// Share that may be left within a call of a method with this error: a fraction of it.
 pub(crate) fn share_of<T: Real>(error: T) -> T {
     (error * T::from_f64(ERROR_FRACTION)).min(T::EPSILON.sqrt()).max(rounding())
+}
+
+/// Brings positions and velocities of the store onto the loops, from wherever they are: inertias are factored there first.
+///
+/// Cost: without loops nothing; else one evaluation, and a response for each sweep.
+pub(crate) fn onto_loops<T: Real, S: Space<T>>(
+    m: &TreeSlices<'_, T, S>,
+    options: &Options<T>,
+    s: &mut Store<'_, T, S>,
+) -> Result<[T; 2], Fault<T>> {
+    if m.loops.rows.is_empty() {
+        return Ok([T::ZERO; 2]);
+    }
+    accelerations(m, options, Level::Once, s)?;
+    project(m, (options, rounding()), s)
 }
 
 /// Projects the positions and velocities of the store until no more than this share of their scales is left; returns the largest
