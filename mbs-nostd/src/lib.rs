@@ -14,6 +14,7 @@ mod ladder;
 mod model;
 pub mod operation_bound;
 mod solver;
+mod state_error;
 pub mod table;
 mod tables;
 
@@ -23,7 +24,9 @@ pub use ladder::DegradationLadder;
 pub use mbs_core::Real;
 pub use mbs_core::step::{InputError, StepError};
 pub use mbs_recursive::step::bounded::{BoundedReport, Bounds, Unwatched, Watch};
+pub use mbs_recursive::step::set_state::StateReport;
 pub use mbs_recursive::{Options, Planar, Spatial};
 pub use model::{Model, StartState};
 pub use solver::Solver;
+pub use state_error::StateError;
 pub use tables::Tables;

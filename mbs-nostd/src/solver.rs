@@ -1,5 +1,7 @@
 //! [`Solver`]: state, scratch and inputs of one model in arrays of fixed capacity, and its step.
 
+mod set_state;
+
 use crate::check::{Checked, LoadError, Sizes};
 use crate::inputs::{Values, Written};
 use crate::ladder::DegradationLadder;

@@ -6,4 +6,5 @@ mod agreement;
 mod inputs;
 mod operation_bound;
 mod ropes_and_cams;
+mod set_state;
 mod signals;

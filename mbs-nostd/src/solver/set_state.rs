@@ -1,0 +1,167 @@
+//! States that are set from outside, as an observer sets them.
+
+use super::{Solver, put, states};
+use crate::check::Checked;
+use crate::inputs::Written;
+use crate::state_error::StateError;
+use mbs_core::Real;
+use mbs_core::step::StepError;
+use mbs_recursive::Outside;
+use mbs_recursive::link::{Link, LinkKind};
+use mbs_recursive::passes::slices::TreeSlices;
+use mbs_recursive::space::Space;
+use mbs_recursive::step::set_state::{self, StateReport};
+use mbs_recursive::step::trapezoidal::Start;
+
+impl<
+    T: Real,
+    S: Space<T>,
+    const L: usize,
+    const Z: usize,
+    const V: usize,
+    const R: usize,
+    const B: usize,
+    const N: usize,
+    const G: usize,
+    const C: usize,
+    const M: usize,
+    const F: usize,
+    const K: usize,
+    const W: usize,
+> Solver<T, S, L, Z, V, R, B, N, G, C, M, F, K, W>
+{
+    /// Puts the model into another state at the present time: closed loops are closed from there, accelerations and multipliers are
+    /// evaluated anew, and the next step starts from there.
+    ///
+    /// `z` and `v` are as [`coordinates`](Self::coordinates) and [`velocities`](Self::velocities) give them, in the order of the exported
+    /// links: [`Link::z`](mbs_recursive::link::Link::z) and [`Link::v`](mbs_recursive::link::Link::v) say where the numbers of a link
+    /// begin. The numbers of each kind are:
+    ///
+    /// | link | in `z` | in `v` |
+    /// |---|---|---|
+    /// | revolute | angle [rad] | rate [rad/s] |
+    /// | prismatic | slide [m] | rate [m/s] |
+    /// | ball | unit quaternion (w, x, y, z) against the parent | angular velocity against the parent, in the link's axes [rad/s] |
+    /// | free, space | unit quaternion against the ground; position from `mechanism.base`, global axes [m] | angular velocity, in the link's axes [rad/s]; velocity, global axes [m/s] |
+    /// | free, plane | angle [rad]; position [m] | rate [rad/s]; velocity [m/s] |
+    /// | guided | none | none |
+    ///
+    /// Loops are closed by the moves that are smallest in the norm of the masses at the given state, positions first, then velocities. So no coordinate
+    /// of a closed loop holds exactly. Coordinates of an open chain are taken to the bit, and quaternions are made unit.
+    /// Time, inputs, the states of signals and the rung of the ladder stay. Guides are where the last step ended.
+    ///
+    /// Cost: one evaluation, without loops about two thirds of a step with its default bounds. With loops it is two evaluations and a response for
+    /// each sweep, which the report counts: some five near a closed state. There are at most `2 (options.max_sweeps + 1)` for the loops and
+    /// thirty for the accelerations. No allocation, and no code of it where it is not called.
+    ///
+    /// # Errors
+    /// [`StateError`]: lists of another length, numbers that are not finite, quaternions without direction, loops that stay open, no
+    /// accelerations there. Everything is then as it was, to the bit.
+    ///
+    /// ```
+    /// # mod model { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/../examples/pick/nostd/src/model.rs")); }
+    /// use mbs_nostd::{Checked, StateError, Unwatched};
+    /// use model::{MODEL, ModelSolver};
+    ///
+    /// let model = Checked::new(&MODEL)?;
+    /// let mut observer = ModelSolver::new(&model)?;
+    /// let measured = [0.1, -0.2]; // the angles of both joints [rad], from their encoders
+    /// for _ in 0..400 {
+    ///     observer.step(&model, 1e-3, &mut Unwatched).expect("a pendulum swings");
+    ///     // z += h l (y - z), v += h l² / 4 (y - z): both roots of the error are at -l / 2 = -20 / s
+    ///     let (mut z, mut v) = ([0.0; 2], [0.0; 2]);
+    ///     for i in 0..2 {
+    ///         let error = measured[i] - observer.coordinates()[i];
+    ///         z[i] = observer.coordinates()[i] + 0.04 * error;
+    ///         v[i] = observer.velocities()[i] + 0.4 * error;
+    ///     }
+    ///     observer.set_state(&model, &z, &v).expect("finite numbers");
+    /// }
+    /// let refused = observer.set_state(&model, &[0.0, f64::NAN], &[0.0; 2]);
+    /// assert_eq!(refused, Err(StateError::NotFinite { of: "coordinates", entry: 1 }));
+    /// # Ok::<(), mbs_nostd::LoadError>(())
+    /// ```
+    pub fn set_state(
+        &mut self,
+        model: &Checked<'_, T, S>,
+        z: &[T],
+        v: &[T],
+    ) -> Result<StateReport<T>, StateError> {
+        if model.sizes() != self.sizes {
+            return Err(StepError::Tables.into());
+        }
+        check("coordinates", z, self.sizes.coordinates)?;
+        check("velocities", v, self.sizes.freedoms)?;
+        check_quaternions::<T, S>(model.model().mechanism.links, z)?;
+        let rank = self.scratch.rank;
+        let done = self.close(model, z, v);
+        if done.is_err() {
+            // The rows that have had an effect so far are a part of the state for the next closing.
+            self.scratch.rank = rank;
+        }
+        Ok(done?)
+    }
+
+    /// Closes the loops from finite numbers; nothing but the scratch is written if that fails.
+    fn close(
+        &mut self,
+        model: &Checked<'_, T, S>,
+        z: &[T],
+        v: &[T],
+    ) -> Result<StateReport<T>, StepError> {
+        let whole = &model.model().mechanism;
+        let loads = model.kept_on(self.ladder.rung()).unwrap_or(whole.loads);
+        let mechanism = TreeSlices { loads, ..*whole };
+        // Guides are those that the last step ended with.
+        let inputs = Written {
+            laws: model.model().prescriptions,
+            guides: &self.inputs.ended,
+            courses: &self.inputs.courses,
+        };
+        let signals = states(&self.signals, self.sizes.states);
+        let start = Start { t: self.t, z, v, a: &[], signals };
+        let mut s = self.scratch.store(&self.sizes).map_err(|Outside| StepError::Tables)?;
+        let report = set_state::set_state(&mechanism, &inputs, &self.options, &start, &mut s)?;
+        for (to, from) in [
+            (&mut self.z[..], &*s.z),
+            (&mut self.v, &*s.v),
+            (&mut self.a, &*s.zdd),
+            (&mut self.lambda, &*s.lambda),
+        ] {
+            put(from, to);
+        }
+        put(s.signals.ends, &mut self.signals);
+        self.inputs.has_new = false;
+        Ok(report)
+    }
+}
+
+/// Checks length and numbers of a list.
+fn check<T: Real>(of: &'static str, list: &[T], needed: usize) -> Result<(), StateError> {
+    if list.len() != needed {
+        return Err(StateError::Length { of, given: list.len(), needed });
+    }
+    match list.iter().position(|x| !x.is_finite()) {
+        Some(entry) => Err(StateError::NotFinite { of, entry }),
+        None => Ok(()),
+    }
+}
+
+/// Checks that the quaternions of balls and free links have a direction: a square above rounding, which is a number.
+fn check_quaternions<T: Real, S: Space<T>>(
+    links: &[Link<T, S>],
+    z: &[T],
+) -> Result<(), StateError> {
+    for link in links.iter().skip(1) {
+        if S::DIMENSION < 3 || !matches!(link.kind, LinkKind::Ball | LinkKind::Free) {
+            continue;
+        }
+        let entry = link.z as usize;
+        let quaternion = z.iter().skip(entry).take(4);
+        let square = quaternion.fold(T::ZERO, |sum, &x| sum + x * x);
+        if !(square > T::EPSILON && square.is_finite()) {
+            return Err(StateError::Quaternion { entry });
+        }
+    }
+    Ok(())
+}

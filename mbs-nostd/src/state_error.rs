@@ -1,0 +1,77 @@
+//! [`StateError`]: why a state is not set.
+
+use mbs_core::step::StepError;
+
+/// Reason why a state is not set. The solver is then as it was, to the bit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub enum StateError {
+    /// A list has another length than the model's.
+    Length {
+        /// Name of the list: `coordinates` or `velocities`.
+        of: &'static str,
+        /// Length that the list has.
+        given: usize,
+        /// Length that the model needs.
+        needed: usize,
+    },
+    /// A number is infinite or NaN.
+    NotFinite {
+        /// Name of the list: `coordinates` or `velocities`.
+        of: &'static str,
+        /// Number of the entry in the list, from 0.
+        entry: usize,
+    },
+    /// The quaternion of a ball or a free link has no direction: its length is zero, or its square no number.
+    Quaternion {
+        /// Number of its first entry in the coordinates.
+        entry: usize,
+    },
+    /// The loops stay open: the closing does not converge from there.
+    Open {
+        /// 0: positions, 1: velocities.
+        level: u8,
+        /// The row that is violated most.
+        row: u32,
+        /// Violation that is left [m or rad, m/s or rad/s].
+        violation: f64,
+    },
+    /// The loops cannot be closed, or there are no accelerations at the state. [`StepError::Tables`]: the model is not the solver's.
+    Failed(StepError),
+}
+
+impl From<StepError> for StateError {
+    fn from(error: StepError) -> Self {
+        match error {
+            StepError::Violated { level: level @ (0 | 1), violation, row } => {
+                Self::Open { level, row, violation }
+            }
+            error => Self::Failed(error),
+        }
+    }
+}
+
+impl core::fmt::Display for StateError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            Self::Length { of, given, needed } => {
+                write!(f, "{given} {of} are given, and the model has {needed}")
+            }
+            Self::NotFinite { of, entry } => {
+                write!(f, "number {entry} of the {of} is not finite: set a finite value")
+            }
+            Self::Quaternion { entry } => write!(
+                f,
+                "the quaternion from coordinate {entry} has no direction: set one of length near one"
+            ),
+            Self::Open { level, row, violation } => write!(
+                f,
+                "loops stay open: row {row} of the {} is violated by {violation:e}; set a state nearer to a closed one",
+                if *level == 0 { "positions" } else { "velocities" }
+            ),
+            Self::Failed(error) => write!(f, "at the state that was to be set: {error}"),
+        }
+    }
+}
+
+impl core::error::Error for StateError {}
