@@ -6,7 +6,7 @@
 #![no_std]
 
 use core::ffi::{c_int, c_void};
-use mbs_nostd::{Bounds, InputError, Solver, Spatial, Tables, Unwatched};
+use mbs_nostd::{Bounds, InputError, Solver, Spatial, StateError, Tables, Unwatched};
 
 #[cfg(feature = "single")]
 type Scalar = f32;
@@ -24,6 +24,9 @@ const MODEL: c_int = 3;
 const NO_INPUT: c_int = 4;
 const STOPPED: c_int = 5;
 const NOT_FINITE: c_int = 6;
+const LENGTH: c_int = 7;
+const QUATERNION: c_int = 8;
+const OPEN: c_int = 9;
 
 /// What lives in the caller's memory.
 #[allow(non_camel_case_types, reason = "the name in C")]
@@ -43,6 +46,17 @@ pub struct mbs_report {
     correction: Scalar,
     violation: [Scalar; 3],
     is_cut_short: u32,
+}
+
+/// `mbs_state_report` of the header.
+#[allow(non_camel_case_types, reason = "the name in C")]
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct mbs_state_report {
+    evaluations: u32,
+    responses: u32,
+    moved: Scalar,
+    violation: [Scalar; 3],
 }
 
 /// Says whether there is time for more.
@@ -183,6 +197,54 @@ pub unsafe extern "C" fn mbs_step(
             correction: done.correction,
             violation: done.violation,
             is_cut_short: u32::from(done.is_cut_short),
+        };
+    }
+    OK
+}
+
+/// The code of a state that is refused.
+fn refused(error: &StateError) -> c_int {
+    match error {
+        StateError::Length { .. } => LENGTH,
+        StateError::NotFinite { .. } => NOT_FINITE,
+        StateError::Quaternion { .. } => QUATERNION,
+        StateError::Open { .. } => OPEN,
+        _ => STOPPED,
+    }
+}
+
+/// Sets coordinates and velocities, and closes the loops.
+///
+/// # Safety
+/// `solver` is one that `mbs_init` gave; `z` and `v` have as many numbers as they say; `report` is null or a place for one.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mbs_set_state(
+    solver: *mut mbs_solver,
+    z: *const Scalar,
+    n_z: usize,
+    v: *const Scalar,
+    n_v: usize,
+    report: *mut mbs_state_report,
+) -> c_int {
+    // SAFETY: null is looked for; else as the caller promises.
+    let Some(own) = (unsafe { solver.as_mut() }) else { return NULL };
+    if z.is_null() || v.is_null() {
+        return NULL;
+    }
+    // SAFETY: the caller gave as many numbers, and not null.
+    let (z, v) =
+        unsafe { (core::slice::from_raw_parts(z, n_z), core::slice::from_raw_parts(v, n_v)) };
+    let done = match own.solver.set_state(&own.model.model(), z, v) {
+        Ok(done) => done,
+        Err(error) => return refused(&error),
+    };
+    // SAFETY: null is looked for; else a place for a report.
+    if let Some(report) = unsafe { report.as_mut() } {
+        *report = mbs_state_report {
+            evaluations: done.evaluations,
+            responses: done.responses,
+            moved: done.moved,
+            violation: done.violation,
         };
     }
     OK
