@@ -47,7 +47,7 @@ impl<T: Real, S: SpdSolver<T>> InputResponse<T> for Workspace<T, S> {
         }
 
         w.factor_mass(model)?;
-        let sweep = |w: &mut Workspace<T, S>| {
+        let sweep = |w: &mut Self| {
             let (eq, s, rates) = (&mut w.equations, &w.scale.weights, &mut w.projection.rates);
             set_sum(model.team(), &mut eq.mu, &w.lambda, (s, rates));
             eq.assemble(model, Some(&w.end.a), T::ZERO);

@@ -46,7 +46,7 @@ impl<T: Real, S: SymmetricSolver<T>> InputResponse<T> for Workspace<T, S> {
             *change = f - *change;
         }
 
-        let sweep = |w: &mut Workspace<T, S>| {
+        let sweep = |w: &mut Self| {
             w.mu.copy_from_slice(&w.lambda);
             w.assemble(model, Mass::Acceleration, T::ZERO, true);
             add(model.team(), &mut w.f[..n], &w.change);

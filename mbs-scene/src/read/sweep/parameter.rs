@@ -56,7 +56,7 @@ impl Parameter {
             sets: vec![(place, 0..0)],
             shifts: Vec::new(),
             texts: numbers.iter().map(Number::text).collect(),
-            value_spans: vec![0..0],
+            value_spans: vec![Span::default()],
             ends: Vec::new(),
             is_in_code: true,
         })
