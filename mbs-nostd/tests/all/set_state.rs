@@ -7,7 +7,7 @@ use mbs_nostd::export::{Collected, bytes};
 use mbs_nostd::table::LinkKind;
 use mbs_nostd::{Bounds, Checked, Planar, Solver, Spatial, StateError, Tables, Unwatched};
 use mbs_recursive::space::Space;
-use mbs_recursive::{Options, TreeModel, TreeState, Workspace, bounded_step};
+use mbs_recursive::{Options, TreeModel, TreeState, Workspace};
 use mbs_testkit::{allocations, file};
 
 /// Room for the vehicle and for an arm on its drives.
@@ -26,7 +26,7 @@ fn aside<S: Space<f64>>(
     let (mut state, mut workspace) = (begin.clone(), Workspace::new(tree));
     for _ in 0..n {
         let work = (1e-3, &Options::default(), Bounds::default());
-        bounded_step(tree, work, &mut state, &mut workspace).expect("a step");
+        tree.bounded_step(work, &mut state, &mut workspace).expect("a step");
     }
     for (i, x) in state.z.iter_mut().chain(&mut state.v).enumerate() {
         *x += by * [1.0, -0.5, 0.25][i % 3];
@@ -79,7 +79,7 @@ fn same_as_in_the_recursion<S: mbs_nostd::format::Axes<f64>, const D: usize>(
     );
     for _ in 0..100 {
         let work = (1e-3, &Options::default(), Bounds::default());
-        bounded_step(&tree, work, &mut state, &mut workspace).expect("a step");
+        tree.bounded_step(work, &mut state, &mut workspace).expect("a step");
         solver.step(&model, 1e-3, &mut Unwatched).expect("a step");
         assert_eq!(solver.coordinates(), &state.z[..], "{name}");
         assert_eq!(solver.velocities(), &state.v[..], "{name}");

@@ -144,7 +144,6 @@ fn simulated<const D: usize>(
 ) -> Result<[f64; 2], Failure> {
     let mut simulation = assembled::<D>(scene, dt, method)?;
     let start: f64 = simulation.initial_energies().iter().sum();
-    let method = if is_explicit { TreeMethod::Rk4 } else { TreeMethod::Trapezoidal };
     let (clock, mut worst) = (ProcessTime::now(), 0.0_f64);
     for _ in 0..n {
         simulation.step(dt)?;

@@ -368,13 +368,16 @@ fn code_varies_more_than_a_file_does() {
     assert_eq!(values(&laid_out(&sweep).expect("a good sweep")), [["3.0"], ["4.0"]]);
 }
 
+/// Paths of a sweep, each with its numbers.
+type Lists<'a> = Vec<(&'a str, &'a [f64])>;
+
 #[test]
 fn numbers_of_code_are_refused_with_their_path() {
     let latin = "[sweep]\ncombine = 'latin-hypercube'\nsamples = 2\nseed = 1\n".to_owned()
         + &vary("scene.duration", "from = 1\nto = 2");
     let mass = "body.lower.mass";
     let one: &[f64] = &[1.0];
-    let lists: [(SweepSource, Vec<(&str, &[f64])>, &str, &str); 9] = [
+    let lists: [(SweepSource, Lists<'_>, &str, &str); 9] = [
         (SweepSource::grid(), vec![], "", "nothing to vary"),
         (SweepSource::grid(), vec![(mass, &[])], mass, "nothing to vary"),
         (SweepSource::grid(), vec![("body.lowr.mass", one)], "body.lowr.mass", "called `lowr`"),
