@@ -25,7 +25,7 @@ fn with_plan<R>(
     work(&run, plan)
 }
 
-/// Runs a plan.
+/// Outcome of a plan, and the method that ran.
 fn outcome(run: &PreparedRun<'_>, plan: &Plan) -> (Outcome, ResolvedMethod) {
     run_plan(run, plan, &mut Watchers::default()).expect("a run")
 }
