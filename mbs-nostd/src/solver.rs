@@ -182,7 +182,9 @@ impl<
         self.z = taken(from.z, T::ZERO);
         self.v = taken(from.v, T::ZERO);
         self.a = taken(from.a, T::ZERO);
+        self.lambda = [T::ZERO; R];
         self.signals = taken(from.signals, [T::ZERO; 2]);
+        self.scratch.rank = 0;
         self.inputs.restart(&model.model().prescriptions);
     }
 
@@ -240,7 +242,8 @@ impl<
     /// the accelerations at the beginning are evaluated anew first, whatever `watch` says.
     ///
     /// # Errors
-    /// [`StepError`]; the state is then unchanged. [`StepError::Tables`] if the model is not the solver's.
+    /// [`StepError`]; time, coordinates and velocities are then unchanged, and accelerations are those of the inputs that are set.
+    /// [`StepError::Tables`] if the model is not the solver's.
     pub fn step(
         &mut self,
         model: &Checked<'_, T, S>,

@@ -22,7 +22,7 @@ pub enum StateError {
         /// Number of the entry in the list, from 0.
         entry: usize,
     },
-    /// The quaternion of a ball or a free link has no direction: its length is zero, or its square no number.
+    /// The quaternion of a ball or a free link has no direction: it is shorter than √ε, or its square overflows.
     Quaternion {
         /// Number of its first entry in the coordinates.
         entry: usize,
@@ -69,6 +69,9 @@ impl core::fmt::Display for StateError {
                 "loops stay open: row {row} of the {} is violated by {violation:e}; set a state nearer to a closed one",
                 if *level == 0 { "positions" } else { "velocities" }
             ),
+            Self::Failed(StepError::NotFinite { .. } | StepError::Violated { .. }) => {
+                f.write_str("there are no accelerations at that state: set smaller velocities, or one off a singular position")
+            }
             Self::Failed(error) => write!(f, "at the state that was to be set: {error}"),
         }
     }

@@ -12,7 +12,7 @@ use crate::step::{OptionError, Step, StepError, StepReport, Stop};
 
 /// Scratch of the implicit steps of one crate, whose formulations differ in their equations alone.
 pub trait StepScratch<T: Real>: InputResponse<T> {
-    /// Integrator of the options, and whether increments are carried, if all are in their ranges.
+    /// Integrator of the options, and whether coordinates are summed with compensation, if all options are in their ranges.
     ///
     /// # Errors
     /// [`OptionError`] names the option.
@@ -42,7 +42,7 @@ pub struct Solved<T> {
 /// Advances `s` by one [`Step`]: `solve` finds the end of it by the rule, in a scene of the given length [m].
 ///
 /// # Errors
-/// [`StepError`]; the state is then unchanged.
+/// [`StepError`]; the state is then as [`take_inputs`] left it.
 #[inline]
 pub fn step<T: Real, M: Model<T>, W: StepScratch<T>>(
     model: &M,

@@ -21,7 +21,7 @@ pub trait InputResponse<T: Real> {
     /// Choices for a step.
     type Options;
 
-    /// From the loads of `s` to those of the inputs that are set, at time `to` [s].
+    /// Changes accelerations, multipliers and power of `s` from its loads to those of the inputs that are set, at time `to` [s].
     ///
     /// # Errors
     /// [`StepError`]; the state is then unchanged.

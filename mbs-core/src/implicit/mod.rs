@@ -1,5 +1,5 @@
-//! Parts that implicit steps in natural coordinates share: their frame, new inputs, prediction and correction, the end of Newton's iteration,
-//! violations, and how a step enters the state.
+//! Parts that implicit steps in natural coordinates share. They are the frame of a step, new inputs, prediction and correction, the end of
+//! Newton's iteration, violations, and how a step enters the state.
 
 mod commit;
 mod end;

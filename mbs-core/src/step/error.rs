@@ -228,10 +228,10 @@ impl core::fmt::Display for StepError {
                 "the control of the step asked for a step of {step:.1e} s: the motion may be stiff or not smooth here; try a looser tolerance or another integrator"
             ),
             Self::Violated { level, violation, .. } => {
-                let name = ["position", "velocity", "acceleration"][usize::from(*level).min(2)];
+                let name = ["positions", "velocities", "accelerations"][usize::from(*level).min(2)];
                 write!(
                     f,
-                    "the projection left a {name} violation of {violation:.1e}: the mechanism may stand in a singular position or lock; try a smaller step or another penalty"
+                    "the projection left {name} violated by {violation:.1e}: the mechanism may stand in a singular position or lock; try a smaller step or another penalty"
                 )
             }
             Self::BadStep { dt, length } => write!(

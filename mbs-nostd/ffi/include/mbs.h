@@ -45,9 +45,9 @@ typedef struct mbs_report {
 
 /* What setting a state did, and what it left over. */
 typedef struct mbs_state_report {
-    uint32_t evaluations;  /* of the accelerations: one, with closed loops two */
-    uint32_t responses;    /* sweeps that close loops, each about a fifth of an evaluation */
-    mbs_real moved;        /* largest change of a coordinate [m or rad] */
+    uint32_t evaluations;  /* of the accelerations: one, with closed loops two, far off up to five */
+    uint32_t responses;    /* sweeps that close loops or refine accelerations, each about a fifth of an evaluation */
+    mbs_real moved;        /* largest change of a coordinate [m, rad or, of quaternions, 1] */
     mbs_real violation[3]; /* of the loops: positions, velocities, accelerations */
 } mbs_state_report;
 
@@ -78,18 +78,23 @@ int mbs_step(mbs_solver *solver, mbs_real dt, mbs_watch watch, void *context, mb
  * `mbs_coordinates` and `mbs_velocities`, `n_z` and `n_v` as many as these return. In the order of the exported links:
  *   revolute, prismatic   angle [rad] or slide [m]; rate
  *   ball                  quaternion (w, x, y, z) against the parent; angular velocity against it, in the link's axes
- *   free                  quaternion against the ground, position in global axes [m]; angular velocity in the link's axes, velocity
+ *   free                  quaternion against the ground, position of the link's origin from `mbs_base` in global axes [m];
+ *                         angular velocity in the link's axes, velocity in global axes [m/s]
  *   guided                none
- * Loops are closed from there by the moves that are smallest in the norm of the masses, positions first, then velocities, so that no
- * coordinate of a loop holds exactly; those of an open chain are taken to the bit. Accelerations are evaluated anew, and the next step
- * starts from there. Time, inputs and states of signals stay; guides are where the last step ended. `report` may be null.
+ * A quaternion q and its negative -q are the same attitude, but not the same twist of a bushing or a torsion spring: give the one nearer
+ * to the present quaternion. All loops are closed together by the smallest move in the norm of the masses to first order, positions first.
+ * Velocities are projected along the same directions. In a model with loops any coordinate may move. In one without, all are taken to the
+ * bit, but for quaternions that are not unit. Accelerations are evaluated anew, and the next step starts from there.
+ * Time, inputs and states of signals stay; guides are where the last step ended. `report` may be null.
  *
- * Cost: one evaluation; with loops two, and a response for each sweep, at most 92. Allocates nothing.
+ * Cost: one evaluation; with loops two, and a response for each of some five sweeps; far off at most five and 185. Allocates nothing.
  * Errors: MBS_NULL, MBS_LENGTH, MBS_NOT_FINITE, MBS_QUATERNION, MBS_OPEN; MBS_STOPPED: no accelerations there. All is then as before. */
 int mbs_set_state(mbs_solver *solver, const mbs_real *z, size_t n_z, const mbs_real *v, size_t n_v,
                   mbs_state_report *report);
 
-/* Copies at most `n` numbers; returns how many there are. */
+/* Copies at most `n` numbers; returns how many there are. `mbs_base` is the point that positions of free links are counted from, global
+ * axes [m]. */
+size_t mbs_base(const mbs_solver *solver, mbs_real *to, size_t n);
 size_t mbs_coordinates(const mbs_solver *solver, mbs_real *to, size_t n);
 size_t mbs_velocities(const mbs_solver *solver, mbs_real *to, size_t n);
 size_t mbs_accelerations(const mbs_solver *solver, mbs_real *to, size_t n);

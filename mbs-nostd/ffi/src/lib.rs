@@ -216,7 +216,8 @@ fn refused(error: &StateError) -> c_int {
 /// Sets coordinates and velocities, and closes the loops.
 ///
 /// # Safety
-/// `solver` is one that `mbs_init` gave; `z` and `v` have as many numbers as they say; `report` is null or a place for one.
+/// `solver` is one that `mbs_init` gave; `z` and `v` are aligned, have as many numbers as they say, and stand outside the solver's memory;
+/// `report` is null or a place for one.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mbs_set_state(
     solver: *mut mbs_solver,
@@ -231,7 +232,10 @@ pub unsafe extern "C" fn mbs_set_state(
     if z.is_null() || v.is_null() {
         return NULL;
     }
-    // SAFETY: the caller gave as many numbers, and not null.
+    if (n_z, n_v) != (own.solver.coordinates().len(), own.solver.velocities().len()) {
+        return LENGTH;
+    }
+    // SAFETY: not null, and the caller gave as many numbers, which the model has.
     let (z, v) =
         unsafe { (core::slice::from_raw_parts(z, n_z), core::slice::from_raw_parts(v, n_v)) };
     let done = match own.solver.set_state(&own.model.model(), z, v) {
@@ -262,6 +266,19 @@ unsafe fn copy(from: &[Scalar], to: *mut Scalar, n: usize) -> usize {
         }
     }
     from.len()
+}
+
+/// Copies the point that positions are counted from.
+///
+/// # Safety
+/// As for [`mbs_coordinates`].
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mbs_base(solver: *const mbs_solver, to: *mut Scalar, n: usize) -> usize {
+    // SAFETY: null is looked for; else as the caller promises.
+    let Some(own) = (unsafe { solver.as_ref() }) else { return 0 };
+    let base = own.model.model().model().mechanism.base;
+    // SAFETY: as the caller promises.
+    unsafe { copy(&[base[0], base[1], base[2]], to, n) }
 }
 
 /// Copies the coordinates.

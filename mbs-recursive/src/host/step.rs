@@ -16,7 +16,7 @@ use mbs_core::step::{Step, StepError, StepReport};
 /// Method of a step.
 ///
 /// Those with error control advance by exactly the length that is asked for, in as many steps as `options.error` asks for. The first
-/// step tried is `options.first_step`; the workspace remembers the last good one for the next call.
+/// step tried is `options.first_step`, else the whole length; none is longer. The workspace remembers the last good one for the next call.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TreeMethod {
     /// The trapezoidal rule, or another of the Newmark and generalised-alpha families by `options.integrator`.
@@ -29,8 +29,7 @@ pub enum TreeMethod {
     Rk4,
     /// The pair 5(4) of Dormand and Prince, with error control.
     ///
-    /// Cost: six evaluations for each step tried, with loops up to seven and about a quarter to take from its error what a projection takes
-    /// from the state.
+    /// Cost: six evaluations for each step tried. With loops up to seven and a quarter: the error is projected too.
     Rk54,
     /// The method 8(5,3) of Dormand and Prince, with error control: for six digits and more, where the motion is smooth.
     ///
@@ -43,8 +42,8 @@ pub enum TreeMethod {
     /// Collocation at three Radau points with error control, implicit and of order 5: for stiff effects, which do not limit the step.
     /// Steps are of one length where possible.
     ///
-    /// Cost: about ten evaluations for each step; for n components n + 1 more where slopes are found anew, and (n/2)³ products five
-    /// times where the step changes. The first call allocates 4 n² numbers.
+    /// Cost: about ten evaluations for each step. For n components n + 1 more where slopes are found anew, and five times (n/2)³ products
+    /// where the step changes. The first call allocates 4 n² numbers.
     Radau5,
 }
 
@@ -54,7 +53,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
     /// Cost: that of the [`TreeMethod`]; no allocation but where it says so.
     ///
     /// # Errors
-    /// [`StepError`]; the state is then unchanged.
+    /// [`StepError`]; the state is then as [`TreeModel::take_inputs`] left it.
     pub fn step(
         &self,
         method: TreeMethod,
@@ -87,7 +86,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
     /// Cost: see [`bounded::step`]; no allocation.
     ///
     /// # Errors
-    /// [`StepError`]; the state is then unchanged.
+    /// [`StepError`]; the state is then as [`TreeModel::take_inputs`] left it.
     pub fn bounded_step(
         &self,
         (dt, options, bounds): (T, &Options<T>, Bounds),
@@ -132,7 +131,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
     }
 }
 
-/// Makes one step of a method: the end is in `s`, and the work done, but for that of the trapezoidal rule, in the last place of `y`.
+/// Makes one step of a method; its end is in `s`. But for the trapezoidal rule, the last entry of `y` is the work done.
 fn make<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
     inputs: &impl Inputs<T>,

@@ -65,6 +65,12 @@ const STALLED: f64 = 0.1;
 /// Chosen, not tuned.
 const STALLED_SINGULAR: f64 = 1e2;
 
+/// Closings of loops at most [-]: each begins where the sweeps of the last one ended, with inertias and rows of that place. Chosen, not tuned.
+const MAX_CLOSINGS: u32 = 4;
+/// Violation from which another closing is tried, in parts of the scene's length [-]: sweeps that come nearer, but slowly, are below.
+/// Chosen, not tuned.
+const NEARING: f64 = 0.1;
+
 /// Share of the scales of Φ and Φ̇ that may be left of them: rounding.
 pub(crate) fn rounding<T: Real>() -> T {
     T::EPSILON * T::from_f64(ROUNDINGS)
@@ -75,9 +81,10 @@ pub(crate) fn share_of<T: Real>(error: T) -> T {
     (error * T::from_f64(ERROR_FRACTION)).min(T::EPSILON.sqrt()).max(rounding())
 }
 
-/// Brings positions and velocities of the store onto the loops, from wherever they are: inertias are factored there first.
+/// Brings positions and velocities of the store onto the loops, from wherever they are: inertias are factored there first. Far off, where
+/// sweeps come nearer too slowly, they are factored again.
 ///
-/// Cost: without loops nothing; else one evaluation, and a response for each sweep.
+/// Cost: without loops nothing; else one evaluation, far off up to [`MAX_CLOSINGS`] of them, and a response for each sweep.
 pub(crate) fn onto_loops<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
     options: &Options<T>,
@@ -85,6 +92,16 @@ pub(crate) fn onto_loops<T: Real, S: Space<T>>(
 ) -> Result<[T; 2], Fault<T>> {
     if m.loops.rows.is_empty() {
         return Ok([T::ZERO; 2]);
+    }
+    let mut enough = m.length * T::from_f64(NEARING);
+    for _ in 1..MAX_CLOSINGS {
+        accelerations(m, options, Level::Once, s)?;
+        match project(m, (options, rounding()), s) {
+            Err(Fault::Unreached { level: 0, violation, .. }) if violation < enough => {
+                enough = violation * T::HALF;
+            }
+            done => return done,
+        }
     }
     accelerations(m, options, Level::Once, s)?;
     project(m, (options, rounding()), s)

@@ -1,11 +1,15 @@
 //! A state that is set from outside: brought onto the loops, with its accelerations.
 //!
 //! ```text
-//! z ← z ⊕ −M⁻¹ Jᵀ (J M⁻¹ Jᵀ + ε)⁻¹ Φ   until Φ is rounding,   v ← v − M⁻¹ Jᵀ (J M⁻¹ Jᵀ + ε)⁻¹ Φ̇   until Φ̇ is
+//! z ← z ⊕ −M⁻¹ Jᵀ (J M⁻¹ Jᵀ + ε)⁻¹ Φ,   then v ← v − M⁻¹ Jᵀ (J M⁻¹ Jᵀ + ε)⁻¹ Φ̇,   each again and again
 //! z̈ by the three passes there
 //! ```
 //!
-//! M is the mass matrix at the state that was given: each loop is closed by the moves that are smallest in the masses' norm.
+//! M and J are those of the state that was given: all loops are closed together, by the smallest move in the norm of the masses to
+//! first order. Velocities are projected along the same directions. Where sweeps come nearer too slowly, M and J are taken anew.
+//!
+//! Sweeps go on until what is left is rounding. They also end where it no longer halves and is below a tenth of √ε of the scene's
+//! length, near a singular position below 100 √ε. The report says what is left; the next step projects it again.
 
 use crate::link::indexing::{Outside, copy, part_mut};
 use crate::link::options::{Closure, Options};
@@ -28,23 +32,24 @@ const UNIT_ROUNDINGS: f64 = 16.0;
 /// Work of a state that was set, and what it changed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StateReport<T> {
-    /// Evaluations of the accelerations: one, with closed loops two.
+    /// Evaluations of the accelerations: one, with closed loops two, where they are far from closed up to five.
     pub evaluations: u32,
-    /// Responses of the tree, each about a fifth of an evaluation: one for each sweep that closes loops or betters accelerations.
+    /// Responses of the tree, each about a fifth of an evaluation: one for each sweep that closes loops or refines accelerations.
     pub responses: u32,
-    /// Largest change of a coordinate by the closing of loops and the unit length of quaternions [m or rad].
+    /// Largest change of a coordinate by the closing of loops and the unit length of quaternions [m, rad or, of quaternions, -].
     pub moved: T,
     /// Largest |Φ|, |Φ̇| and |Φ̈| that are left [m, m/s, m/s^2].
     pub violation: [T; 3],
 }
 
-/// Sets a state: positions and velocities of `start` on the loops, and accelerations there, are in `s.z`, `s.v`, `s.zdd`, `s.lambda`. Those of
-/// `start` are not read. States of signals stay, and are in `s.signals.ends` with their rates.
+/// Sets a state: positions and velocities of `start` on the loops are in `s.z` and `s.v`, accelerations and multipliers there in `s.zdd` and
+/// `s.lambda`. Accelerations of `start` are not read. States of signals stay, and are in `s.signals.ends` with their rates.
 ///
 /// Of `options` the regularisation, the sweeps of a projection, and for the accelerations the closure count.
 ///
-/// Cost: one evaluation; with loops another one and a response for each sweep, of which there are at most twice `max_sweeps` and two, and thirty
-/// for the accelerations. No allocation.
+/// Cost: one evaluation; with loops another one and a response for each sweep. Near a closed state there are at most `2 (max_sweeps + 1)`
+/// sweeps for the loops and thirty for the accelerations. Far off there are at most four evaluations and `5 (max_sweeps + 1)` sweeps for
+/// the loops. No allocation.
 ///
 /// # Errors
 /// [`StepError::Violated`] if the loops do not close; else as for [`step`](crate::step::trapezoidal::step).
@@ -58,9 +63,9 @@ pub fn set_state<T: Real, S: Space<T>>(
     s.counts = Counts::default();
     inputs.evaluate(start.t, s.guides, s.courses);
     let report = close(m, options, start, s).map_err(|fault| failure(m, fault))?;
-    for numbers in [&*s.z, &*s.v, &*s.zdd] {
+    for numbers in [&*s.z, &*s.v, &*s.zdd, &*s.lambda] {
         if !numbers.iter().all(|x| x.is_finite()) {
-            return Err(StepError::NotFinite { unknown: largest_or_nan(s.zdd) });
+            return Err(StepError::NotFinite { unknown: largest_or_nan(numbers) });
         }
     }
     check_rotations(m, inputs, (start, T::ZERO), s)?;
@@ -79,7 +84,7 @@ fn close<T: Real, S: Space<T>>(
     copy(start.z, s.z)?;
     copy(start.v, s.v)?;
     make_unit(m.links, s.z)?;
-    // Effects do not count where loops are closed: their work would be lost.
+    // A projection reads inertias and rows, no forces: effects are not evaluated here.
     let bare = TreeSlices { loads: &[], ..*m };
     let projected = Options { closure: Closure::Constraints, ..*options };
     let [position, velocity] = onto_loops(&bare, &projected, s)?;
