@@ -13,4 +13,9 @@ fn main() {
         .expect("MBS_MODEL names a file that `mbs export SCENE --rust FILE` wrote");
     println!("cargo:rerun-if-changed={model}");
     println!("cargo:rustc-env=MBS_MODEL={model}");
+    println!("cargo:rerun-if-env-changed=MBS_LOOP");
+    if let Ok(linkage) = env::var("MBS_LOOP") {
+        println!("cargo:rerun-if-changed={linkage}");
+        println!("cargo:rustc-env=MBS_LOOP={linkage}");
+    }
 }

@@ -4,6 +4,7 @@ mod support;
 
 mod agreement;
 mod inputs;
+mod observer;
 mod operation_bound;
 mod ropes_and_cams;
 mod set_state;

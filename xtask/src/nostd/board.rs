@@ -11,7 +11,7 @@ use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
 /// The target of both boards.
-const TARGET: &str = "thumbv7em-none-eabihf";
+pub(super) const TARGET: &str = "thumbv7em-none-eabihf";
 
 /// Longest run of an emulator.
 const PATIENCE: Duration = Duration::from_secs(600);
@@ -23,6 +23,9 @@ pub(super) const ELEMENTS: [&str; 8] =
 pub(super) const M7: Board = Board { machine: "mps2-an500", cpu: "cortex-m7" };
 
 pub(super) const M4: Board = Board { machine: "mps2-an386", cpu: "cortex-m4" };
+
+/// A toolchain, and the linker where it has none of its own.
+pub(super) type Tools<'a> = (Toolchain, Option<&'a Path>);
 
 /// An emulated board, by the emulator's names.
 #[derive(Debug, Clone, Copy)]
@@ -52,24 +55,42 @@ pub(super) fn name(scene: &str) -> &str {
 
 /// Builds the firmware with a model; the image, and its sizes.
 pub(super) fn build(
-    (toolchain, lld): (Toolchain, Option<&Path>),
+    tools: Tools<'_>,
     board: &Board,
     features: &str,
     model: &Path,
 ) -> Result<(PathBuf, Image), String> {
+    build_program(tools, board, ("mbs-firmware", features), &[("MBS_MODEL", model)])
+}
+
+/// Builds a program of the firmware with the models that these variables name; the image, and its sizes.
+pub(super) fn build_program(
+    tools: Tools<'_>,
+    board: &Board,
+    (program, features): (&str, &str),
+    models: &[(&str, &Path)],
+) -> Result<(PathBuf, Image), String> {
+    let (mut command, folder) = cross_build(tools, board);
+    command.args(["--bin", program, "--features", &qualified(features)]);
+    command.envs(models.iter().copied());
+    run(command.current_dir(process::root().join("mbs-nostd/firmware")))?;
+    let elf = folder.join(program);
+    let image = Image::read(&elf)?;
+    Ok((elf, image))
+}
+
+/// A build for a board, and the folder of what it makes. All have the same flags: libraries are compiled once.
+pub(super) fn cross_build((toolchain, lld): Tools<'_>, board: &Board) -> (Command, PathBuf) {
     let folder = process::target_dir().join("firmware").join(board.cpu);
     let mut command = toolchain.cargo(false);
     command.args(["build", "--release", "--quiet", "--locked", "--target", TARGET]);
-    command.args(["--features", &qualified(features)]).arg("--target-dir").arg(&folder);
+    command.arg("--target-dir").arg(&folder);
     let mut flags = format!("-C target-cpu={} -C link-arg=-Tlink.x", board.cpu);
     if let Some(lld) = lld {
         flags.push_str(&format!(" -C linker={}", lld.display()));
     }
-    command.env("RUSTFLAGS", flags).env("MBS_MODEL", model);
-    run(command.current_dir(process::root().join("mbs-nostd/firmware")))?;
-    let elf = folder.join(TARGET).join("release/mbs-firmware");
-    let image = Image::read(&elf)?;
-    Ok((elf, image))
+    command.env("RUSTFLAGS", flags);
+    (command, folder.join(TARGET).join("release"))
 }
 
 /// Runs an image on its board; what it printed.

@@ -2,15 +2,15 @@
 
 use super::board::{Board, M4, M7, build, emulate, export, name, on_host};
 use super::form::Form;
-use super::image::{Image, reachable};
+use super::image::Image;
 use super::in_c;
+use super::observer;
+use super::panics::no_panics;
 use super::run_report::RunReport;
 use super::sizes;
 use super::toolchain::Toolchain;
-use crate::debian;
-use crate::process::{self, output};
-use std::path::{Path, PathBuf};
-use std::process::Command;
+use crate::process;
+use std::path::Path;
 
 /// A run, and what must hold of it.
 #[derive(Debug, Clone, Copy)]
@@ -78,6 +78,7 @@ pub(super) fn check(
     }
     lines.extend(sizes::check((toolchain, lld), &models, form)?);
     lines.push(in_c::check(&models)?);
+    lines.push(observer::check((toolchain, lld), &models)?);
     Ok(lines)
 }
 
@@ -92,7 +93,7 @@ impl Case {
         let place = format!("{}, {precision} on {}", name(scene), board.cpu);
         let model = export(scene, precision, models)?;
         let (elf, image) = build((toolchain, lld), board, self.features, &model)?;
-        no_panics(&elf, board.cpu, &place)?;
+        no_panics(&elf, (board.cpu, "mbs_step"), &place)?;
         let report = RunReport::read(&emulate(board, &elf)?)?;
         let same = RunReport::read(&on_host(&model, self.features)?)?;
         let exact = if *precision == "f64" {
@@ -144,48 +145,4 @@ fn fresh_export(models: &Path) -> Result<String, String> {
     } else {
         Err(format!("{} is not what `mbs export` writes", committed.display()))
     }
-}
-
-/// Nothing that panics, and nothing of a heap, can be reached from the step.
-fn no_panics(elf: &Path, cpu: &str, place: &str) -> Result<(), String> {
-    let disassembler = match disassembler() {
-        Some(found) => found,
-        None => {
-            debian::install(&["llvm"]).map_err(|why| format!("there is no llvm-objdump: {why}"))?;
-            disassembler().ok_or("Debian's llvm has no llvm-objdump")?
-        }
-    };
-    let mut command = Command::new(disassembler);
-    // Without its name instructions of the floating-point unit are not known, and what follows them is read from the middle.
-    command.args(["-d", "--no-show-raw-insn", &format!("--mcpu={cpu}")]);
-    let text = output(command.arg(elf));
-    let text = text.ok_or_else(|| format!("`{}` failed", process::line(&command)))?;
-    let reached = reachable(&text, "mbs_step").map_err(|why| format!("{place}: {why}"))?;
-    let bad = |name: &&String| {
-        name.contains("9panicking") || name.contains("5alloc") || name.contains("__rust_alloc")
-    };
-    match reached.iter().find(bad) {
-        Some(name) => Err(format!("{place}: `{name}` can be reached from a step")),
-        None => Ok(()),
-    }
-}
-
-/// An `llvm-objdump`, of whatever version.
-fn disassembler() -> Option<PathBuf> {
-    let is_one = |path: &PathBuf| {
-        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        name == "llvm-objdump" || name.starts_with("llvm-objdump-")
-    };
-    let paths = std::env::var_os("PATH")?;
-    let mut found: Vec<_> = std::env::split_paths(&paths)
-        .filter_map(|folder| std::fs::read_dir(folder).ok())
-        .flat_map(|entries| entries.flatten().map(|entry| entry.path()))
-        .filter(is_one)
-        .collect();
-    // The newest knows most.
-    found.sort_by_key(|path| {
-        let name = path.to_string_lossy().into_owned();
-        name.rsplit('-').next().and_then(|n| n.parse::<u32>().ok()).unwrap_or(0)
-    });
-    found.pop()
 }

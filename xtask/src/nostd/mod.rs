@@ -7,6 +7,7 @@
 //! 4. All features together add to the image, and what they add is gone without them.
 //! 5. A program in C, linked with the static library, gives the bits of the host's run. That one links with a panic handler of
 //!    its own, which a standard library that sneaks in would contradict.
+//! 6. An observer sets the state of an exported arm on an emulated board, and a loop is closed there, in Rust and in C with the same bits.
 //!
 //! Asked for alone it is whole: with the third target, each feature of an effect in an image, the other board and more models.
 //!
@@ -18,6 +19,8 @@ mod firmware;
 mod form;
 mod image;
 mod in_c;
+mod observer;
+mod panics;
 mod run_report;
 mod sizes;
 mod table;

@@ -105,6 +105,15 @@ pub(crate) fn for_images(toolchain: Toolchain) -> Result<Option<PathBuf>, LeftOu
     if toolchain == Toolchain::Installed {
         return Ok(None);
     }
+    linker().map(Some)
+}
+
+/// Finds a linker for bare targets: that of the Rust which runs this job, or one in the path.
+///
+/// # Errors
+///
+/// What is missing, and how to get it.
+pub(crate) fn linker() -> Result<PathBuf, LeftOut> {
     let own = output(Command::new("rustc").args(["--print", "target-libdir"]));
     let own = own.and_then(|lib| Some(Path::new(&lib).parent()?.join("bin/rust-lld")));
     let candidates = own.into_iter().chain(["rust-lld", "ld.lld"].map(PathBuf::from));
@@ -113,7 +122,7 @@ pub(crate) fn for_images(toolchain: Toolchain) -> Result<Option<PathBuf>, LeftOu
             || output(Command::new(linker).arg("--version")).is_some()
     };
     let mut candidates = candidates.filter(works);
-    candidates.next().map(Some).ok_or_else(|| LeftOut {
+    candidates.next().ok_or_else(|| LeftOut {
         why: "there is no rust-lld that works".to_owned(),
         remedy: "On Debian, as root: `apt-get install lld`.".to_owned(),
     })
