@@ -39,7 +39,7 @@ pub fn check(scope: Scope) -> ExitCode {
     }
     listed(&AFTER_THE_TESTS, &mut summary);
     summary.beside(|| {
-        lists::run(BESIDE.len(), |i, report| {
+        lists::run(&BESIDE.map(names), |i, report| {
             let words = ["check", "--list", &i.to_string(), &report.display().to_string()];
             words.map(str::to_owned).to_vec()
         })
@@ -58,14 +58,14 @@ pub fn list(words: &[String]) -> ExitCode {
         return ExitCode::FAILURE;
     };
     let mut summary = Summary::default();
-    listed(list, &mut summary);
-    match lists::write(Path::new(report), &summary.ended) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(why) => {
+    for (name, check) in *list {
+        summary.check(name, check);
+        if let Err(why) = lists::write(Path::new(report), &summary.ended) {
             eprintln!("{why}");
-            ExitCode::FAILURE
+            return ExitCode::FAILURE;
         }
     }
+    ExitCode::SUCCESS
 }
 
 type Check = fn() -> Result<Outcome, String>;
@@ -91,6 +91,11 @@ const BESIDE: [&[Listed]; 3] = [
         ("lines", lines::check),
     ],
 ];
+
+/// Names of the checks of a list.
+fn names(list: &[Listed]) -> Vec<&'static str> {
+    list.iter().map(|(name, _)| *name).collect()
+}
 
 fn listed(list: &[Listed], summary: &mut Summary) {
     for (name, check) in list {
@@ -222,7 +227,6 @@ mod tests {
             number.parse::<u32>().ok()?;
             Some(rest.split_once("`: ")?.0)
         });
-        let names = |list: &[Listed]| list.iter().map(|(name, _)| *name).collect::<Vec<_>>();
         let beside = BESIDE.iter().flat_map(|list| names(list)).collect();
         let lists =
             [names(&BEFORE_THE_TESTS), vec!["tests", "python"], names(&AFTER_THE_TESTS), beside];

@@ -1,9 +1,9 @@
 //! Debian's packages, where a job may install what it needs.
 
-use crate::process::{output, run};
+use crate::process::{self, output, run};
 use crate::summary::LeftOut;
+use std::fs::File;
 use std::process::Command;
-use std::sync::Mutex;
 
 /// Installs them, as root on a system that has `apt-get`.
 ///
@@ -17,9 +17,10 @@ pub fn install(packages: &[&str]) -> Result<(), String> {
     if output(Command::new("apt-get").arg("--version")).is_none() {
         return Err("this system has no apt-get".to_owned());
     }
-    // One at a time: checks beside each other would find the lists locked.
-    static TURN: Mutex<()> = Mutex::new(());
-    let _turn = TURN.lock();
+    // One at a time: checks beside each other, in processes of their own, would find the lists locked.
+    let turn = process::target_dir().join("apt-turn");
+    let turn = File::create(&turn).map_err(|e| format!("{}: {e}", turn.display()))?;
+    turn.lock().map_err(|e| format!("no turn for apt-get: {e}"))?;
     eprintln!("   installing {} with apt-get", packages.join(", "));
     let apt = |args: &[&str]| {
         run(Command::new("apt-get").args(args).env("DEBIAN_FRONTEND", "noninteractive"))

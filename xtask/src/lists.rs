@@ -1,7 +1,7 @@
 //! Lists of checks beside each other, each in a process of its own: the CPU time of a check is then that of what its process waited for.
 //!
 //! The system counts CPU time of children by process, not by thread. The process of a list is this program again, with an option that is not shown;
-//! it writes how its checks ended into a file.
+//! it writes into a file how each check ended. A check that is not in it did not run, and has failed.
 
 use crate::process;
 use crate::summary::{Ended, LeftOut, Outcome};
@@ -12,14 +12,27 @@ use std::process::{Child, Command, Stdio};
 /// Characters that no text of a check has: the ends of a field and of a record, as ASCII names them.
 const ENDS: [char; 2] = ['\u{1f}', '\u{1e}'];
 
-/// Runs as many lists beside each other; how their checks ended, list by list. `words` are those that start list `i` and have it write a file.
-pub(crate) fn run(n: usize, words: impl Fn(usize, &Path) -> Vec<String>) -> Vec<Ended> {
-    let started: Vec<_> = (0..n).map(|i| start(i, &words)).collect();
-    let ended = started.into_iter().enumerate().map(|(i, list)| {
-        list.and_then(|(child, report)| read(child, &report))
-            .unwrap_or_else(|why| vec![lost(i, why)])
+/// Runs lists of checks, by their names, beside each other; how their checks ended, list by list. `words` are those that start list `i` and have it
+/// write a file.
+pub(crate) fn run(lists: &[Vec<&str>], words: impl Fn(usize, &Path) -> Vec<String>) -> Vec<Ended> {
+    let started: Vec<_> = (0..lists.len()).map(|i| start(i, &words)).collect();
+    let ended = started.into_iter().zip(lists).map(|(list, names)| {
+        let read = list.and_then(|(child, report)| read(child, &report));
+        let (ended, why) = read.unwrap_or_else(|why| (Vec::new(), why));
+        whole(ended, names, &why)
     });
     ended.flatten().collect()
+}
+
+/// All checks of a list: those that did not end are failures.
+fn whole(mut ended: Vec<Ended>, names: &[&str], why: &str) -> Vec<Ended> {
+    for name in names {
+        if !ended.iter().any(|check| check.name == *name) {
+            let outcome = Err(format!("did not come to its end: {why}"));
+            ended.push(Ended { name: (*name).to_owned(), seconds: 0.0, cpu: None, outcome });
+        }
+    }
+    ended
 }
 
 fn start(
@@ -28,9 +41,9 @@ fn start(
 ) -> Result<(Child, PathBuf), String> {
     let folder = process::target_dir().join("check");
     fs::create_dir_all(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
-    let report = folder.join(format!("list-{i}"));
-    // One of an earlier run must not be taken for this one's.
-    let _ = fs::remove_file(&report);
+    // Its name is of this run alone: another one may run, and none of an earlier run may be taken for this one's.
+    let report = folder.join(format!("list-{}-{i}", std::process::id()));
+    fs::write(&report, "").map_err(|e| format!("{}: {e}", report.display()))?;
     let program = std::env::current_exe().map_err(|e| e.to_string())?;
     let mut command = Command::new(program);
     command.args(words(i, &report)).stdin(Stdio::null());
@@ -38,19 +51,16 @@ fn start(
     Ok((child, report))
 }
 
-fn read(mut child: Child, report: &Path) -> Result<Vec<Ended>, String> {
+/// Waits for the process of a list; the checks in its report, and how the process ended.
+fn read(mut child: Child, report: &Path) -> Result<(Vec<Ended>, String), String> {
     let status = child.wait().map_err(|e| e.to_string())?;
     let text = fs::read_to_string(report);
-    let text = text.map_err(|e| format!("ended without its report, {status}: {e}"))?;
-    decode(&text).ok_or_else(|| format!("{} is no report", report.display()))
+    let text = text.map_err(|e| format!("{status}, {}: {e}", report.display()))?;
+    let _ = fs::remove_file(report);
+    Ok((decode(&text), format!("the process of its list ended with {status}")))
 }
 
-/// The line of a list whose process did not come to its end.
-fn lost(i: usize, why: String) -> Ended {
-    Ended { name: format!("list {}", i + 1), seconds: 0.0, cpu: None, outcome: Err(why) }
-}
-
-/// Writes how the checks of a list ended.
+/// Writes how the checks of a list ended so far.
 ///
 /// # Errors
 ///
@@ -74,7 +84,8 @@ fn encode(ended: &[Ended]) -> String {
     ended.iter().map(record).collect()
 }
 
-fn decode(text: &str) -> Option<Vec<Ended>> {
+/// The checks of a report. A record that is cut short is left out: its check did not end.
+fn decode(text: &str) -> Vec<Ended> {
     let record = |text: &str| {
         let fields: Vec<&str> = text.split(ENDS[0]).collect();
         let &[name, seconds, cpu, kind, first, second] = &fields[..] else { return None };
@@ -89,7 +100,7 @@ fn decode(text: &str) -> Option<Vec<Ended>> {
         let (name, seconds) = (name.to_owned(), seconds.parse().ok()?);
         Some(Ended { name, seconds, cpu: cpu.parse().ok(), outcome })
     };
-    text.split_terminator(ENDS[1]).map(record).collect()
+    text.split_inclusive(ENDS[1]).filter_map(|text| record(text.strip_suffix(ENDS[1])?)).collect()
 }
 
 #[cfg(test)]
@@ -106,15 +117,24 @@ mod tests {
             ended("counts", None, Ok(Outcome::LeftOut(left_out))),
             ended("pick", Some(0.0), Err("two\nlines".into())),
         ];
-        assert_eq!(decode(&encode(&all)), Some(all));
-        assert_eq!(decode(""), Some(Vec::new()));
-        assert_eq!(decode("a text"), None);
+        let text = encode(&all);
+        assert_eq!(decode(&text), all);
+        assert_eq!(decode(&text[..text.len() - 1]), all[..2]);
+        assert_eq!(decode("a text"), Vec::new());
+        let names = ["fuzz", "counts", "pick", "lines"];
+        let whole = whole(all.clone(), &names, "killed");
+        assert_eq!((&whole[..3], whole.len()), (&all[..], 4));
+        assert!(whole[3].name == "lines" && whole[3].outcome.is_err());
     }
 
     #[test]
-    fn a_list_whose_process_ends_without_a_report_has_failed() {
+    fn checks_of_a_list_whose_process_ends_without_a_report_have_failed() {
         // No option of a program of tests: it ends at once.
-        let ended = run(1, |_, _| vec!["--no-such-option".to_owned()]);
-        assert!(ended[0].outcome.as_ref().is_err_and(|why| why.contains("without its report")));
+        let ended = run(&[vec!["one", "two"]], |_, _| vec!["--no-such-option".to_owned()]);
+        let names: Vec<_> = ended.iter().map(|check| check.name.as_str()).collect();
+        assert_eq!(names, ["one", "two"]);
+        for check in ended {
+            assert!(check.outcome.is_err_and(|why| why.contains("did not come to its end")));
+        }
     }
 }

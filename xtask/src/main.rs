@@ -63,7 +63,7 @@ enum Job {
         #[arg(long)]
         long: bool,
         /// One of the lists beside each other, and the file that says how its checks ended: how the check starts itself
-        #[arg(long, hide = true, num_args = 2, value_names = ["NUMBER", "FILE"])]
+        #[arg(long, hide = true, num_args = 2, value_names = ["NUMBER", "FILE"], conflicts_with_all = ["tested", "strict", "long"])]
         list: Option<Vec<String>>,
     },
     /// Build and run each package of examples/pick: mbs-core and one formulation alone

@@ -94,6 +94,9 @@ fn count(sets: &[Set]) -> Result<Counted, String> {
                 counts.insert(name, wrapper::read(&entry.path())?);
             }
         }
+        if counts.is_empty() {
+            return Err(format!("no crate is counted in {}", folder.display()));
+        }
     }
     Ok(counted)
 }

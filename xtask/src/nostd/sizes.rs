@@ -3,6 +3,7 @@
 use super::board::{M7, build, emulate, export};
 use super::form::Form;
 use super::image::Image;
+use super::panics::no_panics;
 use super::run_report::RunReport;
 use super::toolchain::Toolchain;
 use crate::effects::{self, Listed};
@@ -57,6 +58,7 @@ pub(super) fn check(
     for set in &sets {
         let (elf, image) = build((toolchain, lld), &M7, set, &model)?;
         without_others(&image.names(&elf)?, set)?;
+        no_panics(&elf, (M7.cpu, "mbs_step"), &format!("six-joint-arm [{set}]"))?;
         let report = RunReport::read(&emulate(&M7, &elf)?)?;
         let Image { flash, ram } = image;
         lines.push(format!(
