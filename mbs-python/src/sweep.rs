@@ -10,7 +10,7 @@ use mbs::scene_file::SceneFile;
 use mbs_study::sweep::{self, Study, StudyError, SweepError, SweepTask};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyString, PyTuple};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -21,9 +21,12 @@ pub(crate) struct Sweep {
     study: Study,
     flag: Arc<AtomicBool>,
     mechanism: Py<Mechanism>,
-    text: String,
+    source: Source,
     settings: Py<PyDict>,
 }
+
+/// Text of a sweep, its name in messages, and the folder of its file, where what it includes lies.
+type Source = (String, String, Option<PathBuf>);
 
 /// Rows of a sweep that are there.
 #[pyclass(frozen, module = "multibody._multibody")]
@@ -78,13 +81,18 @@ impl sweep::Watch for Watched<'_> {
 impl Sweep {
     fn make(
         mechanism: &Bound<'_, Mechanism>,
-        text: &str,
+        source: Source,
         settings: &Bound<'_, PyDict>,
     ) -> PyResult<Self> {
         let py = mechanism.py();
         let (method, _) = settings::method(settings)?;
         let (method, flag) = settings::interruptible(method);
-        let file = SceneFile::parse(text, "sweep").map_err(|error| unread(py, &error))?.into();
+        let (text, name, folder) = &source;
+        let file = match folder {
+            Some(folder) => SceneFile::parse_in(text, name, folder),
+            None => SceneFile::parse(text, name),
+        };
+        let file = file.map_err(|error| unread(py, &error))?.into();
         let scene = mechanism.get().shared.file.clone();
         let study =
             guarded(py, || Study::new(scene, &file, &method).map_err(|error| refused(py, error)))?;
@@ -92,7 +100,7 @@ impl Sweep {
             study,
             flag,
             mechanism: mechanism.clone().unbind(),
-            text: text.to_owned(),
+            source,
             settings: settings.clone().unbind(),
         })
     }
@@ -172,7 +180,7 @@ impl Sweep {
         let (py, this) = (slf.py(), slf.get());
         let restore = py.import("multibody._multibody")?.getattr("_restore_sweep")?;
         let mechanism = this.mechanism.clone_ref(py);
-        (restore, (mechanism, &this.text, this.settings.clone_ref(py))).into_pyobject(py)
+        (restore, (mechanism, &this.source, this.settings.clone_ref(py))).into_pyobject(py)
     }
 }
 
@@ -180,10 +188,10 @@ impl Sweep {
 #[pyfunction]
 pub(crate) fn _restore_sweep(
     mechanism: &Bound<'_, Mechanism>,
-    text: &str,
+    source: Source,
     settings: &Bound<'_, PyDict>,
 ) -> PyResult<Sweep> {
-    Sweep::make(mechanism, text, settings)
+    Sweep::make(mechanism, source, settings)
 }
 
 #[pymethods]
@@ -236,20 +244,22 @@ impl Mechanism {
     ) -> PyResult<Bound<'py, PyAny>> {
         let py = slf.py();
         let threads = count(py, "threads", threads)?;
-        let text = match spec.cast::<PyString>() {
-            Ok(text) if text.to_string().contains('\n') => text.to_string(),
-            Err(_) if spec.hasattr("keys")? => value::json(spec, "spec")?,
+        let unnamed = |text| (text, "sweep".to_owned(), None);
+        let source = match spec.cast::<PyString>() {
+            Ok(text) if text.to_string().contains('\n') => unnamed(text.to_string()),
+            Err(_) if spec.hasattr("keys")? => unnamed(value::json(spec, "spec")?),
             _ => {
                 let path: PathBuf = spec.extract().map_err(|_| {
                     let message = format!("a sweep is made of no {}", spec.get_type());
                     usage(py, "wrong-type", &message, "give a path, a text, or a dict", "spec")
                 })?;
                 let file = SceneFile::read(&path).map_err(|error| unread(py, &error))?;
-                file.text().to_owned()
+                let folder = path.parent().map(Path::to_owned);
+                (file.text().to_owned(), file.file().to_owned(), folder)
             }
         };
         let settings = settings.map_or_else(|| Ok(PyDict::new(py)), |settings| settings.copy())?;
-        let sweep = Sweep::make(slf, &text, &settings)?;
+        let sweep = Sweep::make(slf, source, &settings)?;
         let columns = sweep.columns();
         let rows = match client {
             Some(client) => {

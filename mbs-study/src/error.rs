@@ -9,7 +9,7 @@ impl From<StudyError> for SimulationError {
         match error {
             StudyError::Read(error) => error.into(),
             StudyError::Path { ref fault, .. } => {
-                Self::new("scene-refused", &error, fault.hint()).with_cause(error)
+                Self::new("scene-refused", &error, fault.hint_in_code()).with_cause(error)
             }
             StudyError::Settings(error) => error.into(),
             other => {

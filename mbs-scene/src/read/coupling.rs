@@ -15,7 +15,7 @@ mod named;
 
 use self::named::{Named, Needed};
 use crate::read::ReadFault;
-use crate::read::fields::{Context, Fields, Read};
+use crate::read::fields::{Context, Fields, Read, counted};
 use crate::read::motion::read_motion;
 use crate::read::table;
 use crate::read::tree::{Item, Node};
@@ -175,7 +175,7 @@ fn teeth<'a>(context: &Context<'a>, item: &'a Item) -> Read<[Number; 2]> {
     let mut teeth = [const { Number::ZERO }; 2];
     for (to, item) in teeth.iter_mut().zip(context.exactly::<2>(item, "a list of two counts")?) {
         let count = match &item.node {
-            Node::Number(text) => text.parse().ok().filter(|n| (1..=MAX_TEETH).contains(n)),
+            Node::Number(text) => counted(text, MAX_TEETH),
             _ => None,
         };
         let Some(count) = count else {

@@ -52,21 +52,19 @@ impl SceneFile {
     /// # Errors
     /// As [`Self::number`], and a number that is not finite.
     pub fn with_number(&self, path: &str, number: &Number) -> Result<Self, SweepFault> {
+        if !number.to_f64().is_finite() {
+            return Err(SweepFault::PathSyntax("the number is not finite"));
+        }
         let address = path::address(self, path)?;
         if self.texts.list().len() > 1 {
             let mut file = self.clone();
-            path::replace(file.root_mut(), &address, number.text());
+            path::replace(file.root_mut(), &address, literal(&number.text()));
             file.note(&format!("{path} = {number}"));
             return Ok(file);
         }
-        let span = path::span(self.root(), &address).unwrap_or(0..0);
-        let new = number.text();
-        if is_literal(&new) {
-            return Ok(self.respelled(&address, &span, new));
-        }
-        let text = spliced(self.text(), vec![(span, new)]);
-        let not_toml = |_| SweepFault::PathSyntax("the number is not finite");
-        Self::parsed(&text, self.file(), self.folder.clone()).map_err(not_toml)
+        let span = path::span(self.root(), &address);
+        let span = span.ok_or(SweepFault::PathSyntax("it names no number"))?;
+        Ok(self.respelled(&address, &span, literal(&number.text())))
     }
 
     /// Returns the file with another number at an address, whose text stands at `old` in the only text.
@@ -81,13 +79,15 @@ impl SceneFile {
     }
 }
 
-/// Is the text of a number one in TOML and in JSON: finite, without a plus sign and leading zeros?
-fn is_literal(text: &str) -> bool {
-    match text.strip_prefix('-').unwrap_or(text).as_bytes() {
-        [b'0', next, ..] => !next.is_ascii_digit(),
-        [first, ..] => first.is_ascii_digit(),
-        [] => false,
-    }
+/// Text of a finite number as TOML and JSON have it: without a plus sign and leading zeros.
+fn literal(text: &str) -> String {
+    let (sign, digits) = match text.strip_prefix('-') {
+        Some(digits) => ("-", digits),
+        None => ("", text.strip_prefix('+').unwrap_or(text)),
+    };
+    let plain = digits.trim_start_matches('0');
+    let is_whole = plain.starts_with(|c: char| c.is_ascii_digit());
+    format!("{sign}{}{plain}", if is_whole { "" } else { "0" })
 }
 
 /// The folder in which a file lies.

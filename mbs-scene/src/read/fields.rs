@@ -342,15 +342,15 @@ impl<'a> Fields<'a> {
         Ok(self.optional(key)?.or_else(|| Number::from_decimal(default)).unwrap_or(Number::ZERO))
     }
 
-    /// A whole number from 1 to `most`.
+    /// A whole number from 1 to `most`, with a fraction of zero too.
     pub(crate) fn count(&self, key: &'static str, most: u32) -> Read<u32> {
         let item = self.need(key)?;
         let Node::Number(text) = &item.node else {
             return self.context.wrong_type(item, "a whole number");
         };
-        match text.parse() {
-            Ok(count) if (1..=most).contains(&count) => Ok(count),
-            _ => {
+        match counted(text, most) {
+            Some(count) => Ok(count),
+            None => {
                 let fault = ReadFault::NotACount { text: text.clone(), most };
                 self.context.fault(&item.span, fault)
             }
@@ -435,4 +435,10 @@ impl<'a> Fields<'a> {
         let fault = ReadFault::UnknownWord { key, found: found.to_owned(), known: known.to_vec() };
         self.context.fault(span, fault)
     }
+}
+
+/// A whole number from 1 to `most`: `10`, or `10.0`, as numbers of code are written.
+pub(crate) fn counted(text: &str, most: u32) -> Option<u32> {
+    let whole = text.strip_suffix(".0").unwrap_or(text);
+    whole.parse().ok().filter(|n| (1..=most).contains(n))
 }

@@ -17,7 +17,7 @@ use mbs_scene::{Place, nearest_name};
 ///
 /// ```
 /// use mbs::{InputTable, Mechanism};
-/// let m = Mechanism::parse("[scene]\ndimension = 2\n[[signal]]\nname = \"load\"\nkind = \"input\"\n")?;
+/// let m = Mechanism::parse("[scene]\ndimension = 2\nduration = 1\n[[signal]]\nname = \"load\"\nkind = \"input\"\n")?;
 /// let table = InputTable::new([0.0, 1.0], [("load", vec![0.0, 2.5])]);
 /// assert!(m.following(&table)?.to_toml()?.contains("table = [[0.0, 0.0], [1.0, 2.5]]"));
 /// let same = InputTable::csv(b"t,load\n0,0\n1,2.5\n", "load.csv");

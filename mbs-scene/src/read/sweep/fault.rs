@@ -198,4 +198,17 @@ impl SweepFault {
             }
         }
     }
+
+    /// Hint for a sweep in code, which has no keys of a file.
+    #[must_use]
+    pub fn hint_in_code(&self) -> String {
+        let hint = match self {
+            Self::SetTwice { .. } | Self::NameTaken(_) => "vary each path once",
+            Self::NoValues => "give a path, with at least one value",
+            Self::TooMany(_) => "give fewer values",
+            Self::ZipCount { .. } => "give as many values for each, or use a grid",
+            other => return other.hint(),
+        };
+        hint.to_owned()
+    }
 }

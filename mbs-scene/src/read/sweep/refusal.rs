@@ -2,6 +2,7 @@
 
 use super::SweepFault;
 use crate::read::ReadError;
+use core::fmt;
 
 /// Refusal of a sweep.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,3 +23,15 @@ impl From<ReadError> for SweepRefusal {
         Self::File(error)
     }
 }
+
+impl fmt::Display for SweepRefusal {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::File(error) => error.fmt(f),
+            Self::Numbers { path, fault } if path.is_empty() => fault.fmt(f),
+            Self::Numbers { path, fault } => write!(f, "{path}: {fault}"),
+        }
+    }
+}
+
+impl core::error::Error for SweepRefusal {}

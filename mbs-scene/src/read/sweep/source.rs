@@ -39,11 +39,11 @@ impl SweepSource {
         self.varied.iter().map(|(path, values)| (path.as_str(), &values[..]))
     }
 
-    /// A text that is the same for the same sweep: that of the file, and a line for each path that code varies.
+    /// A text that is the same for the same sweep: that of the file with all that it includes, and a line for each path that code varies.
     #[must_use]
     pub fn text(&self) -> String {
         let combine = || format!("{:?}\n", self.combine);
-        let mut text = self.file.as_ref().map_or_else(combine, |file| file.text().to_owned());
+        let mut text = self.file.as_ref().map_or_else(combine, SceneFile::whole_text);
         for (path, values) in self.varied() {
             let values: Vec<String> = values.iter().map(Number::text).collect();
             text += &format!("{path:?} = [{}]\n", values.join(", "));

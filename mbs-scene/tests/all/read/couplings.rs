@@ -98,7 +98,7 @@ fn every_kind_of_coupling_is_the_sum_that_it_says() {
 #[test]
 fn a_written_coupling_reads_as_the_same_sum() {
     for coupling in [
-        "kind = \"gear\"\njoints = [\"a\", \"b\"]\nteeth = [20, 40]",
+        "kind = \"gear\"\njoints = [\"a\", \"b\"]\nteeth = [20.0, 40]",
         "kind = \"gear\"\njoints = [\"a\", \"b\"]\nradii = [0.2, 0.4]\nmesh = \"internal\"\nsense = \"drawn\"",
         "kind = \"belt\"\njoints = [\"a\", \"b\"]\nradii = [0.1, 0.2]",
         "kind = \"rack\"\njoints = [\"a\", \"c\"]\nradius = -0.25\nsense = \"drawn\"",

@@ -1,6 +1,7 @@
 //! `[[include]]`: parts of other files with their prefix, and what is refused.
 
 use super::*;
+use mbs_scene::SweepSource;
 use std::fs;
 use std::path::PathBuf;
 
@@ -182,4 +183,19 @@ fn what_cannot_be_included_is_refused_at_its_place() {
     }
     let alone = SceneFile::parse(&include("corner.toml", ""), "text").expect_err("no folder");
     assert!(alone.render().contains("lies in no folder"), "{}", alone.render());
+}
+
+#[test]
+fn a_sweep_is_another_one_where_a_file_that_it_includes_has_changed() {
+    let whole = include("part.toml", "");
+    let part = |values| format!("[[vary]]\npath = 'scene.duration'\nvalues = [{values}]\n");
+    let folder = Folder::new(
+        "sweep",
+        &[("sweep.toml", whole.as_str()), ("part.toml", part("1, 2").as_str())],
+    );
+    let text = || SweepSource::from(folder.read("sweep.toml").expect("a sweep")).text();
+    let before = text();
+    assert_eq!(before, text());
+    folder.add("", "part.toml", &part("1, 3"));
+    assert_ne!(before, text());
 }
