@@ -34,11 +34,15 @@ int main(void);
 void reset(void);
 extern uint32_t stack_top, bss_begin, bss_end;
 
-static void semihost(uint32_t operation, const void *argument)
+/* Standard output, as the debugger has opened it. */
+static uint32_t out;
+
+static uint32_t semihost(uint32_t operation, const void *argument)
 {
     register uint32_t r0 __asm__("r0") = operation;
     register const void *r1 __asm__("r1") = argument;
     __asm__ volatile("bkpt 0xab" : "+r"(r0) : "r"(r1) : "memory");
+    return r0;
 }
 
 static void end(int status)
@@ -56,6 +60,12 @@ static void fault(void)
 
 __attribute__((noinline)) static void start(void)
 {
+    /* SYS_OPEN of the console for writing: SYS_WRITE0 would write to the emulator's standard error */
+    static const struct {
+        const char *name;
+        uint32_t mode, length;
+    } console = {":tt", 4, 3};
+    out = semihost(0x01, &console);
     end(main());
 }
 
@@ -104,8 +114,8 @@ static void write_line(char what, int step, const mbs_real *numbers, int n)
         }
     }
     line[at++] = '\n';
-    line[at] = 0;
-    semihost(0x04, line);
+    const uint32_t text[3] = {out, (uint32_t)line, (uint32_t)at};
+    semihost(0x05, text);
 }
 
 /* ---- the observer ---- */
