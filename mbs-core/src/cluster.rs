@@ -1,5 +1,6 @@
-//! Clusters of welded bodies: bodies that never move against each other become one cluster; welded to the ground they vanish. A point
-//! mass on a ball joint is part of the body that it is joined to; of several, of the first.
+//! Clusters of welded bodies. Bodies that never move relative to each other form one cluster. Bodies welded to the ground belong to none. A
+//! point mass on a ball joint belongs to the cluster of the body to which the joint connects it. If it has several ball joints, the first
+//! one decides.
 
 use crate::Real;
 use crate::algebra::{Matrix, Vector, cross, norm};
@@ -11,22 +12,22 @@ use alloc::vec::Vec;
 /// A rigid cluster of one or more bodies.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Cluster<T: Real> {
-    /// Indices of the bodies.
+    /// Indices of the bodies in the scene.
     pub bodies: Vec<usize>,
     /// Mass of the cluster [kg].
     pub mass: T,
-    /// Centre of mass, reference configuration [m].
+    /// Position of the centre of mass in the reference configuration [m].
     pub center: Vector<T, 3>,
-    /// Inertia about the centre of mass, global axes [kg m^2].
+    /// Inertia about the centre of mass in global axes [kg m^2].
     pub inertia: Matrix<T, 3>,
-    /// Ends, when it is a single slender rod, with points on its line or without.
+    /// End points of the rod [m] if the cluster is one slender rod, with or without point masses on its line.
     pub rod: Option<[Vector<T, 3>; 2]>,
-    /// Is it nothing but point masses in one place?
+    /// Does the cluster consist of point masses at one place only?
     pub is_point: bool,
 }
 
 impl<T: Real> Cluster<T> {
-    /// The masses on which gravity acts [kg], each with its place: one, unless gravity has a factor on some body.
+    /// Masses on which gravity acts [kg], each with its position [m]. There is one, unless a body of the cluster has a gravity scale.
     pub fn weights(&self, scene: &Scene<T>) -> Vec<(T, Vector<T, 3>)> {
         let bodies = || self.bodies.iter().map(|&b| &scene.bodies[b]);
         if bodies().all(|body| body.gravity_scale.is_none()) {
@@ -39,23 +40,23 @@ impl<T: Real> Cluster<T> {
 /// All clusters of a scene.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Clusters<T: Real> {
-    /// Cluster of each body; `None`: part of the ground.
+    /// Number of the cluster of each body; `None`: the body belongs to the ground.
     pub of_body: Vec<Option<usize>>,
     /// The clusters, in the order of their first bodies.
     pub clusters: Vec<Cluster<T>>,
 }
 
 impl<T: Real> Clusters<T> {
-    /// Merges the welded bodies of a scene, and its point masses with what holds them.
+    /// Merges the welded bodies of a scene, and each point mass with the body that a ball joint connects it to.
     pub fn new(scene: &Scene<T>) -> Self {
         let n = scene.bodies.len();
-        // Union-find with the ground as number n; a root is the smallest body, the ground wins.
+        // Union-find, with the ground as node n. The root of a set is its smallest body, or the ground if the set contains it.
         let mut parent: Vec<usize> = (0..=n).collect();
         let node = |body: BodyId| match body {
             BodyId::Ground => n,
             BodyId::Body(i) => i,
         };
-        // Is it nothing but points? What is joined to one by a ball moves with it, as all its points do.
+        // Does the set consist of point masses only? A ball joint holds a point mass fully, so that the point moves with the other body.
         let mut is_point: Vec<bool> = scene.bodies.iter().map(Body::is_point).collect();
         is_point.push(false);
         let joins = |joint: &&Joint<T>, balls: bool| {
@@ -89,7 +90,7 @@ impl<T: Real> Clusters<T> {
         Self { of_body, clusters }
     }
 
-    /// The cluster of a body reference; `None`: the ground.
+    /// Cluster of a body; `None` for the ground.
     pub fn of(&self, body: BodyId) -> Option<usize> {
         match body {
             BodyId::Ground => None,
@@ -98,11 +99,10 @@ impl<T: Real> Clusters<T> {
     }
 }
 
-/// The root of `i` in a forest where roots are their own parents (union-find); the way there is halved, so that long chains stay
-/// cheap.
+/// Root of node `i` in a union-find forest, where a root is its own parent. Path halving keeps later searches short.
 ///
 /// # Panics
-/// If `i` is not in the forest.
+/// If `i` is not a node of the forest.
 pub fn root(parent: &mut [usize], mut i: usize) -> usize {
     while parent[i] != i {
         parent[i] = parent[parent[i]];
@@ -111,7 +111,7 @@ pub fn root(parent: &mut [usize], mut i: usize) -> usize {
     i
 }
 
-/// Mass, centre and inertia about the centre of one body.
+/// Mass [kg], centre of mass [m] and inertia about it [kg m^2] of one body.
 pub fn mass_properties<T: Real>(scene: &Scene<T>, body: usize) -> (T, Vector<T, 3>, Matrix<T, 3>) {
     scene.bodies[body].mass_properties()
 }
@@ -139,7 +139,7 @@ fn merge<T: Real>(scene: &Scene<T>, bodies: Vec<usize>) -> Cluster<T> {
     Cluster { bodies, mass, center, inertia, rod, is_point }
 }
 
-/// The ends of a slender rod, if the other bodies are points on its line.
+/// End points of the only slender rod among the bodies, if all other bodies are point masses on its line.
 fn rod<T: Real>(scene: &Scene<T>, bodies: &[usize]) -> Option<[Vector<T, 3>; 2]> {
     let mut rod = None;
     for body in bodies.iter().map(|b| &scene.bodies[*b]).filter(|body| !body.is_point()) {
@@ -153,14 +153,14 @@ fn rod<T: Real>(scene: &Scene<T>, bodies: &[usize]) -> Option<[Vector<T, 3>; 2]>
     points.all(|body| is_on_line(&[from, to], body.center)).then_some([from, to])
 }
 
-/// Does a point lie on the line of a rod?
+/// Is a point on the line of a rod, up to the square root of machine precision?
 pub fn is_on_line<T: Real>([from, to]: &[Vector<T, 3>; 2], point: [T; 3]) -> bool {
     let along = to - from;
     let off = T::EPSILON.sqrt() * along.dot(&along);
     norm(&cross(&(Vector::from(point) - from), &along)) <= off
 }
 
-/// The length of a scene [m]: the largest distance of a hard point from the first one; one if all coincide.
+/// Length of a scene [m]: the largest distance of a defining point from the first one. It is one if all points coincide.
 pub fn scene_length<T: Real>(scene: &Scene<T>) -> T {
     let mut first: Option<Vector<T, 3>> = None;
     let mut length = T::ZERO;
@@ -183,13 +183,14 @@ pub fn scene_length<T: Real>(scene: &Scene<T>) -> T {
     if length > T::ZERO { length } else { T::ONE }
 }
 
-/// Distance below which features are one, relative to the scene's length (points) or as an angle (directions) [-]. Chosen, not tuned.
+/// Distance of points below which they coincide, relative to the scene's length; also the angle below which directions do [-]. Chosen, not
+/// tuned.
 pub const TOLERANCE: f64 = 1e-9;
 
-/// Least tolerance, in units of rounding [-]: it counts in `f32` alone. Chosen, not tuned.
+/// Smallest tolerance in multiples of machine precision [-]. It exceeds `TOLERANCE` only in `f32`. Chosen, not tuned.
 const ROUNDINGS: f64 = 64.0;
 
-/// [`TOLERANCE`], or [`ROUNDINGS`] where the scalar has fewer digits.
+/// Tolerance of coincident points: [`TOLERANCE`], or [`ROUNDINGS`] times machine precision if that is larger.
 pub(crate) fn point_tolerance<T: Real>() -> T {
     T::from_f64(TOLERANCE).max(T::EPSILON * T::from_f64(ROUNDINGS))
 }

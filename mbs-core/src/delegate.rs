@@ -1,6 +1,6 @@
-//! Models made of another: what they leave as it is, they pass on.
+//! Macros for models that wrap another model and pass most methods on to it.
 
-/// The methods of [`Cliques`](crate::Cliques) by those of the field `$model`.
+/// Implements the methods of [`Cliques`](crate::Cliques) through the field `$model`.
 #[macro_export]
 macro_rules! delegate_cliques {
     ($model:ident) => {
@@ -20,8 +20,8 @@ macro_rules! delegate_cliques {
     };
 }
 
-/// The methods of [`Model`](crate::model::Model) over numbers `$T` by those of the field `$model`. `team` is not among them, nor are
-/// evaluations, products and energies, which work on the whole model in every step.
+/// Implements methods of [`Model`](crate::model::Model) over numbers `$T` through the field `$model`. It leaves out `team`, evaluations,
+/// products and energies: those work on the whole model in every step, and a wrapper defines them.
 #[macro_export]
 macro_rules! delegate_model {
     ($T:ty, $model:ident) => {

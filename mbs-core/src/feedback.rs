@@ -1,4 +1,4 @@
-//! Signals that follow the motion, as a list of operations on the courses of an instant.
+//! Signals that depend on the motion, as a list of operations on the signals of one instant.
 //!
 //! ```text
 //! lag       T x' = u - x:  x = (x_n + h/2 x'_n + h/(2 T) u) / (1 + h/(2 T))
@@ -6,128 +6,130 @@
 //! pid       s = p e + i x + d e',  x' = e;  at the limit of s the integral stops, if e leads it further
 //! ```
 //!
-//! These are the trapezoidal rule over the step h, solved for its end: so states of signals have the motion's order, at each iterate. With
-//! h = 0 states are what they are, and their rates are those of a system of first order.
+//! u is the input of a signal, x its state, T its time constant and h the step. e is the target minus the measured value, s the output of
+//! the controller, and p, i, d are its gains. These formulas are the trapezoidal rule over the step h, solved for the values at its end.
+//! States of signals therefore have the order of the motion, in each iterate. With h = 0 the states stay as they are, and their rates are
+//! those of a first-order system.
 
 use crate::Real;
 
-/// The state of a controller without an integral: it has none.
+/// Number of the state of a controller without an integral: no state.
 pub const NO_STATE: u32 = u32::MAX;
 
 /// One operation of a list, with its target.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FeedbackStep<T> {
-    /// Index of the target among the courses.
+    /// Index of the target among the signals.
     pub to: u32,
-    /// Operation on its value, rate and acceleration.
+    /// Operation on the value, rate and acceleration of the target.
     pub operation: FeedbackOperation<T>,
 }
 
-/// Operations on value, rate and acceleration of a course.
+/// Operations on value, rate and acceleration of a signal.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum FeedbackOperation<T> {
-    /// A measured coordinate with its rate.
+    /// Reads a measured coordinate and its rate.
     Value {
-        /// Which of those that are measured.
+        /// Number of the measured coordinate.
         number: u32,
     },
-    /// The rate of a measured coordinate.
+    /// Reads the rate of a measured coordinate.
     Rate {
-        /// Which of those that are measured.
+        /// Number of the measured coordinate.
         number: u32,
     },
-    /// Constant with which sums and products begin.
+    /// Sets a constant, with which sums and products begin.
     Constant(T),
-    /// Adds another course times a factor.
+    /// Adds another signal times a factor.
     Add {
-        /// Index of the source among the courses.
+        /// Index of the source among the signals.
         from: u32,
         /// Factor of the source.
         factor: T,
     },
-    /// Multiplies by another course.
+    /// Multiplies by another signal.
     Multiply {
-        /// Index of the source among the courses.
+        /// Index of the source among the signals.
         from: u32,
     },
-    /// A function of another course.
+    /// Applies a function to another signal.
     Curve {
-        /// Index of the source among the courses.
+        /// Index of the source among the signals.
         from: u32,
-        /// The number of the function.
+        /// Number of the function.
         curve: u32,
     },
-    /// Another course within limits, the lower one first.
+    /// Limits another signal to a range.
     Clamp {
-        /// Index of the source among the courses.
+        /// Index of the source among the signals.
         from: u32,
         /// Limits of the value, the lower one first.
         limits: [T; 2],
     },
-    /// Another course within limits by that course; one where it is zero.
+    /// Ratio of the limited signal to the signal itself; one within the limits and at zero.
     LimitRatio {
-        /// Index of the source among the courses.
+        /// Index of the source among the signals.
         from: u32,
-        /// Limits of the ratio, the lower one first.
+        /// Limits of the signal, the lower one first.
         limits: [T; 2],
     },
     /// Lag of first order behind the source.
     Lag {
-        /// Index of the source among the courses.
+        /// Index of the source among the signals.
         from: u32,
-        /// Which of the states.
+        /// Number of the integrated state.
         state: u32,
-        /// By this time [s].
+        /// Time constant of the lag [s].
         time: T,
     },
-    /// The integral of another course.
+    /// Integral of another signal over time.
     Integral {
-        /// Index of the source among the courses.
+        /// Index of the source among the signals.
         from: u32,
-        /// Which of the states.
+        /// Number of the integrated state.
         state: u32,
-        /// Limits of the integral, the lower one first; infinite: it has none.
+        /// Limits of the integral, the lower one first. Infinite: no limit.
         limits: [T; 2],
     },
     /// Output of a PID controller.
     Pid {
-        /// The wanted course and the measured one.
+        /// Indices of the target signal and of the measured signal.
         from: [u32; 2],
-        /// Which of the states; [`NO_STATE`] where nothing is integrated.
+        /// Number of the integrated state; [`NO_STATE`] if the controller has no integral.
         state: u32,
-        /// Factors of difference, integral and rate.
+        /// Gains of the difference, of its integral and of its rate.
         gains: [T; 3],
-        /// Largest size of what it asks for; infinite: there is none.
+        /// Largest magnitude of the output. Infinite: no limit.
         limit: T,
     },
-    /// The value of another course becomes a component of a vector.
+    /// Copies the value of another signal into a component of a vector.
     Component {
-        /// Index of the source among the courses.
+        /// Index of the source among the signals.
         from: u32,
         /// Index of the component, from 0.
         component: u32,
     },
-    /// The value of another course becomes a force on a measured coordinate, its first component; how it resists the coordinate and the
-    /// rate are the others.
+    /// Makes the value of another signal a force on a measured coordinate. The force is the first component. The others are its resistance:
+    /// minus its derivatives by the coordinate and by the rate, at least zero.
     Force {
-        /// Index of the source among the courses.
+        /// Index of the source among the signals.
         from: u32,
-        /// Which of those that are measured.
+        /// Number of the measured coordinate on which the force acts.
         on: u32,
     },
 }
 
-/// How a course answers to one of the measured coordinates; of several, the first that it is made of.
+/// Derivatives of a signal by one measured coordinate and its rate. A signal of several coordinates has the derivatives by the first one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CourseSlope<T> {
-    /// Which of those that are measured.
+    /// Number of the measured coordinate; `u32::MAX` for none.
     pub of: u32,
-    /// By the coordinate and by its rate.
+    /// Derivative by the coordinate and by its rate.
     pub by: [T; 2],
 }
 
 impl<T: Real> CourseSlope<T> {
-    /// Of a course that answers to none.
+    /// Slope of a signal that depends on no measured coordinate.
     #[must_use]
     pub const fn none() -> Self {
         Self { of: u32::MAX, by: [T::ZERO; 2] }
@@ -137,7 +139,7 @@ impl<T: Real> CourseSlope<T> {
         Self { of: self.of, by: self.by.map(|x| factor * x) }
     }
 
-    /// With the part of another, if that is of the same coordinate, or this one answers to none.
+    /// Adds the slope of another signal if both have the same coordinate. Otherwise the first slope that has a coordinate is the result.
     fn plus(self, other: Self) -> Self {
         if self.of == u32::MAX {
             other
@@ -149,31 +151,31 @@ impl<T: Real> CourseSlope<T> {
     }
 }
 
-/// A value, rate and acceleration.
+/// Value, rate and acceleration of a signal.
 type Signal<T> = [T; 3];
 
-/// States of signals, at the start and at this instant: each is a value with its rate.
+/// States of signals at the start of the step and at this instant, each with its rate.
 #[derive(Debug)]
 pub struct SignalStates<'a, T> {
-    /// Time since the start [s]; zero: states are those of the start.
+    /// Time since the start [s]. Zero: the states are those of the start.
     pub dt: T,
     /// States at the start.
     pub starts: &'a mut [[T; 2]],
     /// States at this instant.
     pub ends: &'a mut [[T; 2]],
-    /// How each course answers to what is measured.
+    /// Derivatives of each signal by a measured coordinate and its rate.
     pub slopes: &'a mut [CourseSlope<T>],
 }
 
-/// Carries out operations in their order on the courses of an instant.
+/// Carries out operations in their order on the signals of one instant.
 ///
-/// `measure` gives a measured coordinate and its rate, `curve` a function's value and two derivatives. Courses and states that are not
-/// there count as zero.
+/// `measure` gives a measured coordinate and its rate, `curve` a function's value and two derivatives. A signal or state whose index is out
+/// of range counts as zero.
 ///
 /// Cost: a few products for each operation; no allocation.
 ///
 /// # Errors
-/// What `measure` or `curve` cannot give.
+/// Errors of `measure` and `curve`.
 pub fn follow<T: Real, E>(
     steps: &[FeedbackStep<T>],
     mut measure: impl FnMut(u32) -> Result<[T; 2], E>,
@@ -228,7 +230,8 @@ pub fn follow<T: Real, E>(
             }
             FeedbackOperation::Force { from, on } => {
                 let by = states.slope(from);
-                // what pushes the way it is pushed is left to the iteration: the matrix stays definite
+                // a force that drives the motion gets no slope: the Newton iteration converges without it, and the matrix stays positive
+                // definite
                 let resists = |slope: T| if by.of == on { (-slope).max(T::ZERO) } else { T::ZERO };
                 ([of(from)[0], resists(by.by[0]), resists(by.by[1])], CourseSlope::none())
             }
@@ -243,7 +246,7 @@ pub fn follow<T: Real, E>(
     Ok(())
 }
 
-/// The operations with a state; others give nothing.
+/// Evaluates an operation with a state. Other operations give zeros.
 #[inline(always)]
 fn integrate<T: Real>(
     operation: FeedbackOperation<T>,
@@ -270,7 +273,7 @@ fn integrate<T: Real>(
             let of_e = states.slope(from[1]).scaled(-T::ONE).plus(states.slope(from[0]));
             let [p, i, d] = gains;
             let by = of_e.scaled(p + i * h * T::HALF);
-            // the rate of what answers to a coordinate answers to the coordinate's rate
+            // the rate of a signal that depends on a coordinate depends on the coordinate's rate
             let by = CourseSlope { of: by.of, by: [by.by[0], by.by[1] + d * of_e.by[0]] };
             let is_free = asked[0].abs() < limit;
             (asked, if is_free { by } else { CourseSlope::none() })
@@ -280,12 +283,12 @@ fn integrate<T: Real>(
 }
 
 impl<T: Real> SignalStates<'_, T> {
-    /// How a course answers.
+    /// Slope of the signal with this number.
     fn slope(&self, number: u32) -> CourseSlope<T> {
         self.slopes.get(number as usize).copied().unwrap_or(CourseSlope::none())
     }
 
-    /// Sets a state by the step's length and its start; what is left is its signal.
+    /// Sets the state with number `state` by `f`, from the step's length and the state at its start. Returns the signal.
     fn with(&mut self, state: u32, f: impl FnOnce(T, [T; 2]) -> (Signal<T>, [T; 2])) -> Signal<T> {
         let start = self.starts.get(state as usize).copied().unwrap_or([T::ZERO; 2]);
         let (signal, end) = f(self.dt, start);
@@ -296,7 +299,7 @@ impl<T: Real> SignalStates<'_, T> {
     }
 }
 
-/// Notes the courses of these numbers, with their rates, behind the first `n_states` of `ends`.
+/// Copies the listed signals, with their rates, into `ends` after the first `n_states` entries.
 pub fn note_followed<T: Real>(
     (signals, n_states): (&[u32], usize),
     courses: &[Signal<T>],
@@ -309,23 +312,23 @@ pub fn note_followed<T: Real>(
     }
 }
 
-/// The product of two signals.
+/// Product of two signals, with its rate and acceleration.
 pub(crate) fn product<T: Real>([a, da, dda]: Signal<T>, [b, db, ddb]: Signal<T>) -> Signal<T> {
     [a * b, da * b + a * db, dda * b + T::TWO * da * db + a * ddb]
 }
 
-/// A function, with two derivatives, of a signal.
+/// Value, rate and acceleration of f(s) for a signal s, from f with its two derivatives: the chain rule.
 pub(crate) fn chain<T: Real>([f, df, ddf]: [T; 3], [_, ds, dds]: Signal<T>) -> Signal<T> {
     [f, df * ds, ddf * ds * ds + df * dds]
 }
 
-/// A function of a signal, by its value and its derivatives, and how that answers to what is measured.
+/// Value and slope of f(s) for a signal s, from f with its two derivatives and the slope of s.
 #[inline(always)]
 fn through<T: Real>(f: [T; 3], s: Signal<T>, slope: CourseSlope<T>) -> (Signal<T>, CourseSlope<T>) {
     (chain(f, s), slope.scaled(f[1]))
 }
 
-/// A number within limits by that number, with its derivatives.
+/// Ratio of the limited number to the number itself, with two derivatives.
 pub(crate) fn limit_ratio<T: Real>(s: T, [lower, upper]: [T; 2]) -> [T; 3] {
     let limit = if s > upper {
         upper
@@ -339,7 +342,7 @@ pub(crate) fn limit_ratio<T: Real>(s: T, [lower, upper]: [T; 2]) -> [T; 3] {
     [ratio, slope, T::ZERO - (slope + slope) / s]
 }
 
-/// A signal within limits.
+/// Signal limited to a range. Outside the range its rate and acceleration are zero.
 pub(crate) fn clamp<T: Real>(s: Signal<T>, [lower, upper]: [T; 2]) -> Signal<T> {
     let held = |value: T| [value, T::ZERO, T::ZERO];
     if s[0] < lower {

@@ -1,4 +1,4 @@
-//! History of a formulation: all that it remembers from step to step, as named arrays, of which checkpoints are made.
+//! History of a formulation: all that it remembers from step to step, as named arrays. Checkpoints store these arrays.
 //!
 //! ```text
 //! history:      remembered numbers --Book--> named arrays
@@ -8,62 +8,62 @@
 use crate::model::{ScalarForce, Terms};
 use alloc::vec::Vec;
 
-/// All that the next step depends on beside the state, in a fixed order.
+/// All numbers besides the state on which the next step depends, in a fixed order.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct History<T> {
-    /// Arrays of the history, in the order of the walk.
+    /// Arrays of the history, in the order in which the formulation lists them.
     pub entries: Vec<Entry<T>>,
 }
 
-/// Numbers under one name.
+/// An array of the history with its name.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Entry<T> {
-    /// Their name within the formulation.
+    /// Name of the array, unique within the formulation.
     pub name: &'static str,
-    /// How many they are.
+    /// Number of values in the array.
     pub shape: Shape,
     /// Numbers of the array.
     pub numbers: Numbers<T>,
 }
 
-/// How many numbers an array has.
+/// Shape of an array: what determines its number of values.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Shape {
-    /// Fixed number of values, which the formulation always has.
+    /// Fixed number of values, the same for every model.
     Fixed,
     /// One number, the same in every history of the formulation.
     Constant,
-    /// Rows of this width, as many as the model has.
+    /// Rows of this width; the model gives the number of rows.
     Rows(usize),
-    /// Rows that are arrays themselves, of this width, as many as the model has.
+    /// Rows of this width, each stored as an array; the model gives the number of rows.
     Arrays(usize),
-    /// Any number of rows of this width.
+    /// Rows of this width; their number may differ from step to step.
     List(usize),
 }
 
-/// The kinds of numbers.
+/// Values of an array, by the type of their numbers.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Numbers<T> {
-    /// Finite numbers of the mechanics, to the last bit.
+    /// Finite numbers in the scalar of the run, stored exactly.
     Reals(Vec<T>),
-    /// Doubles that may be any.
+    /// Double-precision numbers, which need not be finite.
     Floats(Vec<f64>),
     /// Counts, as 64-bit integers.
     Counts(Vec<u64>),
     /// Small counts, as 32-bit integers.
     Small(Vec<u32>),
-    /// Flags, each yes or no.
+    /// Flags, each true or false.
     Flags(Vec<bool>),
-    /// Entries that may be missing.
+    /// A group of entries that may be absent.
     Part {
-        /// Whether the entries are there.
+        /// Whether the group is present.
         is_some: bool,
-        /// Entries of the part, or what stands in their place.
+        /// Entries of the group; placeholders of default values if it is absent.
         entries: Vec<Entry<T>>,
     },
 }
 
-/// A history that is of another formulation, of another model, or no history.
+/// Error: the data are no history, or one of another formulation or another model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct RestoreError;
 
@@ -75,10 +75,10 @@ impl core::fmt::Display for RestoreError {
 
 impl core::error::Error for RestoreError {}
 
-/// The outcome of a walk.
+/// Result of writing or reading a history.
 pub type Restored = Result<(), RestoreError>;
 
-/// One walk over what is remembered, which fills a history or reads it back.
+/// Writer or reader of a history. The same sequence of calls fills a history or reads it back.
 #[derive(Debug)]
 pub struct Book<'a, T> {
     entries: Entries<'a, T>,
@@ -96,7 +96,7 @@ macro_rules! single {
             #[$doc]
             ///
             /// # Errors
-            /// [`RestoreError`] where the history has something else here.
+            /// [`RestoreError`] if the history has another entry at this place.
             pub fn $name(&mut self, name: &'static str, x: &mut $number) -> Restored {
                 self.$many((name, Shape::Fixed), core::slice::from_mut(x))
             }
@@ -120,20 +120,20 @@ macro_rules! single {
 }
 
 impl<'a, T: Copy> Book<'a, T> {
-    /// Fills a new history by a walk.
+    /// Fills a new history with the entries that `walk` writes.
     ///
     /// # Errors
-    /// Those of the walk.
+    /// Errors of `walk`.
     pub fn write(walk: impl FnOnce(&mut Self) -> Restored) -> Result<History<T>, RestoreError> {
         let mut book = Self { entries: Entries::Written(Vec::new()) };
         walk(&mut book)?;
         Ok(History { entries: book.written() })
     }
 
-    /// Reads a history, all of it.
+    /// Reads a history to its end with `walk`.
     ///
     /// # Errors
-    /// Those of the walk, and [`RestoreError`] where entries are left.
+    /// Errors of `walk`, and [`RestoreError`] if `walk` leaves entries unread.
     pub fn read(
         history: &'a History<T>,
         walk: impl FnOnce(&mut Self) -> Restored,
@@ -158,29 +158,29 @@ impl<'a, T: Copy> Book<'a, T> {
     }
 
     single! {
-        /// A number of the mechanics.
+        /// Writes or reads one number in the scalar of the run.
         real, reals, Reals, T;
-        /// A double that may be any.
+        /// Writes or reads one double-precision number, finite or not.
         float, floats, Floats, f64;
-        /// A count.
+        /// Writes or reads one count.
         count, counts, Counts, u64;
-        /// A small count.
+        /// Writes or reads one small count.
         small, smalls, Small, u32;
-        /// Yes or no.
+        /// Writes or reads one flag.
         flag, flags, Flags, bool;
     }
 
-    /// The number of the formulation's kind: 0 augmented, 1 classical, 2 state space, 3 recursive, and so on.
+    /// Writes or checks the number of the formulation's kind: 0 augmented, 1 classical, 2 state space, 3 recursive, and so on.
     ///
     /// # Errors
-    /// [`RestoreError`] where the history is of another kind.
+    /// [`RestoreError`] if the history is of another kind.
     pub fn kind(&mut self, kind: u64) -> Restored {
         let mut x = kind;
         self.counts(("kind", Shape::Constant), core::slice::from_mut(&mut x))?;
         if x == kind { Ok(()) } else { Err(RestoreError) }
     }
 
-    /// Doubles, as many as there always are.
+    /// Writes or reads a fixed number of double-precision numbers.
     ///
     /// # Errors
     /// As for [`rows`](Self::rows).
@@ -188,15 +188,15 @@ impl<'a, T: Copy> Book<'a, T> {
         self.floats((name, Shape::Fixed), x)
     }
 
-    /// Numbers, as many as the model has places.
+    /// Writes or reads numbers, as many as the model determines.
     ///
     /// # Errors
-    /// [`RestoreError`] where the history has something else here, or another number of them.
+    /// [`RestoreError`] if the history has another entry at this place, or another number of values.
     pub fn rows(&mut self, name: &'static str, x: &mut [T]) -> Restored {
         self.reals((name, Shape::Rows(1)), x)
     }
 
-    /// Vectors, as many as the model has places.
+    /// Writes or reads vectors, as many as the model determines.
     ///
     /// # Errors
     /// As for [`rows`](Self::rows).
@@ -204,10 +204,10 @@ impl<'a, T: Copy> Book<'a, T> {
         self.reals((name, Shape::Arrays(3)), x.as_flattened_mut())
     }
 
-    /// Any number of numbers.
+    /// Writes or reads a list of numbers of any length.
     ///
     /// # Errors
-    /// [`RestoreError`] where the history has something else here.
+    /// [`RestoreError`] if the history has another entry at this place.
     pub fn list(&mut self, name: &'static str, x: &mut Vec<T>) -> Restored {
         if let Some(Numbers::Reals(kept)) = self.next_numbers() {
             x.clone_from(kept);
@@ -215,10 +215,10 @@ impl<'a, T: Copy> Book<'a, T> {
         self.reals((name, Shape::List(1)), x)
     }
 
-    /// Any number of pairs of small counts.
+    /// Writes or reads a list of pairs of small counts, of any length.
     ///
     /// # Errors
-    /// [`RestoreError`] where the history has something else here.
+    /// [`RestoreError`] if the history has another entry at this place.
     pub fn pairs(&mut self, name: &'static str, x: &mut Vec<[u32; 2]>) -> Restored {
         if let Some(Numbers::Small(kept)) = self.next_numbers() {
             x.resize(kept.len() / 2, [0; 2]);
@@ -226,7 +226,7 @@ impl<'a, T: Copy> Book<'a, T> {
         self.smalls((name, Shape::List(2)), x.as_flattened_mut())
     }
 
-    /// The next numbers of a history that is read.
+    /// Values of the next entry of a history that is read; `None` while one is written.
     fn next_numbers(&self) -> Option<&'a Numbers<T>> {
         match &self.entries {
             Entries::Written(_) => None,
@@ -234,10 +234,10 @@ impl<'a, T: Copy> Book<'a, T> {
         }
     }
 
-    /// Writes or reads a part that may be missing, by a walk over it.
+    /// Writes or reads a group of entries that may be absent. `walk` writes or reads the entries of the group.
     ///
     /// # Errors
-    /// Those of the walk over it, and [`RestoreError`] where the history has something else here.
+    /// Errors of `walk`, and [`RestoreError`] if the history has another entry at this place.
     pub fn option<E: Default>(
         &mut self,
         name: &'static str,
@@ -264,7 +264,7 @@ impl<'a, T: Copy> Book<'a, T> {
         Ok(())
     }
 
-    /// Writes or reads what energies are found from: the laws as last evaluated, and the courses.
+    /// Writes or reads the data from which energies are computed: the scalar laws as last evaluated, and the signals of forces.
     ///
     /// # Errors
     /// As for [`rows`](Self::rows).

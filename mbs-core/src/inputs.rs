@@ -1,4 +1,4 @@
-//! Prescribed functions of time: guide laws and courses, prepared once.
+//! Prescribed functions of time, prepared once: guide laws and signals.
 
 mod breaks;
 mod coupling;
@@ -23,19 +23,19 @@ use core::ops::Range;
 use feedback::number;
 use signals::value_of;
 
-/// The guides of a scene, its signals, and the courses of its effects.
+/// The guides of a scene, its signals, and the signals of its effects.
 ///
-/// Signals are the first courses, by their numbers: those of effects that follow them, and guides, read them there.
+/// The named signals come first in the list of all signals, by their numbers. Guides and effects that name a signal read its value there.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Prescribed<T> {
     guides: Vec<GuideInput<T>>,
     signals: SignalGraph<T>,
-    /// The effect that asked for each course, and the course.
+    /// Number of the effect that each signal belongs to, and the signal.
     courses: Vec<(usize, SignalInput<T>)>,
 }
 
 impl<T: Real> Prescribed<T> {
-    /// The guides of a scene, then the sums of its couplings that are not always zero; its signals, and no other course.
+    /// Prepares the guides of a scene, then the nonzero sums of its couplings, and the named signals. Signals of effects are added later.
     pub(crate) fn new(
         guides: &[Guide<T>],
         signals: &[NamedSignal<T>],
@@ -46,13 +46,13 @@ impl<T: Real> Prescribed<T> {
         Self { guides: of_guides.chain(sums).collect(), signals, courses: Vec::new() }
     }
 
-    /// Adds a course for `scene.effects[effect]` and returns its number.
+    /// Adds a signal for `scene.effects[effect]` and returns its number.
     pub(crate) fn add(&mut self, effect: usize, course: SignalInput<T>) -> usize {
         self.courses.push((effect, course));
         self.n_courses() - 1
     }
 
-    /// The guides, in the order of the scene; then the sums of couplings that are not always zero.
+    /// The guides in the order of the scene, then the sums of couplings that are not always zero.
     #[must_use]
     pub fn guides(&self) -> &[GuideInput<T>] {
         &self.guides
@@ -64,7 +64,7 @@ impl<T: Real> Prescribed<T> {
         &self.signals
     }
 
-    /// The courses by number behind the signals, each with the effect that asked for it.
+    /// Signals of effects, numbered after the named signals, each with the number of its effect.
     #[must_use]
     pub fn courses(&self) -> &[(usize, SignalInput<T>)] {
         &self.courses
@@ -76,13 +76,13 @@ impl<T: Real> Prescribed<T> {
         self.guides.len()
     }
 
-    /// Number of courses, signals included.
+    /// Number of signals: named signals and signals of effects.
     #[must_use]
     pub fn n_courses(&self) -> usize {
         self.signals.len() + self.courses.len()
     }
 
-    /// Value, rate and acceleration at time `t` of a guide; of an input, what it begins with. Cost: that of all signals.
+    /// Value, rate and acceleration of a guide at time `t`; for an input, its start value. Cost: the evaluation of all signals.
     ///
     /// # Panics
     /// If there is no such guide.
@@ -91,14 +91,13 @@ impl<T: Real> Prescribed<T> {
         self.guides[guide].at(t, &self.signals.values(t))
     }
 
-    /// Writes value, rate and acceleration of each guide and the vector of each course at time `t`, with `inputs` in their
+    /// Writes value, rate and acceleration of each guide and the vector of each signal at time `t`. `inputs` are those of a state, in their
     /// [places](Self::input).
     pub fn write(&self, t: T, inputs: &[T], guides: &mut [[T; 3]], courses: &mut [[T; 3]]) {
         self.write_parts(t, inputs.split_at(self.first_course()), (guides, courses));
     }
 
-    /// Writes guides and courses at time `t` where a step has ended that was made with the inputs `applied`; courses are those of
-    /// `inputs`.
+    /// Writes guides and signals at time `t`, the end of a step. Guides use the inputs `applied` in that step; signals use `inputs`.
     pub fn write_end(
         &self,
         t: T,
@@ -136,12 +135,12 @@ impl<T: Real> Prescribed<T> {
         }
     }
 
-    /// The scene's number of each guide that is an input, and what it begins with.
+    /// Number of each guide that is an input in the scene, and its start value.
     pub fn guide_inputs(&self) -> impl Iterator<Item = (usize, [T; 3])> + '_ {
         self.guides.iter().enumerate().filter_map(|(i, guide)| Some((i, guide.input()?)))
     }
 
-    /// The scene's number of each effect that has an input, and what it begins with.
+    /// Number of each effect that has an input in the scene, and its start value.
     pub fn effect_inputs(&self) -> impl Iterator<Item = (usize, [T; 3])> + '_ {
         self.courses.iter().filter_map(|(effect, course)| Some((*effect, course.input()?)))
     }
@@ -153,55 +152,56 @@ impl<T: Real> Prescribed<T> {
         threes.chain(self.signals.inputs().iter().map(|(_, value)| *value)).collect()
     }
 
-    /// Place of the first number of an effect's input.
+    /// Place of the first input of an effect among the inputs of a state.
     fn first_course(&self) -> usize {
         3 * self.guide_inputs().count()
     }
 
-    /// The place among a state's inputs of that of `scene.effects[effect]`: force, torque, or what its own law asks for.
+    /// Place of the input of `scene.effects[effect]` among a state's inputs: a force, a torque, or the argument of a user-defined law.
     ///
     /// # Errors
-    /// [`InputError::NotAnInput`] where the effect has none: it has one where it is enabled and its course is [`Signal::Input`].
+    /// [`InputError::NotAnInput`] if the effect has no input. An effect has an input if it is enabled and its signal is [`Signal::Input`].
     pub fn input(&self, effect: usize) -> Result<Range<usize>, InputError> {
         let place = self.effect_inputs().position(|(e, _)| e == effect);
         let place = place.ok_or(InputError::NotAnInput { number: effect })?;
         Ok(part(self.first_course() + 3 * place))
     }
 
-    /// The place among a state's inputs of value, rate and acceleration of `scene.guides[guide]`.
+    /// Place of value, rate and acceleration of `scene.guides[guide]` among a state's inputs.
     ///
     /// # Errors
-    /// [`InputError::NotAnInput`] where the guide is none ([`Motion::Input`]).
+    /// [`InputError::NotAnInput`] if the guide is no input ([`Motion::Input`]).
     pub fn guide_input(&self, guide: usize) -> Result<Range<usize>, InputError> {
         let place = self.guide_inputs().position(|(g, _)| g == guide);
         place.map(|place| part(3 * place)).ok_or(InputError::NotAnInput { number: guide })
     }
 
-    /// The place among a state's inputs of `scene.signals[signal]`.
+    /// Place of `scene.signals[signal]` among a state's inputs.
     ///
     /// # Errors
-    /// [`InputError::NotAnInput`] where the signal is none ([`SignalKind::Input`](crate::scene::SignalKind::Input)).
+    /// [`InputError::NotAnInput`] if the signal is no input ([`SignalKind::Input`](crate::scene::SignalKind::Input)).
     pub fn signal_input(&self, signal: usize) -> Result<usize, InputError> {
         let place = self.signals.inputs().iter().position(|(s, _)| *s == signal);
         let place = place.ok_or(InputError::NotAnInput { number: signal })?;
         Ok(self.first_course() + 3 * self.effect_inputs().count() + place)
     }
 
-    /// Sets `scene.signals[signal]` between two steps, among the `inputs` of a state, as [`set_input`](Self::set_input) does.
+    /// Sets `scene.signals[signal]` between two steps, among the `inputs` of a state. The value holds as with
+    /// [`set_input`](Self::set_input).
     ///
     /// # Errors
-    /// [`InputError`] where the signal is [no input](Self::signal_input), or the value not finite.
+    /// [`InputError`] if the signal is [no input](Self::signal_input), or if the value is not finite.
     pub fn set_signal(&self, inputs: &mut [T], signal: usize, value: T) -> Result<(), InputError> {
         InputError::check(signal, &[value, T::ZERO, T::ZERO])?;
         inputs[self.signal_input(signal)?] = value;
         Ok(())
     }
 
-    /// Sets the input of `scene.effects[effect]` between two steps, among the `inputs` of a state. It holds until it is set again,
-    /// and the next step is made with it from its beginning.
+    /// Sets the input of `scene.effects[effect]` between two steps, among the `inputs` of a state. The value acts from the beginning of the
+    /// next step and holds until it is set again.
     ///
     /// # Errors
-    /// [`InputError`] where the effect has [none](Self::input), or where a component is not finite.
+    /// [`InputError`] if the effect has [no input](Self::input), or if a component is not finite.
     pub fn set_input(
         &self,
         inputs: &mut [T],
@@ -213,11 +213,11 @@ impl<T: Real> Prescribed<T> {
         Ok(())
     }
 
-    /// Sets value, rate and acceleration that `scene.guides[guide]` has at the end of the next step, among the `inputs` of a state.
-    /// Values that jump make accelerations jump with the square of the step: pass what a smooth reference gives.
+    /// Sets value, rate and acceleration that `scene.guides[guide]` has at the end of the next step, among the `inputs` of a state. A jump
+    /// of the value gives an acceleration proportional to 1 / dt^2: pass a smooth reference.
     ///
     /// # Errors
-    /// [`InputError`] where the guide is [no input](Self::guide_input), or where a component is not finite.
+    /// [`InputError`] if the guide is [no input](Self::guide_input), or if a component is not finite.
     pub fn set_guide(
         &self,
         inputs: &mut [T],
@@ -229,7 +229,7 @@ impl<T: Real> Prescribed<T> {
         Ok(())
     }
 
-    /// Has an effect another input than the one that was applied?
+    /// Does the input of an effect or signal differ from the applied one?
     #[must_use]
     pub fn differs(&self, inputs: &[T], applied: &[T]) -> bool {
         if inputs.is_empty() {
@@ -239,7 +239,8 @@ impl<T: Real> Prescribed<T> {
         inputs[first..] != applied[first..]
     }
 
-    /// The inputs of effects are applied now; guides are set for the end of the next step, where the state is not yet.
+    /// Copies the inputs of effects and signals into `applied`: they act at once. Inputs of guides stay, since they hold only at the end of
+    /// the next step.
     pub fn apply(&self, inputs: &[T], applied: &mut [T]) {
         let first = self.first_course();
         applied[first..].copy_from_slice(&inputs[first..]);
@@ -247,8 +248,8 @@ impl<T: Real> Prescribed<T> {
 }
 
 impl<T: Real> Prescribed<T> {
-    /// Writes the signals that follow the motion, as a [state](crate::model::State::signals) has them, among the courses:
-    /// [`write`](Self::write) keeps them, and gives them to the courses that name them.
+    /// Writes the signals that depend on the motion among all signals, with the values of a [state](crate::model::State::signals).
+    /// [`write`](Self::write) leaves these values unchanged and copies them to the signals of effects that name them.
     pub fn write_followed(&self, signals: &[[T; 2]], courses: &mut [[T; 3]]) {
         let following = self.signals.following();
         let values = signals.iter().rev().take(following.clone().count()).rev();
@@ -259,20 +260,20 @@ impl<T: Real> Prescribed<T> {
         }
     }
 
-    /// The times at which signals, and tables of forces, jump or have corners. Cost: one pass over them; allocates.
+    /// Times at which signals and tables of forces jump or have corners. Cost: one pass over the tables; allocates.
     #[must_use]
     pub fn signal_times(&self) -> SignalTimes<T> {
         SignalTimes::new(&self.signals, self.courses.iter().map(|(_, course)| course.course()))
     }
 
-    /// Does a course name a signal that follows the motion?
+    /// Does a signal name another signal that depends on the motion?
     #[must_use]
     pub fn follows_motion(&self, course: &Signal<T>) -> bool {
         let Signal::Named(of) = course else { return false };
         of.iter().flatten().any(|signal| self.signals.follows_motion(*signal))
     }
 
-    /// Operations that give the signals that follow the motion, and the courses that name them.
+    /// Operations that compute the signals that depend on the motion, and the signals of effects that name them.
     ///
     /// Cost: one pass over signals and courses; allocates.
     #[must_use]
@@ -281,10 +282,11 @@ impl<T: Real> Prescribed<T> {
         self.operations(follows, follows)
     }
 
-    /// Operations that give all signals that are made of others or follow the motion, and are not constant. The courses that name those or other
-    /// signals that are not constant follow. For steps on tables, where functions of time and inputs are courses by themselves.
+    /// Operations that compute all signals that depend on other signals or on the motion and are not constant. The operations for signals
+    /// of effects that name a variable signal come last. These operations are for steps on tables, where functions of time and inputs are
+    /// read as they are.
     ///
-    /// States and measured coordinates have the numbers that they have in [`feedback`](Self::feedback).
+    /// States and measured coordinates have the same numbers as in [`feedback`](Self::feedback).
     ///
     /// Cost: one pass over signals and courses; allocates.
     #[must_use]
@@ -297,7 +299,7 @@ impl<T: Real> Prescribed<T> {
         self.operations(|signal| moves(signal) && is_made(signal), moves)
     }
 
-    /// The operations that give the signals that are taken, and the components of courses by those that are named.
+    /// Operations that compute the signals for which `is_taken` holds, then the components of effects' signals for which `is_named` holds.
     fn operations(
         &self,
         is_taken: impl Fn(SignalId) -> bool,
@@ -333,7 +335,7 @@ impl<T: Real> Prescribed<T> {
     }
 }
 
-/// The numbers of one input.
+/// The three places of one input.
 fn part(first: usize) -> Range<usize> {
     first..first + 3
 }
@@ -343,7 +345,7 @@ fn part(first: usize) -> Range<usize> {
 pub struct GuideInput<T> {
     law: Motion<T>,
     curvature: Vec<T>,
-    /// Offset that is added to the value of the law.
+    /// Offset that is added to the value of the law. `None`: the law has no offset.
     offset: Option<T>,
 }
 
@@ -367,7 +369,7 @@ impl<T: Real> GuideInput<T> {
         self
     }
 
-    /// A value, rate and acceleration of the law, with the offset.
+    /// Value, rate and acceleration of the law, with the offset added to the value.
     fn shifted(&self, [value, rate, acceleration]: [T; 3]) -> [T; 3] {
         [self.offset.map_or(value, |offset| value + offset), rate, acceleration]
     }
@@ -378,20 +380,20 @@ impl<T: Real> GuideInput<T> {
         self.offset
     }
 
-    /// Law of the guide; a table goes through its knots, with their [`curvature`](Self::curvature).
+    /// Law of the guide. A table contains its prepared knots, which belong to [`curvature`](Self::curvature).
     #[must_use]
     pub fn law(&self) -> &Motion<T> {
         &self.law
     }
 
-    /// Second derivatives at the knots of a table; none for other laws.
+    /// Second derivatives at the knots of a table. Empty for other laws.
     #[must_use]
     pub fn curvature(&self) -> &[T] {
         &self.curvature
     }
 
-    /// Value, rate, acceleration at time `t`, with the [values](SignalGraph::values) of the scene's signals there; of an input, what
-    /// it begins with. Cost: one law; no allocation.
+    /// Value, rate and acceleration at time `t`. `signals` are the [values](SignalGraph::values) of the scene's signals at `t`. An input
+    /// has its start value. Cost: one law; no allocation.
     pub fn at(&self, t: T, signals: &[[T; 3]]) -> [T; 3] {
         let m = match &self.law {
             Motion::Table { rows, .. } | Motion::Monotone { rows, .. } => {
@@ -407,7 +409,7 @@ impl<T: Real> GuideInput<T> {
         self.shifted([m.value, m.rate, m.acceleration])
     }
 
-    /// Value, rate and acceleration that an input begins with; `None` of a law.
+    /// Start value, start rate and start acceleration of an input; `None` for a law.
     fn input(&self) -> Option<[T; 3]> {
         match self.law {
             Motion::Input(motion) => Some(motion),
@@ -416,49 +418,49 @@ impl<T: Real> GuideInput<T> {
     }
 }
 
-/// A constant, signals, or a table, linear between its rows; or the way and speed of a road that moves.
+/// A prepared signal: a constant, names of signals, a table that is linear between its rows, or distance and speed of a moving road.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SignalInput<T> {
     course: Signal<T>,
-    /// Speed of (speed t, speed, 0).
+    /// Speed v of a moving road [m/s]: the signal is (v t, v, 0).
     travel: Option<T>,
-    /// Joint and number of the coordinate that it is a force on.
+    /// Joint and number of the coordinate on which the signal is a force.
     on: Option<(usize, usize)>,
 }
 
 impl<T: Real> SignalInput<T> {
-    /// Prepares the course of an effect.
+    /// Prepares the signal of an effect.
     #[must_use]
     pub fn new(course: &Signal<T>) -> Self {
         Self { course: course.clone(), travel: None, on: None }
     }
 
-    /// The course (speed t, speed, 0) of a road.
+    /// Signal (speed t, speed, 0) of a moving road.
     #[must_use]
     pub fn travel(speed: T) -> Self {
         Self { course: Signal::Constant([T::ZERO; 3]), travel: Some(speed), on: None }
     }
 
-    /// Makes the course a force on a joint's coordinate.
+    /// Makes the signal a force on a joint's coordinate.
     #[must_use]
     pub(crate) fn force_on(mut self, on: (usize, usize)) -> Self {
         self.on = Some(on);
         self
     }
 
-    /// Course of the effect; a road that moves has a constant that is not read.
+    /// Signal of the effect. A moving road has a constant here that is not used.
     #[must_use]
     pub fn course(&self) -> &Signal<T> {
         &self.course
     }
 
-    /// The speed of a road that moves [m/s].
+    /// Speed of a moving road [m/s]; `None` for other signals.
     #[must_use]
     pub fn speed(&self) -> Option<T> {
         self.travel
     }
 
-    /// Start value of an input; `None` of other courses.
+    /// Start value of an input; `None` for other signals.
     fn input(&self) -> Option<[T; 3]> {
         match self.course {
             Signal::Input(value) => Some(value),
@@ -466,7 +468,7 @@ impl<T: Real> SignalInput<T> {
         }
     }
 
-    /// Value at time `t`, with the values of the scene's signals there; of an input, what it begins with.
+    /// Value at time `t`. `signals` are the values of the scene's signals at `t`. An input has its start value.
     pub fn at(&self, t: T, signals: &[[T; 3]]) -> [T; 3] {
         if let Some(speed) = self.travel {
             return [speed * t, speed, T::ZERO];

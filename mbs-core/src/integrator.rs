@@ -1,4 +1,5 @@
-//! One-step integrators in the general form of [P1 (32)], in increments.
+//! One-step integrators in the general form of [P1 (32)], written in increments. a is the acceleration, a^ the auxiliary acceleration, h
+//! the step; the indices 0 and 1 are the beginning and end of the step.
 //!
 //! ```text
 //! (1 - am) a^_1 + am a^_0 = (1 - af) a_1 + af a_0
@@ -8,17 +9,17 @@
 //! q_1 = q_p + d,   v_1 = v_p + v' d,   a_1 = a_p + a' d,   a^_1 = a^_0 + d / (beta h^2)
 //! ```
 //!
-//! The trapezoidal rule is beta = 1/4, gamma = 1/2, am = af = 0: then v' = 2/h, a' = 4/h^2, the equations of [P3 (4)-(5)]
-//! without the cancellation of 2/h q_1 - 2/h q_0.
+//! The trapezoidal rule has beta = 1/4, gamma = 1/2, am = af = 0. Then v' = 2/h and a' = 4/h^2. These are the equations of [P3 (4)-(5)],
+//! without the cancellation of digits in 2/h q_1 - 2/h q_0.
 
 use crate::Real;
 
 /// An implicit one-step method for second-order systems.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Integrator<T> {
-    /// beta of Newmark, `> 0`.
+    /// Parameter beta of Newmark's method, `> 0`.
     pub beta: T,
-    /// gamma of Newmark, `>= 1/2`; 1/2 has no numerical damping.
+    /// Parameter gamma of Newmark's method, `>= 1/2`. With 1/2 there is no numerical damping.
     pub gamma: T,
     /// Parameter am of generalised-alpha.
     pub alpha_m: T,
@@ -27,7 +28,7 @@ pub struct Integrator<T> {
 }
 
 impl<T: Real> Integrator<T> {
-    /// Trapezoidal rule of second order, which keeps energy best.
+    /// Trapezoidal rule of second order, without numerical damping.
     #[must_use]
     pub fn trapezoidal() -> Self {
         Self::newmark(T::from_f64(0.25), T::HALF)
@@ -38,36 +39,38 @@ impl<T: Real> Integrator<T> {
         Self { beta, gamma, alpha_m: T::ZERO, alpha_f: T::ZERO }
     }
 
-    /// Generalised-alpha (Chung and Hulbert, 1993) with spectral radius `rho` at infinity, in `[0, 1]`: 1 damps nothing.
+    /// Generalised-alpha method (Chung and Hulbert, 1993). `rho` in `[0, 1]` is the spectral radius at infinite frequency; 1 gives no
+    /// numerical damping.
     pub fn generalised_alpha(rho: T) -> Self {
         let alpha_m = (T::TWO * rho - T::ONE) / (rho + T::ONE);
         let alpha_f = rho / (rho + T::ONE);
         Self::second_order(alpha_m, alpha_f)
     }
 
-    /// HHT with damping `alpha` in `[0, 1/3]`: 0 is the trapezoidal rule.
+    /// HHT method (Hilber, Hughes and Taylor) with damping `alpha` in `[0, 1/3]`; 0 gives the trapezoidal rule.
     pub fn hht(alpha: T) -> Self {
         Self::second_order(T::ZERO, alpha)
     }
 
-    /// gamma = 1/2 + af - am, beta = (gamma + 1/2)^2 / 4: second order and unconditionally stable.
+    /// Method with gamma = 1/2 + af - am and beta = (gamma + 1/2)^2 / 4, of second order and unconditionally stable.
     fn second_order(alpha_m: T, alpha_f: T) -> Self {
         let gamma = T::HALF + alpha_f - alpha_m;
         let half = (gamma + T::HALF) * T::HALF;
         Self { beta: half * half, gamma, alpha_m, alpha_f }
     }
 
-    /// Is it of the Newmark family, whose auxiliary accelerations are the accelerations?
+    /// Is the method of the Newmark family, where auxiliary accelerations equal the accelerations?
     pub fn is_newmark(&self) -> bool {
         self.alpha_m == T::ZERO && self.alpha_f == T::ZERO
     }
 
-    /// The change of an auxiliary acceleration by one of its acceleration at the end of a step; in the Newmark family exactly one.
+    /// Derivative of the auxiliary acceleration by the acceleration at the end of a step. It is exactly one in the Newmark family.
     pub fn share(&self) -> T {
         (T::ONE - self.alpha_f) / (T::ONE - self.alpha_m)
     }
 
-    /// The auxiliary acceleration at the end of a step, from the acceleration there and both at its beginning.
+    /// Auxiliary acceleration at the end of a step, from the acceleration `a_next` there and both accelerations at the beginning of the
+    /// step.
     #[inline]
     pub fn auxiliary(&self, a_next: T, [a, a_aux]: [T; 2]) -> T {
         if self.is_newmark() {
@@ -89,7 +92,7 @@ impl<T: Real> Integrator<T> {
     }
 }
 
-/// An integrator at a step length.
+/// Coefficients of an integrator for one step length.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rule<T> {
     /// Length h of the step [s].
@@ -98,7 +101,7 @@ pub struct Rule<T> {
     pub velocity: T,
     /// Factor a' of the correction in the acceleration [1/s^2].
     pub acceleration: T,
-    /// 1 / (beta h^2) [1/s^2].
+    /// Factor 1 / (beta h^2) of the correction in the auxiliary acceleration [1/s^2].
     pub auxiliary: T,
     /// Parameter af of generalised-alpha.
     pub alpha_f: T,
@@ -118,9 +121,9 @@ impl<T: Real> Rule<T> {
         (dq, v + h * a_aux, a_next)
     }
 
-    /// Takes the share of the accelerations out of a prediction, so that it goes at the rates that the step begins with. It is another
-    /// point of the same rule. For a step that [`is_far`] says accelerations alone would carry far, as those of a stiff effect that is
-    /// let go. `a` is in units of 1 / `unit`.
+    /// Removes the accelerations' part from a prediction: the predicted velocity is then constant. The result is another start of the
+    /// same Newton iteration and satisfies the same rule. It is for steps with large displacements by accelerations ([`is_far`]), such as
+    /// at the release of a stiff effect. `a` is in units of 1 / `unit`.
     pub fn hold_back(&self, unit: T, [dq, v, a]: [&mut [T]; 3], a_aux: &[T]) {
         let half_square = self.dt * self.dt * T::HALF;
         for (i, dq) in dq.iter_mut().enumerate() {
@@ -132,11 +135,11 @@ impl<T: Real> Rule<T> {
     }
 }
 
-/// Least displacement by accelerations in a step that is far, relative to the scene's length [-]. Chosen, not tuned.
+/// Fraction of the scene's length above which accelerations displace a step too far for the usual prediction [-]. Chosen, not tuned.
 const FAR_SHARE: f64 = 1.0 / 64.0;
 
-/// Do accelerations carry a step far? `moved`, their part of the displacement, is then above half a radian, or half a metre and
-/// `FAR_SHARE` of the scene's length.
+/// Do accelerations displace coordinates too far for the usual prediction? `moved` is their part of the displacement in the step. The limit
+/// is half a radian or half a metre, and at least `FAR_SHARE` of the scene's length.
 pub fn is_far<T: Real>(moved: T, length: T) -> bool {
     moved > (length * T::from_f64(FAR_SHARE)).max(T::HALF)
 }

@@ -45,7 +45,7 @@ pub mod scene;
 pub mod start;
 pub mod step;
 
-/// Scene data, of which a build without `alloc` has the table of joints alone.
+/// Data of a scene. A build without `alloc` has only the table of joints here.
 #[cfg(not(feature = "alloc"))]
 pub use joint as scene;
 #[cfg(feature = "instances")]
@@ -57,7 +57,7 @@ pub use mbs_math::{algebra, blocks, ode, once, real, team};
 #[cfg(feature = "alloc")]
 pub use mbs_math::{dense, refined};
 
-/// Items that the tests of this crate call; no part of its interface.
+/// Items for the tests of this crate. They are no part of its interface.
 #[doc(hidden)]
 pub mod inside {
     pub use crate::control::energy::Steering;

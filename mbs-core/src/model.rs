@@ -1,11 +1,12 @@
-//! Mechanism as a formulation sees it: [`Model`], with the numbers of one instant in [`Terms`].
+//! Mechanism as a formulation reads it: the trait [`Model`], and the numbers of one instant in [`Terms`].
 //!
 //! ```text
 //! M q'' + phi_q^T lambda = Q(q, q', t),   phi(q, t) = 0
 //! ```
 //!
-//! Vectors over coordinates have [`Model::n_extended`] places: the n unknowns, then constants (zero in velocities and
-//! accelerations). Vectors over constraints have [`Model::n_constraints`] places.
+//! A vector over coordinates has [`Model::n_extended`] places: the n unknowns, then the constants. The constants are coordinates of points
+//! and directions that do not move, so their velocities and accelerations are zero. A vector over constraints has [`Model::n_constraints`]
+//! places.
 
 use crate::Real;
 use crate::blocks::{BlockSource, Cliques};
@@ -17,39 +18,39 @@ use crate::team::{Alone, Team};
 use alloc::vec::Vec;
 use core::ops::Range;
 
-/// Everything a model evaluates at one instant. Allocated once by [`Model::terms`].
+/// All quantities that a model evaluates at one instant. [`Model::terms`] allocates them once.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Terms<T> {
-    /// Constraint values phi [m or -], m.
+    /// Constraint values phi [m or -], a vector of length m.
     pub phi: Vec<T>,
-    /// Partial time derivative of phi; zero where no guide acts, m.
+    /// Partial time derivative of phi, a vector of length m. It is zero in rows without a guide.
     pub phi_t: Vec<T>,
-    /// phi'' without accelerations, so that phi'' = phi_q q'' + bias, m.
+    /// Part of phi'' without accelerations: phi'' = phi_q q'' + bias. A vector of length m.
     pub phi_bias: Vec<T>,
-    /// Jacobian rows, element by element (the model's own layout).
+    /// Jacobian rows, element by element, in the model's internal layout.
     pub jacobian: Vec<T>,
-    /// Applied forces, element by element (the model's own layout).
+    /// Applied forces, element by element, in the model's internal layout.
     pub force: Vec<T>,
-    /// Scalar laws with tangents, one record for each scalar measure (spring length, joint angle).
+    /// Values of the scalar force laws with their tangents: one record for each scalar measure (spring length, joint angle).
     pub measures: Vec<ScalarForce<T>>,
     /// Inputs at this instant: value, rate and acceleration of each guide.
     pub guides: Vec<[T; 3]>,
-    /// Inputs at this instant: the vector of each force or torque course.
+    /// Signals at this instant: value, rate and acceleration of each named signal, then the vector of each effect's signal.
     pub courses: Vec<[T; 3]>,
-    /// Measured angles of the last step, with their turns: those of [`State::memory`].
+    /// Measured angles at the end of the last step, whole turns included: a copy of [`State::memory`].
     pub angles: Vec<T>,
-    /// States of signals at this instant, each with its rate.
+    /// Signals at this instant, each with its rate, in the order of [`State::signals`].
     pub signals: Vec<[T; 2]>,
-    /// States of signals at the start of the step, each with its rate: those of [`State::signals`].
+    /// Signals at the start of the step, each with its rate: a copy of [`State::signals`].
     pub signal_starts: Vec<[T; 2]>,
-    /// How long that is ago [s].
+    /// Time from `signal_starts` to this instant [s].
     pub signal_dt: T,
-    /// How each course answers to what signals measure; none where no signal does.
+    /// Derivatives of each signal by a measured coordinate and its rate. Empty if no signal measures the motion.
     pub course_slopes: Vec<CourseSlope<T>>,
 }
 
 impl<T: Real> Terms<T> {
-    /// States of signals start from those of `state`, `dt` [s] before the instant that is evaluated.
+    /// Sets the start of the step: the states of signals begin as in `state`, `dt` [s] before the instant to be evaluated.
     #[inline(always)]
     pub fn begin_signals(&mut self, dt: T, state: &State<T>) {
         self.signal_dt = dt;
@@ -64,9 +65,9 @@ pub struct Tangent<'a, T> {
     pub stiffness: T,
     /// Weight of C = -dQ/dq'.
     pub damping: T,
-    /// Weight of each row in mass units, m; empty: no constraint term.
+    /// Weight of each constraint row in mass units, a vector of length m. Empty: the tangent has no constraint term.
     pub penalty: &'a [T],
-    /// Multipliers (already times the weight of K) of the geometric stiffness; `None`: left out.
+    /// Multipliers of the geometric stiffness, already times the weight of K. `None`: the tangent leaves the geometric stiffness out.
     pub geometric: Option<&'a [T]>,
 }
 
@@ -77,7 +78,7 @@ impl<T: Real> Tangent<'_, T> {
         self.stiffness * (law.stiffness - law.transverse) + self.damping * law.damping
     }
 
-    /// Has a scalar law a part in it?
+    /// Does a scalar law contribute to the tangent?
     #[inline(always)]
     pub(crate) fn has(&self, law: &ScalarForce<T>) -> bool {
         self.weight(law) != T::ZERO || self.stiffness * law.transverse != T::ZERO
@@ -87,9 +88,9 @@ impl<T: Real> Tangent<'_, T> {
 /// A residual f = M x + J^T mu - force Q.
 #[derive(Debug, Clone, Copy)]
 pub struct Load<'a, T> {
-    /// Vector x that the mass matrix multiplies, extended; `None`: no mass term.
+    /// Vector x that the mass matrix multiplies, over all coordinates. `None`: no mass term.
     pub mass: Option<&'a [T]>,
-    /// Multipliers mu of the constraints, m; `None`: no constraint term.
+    /// Multipliers mu of the constraints, a vector of length m. `None`: no constraint term.
     pub multipliers: Option<&'a [T]>,
     /// Factor of the applied forces.
     pub force: T,
@@ -97,21 +98,21 @@ pub struct Load<'a, T> {
 
 /// A mechanism in dependent coordinates with constant mass matrix.
 pub trait Model<T: Real>: Cliques + Sync {
-    /// Who shares the work of a step in this model: its evaluation does, and a formulation's vectors.
+    /// Thread team that shares the work of a step: the evaluation of the model and the vectors of a formulation.
     fn team(&self) -> &impl Team {
         &Alone
     }
-    /// Unknowns and constants together.
+    /// Number of coordinates: unknowns and constants together.
     fn n_extended(&self) -> usize;
     /// Number of constraint rows m.
     fn n_constraints(&self) -> usize;
-    /// Numbers a state must remember besides coordinates (turns of measured angles).
+    /// Number of values that a state remembers besides coordinates: measured angles, whole turns included.
     fn n_memory(&self) -> usize;
     /// Does any element apply forces that change with state or time?
     fn has_forces(&self) -> bool;
     /// Is any row driven by time?
     fn has_guides(&self) -> bool;
-    /// A store for the evaluated terms, with all constant parts filled in.
+    /// Allocates the evaluated terms and fills in all constant parts.
     fn terms(&self) -> Terms<T>;
     /// Writes the unknowns' reference values and all constants.
     fn write_reference(&self, q: &mut [T]);
@@ -119,57 +120,60 @@ pub trait Model<T: Real>: Cliques + Sync {
     fn n_signal_states(&self) -> usize {
         0
     }
-    /// Signals of a [state](State::signals) as they begin.
+    /// Signals of a [state](State::signals) at the start of the simulation.
     fn signal_states(&self) -> SignalValues<T> {
         Vec::new()
     }
-    /// Guides and courses, which say where the inputs of a state stand; `None`: it has none.
+    /// Guides and signals of the model. They give the place of each input in a state. `None`: the model has no inputs.
     fn inputs(&self) -> Option<&Prescribed<T>> {
         None
     }
-    /// Writes the size of each unknown in the scene: the scene's length for a point's [m], one for a direction's. Measured in these,
-    /// nothing depends on the unit of length.
+    /// Writes a typical size of each unknown: the scene's length [m] for a coordinate of a point, one for a component of a direction.
+    /// Unknowns over their sizes do not depend on the unit of length.
     fn write_sizes(&self, sizes: &mut [T]);
-    /// Gives the fractions of the straight path from `q` to `to` at which two points that a law may push apart come close, where they
-    /// pass each other. One is just before they are closest; the others are before that, where the force is not across the path.
+    /// Passes to `take` where two points that repel each other come close on the straight path from `q` to `to`. Each value is a fraction
+    /// of the path. One lies just before the smallest distance. The others lie earlier, where the force is not yet perpendicular to the
+    /// path.
     fn approaches(&self, q: &[T], to: &[T], take: impl FnMut(T));
-    /// Writes the scene's guides and courses at time `t`, and the inputs and remembered angles of `state`, into `terms`: once a step.
+    /// Writes guides and signals at time `t` into `terms`, with the inputs and remembered angles of `state`. A step calls this once.
     fn set_inputs(&self, t: T, state: &State<T>, terms: &mut Terms<T>);
-    /// phi and J at `q`.
+    /// Evaluates phi and its Jacobian J at `q`.
     fn evaluate(&self, q: &[T], terms: &mut Terms<T>);
-    /// phi and J at `q + dq`, from `phi_n` at `q`: free of the cancellation in phi.
+    /// Evaluates phi and its Jacobian J at `q + dq`, from `phi_n`, the value of phi at `q`. The increment of phi is evaluated directly, so
+    /// no digits cancel.
     fn advance(&self, q: &[T], dq: &[T], phi_n: &[T], terms: &mut Terms<T>);
-    /// Applied forces and their tangents at (`q`, `v`).
+    /// Evaluates applied forces and their tangents at positions `q` and velocities `v`.
     fn evaluate_forces(&self, q: &[T], v: &[T], terms: &mut Terms<T>);
-    /// Writes the measured angles of `terms`, and those of couplings at `q`, into `memory`, at the end of a step.
+    /// Writes measured angles into `memory` at the end of a step: the angles of `terms`, and the angles of couplings at `q`.
     fn remember(&self, q: &[T], terms: &Terms<T>, memory: &mut [T]);
     /// Evaluates phi_t at `q`. Does nothing without guides.
     fn evaluate_phi_t(&self, q: &[T], terms: &mut Terms<T>);
-    /// Are there rows of velocities, as of bodies that roll? They restrict J v, and no position: their phi is zero.
+    /// Does the model have velocity rows, as for rolling bodies? They restrict velocities, J v, but no position: their phi is zero.
     fn has_velocity_rows(&self) -> bool {
         false
     }
-    /// Is `row` one of them?
+    /// Is `row` a velocity row?
     fn is_velocity_row(&self, _row: usize) -> bool {
         false
     }
-    /// phi = `unit` J v of the rows of velocities, with J as last evaluated: what a step of `unit` = dq/dv leaves of them.
+    /// Sets phi = `unit` J v in the velocity rows, with J as last evaluated. This is the residual of these rows in a step with `unit` =
+    /// dq/dv.
     fn evaluate_rates(&self, _v: &[T], _unit: T, _terms: &mut Terms<T>) {}
-    /// Bias of phi'' at (`q`, `v`).
+    /// Evaluates the bias of phi'' at positions `q` and velocities `v`.
     fn evaluate_bias(&self, q: &[T], v: &[T], terms: &mut Terms<T>);
-    /// rates = J x, over the constraints.
+    /// Multiplies the Jacobian by `x`: rates = J x, one value for each constraint.
     fn multiply_jacobian(&self, terms: &Terms<T>, x: &[T], rates: &mut [T]);
-    /// The effective mass of each row, 1 / (J_k M^-1 J_k^T) with the diagonal of M [kg]: the scale of its penalty.
+    /// Writes the effective mass [kg] of each row, 1 / (J_k M^-1 J_k^T), with the diagonal of M. It scales the penalty of the row.
     fn effective_masses(&self, terms: &Terms<T>, masses: &mut [T]);
-    /// The constraint rows of one element; every row belongs to exactly one.
+    /// Constraint rows of one element. Every row belongs to exactly one element.
     fn rows(&self, element: usize) -> Range<usize>;
-    /// The Jacobian rows of one element, one after the other, each as long as the element's clique and in its order.
+    /// Writes the Jacobian rows of one element, one after the other. Each row has the length and the order of the element's clique.
     fn write_jacobian(&self, terms: &Terms<T>, element: usize, rows: &mut [T]);
-    /// Can a row lose entries over whole ranges of motions, as where the curve of a coupling is level?
+    /// Can entries of a row vanish over whole ranges of a motion? Example: the curve of a coupling is level there.
     fn may_be_level(&self, _row: usize) -> bool {
         false
     }
-    /// The block of one element in the tangent, packed lower triangle.
+    /// Writes the block of one element in the tangent, as a packed lower triangle.
     fn write_block(
         &self,
         terms: &Terms<T>,
@@ -177,8 +181,9 @@ pub trait Model<T: Real>: Cliques + Sync {
         element: usize,
         block: &mut [T],
     );
-    /// The second derivatives of one element that [`write_block`](Self::write_block) leaves out, and a search needs: those of couplings at
-    /// `q` with multipliers `lambda`, and of sums under tension times `stiffness`, packed as a block; empty: none.
+    /// Second derivatives of one element that [`write_block`](Self::write_block) leaves out, for a search for equilibrium. They are those
+    /// of couplings at `q` with multipliers `lambda`, and those of sums under tension times `stiffness`. The result is packed as a block;
+    /// empty: the element has none.
     fn row_curvature(
         &self,
         _q: &[T],
@@ -188,12 +193,12 @@ pub trait Model<T: Real>: Cliques + Sync {
     ) -> RowCurvature<T> {
         Vec::new()
     }
-    /// Whether an element has a block: see [`BlockSource::has_block`].
+    /// Does an element have a block? See [`BlockSource::has_block`].
     #[inline]
     fn has_block(&self, _terms: &Terms<T>, _tangent: &Tangent<'_, T>, _element: usize) -> bool {
         true
     }
-    /// The residual of one element.
+    /// Writes the residual of one element.
     fn write_residual(
         &self,
         terms: &Terms<T>,
@@ -201,24 +206,24 @@ pub trait Model<T: Real>: Cliques + Sync {
         element: usize,
         residual: &mut [T],
     );
-    /// The residual of all elements: see [`BlockSource::sum_residuals`].
+    /// Sums the residuals of all elements: see [`BlockSource::sum_residuals`].
     #[inline]
     fn sum_residuals(&self, _terms: &Terms<T>, _load: &Load<'_, T>, _f: &mut [T]) -> bool {
         false
     }
     /// Kinetic energy at the velocities `v` [J].
     fn kinetic_energy(&self, v: &[T]) -> T;
-    /// Potential energy of gravity, constant forces and springs [J]; springs as last evaluated in `terms`.
+    /// Potential energy of gravity, constant forces and springs [J]. Springs count as last evaluated in `terms`.
     fn potential_energy(&self, q: &[T], terms: &Terms<T>) -> T;
-    /// Power that enters through dampers, courses and guides (multipliers `lambda`) [W], terms as last evaluated.
+    /// Power that dampers, signals and guides supply [W]: guides through the multipliers `lambda`, laws as last evaluated in `terms`.
     fn power(&self, q: &[T], v: &[T], lambda: &[T], terms: &Terms<T>) -> T;
-    /// The row of a guided angle that sits at the false root, half a turn from its guide, if there is one.
+    /// Row of a guided angle that is half a turn from its guide, at the false root of the constraint. `None`: there is no such row.
     fn opposite_guide(&self, q: &[T], terms: &Terms<T>) -> Option<usize>;
-    /// An effect that has turned by a whole turn or more in space, where its law ends; terms as last evaluated.
+    /// Effect that has turned by a whole turn or more in space, where its law is not defined; terms as last evaluated.
     fn overturned(&self, _terms: &Terms<T>) -> Option<Owner> {
         None
     }
-    /// Error for what has no direction after a step `dq`: a part of a line without length, a twist, a disc that lies flat.
+    /// Error for a direction that a step `dq` makes undefined: a line's part of zero length, a twist, a disc that lies flat.
     fn without_direction(&self, _state: &State<T>, _dq: &[T]) -> Option<StepError> {
         None
     }
@@ -228,22 +233,22 @@ pub trait Model<T: Real>: Cliques + Sync {
     fn owner_of_row(&self, row: usize) -> Owner;
 }
 
-/// A body or joint of the scene, for messages.
+/// An entry of the scene, for messages.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Owner {
-    /// `scene.bodies[i]`.
+    /// Body of the scene: `scene.bodies[i]`.
     Body(usize),
-    /// `scene.joints[i]`.
+    /// Joint of the scene: `scene.joints[i]`.
     Joint(usize),
-    /// `scene.effects[i]`.
+    /// Effect of the scene: `scene.effects[i]`.
     Effect(usize),
-    /// `scene.couplings[i]`.
+    /// Coupling of the scene: `scene.couplings[i]`.
     Coupling(usize),
-    /// `scene.rollings[i]`.
+    /// Rolling contact of the scene: `scene.rollings[i]`.
     Rolling(usize),
 }
 
-/// A model at one instant with the weights of a linear system: what a solver takes.
+/// A model at one instant with the weights of a linear system: the input of a solver.
 #[derive(Debug, Clone, Copy)]
 pub struct System<'a, T, M> {
     /// Model of the mechanism.
@@ -275,55 +280,55 @@ impl<T: Real, M: Model<T>> BlockSource<T> for System<'_, T, M> {
     }
 }
 
-/// A block of second derivatives, packed; empty where there are none.
+/// A block of second derivatives, as a packed lower triangle. Empty: there are none.
 pub type RowCurvature<T> = Vec<T>;
 
-/// Signals of a state: states of those that have one, then the signals that follow the motion, each with its rate.
+/// Signals of a state, each with its rate. First the states of lags, integrals and controllers, then the signals that depend on the motion.
 pub type SignalValues<T> = Vec<[T; 2]>;
 
-/// Position, velocity and acceleration of a mechanism at a time, with what a step must remember.
+/// Position, velocity and acceleration of a mechanism at one time, and all else that a step must remember.
 #[derive(Debug, Clone, PartialEq)]
 pub struct State<T> {
     /// Time of the state [s].
     pub t: T,
-    /// Length of the last step [s]; zero where there was none that multipliers may be extrapolated from.
+    /// Length of the last step [s]. Zero if there is no last step from which multipliers can be extrapolated.
     pub dt: T,
-    /// Coordinates, extended [m or -].
+    /// Coordinates [m or -], unknowns and constants.
     pub q: Vec<T>,
-    /// Part of `q` that was lost to rounding, extended: the position is q + q_low.
+    /// Compensation of the rounding error of `q`, for all coordinates: the position is q + q_low.
     pub q_low: Vec<T>,
-    /// Velocities of the coordinates, extended; zero in the constants.
+    /// Velocities of all coordinates; zero in the constants.
     pub v: Vec<T>,
-    /// Accelerations of the coordinates, extended; zero in the constants.
+    /// Accelerations of all coordinates; zero in the constants.
     pub a: Vec<T>,
-    /// Auxiliary accelerations of the generalised-alpha family, extended; equal to `a` in the Newmark family.
+    /// Auxiliary accelerations of the generalised-alpha family, for all coordinates. They equal `a` in the Newmark family.
     pub a_aux: Vec<T>,
-    /// Multipliers of the last step [N or N m], m.
+    /// Multipliers of the last step [N or N m], a vector of length m.
     pub lambda: Vec<T>,
-    /// Multipliers of the step before, m.
+    /// Multipliers of the step before the last one, a vector of length m.
     pub lambda_previous: Vec<T>,
-    /// Multipliers of dynamic equilibrium with the projected accelerations, m. Power and the most loaded row follow from them; measured
-    /// reactions come from the balance of bodies.
+    /// Multipliers of dynamic equilibrium with the projected accelerations, a vector of length m. Power and the most loaded row follow from
+    /// them. Measured reactions do not: they follow from the equilibrium of bodies.
     pub reaction: Vec<T>,
-    /// phi carried along without rounding, m.
+    /// Constraint values phi, a vector of length m. Each step adds their increment, so that no digits cancel.
     pub phi: Vec<T>,
-    /// Measured angles with their turns.
+    /// Measured angles [rad], whole turns included.
     pub memory: Vec<T>,
-    /// Inputs set from outside for the next step, three numbers each: guides, then effects, in the places that
-    /// [`Prescribed::input`] and [`Prescribed::guide_input`] name.
+    /// Inputs that the program sets for the next step, three numbers each: guides, then effects. Then signals follow, one number each.
+    /// [`Prescribed::input`] and [`Prescribed::guide_input`] give the places.
     pub inputs: Vec<T>,
-    /// The inputs that accelerations, multipliers and power were made with.
+    /// Inputs with which the present accelerations, multipliers and power were computed.
     pub applied: Vec<T>,
-    /// States of signals that have one, then the signals that follow the motion, each with its rate.
+    /// Signals, each with its rate. First the states of lags, integrals and controllers, then the signals that depend on the motion.
     pub signals: SignalValues<T>,
-    /// Work done on the mechanism by dampers, courses and guides since the start [J].
+    /// Work that dampers, signals and guides have done on the mechanism since the start [J].
     pub work: T,
-    /// Their power at this instant [W].
+    /// Power of dampers, signals and guides at this instant [W].
     pub power: T,
 }
 
 impl<T: Real> State<T> {
-    /// A state at rest in the reference configuration at time zero. Not yet consistent: assemble it.
+    /// State without velocity in the reference configuration at time zero. It is not yet consistent: assemble it.
     pub fn at_rest(model: &impl Model<T>) -> Self {
         let (n, m) = (model.n_extended(), model.n_constraints());
         let zeros = |k| alloc::vec![T::ZERO; k];
@@ -351,7 +356,8 @@ impl<T: Real> State<T> {
         }
     }
 
-    /// Multipliers at the end of the next step of `dt` [s], extrapolated by their last change, at most by twice of it.
+    /// Multipliers at the end of the next step of `dt` [s], extrapolated linearly from the last two. The factor dt / dt_n below is limited
+    /// to 2.
     ///
     /// ```text
     /// lambda_k = lambda_n + (dt / dt_n) (lambda_n - lambda_(n-1))
@@ -360,16 +366,16 @@ impl<T: Real> State<T> {
         let share = if self.dt > T::ZERO { (dt / self.dt).min(T::TWO) } else { T::ZERO };
         move |k| {
             let (last, previous) = (self.lambda[k], self.lambda_previous[k]);
-            // Equal steps: as printed, to the last digit.
+            // Steps of equal length use the published form, so that the last digit agrees with it.
             if share == T::ONE { last + last - previous } else { last + (last - previous) * share }
         }
     }
 
-    /// Overwrites the `n` unknowns, the multipliers and everything else but constants and inputs with another state, of a
-    /// model with the same unknowns and rows, without allocating.
+    /// Overwrites this state with another one, except constants and inputs, without allocating. `n` is the number of unknowns. Both states
+    /// must be of models with the same unknowns and rows.
     ///
     /// # Panics
-    /// If the models have other numbers of them.
+    /// If the models differ in the number of unknowns, rows or remembered angles.
     pub fn copy_unknowns(&mut self, other: &Self, n: usize) {
         (self.t, self.dt) = (other.t, other.dt);
         self.q[..n].copy_from_slice(&other.q[..n]);
@@ -388,7 +394,7 @@ impl<T: Real> State<T> {
         (self.work, self.power) = (other.work, other.power);
     }
 
-    /// Overwrites this state with another of the same model, without allocating.
+    /// Overwrites this state with another state of the same model, without allocating.
     pub fn copy_from(&mut self, other: &Self) {
         self.copy_unknowns(other, other.q.len());
         self.inputs.copy_from_slice(&other.inputs);

@@ -1,6 +1,6 @@
 //! Enums whose values have names.
 
-/// An enum with `ALL` of its values, their `NAMES` in the same order, and `name`.
+/// Defines an enum with `ALL` of its values, their `NAMES` in the same order, and the method `name`.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! named {
@@ -12,7 +12,7 @@ macro_rules! named {
         impl $kind {
             /// All values, in the order of the enum.
             pub const ALL: [Self; [$($name),*].len()] = [$(Self::$value),*];
-            /// Their names, in the same order.
+            /// Names of all values, in the same order.
             pub const NAMES: [&str; Self::ALL.len()] = [$($name),*];
 
             /// Name of the value.

@@ -5,8 +5,8 @@
 //! [ J  -delta  ]     unknowns 0..n are coordinates, n..n + m are the rows' multipliers
 //! ```
 //!
-//! Every row belongs to one element, so the system is a sum over the same elements: the clique of an element is its
-//! coordinates and then its rows.
+//! Every constraint row belongs to one element. The system is therefore a sum over the same elements. The clique of an element lists its
+//! coordinates, then its rows.
 
 use crate::model::{Load, Model, Tangent, Terms};
 use crate::{BlockSource, Cliques, Real};
@@ -14,23 +14,23 @@ use alloc::vec;
 use alloc::vec::Vec;
 use core::ops::Range;
 
-/// Which unknowns each element couples in the saddle system of a model: what its solver is analysed for.
+/// Sparsity of a model's saddle system: the unknowns that each element couples. Its solver is analysed for this structure.
 #[derive(Debug, Clone)]
 pub struct Saddle {
     n: usize,
     m: usize,
     cliques: Vec<u32>,
-    /// Start of each clique, and their end.
+    /// Start of each clique in `cliques`, and the end of the last one.
     starts: Vec<usize>,
-    /// Start of the Jacobian rows of each element, and their end.
+    /// Start of the Jacobian entries of each element, and the end of the last ones.
     jacobian: Vec<usize>,
 }
 
 impl Saddle {
-    /// The saddle system of `model`.
+    /// Structure of the saddle system of `model`.
     ///
     /// # Panics
-    /// With more than 2^32 - 1 unknowns.
+    /// If there are more than 2^32 - 1 unknowns.
     pub fn new<T: Real>(model: &impl Model<T>) -> Self {
         let n = model.n_unknowns();
         let mut this = Self {
@@ -57,13 +57,13 @@ impl Saddle {
         self.jacobian[self.starts.len() - 1]
     }
 
-    /// Starts of the Jacobian rows of each element, and the end of all.
+    /// Start of the Jacobian entries of each element, and the end of the last ones.
     #[must_use]
     pub fn jacobian_starts(&self) -> &[usize] {
         &self.jacobian
     }
 
-    /// Range of the Jacobian rows of `element` among those of all elements.
+    /// Range of the Jacobian entries of `element` among those of all elements.
     #[must_use]
     pub fn jacobian(&self, element: usize) -> Range<usize> {
         self.jacobian[element]..self.jacobian[element + 1]
@@ -94,15 +94,15 @@ pub struct SaddleSystem<'a, T, M> {
     pub saddle: &'a Saddle,
     /// Evaluated terms of the model.
     pub terms: &'a Terms<T>,
-    /// Weights of W, without penalty.
+    /// Weights of W, without the penalty term.
     pub tangent: Tangent<'a, T>,
-    /// Jacobian rows of all elements.
+    /// Jacobian entries of all elements, element by element.
     pub jacobian: &'a [T],
-    /// delta of each row; empty: zero.
+    /// Regularisation delta of each row. Empty: zero.
     pub delta: &'a [T],
-    /// Upper part of the right-hand side.
+    /// Upper part of the right-hand side, over the coordinates.
     pub load: Load<'a, T>,
-    /// Lower part of the right-hand side, m; empty: zero.
+    /// Lower part of the right-hand side, of length m. Empty: zero.
     pub rates: &'a [T],
 }
 
@@ -111,7 +111,7 @@ impl<T: Real, M: Model<T>> BlockSource<T> for SaddleSystem<'_, T, M> {
         let (k, rows) = (self.model.clique(element).len(), self.model.rows(element));
         let (m, first) = (rows.len(), k * (k + 1) / 2);
         self.model.write_block(self.terms, &self.tangent, element, &mut block[..first]);
-        // Columns of W move apart, the last one first; those of J come below them.
+        // Spread the columns of W, the last one first, and write the columns of J below them.
         let jacobian = &self.jacobian[self.saddle.jacobian(element)];
         let (mut from, mut to) = (first, first + k * m);
         for j in (0..k).rev() {

@@ -1,14 +1,14 @@
-//! Errors that keep an effect from being acted out.
+//! Errors that prevent the conversion of effects to actions.
 
-/// A scene whose effects give no actions.
+/// Reason why the effects of a scene give no actions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ActionError {
-    /// The law of an enabled effect is not compiled.
+    /// The law of an enabled effect is not part of the build.
     LeftOut {
-        /// Index of the effect whose law is not compiled.
+        /// Index of the effect whose law is missing.
         effect: usize,
-        /// The Cargo feature of mbs-core that brings it.
+        /// Cargo feature of mbs-core that adds the law.
         feature: &'static str,
     },
 }

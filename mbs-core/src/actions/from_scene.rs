@@ -1,4 +1,4 @@
-//! The actions of a scene: each of its effects adds its own.
+//! Actions of a scene, collected from its effects.
 
 use super::ActionError;
 use crate::Real;
@@ -8,7 +8,7 @@ use crate::mechanism::Scene;
 use alloc::vec::Vec;
 
 impl<T: Real> Actions<T> {
-    /// The actions of the enabled effects of a checked scene.
+    /// Collects the actions of the enabled effects of a checked scene.
     ///
     /// # Errors
     /// [`ActionError::LeftOut`] for an enabled effect whose Cargo feature is off.

@@ -1,4 +1,4 @@
-//! The actions of a scene: what all its effects do, and what its entries need of its bodies.
+//! Actions of a scene: the forces of all its effects, and the points, directions and rotations that its entries need.
 
 mod error;
 mod from_scene;

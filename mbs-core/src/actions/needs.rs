@@ -1,4 +1,4 @@
-//! Material points, directions and rotations that the entries of a scene ask of its bodies. Joints are looked at by themselves.
+//! Material points, directions and rotations that the entries of a scene need. The needs of joints are found elsewhere.
 
 use crate::Real;
 use crate::effects::action::{Action, Actions};
@@ -11,21 +11,21 @@ use crate::scene::{
 /// Need of an entry of the scene: a point, a direction, a rotation, or coordinates of a joint.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Need<T> {
-    /// The material point that is at this place in the reference configuration [m].
+    /// The material point at this place in the reference configuration [m].
     Point(BodyId, [T; 3]),
     /// A direction that is fixed in both bodies of a joint, reference configuration.
     Direction(usize, [T; 3]),
-    /// All of its rotation.
+    /// Full rotation of a body.
     Rotation(BodyId),
-    /// Rotation of a body that is only read, full or not: nothing acts on it.
+    /// Rotation of a body that is only measured, so that it need not be full.
     Orientation(BodyId),
-    /// Coordinates of a joint: the one of this number, else all.
+    /// Coordinates of a joint: the one with this number, or all.
     Coordinates(usize, Option<usize>),
 }
 
-/// Hands out what initial values, guides, effects, couplings, signals, what rolls, and outputs ask for.
+/// Passes the needs of a scene to `take`: those of initial conditions, guides, effects, couplings, signals, rollings and outputs.
 ///
-/// Cost: one pass over them.
+/// Cost: one pass over these entries.
 pub(crate) fn needs<T: Real>(
     scene: &Scene<T>,
     actions: &Actions<T>,

@@ -1,4 +1,4 @@
-//! Mass properties: what a rigid body can have. What is welded together is one body.
+//! Checks of mass properties. Bodies that are welded together count as one body.
 
 use crate::Real;
 use crate::algebra::Matrix;
@@ -9,7 +9,7 @@ use crate::scene::{Body, Entry, Inertia, SceneError, SceneFault};
 use alloc::vec::Vec;
 use core::mem::discriminant;
 
-/// Numbers of one body, whatever is welded to it.
+/// Checks the numbers of one body by itself, without the bodies welded to it.
 pub(super) fn check<T: Real>(body: &Body<T>, place: Place) -> Result<(), SceneError> {
     place.not_negative("mass", body.mass)?;
     if let Some(scale) = body.gravity_scale {
@@ -28,8 +28,8 @@ pub(super) fn check<T: Real>(body: &Body<T>, place: Place) -> Result<(), SceneEr
     numbers.iter().try_for_each(|x| place.finite("inertia", *x))
 }
 
-/// Inertias of what is welded together, summed: a part that no body can have is refused where the sum is one that no body can have.
-/// What is welded to the ground does not move.
+/// Checks the summed inertias of bodies that are welded together. A single body may have an impossible inertia if the sum is possible.
+/// Bodies welded to the ground do not move and are not checked.
 pub(super) fn check_lumps<T: Real>(scene: &Scene<T>) -> Result<(), SceneError> {
     for cluster in Clusters::new(scene).clusters {
         let Err(fault) = properties(scene, cluster.mass, &cluster.inertia) else { continue };
@@ -41,12 +41,12 @@ pub(super) fn check_lumps<T: Real>(scene: &Scene<T>) -> Result<(), SceneError> {
     Ok(())
 }
 
-/// Bodies with an inertia that none can have, or with inertia and no mass.
+/// Bodies with an impossible inertia, or with an inertia but no mass.
 pub(super) fn odd_parts<T: Real>(scene: &Scene<T>) -> Vec<(usize, SceneFault)> {
     (0..scene.bodies.len()).filter_map(|b| part(scene, b).err().map(|fault| (b, fault))).collect()
 }
 
-/// The inertia of one body alone.
+/// Checks the inertia of one body by itself.
 fn part<T: Real>(scene: &Scene<T>, body: usize) -> Result<(), SceneFault> {
     let (mass, _, inertia) = mass_properties(scene, body);
     properties(scene, mass, &inertia)
@@ -71,10 +71,10 @@ fn properties<T: Real>(
     if mass.is_zero() && !is_zero { Err(SceneFault::InertiaWithoutMass) } else { Ok(()) }
 }
 
-/// Checks the principal moments: none negative, the largest at most the sum of the others.
+/// Checks the principal moments: none is negative, and the largest is at most the sum of the others.
 ///
-/// Both to half the digits of `T`, relative to the largest entry: files carry tensors of turned rods and
-/// plates rounded to eight or ten digits, and those are meant.
+/// The tolerance is half the digits of `T`, relative to the largest entry. Files contain tensors of rods and plates that were rounded to
+/// eight or ten digits, and these must pass.
 fn check_tensor<T: Real>(six: [T; 6]) -> Result<(), SceneFault> {
     let size = six.into_iter().fold(T::ZERO, |size, x| size.max(x.abs()));
     if size.is_zero() {
@@ -93,10 +93,11 @@ fn check_tensor<T: Real>(six: [T; 6]) -> Result<(), SceneFault> {
     Ok(())
 }
 
-/// Eigenvalues of [xx, yy, zz, xy, yz, zx], ascending, by Jacobi rotations; diagonal input stays exact.
+/// Eigenvalues of a symmetric matrix in ascending order, by Jacobi rotations. The matrix is given by [xx, yy, zz, xy, yz, zx]. Diagonal
+/// matrices stay exact.
 pub fn principal_moments<T: Real>([xx, yy, zz, xy, yz, zx]: [T; 6]) -> [T; 3] {
     let mut a = [[xx, xy, zx], [xy, yy, yz], [zx, yz, zz]];
-    // cyclic Jacobi converges quadratically: six sweeps are more than 3x3 needs in any precision
+    // cyclic Jacobi rotations converge quadratically: six sweeps are enough for 3 x 3 matrices in any precision
     for _ in 0..6 {
         for (p, q) in [(0, 1), (1, 2), (0, 2)] {
             rotate(&mut a, p, q);
@@ -111,7 +112,9 @@ pub fn principal_moments<T: Real>([xx, yy, zz, xy, yz, zx]: [T; 6]) -> [T; 3] {
     moments
 }
 
-/// Annihilates a[p][q]: A ← Jᵀ A J with tan θ the smaller root of t² + 2 τ t = 1, τ = (a_qq − a_pp)/(2 a_pq).
+/// Annihilates a[p][q] by A ← Jᵀ A J, with J the rotation by θ in the plane of p and q.
+///
+/// tan θ is the smaller root of t² + 2 τ t = 1, where τ = (a_qq − a_pp)/(2 a_pq).
 fn rotate<T: Real>(a: &mut [[T; 3]; 3], p: usize, q: usize) {
     if a[p][q].is_zero() {
         return;

@@ -1,4 +1,4 @@
-//! Couplings: their terms, and whether start values contradict them.
+//! Checks of couplings: their terms, and whether start values contradict them.
 
 use super::motion::{agreement, check_law};
 use crate::Real;
@@ -21,7 +21,7 @@ pub(super) fn check<T: Real>(scene: &Scene<T>) -> Result<(), SceneError> {
         check_terms(scene, &coupling.terms, place)?;
         let curves = || coupling.terms.iter().filter_map(|term| term.curve.as_ref());
         if curves().any(Curve::has_corners) {
-            // the keys of a cam's curve are its own, those of others stand in a term
+            // a cam has the keys of its curve in its table; other couplings have them in a term
             let is_cam = coupling.kind == CouplingKind::Cam;
             let field = if is_cam { "interpolation" } else { "terms" };
             return place.fault(field, SceneFault::LinearTable);
@@ -53,7 +53,7 @@ pub(super) fn check<T: Real>(scene: &Scene<T>) -> Result<(), SceneError> {
     Ok(())
 }
 
-/// A relation has no more terms than it may, without curves, and its derivatives are right in the reference configuration.
+/// Checks a relation: it has at most `MAX_ARGUMENTS` terms, no curves, and correct derivatives in the reference configuration.
 fn check_relation<T: Real>(
     relation: &dyn Relation,
     terms: &[CouplingTerm<T>],
@@ -83,7 +83,7 @@ fn check_derivatives(relation: &dyn Relation, at: &[f64], place: Place) -> Resul
     }
 }
 
-/// Each term has a measure, and one a factor.
+/// Checks that each term measures something that exists, and that at least one factor is not zero.
 pub(super) fn check_terms<T: Real>(
     scene: &Scene<T>,
     terms: &[CouplingTerm<T>],
@@ -102,7 +102,7 @@ pub(super) fn check_terms<T: Real>(
     Ok(())
 }
 
-/// A number that the scene has.
+/// Checks that the scene has the measured coordinate, length or angle.
 pub(super) fn check_measure<T: Real>(
     scene: &Scene<T>,
     of: &CouplingMeasure<T>,
@@ -125,14 +125,14 @@ pub(super) fn check_measure<T: Real>(
     }
 }
 
-/// The pitch point lies where the teeth of both wheels give the torques that the factors say.
+/// Checks that the pitch point lies where the teeth of both wheels give the torques of the factors.
 fn check_mesh<T: Real>(
     scene: &Scene<T>,
     terms: &[CouplingTerm<T>],
     mesh: &Mesh<T>,
     place: Place,
 ) -> Result<(), SceneError> {
-    /// Distance of a pitch point from where it belongs, over that of the axes [-]. Chosen, not tuned: digits of a file.
+    /// Distance of a pitch point from its correct place, relative to the distance of the axes [-]. Chosen, not tuned: numbers in files are rounded.
     const OFF: f64 = 1e-6;
     place.vector("at", mesh.at)?;
     let angle = mesh.pressure_angle.to_f64();
@@ -174,7 +174,7 @@ fn check_points<T: Real>(
     Ok(())
 }
 
-/// A line over points of two bodies or more.
+/// Checks a line over points of at least two bodies.
 pub(super) fn check_line<T: Real>(
     scene: &Scene<T>,
     points: &[(BodyId, [T; 3])],
@@ -215,7 +215,7 @@ pub(super) fn check_curve<T: Real>(curve: &Curve<T>, place: Place) -> Result<(),
     Ok(())
 }
 
-/// A coordinate that is measured as one number: its joint, and its number there.
+/// Checks a measured coordinate, which must be a single number, by its joint and its number.
 pub(super) fn check_measured<T>(
     scene: &Scene<T>,
     (joint, number): (JointId, usize),
@@ -237,7 +237,7 @@ pub(super) fn check_measured<T>(
     Ok(())
 }
 
-/// Checks that start values give the sum of each coupling whose coordinates all have one.
+/// Checks the sum at the start of each coupling whose coordinates all have start values.
 pub(super) fn check_starts<T: Real>(scene: &Scene<T>) -> Result<(), SceneError> {
     if scene.couplings.is_empty() {
         return Ok(());

@@ -1,11 +1,12 @@
-//! Courses over time: constants, tables, inputs and signals by name.
+//! Checks of signals of effects: constants, tables, inputs and names of signals.
 
 use crate::Real;
 use crate::effects::SignalForm;
 use crate::scene::place::{Place, check_times, is_planar};
 use crate::scene::{SceneError, SceneFault, Signal};
 
-/// Finite numbers, in the plane where a vector is meant, zero where one number is; and increasing times. Without a form all are free.
+/// Checks that numbers are finite, times increase, and the number of components fits the form. Without a form, all three components may
+/// have any value.
 pub(super) fn check<T: Real>(
     course: &Signal<T>,
     (form, n_signals): (Option<SignalForm>, usize),
@@ -46,7 +47,7 @@ pub(super) fn check<T: Real>(
 }
 
 impl Place {
-    /// A signal of three free numbers, in a scene with a number of signals by name.
+    /// Checks a signal with three arbitrary numbers, in a scene with `n_signals` named signals.
     pub(crate) fn signal<T: Real>(
         self,
         signal: &Signal<T>,

@@ -1,4 +1,4 @@
-//! Effects: references and numbers, field by field, then what the kind itself refuses.
+//! Checks of effects: references and numbers field by field, then the check of the kind.
 
 use super::{coupling, course};
 use crate::Real;
@@ -46,9 +46,9 @@ pub(super) fn check<T: Real>(
                 course::check(&signal, (Some(form), scene.signals.len()), place)?;
             }
             Value::Terms(terms) => coupling::check_terms(scene, &terms, place)?,
-            // checked with the joint
+            // checked together with the joint
             Value::Coordinate(_) => {}
-            // left to the kind
+            // the check of the kind covers these
             Value::MaybeAxis(_) | Value::Pieces(_) | Value::Side(_) | Value::Slip(_) => {}
             Value::Spin(joint) => {
                 let Some(joint) = joint else { continue };
@@ -66,7 +66,7 @@ pub(super) fn check<T: Real>(
     effect.check(among, place)
 }
 
-/// Six numbers that are not negative; in the plane only along x, y and about z.
+/// Checks six numbers that are not negative. In a planar scene only those along x, along y and about z may be nonzero.
 fn check_six<T: Real>(field: &'static str, six: &[T; 6], place: Place) -> Result<(), SceneError> {
     six.iter().try_for_each(|x| place.not_negative(field, *x))?;
     match six[2..5].iter().find(|x| is_planar(place.dimension) && !x.is_zero()) {

@@ -1,4 +1,4 @@
-//! Frames: names apart from those of other bodies, and axes.
+//! Checks of frames: their axes, and names that differ from those of other bodies.
 
 use crate::Real;
 use crate::mechanism::Scene;

@@ -1,4 +1,4 @@
-//! Joints: bodies, place and axes that fit the kind.
+//! Checks of joints: bodies, position, and the axes that the kind needs.
 
 use crate::Real;
 use crate::effects::reference::check_pair;
@@ -27,7 +27,8 @@ pub(super) fn check<T: Real>(
     check_limits(joint, place)
 }
 
-/// Limits are of a joint with one coordinate; both ends of a range are in order, the others above zero.
+/// Checks the limits of a joint. They need a joint with one coordinate. The lower end of a range is below the upper one; the other limits
+/// are above zero.
 fn check_limits<T: Real>(joint: &Joint<T>, place: Place) -> Result<(), SceneError> {
     let JointLimits { range, effort, velocity } = &joint.limits;
     let Some(first) = joint.limits.first_key() else { return Ok(()) };

@@ -1,9 +1,9 @@
-//! Checks of a scene as a whole: what cannot be meant is refused, what is merely unusual passes.
+//! Checks of a whole scene. Contradictions and impossible values are refused; unusual values pass.
 //!
-//! A scene is resolved to the scalar of a run here, and what passes may be noted.
+//! This module also resolves a scene to the scalar of a run, and gives notes on unusual values.
 //!
-//! Order: names, numbers and references of each entry, then what entries say about one another. Comparisons
-//! are written so that a NaN fails them.
+//! The checks of each entry come first: names, numbers and references. Checks of several entries together follow. Comparisons are written
+//! so that a NaN fails them.
 
 pub(crate) mod body;
 mod coupling;
@@ -32,9 +32,9 @@ use crate::scene::{Entry, SceneError, SceneFault, Setting, SettingValue};
 use alloc::vec::Vec;
 
 impl<T: Real> Scene<T> {
-    /// Refuses a scene that cannot be meant: the first fault found, with its entry and key.
+    /// Refuses a scene with contradictions or impossible values. The error is the first fault, with its entry and key.
     ///
-    /// A body without joints and redundant constraints are unusual, not wrong: they pass.
+    /// A body without joints and redundant constraints are unusual, but valid: they pass.
     ///
     /// # Errors
     /// [`SceneError`] with the entry, the key as in scene files, and the fault with its numbers.
@@ -82,10 +82,10 @@ impl<T: Real> Scene<T> {
         point::check(self)
     }
 
-    /// Refuses what only the length of a run shows: the table of a guide, or of a signal that one follows, that begins or ends
-    /// within it on a slope.
+    /// Checks the tables of guides and of their signals against the length of a run. A table that begins or ends within the run must not
+    /// have a slope there, since the rate would jump.
     ///
-    /// A table that is in motion at t = 0, or when the run ends, has no such jump.
+    /// A table that covers the whole run has no such jump.
     ///
     /// # Errors
     /// [`SceneFault::TableSlope`] with the guide or signal and the row.
@@ -94,8 +94,8 @@ impl<T: Real> Scene<T> {
         signal::check_ends(self, duration)
     }
 
-    /// Bodies with an inertia that none can have, or with inertia and no mass. [`Self::check`] accepts them where the bodies welded
-    /// together have an inertia that a body can have, and where they are welded to the ground.
+    /// Bodies with an impossible inertia, or with an inertia but no mass. [`Self::check`] accepts them if they are welded to the ground, or
+    /// if the bodies welded together have a possible inertia.
     #[must_use]
     pub fn odd_parts(&self) -> Vec<(usize, SceneFault)> {
         body::odd_parts(self)
@@ -131,7 +131,7 @@ impl<T: Real> Scene<T> {
     }
 }
 
-/// Names are there, free and different. Cost: a sort, so that scenes of many bodies stay cheap.
+/// Checks that names exist, are not reserved, and differ. Cost: a sort, so that scenes of many bodies are fast to check.
 fn unique<'a>(
     names: impl Iterator<Item = &'a str>,
     reserved: Option<&str>,

@@ -1,4 +1,4 @@
-//! Guides and initial conditions, and whether they agree.
+//! Checks of guides and initial conditions, and of their agreement.
 
 use crate::Real;
 use crate::cluster::Clusters;
@@ -44,7 +44,7 @@ pub(super) fn check_guides<T: Real>(scene: &Scene<T>) -> Result<(), SceneError> 
     check_movable(scene)
 }
 
-/// Bodies that are welded together, also by the ground, do not follow a guide between them.
+/// Checks that no guide acts between bodies that are welded together, directly or through the ground.
 fn check_movable<T: Real>(scene: &Scene<T>) -> Result<(), SceneError> {
     if scene.guides.is_empty() {
         return Ok(());
@@ -53,7 +53,7 @@ fn check_movable<T: Real>(scene: &Scene<T>) -> Result<(), SceneError> {
     for (i, guide) in scene.guides.iter().enumerate() {
         let joint = &scene.joints[guide.joint];
         let [first, second] = joint.bodies.map(|body| clusters.of(body));
-        // that a point turns is refused by itself
+        // another check refuses guides that turn a point mass
         if first == second && !scene.turns_point(joint) {
             return scene.place(Entry::Guide(i)).fault("joint", SceneFault::GuideWelded);
         }
@@ -78,15 +78,15 @@ pub(super) fn check_law<T: Real>(law: &Motion<T>, place: Place) -> Result<(), Sc
         }
         Motion::Ramp { rate } => place.finite("ramp", *rate),
         Motion::Input(motion) => motion.iter().try_for_each(|x| place.finite("input", *x)),
-        // those of signals are looked at with the signals
+        // the check of signals covers these
         Motion::Signal(_) => Ok(()),
     }
 }
 
-/// Rate at the end of a table, beside its largest, that is a slope [-]: a rounded table has less.
+/// Rate at the end of a table, relative to its largest rate, above which the end has a slope [-]. Rounded tables have less.
 const SLOPE: f64 = 1e-6;
 
-/// Tables that begin or end on a slope within a run of a duration: the rate jumps there, which is an impact.
+/// Checks that no table begins or ends on a slope within the run. The rate would jump there, which is an impact.
 pub(super) fn check_ends<T: Real>(scene: &Scene<T>, duration: T) -> Result<(), SceneError> {
     for (i, guide) in scene.guides.iter().enumerate() {
         let (rows, way) = match &guide.law {
@@ -99,7 +99,7 @@ pub(super) fn check_ends<T: Real>(scene: &Scene<T>, duration: T) -> Result<(), S
     Ok(())
 }
 
-/// A table without level ends that begins or ends on a slope within a run of a duration.
+/// Checks that a table without level ends does not begin or end on a slope within the run.
 pub(super) fn check_slopes<T: Real>(
     (rows, way): (&[[T; 2]], Interpolation),
     duration: T,
@@ -112,7 +112,7 @@ pub(super) fn check_slopes<T: Real>(
     let (knots, curvature) = knots(rows, way, false);
     let rate = |t| spline(&knots, &curvature, t).rate;
     let least = T::from_f64(SLOPE) * largest_rate(&knots, &curvature);
-    // a run that ends with its table ends in motion, to the rounding of its own last time
+    // a table that ends together with the run may end in motion; the last time is compared with a tolerance
     let is_within = |t: T| t < duration * (T::ONE - T::EPSILON.sqrt());
     let is_begun = first[0] > T::ZERO && first[0] <= duration;
     let is_ended = last[0] >= T::ZERO && is_within(last[0]);
@@ -146,12 +146,12 @@ pub(super) fn check_initials<T: Real>(scene: &Scene<T>) -> Result<(), SceneError
     Ok(())
 }
 
-/// Initial entries that prescribed values, rates and spins, by joint or body.
+/// Numbers of the initial conditions that prescribe values, rates and angular velocities, by joint or body.
 struct Seen<T> {
     value: Vec<Option<usize>>,
     rate: Vec<Option<usize>>,
     spin: Vec<Option<usize>>,
-    /// Value, rate and acceleration at the start of the guides of each joint.
+    /// Value, rate and acceleration of each joint's guides at the start.
     guide: Vec<Vec<[T; 3]>>,
 }
 
@@ -179,7 +179,7 @@ fn check_initial<T: Real>(
             if let Some(numbers) = rate {
                 once(&mut seen.rate[joint.index()], i, "rate", place)?;
                 check_numbers(scene, *joint, ("rate", numbers), place)?;
-                // of a rotation vector they are the angular velocity, which the start compares
+                // rates of a rotation vector are the angular velocity here; the start of the simulation compares them
                 let kind = scene.joints[*joint].kind;
                 let rate =
                     |(i, g): (usize, &[T; 3])| kind.freedom(scene.dimension, i).map(|_| g[1]);
@@ -233,14 +233,15 @@ fn check_numbers<T: Real>(
     numbers.iter().try_for_each(|x| place.finite(field, *x))
 }
 
-/// Largest relative difference of start values from what guides and couplings say [-]; rounding, where that is coarser.
+/// Largest relative difference between start values and the values of guides and couplings [-]: 1e-9, or eight times machine precision if
+/// that is larger.
 pub(super) fn agreement<T: Real>() -> T {
-    /// Relative difference of numbers that a file gives with ten digits [-]. Chosen, not tuned.
+    /// Relative difference of numbers that a file gives to ten digits [-]. Chosen, not tuned.
     const AGREEMENT: f64 = 1e-9;
     T::from_f64(AGREEMENT).max(T::from_f64(8.0) * T::EPSILON)
 }
 
-/// A guided joint starts as its guides do, within 1e-9 (or rounding, where that is coarser).
+/// Checks that a guided joint starts with the values of its guides, within the relative difference `agreement`.
 fn agrees<T: Real>(
     guides: impl Iterator<Item = Option<T>>,
     (field, numbers): (&'static str, &[T]),
@@ -256,7 +257,7 @@ fn agrees<T: Real>(
     Ok(())
 }
 
-/// Planar bodies turn about z only.
+/// Checks an angular velocity: planar bodies turn about z only.
 fn check_spin<T: Real>(spin: [T; 3], place: Place) -> Result<(), SceneError> {
     for x in spin {
         place.finite("angular_velocity", x)?;

@@ -1,4 +1,5 @@
-//! Numbers of effects that are left out and follow from the scene: each kind says what it makes of the mass that its coordinate moves.
+//! Numbers of effects that a scene leaves out and that follow from it. Each kind of effect computes them from the mass that its coordinate
+//! moves.
 
 use crate::Real;
 use crate::effects::{Default, Value};
@@ -7,17 +8,17 @@ use crate::scene::{Entry, JointId, Number, SceneError, SceneFault};
 use crate::start::moved_mass;
 use alloc::vec::Vec;
 
-/// A number that an effect leaves open: the place of the effect, that of the number among its values, and what it is.
+/// Number that an effect leaves open: index of the effect, place among its values, and the computed number.
 struct OpenNumber {
     effect: usize,
     place: usize,
     number: f64,
 }
 
-/// Computes what `source` leaves open in its enabled effects; in `f64`, and so the same number in every precision.
+/// Computes the open numbers of the enabled effects in `source`. The computation is in `f64`, so the number is the same in every precision.
 ///
-/// Cost: nothing without such effects; else a copy of the scene, and for each joint coordinate that has one a dense factorisation of the
-/// scene's coordinates.
+/// Cost: none without such effects. Otherwise a copy of the scene, and a dense factorisation of its coordinates for each joint coordinate
+/// concerned.
 ///
 /// # Errors
 /// [`SceneFault::NoMovedMass`] with the effect.
@@ -36,7 +37,7 @@ pub(super) fn fill<T: Real>(
     Ok(())
 }
 
-/// The numbers that are left open, in the order of the effects and of their fields.
+/// Open numbers in the order of the effects and of their fields.
 fn numbers(source: &Scene<Number>) -> Result<Vec<OpenNumber>, SceneError> {
     let mut scene = None;
     let mut numbers = Vec::new();
@@ -59,7 +60,7 @@ fn numbers(source: &Scene<Number>) -> Result<Vec<OpenNumber>, SceneError> {
     Ok(numbers)
 }
 
-/// The places and the keys of the numbers that an effect leaves open.
+/// Places and keys of the numbers that an effect leaves open.
 fn open_places(effect: &Effect<Number>) -> Vec<(usize, &'static str)> {
     let fields = effect.kind.row().fields.iter().zip(effect.kind.values()).enumerate();
     let open = fields.filter(|(_, (field, value))| {
@@ -69,7 +70,7 @@ fn open_places(effect: &Effect<Number>) -> Vec<(usize, &'static str)> {
     open.map(|(place, (field, _))| (place, field.key)).collect()
 }
 
-/// The joint that an effect is on.
+/// Joint on which an effect acts.
 fn joint_of(effect: &Effect<Number>) -> Option<JointId> {
     effect.kind.values().into_iter().find_map(|value| match value {
         Value::Joint(joint) => Some(joint),

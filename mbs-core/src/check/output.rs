@@ -1,4 +1,4 @@
-//! Output channels: references and places.
+//! Checks of output channels: their references and positions.
 
 use crate::Real;
 use crate::effects::reference::known_body;
@@ -81,7 +81,7 @@ fn of_target<T: Real>(
     }
 }
 
-/// Camber and the like are of space, about two directions that span a plane.
+/// Checks camber and similar angles. They need a spatial scene and two directions that span a plane.
 fn of_wheel<T: Real>(
     scene: &Scene<T>,
     of: &WheelCarrier<T>,
@@ -100,7 +100,7 @@ fn of_wheel<T: Real>(
     of.axis.map_or(Ok(()), |axis| place.axis("axis", axis))
 }
 
-/// A body that is there, or the ground.
+/// Checks that a body exists, or is the ground.
 fn known_frame<T>(
     scene: &Scene<T>,
     body: BodyId,

@@ -1,4 +1,4 @@
-//! Point masses: what asks for their orientation, or for another place than theirs, is refused.
+//! Checks of point masses. Entries that need the orientation of a point mass, or a position other than its own, are refused.
 
 use crate::Real;
 use crate::actions::{Need, needs};
@@ -10,7 +10,7 @@ use crate::mechanism::Scene;
 use crate::scene::place::Place;
 use crate::scene::{BodyId, Entry, Joint, SceneError, SceneFault, SignalKind};
 
-/// Checks the point masses of a scene. Cost: nothing without points; else a pass over the scene.
+/// Checks the point masses of a scene. Cost: none without point masses, else one pass over the scene.
 pub(super) fn check<T: Real>(scene: &Scene<T>) -> Result<(), SceneError> {
     if !scene.bodies.iter().any(|body| body.is_point()) {
         return Ok(());
@@ -43,7 +43,7 @@ pub(super) fn check<T: Real>(scene: &Scene<T>) -> Result<(), SceneError> {
             points.check_place(body, &at, (key, place))?;
         }
     }
-    // what the build leaves out is refused by the model
+    // the build of the model reports these errors
     let Ok(actions) = Actions::new(scene) else { return Ok(()) };
     let mut first = Ok(());
     needs(scene, &actions, &mut |entry, need| {
@@ -54,10 +54,10 @@ pub(super) fn check<T: Real>(scene: &Scene<T>) -> Result<(), SceneError> {
     first
 }
 
-/// A scene with points.
+/// A scene with point masses.
 struct Points<'a, T: Real> {
     scene: &'a Scene<T>,
-    /// Distance of two places that are one [m].
+    /// Largest distance of two positions that count as equal [m].
     tolerance: T,
 }
 
@@ -76,7 +76,7 @@ impl<T: Real> Points<'_, T> {
         }
     }
 
-    /// Refuses another place of a point than its own.
+    /// Refuses a position on a point mass that differs from the mass's own position.
     fn check_place(
         &self,
         body: BodyId,
@@ -95,7 +95,7 @@ impl<T: Real> Points<'_, T> {
         place.fault(key, SceneFault::OffPoint { body: index, by: off.to_f64() })
     }
 
-    /// A joint holds a point by a ball, by a link without a hinge there, or not at all.
+    /// Checks a joint of a point mass: it must be a ball, a link without a hinge there, or a free joint.
     fn check_joint(&self, joint: &Joint<T>, place: Place) -> Result<(), SceneError> {
         let (kind, dimension) = (joint.kind, place.dimension);
         for (side, &body) in joint.bodies.iter().enumerate() {
@@ -121,7 +121,7 @@ impl<T: Real> Points<'_, T> {
         joint.bodies.into_iter().try_for_each(|body| self.no_point(body, at))
     }
 
-    /// A coordinate of a joint is none of a point's turn.
+    /// Checks that a used coordinate is no rotation of a point mass.
     fn check_coordinate(&self, joint: usize, at: (&'static str, Place)) -> Result<(), SceneError> {
         let joint = &self.scene.joints[joint];
         if self.scene.turns_point(joint) { self.no_turn(joint, at) } else { Ok(()) }
@@ -141,7 +141,7 @@ impl<T: Real> Points<'_, T> {
         }
     }
 
-    /// The key of an entry that has a place; those of effects were looked at with their keys.
+    /// Key of the entry's position. Positions of effects are checked earlier, with their keys.
     fn place_key(&self, entry: Entry) -> &'static str {
         match entry {
             Entry::Coupling(_) => "terms",
@@ -149,7 +149,7 @@ impl<T: Real> Points<'_, T> {
         }
     }
 
-    /// The key of an entry that names a body.
+    /// Key by which an entry names a body.
     fn body_key(&self, entry: Entry, body: BodyId) -> &'static str {
         match entry {
             Entry::Initial(_) => "angular_velocity",
@@ -171,7 +171,7 @@ impl<T: Real> Points<'_, T> {
         }
     }
 
-    /// Is an output of this body, not relative to it?
+    /// Does an output measure this body? Otherwise it is relative to the body.
     fn is_owner(&self, output: usize, body: BodyId) -> bool {
         use crate::scene::{RelativePoint, Target};
         match self.scene.outputs[output].quantity.target() {

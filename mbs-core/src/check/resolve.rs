@@ -1,4 +1,4 @@
-//! From a scene of decimal numbers to one in the scalar of a run.
+//! Conversion of a scene of decimal numbers to the scalar of a run.
 
 use crate::Real;
 use crate::joint::Dimension;
@@ -11,13 +11,14 @@ type Resolve<T> = fn(&Scene<Number>) -> Result<Scene<T>, SceneError>;
 mbs_math::instances!(RESOLVE: Resolve<T> = Scene::resolve_here::<T>, {});
 
 impl Scene<Number> {
-    /// The scene in the precision `T`, checked: every number is the one of `T` nearest to its decimal text.
+    /// Scene in the precision `T`, checked. Every number is the one of `T` nearest to its decimal text.
     ///
-    /// Cost: a copy of the scene; beyond `f64` and below it that of reading each number.
+    /// Cost: a copy of the scene; in precisions other than `f64` also the reading of each number.
     ///
     /// # Errors
-    /// What [`Scene::check`] refuses; [`SceneFault::NoMovedMass`] for a stiffness that does not follow from the scene; [`SceneFault::InCode`] for an effect that is a law in code, which has a precision of its own. In
-    /// space [`SceneFault::WrongCount`] for a vector that was given by two numbers.
+    /// The errors of [`Scene::check`]. [`SceneFault::NoMovedMass`] for a stiffness that does not follow from the scene.
+    /// [`SceneFault::InCode`] for an effect with a user-defined law in code, whose precision is fixed. In space [`SceneFault::WrongCount`]
+    /// for a vector of two numbers.
     pub fn resolve<T: Real>(&self) -> Result<Scene<T>, SceneError> {
         #[cfg(feature = "instances")]
         if T::HAS_INSTANCES {
@@ -32,12 +33,12 @@ impl Scene<Number> {
         let mut scene = self.map(&mut |x: &Number| {
             let is_missing = is_spatial && x.is_absent();
             has_two |= is_missing;
-            // the check then finds its place
+            // the check then reports the place of the NaN
             if is_missing { not_a_number } else { x.value() }
         })?;
         scene.name_points();
         let drawn = super::drawn::fill(&mut scene);
-        // may be assumed
+        // the duration may be an assumed number, which is no missing component of a vector
         scene.duration = self.duration.value();
         match scene.check() {
             Ok(()) => {

@@ -1,4 +1,4 @@
-//! The road: its features, and whether every wheel can roll through its hollows.
+//! Checks of the road: its features, and whether every wheel can roll through its hollows.
 
 use crate::Real;
 use crate::measure::knots;
@@ -71,13 +71,14 @@ fn numbers<T: Real>(feature: &RoadFeature<T>, place: Place) -> Result<(), SceneE
     }
 }
 
-/// The radius of the largest wheel: what it can roll through, all can.
+/// Radius of the largest wheel. All wheels can roll through a hollow if the largest one can.
 fn largest_wheel<T: Real>(scene: &Scene<T>) -> T {
     let wheels = scene.effects.iter().filter_map(|effect| effect.kind.road_wheel());
     wheels.map(|wheel| wheel.radius).fold(T::ZERO, T::max)
 }
 
-/// A wheel touches a hollow in one point only where the hollow is wider than the wheel: h'' R < 1.
+/// Checks that a hollow is wider than the wheel, so that they touch in one point only. The condition is h'' R < 1, with the height h and
+/// the wheel's radius R.
 fn hollow<T: Real>(feature: &RoadFeature<T>, wheel: T, place: Place) -> Result<(), SceneError> {
     let (field, curvature) = match feature {
         RoadFeature::Flat { .. } => return Ok(()),
@@ -90,14 +91,14 @@ fn hollow<T: Real>(feature: &RoadFeature<T>, wheel: T, place: Place) -> Result<(
             ("height", height.abs() / ((*riser - rounding) * rounding))
         }
         RoadFeature::Bump { length, amplitude, .. } => {
-            // both ends of a bump, the middle of a hole
+            // a bump is hollow at both ends, a hole in its middle
             let k = T::TWO * T::PI / *length;
             ("length", amplitude.abs() * k * k)
         }
         RoadFeature::Table(points) => {
             ("points", largest_curvature(points, Interpolation::Spline(TableEnds::Natural)))
         }
-        // without a wheel nothing rolls through corners
+        // without a wheel, corners do no harm
         RoadFeature::Shaped { shape: CurveShape::Linear, .. } if wheel.is_zero() => return Ok(()),
         RoadFeature::Shaped { shape: CurveShape::Linear, .. } => {
             return place.fault("interpolation", SceneFault::LinearTable);
@@ -113,7 +114,7 @@ fn hollow<T: Real>(feature: &RoadFeature<T>, wheel: T, place: Place) -> Result<(
     place.fault(field, SceneFault::TightHollow { hollow, wheel: wheel.to_f64() })
 }
 
-/// Largest curvature of a piecewise cubic function, whose curvature is linear between the knots.
+/// Largest curvature of a piecewise cubic function. Its second derivative is linear between knots, so the knots are sufficient.
 fn largest_curvature<T: Real>(points: &[[T; 2]], way: Interpolation) -> T {
     knots(points, way, false).1.into_iter().fold(T::ZERO, T::max)
 }

@@ -1,4 +1,4 @@
-//! Rollings: bodies, shapes, and that they touch their plane.
+//! Checks of rolling contacts: their bodies, shapes, and contact with the plane.
 
 use crate::Real;
 use crate::algebra::norm_inf;
@@ -7,9 +7,10 @@ use crate::mechanism::Scene;
 use crate::scene::place::{Place, is_planar};
 use crate::scene::{Entry, Rolling, RollingKind, SceneError, SceneFault};
 
-/// Distance from the plane that is rounding of a file's numbers [radii]. Chosen, not tuned: six digits.
+/// Largest distance from the plane at the start that counts as contact [radii]. Chosen, not tuned: numbers in files have six digits.
 const TOUCHING: f64 = 1e-6;
-/// Distance from the plane that is rounding of places far from the origin, in units of their rounding [-]. Chosen, not tuned: a few sums.
+/// Largest distance from the plane that counts as contact far from the origin, in multiples of machine precision [-]. Chosen, not tuned: a
+/// few sums.
 const ROUNDINGS: f64 = 16.0;
 
 pub(super) fn check<T: Real>(scene: &Scene<T>) -> Result<(), SceneError> {

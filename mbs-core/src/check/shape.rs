@@ -1,4 +1,4 @@
-//! Shapes: bodies, forms of the scene's dimension, and sizes.
+//! Checks of shapes: their bodies, forms for the scene's dimension, and sizes.
 
 use crate::Real;
 use crate::mechanism::Scene;
@@ -67,7 +67,7 @@ fn check_form<T: Real>(shape: &BodyShape<T>, place: Place) -> Result<(), SceneEr
     Ok(())
 }
 
-/// Two axes that span a plane.
+/// Checks that two axes span a plane.
 fn check_axes<T: Real>(
     axes: Option<&[[T; 3]; 2]>,
     key: &'static str,

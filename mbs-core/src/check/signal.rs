@@ -1,4 +1,4 @@
-//! Signals: names, numbers, operands, and whether they are smooth where that is needed.
+//! Checks of signals: names, numbers, operands, and smoothness where guides need it.
 
 use super::coupling::{check_curve, check_measure};
 use super::motion::check_slopes;
@@ -38,7 +38,7 @@ pub(super) fn check<T: Real>(scene: &Scene<T>) -> Result<(), SceneError> {
     Ok(())
 }
 
-/// A controller that answers to a rate needs signals whose rate is known.
+/// Checks that a controller with a gain of the rate has operands with known rates.
 fn check_rates<T: Real>(scene: &Scene<T>, order: &[usize]) -> Result<(), SceneError> {
     let unknown = first_of(&scene.signals, order, |kind| !kind.has_rate());
     for (i, signal) in scene.signals.iter().enumerate() {
@@ -50,7 +50,7 @@ fn check_rates<T: Real>(scene: &Scene<T>, order: &[usize]) -> Result<(), SceneEr
     Ok(())
 }
 
-/// The guides and couplings that follow signals.
+/// Guides and couplings that follow a signal, with the signal.
 fn motions<T>(scene: &Scene<T>) -> impl Iterator<Item = (Entry, SignalId)> + '_ {
     let of = |motion: Option<&Motion<T>>| match motion {
         Some(Motion::Signal(signal)) => Some(*signal),
@@ -131,7 +131,7 @@ fn check_kind<T: Real>(
     }
 }
 
-/// Signals that follow the motion, or have a state.
+/// Checks signals that depend on the motion or have a state.
 fn check_feedback<T: Real>(
     scene: &Scene<T>,
     kind: &SignalKind<T>,
@@ -192,7 +192,7 @@ fn check_table<T: Real>(rows: &[[T; 2]], periodic: bool, place: Place) -> Result
     Ok(())
 }
 
-/// Splines that guides and couplings follow, which begin or end on a slope within a run of a duration.
+/// Checks that splines followed by guides and couplings do not begin or end on a slope within the run.
 pub(super) fn check_ends<T: Real>(scene: &Scene<T>, duration: T) -> Result<(), SceneError> {
     let mut seen = vec![false; scene.signals.len()];
     let mut open: Vec<SignalId> = motions(scene).map(|(_, signal)| signal).collect();

@@ -1,4 +1,4 @@
-//! Splines of tables that leave the range of their neighbouring rows: an ordinate that no row has.
+//! Notes on tables whose splines leave the range of their neighbouring rows, with values that no row has.
 
 use crate::Real;
 use crate::effects::Value;
@@ -14,13 +14,14 @@ use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
 
-/// Way out of the range of two rows that is noted, over the range of the table [-]: more than drawings show of rounded corners.
+/// Smallest excess over the range of two rows that gives a note, relative to the range of the table [-]. It is larger than the excess near
+/// rounded corners.
 const NOTED_EXCESS: f64 = 0.05;
 
-/// A spline that leaves the range of two neighbouring rows.
+/// Note on a spline that leaves the range of two neighbouring rows.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TableNote {
-    /// Entry in which the table stands.
+    /// Entry that contains the table.
     pub entry: Entry,
     /// Key of the table in that entry.
     pub key: &'static str,
@@ -28,24 +29,24 @@ pub struct TableNote {
     pub text: String,
 }
 
-/// A table that is a spline, and where it stands.
+/// Table that is interpolated by a spline, with its entry and key.
 struct Spline {
     entry: Entry,
     key: &'static str,
-    /// Part of the scene that has the table, in words.
+    /// Description of the part of the scene that has the table.
     of: String,
     rows: Vec<[f64; 2]>,
     ends: TableEnds,
     is_periodic: bool,
-    /// The names of the two axes.
+    /// Names of the two axes.
     axes: [&'static str; 2],
 }
 
-/// The features under the wheels of one side, and what an entry of them is.
+/// Features of the road under the wheels of one side, with the constructor of their entries.
 type Side<'a, T> = (fn(usize) -> Entry, &'a [RoadFeature<T>]);
 
 impl<T: Real> Scene<T> {
-    /// The splines of a scene that leave the range of two neighbouring rows by more than a twentieth of the table's range.
+    /// Notes on the splines of a scene that leave the range of two neighbouring rows by more than a twentieth of the table's range.
     ///
     /// Cost: one tridiagonal elimination for each table.
     #[must_use]
@@ -57,7 +58,7 @@ impl<T: Real> Scene<T> {
         splines.iter().filter_map(Spline::note).collect()
     }
 
-    /// Curves of couplings, effects and signals.
+    /// Adds the splines of couplings, effects and signals.
     fn add_curves(&self, to: &mut Vec<Spline>) {
         let of_terms = |place: (Entry, &'static str), of: &str, terms: &[CouplingTerm<T>]| {
             let curves = terms.iter().filter_map(|term| term.curve.as_ref());
@@ -123,7 +124,7 @@ impl<T: Real> Scene<T> {
         }
     }
 
-    /// Adds the splines of roads; one that is the same under all wheels counts once.
+    /// Adds the splines of roads. A road that is the same on both sides is added once.
     fn add_roads(&self, to: &mut Vec<Spline>) {
         let right = if self.road.left == self.road.right { &[][..] } else { &self.road.right };
         let sides: [Side<'_, T>; 2] =
@@ -150,7 +151,7 @@ fn doubles<T: Real>(rows: &[[T; 2]]) -> Vec<[f64; 2]> {
     rows.iter().map(|row| row.map(T::to_f64)).collect()
 }
 
-/// The spline of a curve; `None`: it is none.
+/// Spline of a curve; `None` for curves of other kinds.
 fn curve<T: Real>(
     (entry, key): (Entry, &'static str),
     of: String,
@@ -166,7 +167,7 @@ fn curve<T: Real>(
 }
 
 impl Spline {
-    /// Note on the spline; `None`: it stays near its rows.
+    /// Note on the spline; `None` if it leaves the range of its rows only slightly.
     fn note(&self) -> Option<TableNote> {
         let values = || self.rows.iter().map(|row| row[1]);
         let [low, high] = [values().fold(f64::MAX, f64::min), values().fold(f64::MIN, f64::max)];
@@ -183,7 +184,7 @@ impl Spline {
         Some(TableNote { entry: *entry, key, text })
     }
 
-    /// The value farthest out of the range of its two rows, how far that is, and the number of the first of them.
+    /// Value farthest outside the range of its two rows, its distance from the range, and the number of the first row.
     fn farthest(&self) -> Option<(f64, f64, usize)> {
         let (knots, bends) = knots(&self.rows, Interpolation::Spline(self.ends), self.is_periodic);
         let mut farthest: Option<(f64, f64, usize)> = None;
@@ -202,7 +203,8 @@ impl Spline {
     }
 }
 
-/// Zeros of the rate of a cubic within its piece, counted from the beginning. The piece has a length h, a rise, and curvatures at both ends.
+/// Zeros of the first derivative of a cubic within its interval, measured from the beginning. The interval has length h, the cubic the
+/// given rise and second derivatives c0 and c1 at the ends.
 fn turning((h, rise): (f64, f64), [c0, c1]: [f64; 2]) -> impl Iterator<Item = f64> {
     // m + c0 s + (c1 - c0) s^2 / (2 h) = 0
     let m = rise / h - h * (2.0 * c0 + c1) / 6.0;

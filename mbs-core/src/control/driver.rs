@@ -1,4 +1,4 @@
-//! Driver of the step size: it tries steps, judges them, repeats those that fail, and plans the next.
+//! Driver of the step size. It tries steps, evaluates them, repeats rejected ones with a shorter length, and plans the next step.
 
 use super::energy::{EnergyRule, Steering};
 use super::invariant::Invariant;
@@ -6,25 +6,28 @@ use crate::Real;
 use crate::ode::StepControl;
 use crate::step::{StepError, StepReport};
 
-/// Factor on the length of a step that failed, for its next trial [-]. Chosen, not tuned.
+/// Factor on the length of a failed step for its next trial [-]. Chosen, not tuned.
 const AFTER_FAILURE: f64 = 0.25;
-/// Shortest step, relative to the largest [-]. Chosen, not tuned: [`MOST_TRIALS`] ends a run whose average step is a hundred-thousandth.
+/// Shortest step, relative to the largest [-]. Chosen, not tuned: a run with such steps reaches [`MOST_TRIALS`] first, which corresponds to
+/// an average step of 1e-5.
 const SMALLEST: f64 = 1e-10;
-/// Shortest step, in units of rounding of the time [-]: the clock then measures it to a sixteenth.
+/// Shortest step, in multiples of the rounding error of the time [-]. The clock then measures the step to a sixteenth of its length.
 const TIME_ROUNDINGS: f64 = 16.0;
-/// Most trials within a length of time equal to the largest step [-]. A run with shorter steps on average would not end. Chosen, not tuned.
+/// Largest number of trials within a time equal to the largest step [-]. A run with shorter steps on average would take too long. Chosen, not
+/// tuned.
 const MOST_TRIALS: u32 = 100_000;
-/// Most repetitions of a step that shall end at an event [-]: two or three are usual, the rest is reserve.
+/// Largest number of repetitions to end a step at an event [-]. Two or three are usual; the others are a reserve.
 const MOST_LANDINGS: u32 = 12;
-/// Growth of the step where no rule limits it [-]. Chosen, not tuned: the largest step limits what follows.
+/// Growth factor of the step if no rule limits it [-]. Chosen, not tuned: the largest step limits the result.
 const FREE: f64 = 2.0;
 
-/// Mechanism that a driver steps, with a formulation and a state that can be put back.
+/// Mechanism that a driver steps: a formulation with a state that can be restored.
 pub trait Stepper<T: Real> {
-    /// Called before a trial of length `h` [s], after `reductions` in a row of this step: the place to change the index.
+    /// Prepares a trial of length `h` [s], after `reductions` consecutive reductions of this step. A stepper may change the index of its
+    /// formulation here.
     ///
     /// # Errors
-    /// [`StepError`] as a trial's.
+    /// [`StepError`] of the kinds that a trial returns.
     fn prepare(&mut self, h: T, reductions: u32) -> Result<(), StepError> {
         let _ = (h, reductions);
         Ok(())
@@ -33,10 +36,10 @@ pub trait Stepper<T: Real> {
     /// Tries a step of length `h` [s].
     ///
     /// # Errors
-    /// [`StepError`]; the state is then as before.
+    /// [`StepError`]; the state is then unchanged.
     fn attempt(&mut self, h: T) -> Result<TrialStep<T>, StepError>;
 
-    /// Puts the state back that was there before the last attempt.
+    /// Restores the state before the last attempt.
     fn undo(&mut self);
 
     /// The first event within the last attempt of length `h` [s].
@@ -45,66 +48,67 @@ pub trait Stepper<T: Real> {
         None
     }
 
-    /// The last attempt is kept; `at_event`: it ends at an event.
+    /// Accepts the last attempt. `at_event`: the attempt ends at an event.
     fn keep(&mut self, at_event: bool);
 }
 
 /// Outcome of a trial step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TrialStep<T> {
-    /// Report on the step.
+    /// Report of the formulation on the step.
     pub report: StepReport<T>,
-    /// Time at its end [s].
+    /// Time at the end of the step [s].
     pub t: T,
-    /// Kinetic energy, potential energy, work [J] at its end.
+    /// Kinetic energy, potential energy and work [J] at the end of the step.
     pub energies: [f64; 3],
-    /// Local error of the step relative to the scene's length; zero where none is asked for [-].
+    /// Local error of the step, relative to the scene's length [-]. Zero if no estimate is required.
     pub error: f64,
-    /// 1/2 a^T M a at its beginning and at its end [J/s^2]. From rest nothing has moved yet: the energy that the accelerations give in a
-    /// first step takes the place of the energy that moves. Once energy moves ([`Invariant::is_moving`]) the smaller of the two counts,
-    /// before that the one at the end. Zero where they are not known.
+    /// Acceleration energy 1/2 a^T M a at the beginning and end of the step [J/s^2]. It gives the energy scale of a first step, when
+    /// nothing has moved yet. Once energy moves ([`Invariant::is_moving`]), the smaller of the two numbers counts. Before that the number
+    /// at the end counts. Zero if unknown.
     pub acceleration_energy: [f64; 2],
 }
 
-/// An event within a trial, or at its end.
+/// An event within a trial step, or at its end.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Event {
-    /// Fraction of the trial after which it comes, aimed a little past it: from 0.001 to 1. Up to 1.05 where the trial ends just
-    /// short of it, so that no tiny step need follow.
+    /// Fraction of the trial, from 0.001 to 1.05, after which the event comes. The value aims slightly past the event. It is above 1 if the
+    /// trial ends just before the event, so that no tiny step must follow.
     pub share: f64,
-    /// The trial's end lies so near that it may serve; the share is one.
+    /// Whether the end of the trial is close enough to the event to be accepted. The fraction is then one.
     pub is_landed: bool,
-    /// No event, but a contact that began with the trial and is too stiff for its length.
+    /// Whether this is no event, but a contact that began with the trial and is too stiff for its length.
     pub is_too_stiff: bool,
     /// Index of the effect in the scene.
     pub effect: usize,
 }
 
-/// By what steps are chosen.
+/// Rules by which the driver chooses steps.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rules<T> {
-    /// No step is longer [s].
+    /// Largest step length [s].
     pub max_step: T,
-    /// The change of the invariant steers.
+    /// Limits of the change of the energy invariant; `None`: no energy rule.
     pub energy: Option<EnergyRule>,
-    /// The local error estimate steers: its tolerance, relative to the scene's length, and the power of h it goes with.
+    /// Tolerance of the local error, relative to the scene's length [-], and the power of h to which the error is proportional. `None`: no
+    /// error rule.
     pub error: Option<(f64, u32)>,
 }
 
-/// Cause that kept the next step from being longer.
+/// Cause that limited the length of the next step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Limit {
-    /// The largest step, or the end.
+    /// Limit by the largest step, or by the end of the run.
     Largest,
     /// Limit by the energy rule.
     Energy,
     /// Limit by the error estimate.
     Error,
-    /// An event ended the step.
+    /// Limit by an event that ended the step.
     Event,
-    /// A contact that began with the step, and is stiff.
+    /// Limit by a stiff contact that began with the step.
     Contact,
-    /// A step that did not converge.
+    /// Limit by a step that did not converge.
     Failure,
 }
 
@@ -130,35 +134,35 @@ impl Limit {
 /// A step that was accepted.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Accepted<T> {
-    /// Outcome of the last trial; iterations, factorisations and solutions are those of all trials that came to their end.
+    /// Outcome of the last trial. Its iterations, factorisations and solutions are the sums over all trials that converged.
     pub attempt: TrialStep<T>,
     /// Length of the step [s].
     pub step: T,
-    /// Trials before it that were rejected, or shortened for an event.
+    /// Number of earlier trials of this step that were rejected, or shortened for an event.
     pub rejected: u32,
-    /// Change of the invariant in it [J].
+    /// Change of the energy invariant in the step [J].
     pub change: f64,
-    /// Cause that kept this step or the next from being longer.
+    /// Cause that limited this step or the next one.
     pub limit: Limit,
-    /// Whether the step took the whole of the time that was left.
+    /// Whether the step reached the end of the given time.
     pub is_last: bool,
 }
 
-/// The state of the step-size control.
+/// State of the step-size control.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Driver<T> {
     max_step: T,
     energy: Option<Steering>,
     error: Option<(f64, StepControl<T>)>,
-    /// The step that is tried next, and the first one [s].
+    /// Length of the next trial, and of the first one [s].
     next: T,
     first: T,
-    /// Start of the present stretch of a largest step [s], and the trials in it; `None` before the first.
+    /// Start of the present interval of one largest step [s], and the number of trials in it; `None` before the first trial.
     stretch: Option<(T, u32)>,
 }
 
-/// Counts a trial from time `t` [s] in the stretch of a largest step, or a little more. The error has the average length of a trial [s],
-/// where that is too short.
+/// Counts a trial from time `t` [s] in the present interval, which is as long as one largest step or slightly longer. The error gives the
+/// average length of a trial [s] if too many trials are counted.
 fn count<T: Real>(stretch: &mut Option<(T, u32)>, t: T, length: T) -> Result<(), StepError> {
     let (from, trials) = stretch.get_or_insert((t, 0));
     if t - *from >= length {
@@ -175,17 +179,17 @@ fn count<T: Real>(stretch: &mut Option<(T, u32)>, t: T, length: T) -> Result<(),
 /// History of a driver from step to step.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct DriverHistory<T> {
-    /// The step that is tried next [s].
+    /// Length of the next trial [s].
     pub next: T,
-    /// Of the energy rule, where there is one: the last changes, faded [-], and small changes in a row.
+    /// Memory of the energy rule, if there is one: the faded last changes [-], and the number of consecutive small changes.
     pub energy: Option<(f64, u32)>,
-    /// Of the error estimate, where there is one: that of its [`StepControl`].
+    /// Memory of the error estimate, if there is one: the history of its [`StepControl`].
     pub error: Option<(Option<f64>, bool)>,
-    /// Start of the present stretch of a largest step [s], and the trials in it.
+    /// Start of the present interval of one largest step [s], and the number of trials in it.
     pub stretch: Option<(T, u32)>,
 }
 
-/// The trials of one step so far.
+/// Effort of one step: its trials so far.
 #[derive(Debug, Default)]
 struct Effort {
     rejected: u32,
@@ -193,19 +197,19 @@ struct Effort {
     landings: u32,
     /// Iterations, factorisations and solutions so far.
     work: [u32; 3],
-    /// Why the last trial was shortened.
+    /// Cause that shortened the last trial.
     reason: Option<Limit>,
 }
 
 impl Effort {
-    /// A trial failed or was rejected.
+    /// Records a trial that failed or was rejected.
     fn reduced(&mut self, reason: Limit) {
         self.rejected += 1;
         self.reductions += 1;
         self.reason = Some(reason);
     }
 
-    /// A trial is made again to end at an event, or to resolve a contact.
+    /// Records a repetition to end at an event, or to resolve a stiff contact.
     fn landed(&mut self, is_too_stiff: bool) {
         self.landings += 1;
         if is_too_stiff {
@@ -215,7 +219,7 @@ impl Effort {
         }
     }
 
-    /// Adds the work of a trial.
+    /// Adds the iterations, factorisations and solutions of a trial.
     fn add<T>(&mut self, report: &StepReport<T>) {
         let [iterations, factorizations, solves] = self.work;
         self.work = [
@@ -225,7 +229,7 @@ impl Effort {
         ];
     }
 
-    /// The last trial with the work of all.
+    /// Returns the last trial with the iterations, factorisations and solutions of all trials.
     fn with_counts<T>(&self, mut attempt: TrialStep<T>) -> TrialStep<T> {
         let report = &mut attempt.report;
         [report.iterations, report.factorizations, report.solves] = self.work;
@@ -234,9 +238,9 @@ impl Effort {
     }
 }
 
-/// Judgement of the rules on a trial, with what they would remember of it.
+/// Decision of the rules on a trial, with their memory after it.
 struct Judgement<T> {
-    /// Factor for the next step, or for its repetition.
+    /// Factor on the length for the next step if the trial is accepted, or for its repetition.
     factor: f64,
     limit: Limit,
     is_kept: bool,
@@ -245,10 +249,10 @@ struct Judgement<T> {
 }
 
 impl<T: Real> Driver<T> {
-    /// A driver with the step to try first [s].
+    /// Creates a driver with the length of its first step [s].
     ///
     /// # Panics
-    /// If a step is not positive and finite.
+    /// If a step length is not positive and finite.
     #[must_use]
     pub fn new(rules: Rules<T>, first_step: T) -> Self {
         let is_length = |h: T| h > T::ZERO && h.is_finite();
@@ -264,13 +268,13 @@ impl<T: Real> Driver<T> {
         }
     }
 
-    /// The step that will be tried next [s].
+    /// Length of the step to be tried next [s].
     #[must_use]
     pub fn next(&self) -> T {
         self.next
     }
 
-    /// State that the next step continues from.
+    /// Memory from which the next step continues.
     #[must_use]
     pub fn history(&self) -> DriverHistory<T> {
         DriverHistory {
@@ -281,7 +285,7 @@ impl<T: Real> Driver<T> {
         }
     }
 
-    /// Restores the history of a driver with the same rules. Returns whether it is one; else nothing is changed.
+    /// Restores the history of a driver with the same rules. Returns `false`, and changes nothing, if the rules differ.
     pub fn set_history(&mut self, history: DriverHistory<T>) -> bool {
         let DriverHistory { next, energy, error, stretch } = history;
         let is_step = next > T::ZERO && next <= self.max_step;
@@ -302,13 +306,14 @@ impl<T: Real> Driver<T> {
         true
     }
 
-    /// Makes one step of at most `rest` [s] from time `t` [s], with as many trials as it takes; the invariant is marked with it.
+    /// Makes one step of at most `rest` [s] from time `t` [s], with as many trials as necessary. It records the accepted step in
+    /// `invariant`.
     ///
-    /// No allocation but what the stepper does.
+    /// The driver does not allocate; the stepper may.
     ///
     /// # Errors
-    /// That of the last trial, [`StepError::StepTooSmall`] where rules reject steps that no longer matter, or where 100,000 trials
-    /// came less far than one largest step. The state is then that of the last accepted step.
+    /// The error of the last trial. [`StepError::StepTooSmall`] if rules reject steps at the shortest length, or if 100,000 trials advance
+    /// less than one largest step. The state is then that of the last accepted step.
     ///
     /// # Panics
     /// If `rest` is not positive.
@@ -369,8 +374,9 @@ impl<T: Real> Driver<T> {
         }
     }
 
-    /// The first trial of a step: the planned one, or all that is left, or half of it where that is less than two planned ones. So no
-    /// tiny step remains. Says whether it is cut short by what is left.
+    /// Length of the first trial of a step, and whether the remaining time `rest` cuts it. Normally it is the planned length. It is all of
+    /// the remaining time if that is shorter. It is half of the remaining time if that is less than two planned steps, so that no tiny step
+    /// remains.
     fn planned(&self, t: T, rest: T) -> (T, bool) {
         if rest <= self.next {
             (rest, rest < self.next)
@@ -381,14 +387,14 @@ impl<T: Real> Driver<T> {
         }
     }
 
-    /// Plans the next step after one of length `h` that is kept; gives what limits it.
+    /// Plans the next step after an accepted one of length `h`. Returns the cause that limits it.
     fn plan(&mut self, h: T, (was_cut, reductions): (bool, u32), judgement: Judgement<T>) -> Limit {
         let Judgement { factor, limit, energy, error, .. } = judgement;
-        // Right after a reduction the step does not grow.
+        // A step after a reduction does not grow.
         let factor = if reductions > 0 { factor.min(1.0) } else { factor };
         let wish = h * T::from_f64(factor);
         if was_cut && reductions == 0 {
-            // A step that was cut short says nothing against the planned one, and little about its error.
+            // A step that was cut short is no reason to shorten the planned one, and says little about its error.
             self.next = self.next.max(wish).min(self.max_step);
         } else {
             (self.energy, self.error) = (energy, error);
@@ -397,7 +403,7 @@ impl<T: Real> Driver<T> {
         if self.next >= self.max_step { Limit::Largest } else { limit }
     }
 
-    /// The step times a factor, if it is not too short.
+    /// Multiplies the step by a factor. An error says that the result is too short.
     fn shortened(&self, (t, h): (T, T), factor: f64) -> Result<T, StepError> {
         let wish = h * T::from_f64(factor);
         let least = (self.max_step * T::from_f64(SMALLEST))
@@ -409,7 +415,7 @@ impl<T: Real> Driver<T> {
         }
     }
 
-    /// Judges a trial by the rules.
+    /// Decides on a trial by the rules.
     fn judge(&self, attempt: &TrialStep<T>, change: f64, invariant: &Invariant) -> Judgement<T> {
         let (mut energy, mut error) = (self.energy, self.error);
         let mut kept = (f64::INFINITY, Limit::Largest);
@@ -417,7 +423,7 @@ impl<T: Real> Driver<T> {
         if let Some(steering) = &mut energy {
             let first = self.first.to_f64();
             let [before, after] = attempt.acceleration_energy;
-            // beside a singular position the accelerations at one end may be rounding of any size
+            // close to a singular position the accelerations at one end may be rounding errors of any size
             let accelerating = if invariant.is_moving() { before.min(after) } else { after };
             let begun = accelerating * first * first;
             let scale = invariant.scale(attempt.energies).max(begun).max(f64::MIN_POSITIVE);
@@ -451,7 +457,7 @@ impl<T: Real> Driver<T> {
     }
 }
 
-/// The step by which the clock moves when it is asked to move by `h` [s]: times are rounded.
+/// Length by which the rounded clock advances when a step of `h` [s] is added to time `t`.
 fn clock_step<T: Real>(t: T, h: T) -> T {
     let step = (t + h) - t;
     if step > T::ZERO { step } else { h }

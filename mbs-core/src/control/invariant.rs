@@ -1,4 +1,4 @@
-//! The energy invariant of a run, watched from step to step.
+//! Energy invariant of a run, recorded from step to step.
 //!
 //! ```text
 //! Pi = T + V - W = constant,   W work of dampers, courses and guides                  [P2 (31)]
@@ -6,15 +6,15 @@
 //! G <- max(0, G + d(T + V) - max(0, dW))  where dampers act
 //! ```
 //!
-//! W sums powers at the ends of steps. That overestimates the work of a damper that brings a motion to rest within a step: Pi rises, and
-//! no energy does. G is the energy that came from nowhere.
+//! dW is the energy that enters in the step. W is a sum of powers at the ends of steps. It overestimates the work of a damper that stops a
+//! motion within a step. Pi then rises, although no energy enters. G is the energy gained without a source.
 
-/// Rounding of the energy balance, in units of the precision times the sum of its parts [-]. Chosen, not tuned.
+/// Rounding error of the energy balance, in multiples of machine precision times the sum of its parts [-]. Chosen, not tuned.
 const ROUNDINGS: f64 = 64.0;
 
-/// Energy invariant Pi, with its changes and errors so far. Energies in joules.
+/// Energy invariant Pi with its changes and errors so far. Energies are in joules.
 ///
-/// Cost of a step: some thirty operations, in `f64` for every scalar.
+/// Cost of a step: some thirty operations, in `f64` for every scalar of the run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Invariant {
     initial: f64,
@@ -24,21 +24,21 @@ pub struct Invariant {
     max_kinetic: f64,
     potential: [f64; 2],
     gross_work: f64,
-    /// Energy that is rounding, for one epsilon.
+    /// Energy scale of the scene's loads, for rounding errors [J].
     ground: f64,
     epsilon: f64,
-    /// Energy may be taken by dampers.
+    /// Whether dampers may remove energy.
     is_damped: bool,
     growth: f64,
     line: Line,
 }
 
-/// Sums of the scatter and of the straight line through the errors.
+/// Sums for the scatter and for the straight line through the errors.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 struct Line {
     n: f64,
     squares: f64,
-    /// Means of time and error, and sums of their products about them.
+    /// Means of time and of error, and sums of squares and products about the means.
     t: f64,
     e: f64,
     tt: f64,
@@ -46,9 +46,9 @@ struct Line {
 }
 
 impl Invariant {
-    /// Starts from kinetic energy, potential energy and work [J]. `ground` is the energy that the scene's loads have anyway [J], such as
-    /// its weight times its length: a root of the precision of it is nothing. `epsilon` is that of the scalar; energies
-    /// are no finer than `f64`.
+    /// Starts from kinetic energy, potential energy and work [J]. `ground` is an energy scale of the scene's loads [J], such as its weight
+    /// times its length. Energies below the square root of `epsilon` times this scale count as zero. `epsilon` is the machine precision of
+    /// the scalar, here at least that of `f64`.
     #[must_use]
     pub fn new(energies: [f64; 3], ground: f64, epsilon: f64) -> Self {
         let [kinetic, potential, work] = energies;
@@ -68,13 +68,13 @@ impl Invariant {
         }
     }
 
-    /// Says whether dampers act: a loss is then no measure of an error, a gain without a source is.
+    /// Sets whether dampers act. If they do, G leaves out the work that they remove, since W overestimates it.
     #[must_use]
     pub fn with_dampers(self, is_damped: bool) -> Self {
         Self { is_damped, ..self }
     }
 
-    /// Takes the energies after a step that ended at `t` [s].
+    /// Records the energies after a step that ended at time `t` [s].
     pub fn mark(&mut self, t: f64, energies: [f64; 3]) {
         let change = self.change(energies);
         let [kinetic, potential, work] = energies;
@@ -105,40 +105,40 @@ impl Invariant {
         self.initial
     }
 
-    /// Pi(t) - Pi(0) after the last step [J].
+    /// Error Pi(t) - Pi(0) after the last step [J].
     #[must_use]
     pub fn error(&self) -> f64 {
         self.error
     }
 
-    /// The largest |Pi(t) - Pi(0)| so far [J].
+    /// Largest |Pi(t) - Pi(0)| so far [J].
     #[must_use]
     pub fn max_error(&self) -> f64 {
         self.max_error
     }
 
-    /// Change of Pi that energies after a step would make [J].
+    /// Change of Pi between the last step and the given energies [J].
     #[must_use]
     pub fn change(&self, [kinetic, potential, work]: [f64; 3]) -> f64 {
         let [k, p, w] = self.last;
         (kinetic - k) + (potential - p) - (work - w)
     }
 
-    /// The energy turned over: largest kinetic energy plus gross work [J].
+    /// Exchanged energy: largest kinetic energy plus gross work [J].
     #[must_use]
     pub fn turned_over(&self) -> f64 {
         self.max_kinetic + self.gross_work
     }
 
-    /// Scale of changes within a step, with `energies` at its end: the largest kinetic energy plus the range of the potential one [J]. It
-    /// does not grow with the length of a run, and knows no zero of the potential energy.
+    /// Energy scale for changes within a step that ends with `energies` [J]: the largest kinetic energy plus the range of the potential
+    /// energy. It does not grow with the length of a run and does not depend on the zero of the potential energy.
     #[must_use]
     pub fn scale(&self, [kinetic, potential, _]: [f64; 3]) -> f64 {
         let range = self.potential[1].max(potential) - self.potential[0].min(potential);
         self.max_kinetic.max(kinetic) + range
     }
 
-    /// A change of this size may be rounding of the energies [J].
+    /// Largest change that may be a rounding error of the energies [J].
     #[must_use]
     pub fn rounding(&self) -> f64 {
         let [kinetic, potential, work] = self.last;
@@ -146,19 +146,19 @@ impl Invariant {
         ROUNDINGS * self.epsilon * parts
     }
 
-    /// Has more energy moved so far than what is rounding of the energy that is stored?
+    /// Has more energy moved so far than the rounding error of the stored energy?
     #[must_use]
     pub fn is_moving(&self) -> bool {
         self.scale(self.last) > self.stored_rounding()
     }
 
-    /// Energy that is rounding of what is stored [J].
+    /// Energy that may be a rounding error of the stored energy [J].
     fn stored_rounding(&self) -> f64 {
         (self.last[0] + self.last[1].abs()).max(self.ground) * libm::sqrt(self.epsilon)
     }
 
-    /// Is the invariant off by more than `share` of the exchanged energy, lost or gained without a source? Nothing is
-    /// said while that is rounding of what is stored, or of the ground. A NaN is off.
+    /// Does the error of the invariant exceed `share` times the exchanged energy? A gain counts only if G exceeds the limit too: it then has
+    /// no source. An error below the rounding error of the stored energy does not count. A NaN exceeds every limit.
     #[must_use]
     pub fn is_off(&self, share: f64) -> bool {
         let limit = (share * self.turned_over()).max(self.stored_rounding());
@@ -166,13 +166,13 @@ impl Invariant {
         !(self.error.abs() <= limit || is_given)
     }
 
-    /// Root of the mean square of the changes from step to step [J].
+    /// Root mean square of the changes of Pi from step to step [J].
     #[must_use]
     pub fn scatter(&self) -> f64 {
         if self.line.n > 0.0 { libm::sqrt(self.line.squares / self.line.n) } else { 0.0 }
     }
 
-    /// Slope of the straight line through the errors after all steps, by least squares [W].
+    /// Slope of the least-squares line through the errors after all steps [W].
     #[must_use]
     pub fn drift(&self) -> f64 {
         if self.line.tt > 0.0 { self.line.te / self.line.tt } else { 0.0 }
@@ -180,10 +180,10 @@ impl Invariant {
 }
 
 impl Invariant {
-    /// Count of the numbers of a [`history`](Self::history): its fields in order.
+    /// Number of values in a [`history`](Self::history).
     pub const N_HISTORY: usize = 17;
 
-    /// The measurements so far, as numbers, from which a run resumes.
+    /// Record so far, as numbers from which a run resumes.
     #[must_use]
     pub fn history(&self) -> [f64; Self::N_HISTORY] {
         let Self { initial, last: [k, p, w], error, max_error, max_kinetic, .. } = *self;
@@ -214,7 +214,7 @@ impl Invariant {
 }
 
 impl Line {
-    /// Adds one more point.
+    /// Adds a point to the sums.
     fn take(&mut self, t: f64, error: f64, change: f64) {
         self.n += 1.0;
         self.squares += change * change;

@@ -1,10 +1,10 @@
-//! Choosing the length of steps: the energy invariant, a local error estimate, and the driver that repeats steps.
+//! Step-size control: the energy invariant, a local error estimate, and the driver that repeats steps.
 //!
-//! Knows no formulation: what is stepped is a [`Stepper`]. mbs-augmented has one for its formulations, mbs one for all.
+//! This module depends on no formulation: it steps a [`Stepper`]. mbs-augmented has one for its formulations, mbs one for all formulations.
 //!
 //! # Examples
 //!
-//! A mass of 1 kg that falls 9.81 m onto nothing: its steps are exact, so they grow to the largest.
+//! A mass of 1 kg falls freely for 1 s. The steps are exact, so they grow to the largest step.
 //!
 //! ```
 //! use mbs_core::control::{TrialStep, Driver, EnergyRule, Invariant, Rules, Stepper};

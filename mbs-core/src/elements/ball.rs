@@ -1,23 +1,24 @@
-//! Angles of a ball joint, by directions of its bodies.
+//! Angles of a ball joint, measured by directions of its bodies.
 //!
 //! ```text
-//! a in the first body, b in the second; e1, e2 across a and f1, f2 across b; at zero all are those of the other body
+//! a in the first body, b in the second; e1, e2 perpendicular to a, f1, f2 perpendicular to b; at angle zero a = b, e = f
 //! swing   atan2(S, C)   C = a.b, S = |a x b|
 //! twist   atan2(S, C)   C = e1.f1 + e2.f2, S = e2.f1 - e1.f2
 //! grad    (C grad S - S grad C)/r^2,   r^2 = C^2 + S^2
 //! bias    (C S_b - S C_b)/r^2 - 2 (C C' + S S')/r^2 rate
 //! ```
 //!
-//! The twist is 2 atan2(v.a, w) of the relative quaternion (w, v), for S = 4 w v.a and C = 2 (w^2 - (v.a)^2). Its r is 1 + cos of the
-//! swing: at a swing of half a turn it is open. At no swing the swing has no direction: its gradient is zero there.
+//! The twist is 2 atan2(v.a, w) of the relative quaternion (w, v), because S = 4 w v.a and C = 2 (w^2 - (v.a)^2). Its r is 1 + cos
+//! of the swing, so that the twist is undefined at a swing of half a turn. At swing zero the swing has no direction, and its
+//! gradient is set to zero.
 
 use crate::Real;
 use crate::algebra::{Vector, cross, lowered, norm, raised};
 
-/// A direction in each of the two bodies.
+/// Direction in each of the two bodies.
 type Pair<T, const D: usize> = [Vector<T, D>; 2];
 
-/// C and S of a swing, and the direction about which it grows; zero at no swing.
+/// Values C and S of a swing, and the direction about which it grows; zero at swing zero.
 fn swing_parts<T: Real, const D: usize>([a, b]: &Pair<T, D>) -> ([T; 2], Vector<T, 3>) {
     let across = cross(&raised(a), &raised(b));
     let s = norm(&across);
@@ -25,13 +26,13 @@ fn swing_parts<T: Real, const D: usize>([a, b]: &Pair<T, D>) -> ([T; 2], Vector<
     ([a.dot(b), s], n)
 }
 
-/// The swing between two directions.
+/// Swing: the angle between two directions.
 pub(crate) fn swing<T: Real, const D: usize>(pair: &Pair<T, D>) -> T {
     let ([c, s], _) = swing_parts(pair);
     s.atan2(c)
 }
 
-/// Gradient of the swing by both directions; zero where they are parallel.
+/// Gradient of the swing by both directions; zero if they are parallel.
 pub(crate) fn swing_gradient<T: Real, const D: usize>(pair: &Pair<T, D>) -> Pair<T, D> {
     let ([c, s], n) = swing_parts(pair);
     if s == T::ZERO {
@@ -40,7 +41,7 @@ pub(crate) fn swing_gradient<T: Real, const D: usize>(pair: &Pair<T, D>) -> Pair
     let inverse = T::ONE / (c * c + s * s);
     let (c, s) = (c * inverse, s * inverse);
     let [a, b] = pair;
-    // dS = n.(da x b + a x db)
+    // derivative: dS = n.(da x b + a x db)
     let by = |m: Vector<T, 3>, other: &Vector<T, D>| lowered::<T, D>(&m) * c - other * s;
     [by(cross(&raised(b), &n), b), by(cross(&n, &raised(a)), a)]
 }
@@ -62,7 +63,8 @@ pub(crate) fn swing_rates<T: Real, const D: usize>(
     rates([c, s], [c_t, s_t], [T::TWO * a_t.dot(b_t), s_b])
 }
 
-/// C and S of a twist. They are linear in each pair: with rates in place of one, they are the rates by that.
+/// Values C and S of a twist. They are linear in each pair of directions: with the rates of a pair in its place, the result is
+/// their rate.
 pub(crate) fn twist_parts<T: Real, const D: usize>(
     [e1, e2]: &Pair<T, D>,
     [f1, f2]: &Pair<T, D>,
@@ -70,7 +72,7 @@ pub(crate) fn twist_parts<T: Real, const D: usize>(
     [e1.dot(f1) + e2.dot(f2), e2.dot(f1) - e1.dot(f2)]
 }
 
-/// Gradient of the twist by e1, e2, and by f1, f2.
+/// Gradient of the twist by the directions e1, e2 and f1, f2.
 pub(crate) fn twist_gradient<T: Real, const D: usize>(
     first: &Pair<T, D>,
     second: &Pair<T, D>,
@@ -82,7 +84,8 @@ pub(crate) fn twist_gradient<T: Real, const D: usize>(
     [[-(f2 * c + f1 * s), f1 * c - f2 * s], [e2 * c - e1 * s, -(e1 * c + e2 * s)]]
 }
 
-/// The directions g of both angles: their rates are g.(omega2 - omega1). `a` and `b` are of length one; the first is zero at no swing.
+/// Directions g for which the rate of each angle is g.(omega2 - omega1). `a` and `b` are unit vectors. The first is zero at swing
+/// zero.
 ///
 /// ```text
 /// swing   (a x b)/|a x b|
@@ -105,7 +108,7 @@ pub(crate) fn twist_rates<T: Real, const D: usize>(
     rates(twist_parts(first, second), moving, bias)
 }
 
-/// Rate and bias of atan2(S, C), by C and S, their rates, and their biases.
+/// Rate and bias of atan2(S, C), from C and S, their rates and their biases.
 fn rates<T: Real>([c, s]: [T; 2], [c_t, s_t]: [T; 2], [c_b, s_b]: [T; 2]) -> [T; 2] {
     let inverse = T::ONE / (c * c + s * s);
     let turn = (c * s_t - s * c_t) * inverse;

@@ -1,25 +1,25 @@
-//! Linear combinations of entities: x = sum_k (alpha_k + beta_k J) e_k.
+//! Linear combinations of entities: x = sum_k (alpha_k + beta_k J) e_k, J the quarter turn in the plane.
 
 use crate::Real;
 use crate::algebra::{Coef, Vector, add_to, load};
 
-/// One entity in a combination.
+/// Entity in a combination, with its coefficient.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Term<T> {
     /// Start of the entity in the extended coordinates.
     pub entity: u32,
-    /// Start of the entity's columns in the element's own Jacobian row.
+    /// Start of the entity's columns in the Jacobian row of the element.
     pub column: u32,
     /// Coefficient of the entity in the combination.
     pub coef: Coef<T>,
 }
 
-/// A run of terms in a shared pool.
+/// Range of terms in a shared pool.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Span {
     /// Index of the first term.
     pub start: u32,
-    /// One past the last.
+    /// Index after the last term.
     pub end: u32,
 }
 
@@ -30,7 +30,7 @@ impl Span {
     pub fn of<T>(self, pool: &[T]) -> &[T] {
         &pool[self.start as usize..self.end as usize]
     }
-    /// The terms, to write.
+    /// Terms of the span in `pool`, mutable.
     #[inline(always)]
     #[must_use]
     pub fn of_mut<T>(self, pool: &mut [T]) -> &mut [T] {
@@ -53,7 +53,7 @@ impl Span {
     }
 }
 
-/// The value of a combination.
+/// Value of a combination of entities.
 #[inline(always)]
 pub fn combine<T: Real, const D: usize>(terms: &[Term<T>], e: &[T]) -> Vector<T, D> {
     let mut x = Vector::<T, D>::zeros();
@@ -63,7 +63,7 @@ pub fn combine<T: Real, const D: usize>(terms: &[Term<T>], e: &[T]) -> Vector<T,
     x
 }
 
-/// Adds the gradient of x.y with respect to the entities of x, which is A^T y, to a Jacobian row.
+/// Adds A^T y to a Jacobian row: the gradient of x.y with respect to the entities of x.
 #[inline(always)]
 pub(crate) fn add_gradient<T: Real, const D: usize>(
     row: &mut [T],

@@ -1,7 +1,7 @@
-//! Coupling: a sum of joint coordinates and lengths that holds.
+//! Coupling element: a sum of joint coordinates and lengths that is constrained.
 //!
 //! ```text
-//! phi    = (sum_k c_k f_k(m_k) - s(t)) / c            c: the largest |c_k|;  m_k: a sum of measures
+//! phi    = (sum_k c_k f_k(m_k) - s(t)) / c            c: the largest |c_k|;  m_k: a sum of measures;  f_k: a curve, or m_k itself
 //! angle    C = x1.y, S = x2.y, r^2 = C^2 + S^2:  grad = (C grad S - S grad C)/r^2
 //!          bias = (C S_b - S C_b)/r^2 - 2 (C C' + S S')/r^2 rate,   S_b = 2 x2'.y', C_b = 2 x1'.y'
 //! slide    x.y                                  bias = 2 x'.y'
@@ -9,71 +9,72 @@
 //! curve    f' grad,   f' bias + f'' rate^2
 //! ```
 //!
-//! Angles are unwrapped against those of the last step. Where the sum is linear and constant, a step adds to phi what each measure
-//! changes by, so that nothing is lost after many turns.
+//! Angles are unwrapped against those of the last step. If the sum is linear and constant, a step adds the change of each measure
+//! to phi. So no digits are lost after many turns.
 
 use super::ball;
 use super::combination::{Span, Term, add_gradient, combine};
 use crate::Real;
 use crate::algebra::{Vector, norm};
 
-/// Sentinel for "none" in a table of numbers.
+/// Sentinel value for "none" in a table of numbers.
 pub const NONE: u32 = u32::MAX;
 
-/// A number that natural coordinates give.
+/// Number that is computed from natural coordinates.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Measurand<T> {
-    /// Angle of y in the frame x1, x2, unwrapped against the number at `memory`.
+    /// Angle of y in the frame x1, x2, unwrapped against the remembered number at `memory`.
     Angle {
         /// Direction at angle zero.
         x1: Span,
-        /// Direction a quarter turn further.
+        /// Direction at a quarter turn further.
         x2: Span,
-        /// The direction that turns.
+        /// Direction whose angle is measured.
         y: Span,
-        /// Place of the last angle among those remembered.
+        /// Place of the last angle among the remembered numbers.
         memory: u32,
     },
     /// Slide of two points along a direction, x.y.
     Slide {
-        /// From the first body's point to the second's.
+        /// Vector from the first body's point to the second's.
         x: Span,
         /// Direction of the slide, along which x is measured.
         y: Span,
     },
-    /// Length of x, less that in the reference configuration.
+    /// Length of x, less its length in the reference configuration.
     Length {
-        /// From one point to the next.
+        /// Vector from one point to the next.
         x: Span,
-        /// The length in the reference configuration [m].
+        /// Length in the reference configuration [m].
         reference: T,
     },
-    /// The swing of a ball: the angle between two directions.
+    /// Swing of a ball joint: the angle between two directions.
     Swing {
-        /// The direction in the first body.
+        /// Direction fixed in the first body.
         a: Span,
-        /// The direction in the second.
+        /// Direction fixed in the second body.
         b: Span,
     },
-    /// The twist of a ball, unwrapped against the number at `memory`.
+    /// Twist of a ball joint, unwrapped against the remembered number at `memory`.
     Twist {
-        /// Two directions across the axis, in the first body.
+        /// Two directions perpendicular to the axis, in the first body.
         first: [Span; 2],
-        /// Two directions across the axis, in the second body.
+        /// Two directions perpendicular to the axis, in the second body.
         second: [Span; 2],
-        /// Place of the last angle among those remembered.
+        /// Place of the last angle among the remembered numbers.
         memory: u32,
     },
 }
 
-/// A term of the sum.
+/// Term of a sum: a factor times a function of measures.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CoupledTerm<T> {
-    /// Factor of the term over the largest one.
+    /// Factor of the term, divided by the largest factor.
     pub factor: T,
-    /// Measures of the term, in their table: the term is a function of their sum. Each counts with the factor of its sign.
+    /// Measures of the term, as a span of their table. The term is a function of their sum, in which each measure counts with its
+    /// sign.
     pub measures: Span,
-    /// Curve of the term, in the table of curves; [`NONE`]: the sum itself.
+    /// Curve of the term, by its number in the table of curves; [`NONE`]: the sum itself.
     pub curve: u32,
 }
 
@@ -86,62 +87,62 @@ pub struct Signed<T> {
     pub of: Measurand<T>,
 }
 
-/// The row of a coupling.
+/// Constraint row of a coupling.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Coupled<T> {
-    /// Terms of the coupling, in their table.
+    /// Terms of the coupling, as a span of their table.
     pub terms: Span,
-    /// One over the largest factor: the sum is divided by it.
+    /// Inverse of the largest factor, by which the sum is multiplied.
     pub inverse: T,
-    /// Number of the guide that is its sum; [`NONE`]: it is zero.
+    /// Number of the guide that prescribes the sum; [`NONE`]: the sum is zero.
     pub guide: u32,
-    /// Function of the terms that is held.
+    /// Function of the terms that is constrained.
     pub form: CoupledForm,
     /// Number of the row, its place in `phi`.
     pub row: u32,
-    /// The row's place in the Jacobian store.
+    /// Place of the row in the Jacobian store.
     pub place: Span,
 }
 
-/// Function of its terms that a coupling holds.
+/// Function of its terms that a coupling constrains.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CoupledForm {
     /// A sum that is constant, and without curves.
     Linear,
     /// A sum that follows time, or has curves.
     Sum,
-    /// A user-defined relation, by its number among them.
+    /// User-defined relation, given by its number.
     Relation(u32),
 }
 
-/// The tables that couplings refer to.
+/// Tables to which couplings refer.
 #[derive(Debug, Clone, Copy)]
 pub struct CoupledTables<'a, T, F> {
     /// Terms of the couplings.
     pub terms: &'a [CoupledTerm<T>],
     /// Measures of the terms, each with its sign.
     pub measures: &'a [Signed<T>],
-    /// Pool of the combinations that measures refer to.
+    /// Pool of the combinations of entities that measures refer to.
     pub pool: &'a [Term<T>],
     /// The curves by number.
     pub curves: &'a F,
 }
 
-/// The curves of couplings by number.
+/// Curves of couplings by number.
 pub trait Curves<T> {
-    /// f, f' and f'' of a curve at `x`.
+    /// Value f, slope f' and curvature f'' of a curve at `x`.
     fn at(&self, curve: u32, x: T) -> [T; 3];
-    /// f(x + dx) - f(x), free of cancellation.
+    /// Change f(x + dx) - f(x), computed without cancellation.
     fn change(&self, curve: u32, x: T, dx: T) -> T;
 }
 
 impl<T: Real, F: Curves<T>> CoupledTables<'_, T, F> {
-    /// f, f' and f'' of a term's curve.
+    /// Value, slope and curvature of a term's curve; the identity without a curve.
     pub fn function(&self, curve: u32, x: T) -> [T; 3] {
         if curve == NONE { [x, T::ONE, T::ZERO] } else { self.curves.at(curve, x) }
     }
 
-    /// f(x), and f(x + dx) - f(x).
+    /// Value f(x), and the change f(x + dx) - f(x).
     fn parts(&self, curve: u32, x: T, dx: T) -> [T; 2] {
         if curve == NONE {
             return [x, dx];
@@ -151,7 +152,8 @@ impl<T: Real, F: Curves<T>> CoupledTables<'_, T, F> {
 }
 
 impl<T: Real, F: Curves<T>> CoupledTables<'_, T, F> {
-    /// The sum of terms, its rate, and its gradient in `row`, which is zero before; angles are those nearest to `memory`.
+    /// Returns a sum of terms and its rate, and writes its gradient to `row`, which must be zero before. Angles are those nearest
+    /// to `memory`.
     #[inline(never)]
     pub fn measure<const D: usize>(
         &self,
@@ -182,7 +184,7 @@ impl<T: Real, F: Curves<T>> CoupledTables<'_, T, F> {
 }
 
 impl<T: Real> Coupled<T> {
-    /// Value and gradient at `q`; angles are those nearest to `memory`.
+    /// Writes value and gradient at `q`; angles are those nearest to `memory`.
     #[inline(never)]
     pub fn evaluate<const D: usize>(
         &self,
@@ -196,7 +198,7 @@ impl<T: Real> Coupled<T> {
         phi[self.row as usize] = value;
     }
 
-    /// Value and gradient at `q + dq`, from `phi_n` at `q` where the sum is linear and constant.
+    /// Writes value and gradient at `q + dq`. If the sum is linear and constant, the value starts from `phi_n`, the value at `q`.
     #[inline(never)]
     pub fn advance<const D: usize>(
         &self,
@@ -224,8 +226,8 @@ impl<T: Real> Coupled<T> {
         }
     }
 
-    /// phi, with its gradient in `row`. What does not change in a step, the terms of the remembered angles and the sum, is one number;
-    /// what does is added to it, so that iterations see no rounding of turns.
+    /// Computes phi, with its gradient in `row`. The parts that are constant in a step (remembered angles and the prescribed sum)
+    /// are added first, and the changing parts then. So iterations see no rounding errors of full turns.
     fn evaluate_with<const D: usize>(
         &self,
         tables: &CoupledTables<'_, T, impl Curves<T>>,
@@ -255,7 +257,7 @@ impl<T: Real> Coupled<T> {
         kept + change
     }
 
-    /// The part of phi'' without accelerations; `sum` is that of the time function.
+    /// The part of phi'' without accelerations; `sum` is the prescribed sum with its derivatives.
     #[inline(never)]
     pub fn bias<const D: usize>(
         &self,
@@ -285,7 +287,7 @@ impl<T: Real> Coupled<T> {
     }
 }
 
-/// The value of a measure, an angle nearest to the remembered one.
+/// Value of a measure. An angle is the one nearest to the remembered angle.
 pub fn value<T: Real, const D: usize>(
     of: &Measurand<T>,
     at: impl Fn(Span) -> Vector<T, D>,
@@ -295,7 +297,7 @@ pub fn value<T: Real, const D: usize>(
     base + change
 }
 
-/// The remembered angle, and how far the angle is from it; of other measures zero and the value.
+/// Remembered angle and the difference of the angle from it. For other measures zero and the value.
 pub(super) fn base_and_change<T: Real, const D: usize>(
     of: &Measurand<T>,
     at: impl Fn(Span) -> Vector<T, D>,
@@ -317,23 +319,23 @@ pub(super) fn base_and_change<T: Real, const D: usize>(
     }
 }
 
-/// The last angle, and how far that of cosine `c` and sine `s`, to any scale, is from it.
+/// The last angle, and the difference of the angle with cosine `c` and sine `s` from it. A common factor of both is allowed.
 fn from_last<T: Real>(last: T, [c, s]: [T; 2]) -> [T; 2] {
     let (sin, cos) = last.sin_cos();
     [last, (s * cos - c * sin).atan2(c * cos + s * sin)]
 }
 
-/// Least 1 + cos of a swing at which its twist is known [-]: that at 1e-3 rad from half a turn, nearer to which it is rounding.
+/// Least 1 + cos(swing) for which the twist is defined [-]: 1e-3 rad from half a turn. Closer to it the twist is a rounding error.
 const OPEN: f64 = 5e-7;
 
-/// Is the twist of a ball open? `one_and_cosine` is 1 + cos of its swing.
+/// Is the twist of a ball joint undefined? `one_and_cosine` is 1 + cos of its swing.
 #[must_use]
 pub fn is_open<T: Real>(one_and_cosine: T) -> bool {
     !(one_and_cosine > T::from_f64(OPEN))
 }
 
 impl<T: Real> Measurand<T> {
-    /// Is it a twist that is open?
+    /// Is the measure a twist that is undefined?
     pub fn is_open<const D: usize>(&self, at: impl Fn(Span) -> Vector<T, D>) -> bool {
         match *self {
             Self::Twist { first, second, .. } => {
@@ -345,13 +347,13 @@ impl<T: Real> Measurand<T> {
     }
 }
 
-/// Change of a measure when coordinates change from `q` by `dq`, free of cancellation.
+/// Change of a measure if coordinates change from `q` by `dq`, computed without cancellation.
 fn increment<T: Real, const D: usize>(
     of: &Measurand<T>,
     at: impl Fn(Span) -> Vector<T, D>,
     change: impl Fn(Span) -> Vector<T, D>,
 ) -> T {
-    // the change of x.y
+    // change of the product x.y
     let product = |x: Span, y: Span| {
         let (dx, dy) = (change(x), change(y));
         dx.dot(&(at(y) + dy)) + at(x).dot(&dy)
@@ -363,7 +365,7 @@ fn increment<T: Real, const D: usize>(
             (ds * c - dc * s).atan2(c * (c + dc) + s * (s + ds))
         }
         Measurand::Slide { x, y } => product(x, y),
-        // no row has them
+        // no constraint row contains a swing or twist
         Measurand::Swing { .. } | Measurand::Twist { .. } => T::ZERO,
         Measurand::Length { x, .. } => {
             let (before, dx) = (at(x), change(x));
@@ -373,18 +375,20 @@ fn increment<T: Real, const D: usize>(
     }
 }
 
-/// Squared length that is none, over the squared length at the other end of a step [-]: below it, rounding decides its direction.
+/// Squared length that counts as zero, relative to the squared length at the other end of a step [-]. Below it, rounding errors
+/// determine the direction.
 const NO_LENGTH: f64 = 1e-18;
-/// Distance at which the ends of a part meet in a step, over their way against each other [-]: a smaller one is not resolved by the step.
+/// Closest distance of two points in a step, relative to their relative path [-]. Below it the step does not resolve how they pass.
 const MEETING: f64 = 1e-2;
 
-/// Whether a part of a line has no length left at an end of a step, or its ends met on the way: its direction turns round there.
+/// Does a part of a line lose its length in a step? Either its length is zero at an end of the step, or its ends meet on the way,
+/// which reverses its direction.
 ///
 /// ```text
-/// d  the gap before, e after:   d.e < 0,   d.d' < 0,   |d x e| <= c |d - e|^2
+/// d: vector before the step, e: after it, d': its rate:   d.e < 0,   d.d' < 0,   |d x e| <= c |d - e|^2
 /// ```
 ///
-/// `dots` are d.d, d.e, e.e and d.d'. Cost: ten operations.
+/// `dots` are the products d.d, d.e, e.e and d.d'. Cost: ten operations.
 pub fn has_collapsed<T: Real>(dots: [T; 4]) -> bool {
     let [dd, de, ee, shortening] = dots;
     if dd.min(ee) <= T::from_f64(NO_LENGTH) * dd.max(ee) {
@@ -394,7 +398,7 @@ pub fn has_collapsed<T: Real>(dots: [T; 4]) -> bool {
     de < T::ZERO && shortening < T::ZERO && dd * ee - de * de <= way * way
 }
 
-/// row += weight grad m.
+/// Adds the gradient of a measure, times `weight`, to the row.
 pub fn add_measure_gradient<T: Real, const D: usize>(
     of: &Measurand<T>,
     pool: &[Term<T>],
@@ -432,7 +436,7 @@ pub fn add_measure_gradient<T: Real, const D: usize>(
         Measurand::Length { x, .. } => {
             let d = at(x);
             let length = norm(&d);
-            // without length it has no direction
+            // a line of length zero has no direction
             if length > T::ZERO {
                 add_gradient(row, x.of(pool), &(d * (weight / length)));
             }
@@ -440,7 +444,7 @@ pub fn add_measure_gradient<T: Real, const D: usize>(
     }
 }
 
-/// m' and the part of m'' without accelerations.
+/// Rate m' of a measure, and the part of m'' without accelerations.
 pub fn rate_and_bias<T: Real, const D: usize>(
     of: &Measurand<T>,
     at: impl Fn(Span) -> Vector<T, D>,

@@ -1,4 +1,4 @@
-//! Constant distance of two entities; with the zero vector at one end, constant length of a direction.
+//! Constant distance of two entities. With the zero vector at one end it is the constant length of a direction.
 //!
 //! ```text
 //! phi = (d.d - L^2) / 2L,   d = e_b - e_a          [P1 2.1], scaled so that the gradient has length one
@@ -16,7 +16,7 @@ pub struct Distance<T> {
     pub places: [u32; 2],
     /// Number of the row, its place in `phi`.
     pub row: u32,
-    /// L [m or -].
+    /// Length L of the distance [m or -].
     pub length: T,
     /// Inverse of the length, 1 / L [1/m or -].
     pub inverse: T,
@@ -36,7 +36,7 @@ impl<T: Real> Distance<T> {
         store(jacobian, b, &g);
     }
 
-    /// Value and gradient at `q`.
+    /// Writes value and gradient at `q`.
     #[inline(always)]
     pub fn evaluate<const D: usize>(&self, q: &[T], phi: &mut [T], jacobian: &mut [T]) {
         let d = self.difference::<D>(q);
@@ -44,8 +44,8 @@ impl<T: Real> Distance<T> {
         self.write_gradient(&d, jacobian);
     }
 
-    /// Value and gradient at `q + dq` from the value at `q`, without the cancellation of d.d - L^2:
-    /// phi = phi_n + (d_n + dd/2).dd / L, exact because phi is quadratic.
+    /// Writes value and gradient at `q + dq`, from the value at `q`: phi = phi_n + (d_n + dd/2).dd / L. This is exact because phi
+    /// is quadratic, and avoids the cancellation in d.d - L^2.
     #[inline(always)]
     pub fn advance<const D: usize>(
         &self,

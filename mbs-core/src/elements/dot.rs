@@ -1,4 +1,4 @@
-//! Constant dot product of two combinations of entities; with x = y a constant distance of two body points.
+//! Constant dot product of two combinations of entities. With x = y it is a constant distance of two body points.
 //!
 //! ```text
 //! phi = s x.y - c,   x = sum a_k e_k,  y = sum b_k e_k
@@ -16,16 +16,16 @@ pub struct Dot<T> {
     pub y: Span,
     /// Scale s of the dot product.
     pub scale: T,
-    /// Constant c that the scaled dot product has.
+    /// Constant c: the required value of the scaled dot product.
     pub constant: T,
     /// Number of the row, its place in `phi`.
     pub row: u32,
-    /// The row's place in the Jacobian store.
+    /// Place of the row in the Jacobian store.
     pub place: Span,
 }
 
 impl<T: Real> Dot<T> {
-    /// Value (less `target`) and gradient at `q`.
+    /// Writes value s x.y - c and gradient at `q`.
     #[inline(always)]
     pub fn evaluate<const D: usize>(
         &self,
@@ -39,7 +39,8 @@ impl<T: Real> Dot<T> {
         self.write_gradient(pool, &x, &y, jacobian);
     }
 
-    /// Value and gradient at `q + dq` from the value at `q`: phi = phi_n + s ((x + dx/2).dy + (y + dy/2).dx), exact.
+    /// Writes value and gradient at `q + dq`, from the value at `q`. The form phi = phi_n + s ((x + dx/2).dy + (y + dy/2).dx) is
+    /// exact.
     #[inline(always)]
     pub fn advance<const D: usize>(
         &self,

@@ -1,4 +1,4 @@
-//! Guided coordinate: a joint's angle, slide or rotation vector follows f(t). The coordinate is known, so none is added.
+//! Guided coordinate: a joint's angle, slide or rotation vector follows a prescribed f(t). The known coordinate adds no unknown.
 //!
 //! ```text
 //! slide:  phi = s x.y - f
@@ -6,57 +6,59 @@
 //!         phi_t = -f' B.y
 //!         bias  = A_tt.y + 2 A_t.y',   A_t  = cos f x2' - sin f x1' - f' B
 //!                                      A_tt = -2 f' (sin f x2' + cos f x1') - f'' B - f'^2 A
-//! rotation, component k of (i, j, k) in a circle:
+//! rotation, component k, (i, j, k) cyclic:
 //!         phi   = (z_j.y_i - z_i.y_j)/2,   z_i = sum_a R_ai x_a,   R = exp(f)
 //!         phi_t, bias: z with R' = [w] R and R'' = ([w'] + [w]^2) R
 //! ```
 //!
-//! The three rows of a rotation are the axial vector of sum_i z_i x y_i / 2 in the axes of z: the sine of the deviation along its axis.
+//! The three rows of a rotation are the axial vector sum_i z_i x y_i / 2 in the axes of z. Its length is the sine of the deviation
+//! from the guide.
 //!
-//! x1, x2 stand across the axis in the first body, y in the second. phi = sin(angle - f): regular for every angle; the
-//! false root half a turn away has B.y < 0, see [`Guided::is_opposite`].
+//! The directions x1, x2 are perpendicular to the axis in the first body, and y in the second. Since phi = sin(angle - f), the row
+//! is regular for every angle. The false root, half a turn away, has B.y < 0: see [`Guided::is_opposite`].
 
 use super::combination::{Span, Term, add_gradient, combine};
 use crate::Real;
 use crate::algebra::{Vector, cross, rotation, unit};
 use crate::laws::spin::spin;
 
-/// Coordinate that is guided: an angle, a slide, or a component of a rotation vector.
+/// Guided coordinate: an angle, a slide, or a component of a rotation vector.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum GuidedMotion {
     /// Angle of y in the frame x1, x2 of the first body.
     Angle {
         /// Direction at angle zero.
         x1: Span,
-        /// Direction a quarter turn further.
+        /// Direction at a quarter turn further.
         x2: Span,
     },
-    /// A distance along a direction.
+    /// Distance along a direction, which the row has as `y`.
     Slide {
-        /// From the first body's point to the second's.
+        /// Vector from the first body's point to the second's.
         x: Span,
     },
-    /// A component of a rotation vector: three directions of the first body, one of the second in the element, the other here.
+    /// Component of a rotation vector, by three directions of the first body and two of the second. The row has the second body's
+    /// axis i.
     Rotation {
-        /// Directions of the first body: its three axes of the reference configuration.
+        /// Directions of the first body that were the global axes in the reference configuration.
         x: [Span; 3],
-        /// The second body's axis j.
+        /// Axis j of the second body.
         y: Span,
         /// Component k of the rotation vector, from 0.
         number: u32,
     },
 }
 
-/// A component of a rotation vector: the first body's axes, the second body's axis j, and k.
+/// Component of a rotation vector: the first body's axes, the second body's axis j, and the number k.
 type Component = ([Span; 3], Span, u32);
 
-/// The axes (i, j) that turn into each other about axis k.
+/// Axes (i, j) that a rotation about axis k turns into each other.
 fn pair(k: u32) -> (usize, usize) {
     let k = k as usize;
     ((k + 1) % 3, (k + 2) % 3)
 }
 
-/// The rotation vector of three guides from `first`, with its first two derivatives.
+/// Rotation vector from three guides that begin with `first`, with its first two derivatives.
 fn vector<T: Real>(guides: &[[T; 3]], first: u32) -> [Vector<T, 3>; 3] {
     let mut f = [Vector::<T, 3>::zeros(); 3];
     for (i, guide) in guides.iter().skip(first as usize).take(3).enumerate() {
@@ -67,7 +69,7 @@ fn vector<T: Real>(guides: &[[T; 3]], first: u32) -> [Vector<T, 3>; 3] {
     f
 }
 
-/// The columns (i, j) of R = exp(f), R' and R''.
+/// Columns (i, j) of R = exp(f), R' and R''.
 fn columns<T: Real>(guides: &[[T; 3]], first: u32, k: u32) -> [[Vector<T, 3>; 2]; 3] {
     let f = vector(guides, first);
     let [omega, omega_t] = spin(f);
@@ -77,7 +79,7 @@ fn columns<T: Real>(guides: &[[T; 3]], first: u32, k: u32) -> [[Vector<T, 3>; 2]
     [now, rates, second]
 }
 
-/// The columns (i, j) of exp(f).
+/// Columns (i, j) of the rotation exp(f).
 fn turned<T: Real>(f: &Vector<T, 3>, k: u32) -> [Vector<T, 3>; 2] {
     let (r, (i, j)) = (rotation(f), pair(k));
     [r * unit(i), r * unit(j)]
@@ -88,7 +90,7 @@ fn mixed<T: Real, const D: usize>(r: &Vector<T, 3>, x: &[Vector<T, D>; 3]) -> Ve
     x[0] * r[0] + x[1] * r[1] + x[2] * r[2]
 }
 
-/// (z_j.y_i - z_i.y_j)/2 by columns (i, j) of a rotation or of its derivatives.
+/// Product (z_j.y_i - z_i.y_j)/2, for columns (i, j) of a rotation or of its derivatives.
 fn skew<T: Real, const D: usize>(
     r: &[Vector<T, 3>; 2],
     x: &[Vector<T, D>; 3],
@@ -97,23 +99,23 @@ fn skew<T: Real, const D: usize>(
     (mixed(&r[1], x).dot(&y[0]) - mixed(&r[0], x).dot(&y[1])) * T::HALF
 }
 
-/// Rheonomic row of a guided coordinate.
+/// Rheonomic (time-dependent) row of a guided coordinate.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Guided {
     /// Coordinate that is guided, with the directions that measure it.
     pub motion: GuidedMotion,
-    /// Direction in the second body (angle), or of the slide; of a rotation the second body's axis i.
+    /// Direction in the second body (angle), direction of the slide, or axis i of the second body (rotation).
     pub y: Span,
-    /// Number of the guide that drives the coordinate; of a rotation the first of its three.
+    /// Number of the guide that prescribes the coordinate. For a rotation, the first of its three guides.
     pub guide: u32,
     /// Number of the row, its place in `phi`.
     pub row: u32,
-    /// The row's place in the Jacobian store.
+    /// Place of the row in the Jacobian store.
     pub place: Span,
 }
 
 impl Guided {
-    /// Hands out the pairs of directions, with their factors, that make the curvature of phi by the guides of the instant.
+    /// Passes pairs of directions and their factors to `take`, from which the curvature of phi at the current guide values follows.
     #[cfg(feature = "alloc")]
     pub(crate) fn each_pair<T: Real>(
         &self,
@@ -137,7 +139,7 @@ impl Guided {
         }
     }
 
-    /// Value and gradient at `q`, with all guides at the instant.
+    /// Writes value and gradient at `q`, with all guides at the current time.
     pub fn evaluate<T: Real, const D: usize>(
         &self,
         pool: &[Term<T>],
@@ -148,7 +150,7 @@ impl Guided {
         self.evaluate_with::<T, D>(pool, |x| combine(x.of(pool), q), guides, store);
     }
 
-    /// Value and gradient at `q + dq`.
+    /// Writes value and gradient at `q + dq`.
     pub fn evaluate_at_sum<T: Real, const D: usize>(
         &self,
         pool: &[Term<T>],
@@ -193,7 +195,8 @@ impl Guided {
         }
     }
 
-    /// Value and gradient of a component of a rotation. They stand apart: what has them inline does not fit into the loops over rows.
+    /// Writes value and gradient of a component of a rotation. A separate function, because inlining it makes the loops over rows
+    /// too large.
     #[inline(never)]
     fn evaluate_rotation<T: Real, const D: usize>(
         &self,
@@ -213,7 +216,7 @@ impl Guided {
         skew(&r, &axes, &second)
     }
 
-    /// The directions of a rotation as they are.
+    /// Directions of a rotation at coordinates or velocities `q`.
     fn axes<T: Real, const D: usize>(
         &self,
         pool: &[Term<T>],
@@ -242,8 +245,8 @@ impl Guided {
         }
     }
 
-    /// B.y, the cosine of the deviation from the guide (one on the path); of a rotation z_i.y_i + z_j.y_j, which is two there, and at half
-    /// a turn negative in one of its rows.
+    /// Cosine of the deviation from the guide, B.y, which is one on the path. For a rotation z_i.y_i + z_j.y_j, which is two on the
+    /// path. At half a turn it is negative in one of the rows.
     fn cosine<T: Real, const D: usize>(&self, pool: &[Term<T>], q: &[T], guides: &[[T; 3]]) -> T {
         match self.motion {
             GuidedMotion::Slide { .. } => T::ONE,
@@ -261,7 +264,7 @@ impl Guided {
         }
     }
 
-    /// Does the angle sit at the false root, half a turn from the guide?
+    /// Is the angle at the false root, half a turn from the guide?
     pub fn is_opposite<T: Real, const D: usize>(
         &self,
         pool: &[Term<T>],
@@ -296,7 +299,7 @@ impl Guided {
                 let [now, rates, second] = columns(guides, self.guide, number);
                 let (at, moving) =
                     (self.axes::<T, D>(pool, (x, y), q), self.axes::<T, D>(pool, (x, y), v));
-                // C'': x.y + 2 C': (x'.y + x.y') + 2 C: x'.y'
+                // C is the matrix of the products, C': its rate. phi'' = C'': x.y + 2 C': (x'.y + x.y') + 2 C: x'.y'
                 let turning = skew(&rates, &moving.0, &at.1) + skew(&rates, &at.0, &moving.1);
                 let products = turning + skew(&now, &moving.0, &moving.1);
                 skew(&second, &at.0, &at.1) + products * T::TWO

@@ -1,4 +1,4 @@
-//! Linear dependence of entities: an extra point of a body on its basis.
+//! Linear dependence of entities: an additional point or direction of a body, as a combination of its basis.
 //!
 //! ```text
 //! phi = sum_k a_k e_k - c          D rows with a constant gradient
@@ -8,14 +8,14 @@ use super::combination::{Span, Term, combine};
 use crate::Real;
 use crate::algebra::Vector;
 
-/// D rows of linear dependence.
+/// Element with D rows of linear dependence.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Linear {
-    /// Combination that the rows hold at zero; constants enter as entities.
+    /// Combination that the rows constrain to zero; constants are entities of it.
     pub x: Span,
     /// First of the D row numbers.
     pub row: u32,
-    /// The place of the D rows, each of the same width, in the Jacobian store.
+    /// Place of the D rows, all of the same width, in the Jacobian store.
     pub place: Span,
 }
 
@@ -29,7 +29,7 @@ impl Linear {
         }
     }
 
-    /// Values at `q + dq` from those at `q`.
+    /// Writes the values at `q + dq`, from those at `q`.
     #[inline(always)]
     pub fn advance<T: Real, const D: usize>(
         &self,
@@ -45,7 +45,7 @@ impl Linear {
         }
     }
 
-    /// Writes the constant gradient once.
+    /// Writes the gradient, which is constant.
     pub fn write_gradient<T: Real, const D: usize>(&self, pool: &[Term<T>], jacobian: &mut [T]) {
         let rows = self.place.of_mut(jacobian);
         rows.fill(T::ZERO);

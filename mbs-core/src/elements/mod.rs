@@ -1,7 +1,7 @@
 //! Element kernels of natural coordinates: constraint rows with value, gradient, bias and curvature.
 //!
-//! Coordinates stand in one *extended* array: first the n unknowns, then constants (ground points, fixed directions,
-//! a zero vector). Velocities are zero in the constant tail, so an end on the ground needs no case of its own.
+//! All coordinates are in one *extended* array: first the n unknowns, then constants (ground points, fixed directions, a zero
+//! vector). Velocities of constants are zero, so that an end on the ground needs no special case.
 //!
 //! | element | equation | gradient | bias |
 //! |---|---|---|---|

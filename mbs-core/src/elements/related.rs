@@ -1,11 +1,11 @@
-//! Relation: a user-defined function of joint coordinates and lengths that holds.
+//! Relation element: a user-defined function of joint coordinates and lengths that is constrained.
 //!
 //! ```text
 //! phi  = (phi(m_1 .. m_n) - s(t)) / c          c: its largest derivative in the reference configuration;  a_k = c_k m_k
 //! grad = sum_k phi_k grad a_k                  bias = sum_k phi_k bias(a_k) + a'^T H a' - s''
 //! ```
 //!
-//! The row is that of a [coupling](super::coupled): measures, their gradients and biases are the same.
+//! The row has the form of a [coupling](super::coupled) row: measures, their gradients and biases are the same.
 
 use super::combination::combine;
 use super::coupled::{
@@ -18,7 +18,7 @@ use crate::laws::relation::Relation;
 use crate::measure::Arguments;
 
 impl<T: Real> Coupled<T> {
-    /// Value, which is written, and gradient, of the relation of its terms where combinations of coordinates have these values.
+    /// Writes value and gradient of the row. The closure `at` gives the values of combinations of coordinates.
     #[inline(never)]
     pub fn evaluate_relation<const D: usize>(
         &self,
@@ -49,7 +49,7 @@ impl<T: Real> Coupled<T> {
         }
     }
 
-    /// The part of phi'' without accelerations; `sum` is that of the time function.
+    /// The part of phi'' without accelerations; `sum` is the prescribed sum with its derivatives.
     #[inline(never)]
     pub fn relation_bias<const D: usize>(
         &self,

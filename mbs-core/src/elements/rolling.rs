@@ -1,41 +1,42 @@
-//! Rolling: the rows of a disc, a ball or a blade on a plane.
+//! Rolling elements: the rows of a disc, a ball or a blade on a plane.
 //!
 //! ```text
-//! c, d_i    centre and directions of the body            p, e_i, n    a point, directions and the normal of what it rolls on
-//! r = c + rho                                             the lowest point; x_i = d_i.rho, y_i = e_i.(r - p) do not move with it
-//! s = c' + sum_i d_i' x_i - p' - sum_i e_i' y_i           its velocity as a point of the body, less that as a point of the plane
+//! c, d_i    centre and directions of the body            p, e_i, n    a point, directions and the normal of the plane's body
+//! r = c + rho                                             the lowest point; x_i = d_i.rho, y_i = e_i.(r - p), held fixed in s
+//! s = c' + sum_i d_i' x_i - p' - sum_i e_i' y_i           its velocity as a point of the body, less that as a point of the plane's body
 //! height    n.(r - p) = 0                                 rate n.s
-//! no slip   t_k.s = 0                                     rows of velocities: t_1, t_2 along the plane, fixed in it
+//! no slip   t_k.s = 0                                     velocity rows: t_1, t_2 along the plane, fixed in it
 //! blade     (n x d).s = 0                                 d the direction along which it may move
 //! bias      u.(sum_i d_i' x_i' - sum_i e_i' y_i') + u'.s
 //! ```
 //!
-//! The gradient of the height is that of n.s up to multiples of the rows that keep d_i and e_i of unit length: the lowest point moves along
-//! the rim, across n.
+//! The gradient of the height is that of n.s, up to multiples of the rows that keep d_i and e_i of unit length. The lowest point
+//! moves along the rim, perpendicular to n.
 
 use super::combination::{Span, Term, add_gradient, combine};
 use crate::Real;
 use crate::algebra::{Vector, cross, lowered, raised, unit};
 use crate::measure::{Moving, lies_flat, lowest_point};
 
-/// A rolling in natural coordinates.
+/// Rolling in natural coordinates, with one row or more.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RollingRows<T: Real> {
-    /// The radius of a disc or ball [m].
+    /// Radius of a disc or ball [m].
     pub radius: T,
-    /// Is it a blade?
+    /// Is the element a blade?
     pub is_blade: bool,
-    /// Frame of the body: its centre, or the point of a blade, and its directions along the global axes of the reference configuration.
+    /// Frame of the rolling body: its centre, or the point of a blade, and its directions along the global axes of the reference
+    /// configuration.
     pub body: RollingFrame,
-    /// Frame of what it rolls on: a point of the plane, and directions.
+    /// Frame of the plane's body: a point of the plane, and directions.
     pub on: RollingFrame,
-    /// The axis of a disc or the direction of a blade, in the body.
+    /// Axis of a disc, or direction of a blade, in the rolling body.
     pub axis: Vector<T, 3>,
-    /// The normal, then two directions along the plane, in what it rolls on.
+    /// Normal, then two directions along the plane, in the plane's body.
     pub plane: [Vector<T, 3>; 3],
-    /// First of its rows.
+    /// Number of the first row.
     pub row: u32,
-    /// Number of its rows: the height first, unless it is a blade.
+    /// Number of the element's rows. The height is the first row, unless the element is a blade.
     pub n: u32,
     /// Place of the rows in the Jacobian store.
     pub place: Span,
@@ -46,18 +47,18 @@ pub struct RollingRows<T: Real> {
 pub struct RollingFrame {
     /// Point of the frame.
     pub point: Span,
-    /// Directions of the frame, as many as the space has.
+    /// Directions of the frame. In the plane only two are used.
     pub axes: [Span; 3],
 }
 
-/// A frame with its rates.
+/// Frame with the rates of its point and directions.
 struct Placed<T: Real> {
     point: Moving<T>,
     axes: [Moving<T>; 3],
 }
 
 impl<T: Real> Placed<T> {
-    /// A vector that is fixed in the frame.
+    /// Vector that is fixed in the frame, with its rate.
     fn turned(&self, x: &Vector<T, 3>) -> Moving<T> {
         let mut sum = [Vector::zeros(); 2];
         for (axis, &x) in self.axes.iter().zip(x.iter()) {
@@ -66,12 +67,12 @@ impl<T: Real> Placed<T> {
         sum
     }
 
-    /// The components of a vector along the directions, and their rates.
+    /// Components of a vector along the directions, and their rates.
     fn components(&self, x: &Moving<T>) -> [[T; 2]; 3] {
         self.axes.map(|[e, e_t]| [e.dot(&x[0]), e_t.dot(&x[0]) + e.dot(&x[1])])
     }
 
-    /// Velocity of the point that has these components.
+    /// Velocity of the point with these components, fixed in the frame.
     fn velocity(&self, x: &[[T; 2]; 3]) -> Vector<T, 3> {
         let parts = self.axes.iter().zip(x);
         parts.fold(self.point[1], |sum, ([_, e_t], [x, _])| sum + e_t * *x)
@@ -84,19 +85,19 @@ impl<T: Real> Placed<T> {
     }
 }
 
-/// Body and plane at an instant.
+/// Rolling body and plane at one instant.
 struct Instant<T: Real> {
     body: Placed<T>,
     on: Placed<T>,
     normal: Moving<T>,
-    /// From the point of the plane to the lowest point.
+    /// Vector from the point of the plane to the lowest point.
     gap: Moving<T>,
-    /// Components of the lowest point in the body from its centre, and in the plane.
+    /// Components of the lowest point in the body, from its centre, and in the plane, from its point.
     parts: [[[T; 2]; 3]; 2],
 }
 
 impl<T: Real> RollingRows<T> {
-    /// The first of its rows of velocities; the others follow.
+    /// Numbers of the velocity rows.
     pub fn slip_rows(&self) -> core::ops::Range<usize> {
         let held = u32::from(!self.is_blade);
         (self.row + held) as usize..(self.row + self.n) as usize
@@ -121,7 +122,7 @@ impl<T: Real> RollingRows<T> {
         Instant { body, on, normal, gap, parts }
     }
 
-    /// The direction that a row measures along, row 0 the first.
+    /// Direction along which a velocity or height row measures; row 0 is the first.
     fn direction(&self, row: usize, now: &Instant<T>) -> Moving<T> {
         if self.is_blade {
             let ([n, n_t], [d, d_t]) = (now.normal, now.body.turned(&self.axis));
@@ -130,12 +131,12 @@ impl<T: Real> RollingRows<T> {
         now.on.turned(&self.plane[row])
     }
 
-    /// Heights and gradients at `q`; rows of velocities have the value zero.
+    /// Writes heights and gradients at `q`. Velocity rows have the value zero.
     pub fn evaluate<const D: usize>(&self, pool: &[Term<T>], q: &[T], out: (&mut [T], &mut [T])) {
         self.evaluate_with::<D>(pool, |x| [value::<T, D>(pool, x, q), Vector::zeros()], out);
     }
 
-    /// Heights and gradients at `q + dq`; rows of velocities have the value zero.
+    /// Writes heights and gradients at `q + dq`. Velocity rows have the value zero.
     pub fn advance<const D: usize>(
         &self,
         pool: &[Term<T>],
@@ -171,7 +172,7 @@ impl<T: Real> RollingRows<T> {
         }
     }
 
-    /// The parts of the rows' accelerations without accelerations, one after the other.
+    /// Writes the parts of the rows' second derivatives without accelerations, row after row.
     pub fn bias<const D: usize>(&self, pool: &[Term<T>], (q, v): (&[T], &[T]), bias: &mut [T]) {
         let now = self.instant::<D>(|x| [q, v].map(|e| value::<T, D>(pool, x, e)));
         let [own, of_plane] = &now.parts;
@@ -183,14 +184,14 @@ impl<T: Real> RollingRows<T> {
         }
     }
 
-    /// Does the disc lie flat, or the blade stand along the normal, at `q`?
+    /// Is the disc flat on the plane at `q`, or the blade along its normal?
     pub fn is_flat<const D: usize>(&self, pool: &[Term<T>], q: &[T]) -> bool {
         let now = self.instant::<D>(|x| [value::<T, D>(pool, x, q), Vector::zeros()]);
         lies_flat(&now.normal[0], &now.body.turned(&self.axis)[0])
     }
 }
 
-/// The value of a combination, in space.
+/// Value of a combination, as a vector with three components.
 fn value<T: Real, const D: usize>(pool: &[Term<T>], x: Span, e: &[T]) -> Vector<T, 3> {
     raised(&combine::<T, D>(x.of(pool), e))
 }

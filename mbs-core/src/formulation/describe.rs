@@ -1,28 +1,28 @@
-//! Answers of a formulation to what is asked of it beside its steps.
+//! Description of a formulation: answers besides its steps.
 
 use crate::Real;
 use crate::laws::code::Codes;
 use crate::model::{Model, Owner};
 use crate::natural::NaturalModel;
 
-/// Description of a formulation: its sizes, and whose its unknowns and rows are. The defaults are those of natural coordinates.
+/// Description of a formulation: sizes, and owners of its unknowns and rows. The defaults are those of natural coordinates.
 pub trait Describe<T: Real, const D: usize> {
-    /// Coordinates, constraints and their rank at the start, where other coordinates than natural ones are stepped.
+    /// Numbers of coordinates, constraints and their rank at the start; `None` for formulations in natural coordinates.
     fn sizes(&self) -> Option<[usize; 3]> {
         None
     }
 
-    /// Threads that share the work of a step, this one among them.
+    /// Number of threads that work on a step, with the calling one.
     fn threads(&self) -> usize {
         1
     }
 
-    /// The index in which the next step would be made, and the changes of it so far; nothing where there is none.
+    /// Index (1 or 3) of the next step, and the number of changes of the index so far; `None` without an index.
     fn index(&self) -> Option<(u8, u32)> {
         None
     }
 
-    /// An angle or slide of a joint with its turns, by joint and number, where the formulation's own coordinates have it.
+    /// Angle or slide of a joint with full turns, by joint and number; `None` if the formulation does not have it as a coordinate.
     fn coordinate(&self, _joint: usize, _number: usize) -> Option<T> {
         None
     }
@@ -37,7 +37,7 @@ pub trait Describe<T: Real, const D: usize> {
         model.owner_of_row(row)
     }
 
-    /// The user-defined laws by which it steps: whether one of them failed.
+    /// User-defined laws that the formulation uses, which note failures.
     fn codes<'a>(&'a self, model: &'a NaturalModel<T, D>) -> &'a Codes {
         model.codes()
     }

@@ -1,4 +1,4 @@
-//! Formulation as a program sees it: [`Formulation`] with [`Trials`] and [`Describe`], implemented by the formulation's own crate.
+//! Interface of a formulation: [`Formulation`] with [`Trials`] and [`Describe`], implemented by each formulation's crate.
 
 mod describe;
 mod trials;
@@ -15,17 +15,17 @@ use alloc::boxed::Box;
 use core::any::Any;
 use core::fmt::Debug;
 
-/// One way to step a state in natural coordinates.
+/// Method that steps a state in natural coordinates.
 ///
-/// What a formulation keeps beside that state is its own: scratch, what it remembers from step to step, a state in other coordinates.
-/// Those that step natural coordinates implement few of the methods: the defaults are theirs.
+/// Besides this state a formulation has its own data: scratch memory, history, or a state in other coordinates. The default methods
+/// are right for formulations that step natural coordinates, which implement few of them.
 pub trait Formulation<T: Real, const D: usize>:
     Trials<T, D> + Describe<T, D> + Erased<T, D> + Debug + Send + Sync
 {
     /// Advances the state by one step.
     ///
     /// # Errors
-    /// [`StepError`]; the natural state is then unchanged.
+    /// [`StepError`]. The natural state is then unchanged.
     fn step(
         &mut self,
         model: &NaturalModel<T, D>,
@@ -33,20 +33,20 @@ pub trait Formulation<T: Real, const D: usize>:
         state: &mut State<T>,
     ) -> Result<StepReport<T>, StepError>;
 
-    /// Makes the state that of the inputs that are set in it now: what it changes is no part of a trial.
+    /// Makes the state consistent with the inputs that are set in it. The change is not part of a trial step.
     ///
     /// # Errors
-    /// [`StepError`]; the state is then unchanged.
+    /// [`StepError`]. The state is then unchanged.
     fn take_inputs(
         &mut self,
         model: &NaturalModel<T, D>,
         state: &mut State<T>,
     ) -> Result<(), StepError>;
 
-    /// Makes the state, just before a signal jumps, that just after, at time `to` [s]: the mechanism stays where it is.
+    /// Changes the state just before a jump of a signal to the state just after, at time `to` [s]. The mechanism does not move.
     ///
     /// # Errors
-    /// [`StepError`]; the state is then unchanged.
+    /// [`StepError`]. The state is then unchanged.
     fn pass_jump(
         &mut self,
         model: &NaturalModel<T, D>,
@@ -54,7 +54,7 @@ pub trait Formulation<T: Real, const D: usize>:
         to: T,
     ) -> Result<(), StepError>;
 
-    /// One step of fixed length, from the inputs to the energies at its end: what a loop of such steps calls, once a step.
+    /// Makes one step of fixed length: sets the inputs, steps, and computes the energies at the end. A loop calls it once a step.
     ///
     /// # Errors
     /// As for [`step`](Self::step).
@@ -82,50 +82,51 @@ pub trait Formulation<T: Real, const D: usize>:
         Ok((report, self.energies(model, state)))
     }
 
-    /// History from which the next step resumes, beside the natural state.
+    /// History from which the next step continues, besides the natural state.
     fn history(&self) -> History<T>;
 
-    /// Resumes from a history.
+    /// Restores a history, so that steps continue from it.
     ///
     /// # Errors
-    /// [`RestoreError`] where it is of another formulation or model; what is remembered may then be in part that of the history.
+    /// [`RestoreError`] for a history of another formulation or model. The formulation may then have parts of that history.
     fn set_history(&mut self, history: &History<T>) -> Result<(), RestoreError>;
 
-    /// The terms of the natural-coordinate model as last evaluated; nothing where other coordinates are stepped.
+    /// Terms of the natural-coordinate model from the last evaluation; `None` for formulations in other coordinates.
     fn terms(&self) -> Option<&Terms<T>>;
 
-    /// Kinetic and potential energy, and the work so far [J].
+    /// Kinetic energy, potential energy, and work since the start [J].
     fn energies(&self, model: &NaturalModel<T, D>, state: &State<T>) -> [f64; 3] {
         energies(model, state, self.terms())
     }
 
-    /// Sets the clock of a state that is not the natural one.
+    /// Sets the time of a formulation's state in other coordinates.
     fn set_time(&mut self, _t: T) {}
 
-    /// Sets the work [J] of a state that is not the natural one.
+    /// Sets the work [J] of a formulation's state in other coordinates.
     fn set_work(&mut self, _work: T) {}
 
-    /// Evaluates the energies anew where they are kept from the last step.
+    /// Computes the energies again, for formulations that store them from the last step.
     fn watch(&mut self) {}
 
-    /// Lets an integrator that controls its own steps try at most `n` of them within one step.
+    /// Limits an integrator with internal step control to `n` trial steps within one step.
     fn set_max_steps(&mut self, _n: u32) {}
 
-    /// May this take over the state of another, of a model with other effects?
+    /// Can this formulation use the state of another one, whose model may have other effects?
     ///
     /// # Errors
-    /// [`SwitchError`].
+    /// [`SwitchError`] with the reason why not.
     fn can_take_over(&self, _other: &dyn Formulation<T, D>) -> Result<(), SwitchError> {
         Err(SwitchError::Formulation)
     }
 
-    /// Copies the coordinates and velocities of another that this one can take over; [`refresh`](Self::refresh) makes the rest.
+    /// Copies coordinates and velocities of another formulation, if `can_take_over` allows it. [`refresh`](Self::refresh) computes
+    /// the rest.
     fn take_over(&mut self, _other: &dyn Formulation<T, D>) {}
 
-    /// Makes accelerations and multipliers consistent at a state that was set from outside.
+    /// Makes accelerations and multipliers consistent with a state that was set by the caller.
     ///
     /// # Errors
-    /// [`StepError`]; the state is then unchanged.
+    /// [`StepError`]. The state is then unchanged.
     fn refresh(
         &mut self,
         _model: &NaturalModel<T, D>,
@@ -135,15 +136,15 @@ pub trait Formulation<T: Real, const D: usize>:
     }
 }
 
-/// A formulation without its type: every one that can be cloned has it.
+/// Formulation as a trait object. Every formulation that can be cloned implements it.
 pub trait Erased<T: Real, const D: usize> {
-    /// This formulation as its own type: options are changed there.
+    /// Returns this formulation as `Any`, for access to its options.
     fn as_any(&self) -> &dyn Any;
 
-    /// This formulation as its own type, to be changed.
+    /// Returns this formulation as mutable `Any`.
     fn as_any_mut(&mut self) -> &mut dyn Any;
 
-    /// A copy, which steps to the same bits; threads are shared.
+    /// Returns a copy, whose steps are bitwise equal. Both use the same threads.
     fn clone_box(&self) -> Box<dyn Formulation<T, D>>;
 }
 
@@ -167,17 +168,17 @@ impl<T: Real, const D: usize> Clone for Box<dyn Formulation<T, D>> {
     }
 }
 
-/// Why a formulation cannot take over the state of another.
+/// Reason why a formulation cannot use the state of another one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum SwitchError {
-    /// The formulation has no way to make accelerations consistent between two steps.
+    /// The formulation cannot make accelerations consistent between two steps.
     Formulation,
-    /// The models have other coordinates, constraints, or measured angles whose turns are counted.
+    /// The models have different coordinates, constraints or remembered angles.
     Coordinates,
 }
 
-/// Kinetic and potential energy and the work so far of a natural state [J], by terms that were evaluated there, or by new ones.
+/// Kinetic energy, potential energy and work of a natural state [J]. They use `terms` evaluated at this state, or new terms.
 pub fn energies<T: Real, M: Model<T>>(
     model: &M,
     state: &State<T>,
@@ -197,8 +198,8 @@ pub fn energies<T: Real, M: Model<T>>(
     [model.kinetic_energy(v).to_f64(), potential.to_f64(), state.work.to_f64()]
 }
 
-/// Calls `$work` with the model that a team shares, bound to `$shared`. With one thread it is the model itself: through a team's forks small
-/// mechanisms take 5 to 8 % more instructions.
+/// Calls `$work` with the model bound to `$shared`. With several threads the model uses the team. With one thread it is the plain
+/// model, because a team costs small mechanisms 5 to 8 % more instructions.
 #[macro_export]
 macro_rules! with_team {
     ($model:expr, $team:expr, |$shared:ident| $work:expr) => {

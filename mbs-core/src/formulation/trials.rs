@@ -1,19 +1,19 @@
-//! Trials of a step, of which the last one is kept and the others are undone.
+//! Trial steps: the last one is accepted, and the others are undone.
 
 use crate::Real;
 use crate::model::State;
 use crate::natural::NaturalModel;
 use crate::step::{Step, StepError};
 
-/// Trials of steps as a formulation sees them: where it keeps nothing beside the natural state, nothing is to do.
+/// Trial steps of a formulation. The default methods are right for formulations without data besides the natural state.
 pub trait Trials<T: Real, const D: usize> {
-    /// Saves what stands beside the natural state, so that trials after it can be undone.
+    /// Saves the data besides the natural state, so that later trials can be undone.
     fn save_trial(&mut self) {}
 
-    /// Goes back to what was saved; the natural state is the caller's.
+    /// Restores the saved data. The caller restores the natural state.
     fn restore_trial(&mut self) {}
 
-    /// Called before a trial that follows `reductions` of it in a row; says whether it has changed the state.
+    /// Prepares a trial that follows `reductions` reductions of the step in a row. Returns whether it changed the state.
     fn prepare(
         &mut self,
         _model: &NaturalModel<T, D>,
@@ -24,15 +24,15 @@ pub trait Trials<T: Real, const D: usize> {
         false
     }
 
-    /// A step of fixed length has failed: does the next trial of it go otherwise? Then so do the steps after it, until the trial is
-    /// [undone](Self::restore_trial).
+    /// Reacts to a failed step of fixed length. Returns whether the next trial uses a different method. Later steps then use it
+    /// too, until the trial is [undone](Self::restore_trial).
     fn strengthen(&mut self, _error: &StepError) -> bool {
         false
     }
 
-    /// A trial of length `dt` [s] has come to its end, whether it is accepted or not.
+    /// Notes that a trial of length `dt` [s] has ended, accepted or not.
     fn tried(&mut self, _dt: T) {}
 
-    /// The last trial is the step.
+    /// Accepts the last trial as the step.
     fn accept(&mut self) {}
 }

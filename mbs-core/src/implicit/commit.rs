@@ -1,4 +1,4 @@
-//! How a finished step in natural coordinates enters the state, and what steps look for on the way.
+//! End of a step in natural coordinates: the update of the state, and checks on the way.
 
 use super::StepEnd;
 use crate::Real;
@@ -7,8 +7,8 @@ use crate::model::{Model, Owner, State, Terms};
 use crate::step::StepError;
 use crate::team::{Team, on_stretches};
 
-/// Takes a finished step over into the state: its end, with accelerations in [m/s^2]; `lambda` times `unit` as multipliers of the equations
-/// of motion, and those that are in balance with the projected accelerations, `reaction` of a row and its multiplier.
+/// Copies a finished step into the state. `end` has accelerations in [m/s^2]. `lambda` times `unit` are the multipliers of the equations of
+/// motion. `reaction` computes, from a row and its multiplier, the multiplier in equilibrium with the projected accelerations.
 #[inline]
 pub fn commit<T: Real, M: Model<T>>(
     model: &M,
@@ -35,8 +35,8 @@ pub fn commit<T: Real, M: Model<T>>(
     add_work(model, rule.dt, s, terms);
 }
 
-/// (q, q_low) += dq without rounding where `compensated`, q += dq where not; v and a are taken over, and the auxiliary
-/// accelerations follow. All slices are read over the unknowns (the length of `dq` or less: `n`).
+/// Updates coordinates, velocities and accelerations, also the auxiliary accelerations. The sum (q, q_low) += dq is compensated and exact
+/// if `compensated`, else it is q += dq. n is the number of unknowns; all slices are at least that long.
 pub fn take_coordinates<T: Real, W: Team>(
     team: &W,
     (rule, compensated, n): (&Rule<T>, bool, usize),
@@ -69,8 +69,8 @@ pub fn take_coordinates<T: Real, W: Team>(
     });
 }
 
-/// Adds the work of the last `dt` [s] to the ledger of a state whose q, v and reaction are final, by the trapezoidal rule in
-/// time; measured angles are remembered.
+/// Adds the work of the last `dt` [s] to the energy balance, by the trapezoidal rule in time. It also remembers measured angles. q, v and
+/// reaction of the state must be final.
 pub fn add_work<T: Real, M: Model<T>>(model: &M, dt: T, s: &mut State<T>, terms: &mut Terms<T>) {
     if model.has_forces() {
         model.evaluate_forces(&s.q, &s.v, terms);
@@ -88,7 +88,7 @@ pub fn add_work<T: Real, M: Model<T>>(model: &M, dt: T, s: &mut State<T>, terms:
     s.power = power;
 }
 
-/// A guided angle satisfies its equation half a turn away too: that root is refused.
+/// Checks that no guided angle is half a turn from its guide, where the constraint holds too.
 ///
 /// # Errors
 /// [`StepError::OppositeBranch`] names the guide's row.
@@ -106,7 +106,7 @@ pub fn check_guides<T: Real, M: Model<T>>(
     }
 }
 
-/// A rotation in space is known below a whole turn.
+/// Checks that no rotation in space has reached a whole turn, where it is not defined.
 ///
 /// # Errors
 /// [`StepError::Overturned`] names the effect.
@@ -119,8 +119,8 @@ pub fn check_rotations<T: Real, M: Model<T>>(model: &M, terms: &Terms<T>) -> Res
     }
 }
 
-/// A part of a rope keeps a length, a twist its axis, and a disc that rolls stands, else they have no direction; `dq` leads from the state
-/// to the end of the step.
+/// Checks that all directions are defined at the end of the step, to which `dq` leads. Each part of a line needs a length and each twist an
+/// axis, and no rolling disc may lie flat.
 ///
 /// # Errors
 /// [`StepError::RopeCollapsed`], [`StepError::LineCollapsed`], [`StepError::TwistOpen`], [`StepError::RollingFlat`].

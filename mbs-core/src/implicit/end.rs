@@ -1,4 +1,5 @@
-//! Coordinates, velocities and accelerations at the end of a step, predicted, then corrected.
+//! Coordinates, velocities and accelerations at the end of a step: their prediction and their corrections. `unit` is a' of the rule, x and
+//! y are factors of the correction in position and velocity.
 //!
 //! ```text
 //! dq = dq_p,      v = v_p,      a = unit a_p
@@ -12,7 +13,7 @@ use crate::team::on_stretches;
 use alloc::vec;
 use alloc::vec::Vec;
 
-/// End of a step, as it is known within the step; all vectors are extended.
+/// End of a step during its iteration. All vectors have the length of the coordinates, constants included.
 #[derive(Debug, Clone)]
 pub struct StepEnd<T> {
     /// Increments of the coordinates in the step [m or -].
@@ -21,13 +22,13 @@ pub struct StepEnd<T> {
     pub q: Vec<T>,
     /// Velocities of the coordinates.
     pub v: Vec<T>,
-    /// Accelerations, in the unit that they were predicted in.
+    /// Accelerations, in the unit of the prediction.
     pub a: Vec<T>,
     n: usize,
 }
 
 impl<T: Real> StepEnd<T> {
-    /// At rest in the reference configuration.
+    /// End of a step without motion, in the reference configuration.
     pub fn new(model: &impl Model<T>) -> Self {
         let zeros = || vec![T::ZERO; model.n_extended()];
         let mut q = zeros();
@@ -35,8 +36,8 @@ impl<T: Real> StepEnd<T> {
         Self { dq: zeros(), q, v: zeros(), a: zeros(), n: model.n_unknowns() }
     }
 
-    /// Predicts increments, velocities and accelerations, these times `unit`; where accelerations alone would carry the step far, at the
-    /// rates that it begins with.
+    /// Predicts increments, velocities and accelerations, the latter times `unit`. If `is_far`, accelerations alone would displace the
+    /// coordinates far, and the prediction assumes constant velocity.
     #[inline]
     pub fn predict<M: Model<T>>(
         &mut self,
@@ -58,7 +59,7 @@ impl<T: Real> StepEnd<T> {
         }
     }
 
-    /// Takes the correction -`f` in: dq -= x f, v -= y f, a -= f. Cost: n.
+    /// Applies the correction -`f`: dq -= x f, v -= y f, a -= f. Cost: n.
     #[inline]
     pub fn correct<M: Model<T>>(&mut self, model: &M, (x, y): (T, T), f: &[T]) {
         let n = self.n;
@@ -73,7 +74,8 @@ impl<T: Real> StepEnd<T> {
         });
     }
 
-    /// q = q_n + dq, with phi and J there: of increments where `compensated`, free of the cancellation in phi. Cost: one evaluation.
+    /// Computes q = q_n + dq, with phi and J there. If `compensated`, phi is updated by its increment, without cancellation of digits.
+    /// Cost: one evaluation.
     #[inline]
     pub fn evaluate<M: Model<T>>(
         &mut self,
@@ -96,7 +98,7 @@ impl<T: Real> StepEnd<T> {
         }
     }
 
-    /// Evaluates what the step leaves of rows of velocities, where there are any: phi = (dq/dv) J v.
+    /// Sets phi = (dq/dv) J v in the velocity rows, if there are any: their residual in the step.
     #[inline]
     pub fn evaluate_rates<M: Model<T>>(&self, model: &M, rule: &Rule<T>, terms: &mut Terms<T>) {
         if model.has_velocity_rows() {
@@ -104,7 +106,7 @@ impl<T: Real> StepEnd<T> {
         }
     }
 
-    /// Applied forces and their tangents, where there are any.
+    /// Evaluates applied forces and their tangents, if there are any.
     #[inline]
     pub fn evaluate_forces<M: Model<T>>(&self, model: &M, terms: &mut Terms<T>) {
         if model.has_forces() {
@@ -112,7 +114,7 @@ impl<T: Real> StepEnd<T> {
         }
     }
 
-    /// Accelerations leave the unit of the iteration: a *= factor.
+    /// Scales accelerations from the unit of the iteration: a *= factor.
     #[inline]
     pub fn scale_accelerations<M: Model<T>>(&mut self, model: &M, factor: T) {
         on_stretches(model.team(), [&mut self.a], |_, [a]| {

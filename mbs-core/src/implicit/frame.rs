@@ -1,4 +1,4 @@
-//! Frame of an implicit step in natural coordinates: what stands before and after the equations of a formulation.
+//! Frame of an implicit step in natural coordinates: the checks, inputs and reports around the equations of a formulation.
 //!
 //! ```text
 //! checked,  inputs,  rule;   predict, iterate, project: the formulation;   rotations, lines,  state,  report
@@ -10,39 +10,39 @@ use crate::integrator::{Integrator, Rule};
 use crate::model::{Model, State, Terms};
 use crate::step::{OptionError, Step, StepError, StepReport, Stop};
 
-/// Scratch of the implicit steps of one crate, whose formulations differ in their equations alone.
+/// Scratch memory of the implicit steps of one crate. Its formulations differ only in their equations.
 pub trait StepScratch<T: Real>: InputResponse<T> {
-    /// Integrator of the options, and whether coordinates are summed with compensation, if all options are in their ranges.
+    /// Checks the options of a step. Returns their integrator, and whether coordinates are summed with compensation.
     ///
     /// # Errors
     /// [`OptionError`] names the option.
     fn checked(options: &Self::Options) -> Result<(&Integrator<T>, bool), OptionError>;
 
-    /// End of the step, with the terms as last evaluated there.
+    /// End of the step, and the terms as last evaluated there.
     fn reached(&self) -> (&StepEnd<T>, &Terms<T>);
 
-    /// Takes the finished step over into the state; `unit` turns multipliers of the iteration into those of the equations of motion.
+    /// Copies the finished step into the state. `unit` converts multipliers of the iteration to multipliers of the equations of motion.
     fn commit<M: Model<T>>(&mut self, model: &M, how: (&Rule<T>, bool, T), s: &mut State<T>);
 
     /// Returns the report of the step.
     fn report(&mut self, newton: (u32, T, Stop), violation: [T; 3]) -> StepReport<T>;
 }
 
-/// A step whose equations are solved.
+/// Result of solving the equations of a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Solved<T> {
-    /// Number of iterations, the last correction [m or -], and what ended them.
+    /// Number of iterations, the last correction [m or -], and the reason of the end.
     pub newton: (u32, T, Stop),
-    /// Largest |phi|, |phi'|, |phi''| that the projections left [m, m/s, m/s^2].
+    /// Largest |phi|, |phi'|, |phi''| after the projections [m, m/s, m/s^2].
     pub violation: [T; 3],
-    /// Factor from multipliers of the iteration to those of the equations of motion.
+    /// Factor from multipliers of the iteration to multipliers of the equations of motion.
     pub unit: T,
 }
 
-/// Advances `s` by one [`Step`]: `solve` finds the end of it by the rule, in a scene of the given length [m].
+/// Advances `s` by one [`Step`]. `solve` computes the end of the step by the rule; its first argument also has the scene's length [m].
 ///
 /// # Errors
-/// [`StepError`]; the state is then as [`take_inputs`] left it.
+/// [`StepError`]; [`take_inputs`] may then have changed the state, but nothing else has.
 #[inline]
 pub fn step<T: Real, M: Model<T>, W: StepScratch<T>>(
     model: &M,

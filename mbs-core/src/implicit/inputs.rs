@@ -1,27 +1,29 @@
-//! Inputs that change between two steps: what they change at the state that the next step begins with.
+//! Inputs that change between two steps, and the changes of the state at the beginning of the next step.
 //!
 //! ```text
 //! M da + J^T dl = Q(q, v, u) - Q(q, v, u_n),   J da = 0
 //! a += da,   a_aux += da,   lambda_n += dl,   lambda_(n-1) += dl,   W += V(q, u) - V(q, u_n)
 //! ```
 //!
-//! A rule takes the force at the beginning of a step from the accelerations there: with these, an input acts in the whole step from the
-//! moment it is set. A signal that jumps does the same: u is then that just after, u_n that just before. What a law stores under another input is booked as work. Formulations solve for (da, dl), each with its own matrix.
+//! da and dl are changes of accelerations and multipliers, u the new inputs, u_n the old ones, W the work and V the potential energy. A
+//! rule computes the force at the beginning of a step from the accelerations there. With the changed accelerations an input acts in the
+//! whole next step. A jump of a signal is treated alike: u is then the signal just after the jump, u_n just before. A change of the energy
+//! stored in laws counts as work. Each formulation solves for da and dl with its own matrix.
 
 use crate::Real;
 use crate::model::{Model, State, Terms};
 use crate::step::{StepError, largest_or_nan};
 use crate::team::norm_inf;
 
-/// Sweeps of a response at most [-]: the first leaves 1e-6 of it or less, one or two more go to rounding.
+/// Largest number of sweeps for a response [-]. The first leaves a relative error of 1e-6 or less; one or two more reach machine precision.
 const MAX_SWEEPS: u32 = 12;
 
-/// Scratch of a formulation that solves for what a change of loads does at a state.
+/// Scratch memory of a formulation that computes the response of a state to a change of loads.
 pub trait InputResponse<T: Real> {
-    /// Choices for a step.
+    /// Options of a step.
     type Options;
 
-    /// Changes accelerations, multipliers and power of `s` from its loads to those of the inputs that are set, at time `to` [s].
+    /// Changes accelerations, multipliers and power of `s` from its present loads to the loads of the current inputs, at time `to` [s].
     ///
     /// # Errors
     /// [`StepError`]; the state is then unchanged.
@@ -34,7 +36,7 @@ pub trait InputResponse<T: Real> {
     ) -> Result<(), StepError>;
 }
 
-/// Recomputes accelerations, multipliers and power if an input was changed since the last step; returns whether one was. Every step calls
+/// Recomputes accelerations, multipliers and power if an input has changed since the last step. Returns whether one has. Every step calls
 /// this first. A caller that saves the state to undo a step calls it before saving.
 ///
 /// Cost: nothing without a change; no allocation.
@@ -54,7 +56,7 @@ pub fn take_inputs<T: Real, M: Model<T>, W: InputResponse<T>>(
     Ok(true)
 }
 
-/// Replaces accelerations, multipliers and power of `s` just before a signal jumps by those just after the jump, at time `to` [s].
+/// Replaces accelerations, multipliers and power of `s` just before the jump of a signal by those just after it, at time `to` [s].
 ///
 /// Cost: as for inputs that change.
 ///
@@ -72,14 +74,14 @@ pub fn pass_jump<T: Real, M: Model<T>, W: InputResponse<T>>(
     Ok(())
 }
 
-/// Are inputs set to other values than those that the accelerations of `s` were made with?
+/// Do the current inputs differ from those with which the accelerations of `s` were computed?
 #[inline]
 fn has_new_inputs<T: Real, M: Model<T>>(model: &M, s: &State<T>) -> bool {
     model.inputs().is_some_and(|inputs| inputs.differs(&s.inputs, &s.applied))
 }
 
-/// Evaluates the forces of time `t` [s] at `s` with the inputs that it was reached with, or with those that are set now if `is_new`;
-/// returns the potential energy [J].
+/// Evaluates the forces at state `s` and time `t` [s]. They use the current inputs if `is_new`, else the inputs of the last step. Returns
+/// the potential energy [J].
 pub fn load_at<T: Real, M: Model<T>>(
     model: &M,
     (s, t): (&State<T>, T),
@@ -97,11 +99,11 @@ pub fn load_at<T: Real, M: Model<T>>(
     model.potential_energy(&s.q, terms)
 }
 
-/// Solves for a response by sweeps, each of which writes the correction -f and the response over the unknowns, until a correction is
-/// rounding or no longer shrinks.
+/// Solves for a response by repeated sweeps. Each sweep writes the correction -f and the response over the unknowns. The sweeps end when a
+/// correction reaches machine precision or is reduced by less than half.
 ///
 /// # Errors
-/// That of a sweep, or [`StepError::NotFinite`].
+/// The error of a sweep, or [`StepError::NotFinite`].
 pub fn solve_response<T: Real, M: Model<T>, W>(
     model: &M,
     w: &mut W,
@@ -125,8 +127,7 @@ pub fn solve_response<T: Real, M: Model<T>, W>(
     Ok(())
 }
 
-/// Adds the response of accelerations (over the unknowns, or more) and multipliers to the state, and books `work` [J]; `terms` are
-/// those of the new inputs.
+/// Adds a response to the state: accelerations `da` over the unknowns, multipliers `dl` and `work` [J]. `terms` belong to the new inputs.
 pub fn add_response<T: Real, M: Model<T>>(
     model: &M,
     s: &mut State<T>,

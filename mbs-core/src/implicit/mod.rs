@@ -1,5 +1,5 @@
-//! Parts that implicit steps in natural coordinates share. They are the frame of a step, new inputs, prediction and correction, the end of
-//! Newton's iteration, violations, and how a step enters the state.
+//! Common parts of implicit steps in natural coordinates. They are the frame of a step, new inputs, prediction and correction. Further
+//! parts are the end of Newton's iteration, constraint violations, and the update of the state.
 
 mod commit;
 mod end;

@@ -1,4 +1,4 @@
-//! Newton's iteration of a step: its corrections, and when it is over.
+//! Newton's iteration of a step: the sizes of its corrections, and the criteria for its end.
 
 use super::StepEnd;
 use crate::Real;
@@ -6,38 +6,40 @@ use crate::model::Model;
 use crate::step::{StepError, Stop, largest, largest_or_nan};
 use crate::team::norm_inf;
 
-/// A correction that is rounding [EPSILON of the increment of the step, or of the scene's length]: six binary digits for the sums of a solution.
+/// Correction at machine precision [EPSILON of the increment of the step, or of the scene's length]. Six binary digits are allowed for
+/// sums.
 const ROUNDING: f64 = 64.0;
-/// A correction that is rounding at rest [EPSILON of the coordinates]: a few products, by which one such number enters a row.
+/// Correction at machine precision of a state without motion [EPSILON of the coordinates]: a rounded coordinate enters a row in few
+/// products.
 const ROUNDING_AT_REST: f64 = 4.0;
-/// Iterations after which corrections that no longer shrink may be rounding at rest, or a passage [-]: five that shrink to a fifth each have
-/// left three digits behind.
+/// Number of iterations after which a slow iteration may end at machine precision or in a passage [-]. Five corrections that each shrink to
+/// a fifth gain three digits.
 const MANY: u32 = 5;
-/// A correction that no longer shrinks is left within reach of a singular position [displacement of the step]: a combination of constraints
-/// that has almost no effect there keeps the multiplier that it had.
+/// Correction at which a slow iteration may end near a singular position [displacement of the step]. A combination of constraints has
+/// almost no effect there, so its multiplier cannot be improved.
 const PASSAGE: f64 = 1e-5;
-/// The last correction that is accepted after all iterations [displacement of the step]: a tenth of a passage.
+/// Last correction that is accepted after the largest number of iterations [displacement of the step]: a tenth of `PASSAGE`.
 const ACCEPTED: f64 = 1e-6;
 
-/// The iteration of one step: the sizes that its corrections are compared with, and the corrections so far [m or -].
+/// Newton's iteration of one step: its corrections so far [m or -], and the sizes that they are compared with.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Newton<T> {
-    /// The displacement that accelerations cause in the step [m].
+    /// Displacement that accelerations cause in the step [m].
     pub scale: T,
-    /// A correction below this times `scale` is small [-].
+    /// Size of a small correction, relative to `scale` [-].
     pub tolerance: T,
     /// Length of the scene [m].
     pub length: T,
     /// Number of corrections so far.
     pub iterations: u32,
-    /// Size of the first correction; zero before it.
+    /// Size of the first correction; zero before the first one.
     pub first: T,
-    /// The last two, the later one last; zero before them.
+    /// Sizes of the last two corrections, the latest last; zero before they exist.
     pub corrections: [T; 2],
 }
 
 impl<T: Real> Newton<T> {
-    /// Before the first correction.
+    /// State of the iteration before its first correction.
     #[inline]
     pub fn new((scale, tolerance, length): (T, T, T)) -> Self {
         let zero = T::ZERO;
@@ -50,11 +52,11 @@ impl<T: Real> Newton<T> {
         self.corrections[1]
     }
 
-    /// Takes the correction -`f` of the coordinates at `end` in; returns what ends the iteration, if it is over.
+    /// Records the correction -`f` of the coordinates at `end`. Returns the reason if the iteration ends.
     ///
-    /// Rounding is that of the increment where increments are carried (`compensated`), else of the scene's length. At rest, and in a uniform
-    /// motion, nothing moves but the rounding of forces in balance and of guided places: what no longer shrinks among the last digits of
-    /// the coordinates, of which directions are of order one, is that; and what is below the last digit of a pair of numbers is nothing.
+    /// Machine precision refers to the increments of coordinates if these are summed (`compensated`), else to the scene's length. In
+    /// equilibrium, or in uniform motion, corrections contain only rounding errors of balanced forces and of guided positions. Slow
+    /// corrections in the last digits of the coordinates are therefore accepted. So are corrections below the squared machine precision.
     ///
     /// # Errors
     /// [`StepError::NotFinite`].
@@ -81,7 +83,7 @@ impl<T: Real> Newton<T> {
         Ok(self.stop(goal, noise))
     }
 
-    /// Counts a correction of this size; `f` names the unknown where it is not finite.
+    /// Records a correction of the given size. `f` identifies the unknown if the size is not finite.
     ///
     /// # Errors
     /// [`StepError::NotFinite`].
@@ -98,8 +100,8 @@ impl<T: Real> Newton<T> {
         Ok(())
     }
 
-    /// Reason to end the iteration with the last correction, if it is over: a correction below `goal` is small, one of `noise` is
-    /// rounding.
+    /// Reason to end the iteration with the last correction, if it ends. A correction below `goal` is small; a slow one below `noise` is at
+    /// machine precision.
     #[inline]
     pub fn stop(&self, goal: T, noise: T) -> Option<Stop> {
         let [before, last] = self.corrections;
@@ -122,25 +124,26 @@ impl<T: Real> Newton<T> {
         }
     }
 
-    /// A correction of the size of rounding where the coordinates moved by this much.
+    /// Correction at machine precision if the coordinates moved by `moved`.
     #[inline]
     pub fn rounding(moved: T) -> T {
         moved * T::EPSILON * T::from_f64(ROUNDING)
     }
 
-    /// Report on an iteration that ended so: iterations, size of the last correction, and the reason.
+    /// Summary of an iteration that ended with `stop`: iterations, size of the last correction, reason.
     #[inline]
     pub fn ended(&self, stop: Stop) -> (u32, T, Stop) {
         (self.iterations, self.last(), stop)
     }
 
-    /// After the allowed iterations: is the last correction small beside the displacement of the step, though not below its tolerance?
+    /// After the largest number of iterations: is the last correction small relative to the displacement of the step, though above its
+    /// tolerance?
     #[inline]
     pub fn is_accepted(&self) -> bool {
         self.last() <= self.scale * T::from_f64(ACCEPTED)
     }
 
-    /// The iteration did not converge; `f` are the unknowns.
+    /// Error of an iteration that did not converge. `f` is the last correction of the unknowns.
     #[cold]
     pub fn failure(&self, f: &[T]) -> StepError {
         let (iterations, unknown) = (self.iterations, largest(f));

@@ -1,4 +1,4 @@
-//! Violations of the constraints of velocities and accelerations, and what a projection may leave of them.
+//! Violations r of the velocity and acceleration constraints, and the size that a projection may leave.
 //!
 //! ```text
 //! r = J v + phi_t,      r = J a + bias
@@ -10,55 +10,57 @@ use crate::model::{Model, Terms};
 use crate::step::{StepError, largest};
 use crate::team::{add, norm_inf};
 
-/// Violation that is accepted when no sweep lowers it further, relative to what the vector and the scene move [-]: five digits more
-/// than steps of practical length are exact to.
+/// Accepted violation if no further sweep reduces it, relative to the sizes of the vector and the scene [-]. It is five digits smaller than
+/// the error of steps of practical length.
 const ACCEPTED: f64 = 5e-10;
-/// Violation that is accepted where rounding decides, relative as `ACCEPTED` is [EPSILON]: sums over the coordinates of a long row of bodies.
+/// Accepted violation at limited precision, relative as `ACCEPTED` [EPSILON]. It allows for sums over the coordinates of a long chain of
+/// bodies.
 const ACCEPTED_ROUNDING: f64 = 1024.0;
-/// A violation of velocities that is rounding [EPSILON of the largest velocity]: some products in a row.
+/// Violation of velocities at machine precision [EPSILON of the largest velocity]: some products in a row.
 const VELOCITY_ROUNDING: f64 = 16.0;
-/// A violation of accelerations that is rounding [EPSILON of the largest acceleration or bias]: the bias squares velocities.
+/// Violation of accelerations at machine precision [EPSILON of the largest acceleration or bias]: the bias contains squares of velocities.
 const ACCELERATION_ROUNDING: f64 = 1024.0;
-/// A violation of positions that is rounding [EPSILON of the scene's length]: where increments are carried, a hundredth of the last digit.
+/// Violation of positions at machine precision [EPSILON of the scene's length], first without, then with compensated sums. With them it is
+/// a hundredth of the last digit.
 const POSITION_ROUNDING: [f64; 2] = [4.0, 0.01];
-/// A violation of positions that is accepted where the tolerance of the step is finer [EPSILON of the scene's length].
+/// Accepted violation of positions if the tolerance of the step is finer [EPSILON of the scene's length].
 const POSITION_ACCEPTED: f64 = 256.0;
 
-/// Constraints that a vector is projected on.
+/// Level of the constraints onto which a vector is projected.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ConstraintLevel {
-    /// J v + phi_t = 0.
+    /// Velocity constraints: J v + phi_t = 0.
     Velocity,
-    /// J a + bias = 0.
+    /// Acceleration constraints: J a + bias = 0.
     Acceleration,
 }
 
-/// How much of a violation a projection may leave.
+/// Limits of the violation that a projection may leave.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ResidualLimits<T> {
-    /// A violation that is not swept at all.
+    /// Violation that is small enough without any sweep.
     pub goal: T,
-    /// Violation that sweeps may leave.
+    /// Violation at which sweeps end.
     pub enough: T,
-    /// Violation that sweeps may leave where they no longer shrink it.
+    /// Violation that is accepted if further sweeps do not reduce it.
     pub limit: T,
-    /// Size that the violation is compared with: that of the vector, with what keeps it from zero.
+    /// Size with which the violation is compared: the size of the vector plus a reference size that is not zero.
     pub size: T,
 }
 
 impl<T: Real> ResidualLimits<T> {
-    /// Of phi [m], in a scene of this `length` [m]. The iteration knows positions to its `tolerance`: a residual below it that no sweep
-    /// lowers says nothing more.
+    /// Limits for phi [m] in a scene of this `length` [m]. The iteration computes positions to its `tolerance`, so a violation below it is
+    /// accepted if no sweep reduces it.
     pub fn of_positions(length: T, tolerance: T, compensated: bool) -> Self {
         let goal = length * T::EPSILON * T::from_f64(POSITION_ROUNDING[usize::from(compensated)]);
         let limit = length * tolerance.max(T::EPSILON * T::from_f64(POSITION_ACCEPTED));
         Self { goal, enough: goal, limit, size: length }
     }
 
-    /// Is what sweeps of positions left, `violation`, as little as it has to be, or at most `rounding`?
+    /// Is `violation`, after sweeps of positions, below its limit or at most `rounding`?
     ///
     /// # Errors
-    /// [`StepError::Violated`] with the row of `phi`.
+    /// [`StepError::Violated`] with the most violated row of `phi`.
     pub fn check_positions(&self, violation: T, rounding: T, phi: &[T]) -> Result<(), StepError> {
         if violation <= self.limit.max(rounding) {
             return Ok(());
@@ -68,11 +70,11 @@ impl<T: Real> ResidualLimits<T> {
 }
 
 impl ConstraintLevel {
-    /// Evaluates phi_t at q, or the bias at (q, v), and says how much of a violation may be left, in a scene of this `length` [m]. Needs
-    /// accelerations in [m/s^2].
+    /// Evaluates phi_t at q, or the bias at (q, v), and returns the limits of the violation. `length` is the scene's [m]; accelerations
+    /// must be in [m/s^2].
     ///
     /// # Errors
-    /// [`StepError::OppositeBranch`] of a guided angle, with the velocities.
+    /// [`StepError::OppositeBranch`] of a guided angle, at the velocity level.
     #[inline]
     pub fn limits<T: Real, M: Model<T>>(
         self,
@@ -102,7 +104,7 @@ impl ConstraintLevel {
         Ok(ResidualLimits { goal, enough: goal, limit: size * accepted, size })
     }
 
-    /// rates = J x + b; returns their largest absolute value.
+    /// Computes rates = J x + b, where b is phi_t or the bias of phi''. Returns the largest absolute rate.
     #[inline]
     pub fn violation<T: Real, M: Model<T>>(
         self,
@@ -120,7 +122,7 @@ impl ConstraintLevel {
         norm_inf(model.team(), rates)
     }
 
-    /// A projection did not reach its level: `violation` is left, most of it in one of the rows of `rates`.
+    /// Error of a projection that did not reach its level: `violation` is left, most of it in one of the rows of `rates`.
     #[cold]
     pub fn violated<T: Real>(self, violation: T, rates: &[T]) -> StepError {
         let level = if self == Self::Velocity { 1 } else { 2 };

@@ -1,7 +1,8 @@
-//! When signals of time alone jump or have corners: times at which controlled steps end.
+//! Times at which signals of time alone jump or have corners. Steps with step-size control end at these times.
 //!
-//! Known are steps without `rise`, ramps without `rounding`, and rows of tables that are linear or hold, also of forces; and the ends of
-//! splines. What signals are made of has the same times. Not known are those of clamps and inputs, and of what follows the motion.
+//! Known times are those of steps without `rise`, of ramps without `rounding`, and of the rows of linear and hold tables, also for
+//! forces. The ends of splines are known too. A signal that is computed from others has their times. Times of clamps, of inputs and
+//! of signals that depend on the motion are not known.
 
 use super::signals::SignalGraph;
 use crate::Real;
@@ -9,33 +10,34 @@ use crate::scene::{Interpolation, Signal, SignalKind};
 use alloc::vec;
 use alloc::vec::Vec;
 
-/// A time at which a signal jumps or has a corner.
+/// Time at which a signal jumps or has a corner.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SignalTime<T> {
     /// Time of the jump or corner [s].
     pub time: T,
-    /// Does a value jump, and not a rate alone?
+    /// Does the value jump? Otherwise only the rate jumps.
     pub is_jump: bool,
 }
 
-/// The times of a signal, ascending; with a period larger than zero they come again.
+/// Times of a signal, ascending. They repeat if the period is larger than zero.
 #[derive(Debug, Clone, PartialEq)]
 struct Times<T> {
     times: Vec<T>,
     is_jump: bool,
-    /// Beginning of the first period, and its length [s].
+    /// Beginning of the first period, and length of a period [s].
     period: [T; 2],
 }
 
-/// The times of all signals of a scene that jump or have corners.
+/// Times at which the signals of a scene jump or have corners.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SignalTimes<T>(Vec<Times<T>>);
 
-/// Change of a slope that is none, relative to the slopes [-]: that of rows of a straight line in short numbers. Chosen, not tuned.
+/// Largest change of a slope that does not count as a corner, relative to the slopes [-]. Rows on a straight line, written with few
+/// digits, have such changes. Chosen, not tuned.
 const STRAIGHT: f64 = 1e-9;
 
 impl<T: Real> SignalTimes<T> {
-    /// Finds the times of signals, and of the tables among the courses. Cost: one pass over them.
+    /// Finds the times of signals, and of the tables among the force signals. Cost: one pass over them.
     #[doc(hidden)]
     pub fn new<'a>(
         signals: &'a SignalGraph<T>,
@@ -49,7 +51,7 @@ impl<T: Real> SignalTimes<T> {
         Self(all.filter(|times| !times.times.is_empty()).collect())
     }
 
-    /// The first of them after a time [s]; of several at once a jump. Cost: a binary search for each signal that has some.
+    /// First time after `t` [s]; of several at the same time, a jump. Cost: a binary search for each signal with such times.
     #[must_use]
     pub fn after(&self, t: T) -> Option<SignalTime<T>> {
         let all = self
@@ -77,7 +79,7 @@ impl<T: Real> Times<T> {
         if !(period > T::ZERO) {
             return next(T::ZERO);
         }
-        // rounding may take the time into the period before or after its own
+        // rounding may assign the time to the period before or after the right one
         let turns = T::from_f64(libm::floor(((t - first) / period).to_f64()));
         let mut near = [-T::ONE, T::ZERO, T::ONE].into_iter();
         near.find_map(|more| next((turns + more) * period))
@@ -100,7 +102,7 @@ fn of_signals<T: Real>(signals: &SignalGraph<T>) -> impl Iterator<Item = Times<T
             let times = match interpolation {
                 Interpolation::Spline(_) | Interpolation::Monotone(_) if *periodic => return None,
                 Interpolation::Spline(_) | Interpolation::Monotone(_) => ends.to_vec(),
-                // the last row is the first of the next period
+                // the last row equals the first row of the next period
                 _ if *periodic => rows.iter().rev().skip(1).rev().map(|row| row[0]).collect(),
                 Interpolation::Linear => corners(rows, |row| (row[0], [row[1], T::ZERO, T::ZERO])),
                 Interpolation::Hold => {
@@ -115,7 +117,7 @@ fn of_signals<T: Real>(signals: &SignalGraph<T>) -> impl Iterator<Item = Times<T
     })
 }
 
-/// The times of the rows between which a table that is linear bends.
+/// Times of the rows at which a linear table has a corner.
 fn corners<T: Real, R: Copy>(rows: &[R], row: impl Fn(R) -> (T, [T; 3])) -> Vec<T> {
     let still = [T::ZERO; 3];
     let slope = |i: usize| {

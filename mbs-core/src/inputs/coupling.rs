@@ -1,4 +1,4 @@
-//! A coupling with its curves and its function of time prepared.
+//! Couplings with prepared curves and functions of time.
 
 use super::GuideInput;
 use crate::Real;
@@ -8,14 +8,14 @@ use crate::measure::{Arguments, TermInput};
 use crate::scene::{Coupling, Motion};
 use alloc::vec::Vec;
 
-/// A coupling, with its curves and its function of time prepared.
+/// Coupling with prepared curves and function of time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CouplingInput<T> {
-    /// Terms of the coupling whose factor is not zero.
+    /// Terms of the coupling with a factor other than zero.
     pub terms: Vec<TermInput<T>>,
-    /// Relation of the terms that is held; `None`: their sum is.
+    /// Relation of the terms that is constrained; `None`: their sum is constrained.
     pub relation: Option<Code<dyn Relation>>,
-    /// Function of time that the sum follows, where it is not always zero.
+    /// Function of time that the sum follows; `None` if the sum is always zero.
     pub sum: Option<GuideInput<T>>,
 }
 
@@ -29,20 +29,21 @@ impl<T: Real> CouplingInput<T> {
         Self { terms: TermInput::all(&coupling.terms), relation: coupling.relation.clone(), sum }
     }
 
-    /// Value of the sum at time `t` [s], with the values of the scene's signals there.
+    /// Value of the sum at time `t` [s]; `signals` are the values of the scene's signals at this time.
     #[must_use]
     pub fn sum_at(&self, t: T, signals: &[[T; 3]]) -> T {
         self.sum.as_ref().map_or(T::ZERO, |sum| sum.at(t, signals)[0])
     }
 
-    /// The largest factor, of a relation the largest derivative in the reference configuration: rows divided by it are of order one.
+    /// Largest factor; for a relation, the largest derivative in the reference configuration. Rows divided by it are of order one.
     #[must_use]
     pub fn scale(&self) -> T {
         let slopes = (0..self.terms.len()).map(|k| self.reference_slope(k).abs());
         slopes.fold(T::ZERO, T::max)
     }
 
-    /// The factor of a term; in a relation times the derivative by it in the reference configuration, if they are not all zero there.
+    /// Factor of a term. In a relation, times its derivative by the term in the reference configuration, unless all these
+    /// derivatives are zero.
     #[must_use]
     pub fn reference_slope(&self, term: usize) -> T {
         let factor = self.terms.get(term).map_or(T::ZERO, |term| term.factor);
@@ -55,7 +56,7 @@ impl<T: Real> CouplingInput<T> {
         if is_usable { factor * arguments.slope(term) } else { factor }
     }
 
-    /// Value of the sum or relation where the terms, without their factors, have these values; and the largest of its parts.
+    /// Value of the sum or relation for these values of the terms without their factors, and the largest of its parts.
     #[must_use]
     pub fn value_at(&self, values: &[T]) -> [T; 2] {
         let mut arguments = Arguments::<T>::default();

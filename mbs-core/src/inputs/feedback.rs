@@ -1,34 +1,35 @@
-//! Operations that give the signals that follow the motion, and the courses that name them: built once from a scene.
+//! Operations that compute the signals that depend on the motion, and the force signals that use them. They are built once from a
+//! scene.
 
 use crate::Real;
 use crate::feedback::{CourseSlope, FeedbackOperation, FeedbackStep};
 use crate::measure::{PreparedCurve, TermInput};
 use alloc::vec::Vec;
 
-/// Signals that follow the motion: the operations that give them, with what these refer to.
+/// Signals that depend on the motion: operations, and the data that operations refer to.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Feedback<T> {
-    /// The operations, in their order.
+    /// Operations in the order of evaluation.
     pub steps: Vec<FeedbackStep<T>>,
     /// Numbers that are measured.
     pub measured: Vec<TermInput<T>>,
     /// Start value of each state.
     pub starts: Vec<T>,
-    /// The signals that follow the motion, by their numbers.
+    /// Numbers of the signals that depend on the motion.
     pub signals: Vec<u32>,
     /// Functions that the operations refer to.
     pub curves: Vec<PreparedCurve<T>>,
 }
 
 impl<T: Real> Feedback<T> {
-    /// Is there no such signal?
+    /// Is there no signal that depends on the motion?
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.steps.is_empty()
     }
 
-    /// Numbers that a state has of the signals: first their own states, then the signals, each with its rate. An evaluation gives rates and
-    /// signals.
+    /// Numbers of the signals in a state, each with its rate: first the signals' own states, then the signals. An evaluation sets
+    /// the rates and the signals.
     #[must_use]
     pub fn states(&self) -> Vec<[T; 2]> {
         let mut states: Vec<_> = self.starts.iter().map(|&start| [start, T::ZERO]).collect();
@@ -36,7 +37,7 @@ impl<T: Real> Feedback<T> {
         states
     }
 
-    /// Room for how each of `n` courses answers to what is measured; none where nothing follows the motion.
+    /// Creates the derivatives of `n` force signals by the measured numbers; empty if no signal depends on the motion.
     #[must_use]
     pub fn slopes(&self, n: usize) -> Vec<CourseSlope<T>> {
         alloc::vec![CourseSlope::none(); if self.is_empty() { 0 } else { n }]
@@ -46,7 +47,7 @@ impl<T: Real> Feedback<T> {
         self.steps.push(FeedbackStep { to, operation });
     }
 
-    /// The number of something that is measured.
+    /// Number of a measured quantity, which is added if it is new.
     pub(super) fn measure(&mut self, of: TermInput<T>) -> u32 {
         let known = self.measured.iter().position(|measured| *measured == of);
         number(known.unwrap_or_else(|| {
@@ -55,20 +56,20 @@ impl<T: Real> Feedback<T> {
         }))
     }
 
-    /// The number of a state that is added.
+    /// Adds a state with this start value, and returns its number.
     pub(super) fn state(&mut self, start: T) -> u32 {
         self.starts.push(start);
         number(self.starts.len() - 1)
     }
 
-    /// The number of a function that is added.
+    /// Adds a function, and returns its number.
     pub(super) fn curve(&mut self, curve: &PreparedCurve<T>) -> u32 {
         self.curves.push(curve.clone());
         number(self.curves.len() - 1)
     }
 }
 
-/// An index as operations have it.
+/// Index in the form that operations use.
 pub(super) fn number(i: usize) -> u32 {
     u32::try_from(i).unwrap_or(u32::MAX)
 }

@@ -1,11 +1,11 @@
-//! The signals of a scene, prepared: value, rate and acceleration of each by the chain rule.
+//! Prepared signals of a scene: value, rate and acceleration of each by the chain rule.
 //!
 //! ```text
 //! sum      [Σ f s, Σ f s', Σ f s'']
 //! product  [a b, a' b + a b', a'' b + 2 a' b' + a b'']
 //! curve    [f(s), f' s', f'' s'^2 + f' s'']
 //! step     s^3 (10 - 15 s + 6 s^2),  30 s^2 (1 - s)^2 / T,  60 s (1 - s) (1 - 2 s) / T^2
-//! chirp    phase 2π (f t + (f' - f) t^2 / (2 T)), beyond T with the last frequency
+//! chirp    phase 2π (f t + (f' - f) t^2 / (2 T)), f' the last frequency, which is kept after the duration T
 //! ```
 
 use super::feedback::{Feedback, number};
@@ -17,21 +17,21 @@ use crate::scene::{Interpolation, NamedSignal, SignalId, SignalKind, first_of, s
 use alloc::vec;
 use alloc::vec::Vec;
 
-/// The signals of a scene, prepared once.
+/// Signals of a scene, prepared once.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SignalGraph<T> {
     nodes: Vec<Node<T>>,
-    /// Each after those that it is made of.
+    /// Order of evaluation: each signal after its operands.
     order: Vec<usize>,
-    /// Index of each signal that is an input, and what it begins with.
+    /// Index of each signal that is an input, and its start value.
     inputs: Vec<(usize, T)>,
-    /// Does it follow the motion?
+    /// Does each signal depend on the motion?
     follows: Vec<bool>,
-    /// Does it change, itself or by what it is made of?
+    /// Does each signal change, by itself or through its operands?
     moves: Vec<bool>,
 }
 
-/// A signal of the scene, prepared.
+/// Prepared signal of the scene.
 #[derive(Debug, Clone, PartialEq)]
 struct Node<T> {
     kind: SignalKind<T>,
@@ -42,7 +42,7 @@ struct Node<T> {
 }
 
 impl<T: Real> SignalGraph<T> {
-    /// Prepares the signals of a scene. Those of a circle, which the check of a scene refuses, are zero.
+    /// Prepares the signals of a scene. Signals in a circle, which the check of a scene refuses, are zero.
     ///
     /// Cost: one tridiagonal elimination for each spline, and one pass over the signals.
     #[must_use]
@@ -69,44 +69,44 @@ impl<T: Real> SignalGraph<T> {
         self.nodes.len()
     }
 
-    /// Is there no signal?
+    /// Is the list of signals empty?
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.nodes.is_empty()
     }
 
-    /// Index of each signal that is an input, and what it begins with.
+    /// Index of each signal that is an input, and its start value.
     #[must_use]
     pub fn inputs(&self) -> &[(usize, T)] {
         &self.inputs
     }
 
-    /// The kind of each signal, with the spline of a table or the function of a curve.
+    /// Kind of each signal, with the prepared spline of a table or function of a curve.
     pub fn kinds(&self) -> impl Iterator<Item = (&SignalKind<T>, &PreparedCurve<T>)> {
         self.nodes.iter().map(|node| (&node.kind, &node.curve))
     }
 
-    /// Is a signal the same at all times: a constant, or made of such?
+    /// Is the signal constant: a constant itself, or a function of constants?
     #[must_use]
     pub fn is_constant(&self, signal: SignalId) -> bool {
         !self.moves.get(signal.index()).copied().unwrap_or(false)
     }
 
-    /// The signals that follow the motion.
+    /// Indices of the signals that depend on the motion.
     pub(super) fn following(&self) -> impl Iterator<Item = usize> + Clone + '_ {
         self.follows.iter().enumerate().filter_map(|(i, &follows)| follows.then_some(i))
     }
 
-    /// Does a signal follow the motion, itself or by what it is made of?
+    /// Does the signal depend on the motion, by itself or through its operands?
     #[must_use]
     pub fn follows_motion(&self, signal: SignalId) -> bool {
         self.follows.get(signal.index()).copied().unwrap_or(false)
     }
 
-    /// Writes value, rate and acceleration of each signal at time `t`, with `inputs` in their order. Those that follow the motion stay
-    /// as they are: [`Feedback`](crate::inputs::Feedback) gives them.
+    /// Writes value, rate and acceleration of each signal at time `t`, with `inputs` in their order. Signals that depend on the
+    /// motion are left unchanged: [`Feedback`](crate::inputs::Feedback) computes them.
     ///
-    /// Cost: one node for each signal; no allocation.
+    /// Cost: one evaluation for each signal; no allocation.
     pub fn write(&self, t: T, inputs: &[T], values: &mut [[T; 3]]) {
         for &i in self.order.iter().filter(|&&i| !self.follows[i]) {
             let Some(node) = self.nodes.get(i) else { continue };
@@ -117,14 +117,14 @@ impl<T: Real> SignalGraph<T> {
         }
     }
 
-    /// Adds what gives those that are taken, in their order.
+    /// Adds the operations of the signals for which `is_taken` holds, in their order.
     pub(super) fn add_feedback(&self, is_taken: impl Fn(SignalId) -> bool, to: &mut Feedback<T>) {
         for &i in self.order.iter().filter(|&&i| is_taken(SignalId::new(i))) {
             self.nodes[i].add_feedback(number(i), to);
         }
     }
 
-    /// Value, rate and acceleration of each signal at time `t`, inputs as they begin.
+    /// Value, rate and acceleration of each signal at time `t`, with the start values of inputs.
     #[must_use]
     pub fn values(&self, t: T) -> Vec<[T; 3]> {
         let mut values = vec![[T::ZERO; 3]; self.len()];
@@ -133,7 +133,7 @@ impl<T: Real> SignalGraph<T> {
     }
 }
 
-/// The function of a smooth table or of a curve.
+/// Prepared function of a smooth table or of a curve.
 fn curve<T: Real>(kind: &SignalKind<T>) -> PreparedCurve<T> {
     match kind {
         SignalKind::Curve { curve, .. } => PreparedCurve::new(Some(curve)),
@@ -144,7 +144,7 @@ fn curve<T: Real>(kind: &SignalKind<T>) -> PreparedCurve<T> {
     }
 }
 
-/// The value of a signal among those of all; zero where there is none.
+/// Value of a signal among the values of all; zero if there is no such signal.
 pub(super) fn value_of<T: Real>(signal: SignalId, values: &[[T; 3]]) -> [T; 3] {
     values.get(signal.index()).copied().unwrap_or([T::ZERO; 3])
 }
@@ -199,7 +199,7 @@ impl<T: Real> Node<T> {
                 let s = of(signal);
                 chain(limit_ratio(s[0], [*lower, *upper]), s)
             }
-            // these follow the motion
+            // computed by the feedback operations, because they depend on the motion
             SignalKind::Measure { .. }
             | SignalKind::Lag { .. }
             | SignalKind::Integral { .. }
@@ -209,7 +209,7 @@ impl<T: Real> Node<T> {
 }
 
 impl<T: Real> Node<T> {
-    /// Adds the operations that give the signal of this number.
+    /// Adds the operations that compute the signal with this number.
     fn add_feedback(&self, to: u32, feedback: &mut Feedback<T>) {
         let id = |signal: &SignalId| number(signal.index());
         let limit = |limit: Option<T>, sign: f64| {
@@ -261,19 +261,19 @@ impl<T: Real> Node<T> {
                 feedback.push(to, FeedbackOperation::Integral { from: id(of), state, limits });
             }
             SignalKind::Pid { of: [wanted, measured], p, i, d, limit: largest } => {
-                // what nothing counts is not integrated: it would never rest
+                // without integral gain the integral has no effect, and would never come to rest
                 let state = if i.is_zero() { NO_STATE } else { feedback.state(T::ZERO) };
                 let (from, gains) = ([id(wanted), id(measured)], [*p, *i, *d]);
                 let limit = limit(*largest, 1.0);
                 feedback.push(to, FeedbackOperation::Pid { from, state, gains, limit });
             }
-            // these are of time and inputs
+            // other kinds depend on time and inputs, and need no operation
             _ => {}
         }
     }
 }
 
-/// Straight between rows, or each row held until the next.
+/// Value of a table at time `t` that is linear between rows, or holds each row until the next.
 fn pieces<T: Real>(rows: &[[T; 2]], (is_held, is_periodic): (bool, bool), t: T) -> [T; 3] {
     let period = match rows {
         [first, .., last] if is_periodic => last[0] - first[0],
@@ -291,7 +291,7 @@ fn pieces<T: Real>(rows: &[[T; 2]], (is_held, is_periodic): (bool, bool), t: T) 
     }
 }
 
-/// Turns since the start of a frequency that goes from one to another in a duration, with their derivatives.
+/// Phase in turns since the start, for a frequency that changes linearly during `duration`, with its derivatives.
 fn swept<T: Real>([from, to]: [T; 2], duration: T, t: T) -> [T; 3] {
     let growth = (to - from) / duration;
     if t > duration {
@@ -300,7 +300,7 @@ fn swept<T: Real>([from, to]: [T; 2], duration: T, t: T) -> [T; 3] {
     [(from + growth * T::HALF * t) * t, from + growth * t, growth]
 }
 
-/// max(x, 0), its corner rounded over a length, half before and half after zero: the rate rises by u^2 (3 - 2 u).
+/// Function max(x, 0) with a corner rounded over a length, half of it before zero and half after. The rate rises by u^2 (3 - 2 u).
 fn corner<T: Real>(x: T, rounding: T) -> [T; 3] {
     let half = rounding * T::HALF;
     if x >= half {

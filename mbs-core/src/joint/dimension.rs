@@ -1,11 +1,11 @@
-//! The plane or space.
+//! Dimension of a scene: the plane or space.
 
 /// Dimension of a scene: planar or spatial.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Dimension {
     /// Motion in the x-y plane; rotations about z.
     Planar,
-    /// Motion in space.
+    /// Motion in space; rotations about any axis.
     Spatial,
 }
 

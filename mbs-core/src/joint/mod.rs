@@ -1,4 +1,4 @@
-//! The table of joints: each kind with what it lets move, in the plane and in space. The table needs no allocation.
+//! Table of joints: each kind with the relative motions that it allows, in the plane and in space. The table needs no allocation.
 
 mod dimension;
 mod table;

@@ -1,6 +1,11 @@
-//! The kinds of joint as data: what each lets move. All else follows from this table; it needs no allocation.
+//! Kinds of joint as data: the relative motions that each one allows. Equations and coordinates follow from this table, which needs no
+//! allocation.
 //!
-//! | freedoms | equations (p: from the first body's point to the second's; all but b and the second body's axis in the first body) |
+//! The vector p leads from the first body's point to the second's. u is a direction perpendicular to all slides, a and b are axes of the
+//! two bodies. v and w are perpendicular to the common axis, v in the first body and w in the second. x is a direction of the first body
+//! in the plane, y one of the second.
+//!
+//! | freedoms | equations |
 //! |---|---|
 //! | no slide; slides | p = 0; p.u = 0 for each u across all slides |
 //! | no turn | space: the axis is common, and v.w = 0; plane: x.y = 0 |
@@ -8,22 +13,22 @@
 //! | two turns | a.b = const |
 //! | ball | none |
 //!
-//! A link (two points at a distance) has no freedoms in the table, since it has no joint coordinates; its equations are its own.
-//! A joint can carry the wrenches of its equations, and is in relative coordinates one link of the tree for each freedom.
+//! A link connects two points at a fixed distance. It has no freedoms in the table, since it has no joint coordinates; its equation is
+//! separate. A joint can transmit the wrenches of its equations. In relative coordinates it is one link of the tree for each freedom.
 
 use super::Dimension;
 use Axis::{First, Second, Third, X, Y, Z};
 use Freedom::{Ball, Slide, Turn};
 use core::mem::discriminant;
 
-/// A direction of a joint.
+/// Direction that belongs to a joint.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Axis {
     /// The joint's first axis.
     First,
-    /// The joint's second axis; as the direction of a slide, its part across the first.
+    /// The joint's second axis. For a slide: its component perpendicular to the first axis.
     Second,
-    /// The first cross the second.
+    /// Vector product of the first and the second axis.
     Third,
     /// Global x in the reference configuration.
     X,
@@ -33,19 +38,20 @@ pub enum Axis {
     Z,
 }
 
-/// A relative motion that a joint allows, of the second body against the first.
+/// Relative motion of the second body relative to the first that a joint allows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Freedom {
     /// Translation along a direction of the first body; one coordinate.
     Slide(Axis),
-    /// Rotation about an axis; one coordinate. Of two turns the first axis is fixed in the first body, the second in the second.
+    /// Rotation about an axis; one coordinate. If there are two, the first axis is fixed in the first body and the second axis in the
+    /// second body.
     Turn(Axis),
-    /// Any rotation; its coordinates are the rotation vector's in global axes of the reference configuration.
+    /// Any rotation of a ball. Its coordinates are the components of the rotation vector in global axes of the reference configuration.
     Ball,
 }
 
 impl Freedom {
-    /// Number of its coordinates.
+    /// Number of coordinates of the freedom.
     #[must_use]
     pub const fn n_coordinates(self) -> usize {
         match self {
@@ -54,7 +60,7 @@ impl Freedom {
         }
     }
 
-    /// Unit of its coordinates.
+    /// Unit of the coordinates of the freedom.
     #[must_use]
     pub const fn unit(self) -> &'static str {
         match self {
@@ -63,7 +69,7 @@ impl Freedom {
         }
     }
 
-    /// Number of rotations among its coordinates.
+    /// Number of rotations among the coordinates of the freedom.
     #[must_use]
     pub const fn n_rotations(self) -> usize {
         match self {
@@ -72,7 +78,7 @@ impl Freedom {
         }
     }
 
-    /// Axis of the freedom; a ball has none.
+    /// Axis of the freedom; `None` for a ball.
     #[must_use]
     pub const fn axis(self) -> Option<Axis> {
         match self {
@@ -89,20 +95,20 @@ pub enum Translation {
     Fixed,
     /// The points move along a line.
     Along(Axis),
-    /// The points move in the plane across a direction.
+    /// The points move in the plane perpendicular to a direction.
     Across(Axis),
     /// The translation is not constrained.
     Free,
 }
 
-/// Constraint on the rotation of a joint. In the plane it is fixed or free.
+/// Constraint on the rotation of a joint. In a planar scene the rotation is fixed or free.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Rotation {
-    /// The bodies do not turn against each other.
+    /// The bodies do not rotate relative to each other.
     Fixed,
     /// The bodies have an axis in common.
     About(Axis),
-    /// An axis of the first body keeps its angle with one of the second.
+    /// An axis of the first body has a constant angle with an axis of the second body.
     Universal([Axis; 2]),
     /// The rotation is not constrained.
     Free,
@@ -117,9 +123,9 @@ pub struct JointForm {
     pub planar: Option<&'static [Freedom]>,
     /// Freedoms in a spatial scene, slides first.
     pub spatial: &'static [Freedom],
-    /// Two points that keep their distance; hinged at the first body if it has an axis (space).
+    /// Whether the joint is a link: two points at a fixed distance. In space an axis makes it a hinge at the first body.
     pub is_link: bool,
-    /// The second body is a point, which does not turn: it has slides alone, and nothing is constrained.
+    /// Whether the second body is a point mass, which has no orientation. Such a joint has slides only and constrains nothing.
     pub is_of_point: bool,
 }
 
@@ -133,7 +139,7 @@ const fn form(
 
 macro_rules! kinds {
     ($($(#[$meta:meta])* $kind:ident = $form:expr;)* [$(#[$of_meta:meta])* $of_kind:ident = $of_form:expr;]) => {
-        /// The kinds of joint.
+        /// Kinds of joint that a scene may have.
         #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
         pub enum JointKind {
             $($(#[$meta])* $kind,)*
@@ -141,7 +147,7 @@ macro_rules! kinds {
         }
 
         impl JointKind {
-            /// Every kind that scene files name, in the order of the scene format.
+            /// All kinds that scene files can name, in the order of the scene format.
             pub const ALL: [Self; JOINTS.len()] = [$(Self::$kind),*];
 
             /// Form of the kind: its name and its freedoms.
@@ -152,38 +158,38 @@ macro_rules! kinds {
             }
         }
 
-        /// The forms of the kinds of [`JointKind::ALL`], in their order.
+        /// Forms of the kinds in [`JointKind::ALL`], in the same order.
         pub const JOINTS: [JointForm; [$(stringify!($kind)),*].len()] = [$($form),*];
     };
 }
 
 kinds! {
-    /// Common point and axis; rotation about the axis.
+    /// Hinge: a common point and axis; rotation about the axis.
     Revolute = form("revolute", Some(&[Turn(Z)]), &[Turn(First)]);
-    /// Common point (spatial).
+    /// Ball joint: a common point (spatial).
     Spherical = form("spherical", None, &[Ball]);
-    /// Common point, two axes at a fixed angle (spatial).
+    /// Universal joint: a common point and two axes at a constant angle (spatial).
     Universal = form("universal", None, &[Turn(First), Turn(Second)]);
     /// Translation along an axis.
     Prismatic = form("prismatic", Some(&[Slide(First)]), &[Slide(First)]);
-    /// Translation along and rotation about an axis (spatial).
+    /// Translation along an axis and rotation about it (spatial).
     Cylindrical = form("cylindrical", None, &[Slide(First), Turn(First)]);
-    /// Plane on plane (spatial).
+    /// Plane that slides and rotates on a plane (spatial).
     Planar = form("planar", None, &[Slide(Second), Slide(Third), Turn(First)]);
-    /// A pin of the second body in a straight slot of the first: translation along an axis, any rotation.
+    /// Pin of the second body in a straight slot of the first: translation along an axis, and any rotation.
     PinInSlot = form("pin-in-slot", Some(&[Slide(First), Turn(Z)]), &[Slide(First), Ball]);
-    /// No relative motion.
+    /// Rigid connection without relative motion.
     Weld = form("weld", Some(&[]), &[]);
-    /// All relative motions: carries coordinates, constrains nothing.
+    /// All relative motions: the joint has coordinates, but constrains nothing.
     Free = form(
         "free",
         Some(&[Slide(X), Slide(Y), Turn(Z)]),
         &[Slide(X), Slide(Y), Slide(Z), Ball],
     );
-    /// Two points keep their distance: a massless link with two balls, or hinged at the first body.
+    /// Massless link between two points at a fixed distance, with two balls, or with a hinge at the first body.
     Distance = JointForm { is_link: true, ..form("distance", Some(&[]), &[]) };
     [
-        /// All motions of a point relative to a body: what `free` is where the second body is a point.
+        /// All motions of a point mass relative to a body: the kind of a `free` joint if the second body is a point mass.
         FreePoint = JointForm {
             is_of_point: true,
             ..form("free", Some(&[Slide(X), Slide(Y)]), &[Slide(X), Slide(Y), Slide(Z)])
@@ -198,43 +204,43 @@ impl JointKind {
         self.form().name
     }
 
-    /// Can it stand in a spatial scene alone?
+    /// Is the kind allowed in spatial scenes only?
     #[must_use]
     pub const fn is_spatial_only(self) -> bool {
         self.form().planar.is_none()
     }
 
-    /// Is it two points that keep their distance?
+    /// Is the kind a link between two points at a fixed distance?
     #[must_use]
     pub const fn is_link(self) -> bool {
         self.form().is_link
     }
 
-    /// Does it hold two bodies together as one?
+    /// Does the kind connect two bodies rigidly?
     #[must_use]
     pub const fn is_rigid(self) -> bool {
         self.form().spatial.is_empty() && !self.is_link()
     }
 
-    /// Does it constrain nothing?
+    /// Is the kind free of constraints?
     #[must_use]
     pub fn is_free(self) -> bool {
         self.is_of_point() || self.n_coordinates(Dimension::Spatial) == 6
     }
 
-    /// The kind that its name means where one of the bodies is a point.
+    /// Kind that the same name denotes if one of the bodies is a point mass.
     #[must_use]
     pub fn of_points(self) -> Self {
         if self.is_free() { Self::FreePoint } else { self }
     }
 
-    /// Is its second body a point, which does not turn?
+    /// Is the second body a point mass, which has no orientation?
     #[must_use]
     pub const fn is_of_point(self) -> bool {
         self.form().is_of_point
     }
 
-    /// Does it hold two points together and constrain nothing else?
+    /// Does the kind hold two points together and leave the rotation free?
     #[must_use]
     pub fn is_ball(self, dimension: Dimension) -> bool {
         self.translation(dimension) == Translation::Fixed
@@ -271,7 +277,7 @@ impl JointKind {
         self.freedoms(dimension).iter().map(|freedom| freedom.n_rotations()).sum()
     }
 
-    /// Freedom of a kind that has one coordinate alone; `None` of other kinds.
+    /// Freedom of a kind with a single coordinate; `None` for other kinds.
     #[must_use]
     pub fn single(self, dimension: Dimension) -> Option<Freedom> {
         match self.freedoms(dimension) {
@@ -280,14 +286,15 @@ impl JointKind {
         }
     }
 
-    /// The freedom whose only coordinate has this number; `None` for a component of a rotation.
+    /// Freedom with a single coordinate of this number; `None` for a component of a rotation vector.
     #[must_use]
     pub fn freedom(self, dimension: Dimension, number: usize) -> Option<Freedom> {
         let mut freedoms = self.numbered(dimension);
         freedoms.find(|(at, freedom)| *at == number && *freedom != Ball).map(|(_, freedom)| freedom)
     }
 
-    /// The name of a coordinate: `slide` and `turn`, several `x`, `y`, `z`, or `first`, `second`. A component of a rotation has none.
+    /// Name of a coordinate. A single slide is `slide`, a single turn `turn`. Several slides are `x`, `y`, `z`; several turns are `first`,
+    /// `second`. A component of a rotation vector has no name.
     #[must_use]
     pub fn coordinate_name(self, dimension: Dimension, number: usize) -> Option<&'static str> {
         let freedom = self.freedom(dimension, number)?;
@@ -302,7 +309,7 @@ impl JointKind {
         }
     }
 
-    /// The names of its coordinates, with their numbers.
+    /// Names of the coordinates, with their numbers.
     pub fn coordinate_names(
         self,
         dimension: Dimension,
@@ -311,14 +318,14 @@ impl JointKind {
         (0..self.n_coordinates(dimension)).filter_map(name)
     }
 
-    /// The coordinate that an effect acts on where none is given: the only one, else the first turn.
+    /// Coordinate on which an effect acts by default: the only one, or else the first turn.
     #[must_use]
     pub fn default_coordinate(self, dimension: Dimension) -> Option<usize> {
         let only = self.single(dimension).map(|_| 0);
         only.or_else(|| self.turn(dimension).map(|(number, _)| number))
     }
 
-    /// A coordinate that is given, or else its [default](Self::default_coordinate).
+    /// Coordinate `given`, or the [default](Self::default_coordinate) if it is `None`.
     #[must_use]
     pub fn coordinate_or_default(
         self,
@@ -328,7 +335,7 @@ impl JointKind {
         given.or_else(|| self.default_coordinate(dimension))
     }
 
-    /// The number of its first turn about an axis, with the axis.
+    /// Number of the first turn about an axis, with the axis.
     #[must_use]
     pub fn turn(self, dimension: Dimension) -> Option<(usize, Axis)> {
         self.numbered(dimension).find_map(|(number, freedom)| match freedom {
@@ -337,14 +344,14 @@ impl JointKind {
         })
     }
 
-    /// The number of the first coordinate of its rotation vector, where it has one.
+    /// Number of the first component of the rotation vector, if the kind has one.
     #[must_use]
     pub fn ball(self, dimension: Dimension) -> Option<usize> {
         let mut freedoms = self.numbered(dimension);
         freedoms.find(|(_, freedom)| *freedom == Ball).map(|(number, _)| number)
     }
 
-    /// Constraint of the joint on translation; a [link](Self::is_link) has equations of its own.
+    /// Constraint of the joint on translation; a [link](Self::is_link) has a separate equation.
     #[must_use]
     pub fn translation(self, dimension: Dimension) -> Translation {
         let mut slides = self.freedoms(dimension).iter().filter_map(|freedom| match freedom {
@@ -360,7 +367,7 @@ impl JointKind {
         }
     }
 
-    /// Constraint of the joint on rotation; a [link](Self::is_link) has equations of its own.
+    /// Constraint of the joint on rotation; a [link](Self::is_link) has a separate equation.
     #[must_use]
     pub fn rotation(self, dimension: Dimension) -> Rotation {
         let mut turns = self.freedoms(dimension).iter().filter(|freedom| freedom.n_rotations() > 0);
@@ -373,19 +380,19 @@ impl JointKind {
         }
     }
 
-    /// Are the joint's first and second axis needed in a scene of that dimension?
+    /// Are the first and second axis of the joint needed in a scene of that dimension?
     #[must_use]
     pub fn needs_axes(self, dimension: Dimension) -> [bool; 2] {
         let needs = |own| {
             let axes = self.freedoms(dimension).iter().filter_map(|freedom| freedom.axis());
             axes.into_iter().any(|axis| axis == own || axis == Third)
         };
-        // what slides along the part of the second across the first needs both
+        // a slide along the second axis uses its component perpendicular to the first, and needs both axes
         let [first, second] = [First, Second].map(needs);
         [first || self.slides_along(Second, dimension), second]
     }
 
-    /// Keys of scene files for its two axes.
+    /// Keys of the two axes in scene files.
     #[must_use]
     pub fn axis_keys(self, dimension: Dimension) -> [&'static str; 2] {
         match self.needs_axes(dimension) {
@@ -402,7 +409,7 @@ impl JointKind {
     }
 }
 
-/// The direction across two of a frame.
+/// Third direction of the frame to which the two given ones belong.
 fn across(a: Axis, b: Axis) -> Axis {
     let frame = match a {
         First | Second | Third => [First, Second, Third],

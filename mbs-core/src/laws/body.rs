@@ -1,8 +1,8 @@
-//! Laws that act on one body at a point and ask for its place, velocity and spin: each gives one or more actions, unit wrenches
-//! with a tension.
+//! Laws that act on one body at a point, and depend on the motion of the body. Each gives one or more actions, which are unit
+//! wrenches with a tension.
 //!
 //! ```text
-//! action   force -f d at the point, moment -f m;   rate d.v + m.w
+//! action   force -f d at the point, moment -f m;   rate d.v + m.w          f: tension, (d, m): unit wrench, w: angular velocity
 //! ```
 
 pub use crate::effects::BodyLaw;
@@ -16,31 +16,31 @@ use crate::Real;
 use core::convert::Infallible;
 use core::marker::PhantomData;
 
-/// Motion of a body that a law sees, global axes. In the plane z components of places are zero, and spin is about z.
+/// Motion of a body that a law gets, in global axes. In the plane z components of places are zero, and spin is about z.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BodyMotion<T> {
-    /// The law's point [m].
+    /// Point of the body at which the law acts [m].
     pub position: [T; 3],
     /// Velocity of the law's point [m/s].
     pub velocity: [T; 3],
-    /// The law's direction as it has turned with the body.
+    /// Direction of the law, which rotates with the body.
     pub axis: [T; 3],
     /// Angular velocity of the body [rad/s].
     pub spin: [T; 3],
 }
 
-/// A unit wrench on a body with its tension.
+/// Unit wrench on a body, with its tension.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct UnitWrench<T> {
-    /// d, at the law's point [-].
+    /// Direction d of the force at the law's point [-].
     pub force: [T; 3],
-    /// m, about the law's point [m, or - for a pure moment].
+    /// Moment m about the law's point [m, or - for a pure moment].
     pub moment: [T; 3],
     /// Tension of the wrench with its tangents; `rate` is d.v + m.w less `drift`.
     pub measure: ScalarForce<T>,
 }
 
-/// Writes an action to its place, where there is one.
+/// Writes an action to its place, if there is one.
 #[inline(always)]
 pub(crate) fn put<T>(out: &mut [UnitWrench<T>], place: usize, action: UnitWrench<T>) {
     if let Some(to) = out.get_mut(place) {
@@ -59,18 +59,18 @@ pub struct TireForces<T> {
     pub longitudinal: T,
     /// Moment about the normal [N m].
     pub aligning: T,
-    /// Angle between motion and plane where there is a side force [rad].
+    /// Angle between the tire's velocity and its plane, if the tire has a side force [rad].
     pub slip_angle: T,
-    /// The point of the tire that is nearest to the road [m], global axes.
+    /// Point of the tire nearest to the road, in global axes [m].
     pub contact: [T; 3],
 }
 
-/// Most unit wrenches of a law on a body [-]: a tire has five.
+/// Largest number of unit wrenches of a law on a body [-]: a tire has five.
 pub const MAX_ACTIONS: usize = 5;
 
-/// A law on one body. [`BodyLaw`] is one of all that there are.
+/// Law on one body. The enum [`BodyLaw`] contains all built-in ones.
 pub trait WrenchesLaw<T: Real>: Entry<T> + Copy {
-    /// Writes the actions at a motion into `out`, [`n_actions`](Self::n_actions) long.
+    /// Writes the actions for a motion into `out`, which is [`n_actions`](Self::n_actions) long.
     fn evaluate(
         &self,
         motion: &BodyMotion<T>,
@@ -78,7 +78,7 @@ pub trait WrenchesLaw<T: Real>: Entry<T> + Copy {
         out: &mut [UnitWrench<T>],
     );
 
-    /// A bound of the operations of [`evaluate`](Self::evaluate): of the branch that costs most.
+    /// Upper bound of the operations of [`evaluate`](Self::evaluate), for the branch with the highest cost.
     fn operations(&self, law_inputs: &LawInputs<'_, T>) -> Operations;
 
     /// Number of actions of the law.
@@ -86,71 +86,71 @@ pub trait WrenchesLaw<T: Real>: Entry<T> + Copy {
         1
     }
 
-    /// Does the law ask for the body's direction and spin, or give moments?
+    /// Does the law use the body's direction and spin, or give moments?
     fn needs_rotation(&self) -> bool {
         true
     }
 
-    /// The slope of an action by the iterate `before`; the first one of a step has no rate.
+    /// Improves the slope of an action with the iterate `before`. In the first iterate of a step, `before` has no rate.
     #[inline]
     fn look_back(&self, _action: usize, _measure: &mut ScalarForce<T>, _before: &ScalarForce<T>) {}
 
-    /// The slope of an action by its rate for an iteration that does not look back; not below the tangent.
+    /// Slope of an action by its rate, for iterations that do not use the iterate before. It is at least the tangent.
     #[inline]
     fn secant(&self, _action: usize, measure: &ScalarForce<T>) -> T {
         measure.damping
     }
 
-    /// Stored energy of an action [J].
+    /// Energy that an action stores [J].
     fn energy(&self, _action: usize, _measure: &ScalarForce<T>) -> T {
         T::ZERO
     }
 
-    /// Power of an action that is not stored [W].
+    /// Power of an action that is not stored as energy [W].
     fn power(&self, _action: usize, measure: &ScalarForce<T>) -> T {
         -measure.tension * measure.rate
     }
 
-    /// Number of gaps of the law; none where it acts always.
+    /// Number of gaps of the law; zero for a law that always acts.
     fn n_gaps(&self) -> usize {
         0
     }
 
-    /// Does the damper of its contact fade in over [`FADE`](super::bumper::FADE)?
+    /// Does the damper of the law's contact fade in over [`FADE`](super::bumper::FADE)?
     fn has_fade(&self) -> bool {
         false
     }
 
-    /// Gap of the law with its rate, then its place over the road and its speed, each along and up.
+    /// Gap of the law with its rate, then the position over the road and its velocity, each along the road and up.
     fn watch(&self, _motion: &BodyMotion<T>, _supplies: &LawInputs<'_, T>) -> [[T; 2]; 3] {
         [[T::ZERO; 2]; 3]
     }
 
-    /// Forces of the road on a tire; `None` of other laws.
+    /// Forces of the road on a tire; `None` for other laws.
     fn tire(&self, _motion: &BodyMotion<T>, _inputs: &LawInputs<'_, T>) -> Option<TireForces<T>> {
         None
     }
 
-    /// Can it have kinks besides those of its gaps?
+    /// Can the law have kinks besides those of its gaps?
     fn may_have_kinks(&self) -> bool {
         false
     }
 
-    /// Hands out its kinks, in no order.
+    /// Passes the kinks of the law to `_take`, in any order.
     fn kinks(&self, _supplies: &LawInputs<'_, T>, _take: &mut dyn FnMut(LawCorner<T>)) {}
 
-    /// Largest distance from its place at which a kink may be passed [m].
+    /// Largest distance from its place at which a kink has an effect [m].
     fn reach(&self) -> T {
         T::ZERO
     }
 
-    /// Is all that it refers to by number there?
+    /// Are all table entries present to which the law refers by number?
     fn fits(&self, _supplies: &LawInputs<'_, T>, _n_courses: usize) -> bool {
         true
     }
 }
 
-/// A law that there is none of.
+/// Law that no value can have, in place of a law that is not compiled.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NeverLaw<T>(Infallible, PhantomData<T>);
 

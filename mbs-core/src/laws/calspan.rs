@@ -8,27 +8,28 @@
 //! Fy = mu F s,   Mz = (AF1 F + AF2 |Fy|) Fy
 //! ```
 //!
-//! F normal load, a slip angle, g camber. Source: Frik, Leister and Schwartz, *Simulation of the IAVSD Road Vehicle Benchmark
-//! Bombardier Iltis* (1993), in the form of the open Iltis model of UCLouvain. Above W A2 the cornering stiffness falls to A0,
-//! sixteen times below its peak for the Iltis: a feature of the formula. Mz changes its sign where |Fy| > F. Friction mu falls with
-//! the load and would be negative above 26.5 kN for the Iltis: it is held at 0.2 from 22.2 kN on, where the model says nothing.
+//! F is the normal load, a the slip angle, g the camber. Source: Frik, Leister and Schwartz, *Simulation of the IAVSD Road Vehicle
+//! Benchmark Bombardier Iltis* (1993), in the form of the open Iltis model of UCLouvain. Above F = W A2 the cornering stiffness
+//! falls to A0, for the Iltis a sixteenth of its peak. This is a property of the published formula. Mz changes its sign where |Fy|
+//! > F. The friction mu falls with the load, and would be negative above 26.5 kN for the Iltis. From 22.2 kN on, outside the range
+//! of the model, it is 0.2.
 
 use super::entry::entry;
 use crate::Real;
 
-/// Least friction coefficient [-]: the polynomial falls below zero at loads that it was never fitted for. Chosen, not tuned.
+/// Least friction coefficient [-]: the polynomial is negative at loads outside its fitted range. Chosen, not tuned.
 pub const LEAST_FRICTION: f64 = 0.2;
 
-/// Coefficients of the model.
+/// Coefficients of the Calspan model.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Coefficients<T> {
-    /// A0 [N/rad], A1 [1/rad], A2 [N], A3 [1/rad], A4 [N].
+    /// Coefficients A0 [N/rad], A1 [1/rad], A2 [N], A3 [1/rad], A4 [N] of the cornering stiffness.
     pub a: [T; 5],
-    /// W, the share of A2 up to which the stiffness follows the parabola [-].
+    /// Ratio W: the stiffness follows the parabola up to the load W A2 [-].
     pub omega: T,
-    /// B1 [1/N], B3 [-], B4 [1/N^2].
+    /// Coefficients B1 [1/N], B3 [-], B4 [1/N^2] of the friction.
     pub b: [T; 3],
-    /// k, the skid ratio [-].
+    /// Skid ratio k, a factor of the friction [-].
     pub skid: T,
     /// Coefficients AF1, AF2 of the aligning torque [m/N].
     pub trail: [T; 2],
@@ -37,7 +38,7 @@ pub struct Coefficients<T> {
 entry!(Coefficients<T> { a, omega, b, skid, trail });
 
 impl<T> Coefficients<T> {
-    /// The tire of the Bombardier Iltis, in numbers made from doubles.
+    /// Tire of the Bombardier Iltis, in numbers that are converted from doubles.
     pub(crate) fn iltis_by(n: impl Fn(f64) -> T) -> Self {
         Self {
             a: [n(2625.0), n(14.47), n(12930.0), n(2.29), n(18175.0)],
@@ -50,14 +51,14 @@ impl<T> Coefficients<T> {
 }
 
 impl<T: Real> Coefficients<T> {
-    /// The tire of the Bombardier Iltis.
+    /// Tire of the Bombardier Iltis.
     #[must_use]
     pub fn iltis() -> Self {
         Self::iltis_by(T::from_f64)
     }
 }
 
-/// Side force of the tire with its slope, and the aligning torque.
+/// Side force of a tire with its slope, and aligning torque.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Side<T> {
     /// Side force Fy [N].
@@ -68,12 +69,12 @@ pub struct Side<T> {
     pub stiffness: T,
 }
 
-/// -dFy/da of a wheel that rolls straight and upright at load `f` [N/rad]; not negative.
+/// Cornering stiffness -dFy/da of a wheel that rolls straight and upright at load `f` [N/rad]; not negative.
 pub fn cornering_stiffness<T: Real>(c: &Coefficients<T>, f: T) -> T {
     side(c, f, T::ZERO, T::ZERO).stiffness
 }
 
-/// Side force and aligning torque at load `f` [N], slip angle and camber [rad]. No load, no force.
+/// Side force and aligning torque at load `f` [N], slip angle and camber [rad]. Both are zero without load.
 pub fn side<T: Real>(c: &Coefficients<T>, f: T, slip: T, camber: T) -> Side<T> {
     if !(f > T::ZERO) {
         return Side::default();

@@ -1,12 +1,12 @@
-//! User-defined laws with data: objects behind traits, which see doubles whatever a run computes in.
+//! User-defined laws with data: objects behind traits. They compute in doubles in every precision of a run.
 //!
 //! ```text
 //! along a line, about or along a joint   (t, m, m', u) -> f, df/dm, df/dm', V
 //! on a body                              (t, place, velocity, direction, angular velocity, u) -> force, moment
 //! ```
 //!
-//! [Relations](Relation) of couplings are objects too. u are three numbers that are set between steps. Where no allocation or no pointer that
-//! threads share can be had, laws are functions: [`user`](super::user).
+//! [Relations](Relation) of couplings are objects too. The input u has three numbers, which are set between steps. On targets
+//! without allocation or without atomic pointers, laws are functions: [`user`](super::user).
 
 use super::relation::Relation;
 use alloc::vec::Vec;
@@ -14,39 +14,40 @@ use core::fmt::{self, Debug, Formatter};
 use core::ops::Deref;
 use core::sync::atomic::{AtomicU32, Ordering};
 
-/// Measured numbers that a [`ForceLaw`] sees.
+/// Measured numbers that a [`ForceLaw`] gets.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
 pub struct Measured {
     /// Time [s].
     pub time: f64,
-    /// Length of the line, or the joint's coordinate from the reference configuration [m, rad].
+    /// Length of the line, or coordinate of the joint relative to the reference configuration [m, rad].
     pub value: f64,
     /// Rate of the value [m/s, rad/s].
     pub rate: f64,
-    /// The input of the effect: zero until it is set.
+    /// Input of the effect, zero until it is set between steps.
     pub input: [f64; 3],
 }
 
-/// Force that a [`ForceLaw`] gives, with derivatives and energy. Derivatives are those of `force`. In steps they steer iterations alone: where
-/// they are left at zero, stiff laws need more iterations or smaller steps. The search for an equilibrium takes them for the law's own.
+/// Result of a [`ForceLaw`]: force, its derivatives, and energy. In steps the derivatives only control the iterations. With
+/// derivatives left at zero, stiff laws need more iterations or smaller steps. The search for an equilibrium takes them as exact.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Force {
-    /// Pulls the ends together, or turns or moves a joint's second body backwards, when positive [N, N m].
+    /// Force or torque [N, N m]. Positive values pull the ends together, or drive a joint's second body backwards.
     pub force: f64,
-    /// d force / d value [N/m, N m/rad].
+    /// Derivative of the force by the value [N/m, N m/rad].
     pub stiffness: f64,
-    /// d force / d rate [N s/m, N m s/rad].
+    /// Derivative of the force by the rate [N s/m, N m s/rad].
     pub damping: f64,
-    /// Energy that the law stores [J]. It is read at no rate; what it does not hold is work of the law, all of it where this is zero.
+    /// Energy that the law stores [J], evaluated at rate zero. The rest of the force's work counts as work of the law. With zero
+    /// energy all of it does.
     pub energy: f64,
 }
 
-/// A force law with data of its own, along the line of two points or on the coordinate of a joint.
+/// Force law with data, along the line of two points or on the coordinate of a joint.
 ///
-/// It sees and gives doubles: in a run of 32 digits 16 of them are the law's. A number that is infinite or NaN ends the step with
-/// [`StepError::Law`](crate::step::StepError::Law). For its energy it is also asked at no rate, a little beside the value and the time: its
-/// numbers are finite there too.
+/// The law computes in doubles: in a run of 32 digits it has 16. An infinite or NaN result ends the step with
+/// [`StepError::Law`](crate::step::StepError::Law). For the energy the law is also evaluated at rate zero, a little beside the
+/// value and the time. Its results must be finite there too.
 ///
 /// # Examples
 /// ```
@@ -69,29 +70,31 @@ pub struct Force {
 /// assert_eq!(spring.evaluate(&at).force, -6000.0);
 /// ```
 pub trait ForceLaw: Send + Sync + Debug {
-    /// Force, tangents and energy: a function of `at` alone, for it is called at trial states, in any order and from several threads.
+    /// Returns force, tangents and energy. They must depend on `at` only: calls come at trial states, in any order and from several
+    /// threads.
     fn evaluate(&self, at: &Measured) -> Force;
 }
 
-/// Motion of a body that a [`BodyLaw`] sees, global axes. In the plane third components of places are zero, and angular velocity is about z.
+/// Motion of a body that a [`BodyLaw`] gets, in global axes. In the plane the third components of places are zero, and the angular
+/// velocity is about z.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
 pub struct MeasuredBody {
     /// Time [s].
     pub time: f64,
-    /// The law's point on the body [m].
+    /// Point of the body at which the law acts [m].
     pub position: [f64; 3],
     /// Velocity of the law's point [m/s].
     pub velocity: [f64; 3],
-    /// The law's direction as it has turned with the body, of length one.
+    /// Direction of the law, which rotates with the body; a unit vector.
     pub axis: [f64; 3],
     /// Angular velocity of the body [rad/s].
     pub angular_velocity: [f64; 3],
-    /// The input of the effect: zero until it is set.
+    /// Input of the effect, zero until it is set between steps.
     pub input: [f64; 3],
 }
 
-/// A force and a moment, global axes.
+/// Force and moment on a body, in global axes.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Wrench {
     /// Force on the body [N].
@@ -100,10 +103,10 @@ pub struct Wrench {
     pub moment: [f64; 3],
 }
 
-/// A law with data of its own that acts on one body. All that it does is work: nothing is stored.
+/// Law with data on one body. Everything it does counts as work: nothing is stored.
 ///
-/// It sees and gives doubles. A number that is infinite or NaN ends the step with
-/// [`StepError::Law`](crate::step::StepError::Law). It has no tangent: where it is stiff, take small steps.
+/// The law computes in doubles. An infinite or NaN result ends the step with [`StepError::Law`](crate::step::StepError::Law). The
+/// law has no tangent, so that stiff laws need small steps.
 ///
 /// # Examples
 /// ```
@@ -123,22 +126,23 @@ pub struct Wrench {
 /// assert_eq!(Thruster { most: 20.0 }.evaluate(&at).force, [0.0, 20.0, 0.0]);
 /// ```
 pub trait BodyLaw: Send + Sync + Debug {
-    /// Force and moment on the body at the law's point: a function of `at` alone. It is called at trial states, in any order and from several
-    /// threads.
+    /// Returns force and moment on the body at the law's point. They must depend on `at` only: calls come at trial states, in any
+    /// order and from several threads.
     fn evaluate(&self, at: &MeasuredBody) -> Wrench;
 }
 
 /// Pointer by which the copies of a law share it.
 #[cfg(target_has_atomic = "ptr")]
 type Shared<L> = alloc::sync::Arc<L>;
-/// Reference by which the copies of a law share it: where nothing can be counted by threads, a law stays for good.
+/// Reference by which the copies of a law share it. Targets without atomic pointers cannot count copies, so that the law is never
+/// freed.
 #[cfg(not(target_has_atomic = "ptr"))]
 type Shared<L> = &'static L;
 
-/// Law that copies share: two are equal where they are the same one.
+/// Law that is shared between copies. Two are equal if they share the same object.
 pub struct Code<L: ?Sized + 'static>(Shared<L>);
 
-/// Makes a [`Code`] of a law.
+/// Implements the conversion of a law to a [`Code`].
 macro_rules! code {
     ($Law:ident) => {
         impl<L: $Law + 'static> From<L> for Code<dyn $Law> {
@@ -181,28 +185,29 @@ impl<L: ?Sized> Deref for Code<L> {
     }
 }
 
-/// The laws of a model that are objects, by number, with the effects and couplings that they belong to; and which of them failed.
+/// Laws of a model that are objects, by number, each with its effect or coupling. Also notes which law failed.
 #[derive(Debug)]
 pub struct Codes {
     forces: Vec<(u32, Code<dyn ForceLaw>)>,
     bodies: Vec<(u32, Code<dyn BodyLaw>)>,
     relations: Vec<(u32, Code<dyn Relation>)>,
-    /// The first effect whose law gave what is not finite, else the first coupling above [`COUPLINGS`]; [`NONE`].
+    /// First effect whose law returned an infinite or NaN number, else the first such coupling plus [`COUPLINGS`]; [`NONE`] without
+    /// failure.
     failed: AtomicU32,
 }
 
-/// Effect or coupling that a law in code belongs to.
+/// Effect or coupling that a user-defined law belongs to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CodeOwner {
-    /// The effect in the scene.
+    /// Effect by its number in the scene.
     Effect(u32),
-    /// The coupling in the scene.
+    /// Coupling by its number in the scene.
     Coupling(u32),
 }
 
-/// No law has failed.
+/// Value of `failed` if no law has failed.
 const NONE: u32 = u32::MAX;
-/// Couplings are numbered from here on among what has failed: no scene has as many effects.
+/// First number of a failed coupling. Smaller numbers are effects, and no scene has this many effects.
 const COUPLINGS: u32 = 1 << 31;
 
 impl Default for Codes {
@@ -244,15 +249,15 @@ impl Codes {
         self.relations.push((coupling, relation.clone()));
     }
 
-    /// From now on failures are those of what comes.
+    /// Clears the noted failure, so that only later failures are reported.
     pub fn forget(&self) {
         if self.failed.load(Ordering::Relaxed) != NONE {
             self.failed.store(NONE, Ordering::Relaxed);
         }
     }
 
-    /// The first effect in the scene whose law gave what is not finite since failures were [forgotten](Self::forget), else the first
-    /// such coupling.
+    /// First effect in the scene whose law returned an infinite or NaN number since the last call of [`forget`](Self::forget). If
+    /// there is no such effect, the first such coupling.
     #[must_use]
     pub fn failed(&self) -> Option<CodeOwner> {
         match self.failed.load(Ordering::Relaxed) {
@@ -262,13 +267,13 @@ impl Codes {
         }
     }
 
-    /// The relation of this number, in the order of the scene's couplings that have one.
+    /// Relation by its number, in the order of the couplings that have a relation.
     #[must_use]
     pub const fn relation(&self, number: u32) -> NumberedRelation<'_> {
         NumberedRelation { codes: self, number }
     }
 
-    /// A law of a line or a joint; NaN where it fails.
+    /// Evaluates a law of a line or a joint; NaN if the law fails.
     pub(crate) fn force(&self, number: u32, at: &Measured) -> Force {
         let (effect, force) = match self.forces.get(number as usize) {
             Some((effect, law)) => (*effect, law.evaluate(at)),
@@ -282,7 +287,7 @@ impl Codes {
         FAILED
     }
 
-    /// A law on a body; `None` where it fails.
+    /// Evaluates a law on a body; `None` if the law fails.
     pub(crate) fn wrench(&self, number: u32, at: &MeasuredBody) -> Option<Wrench> {
         let (effect, law) = self.bodies.get(number as usize)?;
         let wrench = law.evaluate(at);
@@ -295,7 +300,7 @@ impl Codes {
 
     #[cold]
     fn fail(&self, effect: u32) {
-        // Threads that share a step name the same effect, whichever of them comes first.
+        // All threads of a step report the same effect, whichever thread is first.
         #[cfg(target_has_atomic = "32")]
         self.failed.fetch_min(effect, Ordering::Relaxed);
         #[cfg(not(target_has_atomic = "32"))]
@@ -303,7 +308,7 @@ impl Codes {
     }
 }
 
-/// A relation of [`Codes`], which notes where it fails and gives NaN there.
+/// Relation of [`Codes`] by number. A failure is noted, and the result is then NaN.
 #[derive(Debug, Clone, Copy)]
 pub struct NumberedRelation<'a> {
     codes: &'a Codes,
@@ -339,7 +344,7 @@ impl Relation for NumberedRelation<'_> {
     }
 }
 
-/// Result of a law that failed: nothing that is computed with it is a number.
+/// Result of a law that failed. Every number computed with it is NaN.
 const FAILED: Force =
     Force { force: f64::NAN, stiffness: f64::NAN, damping: 0.0, energy: f64::NAN };
 

@@ -1,4 +1,4 @@
-//! Laws as numbers: what writes them into tables of controllers, and reads them again.
+//! Laws as lists of numbers, by which tables of controllers are written and read.
 
 use super::Part;
 use crate::Real;
@@ -19,7 +19,7 @@ impl<T: Real> Entry<T> for Part {
     }
 }
 
-/// Declares the numbers of a struct or of the variants of an enum, by the fields' names, or places in a tuple.
+/// Declares the numbers of a struct or of an enum's variants: field names, or places in a tuple.
 macro_rules! entry {
     ($Name:ident $(<$S:ident>)? { $($field:tt),* $(,)? }) => {
         impl<T: $crate::Real> $crate::laws::entry::Entry<T> for $Name $(<$S>)? {

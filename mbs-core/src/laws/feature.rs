@@ -1,4 +1,4 @@
-//! Parts of roads: heights over x.
+//! Features of roads: heights over x.
 //!
 //! ```text
 //! rise    slope 0 -> s -> 0, linear over the rounding r at both ends, s = height / (length - r)
@@ -10,12 +10,12 @@ use super::guide;
 use super::part::Part;
 use crate::Real;
 
-/// A part of a road; heights of all parts add up.
+/// Feature of a road. The heights of all features add up.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Feature<T> {
     /// Height that is the same everywhere [m].
     Flat(T),
-    /// A slope with rounded corners, level before and after.
+    /// Slope with rounded corners, level before and after.
     Rise {
         /// Place x at which the rise begins [m].
         start: T,
@@ -26,16 +26,16 @@ pub enum Feature<T> {
         /// Length of each rounded corner, at most half the length [m].
         rounding: T,
     },
-    /// amplitude (1 - cos(2 pi (x - start) / length)), once.
+    /// Single bump: amplitude (1 - cos(2 pi (x - start) / length)).
     Bump {
         /// Place x at which the bump begins [m].
         start: T,
         /// Length of the bump along x [m].
         length: T,
-        /// Half its height [m].
+        /// Half the height of the bump [m].
         amplitude: T,
     },
-    /// Natural cubic spline through a part of the knots, level outside.
+    /// Natural cubic spline through a range of the knots, level outside.
     Spline(Part),
 }
 
@@ -46,7 +46,7 @@ entry!(Feature enum {
     3 Spline { 0 part },
 });
 
-/// A height and its first two derivatives by x.
+/// Height of a road, with its first two derivatives by x.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Height<T> {
     /// Height of the road [m].
@@ -58,7 +58,7 @@ pub struct Height<T> {
 }
 
 impl<T: Real> Feature<T> {
-    /// The height at `x`.
+    /// Height of the feature at `x`, with its derivatives.
     pub(super) fn at(&self, x: T, knots: (&[[T; 2]], &[T])) -> Height<T> {
         match *self {
             Self::Flat(value) => Height { value, ..Height::default() },
@@ -85,7 +85,7 @@ impl<T: Real> Feature<T> {
         }
     }
 
-    /// Places x at which its pieces meet, each other or the level road.
+    /// Places x at which the pieces of the feature meet each other or the level road.
     pub(super) fn ends(&self, knots: (&[[T; 2]], &[T])) -> [Option<T>; 4] {
         match *self {
             Self::Flat(_) => [None; 4],
@@ -102,7 +102,7 @@ impl<T: Real> Feature<T> {
         }
     }
 
-    /// A bound of h'' between two places; `None`: level there.
+    /// Upper bound of h'' between two places [1/m]; `None` if the feature is level there.
     pub(super) fn hollow(&self, [lower, upper]: [T; 2], knots: (&[[T; 2]], &[T])) -> Option<T> {
         let within = |start: T, length: T| start <= upper && start + length >= lower;
         match *self {
@@ -119,10 +119,10 @@ impl<T: Real> Feature<T> {
     }
 }
 
-/// Change of slope at the end of a table that is no hollow [-].
+/// Largest change of slope at the end of a table that does not count as a hollow [-].
 const LEVEL: f64 = 1e-6;
 
-/// The largest curvature of the knots about a range; where the table rises from its end there, a bound that none exceeds.
+/// Largest curvature at the knots of a range. If the table rises away from an end in the range, a very large number.
 pub fn spline_hollow<T: Real>(
     table: &[[T; 2]],
     curvatures: &[T],
@@ -143,7 +143,7 @@ pub fn spline_hollow<T: Real>(
     Some(about.iter().fold(T::ZERO, |most, &c| most.max(c)))
 }
 
-/// A rise of length, height and rounding at the distance `u` from its start.
+/// Height at the distance `u` from the start of a rise, given by length, height and rounding.
 fn rise<T: Real>([length, height, rounding]: [T; 3], u: T) -> Height<T> {
     let level = |value| Height { value, ..Height::default() };
     if !(u > T::ZERO) {

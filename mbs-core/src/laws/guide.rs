@@ -1,4 +1,4 @@
-//! Guide laws: value, first and second derivative of a prescribed coordinate at a time.
+//! Laws of guides: value, first and second derivative of a prescribed coordinate at a given time.
 //!
 //! ```text
 //! sine    g(t) = A sin(2π f t + φ)
@@ -6,11 +6,11 @@
 //! spline  cubic through (tᵢ, gᵢ), natural or level at both ends; the end values are held outside
 //! ```
 //!
-//! A spline is prepared once by [`spline_curvatures`] or [`level_curvatures`]; the curvatures live in a slice of the caller.
+//! [`spline_curvatures`] or [`level_curvatures`] prepares a spline once. The caller provides the slice for the curvatures.
 
 use crate::Real;
 
-/// Value, rate and acceleration of a guided coordinate [rad or m, per s, per s^2].
+/// Value [rad or m], rate [per s] and acceleration [per s^2] of a guided coordinate.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GuideMotion<T> {
     /// Value g(t) of the coordinate.
@@ -21,7 +21,7 @@ pub struct GuideMotion<T> {
     pub acceleration: T,
 }
 
-/// Evaluates `amplitude * sin(2 pi frequency t + phase)` [rad or m, Hz, rad].
+/// Evaluates the sine `amplitude * sin(2 pi frequency t + phase)` [rad or m, Hz, rad].
 pub fn sine<T: Real>(amplitude: T, frequency: T, phase: T, t: T) -> GuideMotion<T> {
     let omega = T::TWO * T::PI * frequency;
     let (sin, cos) = (omega * t + phase).sin_cos();
@@ -32,7 +32,7 @@ pub fn sine<T: Real>(amplitude: T, frequency: T, phase: T, t: T) -> GuideMotion<
     }
 }
 
-/// Evaluates `rate * t`.
+/// Evaluates the ramp `rate * t`.
 pub fn ramp<T: Real>(rate: T, t: T) -> GuideMotion<T> {
     GuideMotion { value: rate * t, rate, acceleration: T::ZERO }
 }
@@ -58,14 +58,14 @@ pub fn spline_curvatures<T: Real>(table: &[[T; 2]], curvature: &mut [T], scratch
 
 /// Writes the second derivatives of the cubic spline through the rows (time, value) that is at rest at both ends.
 ///
-/// As [`spline_curvatures`] within, and at the ends, where the rate is zero:
+/// Between the ends the equations are those of [`spline_curvatures`]. At the ends, where the rate is zero:
 ///
 /// ```text
 /// 2 h₀ c₀ + h₀ c₁ = 6 (g₁ − g₀)/h₀,   hₙ₋₁ cₙ₋₁ + 2 hₙ₋₁ cₙ = −6 (gₙ − gₙ₋₁)/hₙ₋₁
 /// ```
 ///
 /// # Panics
-/// As [`spline_curvatures`].
+/// If `curvature` or `scratch` is not as long as `table`.
 pub fn level_curvatures<T: Real>(table: &[[T; 2]], curvature: &mut [T], scratch: &mut [T]) {
     begin(table, curvature, scratch);
     let n = table.len();
@@ -97,7 +97,7 @@ fn begin<T: Real>(table: &[[T; 2]], curvature: &mut [T], scratch: &mut [T]) {
     scratch.fill(T::ZERO);
 }
 
-/// The rows between the ends: afterwards `scratch` has the upper coefficients, `curvature` the right sides.
+/// Eliminates the rows between the ends. Afterwards `scratch` has the upper coefficients, and `curvature` the right-hand sides.
 fn eliminate<T: Real>(table: &[[T; 2]], curvature: &mut [T], scratch: &mut [T]) {
     let six = T::from_f64(6.0);
     for i in 1..table.len().saturating_sub(1) {
@@ -109,7 +109,7 @@ fn eliminate<T: Real>(table: &[[T; 2]], curvature: &mut [T], scratch: &mut [T]) 
     }
 }
 
-/// The largest rate of a spline, either way: at a row, or where its curvature vanishes between two.
+/// Largest absolute rate of a spline: at a row, or between two rows where the curvature vanishes.
 #[must_use]
 pub fn largest_rate<T: Real>(table: &[[T; 2]], curvature: &[T]) -> T {
     let rate = |t| spline(table, curvature, t).rate.abs();
@@ -123,7 +123,7 @@ pub fn largest_rate<T: Real>(table: &[[T; 2]], curvature: &[T]) -> T {
     })
 }
 
-/// From one value to another in a time `rise` from zero on, with rate and acceleration; without it a jump.
+/// Smooth step between two values during the time `rise` from t = 0 on, with rate and acceleration; without `rise` a jump.
 pub fn step<T: Real>([from, to]: [T; 2], (t, rise): (T, T)) -> [T; 3] {
     if t >= rise {
         return [to, T::ZERO, T::ZERO];
@@ -141,8 +141,8 @@ pub fn step<T: Real>([from, to]: [T; 2], (t, rise): (T, T)) -> [T; 3] {
     ]
 }
 
-/// The vector of a table, linear between its rows; `row` gives time and vector of one. Before the first and after the last row the
-/// end value is held; an empty table is zero.
+/// Interpolates a vector linearly in a table; `row` gives time and vector of a row. Before the first and after the last row the end
+/// value is held. The vector of an empty table is zero.
 ///
 /// Cost: one binary search; no allocation.
 #[inline]
@@ -159,8 +159,8 @@ pub fn linear<T: Real, R>(rows: &[R], row: impl Fn(&R) -> (T, [T; 3]), t: T) -> 
     }
 }
 
-/// Evaluates the cubic spline of some curvatures at `t`; before the first and after the last row the end value is held
-/// at rest. An empty table is zero; a curvature that is not there is zero too.
+/// Evaluates the cubic spline with the given curvatures at `t`. Before the first and after the last row the end value is held, with
+/// rate zero. An empty table gives zero, and a missing curvature counts as zero.
 ///
 /// Cost: one binary search; no allocation.
 pub fn spline<T: Real>(table: &[[T; 2]], curvature: &[T], t: T) -> GuideMotion<T> {

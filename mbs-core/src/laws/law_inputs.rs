@@ -2,7 +2,7 @@
 
 use crate::Real;
 
-/// An entry of a table that belongs to a Cargo feature: none can be made where it is off.
+/// Entry of a table that needs a Cargo feature. Without the feature no entry can exist.
 macro_rules! table_entry {
     ($(#[$doc:meta])* $Name:ident = $Entry:ty, $feature:literal) => {
         $(#[$doc])*
@@ -15,37 +15,37 @@ macro_rules! table_entry {
 }
 
 table_entry! {
-    /// A piece of a polynomial.
+    /// Piece of a polynomial (feature `polynomial`).
     PieceEntry = super::polynomial::Piece<T>, "polynomial"
 }
 table_entry! {
-    /// A part of a road.
+    /// Feature of a road (Cargo feature `tire`).
     FeatureEntry = super::feature::Feature<T>, "tire"
 }
 table_entry! {
-    /// A point (x, z) of a road given by a table.
+    /// Point (x, z) of a road that a table gives.
     KnotEntry = [T; 2], "tire"
 }
 table_entry! {
-    /// The road's curvature there.
+    /// Second derivative of the road's height at a point.
     CurvatureEntry = T, "tire"
 }
 
-/// The tables of laws that never change.
+/// Constant tables of laws, which steps do not change.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LawTables<'a, T> {
     /// Pieces of the laws' polynomials.
     pub pieces: &'a [PieceEntry<T>],
     /// Parts of the laws' roads.
     pub features: &'a [FeatureEntry<T>],
-    /// Points of roads given by tables, and their curvatures.
+    /// Points of roads given by tables, and the second derivatives of the height there.
     pub knots: (&'a [KnotEntry<T>], &'a [CurvatureEntry<T>]),
 }
 
-/// Inputs at this instant and tables that never change, which laws refer to by number.
+/// Signals at the current time, and the constant tables, to which laws refer by number.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LawInputs<'a, T> {
-    /// The vectors of the courses at this instant.
+    /// Vectors of the signals at the current time.
     pub courses: &'a [[T; 3]],
     /// Pieces of the laws' polynomials.
     #[cfg(feature = "polynomial")]
@@ -53,7 +53,7 @@ pub struct LawInputs<'a, T> {
     /// Parts of the laws' roads.
     #[cfg(feature = "tire")]
     pub features: &'a [super::feature::Feature<T>],
-    /// Points (x, z) of roads given by tables, and their curvatures.
+    /// Points (x, z) of roads given by tables, and the second derivatives of the height there.
     #[cfg(feature = "tire")]
     pub knots: (&'a [[T; 2]], &'a [T]),
     /// Laws that are objects.
@@ -62,14 +62,14 @@ pub struct LawInputs<'a, T> {
 }
 
 impl<'a, T: Real> LawInputs<'a, T> {
-    /// The vector of a course; zero where there is none.
+    /// Vector of a signal; zero if there is no such signal.
     #[inline(always)]
     #[must_use]
     pub fn course(&self, course: u32) -> [T; 3] {
         self.courses.get(course as usize).copied().unwrap_or([T::ZERO; 3])
     }
 
-    /// Returns inputs with these `courses` alone, without tables.
+    /// Returns inputs with these signals (`courses`) and without tables.
     #[must_use]
     pub const fn courses(courses: &'a [[T; 3]]) -> Self {
         Self {
@@ -85,7 +85,7 @@ impl<'a, T: Real> LawInputs<'a, T> {
         }
     }
 
-    /// Returns inputs with the same `courses`, and with these tables.
+    /// Returns inputs with the same signals and with these tables.
     #[inline(always)]
     #[must_use]
     pub const fn with(self, tables: LawTables<'a, T>) -> Self {
@@ -103,7 +103,7 @@ impl<'a, T: Real> LawInputs<'a, T> {
         }
     }
 
-    /// Returns the tables of laws; those of features that are off are empty.
+    /// Returns the tables of laws. Tables of Cargo features that are off are empty.
     #[must_use]
     pub const fn tables(&self) -> LawTables<'a, T> {
         LawTables {
@@ -122,7 +122,7 @@ impl<'a, T: Real> LawInputs<'a, T> {
         }
     }
 
-    /// Returns the pieces of polynomials; none without the feature.
+    /// Returns the pieces of polynomials; empty without the Cargo feature.
     #[inline(always)]
     pub(crate) const fn pieces(&self) -> &'a [super::polynomial::Piece<T>] {
         #[cfg(feature = "polynomial")]
@@ -131,7 +131,7 @@ impl<'a, T: Real> LawInputs<'a, T> {
         &[]
     }
 
-    /// Returns the parts of roads; none without the feature.
+    /// Returns the features of roads; empty without the Cargo feature.
     #[inline(always)]
     pub(crate) const fn features(&self) -> &'a [super::feature::Feature<T>] {
         #[cfg(feature = "tire")]
@@ -140,7 +140,7 @@ impl<'a, T: Real> LawInputs<'a, T> {
         &[]
     }
 
-    /// Laws that are objects; none without the feature.
+    /// Returns the laws that are objects; `None` without the Cargo feature.
     #[cfg(feature = "alloc")]
     pub(crate) const fn codes(&self) -> Option<&'a super::code::Codes> {
         #[cfg(feature = "own-laws")]
@@ -149,7 +149,7 @@ impl<'a, T: Real> LawInputs<'a, T> {
         None
     }
 
-    /// Points of roads and their curvatures; none without the feature.
+    /// Returns the points of roads and their curvatures; empty without the Cargo feature.
     #[inline(always)]
     pub(crate) const fn knots(&self) -> (&'a [[T; 2]], &'a [T]) {
         #[cfg(feature = "tire")]

@@ -1,8 +1,8 @@
 //! Laws as pure functions of numbers and slices: no allocation, no knowledge of scenes.
 //!
-//! One effect, one file. [`scalar`] gathers the laws along a length or about an angle, [`body`] those that act on one body and
-//! ask for its place, velocity and spin. A law whose Cargo feature is off is not compiled; springs, dampers and given forces
-//! always are.
+//! Each effect has one file. [`scalar`] collects the laws along a length or about an angle, [`body`] the laws on one body, which
+//! depend on its place, velocity and spin. A law is not compiled if its Cargo feature is off. Springs, dampers and prescribed
+//! forces are always compiled.
 
 pub mod body;
 pub mod bumper;

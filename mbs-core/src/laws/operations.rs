@@ -1,4 +1,4 @@
-//! Counts of arithmetic operations, by which steps on controllers are bounded.
+//! Counts of arithmetic operations, from which the time of a step on a controller is bounded.
 
 use core::ops::{Add, AddAssign, Mul};
 
@@ -13,9 +13,9 @@ pub struct Operations {
     pub quotients: u64,
     /// Number of square roots.
     pub roots: u64,
-    /// Sines with their cosines, and arc tangents.
+    /// Number of sines with their cosines, and of arc tangents.
     pub turns: u64,
-    /// Entries of Λ, l and gains that the kernels of loops look up by number: no arithmetic, but instructions.
+    /// Number of entries of Λ, l and gains that the kernels of closed loops look up. They are instructions, but no arithmetic.
     pub entries: u64,
 }
 
@@ -29,27 +29,28 @@ impl Operations {
         Self { products, sums, quotients: 0, roots: 0, turns: 0, entries: 0 }
     }
 
-    /// Entries that are looked up.
+    /// Returns the count of entries that are looked up, without arithmetic.
     #[must_use]
     pub const fn entries(entries: u64) -> Self {
         Self { entries, ..Self::NONE }
     }
 
-    /// With quotients, roots and turns.
+    /// Returns the count with these quotients, roots and trigonometric functions.
     #[must_use]
     pub const fn and(self, quotients: u64, roots: u64, turns: u64) -> Self {
         Self { quotients, roots, turns, ..self }
     }
 
-    /// All operations, each counted as one; entries are none.
+    /// Total number of operations, each counted as one. Entries are not counted.
     #[must_use]
     pub const fn total(&self) -> u64 {
         self.products + self.sums + self.quotients + self.roots + self.turns
     }
 
-    /// The bound of instructions of a Cortex-M whose arithmetic unit has the precision. It counts 7 for two products or sums with their loads,
-    /// stores and part of the loops, 16 for a quotient, 40 to find an entry. In single precision a root is an instruction between moves, and
-    /// turns need no doubles; in double precision both are functions of libm. Angles beyond 6400 rad, in double precision 1e6 rad, cost more.
+    /// Upper bound of the instructions of a Cortex-M with a floating-point unit of this precision. Two products or sums count 7,
+    /// with their loads, stores and part of the loops; a quotient counts 16, a looked-up entry 40. In single precision a root is
+    /// one instruction between moves, and trigonometric functions need no doubles. In double precision both are functions of libm.
+    /// Angles beyond 6400 rad (in double precision 1e6 rad) cost more.
     #[must_use]
     pub const fn instructions(&self, is_double: bool) -> u64 {
         let (root, turn) = if is_double { (140, 400) } else { (20, 120) };
@@ -95,7 +96,7 @@ impl Mul<u64> for Operations {
     }
 }
 
-/// A length as a count.
+/// Length of a list as a count.
 #[must_use]
 pub const fn count(n: usize) -> u64 {
     n as u64

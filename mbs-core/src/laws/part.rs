@@ -1,6 +1,6 @@
-//! Parts of the tables that laws share.
+//! Ranges of the tables that laws share.
 
-/// A part of a table that laws share: `n` entries from `first`.
+/// Range of a table that laws share: `n` entries from `first`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Part {
     /// Index of the first entry.
@@ -10,14 +10,14 @@ pub struct Part {
 }
 
 impl Part {
-    /// Entries of the part; none where the table is too short.
+    /// Entries of the range; empty if the table is too short.
     #[inline(always)]
     pub fn of<X>(self, table: &[X]) -> &[X] {
         let first = self.first as usize;
         table.get(first..first.saturating_add(self.n as usize)).unwrap_or(&[])
     }
 
-    /// Does it end by `end`?
+    /// Is the end of the range at most `end`?
     #[must_use]
     pub const fn is_within(self, end: usize) -> bool {
         (self.first as usize).saturating_add(self.n as usize) <= end

@@ -1,11 +1,11 @@
-//! Piecewise polynomials of a length or a rate, re-centred so that digits survive.
+//! Piecewise polynomials of a length or a rate, about the middle of each piece to avoid cancellation.
 //!
 //! ```text
 //! p(x) = sum c_k x^k = sum d_k (x - m)^k,   m the middle of the piece
 //! ```
 //!
-//! The damper unit of the Iltis cancels terms of 4e6 N down to 130 N: about the middle of the piece nothing cancels.
-//! Outside of all pieces the nearest piece is continued by its tangent.
+//! In the damper unit of the Iltis, terms of 4e6 N cancel to 130 N. About the middle of the piece nothing cancels. Outside of all
+//! pieces the nearest piece is continued along its tangent.
 
 use super::entry::entry;
 use crate::Real;
@@ -13,7 +13,7 @@ use crate::Real;
 /// Largest number of coefficients of a piece: degree 7.
 pub const MAX_COEFFICIENTS: usize = 8;
 
-/// A polynomial about the middle of the range in which it holds.
+/// Polynomial about the middle of the range in which it holds.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Piece<T> {
     /// Lower end of the range.
@@ -24,15 +24,15 @@ pub struct Piece<T> {
     pub middle: T,
     /// Coefficients d_k about the middle.
     pub coefficients: [T; MAX_COEFFICIENTS],
-    /// The integral of all pieces from the first one's lower end to m.
+    /// Integral of all pieces from the lower end of the first piece to m.
     pub energy: T,
 }
 
 entry!(Piece<T> { lower, upper, middle, coefficients, energy });
 
 impl<T: Real> Piece<T> {
-    /// Re-centres coefficients about the middle of their range; what exceeds [`MAX_COEFFICIENTS`] is refused with `None`, and so is
-    /// an empty range.
+    /// Converts coefficients to powers of x - m, m the middle of the range. `None` for more than [`MAX_COEFFICIENTS`], and for an
+    /// empty range.
     #[must_use]
     pub fn new([lower, upper]: [T; 2], coefficients: &[T]) -> Option<Self> {
         if coefficients.len() > MAX_COEFFICIENTS || !(lower < upper) {
@@ -41,7 +41,7 @@ impl<T: Real> Piece<T> {
         let middle = (lower + upper) * T::HALF;
         let mut d = [T::ZERO; MAX_COEFFICIENTS];
         d[..coefficients.len()].copy_from_slice(coefficients);
-        // Repeated synthetic division by (x - m).
+        // Synthetic division by (x - m), repeated for each coefficient.
         for k in 0..MAX_COEFFICIENTS {
             for i in (k..MAX_COEFFICIENTS - 1).rev() {
                 let next = d[i + 1];
@@ -51,7 +51,7 @@ impl<T: Real> Piece<T> {
         Some(Self { lower, upper, middle, coefficients: d, energy: T::ZERO })
     }
 
-    /// Value and slope at `x`; beyond the ends of the range along the tangent there.
+    /// Value and slope at `x`. Beyond the ends of the range the tangent at the end is used.
     #[inline]
     fn value(&self, x: T) -> (T, T) {
         let at = x.max(self.lower).min(self.upper);
@@ -64,7 +64,7 @@ impl<T: Real> Piece<T> {
         (p + dp * (x - at), dp)
     }
 
-    /// The integral from m to x.
+    /// Integral from m to x.
     fn integral(&self, x: T) -> T {
         let at = x.max(self.lower).min(self.upper);
         let s = at - self.middle;
@@ -80,7 +80,7 @@ impl<T: Real> Piece<T> {
     }
 }
 
-/// Fills in the energies of pieces that follow each other.
+/// Computes the energies of pieces that follow each other.
 pub fn link<T: Real>(pieces: &mut [Piece<T>]) {
     let mut sum = T::ZERO;
     for piece in pieces {
@@ -95,16 +95,16 @@ fn find<T: Real>(pieces: &[Piece<T>], x: T) -> Option<&Piece<T>> {
     pieces.get(next.saturating_sub(1))
 }
 
-/// Value and slope at `x`; zero without pieces.
+/// Value and slope of piecewise polynomials at `x`; zero without pieces.
 #[inline]
 pub fn value<T: Real>(pieces: &[Piece<T>], x: T) -> (T, T) {
     find(pieces, x).map_or((T::ZERO, T::ZERO), |piece| piece.value(x))
 }
 
-/// Steps of value or slope between two pieces that are none, beside those of the pieces [-].
+/// Largest relative jump of value or slope between two pieces that does not count as a kink [-].
 const LEVEL: f64 = 1e-6;
 
-/// Hands out the places between pieces where value or slope jump.
+/// Passes the places between pieces at which value or slope jumps to `take`.
 pub fn kinks<T: Real>(pieces: &[Piece<T>], mut take: impl FnMut(T)) {
     let jumps = |a: T, b: T| (a - b).abs() > T::from_f64(LEVEL) * (a.abs() + b.abs());
     for pair in pieces.windows(2) {
@@ -116,7 +116,7 @@ pub fn kinks<T: Real>(pieces: &[Piece<T>], mut take: impl FnMut(T)) {
     }
 }
 
-/// The integral from the first piece's lower end to `x` [J for a spring].
+/// Integral from the lower end of the first piece to `x` [J for a spring].
 pub fn energy<T: Real>(pieces: &[Piece<T>], x: T) -> T {
     find(pieces, x).map_or(T::ZERO, |piece| piece.energy + piece.integral(x))
 }

@@ -1,21 +1,22 @@
-//! User-defined relations: twice differentiable functions of several measured numbers, which a coupling holds.
+//! User-defined relations: twice differentiable functions of several measured numbers, which a coupling constrains.
 //!
 //! ```text
 //! phi(m_1 .. m_n) = value + f(t),    phi' = g . m',    phi'' = g . m'' + m'^T H m'
 //! ```
 //!
-//! g is the gradient of phi, H its matrix of second derivatives. A relation gives H along rates alone, as one number.
+//! The gradient of phi is g, and H is its matrix of second derivatives. A relation returns m'^T H m' as one number for given rates
+//! m'.
 
 use core::fmt::{self, Debug, Display, Formatter};
 
-/// Most numbers that a relation is of [-]: they and their derivatives stand on the stack of a step.
+/// Largest number of arguments of a relation [-], because they and their derivatives are on the stack of a step.
 pub const MAX_ARGUMENTS: usize = 16;
 
-/// A twice differentiable function of several numbers, with data of its own. Held, it is a coupling: `Coupling::relation`.
+/// Twice differentiable function of several numbers, with data. The coupling that constrains it is made by `Coupling::relation`.
 ///
-/// It sees and gives doubles: a run of 32 digits, whose rows hold to more than 16, refuses it. A number that is infinite or NaN ends the step with
-/// [`StepError::Relation`](crate::step::StepError::Relation). A scene whose derivatives are not those of its values is refused where
-/// [`check`] finds it, in the reference configuration and at start values.
+/// The relation computes in doubles. A run of 32 digits refuses it, because its rows must hold to more than 16. An infinite or NaN
+/// result ends the step with [`StepError::Relation`](crate::step::StepError::Relation). A scene is refused if [`check`] finds wrong
+/// derivatives in the reference configuration or at the start values.
 ///
 /// # Examples
 /// ```
@@ -39,45 +40,45 @@ pub const MAX_ARGUMENTS: usize = 16;
 /// assert_eq!(check(&Ellipse { axes: [2.0, 1.0] }, &[1.2, 0.8]), Ok(()));
 /// ```
 pub trait Relation: Send + Sync + Debug {
-    /// The value at these numbers; its derivatives with respect to each of them go into `gradient`, which is as long.
+    /// Returns the value at these numbers, and writes the derivative by each of them to `gradient`, which has the same length.
     ///
-    /// A function of `at` alone, for it is called at trial states, in any order and from several threads.
+    /// The result must depend on `at` only: calls come at trial states, in any order and from several threads.
     fn evaluate(&self, at: &[f64], gradient: &mut [f64]) -> f64;
 
-    /// The second derivative along `rates`: `sum_ij d2 phi/(dm_i dm_j) rates_i rates_j`, mixed terms twice.
+    /// Returns the second derivative along `rates`: `sum_ij d2 phi/(dm_i dm_j) rates_i rates_j`, where mixed terms count twice.
     ///
-    /// It is also the second derivative by time of the value, were `rates` constant.
+    /// For constant `rates` this is the second time derivative of the value.
     fn curvature(&self, at: &[f64], rates: &[f64]) -> f64;
 }
 
-/// Fault that makes a relation useless.
+/// Fault of a relation, for which it is refused.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum RelationFault {
     /// A number is infinite or NaN.
     NotFinite,
-    /// A derivative is not that of the value.
+    /// A derivative differs from the difference quotient of the values.
     Gradient {
         /// Number of the argument, from 0.
         argument: usize,
-        /// The derivative that the relation gives, and that of its values.
+        /// Derivative that the relation gives, and the difference quotient of its values.
         numbers: [f64; 2],
     },
-    /// The curvature is not that of the gradient.
+    /// The curvature differs from the difference quotient of the gradient.
     Curvature {
-        /// The curvature that the relation gives, and that of its gradients.
+        /// Curvature that the relation gives, and the difference quotient of its gradients.
         numbers: [f64; 2],
     },
-    /// More than [`MAX_ARGUMENTS`] terms.
+    /// The relation has more than [`MAX_ARGUMENTS`] terms.
     TooMany {
         /// Number of terms found.
         found: usize,
     },
-    /// A run of more digits than a double has.
+    /// The run uses more digits than a double has.
     Doubles,
-    /// A curve beside a relation.
+    /// A term of the relation has a curve.
     Curve {
-        /// The term that has it, from 0.
+        /// Number of the term with the curve, from 0.
         term: usize,
     },
 }
@@ -129,29 +130,30 @@ impl Display for RelationFault {
 
 impl core::error::Error for RelationFault {}
 
-/// Steps of the differences [m or rad]: a derivative that is right is met by one of them, whatever length the relation changes over.
+/// Steps of the difference quotients [m or rad]. A correct derivative agrees at one of these steps, whatever the length scale of
+/// the relation.
 const STEPS: [f64; 3] = [1e-3, 1e-5, 1e-7];
-/// Difference of a derivative that is right from a quotient of differences, relative [-]: such errors are of second order in the step, and
-/// those of a wrong formula of order one. Chosen, not tuned.
+/// Largest relative difference between a correct derivative and a difference quotient [-]. Correct ones differ by the square of the
+/// step, and a wrong formula by its own size. Chosen, not tuned.
 const AGREEMENT: f64 = 1e-3;
-/// Difference of a derivative that is right from a quotient of differences, beside the largest derivative [-]. Where a derivative is zero,
-/// its quotient is what the third derivatives make of it. Chosen, not tuned.
+/// Largest difference between a correct derivative and a difference quotient, relative to the largest derivative [-]. It matters
+/// where a derivative is zero, and its quotient only has the error of the third derivatives. Chosen, not tuned.
 const BESIDE_LARGEST: f64 = 1e-6;
-/// Rounding of a value, in units of that of its size [-]: a formula has a few dozen operations. Chosen, not tuned.
+/// Rounding error of a value, in units of the rounding of its size [-]: a formula has a few dozen operations. Chosen, not tuned.
 const ROUNDINGS: f64 = 64.0;
 
-/// Compares the derivatives of a relation with central differences of its values, and its curvature with those of its gradient.
+/// Compares the derivatives of a relation with central differences of its values, and the curvature with those of its gradient.
 ///
-/// Differences whose ends lie outside of where the relation has finite values are left out. Where a derivative is zero by chance, such as
-/// in the reference configuration, a wrong formula may pass: check at several places.
+/// Difference quotients are skipped if an end is outside the range of finite values. If a derivative is zero by chance, as it may
+/// be in the reference configuration, a wrong formula may pass: check at several places.
 ///
-/// Cost: some seven evaluations for each number.
+/// Cost: about seven evaluations for each argument.
 ///
 /// # Errors
-/// [`RelationFault`] with the first derivative that differs.
+/// [`RelationFault`] of the first derivative that differs.
 ///
 /// # Panics
-/// If there are more than [`MAX_ARGUMENTS`] numbers.
+/// If there are more than [`MAX_ARGUMENTS`] arguments.
 pub fn check(relation: &(impl Relation + ?Sized), at: &[f64]) -> Result<(), RelationFault> {
     let n = at.len();
     let mut given = [0.0; MAX_ARGUMENTS];
@@ -159,7 +161,7 @@ pub fn check(relation: &(impl Relation + ?Sized), at: &[f64]) -> Result<(), Rela
     let is_finite = value.is_finite() && given.iter().all(|x| x.is_finite());
     let mut rates = [0.0; MAX_ARGUMENTS];
     for (k, rate) in rates[..n].iter_mut().enumerate() {
-        // different ones, so that no two mixed derivatives stand for each other
+        // different rates, so that errors in two mixed derivatives do not cancel
         *rate = 1.0 / (1.0 + k as f64 / 3.0);
     }
     let along_all = relation.curvature(at, &rates[..n]);
@@ -197,7 +199,7 @@ fn unit(k: usize) -> [f64; MAX_ARGUMENTS] {
     core::array::from_fn(|i| if i == k { 1.0 } else { 0.0 })
 }
 
-/// The derivative of a function along a direction by differences, where it is none of `given`'s size; of those found the nearest.
+/// Derivative along a direction by difference quotients, if none of them agrees with `given`. Returns the nearest one.
 fn differing(
     (at, along): (&[f64], &[f64]),
     given: f64,

@@ -1,11 +1,11 @@
-//! Roads: heights over x, the same across it; those of all parts add up.
+//! Roads: heights over x, constant across x. The heights of all features add up.
 
 pub use super::feature::{Feature, Height};
 
 use super::{LawInputs, Part};
 use crate::Real;
 
-/// Height of a road at `x`.
+/// Height of a road at `x`, with its derivatives.
 pub fn height<T: Real>(road: Part, law_inputs: &LawInputs<'_, T>, x: T) -> Height<T> {
     let mut sum = Height::default();
     for feature in road.of(law_inputs.features()) {
@@ -17,9 +17,9 @@ pub fn height<T: Real>(road: Part, law_inputs: &LawInputs<'_, T>, x: T) -> Heigh
     sum
 }
 
-/// The largest h'' [1/m] of a road between `lower` and `upper`, or a bound of it; `None` where it is level there.
+/// Largest h'' [1/m] of a road between `lower` and `upper`, or an upper bound; `None` if the road is level there.
 ///
-/// Cost: a few operations for each part of the road, and for the knots of a spline that lie there.
+/// Cost: a few operations for each feature of the road, and for each knot of a spline in the range.
 pub fn hollow<T: Real>(
     road: Part,
     law_inputs: &LawInputs<'_, T>,

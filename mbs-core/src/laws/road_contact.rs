@@ -1,67 +1,68 @@
-//! The nearest point of a road to the centre of a wheel.
+//! Nearest point of a road to the centre of a wheel.
 //!
 //! ```text
-//! foot    u where D = ((u - x)^2 + (h(u) - z)^2)/2 is least,   D' = (u - x) + (h(u) - z) h'(u) = 0
+//! foot    u where D = ((u - x)^2 + (h(u) - z)^2)/2 is least,   D' = (u - x) + (h(u) - z) h'(u) = 0      centre c = (x, z), height h
 //! normal  n = (-h', 1) / sqrt(1 + h'^2),   distance d = n.(c - foot)
-//! turn    dn/ds = -kappa / (1 - kappa d),   kappa = h'' / (1 + h'^2)^(3/2)       s the centre's way along the road
+//! turn    dn/ds = -kappa / (1 - kappa d),   kappa = h'' / (1 + h'^2)^(3/2)       s: path of the centre along the road
 //! ```
 //!
-//! The distance to the nearest point has the normal as its gradient, so that a force by distance along the normal has a
+//! The gradient of the distance to the nearest point is the normal. So a force along the normal that depends on the distance has a
 //! potential on every road.
 //!
-//! **What is found.** Newton's method on D', kept within a bracket that holds a minimum of D, starts from the point below the
-//! centre and ends in a stationary point, always one at least as near as that start. Where h'' d < 1 holds over the reach of
-//! the centre, h'' bounded by the sum over the road's parts, that point is the nearest. The circle of radius d about the
-//! centre, which touches the road there, is rounder than the road everywhere, so that the road stays below it. Scenes are
-//! refused whose features break h'' R < 1, so this covers every wheel that is pressed in, one feature at a time.
+//! **Result.** Newton's method solves D' = 0 within a bracket that contains a minimum of D. It starts from the point below the
+//! centre and ends in a stationary point that is at least as near. This point is the nearest if h'' d < 1 within the reach of the
+//! centre. For h'' the sum of the bounds of the road's parts is used. The circle of radius d about the centre touches the road
+//! there. It is then more curved than the road everywhere, so that the road stays below it. Scenes are refused if a feature
+//! violates h'' R < 1. So the condition covers every wheel that is pressed in, one feature at a time.
 //!
-//! Elsewhere, which is in hollows as tight as the wheel and where a centre is far above a road, the road within the distance
-//! already found is divided into [`CELLS`] equal cells. Every cell at whose ends the distance shows a minimum within is
-//! searched, and the nearest of all is taken. A second minimum inside one cell (an eighth of the distance) may be missed. So may
-//! what the last cells show where the first took all of the steps that they share ([`most_heights`]).
+//! The condition fails in hollows as tight as the wheel, and for a centre far above a road. The road within the distance found so
+//! far is then divided into [`CELLS`] equal cells. Every cell whose ends show a minimum inside is searched, and the nearest minimum
+//! is used. A second minimum inside one cell (an eighth of the distance) may be missed. Minima in the last cells may also be
+//! missed, if the first cells used all steps that the cells share ([`most_heights`]).
 //!
-//! **Two points equally near.** The nearest point, and with it the direction of the force, jumps where the centre crosses the
-//! middle between two points that are equally near. Distance and force stay continuous in size. Equally near ones are
-//! decided for the one found first. A wheel that rests in a hollow tighter than itself sits on such a jump: one force stands
-//! for two, and alternates.
+//! **Two nearest points.** The nearest point and the direction of the force jump if the centre crosses the line of equal distance
+//! from two points. The distance and the size of the force stay continuous. Of two equally near points the first found is used. A
+//! wheel at rest in a hollow tighter than itself is at such a jump. One force then replaces two, and alternates between the two
+//! points.
 //!
-//! A crest that is sharp, at the end of a table, is the nearest point to all centres in a wedge above it: there the normal
-//! points to the centre.
+//! A sharp crest, at the end of a table, is the nearest point for all centres in a wedge above it. The normal there points to the
+//! centre.
 
 use super::road::{self, Height};
 use super::{LawInputs, Part};
 use crate::Real;
 
-/// The nearest point of a road, as seen from a centre.
+/// Nearest point of a road, as seen from a centre.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RoadContact<T> {
     /// Distance, negative below the road [m].
     pub distance: T,
-    /// Unit normal of the road there: along x, and up.
+    /// Unit normal of the road at the nearest point: along x, and up.
     pub normal: [T; 2],
-    /// Second derivative h'' of the height there; on a sharp crest so far below zero that [`turn`](Self::turn) is that of a point [1/m].
+    /// Second derivative h'' of the height at the nearest point [1/m]. On a sharp crest it is a large negative number, so that
+    /// [`turn`](Self::turn) is that of a point.
     pub bend: T,
 }
 
-/// Newton steps and bisections of one search at most: as many as the number has bits, and some.
+/// Largest number of Newton steps and bisections of one search: the number of bits of `T`, plus a few.
 const fn steps<T: Real>() -> usize {
-    // Sizes distinguish precisions where a number is not compared yet.
+    // The size of `T` distinguishes precisions in a constant function, which cannot compare numbers.
     if size_of::<T>() == 4 { 32 } else { 64 }
 }
 
-/// Heights that [`road_contact`] asks for at most: below the centre, in one search, at the ends of all cells, and in as many steps as two
-/// searches have, which the cells share.
+/// Largest number of heights that [`road_contact`] computes: below the centre, in one search, and at the ends of all cells. The
+/// searches in the cells share as many steps as two searches have.
 #[must_use]
 pub const fn most_heights<T: Real>() -> usize {
     1 + steps::<T>() + 1 + CELLS as usize + 2 * steps::<T>()
 }
 
-/// Cells that the reach of a centre is divided into where one search does not suffice [-]. A second minimum inside one, an eighth of
-/// the distance wide, may be missed; each costs a height. Chosen, not tuned.
+/// Number of cells for the reach of a centre, if one search is not enough [-]. Each costs a height. A second minimum within one
+/// cell, an eighth of the distance wide, may be missed. Chosen, not tuned.
 pub const CELLS: u32 = 16;
 
-/// The nearest point to (x, z) [m]. Cost: one height where the road is level within the centre's height above it, a few on
-/// slopes; where the point is not surely the nearest, about forty.
+/// Finds the point nearest to (x, z) [m]. Cost: one height if the road is level within the centre's height above it, a few on
+/// slopes. If the point is not certainly the nearest, about forty.
 #[inline]
 pub fn road_contact<T: Real>(
     road: Part,
@@ -87,8 +88,8 @@ pub fn road_contact<T: Real>(
 }
 
 impl<T: Real> RoadContact<T> {
-    /// Rate at which the normal turns as the centre moves along the road by its tangent (normal_up, -normal_x) [1/m]. In a hollow it
-    /// grows without bound where the centre comes to the centre of curvature; it is cut off at a hundred times h''.
+    /// Rate at which the normal rotates as the centre moves along the tangent (normal_up, -normal_x) [1/m]. In a hollow it grows
+    /// without bound as the centre approaches the centre of curvature. It is limited to a hundred times h''.
     pub fn turn(&self) -> T {
         /// Least distance to the centre of curvature, relative to its radius [-]. Chosen, not tuned.
         const LEAST_DISTANCE: f64 = 0.01;
@@ -98,17 +99,17 @@ impl<T: Real> RoadContact<T> {
     }
 }
 
-/// Data that all searches of one centre share.
+/// Data that the searches for one centre share.
 struct Search<'a, T> {
     road: Part,
     law_inputs: &'a LawInputs<'a, T>,
     center: [T; 2],
-    /// Rounding of D' [m], and of D [m^2].
+    /// Rounding error of D' [m] and of D [m^2].
     goal: T,
     slack: T,
 }
 
-/// A place of the road.
+/// Point of the road, with D and D' there.
 #[derive(Debug, Clone, Copy)]
 struct Spot<T> {
     u: T,
@@ -129,7 +130,8 @@ impl<T: Real> Search<'_, T> {
         Spot { u, height, square, slope: along - above * height.slope }
     }
 
-    /// A minimum of D between `near`, from which D falls towards `far`, and `far`, where it has risen or rises again; steps come off `left`.
+    /// Finds a minimum of D between `near` and `far`. From `near` D falls towards `far`, and at `far` it has risen or rises again.
+    /// Steps are subtracted from `left`.
     fn settle(&self, mut near: Spot<T>, mut far: T, left: &mut usize) -> Spot<T> {
         let forward = far > near.u;
         let mut last = near;
@@ -162,7 +164,7 @@ impl<T: Real> Search<'_, T> {
         last
     }
 
-    /// Divisor of Newton's step: the second derivative D'' of half the squared distance. Where it is small or negative, the value for a
+    /// Divisor of Newton's step: the second derivative D'' of half the squared distance. If it is small or negative, the value of a
     /// straight road of the same slope.
     fn pivot(&self, height: &Height<T>) -> T {
         /// Least D'', relative to that of a straight road [-]: steps are at most ten times as long. Chosen, not tuned.
@@ -172,7 +174,7 @@ impl<T: Real> Search<'_, T> {
         if full > steep * T::from_f64(LEAST_PIVOT) { full } else { steep }
     }
 
-    /// The nearest of all minima that cells within `distance` show, `best` among them.
+    /// Nearest of `best` and all minima in the cells within `distance`.
     fn among(&self, mut best: Spot<T>, distance: T) -> Spot<T> {
         let width = T::TWO * distance / T::from_f64(f64::from(CELLS));
         let mut left = self.at(self.center[0] - distance);
@@ -185,7 +187,7 @@ impl<T: Real> Search<'_, T> {
             } else if rises && left.square >= right.square {
                 Some(self.settle(right, left.u, &mut shared))
             } else {
-                // A cell may begin in a minimum, and another follow.
+                // A cell may begin at a minimum and contain another one.
                 (left.slope.abs() <= self.goal).then_some(left)
             };
             if let Some(found) = found
@@ -205,7 +207,7 @@ impl<T: Real> Search<'_, T> {
         let to_center = [self.center[0] - spot.u, self.center[1] - value];
         let length = (spot.square + spot.square).sqrt();
         if spot.slope.abs() > T::EPSILON.sqrt() * length {
-            // A sharp crest: nowhere near it does D' vanish.
+            // At a sharp crest D' does not vanish.
             let signed = if to_center[1] < T::ZERO { -length } else { length };
             normal = to_center.map(|x| x / signed);
             bend = -T::ONE / (T::EPSILON * length);

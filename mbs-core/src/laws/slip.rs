@@ -1,52 +1,52 @@
-//! Force of a tire along its plane, and how it shares friction with the side force: the brush model with one parabola of pressure.
+//! Longitudinal slip force of a tire, and its effect on the side force: the brush model with parabolic pressure.
 //!
 //! ```text
 //! k_x = (v - w R) / v_e                      v the hub's speed along the plane, w the wheel's rate, v_e as in `tire`
 //! x   = C k_x / (mu F),  y = C_y tan a / (mu F),  r = sqrt(x^2 + y^2)
-//! s   = 1 - r / 3 + r^2 / 27  for r < 3,  else 1 / r          r s = 1 - (1 - r / 3)^3: the whole patch slides from 3 on
+//! s   = 1 - r / 3 + r^2 / 27  for r < 3,  else 1 / r          r s = 1 - (1 - r / 3)^3: the whole contact patch slides for r >= 3
 //! Fx  = -C k_x s(r),          Fy = side force alone, times s(r) / s(y)
 //! ```
 //!
-//! C is the stiffness of the force by slip, C_y that of the side force by the slip angle, F the load, mu the friction. Without
-//! slip along the plane the side force is as it is alone; a wheel that slides whole has all its friction against the slide,
-//! weighted by the two stiffnesses. Source: Pacejka, *Tire and Vehicle Dynamics* (2012), chapter 3, for the brush model; the factor
-//! of the side force is the ratio that the same model gives.
+//! C is the longitudinal slip stiffness, C_y the cornering stiffness, F the load, mu the friction, a the slip angle. Without
+//! longitudinal slip the side force is unchanged. If the whole patch slides, friction acts against the sliding direction, weighted
+//! by the two stiffnesses. Source: Pacejka, *Tire and Vehicle Dynamics* (2012), chapter 3, for the brush model. The factor of the
+//! side force is the ratio that this model gives.
 
 use super::entry::entry;
 use crate::Real;
 
-/// Force by slip along the plane of a wheel.
+/// Longitudinal slip force of a wheel.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LongitudinalSlip<T> {
-    /// Force by slip, C [N].
+    /// Longitudinal slip stiffness C [N].
     pub stiffness: T,
-    /// Largest force as a share of the load, mu [-].
+    /// Friction mu: largest force relative to the load [-].
     pub friction: T,
 }
 
 entry!(LongitudinalSlip<T> { stiffness, friction });
 
-/// Force by slip along the plane, with its effect on the side force.
+/// Longitudinal slip force, with its effect on the side force.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SlipForce<T> {
     /// Force against the slip, -Fx [N].
     pub resistance: T,
     /// Derivative of the resistance by k_x, not negative [N].
     pub slope: T,
-    /// Share of the side force that is left [-].
+    /// Remaining fraction of the side force [-].
     pub side_share: T,
-    /// The slip at which r is 1 without side force [-].
+    /// Slip at which r = 1 without side force [-].
     pub scale: T,
 }
 
-/// Returns the factor s(r).
+/// Returns the sliding factor s(r).
 #[doc(hidden)]
 pub fn share<T: Real>(r: T) -> T {
     let three = T::TWO + T::ONE;
     if r < three { T::ONE - r / three + r * r / (three * three * three) } else { T::ONE / r }
 }
 
-/// s'(r) / r, for r above zero.
+/// Derivative s'(r) over r, for r > 0.
 fn fall<T: Real>(r: T) -> T {
     let three = T::TWO + T::ONE;
     if r < three {
@@ -56,11 +56,11 @@ fn fall<T: Real>(r: T) -> T {
     }
 }
 
-/// The slope of a force at a rate, with the force `foreseen` there by the iterate before; `scale` is the rate at which r is 1.
+/// Slope of a force at a rate. The iterate before predicts the force `foreseen` for this rate; `scale` is the rate at which r = 1.
 ///
-/// The equation F / s(x) = M x is linearised in both F and x, so that the slope is M s (1 + w s'(x) / s^2), with w the foreseen force over M. By
-/// the tangents alone, which vanish where all slides, an iteration goes to and fro; with these it converges from anywhere, and
-/// at the solution they are the tangents (Chan, Golub and Mulet 1999).
+/// The equation F / s(x) = M x, with x = rate / scale, is linearised in both F and x. The slope is M s (1 + w s'(x) / s^2), with w
+/// the foreseen force over M. The tangents alone vanish where the whole patch slides, and the iteration would oscillate. With this
+/// slope it converges from any start, and at the solution the slope equals the tangent (Chan, Golub and Mulet 1999).
 pub fn slope<T: Real>((force, rate): (T, T), scale: T, foreseen: T) -> Option<T> {
     let x = rate / scale;
     let (size, s) = (x.abs(), share(x.abs()));
@@ -73,7 +73,8 @@ pub fn slope<T: Real>((force, rate): (T, T), scale: T, foreseen: T) -> Option<T>
 }
 
 impl<T: Real> LongitudinalSlip<T> {
-    /// The force at a load [N], a slip and a side force that alone would be stiffness times tangent [N]. No load, no force.
+    /// Slip force at a load [N] and a slip; `sideways` is the side force without saturation, C_y tan a [N]. Without load the force
+    /// is zero.
     pub fn force(&self, load: T, slip: T, sideways: T) -> SlipForce<T> {
         let most = self.friction * load;
         if !(most > T::ZERO) {

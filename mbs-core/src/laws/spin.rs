@@ -1,4 +1,5 @@
-//! Angular velocity and acceleration of a rotation that follows a rotation vector, R = exp(f), in the axes that R leads from.
+//! Angular velocity ω and acceleration ω' of a rotation R = exp(f) with the rotation vector f(t), in the axes of the reference
+//! frame.
 //!
 //! ```text
 //! ω  = f' + a f×f' + b f×(f×f')                                                     θ = |f|
@@ -6,19 +7,19 @@
 //! a = (1 − cos θ)/θ²,   b = (θ − sin θ)/θ³,   c = (sin θ/θ − 2 a)/θ²,   d = (a − 3 b)/θ²
 //! ```
 //!
-//! All four are smooth at every angle; up to one radian, where they are small differences, their series are summed. Sources: the tangent
-//! operator of the exponential map, Géradin and Cardona, *Flexible Multibody Dynamics* (2001).
+//! The factors a, b, c and d are smooth at every angle. Up to one radian the closed forms subtract nearly equal numbers, and series
+//! are used. Source: the tangent operator of the exponential map, Géradin and Cardona, *Flexible Multibody Dynamics* (2001).
 
 use crate::Real;
 use crate::algebra::{Vector, cross};
 
-/// Square of the angle up to which series are summed [rad^2]: beyond one radian the closed forms lose two digits at most.
+/// Square of the largest angle for which series are used [rad^2]: beyond one radian the closed forms lose at most two digits.
 const SMALL: f64 = 1.0;
 
-/// Terms of the series [-]: at one radian the next one is below a rounding of two doubles, 1/32! = 4e-36.
+/// Number of terms of the series [-]: at one radian the next term, 1/32! = 4e-36, is below the rounding of a pair of doubles.
 const TERMS: u32 = 15;
 
-/// Angular velocity and acceleration [rad/s, rad/s^2] by a rotation vector and its first two derivatives.
+/// Angular velocity and acceleration [rad/s, rad/s^2] of a rotation vector with its first two derivatives.
 pub fn spin<T: Real>([f, rate, second]: [Vector<T, 3>; 3]) -> [Vector<T, 3>; 2] {
     let [a, b, c, d] = factors(f.dot(&f));
     let across = cross(&f, &rate);
@@ -34,7 +35,7 @@ pub fn spin<T: Real>([f, rate, second]: [Vector<T, 3>; 3]) -> [Vector<T, 3>; 2] 
     [omega, omega_t]
 }
 
-/// a, b, c, d by the square of the angle.
+/// Factors a, b, c, d as functions of the squared angle.
 #[doc(hidden)]
 pub fn factors<T: Real>(square: T) -> [T; 4] {
     if square > T::from_f64(SMALL) {
@@ -45,7 +46,7 @@ pub fn factors<T: Real>(square: T) -> [T; 4] {
         let c = (sine / angle - T::TWO * a) / square;
         return [a, b, c, (a - T::from_f64(3.0) * b) / square];
     }
-    // a = Σ (−s)ᵏ/(2k + 2)!,   b = Σ (−s)ᵏ/(2k + 3)!,   s = θ²;   c and d are twice their derivatives
+    // a = Σ (−s)ᵏ/(2k + 2)!,   b = Σ (−s)ᵏ/(2k + 3)!,   s = θ²;   c and d are twice their derivatives by s
     let (mut term, mut power) = ([T::HALF, T::HALF / T::from_f64(3.0)], T::ONE);
     let [mut a, mut b, mut c, mut d] = [term[0], term[1], T::ZERO, T::ZERO];
     for k in 1..=TERMS {

@@ -1,33 +1,34 @@
-//! A wheel on a road: a thin disc pressed into it, side force and aligning torque, rolling resistance.
+//! Tire of a wheel on a road: a thin disc pressed into the road, with side force, aligning torque and rolling resistance.
 //!
 //! ```text
 //! camber       sin g = u.n           u the axis, n the road's normal at the point nearest to the centre, d its distance
 //! deflection   x = R - d / cos g,    F = contact(k x, c x')
-//! contact      r = -(d / cos g) e,   e = (n - (u.n) u) / cos g       the disc's lowest point, from the centre
-//! its row      -dx = (n / cos g + d (u.n) (u.t) s / cos^3 g t).dc + (r x n / cos g).dtheta,   dn = s (t.dc) t
+//! contact      r = -(d / cos g) e,   e = (n - (u.n) u) / cos g       from the centre to the lowest point of the disc
+//! row of x     -dx = (n / cos g + d (u.n) (u.t) s / cos^3 g t).dc + (r x n / cos g).dtheta,   dn = s (t.dc) t
 //! load         F / cos g, along n
 //! side         a = atan(v_y / v_e),  v_e = sqrt(v_x^2 + v_s^2),   Fy, Mz = Calspan(load, a, g), Mz v_x / v_e
 //! rolling      Fx = -r load v_x / v_e
 //! driven       slip (v_x - w R) / v_e, at R below the centre: see [`slip`](super::slip)
 //! ```
 //!
-//! The radial force is the one that does work on x: a force n F / cos g at the contact point and, where the road bends along its
-//! tangent t, what turns the normal as the centre moves. So k x^2 / 2 is its potential in every position of the wheel. The road
-//! is taken as its tangent plane at the point nearest to the centre, which on a bend differs from the disc's own nearest point
-//! by the square of the camber. A wheel without an axis, and every wheel in the plane, has no camber: cos g = 1.
+//! The radial force is the generalised force whose work is done on the deflection x. Its main part is a force n F / cos g at the
+//! contact point. On a bend of the road with tangent t, the normal rotates as the centre moves, which adds a second part. So k x^2
+//! / 2 is its potential in every position of the wheel. The road is replaced by its tangent plane at the point nearest to the
+//! centre. On a bend this point differs from the disc's nearest point by a term of the order of the squared camber. A wheel without
+//! an axis has no camber: cos g = 1. In the plane no wheel has camber.
 //!
-//! v_x is the centre's speed along the wheel's plane and the road, v_y that of the contact point, fixed in the carrier, across
-//! the plane. Where the carrier rolls, its tire slides sideways on the ground, and the side force does that work.
-//! The regularisation v_s = 0.1 m/s makes all forces continuous through standstill, where the side force is a damper; at 5 m/s
-//! it changes the slip angle by 2e-4 of itself. Without slip along its plane the wheel rolls freely. The angular momentum of
-//! its spin is that of a body of its own on the carrier, where a scene has one. The side force acts at the contact point,
-//! rolling resistance at the hub. With slip the law acts on the body that spins; its force has the arm R, so that a wheel without
-//! slip turns by v_x / R, and what it takes is the slip's alone.
+//! v_x is the speed of the centre along the wheel's plane and the road. v_y is the speed across the plane of the contact point,
+//! taken as a point of the carrier. If the carrier rolls about x, the tire slides sideways on the ground, and the side force does
+//! this work. The regularisation v_s = 0.1 m/s keeps all forces continuous at standstill, where the side force is a damper. At 5
+//! m/s it changes the slip angle by 2e-4 of its value. Without longitudinal slip the wheel rolls freely. The angular momentum of
+//! the wheel's spin belongs to a separate body on the carrier, if the scene has one. The side force acts at the contact point, the
+//! rolling resistance at the hub. With longitudinal slip the law acts on the spinning body, and the slip force has the arm R. So a
+//! wheel without slip turns at v_x / R, and the slip force dissipates only the work of the slip.
 //!
-//! Range: camber counts up to 84 degrees, where cos g is held at 0.1; a wheel whose centre is below the road is pushed out along
-//! n. Both keep the deflection continuous. Source: the open Iltis model of UCLouvain has the same contact point. It leaves the
-//! camber out of the deflection, so that its radial force has no potential, and takes v_y at the centre. With either, its ramp
-//! steers at 10, 20 and 30 m/s end within 0.04 % of the way across.
+//! Range: camber has an effect up to 84 degrees, beyond which cos g stays 0.1. A wheel with its centre below the road is pushed out
+//! along n. Both rules keep the deflection continuous. Source: the open Iltis model of UCLouvain has the same contact point. That
+//! model omits the camber in the deflection, so that its radial force has no potential, and takes v_y at the centre. Either choice
+//! changes the lateral displacement at the end of ramp steers at 10, 20 and 30 m/s by at most 0.04 %.
 
 use super::body::{BodyMotion, MAX_ACTIONS, TireForces, UnitWrench, WrenchesLaw, put};
 
@@ -47,85 +48,86 @@ use crate::algebra::{Vector, cross, norm};
 /// Speed v_s below which slip is regularised [m/s]. Chosen, not tuned.
 pub const STANDSTILL: f64 = 0.1;
 
-/// Law of a wheel on a road.
+/// Law of a tire on a road.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TireLaw<T> {
-    /// Radius without load [m].
+    /// Radius of the unloaded tire [m].
     pub radius: T,
     /// Radial stiffness [N/m] and damping [N s/m].
     pub radial: [T; 2],
-    /// Force against rolling as a share of the load [-].
+    /// Rolling resistance relative to the load [-].
     pub rolling: T,
     /// Coefficients of the side force; `None`: no side force.
     pub side: Option<Coefficients<T>>,
-    /// Force by slip along its plane, of a wheel that spins; `None`: it rolls freely.
+    /// Longitudinal slip force of a wheel that spins; `None`: the wheel rolls freely.
     pub longitudinal: Option<LongitudinalSlip<T>>,
     /// Features of the road.
     pub road: Part,
-    /// The course whose vector is (way, speed, -) of a road that comes towards the wheel along -x.
+    /// Signal with the vector (distance, speed, unused) of a road that moves towards the wheel along -x; `None`: the road is fixed.
     pub travel: Option<u32>,
-    /// The axis that points up: 1 in the plane, 2 in space.
+    /// Number of the axis that points up: 1 in the plane, 2 in space.
     pub up: usize,
-    /// Is it a disc that leans with its axis? Else it has no camber.
+    /// Is the wheel a disc that leans with its axis? Otherwise it has no camber.
     pub leans: bool,
 }
 
-/// A wheel over its road.
+/// State of a tire over its road.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TireContact<T> {
-    /// Deflection, positive pressed in [m], and the rate at which it ends [m/s].
+    /// Deflection, positive when pressed in [m], and the rate at which it decreases [m/s].
     pub deflection: [T; 2],
-    /// The centre, along the road from its zero and up [m].
+    /// Position of the centre, along the road from its origin and up [m].
     pub place: [T; 2],
-    /// Velocity of the centre against the road, along it and up [m/s].
+    /// Velocity of the centre relative to the road, along the road and up [m/s].
     pub speed: [T; 2],
 }
 
-/// Stance of the wheel on the road, and its motion over it.
+/// Contact of the wheel with the road, and its motion over the road.
 struct Stand<T> {
     stance: Stance<T>,
-    /// The centre, along the road and up.
+    /// Position of the centre, along the road and up [m].
     place: [T; 2],
-    /// Velocity of the centre against the road, and the road's own.
+    /// Velocity of the centre relative to the road, and velocity of the road [m/s].
     velocity: Vector<T, 3>,
     ground: Vector<T, 3>,
-    /// The deflection and the rate at which it ends.
+    /// Deflection [m], and the rate at which it decreases [m/s].
     depth: T,
     rate: T,
 }
 
-/// Contact of a wheel with its road.
+/// Geometry of the contact of a wheel with its road.
 struct Stance<T> {
     /// Normal of the road, a unit vector.
     normal: Vector<T, 3>,
-    /// From the centre to the contact point, d / cos g [m].
+    /// Distance from the centre to the contact point, d / cos g [m].
     reach: T,
-    /// 1 / cos g.
+    /// Factor 1 / cos g of the distance [-].
     stretch: T,
-    /// The row of the deflection, force and moment about the centre, with the sign of growing distance.
+    /// Row of minus the deflection: its derivative by a displacement and by a rotation about the centre.
     row: [Vector<T, 3>; 2],
 }
 
-/// Least cosine of the camber [-]: beyond 84° the stretch 1 / cos g would grow without bound. Chosen, not tuned.
+/// Least cosine of the camber [-]: beyond 84° the factor 1 / cos g would grow without bound. Chosen, not tuned.
 const LEAST_COSINE: f64 = 0.1;
 
-/// Least sine of the angle between axis and normal [-], below which the wheel has no direction. Chosen, not tuned.
+/// Least sine of the angle between axis and normal [-], below which the wheel has no direction of travel. Chosen, not tuned.
 const LEAST_WIDTH: f64 = 1e-6;
 
-/// Place of the radial force among a tire's unit wrenches.
+/// Place of the radial force among the tire's unit wrenches.
 pub const RADIAL: usize = 0;
-/// Place of the rolling resistance.
+/// Place of the rolling resistance among them.
 const ROLLING: usize = 1;
-/// Place of the side force.
+/// Place of the side force among them.
 const SIDE: usize = 2;
-/// Place of the aligning torque.
+/// Place of the aligning torque among them.
 const ALIGNING: usize = 3;
-/// Place of the force by slip.
+/// Place of the longitudinal slip force among them.
 #[doc(hidden)]
 pub const SLIP: usize = 4;
 
-/// Sliding has at least the slope of the secant where an iteration went across rest. The tangents alone vanish where sliding is fast: the
-/// iteration would oscillate.
+/// Sets the slopes of sliding forces with the iterate before. The slip force gets `slip::slope`. Rolling resistance and side force
+/// get at least the slope of the secant, if the iteration crossed rest. The tangents vanish where sliding is fast, and iterations
+/// with them would oscillate.
 #[inline]
 fn look_back<T: Real>(action: usize, measure: &mut ScalarForce<T>, before: &ScalarForce<T>) {
     if action == SLIP {
@@ -140,7 +142,7 @@ fn look_back<T: Real>(action: usize, measure: &mut ScalarForce<T>, before: &Scal
     }
 }
 
-/// A force at the end of an arm: its tension, damping and rate against the road, whose own velocity is `ground`.
+/// Force at the end of an arm, given by tension, damping and rate relative to the road. The road has the velocity `ground`.
 #[inline]
 fn line<T: Real>(
     (direction, arm): (Vector<T, 3>, Vector<T, 3>),
@@ -158,7 +160,7 @@ fn line<T: Real>(
 entry!(TireLaw<T> { radius, radial, rolling, side, longitudinal, road, travel, up, leans });
 
 impl<T: Real> TireLaw<T> {
-    /// Deflection of the wheel, and where it is over its road. Cost: that of the nearest point, and no force.
+    /// Deflection of the tire, and its place over the road. Cost: the search for the nearest point, without forces.
     pub fn contact(&self, motion: &BodyMotion<T>, law_inputs: &LawInputs<'_, T>) -> TireContact<T> {
         let Stand { place, velocity, depth, rate, .. } = self.stand(motion, law_inputs);
         TireContact {
@@ -189,7 +191,7 @@ impl<T: Real> TireLaw<T> {
         Stand { stance, place, velocity, ground, depth, rate }
     }
 
-    /// Returns the contact of a wheel with the given axis, and how its deflection changes.
+    /// Returns the contact of a wheel with the given axis, and the row of its deflection.
     fn stance(&self, axis: &Vector<T, 3>, foot: &RoadContact<T>) -> Stance<T> {
         let normal = self.vector(foot.normal);
         let upright = Stance {
@@ -209,14 +211,14 @@ impl<T: Real> TireLaw<T> {
         if !(cosine > least) {
             return Stance { reach, stretch, row: [force, Vector::zeros()], ..upright };
         }
-        // d(d / cos g) by what turns the axis against the normal.
+        // d(d / cos g) by the rotation of the axis relative to the normal
         let share = reach * lean * stretch * stretch;
         let tangent = self.vector([foot.normal[1], -foot.normal[0]]);
         let bending = tangent * (share * foot.turn() * axis.dot(&tangent));
         Stance { reach, stretch, row: [force + bending, cross(axis, &normal) * share], ..upright }
     }
 
-    /// Writes the actions of a loaded wheel along and across its plane.
+    /// Writes the actions of a loaded wheel along and across its plane, with the forces of rolling and slip.
     fn roll(
         &self,
         (load, stance): (T, &Stance<T>),
@@ -227,7 +229,7 @@ impl<T: Real> TireLaw<T> {
         let lean = axis.dot(normal);
         let flat = axis - normal * lean;
         let width = norm(&flat);
-        // A wheel that lies on its side has no direction: nothing but the radial force acts.
+        // A wheel flat on its side has no direction of travel: only the radial force acts.
         if !(width > T::from_f64(LEAST_WIDTH)) {
             return;
         }
@@ -241,7 +243,7 @@ impl<T: Real> TireLaw<T> {
         let rolling =
             line((along, Vector::zeros()), [resistance * forward, slope, forward], ground);
         put(out, ROLLING, rolling);
-        // -e: down in the wheel's plane.
+        // -e: downward direction in the wheel's plane
         let down = (axis * lean - normal) * (T::ONE / width);
         let arm = down * stance.reach;
         let spin = Vector::<T, 3>::from(motion.spin);
@@ -261,7 +263,7 @@ impl<T: Real> TireLaw<T> {
             }
             let slope = force.slope / effective;
             let mut slip = line((along, arm), [force.resistance, slope, slipping], ground);
-            // where the iterations look back for the slope
+            // the rate at which r = 1, which the slope of the next iteration needs
             slip.measure.value = force.scale * effective;
             put(out, SLIP, slip);
         }
@@ -291,14 +293,14 @@ impl<T: Real> TireLaw<T> {
         }
     }
 
-    /// Component of a vector that points up.
+    /// Component of a vector in the upward direction.
     fn along_up(&self, v: &Vector<T, 3>) -> T {
         if self.up == 1 { v[1] } else { v[2] }
     }
 }
 
 impl<T: Real> WrenchesLaw<T> for TireLaw<T> {
-    /// Number of actions: radial force; rolling resistance; side force and aligning torque; force by slip.
+    /// Number of actions: radial force, rolling resistance, side force, aligning torque, slip force.
     fn n_actions(&self) -> usize {
         if self.longitudinal.is_some() {
             5
@@ -311,7 +313,7 @@ impl<T: Real> WrenchesLaw<T> for TireLaw<T> {
         }
     }
 
-    /// Writes the actions, [`n_actions`](Self::n_actions) of them.
+    /// Writes the actions, [`n_actions`](Self::n_actions) in number.
     fn evaluate(
         &self,
         motion: &BodyMotion<T>,
@@ -350,7 +352,7 @@ impl<T: Real> WrenchesLaw<T> for TireLaw<T> {
         let mut all =
             stance + radial + rolling + side + nearest(self.road.of(law_inputs.features()));
         if self.longitudinal.is_some() {
-            // the unit wrench, the force by slip, the cornering stiffness and what is left of the side force
+            // the unit wrench, the slip force, the cornering stiffness, and the side force reduced by slip
             all += Operations::new(30, 18)
                 + Operations::new(28, 11).and(9, 1, 0)
                 + Operations::new(24, 9).and(4, 0, 0)
@@ -380,7 +382,7 @@ impl<T: Real> WrenchesLaw<T> for TireLaw<T> {
         if action == RADIAL { bumper::energy(self.radial[0], measure.value) } else { T::ZERO }
     }
 
-    /// Power of an action that is not stored [W].
+    /// Power of an action that is not stored as energy [W].
     fn power(&self, action: usize, measure: &ScalarForce<T>) -> T {
         let given = -measure.tension * (measure.rate + measure.drift);
         if action == RADIAL && measure.value > T::ZERO {
@@ -410,7 +412,7 @@ impl<T: Real> WrenchesLaw<T> for TireLaw<T> {
         let Stand { stance, .. } = self.stand(motion, law_inputs);
         let [radial, rolling, side, aligning, slip] = out.map(|action| action.measure);
         let (center, axis) = (Vector::<T, 3>::from(motion.position), Vector::from(motion.axis));
-        // r = -(d / cos g) e,   e = (n - (u.n) u) / cos g
+        // arm to the contact point: r = -(d / cos g) e,   e = (n - (u.n) u) / cos g
         let lean = if self.leans { axis.dot(&stance.normal) } else { T::ZERO };
         let flat = stance.normal - axis * lean;
         let slow = T::from_f64(STANDSTILL);
@@ -434,7 +436,7 @@ impl<T: Real> WrenchesLaw<T> for TireLaw<T> {
         corner::of_road(self.road, law_inputs, take);
     }
 
-    /// On a slope a wheel stands off its foot by less than its radius.
+    /// Largest distance along the road from the centre to the contact point: on a slope it is less than the radius.
     fn reach(&self) -> T {
         self.radius
     }
@@ -452,17 +454,17 @@ impl<T: Real> WrenchesLaw<T> for TireLaw<T> {
     }
 }
 
-/// The nearest point of a road: one height where it is level, elsewhere as many as the search may ask for.
+/// Operations of the search for the nearest point: one height on a level road, otherwise the largest number of the search.
 fn nearest<T: Real>(features: &[Feature<T>]) -> Operations {
     let ops = Operations::new;
     let (mut height, mut hollow) = (Operations::NONE, Operations::NONE);
     for feature in features {
         let (value, bend) = match feature {
             Feature::Flat(_) => (Operations::NONE, Operations::NONE),
-            // In the rounded corner at the end.
+            // The rounded corner at the end has the highest cost.
             Feature::Rise { .. } => (ops(4, 5).and(4, 0, 0), ops(1, 3).and(1, 0, 0)),
             Feature::Bump { .. } => (ops(8, 2).and(1, 0, 1), ops(3, 2).and(1, 0, 0)),
-            // The slopes at both ends of a table show whether it rises from them.
+            // The slopes at both ends of a table show whether the road rises there.
             Feature::Spline(_) => (ops(21, 14).and(4, 0, 0), ops(42, 30).and(9, 0, 0)),
         };
         height += value + ops(0, 3);
@@ -471,7 +473,7 @@ fn nearest<T: Real>(features: &[Feature<T>]) -> Operations {
     if features.iter().all(|feature| matches!(feature, Feature::Flat(_))) {
         return height + ops(0, 3);
     }
-    // D and D' at a place, the step to the next, and whether it is taken.
+    // D and D' at a point, the step to the next point, and the test of acceptance.
     let spot = height + ops(9, 12).and(1, 0, 0);
     let (settled, cell) = (ops(5, 8).and(1, 0, 0), ops(0, 2));
     let cells = u64::from(CELLS);

@@ -1,35 +1,35 @@
-//! Laws of a user's own: a plain function behind a small trait, so that nothing is looked up or allocated in a step.
+//! User-defined laws as plain functions behind a small trait. A step looks up and allocates nothing for them.
 //!
 //! ```text
 //! along a length, about an angle   (m, m', u) -> f, df/dm, df/dm'
 //! on a body                        (motion, u) -> unit wrenches with tensions
 //! ```
 //!
-//! u are the three numbers of the effect's course: constant, a table, or set between steps. The output of a
-//! controller, a driver or a machine is set so.
+//! The input u has the three numbers of the effect's signal: a constant, a table, or an input. An input is set between steps, such
+//! as the output of a controller, a driver or a machine.
 
 use super::body::{BodyMotion, UnitWrench};
 use super::scalar::ScalarForce;
 
-/// A law along a length or about an angle.
+/// User-defined law along a length or about an angle.
 pub trait ScalarLaw<T> {
-    /// Tension with those derivatives by value and rate that stiffen. Derivatives that are left at zero only cost iterations.
+    /// Returns tension and tangents. Only derivatives that stiffen are needed; derivatives left at zero just cost iterations.
     fn evaluate(value: T, rate: T, input: [T; 3]) -> ScalarForce<T>;
 
-    /// Energy that the law stores [J]; what is not stored counts as power given or taken.
+    /// Energy that the law stores [J]. The rest of the force's work counts as power that the law supplies or dissipates.
     fn energy(value: T, input: [T; 3]) -> T;
 
-    /// The elastic part of the tension, dV/dm.
+    /// Elastic part of the tension: dV/dm, the derivative of the energy V by the value m.
     fn elastic(value: T, input: [T; 3]) -> T;
 }
 
-/// A law on one body.
+/// User-defined law on one body.
 pub trait WrenchLaw<T> {
-    /// The unit wrench and its tension at a motion; `rate` of its measure is filled in by the caller. No energy is stored.
+    /// Returns the unit wrench and its tension for a motion. The caller sets the `rate` of its measure. No energy is stored.
     fn evaluate(motion: &BodyMotion<T>, input: [T; 3]) -> UnitWrench<T>;
 }
 
-/// A [`ScalarLaw`] as a value.
+/// A [`ScalarLaw`] as a value, by its functions.
 #[derive(Clone, Copy)]
 pub struct UserScalarLaw<T> {
     pub(crate) evaluate: fn(T, T, [T; 3]) -> ScalarForce<T>,
@@ -59,7 +59,7 @@ impl<T> core::fmt::Debug for UserScalarLaw<T> {
     }
 }
 
-/// A [`WrenchLaw`] as a value.
+/// A [`WrenchLaw`] as a value, by its function.
 #[derive(Clone, Copy)]
 pub struct UserBodyLaw<T> {
     pub(crate) evaluate: fn(&BodyMotion<T>, [T; 3]) -> UnitWrench<T>,

@@ -1,20 +1,21 @@
-//! The numbers that a relation is of, and its derivatives there, on the stack.
+//! Arguments of a relation, and its derivatives there. They are kept on the stack.
 //!
 //! ```text
 //! phi = phi(r) + g . (m - r),    r: the numbers m as doubles, g the gradient there
 //! ```
 //!
-//! What doubles do not hold of a number is added by the gradient: Newton's method then sees no rounding of many turns.
+//! The gradient accounts for the part of an argument below double precision. Newton's method then sees no rounding error of an angle of
+//! many turns.
 
 use crate::Real;
 use crate::laws::relation::{MAX_ARGUMENTS, Relation};
 
-/// Numbers, their rates, and the gradient of a relation.
+/// Arguments of a relation, their rates, and the gradient of the relation.
 #[derive(Debug)]
 pub struct Arguments<T> {
     n: usize,
     at: [f64; MAX_ARGUMENTS],
-    /// Remainders of the numbers, which doubles do not hold.
+    /// Parts of the arguments below double precision.
     rest: [T; MAX_ARGUMENTS],
     rates: [f64; MAX_ARGUMENTS],
     gradient: [f64; MAX_ARGUMENTS],
@@ -28,7 +29,7 @@ impl<T: Real> Default for Arguments<T> {
 }
 
 impl<T: Real> Arguments<T> {
-    /// Adds the number `base + change` with its rate. More than [`MAX_ARGUMENTS`] are left out: the check of a scene refuses them.
+    /// Adds the argument `base + change` with its rate. Arguments beyond [`MAX_ARGUMENTS`] are ignored; the check of a scene refuses them.
     pub fn push(&mut self, [base, change]: [T; 2], rate: T) {
         if self.n < MAX_ARGUMENTS {
             let at = (base + change).to_f64();
@@ -39,7 +40,7 @@ impl<T: Real> Arguments<T> {
         }
     }
 
-    /// The value of a relation; its slopes are known from then on.
+    /// Evaluates a relation and its gradient. Its slopes are available afterwards.
     pub fn evaluate(&mut self, relation: &(impl Relation + ?Sized)) -> T {
         let n = self.n;
         let value = relation.evaluate(&self.at[..n], &mut self.gradient[..n]);
@@ -47,17 +48,17 @@ impl<T: Real> Arguments<T> {
         rest.fold(T::from_f64(value), |value, (&rest, &g)| value + rest * T::from_f64(g))
     }
 
-    /// The derivative by number `k`; zero of one that is not there.
+    /// Derivative of the relation by argument `k`; zero if there is no such argument.
     pub fn slope(&self, k: usize) -> T {
         self.gradient.get(k).map_or(T::ZERO, |&g| T::from_f64(g))
     }
 
-    /// The second derivative along the rates.
+    /// Second derivative of the relation along the rates of its arguments.
     pub fn curvature(&self, relation: &(impl Relation + ?Sized)) -> T {
         T::from_f64(relation.curvature(&self.at[..self.n], &self.rates[..self.n]))
     }
 
-    /// The mixed second derivative by numbers `i` and `j`, from three curvatures: of searches, not of steps.
+    /// Mixed second derivative by arguments `i` and `j`, from three curvatures. Searches use it; steps do not.
     pub fn second_derivative(&self, relation: &(impl Relation + ?Sized), i: usize, j: usize) -> T {
         let at = &self.at[..self.n];
         let along = |on: &[usize]| {

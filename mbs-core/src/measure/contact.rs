@@ -8,15 +8,15 @@
 use crate::Real;
 use crate::algebra::Vector;
 
-/// A vector and its rate.
+/// Vector and its time derivative.
 pub type Moving<T> = [Vector<T, 3>; 2];
 
-/// Square of |w| below which a disc lies flat [-]: its axis is within a thousandth of a radian of the normal, where its lowest point says
-/// nothing more about its motion.
+/// Square of |w| below which a disc lies flat [-]. Its axis is then within a thousandth of a radian of the normal, and its lowest point
+/// does not determine its motion.
 const FLAT: f64 = 1e-6;
 
-/// From the centre of a disc or ball of a radius [m] to its lowest point, and its rate, by normal and axis with their rates. Of a disc that
-/// lies flat they are not finite.
+/// Vector from the centre of a disc or ball to its lowest point [m], and its rate. The inputs are the radius [m], the normal and the axis
+/// with their rates. The result is not finite for a disc that lies flat.
 pub fn lowest_point<T: Real>(radius: T, [n, n_t]: &Moving<T>, [a, a_t]: &Moving<T>) -> Moving<T> {
     let (dot, dot_t) = (a.dot(n), a_t.dot(n) + a.dot(n_t));
     let (w, w_t) = (*n - *a * dot, *n_t - *a_t * dot - *a * dot_t);
@@ -25,7 +25,7 @@ pub fn lowest_point<T: Real>(radius: T, [n, n_t]: &Moving<T>, [a, a_t]: &Moving<
     [unit * -radius, (w_t - unit * unit.dot(&w_t)) * -radius]
 }
 
-/// Vector from the centre of a disc or ball to its lowest point [m], with normal and axis at rest.
+/// Vector from the centre of a disc or ball to its lowest point [m], for a constant normal and axis.
 pub fn lowest_place<T: Real>(radius: T, normal: Vector<T, 3>, axis: Vector<T, 3>) -> Vector<T, 3> {
     let still = |x| [x, Vector::zeros()];
     let [place, _] = lowest_point(radius, &still(normal), &still(axis));

@@ -1,4 +1,4 @@
-//! Twice differentiable functions of a measured number.
+//! Twice differentiable functions of a measured coordinate or length.
 //!
 //! ```text
 //! spline      cubic through (x_i, f_i), natural, or periodic with x taken into its period
@@ -8,8 +8,8 @@
 use crate::Real;
 use crate::laws::guide;
 
-/// f, f' and f'' of a cubic spline at `x`. With a `period` larger than zero x is taken into the period that begins at the first knot;
-/// else the end values are held outside.
+/// Value f, f' and f'' of a cubic spline at `x`. If `period` is above zero, x is shifted into the period that begins at the first knot.
+/// Otherwise the end values hold outside the knots.
 ///
 /// Cost: one binary search; no allocation.
 pub fn spline_curve<T: Real>(knots: &[[T; 2]], curvature: &[T], period: T, x: T) -> [T; 3] {
@@ -17,18 +17,18 @@ pub fn spline_curve<T: Real>(knots: &[[T; 2]], curvature: &[T], period: T, x: T)
     [at.value, at.rate, at.acceleration]
 }
 
-/// `x` taken into the period that begins at the first knot; without a period larger than zero `x` itself.
+/// Shifts `x` into the period that begins at the first knot. Without a period above zero the result is `x`.
 pub(crate) fn within<T: Real>(knots: &[[T; 2]], period: T, x: T) -> T {
     match knots {
         [first, .., last] if period > T::ZERO => {
-            // to machine precision it is within
+            // rounding errors may put the result slightly outside the period
             taken_into(x, first[0], period).max(first[0]).min(last[0])
         }
         _ => x,
     }
 }
 
-/// f, f' and f'' of the polynomial with these coefficients, the constant one first, at `x`.
+/// Value f, f' and f'' at `x` of the polynomial with these coefficients, the constant one first.
 pub fn polynomial<T: Real>(coefficients: &[T], x: T) -> [T; 3] {
     coefficients.iter().rev().fold([T::ZERO; 3], |[f, d, dd], &c| {
         // Horner's rule, with the derivatives by the product rule
@@ -36,7 +36,7 @@ pub fn polynomial<T: Real>(coefficients: &[T], x: T) -> [T; 3] {
     })
 }
 
-/// f(x + dx) - f(x) of a polynomial by its divided difference, free of cancellation.
+/// Difference f(x + dx) - f(x) of a polynomial by its divided difference, without cancellation of digits.
 pub fn polynomial_change<T: Real>(coefficients: &[T], x: T, dx: T) -> T {
     let start = (T::ZERO, T::ZERO);
     let (_, quotient) = coefficients
@@ -46,9 +46,9 @@ pub fn polynomial_change<T: Real>(coefficients: &[T], x: T, dx: T) -> T {
     quotient * dx
 }
 
-/// f(x + dx) - f(x) of a [`spline_curve`], free of cancellation: piece by piece from x to x + dx.
+/// Difference f(x + dx) - f(x) of a [`spline_curve`], piece by piece from x to x + dx, without cancellation of digits.
 ///
-/// Cost: one binary search for each piece on the way; no allocation.
+/// Cost: one binary search for each piece between the two; no allocation.
 pub fn spline_change<T: Real>((knots, curvature): (&[[T; 2]], &[T]), period: T, x: T, dx: T) -> T {
     let [first, .., last] = knots else { return T::ZERO };
     let (ends, is_periodic) = ([first[0], last[0]], period > T::ZERO);
@@ -56,7 +56,7 @@ pub fn spline_change<T: Real>((knots, curvature): (&[[T; 2]], &[T]), period: T, 
     if is_periodic {
         at = taken_into(x, ends[0], period);
     }
-    // Each pass ends a piece; a way of more periods than there are pieces is no step.
+    // Each pass ends a piece. Steps never lead over more periods than the table has pieces.
     for _ in 0..=2 * knots.len() {
         let is_forward = left > T::ZERO;
         if left == T::ZERO {
@@ -70,7 +70,7 @@ pub fn spline_change<T: Real>((knots, curvature): (&[[T; 2]], &[T]), period: T, 
         let above =
             knots.partition_point(|knot| if is_forward { knot[0] <= at } else { knot[0] < at });
         let Some(i) = above.checked_sub(1).filter(|&i| i + 1 < knots.len()) else {
-            // Outside the value is held, up to the end that the way leads to.
+            // Outside the knots the value is constant, up to the end knot in the direction of dx.
             let end = if is_forward { ends[0] } else { ends[1] };
             let gap = end - at;
             let is_towards = (gap > T::ZERO) == is_forward && gap != T::ZERO;
@@ -101,7 +101,7 @@ pub fn spline_change<T: Real>((knots, curvature): (&[[T; 2]], &[T]), period: T, 
     sum
 }
 
-/// x in the period that begins at `first`. Images for controllers keep one copy.
+/// Shifts x into the period that begins at `first`. Without `alloc` the function is not inlined, so that controllers store one copy.
 #[cfg_attr(not(feature = "alloc"), inline(never))]
 fn taken_into<T: Real>(x: T, first: T, period: T) -> T {
     let turns = libm::floor(((x - first) / period).to_f64());

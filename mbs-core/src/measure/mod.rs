@@ -1,6 +1,6 @@
-//! Numbers that a mechanism has: joint coordinates and lengths, sums of them, and curves of them.
+//! Measured numbers of a mechanism: joint coordinates and lengths, their sums, and curves of them.
 //!
-//! Held, such a sum is a [coupling](crate::scene::Coupling). Here too: where something that rolls touches its plane.
+//! A [coupling](crate::scene::Coupling) holds such a sum constant or guides it. This module also has the contact point of rolling bodies.
 
 mod arguments;
 mod contact;

@@ -1,4 +1,4 @@
-//! Places where the force of a coupling acts on the drawn machine, by the geometry of the reference configuration.
+//! Points at which the force of a coupling acts, by the geometry of the reference configuration.
 
 use crate::Real;
 use crate::algebra::{Vector, along, cross, norm};
@@ -9,28 +9,31 @@ use crate::scene::{
     JointId,
 };
 
-/// Largest distance of what should be at one place, over the size of what it belongs to [-]. Chosen, not tuned: digits of a file.
+/// Largest distance of points that should coincide, relative to the size of their part [-]. Chosen, not tuned: numbers in files are rounded.
 const OFF: f64 = 1e-6;
 
-/// A force that acts elsewhere than along the coordinates of a coupling.
+/// Force of a coupling that acts at a point, and not only along the coordinates.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Acting {
-    /// Between a screw and its nut, along the screw's axis and about it. The terms are the nut's slide and the screw's turn.
+    /// Force between a screw and its nut, along the screw's axis, with the moment about it. The terms are the slide of the nut and the turn
+    /// of the screw.
     Thread {
-        /// The body that carries both.
+        /// Body that carries the screw and the nut.
         carrier: BodyId,
     },
-    /// At the rim of a drum, where a line begins or ends that the drum's carrier has there. The terms are the line and the drum's turn.
+    /// Force at the rim of a drum, where the line of a rope begins or ends on the carrier of the drum. The terms are the line and the turn
+    /// of the drum.
     Drum {
-        /// Is it the end of the line? Otherwise its beginning.
+        /// Does the line end at the drum? Otherwise it begins there.
         is_end: bool,
-        /// The body that carries the drum.
+        /// Body that carries the drum.
         carrier: BodyId,
     },
 }
 
 impl Acting {
-    /// Finds where the force of a coupling acts; `None`: along its coordinates, or the geometry does not say where.
+    /// Finds the point at which the force of a coupling acts. `None`: the force acts along the coordinates only, or the geometry does not
+    /// determine the point.
     pub(crate) fn of<T: Real>(scene: &Scene<T>, coupling: &Coupling<T>) -> Option<Self> {
         if coupling.relation.is_some() {
             return None;
@@ -67,7 +70,7 @@ impl Acting {
             let arm = cross(&(from - center), &along(&(Vector::from(points[next].1) - from)));
             let way = from - center;
             let way = way - axis * axis.dot(&way);
-            // on the rim, where the line is a tangent in the sense in which the drum takes it in
+            // the point is on the rim, and the line is a tangent in the sense in which the drum winds it up
             let turns = if side == 0 { drum.factor } else { -drum.factor } / line.factor;
             let least = radius * T::from_f64(OFF);
             let is_rim = (norm(&way) - radius / line.factor.abs()).abs() <= least;
@@ -78,8 +81,8 @@ impl Acting {
 }
 
 impl<T: Real> Scene<T> {
-    /// The joints whose reactions lack the force of a coupling: teeth without a pitch point, strands, and ropes that do not leave their drum at
-    /// its rim act as moments alone.
+    /// Joints whose reactions lack the force of a coupling. Teeth without a pitch point, belts without strands, and ropes that do not leave
+    /// their drum at its rim act as moments alone.
     pub fn lacking_forces(&self) -> impl Iterator<Item = (JointId, CouplingId)> {
         let lacking = self.couplings.iter().enumerate().filter(|(_, coupling)| {
             let is_rope = coupling.kind == CouplingKind::Rope;
@@ -96,7 +99,7 @@ impl<T: Real> Scene<T> {
     }
 }
 
-/// The joint whose only coordinate a term is, and what that is.
+/// Joint whose only coordinate is this term, and the freedom of that coordinate.
 fn joint_of<'a, T>(scene: &'a Scene<T>, term: &CouplingTerm<T>) -> Option<(&'a Joint<T>, Freedom)> {
     let joint = scene.joints.get(term.of.coordinate()?.0.index())?;
     match joint.kind.freedoms(scene.dimension) {

@@ -1,7 +1,7 @@
-//! Axes that are almost parallel, or almost across each other, in the loops of a scene.
+//! Axes in the closed loops of a scene that are almost parallel or almost perpendicular.
 //!
-//! A loop that moves by parallel axes is held fast by a tilt of one of them, however small. Numbers of files have six digits or more:
-//! axes within [`MEANT`] of each other are meant to be parallel, and models are built with them so.
+//! A closed loop may need parallel axes to move: any tilt of one of them locks it. Numbers in files have six digits or more. Axes within
+//! [`MEANT`] of each other are therefore taken as parallel, and models are built with parallel ones.
 
 use super::Scene;
 use crate::Real;
@@ -11,31 +11,31 @@ use alloc::borrow::Cow;
 use alloc::vec;
 use alloc::vec::Vec;
 
-/// Largest tilt that is taken as none [rad]: numbers of files have six digits or more.
+/// Largest tilt that counts as zero [rad]: numbers in files have six digits or more.
 pub const MEANT: f64 = 1e-6;
-/// Largest tilt that is taken as none where it takes freedoms at the start [rad]: numbers of some files have five digits.
+/// Largest tilt that counts as zero if it removes degrees of freedom at the start [rad]: numbers in some files have five digits.
 pub const FIVE_DIGITS: f64 = 1e-5;
-/// Largest tilt that is taken as an error of the file where tilts alone hold a mechanism [rad]: 0.06°. Chosen, not tuned.
+/// Largest tilt that counts as an error of the file if only tilts lock the mechanism [rad]: 0.06°. Chosen, not tuned.
 pub const DOUBTFUL: f64 = 1e-3;
-/// Largest tilt of a direction that was normalised, in units of rounding [-]. Chosen, not tuned.
+/// Largest tilt of a direction due to its normalisation, in multiples of machine precision [-]. Chosen, not tuned.
 const ROUNDINGS: f64 = 1e3;
 
-/// An axis that is off from that of another joint, or from a direction across it.
+/// Axis that is slightly tilted from the axis of another joint, or from a direction perpendicular to it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tilt<T> {
-    /// The joint, and which of its axes.
+    /// Index of the joint with the tilted axis.
     pub joint: usize,
     /// Number of the axis in its joint: 0 or 1.
     pub axis: usize,
-    /// The joint whose axis it is meant to be parallel to, or across.
+    /// Index of the joint to whose axis it should be parallel or perpendicular.
     pub other: usize,
-    /// Angle by which the axis is off [rad].
+    /// Angle of the tilt [rad].
     pub angle: T,
-    /// The unit axis that is not off.
+    /// Unit axis without the tilt.
     pub to: [T; 3],
 }
 
-/// One direction of the scene, with the axes that have it, or nearly.
+/// Direction of the scene, with the axes that are parallel or almost parallel to it.
 struct Direction<T: Real> {
     value: Vector<T, 3>,
     members: Vec<usize>,
@@ -48,10 +48,11 @@ struct Axis<T: Real> {
     value: Vector<T, 3>,
 }
 
-/// Axes of joints in loops that are off from another's, or from one across it, by more than rounding and at most `most` [rad].
+/// Axes of joints in closed loops with a tilt above machine precision and at most `most` [rad]. The tilt is relative to the axis of another
+/// joint, or to a direction perpendicular to it.
 ///
-/// Of almost parallel axes the direction that most of them have is right, the first in the file where as many have another.
-/// Cost: in proportion to the joints, and to the directions times those that several axes have.
+/// Among almost parallel axes the most frequent direction is correct, or the first in the file if several are equally frequent.
+/// Cost: proportional to the joints, and to all directions times the directions of several axes.
 #[must_use]
 pub fn tilts<T: Real>(scene: &Scene<T>, most: T) -> Vec<Tilt<T>> {
     let axes = axes(scene);
@@ -68,7 +69,7 @@ pub fn tilts<T: Real>(scene: &Scene<T>, most: T) -> Vec<Tilt<T>> {
         for j in 0..directions.len() {
             let (one, common) = (&directions[i], &directions[j]);
             let across = one.value.dot(&common.value);
-            // What fewer axes have is put across what more have.
+            // The direction with fewer axes is made perpendicular to the direction with more axes.
             let is_common =
                 common.members.len() > 1 && (common.members.len(), j) > (one.members.len(), i);
             if is_common && across.abs() > rounding && across.abs() <= most {
@@ -89,7 +90,7 @@ pub fn tilts<T: Real>(scene: &Scene<T>, most: T) -> Vec<Tilt<T>> {
     off.filter(|tilt| tilt.angle > rounding).collect()
 }
 
-/// The scene with axes as they are meant: see [`MEANT`].
+/// Scene with parallel and perpendicular axes where the tilts are below [`MEANT`].
 #[must_use]
 pub fn aligned<T: Real>(scene: &Scene<T>) -> Cow<'_, Scene<T>> {
     #[cfg(feature = "instances")]
@@ -109,7 +110,7 @@ fn aligned_here<T: Real>(scene: &Scene<T>) -> Cow<'_, Scene<T>> {
     if tilts.is_empty() { Cow::Borrowed(scene) } else { Cow::Owned(align(scene, &tilts)) }
 }
 
-/// The scene without these tilts.
+/// Scene in which the axes have none of these tilts.
 #[must_use]
 pub fn align<T: Real>(scene: &Scene<T>, tilts: &[Tilt<T>]) -> Scene<T> {
     let mut scene = scene.clone();
@@ -119,7 +120,7 @@ pub fn align<T: Real>(scene: &Scene<T>, tilts: &[Tilt<T>]) -> Scene<T> {
     scene
 }
 
-/// The axes of joints in loops: of those that are left when ends are taken off as long as there are any.
+/// Axes of the joints in closed loops. Bodies with a single joint are removed repeatedly; the joints that remain are in loops.
 fn axes<T: Real>(scene: &Scene<T>) -> Vec<Axis<T>> {
     let ground = scene.bodies.len();
     let node = |body: BodyId| if let BodyId::Body(b) = body { b } else { ground };
@@ -153,9 +154,9 @@ fn axes<T: Real>(scene: &Scene<T>) -> Vec<Axis<T>> {
     all.collect()
 }
 
-/// Groups axes by their directions, within `most` of the one that most of a group have.
+/// Groups axes by direction. The axes of a group are within `most` of the first one; the group has the most frequent direction of its axes.
 fn directions<T: Real>(axes: &[Axis<T>], most: T, rounding: T) -> Vec<Direction<T>> {
-    // Parallel axes are near each other in the size of any component.
+    // Parallel axes have components of similar magnitude, so sorting by one component finds them.
     let size = |i: usize| axes[i].value[0].abs();
     let mut order: Vec<usize> = (0..axes.len()).collect();
     order.sort_by(|&i, &j| size(i).partial_cmp(&size(j)).unwrap_or(core::cmp::Ordering::Equal));
@@ -174,7 +175,7 @@ fn directions<T: Real>(axes: &[Axis<T>], most: T, rounding: T) -> Vec<Direction<
         let mut right = members[0];
         let mut best = like(right);
         for &i in &members[1..] {
-            // As many as have it already cannot be outdone by what is left of the group.
+            // A direction of more than half of the group is the most frequent one.
             if 2 * best > members.len() {
                 break;
             }

@@ -1,4 +1,4 @@
-//! Signals, motions and roads in code: one constructor for each form.
+//! Constructors for signals, motions and roads in code, one for each form.
 
 use crate::scene::{
     Motion, NamedSignal, Number, Road, RoadFeature, Signal, SignalId, SignalKind, Vector3,
@@ -7,20 +7,20 @@ use alloc::string::String;
 use alloc::vec::Vec;
 
 impl Signal<Number> {
-    /// A number that is the same at all times.
+    /// A signal with a constant value.
     #[must_use]
     pub fn constant(value: impl Into<Number>) -> Self {
         Self::Constant([value.into(), Number::ZERO, Number::ZERO])
     }
 
-    /// A number that is set between steps; this at the start.
+    /// A signal that the program sets between steps, with its start value.
     #[must_use]
     pub fn input(start: impl Into<Number>) -> Self {
         Self::Input([start.into(), Number::ZERO, Number::ZERO])
     }
 }
 
-/// The first component of a vector.
+/// Makes the named signal the first component of a vector.
 impl<T> From<SignalId> for Signal<T> {
     fn from(signal: SignalId) -> Self {
         Self::Named([Some(signal), None, None])
@@ -47,7 +47,7 @@ impl From<SignalKind<f64>> for SignalKind<Number> {
 }
 
 impl Road<Number> {
-    /// Features under all wheels alike, whose heights add up; they come along -x towards a standing vehicle at a speed [m/s].
+    /// A road with features under all wheels alike; their heights add up. It moves in -x towards a stationary vehicle at a speed [m/s].
     pub fn new(
         features: impl IntoIterator<Item = RoadFeature<f64>>,
         speed: impl Into<Number>,
@@ -58,7 +58,7 @@ impl Road<Number> {
     }
 }
 
-/// The first component of a vector.
+/// Makes the constant the first component of a vector.
 impl From<f64> for Signal<Number> {
     fn from(constant: f64) -> Self {
         Self::Constant([constant.into(), Number::ZERO, Number::ZERO])

@@ -1,4 +1,4 @@
-//! Joint coordinates that have a value at the start: by initial values, by guides, and by the couplings between them.
+//! Joint coordinates with a known value at the start. Values come from initial conditions, guides, and couplings between coordinates.
 
 use crate::Real;
 use crate::inputs::{CouplingInput, GuideInput, SignalGraph};
@@ -7,9 +7,9 @@ use crate::scene::{InitialTarget, Joint};
 use alloc::vec;
 use alloc::vec::Vec;
 
-/// The coordinates of each joint at time zero where the scene gives them; a coupling with one open term gives that one.
+/// Coordinates of each joint at time zero that the scene determines. A coupling with one unknown coordinate determines that coordinate.
 ///
-/// Cost: one pass over joints, guides and initial values, and one over the couplings for each that is found.
+/// Cost: one pass over joints, guides and initial conditions, and a pass over the couplings for each round in which one was used.
 #[must_use]
 pub fn given_values<T: Real>(scene: &Scene<T>) -> Vec<Vec<Option<T>>> {
     let open = |joint: &Joint<T>| vec![None; joint.kind.n_coordinates(scene.dimension)];
@@ -38,12 +38,12 @@ pub fn given_values<T: Real>(scene: &Scene<T>) -> Vec<Vec<Option<T>>> {
     }
 }
 
-/// Gives the one open coordinate of a coupling its value; says whether it has done so, or none is open.
+/// Computes the one unknown coordinate of a coupling. Returns `true` if it did so or if none is unknown.
 fn propagated<T: Real>(
     coupling: &CouplingInput<T>,
     (values, signals): (&mut [Vec<Option<T>>], &[[T; 3]]),
 ) -> bool {
-    // a relation is not solved for one of its numbers
+    // a relation is not solved for one of its arguments
     if coupling.relation.is_some() {
         return false;
     }

@@ -1,4 +1,4 @@
-//! A scene and its parts with other numbers: each number as a function gives it.
+//! Conversion of a scene and its parts to other numbers: a function converts each number.
 
 use crate::mechanism::{Effect, Output, Scene};
 use crate::scene::{
@@ -9,7 +9,7 @@ use crate::scene::{
 };
 use alloc::vec::Vec;
 
-/// A function of numbers, on all of a list.
+/// Applies the function to each number of an array.
 fn all<T, U, const N: usize>(x: &[T; N], f: &mut impl FnMut(&T) -> U) -> [U; N] {
     core::array::from_fn(|i| f(&x[i]))
 }
@@ -23,7 +23,7 @@ fn rows<T, U, const N: usize>(x: &[[T; N]], f: &mut impl FnMut(&T) -> U) -> Vec<
 }
 
 impl<T: Clone> Scene<T> {
-    /// The scene with other numbers; refused where an effect is a law in code.
+    /// Scene with converted numbers. It fails if an effect is a user-defined law in code.
     pub(crate) fn map<U: Default>(
         &self,
         f: &mut impl FnMut(&T) -> U,
@@ -264,7 +264,7 @@ impl<T> CouplingMeasure<T> {
 }
 
 impl CalspanCoefficients<Number> {
-    /// The tire of the Bombardier Iltis, as decimal numbers.
+    /// Tire of the Bombardier Iltis, as decimal numbers.
     #[must_use]
     pub fn of_iltis() -> Self {
         Self::iltis_by(Number::double)

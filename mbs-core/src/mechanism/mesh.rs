@@ -1,4 +1,4 @@
-//! Two wheels in mesh: the bodies, and where they touch in the reference configuration.
+//! Two meshing wheels: their bodies, and the pitch point in the reference configuration.
 //!
 //! ```text
 //! O1 + a e:   a = D / (1 + w2/w1)     e: from the first axis to the second, D their distance
@@ -11,24 +11,24 @@ use crate::joint::Freedom;
 use crate::mechanism::Scene;
 use crate::scene::{BodyId, CouplingMeasure, CouplingTerm};
 
-/// Two wheels on parallel axes in one body, which a coupling of two terms has in mesh.
+/// Two meshing wheels on parallel axes in one body, from a coupling of two terms.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct MeshedWheels<T: Real> {
-    /// The body that carries both.
+    /// Body that carries both wheels.
     pub(crate) carrier: BodyId,
     /// Bodies of the two wheels.
     pub(crate) wheels: [BodyId; 2],
-    /// Moment on each wheel about the joint's axis for an effort of one.
+    /// Moment on each wheel about its joint's axis for an effort of one.
     pub(crate) moments: [T; 2],
-    /// The joints' axes, and a point on each, reference configuration [m].
+    /// Axes of the two joints, and a point on each axis [m], in the reference configuration.
     pub(super) axes: [Vector<T, 3>; 2],
     pub(super) points: [Vector<T, 3>; 2],
 }
 
 impl<T: Real> MeshedWheels<T> {
-    /// Wheels of the terms of a coupling. `None` unless the terms are two turns about parallel axes apart, in one body.
+    /// Meshing wheels of a coupling. `None` unless its terms are two turns about parallel axes in one body, at a distance.
     pub(crate) fn new(scene: &Scene<T>, terms: &[CouplingTerm<T>]) -> Option<Self> {
-        /// Largest sine of the angle of axes that are parallel [-]. Chosen, not tuned: digits of a file.
+        /// Largest sine of the angle between parallel axes [-]. Chosen, not tuned: numbers in files are rounded.
         const PARALLEL: f64 = 1e-6;
         let [first, second] = terms else { return None };
         let joints = [first, second].map(|term| match (&term.of, &term.curve) {
@@ -51,7 +51,7 @@ impl<T: Real> MeshedWheels<T> {
                 return None;
             };
             let freedoms = joint.freedoms(scene.dimension).iter();
-            // of two turns neither axis stays in both bodies
+            // with two turns, no axis is fixed in both bodies
             if freedoms.filter(|freedom| matches!(freedom, Freedom::Turn(_))).count() > 1 {
                 return None;
             }
@@ -69,7 +69,7 @@ impl<T: Real> MeshedWheels<T> {
         is_mesh.then_some(wheels)
     }
 
-    /// From the first axis to the second, across them.
+    /// Vector from the first axis to the second, perpendicular to them [m].
     fn between(&self) -> Vector<T, 3> {
         let (way, axis) = (self.points[1] - self.points[0], self.axes[0]);
         way - axis * axis.dot(&way)
@@ -80,7 +80,8 @@ impl<T: Real> MeshedWheels<T> {
         norm(&self.between())
     }
 
-    /// The pitch point, as far along the axes as `at` is [m]. Not finite for wheels that turn alike.
+    /// Pitch point [m], at the same position along the axes as `at`. It is not finite for wheels of equal moments that turn in the same
+    /// sense.
     pub(crate) fn pitch_point(&self, at: &Vector<T, 3>) -> Vector<T, 3> {
         let axis = self.axes[0];
         let sense = if axis.dot(&self.axes[1]) < T::ZERO { -T::ONE } else { T::ONE };

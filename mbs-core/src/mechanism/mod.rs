@@ -1,6 +1,6 @@
-//! The scene of a mechanism: its data with effects and outputs, the parts of it that are built in code, and what follows from it.
+//! Scene of a mechanism with its effects and outputs, constructors for its parts, and quantities that follow from it.
 //!
-//! Wheels in mesh, strands, rotors, the places of forces and given coordinates follow from a scene alone, before there is a model.
+//! Meshing wheels, belt strands, rotors, acting points of forces and given coordinates follow from the scene alone, without a model.
 
 mod acting;
 pub mod align;

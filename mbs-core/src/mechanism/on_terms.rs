@@ -1,4 +1,4 @@
-//! Effects on sums and lines in code: a law of one joint's coordinate, taken to a sum of several; elastic ropes.
+//! Effects on sums of coordinates and lengths, and elastic ropes, in code.
 
 use crate::effects::{EFFECTS, EffectKind, Field, Form, LineSpring, Value};
 use crate::mechanism::Effect;
@@ -7,7 +7,8 @@ use alloc::string::String;
 use alloc::vec::Vec;
 
 impl Effect<Number> {
-    /// An elastic rope over points of bodies, slack below its length in the reference configuration: stiffness [N/m], damping [N s/m].
+    /// An elastic rope over points of bodies: stiffness [N/m], damping [N s/m]. It is slack below its length in the reference
+    /// configuration.
     pub fn rope<P: Into<Vector3>>(
         points: impl IntoIterator<Item = (BodyId, P)>,
         stiffness: impl Into<Number>,
@@ -19,8 +20,8 @@ impl Effect<Number> {
         Self { name: String::new(), enabled: true, kind: rope.into() }
     }
 
-    /// Puts the law on a sum of terms, in place of its joint or its points. An effect without such a form stays as it is. So does a spring along
-    /// a line, whose free length is no value of a sum.
+    /// Applies the law to a sum of terms instead of a joint or points. An effect without such a form does not change. A spring along a line
+    /// does not change either, since its free length is no value of a sum.
     #[must_use]
     pub fn on_terms(mut self, terms: Vec<CouplingTerm<Number>>) -> Self {
         let (fields, values) = (self.kind.row().fields, self.kind.values());

@@ -1,4 +1,4 @@
-//! The rotors of a scene: what each adds to the inertia of a joint coordinate.
+//! Rotors of a scene: the inertia that each adds to a joint coordinate.
 
 use crate::Real;
 use crate::effects::RotorInertia;
@@ -11,9 +11,9 @@ pub struct RotorInput<T> {
     pub effect: usize,
     /// Index of the joint.
     pub joint: usize,
-    /// The number of its coordinate.
+    /// Number of the joint's coordinate.
     pub number: usize,
-    /// Inertia times the square of the ratio [kg m^2, of a slide kg].
+    /// Inertia times the square of the gear ratio [kg m^2; kg for a slide].
     pub inertia: T,
 }
 

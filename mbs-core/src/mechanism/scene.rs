@@ -1,4 +1,4 @@
-//! [`Scene`]: a mechanism and what is asked of it, with its effects and outputs; the entries of its lists by their handles.
+//! Scene of a mechanism, [`Scene`]: bodies, joints, effects, outputs and the solver's settings. Handles index the entries of its lists.
 
 use crate::effects::EffectKind;
 use crate::joint::Dimension;
@@ -12,7 +12,7 @@ use alloc::string::String;
 use alloc::vec::Vec;
 use core::ops::{Index, IndexMut};
 
-/// A mechanism and what is asked of it.
+/// A mechanism with its effects, and the outputs and solver settings of a run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scene<T> {
     /// Name of the scene, for reports.
@@ -27,34 +27,34 @@ pub struct Scene<T> {
     pub bodies: Vec<Body<T>>,
     /// Joints of the scene.
     pub joints: Vec<Joint<T>>,
-    /// Conditions that hold exactly at the start; the rest follows.
+    /// Conditions that hold exactly at the start. All other start values follow.
     pub initials: Vec<InitialCondition<T>>,
-    /// Kinematic guidance of joint coordinates.
+    /// Guides: prescribed motions of joint coordinates.
     pub guides: Vec<Guide<T>>,
-    /// Relations of joint coordinates and lengths that hold.
+    /// Couplings: relations between joint coordinates and lengths.
     pub couplings: Vec<Coupling<T>>,
     /// Bodies that roll without slipping, and blades.
     pub rollings: Vec<Rolling<T>>,
-    /// Numbers over time by name, that guides, couplings and effects follow.
+    /// Named signals over time, for guides, couplings and effects.
     pub signals: Vec<NamedSignal<T>>,
-    /// The road of tires; empty: level ground at height zero.
+    /// Road under the tires. Empty: level ground at height zero.
     pub road: Road<T>,
-    /// Configuration that the run starts from.
+    /// Configuration from which the run starts.
     pub start: Start,
     /// Named places on bodies.
     pub frames: Vec<BodyFrame<T>>,
-    /// Forms that pictures draw; a body without one is drawn by its inertia.
+    /// Shapes of bodies for pictures. A body without a shape is drawn by its inertia.
     pub shapes: Vec<BodyShape<T>>,
-    /// Opt-in effects of the scene. Those with `enabled: false` are not built.
+    /// Effects of the scene. A model leaves out those with `enabled: false`.
     pub effects: Vec<Effect<T>>,
-    /// Channels that are recorded; empty: every joint coordinate.
+    /// Outputs that are recorded. Empty: every joint coordinate.
     pub outputs: Vec<Output<T>>,
-    /// Wishes of the scene for the solver.
+    /// Settings of the scene for the solver.
     pub solver: SolverTable<T>,
 }
 
 impl<T: Default> Scene<T> {
-    /// A scene of that name, dimension and duration [s], without gravity and with nothing in it.
+    /// An empty scene with a name, dimension and duration [s], without gravity.
     #[must_use]
     pub fn empty(name: &str, dimension: Dimension, duration: T) -> Self {
         Self {
@@ -80,35 +80,35 @@ impl<T: Default> Scene<T> {
     }
 }
 
-/// An opt-in effect, with its name.
+/// An effect of the scene, with its name.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Effect<T> {
-    /// Unique name among the effects (given, or `effect-N`).
+    /// Unique name among the effects (as given, or `effect-N`).
     pub name: String,
-    /// Switched off when false: then nothing of it is built.
+    /// Whether the effect is in the model.
     pub enabled: bool,
     /// Kind of the effect, with its data.
     pub kind: EffectKind<T>,
 }
 
-/// A channel: what is recorded, under which name.
+/// An output channel: the recorded quantity and its name.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Output<T> {
     /// Unique name of the channel.
     pub name: String,
     /// Quantity that is measured.
     pub quantity: Quantity<T>,
-    /// The body in whose axes its vectors have their components, the ground for global ones; `None`: the axes of its quantity. A thin rod
-    /// on balls turns by the smallest rotation that carries its line.
+    /// Body in whose axes vectors have their components; the ground for global axes. `None`: the quantity's own axes. A thin rod between
+    /// ball joints turns by the smallest rotation that carries its line.
     pub frame: Option<BodyId>,
-    /// Has it a column with the magnitude of each of its vectors?
+    /// Does the output add a column with the magnitude of each vector?
     pub magnitude: bool,
-    /// Are its angles in degrees: what has a unit of rad, rad/s or rad/s^2 by itself?
+    /// Are its angles, angular rates and angular accelerations in degrees instead of radians?
     pub is_in_degrees: bool,
 }
 
 impl<T> Output<T> {
-    /// An output without a name.
+    /// An output without a name, in its default axes and units.
     #[must_use]
     pub const fn new(quantity: Quantity<T>) -> Self {
         let name = String::new();
@@ -117,7 +117,7 @@ impl<T> Output<T> {
 }
 
 impl<T> Scene<T> {
-    /// Surroundings that the effects of the scene act among.
+    /// Parts of the scene to which its effects refer.
     pub(crate) fn surroundings(&self) -> Surroundings<'_, T> {
         let Self { dimension, ref bodies, ref joints, ref road, ref signals, .. } = *self;
         Surroundings { dimension, bodies, joints, road, signals }
@@ -125,7 +125,7 @@ impl<T> Scene<T> {
 }
 
 impl<T> Scene<T> {
-    /// Flag of each body: a joint or a contact that rolls names it. The other bodies move freely.
+    /// Flag of each body: whether a joint or a rolling contact names it. The other bodies move freely.
     #[must_use]
     pub fn held_bodies(&self) -> Vec<bool> {
         let mut held = alloc::vec![false; self.bodies.len()];
@@ -139,20 +139,20 @@ impl<T> Scene<T> {
 }
 
 impl<T> Scene<T> {
-    /// Is it a point mass?
+    /// Is the body a point mass?
     #[must_use]
     pub fn is_point(&self, body: BodyId) -> bool {
         body.index().and_then(|body| self.bodies.get(body)).is_some_and(Body::is_point)
     }
 
-    /// Does a joint measure a turn of a point mass, which has none?
+    /// Does a joint measure a rotation of a point mass, which has no orientation?
     #[must_use]
     pub fn turns_point(&self, joint: &Joint<T>) -> bool {
         joint.kind.n_rotations(self.dimension) > 0
             && joint.bodies.into_iter().any(|body| self.is_point(body))
     }
 
-    /// Gives joints that name a point mass the [kind](crate::scene::JointKind::of_points) that their name means there.
+    /// Replaces the kind of joints that name a point mass by the [kind](crate::scene::JointKind::of_points) for point masses.
     pub(crate) fn name_points(&mut self) {
         for i in 0..self.joints.len() {
             let bodies = self.joints[i].bodies;
@@ -164,8 +164,8 @@ impl<T> Scene<T> {
 }
 
 impl<T: Clone> Scene<T> {
-    /// Outputs of the scene; where it names none, the coordinates of every joint that has some, under the joint's name. Points do not turn:
-    /// joints that hold them have none.
+    /// Outputs of the scene. If there are none: the coordinates of every joint with coordinates, under the joint's name. Joints that
+    /// measure a rotation of a point mass have none.
     #[must_use]
     pub fn channels(&self) -> Vec<Output<T>> {
         if !self.outputs.is_empty() {
@@ -174,7 +174,7 @@ impl<T: Clone> Scene<T> {
         self.joint_outputs()
     }
 
-    /// Outputs of the coordinates of every joint that has some, under the joint's name.
+    /// Outputs of the coordinates of every joint with coordinates, under the joint's name.
     #[must_use]
     pub fn joint_outputs(&self) -> Vec<Output<T>> {
         let moves = |joint: &Joint<T>| {
@@ -185,8 +185,8 @@ impl<T: Clone> Scene<T> {
         joints.map(|(i, joint)| Output::new(value(i)).named(&joint.name)).collect()
     }
 
-    /// Adds value, rate and reaction of every joint, and the force of every effect that is not switched off; what an output measures already is
-    /// not repeated. The value of a joint has its name, the rest the name and what it is; where an output has that, a number follows.
+    /// Adds value, rate and reaction of every joint, and the force of every enabled effect, unless an output measures them already. The
+    /// value has the name of the joint. The others add `rate`, `reaction` or `force` to the name. A number makes a name unique.
     pub fn show_all(&mut self)
     where
         T: PartialEq,
@@ -208,7 +208,7 @@ impl<T: Clone> Scene<T> {
         }
     }
 
-    /// Adds an output, unless there is one of the same quantity.
+    /// Adds an output unless the scene has one of the same quantity.
     fn show(&mut self, name: String, quantity: Quantity<T>)
     where
         T: PartialEq,
@@ -216,7 +216,7 @@ impl<T: Clone> Scene<T> {
         if self.outputs.iter().any(|output| output.quantity == quantity) {
             return;
         }
-        // one of these is free: there are more of them than outputs
+        // one of these names is free, since there are more of them than outputs
         let numbered = (2..self.outputs.len() + 3).map(|i| format!("{name} {i}"));
         let is_free = |name: &String| self.outputs.iter().all(|output| output.name != *name);
         let name = core::iter::once(name.clone()).chain(numbered).find(is_free);

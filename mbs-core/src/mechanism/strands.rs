@@ -1,4 +1,4 @@
-//! The two strands of a belt: the common tangents of its wheels.
+//! Strands of a belt: the two common tangents of its wheels.
 //!
 //! ```text
 //! e, p      from the first axis to the second, across them; p = n x e, n the first axis;  D: their distance
@@ -13,33 +13,33 @@ use crate::joint::Freedom;
 use crate::mechanism::Scene;
 use crate::scene::{Coupling, DrawnKind, NotStrands};
 
-/// A belt whose strands are known.
+/// A belt whose strands are determined.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Strands<T: Real> {
-    /// The wheels on the body that carries both.
+    /// Wheels of the belt, on the body that carries both.
     pub(crate) wheels: MeshedWheels<T>,
-    /// Radii of the wheels [m], of the second one negative where the belt is crossed.
+    /// Radii of the wheels [m]. The second one is negative for a crossed belt.
     radii: [T; 2],
 }
 
-/// A strand: where it leaves the wheels, and the sense in which it turns the first one.
+/// A strand of a belt: its end points, its direction, and the sense in which it turns the first wheel.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Strand<T: Real> {
-    /// On the first wheel, on the second [m].
+    /// End points on the first and the second wheel [m].
     pub(crate) ends: [Vector<T, 3>; 2],
-    /// From the first to the second, of length one.
+    /// Unit vector from the first end point to the second.
     pub(crate) along: Vector<T, 3>,
-    /// Does its pull turn the first wheel about the first axis? Otherwise against it.
+    /// Does the tension of the strand turn the first wheel in the positive sense about the first axis?
     pub(crate) is_about: bool,
 }
 
 impl<T: Real> Strands<T> {
-    /// Finds the strands of a coupling.
+    /// Computes the strands of a coupling.
     ///
     /// # Errors
-    /// Why places and axes do not say where its strands are.
+    /// The reason why the geometry does not determine the strands.
     pub(crate) fn new(scene: &Scene<T>, coupling: &Coupling<T>) -> Result<Self, NotStrands> {
-        /// Distance of the wheels' planes, over that of the axes, that is none [-]. Chosen, not tuned: digits of a file.
+        /// Largest distance of the wheels' planes, relative to the distance of the axes [-]. Chosen, not tuned: numbers in files are rounded.
         const APART: f64 = 1e-6;
         let Some(DrawnKind::Belt { is_crossed }) = coupling.drawn.map(|drawn| drawn.kind) else {
             return Err(NotStrands::Wheels);
@@ -72,7 +72,7 @@ impl<T: Real> Strands<T> {
         Ok(Self { wheels, radii })
     }
 
-    /// Two strands of the belt, where the first axis is `n` and the axes stand at these places.
+    /// Strands of the belt if the first axis has direction `n` and the axes go through these points.
     pub(crate) fn at(&self, n: &Vector<T, 3>, [from, to]: [Vector<T, 3>; 2]) -> [Strand<T>; 2] {
         let [r1, r2] = self.radii;
         let way = to - from;

@@ -1,4 +1,4 @@
-//! A material point or direction of any body as a function of the coordinates: for outputs and starts, not for the step.
+//! Material points and directions of bodies as functions of the coordinates, for outputs and starts. Steps do not use them.
 
 use super::basis::Combination;
 use super::group::add_curvature;
@@ -8,21 +8,21 @@ use crate::algebra::{Coef, Vector, add_to, load};
 use crate::scene::BodyId;
 use alloc::vec::Vec;
 
-/// x(q) = sum_k A_k e_k + c: a body point or direction; on the ground only c is left.
+/// Point or direction of a body, x(q) = sum_k A_k e_k + c. On the ground only the constant c remains.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Affine<T: Real, const D: usize> {
     terms: Vec<(u32, Coef<T>)>,
     constant: Vector<T, D>,
 }
 
-/// Part of a body that turns: all of it, a line, or nothing.
+/// Part of a body whose rotation is known: the whole body, a line, or nothing.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Shape<T: Real> {
-    /// All of the body.
+    /// Rotation of the whole body.
     Full,
-    /// The line between its ends, reference configuration: a spatial rod held by balls.
+    /// Rotation of the line between two ends (reference configuration): a spatial rod held by ball joints.
     Rod([Vector<T, 3>; 2]),
-    /// No part, as of a point mass.
+    /// No rotation, as of a point mass.
     Point,
 }
 
@@ -32,7 +32,7 @@ impl<T: Real, const D: usize> Affine<T, D> {
         self.rate(q) + self.constant
     }
 
-    /// Rate for velocities `v`; acceleration for accelerations.
+    /// Rate for velocities `v`. With accelerations for `v` the result is the acceleration.
     pub fn rate(&self, v: &[T]) -> Vector<T, D> {
         let mut x = Vector::<T, D>::zeros();
         for (e, c) in &self.terms {
@@ -55,14 +55,15 @@ impl<T: Real, const D: usize> Affine<T, D> {
         Self { terms, constant: self.constant - other.constant }
     }
 
-    /// Adds the gradient of (x . y) for fixed y to a dense gradient over the extended coordinates.
+    /// Adds the gradient of x.y, with y fixed, to a dense gradient over the extended coordinates.
     pub fn add_gradient(&self, y: &Vector<T, D>, gradient: &mut [T]) {
         for (e, c) in &self.terms {
             add_to(gradient, *e as usize, &c.apply_transposed(y));
         }
     }
 
-    /// Adds the second derivatives of s x.y to a packed block over the unknowns of `clique`, which has those of both in whole entities.
+    /// Adds the second derivatives of s x.y to a packed block over the unknowns of `clique`, which contains the entities of x and
+    /// y.
     pub(crate) fn add_product_curvature(&self, y: &Self, s: T, clique: &[u32], block: &mut [T]) {
         let k = clique.len();
         let place = |e: u32| clique.iter().position(|&u| u == e).unwrap_or(k);
@@ -73,7 +74,7 @@ impl<T: Real, const D: usize> Affine<T, D> {
         }
     }
 
-    /// The extended coordinates at which its entities start.
+    /// Extended coordinates at which the entities of the combination begin.
     pub fn entities(&self) -> impl Iterator<Item = u32> + '_ {
         self.terms.iter().map(|(e, _)| *e)
     }
@@ -100,13 +101,13 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         }
     }
 
-    /// Does the body carry all rotations? A spatial rod held by balls only has no rotation about itself.
+    /// Does the body have a full rotation? A spatial rod held by ball joints has no rotation about its line.
     #[must_use]
     pub fn has_full_rotation(&self, body: BodyId) -> bool {
         self.clusters.of(body).is_none_or(|c| self.bases[c].is_full())
     }
 
-    /// Returns the part of a body that turns.
+    /// Returns the part of a body whose rotation is known.
     pub(crate) fn shape(&self, body: BodyId) -> Shape<T> {
         let Some(c) = self.clusters.of(body) else { return Shape::Full };
         let cluster = &self.clusters.clusters[c];

@@ -1,4 +1,4 @@
-//! Angles that a state remembers, with their places.
+//! Angles that a state remembers, to count full turns, and their places.
 
 use super::layout::effect_of;
 use super::model::NaturalModel;
@@ -9,20 +9,20 @@ use crate::mechanism::Scene;
 use crate::model::Owner;
 use alloc::vec::Vec;
 
-/// An angle of a joint that a state remembers.
+/// Angle of a joint that a state remembers.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RememberedAngle<T> {
-    /// The joint, and the number of the coordinate.
+    /// Joint, and the number of its coordinate.
     pub of: (usize, usize),
-    /// Sign of the coordinate beside the remembered angle, 1 or -1.
+    /// Sign of the coordinate relative to the remembered angle, 1 or -1.
     pub sign: T,
     /// Place of the angle in [`State::memory`](crate::model::State::memory).
     pub place: usize,
 }
 
 impl<T: Real, const D: usize> NaturalModel<T, D> {
-    /// The place in [`State::memory`](crate::model::State::memory) of the angle that `scene.effects[effect]` measures, with
-    /// its turns; `None` when it measures none.
+    /// Place in [`State::memory`](crate::model::State::memory) of the angle, with full turns, that `scene.effects[effect]`
+    /// measures. `None` if the effect measures no angle.
     #[must_use]
     pub fn memory_of_effect(&self, effect: usize) -> Option<usize> {
         let first = self.angles.partition_point(|&(owner, _)| effect_of(owner) < effect);
@@ -30,10 +30,10 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         (owner == Owner::Effect(effect)).then_some(place as usize)
     }
 
-    /// The coordinates of joints that a state remembers with their turns, for couplings and effects of a scene that has this model: of joints, and
-    /// in the plane of bushings between the bodies of a joint.
+    /// Joint coordinates that a state remembers with full turns, for the couplings and effects of the scene of this model. In the
+    /// plane they include the angles of bushings between the bodies of a joint.
     ///
-    /// Cost: one pass over the effects, which are prepared again.
+    /// Cost: one pass over the effects, whose actions are computed again.
     #[must_use]
     pub fn remembered_coordinates(&self, scene: &Scene<T>) -> Vec<RememberedAngle<T>> {
         let coupled = self.coupled_angles();
@@ -42,7 +42,7 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         if self.angles.is_empty() {
             return all;
         }
-        // A scene that has a model has actions.
+        // The actions of a scene that has a model exist.
         let actions = Actions::new(scene).map(|actions| actions.list).unwrap_or_default();
         for (effect, action) in actions {
             let Some(place) = self.memory_of_effect(effect) else { continue };
@@ -70,7 +70,7 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         all
     }
 
-    /// The owner of each angle that a state remembers, with its place in [`State::memory`](crate::model::State::memory).
+    /// Owner of each angle that a state remembers, with its place in [`State::memory`](crate::model::State::memory).
     pub fn remembered(&self) -> impl Iterator<Item = (Owner, usize)> + '_ {
         self.angles.iter().map(|&(owner, place)| (owner, place as usize))
     }

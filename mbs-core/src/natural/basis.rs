@@ -1,4 +1,4 @@
-//! The basis of a body: the entities whose combinations are all its points, and its constant mass matrix.
+//! Basis of a body: entities whose combinations give all points of the body, and the constant mass matrix.
 //!
 //! ```text
 //! plane:  r(p) = e_1 + w (e_2 - e_1)  or  e_1 + w u,   w complex          M = G (x) complex 2x2
@@ -8,8 +8,9 @@
 //! point:  r = e_1                                                         M = m 1
 //! ```
 //!
-//! Shared entities come first; an own point or own unit vectors fill what is missing. Entities on the ground are
-//! preferred (they cost nothing); a direction is taken when it stands at least [`INDEPENDENCE`] out of those before.
+//! Entities that the body shares with others come first. The body's own point or unit vectors complete the basis. Entities on the
+//! ground are preferred, because they add no unknowns. A direction is accepted if its unit vector has at least [`INDEPENDENCE`]
+//! orthogonal to the directions accepted before.
 
 use super::sharing::{Entity, EntityKind};
 use crate::Real;
@@ -17,19 +18,22 @@ use crate::algebra::{Coef, Matrix, Vector, across, cross, inverse, norm};
 use crate::cluster::Cluster;
 use alloc::vec::Vec;
 
-/// Least part of a unit vector across the directions before it for which it enters a basis [-]: sin 11.5°. Chosen, not tuned.
+/// Least orthogonal part of a unit vector, against the directions before it, for which it enters a basis [-]: sin 11.5°. Chosen,
+/// not tuned.
 pub const INDEPENDENCE: f64 = 0.2;
-/// Least distance of two points that are a basis, relative to the body's size [-]: rounding grows by its inverse. Chosen, not tuned.
+/// Least distance of the two points of a basis, relative to the body's size [-]: rounding errors grow by its inverse. Chosen, not
+/// tuned.
 const LEAST_ARM: f64 = 0.05;
-/// Coefficients that count as rounding, in units of rounding of the numbers that they are summed from [-]. Chosen, not tuned.
+/// Largest coefficient that counts as a rounding error, in units of rounding of the numbers that it is the sum of [-]. Chosen, not
+/// tuned.
 const SNAP_ROUNDINGS: f64 = 32.0;
-/// Factor by which a later candidate must be better, so that rounding does not choose [-]. Chosen, not tuned.
+/// Factor by which a later candidate must be better [-], so that rounding errors do not decide the choice. Chosen, not tuned.
 const BETTER: f64 = 1.01;
 
-/// A combination of entities (by number), before coordinates are numbered.
+/// Combination of entities by their numbers, before the coordinates are numbered.
 pub(crate) type Combination<T> = Vec<(usize, Coef<T>)>;
 
-/// The basis of one cluster.
+/// Basis of one rigid cluster.
 #[derive(Debug, Clone)]
 pub(crate) struct Basis<T: Real> {
     /// Entities of the basis; the first is a point.
@@ -39,18 +43,18 @@ pub(crate) struct Basis<T: Real> {
 
 #[derive(Debug, Clone)]
 enum Frame<T: Real> {
-    /// Origin and the second entity's vector as a complex number; is it a point?
+    /// Origin, and the vector of the second entity as a complex number. `is_point`: the second entity is a point, not a direction.
     Planar { origin: Vector<T, 3>, second: Coef<T>, is_point: bool },
     /// Two points of a rod.
     Rod { origin: Vector<T, 3>, along: Vector<T, 3> },
     /// Frame of a point mass: there is one point, and no direction.
     Point,
-    /// Origin (subtracted before D is formed) and D^-1.
+    /// Origin, which is subtracted before D is formed, and the inverse of D.
     Spatial { origin: Vector<T, 3>, inverse: Matrix<T, 4> },
 }
 
 impl<T: Real> Basis<T> {
-    /// Chooses the basis of a planar cluster among its shared entities, adding own ones to `entities`.
+    /// Chooses the basis of a planar cluster among its shared entities. Missing entities are added to `entities`.
     pub(crate) fn planar(
         cluster: &Cluster<T>,
         shared: &[usize],
@@ -74,7 +78,7 @@ impl<T: Real> Basis<T> {
         Self { entities: alloc::vec![origin, second], frame }
     }
 
-    /// The point of a point mass.
+    /// Basis of a point mass: its point.
     pub(crate) fn point_mass(
         cluster: &Cluster<T>,
         shared: &[usize],
@@ -84,7 +88,7 @@ impl<T: Real> Basis<T> {
         Self { entities: alloc::vec![origin], frame: Frame::Point }
     }
 
-    /// Two points of a slender rod.
+    /// Basis of a slender rod: two points.
     pub(crate) fn rod(
         ends: &[Vector<T, 3>; 2],
         shared: &[usize],
@@ -108,7 +112,7 @@ impl<T: Real> Basis<T> {
         Self { entities: alloc::vec![origin, second], frame: Frame::Rod { origin: at, along } }
     }
 
-    /// Four entities of a spatial cluster; `None` when they turn out dependent (never for finite data).
+    /// Basis of a spatial cluster: four entities. `None` if they are dependent, which does not occur with finite data.
     pub(crate) fn spatial(
         cluster: &Cluster<T>,
         shared: &[usize],
@@ -152,17 +156,17 @@ impl<T: Real> Basis<T> {
         Some(Self { entities: chosen, frame: Frame::Spatial { origin: at, inverse } })
     }
 
-    /// Does the basis carry a rotation about every axis (a rod's does not, nor a point's)?
+    /// Does the basis describe a rotation about every axis? The bases of a rod and of a point do not.
     pub(crate) fn is_full(&self) -> bool {
         !matches!(self.frame, Frame::Rod { .. } | Frame::Point)
     }
 
-    /// The combination that is the material point `p`.
+    /// Combination that gives the material point `p`.
     pub(crate) fn point(&self, p: &Vector<T, 3>) -> Combination<T> {
         self.combination(p, true)
     }
 
-    /// The combination that is the body-fixed direction `d`.
+    /// Combination that gives the body-fixed direction `d`.
     pub(crate) fn direction(&self, d: &Vector<T, 3>) -> Combination<T> {
         self.combination(d, false)
     }
@@ -172,7 +176,7 @@ impl<T: Real> Basis<T> {
         let from = |origin: &Vector<T, 3>| {
             if is_point { (p - origin, size(p) + size(origin)) } else { (*p, size(p)) }
         };
-        // Each coefficient with the size of what it is the sum of.
+        // Each coefficient, with the size of the numbers that it is the sum of.
         let coefs: Vec<(Coef<T>, T)> = match &self.frame {
             Frame::Point => alloc::vec![(unit, unit.re)],
             Frame::Planar { origin, second, is_point: two_points } => {
@@ -209,7 +213,7 @@ impl<T: Real> Basis<T> {
             .collect()
     }
 
-    /// G, row by row, of the basis entities [kg, kg m, kg m^2].
+    /// Matrix G of the basis entities, row by row [kg, kg m, kg m^2].
     pub(crate) fn mass_matrix(&self, cluster: &Cluster<T>) -> Vec<Coef<T>> {
         let (m, c, inertia) = (cluster.mass, &cluster.center, &cluster.inertia);
         match &self.frame {
@@ -224,7 +228,7 @@ impl<T: Real> Basis<T> {
             Frame::Rod { origin, along } => {
                 let r = c - origin;
                 let square = along.dot(along);
-                // The transverse moment of a slender rod is the integral of the squared distance along it.
+                // The transverse moment of a slender rod is the integral of the squared distance along the rod.
                 let transverse = (inertia[(0, 0)] + inertia[(1, 1)] + inertia[(2, 2)]) * T::HALF;
                 let g22 = Coef::real((transverse + m * r.dot(&r)) / square);
                 two_by_two(m, Coef::real(m * r.dot(along) / square), g22, true)
@@ -255,7 +259,7 @@ impl<T: Real> Basis<T> {
     }
 }
 
-/// G of a two-entity basis: r = e_1 + w (e_2 - e_1) for two points, e_1 + w u for a point and a direction.
+/// Matrix G of a basis of two entities. Two points: r = e_1 + w (e_2 - e_1). A point and a direction: r = e_1 + w u.
 fn two_by_two<T: Real>(m: T, moment: Coef<T>, g22: Coef<T>, two_points: bool) -> Vec<Coef<T>> {
     if two_points {
         let g11 = Coef::real(m).minus(Coef::real(moment.re * T::TWO)).plus(g22);
@@ -266,8 +270,8 @@ fn two_by_two<T: Real>(m: T, moment: Coef<T>, g22: Coef<T>, two_points: bool) ->
     }
 }
 
-/// Coefficients that are rounding of zero beside `size`, that of the numbers they were summed from, are zero, so that no element touches
-/// coordinates for nothing. Those that are rounding of one are one.
+/// Rounds a coefficient to zero if it is a rounding error relative to `size`, the size of the numbers that it is the sum of.
+/// Elements then use no coordinates without need. A coefficient that differs from one by a rounding error becomes one.
 fn snap<T: Real>(c: Coef<T>, size: T) -> Coef<T> {
     let tiny = T::EPSILON * T::from_f64(SNAP_ROUNDINGS);
     let clean = |x: T| {
@@ -282,7 +286,7 @@ fn snap<T: Real>(c: Coef<T>, size: T) -> Coef<T> {
     Coef { re: clean(c.re), im: clean(c.im) }
 }
 
-/// Largest component of a vector, without its sign.
+/// Largest absolute value among the components of a vector.
 fn size<T: Real>(x: &Vector<T, 3>) -> T {
     x.iter().fold(T::ZERO, |a, x| a.max(x.abs()))
 }
@@ -295,7 +299,7 @@ fn points_of<T: Real>(shared: &[usize], entities: &[Entity<T>]) -> Vec<usize> {
     shared.iter().copied().filter(|&e| entities[e].kind == EntityKind::Point).collect()
 }
 
-/// Returns the first point of a basis: one on the ground if any, else the first shared, else an own point at the centre.
+/// Returns the first point of a basis: a ground point, else the first shared point, else a new point at the centre.
 fn first_point<T: Real>(
     cluster: &Cluster<T>,
     points: &[usize],
@@ -330,7 +334,7 @@ fn farthest<T: Real>(
     best
 }
 
-/// A length typical of a cluster: from a point to its centre, or its radius of gyration.
+/// Typical length of a cluster: the larger of the distance from a point to the centre and the radius of gyration.
 fn cluster_size<T: Real>(cluster: &Cluster<T>, from: &Vector<T, 3>) -> T {
     let gyration = if cluster.mass > T::ZERO {
         (cluster.inertia[(2, 2)] / cluster.mass).sqrt()
@@ -340,7 +344,7 @@ fn cluster_size<T: Real>(cluster: &Cluster<T>, from: &Vector<T, 3>) -> T {
     norm(&(cluster.center - from)).max(gyration)
 }
 
-/// The candidate whose unit vector stands most out of those chosen, with that orthonormal part.
+/// Candidate whose unit vector has the largest part orthogonal to the chosen ones, with the unit vector of that part.
 fn most_independent<T: Real>(
     shared: &[usize],
     chosen: &[usize],

@@ -1,4 +1,4 @@
-//! Builder of a model: sharing, bases, rigid-body rows; then joint rows and effects.
+//! Builder of a model: shared entities, bases and rigid-body rows, then joint rows and effects.
 
 use super::basis::{Basis, Combination};
 use super::error::ModelError;
@@ -16,11 +16,11 @@ use crate::model::Owner;
 use crate::scene::BodyId;
 use alloc::vec::Vec;
 
-/// Dependent entities that share an element with their body [-]. Each further one is an element of its own, as the block of a hub with
-/// many joints would grow like the square of their number. Chosen, not tuned.
+/// Number of dependent entities in the same element as their body [-]. Each further one is a separate element, because the block of
+/// a hub with many joints would grow like the square of their number. Chosen, not tuned.
 const TOGETHER: usize = 2;
 
-/// Everything known while a model is built.
+/// Data of a model that is being built.
 pub(super) struct Builder<'a, T: Real> {
     pub(super) scene: &'a Scene<T>,
     pub(super) length: T,
@@ -30,7 +30,7 @@ pub(super) struct Builder<'a, T: Real> {
     pub(super) bases: Vec<Basis<T>>,
     pub(super) shared: Vec<Vec<usize>>,
     pub(super) groups: Vec<GroupDraft<T>>,
-    /// Measures of the numbers that signals measure: each number is a sum of measures.
+    /// Measures of each number that signals use: the number is the sum of its measures.
     pub(super) measured: Vec<Vec<MeasureDraft<T>>>,
     /// Rotors, each with its entity.
     pub(super) rotors: Vec<(usize, RotorInput<T>)>,
@@ -70,7 +70,7 @@ impl<'a, T: Real> Builder<'a, T> {
         })
     }
 
-    /// The combination that is material point `at` of a body.
+    /// Combination that gives the material point `at` of a body.
     pub(super) fn point(&mut self, body: BodyId, at: [T; 3]) -> Combination<T> {
         let at = Vector::from(at);
         match self.clusters.of(body) {
@@ -79,7 +79,7 @@ impl<'a, T: Real> Builder<'a, T> {
         }
     }
 
-    /// The combination that is body-fixed direction `d` of a body.
+    /// Combination that gives the body-fixed direction `d` of a body.
     pub(super) fn direction(&mut self, body: BodyId, d: Vector<T, 3>) -> Combination<T> {
         match self.clusters.of(body) {
             Some(c) => self.bases[c].direction(&d),
@@ -92,7 +92,7 @@ impl<'a, T: Real> Builder<'a, T> {
         alloc::vec![(e, crate::algebra::Coef::one())]
     }
 
-    /// One group for each cluster: mass, gravity, rigid-body rows, dependent points.
+    /// Adds a group for each cluster: mass, gravity, rigid-body rows, dependent points.
     pub(super) fn add_bodies(&mut self) {
         let zero = self.constant(Vector::zeros(), EntityKind::Direction)[0].0;
         let rigid = rigid_rows((&self.bases, &self.shared), &self.entities, zero);
@@ -133,7 +133,7 @@ impl<'a, T: Real> Builder<'a, T> {
         }
     }
 
-    /// The group of a joint, made when first asked for.
+    /// Group of a joint, created at the first call.
     pub(super) fn joint_group(&mut self, joint: usize) -> &mut GroupDraft<T> {
         let index = match self.joint_group[joint] {
             Some(index) => index,

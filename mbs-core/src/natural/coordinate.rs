@@ -1,9 +1,9 @@
-//! Points and directions that measure a joint coordinate, whether it is held, guided, acted on or recorded.
+//! Points and directions by which a joint coordinate is measured, for constraints, guides, effects and outputs.
 //!
 //! ```text
 //! angle      atan2(x2.y, x1.y)   x1, x2 in one body, y in the other
 //! slide      x.y                 x from the first body's point to the second's, y in the first
-//! rotation   log(R1^T R2)        its rate is omega2 - omega1, in global axes
+//! rotation   log(R1^T R2)        R1, R2: rotations of the bodies; rate omega2 - omega1, in global axes
 //! ```
 
 use super::affine::Affine;
@@ -16,10 +16,10 @@ use crate::algebra::Vector;
 use crate::joint::{Dimension, Freedom};
 use crate::scene::{BodyId, Joint};
 
-/// The points and directions that a freedom is measured by.
+/// Points and directions by which a joint coordinate is measured.
 #[derive(Debug, Clone)]
 pub(crate) enum Coordinate<T, X> {
-    /// `sign` times the angle of y in the frame x1, x2.
+    /// Angle of y in the frame x1, x2, times `sign`.
     Angle { x1: X, x2: X, y: X, sign: T },
     /// Slide of two points along a direction, x.y.
     Slide { x: X, y: X },
@@ -33,10 +33,10 @@ pub(crate) trait Places<T: Real> {
 
     fn direction(&mut self, body: BodyId, d: Vector<T, 3>) -> Self::Place;
 
-    /// Point on the second body less point on the first.
+    /// Vector from the joint's point on the first body to its point on the second.
     fn gap(&mut self, joint: &Joint<T>) -> Self::Place;
 
-    /// The coordinate of a joint's freedom.
+    /// Coordinate of a joint's freedom.
     fn coordinate(
         &mut self,
         joint: &Joint<T>,

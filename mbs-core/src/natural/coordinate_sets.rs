@@ -1,4 +1,4 @@
-//! Entities of its group that a row touches: most rows say something about one point or direction, or two.
+//! Entities of a group that a row uses. Most rows use one or two points or directions.
 //!
 //! ```text
 //! block += w g g^T,   g = [0 .. g_a .. 0 .. g_b .. 0]          21 numbers of 78 for two of four points in space
@@ -7,7 +7,7 @@
 use super::group::{add_squares, packed};
 use crate::Real;
 
-/// The columns of the first unknowns that a row touches: of one entity or two in a group that has more, or of any.
+/// Set of the entities that a row uses: one or two entities, each given by its first column, or any of its group.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct CoordinateSet {
     first: u8,
@@ -15,10 +15,10 @@ pub struct CoordinateSet {
 }
 
 impl CoordinateSet {
-    /// A row that touches any unknown of its group.
+    /// Set of a row that may use any unknown of its group.
     pub const ANY: Self = Self { first: u8::MAX, second: u8::MAX };
 
-    /// Set of a row that touches these entities, by their places among the unknown ones of a group of `n`.
+    /// Set of a row that uses the entities `touched`, given by their places among the `n` unknown entities of its group.
     pub fn of(touched: impl Iterator<Item = usize>, n: usize, dimension: usize) -> Self {
         let (mut least, mut most, mut between) = (usize::MAX, 0, false);
         let mut seen = [usize::MAX; 2];
@@ -37,14 +37,15 @@ impl CoordinateSet {
         }
     }
 
-    /// The first columns of the two entities, the lower one first; equal where there is one.
+    /// First columns of the two entities, the lower one first. Both are equal if the row uses one entity; `None` if it may use any.
     #[inline(always)]
     pub fn pair(self) -> Option<[usize; 2]> {
         (self != Self::ANY).then_some([self.first as usize, self.second as usize])
     }
 }
 
-/// block += sum_r w_r g_r g_r^T over the rows of a group, whose gradients are `width` long; without `reach` any may touch all.
+/// Adds sum_r w_r g_r g_r^T to the block over the rows of a group, whose gradients are `width` long. A row without an entry in
+/// `reach` may use all columns.
 #[inline(always)]
 pub(crate) fn add_rows<T: Real, const D: usize>(
     block: &mut [T],
@@ -78,7 +79,7 @@ pub(crate) fn add_rows<T: Real, const D: usize>(
     }
 }
 
-/// block += w g g^T for a gradient that touches the entities at columns `a` <= `b` alone; the block has `k` unknowns.
+/// Adds w g g^T to a block of `k` unknowns, for a gradient g that uses only the entities at columns `a` <= `b`.
 #[inline(always)]
 pub fn add_pair_square<T: Real, const D: usize>(
     block: &mut [T],

@@ -1,4 +1,4 @@
-//! The terms of couplings in the tables of a model.
+//! Terms of couplings in the tables of a model.
 
 use super::group::index;
 use super::layout::{Columns, Layout, extend};
@@ -8,7 +8,7 @@ use crate::elements::{CoupledTerm, Measurand, NONE, Signed, Span};
 use alloc::vec::Vec;
 
 impl<T: Real, const D: usize> Layout<T, D> {
-    /// The terms of a coupling with their measures and curves.
+    /// Adds the terms of a coupling, with their measures and curves.
     pub(super) fn coupled_terms(
         &mut self,
         drafts: &[CoupledDraft<T>],

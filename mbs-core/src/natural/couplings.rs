@@ -1,4 +1,4 @@
-//! Couplings as rows: each is a group of its own, over the points and directions of its joints.
+//! Couplings as constraint rows. Each coupling is a group over the points and directions of its joints.
 
 use super::build::Builder;
 use super::coordinate::{Coordinate, Places};
@@ -27,7 +27,7 @@ impl<T: Real> Builder<'_, T> {
         for (i, coupling) in self.scene.couplings.iter().enumerate() {
             let input = CouplingInput::new(coupling);
             let scale = input.scale();
-            // the factors of a relation's terms are its own
+            // the factors of a relation are not divided by the scale
             let by = if input.relation.is_some() { T::ONE } else { scale };
             let terms: Vec<_> =
                 input.terms.iter().map(|term| self.coupled_draft(term, by)).collect();
@@ -51,7 +51,7 @@ impl<T: Real> Builder<'_, T> {
         }
     }
 
-    /// A term, its factor over the largest one.
+    /// Term of a coupling, with its factor divided by `scale`.
     pub(super) fn coupled_draft(&mut self, term: &TermInput<T>, scale: T) -> CoupledDraft<T> {
         let measures = match (&term.of, term.coordinate) {
             (CouplingMeasure::Length { points }, _) => {
@@ -74,7 +74,7 @@ impl<T: Real> Builder<'_, T> {
         CoupledDraft { factor: term.factor / scale, measures, curve: term.curve.clone() }
     }
 
-    /// Returns the measure of a ball's swing or twist about an axis.
+    /// Returns the measure of the swing or twist of a ball joint about an axis.
     fn ball_measure(
         &mut self,
         [first, second]: [BodyId; 2],
@@ -98,7 +98,7 @@ impl<T: Real> Builder<'_, T> {
         }
     }
 
-    /// Returns the measure of a joint coordinate; the check of a scene refuses those that nothing measures.
+    /// Returns the measure of a joint coordinate; `None` for coordinates that have no measure, which the check of a scene refuses.
     pub(super) fn coordinate_measure(
         &mut self,
         index: usize,
@@ -128,7 +128,7 @@ impl<T: Real> Curves<T> for Vec<PreparedCurve<T>> {
 }
 
 impl<T: Real, const D: usize> NaturalModel<T, D> {
-    /// The tables of the couplings.
+    /// Tables that coupling rows refer to.
     pub(super) fn coupled_tables(&self) -> CoupledTables<'_, T, Vec<PreparedCurve<T>>> {
         CoupledTables {
             terms: &self.coupled_terms,
@@ -138,7 +138,8 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         }
     }
 
-    /// Adds the second derivatives of the rows of couplings, which the steps leave out, on motions that keep directions of unit length.
+    /// Adds the second derivatives of coupling rows, for motions that keep directions at unit length. The tangent of a step leaves
+    /// them out.
     pub(crate) fn add_coupled_curvature(
         &self,
         (q, terms): (&[T], &Terms<T>),
@@ -184,8 +185,8 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         }
     }
 
-    /// The second derivatives of the rows of couplings of an element, and of sums under tension times `stiffness`, packed as its block; empty
-    /// where there are none.
+    /// Second derivatives of an element, packed as its block: of coupling rows, and of sums under tension times `stiffness`. Empty
+    /// if the element has neither.
     pub(super) fn coupled_curvature(
         &self,
         (q, terms): (&[T], &Terms<T>),
@@ -194,7 +195,7 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
     ) -> Vec<T> {
         let group = &self.groups[element];
         let (k, rows) = (group.clique.len(), group.rows.range());
-        // a law of a body has numbers of its own there
+        // the measures of a law on a body are numbered in another table
         let measures = if group.has_body_law { 0..0 } else { group.measures.range() };
         let sums = measures.filter_map(|m| match self.measures[m].gauge {
             Measure::Sum { terms: of } => Some((of, terms.measures[m].tension * stiffness)),
@@ -212,7 +213,7 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         block
     }
 
-    /// Adds the second derivatives of a relation: weight (sum_k phi_k H(a_k) + sum_kl phi_kl grad a_k grad a_l^T).
+    /// Adds the second derivatives of a relation: weight (sum_k phi_k H(a_k) + sum_kl phi_kl grad a_k grad a_l^T), a_k: term k.
     fn add_relation_curvature(
         &self,
         (row, number): (&Coupled<T>, u32),
@@ -241,7 +242,7 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         for (i, a) in gradients.iter().enumerate() {
             add_squares(block, k, [a], [second(i, i)]);
             for (j, b) in gradients.iter().enumerate().take(i) {
-                // a b^T + b a^T = ((a + b)(a + b)^T - (a - b)(a - b)^T)/2
+                // symmetric product: a b^T + b a^T = ((a + b)(a + b)^T - (a - b)(a - b)^T)/2
                 let by = |s: T| -> Vec<T> { a.iter().zip(b).map(|(&x, &y)| x + s * y).collect() };
                 let (sum, difference) = (by(T::ONE), by(-T::ONE));
                 let half = second(i, j) * T::HALF;
@@ -276,7 +277,7 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
                 add(x1, y, -by * d);
             }
             Measurand::Slide { x, y } => add(x, y, s),
-            // no row has angles of balls
+            // no constraint row contains a swing or twist
             Measurand::Swing { .. } | Measurand::Twist { .. } => {}
             Measurand::Length { x, .. } => {
                 let length = norm(&at(x));
@@ -290,7 +291,7 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         }
     }
 
-    /// The part of the lines of a sum that has no length left after a step `dq` from (q, v).
+    /// Index of the first part of a line whose length vanishes in a step `dq` from (q, v); `None` if all parts keep a length.
     pub(super) fn collapsed_part(
         &self,
         terms: Span,
@@ -315,18 +316,18 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         gaps.into_iter().position(is_collapsed)
     }
 
-    /// The rows of couplings whose sum is not always zero.
+    /// Rows of couplings whose sum is not always zero.
     pub(super) fn driven(&self) -> impl Iterator<Item = &Coupled<T>> {
         self.coupled.iter().filter(|row| row.guide != NONE)
     }
 
-    /// The sum of a coupling in the course of time: value, rate and acceleration.
+    /// Prescribed sum of a coupling at the current time: value, rate and acceleration; zero without a guide.
     pub(super) fn sum_of(guide: u32, guides: &[[T; 3]]) -> [T; 3] {
         if guide == NONE { [T::ZERO; 3] } else { guides[guide as usize] }
     }
 
-    /// Joint, number and place in [`State::memory`](crate::model::State::memory) of each angle that couplings remember, with the sign
-    /// of the joint's coordinate in it.
+    /// Remembered angles of couplings: joint and coordinate number, sign of the joint's coordinate, and place in
+    /// [`State::memory`](crate::model::State::memory).
     pub fn coupled_angles(&self) -> impl Iterator<Item = ((usize, usize), T, usize)> + '_ {
         self.coupled_angles.iter().map(|&(of, sign, place)| (of, sign, place as usize))
     }

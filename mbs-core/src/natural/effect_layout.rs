@@ -73,7 +73,7 @@ impl<T: Real, const D: usize> Layout<T, D> {
             EffectDraft::Rotation { frames, number, law } => {
                 let frames = [0, 1].map(|i| self.frame(&frames[i], columns));
                 if *number == 0 {
-                    // The three of a rotation follow each other and share what is remembered.
+                    // The three components of a rotation follow each other and use the same remembered numbers.
                     let (first, owner) = (index(self.model.n_memory), group.owner);
                     self.model.angles.extend([0, 1, 2].map(|i| (owner, first + i)));
                     self.model.rotations.push((index(self.model.measures.len()), owner));
@@ -133,7 +133,7 @@ impl<T: Real, const D: usize> Layout<T, D> {
         frame
     }
 
-    /// A measure's gradient stands after the constraint rows of its group.
+    /// Adds a measure, whose gradient follows the constraint rows of its group in the Jacobian store.
     fn add_measure(&mut self, gauge: Measure<T>, law: Law<T>, group: &Group) {
         let m = &mut self.model;
         let start = m.n_jacobian;

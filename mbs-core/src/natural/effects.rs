@@ -1,4 +1,4 @@
-//! From actions to effect elements, one group for each effect. Effects that are switched off are not built.
+//! Conversion of actions to effect elements, one group for each effect. Effects that are switched off get no group.
 
 use super::basis::Combination;
 use super::build::Builder;
@@ -48,7 +48,7 @@ impl<T: Real> Builder<'_, T> {
                 let turn = joint.kind.freedom(dimension, *number);
                 match turn.map(|turn| self.coordinate(joint, dimension, turn)) {
                     Some(Coordinate::Angle { x1, x2, y, sign }) => {
-                        // the angle of -x2 is minus that of x2
+                        // the angle of -x2 is minus the angle of x2
                         let x2 = if sign < T::ZERO { difference(&Vec::new(), &x2) } else { x2 };
                         EffectDraft::Angle { x1, x2, y, law: *law }
                     }
@@ -70,7 +70,7 @@ impl<T: Real> Builder<'_, T> {
                 EffectDraft::Rotation { frames, number: *number, law: *law }
             }
             Action::Constant { at: (body, at), force } => {
-                // A constant force has a potential, -F.r: it joins gravity.
+                // A constant force has a potential, -F.r, and is treated like gravity.
                 if self.clusters.of_body[*body].is_some() {
                     let f = Vector::<T, 3>::from(*force);
                     let point = self.point(BodyId::Body(*body), *at);
@@ -84,7 +84,7 @@ impl<T: Real> Builder<'_, T> {
         Ok(())
     }
 
-    /// Adds an action on one body from the ground; a body that is welded to the ground gets none.
+    /// Adds an action on one body, relative to the ground. A body that is welded to the ground gets no action.
     fn add_action_on_body(
         &mut self,
         action: &Action<T>,
@@ -136,13 +136,13 @@ impl<T: Real> Builder<'_, T> {
         Ok(())
     }
 
-    /// From the first place to the second.
+    /// Vector from the first attachment point to the second.
     fn between(&mut self, ends: &[Attachment<T>; 2]) -> Combination<T> {
         let second = self.point(ends[1].0, ends[1].1);
         difference(&second, &self.point(ends[0].0, ends[0].1))
     }
 
-    /// A rod held by balls has no rotation about itself.
+    /// Checks that a body has a full rotation. A rod held by ball joints has no rotation about its line.
     fn needs_rotation(&self, body: BodyId) -> Result<(), ModelError> {
         match (body, self.clusters.of(body)) {
             (BodyId::Body(body), Some(c)) if !self.bases[c].is_full() => {
@@ -152,7 +152,7 @@ impl<T: Real> Builder<'_, T> {
         }
     }
 
-    /// The body's directions that were x, y, z in the reference configuration; in the plane x and y.
+    /// Directions of the body that were the axes x, y, z in the reference configuration; in the plane x and y.
     fn frame(&mut self, body: BodyId) -> Vec<Combination<T>> {
         let n = self.scene.dimension.count();
         (0..n).map(|i| self.direction(body, unit(i))).collect()

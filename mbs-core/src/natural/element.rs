@@ -1,5 +1,5 @@
-//! The arithmetic of one element: its block, residual and rates with the clique's length known to the compiler, and the
-//! curvature parts of its tangent.
+//! Arithmetic of one element: its block, residual and rates, with a number of unknowns that the compiler knows, and the curvature
+//! parts of its tangent.
 
 use super::coordinate_sets::add_rows;
 use super::forces::Measure;
@@ -13,16 +13,16 @@ use crate::elements::combine;
 use crate::model::{Load, ScalarForce, Tangent, Terms};
 use alloc::vec;
 
-/// Most unknowns of a group whose rows are taken as dense, and of a mechanism whose bodies and joints are one element [-]. The work of a
-/// dense row grows like the square of their number: at eight it is that of distinguishing parts of two and four.
+/// Largest number of unknowns of a group with dense rows, and of a mechanism whose bodies and joints form one element [-]. The work
+/// of a dense row grows like the square of this number. At eight it equals the work of separate parts with two and four unknowns.
 pub(super) const DENSE: usize = 8;
 
-/// Most unknowns of a group whose residual is on the stack [-]: those of an effect between two bodies.
+/// Largest number of unknowns of a group whose residual fits on the stack [-]: that of an effect between two bodies.
 pub(super) const ROOM: usize = 24;
 
 impl<T: Real, const D: usize> NaturalModel<T, D> {
-    /// Diagonal of M, lifted where it is (nearly) zero so that it can scale: to `floor` of the largest entry. Entries of points and of
-    /// directions are compared at the scene's length.
+    /// Diagonal of the mass matrix M. Entries below `floor` times the largest entry are raised to it, so that the diagonal can
+    /// scale rows. Entries of points and of directions are compared after scaling with the scene's length.
     pub(crate) fn mass_diagonal(&self, floor: T) -> alloc::vec::Vec<T> {
         let mut diagonal = vec![T::ZERO; self.n_unknowns];
         for group in self.groups.iter().filter(|g| !g.mass.is_empty()) {
@@ -41,7 +41,7 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         diagonal
     }
 
-    /// The block of a group of `K` unknowns; `K` = 0: of any number, known at run time only.
+    /// Writes the block of a group of `K` unknowns. With `K` = 0 the number is known at run time only.
     #[inline(always)]
     pub(super) fn write_sized_block<const K: usize>(
         &self,
@@ -66,7 +66,7 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
             jacobian = &jacobian[width * group.rows.len()..];
         } else {
             let penalty = group.rows.of(tangent.penalty);
-            // In a group of two entities every row touches all; in a small one the rest is as soon added as left out.
+            // Every row uses all entities of a group of two. In a small group, adding zeros costs no more than skipping them.
             let is_small = K > 0 && K <= DENSE;
             let reach = if is_small { &[][..] } else { group.rows.of(&self.coordinate_sets) };
             add_rows::<T, D>(block, k, (jacobian, width), (penalty, reach));
@@ -82,7 +82,7 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         }
     }
 
-    /// The block of an effect with `k` unknowns, which has neither mass nor rows: the first square is written and not added.
+    /// Writes the block of an effect with `k` unknowns, without mass and rows. The first square is written instead of added.
     #[inline(always)]
     fn write_effect_block(
         &self,
@@ -100,7 +100,7 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         self.add_transverse(terms, tangent, group, block);
     }
 
-    /// The residual of a group of `K` unknowns; `K` = 0: of any number, known at run time only.
+    /// Writes the residual of a group of `K` unknowns. With `K` = 0 the number is known at run time only.
     #[inline(always)]
     pub(super) fn write_sized_residual<const K: usize>(
         &self,
@@ -149,7 +149,7 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         }
     }
 
-    /// Adds the residual of a group of `K` unknowns to `f`; `K` = 0: of at most [`ROOM`], known at run time only.
+    /// Adds the residual of a group of `K` unknowns to `f`. With `K` = 0 the number is known at run time only, at most [`ROOM`].
     #[inline(always)]
     pub(super) fn add_sized_residual<const K: usize>(
         &self,
@@ -167,8 +167,8 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         self.scatter(group, &self.sized_residual::<K>(terms, load, group), f);
     }
 
-    /// f = the residual of the one group of all `K` unknowns. A function by itself: what the loop over groups keeps at hand costs more than
-    /// the arithmetic of one small group.
+    /// Writes the residual of the only group, which has all `K` unknowns, to f. A separate function, because inlined code in the
+    /// loop over groups costs more than the arithmetic of one small group.
     #[inline(never)]
     pub(super) fn write_whole_residual<const K: usize>(
         &self,
@@ -190,7 +190,7 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
     ) -> [T; K] {
         let mut residual = [T::ZERO; K];
         if let (None, Some(mu), true) = (load.mass, load.multipliers, load.force == T::ZERO) {
-            // J^T mu alone, row by row
+            // J^T mu alone, row by row; mu: the multipliers
             let width = group.width as usize;
             let mut rows = &terms.jacobian[group.jacobian as usize..];
             for &mu in group.rows.of(mu) {
@@ -206,7 +206,7 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         residual
     }
 
-    /// f += the residual of a group.
+    /// Adds the residual of a group to f.
     #[inline(always)]
     fn scatter(&self, group: &Group, residual: &[T], f: &mut [T]) {
         let slots = &group.slots.of(&self.slots)[..residual.len() / D];
@@ -245,7 +245,7 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         }
     }
 
-    /// K_geo = sum lambda_k d2 phi_k / dq2.
+    /// Adds the geometric stiffness of a group, K_geo = sum lambda_k d2 phi_k / dq2, to its block.
     pub(super) fn add_geometric(&self, lambda: &[T], group: &Group, block: &mut [T]) {
         let k = group.clique.len();
         for row in &self.distances[group.distances.range()] {
@@ -267,7 +267,7 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         }
     }
 
-    /// Adds K_geo of the guided rows, which the steps leave out: guides as last set in `terms`.
+    /// Adds K_geo of the guided rows, with the guide values in `terms`. The tangent of a step leaves this part out.
     pub(crate) fn add_guided_curvature(
         &self,
         terms: &Terms<T>,
@@ -320,7 +320,7 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         }
     }
 
-    /// Share of one body direction u in the power of a torque: 1/2 (tau x u).u'.
+    /// Part of one body direction u in the power of a torque: 1/2 (tau x u).u'.
     pub(super) fn torque_power(
         &self,
         torque: &super::forces::BodyTorque,
@@ -335,7 +335,7 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
     }
 }
 
-/// block += sum w g g^T over scalar laws, whose gradients are `width` long; the block has `k` unknowns.
+/// Adds sum w g g^T over scalar laws to a block of `k` unknowns. The gradients g are `width` long.
 #[inline(always)]
 fn add_laws<T: Real>(
     tangent: &Tangent<'_, T>,

@@ -1,11 +1,12 @@
-//! A model cut into parts that may be evaluated at the same time: neighbouring groups with their stretches of every table.
+//! Division of a model into parts that can be evaluated in parallel. A part has neighbouring groups and their ranges in every
+//! table.
 //!
 //! ```text
-//! tables stand in the order of the groups, so a cut between two groups cuts each table and each store once:
+//! tables follow the order of the groups, so a cut between two groups cuts each table and each store once:
 //! [ groups | rows | Jacobian | forces | measures ]  =  [ those of part 1 ] [ those of part 2 ] ...
 //! ```
 //!
-//! Where it is cut depends on the number of groups alone.
+//! The cuts depend on the number of groups alone, not on the team.
 
 use super::group::Group;
 use super::model::{Cursor, NaturalModel};
@@ -16,7 +17,7 @@ use crate::team::Team;
 use alloc::vec::Vec;
 use core::ops::Range;
 
-/// Groups of a part [-], which one thread evaluates: some ten microseconds of work.
+/// Number of groups in a part [-]. One thread evaluates a part, which takes about ten microseconds.
 const GROUPS: usize = 64;
 
 /// Part of a model: neighbouring groups, from one cursor to another.
@@ -26,7 +27,7 @@ pub(super) struct Part {
     to: Cursor,
 }
 
-/// Stretches that the evaluation of a part writes; empty ones of what is not written.
+/// Ranges of the stores that the evaluation of a part writes. Ranges that an evaluation does not write are empty.
 #[derive(Debug)]
 pub(super) struct Out<'a, T> {
     /// One number for each row.
@@ -87,48 +88,48 @@ impl Part {
         &all[self.from.torque..self.to.torque]
     }
 
-    /// A span of the Jacobian store, within the stretch of the part.
+    /// Converts a span of the Jacobian store to the range of the part.
     #[inline(always)]
     pub(super) fn place(&self, span: Span) -> Span {
         shifted(span, self.from.jacobian)
     }
-    /// A span of the force store, within the stretch of the part.
+    /// Converts a span of the force store to the range of the part.
     #[inline(always)]
     pub(super) fn force(&self, span: Span) -> Span {
         shifted(span, self.from.force)
     }
-    /// A span of the measures of body laws, within the stretch of the part.
+    /// Converts a span of the measures of body laws to the range of the part.
     #[inline(always)]
     pub(super) fn body_measures(&self, span: Span) -> Span {
         shifted(span, self.from.body_measure)
     }
-    /// A row with its places within the stretches of the part.
+    /// Converts the places of a distance row to the ranges of the part.
     #[inline(always)]
     pub(super) fn distance<T: Real>(&self, row: &Distance<T>) -> Distance<T> {
         let places = row.places.map(|at| at - narrow(self.from.jacobian));
         Distance { places, row: row.row - narrow(self.from.row), ..*row }
     }
-    /// A dot-product row with its places within the stretches of the part.
+    /// Converts the places of a dot-product row to the ranges of the part.
     #[inline(always)]
     pub(super) fn dot<T: Real>(&self, row: &Dot<T>) -> Dot<T> {
         Dot { place: self.place(row.place), row: row.row - narrow(self.from.row), ..*row }
     }
-    /// Linear rows with their places within the stretches of the part.
+    /// Converts the places of linear rows to the ranges of the part.
     #[inline(always)]
     pub(super) fn linear(&self, row: &Linear) -> Linear {
         Linear { place: self.place(row.place), row: row.row - narrow(self.from.row), ..*row }
     }
-    /// The row of a coupling with its places within the stretches of the part.
+    /// Converts the places of a coupling row to the ranges of the part.
     #[inline(always)]
     pub(super) fn coupling<T: Real>(&self, row: &Coupled<T>) -> Coupled<T> {
         Coupled { place: self.place(row.place), row: row.row - narrow(self.from.row), ..*row }
     }
-    /// The rows of a rolling with their places within the stretches of the part.
+    /// Converts the places of rolling rows to the ranges of the part.
     #[inline(always)]
     pub(super) fn rolling<T: Real>(&self, row: &RollingRows<T>) -> RollingRows<T> {
         RollingRows { place: self.place(row.place), row: row.row - narrow(self.from.row), ..*row }
     }
-    /// A guided row with its places within the stretches of the part.
+    /// Converts the places of a guided row to the ranges of the part.
     #[inline(always)]
     pub(super) fn guide(&self, row: &Guided) -> Guided {
         Guided { place: self.place(row.place), row: row.row - narrow(self.from.row), ..*row }
@@ -146,7 +147,7 @@ fn narrow(i: usize) -> u32 {
 }
 
 impl<'a, T> Out<'a, T> {
-    /// Cuts at a cursor, given the first cursor.
+    /// Splits the ranges at the cursor `at`; they begin at the cursor `first`.
     fn split(self, first: &Cursor, at: &Cursor) -> (Self, Self) {
         let (rows, rows_after) = cut(self.rows, at.row - first.row);
         let (jacobian, jacobian_after) = cut(self.jacobian, at.jacobian - first.jacobian);
@@ -171,7 +172,7 @@ fn cut<T>(x: &mut [T], at: usize) -> (&mut [T], &mut [T]) {
 }
 
 impl<T: Real, const D: usize> NaturalModel<T, D> {
-    /// Marks between the parts, when all tables are filled.
+    /// Cursors between the parts, computed when all tables are filled.
     pub(super) fn cursors(&self) -> Vec<Cursor> {
         let mut cursors = Vec::with_capacity(self.groups.len() / GROUPS + 2);
         let mut force = 0;
@@ -226,7 +227,7 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         }
     }
 
-    /// Calls `work` on parts of the model with what each writes; all of it at once where the team is one.
+    /// Calls `work` on each part of the model with the ranges that it writes. A team of one thread gets the model as a single part.
     #[inline(always)]
     pub(super) fn on_parts<W: Team>(
         &self,
@@ -241,7 +242,7 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         }
     }
 
-    /// The sum of `part` over the parts, pair by pair: the same bits for every team.
+    /// Sum of `part` over the parts, added in pairs in a fixed order: bitwise equal for every team.
     pub(super) fn sum_of_parts<W: Team>(&self, team: &W, part: impl Fn(&Part) -> T + Sync) -> T {
         sum_of_cursors(team, &self.cursors, &part)
     }

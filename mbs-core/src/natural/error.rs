@@ -1,28 +1,28 @@
-//! Errors that keep a checked scene from becoming a model.
+//! Errors that prevent a model of a checked scene.
 
 use crate::actions::ActionError;
 
-/// A scene that passed its checks but gives no model.
+/// Reason why a scene that passed its checks gives no model.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum ModelError {
-    /// The model's dimension is not the scene's.
+    /// The dimension of the model differs from that of the scene.
     Dimension,
-    /// No basis for this body could be found.
+    /// No basis was found for this body.
     Basis {
         /// Index of the body without a basis.
         body: usize,
     },
-    /// An effect or output asks for a rotation that this body, a rod held by balls, does not carry.
+    /// An effect or output needs a full rotation of this body, a rod held by ball joints, which has none about its line.
     NoRotation {
-        /// Index of the body, a rod held by balls.
+        /// Index of the body, a rod held by ball joints.
         body: usize,
     },
-    /// The law of an enabled effect is not compiled.
+    /// The law of an enabled effect is not part of the build.
     LeftOut {
-        /// Index of the effect whose law is not compiled.
+        /// Index of the effect whose law is missing.
         effect: usize,
-        /// The Cargo feature of mbs-core that brings it.
+        /// Cargo feature of mbs-core that adds the law.
         feature: &'static str,
     },
 }

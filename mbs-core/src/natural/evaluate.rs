@@ -1,4 +1,4 @@
-//! The numbers of a [`NaturalModel`]: constraints, forces, blocks and residuals, element by element.
+//! Evaluation of a [`NaturalModel`]: constraints, forces, blocks and residuals, element by element.
 
 use super::forces::Measure;
 use super::group::index;
@@ -15,8 +15,8 @@ use alloc::vec;
 use alloc::vec::Vec;
 use core::ops::Range;
 
-/// Calls a kernel with the number of unknowns of a group known to the compiler, where bodies, joints and effects between two bodies
-/// often have it. Else with zero.
+/// Calls a kernel with the number of a group's unknowns as a constant, for the numbers that bodies, joints and effects often have.
+/// For other numbers the constant is zero.
 macro_rules! sized {
     ($k:expr, $self:ident.$kernel:ident($($argument:expr),*)) => {
         match $k {
@@ -35,11 +35,11 @@ macro_rules! sized {
     };
 }
 
-/// Least mass where rows are scaled, relative to the largest [-]: an inverse mass stays finite. Chosen, not tuned.
+/// Least diagonal mass for the scaling of rows, relative to the largest [-]. It keeps every inverse mass finite. Chosen, not tuned.
 const LIFTED: f64 = 1e-6;
 
 impl<T: Real, const D: usize> NaturalModel<T, D> {
-    /// The effective mass of each row, 1 / (J_k M^-1 J_k^T) with a diagonal M.
+    /// Writes the effective mass of each row, 1 / (J_k M^-1 J_k^T), with a diagonal M.
     pub(crate) fn row_masses(&self, diagonal: &[T], terms: &Terms<T>, masses: &mut [T]) {
         for group in &self.groups {
             let clique = group.clique.of(&self.cliques);
@@ -55,7 +55,7 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         }
     }
 
-    /// The largest change of each row over changes of the coordinates by `sizes`; one where there is none.
+    /// Writes the largest change of each row when the coordinates change by `sizes`; one for a row that does not change.
     pub(crate) fn row_spreads(&self, sizes: &[T], terms: &Terms<T>, spreads: &mut [T]) {
         for group in &self.groups {
             let clique = group.clique.of(&self.cliques);
@@ -71,8 +71,8 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
     }
 }
 
-/// Cotangents of the angles between path and line at which two points that pass each other are evaluated [-]. Chosen, not tuned:
-/// powers of four from 86° to 14°.
+/// Cotangents of angles between a point's path and the line to the point that it passes [-]. Passing effects are evaluated at these
+/// angles. Chosen, not tuned: powers of four from 86° to 14°.
 const OBLIQUE: [f64; 4] = [0.0625, 0.25, 1.0, 4.0];
 
 impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
@@ -141,7 +141,7 @@ impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
         for element in self.measures.iter().filter(|element| element.law.may_push()) {
             let Measure::Length { x } = element.gauge else { continue };
             let [from, to] = [q, to].map(|q| combine::<T, D>(x.of(&self.pool), q));
-            // |r + x (r' - r)| is least at x = -r.(r' - r) / |r' - r|^2
+            // the distance |r + x (r' - r)| is least at x = -r.(r' - r) / |r' - r|^2
             let way = to - from;
             let [length, speed] = [norm(&from), norm(&way)];
             let closest = -from.dot(&way) / (speed * speed);
@@ -149,7 +149,8 @@ impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
                 continue;
             }
             let passed = norm(&(from + way * closest)) / speed;
-            // A little before, as at no distance a force has no direction; and where the line is oblique to the path.
+            // Instants shortly before the closest point, because a force has no direction at zero distance. They include oblique
+            // lines.
             let hair = length / speed * T::EPSILON.sqrt();
             for share in OBLIQUE {
                 let before = closest - passed * T::from_f64(share) - hair;
@@ -194,7 +195,7 @@ impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
                 Measure::Rotation { number, memory: place, .. } => {
                     memory[(place + number) as usize] = measure.value;
                 }
-                // the angles of a sum are those of measures
+                // the angles of a sum are remembered by the loops over measures above
                 Measure::Length { .. } | Measure::Along { .. } | Measure::Sum { .. } => {}
             }
         }
@@ -350,7 +351,7 @@ impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
                 power += self.torque_power(torque, span, (q, v), terms);
             }
         }
-        // A guide's force on the coordinates is -J^T lambda and J v = -phi_t: its power is lambda phi_t.
+        // The guide's force on the coordinates is -J^T lambda, and J v = -phi_t: its power is lambda phi_t.
         let rows = self.guided.iter().map(|row| row.row).chain(self.driven().map(|row| row.row));
         for row in rows {
             power += lambda[row as usize] * terms.phi_t[row as usize];

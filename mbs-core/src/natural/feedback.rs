@@ -1,4 +1,4 @@
-//! Signals that follow the motion, in natural coordinates: joint coordinates by points and directions.
+//! Signals that depend on the motion, in natural coordinates. They use joint coordinates measured by points and directions.
 
 use super::build::Builder;
 use super::group::index;
@@ -14,7 +14,7 @@ use alloc::vec::Vec;
 use core::convert::Infallible;
 
 impl<T: Real> Builder<'_, T> {
-    /// Adds the measures that signals read; the check of a scene refuses coordinates that nothing measures.
+    /// Adds the measures that signals use. The check of a scene refuses coordinates that have no measure.
     pub(super) fn add_measured(&mut self, feedback: &Feedback<T>) {
         for term in &feedback.measured {
             let measures = self.coupled_draft(term, T::ONE).measures;
@@ -24,7 +24,7 @@ impl<T: Real> Builder<'_, T> {
 }
 
 impl<T: Real, const D: usize> Layout<T, D> {
-    /// Adds one measured number, the sum of these measures.
+    /// Adds one measured number, which is the sum of these measures.
     pub(super) fn add_measured(&mut self, drafts: &[MeasureDraft<T>]) {
         let first = index(self.model.measured.len());
         for draft in drafts {
@@ -39,7 +39,7 @@ impl<T: Real, const D: usize> Layout<T, D> {
 }
 
 impl<T: Real, const D: usize> NaturalModel<T, D> {
-    /// Evaluates the signals that follow the motion at (q, v), and the courses that name them.
+    /// Evaluates at (q, v) the signals that depend on the motion, and the force signals that use them.
     pub(super) fn follow_motion(&self, (q, v): (&[T], &[T]), terms: &mut Terms<T>) {
         if self.feedback.is_empty() {
             return;

@@ -21,15 +21,16 @@ pub(crate) enum Measure<T> {
     Length { x: Span },
     /// Distance of a combination along a direction.
     Along { x: Span, d: Span, offset: T },
-    /// A component of the rotation vector of the second frame against the first, nearest to the three numbers at `memory`.
+    /// Component of the rotation vector of the second frame relative to the first, unwrapped against the three numbers from
+    /// `memory` on.
     Rotation { frames: [[Span; 3]; 2], number: u32, memory: u32 },
-    /// Angle of y in the frame x1, x2, unwrapped against `memory`.
+    /// Angle of y in the frame x1, x2, unwrapped against the remembered number at `memory`.
     Angle { x1: Span, x2: Span, y: Span, memory: u32 },
-    /// The sum of terms, in the table of those of couplings.
+    /// Sum of terms, a span of the table of coupling terms.
     Sum { terms: Span },
 }
 
-/// A scalar law along a gauge, with its gradient's place in the Jacobian store.
+/// Scalar law of a measured quantity, with the place of the gradient in the Jacobian store.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct MeasureElement<T> {
     pub(crate) gauge: Measure<T>,
@@ -37,17 +38,17 @@ pub(crate) struct MeasureElement<T> {
     pub(crate) place: Span,
 }
 
-/// A force at a point; in body axes the direction combinations turn it.
+/// Force at a point. A force in body axes rotates with the directions of `frame`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct PointForce {
     pub(crate) point: Span,
     pub(crate) course: u32,
-    /// Three (two) directions of the body when the force turns with it.
+    /// Directions of the body, three in space and two in the plane, if the force rotates with the body; `None`: global axes.
     pub(crate) frame: Option<[Span; 3]>,
     pub(crate) force: Span,
 }
 
-/// A torque vector on a spatial body.
+/// Torque vector on a spatial body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct BodyTorque {
     pub(crate) frame: [Span; 3],
@@ -56,7 +57,7 @@ pub(crate) struct BodyTorque {
 }
 
 impl<T: Real> MeasureElement<T> {
-    /// Value, rate, gradient and law at (q, v).
+    /// Evaluates the measure, its rate, its gradient and the law at (q, v).
     pub(crate) fn evaluate<const D: usize>(
         &self,
         tables: &CoupledTables<'_, T, impl Curves<T>>,
@@ -94,18 +95,18 @@ impl<T: Real> MeasureElement<T> {
         }
     }
 
-    /// Stored energy [J] of the elastic part at the measure's value.
+    /// Energy that the elastic part of the law stores at the measured value [J].
     pub(crate) fn energy(&self, measure: &ScalarForce<T>, law_inputs: &LawInputs<'_, T>) -> T {
         self.law.energy(measure.value, law_inputs)
     }
 
-    /// Power that is not stored: dampers take, courses give [W].
+    /// Power that is not stored [W]: dampers dissipate it, signals supply it.
     pub(crate) fn power(&self, measure: &ScalarForce<T>, law_inputs: &LawInputs<'_, T>) -> T {
         self.law.power(measure, law_inputs)
     }
 }
 
-/// Length of a combination, its rate, and its gradient (zero at zero length, where it has no direction).
+/// Length of a combination and its rate. The gradient, zero at length zero where the line has no direction, is added to the row.
 fn length<T: Real, const D: usize>(x: &[Term<T>], q: &[T], v: &[T], row: &mut [T]) -> (T, T) {
     let (d, w): (Vector<T, D>, Vector<T, D>) = (combine(x, q), combine(x, v));
     let value = norm(&d);
@@ -119,7 +120,7 @@ fn length<T: Real, const D: usize>(x: &[Term<T>], q: &[T], v: &[T], row: &mut [T
     (value, n.dot(&w))
 }
 
-/// s x.y of two combinations and its rate; its gradient is added to the row.
+/// Product s x.y of two combinations, and its rate. The gradient is added to the row.
 fn product<T: Real, const D: usize>(
     [x, y]: [&[Term<T>]; 2],
     (q, v): (&[T], &[T]),
@@ -136,7 +137,7 @@ fn product<T: Real, const D: usize>(
     (px.dot(&py), wx.dot(&py) + px.dot(&wy))
 }
 
-/// Angle atan2(x2.y, x1.y) nearest to `last`, its rate and gradient.
+/// Angle atan2(x2.y, x1.y), unwrapped to be nearest to `last`, its rate and gradient.
 fn angle<T: Real, const D: usize>(
     [x1, x2, y]: [&[Term<T>]; 3],
     q: &[T],
@@ -151,7 +152,7 @@ fn angle<T: Real, const D: usize>(
     let (c, s) = (p1.dot(&py), p2.dot(&py));
     let inverse = T::ONE / (c * c + s * s);
     let (c, s) = (c * inverse, s * inverse);
-    // d theta = c d(x2.y) - s d(x1.y)
+    // gradient of the angle: d theta = c d(x2.y) - s d(x1.y)
     let across = p2 * c - p1 * s;
     for (terms, g) in [(x2, py * c), (x1, py * -s), (y, across)] {
         for term in terms {
@@ -162,7 +163,7 @@ fn angle<T: Real, const D: usize>(
     (unwrap(s.atan2(c), last), rate)
 }
 
-/// Local forces of a torque on a spatial body.
+/// Adds the generalised forces of a torque on a spatial body to the local force vector.
 pub(crate) fn add_torque<T: Real, const D: usize>(
     pool: &[Term<T>],
     frame: &[Span; 3],
@@ -178,7 +179,7 @@ pub(crate) fn add_torque<T: Real, const D: usize>(
     }
 }
 
-/// Local forces A_k^T F of a force on a combination; constants are skipped.
+/// Adds the generalised forces A_k^T F of a force on a combination to the local force vector. Constant entities are skipped.
 pub(crate) fn add_terms<T: Real, const D: usize>(
     terms: &[Term<T>],
     f: &Vector<T, D>,

@@ -1,4 +1,4 @@
-//! From a scene to a [`NaturalModel`], in the order of the passes.
+//! Construction of a [`NaturalModel`] from a scene, in the order of the passes.
 
 use super::build::Builder;
 use super::error::ModelError;
@@ -15,10 +15,10 @@ type New<T, const D: usize> = fn(&Scene<T>) -> Result<NaturalModel<T, D>, ModelE
 mbs_math::instances!(NEW: New<T, D> = NaturalModel::<T, D>::build);
 
 impl<T: Real, const D: usize> NaturalModel<T, D> {
-    /// Builds the smallest natural-coordinate model of a scene.
+    /// Builds the natural-coordinate model of a scene with the fewest coordinates.
     ///
     /// # Errors
-    /// [`ModelError`] when the scene's dimension is not D, or a body's data leave a point undefined.
+    /// [`ModelError`] if the scene's dimension is not D, or a body's data leave a point undefined.
     pub fn new(scene: &Scene<T>) -> Result<Self, ModelError> {
         #[cfg(feature = "instances")]
         if T::HAS_INSTANCES {

@@ -1,33 +1,33 @@
-//! A group: the mass and the rows of one body, the rows of one joint, or one effect. It is the *element* of the border to
-//! the algebra; its block is dense over its own coordinates.
+//! Group: the mass and the rows of one body, the rows of one joint, or one effect. Linear algebra sees a group as an *element*,
+//! whose block is dense over the group's coordinates.
 
 use crate::Real;
 use crate::algebra::Coef;
 use crate::elements::Span;
 use crate::model::Owner;
 
-/// Element of the model, by its parts of the tables.
+/// Element of the model, given by its parts of the tables.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Group {
     /// Entities of the group in the slot table (extended coordinates): unknown ones first, then constants.
     pub(crate) slots: Span,
     /// Number of the unknown entities.
     pub(crate) n_unknown: u32,
-    /// Unknowns of the group in the clique table; k = n_unknown * D of them.
+    /// Unknowns of the group in the clique table. Their number is k = n_unknown * D.
     pub(crate) clique: Span,
     /// Constraint rows of the group.
     pub(crate) rows: Span,
-    /// Start of its rows in the Jacobian store; each is `width` long, the unknowns first.
+    /// Start of the group's rows in the Jacobian store. Each row is `width` long and begins with the unknowns.
     pub(crate) jacobian: u32,
     /// Columns of a row: entities times D.
     pub(crate) width: u32,
-    /// Matrix G of the group's mass in the coefficient table (n_unknown squared), empty without mass.
+    /// Matrix G of the group's mass in the coefficient table (n_unknown squared numbers); empty without mass.
     pub(crate) mass: Span,
-    /// Does some coefficient of its G turn, as where the mass lies beside the line of two points?
+    /// Is a coefficient of G complex, because the mass is not on the line of two basis points?
     pub(crate) is_mass_turned: bool,
-    /// Constant mass block of the group in the block table (packed k (k + 1) / 2), empty without mass.
+    /// Constant mass block of the group in the block table (packed, k (k + 1) / 2 numbers); empty without mass.
     pub(crate) block: Span,
-    /// Force vector of the group in the force store, k long; empty when nothing applies.
+    /// Force vector of the group in the force store, k long; empty if no force acts.
     pub(crate) force: Span,
     /// Distance rows of the group, in their table.
     pub(crate) distances: Span,
@@ -35,13 +35,13 @@ pub(crate) struct Group {
     pub(crate) dots: Span,
     /// Scalar laws of the group in the measure table; their gradients follow the constraint rows.
     pub(crate) measures: Span,
-    /// Are its measures those of a law on one body?
+    /// Are the measures of the group those of a law on one body?
     pub(crate) has_body_law: bool,
-    /// Owner of the group; of bodies and joints that were put together, that of the first one.
+    /// Owner of the group. For merged bodies and joints, the owner of the first one.
     pub(crate) owner: Owner,
 }
 
-/// y += G x over the entities of a group, y local; what turns is left out where nothing of G `is_turned`.
+/// Adds G x to y over the entities of a group; y is local. The imaginary parts of G are skipped where `is_turned` is false.
 #[inline(always)]
 pub(crate) fn add_mass_product<T: Real, const D: usize>(
     (g, is_turned): (&[Coef<T>], bool),
@@ -56,7 +56,7 @@ pub(crate) fn add_mass_product<T: Real, const D: usize>(
         let at = clique[j * D] as usize;
         let x = &x[at..at + D];
         for i in 0..nb {
-            // G is Hermitian: column j is the conjugate of row j, which is contiguous.
+            // The matrix G is Hermitian: column j is the conjugate of row j, which is contiguous.
             let c = g[j * nb + i];
             for a in 0..D {
                 y[i * D + a] += c.re * x[a];
@@ -69,16 +69,16 @@ pub(crate) fn add_mass_product<T: Real, const D: usize>(
     }
 }
 
-/// Place of (row, column), row >= column, in a packed lower triangle of size k.
+/// Place of the entry (row, column), row >= column, in a packed lower triangle of size k.
 #[inline(always)]
 pub(crate) fn packed(k: usize, row: usize, column: usize) -> usize {
     column * k - column * (column + 1) / 2 + row
 }
 
-/// block += sum_r w_r g_r g_r^T for the first k entries of each g_r.
+/// Adds sum_r w_r g_r g_r^T to a block, over the first k entries of each g_r.
 #[inline(always)]
 pub fn add_squares<T: Real, const R: usize>(block: &mut [T], k: usize, g: [&[T]; R], w: [T; R]) {
-    // No closures over arrays: whether they are inlined depends on the number of codegen units of the build.
+    // No closures over arrays: the number of codegen units decides whether they are inlined.
     let mut g = g;
     for g in &mut g {
         *g = &g[..k];
@@ -102,7 +102,7 @@ pub fn add_squares<T: Real, const R: usize>(block: &mut [T], k: usize, g: [&[T];
     }
 }
 
-/// block = w g g^T for the first k entries of g.
+/// Writes w g g^T to a block, over the first k entries of g.
 #[inline(always)]
 pub(crate) fn write_square<T: Real>(block: &mut [T], k: usize, g: &[T], w: T) {
     let g = &g[..k];
@@ -117,7 +117,7 @@ pub(crate) fn write_square<T: Real>(block: &mut [T], k: usize, g: &[T], w: T) {
     }
 }
 
-/// y += sum_r w_r g_r over the first k entries of each g_r.
+/// Adds sum_r w_r g_r to y, over the first k entries of each g_r.
 #[inline(always)]
 pub(crate) fn add_multiples<T: Real, const R: usize>(y: &mut [T], g: [&[T]; R], w: [T; R]) {
     let mut g = g;
@@ -133,9 +133,10 @@ pub(crate) fn add_multiples<T: Real, const R: usize>(y: &mut [T], g: [&[T]; R], 
     }
 }
 
-/// Adds s C_i^T C_j at entity columns (i, j) of a packed block of size k, symmetrically; constants (>= k) are left out.
+/// Adds s C_i^T C_j at the entity columns (i, j) of a packed block of size k, symmetrically. Columns of constants (>= k) are
+/// skipped.
 ///
-/// Summed over all ordered pairs (i, j) of two term lists this adds the Hessian of s x.y.
+/// The sum over all ordered pairs (i, j) of two term lists adds the Hessian of s x.y.
 #[inline(always)]
 pub(crate) fn add_curvature<T: Real, const D: usize>(
     block: &mut [T],
@@ -164,7 +165,7 @@ pub(crate) fn add_curvature<T: Real, const D: usize>(
     }
 }
 
-/// An index as stored in tables. A model of four thousand million entries does not fit any memory.
+/// Index as stored in tables, in 32 bits. A model with four thousand million entries does not fit into memory.
 #[allow(clippy::cast_possible_truncation, reason = "tables are shorter than 2^32")]
 pub(crate) fn index(i: usize) -> u32 {
     debug_assert!(u32::try_from(i).is_ok());

@@ -1,7 +1,7 @@
-//! The Jacobian by rows: where the numbers stand that may differ from zero, and which unknowns they belong to.
+//! Sparsity of the Jacobian by rows: the entities with nonzero gradients in each row, and the places of the gradients.
 //!
 //! ```text
-//! rate_r = sum over the unknown entities e that row r touches of g_re . x_e
+//! rate_r = sum over the unknown entities e of row r of g_re . x_e         g_re: gradient, x_e: coordinates of e
 //! ```
 
 use super::coordinate_sets::CoordinateSet;
@@ -9,7 +9,7 @@ use super::group::{Group, index};
 use crate::Real;
 use alloc::vec::Vec;
 
-/// An entity that a row touches.
+/// Entity of a row, with its gradient.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Entry {
     /// First coordinate of the entity.
@@ -18,16 +18,16 @@ struct Entry {
     place: u32,
 }
 
-/// Entities that each row touches.
+/// Entities that each row uses.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Incidence {
-    /// Start of each row in the list, and the end.
+    /// Start of each row in the list, then the end of the list.
     start: Vec<u32>,
     list: Vec<Entry>,
 }
 
 impl Incidence {
-    /// Incidence of the rows of a model that has all its groups.
+    /// Incidence of all rows of a model, after all groups are added.
     pub(super) fn of<const D: usize>(
         groups: &[Group],
         slots: &[u32],
@@ -49,7 +49,7 @@ impl Incidence {
         incidence
     }
 
-    /// rates = J x of the rows from `first` on, one for each rate.
+    /// Computes rates = J x of the rows from `first` on, one row for each rate.
     #[inline(always)]
     pub(super) fn multiply<T: Real, const D: usize>(
         &self,

@@ -1,6 +1,6 @@
-//! Joint equations that sharing leaves over, and guides.
+//! Joint equations that remain after sharing, and guides.
 //!
-//! | freedoms | shared | rows left (p = point on second less point on first; v, w across the axis, all in the first body) |
+//! | freedoms | shared | remaining rows (p = point on second less point on first; v, w across the axis, all in the first body) |
 //! |---|---|---|
 //! | no slide; slides | point; nothing | none; p.u = 0 for each u across the slides |
 //! | no turn | axis | space: v_1.w_2 = 0 |
@@ -33,7 +33,7 @@ impl<T: Real> Builder<'_, T> {
             rows.push(dot(gap, self.direction(joint.bodies[0], u), T::ZERO));
         }
         if let Some([x, y]) = joint.kept_angle(scene.dimension) {
-            // of what does not turn they are across each other
+            // two directions of a joint without rotation are perpendicular
             let is_fixed = joint.kind.rotation(scene.dimension) == Rotation::Fixed;
             let constant = if is_fixed { T::ZERO } else { x.dot(&y) };
             let [first, second] = joint.bodies;
@@ -67,7 +67,7 @@ impl<T: Real> Builder<'_, T> {
         let scene = self.scene;
         for (guide, law) in scene.guides.iter().enumerate() {
             let joint = &scene.joints[law.joint];
-            // the scene's check refuses guides of coordinates that are not there
+            // the scene's check refuses guides of coordinates that the joint does not have
             let row = match joint.kind.freedom(scene.dimension, law.number) {
                 None => self.guided_rotation(joint, law.number, guide),
                 Some(freedom) => match self.coordinate(joint, scene.dimension, freedom) {
@@ -84,7 +84,7 @@ impl<T: Real> Builder<'_, T> {
         }
     }
 
-    /// A component of a rotation vector, whose guides stand one after another.
+    /// Row of a component of a rotation vector, whose guides follow each other.
     fn guided_rotation(&mut self, joint: &Joint<T>, number: usize, guide: usize) -> RowDraft<T> {
         let first = joint.kind.ball(self.scene.dimension).unwrap_or(number);
         let k = number - first;

@@ -1,4 +1,4 @@
-//! The last pass of building: numbers the coordinates, lays out rows, and fills the tables of a [`NaturalModel`].
+//! Last pass of construction, which numbers the coordinates and fills the tables of a [`NaturalModel`].
 
 use super::basis::Combination;
 use super::build::Builder;
@@ -21,7 +21,7 @@ use crate::model::Owner;
 use alloc::vec;
 use alloc::vec::Vec;
 
-/// Numbers and lays out everything.
+/// Numbers the coordinates and fills the tables of the model.
 pub(super) fn layout<T: Real, const D: usize>(
     builder: Builder<'_, T>,
     actions: Actions<T>,
@@ -56,14 +56,14 @@ pub(super) fn layout<T: Real, const D: usize>(
 pub(super) struct Layout<T: Real, const D: usize> {
     pub(super) model: NaturalModel<T, D>,
     entities: Vec<Entity<T>>,
-    /// The different masses and blocks so far.
+    /// Spans of the distinct masses (G) and mass blocks that the tables have so far.
     masses: Vec<(Span, Span)>,
 }
 
-/// Different masses among which an equal one is searched [-]: what a chain reads stays in the cache. Chosen, not tuned.
+/// Number of latest masses that are searched for an equal one [-], so that equal bodies read one cached copy. Chosen, not tuned.
 const RECENT: usize = 16;
 
-/// Columns of combinations in the group at hand, by the slots of its entities.
+/// Entities of a group, in the order of the columns of its Jacobian rows.
 pub(super) struct Columns<'a> {
     pub(super) slots: &'a [usize],
 }
@@ -75,7 +75,8 @@ impl Columns<'_> {
 }
 
 impl<T: Real, const D: usize> Layout<T, D> {
-    /// Unknown entities first, in the order in which the groups use them, then constants; and the place of each.
+    /// Order of the entities: unknown ones first, in the order in which the groups use them, then constants. Also returns the place
+    /// of each entity.
     fn order(entities: &[Entity<T>], groups: &[GroupDraft<T>]) -> (Vec<usize>, Vec<u32>) {
         let mut entity_at = vec![u32::MAX; entities.len()];
         let mut order = Vec::new();
@@ -90,7 +91,7 @@ impl<T: Real, const D: usize> Layout<T, D> {
         (order, entity_at)
     }
 
-    /// A model without groups.
+    /// Model with its coordinates, to which no group has been added.
     fn new(
         (entities, owners): (Vec<Entity<T>>, &[Owner]),
         groups: &[GroupDraft<T>],
@@ -158,8 +159,8 @@ impl<T: Real, const D: usize> Layout<T, D> {
         Self { model, entities, masses: Vec::new() }
     }
 
-    /// The groups in the order in which the last of their unknowns comes: joints and effects are next to the bodies that they act
-    /// on. A step that goes through all groups then stays within a few thousand numbers for a while.
+    /// Groups in the order of the last unknown that each one uses. Joints and effects then follow the bodies that they act on. A
+    /// pass over all groups then reads neighbouring memory.
     fn near_their_bodies<'a>(&self, groups: &'a [GroupDraft<T>]) -> Vec<&'a GroupDraft<T>> {
         let last = |group: &GroupDraft<T>| {
             let unknown = |&e: &usize| !self.entities[e].is_constant;
@@ -221,7 +222,7 @@ impl<T: Real, const D: usize> Layout<T, D> {
         m.groups.push(group);
     }
 
-    /// Gravity and constant forces, on constants too: their potential needs them.
+    /// Adds gravity and constant forces to the weights, also those on constant entities, because their potential needs them.
     fn add_weight(&mut self, forces: &[(usize, Vector<T, 3>)]) {
         for (e, f) in forces {
             let at = self.model.entity_at[*e] as usize;
@@ -231,7 +232,7 @@ impl<T: Real, const D: usize> Layout<T, D> {
         }
     }
 
-    /// A row that touches no unknown says nothing.
+    /// Is the row live? A row without unknowns constrains nothing.
     fn is_live(&self, row: &RowDraft<T>) -> bool {
         row.entities().iter().any(|&e| !self.entities[e].is_constant)
     }
@@ -248,7 +249,7 @@ impl<T: Real, const D: usize> Layout<T, D> {
         )
     }
 
-    /// Claims `n` rows and their place in the Jacobian store.
+    /// Reserves `n` rows and their part of the Jacobian store.
     fn claim(&mut self, n: usize, owner: Owner, group: &Group) -> (u32, Span) {
         let m = &mut self.model;
         let (row, start) = (m.n_rows, m.n_jacobian);
@@ -313,7 +314,7 @@ impl<T: Real, const D: usize> Layout<T, D> {
         }
     }
 
-    /// G of the unknown entities and the constant mass block.
+    /// Writes G of the unknown entities and the constant mass block. Equal masses use one entry.
     fn add_mass(&mut self, draft: &GroupDraft<T>, unknowns: &[usize], group: &mut Group) {
         let Some((basis, g)) = &draft.mass else { return };
         let nb = basis.len();
@@ -355,7 +356,7 @@ impl<T: Real, const D: usize> Layout<T, D> {
     }
 }
 
-/// The owner of the first group that uses each entity, before groups are put together; anything for one that none uses.
+/// Owner of each entity: the owner of the first group that uses it, before groups are merged. Any owner for an unused entity.
 fn owners<T: Real>(groups: &[GroupDraft<T>], entities: &[Entity<T>]) -> Vec<Owner> {
     let mut owners = vec![None; entities.len()];
     for group in groups {
@@ -366,7 +367,7 @@ fn owners<T: Real>(groups: &[GroupDraft<T>], entities: &[Entity<T>]) -> Vec<Owne
     owners.into_iter().map(|owner| owner.unwrap_or(Owner::Body(0))).collect()
 }
 
-/// Is there one group, of all unknowns in their order, with rows that are taken as dense?
+/// Is the model one dense group with all unknowns in their order?
 fn is_whole<T: Real, const D: usize>(model: &NaturalModel<T, D>) -> bool {
     let [group] = &model.groups[..] else { return false };
     let clique = group.clique.of(&model.cliques);
@@ -376,12 +377,12 @@ fn is_whole<T: Real, const D: usize>(model: &NaturalModel<T, D>) -> bool {
         && clique.iter().enumerate().all(|(k, &u)| k == u as usize)
 }
 
-/// The number of an effect; those of others are no effects' numbers.
+/// Index of an effect; `usize::MAX` for an owner that is no effect.
 pub(super) fn effect_of(owner: Owner) -> usize {
     if let Owner::Effect(effect) = owner { effect } else { usize::MAX }
 }
 
-/// Measures of laws on one body stand behind those of scalar laws.
+/// Numbers the measures of laws on one body after the measures of scalar laws.
 fn number_measures<T: Real, const D: usize>(model: &mut NaturalModel<T, D>) {
     let n = index(model.measures.len());
     let shift = |span: &mut Span| (span.start, span.end) = (span.start + n, span.end + n);
@@ -394,7 +395,7 @@ fn number_measures<T: Real, const D: usize>(model: &mut NaturalModel<T, D>) {
     model.n_measures += n as usize;
 }
 
-/// Entry (a, b) of alpha 1 + beta J.
+/// Entry (a, b) of the matrix alpha 1 + beta J, J the quarter turn in the plane.
 fn entry<T: Real>(c: Coef<T>, a: usize, b: usize) -> T {
     match (a, b) {
         (0, 1) => -c.im,

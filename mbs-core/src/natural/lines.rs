@@ -1,4 +1,4 @@
-//! Effects that lose a direction: parts of lines that have no length while the effect acts, and twists whose axes are opposite.
+//! Effects without a direction: lines with a part of zero length while the effect acts, and twists about opposite axes.
 
 use super::forces::Measure;
 use super::group::index;
@@ -10,10 +10,10 @@ use crate::model::{Owner, State};
 use crate::step::StepError;
 
 impl<T: Real, const D: usize> NaturalModel<T, D> {
-    /// Returns the error of an effect that has no direction after a step `dq` from a state. The cause is an open twist, or a part of a
-    /// line without length if the effect acts before or after the step.
+    /// Returns the error of an effect that has no direction after a step `dq` from a state. The cause is a twist about opposite
+    /// axes, or a part of a line that has no length while the effect acts.
     ///
-    /// Cost: nothing without such effects; else the gap of each part.
+    /// Cost: nothing if no effect has lines or twists; else the vector of each part.
     pub(super) fn undirected_effect(&self, state: &State<T>, dq: &[T]) -> Option<StepError> {
         self.lines.iter().find_map(|&(number, owner)| {
             let element = &self.measures[number as usize];
@@ -39,7 +39,7 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         measures.any(|measure| measure.of.is_open(at))
     }
 
-    /// A sum at `q + dq`.
+    /// Value of a sum of terms at `q + dq`.
     fn sum_at(&self, terms: Span, (q, dq, memory): (&[T], &[T], &[T])) -> T {
         let at = |x: Span| {
             let place = combine::<T, D>(x.of(&self.pool), q);

@@ -1,5 +1,5 @@
-//! Bodies and joints of a small mechanism as one element. A dense block whose size the compiler knows takes less time than distinguishing
-//! the blocks of its parts.
+//! Merging of the bodies and joints of a small mechanism into one element. A dense block whose size the compiler knows takes less
+//! time than separate blocks.
 
 use super::element::DENSE;
 use super::row_builder::GroupDraft;
@@ -9,7 +9,7 @@ use crate::algebra::Coef;
 use alloc::vec;
 use alloc::vec::Vec;
 
-/// Puts the groups of bodies and joints of a small mechanism together; effects stay what they are.
+/// Merges the groups of bodies and joints of a small mechanism. Groups of effects stay separate.
 pub(super) fn merged<T: Real>(
     groups: Vec<GroupDraft<T>>,
     entities: &[Entity<T>],
@@ -32,7 +32,7 @@ pub(super) fn merged<T: Real>(
     all
 }
 
-/// Two groups as one.
+/// Merges two groups into one.
 fn joined<T: Real>(mut one: GroupDraft<T>, other: GroupDraft<T>) -> GroupDraft<T> {
     one.row_owners.resize(one.rows.len(), one.owner);
     let mut owners = other.row_owners;
@@ -47,7 +47,7 @@ fn joined<T: Real>(mut one: GroupDraft<T>, other: GroupDraft<T>) -> GroupDraft<T
     one
 }
 
-/// The sum of two mass matrices, each over its own entities.
+/// Sum of two mass matrices, each over its list of entities.
 fn sum<T: Real>(
     a: &(Vec<usize>, Vec<Coef<T>>),
     b: &(Vec<usize>, Vec<Coef<T>>),

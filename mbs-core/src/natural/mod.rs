@@ -1,7 +1,13 @@
 //! Natural coordinates: shared points and unit vectors with a constant mass matrix, made from a scene.
 //!
-//! The way down: [`cluster`](crate::cluster) (welds), `sharing` (what joints make common), `basis` (entities of each body), `build`,
-//! `joints`, `effects` (rows and laws), `layout` (numbering and tables), `evaluate` (the numbers).
+//! Steps of construction:
+//!
+//! - [`cluster`](crate::cluster): welded bodies;
+//! - `sharing`: common points and directions of joints;
+//! - `basis`: entities of each body;
+//! - `build`, `joints`, `effects`: rows and laws;
+//! - `layout`: numbering and tables;
+//! - `evaluate`: constraints, forces, blocks and residuals.
 
 mod affine;
 mod angle_memory;

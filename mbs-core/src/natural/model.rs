@@ -1,4 +1,4 @@
-//! [`NaturalModel`]: elements by kind in contiguous arrays, gathered into groups.
+//! [`NaturalModel`]: elements of each kind in contiguous arrays, collected in groups.
 
 use super::basis::Basis;
 use super::coordinate_sets::CoordinateSet;
@@ -20,17 +20,17 @@ use crate::measure::PreparedCurve;
 use crate::model::Owner;
 use alloc::vec::Vec;
 
-/// A mechanism in natural coordinates of D dimensions: shared points and unit vectors, constant mass matrix.
+/// Mechanism in natural coordinates of D dimensions: shared points and unit vectors, constant mass matrix.
 ///
-/// Built from a scene by [`NaturalModel::new`](Self::new); constant from then on.
+/// Built from a scene by [`NaturalModel::new`](Self::new), and constant afterwards.
 #[derive(Debug, Clone)]
 pub struct NaturalModel<T: Real, const D: usize> {
     pub(super) n_unknowns: usize,
     pub(super) n_rows: usize,
     pub(super) n_jacobian: usize,
-    /// Coordinates of the reference configuration, extended.
+    /// Extended coordinates (unknowns, then constants) of the reference configuration.
     pub(super) reference: Vec<T>,
-    /// Gravity and constant forces over the extended coordinates: V = -weight.q.
+    /// Gravity and constant forces on the extended coordinates, with the potential V = -weight.q.
     pub(super) weight: Vec<T>,
     pub(super) pool: Vec<Term<T>>,
     pub(super) distances: Vec<Distance<T>>,
@@ -39,16 +39,16 @@ pub struct NaturalModel<T: Real, const D: usize> {
     pub(super) guided: Vec<Guided>,
     pub(super) coupled: Vec<Coupled<T>>,
     pub(super) rollings: Vec<RollingRows<T>>,
-    /// The unknowns that each of them touches.
+    /// Unknowns that the rows of each rolling use.
     pub(super) rolling_cliques: Vec<Span>,
     pub(super) coupled_terms: Vec<CoupledTerm<T>>,
     pub(super) coupled_measures: Vec<Signed<T>>,
     pub(super) curves: Vec<PreparedCurve<T>>,
-    /// Joint and coordinate of each angle that couplings remember, with its place.
+    /// Joint and coordinate number, sign, and place in the memory of each angle that couplings remember.
     pub(super) coupled_angles: Vec<((usize, usize), T, u32)>,
-    /// Measures that signals read of the motion; `feedback` has the operations that make the signals of them.
+    /// Measures of the motion that signals use; `feedback` has the operations that compute the signals from them.
     pub(super) measured: Vec<Signed<T>>,
-    /// Measures of each number that signals measure: the number is their sum.
+    /// Spans of measures: the sum of a span's measures is one measured number of a signal.
     pub(super) measured_numbers: Vec<Span>,
     pub(super) feedback: Feedback<T>,
     pub(super) rotors: Vec<NaturalRotor<T>>,
@@ -61,37 +61,37 @@ pub struct NaturalModel<T: Real, const D: usize> {
     pub(super) constant_force: Vec<T>,
     pub(super) measures: Vec<MeasureElement<T>>,
     pub(super) body_elements: Vec<BodyElement<T>>,
-    /// Measures of all laws, those of laws on one body last.
+    /// Number of measures of all laws; the measures of laws on one body come last.
     pub(super) n_measures: usize,
     pub(super) tables: Tables<T>,
     pub(super) prescribed: Prescribed<T>,
     pub(super) n_memory: usize,
-    /// Owner of each remembered angle, with its place, in the order of the effects.
+    /// Owner and place of each remembered angle, in the order of the effects.
     pub(super) angles: Vec<(Owner, u32)>,
-    /// The first of the three measures of each rotation in space, with its owner.
+    /// Number of the first of the three measures of each rotation in space, with its owner.
     pub(super) rotations: Vec<(u32, Owner)>,
-    /// The measures of sums that have lines or twists, each with its owner.
+    /// Numbers of the measures of sums that have lines or twists, each with its owner.
     pub(super) lines: Vec<(u32, Owner)>,
     pub(super) point_forces: Vec<PointForce>,
     pub(super) torques: Vec<BodyTorque>,
     pub(super) row_owner: Vec<Owner>,
-    /// The entities that each row touches.
+    /// Entities that each row uses.
     pub(super) coordinate_sets: Vec<CoordinateSet>,
     pub(super) unknown_owner: Vec<Owner>,
     pub(super) clusters: Clusters<T>,
     pub(super) bases: Vec<Basis<T>>,
     /// First extended coordinate of each entity of the builder.
     pub(super) entity_at: Vec<u32>,
-    /// The unknown entities with a body each.
+    /// Unknown entities, each with one body that has it.
     pub(super) carried: Vec<Carried<T>>,
     /// The scene's length [m].
     pub(super) length: T,
     pub(super) incidence: Incidence,
-    /// Cursors at which parts begin, and the end.
+    /// Cursors at the beginning of each part, and at the end.
     pub(super) cursors: Vec<Cursor>,
-    /// The residual of every group has room on the stack.
+    /// Does the residual of every group fit on the stack?
     pub(super) is_small: bool,
-    /// There is one group, of all unknowns in their order, few enough that its rows are taken as dense.
+    /// Is the model one dense group with all unknowns in their order?
     pub(super) is_whole: bool,
 }
 
@@ -109,12 +109,12 @@ impl<T: Real, const D: usize> Cliques for NaturalModel<T, D> {
 }
 
 impl<T: Real, const D: usize> NaturalModel<T, D> {
-    /// The scene's length [m]: what tolerances are relative to.
+    /// Length of the scene [m], to which tolerances are relative.
     pub fn length(&self) -> T {
         self.length
     }
 
-    /// Guides, signals and courses of effects: they name the places of a state's inputs, and set them.
+    /// Prescribed motions of guides, signals and effects. They name the places of a state's inputs, and set them.
     #[must_use]
     pub fn prescribed(&self) -> &Prescribed<T> {
         &self.prescribed
@@ -126,7 +126,7 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         self.tables.codes()
     }
 
-    /// Number of elements behind each kind of row: (distance, dot product, linear, guided).
+    /// Number of constraint elements of each kind: (distance, dot product, linear, guided).
     #[must_use]
     pub fn n_elements_by_kind(&self) -> [usize; 4] {
         [self.distances.len(), self.dots.len(), self.linears.len(), self.guided.len()]
@@ -140,13 +140,13 @@ pub struct NaturalRotor<T> {
     pub effect: usize,
     /// Unknown of the rotor, which equals the joint's coordinate.
     pub unknown: usize,
-    /// Inertia of the rotor at the joint [kg m^2, of a slide kg].
+    /// Inertia of the rotor at the joint [kg m^2; for a slide kg].
     pub inertia: T,
-    /// The joint's coordinate, in the table of measures.
+    /// Place of the joint's coordinate in the table of coupling measures.
     pub(super) measure: usize,
 }
 
-/// An unknown entity with one of the bodies that carry it.
+/// Unknown entity, with one of the bodies that have it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Carried<T: Real> {
     /// First coordinate of the entity.
@@ -158,13 +158,13 @@ pub(crate) struct Carried<T: Real> {
 }
 
 impl<T: Real> Carried<T> {
-    /// The first coordinate of a point.
+    /// First coordinate of the entity if it is a point; `None` for a direction.
     pub(super) fn point(&self) -> Option<usize> {
         self.is_point.then_some(self.at as usize)
     }
 }
 
-/// The first of everything that belongs to a group and those after it.
+/// Place in every table at which a group begins.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Cursor {
     pub(super) group: usize,

@@ -1,4 +1,4 @@
-//! Natural coordinates written from the motions of the bodies, for formulations with other coordinates.
+//! Natural coordinates computed from the motions of the bodies, for formulations with other coordinates.
 
 use super::basis::Basis;
 use super::model::{Carried, NaturalModel};
@@ -10,7 +10,7 @@ use crate::model::{Model, State, Terms};
 use crate::rigid::RigidMotion;
 use alloc::vec::Vec;
 
-/// One carrier for each unknown entity: the first body that has it.
+/// Finds a body for each unknown entity: the first body that has it.
 pub(super) fn carriers<T: Real>(
     entities: &[Entity<T>],
     (clusters, bases, shared): (&Clusters<T>, &[Basis<T>], &[Vec<usize>]),
@@ -33,8 +33,8 @@ pub(super) fn carriers<T: Real>(
 }
 
 impl<T: Real, const D: usize> NaturalModel<T, D> {
-    /// Are the unknowns and the constraint rows of another model those of this one, in the same order? Models of a scene with and
-    /// without an effect mostly have the same ones: a state of one is then a state of the other. Constants may differ.
+    /// Does another model have the same unknowns and constraint rows as this one, in the same order? A state of one model is then a
+    /// state of the other. This usually holds for a scene with and without one of its effects. Constants may differ.
     #[must_use]
     pub fn has_same_coordinates(&self, other: &Self) -> bool {
         let m = self.n_constraints();
@@ -44,7 +44,7 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
             && (0..m).all(|row| self.owner_of_row(row) == other.owner_of_row(row))
     }
 
-    /// Writes positions, velocities and accelerations of all unknowns from the motions of the scene's bodies, one for each.
+    /// Writes positions, velocities and accelerations of all unknowns from `motions`, the motion of each body of the scene.
     ///
     /// Cost: two products of a rotation and a vector and four cross products for each point or direction; no allocation.
     pub fn write_motions(&self, motions: &[RigidMotion<T>], s: &mut State<T>) {
@@ -62,8 +62,8 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         }
     }
 
-    /// Writes the motions as [`write_motions`](Self::write_motions) does, and the unknowns of rotors. Measured angles continue from those that
-    /// the state remembers; the state has its time.
+    /// Writes the motions as [`write_motions`](Self::write_motions) does, and the unknowns of rotors. Measured angles are unwrapped
+    /// against the angles that the state remembers. The time is that of the state.
     pub fn take_motions(&self, motions: &[RigidMotion<T>], terms: &mut Terms<T>, s: &mut State<T>) {
         self.write_motions(motions, s);
         if !s.memory.is_empty() {
@@ -74,13 +74,13 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         self.write_rotors(s);
     }
 
-    /// The rigid clusters of the scene's bodies.
+    /// Rigid clusters of the scene's bodies.
     pub(crate) fn clusters(&self) -> &Clusters<T> {
         &self.clusters
     }
 
-    /// The size of every unknown: the scene's length of a point's coordinates, one of a direction's. Numbers divided by it do not
-    /// depend on the unit of length, nor do masses times its square.
+    /// Typical size of every unknown: the scene's length for coordinates of points, one for those of directions. Coordinates
+    /// divided by their size do not depend on the unit of length, nor do masses times its square.
     pub(crate) fn sizes(&self) -> Vec<T> {
         let mut sizes = alloc::vec![T::ONE; self.n_unknowns()];
         for at in self.carried.iter().filter_map(Carried::point) {

@@ -1,4 +1,4 @@
-//! Laws on one body in natural coordinates: each action is a row, the gradient of its rate.
+//! Laws on one body in natural coordinates. The row of an action is the gradient of its rate.
 //!
 //! ```text
 //! p = sum a_k e_k,  u_i the body's orthonormal directions,  w = 1/2 sum_i u_i x u_i'
@@ -13,13 +13,13 @@ use crate::laws::LawInputs;
 use crate::laws::body::{BodyMotion, MAX_ACTIONS, UnitWrench};
 use crate::laws::scalar::ScalarForce;
 
-/// A law on a body, with its rows' place in the Jacobian store and its measures' place among the measures.
+/// Law on a body, with the places of its rows in the Jacobian store and of its measures among all measures.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct BodyElement<T> {
     pub(crate) point: Span,
-    /// Directions of the body; empty ones where the law asks for no rotation.
+    /// Directions of the body; empty if the law needs no rotation.
     pub(crate) frame: [Span; 3],
-    /// The law's direction in those axes.
+    /// Direction of the law in the axes of the body.
     pub(crate) axis: [T; 3],
     pub(crate) law: BodyLaw<T>,
     pub(crate) measures: Span,
@@ -55,7 +55,7 @@ impl<T: Real> BodyElement<T> {
                 spin += cross(u, &rate) * T::HALF;
                 axis += *u * self.axis[i];
             }
-            // In the plane the third direction stays.
+            // The planar basis has no third direction, and the axis keeps its third component.
             if D == 2 {
                 axis[2] += self.axis[2];
             }

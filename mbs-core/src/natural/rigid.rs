@@ -1,10 +1,10 @@
-//! The rigid-body rows of all bodies, each written once.
+//! Rigid-body rows of all bodies. A row that several bodies imply is written once.
 //!
-//! A body has rows for the constant lengths and angles of its basis, at most ½ nb (nb - 1). Rows of another body on the same shared
-//! entities are left out, such as the unit length of a common axis. So is a length that follows for a body because one of the
-//! entities depends on its basis. Bodies come in file order, but after those that imply a row of theirs. Where a direction depends
-//! on the bases of two bodies, its unit length follows from both. The second leaves out the row of its basis that weighs most in
-//! that length.
+//! A body has rows for the constant lengths and angles of its basis, at most ½ nb (nb - 1) rows for nb basis entities. A row is
+//! left out if another body has it for the same shared entities, such as the unit length of a common axis. A row is also left out
+//! if another body implies it. Such a body has all entities of the row, at least one of them dependent on its basis. Bodies are
+//! treated in file order, but after the bodies that imply one of their rows. If a direction depends on the bases of two bodies, its
+//! unit length follows from both. The second body then leaves out the row of its basis with the largest weight in that length.
 
 use super::basis::Basis;
 use super::row_builder::RowDraft;
@@ -15,13 +15,14 @@ use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::vec;
 use alloc::vec::Vec;
 
-/// Least weight of a row in the unit length of a direction for which it may be left out [-]: rounding grows tenfold. Chosen, not tuned.
+/// Least weight of a row, in the unit length of a direction, for which it may be left out [-]: rounding errors grow tenfold.
+/// Chosen, not tuned.
 const WEIGHT: f64 = 0.1;
 
-/// Two vectors, each from an entity to an entity (`zero` for directions); a length has `zero` twice in the second place.
+/// Key of a row: two vectors, each between two entities (`zero` for directions). A length has `zero` twice in the second place.
 type Key = [usize; 4];
 
-/// A row of a basis: its key, and the places in the basis of the vectors it is about.
+/// Row of a basis, with its key and the places in the basis of the two vectors in it.
 #[derive(Debug)]
 struct Own<T: Real> {
     key: Key,
@@ -29,7 +30,7 @@ struct Own<T: Real> {
     places: [usize; 2],
 }
 
-/// The rows of every cluster.
+/// Rigid-body rows of every cluster.
 pub(super) fn rigid_rows<T: Real>(
     (bases, shared): (&[Basis<T>], &[Vec<usize>]),
     entities: &[Entity<T>],
@@ -58,12 +59,12 @@ pub(super) fn rigid_rows<T: Real>(
     rows
 }
 
-/// The unit length of a direction.
+/// Key of the unit length of a direction.
 fn length_of(e: usize, zero: usize) -> Key {
     [e.min(zero), e.max(zero), zero, zero]
 }
 
-/// Drops the row that weighs most in |u|^2 = sum c_i c_j v_i.v_j, if it weighs enough.
+/// Leaves out the row with the largest weight in |u|^2 = sum c_i c_j v_i.v_j, if that weight exceeds `WEIGHT`.
 fn leave_out<T: Real>(
     open: &mut Vec<&Own<T>>,
     basis: &Basis<T>,
@@ -95,7 +96,7 @@ fn leave_out<T: Real>(
     }
 }
 
-/// File order, but a cluster comes after those that imply a row of it; where they wait for each other, file order again.
+/// Order of the clusters: file order, but each one after the clusters that imply a row of it. File order also breaks circles.
 fn order<T: Real>(own: &[Vec<Own<T>>], implied: &BTreeMap<(usize, Key), Vec<usize>>) -> Vec<usize> {
     let n = own.len();
     let (mut waits, mut waiting) = (vec![0_usize; n], vec![Vec::new(); n]);
@@ -122,7 +123,8 @@ fn order<T: Real>(own: &[Vec<Own<T>>], implied: &BTreeMap<(usize, Key), Vec<usiz
     order
 }
 
-/// For each row of a cluster the other clusters that have all its entities, at least one of them as a dependent one.
+/// Maps each row of a cluster to the other clusters that imply it. They have all entities of the row, at least one as a dependent
+/// entity.
 fn implied_by<T: Real>(
     bases: &[Basis<T>],
     shared: &[Vec<usize>],
@@ -151,7 +153,7 @@ fn implied_by<T: Real>(
     implied
 }
 
-/// Constant lengths and angles of a basis.
+/// Rows of the constant lengths and angles of a basis.
 fn rows_of<T: Real>(basis: &Basis<T>, entities: &[Entity<T>], zero: usize) -> Vec<Own<T>> {
     let mut rows = Vec::new();
     let origin = basis.entities[0];

@@ -1,4 +1,4 @@
-//! Rollings as rows: each is a group of its own, over its body and what it rolls on.
+//! Rollings as constraint rows. Each rolling is a group over the rolling body and the body that it rolls on.
 
 use super::build::Builder;
 use super::group::Group;
@@ -69,7 +69,7 @@ impl<T: Real, const D: usize> Layout<T, D> {
 }
 
 impl<T: Real, const D: usize> NaturalModel<T, D> {
-    /// The rows of velocities without their gradients: where positions are put together, which they do not restrict.
+    /// Sets the gradients of the velocity rows to zero, for the assembly of positions, which these rows do not restrict.
     pub(crate) fn release_slips(&self, terms: &mut Terms<T>) {
         for rolling in &self.rollings {
             let rows = rolling.place.of_mut(&mut terms.jacobian);
@@ -79,7 +79,7 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         }
     }
 
-    /// phi = `unit` J v of the rows of velocities.
+    /// Writes phi = `unit` J v for the velocity rows.
     pub(super) fn write_slips(&self, v: &[T], unit: T, terms: &mut Terms<T>) {
         for (rolling, clique) in self.rollings.iter().zip(&self.rolling_cliques) {
             let gradients = rolling.place.of(&terms.jacobian);
@@ -93,7 +93,7 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         }
     }
 
-    /// A disc that lies flat on its plane.
+    /// First rolling whose disc is flat on its plane; `None` if there is none.
     pub(super) fn flat(&self, q: &[T]) -> Option<usize> {
         let flat = self.rollings.iter().find(|rolling| rolling.is_flat::<D>(&self.pool, q))?;
         match self.row_owner[flat.row as usize] {

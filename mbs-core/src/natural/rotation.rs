@@ -1,11 +1,11 @@
-//! The rotation vector of one body against another, measured by their directions.
+//! Rotation vector of one body relative to another, measured by their directions.
 //!
 //! ```text
 //! w = log(R1^T R2),   w_i' = g.(omega2 - omega1),   g = R1 (gradient of w_i)
 //! u_k' = omega x u_k:   dw_i/du_k = g x u_k / 2 in the second body, less in the first
 //! ```
 //!
-//! Within half a turn w is that of the matrix; beyond, it continues from the last one.
+//! Up to half a turn w follows from the matrix. Beyond, it continues from the last rotation vector.
 
 use crate::Real;
 use crate::algebra::{
@@ -13,11 +13,11 @@ use crate::algebra::{
 };
 use crate::elements::{Term, combine};
 
-/// The rotation vector of the same rotation as `w` that is nearest to `last`: its length may pass half a turn.
+/// Rotation vector of the same rotation as `w`, nearest to `last`. Its length may exceed half a turn.
 #[must_use]
 pub fn unwrap_rotation<T: Real>(w: &Vector<T, 3>, last: &Vector<T, 3>) -> Vector<T, 3> {
     let angle = norm(w);
-    // After whole turns the axis of a vanishing angle is rounding: the last one is kept.
+    // After whole turns, the axis of a vanishing angle is a rounding error, and the last axis is used.
     let axis = if angle <= T::EPSILON.sqrt() && norm(last) > T::PI { last } else { w };
     let length = norm(axis);
     if length == T::ZERO {
@@ -27,7 +27,7 @@ pub fn unwrap_rotation<T: Real>(w: &Vector<T, 3>, last: &Vector<T, 3>) -> Vector
     n * unwrap(n.dot(w), n.dot(last))
 }
 
-/// Component `number` of the rotation vector nearest to `last`, and its rate; its gradient is added to the row.
+/// Component `number` of the rotation vector nearest to `last`, and its rate. The gradient is added to the row.
 pub(super) fn rotation<T: Real, const D: usize>(
     frames: [[&[Term<T>]; 3]; 2],
     number: usize,
@@ -54,7 +54,7 @@ pub(super) fn rotation<T: Real, const D: usize>(
     (w[number], rate)
 }
 
-/// The angle that differs from `angle` by whole turns and is nearest to `last`.
+/// Angle that differs from `angle` by full turns and is nearest to `last` [rad].
 pub fn unwrap<T: Real>(angle: T, last: T) -> T {
     let turn = T::TWO * T::PI;
     let mut unwrapped = angle;

@@ -1,11 +1,11 @@
-//! Rotors: an unknown of its own for each, which equals the joint's coordinate, so that the mass matrix stays constant.
+//! Rotors: each has an unknown that equals the joint's coordinate, so that the mass matrix stays constant.
 //!
 //! ```text
-//! E = inertia x'^2 / 2,   x - q = 0          inertia: that of the rotor times the square of its ratio, x: the unknown
+//! E = inertia x'^2 / 2,   x - q = 0          inertia: the rotor's inertia times its squared ratio, x: the unknown
 //! ```
 //!
-//! Unknowns come in vectors: x is the first component of one, and rows hold the others at zero. The rotor's own angle is ratio x; x
-//! itself has the size of q, so that no tolerance depends on the ratio.
+//! Unknowns are components of vectors: x is the first component of one, and rows hold the other components at zero. The rotor's
+//! angle is ratio times x. The unknown x has the size of the joint coordinate q, so that no tolerance depends on the ratio.
 
 use super::build::Builder;
 use super::model::{NaturalModel, NaturalRotor};
@@ -66,7 +66,7 @@ impl<T: Real> Builder<'_, T> {
 }
 
 impl<T: Real, const D: usize> NaturalModel<T, D> {
-    /// Finds the unknowns and the measures of rotors, when all tables are filled.
+    /// Finds the unknowns and the measures of rotors, after all tables are filled.
     pub(super) fn place_rotors(&mut self, rotors: &[(usize, RotorInput<T>)]) {
         for &(entity, RotorInput { effect, inertia, .. }) in rotors {
             let of = |row: u32| self.row_owner.get(row as usize) == Some(&Owner::Effect(effect));
@@ -79,13 +79,13 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         }
     }
 
-    /// The rotors of the scene.
+    /// Rotors of the scene.
     #[must_use]
     pub fn rotors(&self) -> &[NaturalRotor<T>] {
         &self.rotors
     }
 
-    /// Writes the unknowns of rotors from the motions of the bodies, with the angles that the state remembers.
+    /// Writes the unknowns of rotors from the bodies' coordinates, with the angles that the state remembers.
     pub(crate) fn write_rotors(&self, s: &mut State<T>) {
         for rotor in &self.rotors {
             let Signed { sign, of } = &self.coupled_measures[rotor.measure];
@@ -101,7 +101,7 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         }
     }
 
-    /// The coordinates that have the size of the scene: those of rotors on slides.
+    /// Unknowns of rotors on slides, which are lengths of the size of the scene.
     pub(super) fn rotors_on_slides(&self) -> impl Iterator<Item = usize> + '_ {
         let measures = &self.coupled_measures;
         let is_slide = |rotor: &&NaturalRotor<T>| {

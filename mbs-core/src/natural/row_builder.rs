@@ -1,4 +1,4 @@
-//! A model being built: groups and rows in terms of entity numbers, before coordinates are numbered.
+//! Builders of groups and rows, which refer to entities by number before the coordinates are numbered.
 
 use super::basis::Combination;
 use super::sharing::{Entity, EntityKind};
@@ -12,7 +12,7 @@ use alloc::boxed::Box;
 use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
 
-/// A constraint row (or D of them) in terms of entities.
+/// Constraint row, or D rows, in terms of entities.
 #[derive(Debug, Clone)]
 pub(crate) enum RowDraft<T: Real> {
     Distance {
@@ -39,7 +39,8 @@ pub(crate) enum RowDraft<T: Real> {
         y: Combination<T>,
         guide: usize,
     },
-    /// The component `number` of a rotation vector whose first guide is `guide`: the first body's axes, and the two of the second.
+    /// Component `number` of a guided rotation vector, whose first guide is `guide`: three axes of the first body, two of the
+    /// second.
     GuidedRotation {
         x: [Combination<T>; 3],
         y: [Combination<T>; 2],
@@ -55,7 +56,8 @@ pub(crate) enum RowDraft<T: Real> {
     Rolling(Box<RollingDraft<T>>),
 }
 
-/// A rolling in terms of entities: of its body and of what it rolls on a point, then as many directions as the space has.
+/// Rolling in terms of entities. Each frame has a point and as many directions as the space: first the rolling body's, then the
+/// other's.
 #[derive(Debug, Clone)]
 pub(crate) struct RollingDraft<T: Real> {
     pub(crate) input: RollingInput<T>,
@@ -63,7 +65,7 @@ pub(crate) struct RollingDraft<T: Real> {
     pub(crate) frames: [(Combination<T>, Vec<Combination<T>>); 2],
 }
 
-/// A term of a coupling in terms of entities.
+/// Term of a coupling in terms of entities.
 #[derive(Debug, Clone)]
 pub(crate) struct CoupledDraft<T: Real> {
     pub(crate) factor: T,
@@ -93,14 +95,14 @@ impl<T: Real> MeasureDraft<T> {
     }
 }
 
-/// The combinations that the terms of a sum touch.
+/// Combinations that the terms of a sum use.
 fn combinations_of<T: Real>(terms: &[CoupledDraft<T>]) -> Vec<&Combination<T>> {
     let measures = terms.iter().flat_map(|term| &term.measures);
     measures.flat_map(MeasureDraft::combinations).collect()
 }
 
 impl<T: Real> RowDraft<T> {
-    /// The combinations whose entities the row touches.
+    /// Combinations of the row, whose entities it uses; none for a distance, which uses entities directly.
     pub(crate) fn combinations(&self) -> Vec<&Combination<T>> {
         match self {
             Self::Distance { .. } => Vec::new(),
@@ -116,7 +118,7 @@ impl<T: Real> RowDraft<T> {
         }
     }
 
-    /// Number of its rows in `dimension` dimensions.
+    /// Number of rows of the draft in `dimension` dimensions.
     pub(crate) fn n_rows(&self, dimension: usize) -> usize {
         match self {
             Self::Linear { .. } => dimension,
@@ -125,7 +127,7 @@ impl<T: Real> RowDraft<T> {
         }
     }
 
-    /// Every entity the row touches, in order, repeated ones included.
+    /// Entities that the row uses, in order, with repetitions.
     pub(crate) fn entities(&self) -> Vec<usize> {
         match self {
             Self::Distance { ends, .. } => ends.to_vec(),
@@ -197,17 +199,17 @@ impl<T: Real> EffectDraft<T> {
     }
 }
 
-/// A group being built.
+/// Group of a model that is being built.
 #[derive(Debug, Clone)]
 pub(crate) struct GroupDraft<T: Real> {
-    /// Owner of the group; of parts that were put together, that of the first one.
+    /// Owner of the group. After a merge, the owner of the first merged group.
     pub(crate) owner: Owner,
-    /// Entities with mass and their G.
+    /// Entities with mass, and their matrix G.
     pub(crate) mass: Option<(Vec<usize>, Vec<Coef<T>>)>,
-    /// Constant generalised forces of gravity and constant point forces: entity, force.
+    /// Constant generalised forces (gravity and constant point forces): entity and force [N].
     pub(crate) forces: Vec<(usize, Vector<T, 3>)>,
     pub(crate) rows: Vec<RowDraft<T>>,
-    /// Owner of each row; the group's where there is none.
+    /// Owner of each row; rows beyond the end of this list belong to the owner of the group.
     pub(crate) row_owners: Vec<Owner>,
     pub(crate) effects: Vec<EffectDraft<T>>,
 }
@@ -224,7 +226,7 @@ impl<T: Real> GroupDraft<T> {
         }
     }
 
-    /// The distinct entities of the group, unknown ones first, each part in order of first use.
+    /// Distinct entities of the group: unknown ones first, then constants, each part in order of first use.
     pub(crate) fn slots(&self, entities: &[Entity<T>]) -> Vec<usize> {
         let mut seen: Vec<usize> = Vec::new();
         let mut visit = |e: usize| {
@@ -246,7 +248,7 @@ impl<T: Real> GroupDraft<T> {
     }
 }
 
-/// The constant entities by value, so that a scene with many places on the ground finds each at once.
+/// Constant entities by their value, so that the search for a ground point does not scan all of them.
 #[derive(Debug, Default)]
 pub(crate) struct Constants {
     of_value: BTreeMap<(bool, [u64; 3]), Vec<usize>>,
@@ -262,7 +264,7 @@ impl Constants {
         new
     }
 
-    /// The first entity that is constant with value `at`, added if there is none.
+    /// First constant entity with the value `at`. A missing one is added.
     pub(crate) fn entity<T: Real>(
         &mut self,
         at: Vector<T, 3>,
@@ -270,7 +272,7 @@ impl Constants {
         entities: &mut Vec<Entity<T>>,
     ) -> usize {
         let candidates = self.of_value.entry(key(&at, kind)).or_default();
-        // A precision beyond f64 may have several values under one key.
+        // Values of a precision beyond f64 may differ and have the same key.
         if let Some(&found) = candidates.iter().find(|&&e| entities[e].at == at) {
             return found;
         }
@@ -280,13 +282,13 @@ impl Constants {
     }
 }
 
-/// Equal values have equal keys: both zeros are one.
+/// Key of a constant by its value. Equal values have equal keys: adding zero makes -0 and +0 equal.
 fn key<T: Real>(at: &Vector<T, 3>, kind: EntityKind) -> (bool, [u64; 3]) {
     let bits = |i: usize| (at[i].to_f64() + 0.0).to_bits();
     (kind == EntityKind::Point, [bits(0), bits(1), bits(2)])
 }
 
-/// a - b, entities merged, zero coefficients dropped.
+/// Difference a - b of combinations. Coefficients of one entity are added, and zero coefficients dropped.
 pub(crate) fn difference<T: Real>(a: &Combination<T>, b: &Combination<T>) -> Combination<T> {
     let mut result = a.clone();
     for &(e, c) in b {
@@ -299,7 +301,7 @@ pub(crate) fn difference<T: Real>(a: &Combination<T>, b: &Combination<T>) -> Com
     result
 }
 
-/// C^T F in three dimensions (planar coefficients turn the first two components).
+/// Product C^T F in three dimensions. A planar coefficient rotates the first two components.
 pub(crate) fn lifted<T: Real>(c: Coef<T>, f: &Vector<T, 3>) -> Vector<T, 3> {
     let c = c.conj();
     Vector::<T, 3>::new(f[0] * c.re - f[1] * c.im, f[0] * c.im + f[1] * c.re, f[2] * c.re)

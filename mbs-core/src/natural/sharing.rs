@@ -1,8 +1,9 @@
-//! Points and directions that bodies share, by union-find over (body, point) and (body, direction) in file order.
+//! Points and directions that bodies share, found by union-find over (body, point) and (body, direction) in file order.
 //!
-//! The rule: a joint names what its two bodies keep common. A point (direction) named again on the same body at the
-//! same place (parallel, either sign) within [`TOLERANCE`](crate::cluster::TOLERANCE) of the scene's length is the same feature. Features joined by
-//! any chain of joints are one *entity*. An entity that the ground has is a constant.
+//! The rule: a joint names the point or direction that its two bodies have in common. Two points of one body are the same feature
+//! if they are at the same place. Two directions are the same if they are parallel, with either sign. The
+//! [`TOLERANCE`](crate::cluster::TOLERANCE) is relative to the scene's length. Features that a chain of joints connects are one
+//! *entity*. An entity that includes a ground feature is a constant.
 
 use super::spatial_index::SpatialIndex;
 use crate::Real;
@@ -21,13 +22,13 @@ pub(crate) enum EntityKind {
     Direction,
 }
 
-/// A natural coordinate vector: a point or a unit direction of one or more bodies.
+/// Natural coordinate vector: a point or a unit direction of one or more bodies.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Entity<T: Real> {
     pub(crate) kind: EntityKind,
     /// Value in the reference configuration.
     pub(crate) at: Vector<T, 3>,
-    /// Fixed to the ground.
+    /// Is the entity fixed to the ground?
     pub(crate) is_constant: bool,
 }
 
@@ -38,17 +39,17 @@ struct Feature<T: Real> {
     at: Vector<T, 3>,
 }
 
-/// The shared entities and who has them.
+/// Shared entities, and the clusters that have them.
 #[derive(Debug)]
 pub(crate) struct Sharing<T: Real> {
     /// Entities that bodies share.
     pub(crate) entities: Vec<Entity<T>>,
-    /// For each cluster, the entities it shares, in file order.
+    /// Entities that each cluster shares, in file order.
     pub(crate) of_cluster: Vec<Vec<usize>>,
 }
 
 impl<T: Real> Sharing<T> {
-    /// Finds what the joints of a scene make common.
+    /// Finds the points and directions that the joints of a scene make common.
     pub(crate) fn new(scene: &Scene<T>, clusters: &Clusters<T>, length: T) -> Self {
         let mut table = Table {
             features: Vec::new(),
@@ -71,7 +72,7 @@ impl<T: Real> Sharing<T> {
     }
 }
 
-/// Point and direction that a joint keeps common, where it has them.
+/// Point and direction that the bodies of a joint have in common, if the joint has them.
 fn common<T: Real>(
     joint: &Joint<T>,
     dimension: Dimension,
@@ -84,9 +85,9 @@ fn common<T: Real>(
 
 struct Table<T: Real> {
     features: Vec<Feature<T>>,
-    /// The feature that each one hangs from; itself: the root of its class.
+    /// Parent of each feature in the union-find forest; the root of a class is its own parent.
     parent: Vec<usize>,
-    /// Points and directions of each cluster; the ground's last.
+    /// Points and directions of each cluster; the ground is last.
     by_owner: Vec<[SpatialIndex; 2]>,
     tolerance: T,
 }
@@ -126,7 +127,7 @@ impl<T: Real> Table<T> {
         })
     }
 
-    /// One entity for each class; the ground's value where it is among the owners.
+    /// Makes one entity of each class. If the ground is among the owners, the entity has the ground's value.
     fn collect(mut self, n_clusters: usize) -> Sharing<T> {
         let mut entities: Vec<Entity<T>> = Vec::new();
         let mut of_root = alloc::vec![usize::MAX; self.features.len()];

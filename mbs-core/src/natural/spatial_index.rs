@@ -1,31 +1,32 @@
-//! The first of many places that is nearly a given one, without a look at all of them.
+//! Search for the first of many points near a given one, without comparing all of them.
 
 use crate::Real;
 use crate::algebra::Vector;
 use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
 
-/// Most places that are compared one by one [-]; more are sorted into cells. Chosen, not tuned: the result is the same.
+/// Largest number of points that are compared one by one [-]. More points are sorted into cells, with the same result. Chosen, not
+/// tuned.
 const MAX_UNSORTED: usize = 16;
 
-/// Numbers of places that the caller knows, by where they are.
+/// Numbers of points, sorted by where the points are. The caller knows the points.
 #[derive(Debug, Clone)]
 pub struct SpatialIndex {
-    /// The first [`MAX_UNSORTED`], in order.
+    /// Numbers of the first [`MAX_UNSORTED`] points, in order.
     few: Vec<usize>,
-    /// All of them by cell, each in order, once there are more.
+    /// Numbers of all points by cell, each cell in order. Empty until there are more than `MAX_UNSORTED` points.
     cells: BTreeMap<[i64; 3], Vec<usize>>,
-    /// Edge of a cell: four times the distance that counts as near, so that eight cells hold all that is near.
+    /// Edge of a cell: four times the tolerance, so that eight cells contain all points within it.
     edge: f64,
 }
 
 impl SpatialIndex {
-    /// For places that are one when no component differs by more than `tolerance`.
+    /// Creates an empty index of points that count as equal if no component differs by more than `tolerance`.
     pub fn new<T: Real>(tolerance: T) -> Self {
         Self { few: Vec::new(), cells: BTreeMap::new(), edge: tolerance.to_f64() * 4.0 }
     }
 
-    /// The smallest number that is `same`, of those near one of `around`. `place` is the place of a number.
+    /// Smallest number for which `same` holds, among the points near one of `around`. `place` gives the point of a number.
     pub fn first<T: Real>(
         &mut self,
         around: &[Vector<T, 3>],
@@ -42,7 +43,7 @@ impl SpatialIndex {
         }
         let mut best: Option<usize> = None;
         for at in around {
-            // Half an edge to each side is more than what counts as near, rounding included.
+            // Half an edge to each side is more than the tolerance, with rounding.
             let [low, high] = [-0.5, 0.5].map(|side| self.cell(at, side));
             for x in [low[0], high[0]] {
                 for y in [low[1], high[1]] {
@@ -57,7 +58,7 @@ impl SpatialIndex {
         best
     }
 
-    /// Adds a number, larger than those before, and its place.
+    /// Adds a point and its number, which is larger than all numbers before.
     pub fn push<T: Real>(&mut self, i: usize, at: &Vector<T, 3>) {
         if self.few.len() < MAX_UNSORTED {
             self.few.push(i);
@@ -70,7 +71,7 @@ impl SpatialIndex {
         self.cells.entry(self.cell(at, 0.0)).or_default().push(i);
     }
 
-    /// The cell of a place moved by `side` edges along each axis. Places too far for whole numbers share the last cell.
+    /// Cell of a point that is moved by `side` edges along each axis. Points beyond the range of `i64` use the outermost cells.
     #[allow(clippy::cast_possible_truncation, reason = "floats saturate when they are cast")]
     fn cell<T: Real>(&self, at: &Vector<T, 3>, side: f64) -> [i64; 3] {
         core::array::from_fn(|i| libm::floor(at[i].to_f64() / self.edge + side) as i64)

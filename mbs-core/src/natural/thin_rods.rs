@@ -1,4 +1,4 @@
-//! Spatial rods that may stay two points: only balls hold them, every point used lies on them, nothing needs their spin.
+//! Spatial rods that two points describe: only ball joints hold them, every used point is on them, and nothing needs their spin.
 
 use crate::Real;
 use crate::actions::{Need, needs};
@@ -10,12 +10,12 @@ use crate::scene::BodyId;
 use alloc::vec;
 use alloc::vec::Vec;
 
-/// The rods of a scene that nothing has asked for more than two points. One pass over the scene asks for all.
+/// Rods of a scene that two points may describe, because nothing needs more. One pass over the scene checks every need.
 #[derive(Debug)]
 pub(super) struct ThinRods<T: Real> {
-    /// Ends of each body that is such a rod.
+    /// Ends of each body that is a thin rod; `None` for other bodies.
     ends: Vec<Option<[Vector<T, 3>; 2]>>,
-    /// Distance from the line that counts as on it [m].
+    /// Largest distance from the line at which a point counts as on it [m].
     tolerance: T,
 }
 
@@ -38,13 +38,13 @@ impl<T: Real> ThinRods<T> {
         rods
     }
 
-    /// Ends of a cluster that stays two points.
+    /// Ends of a cluster that two points describe.
     pub(super) fn of_cluster(&self, cluster: &Cluster<T>) -> Option<&[Vector<T, 3>; 2]> {
         let of_all = cluster.bodies.iter().map(|body| self.ends[*body].as_ref());
         of_all.reduce(|first, next| first.and(next))?
     }
 
-    /// A point of a body is used: it must lie on the line.
+    /// Notes that a point of a body is used. The body stays a thin rod only if the point is on its line.
     fn point(&mut self, body: BodyId, at: &[T; 3]) {
         let BodyId::Body(b) = body else { return };
         let Some(ends) = &self.ends[b] else { return };
@@ -56,7 +56,7 @@ impl<T: Real> ThinRods<T> {
         }
     }
 
-    /// The whole rotation of a body is used.
+    /// Notes that the whole rotation of a body is used, so that the body is no thin rod.
     fn rotation(&mut self, body: BodyId) {
         if let BodyId::Body(b) = body {
             self.ends[b] = None;
@@ -64,7 +64,7 @@ impl<T: Real> ThinRods<T> {
     }
 
     fn ask_joints(&mut self, scene: &Scene<T>) {
-        // a free joint has no row
+        // a free joint has no constraint row
         for joint in scene.joints.iter().filter(|joint| !joint.kind.is_free()) {
             for (side, body) in joint.bodies.into_iter().enumerate() {
                 if joint.is_ball_at(side) {
@@ -86,12 +86,12 @@ impl<T: Real> ThinRods<T> {
             Need::Coordinates(joint, _) => {
                 scene.joints[*joint].bodies.into_iter().for_each(|body| self.rotation(body));
             }
-            // of a rod that of its line
+            // a rod gives the orientation of its line
             Need::Orientation(_) => {}
         }
     }
 
-    /// A direction of a body is used: along the line of a rod it is that of two points.
+    /// Notes that a direction of a body is used. A direction along the line of a rod follows from its two points.
     fn along(&mut self, body: BodyId, axis: &[T; 3]) {
         let BodyId::Body(b) = body else { return };
         let Some([from, to]) = self.ends[b] else { return };

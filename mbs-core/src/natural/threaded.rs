@@ -1,4 +1,4 @@
-//! The evaluation of a [`NaturalModel`] by a team, part by part; and the model that brings its team along.
+//! Evaluation of a [`NaturalModel`] by a thread team, part by part, and a model together with its team.
 
 use super::element_ranges::Out;
 use super::forces::{add_terms, add_torque};
@@ -12,7 +12,8 @@ use crate::model::{Model, Terms};
 use crate::team::{Team, sum};
 
 impl<T: Real, const D: usize> NaturalModel<T, D> {
-    /// This model with a team that its evaluation, and the vectors of a step, are shared among. Same bits for every team.
+    /// Combines this model with a thread team. The team evaluates the model and works on the vectors of a step. Results are bitwise
+    /// equal for every team.
     pub fn with_team<'a, W: Team>(&'a self, team: &'a W) -> Threaded<'a, T, D, W> {
         Threaded { model: self, team }
     }
@@ -213,7 +214,7 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         twice * T::HALF
     }
 
-    /// v^T M v of a group of `K` unknowns with mass; `K` = 0: of any number, known at run time only.
+    /// Twice the kinetic energy, v^T M v, of a group of `K` unknowns with mass. With `K` = 0 the number is known at run time only.
     fn twice_kinetic_energy<const K: usize>(&self, group: &Group, v: &[T]) -> T {
         let (g, clique) = (group.mass.of(&self.mass), group.clique.of(&self.cliques));
         let k = if K == 0 { clique.len() } else { K };
@@ -248,8 +249,8 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
     }
 }
 
-/// rates = J x of a group of all `K` unknowns in their order, summed one by one. With two sums side by side the energy of
-/// `two-four-bars` drifts by half more in ten million steps of 1e-6 s.
+/// Computes rates = J x of a group that has all `K` unknowns in their order. Products are added in sequence: with two parallel
+/// sums, the energy of `two-four-bars` drifts 1.5 times as much in ten million steps of 1e-6 s.
 #[inline(always)]
 fn multiply_dense<T: Real, const K: usize>(
     group: &Group,

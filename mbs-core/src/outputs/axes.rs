@@ -1,4 +1,4 @@
-//! The axes in which an output has its components.
+//! Axes in which an output has the components of its vectors.
 //!
 //! ```text
 //! x_f = R_f^T R_o x_o   (o: the body whose axes the quantity has by itself, f: the required one)
@@ -14,18 +14,18 @@ use crate::natural::NaturalModel;
 use alloc::vec::Vec;
 use core::ops::Range;
 
-/// The vectors of an output, turned into the axes of a body.
+/// Rotation of the vectors of an output into the axes of a body.
 #[derive(Debug, Clone)]
 pub(super) struct OutputAxes<T: Real, const D: usize> {
-    /// The axes that its quantity has by itself.
+    /// Axes of the quantity before the rotation.
     own: Frame<T, D>,
     required: Frame<T, D>,
-    /// Places of the vectors among the components; what is no vector stays.
+    /// Places of the vectors among the components. Other components do not change.
     vectors: Vec<Range<usize>>,
 }
 
 impl<T: Real, const D: usize> OutputAxes<T, D> {
-    /// Axes of an output; `None` where it keeps the axes of its quantity.
+    /// Rotation for an output; `None` if the output keeps the axes of its quantity.
     pub(super) fn new(
         output: &Output<T>,
         scene: &Scene<T>,
@@ -40,7 +40,7 @@ impl<T: Real, const D: usize> OutputAxes<T, D> {
         })
     }
 
-    /// Turns the components at an instant. Cost: two rotation matrices, their product with each vector.
+    /// Rotates the components at one instant. Cost: two rotation matrices, and their product with each vector.
     pub(super) fn turn(&self, state: &State<T>, components: &mut [T]) {
         let [own, required] = [&self.own, &self.required].map(|frame| frame.rotation(&state.q));
         let turn = required.transpose() * own;

@@ -1,9 +1,9 @@
-//! Instants at which one-sided effects make and break contact, interpolated within steps.
+//! Instants at which one-sided effects begin and end contact, interpolated within steps.
 //!
-//! Where a gap has changed its sign over a step, the instant is the root of the cubic through values and rates at both ends.
-//! Steps of a fixed length are not cut there: the laws begin and end without a jump, and the instant is for the record. Its
-//! error is that of the states at both ends over the speed, and the h^3 that the kink of the gap's third derivative leaves.
-//! A contact shorter than a step, which no end of a step has seen and no force has answered, is not listed.
+//! If a gap changes its sign over a step, the instant is the root of the cubic through values and rates at both ends. Steps of fixed length
+//! do not end there, since the laws begin and end without a jump; the instant is only recorded. Its error has two parts. One is the error
+//! of the states at both ends, divided by the speed. The other is of order h^3, from the discontinuity of the gap's third derivative. A
+//! contact between two ends of a step is not found: no force acted in it.
 
 use super::cubic::Cubic;
 use super::load::{Gap, Loads, MOST_GAPS};
@@ -14,28 +14,28 @@ use crate::natural::{ModelError, NaturalModel};
 use alloc::vec;
 use alloc::vec::Vec;
 
-/// Most instants kept of a run [-]: their memory, 32 kB, is taken at its start. Chosen, not tuned.
+/// Largest number of instants that a run stores [-]. Their memory, 32 kB, is allocated at the start. Chosen, not tuned.
 pub const MOST_INSTANTS: usize = 1000;
 
-/// A contact that is made or broken.
+/// Beginning or end of a contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Instant {
     /// Time of the instant [s].
     pub t: f64,
     /// Index of the effect in the scene.
     pub effect: usize,
-    /// End of a limit: 0 the lower, 1 the upper; 0 for other effects.
+    /// Number of the gap: for a limit 0 at the lower end, 1 at the upper end; 0 for other effects.
     pub end: usize,
-    /// Is the contact made, and not broken?
+    /// Does the contact begin? Otherwise it ends.
     pub makes: bool,
 }
 
-/// Watches the gaps of bumpers, limits and tires from step to step.
+/// Recorder of contacts: it compares the gaps of bumpers, limits and tires from step to step.
 #[derive(Debug, Clone)]
 pub struct Contacts<T: Real, const D: usize> {
     loads: Loads<T, D>,
     effects: Vec<usize>,
-    /// The gaps at the end of the last step.
+    /// Gaps of each effect at the end of the last step.
     last: Vec<[Gap<T>; MOST_GAPS]>,
     t: f64,
     instants: Vec<Instant>,
@@ -43,10 +43,10 @@ pub struct Contacts<T: Real, const D: usize> {
 }
 
 impl<T: Real, const D: usize> Contacts<T, D> {
-    /// Prepares the one-sided effects of a scene; without any, nothing is ever evaluated.
+    /// Prepares the one-sided effects of a scene. Without any, nothing is evaluated.
     ///
     /// # Errors
-    /// [`ModelError`] as for the model.
+    /// [`ModelError`] as when the model is built.
     pub fn new(scene: &Scene<T>, model: &NaturalModel<T, D>) -> Result<Self, ModelError> {
         let (loads, effects) = Loads::one_sided(scene, model)?;
         let last = vec![[Gap::default(); MOST_GAPS]; effects.len()];
@@ -54,7 +54,7 @@ impl<T: Real, const D: usize> Contacts<T, D> {
         Ok(Self { loads, effects, last, t: 0.0, instants: Vec::with_capacity(most), left_out: 0 })
     }
 
-    /// Takes the gaps at the state from which a run starts.
+    /// Evaluates the gaps at the state from which a run starts.
     pub fn start(&mut self, state: &State<T>) {
         if self.effects.is_empty() {
             return;
@@ -66,7 +66,7 @@ impl<T: Real, const D: usize> Contacts<T, D> {
         self.t = state.t.to_f64();
     }
 
-    /// Takes the gaps at the end of a step, and lists what has changed since the last.
+    /// Evaluates the gaps at the end of a step, and records the contacts that began or ended in it.
     ///
     /// Cost: one evaluation of each one-sided effect, and some fifty operations for each change; no allocation.
     pub fn watch(&mut self, state: &State<T>) {
@@ -92,12 +92,12 @@ impl<T: Real, const D: usize> Contacts<T, D> {
             }
             *last = gaps;
         }
-        // One step's changes come in the order of the effects.
+        // The changes of a step are recorded by effect first, and then sorted by time.
         self.instants[first..].sort_unstable_by(|a, b| a.t.total_cmp(&b.t));
         self.t = to;
     }
 
-    /// Restores a state at which these instants were known, and this number of more left out.
+    /// Restores a state, with the instants recorded until then and the number of instants that were not stored.
     pub fn resume(&mut self, state: &State<T>, instants: &[Instant], left_out: u64) {
         self.start(state);
         self.instants.clear();
@@ -105,13 +105,13 @@ impl<T: Real, const D: usize> Contacts<T, D> {
         self.left_out = left_out;
     }
 
-    /// The instants so far, in order; at most [`MOST_INSTANTS`].
+    /// Recorded instants in the order of time; at most [`MOST_INSTANTS`].
     #[must_use]
     pub fn instants(&self) -> &[Instant] {
         &self.instants
     }
 
-    /// How many more there were.
+    /// Number of instants that were not stored.
     #[must_use]
     pub fn left_out(&self) -> u64 {
         self.left_out

@@ -1,4 +1,4 @@
-//! Joint coordinates measured at a state: the same directions and signs that hold them at the start.
+//! Joint coordinates measured at a state. Directions and signs are those of the initial conditions.
 
 use super::frame::Frame;
 use super::wrench::Wrench;
@@ -12,27 +12,27 @@ use crate::scene::{BodyId, Joint, JointId};
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 
-/// Turn in one step from which positions and rates are compared [rad]. The trapezoidal rule in natural coordinates turns by 2 atan(x/2) for x,
-/// 0.7 % less at this.
+/// Rotation in one step above which positions and rates are compared [rad]. If rates give x, the trapezoidal rule in natural coordinates
+/// rotates by 2 atan(x/2), which is 0.7 % less at this angle.
 const LARGE_TURN: f64 = 0.3;
-/// Largest relative difference of such a turn by positions and by rates [-]: above the 0.7 % of the rule.
+/// Largest relative difference between the rotations by positions and by rates [-]: slightly above the 0.7 % of the rule.
 const MISFIT: f64 = 1e-2;
 
-/// One coordinate of a joint, or the three of a turn; or the four of a body's orientation.
+/// One coordinate of a joint, three components of a rotation vector, or four of a quaternion.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Coordinate<T: Real, const D: usize> {
-    /// `sign` times the angle of y in the frame x1, x2. It is one of two, as in a universal joint, or the only one.
+    /// Angle of y in the frame x1, x2, times `sign`. `is_one_of_two`: the joint has two angles, as a universal joint.
     Angle { x1: Affine<T, D>, x2: Affine<T, D>, y: Affine<T, D>, sign: T, is_one_of_two: bool },
     /// Slide x.y along the direction y.
     Slide { x: Affine<T, D>, y: Affine<T, D> },
-    /// Rotation of the second body against the first.
+    /// Rotation of the second body relative to the first.
     Turn { frames: Box<[Frame<T, D>; 2]> },
     /// Rotation of a body as a unit quaternion, its scalar part first.
     Quaternion { frame: Box<Frame<T, D>> },
 }
 
 impl<T: Real, const D: usize> Coordinate<T, D> {
-    /// The coordinates of a joint in the order of its numbers.
+    /// Coordinates of a joint in the order of their numbers.
     pub(super) fn of_joint(
         scene: &Scene<T>,
         model: &NaturalModel<T, D>,
@@ -42,7 +42,7 @@ impl<T: Real, const D: usize> Coordinate<T, D> {
         freedoms.map(|&freedom| Self::of_freedom(scene, model, (joint, freedom))).collect()
     }
 
-    /// A coordinate of a joint by its number, with the joint's place on one of its bodies; `None` where no number measures it.
+    /// Coordinate of a joint by its number, with the joint's point on the body `carrier`. `None` for a component of a rotation vector.
     pub(super) fn carried(
         (scene, model): (&Scene<T>, &NaturalModel<T, D>),
         (joint, number): (JointId, usize),
@@ -55,7 +55,7 @@ impl<T: Real, const D: usize> Coordinate<T, D> {
         Some((Self::of_freedom(scene, model, (joint, freedom)), place))
     }
 
-    /// Coordinate of one freedom.
+    /// Coordinate that measures one freedom of a joint.
     pub(super) fn of_freedom(
         scene: &Scene<T>,
         mut model: &NaturalModel<T, D>,
@@ -75,7 +75,7 @@ impl<T: Real, const D: usize> Coordinate<T, D> {
         }
     }
 
-    /// Coordinate that stays zero: points do not turn.
+    /// Coordinate that remains zero, for a joint of a point mass without orientation.
     fn none(model: &NaturalModel<T, D>, freedom: Freedom) -> Self {
         if freedom == Freedom::Ball {
             return Self::Turn { frames: Box::new([Frame::Point, Frame::Point]) };
@@ -84,7 +84,7 @@ impl<T: Real, const D: usize> Coordinate<T, D> {
         Self::Slide { x: zero.clone(), y: zero }
     }
 
-    /// The angle of the second body against the first, in the plane.
+    /// Angle of the second body relative to the first, in a planar scene.
     pub(super) fn between(model: &NaturalModel<T, D>, [first, second]: [BodyId; 2]) -> Self {
         let [x, y] = [0, 1].map(|i| unit::<T>(i).into());
         Self::Angle {
@@ -96,17 +96,17 @@ impl<T: Real, const D: usize> Coordinate<T, D> {
         }
     }
 
-    /// The rotation vector of the second body against the first, in space.
+    /// Rotation vector of the second body relative to the first, in a spatial scene.
     pub(super) fn turn(model: &NaturalModel<T, D>, bodies: [BodyId; 2]) -> Self {
         Self::Turn { frames: Box::new(bodies.map(|body| Frame::new(model, body))) }
     }
 
-    /// The rotation of a body in space against the reference configuration.
+    /// Quaternion of a body relative to the reference configuration, in a spatial scene.
     pub(super) fn quaternion(model: &NaturalModel<T, D>, body: BodyId) -> Self {
         Self::Quaternion { frame: Box::new(Frame::new(model, body)) }
     }
 
-    /// How many numbers it has.
+    /// Number of components of the coordinate.
     pub(super) fn len(&self) -> usize {
         match self {
             Self::Angle { .. } | Self::Slide { .. } => 1,
@@ -115,12 +115,12 @@ impl<T: Real, const D: usize> Coordinate<T, D> {
         }
     }
 
-    /// Is it one that turns more than once?
+    /// Is it an angle, which may exceed a whole turn?
     pub(super) fn is_angle(&self) -> bool {
         matches!(self, Self::Angle { .. })
     }
 
-    /// Writes what a rotation vector follows its turns by: the angular velocity in the axes of the first body; nothing of the others.
+    /// Writes the angular velocity in axes of the first body, which predicts a rotation vector. It does nothing for other coordinates.
     pub(super) fn turning(&self, q: &[T], v: &[T], out: &mut [T]) {
         if let Self::Turn { frames } = self {
             let omega = frames[1].turning(q, v) - frames[0].turning(q, v);
@@ -133,7 +133,7 @@ impl<T: Real, const D: usize> Coordinate<T, D> {
         matches!(self, Self::Turn { .. })
     }
 
-    /// Replaces the last value by the present one, with the turns that lead nearest to the `expected` value.
+    /// Replaces the last value by the present one, with the number of whole turns that is nearest to the `expected` value.
     pub(super) fn track(&self, q: &[T], expected: &[T], last: &mut [T]) {
         match self {
             Self::Angle { .. } => last[0] = unwrap(self.angle_at(q), expected[0]),
@@ -156,15 +156,16 @@ impl<T: Real, const D: usize> Coordinate<T, D> {
         }
     }
 
-    /// The angle, within half a turn of zero; zero of what is none.
+    /// Angle within half a turn of zero; zero for other coordinates.
     fn angle_at(&self, q: &[T]) -> T {
         let Self::Angle { x1, x2, y, sign, .. } = self else { return T::ZERO };
         let y = y.value(q);
         x2.value(q).dot(&y).atan2(x1.value(q).dot(&y)) * *sign
     }
 
-    /// The force at the joint's place on the second body and the moment on it, opposite on the first, that do work on this coordinate alone
-    /// [- and 1]: on a slide the force along it, on an angle the moment (C y x x2 - S y x x1)/r^2. Zero of a rotation.
+    /// Wrench on the second body at the joint's point that does work on this coordinate alone, for an effort of one. The first body has the
+    /// opposite wrench. For a slide it is the force along it, for an angle the moment (C y x x2 - S y x x1)/r^2. It is zero for a rotation
+    /// vector.
     pub(super) fn direction(&self, q: &[T]) -> Wrench<T> {
         let mut wrench = Wrench::zero();
         match self {
@@ -175,7 +176,7 @@ impl<T: Real, const D: usize> Coordinate<T, D> {
         wrench
     }
 
-    /// The gradient of the angle by the rotation of the second body against the first, global axes; zero of what is no angle.
+    /// Gradient of the angle by the rotation of the second body relative to the first, in global axes. It is zero for other coordinates.
     ///
     /// ```text
     /// y x (C x2 - S x1) / (C^2 + S^2),   C = x1.y,   S = x2.y
@@ -187,12 +188,12 @@ impl<T: Real, const D: usize> Coordinate<T, D> {
         cross(&y, &(x2 * c - x1 * s)) * (T::ONE / (c * c + s * s))
     }
 
-    /// Angle that is expected a time of `dt` [s] after `last`, with these rates at both ends: where the mean rate leads.
+    /// Angle to be expected a time `dt` [s] after `last`, from the mean of the rates at both ends.
     pub(super) fn expected(last: T, [before, now]: [T; 2], dt: T) -> T {
         last + (before + now) * dt * T::HALF
     }
 
-    /// Turn of an angle between two states by its rates, if it is a large one and its positions differ.
+    /// Rotation between two states by the rates, if it is large and differs from the rotation by positions.
     pub(super) fn lost_turn(&self, [from, to]: [&State<T>; 2]) -> Option<T> {
         if !self.is_angle() {
             return None;
@@ -209,7 +210,7 @@ impl<T: Real, const D: usize> Coordinate<T, D> {
         is_lost.then_some(expected)
     }
 
-    /// Writes the rates at (q, v).
+    /// Writes the rates of the coordinate at (q, v).
     pub(super) fn rates(&self, q: &[T], v: &[T], out: &mut [T]) {
         match self {
             Self::Angle { x1, x2, y, sign, .. } => {
@@ -226,21 +227,21 @@ impl<T: Real, const D: usize> Coordinate<T, D> {
                 let omega = frames[1].turning(q, v) - frames[0].turning(q, v);
                 out.copy_from_slice(omega.as_slice());
             }
-            // its rate is the angular velocity of the body
+            // the rate of an orientation is the angular velocity of the body, another output
             Self::Quaternion { .. } => out.fill(T::ZERO),
         }
     }
 
-    /// Writes the accelerations at a state.
+    /// Writes the accelerations of the coordinate at a state.
     pub(super) fn accelerations(&self, state: &State<T>, out: &mut [T]) {
         match self {
-            // the derivative of its rate
+            // the acceleration is the derivative of the angular velocity
             Self::Turn { .. } => self.rates(&state.q, &state.a, out),
             _ => out.fill(self.motion(state)[1]),
         }
     }
 
-    /// Rate and acceleration of an angle or a slide; zero of others.
+    /// Rate and acceleration of an angle or a slide; zero for other coordinates.
     fn motion(&self, state: &State<T>) -> [T; 2] {
         let State { q, v, a, .. } = state;
         // x.y, its rate and its second derivative
@@ -268,12 +269,13 @@ impl<T: Real, const D: usize> Coordinate<T, D> {
         }
     }
 
-    /// Writes what a wrench of the first body on the second, at the joint's place there, does on the coordinate: its work as this coordinate
-    /// alone changes.
+    /// Writes the generalised force on the coordinate: the work of a wrench per change of this coordinate alone. The wrench is that of the
+    /// first body on the second, at the joint's point on the second body.
     pub(super) fn efforts(&self, q: &[T], wrench: &Wrench<T>, out: &mut [T]) {
         match self {
             Self::Turn { .. } => out.copy_from_slice(wrench.moment.as_slice()),
-            // About the axis. The gradient of the angle leads elsewhere, where the other angle's axis is oblique to this one.
+            // The effort is the moment about the axis. The gradient of the angle has another direction if the axes are oblique to each
+            // other.
             Self::Angle { x1, x2, is_one_of_two: true, .. } => {
                 let [x1, x2] = [x1, x2].map(|x| raised(&x.value(q)));
                 out.fill(wrench.moment.dot(&cross(&x1, &x2)));
@@ -286,15 +288,15 @@ impl<T: Real, const D: usize> Coordinate<T, D> {
     }
 }
 
-/// Rate and acceleration of a coordinate of a joint.
+/// Evaluator of the rate and acceleration of a joint's coordinate.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CoordinateMotion<T: Real, const D: usize> {
     coordinate: Coordinate<T, D>,
 }
 
 impl<T: Real, const D: usize> CoordinateMotion<T, D> {
-    /// Of a joint, by the coordinate's number, or else of its [default](crate::scene::JointKind::default_coordinate); `None` where it has
-    /// none.
+    /// Prepares a coordinate of a joint by its number. Without a number it is the [default](crate::scene::JointKind::default_coordinate).
+    /// `None` if the joint has no such coordinate.
     #[must_use]
     pub fn new(
         scene: &Scene<T>,

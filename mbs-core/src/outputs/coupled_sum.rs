@@ -1,4 +1,4 @@
-//! The sum of a coupling at a state, and what the coupling does to the bodies.
+//! The sum of a coupling at a state, and the wrenches of the coupling on bodies.
 //!
 //! ```text
 //! sum    = sum_k c_k f_k(m_k),   its rate sum_k c_k f_k' m_k'
@@ -9,7 +9,8 @@
 //! length   force w n on the second point, -w n on the first:  n from the first to the second
 //! ```
 //!
-//! Of wheels with a pitch point the force of the teeth acts in place of the moments, of a belt with a pretension that of its strands.
+//! c_k are factors, f_k curves, m_k measures. lambda is the effort. For wheels with a pitch point the force of the teeth replaces the
+//! moments. For a belt with a pretension the forces of its strands do.
 
 use super::coordinate::Coordinate;
 use super::drawn_force::DrawnForce;
@@ -32,25 +33,25 @@ use alloc::boxed::Box;
 use alloc::vec;
 use alloc::vec::Vec;
 
-/// The sum of a coupling.
+/// The sum of a coupling, or the sum of an effect.
 #[derive(Debug, Clone)]
 pub(super) struct CoupledSum<T: Real, const D: usize> {
     terms: Vec<SumTerm<T, D>>,
-    /// Relation of the terms that is held; `None`: their sum.
+    /// Relation of the terms; `None`: the coupling is their sum.
     relation: Option<Code<dyn Relation>>,
-    /// The moving bodies that it acts on, ascending.
+    /// Moving bodies on which the coupling acts, in ascending order.
     bodies: Vec<usize>,
-    /// The largest force, or moment over the scene's length, of a term without a curve at an effort of one.
+    /// Largest force, or moment over the scene's length, of a term without a curve for an effort of one.
     scale: T,
-    /// Force of the teeth in place of the terms' couples, where the wheels have a pitch point.
+    /// Force of the teeth, which replaces the moments of the terms if the wheels have a pitch point.
     teeth: Option<Box<ToothForce<T, D>>>,
-    /// Force of the strands in place of the terms' couples, where the belt has a pretension.
+    /// Forces of the strands, which replace the moments of the terms if the belt has a pretension.
     strands: Option<Box<StrandForce<T, D>>>,
-    /// Force in place of those of the terms, where they act elsewhere on the drawn machine.
+    /// Force of a thread or drum, which replaces those of the terms if it acts elsewhere.
     drawn: Option<Box<DrawnForce<T, D>>>,
 }
 
-/// A curve of a sum of measures, with its factor.
+/// Term of a sum: a factor, a curve, and the measures whose sum is the argument of the curve.
 #[derive(Debug, Clone)]
 struct SumTerm<T: Real, const D: usize> {
     factor: T,
@@ -58,7 +59,7 @@ struct SumTerm<T: Real, const D: usize> {
     parts: Vec<Part<T, D>>,
 }
 
-/// A measure between two bodies.
+/// Measure between two bodies: a coordinate, a length, or an angle of a ball.
 #[derive(Debug, Clone)]
 pub(super) struct Part<T: Real, const D: usize> {
     bodies: [BodyId; 2],
@@ -67,18 +68,19 @@ pub(super) struct Part<T: Real, const D: usize> {
 
 #[derive(Debug, Clone)]
 enum PartKind<T: Real, const D: usize> {
-    /// A coordinate of a joint, at its place on the second body; of an angle, where the state remembers it, and the sign with which it does.
+    /// Coordinate of a joint, with its point on the second body. For an angle: the place at which the state remembers it, and its sign
+    /// there.
     Coordinate { of: Coordinate<T, D>, at: Affine<T, D>, memory: Option<(usize, T)> },
-    /// The distance of two points, less that in the reference configuration.
+    /// Distance of two points minus their distance in the reference configuration.
     Length { points: [Affine<T, D>; 2], reference: T },
-    /// The swing of a ball: the angle between a direction of the first body and one of the second.
+    /// Swing of a ball: the angle between a direction of the first body and one of the second.
     Swing { axes: [Affine<T, D>; 2] },
-    /// The twist of a ball: two directions across its axis in each body, and where the state remembers it.
+    /// Twist of a ball: two directions perpendicular to its axis in each body, and the place at which the state remembers the angle.
     Twist { across: Box<[[Affine<T, D>; 2]; 2]>, memory: Option<usize> },
 }
 
 impl<T: Real, const D: usize> CoupledSum<T, D> {
-    /// Of `scene.couplings[index]` in a scene that passed its check.
+    /// Sum of `scene.couplings[index]` in a checked scene.
     pub(super) fn new(scene: &Scene<T>, model: &NaturalModel<T, D>, index: usize) -> Self {
         let coupling = &scene.couplings[index];
         let input = CouplingInput::new(coupling);
@@ -95,7 +97,7 @@ impl<T: Real, const D: usize> CoupledSum<T, D> {
         sum
     }
 
-    /// Sum of these terms; `remembered` is the first place of the angles that the state remembers for them.
+    /// Sum of these terms. `remembered` is the first place of their angles in the memory of the state.
     pub(super) fn of_terms(
         (scene, model): (&Scene<T>, &NaturalModel<T, D>),
         terms: &[TermInput<T>],
@@ -117,12 +119,12 @@ impl<T: Real, const D: usize> CoupledSum<T, D> {
         Self { terms, relation: None, bodies, scale, teeth: None, strands: None, drawn: None }
     }
 
-    /// Is it an angle, without slides and lengths?
+    /// Is the sum an angle, without slides and lengths?
     pub(super) fn is_angle(&self) -> bool {
         self.terms.iter().flat_map(|term| &term.parts).all(Part::is_angle)
     }
 
-    /// Hands out what it does to bearings alone at an effort: what drives teeth apart, and the pretension of strands.
+    /// Passes to `take` the wrenches that load bearings only, at an effort: forces that push teeth apart, and the pretension of strands.
     pub(super) fn load_bearings(
         &self,
         effort: T,
@@ -136,17 +138,17 @@ impl<T: Real, const D: usize> CoupledSum<T, D> {
         }
     }
 
-    /// The moving bodies that it acts on, ascending.
+    /// Moving bodies on which the coupling acts, in ascending order.
     pub(super) fn bodies(&self) -> &[usize] {
         &self.bodies
     }
 
-    /// Times an effort, this is a force.
+    /// Factor from an effort to a typical force.
     pub(super) fn scale(&self) -> T {
         self.scale
     }
 
-    /// The sum and its rate; angles continue from those that the state remembers.
+    /// The sum and its rate. Angles continue from the values that the state remembers.
     pub(super) fn measure(&self, state: &State<T>) -> [T; 2] {
         if self.relation.is_some() {
             let (value, arguments) = self.related(state);
@@ -161,7 +163,7 @@ impl<T: Real, const D: usize> CoupledSum<T, D> {
         })
     }
 
-    /// The length of all its lines [m].
+    /// Total length of all lines of the coupling [m].
     pub(super) fn length(&self, state: &State<T>) -> T {
         let lines =
             self.terms.iter().flat_map(|term| &term.parts).filter_map(|part| match &part.of {
@@ -171,7 +173,7 @@ impl<T: Real, const D: usize> CoupledSum<T, D> {
         lines.fold(T::ZERO, |sum, length| sum + length)
     }
 
-    /// Hands out what it does to the bodies at an effort.
+    /// Passes to `take` the wrenches on bodies at an effort.
     pub(super) fn apply(&self, effort: T, state: &State<T>, take: &mut dyn FnMut(Applied<T>)) {
         if let Some(teeth) = &self.teeth {
             return teeth.apply(effort, state, take);
@@ -204,7 +206,7 @@ impl<T: Real, const D: usize> CoupledSum<T, D> {
         }
     }
 
-    /// The value of the relation, zero without one, and its derivatives.
+    /// Value of the relation, zero without a relation, and its derivatives.
     fn related(&self, state: &State<T>) -> (T, Arguments<T>) {
         let mut arguments = Arguments::default();
         for term in &self.terms {
@@ -216,13 +218,13 @@ impl<T: Real, const D: usize> CoupledSum<T, D> {
 }
 
 impl<T: Real, const D: usize> SumTerm<T, D> {
-    /// The force, or moment over the scene's length, that a growth by it makes of an effort of one.
+    /// Force, or moment over the scene's length, of the term for an effort of one; `slope` is the derivative of the sum by the measure.
     fn force(&self, slope: T, model: &NaturalModel<T, D>) -> T {
         let is_angle = self.parts.iter().any(Part::is_angle);
         slope.abs() / if is_angle { model.length() } else { T::ONE }
     }
 
-    /// f(m), f'(m) and the rate of m.
+    /// Value f(m), slope f'(m) and the rate of the measure m.
     fn evaluate(&self, state: &State<T>) -> ([T; 2], T) {
         let (mut m, mut m_t) = (T::ZERO, T::ZERO);
         for part in &self.parts {
@@ -273,7 +275,7 @@ impl<T: Real, const D: usize> Part<T, D> {
         }
     }
 
-    /// Of the coordinate of a joint with this number; `None` where no number measures it.
+    /// Measure of a joint's coordinate by its number; `None` for a component of a rotation vector.
     pub(super) fn of_coordinate(
         scene: &Scene<T>,
         model: &NaturalModel<T, D>,
@@ -298,7 +300,7 @@ impl<T: Real, const D: usize> Part<T, D> {
         }
     }
 
-    /// Does the state remember it?
+    /// Does the state remember the measure?
     fn is_remembered(&self) -> bool {
         self.is_angle() && !matches!(self.of, PartKind::Swing { .. })
     }
@@ -335,7 +337,7 @@ impl<T: Real, const D: usize> Part<T, D> {
         }
     }
 
-    /// Hands out what does the work `weight` times the rate.
+    /// Passes to `take` the two wrenches whose power is `weight` times the rate of the measure.
     pub(super) fn apply(&self, weight: T, state: &State<T>, take: &mut dyn FnMut(Applied<T>)) {
         let [first, second] = self.bodies;
         let turning =
@@ -365,7 +367,7 @@ impl<T: Real, const D: usize> Part<T, D> {
     }
 }
 
-/// The direction from the first point to the second, zero where they coincide, their distance, and their places.
+/// Unit vector from the first point to the second, their distance and their positions. The vector is zero if the points coincide.
 fn along<T: Real, const D: usize>(
     points: &[Affine<T, D>; 2],
     state: &State<T>,

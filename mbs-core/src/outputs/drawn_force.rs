@@ -1,11 +1,12 @@
-//! Forces of couplings where they act on the drawn machine: of a thread between screw and nut, of a rope at the rim of its drum.
+//! Forces of couplings at the points where they act: of a thread between screw and nut, of a rope at the rim of its drum.
 //!
 //! ```text
 //! thread   F along the axis and -M about it on the nut, at the screw's axis; -F and M on the screw
 //! drum     T along the line on the drum, where the line leaves its carrier; about its axis w = radius T, by a couple what the arm lacks
 //! ```
 //!
-//! Neither changes the motion: what a coupling does along its coordinates stays. Bearings carry the forces.
+//! F and M are force and moment of the thread, T is the tension of the rope. These forces do not change the motion, since the work of the
+//! coupling along its coordinates is the same. They load the bearings.
 
 use super::coordinate::Coordinate;
 use super::wrench::{Applied, Wrench};
@@ -16,38 +17,39 @@ use crate::model::State;
 use crate::natural::{Affine, NaturalModel};
 use crate::scene::{BodyId, Coupling};
 
-/// A force that acts elsewhere than along the coordinates of its coupling.
+/// Force of a coupling that acts at a point, and not only along the coordinates.
 #[derive(Debug, Clone)]
 pub(super) enum DrawnForce<T: Real, const D: usize> {
-    /// Force of a thread.
+    /// Force of a thread between screw and nut.
     Thread {
         /// Bodies of the nut and the screw, in this order.
         bodies: [BodyId; 2],
-        /// The screw's axis, with its place.
+        /// Axis of the screw, with a point on it.
         turn: (Coordinate<T, D>, Affine<T, D>),
         slide: Coordinate<T, D>,
         /// Force on the nut along the slide, and moment on the screw about its axis, for an effort of one.
         weights: [T; 2],
     },
-    /// Of a rope at its drum.
+    /// Force of a rope at its drum.
     Drum {
         drum: BodyId,
         carrier: BodyId,
         is_end: bool,
         turn: (Coordinate<T, D>, Affine<T, D>),
-        /// Force on a growth of the line, and moment on the drum about its axis, for an effort of one.
+        /// Generalised force on the line's length, and moment on the drum about its axis, for an effort of one.
         weights: [T; 2],
     },
 }
 
 impl<T: Real, const D: usize> DrawnForce<T, D> {
-    /// Of a coupling in a scene that passed its check; `None`: it acts along its coordinates.
+    /// Force of a coupling in a checked scene. `None`: the coupling acts along its coordinates only.
     pub(super) fn new(
         scene: &Scene<T>,
         model: &NaturalModel<T, D>,
         coupling: &Coupling<T>,
     ) -> Option<Self> {
-        // a term's coordinate with its place on the carrier; the other body, and the sign of the coordinate as its motion
+        // body other than the carrier; coordinate of the term with its point on the carrier; factor with the sign for the motion of this
+        // body
         let part = |term: usize, carrier: BodyId| {
             let of = coupling.terms[term].of.coordinate()?;
             let bodies = scene.joints[of.0.index()].bodies;
@@ -70,7 +72,8 @@ impl<T: Real, const D: usize> DrawnForce<T, D> {
         }
     }
 
-    /// The force on a growth of the line, whose parts are then handed out one after the other by [`moved`](Self::moved).
+    /// Generalised force on the line's length; `None` for a thread. The caller then passes the parts of the line one after the other to
+    /// [`moved`](Self::moved).
     pub(super) fn on_line(&self, effort: T) -> Option<T> {
         match self {
             Self::Thread { .. } => None,
@@ -78,7 +81,8 @@ impl<T: Real, const D: usize> DrawnForce<T, D> {
         }
     }
 
-    /// Returns what acts at end number `end` of the `ends` of the line: at the rim it acts on the drum. Adds its moment about the drum's axis.
+    /// Moves the force at one end point of the line's parts. At the rim it acts on the drum instead of the carrier; its moment about the
+    /// drum's axis is added to `about`. `end` is the number of the end point, `ends` their count.
     pub(super) fn moved(
         &self,
         (end, ends): (usize, usize),
@@ -95,7 +99,7 @@ impl<T: Real, const D: usize> DrawnForce<T, D> {
         (*drum, at, wrench)
     }
 
-    /// Hands out what it does beside the line, whose force has this moment about the drum's axis.
+    /// Passes to `take` the wrenches besides those of the line. `about` is the moment of the line's force about the drum's axis.
     pub(super) fn apply(
         &self,
         (effort, about): (T, T),

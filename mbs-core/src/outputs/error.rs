@@ -1,18 +1,18 @@
-//! Errors that keep reactions from being evaluated.
+//! Errors that prevent the evaluation of reactions.
 
 use crate::natural::ModelError;
 
-/// A scene whose reactions are not evaluated.
+/// Error: the reactions of a scene cannot be evaluated.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum ReactionError {
-    /// The model is not the scene's.
+    /// The model does not belong to the scene.
     Model(ModelError),
-    /// One group of loops has more wrench components than the dense elimination takes.
+    /// A group of coupled loops has more wrench components than the dense elimination allows.
     TooLarge {
-        /// Wrench components of the group.
+        /// Number of wrench components of the group.
         unknowns: usize,
-        /// The largest number taken.
+        /// Largest number that is allowed.
         limit: usize,
     },
 }

@@ -1,28 +1,30 @@
-//! Events at which a law passes a kink within a trial step, so that the step can be made again to end there.
+//! Events at which a law passes a kink within a trial step. A driver can repeat the step so that it ends at the event.
 //!
 //! ```text
 //! gap      of bumpers, limits, tires: 0 where contact is made or broken
 //! kink     of a road under a wheel that is pressed in, and between the pieces of a polynomial spring
 //! ```
 //!
-//! Values and rates at both ends of the step give a cubic for each. Its first change of sign is an event, at a fraction of the step.
-//! A trial that ends within a band about zero has landed: there the value is on neither side, and the next step leaves to either
-//! without a second event. A driver makes a trial, asks [`Events::first_event`], tries again from the same beginning with that
-//! fraction of the step while it has not landed, and ends with [`Events::accept`]. It is the method of the secant with a cubic in
-//! place of a line, and two or three trials are usual.
+//! For each gap and kink, values and rates at both ends of the step give a cubic. Its first change of sign is an event, at a fraction of
+//! the step. A trial that ends within a band around zero has reached the event. The value there has neither sign, so the next step leaves
+//! the band to either side without a second event. A driver makes a trial and calls [`Events::first_event`]. Until the trial reaches the
+//! event, the driver repeats it from the same state with the reported fraction. Then it calls [`Events::accept`]. This is the secant method
+//! with a cubic instead of a line. Two or three trials are usual.
 //!
-//! A contact that begins with the step has a stiffness of its own, which the step may be too long for. The trapezoidal rule then
-//! throws it back within the step, with all its energy, as if no time had passed. Of the free path p = -g0' h, which the speed alone
-//! would give, it goes p / (1 + (w h / 2)^2) where w^2 is stiffness over mass. Below four fifths the trial is too long, and the
-//! fraction that makes w h nearly one is reported. A damper fades in over a millimetre, which a step at speed passes unseen: a step,
-//! or a few equal ones, end there. The errors of the means of their ends in both halves of the fade cancel.
+//! A contact that begins with the step may be too stiff for its length. The trapezoidal rule then reverses the motion within the step, with
+//! all its energy, as if the contact had no duration. The speed alone would give the free path p = -g0' h in the step h. The rule gives
+//! p / (1 + (w h / 2)^2), where w^2 is stiffness over mass. The trial is too long if this is below four fifths of p. The reported fraction
+//! then makes w h almost one.
 //!
-//! The band is 1e-9 of the scene's length (of a radian for angles), ten times what steps are solved to; in `f32` 128 roundings.
-//! To it comes what the rounding of the time leaves at the rate of the gap.
+//! The damper of a contact fades in over a millimetre of depth, which a fast step skips. Therefore one step, or a few equal steps, end where
+//! it has faded in. The errors of the mean forces in both halves of the fade then cancel.
 //!
-//! Not found: kinks of dampers, friction and user-defined laws, and those of signals, whose times are known beforehand
-//! ([`SignalTimes`](crate::inputs::SignalTimes)). Nor are a road's kinks under a wheel in the air, or two places of a road that become
-//! equally near in a hollow as tight as the wheel.
+//! The band is 1e-9 of the scene's length, or of a radian for angles. This is ten times the tolerance of steps. In `f32` it is 128 times
+//! machine precision. The rounding error of the time, multiplied by the rate of the gap, is added.
+//!
+//! Some kinks are not found: those of dampers, friction and user-defined laws, and those of signals. The times of signals are known
+//! beforehand ([`SignalTimes`](crate::inputs::SignalTimes)). Kinks of a road under a wheel in the air are not found either. Nor are two
+//! points of a road with equal distance from the wheel, in a hollow as narrow as the wheel.
 
 use super::cubic::Cubic;
 use super::load::{Gap, Load, Loads, N_READING, Reading};
@@ -34,75 +36,75 @@ use crate::model::State;
 use crate::natural::{ModelError, NaturalModel};
 use alloc::vec::Vec;
 
-/// Compares gaps and kinks at the ends of trial steps with those at their beginning.
+/// Detector of events: it compares gaps and kinks at the ends of trial steps with those at their beginning.
 #[derive(Debug, Clone)]
 pub struct Events<T: Real, const D: usize> {
     loads: Loads<T, D>,
     watched: Vec<Watched<T>>,
-    /// When the step begins [s].
+    /// Time at the beginning of the step [s].
     t: T,
-    /// Trials of it so far.
+    /// Number of trials of the step so far.
     trials: u32,
 }
 
 /// History of [`Events`] at the beginning of a step.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct EventHistory<T> {
-    /// When it begins [s].
+    /// Time at the beginning of the step [s].
     pub t: T,
-    /// Trials of it so far.
+    /// Number of trials of the step so far.
     pub trials: u32,
-    /// Gaps and places of each effect that is watched, each with its rate.
+    /// Gaps and coordinates of each observed effect, each with its rate.
     pub begin: Vec<[T; N_READING]>,
 }
 
-/// One effect that is watched, with its numbers.
+/// One observed effect with its gaps and kinks.
 #[derive(Debug, Clone)]
 struct Watched<T> {
     effect: usize,
     n_gaps: usize,
-    /// The depth over which its damper fades in [m or rad].
+    /// Depth over which the damper of the contact fades in [m or rad].
     fade: Option<f64>,
-    /// In order of their places, on a crest from left to right.
+    /// Kinks in the order of their places; several at one place of a crest from left to right.
     kinks: Vec<LawCorner<T>>,
     reach: T,
-    /// Without what the time's rounding adds [m or rad].
+    /// Half width of the band around zero, without the error of the time [m or rad].
     band: f64,
-    /// At the beginning of the step, and at the end of the last trial.
+    /// Readings at the beginning of the step, and at the end of the last trial.
     begin: Reading<T>,
     end: Reading<T>,
 }
 
-/// Half width of the band about zero, relative to the scene's length or to a radian [-]: ten times what steps are solved to.
+/// Half width of the band around zero, relative to the scene's length or to a radian [-]: ten times the tolerance of steps.
 const BAND: f64 = 1e-9;
-/// Least half width of the band, in units of rounding [-]: it counts in `f32` alone. Chosen, not tuned.
+/// Smallest half width of the band, in multiples of machine precision [-]. It counts only in `f32`. Chosen, not tuned.
 const BAND_ROUNDINGS: f64 = 128.0;
-/// Least ratio of a contact's depth to its free path in the step that begins it [-]: it is 4/5 where w h is one.
+/// Smallest ratio of a contact's depth to its free path in the step in which it begins [-]. The ratio is 4/5 for w h = 1.
 const RESOLVED: f64 = 0.8;
-/// Most trials of a step in which the cubic alone gives the instant where a contact holds [-]: two or three are usual.
+/// Number of trials of a step in which the cubic alone gives the instant of an event [-]: two or three are usual.
 const MAX_CUBIC_TRIALS: u32 = 3;
-/// Ratio of a gap's depth to its free path below which the contact holds it [-], as for [`RESOLVED`].
+/// Ratio of a gap's depth to its free path below which the contact prevents deeper penetration [-], as for [`RESOLVED`].
 const HELD_RATIO: f64 = 0.8;
-/// Half of w h after which a stiff contact is tried again [-]: a little below 1/2, where a contact is resolved.
+/// Target of w h / 2 in the repetition of a step with a stiff contact [-]: slightly below 1/2, where a contact is resolved.
 const TARGET_HALF_WH: f64 = 0.45;
-/// Longest path of a contact that needs no resolution, in bands [-]. Chosen, not tuned.
+/// Longest path of a contact that needs no resolution, in multiples of the band [-]. Chosen, not tuned.
 const SHORT_PATH: f64 = 100.0;
-/// Tolerance of the depth at which a damper has faded in, relative to that depth [-]. Chosen, not tuned.
+/// Tolerance of the end of a step at the depth where a damper has faded in, relative to that depth [-]. Chosen, not tuned.
 const FADE_TOLERANCE: f64 = 0.1;
-/// Most equal steps that are cut to end where a damper has faded in [-]: more resolve the fade wherever they end.
+/// Largest number of equal steps that end where a damper has faded in [-]. A larger number resolves the fade anyway.
 const MAX_FADE_STEPS: f64 = 4.0;
-/// Bounds of the fraction of a step after which a stiff contact is tried again [-]: it halves the step at least. Chosen, not tuned.
+/// Bounds of the fraction for the repetition of a step with a stiff contact [-]. The step is at least halved. Chosen, not tuned.
 const STIFF_FRACTIONS: [f64; 2] = [0.02, 0.5];
-/// Error of the time, in units of its rounding, that widens the band at a gap's rate [-]. Chosen, not tuned.
+/// Error of the time, in multiples of its rounding error, that widens the band in proportion to the gap's rate [-]. Chosen, not tuned.
 const TIME_ROUNDINGS: f64 = 4.0;
 
 impl<T: Real, const D: usize> Events<T, D> {
-    /// Prepares what is watched of a scene; without any of it, nothing is ever evaluated.
+    /// Prepares the gaps and kinks of a scene. Without any, nothing is evaluated.
     ///
-    /// Cost: an entry for each bumper, limit, tire and polynomial spring, and one for each kink of each tire's road.
+    /// Cost: an entry for each bumper, limit, tire and polynomial spring, and an entry for each kink of each tire's road.
     ///
     /// # Errors
-    /// [`ModelError`] as for the model.
+    /// [`ModelError`] as when the model is built.
     pub fn new(scene: &Scene<T>, model: &NaturalModel<T, D>) -> Result<Self, ModelError> {
         let (mut loads, effects) = Loads::with_kinks(scene, model)?;
         let start = State::at_rest(model);
@@ -119,7 +121,8 @@ impl<T: Real, const D: usize> Events<T, D> {
         Ok(Self { loads, watched, t: T::ZERO, trials: 0 })
     }
 
-    /// Takes what is watched at a state from which the next step begins: at the start of a run, or after it was set from outside.
+    /// Evaluates gaps and kinks at the state from which the next step begins. It is called at the start of a run, and after a program has
+    /// set the state.
     ///
     /// Cost: one length, angle or nearest point of the road for each effect; no allocation.
     pub fn start(&mut self, state: &State<T>) {
@@ -131,10 +134,10 @@ impl<T: Real, const D: usize> Events<T, D> {
         self.trials = 0;
     }
 
-    /// The first event within the trial step that ends in a state. Does not move the beginning of the step.
+    /// First event within the trial step that ends in `state`. The beginning of the step stays the same.
     ///
-    /// Cost: as [`start`](Self::start), and some eighty operations for each gap and each kink near the way of a wheel that is
-    /// pressed in. A bisection of fifty cubics for each that changes. No allocation.
+    /// Cost: as [`start`](Self::start), and about eighty operations for each gap and for each kink close to the path of a wheel in contact.
+    /// Each change of sign costs a bisection of about fifty evaluations. No allocation.
     pub fn first_event(&mut self, state: &State<T>) -> Option<Event> {
         self.read(state);
         let (from, to) = (self.t.to_f64(), state.t.to_f64());
@@ -154,22 +157,22 @@ impl<T: Real, const D: usize> Events<T, D> {
         first
     }
 
-    /// Ends the step in a state, from which the next begins.
+    /// Ends the step in `state`, from which the next step begins.
     ///
-    /// Reads it anew, so that it need not be the one that [`first_event`](Self::first_event) was last asked for. Cost: as
+    /// It evaluates the state again, so `state` may differ from the last one passed to [`first_event`](Self::first_event). Cost: as
     /// [`start`](Self::start).
     pub fn accept(&mut self, state: &State<T>) {
         self.start(state);
     }
 
-    /// History that the next step is compared with.
+    /// History from which a run resumes: readings at the beginning of the step.
     #[must_use]
     pub fn history(&self) -> EventHistory<T> {
         let begin = self.watched.iter().map(|watched| watched.begin.numbers()).collect();
         EventHistory { t: self.t, trials: self.trials, begin }
     }
 
-    /// Restores the history of the same scene; returns whether it is one, by its length. Else nothing is changed.
+    /// Restores the history of the same scene. Returns `false`, and changes nothing, if its length does not fit.
     pub fn set_history(&mut self, history: &EventHistory<T>) -> bool {
         if history.begin.len() != self.watched.len() {
             return false;
@@ -199,7 +202,7 @@ impl<T: Real> Watched<T> {
         (mut kinks, reach): (Vec<LawCorner<T>>, T),
         band: f64,
     ) -> Self {
-        // A wheel that rolls on passes the steeper normal of a crest first.
+        // A wheel that rolls over a crest passes the steeper normal first.
         let key = |kink: &LawCorner<T>| [kink.place.to_f64(), -kink.slope.to_f64()];
         kinks.sort_unstable_by(|a, b| {
             let ([p, s], [q, u]) = (key(a), key(b));
@@ -210,7 +213,7 @@ impl<T: Real> Watched<T> {
         Self { effect, n_gaps, fade, kinks, reach, band, begin, end }
     }
 
-    /// Hands out the first change of each gap and of each kink that may be passed.
+    /// Passes to `take` the first change of each gap, and of each kink within reach.
     fn crossings(&self, ([from, to], is_slow): ([f64; 2], bool), mut take: impl FnMut(Event)) {
         let (begin, end) = (&self.begin, &self.end);
         for i in 0..self.n_gaps {
@@ -237,7 +240,7 @@ impl<T: Real> Watched<T> {
         for i in 0..self.n_gaps {
             watch(begin.gaps[i], end.gaps[i]);
         }
-        // Before a wheel has touched, no kink of its road comes first.
+        // Before a wheel touches the road, no kink of the road is an event.
         if self.n_gaps > 0 && begin.gaps[0].value.to_f64() > self.band {
             return;
         }
@@ -246,8 +249,8 @@ impl<T: Real> Watched<T> {
         }
     }
 
-    /// The fraction of a step of length `h` [s] after which a gap closes at the rate of its beginning, where a stiff contact holds it
-    /// at the end. The cubic then follows the contact, and not the path to it. Else infinite.
+    /// Fraction of a step of length `h` [s] after which a gap closes with its rate at the beginning. It applies if a stiff contact at the
+    /// end prevents penetration: the cubic then follows the contact instead of the free path. Otherwise infinity.
     fn free(&self, [begin, end]: [Gap<T>; 2], h: f64) -> f64 {
         let [begin, rate, end] = [begin.value, begin.rate, end.value].map(T::to_f64);
         let on = begin + rate * h;
@@ -255,8 +258,8 @@ impl<T: Real> Watched<T> {
         if is_held { (begin + 0.5 * self.band) / (begin - on) } else { f64::INFINITY }
     }
 
-    /// The share of a step of length `h` [s] in which a contact that begins with it, within `band`, is resolved, where it is not in the
-    /// whole.
+    /// Fraction of a step of length `h` [s] that resolves a contact which begins with the step, within `band`. `None` if the whole step
+    /// resolves the contact.
     fn entry(&self, [begin, end]: [Gap<T>; 2], (h, band): (f64, f64)) -> Option<f64> {
         let [begin, rate, end] = [begin.value, begin.rate, end.value].map(T::to_f64);
         let way = -rate * h;
@@ -270,13 +273,13 @@ impl<T: Real> Watched<T> {
         if part >= RESOLVED || !(begin.abs() <= band || has_faded_in) {
             return fading;
         }
-        // part = 1 / (1 + x^2) with x = w h / 2; nothing is known of x where the contact has opened again.
+        // part = 1 / (1 + x^2) with x = w h / 2; x is unknown if the contact has ended again.
         let share = TARGET_HALF_WH / libm::sqrt(1.0 / part.max(f64::MIN_POSITIVE) - 1.0);
         let share = share.clamp(STIFF_FRACTIONS[0], STIFF_FRACTIONS[1]);
         Some(fading.map_or(share, |fading| fading.min(share)))
     }
 
-    /// The kinks that may be passed between the two places, and one on either side.
+    /// Kinks between the two places of the wheel, and one further kink on either side.
     fn near(&self) -> &[LawCorner<T>] {
         let (a, b) = (self.begin.place[0].value, self.end.place[0].value);
         let (lower, upper) = (a.min(b) - self.reach, a.max(b) + self.reach);
@@ -286,7 +289,8 @@ impl<T: Real> Watched<T> {
     }
 }
 
-/// The share of a step of so long a way in which equal steps of a few end where a damper has faded in, which is `left` away.
+/// Fraction of a step after which it ends where a damper has faded in, or after which a few equal steps do. `left` is the remaining
+/// distance, `fade` the depth of the fade, `way` the path of the step. `None` if that is not necessary.
 pub fn fading(left: f64, (fade, way): (f64, f64)) -> Option<f64> {
     if left <= FADE_TOLERANCE * fade {
         return None;
@@ -297,7 +301,7 @@ pub fn fading(left: f64, (fade, way): (f64, f64)) -> Option<f64> {
         .then_some(share.max(STIFF_FRACTIONS[0]))
 }
 
-/// The value that changes sign at a kink, and its rate.
+/// Value that changes its sign at a kink, and its rate.
 fn passage<T: Real>(kink: &LawCorner<T>, place: &[Gap<T>; 2]) -> Gap<T> {
     let [value, rate] = [place.map(|x| x.value), place.map(|x| x.rate)];
     Gap { value: kink.value(value), rate: kink.rate(rate) }

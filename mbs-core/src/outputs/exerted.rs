@@ -1,4 +1,4 @@
-//! Wrenches that effects exert on bodies, as reactions take them.
+//! Wrenches that effects exert on bodies, in the form that reactions need.
 
 use super::frame::Frame;
 use super::load::{Load, Loads};
@@ -14,11 +14,11 @@ use crate::natural::{ModelError, NaturalModel};
 use crate::scene::BodyId;
 use alloc::vec::Vec;
 
-/// The wrenches of a scene's effects.
+/// Wrenches of the effects of a scene.
 #[derive(Debug, Clone)]
 pub struct EffectWrenches<T: Real, const D: usize> {
     loads: Loads<T, D>,
-    /// The effect of each load.
+    /// Number of the effect of each load.
     effects: Vec<usize>,
     rotors: Vec<RotorTorque<T, D>>,
     frames: Vec<Frame<T, D>>,
@@ -26,10 +26,10 @@ pub struct EffectWrenches<T: Real, const D: usize> {
 }
 
 impl<T: Real, const D: usize> EffectWrenches<T, D> {
-    /// Prepares the enabled effects of a scene that passed its check.
+    /// Prepares the enabled effects of a checked scene.
     ///
     /// # Errors
-    /// [`ModelError`] as for the model.
+    /// [`ModelError`] as when the model is built.
     pub fn new(scene: &Scene<T>, model: &NaturalModel<T, D>) -> Result<Self, ModelError> {
         let (loads, effects) = Loads::new(scene, model)?;
         let frame = |body| Frame::new(model, body);
@@ -38,26 +38,27 @@ impl<T: Real, const D: usize> EffectWrenches<T, D> {
         Ok(Self { loads, effects, rotors, frames, ground: frame(BodyId::Ground) })
     }
 
-    /// Sets the functions of time that effects follow to those of a state.
+    /// Sets the signals of effects to the values of a state.
     pub fn update(&mut self, state: &State<T>) {
         self.loads.update(state);
     }
 
-    /// Wrench of an effect at a state: on its body, or on the second of its two, global axes. The moment is about the point of that body
-    /// where the effect is attached, as it has moved. An effect about an angle has a moment alone. Zero where the effect is not there.
+    /// Wrench of an effect at a state in global axes, on its body or on the second of its two bodies. The moment is about the attachment
+    /// point on this body, in its present position. An effect on an angle has a moment only. The wrench is zero for an effect that does not
+    /// exist or is disabled.
     ///
-    /// Cost: one evaluation of the effect's laws, and one look at each other effect; no allocation.
+    /// Cost: one evaluation of the effect's laws, and one comparison for each other effect; no allocation.
     pub fn of(&mut self, effect: usize, state: &State<T>) -> Wrench<T> {
         self.update(state);
         self.wrench(effect, state)
     }
 
-    /// Wrench of an effect at the state that was [set](Self::update).
+    /// Wrench of an effect at the state of the last [`update`](Self::update).
     pub(super) fn wrench(&self, effect: usize, state: &State<T>) -> Wrench<T> {
         let law_inputs = self.loads.law_inputs();
         let mut sum = Wrench::zero();
         for load in self.loads_of(Some(effect)) {
-            // the second of two bodies comes last
+            // a load passes the wrench on the second of two bodies last
             let mut last = Wrench::zero();
             let turned = |body| self.turned(body, state);
             load.apply((state, &law_inputs), &turned, &mut |(_, _, wrench)| last = wrench);
@@ -69,7 +70,7 @@ impl<T: Real, const D: usize> EffectWrenches<T, D> {
         sum
     }
 
-    /// The number that an effect along a line or on a joint measures, its rate and its tension; zero of what measures none.
+    /// Value, rate and tension of an effect along a line or on a joint; zeros for other effects.
     pub(super) fn scalar(&self, effect: usize, state: &State<T>) -> ScalarForce<T> {
         if let Some(rotor) = self.rotor(effect) {
             return rotor.scalar(state);
@@ -79,12 +80,12 @@ impl<T: Real, const D: usize> EffectWrenches<T, D> {
         loads.find_map(|load| load.scalar(state, &law_inputs)).unwrap_or_default()
     }
 
-    /// Is an effect there, and not switched off?
+    /// Is the effect present and enabled?
     pub(super) fn is_there(&self, effect: usize) -> bool {
         self.effects.contains(&effect)
     }
 
-    /// How far the gap of an effect that is deepest is below zero; zero where none is.
+    /// Depth of the deepest contact of an effect: minus its smallest gap, or zero without a contact.
     pub(super) fn depth(&self, effect: usize, state: &State<T>) -> T {
         let law_inputs = self.loads.law_inputs();
         self.loads_of(Some(effect)).fold(T::ZERO, |depth, load| {
@@ -93,7 +94,7 @@ impl<T: Real, const D: usize> EffectWrenches<T, D> {
         })
     }
 
-    /// Forces of the road on a tire; zeros where the effect is none, or is not there.
+    /// Forces of the road on a tire; zeros for other effects, and for an effect that does not exist.
     pub(super) fn tire(&self, effect: usize, state: &State<T>) -> TireForces<T> {
         let law_inputs = self.loads.law_inputs();
         let turned = |body| self.turned(body, state);
@@ -106,7 +107,7 @@ impl<T: Real, const D: usize> EffectWrenches<T, D> {
         self.loads.law_inputs().courses.get(signal).copied().unwrap_or([T::ZERO; 3])
     }
 
-    /// Energy stored in an effect, or in all but rotors [J]; of a rotor its kinetic energy.
+    /// Energy stored in an effect [J]; for a rotor its kinetic energy. Without a number: the energy of all effects except rotors.
     pub(super) fn energy(&self, effect: Option<usize>, state: &State<T>) -> T {
         if let Some(rotor) = effect.and_then(|effect| self.rotor(effect)) {
             return rotor.kinetic_energy(state);
@@ -117,7 +118,7 @@ impl<T: Real, const D: usize> EffectWrenches<T, D> {
         loads.fold(T::ZERO, |sum, load| sum + load.energy((state, &law_inputs), &turned))
     }
 
-    /// Power that an effect gives to bodies [W].
+    /// Power that an effect supplies to bodies [W].
     pub(super) fn power(&self, effect: usize, state: &State<T>) -> T {
         if let Some(rotor) = self.rotor(effect) {
             return rotor.power(state);
@@ -128,12 +129,12 @@ impl<T: Real, const D: usize> EffectWrenches<T, D> {
         loads.fold(T::ZERO, |sum, load| sum + load.power((state, &law_inputs), &turned))
     }
 
-    /// An effect that is a rotor.
+    /// Rotor of this effect; `None` for other effects.
     fn rotor(&self, effect: usize) -> Option<&RotorTorque<T, D>> {
         self.rotors.iter().find(|rotor| rotor.effect == effect)
     }
 
-    /// The parts of an effect, or of all.
+    /// Loads of one effect, or of all effects.
     fn loads_of(&self, effect: Option<usize>) -> impl Iterator<Item = &Load<T, D>> {
         let all = self.loads.list().iter().zip(&self.effects);
         all.filter(move |(_, of)| effect.is_none_or(|effect| **of == effect)).map(|(load, _)| load)

@@ -1,4 +1,4 @@
-//! Forces of a state, as outputs read them: reactions and efforts, and what effects do.
+//! Forces at a state for outputs: reactions, efforts, and wrenches of effects.
 
 use super::error::ReactionError;
 use super::exerted::EffectWrenches;
@@ -8,7 +8,7 @@ use crate::mechanism::{Output, Scene};
 use crate::model::State;
 use crate::natural::NaturalModel;
 
-/// Reactions and effects, where outputs of a scene ask for them.
+/// Reactions and effects that the outputs of a scene need.
 #[derive(Debug, Clone)]
 pub struct Forces<T: Real, const D: usize> {
     reactions: Option<Reactions<T, D>>,
@@ -16,18 +16,18 @@ pub struct Forces<T: Real, const D: usize> {
 }
 
 impl<T: Real, const D: usize> Forces<T, D> {
-    /// Prepares what the outputs of a scene that passed its check ask for; nothing, where they ask for none.
+    /// Prepares reactions and effects if the outputs of a checked scene need them.
     ///
     /// # Errors
-    /// As [`Reactions::new`].
+    /// The errors of [`Reactions::new`].
     pub fn new(scene: &Scene<T>, model: &NaturalModel<T, D>) -> Result<Self, ReactionError> {
         Self::of_outputs(&scene.outputs, scene, model)
     }
 
-    /// Prepares what these outputs ask for, whatever outputs the scene has.
+    /// Prepares reactions and effects if these outputs need them, independent of the outputs of the scene.
     ///
     /// # Errors
-    /// As [`Reactions::new`].
+    /// The errors of [`Reactions::new`].
     pub fn of_outputs(
         outputs: &[Output<T>],
         scene: &Scene<T>,
@@ -42,19 +42,19 @@ impl<T: Real, const D: usize> Forces<T, D> {
         })
     }
 
-    /// Evaluates them at a consistent state. Cost: as [`Reactions::update`]; the functions of time that effects follow.
+    /// Evaluates reactions and effects at a consistent state. Cost: as [`Reactions::update`], and the signals of effects.
     pub fn update(&mut self, state: &State<T>) {
         self.reactions.iter_mut().for_each(|reactions| reactions.update(state));
         self.effects.iter_mut().for_each(|effects| effects.update(state));
     }
 
-    /// The reactions, where an output asks for them.
+    /// Reactions; `None` if no output needs them.
     #[must_use]
     pub fn reactions(&self) -> Option<&Reactions<T, D>> {
         self.reactions.as_ref()
     }
 
-    /// The effects, where an output asks for them.
+    /// Effects; `None` if no output needs them.
     pub(super) fn effects(&self) -> Option<&EffectWrenches<T, D>> {
         self.effects.as_ref()
     }

@@ -1,4 +1,4 @@
-//! The turning of a body, read off its directions.
+//! Rotation and angular velocity of a body, computed from its directions.
 //!
 //! ```text
 //! R = [u1 u2 u3],   omega = 1/2 sum u_k x u_k',   omega' = 1/2 sum u_k x u_k''
@@ -12,21 +12,21 @@ use crate::natural::{Affine, NaturalModel, Shape};
 use crate::scene::BodyId;
 use alloc::boxed::Box;
 
-/// The directions that carry a body's rotation.
+/// Directions from which the rotation of a body follows.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Frame<T: Real, const D: usize> {
     /// Direction in the plane that was the x axis in the reference configuration.
     Planar(Affine<T, D>),
     /// Directions in space that were the three axes in the reference configuration.
     Full(Box<[Affine<T, D>; 3]>),
-    /// A spatial rod of two points: from one end to the other, now and in the reference configuration.
+    /// Spatial rod of two points: the vector between its end points, now and in the reference configuration.
     Rod { along: Affine<T, D>, reference: Vector<T, 3> },
-    /// A point mass, which does not turn.
+    /// Point mass, which has no orientation.
     Point,
 }
 
 impl<T: Real, const D: usize> Frame<T, D> {
-    /// The frame of a body, or of the ground.
+    /// Frame of a body or of the ground.
     pub(super) fn new(model: &NaturalModel<T, D>, body: BodyId) -> Self {
         match model.shape(body) {
             Shape::Point => Self::Point,
@@ -41,7 +41,8 @@ impl<T: Real, const D: usize> Frame<T, D> {
         }
     }
 
-    /// Rotation matrix R from the reference configuration: its columns are the present directions of what were the global axes.
+    /// Rotation matrix R from the reference configuration. Its columns are the present directions of the body-fixed axes that were global
+    /// axes there.
     pub(super) fn rotation(&self, q: &[T]) -> Matrix<T, 3> {
         match self {
             Self::Planar(x) => {
@@ -58,7 +59,7 @@ impl<T: Real, const D: usize> Frame<T, D> {
         }
     }
 
-    /// The angular velocity for velocities `x`, the angular acceleration for accelerations.
+    /// Angular velocity if `x` are velocities; angular acceleration if `x` are accelerations.
     pub(super) fn turning(&self, q: &[T], x: &[T]) -> Vector<T, 3> {
         let arm = |u: &Affine<T, D>| cross(&raised(&u.value(q)), &raised(&u.rate(x)));
         match self {
@@ -73,7 +74,7 @@ impl<T: Real, const D: usize> Frame<T, D> {
     }
 }
 
-/// The smallest rotation that carries unit vector `a` to unit vector `b`; half a turn about one axis when they are opposite.
+/// Smallest rotation that turns unit vector `a` into unit vector `b`. If they are opposite, it is half a turn about one perpendicular axis.
 ///
 /// ```text
 /// R = 1 + [w] + [w]^2 / (1 + a.b),   w = a x b
@@ -91,7 +92,7 @@ pub fn carry<T: Real>(a: &Vector<T, 3>, b: &Vector<T, 3>) -> Matrix<T, 3> {
     Matrix::from_columns(&columns)
 }
 
-/// Unit vector x / |x|; zero stays zero.
+/// Unit vector x / |x|; the zero vector does not change.
 pub fn normalised<T: Real>(x: &Vector<T, 3>) -> Vector<T, 3> {
     let length = norm(x);
     if length > T::ZERO { x * (T::ONE / length) } else { *x }

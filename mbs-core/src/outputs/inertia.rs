@@ -1,11 +1,11 @@
-//! Energy and momentum of bodies with mass, at a state.
+//! Energy and momentum of bodies at a state.
 //!
 //! ```text
 //! E = 1/2 sum (m c'.c' + omega.I omega),   V = -sum s m g.c,   P = sum m c'
 //! L = sum (I omega + m (c - C) x (c' - C'))      C: the centre of mass of all
 //! ```
 //!
-//! s is the factor of gravity on the body.
+//! m is the mass, c the centre of mass, I the inertia, g gravity, and s the gravity scale of the body.
 
 use super::frame::Frame;
 use crate::Real;
@@ -15,16 +15,16 @@ use crate::model::State;
 use crate::natural::{Affine, NaturalModel};
 use crate::scene::BodyId;
 
-/// A body with its mass.
+/// Mass properties of a body, with its frame.
 #[derive(Debug, Clone)]
 pub(super) struct BodyInertia<T: Real, const D: usize> {
     pub(super) frame: Frame<T, D>,
     pub(super) center: Affine<T, D>,
     /// Mass of the body [kg].
     pub(super) mass: T,
-    /// The mass on which gravity acts [kg].
+    /// Mass on which gravity acts [kg].
     weight: T,
-    /// Reference configuration, about the centre of mass [kg m^2].
+    /// Inertia about the centre of mass, in the reference configuration [kg m^2].
     pub(super) inertia: Matrix<T, 3>,
 }
 
@@ -42,7 +42,7 @@ impl<T: Real, const D: usize> BodyInertia<T, D> {
         [raised(&self.center.value(&state.q)), raised(&self.center.rate(&state.v))]
     }
 
-    /// Angular velocity omega, and I omega.
+    /// Angular velocity omega, and the angular momentum I omega, in global axes.
     fn spin(&self, state: &State<T>) -> [Vector<T, 3>; 2] {
         let (r, omega) = (self.frame.rotation(&state.q), self.frame.turning(&state.q, &state.v));
         [omega, r * (self.inertia * (r.transpose() * omega))]
@@ -63,7 +63,7 @@ pub(super) fn kinetic_energy<T: Real, const D: usize>(
     bodies.iter().fold(T::ZERO, |sum, body| sum + body.kinetic_energy(state))
 }
 
-/// The potential energy of bodies in a field of gravity, zero at the origin [J].
+/// Potential energy of bodies in a field of gravity [J]; zero at the origin.
 pub(super) fn potential_energy<T: Real, const D: usize>(
     bodies: &[BodyInertia<T, D>],
     gravity: &Vector<T, 3>,
@@ -81,7 +81,7 @@ pub(super) fn momentum<T: Real, const D: usize>(
     bodies.iter().fold(Vector::zeros(), |sum, body| sum + body.center(state)[1] * body.mass)
 }
 
-/// The centre of mass of bodies, and its velocity; the origin where they have no mass.
+/// Centre of mass of bodies [m] and its velocity [m/s]. It is the origin if the bodies have no mass.
 pub(super) fn center<T: Real, const D: usize>(
     bodies: &[BodyInertia<T, D>],
     state: &State<T>,
@@ -93,7 +93,7 @@ pub(super) fn center<T: Real, const D: usize>(
     [place * inverse, momentum(bodies, state) * inverse]
 }
 
-/// The angular momentum of bodies about their centre of mass [kg m^2/s].
+/// Angular momentum of bodies about their common centre of mass [kg m^2/s].
 pub(super) fn angular_momentum<T: Real, const D: usize>(
     bodies: &[BodyInertia<T, D>],
     state: &State<T>,

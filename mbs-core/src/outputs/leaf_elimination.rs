@@ -1,11 +1,11 @@
-//! The order in which joints are solved: a body held by one unsolved joint gives that joint's wrench; the rest
-//! is loops and coupled joints, solved group by group.
+//! Order in which the wrenches of joints are computed. The equilibrium of a body with one unknown joint gives the wrench of that joint. The
+//! remaining loops and coupled joints are solved group by group.
 
 use crate::scene::BodyId;
 use alloc::vec;
 use alloc::vec::Vec;
 
-/// Bodies whose balance gives the wrenches of some joints and the efforts of some couplings.
+/// Block of bodies whose equilibrium gives the wrenches of some joints and the efforts of some couplings.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Block {
     /// Numbers of the bodies.
@@ -16,8 +16,8 @@ pub struct Block {
     pub couplings: Vec<usize>,
 }
 
-/// Orders the joints (pairs of bodies; those that carry nothing are `None`) and the couplings (the bodies that each acts on) into blocks.
-/// No body gives the effort of a coupling alone: it may act on another one only.
+/// Orders joints and couplings into blocks. A joint is a pair of bodies, or `None` if it transmits nothing. A coupling is the list of
+/// bodies on which it acts. No single body determines the effort of a coupling, since a coupling may act on other bodies only.
 ///
 /// Cost: proportional to bodies, joints and couplings.
 pub fn eliminate_leaves<'a>(
@@ -64,7 +64,8 @@ pub fn eliminate_leaves<'a>(
     blocks
 }
 
-/// Everything unsolved that hangs together with one joint or coupling through moving bodies; couplings are numbered after the joints.
+/// Block of all unsolved joints and couplings that are connected with `seed` through moving bodies. Couplings are numbered after the
+/// joints.
 fn loops(
     seed: usize,
     ends: &[Vec<usize>],
@@ -92,7 +93,7 @@ fn loops(
     block
 }
 
-/// The bodies of a pair that move.
+/// The moving bodies of a pair.
 fn moving(pair: Option<[BodyId; 2]>) -> impl Iterator<Item = usize> {
     pair.into_iter().flatten().filter_map(BodyId::index)
 }

@@ -1,4 +1,4 @@
-//! The numbers of all channels of a scene at a state.
+//! Values of all output channels of a scene at a state.
 
 use super::axes::OutputAxes;
 use super::coordinate::Coordinate;
@@ -12,35 +12,36 @@ use crate::step::StepError;
 use alloc::vec::Vec;
 use core::ops::Range;
 
-/// Largest relative difference of all turns by positions and by rates for which an angle is known [-]: that of the trapezoidal rule at half a
-/// radian a step.
+/// Largest relative difference between the rotations by positions and by rates, since the start, for which turns count as known [-]. It is
+/// that of the trapezoidal rule at half a radian per step.
 const MISFIT: f64 = 2e-2;
 
-/// Measures the output channels of a scene in the order of its file; without outputs, every joint coordinate.
+/// Output channels of a scene in the order of its file; without outputs, every joint coordinate.
 ///
-/// Angles are not wrapped: [`track`](Self::track) counts turns and must see every step, recorded or not; more than half a turn a step is
-/// followed by the rates. Counting starts from the scene's initial value (an `[[initial]]` entry or a guide at time zero), else from zero.
+/// Angles include whole turns. [`track`](Self::track) counts the turns and must be called at every step, recorded or not. Rates determine
+/// the turns if an angle changes by more than half a turn in a step. Counting starts from the initial value of the scene (`[[initial]]` or
+/// a guide at time zero), or else from zero.
 #[derive(Debug, Clone)]
 pub struct Measures<T: Real, const D: usize> {
     channels: Vec<Recorded<T, D>>,
-    /// Last values of all tracked joint coordinates, then their rates, then their turns since the start by the rates, then what the
-    /// positions have less, then the time.
+    /// Last values of all tracked joint coordinates, then their rates. Then their rotation since the start by the rates, then the deficit
+    /// of the rotation by positions. The last number is the time.
     memory: Vec<T>,
     n_values: usize,
     n_components: usize,
     invariant_error: T,
 }
 
-/// Recorded output with its channel, and how its numbers are written.
+/// Recorded output: its channel, and the form of its values.
 #[derive(Debug, Clone)]
 struct Recorded<T: Real, const D: usize> {
     channel: Channel<T, D>,
     n_components: usize,
-    /// Axes of the output, where they are not those of its quantity.
+    /// Axes of the output, if they differ from those of its quantity.
     axes: Option<OutputAxes<T, D>>,
-    /// The vectors among its components whose magnitudes follow.
+    /// Vectors among the components whose magnitudes follow the components.
     vectors: Vec<Range<usize>>,
-    /// Which of its numbers are written in degrees.
+    /// Places of the values that are written in degrees.
     degrees: Vec<usize>,
 }
 
@@ -78,18 +79,18 @@ impl<T: Real, const D: usize> Recorded<T, D> {
 }
 
 impl<T: Real, const D: usize> Measures<T, D> {
-    /// Prepares the channels of a scene that passed its check.
+    /// Prepares the channels of a checked scene.
     ///
     /// # Errors
-    /// [`ModelError::Dimension`] when the scene's dimension is not D.
+    /// [`ModelError::Dimension`] if the scene's dimension is not D.
     pub fn new(scene: &Scene<T>, model: &NaturalModel<T, D>) -> Result<Self, ModelError> {
         Self::of_outputs(&scene.channels(), scene, model)
     }
 
-    /// Prepares channels of these outputs, whatever outputs the scene has.
+    /// Prepares channels of these outputs, independent of the outputs of the scene.
     ///
     /// # Errors
-    /// As [`new`](Self::new).
+    /// The errors of [`new`](Self::new).
     pub fn of_outputs(
         outputs: &[Output<T>],
         scene: &Scene<T>,
@@ -106,23 +107,23 @@ impl<T: Real, const D: usize> Measures<T, D> {
         let mut memory = maker.values;
         let n_values = memory.len();
         memory.resize(4 * n_values, T::ZERO);
-        // No state was seen yet: the first one is followed from the start values.
+        // The time -1 marks that no state was tracked yet. The first state is tracked from the start values.
         memory.push(-T::ONE);
         Ok(Self { channels, memory, n_values, n_components, invariant_error: T::ZERO })
     }
 
-    /// Has a state been tracked, or written?
+    /// Has any state been tracked or written?
     #[must_use]
     pub fn has_begun(&self) -> bool {
         self.memory.last().is_some_and(|time| *time >= T::ZERO)
     }
 
-    /// Sets the error of the run's energy invariant that the next [`write`](Self::write) shows [J]. At first it is zero.
+    /// Sets the error of the run's energy invariant that the next [`write`](Self::write) writes [J]. It is zero at first.
     pub fn set_invariant_error(&mut self, error: T) {
         self.invariant_error = error;
     }
 
-    /// Number of components of all channels: the places that [`write`](Self::write) fills.
+    /// Number of components of all channels: the number of values that [`write`](Self::write) writes.
     #[must_use]
     pub fn n_components(&self) -> usize {
         self.n_components
@@ -133,32 +134,32 @@ impl<T: Real, const D: usize> Measures<T, D> {
         self.channels.iter().map(Recorded::len)
     }
 
-    /// The last values of the joint coordinates that are followed, with their turns; then the state from which following them continues.
+    /// Memory from which tracking resumes: the last values of tracked joint coordinates with their turns, then further numbers.
     #[must_use]
     pub fn memory(&self) -> &[T] {
         &self.memory
     }
 
-    /// Mutable values of [`memory`](Self::memory), to restore others.
+    /// Mutable values of [`memory`](Self::memory), to restore a saved memory.
     pub fn memory_mut(&mut self) -> &mut [T] {
         &mut self.memory
     }
 
-    /// Follows all joint coordinates to `state`, so that no turn is lost. Call it at every step.
+    /// Tracks all joint coordinates to `state`, so that no turn is lost. Call it at every step.
     ///
     /// Cost: a few products for each measured joint coordinate, one arc tangent for each angle; no allocation.
     ///
     /// # Errors
-    /// [`StepError::TurnTooLarge`] names a joint whose turns are not known: its positions give a quarter of a turn less than its rates, and
-    /// a fiftieth of all turns.
+    /// [`StepError::TurnTooLarge`] with a joint whose turns are unknown. Its positions give less rotation than its rates, by more than a
+    /// quarter of a turn and more than a fiftieth of all its rotation.
     pub fn track(&mut self, state: &State<T>) -> Result<(), StepError> {
         self.follow(state, |_, _| None, true)
     }
 
-    /// Follows all joint coordinates to `state`, where angles, by joint and number, are known with their turns, as most of a tree are. Its
-    /// steps may be any number of steps of its rule: rates do not determine the turns between them, and nothing is refused.
+    /// Tracks all joint coordinates to `state`, if `known` gives angles with their turns, by joint and number. Relative coordinates of a
+    /// tree know most angles. Several steps may lie between two calls: rates then do not determine the turns, and no error is returned.
     pub fn track_with(&mut self, state: &State<T>, known: impl Fn(usize, usize) -> Option<T>) {
-        // Without a check there is no error.
+        // Without the check there is no error to report.
         let _ = self.follow(state, known, false);
     }
 
@@ -186,7 +187,7 @@ impl<T: Real, const D: usize> Measures<T, D> {
                 let expected = &mut expected[..end - at];
                 expected.copy_from_slice(&values[at..end]);
                 if !coordinate.is_angle() {
-                    // A rotation vector turns about its axis as the angular velocity along it says.
+                    // A rotation vector turns about its axis with the component of the angular velocity along it.
                     let before = [0, 1, 2].map(|i| rates.get(at + i).copied().unwrap_or(T::ZERO));
                     coordinate.turning(&state.q, &state.v, &mut rates[at..end]);
                     if has_passed && coordinate.is_turn() {
@@ -226,15 +227,15 @@ impl<T: Real, const D: usize> Measures<T, D> {
 
     /// Tracks `state` and writes all components in the order of the channels.
     ///
-    /// `forces` are those of the state; without them the channels that read reactions or effects are zero.
+    /// `forces` belong to the state. Without them, channels of reactions and effects are zero.
     ///
     /// Cost: as [`track`](Self::track), and a few products for each point; no allocation.
     ///
     /// # Errors
-    /// As for [`track`](Self::track); all is written.
+    /// The errors of [`track`](Self::track); all components are then written.
     ///
     /// # Panics
-    /// If `out` has not [`n_components`](Self::n_components) places.
+    /// If the length of `out` is not [`n_components`](Self::n_components).
     pub fn write(
         &mut self,
         state: &State<T>,
@@ -258,7 +259,8 @@ impl<T: Real, const D: usize> Measures<T, D> {
     }
 }
 
-/// The coordinates of each joint at time zero where the scene gives them (initial values, guides, couplings with these); zero elsewhere.
+/// Coordinates of each joint at time zero that the scene determines; other coordinates are zero. Given values follow from initial
+/// conditions, guides, and couplings.
 ///
 /// Cost: one pass over joints, guides and initial values.
 #[must_use]

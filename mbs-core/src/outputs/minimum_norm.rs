@@ -1,4 +1,4 @@
-//! The smallest solution of consistent equations whose rank is not known, and which unknowns they determine.
+//! Solution of smallest norm of consistent equations A x = b with unknown rank, and the unknowns that the equations determine.
 //!
 //! ```text
 //! A P = Q [R11 R12; 0 0]         Householder, largest column first; rank r
@@ -7,33 +7,34 @@
 //! x   = x_0 - N y,  (1 + Z^T Z) y = N^T x_0
 //! ```
 //!
-//! An unknown is determined exactly when its row of N is zero.
+//! P is the order of the columns, Q R the factorisation, y a vector of free parameters. An unknown is determined exactly if its row of N is
+//! zero.
 
 use crate::Real;
 use alloc::vec;
 use alloc::vec::Vec;
 
-/// A dense system of m equations in n unknowns, with room for the largest one.
+/// Dense system of m equations in n unknowns, with memory for the largest one.
 #[derive(Debug, Clone)]
 pub struct MinimumNorm<T> {
     m: usize,
     n: usize,
     rank: usize,
-    /// A, column by column; after the factorisation R stands on top.
+    /// Matrix A, column by column. After the factorisation R is in its upper part.
     a: Vec<T>,
     b: Vec<T>,
-    /// The vector of the reflection at hand.
+    /// Vector of the present Householder reflection.
     reflector: Vec<T>,
     x: Vec<T>,
     order: Vec<usize>,
-    /// Z, column by column, r long each.
+    /// Matrix Z, column by column, with r rows.
     z: Vec<T>,
     gram: Vec<T>,
     y: Vec<T>,
 }
 
 impl<T: Real> MinimumNorm<T> {
-    /// Room for systems of up to `rows` equations in up to `columns` unknowns.
+    /// Allocates memory for systems of up to `rows` equations in up to `columns` unknowns.
     pub fn new(rows: usize, columns: usize) -> Self {
         let zeros = |k| vec![T::ZERO; k];
         Self {
@@ -51,7 +52,7 @@ impl<T: Real> MinimumNorm<T> {
         }
     }
 
-    /// Starts a system with zeros.
+    /// Begins a system with zero entries.
     pub fn begin(&mut self, m: usize, n: usize) {
         (self.m, self.n, self.rank) = (m, n, 0);
         self.a[..m * n].fill(T::ZERO);
@@ -61,7 +62,7 @@ impl<T: Real> MinimumNorm<T> {
         }
     }
 
-    /// The entry of A in row `i` and column `j`.
+    /// Entry of A in row `i` and column `j`.
     pub fn entry(&mut self, i: usize, j: usize) -> &mut T {
         &mut self.a[j * self.m + i]
     }
@@ -76,14 +77,14 @@ impl<T: Real> MinimumNorm<T> {
         &self.x[..self.n]
     }
 
-    /// Share of the largest pivot below which a pivot is rounding, and a null vector's component too.
+    /// Ratio to the largest pivot below which a pivot counts as zero. It is also the limit of a null vector's component.
     fn tolerance(&self) -> T {
         T::from_f64(self.m.max(self.n) as f64 * libm::pow(T::EPSILON.to_f64(), 2.0 / 3.0))
     }
 
-    /// Factors the matrix and solves the equations; returns the length of what no solution balances.
+    /// Factors the matrix and solves the equations. Returns the norm of the residual.
     ///
-    /// Cost: about 2 m n r operations, and r (n - r)^2 when the rank is short; no allocation.
+    /// Cost: about 2 m n r operations, and r (n - r)^2 more if the rank r is below n; no allocation.
     pub fn solve(&mut self) -> T {
         self.factor();
         self.substitute();
@@ -103,7 +104,7 @@ impl<T: Real> MinimumNorm<T> {
         })
     }
 
-    /// Householder reflections of A and b, the longest remaining column first.
+    /// Factors A by Householder reflections, the longest remaining column first, and transforms b.
     fn factor(&mut self) {
         let (m, n, tolerance) = (self.m, self.n, self.tolerance());
         let mut largest = T::ZERO;
@@ -126,7 +127,7 @@ impl<T: Real> MinimumNorm<T> {
         }
     }
 
-    /// Carries column `step` (in the order) onto its first entry, and the later columns and b with it.
+    /// Reflects column `step` (in the order) onto its first entry, and transforms later columns and b.
     fn reflect(&mut self, step: usize, size: T) {
         let (m, c) = (self.m, self.order[step] * self.m);
         let head = self.a[c + step];
@@ -146,7 +147,7 @@ impl<T: Real> MinimumNorm<T> {
         self.a[c + step] = pivot;
     }
 
-    /// x_0 and Z by back substitution.
+    /// Computes x_0 and Z by back substitution.
     fn substitute(&mut self) {
         let (r, m) = (self.rank, self.m);
         self.x[..self.n].fill(T::ZERO);
@@ -163,7 +164,7 @@ impl<T: Real> MinimumNorm<T> {
         }
     }
 
-    /// x = x_0 - N y by Cholesky of 1 + Z^T Z.
+    /// Computes x = x_0 - N y, by the Cholesky factorisation of 1 + Z^T Z.
     fn shorten(&mut self) {
         let (r, free) = (self.rank, self.n - self.rank);
         let z = |k: usize| k * r..(k + 1) * r;
@@ -187,7 +188,7 @@ impl<T: Real> MinimumNorm<T> {
     }
 }
 
-/// x = R11^-1 x.
+/// Solves R11 y = x by back substitution, in place.
 fn back_substitute<T: Real>(a: &[T], order: &[usize], m: usize, x: &mut [T]) {
     for i in (0..x.len()).rev() {
         x[i] /= a[order[i] * m + i];
@@ -198,7 +199,7 @@ fn back_substitute<T: Real>(a: &[T], order: &[usize], m: usize, x: &mut [T]) {
     }
 }
 
-/// Solves G y = b with the lower triangle of a positive definite G (row by row), which is overwritten.
+/// Solves G y = b with the lower triangle of a positive definite G, stored row by row. It overwrites G and y.
 fn cholesky_solve<T: Real>(g: &mut [T], y: &mut [T]) {
     let n = y.len();
     for i in 0..n {

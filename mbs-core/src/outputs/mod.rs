@@ -1,10 +1,10 @@
-//! Recorded quantities of a motion: points, joint coordinates and reactions, measured from a state of the model.
+//! Recorded quantities of a motion, computed from a state of the model: points, joint coordinates, reactions and others.
 //!
-//! Nothing here depends on a formulation or an integrator. [`Measures`] reads positions, velocities and accelerations.
-//! [`Reactions`] closes the balance of every body of the scene from them, with the efforts of couplings. [`EffectWrenches`] has what effects do;
-//! [`Forces`] has both, where outputs ask for them, and [`Contacts`]
-//! the instants at which one-sided effects touch. [`Turns`] checks whether positions determine how far joints have turned in a step.
-//! [`Events`] finds where within a step a law's kink is passed, for steps that are to end there.
+//! This module depends on no formulation and no integrator. [`Measures`] computes outputs from positions, velocities and accelerations.
+//! [`Reactions`] follow from the equilibrium of every body, with the efforts of couplings. [`EffectWrenches`] are the wrenches of effects.
+//! [`Forces`] has the reactions and effects that outputs need. [`Contacts`] records the instants at which one-sided effects begin and
+//! end contact. [`Turns`] checks whether positions determine the rotation of joints in a step. [`Events`] finds kinks of laws within a
+//! step, for steps that end there.
 
 mod axes;
 mod contact;

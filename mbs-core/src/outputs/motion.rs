@@ -1,4 +1,4 @@
-//! The motion of a body, read off natural coordinates.
+//! Motion of a body, computed from natural coordinates.
 
 use super::frame::Frame;
 use crate::Real;
@@ -10,10 +10,10 @@ use crate::rigid::RigidMotion;
 use crate::scene::BodyId;
 
 impl<T: Real, const D: usize> NaturalModel<T, D> {
-    /// The motion of `scene.bodies[body]` about its centre of mass at a state. A thin rod on balls has no spin about itself:
-    /// its rotation is the smallest that carries its line.
+    /// Motion of `scene.bodies[body]` about its centre of mass at a state. A thin rod between ball joints has no spin about its axis: its
+    /// rotation is the smallest one that turns its line.
     ///
-    /// Allocates a few combinations: for starts and reports, not for steps.
+    /// It allocates, and is for starts and reports, not for steps.
     #[must_use]
     pub fn motion(&self, scene: &Scene<T>, body: usize, state: &State<T>) -> RigidMotion<T> {
         let (_, center, _) = crate::cluster::mass_properties(scene, body);

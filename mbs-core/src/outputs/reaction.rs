@@ -1,4 +1,4 @@
-//! Joint reactions by the balance of every body, whatever coordinates and formulation gave the motion.
+//! Joint reactions from the equilibrium of every body. They do not depend on the coordinates and the formulation of the motion.
 //!
 //! ```text
 //! on body b, about its centre of mass c:
@@ -8,7 +8,8 @@
 //!                     of teeth at a pitch point what drives them apart, once lambda is known
 //! ```
 //!
-//! Welded bodies are bodies like all others. The solution is the smallest one, in forces and moments over the scene's length.
+//! Welded bodies are treated like all other bodies. If the equations leave reactions open, the solution is the one of smallest norm. The
+//! norm uses forces, and moments over the scene's length.
 
 use super::coupled_sum::CoupledSum;
 use super::error::ReactionError;
@@ -27,18 +28,19 @@ use crate::scene::BodyId;
 use alloc::vec;
 use alloc::vec::Vec;
 
-/// Most wrench components of one dense elimination [-]: 0.17 s for each state, measured on a ring of 199 planar bodies.
+/// Largest number of wrench components of one dense elimination [-]. It takes 0.17 s for each state, measured on a ring of 199 planar
+/// bodies.
 pub const LARGEST_BLOCK: usize = 400;
 
-/// The reactions of all joints of a scene at a state.
+/// Reactions of all joints of a scene at a state.
 ///
-/// Trees are solved body by body from their leaves; each group of connected loops is one dense elimination.
+/// Trees are solved body by body from their leaves. Each group of connected loops is one dense elimination.
 #[derive(Debug, Clone)]
 pub struct Reactions<T: Real, const D: usize> {
     bodies: Vec<Placed<T, D>>,
-    /// Of each body, what the unsolved joints must give about its centre of mass.
+    /// Wrench about the centre of mass of each body that its unsolved joints must supply.
     missing: Vec<Wrench<T>>,
-    /// The joints, then the contacts that roll.
+    /// Joints of the scene, then its rolling contacts.
     joints: Vec<WrenchBasis<T, D>>,
     n_joints: usize,
     couplings: Vec<CoupledSum<T, D>>,
@@ -47,34 +49,34 @@ pub struct Reactions<T: Real, const D: usize> {
     blocks: Vec<Block>,
     length: T,
     system: MinimumNorm<T>,
-    /// Directions of the block at hand, joint by joint.
+    /// Directions of the wrenches in the present block, joint by joint.
     directions: Vec<Wrench<T>>,
     wrenches: Vec<Wrench<T>>,
     is_unique: Vec<bool>,
-    /// Of each coupling, and whether the motion determines it.
+    /// Effort of each coupling, and whether the motion determines it.
     efforts: Vec<(T, bool)>,
     residual: T,
-    /// Place of each body in the block at hand.
+    /// Place of each body in the present block.
     place_in_block: Vec<usize>,
 }
 
-/// One body, with its place at a state.
+/// A body with its position at a state.
 #[derive(Debug, Clone)]
 struct Placed<T: Real, const D: usize> {
     body: BodyInertia<T, D>,
     /// Acceleration of the body by gravity [m/s^2].
     gravity: Vector<T, 3>,
-    /// Rotation and centre of mass at the state.
+    /// Rotation matrix and centre of mass at the state.
     turned: Matrix<T, 3>,
     at: Vector<T, 3>,
 }
 
 impl<T: Real, const D: usize> Reactions<T, D> {
-    /// Prepares a scene that passed its check; all memory is taken here.
+    /// Prepares a checked scene and allocates all memory.
     ///
     /// # Errors
-    /// [`ReactionError::Model`] when the scene's dimension is not D; [`ReactionError::TooLarge`] when connected loops carry
-    /// more than [`LARGEST_BLOCK`] wrench components (trees of any size pass).
+    /// [`ReactionError::Model`] if the scene's dimension is not D. [`ReactionError::TooLarge`] if connected loops have more than
+    /// [`LARGEST_BLOCK`] wrench components. Trees of any size are allowed.
     pub fn new(scene: &Scene<T>, model: &NaturalModel<T, D>) -> Result<Self, ReactionError> {
         if scene.dimension.count() != D {
             return Err(ModelError::Dimension.into());
@@ -120,12 +122,12 @@ impl<T: Real, const D: usize> Reactions<T, D> {
         })
     }
 
-    /// Equations of one body.
+    /// Number of equations of one body.
     const ROWS: usize = 3 * (D - 1);
 
     /// Evaluates all reactions at a consistent state.
     ///
-    /// Cost: a few hundred operations for each body of a tree; about 2 m n^2 for loops of m equations and n components. No
+    /// Cost: a few hundred operations for each body of a tree, and about 2 m n^2 for loops with m equations and n wrench components. No
     /// allocation.
     pub fn update(&mut self, state: &State<T>) {
         for (body, missing) in self.bodies.iter_mut().zip(&mut self.missing) {
@@ -147,9 +149,9 @@ impl<T: Real, const D: usize> Reactions<T, D> {
         self.blocks = blocks;
     }
 
-    /// The reaction of a joint as last updated: the wrench of the first body on the second at the joint's place on the second
-    /// body, guide effort included, global axes. Planar: [Fx, Fy, Mz] in the first three places; spatial:
-    /// [Fx, Fy, Fz, Mx, My, Mz] [N, N m].
+    /// Reaction of a joint at the last update: the wrench of the first body on the second, about the joint's point on the second body. It
+    /// includes the effort of a guide. Axes are global. Planar: [Fx, Fy, Mz] in the first three places. Spatial: [Fx, Fy, Fz, Mx, My, Mz]
+    /// [N, N m].
     ///
     /// # Panics
     /// If there is no such joint.
@@ -162,7 +164,7 @@ impl<T: Real, const D: usize> Reactions<T, D> {
         }
     }
 
-    /// Did the motion as last updated determine this joint's reaction? Otherwise it is the smallest of many.
+    /// Did the motion at the last update determine the joint's reaction? Otherwise it is the one of smallest norm.
     ///
     /// # Panics
     /// If there is no such joint.
@@ -171,19 +173,20 @@ impl<T: Real, const D: usize> Reactions<T, D> {
         self.is_unique[joint]
     }
 
-    /// The force on a body that rolls as last updated, at its lowest point, of a blade at its point, global axes [N].
+    /// Contact force on a rolling body at the last update, in global axes [N]. It acts at the lowest point of a disc or ball, or at the
+    /// point of a blade.
     ///
     /// # Panics
-    /// If there is no such rolling.
+    /// If there is no such rolling contact.
     #[must_use]
     pub fn rolling_force(&self, rolling: usize) -> [T; 3] {
         self.wrenches[self.n_joints + rolling].force.into()
     }
 
-    /// The part of that force along the plane's normal, towards the body [N]; negative where the contact pulls.
+    /// Component of the contact force along the plane's normal, towards the body [N]. It is negative if the contact pulls.
     ///
     /// # Panics
-    /// If there is no such rolling.
+    /// If there is no such rolling contact.
     #[must_use]
     pub fn rolling_push(&self, rolling: usize) -> T {
         let index = self.n_joints + rolling;
@@ -192,16 +195,16 @@ impl<T: Real, const D: usize> Reactions<T, D> {
         self.wrenches[index].force.dot(&contact.normal(&on))
     }
 
-    /// Did the motion as last updated determine this rolling's force? Otherwise it is the smallest of many.
+    /// Did the motion at the last update determine the contact force? Otherwise it is the one of smallest norm.
     ///
     /// # Panics
-    /// If there is no such rolling.
+    /// If there is no such rolling contact.
     #[must_use]
     pub fn is_rolling_unique(&self, rolling: usize) -> bool {
         self.is_unique[self.n_joints + rolling]
     }
 
-    /// The effort of a coupling as last updated: the generalised force on each of its terms over the term's factor [N, N m].
+    /// Effort of a coupling at the last update: the generalised force on each of its terms divided by the term's factor [N, N m].
     ///
     /// # Panics
     /// If there is no such coupling.
@@ -210,7 +213,7 @@ impl<T: Real, const D: usize> Reactions<T, D> {
         self.efforts[coupling].0
     }
 
-    /// Did the motion as last updated determine this coupling's effort? Otherwise it is the smallest of many.
+    /// Did the motion at the last update determine the coupling's effort? Otherwise it is the one of smallest norm.
     ///
     /// # Panics
     /// If there is no such coupling.
@@ -219,7 +222,7 @@ impl<T: Real, const D: usize> Reactions<T, D> {
         self.efforts[coupling].1
     }
 
-    /// The largest force, or moment over the scene's length, that no reactions balance [N]: the state's inconsistency.
+    /// Largest force, or moment over the scene's length, that no reactions balance [N]. It measures the inconsistency of the state.
     #[must_use]
     pub fn residual(&self) -> T {
         self.residual
@@ -237,7 +240,7 @@ impl<T: Real, const D: usize> Reactions<T, D> {
         }
     }
 
-    /// Fills the balance of a block's bodies in the wrench components of its joints.
+    /// Assembles the equilibrium of a block's bodies, with the wrench components of its joints as unknowns.
     fn assemble(&mut self, block: &Block, state: &State<T>) {
         let Self { bodies, joints, directions, system, place_in_block, .. } = self;
         directions.clear();
@@ -262,7 +265,7 @@ impl<T: Real, const D: usize> Reactions<T, D> {
             for direction in &directions[column..column + joints[j].n_directions()] {
                 for (body, sign) in joints[j].bodies.into_iter().zip([-T::ONE, T::ONE]) {
                     let BodyId::Body(b) = body else { continue };
-                    // A leaf's other body is not in its block.
+                    // The other body of a leaf's joint is not in the block.
                     if block.bodies.binary_search(&b).is_err() {
                         continue;
                     }
@@ -289,7 +292,8 @@ impl<T: Real, const D: usize> Reactions<T, D> {
         }
     }
 
-    /// Applies what couplings do to bearings alone at the efforts of a solved block, which it does not change; false: nothing does.
+    /// Applies the wrenches of couplings that load bearings only, at the efforts of a solved block. They do not change the efforts. Returns
+    /// whether there are any.
     fn load_bearings(&mut self, block: &Block, state: &State<T>) -> bool {
         let Self { bodies, joints, missing, couplings, system, .. } = self;
         let of_joints: usize = block.joints.iter().map(|&j| joints[j].n_directions()).sum();
@@ -303,7 +307,7 @@ impl<T: Real, const D: usize> Reactions<T, D> {
         is_loaded
     }
 
-    /// Stores the wrenches and efforts of a solved block and takes them off what its bodies miss.
+    /// Stores the wrenches and efforts of a solved block, and subtracts them from the missing wrenches of its bodies.
     fn distribute(&mut self, block: &Block, state: &State<T>) {
         let mut column = 0;
         for &j in &block.joints {
@@ -334,7 +338,7 @@ impl<T: Real, const D: usize> Reactions<T, D> {
     }
 }
 
-/// Takes what is applied to a body off what its joints must give.
+/// Subtracts an applied wrench from the missing wrench of its body.
 fn take_off<T: Real, const D: usize>(
     bodies: &[Placed<T, D>],
     missing: &mut [Wrench<T>],
@@ -357,7 +361,8 @@ impl<T: Real, const D: usize> Placed<T, D> {
         }
     }
 
-    /// Places the body at a state; returns what all joints and effects together must give: [m (c'' - g); I omega' + omega x I omega].
+    /// Updates the body's position to a state. Returns the wrench that all joints and effects together must supply:
+    /// [m (c'' - g); I omega' + omega x I omega].
     fn update(&mut self, state: &State<T>) -> Wrench<T> {
         let BodyInertia { frame, center, mass, inertia, .. } = &self.body;
         let r = frame.rotation(&state.q);
@@ -373,7 +378,7 @@ impl<T: Real, const D: usize> Placed<T, D> {
     }
 }
 
-/// The equations of a wrench: planar [Fx, Fy, Mz / length], spatial all six.
+/// Entries of a wrench in the equations: planar [Fx, Fy, Mz / length], spatial all six, with moments over the length.
 fn rows<T: Real, const D: usize>(wrench: &Wrench<T>, length: T) -> [T; 6] {
     let (f, m) = (&wrench.force, wrench.moment * (T::ONE / length));
     match D {

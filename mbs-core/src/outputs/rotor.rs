@@ -13,7 +13,7 @@ use crate::model::State;
 use crate::natural::NaturalModel;
 use alloc::vec::Vec;
 
-/// Enabled rotor of a scene.
+/// Torque of an enabled rotor of a scene.
 #[derive(Debug, Clone)]
 pub(super) struct RotorTorque<T: Real, const D: usize> {
     /// Index of the effect in the scene.
@@ -24,7 +24,7 @@ pub(super) struct RotorTorque<T: Real, const D: usize> {
 }
 
 impl<T: Real, const D: usize> RotorTorque<T, D> {
-    /// All enabled rotors of a scene that passed its check.
+    /// All enabled rotors of a checked scene.
     pub(super) fn all(scene: &Scene<T>, model: &NaturalModel<T, D>) -> Vec<Self> {
         let rotors = RotorInput::all(scene).filter_map(|rotor| {
             let RotorInput { effect, joint, number, inertia } = rotor;
@@ -35,12 +35,12 @@ impl<T: Real, const D: usize> RotorTorque<T, D> {
         rotors.collect()
     }
 
-    /// Hands out what it does to the bodies of its joint.
+    /// Passes to `take` the wrenches on the bodies of its joint.
     pub(super) fn apply(&self, state: &State<T>, take: &mut dyn FnMut(Applied<T>)) {
         self.of.apply(-self.inertia * state.a[self.unknown], state, take);
     }
 
-    /// The joint's coordinate, its rate, and the torque against its growth.
+    /// Coordinate of the joint, its rate, and the torque against its growth.
     pub(super) fn scalar(&self, state: &State<T>) -> ScalarForce<T> {
         let [value, rate] = self.of.measure(state);
         let tension = self.inertia * state.a[self.unknown];
@@ -53,7 +53,7 @@ impl<T: Real, const D: usize> RotorTorque<T, D> {
         self.inertia * rate * rate * T::HALF
     }
 
-    /// The power that it gives to bodies [W].
+    /// Power that the rotor supplies to bodies [W].
     pub(super) fn power(&self, state: &State<T>) -> T {
         -self.inertia * state.a[self.unknown] * state.v[self.unknown]
     }

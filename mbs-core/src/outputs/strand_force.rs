@@ -1,11 +1,11 @@
-//! The forces of a belt's strands on its wheels.
+//! Forces of a belt's strands on its wheels.
 //!
 //! ```text
 //! F = w1/r1               difference of the strands, w1: moment on the first wheel about its axis for an effort of one
 //! S + F/2, S - F/2        pull of the strand that turns the first wheel about its axis, and of the other;  S: pretension
 //! ```
 //!
-//! S has no moment about the axes: it changes what bearings carry, and neither motion nor effort.
+//! The pretension S has no moment about the axes. It changes the loads of bearings, but neither the motion nor the effort.
 
 use super::coordinate::Coordinate;
 use super::wrench::{Applied, Wrench};
@@ -16,20 +16,20 @@ use crate::model::State;
 use crate::natural::{Affine, NaturalModel};
 use crate::scene::{Coupling, CouplingKind};
 
-/// The forces of strands.
+/// Forces of the strands of a belt.
 #[derive(Debug, Clone)]
 pub(super) struct StrandForce<T: Real, const D: usize> {
     strands: Strands<T>,
-    /// The first joint's coordinate, which has the axis, and the places of both joints on the body that carries them.
+    /// Coordinate of the first joint, which has the axis; points of both joints on the body that carries the wheels.
     axis: Coordinate<T, D>,
     places: [Affine<T, D>; 2],
-    /// Difference of the strands for an effort of one.
+    /// Difference of the tensions for an effort of one.
     difference: T,
     pretension: T,
 }
 
 impl<T: Real, const D: usize> StrandForce<T, D> {
-    /// Of a coupling in a scene that passed its check; `None` where it has no pretension.
+    /// Forces of a coupling in a checked scene; `None` if the coupling has no pretension.
     pub(super) fn new(
         scene: &Scene<T>,
         model: &NaturalModel<T, D>,
@@ -48,20 +48,20 @@ impl<T: Real, const D: usize> StrandForce<T, D> {
         Some(Self { strands, axis, places: [first, second], difference, pretension })
     }
 
-    /// Hands out what turns the wheels at an effort.
+    /// Passes to `take` the wrenches that turn the wheels at an effort.
     pub(super) fn apply(&self, effort: T, state: &State<T>, take: &mut dyn FnMut(Applied<T>)) {
         let half = self.difference * effort * T::HALF;
         self.hand_out(state, |is_about| if is_about { half } else { -half }, take);
     }
 
-    /// Hands out what draws the wheels together.
+    /// Passes to `take` the forces that pull the wheels together.
     pub(super) fn draw_together(&self, state: &State<T>, take: &mut dyn FnMut(Applied<T>)) {
         if !self.pretension.is_zero() {
             self.hand_out(state, |_| self.pretension, take);
         }
     }
 
-    /// The pulls of both strands on the first wheel, and their opposites on the second.
+    /// Passes to `take` the tensions of both strands on the first wheel, and the opposite forces on the second.
     fn hand_out(
         &self,
         state: &State<T>,

@@ -1,4 +1,4 @@
-//! The force of the teeth of two wheels in mesh, at their pitch point.
+//! Force of the teeth of two meshing wheels at their pitch point.
 //!
 //! ```text
 //! r_k            from the axis of wheel k to the pitch point, across the axis
@@ -6,7 +6,8 @@
 //! |f| tan(alpha)                drives the teeth apart: on the smaller wheel towards its axis, opposite on the other
 //! ```
 //!
-//! The force that drives apart has no moment about the axes: it changes what bearings carry, and neither motion nor effort.
+//! alpha is the pressure angle. The force that pushes the teeth apart has no moment about the axes. It changes the loads of bearings, but
+//! neither the motion nor the effort.
 
 use super::coordinate::Coordinate;
 use super::wrench::{Applied, Wrench};
@@ -17,22 +18,22 @@ use crate::model::State;
 use crate::natural::{Affine, NaturalModel};
 use crate::scene::{BodyId, Coupling, CouplingKind};
 
-/// The force of teeth.
+/// Force of the teeth of two meshing wheels.
 #[derive(Debug, Clone)]
 pub(super) struct ToothForce<T: Real, const D: usize> {
     wheels: [BodyId; 2],
-    /// The pitch point in the body that carries the wheels.
+    /// Pitch point in the body that carries the wheels.
     pitch: Affine<T, D>,
-    /// Of each joint, its coordinate, which has the axis, and its place.
+    /// Coordinate of each joint, which has the axis, and the joint's point.
     axes: [(Coordinate<T, D>, Affine<T, D>); 2],
     /// Moment on the first wheel for an effort of one.
     moment: T,
-    /// Factor tan(alpha) of the force that drives the teeth apart.
+    /// Factor tan(alpha) of the force that pushes the teeth apart.
     apart: T,
 }
 
 impl<T: Real, const D: usize> ToothForce<T, D> {
-    /// Of a coupling in a scene that passed its check; `None` where it has no pitch point.
+    /// Force of a coupling in a checked scene; `None` if the coupling has no pitch point.
     pub(super) fn new(
         scene: &Scene<T>,
         model: &NaturalModel<T, D>,
@@ -54,7 +55,7 @@ impl<T: Real, const D: usize> ToothForce<T, D> {
         })
     }
 
-    /// The pitch point, the ways to it from the axes, and the force along the tangent on the first wheel for an effort.
+    /// Pitch point, the vectors to it from the axes, and the tangential force on the first wheel for an effort.
     fn at(&self, effort: T, state: &State<T>) -> (Vector<T, 3>, [Vector<T, 3>; 2], Vector<T, 3>) {
         let pitch = raised(&self.pitch.value(&state.q));
         let axes = self.axes.each_ref().map(|(axis, place)| {
@@ -67,13 +68,13 @@ impl<T: Real, const D: usize> ToothForce<T, D> {
         (pitch, [way, other], force)
     }
 
-    /// Hands out what turns the wheels at an effort.
+    /// Passes to `take` the wrenches that turn the wheels at an effort.
     pub(super) fn apply(&self, effort: T, state: &State<T>, take: &mut dyn FnMut(Applied<T>)) {
         let (pitch, _, force) = self.at(effort, state);
         self.hand_out(pitch, force, take);
     }
 
-    /// Hands out what drives the wheels apart at an effort; nothing without a pressure angle.
+    /// Passes to `take` the forces that push the wheels apart at an effort. There are none without a pressure angle.
     pub(super) fn drive_apart(
         &self,
         effort: T,
@@ -85,13 +86,13 @@ impl<T: Real, const D: usize> ToothForce<T, D> {
         }
         let (pitch, ways, force) = self.at(effort, state);
         let [first, second] = ways.each_ref().map(norm);
-        // on the smaller wheel towards its axis
+        // direction of the force on the first wheel; on the smaller wheel it points towards the axis
         let on_first =
             if first <= second { ways[0] * (-T::ONE / first) } else { ways[1] * (T::ONE / second) };
         self.hand_out(pitch, on_first * (norm(&force) * self.apart), take);
     }
 
-    /// A force on the first wheel at the pitch point, and its opposite on the second.
+    /// Passes to `take` a force on the first wheel at the pitch point, and the opposite force on the second.
     fn hand_out(&self, pitch: Vector<T, 3>, force: Vector<T, 3>, take: &mut dyn FnMut(Applied<T>)) {
         let wrench = Wrench { force, moment: Vector::zeros() };
         take((self.wheels[0], Some(pitch), wrench));

@@ -1,11 +1,12 @@
-//! Whether the joints' positions at the end of a step determine how far they have turned in it.
+//! Check whether the positions of joints at the end of a step determine their rotation in the step.
 //!
 //! ```text
 //! expected   h (rate_n + rate_(n+1)) / 2
 //! ```
 //!
-//! An angle of a position is known but for whole turns. Within half a turn a step the nearest value is the right one; beyond, that which the
-//! rates lead to. Beyond a third of a radian the positions of a step must fit the rates to a hundredth: else the rule does not resolve the turn.
+//! h is the step. Positions determine an angle up to whole turns. If the rotation in a step is below half a turn, the nearest value is
+//! correct. Otherwise it is the value nearest to the one expected from the rates. Above a third of a radian, rotations by positions and by
+//! rates must agree within one percent; otherwise the rule does not resolve the rotation.
 
 use super::coordinate::Coordinate;
 use crate::Real;
@@ -15,7 +16,7 @@ use crate::natural::NaturalModel;
 use crate::step::StepError;
 use alloc::vec::Vec;
 
-/// The angles of a scene's joints.
+/// Angles of the joints of a scene.
 #[derive(Debug, Clone)]
 pub struct Turns<T: Real, const D: usize> {
     angles: Vec<(u32, Coordinate<T, D>)>,
@@ -33,12 +34,12 @@ impl<T: Real, const D: usize> Turns<T, D> {
         Self { angles: angles.collect() }
     }
 
-    /// Looks whether turns are lost between the states before and after a step.
+    /// Checks whether turns are lost between the states before and after a step.
     ///
     /// Cost: two rates for each angle; no allocation.
     ///
     /// # Errors
-    /// [`StepError::TurnTooLarge`] names the first joint.
+    /// [`StepError::TurnTooLarge`] with the first joint concerned.
     pub fn check(&self, states: [&State<T>; 2]) -> Result<(), StepError> {
         for (joint, angle) in &self.angles {
             if let Some(turn) = angle.lost_turn(states) {

@@ -1,4 +1,4 @@
-//! The wrenches a joint can transmit, as directions in global axes at the joint's place on the second body.
+//! Wrenches that a joint can transmit, as directions in global axes at the joint's point on the second body.
 //!
 //! | freedoms | forces; moments |
 //! |---|---|
@@ -9,7 +9,8 @@
 //! | ball | none |
 //! | link | along it; hinged: along the hinge a |
 //!
-//! A guide adds the direction it drives: the moment about its axis, or the force along it; of a rotation vector all moments.
+//! a and b are the joint's axes. A guide adds the direction in which it drives: the moment about the axis, or the force along it. For a
+//! rotation vector it adds all moments.
 
 use super::frame::normalised;
 use crate::Real;
@@ -21,15 +22,15 @@ use crate::natural::{Affine, NaturalModel};
 use crate::scene::{BodyId, Joint, transverse};
 use alloc::vec::Vec;
 
-/// Wrench with its place: a body and, for a force, a point.
+/// Wrench with a body and, for a force, the point at which it acts.
 pub(super) type Applied<T> = (BodyId, Option<Vector<T, 3>>, Wrench<T>);
 
-/// A force and a moment about the joint's place [N, N m], or about a body's centre of mass.
+/// Force and moment [N, N m]. The moment is about the joint's point or about a body's centre of mass.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Wrench<T: Real> {
-    /// Force [N].
+    /// Force in global axes [N].
     pub force: Vector<T, 3>,
-    /// Moment [N m].
+    /// Moment in global axes [N m].
     pub moment: Vector<T, 3>,
 }
 
@@ -38,45 +39,45 @@ impl<T: Real> Wrench<T> {
         Self { force: Vector::zeros(), moment: Vector::zeros() }
     }
 
-    /// Multiplied by a number.
+    /// The wrench times a number.
     pub(super) fn scaled(&self, s: T) -> Self {
         Self { force: self.force * s, moment: self.moment * s }
     }
 
-    /// This and another about the same place.
+    /// Adds another wrench about the same point.
     pub(super) fn add(&mut self, other: &Self) {
         self.force += other.force;
         self.moment += other.moment;
     }
 
-    /// This wrench about another place; `arm` leads from there to its own.
+    /// This wrench about another point. `arm` is the vector from that point to the present one.
     pub(super) fn shifted(&self, arm: &Vector<T, 3>) -> Self {
         Self { force: self.force, moment: self.moment + cross(arm, &self.force) }
     }
 }
 
-/// Wrenches that a joint can transmit, by its kind and axes alone. Directions are those of the reference configuration.
+/// Wrenches that a joint can transmit, from its kind and axes alone. Directions are those of the reference configuration.
 #[derive(Debug, Clone, PartialEq)]
 pub struct JointWrenches<T: Real> {
     dimension: Dimension,
     translation: Translation,
     rotation: Rotation,
-    /// Directions of the first body that forces act along, where the joint slides; then of moments, where it turns about one axis.
+    /// Directions of the first body along which forces act if the joint slides. Then directions of moments if it turns about one axis.
     forces: Vec<Vector<T, 3>>,
     moments: Vec<Vector<T, 3>>,
-    /// The axes in the first and the second body, where it turns about two.
+    /// Axes in the first and the second body if the joint turns about two axes.
     crossed: [Vector<T, 3>; 2],
     is_link: bool,
-    /// Of a hinged link.
+    /// Hinge axis of a hinged link.
     hinge: Option<Vector<T, 3>>,
-    /// Freedoms that are guided, with the side that has their direction; of a ball zero.
+    /// Guided freedoms, with the body (0 or 1) in which the axis is fixed, and the axis. The axis of a ball is zero.
     guided: Vec<(Freedom, usize, Vector<T, 3>)>,
     length: T,
 }
 
 impl<T: Real> JointWrenches<T> {
-    /// Of a joint that passed its scene's check. Moments are unit forces at a lever of `length` [m], so that all directions
-    /// are forces.
+    /// Wrenches of a joint in a checked scene. Moments are unit forces at a lever of `length` [m], so that all directions have the unit of
+    /// a force.
     #[must_use]
     pub fn new(joint: &Joint<T>, dimension: Dimension, is_guided: bool, length: T) -> Self {
         let rotation = joint.kind.rotation(dimension);
@@ -110,13 +111,13 @@ impl<T: Real> JointWrenches<T> {
         }
     }
 
-    /// How many of its directions are those of guides; they are the last ones.
+    /// Number of directions of guides; they are the last ones.
     #[must_use]
     pub fn n_guided(&self) -> usize {
         self.guided.iter().map(|(freedom, ..)| freedom.n_coordinates()).sum()
     }
 
-    /// How many directions it has.
+    /// Number of directions of the joint.
     #[must_use]
     pub fn n_directions(&self) -> usize {
         let n_forces = match self.translation {
@@ -132,7 +133,7 @@ impl<T: Real> JointWrenches<T> {
         n_forces + n_moments + n_link + self.n_guided()
     }
 
-    /// Hands out its directions; `places` are those of the joint on both bodies [m], whose rotations are `turned`.
+    /// Passes its directions to `take`. `places` are the joint's points on both bodies [m], `turned` the rotation matrices of the bodies.
     pub fn directions(
         &self,
         places: impl Fn(usize) -> Vector<T, 3>,
@@ -173,25 +174,25 @@ impl<T: Real> JointWrenches<T> {
     }
 }
 
-/// A joint, or a contact that rolls, as a carrier of wrenches, its places read off natural coordinates.
+/// Wrench basis of a joint or a rolling contact, with its points in natural coordinates.
 #[derive(Debug, Clone)]
 pub(super) struct WrenchBasis<T: Real, const D: usize> {
-    /// The first body, which a wrench comes from, and the second.
+    /// First body, from which a wrench acts, and second body, on which it acts.
     pub(super) bodies: [BodyId; 2],
     places: [Affine<T, D>; 2],
     transmission: Transmission<T>,
 }
 
-/// Wrenches that a joint or a contact transmits.
+/// Wrenches that a joint or a rolling contact transmits.
 #[derive(Debug, Clone)]
 enum Transmission<T: Real> {
     Joint(JointWrenches<T>),
-    /// Forces at the lowest point: along the normal and along the plane; of a blade across it.
+    /// Forces at the lowest point, along the normal and in the plane. A blade transmits a force perpendicular to it in the plane.
     Rolling(RollingInput<T>),
 }
 
 impl<T: Real, const D: usize> WrenchBasis<T, D> {
-    /// Wrenches of a contact, that of `scene.rollings[index]`: from what it rolls on to the body.
+    /// Wrenches of the rolling contact `scene.rollings[index]`, from the plane's body on the rolling body.
     pub(super) fn of_rolling(scene: &Scene<T>, model: &NaturalModel<T, D>, index: usize) -> Self {
         let input = RollingInput::new(&scene.rollings[index], scene.dimension);
         let [body, on] = input.bodies;
@@ -217,7 +218,7 @@ impl<T: Real, const D: usize> WrenchBasis<T, D> {
         }
     }
 
-    /// The joint's place on the second body, or the lowest point; the bodies' rotations are `turned`.
+    /// The joint's point on the second body, or the lowest point of a rolling body. `turned` are the rotation matrices of the bodies.
     pub(super) fn place(&self, q: &[T], turned: [&Matrix<T, 3>; 2]) -> Vector<T, 3> {
         let place = raised(&self.places[1].value(q));
         match &self.transmission {
@@ -228,7 +229,7 @@ impl<T: Real, const D: usize> WrenchBasis<T, D> {
         }
     }
 
-    /// The normal of the plane that something rolls on, whose rotation is `turned`; of a joint zero.
+    /// Normal of the plane on which a body rolls; zero for a joint. `turned` is the rotation matrix of the plane's body.
     pub(super) fn normal(&self, turned: &Matrix<T, 3>) -> Vector<T, 3> {
         match &self.transmission {
             Transmission::Rolling(input) => turned * input.plane[0],
@@ -236,7 +237,7 @@ impl<T: Real, const D: usize> WrenchBasis<T, D> {
         }
     }
 
-    /// How many directions it has.
+    /// Number of directions of the basis.
     pub(super) fn n_directions(&self) -> usize {
         match &self.transmission {
             Transmission::Joint(joint) => joint.n_directions(),
@@ -245,8 +246,8 @@ impl<T: Real, const D: usize> WrenchBasis<T, D> {
         }
     }
 
-    /// Hands out its directions, the bodies' rotations being `turned`. Moments are one times the scene's length, so that
-    /// all unknowns are forces.
+    /// Passes its directions to `take`. `turned` are the rotation matrices of the bodies. Moments are unit forces times the scene's length,
+    /// so that all unknowns are forces.
     pub(super) fn directions(
         &self,
         q: &[T],

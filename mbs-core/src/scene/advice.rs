@@ -2,7 +2,7 @@
 
 use crate::scene::{NotDrawn, NotStrands, SceneFault};
 
-/// Advice on what a point mass takes.
+/// Advice on the joints and effects that a point mass can have.
 const POINT_TURNS: &str = "a point takes the joints `spherical` (plane: `revolute`), `distance` and `free` as their second body, forces, and \
                            lengths; give what turns `center` and `inertia`";
 

@@ -1,11 +1,11 @@
-//! Directions of a joint in the reference configuration, by its freedoms.
+//! Directions of a joint in the reference configuration, for each of its freedoms.
 
 use super::Joint;
 use crate::Real;
 use crate::algebra::{Vector, across, along, cross, unit};
 use crate::joint::{Axis, Dimension, Freedom, Rotation, Translation};
 
-/// Two directions across `axis`, the second a quarter turn after the first, right-handed about the axis.
+/// Two unit vectors perpendicular to `axis`. The second is the first, rotated by a quarter turn about the axis (right-hand rule).
 pub fn transverse<T: Real>(axis: &Vector<T, 3>, dimension: Dimension) -> [Vector<T, 3>; 2] {
     let v = match dimension {
         Dimension::Planar => unit(0),
@@ -15,13 +15,13 @@ pub fn transverse<T: Real>(axis: &Vector<T, 3>, dimension: Dimension) -> [Vector
 }
 
 impl<T: Real> Joint<T> {
-    /// Freedoms of the joint in a scene of that dimension, in the order of its coordinates.
+    /// Freedoms of the joint in a scene of this dimension, in the order of the coordinates.
     #[must_use]
     pub fn freedoms(&self, dimension: Dimension) -> &'static [Freedom] {
         self.kind.freedoms(dimension)
     }
 
-    /// The unit vector of an axis; global z for one that the joint has not.
+    /// Unit vector of an axis; global z if the joint does not have this axis.
     #[must_use]
     pub fn direction(&self, axis: Axis) -> Vector<T, 3> {
         let own = |i: usize| self.axes[i].map_or_else(|| unit(2), |a| along(&Vector::from(a)));
@@ -39,7 +39,8 @@ impl<T: Real> Joint<T> {
         }
     }
 
-    /// Directions of the first body across all slides: the points keep together along these. None where the joint has no slide.
+    /// Directions of the first body perpendicular to all slides. Along these the two joint points coincide. Empty if the joint has
+    /// no slide.
     pub fn across_slides(&self, dimension: Dimension) -> impl Iterator<Item = Vector<T, 3>> {
         let two = match (self.kind.translation(dimension), dimension) {
             (Translation::Along(axis), Dimension::Planar) => {
@@ -55,7 +56,7 @@ impl<T: Real> Joint<T> {
         two.into_iter().flatten()
     }
 
-    /// The direction that both bodies have in common; of what does not turn at all, one of many.
+    /// Direction that both bodies have in common; `None` if they have none. A joint without rotation has many, and one is chosen.
     #[must_use]
     pub fn common_axis(&self, dimension: Dimension) -> Option<Vector<T, 3>> {
         let axis = match self.kind.rotation(dimension) {
@@ -70,7 +71,8 @@ impl<T: Real> Joint<T> {
         Some(self.direction(axis))
     }
 
-    /// A direction of the first body and one of the second that keep their angle, beside the [common axis](Self::common_axis).
+    /// Direction of the first body and direction of the second whose angle is constant, besides the [common
+    /// axis](Self::common_axis).
     #[must_use]
     pub fn kept_angle(&self, dimension: Dimension) -> Option<[Vector<T, 3>; 2]> {
         match (self.kind.rotation(dimension), dimension) {
@@ -82,8 +84,8 @@ impl<T: Real> Joint<T> {
         }
     }
 
-    /// Directions [x1, x2, y] whose angle atan2(x2.y, x1.y) is the turn about `axis`: x1, x2 in the first body and y in the second. About
-    /// the second of two axes x1, x2 are in the second body and y in the first, and the angle is minus the turn.
+    /// Directions [x1, x2, y] whose angle atan2(x2.y, x1.y) is the rotation about `axis`: x1, x2 in the first body and y in the
+    /// second. For the second of two axes, x1, x2 are in the second body and y in the first, and the angle is minus the rotation.
     #[must_use]
     pub fn turn_directions(&self, dimension: Dimension, axis: Axis) -> [Vector<T, 3>; 3] {
         let n = self.direction(axis);
@@ -96,7 +98,7 @@ impl<T: Real> Joint<T> {
         [v, cross(&n, &v), other]
     }
 
-    /// Number of the joint's body that has the axis of a turn: 1 for the second of two axes, else 0.
+    /// Number of the body in which the axis of a rotation is fixed: 1 for the second of two axes, else 0.
     #[must_use]
     pub fn side_of_turn(&self, dimension: Dimension, axis: Axis) -> usize {
         match self.kind.rotation(dimension) {
@@ -105,13 +107,13 @@ impl<T: Real> Joint<T> {
         }
     }
 
-    /// Is it a link that is hinged at its first body?
+    /// Is the joint a link that is hinged at its first body?
     #[must_use]
     pub fn is_hinged_link(&self) -> bool {
         self.kind.is_link() && self.axes[0].is_some()
     }
 
-    /// Does it hold its first or second body (0 or 1) in space at a point alone, whatever way that turns?
+    /// Does the joint hold this body (0 or 1) at a point only, in space, for every orientation of the body?
     #[must_use]
     pub fn is_ball_at(&self, side: usize) -> bool {
         if self.kind.is_link() {

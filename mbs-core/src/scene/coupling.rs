@@ -1,11 +1,11 @@
-//! Couplings: relations of joint coordinates and lengths that hold, such as gears, racks, screws, belts, cams and ropes.
+//! Couplings: constraints between joint coordinates and lengths, such as gears, racks, screws, belts, cams and ropes.
 //!
 //! ```text
-//! sum_k c_k m_k(q) = value + f(t)          m_k: a joint coordinate, unwrapped, or a length; or a curve of one
+//! sum_k c_k m_k(q) = value + f(t)          m_k: a joint coordinate, unwrapped, or a length; or a curve of either
 //! ```
 //!
-//! Every kind of coupling is such a sum; the constructors below write them. A [relation](Coupling::relation) in code holds any
-//! other function of the measures. Coordinates and lengths count from the reference configuration.
+//! Every kind of coupling is such a sum, and the constructors below write it. A [relation](Coupling::relation) in code constrains
+//! any other function of the measured numbers. Coordinates and lengths are relative to the reference configuration.
 
 use crate::Real;
 use crate::laws::code::Code;
@@ -18,59 +18,60 @@ use alloc::string::String;
 use alloc::vec;
 use alloc::vec::Vec;
 
-/// 2 pi to more digits than any precision has.
+/// Value of 2 pi, with more digits than any precision has.
 const TWO_PI: &str = "6.28318530717958647692528676655900576839433879875021";
 
-/// A relation of joint coordinates and lengths that holds.
+/// Constraint between joint coordinates and lengths.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Coupling<T> {
     /// Unique name among the couplings.
     pub name: String,
-    /// The terms of the sum, at least one.
+    /// Terms of the sum, at least one.
     pub terms: Vec<CouplingTerm<T>>,
-    /// A user-defined function of the terms that is held in place of their sum; in code only.
+    /// User-defined function of the terms, which is constrained in place of their sum; only in scenes built in code.
     pub relation: Option<Code<dyn Relation>>,
-    /// Value of the sum, from the reference configuration [unit of a factor times its coordinate].
+    /// Value of the sum, zero in the reference configuration [unit of a factor times its coordinate].
     pub value: T,
     /// Function of time that is added to the value.
     pub motion: Option<Motion<T>>,
-    /// Kind of part that holds the sum.
+    /// Kind of machine element that enforces the sum.
     pub kind: CouplingKind<T>,
-    /// Drawn coupling from which the sum follows when the scene is [resolved](crate::scene::Scene::resolve); `None`: the sum is meant as it is
-    /// written.
+    /// Drawn coupling, whose sum follows from places and axes when the scene is [resolved](crate::scene::Scene::resolve). `None`:
+    /// the sum is used as it is written.
     pub drawn: Option<Drawn>,
 }
 
-/// Kind of part that holds the sum of a coupling. The motion is the same with all; reactions and notes are not.
+/// Kind of machine element that enforces the sum of a coupling. The motion does not depend on it; reactions and notes do.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub enum CouplingKind<T> {
-    /// Any part, which acts along the coordinates and lengths of the coupling.
+    /// Any element, which acts along the coordinates and lengths of the coupling.
     #[default]
     General,
-    /// Teeth in mesh: the bearings of both wheels carry their force.
+    /// Gear teeth in mesh. The bearings of both wheels carry the tooth force.
     Mesh(Mesh<T>),
-    /// A rope, which cannot push: a run notes where this one would have to.
+    /// Rope, which cannot push. A run notes the times at which the constraint would need a push.
     Rope,
-    /// The strands of a belt: the bearings of both wheels carry their pull.
+    /// Belt with two strands. The bearings of both wheels carry the forces of the strands.
     Strands {
-        /// Pull of each strand where the belt passes nothing on [N].
+        /// Force of each strand where the belt transmits no torque [N].
         pretension: T,
     },
-    /// A cam, which cannot pull its follower: a run notes where this one would have to. The terms are the follower and the shaft's curve.
+    /// Cam, which cannot pull its follower. A run notes the times at which the constraint would need a pull. The terms are the
+    /// follower and the curve of the shaft.
     Cam,
 }
 
-/// Contact of two wheels with straight teeth.
+/// Mesh of two wheels with straight teeth.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mesh<T> {
-    /// The pitch point, fixed in the body that carries both wheels, reference configuration [m].
+    /// Pitch point, fixed in the body that carries both wheels, in the reference configuration [m].
     pub at: [T; 3],
-    /// Angle of the force against the common tangent of the wheels; from 0 to below pi/2 [rad].
+    /// Angle between the tooth force and the common tangent of the wheels, at least 0 and below pi/2 [rad].
     pub pressure_angle: T,
 }
 
 impl<T> Coupling<T> {
-    /// Any terms, whose sum is `value`; without a name.
+    /// Coupling of any terms, whose sum is `value`; without a name.
     #[must_use]
     pub const fn sum(terms: Vec<CouplingTerm<T>>, value: T) -> Self {
         Self {
@@ -84,21 +85,21 @@ impl<T> Coupling<T> {
         }
     }
 
-    /// The first of its terms that is a length.
+    /// First term that is a length; `None` if there is none.
     #[must_use]
     pub fn line(&self) -> Option<&CouplingTerm<T>> {
         self.terms.iter().find(|term| matches!(term.of, CouplingMeasure::Length { .. }))
     }
 
-    /// Does its sum change with time?
+    /// Does the sum of the coupling change with time?
     #[must_use]
     pub const fn is_driven(&self) -> bool {
         self.motion.is_some()
     }
 
-    /// Effort of the coupling over the force that its sum takes to change; one where no other effort is named. The effort of a gear and a
-    /// differential is the torque on the first wheel [N m]. That of a belt is the difference of its strands [N]. Of a rack and a screw it is
-    /// the force along the slide [N], of a rope its tension [N].
+    /// Ratio of the named effort to the generalised force on the sum; one if no effort is named. The effort of a gear or
+    /// differential is the torque on the first wheel [N m]. The effort of a belt is the difference of its strands [N]. For a rack
+    /// or screw it is the force along the slide [N], for a rope its tension [N].
     #[must_use]
     pub fn effort_factor(&self) -> T
     where
@@ -115,14 +116,14 @@ impl<T> Coupling<T> {
         }
     }
 
-    /// The place of the term whose rate its effort is named for; `None`: that of the whole sum.
+    /// Index of the term whose coordinate the named effort acts on; `None`: the effort acts on the whole sum.
     #[must_use]
     pub fn named_term(&self) -> Option<usize> {
         let drawn = self.drawn.filter(|_| !self.is_driven())?;
         Some(usize::from(drawn.kind == DrawnKind::Ratio))
     }
 
-    /// Is its sum not always zero? It then has a place behind the [guides](crate::inputs::Prescribed::guides).
+    /// Is the sum not always zero? It then has a place after the [guides](crate::inputs::Prescribed::guides).
     #[must_use]
     pub fn has_sum(&self) -> bool
     where
@@ -133,23 +134,23 @@ impl<T> Coupling<T> {
 }
 
 impl Coupling<Number> {
-    /// The sum of `factor` times a joint's first coordinate is zero.
+    /// Coupling of joint coordinates: the sum of `factor` times the first coordinate of each joint is zero.
     #[must_use]
     pub fn linear(terms: impl IntoIterator<Item = (JointId, f64)>) -> Self {
         let term = |(joint, factor)| CouplingTerm::of_joint(joint, 0, factor);
         Self::of(terms.into_iter().map(term).collect())
     }
 
-    /// Any terms, whose sum is zero.
+    /// Coupling of any terms, whose sum is zero.
     #[must_use]
     pub const fn of(terms: Vec<CouplingTerm<Number>>) -> Self {
         Self::sum(terms, Number::ZERO)
     }
 
-    /// A user-defined relation of measures, whose value is zero: a joint stands for its first coordinate.
+    /// User-defined relation of measured numbers, whose value is zero. A joint means its first coordinate.
     ///
-    /// Measures count from the reference configuration. Another value is [held](Self::holding) or [follows time](Self::driven). It is
-    /// code, which no file has.
+    /// Measured numbers are relative to the reference configuration. The value can be [constant](Self::holding) or a [function of
+    /// time](Self::driven). A relation is code, which scene files cannot contain.
     #[must_use]
     pub fn relation<M: Into<CouplingMeasure<Number>>>(
         measures: impl IntoIterator<Item = M>,
@@ -160,7 +161,7 @@ impl Coupling<Number> {
         Self { relation, ..Self::of(measures.into_iter().map(term).collect()) }
     }
 
-    /// Two wheels in external mesh about parallel axes: `teeth[0]` of the first turn against `teeth[1]` of the second.
+    /// Two wheels in external mesh about parallel axes: `teeth[0]` times the first angle plus `teeth[1]` times the second is zero.
     #[must_use]
     pub fn gear(joints: [JointId; 2], teeth: [u32; 2]) -> Self {
         let [first, second] = teeth.map(f64::from);
@@ -168,7 +169,8 @@ impl Coupling<Number> {
             .drawn(DrawnKind::Gear { is_internal: false, has_radii: false })
     }
 
-    /// A wheel inside a ring of teeth, about axes of the same sense: both turn alike, `teeth[0]` of the first for `teeth[1]` of the second.
+    /// Wheel inside a ring gear, about axes of the same sense. Both turn in the same sense, with `teeth[0]` turns of the second for
+    /// `teeth[1]` turns of the first.
     #[must_use]
     pub fn internal_gear(joints: [JointId; 2], teeth: [u32; 2]) -> Self {
         let [first, second] = teeth.map(f64::from);
@@ -176,33 +178,33 @@ impl Coupling<Number> {
             .drawn(DrawnKind::Gear { is_internal: true, has_radii: false })
     }
 
-    /// A belt over two wheels of these radii [m] about axes of the same sense, which turn alike.
+    /// Belt over two wheels of these radii [m], about axes of the same sense. Both wheels turn in the same sense.
     #[must_use]
     pub fn belt(joints: [JointId; 2], radii: [f64; 2]) -> Self {
         Self::linear([(joints[0], radii[0]), (joints[1], -radii[1])])
             .drawn(DrawnKind::Belt { is_crossed: false })
     }
 
-    /// A crossed belt: its wheels turn against each other.
+    /// Crossed belt over two wheels of these radii [m]. The wheels turn in opposite senses.
     #[must_use]
     pub fn crossed_belt(joints: [JointId; 2], radii: [f64; 2]) -> Self {
         Self::linear([(joints[0], radii[0]), (joints[1], radii[1])])
             .drawn(DrawnKind::Belt { is_crossed: true })
     }
 
-    /// A screw in a cylindrical joint: it slides by `lead` [m] in a turn.
+    /// Screw in a cylindrical joint. It slides by `lead` in one turn [m].
     #[must_use]
     pub fn screw(joint: JointId, lead: f64) -> Self {
         Self::screw_of((joint, 1), (joint, 0), lead)
     }
 
-    /// A screw that turns in its first joint and moves the slide of the second by `lead` [m] in a turn.
+    /// Screw that turns in the first joint and moves the slide of the second joint by `lead` in one turn [m].
     #[must_use]
     pub fn screw_between([turn, slide]: [JointId; 2], lead: f64) -> Self {
         Self::screw_of((turn, 0), (slide, 0), lead)
     }
 
-    /// 2 pi s - lead a = 0, of joint coordinates by number.
+    /// Screw between a turn a and a slide s, given by joint and coordinate number: 2 pi s - lead a = 0.
     fn screw_of(turn: (JointId, usize), slide: (JointId, usize), lead: f64) -> Self {
         let per_turn = Number::from_decimal(TWO_PI).unwrap_or(Number::ZERO);
         Self::of(vec![
@@ -212,20 +214,20 @@ impl Coupling<Number> {
         .drawn(DrawnKind::Screw)
     }
 
-    /// The first joint's coordinate is `factor` times the second's.
+    /// Coupling in which the first joint's coordinate is `factor` times the second's.
     #[must_use]
     pub fn mimic([joint, of]: [JointId; 2], factor: f64) -> Self {
         Self::linear([(joint, 1.0), (of, -factor)])
     }
 
-    /// Two wheels with these teeth, and the carrier of what runs between them: Na (a - c) + Nb (b - c) = 0.
+    /// Differential with two wheels, angles a and b, and the carrier of the planet wheels, angle c: Na (a - c) + Nb (b - c) = 0.
     #[must_use]
     pub fn differential([a, b, cage]: [JointId; 3], teeth: [u32; 2]) -> Self {
         let [of_a, of_b] = teeth.map(f64::from);
         Self::linear([(a, of_a), (b, of_b), (cage, -(of_a + of_b))]).drawn(DrawnKind::Differential)
     }
 
-    /// A line of constant length over points of bodies [m], without friction: it pulls and pushes.
+    /// Line of constant length through points of bodies [m], without friction. The constraint can pull and push.
     #[must_use]
     pub fn rope<P: Into<Vector3>>(points: impl IntoIterator<Item = (BodyId, P)>) -> Self {
         let of = CouplingMeasure::line(points);
@@ -233,20 +235,20 @@ impl Coupling<Number> {
         Self { kind: CouplingKind::Rope, ..Self::of(terms) }
     }
 
-    /// Adds to a rope a drum of this radius [m], which takes in as much as its joint turns.
+    /// Adds to a rope a drum of this radius [m], which winds up the rope as its joint turns.
     #[must_use]
     pub fn with_drum(mut self, joint: JointId, radius: f64) -> Self {
         self.terms.push(CouplingTerm::of_joint(joint, 0, radius));
         self
     }
 
-    /// A rack: the slide of the second joint is `radius` [m] times the angle of the first.
+    /// Rack and pinion: the slide of the second joint is `radius` [m] times the angle of the first.
     #[must_use]
     pub fn rack([pinion, rack]: [JointId; 2], radius: f64) -> Self {
         Self::linear([(rack, 1.0), (pinion, -radius)]).drawn(DrawnKind::Rack)
     }
 
-    /// The second joint's coordinate is a curve of the first's.
+    /// Cam: the second joint's coordinate is a curve of the first joint's coordinate.
     #[must_use]
     pub fn cam([shaft, follower]: [JointId; 2], curve: Curve<Number>) -> Self {
         let of_shaft =
@@ -255,7 +257,7 @@ impl Coupling<Number> {
         Self { kind: CouplingKind::Cam, ..Self::of(terms) }
     }
 
-    /// Lets two wheels touch at a pitch point [m] under a pressure angle [rad]: their bearings carry the force of the teeth.
+    /// Makes two wheels mesh at a pitch point [m] with a pressure angle [rad]. Their bearings then carry the tooth force.
     #[must_use]
     pub fn meshing_at(mut self, at: impl Into<Vector3>, pressure_angle: impl Into<Number>) -> Self {
         let pressure_angle = pressure_angle.into();
@@ -263,7 +265,7 @@ impl Coupling<Number> {
         self
     }
 
-    /// Gives a belt strands that pull by this force [N] where it passes nothing on: the bearings of its wheels carry their pull.
+    /// Gives a belt strands with this pretension [N]. The bearings of its wheels then carry the forces of the strands.
     #[must_use]
     pub fn tightened(mut self, pretension: impl Into<Number>) -> Self {
         self.kind = CouplingKind::Strands { pretension: pretension.into() };
@@ -275,7 +277,7 @@ impl Coupling<Number> {
         self
     }
 
-    /// Marks the coupling as one that is meant as drawn: no run notes that its sum is another one than in version 0.1.
+    /// Declares that the sum is intended as drawn, so that no run notes a difference from version 0.1.
     #[must_use]
     pub fn as_drawn(mut self) -> Self {
         if let Some(drawn) = &mut self.drawn {
@@ -284,14 +286,14 @@ impl Coupling<Number> {
         self
     }
 
-    /// Sets the sum of the coupling to `value`, from the reference configuration.
+    /// Sets the sum of the coupling to a constant `value`, relative to the reference configuration.
     #[must_use]
     pub fn holding(mut self, value: impl Into<Number>) -> Self {
         self.value = value.into();
         self
     }
 
-    /// Lets the sum of the coupling follow a function of time.
+    /// Lets the sum of the coupling follow a function of time, `motion`.
     #[must_use]
     pub fn driven(mut self, motion: impl Into<Motion<Number>>) -> Self {
         self.motion = Some(motion.into());

@@ -1,51 +1,51 @@
-//! Numbers that a mechanism has, and terms of sums of them.
+//! Measured numbers of a mechanism, and terms of their sums.
 
 use crate::scene::{BodyId, Curve, JointId, Number, Vector3};
 use alloc::vec::Vec;
 
-/// A term of a coupling: `factor` times a measured number, or a curve of it.
+/// Term of a coupling: `factor` times a measured number, or times a curve of it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CouplingTerm<T> {
-    /// Factor of the number, or of its curve.
+    /// Factor of the number or of the curve.
     pub factor: T,
     /// Number that is measured.
     pub of: CouplingMeasure<T>,
-    /// The function of the number that is meant; `None`: the number itself.
+    /// Function of the number that the term uses; `None`: the number itself.
     pub curve: Option<Curve<T>>,
 }
 
-/// A number that a mechanism has: zero in the reference configuration.
+/// Measured number of a mechanism, which is zero in the reference configuration.
 #[derive(Debug, Clone, PartialEq)]
 pub enum CouplingMeasure<T> {
-    /// A coordinate of a joint [rad or m]; angles count their turns.
+    /// Coordinate of a joint [rad or m]. Angles include full turns.
     Coordinate {
         /// Joint of the coordinate.
         joint: JointId,
-        /// The place of the coordinate among the joint's, from 0.
+        /// Place of the coordinate among those of the joint, from 0.
         number: usize,
     },
-    /// The length of a line over points of bodies, less that in the reference configuration [m].
+    /// Length of a line through points of bodies, less its length in the reference configuration [m].
     Length {
-        /// The points, reference configuration [m].
+        /// Points of the line, reference configuration [m].
         points: Vec<(BodyId, [T; 3])>,
     },
-    /// An angle of a ball, zero in the reference configuration [rad]; of effects only.
+    /// Angle of a ball joint, zero in the reference configuration [rad]. Couplings cannot use it, and signals only the swing.
     Ball {
         /// Joint with the ball.
         joint: JointId,
         /// Angle of the ball: its swing or its twist.
         angle: BallAngle,
-        /// A direction that is fixed in the first body; and in the second, which has the same in the reference configuration.
+        /// Direction that is fixed in the first body. The second body has the same direction in the reference configuration.
         axis: [T; 3],
     },
 }
 
-/// An angle of a ball joint, by an axis `a` in the first body and `b` in the second that were one in the reference configuration.
+/// Angle of a ball joint. An axis is `a` in the first body and `b` in the second, equal in the reference configuration.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum BallAngle {
-    /// The angle between them, from 0 to pi.
+    /// The angle between `a` and `b`, from 0 to pi.
     Swing,
-    /// The turn about the axis that is left when the smallest turn that carries `a` to `b` is taken off.
+    /// The rotation about the axis that remains after the smallest rotation from `a` to `b` is removed.
     Twist,
 }
 
@@ -76,7 +76,7 @@ impl From<(JointId, usize)> for CouplingMeasure<Number> {
 }
 
 impl CouplingMeasure<Number> {
-    /// The length of a line over points of bodies [m].
+    /// Length of a line through points of bodies [m].
     #[must_use]
     pub fn line<P: Into<Vector3>>(points: impl IntoIterator<Item = (BodyId, P)>) -> Self {
         Self::Length { points: points.into_iter().map(|(body, at)| (body, at.into().0)).collect() }
@@ -84,7 +84,7 @@ impl CouplingMeasure<Number> {
 }
 
 impl<T> CouplingMeasure<T> {
-    /// The joint that it is of; `None` of a length.
+    /// Joint of the measured number; `None` for a length.
     #[must_use]
     pub const fn joint(&self) -> Option<JointId> {
         match self {
@@ -93,7 +93,7 @@ impl<T> CouplingMeasure<T> {
         }
     }
 
-    /// The joint and the number of a coordinate; `None` of a length, and of an angle of a ball.
+    /// Joint and number of the coordinate; `None` for a length, and for an angle of a ball joint.
     #[must_use]
     pub const fn coordinate(&self) -> Option<(JointId, usize)> {
         match self {
@@ -104,7 +104,7 @@ impl<T> CouplingMeasure<T> {
 }
 
 impl CouplingTerm<Number> {
-    /// A factor times an angle of a ball joint, by an axis of the reference configuration.
+    /// Term of an angle of a ball joint, with the axis in the reference configuration.
     pub fn of_ball(
         joint: JointId,
         angle: BallAngle,
@@ -115,7 +115,7 @@ impl CouplingTerm<Number> {
         Self { factor: factor.into(), of, curve: None }
     }
 
-    /// A factor times the coordinate `number` of a joint.
+    /// Term of the coordinate `number` of a joint, times a factor.
     pub fn of_joint(joint: JointId, number: usize, factor: impl Into<Number>) -> Self {
         let of = CouplingMeasure::Coordinate { joint, number };
         Self { factor: factor.into(), of, curve: None }

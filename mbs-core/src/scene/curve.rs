@@ -1,32 +1,32 @@
-//! Curves, functions of one number, and how tables go between their rows.
+//! Curves, which are functions of one number, and interpolations of tables.
 
 use crate::Real;
 use alloc::vec::Vec;
 
-/// A function of one number.
+/// Function of one number, such as the characteristic of a cam.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Curve<T> {
-    /// The natural cubic spline through (x, f); the end values are held outside.
+    /// Natural cubic spline through rows (x, f). Before the first and after the last row the end value is held.
     Table(Vec<[T; 2]>),
-    /// The periodic cubic spline through (x, f); the last value is the first.
+    /// Periodic cubic spline through rows (x, f). The last value must equal the first.
     Periodic(Vec<[T; 2]>),
-    /// c0 + c1 x + c2 x^2 + ...
+    /// Polynomial c0 + c1 x + c2 x^2 + ...
     Polynomial(Vec<T>),
-    /// Through (x, f) without a spline.
+    /// Rows (x, f) connected by another shape than a spline.
     Shaped {
         /// The rows (x, f).
         rows: Vec<[T; 2]>,
         /// Shape of the curve between the rows.
         shape: CurveShape,
-        /// Does the curve repeat? Its last value is then its first.
+        /// Does the curve repeat? Its last value must then equal its first.
         periodic: bool,
     },
 }
 
-/// Shape of a table between its rows where it is no spline.
+/// Shape of a table between its rows, if the table is no spline.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CurveShape {
-    /// Twice differentiable, between the values of the neighbouring rows.
+    /// Twice differentiable function that stays between the values of neighbouring rows.
     Monotone,
     /// Straight lines between the rows.
     Linear,
@@ -46,15 +46,15 @@ impl CurveShape {
 /// Condition at both ends of a spline or a monotone table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum TableEnds {
-    /// Ends without curvature: the natural spline, which ends on a slope.
+    /// Ends without curvature (natural spline). The slope at the ends need not be zero.
     #[default]
     Natural,
-    /// Ends at rest: the clamped spline, with no rate at both ends.
+    /// Ends at rest (clamped spline), with rate zero at both ends.
     Level,
 }
 
 impl<T> Curve<T> {
-    /// Is it a table of values that are zero or below, and not all zero?
+    /// Is the curve a table whose values are zero or negative, and not all zero?
     #[must_use]
     pub fn is_below_zero(&self) -> bool
     where
@@ -66,7 +66,7 @@ impl<T> Curve<T> {
         rows.iter().all(|row| row[1] <= T::ZERO) && rows.iter().any(|row| row[1] < T::ZERO)
     }
 
-    /// Has it corners, at which its slope jumps?
+    /// Does the curve have corners, where its slope jumps?
     #[must_use]
     pub const fn has_corners(&self) -> bool {
         matches!(self, Self::Shaped { shape: CurveShape::Linear, .. })

@@ -5,15 +5,15 @@ use crate::scene::{BodyId, JointId, NamedSignal, Road, SignalId, TableEnds};
 use alloc::string::String;
 use alloc::vec::Vec;
 
-/// Configuration that a run starts from.
+/// Configuration from which a run starts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Start {
     /// The reference configuration with the initial conditions.
     #[default]
     Initial,
-    /// The static equilibrium downhill, a stable one, with the velocities of the initial conditions.
+    /// The static equilibrium found by descending the potential, a stable one, with the velocities of the initial conditions.
     Equilibrium,
-    /// The static equilibrium nearby, stable or not, with the same velocities.
+    /// The static equilibrium close to the initial configuration, stable or not, with the velocities of the initial conditions.
     EquilibriumNear,
 }
 
@@ -22,20 +22,20 @@ pub enum Start {
 pub struct Body<T> {
     /// Unique name of the body.
     pub name: String,
-    /// Mass of the body [kg]; zero is allowed where the others determine the motion.
+    /// Mass of the body [kg]. Zero is allowed if the other masses determine the motion.
     pub mass: T,
     /// Centre of mass in the reference configuration [m].
     pub center: [T; 3],
     /// Inertia about the centre of mass.
     pub inertia: Inertia<T>,
-    /// Factor of gravity on the body: zero for none. `None`: one.
+    /// Factor of gravity on the body. Zero switches gravity off; `None` means one.
     pub gravity_scale: Option<T>,
 }
 
 /// Inertia about the centre of mass.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Inertia<T> {
-    /// Uniform slender rod between two points: centre (the middle) and inertia follow from mass and length.
+    /// Uniform slender rod between two points. The centre (its middle) and the inertia follow from mass and length.
     Rod {
         /// One end of the rod [m].
         from: [T; 3],
@@ -51,14 +51,14 @@ pub enum Inertia<T> {
 }
 
 impl<T> Body<T> {
-    /// Is it a point mass?
+    /// Is the body a point mass?
     #[must_use]
     pub const fn is_point(&self) -> bool {
         matches!(self.inertia, Inertia::Point)
     }
 }
 
-/// A joint between two bodies. Positive motion: second body relative to the first.
+/// Joint between two bodies. A positive coordinate moves the second body relative to the first.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Joint<T> {
     /// Unique name of the joint.
@@ -67,18 +67,18 @@ pub struct Joint<T> {
     pub kind: JointKind,
     /// First and second body.
     pub bodies: [BodyId; 2],
-    /// Place [m], one per body: equal for all kinds but links.
+    /// Place of the joint on each body [m]. The two places are equal for all kinds but links.
     pub points: [[T; 3]; 2],
-    /// Axes, any length, that the kind's [freedoms](crate::scene::Freedom) name: a universal joint's first is fixed in the first
-    /// body, its second in the second. A planar joint has its normal, then its first translation; a link has `axes[0]` when it
-    /// is hinged. Unused ones are `None`. A planar revolute has none (its axis is +z).
+    /// Axes of any length, named by the kind's [freedoms](crate::scene::Freedom); unused ones are `None`. A universal joint has its
+    /// first axis fixed in the first body and its second in the second body. A planar joint has its normal, then its first
+    /// translation. A link has `axes[0]` if it is hinged. A planar revolute joint has no axis, because it turns about z.
     pub axes: [Option<[T; 3]>; 2],
-    /// Limits that the coordinate, its rate and its effort are meant to keep to.
+    /// Intended limits of the coordinate, its rate and its effort.
     pub limits: JointLimits<T>,
 }
 
 impl<T> Joint<T> {
-    /// The only body that is also one of another joint's; `None`: they share none, or both.
+    /// Body that belongs to both joints. `None` if the joints have no body in common, or two.
     #[must_use]
     pub fn shared_body(&self, other: &Self) -> Option<BodyId> {
         let shares = |body: &&BodyId| other.bodies.contains(body);
@@ -89,10 +89,10 @@ impl<T> Joint<T> {
     }
 }
 
-/// Limits that the only coordinate of a joint, its rate and its effort are meant to keep to: data, without effect on the motion.
+/// Intended limits of a joint's only coordinate, its rate and its effort. They are data without effect on the motion.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct JointLimits<T> {
-    /// Lower and upper end of the coordinate, from the reference configuration [rad or m].
+    /// Lower and upper end of the coordinate, relative to the reference configuration [rad or m].
     pub range: Option<[T; 2]>,
     /// Largest force or moment along the coordinate [N m or N].
     pub effort: Option<T>,
@@ -101,10 +101,10 @@ pub struct JointLimits<T> {
 }
 
 impl<T> JointLimits<T> {
-    /// No limit at all.
+    /// Joint limits without any limit.
     pub const NONE: Self = Self { range: None, effort: None, velocity: None };
 
-    /// The first key of scene files that is given; `None`: there is no limit at all.
+    /// Key in scene files of the first limit that is given; `None` if there is no limit.
     #[must_use]
     pub const fn first_key(&self) -> Option<&'static str> {
         match self {
@@ -122,17 +122,17 @@ impl<T> Default for JointLimits<T> {
     }
 }
 
-/// One `[[initial]]` entry: what is written holds exactly at the start.
+/// Initial condition from one `[[initial]]` entry, which holds exactly at the start.
 #[derive(Debug, Clone, PartialEq)]
 pub struct InitialCondition<T> {
     /// Target of the condition, with its values.
     pub target: InitialTarget<T>,
 }
 
-/// The target of an initial condition, with its values.
+/// Target of an initial condition, with its values.
 #[derive(Debug, Clone, PartialEq)]
 pub enum InitialTarget<T> {
-    /// Joint coordinates and rates, in the order of the joint's numbers [rad, m, rad/s, m/s].
+    /// Coordinates and rates of a joint, in the order of its coordinates [rad, m, rad/s, m/s].
     Joint {
         /// Joint whose numbers are given.
         joint: JointId,
@@ -141,7 +141,7 @@ pub enum InitialTarget<T> {
         /// Rates of the coordinates; for a spherical joint the relative angular velocity in global axes.
         rate: Option<Vec<T>>,
     },
-    /// Velocity of a material point and/or angular velocity of a body.
+    /// Velocity of a material point of a body, its angular velocity, or both.
     Body {
         /// Body whose velocities are given.
         body: BodyId,
@@ -152,35 +152,35 @@ pub enum InitialTarget<T> {
     },
 }
 
-/// Kinematic guidance: a joint coordinate follows a law of time, counted from the reference configuration.
+/// Guide: a joint coordinate follows a function of time, relative to the reference configuration.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Guide<T> {
-    /// Joint that is guided. Of one with several coordinates all are guided, by guides that stand one after another.
+    /// Joint that is guided. All coordinates of a joint must be guided, by guides that follow each other.
     pub joint: JointId,
-    /// Number of the coordinate, in the order of the joint's coordinates; the rotation vector of a ball has three.
+    /// Number of the coordinate, in the order of the joint's coordinates. The rotation vector of a ball joint has three.
     pub number: usize,
-    /// Law of time that the coordinate follows.
+    /// Function of time that the coordinate follows.
     pub law: Motion<T>,
 }
 
-/// A twice differentiable function of time.
+/// Twice differentiable function of time.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Motion<T> {
-    /// Cubic spline through (time, value); the end values are held outside.
+    /// Cubic spline through rows (time, value). Before the first and after the last row the end value is held.
     Table {
         /// The rows [s, rad or m].
         rows: Vec<[T; 2]>,
         /// Condition at both ends of the table.
         ends: TableEnds,
     },
-    /// Through (time, value), between the values of the neighbouring rows; the end values are held outside.
+    /// Monotone table of rows (time, value), which stays between neighbouring values. Outside the rows the end value is held.
     Monotone {
         /// The rows [s, rad or m].
         rows: Vec<[T; 2]>,
         /// Condition at both ends of the table.
         ends: TableEnds,
     },
-    /// amplitude * sin(2 pi frequency t + phase)   [rad or m, Hz, rad].
+    /// Sine wave: amplitude * sin(2 pi frequency t + phase)   [rad or m, Hz, rad].
     Sine {
         /// Amplitude [rad or m].
         amplitude: T,
@@ -189,18 +189,18 @@ pub enum Motion<T> {
         /// Phase at time zero [rad].
         phase: T,
     },
-    /// Value, rate and acceleration, held until they are set again between steps; these at the start.
+    /// Input: value, rate and acceleration, held until they are set between steps. These are the values at the start.
     Input([T; 3]),
-    /// rate * t   [rad/s or m/s].
+    /// Ramp: rate * t   [rad/s or m/s].
     Ramp {
         /// Rate [rad/s or m/s].
         rate: T,
     },
-    /// A signal of the scene, which is [smooth](crate::scene::Smoothness).
+    /// Signal of the scene, which must be [smooth](crate::scene::Smoothness).
     Signal(SignalId),
 }
 
-/// Surroundings of an effect: the parts of its scene that it may refer to.
+/// Surroundings of an effect: the parts of a scene that the effect may refer to.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Surroundings<'a, T> {
     pub(crate) dimension: Dimension,

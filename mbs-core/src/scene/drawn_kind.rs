@@ -1,74 +1,74 @@
-//! Kinds of drawn couplings.
+//! Kinds of drawn couplings, whose sums follow from places and axes.
 
-/// A coupling whose sum follows from what is drawn.
+/// Drawn coupling: its sum follows from the places and axes of its joints.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Drawn {
     /// Kind of the drawn coupling.
     pub kind: DrawnKind,
-    /// Does the scene say that it is meant as drawn?
+    /// Does the scene say that the coupling is intended as drawn?
     pub is_stated: bool,
-    /// Sense of the sum that was found; [`Sense::Same`] before the scene is resolved.
+    /// Result for the sum; [`Sense::Same`] before the scene is resolved.
     pub sense: Sense,
 }
 
-/// Comparison of a drawn coupling's sum with that of the joints' coordinates as they are written, which version 0.1 took.
+/// Comparison of the sum of a drawn coupling with the sum of the joint coordinates as written, which version 0.1 used.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Sense {
-    /// Sum equal to that of the coordinates as they are written.
+    /// The sum equals that of the coordinates as written.
     Same,
-    /// Sum unlike that of the coordinates: wheels turn the other way, or joints between their carriers count.
+    /// The sum differs: wheels turn in the other sense, or joints between their carriers contribute.
     Changed,
-    /// Places and axes do not decide; the coordinates are taken as they are written.
+    /// Places and axes do not determine the sum, and the coordinates are used as written.
     Undecided,
 }
 
-/// Reason why places and axes do not determine a drawn coupling.
+/// Reason why places and axes do not determine the sum of a drawn coupling.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum NotDrawn {
     /// The axes of the coupling are not parallel.
     Parallel,
-    /// Places do not say on which side of the pinion the rack's pitch line is.
+    /// The rack is on the axis of the pinion, so that the side of its pitch line is unknown.
     PitchLine,
 }
 
-/// Reason why places and axes do not say where the strands of a belt are.
+/// Reason why places and axes do not determine the strands of a belt.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum NotStrands {
-    /// The coupling is no belt of two wheels that turn about parallel axes in one body.
+    /// The coupling is no belt on two wheels that turn about parallel axes in one body.
     Wheels,
-    /// The joints stand this far apart along their axes [m].
+    /// The joints are this distance apart along their axes [m].
     Planes(f64),
-    /// The wheels are too large for the distance of their axes [m]: they have no common tangent.
+    /// The axes are this distance apart [m], too close for the radii: the wheels have no common tangent.
     Inside(f64),
 }
 
-/// Kind of a drawn coupling. Its sizes are the factors of the first terms.
+/// Kind of a drawn coupling. The factors of its first terms are its sizes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum DrawnKind {
-    /// Two wheels in mesh: the first, the second.
+    /// Two wheels in mesh. Terms: first wheel, second wheel.
     Gear {
-        /// Does one stand inside the other?
+        /// Is one wheel inside the other?
         is_internal: bool,
-        /// Are its sizes radii? Otherwise they count teeth.
+        /// Are the sizes radii? Otherwise they are numbers of teeth.
         has_radii: bool,
     },
-    /// Two wheels by their ratio, which is as it is written: the second, the first.
+    /// Two wheels by their ratio, which is used as written. Terms: second wheel, first wheel.
     Ratio,
-    /// A belt on two wheels: the first, the second.
+    /// Belt on two wheels. Terms: first wheel, second wheel.
     Belt {
         /// Is the belt crossed?
         is_crossed: bool,
     },
-    /// The slide of a rack, the turn of its pinion.
+    /// Rack and pinion; terms: slide of the rack, angle of the pinion.
     Rack,
-    /// The slide of a nut, the turn of a screw.
+    /// Screw and nut; terms: slide of the nut, angle of the screw.
     Screw,
-    /// Two wheels, and the cage.
+    /// Differential; terms: two wheels, then the carrier of the planet wheels.
     Differential,
 }
 
 impl DrawnKind {
-    /// The word for it in scene files.
+    /// Name of the kind in scene files.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -80,7 +80,7 @@ impl DrawnKind {
         }
     }
 
-    /// Returns a drawn coupling of this kind, as a scene has it that does not say more.
+    /// Returns a drawn coupling of this kind, with the defaults of a scene.
     #[must_use]
     pub const fn drawn(self) -> Drawn {
         Drawn { kind: self, is_stated: false, sense: Sense::Same }

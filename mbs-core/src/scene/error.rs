@@ -1,9 +1,9 @@
-//! Errors of a scene, by entry, index and field.
+//! Errors of a scene, with the entry, its index and the key.
 
 use crate::scene::SceneFault;
 use core::fmt::{self, Display, Formatter};
 
-/// An entry of the scene.
+/// Entry of the scene that an error refers to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Entry {
     /// Table `[scene]` of scene files.
@@ -32,20 +32,20 @@ pub enum Entry {
     Output(usize),
     /// Table `[road]` of scene files.
     Road,
-    /// Feature number i of the road on the left, or of the only one.
+    /// Feature number i (from 0) of the road on the left, or of the only road.
     RoadLeft(usize),
-    /// Feature number i of the road on the right.
+    /// Feature number i (from 0) of the road on the right.
     RoadRight(usize),
     /// Table `[solver]` of scene files.
     Solver,
 }
 
-/// A scene that cannot be meant.
+/// Error of a scene: a fault, and the key where it is.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SceneError {
     /// Entry of the scene that has the fault.
     pub entry: Entry,
-    /// The key in the entry, as in scene files.
+    /// Key in the entry, as in scene files.
     pub field: &'static str,
     /// Fault of the field.
     pub fault: SceneFault,

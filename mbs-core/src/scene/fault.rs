@@ -1,4 +1,4 @@
-//! Faults that a scene can have, and what to do about them.
+//! Faults of a scene, and their texts.
 
 use super::{BodyId, NotDrawn, NotStrands};
 use crate::joint::{Dimension, JointKind};
@@ -6,239 +6,240 @@ use crate::laws::relation::RelationFault;
 use crate::scene::SignalBreak;
 use core::fmt::{self, Display, Formatter};
 
-/// Faults of a scene.
+/// Fault of a scene.
 ///
-/// Each reads as the rest of a sentence about a key: `{}` says what is wrong and what to do, `{:#}` only
-/// what is wrong; [`SceneFault::advice`] is the other half.
+/// The text of a fault continues a sentence that begins with a key. `{}` says what is wrong and what to do, `{:#}` only what is
+/// wrong. [`SceneFault::advice`] gives only the remedy.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum SceneFault {
     /// A number is infinite or NaN.
     NotFinite,
-    /// A number must be positive; the number.
+    /// A number is not positive; the number.
     NotPositive(f64),
-    /// A number must not be negative; the number.
+    /// A number is negative; the number.
     Negative(f64),
     /// An axis has no direction.
     ZeroAxis,
     /// The two axes of a joint are parallel.
     ParallelAxes,
-    /// A rod's ends, or the points of a distance joint or spring, coincide.
+    /// Two points coincide: the ends of a rod, or the points of a distance joint or of a spring.
     CoincidentPoints,
-    /// The two points of a joint that has one place differ (scenes built in code).
+    /// The two points of a joint differ, but this kind of joint has one place (scenes built in code).
     PointsDiffer,
-    /// A name is used twice; the index of the first use.
+    /// A name is used twice; index of the first use.
     DuplicateName(usize),
-    /// The name is that of a body; its index.
+    /// A name is that of a body; index of the body.
     NameOfBody(usize),
     /// A name is empty, or is `ground` (a body) or `t` (an output).
     ReservedName,
-    /// An index points to nothing (scenes built in code).
+    /// An index refers to no entry (scenes built in code).
     UnknownReference,
-    /// The ground, where only a body can stand.
+    /// The ground is named where a body is required.
     NeedsMovingBody,
-    /// A law in code, where data is needed.
+    /// A user-defined law in code is given where data is required.
     InCode,
-    /// One body twice, where two are needed.
+    /// Two bodies are required, but one body is named twice.
     SameBody,
-    /// Something that turns, or has an axis, of a point mass; the body.
+    /// A joint or effect uses the rotation of a point mass, which has none; index of the body.
     PointTurns(usize),
-    /// A place that is not that of a point mass.
+    /// A place on a point mass differs from the place of its mass.
     OffPoint {
         /// Index of the body.
         body: usize,
-        /// Distance of the two [m].
+        /// Distance of the two places [m].
         by: f64,
     },
-    /// A principal moment of inertia is larger than the sum of the other two; the two sides [kg m^2]. Of welded bodies together.
+    /// A principal moment of inertia is larger than the sum of the other two; both sides [kg m^2]. Welded bodies are checked
+    /// together.
     TriangleInequality([f64; 2]),
     /// The inertia has a negative principal moment [kg m^2].
     NegativeInertia(f64),
-    /// An inertia without mass.
+    /// A body without mass has inertia.
     InertiaWithoutMass,
-    /// The joint kind or key needs a spatial scene.
+    /// A joint kind or key requires a spatial scene.
     NeedsSpatial,
-    /// The form needs a planar scene.
+    /// A shape requires a planar scene.
     NeedsPlanar,
-    /// A number must be from 0 to 1; the number.
+    /// A number is not between 0 and 1; the number.
     NotAShare(f64),
-    /// A vector of a planar scene leaves the plane; the offending component.
+    /// A vector of a planar scene has a component out of the plane; the component.
     OutOfPlane(f64),
-    /// The inertia's form does not fit the dimension.
+    /// The form of the inertia does not fit the dimension of the scene.
     WrongDimension,
-    /// The count of numbers is wrong.
+    /// A list has the wrong count of numbers.
     WrongCount {
-        /// Count of numbers that is needed.
+        /// Count of numbers that is required.
         needed: usize,
-        /// Count of numbers that is there.
+        /// Count of numbers that is given.
         found: usize,
     },
-    /// The joint has no coordinates to speak about.
+    /// The joint has no coordinates.
     NoCoordinate,
-    /// The effect does not measure one number.
+    /// The effect does not measure a single number.
     NoMeasure,
-    /// The effect acts on both sides: it has no contact.
+    /// The effect acts on both sides, so that it has no contact.
     NoContact,
-    /// The effect has neither a free value nor a gap: it has no deflection.
+    /// The effect has no deflection, because it has neither a free value nor a gap.
     NoDeflection,
-    /// An output of a tire is of another effect.
+    /// An output of a tire names another kind of effect.
     NotATire,
-    /// An output without a vector has no magnitude and no axes.
+    /// The quantity of an output has no vector, so that it has no magnitude and no axes.
     NoVector,
-    /// An output without an angle has no unit of its own choice.
+    /// The quantity of an output has no angle, so that its unit cannot be chosen.
     NoAngle,
-    /// The coordinate is not there; the number of coordinates that the joint has.
+    /// The joint does not have this coordinate; number of its coordinates.
     UnknownCoordinate(usize),
-    /// The coordinate is a component of a rotation, which is no angle of its own.
+    /// The coordinate is a component of a rotation vector, which is not an independent angle.
     BallCoordinate,
-    /// The angle is one of a ball, which the joint has not.
+    /// The angle is one of a ball joint, but the joint has no ball.
     NoBall,
-    /// A coupling has an angle of a ball.
+    /// A coupling contains an angle of a ball joint, which only effects and signals can use.
     BallHeld,
-    /// A twist of a ball that a signal measures.
+    /// A signal measures the twist of a ball joint, which has no value at a swing of half a turn.
     TwistMeasured,
-    /// The coordinate of a joint that has several is missing, or is none of them.
+    /// The joint has several coordinates, and none of their names or numbers is given.
     NeedsCoordinate {
         /// Kind of the joint.
         joint: JointKind,
         /// Dimension of the scene.
         dimension: Dimension,
-        /// The number that is given.
+        /// Number of the coordinate that is given.
         given: Option<usize>,
     },
-    /// There is no term, or every factor is zero.
+    /// A coupling has no term with a factor other than zero.
     NoTerm,
-    /// A disc lies flat on the plane that it rolls on.
+    /// A disc is flat on the plane that it rolls on.
     LiesFlat,
-    /// A blade stands along the plane's normal.
+    /// The direction of a blade is along the normal of the plane.
     AlongNormal,
-    /// A wheel or ball does not touch its plane; the distance of its lowest point [m].
+    /// A wheel or ball does not touch its plane; height of its lowest point above the plane [m].
     Apart(f64),
-    /// A periodic curve has different values at its ends; both.
+    /// A periodic curve has different values at its ends; both values.
     PeriodicEnds([f64; 2]),
-    /// A table that is straight between its rows, where accelerations follow it.
+    /// A table is linear between its rows where its accelerations are required.
     LinearTable,
-    /// A pitch point of a coupling that is not of two turns about parallel axes in one body.
+    /// A pitch point is given for a coupling that is no pair of wheels with parallel axes in one body.
     NoMesh,
-    /// A pretension of what has no strands.
+    /// A pretension is given for a coupling whose strands are unknown.
     NotStrands(NotStrands),
-    /// A pitch point that does not divide the way between the axes as the factors do; where it is [m].
+    /// A pitch point does not divide the distance of the axes in the ratio of the factors; the right place [m].
     OffPitch([f64; 3]),
-    /// The length of a coupling without lines.
+    /// A length is given for a coupling that has no lines.
     NoLine,
-    /// A coupling that says that it is drawn, but is not.
+    /// A coupling is declared as drawn, but places and axes do not determine its sum.
     NotDrawn(NotDrawn),
     /// No body carries both parts of a drawn coupling.
     NoCarrier {
-        /// The bodies that carry one each.
+        /// Bodies that carry the first part and the second.
         bodies: [BodyId; 2],
-        /// The joint about whose axis one would have to turn on the other.
+        /// Joint about whose axis one of these bodies would have to turn on the other.
         about: usize,
     },
-    /// A pressure angle that is not from 0 to below a quarter turn [rad].
+    /// A pressure angle is negative, or a quarter turn or more [rad].
     PressureAngle(f64),
-    /// The start values of its joints do not give the sum; what they give, and what is needed.
+    /// The start values of the joints give another sum than the coupling; the sum that they give, and the required one.
     SumAtStart([f64; 2]),
-    /// The joint has no single coordinate to guide; the number it has.
+    /// A guide needs a joint with one coordinate; number of coordinates of the joint.
     NoSingleCoordinate(usize),
-    /// Guides of a joint are not one for each of its coordinates, in their order.
+    /// A joint is guided in part only. Guides must cover all its coordinates, in their order.
     GuideNotWhole {
         /// Number of coordinates of the joint.
         needed: usize,
         /// Number of guided coordinates, in their order.
         found: usize,
     },
-    /// A guide between bodies that are welded together.
+    /// A guide acts between bodies that are welded together.
     GuideWelded,
-    /// The joint has no single rotation to spring or drive; the number it has.
+    /// An effect needs a joint with one rotation; number of rotations of the joint.
     NoSingleRotation(usize),
-    /// One thing is prescribed twice; the index of the first entry.
+    /// A number is prescribed by two entries; index of the first entry.
     GivenTwice(usize),
-    /// An initial entry contradicts the guide of its joint.
+    /// A value of an initial condition contradicts the guide of its joint.
     Contradiction {
         /// Value that the entry gives.
         given: f64,
         /// Value that the guide gives at t = 0.
         guide: f64,
     },
-    /// The table of a guide begins or ends on a slope within the run: an impact.
+    /// The table of a guide begins or ends within the run with a rate that is not zero, which is an impact.
     TableSlope {
-        /// The row (from 0).
+        /// Index of the row.
         row: usize,
-        /// The last one, not the first.
+        /// Is it the end of the table? Otherwise it is the beginning.
         is_end: bool,
         /// Time of the row [s].
         time: f64,
-        /// The rate there [rad/s or m/s].
+        /// Rate at the row [rad/s or m/s].
         rate: f64,
     },
-    /// A signal is made of itself, directly or by others.
+    /// A signal is an operand of itself, directly or through other signals.
     SignalCircle,
-    /// The signal is not smooth, which a guide or a coupling needs.
+    /// The signal is not smooth, but a guide or a coupling requires it.
     SignalNotSmooth {
         /// Break at which the signal is not smooth.
         broken: SignalBreak,
         /// Remedy that makes the signal smooth.
         remedy: &'static str,
     },
-    /// A controller needs the rate of a signal that has none which is known.
+    /// A controller requires the rate of a signal whose rate is not known.
     SignalNoRate,
-    /// Times in a table do not increase; the row (from 0) that is not later than the one before.
+    /// Times in a table do not increase; index of the first row that is not later than the row before.
     TableOrder(usize),
-    /// The upper limit is below the lower one; both.
+    /// The upper limit is not above the lower one; both limits.
     LimitOrder([f64; 2]),
-    /// The lower end of a range is not below its upper end; both.
+    /// The lower end of a range is not below its upper end; both ends.
     RangeOrder([f64; 2]),
-    /// A range, lower end first, has no number between its ends; both.
+    /// A range, lower end first, is empty; both ends.
     EmptyRange([f64; 2]),
-    /// The joint has no range that a limit could take.
+    /// A limit takes its range from the joint, which has none.
     NoRange,
-    /// A stiffness that follows from the mass that a coordinate moves, which nothing moves or which is guided.
+    /// A stiffness is to follow from the mass that a coordinate moves, but the coordinate moves no mass or is guided.
     NoMovedMass,
-    /// Static friction is less than Coulomb friction; both.
+    /// Static friction is less than Coulomb friction; both forces.
     StaticBelowCoulomb([f64; 2]),
     /// A polynomial has a piece without coefficients, or with too many.
     PieceCoefficients {
-        /// The piece (from 0).
+        /// Index of the piece.
         piece: usize,
         /// Number of its coefficients.
         found: usize,
     },
-    /// A piece of a polynomial (from 0) does not end above its beginning.
+    /// A piece of a polynomial does not end above its beginning; index of the piece.
     PieceRange(usize),
-    /// A piece of a polynomial (from 0) does not begin where the one before ends.
+    /// A piece of a polynomial does not begin at the end of the piece before; index of the piece.
     PieceGap(usize),
-    /// A wheel's joint does not join its body to another.
+    /// The joint of a spinning wheel does not connect the tire's body to a wheel.
     SpinElsewhere,
-    /// A wheel's joint turns about another axis than the wheel's.
+    /// The joint of a spinning wheel turns about another axis than the wheel.
     SpinAxis,
-    /// A rotor on a joint that constrains nothing.
+    /// A rotor is on a free joint, which has no axis.
     FreeRotor,
-    /// The inertia of a rotor at its joint is zero or no number; it [kg m^2 or kg].
+    /// The inertia of a rotor at its joint is zero or not a number; the inertia [kg m^2 or kg].
     RotorRatio(f64),
-    /// Coefficients of a tire that its formulas divide by.
+    /// Coefficients of a tire make its formulas divide by zero.
     CalspanRange,
-    /// Points of a road do not go forward; the point (from 0) that is not beyond the one before.
+    /// Points of a road do not increase in x; index of the first point that is not beyond the point before.
     PointOrder(usize),
-    /// The rounded corners of a rise overlap [m].
+    /// The rounded corners of a rise overlap; lengths in [m].
     LongRounding {
         /// Length of a corner.
         rounding: f64,
-        /// Half the length of the rise.
+        /// Half the length of the rise, the largest allowed rounding.
         most: f64,
     },
-    /// A hollow of the road in which a wheel would touch twice; radii [m].
+    /// A hollow of the road is so tight that a wheel would touch it twice; radii in [m].
     TightHollow {
-        /// Radius of the hollow at its tightest.
+        /// Smallest radius of the hollow.
         hollow: f64,
         /// Radius of the largest wheel.
         wheel: f64,
     },
     /// A key that this kind needs is missing.
     Missing,
-    /// A relation of a coupling that no step can take.
+    /// A user-defined relation of a coupling has a fault.
     Relation(RelationFault),
-    /// A key that this kind does not use is there.
+    /// A key is given that this kind does not use.
     NotUsed,
 }
 

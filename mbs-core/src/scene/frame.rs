@@ -1,18 +1,18 @@
-//! Named places on bodies and on the ground, in the reference configuration: they carry no mass and cost nothing.
+//! Named frames on bodies and on the ground, in the reference configuration. They have no mass and need no computation in a step.
 
 use crate::scene::BodyId;
 use alloc::string::String;
 
-/// A named place with axes, which moves with its body or stands on the ground.
+/// Named place with axes, which moves with its body or is fixed to the ground.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BodyFrame<T> {
-    /// Unique name among the frames and the other bodies: it stands wherever a body's name does. Of its own body's name it is the place
-    /// that stands for this body.
+    /// Unique name among the frames and the other bodies, used in place of a body's name. A frame with the name of its own body
+    /// gives the default place on that body.
     pub name: String,
-    /// Body that the place moves with, or the ground.
+    /// Body that the frame moves with, or the ground.
     pub body: BodyId,
-    /// Place in the reference configuration [m].
+    /// Origin of the frame in the reference configuration [m].
     pub at: [T; 3],
-    /// First and second axis of the frame, any length; the second is made right-angled to the first. `None`: x and y.
+    /// First and second axis of the frame, of any length. The second is made perpendicular to the first. `None`: x and y.
     pub axes: Option<[[T; 3]; 2]>,
 }

@@ -1,8 +1,8 @@
-//! Handles: which body, joint, effect or other entry of a scene is meant.
+//! Handles: numbers that identify a body, joint, effect or other entry of a scene.
 //!
-//! A handle is the place of an entry in its list. The kinds are types of their own, so that a joint is not passed for a body.
+//! A handle is the place of an entry in its list. Each kind has its own type, so that a joint cannot be passed as a body.
 
-/// A body by its place in `scene.bodies`, or the ground.
+/// Body by its place in `scene.bodies`, or the ground.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum BodyId {
     /// Ground, which is the fixed frame.
@@ -18,7 +18,7 @@ impl BodyId {
     /// Ground, which is the fixed frame.
     pub const GROUND: Self = Self::Ground;
 
-    /// The body at a place in `scene.bodies`.
+    /// Body at a place in `scene.bodies`.
     #[must_use]
     pub const fn new(index: usize) -> Self {
         Self::Body(index)
@@ -41,7 +41,7 @@ macro_rules! handle {
         pub struct $name(usize);
 
         impl $name {
-            /// The entry at a place in its list.
+            /// Handle of the entry at a place in its list.
             #[must_use]
             pub const fn new(index: usize) -> Self {
                 Self(index)

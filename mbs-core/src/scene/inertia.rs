@@ -1,16 +1,16 @@
-//! Mass, centre and inertia of a body, however they are given.
+//! Mass, centre of mass and inertia of a body, for every form of the data.
 
 use crate::Real;
 use crate::algebra::{Matrix, Vector};
 use crate::scene::{Body, Inertia};
 
 impl<T: Real> Body<T> {
-    /// Mass, centre and inertia about the centre.
-    /// The mass on which gravity acts [kg].
+    /// Mass on which gravity acts [kg].
     pub(crate) fn gravitational_mass(&self) -> T {
         self.gravity_scale.map_or(self.mass, |scale| self.mass * scale)
     }
 
+    /// Mass [kg], centre of mass [m], and inertia about the centre of mass [kg m^2].
     pub(crate) fn mass_properties(&self) -> (T, Vector<T, 3>, Matrix<T, 3>) {
         let center = Vector::from(self.center);
         let mut inertia = Matrix::<T, 3>::zeros();
@@ -31,7 +31,7 @@ impl<T: Real> Body<T> {
     }
 }
 
-/// Inertia of a point mass: m (d.d 1 - d d^T).
+/// Inertia of a point mass at the offset d: m (d.d 1 - d d^T) (parallel axis theorem).
 pub(crate) fn steiner<T: Real>(mass: T, d: &Vector<T, 3>) -> Matrix<T, 3> {
     (Matrix::<T, 3>::identity() * d.dot(d) - d * d.transpose()) * mass
 }

@@ -1,8 +1,8 @@
-//! Scene data: what a mechanism *is*, before any coordinates are chosen. Plain data, public fields, SI units.
+//! Data of a scene: the mechanism, before any coordinates are chosen. Public fields in SI units.
 //!
-//! Everything is given in global axes in the *reference configuration* (hard points). Planar scenes keep the
-//! third component of every vector at zero. Names live here and nowhere below; references are indices.
-//! Names of other rooms that one writes beside these, such as [`Scene`] and [`JointKind`], are shown here too.
+//! All places and directions are in global axes in the *reference configuration* (hard points). Planar scenes have zero as the
+//! third component of every vector. Names exist only here; lower layers refer to entries by index. Types from other modules that
+//! scenes need, such as [`Scene`] and [`JointKind`], are re-exported here.
 
 mod advice;
 mod axes;

@@ -1,8 +1,8 @@
-//! Numbers of a scene: decimal text until a run names its precision.
+//! Numbers of a scene: decimal texts, which are converted when a run chooses its precision.
 //!
-//! A scene is read and built once, as [`Scene<Number>`](crate::scene::Scene), and
-//! [`resolve`](crate::scene::Scene::resolve) gives it the scalar of a run. A default that follows from other numbers, such as the
-//! middle of a rod, is kept as the sum or product that it is, and computed in that scalar.
+//! A scene is read and built once, as [`Scene<Number>`](crate::scene::Scene). Then [`resolve`](crate::scene::Scene::resolve)
+//! converts it to the scalar type of a run. Some defaults follow from other numbers, such as the middle of a rod. They are stored
+//! as a sum or product, and computed in that scalar type.
 
 use crate::Real;
 use crate::real::DoubleDouble;
@@ -12,36 +12,36 @@ use alloc::string::String;
 use core::fmt::{self, Display, Formatter};
 use core::ops::{Add, Mul};
 
-/// Digits that every `f64` keeps: with these or fewer its shortest text is the text that it was read from.
+/// Number of digits that every `f64` preserves: the shortest text of such a number is the text that it was read from.
 const KEPT_DIGITS: usize = 15;
-/// Digits of a computed number's text after the first: they read back as the same pair of doubles.
+/// Digits after the first in the text of a computed number. The text reads back as the same pair of doubles.
 const COMPUTED_DIGITS: usize = 40;
 
-/// A number of a scene: its decimal text, and the nearest `f64`.
+/// Number of a scene: its decimal text and the nearest `f64`.
 ///
-/// A number given in code stands for its shortest decimal text: 9.81 in a run of 32 digits is 9.81, not the double next to it.
-/// Two are equal if their 32 digits are.
+/// A number given in code means its shortest decimal text: 9.81 in a run of 32 digits is exactly 9.81, not the nearest double. Two
+/// numbers are equal if their first 32 digits are.
 #[derive(Debug, Clone, Default)]
 pub struct Number {
     near: f64,
-    /// Origin of the number; `None`: the shortest text of `near`.
+    /// Origin of the number; `None` for the shortest text of `near`.
     source: Option<Box<Source>>,
 }
 
 /// Origin of a number.
 #[derive(Debug, Clone)]
 enum Source {
-    /// A text of more digits than `f64` keeps.
+    /// Decimal text with more digits than `f64` preserves.
     Text(Box<str>),
-    /// The sum of two.
+    /// Sum of two numbers.
     Sum(Number, Number),
-    /// The product of two.
+    /// Product of two numbers.
     Product(Number, Number),
-    /// This double in every precision, whatever its decimal text.
+    /// Exact double in every precision, whatever its decimal text.
     Double,
-    /// Not given, but assumed: the third component of a vector of two numbers.
+    /// Assumed number that was not given: the third component of a vector of two numbers.
     Absent,
-    /// Not given: it follows from the scene where that is resolved.
+    /// Open number that was not given: it follows from the scene when the scene is resolved.
     Open,
 }
 
@@ -51,7 +51,7 @@ impl Number {
     /// Number one half, in every precision.
     pub const HALF: Self = Self { near: 0.5, source: None };
 
-    /// The number of a decimal text such as `9.81` or `1.0e-3`; `None` when it is not one, or not one that a scene file may have.
+    /// Number of a decimal text such as `9.81` or `1.0e-3`; `None` if the text is no number, or one that scene files must not have.
     #[must_use]
     pub fn from_decimal(text: &str) -> Option<Self> {
         let is_digit = |c: Option<u8>| c.is_some_and(|c| c.is_ascii_digit());
@@ -72,37 +72,37 @@ impl Number {
         Some(Self { near, source })
     }
 
-    /// This double in every precision: data that was always computed from it.
+    /// Number that is exactly this double in every precision, for data that was always computed from doubles.
     #[must_use]
     pub(crate) fn double(near: f64) -> Self {
         Self { near, source: Some(Box::new(Source::Double)) }
     }
 
-    /// A number that was not given: zero for the third component of a vector of two numbers.
+    /// Assumed number that was not given, such as zero for the third component of a vector of two numbers.
     #[must_use]
     pub fn assumed(near: f64) -> Self {
         Self { near, source: Some(Box::new(Source::Absent)) }
     }
 
-    /// A number that follows from the scene, and is computed where that is [resolved](crate::scene::Scene::resolve); zero until then.
+    /// Open number, which is computed when the scene is [resolved](crate::scene::Scene::resolve), and zero before.
     #[must_use]
     pub fn open() -> Self {
         Self { near: 0.0, source: Some(Box::new(Source::Open)) }
     }
 
-    /// Whether it follows from the scene.
+    /// Does the number follow from the scene?
     #[must_use]
     pub fn is_open(&self) -> bool {
         matches!(self.source.as_deref(), Some(Source::Open))
     }
 
-    /// Whether it was assumed, not given.
+    /// Was the number assumed instead of given?
     #[must_use]
     pub fn is_absent(&self) -> bool {
         matches!(self.source.as_deref(), Some(Source::Absent))
     }
 
-    /// Whether it follows from other numbers, as the default of a key may.
+    /// Does the number follow from other numbers, as the default of a key may?
     #[must_use]
     pub fn is_computed(&self) -> bool {
         matches!(self.source.as_deref(), Some(Source::Sum(..) | Source::Product(..)))
@@ -120,9 +120,9 @@ impl Number {
         self.near == 0.0
     }
 
-    /// The number in the precision `T`: the nearest one to its decimal text; computed ones by the arithmetic of `T`.
+    /// Number in the precision `T`: the nearest to its decimal text. Computed numbers use the arithmetic of `T`.
     ///
-    /// Cost: nothing in `f64`; in other precisions that of reading its text.
+    /// Cost: nothing in `f64`; in other precisions, reading the text.
     #[must_use]
     pub fn value<T: Real>(&self) -> T {
         let read = |text: &str| T::from_decimal(text).unwrap_or(T::from_f64(self.near));
@@ -136,7 +136,7 @@ impl Number {
         }
     }
 
-    /// Decimal text of the number, as scene files have it.
+    /// Decimal text of the number, as in scene files.
     #[must_use]
     pub fn text(&self) -> String {
         match self.source.as_deref() {
@@ -195,7 +195,7 @@ impl Mul for Number {
     }
 }
 
-/// A point or vector of a scene, global axes: two numbers in the plane, three in space.
+/// Point or vector of a scene in global axes: two numbers in the plane, three in space.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Vector3(pub [Number; 3]);
 

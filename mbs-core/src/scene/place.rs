@@ -1,10 +1,10 @@
-//! Places of checks, and checks of single numbers and vectors there.
+//! Places of checks in a scene, and checks of numbers and vectors there.
 
 use crate::Real;
 use crate::joint::Dimension;
 use crate::scene::{Entry, SceneError, SceneFault};
 
-/// Place of a check: the entry, and the dimension of the scene.
+/// Place of a check: entry of the scene, and dimension.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Place {
     pub(crate) entry: Entry,
@@ -25,7 +25,7 @@ impl Place {
         if x > T::ZERO { Ok(()) } else { self.fault(field, SceneFault::NotPositive(x.to_f64())) }
     }
 
-    /// Two numbers above zero, the larger one first.
+    /// Checks that two numbers are positive, the larger one first.
     pub(crate) fn descending<T: Real>(
         self,
         field: &'static str,
@@ -44,7 +44,7 @@ impl Place {
         if x >= T::ZERO { Ok(()) } else { self.fault(field, SceneFault::Negative(x.to_f64())) }
     }
 
-    /// Checks that the components are finite; in planar scenes the third is zero.
+    /// Checks that the components are finite, and that the third one is zero in a planar scene.
     pub(crate) fn vector<T: Real>(self, field: &'static str, v: [T; 3]) -> Result<(), SceneError> {
         for x in v {
             self.finite(field, x)?;
@@ -55,13 +55,13 @@ impl Place {
         Ok(())
     }
 
-    /// A vector with a direction.
+    /// Checks a vector that must have a direction.
     pub(crate) fn axis<T: Real>(self, field: &'static str, v: [T; 3]) -> Result<(), SceneError> {
         self.vector(field, v)?;
         if largest(v).is_zero() { self.fault(field, SceneFault::ZeroAxis) } else { Ok(()) }
     }
 
-    /// Two vectors in two places.
+    /// Checks that two points differ.
     pub(crate) fn apart<T: Real>(
         self,
         field: &'static str,
@@ -83,10 +83,10 @@ pub(crate) fn largest<T: Real>(v: [T; 3]) -> T {
     v[0].abs().max(v[1].abs()).max(v[2].abs())
 }
 
-/// Largest |a × b| of parallel directions, in units of rounding of |a| |b| [-]. Chosen, not tuned.
+/// Largest |a × b| of directions that count as parallel, in units of rounding of |a| |b| [-]. Chosen, not tuned.
 const PARALLEL_ROUNDINGS: f64 = 64.0;
 
-/// Two directions agree or oppose, to rounding: |a × b| beside |a| |b| in largest components.
+/// Are two directions equal or opposite, within rounding errors? The largest component of a × b is compared with those of a and b.
 pub(crate) fn is_parallel<T: Real>(a: [T; 3], b: [T; 3]) -> bool {
     let (a, b) = (scaled(a), scaled(b));
     let cross = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
@@ -103,7 +103,7 @@ pub(crate) fn is_planar(dimension: Dimension) -> bool {
     dimension == Dimension::Planar
 }
 
-/// At least one row; each time later than the one before.
+/// Checks the rows of a table: at least one, each later than the one before.
 pub(crate) fn check_times<T: Real>(
     times: impl Iterator<Item = T>,
     place: Place,

@@ -1,64 +1,65 @@
-//! Bodies that roll without slipping on a plane, and blades that do not move sideways.
+//! Bodies that roll on a plane without slip, and blades that do not slip sideways.
 //!
 //! ```text
-//! wheel   a disc: its lowest point is on the plane and has the velocity of the plane there
-//! ball    the same of a sphere
-//! blade   the velocity of a point against the plane has no part across the blade; it may leave the plane
+//! wheel   a disc: its lowest point is on the plane and has the velocity of the plane at that place
+//! ball    a sphere, with the same constraints
+//! blade   the velocity of a point relative to the plane has no component perpendicular to the blade; it may leave the plane
 //! ```
 
 use crate::scene::{BodyId, Number, Vector3};
 use alloc::string::String;
 
-/// A body that rolls without slipping, or a blade.
+/// Body that rolls without slip, or a blade.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Rolling<T> {
     /// Unique name among the rollings.
     pub name: String,
     /// Kind of the rolling, with its sizes.
     pub kind: RollingKind<T>,
-    /// Body that rolls, or has the blade.
+    /// Body that rolls, or to which the blade is fixed.
     pub body: BodyId,
-    /// The centre of the wheel or ball, or the point of the blade, reference configuration [m].
+    /// Centre of the wheel or ball, or point of the blade, in the reference configuration [m].
     pub at: [T; 3],
-    /// The body, or the ground, that it rolls on.
+    /// Body or ground on which it rolls.
     pub on: BodyId,
-    /// The plane that it rolls on, fixed in `on`; `None`: the level one through its lowest point, of a blade through its point.
+    /// Plane on which it rolls, fixed in `on`. `None`: the horizontal plane through the lowest point, or through the point of a
+    /// blade.
     pub plane: Option<RollingPlane<T>>,
 }
 
-/// A plane, fixed in a body or in the ground.
+/// Plane that is fixed in a body or in the ground.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RollingPlane<T> {
-    /// One of its points, reference configuration [m].
+    /// Point of the plane, reference configuration [m].
     pub point: [T; 3],
-    /// Normal of the plane towards what rolls, any length, reference configuration.
+    /// Normal of the plane, of any length, reference configuration. It points to the side of the rolling body.
     pub normal: [T; 3],
 }
 
 /// Kind of a rolling: wheel, ball or blade.
 #[derive(Debug, Clone, PartialEq)]
 pub enum RollingKind<T> {
-    /// A thin disc that rolls.
+    /// Thin disc that rolls without slip.
     Wheel {
-        /// Axis of the wheel, any length, reference configuration; not used in the plane.
+        /// Axis of the wheel, of any length, reference configuration; not used in planar scenes.
         axis: [T; 3],
         /// Radius of the wheel [m].
         radius: T,
     },
-    /// A sphere that rolls.
+    /// Sphere that rolls without slip.
     Ball {
         /// Radius of the ball [m].
         radius: T,
     },
-    /// A point that does not move across a direction of its body.
+    /// Blade: a point of a body whose velocity has no component perpendicular to the blade.
     Blade {
-        /// The direction along which it may move, any length, reference configuration.
+        /// Direction in which the blade may move, of any length, reference configuration.
         direction: [T; 3],
     },
 }
 
 impl<T> RollingKind<T> {
-    /// The radius of what has one.
+    /// Radius of a wheel or ball; `None` for a blade.
     #[must_use]
     pub const fn radius(&self) -> Option<&T> {
         match self {
@@ -67,7 +68,7 @@ impl<T> RollingKind<T> {
         }
     }
 
-    /// The direction of its body that counts: of a wheel its axis, of a blade where it may move.
+    /// Axis of a wheel, or direction in which a blade may move; `None` for a ball.
     #[must_use]
     pub const fn direction(&self) -> Option<&[T; 3]> {
         match self {
@@ -82,7 +83,8 @@ impl Rolling<Number> {
         Self { name: String::new(), kind, body, at: at.0, on: BodyId::Ground, plane: None }
     }
 
-    /// A wheel of a body, with this centre and radius [m] and this axis, on the level ground under it: z points up, in the plane y.
+    /// Wheel of a body, with this centre and radius [m] and this axis, on the level ground below it. Up is z in space, and y in the
+    /// plane.
     #[must_use]
     pub fn wheel(
         body: BodyId,
@@ -94,19 +96,20 @@ impl Rolling<Number> {
         Self::on_ground(kind, body, at.into())
     }
 
-    /// A ball, a body with this centre and radius [m], on the level ground under it: z points up, in the plane y.
+    /// Ball: a body with this centre and radius [m] on the level ground below it. Up is z in space, and y in the plane.
     #[must_use]
     pub fn ball(body: BodyId, at: impl Into<Vector3>, radius: impl Into<Number>) -> Self {
         Self::on_ground(RollingKind::Ball { radius: radius.into() }, body, at.into())
     }
 
-    /// A blade at a point of a body, that may move along a direction of it, on the level ground: z points up; in the plane it cuts that.
+    /// Blade at a point of a body, which may move along a direction of the body on level ground. Up is z in space. In a planar
+    /// scene the blade cuts the plane of the motion.
     #[must_use]
     pub fn blade(body: BodyId, at: impl Into<Vector3>, direction: impl Into<Vector3>) -> Self {
         Self::on_ground(RollingKind::Blade { direction: direction.into().0 }, body, at.into())
     }
 
-    /// On a plane that is fixed in a body or in the ground: one of its points [m] and its normal.
+    /// Sets the plane of the rolling, which is fixed in a body or in the ground: a point [m] and the normal.
     #[must_use]
     pub fn on(mut self, on: BodyId, point: impl Into<Vector3>, normal: impl Into<Vector3>) -> Self {
         let plane = RollingPlane { point: point.into().0, normal: normal.into().0 };

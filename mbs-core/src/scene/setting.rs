@@ -1,4 +1,4 @@
-//! A setting of a method: what its row says, and its values.
+//! Settings of the methods: descriptions and values.
 
 use alloc::format;
 use alloc::string::String;
@@ -8,19 +8,19 @@ use alloc::string::String;
 pub struct Setting {
     /// Name of the setting in code and in Python.
     pub name: &'static str,
-    /// Table and key in scene files, with a dot between them; empty: the setting is of a run alone.
+    /// Table and key in scene files, separated by a dot. Empty: scene files have no such key, and only a run has the setting.
     pub path: &'static str,
-    /// Names of its option on the command line, the first one in help; empty: as `name`.
+    /// Option names on the command line; help shows the first one. Empty: the option has the name `name`.
     pub options: &'static [&'static str],
-    /// Form of the value, and what is refused.
+    /// Form of the value, which also says which values are refused.
     pub form: SettingForm,
-    /// Letter that stands for the value in the help of the command line.
+    /// Letter in place of the value in the help of the command line.
     pub letter: &'static str,
     /// SI unit of the value; empty: none.
     pub unit: &'static str,
-    /// Value where neither the command line nor the scene gives one; empty: a scene always gives one.
+    /// Default value, if neither the command line nor the scene gives one. Empty: a scene always has a value.
     pub default: &'static str,
-    /// Methods that take the setting, where not all do; empty: all.
+    /// Methods that use the setting. Empty: all methods use it.
     pub takers: &'static str,
     /// Meaning of the setting, in one sentence.
     pub meaning: &'static str,
@@ -28,7 +28,7 @@ pub struct Setting {
     pub more: &'static [&'static str],
 }
 
-/// Form of the value of a setting, and what is refused.
+/// Form of the value of a setting. Values of other forms are refused.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SettingForm {
     /// One of these words.
@@ -37,9 +37,9 @@ pub enum SettingForm {
     Positive,
     /// Two numbers above zero, the larger one first.
     Descending,
-    /// True or false, on the command line on or off.
+    /// True or false; on the command line `on` or `off`.
     Flag,
-    /// A whole number from 1.
+    /// A whole number that is at least 1.
     Count,
 }
 
@@ -58,7 +58,7 @@ pub enum SettingValue<T> {
     Count(usize),
 }
 
-/// Field of a setting in a struct that has them all; `None` there leaves the setting open.
+/// Field of a setting in a struct with all settings. A field that is `None` leaves the setting open.
 #[derive(Debug)]
 pub enum SettingSlot<'a, T> {
     /// Field for a value in the form [`SettingForm::Word`].
@@ -73,7 +73,7 @@ pub enum SettingSlot<'a, T> {
     Count(&'a mut Option<usize>),
 }
 
-/// Error of a setting that is not there, or has a value of another form.
+/// Error of a setting that does not exist, or of a value of another form.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct NotASetting;
 
@@ -92,7 +92,8 @@ impl Setting {
         self.options.first().copied().unwrap_or(self.name)
     }
 
-    /// Reads a value as the command line has it: words and numbers, `U,L`, `on` or `off`. Nothing for a text of another form.
+    /// Reads a value in the form of the command line: a word, a number, two numbers `U,L`, `on` or `off`. `None` for a text of
+    /// another form.
     #[must_use]
     pub fn parse(&self, text: &str) -> Option<SettingValue<f64>> {
         let number = |text: &str| text.trim().parse::<f64>().ok();
@@ -122,7 +123,7 @@ impl Setting {
         }
     }
 
-    /// Returns what is to say beside the meaning: who takes the setting, then the further sentences.
+    /// Returns the sentences that follow the meaning: the methods that use the setting, then the further sentences.
     pub fn further(&self) -> impl Iterator<Item = String> {
         let takers = Some(self.takers).filter(|takers| !takers.is_empty());
         let taken = takers.map(|takers| format!("Taken by {takers}."));
@@ -131,7 +132,7 @@ impl Setting {
 }
 
 impl<T> SettingValue<T> {
-    /// Returns the value with every number as `f` gives it.
+    /// Returns the value with each number converted by `f`.
     pub fn map<U>(self, f: &mut impl FnMut(T) -> U) -> SettingValue<U> {
         match self {
             Self::Word(word) => SettingValue::Word(word),
@@ -142,7 +143,7 @@ impl<T> SettingValue<T> {
         }
     }
 
-    /// Text of the value, which [`Setting::parse`] reads back; `number` writes a number.
+    /// Text of the value, which [`Setting::parse`] reads back. `number` formats a number.
     pub fn text(&self, number: impl Fn(&T) -> String) -> String {
         match self {
             Self::Word(word) => word.clone(),
@@ -155,7 +156,7 @@ impl<T> SettingValue<T> {
 }
 
 impl<T> SettingSlot<'_, T> {
-    /// Takes the value out of the field.
+    /// Takes the value out of the field, which is `None` afterwards.
     pub fn take(self) -> Option<SettingValue<T>> {
         match self {
             Self::Word(field) => field.take().map(SettingValue::Word),
@@ -169,7 +170,7 @@ impl<T> SettingSlot<'_, T> {
     /// Sets the field to a value.
     ///
     /// # Errors
-    /// [`NotASetting`] for a value of another form: the field stays as it was.
+    /// [`NotASetting`] for a value of another form. The field is then unchanged.
     pub fn set(self, value: SettingValue<T>) -> Result<(), NotASetting> {
         match (self, value) {
             (Self::Word(field), SettingValue::Word(word)) => *field = Some(word),

@@ -1,24 +1,24 @@
-//! Forms on bodies and on the ground, in the reference configuration: pictures draw them, and they carry no mass.
+//! Shapes on bodies and on the ground, in the reference configuration. Pictures show them; they have no mass.
 
 use crate::scene::BodyId;
 use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
 
-/// A form that moves with its body, or stands on the ground.
+/// Shape that moves with its body, or is fixed to the ground.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BodyShape<T> {
     /// Unique name among the shapes.
     pub name: String,
-    /// Body that the form moves with, or the ground.
+    /// Body that the shape moves with, or the ground.
     pub body: BodyId,
-    /// Form of the shape, with its sizes.
+    /// Form of the shape, with its dimensions.
     pub form: ShapeKind<T>,
-    /// Red, green and blue, each up to 255; `None`: those of its body.
+    /// Red, green and blue, each from 0 to 255; `None`: the colour of the body.
     pub colour: Option<[u8; 3]>,
-    /// From 0, not seen, to 1 [-].
+    /// Opacity from 0 (invisible) to 1 (opaque) [-].
     pub opacity: T,
-    /// Is it for pictures alone?
+    /// Is the shape for pictures only?
     pub is_visual: bool,
 }
 
@@ -30,64 +30,64 @@ impl<T> BodyShape<T> {
     }
 }
 
-/// Form of a shape; places and lengths in the reference configuration [m].
+/// Form of a shape. Places and lengths are in the reference configuration [m].
 #[derive(Debug, Clone, PartialEq)]
 pub enum ShapeKind<T> {
-    /// A box of space.
+    /// Box in a spatial scene.
     Box {
         /// Centre of the box.
         center: [T; 3],
         /// Lengths of the box along its axes.
         size: [T; 3],
-        /// First and second axis of the box, any length; `None`: x and y.
+        /// First and second axis of the box, of any length; `None`: x and y.
         axes: Option<[[T; 3]; 2]>,
     },
-    /// A sphere of space.
+    /// Sphere in a spatial scene.
     Sphere {
         /// Centre of the sphere.
         center: [T; 3],
         /// Radius of the sphere.
         radius: T,
     },
-    /// A cylinder with round ends; in the plane a bar with round ends.
+    /// Cylinder with hemispherical ends. In the plane, a bar with semicircular ends.
     Capsule {
-        /// The centre of one end.
+        /// Centre of one end.
         from: [T; 3],
-        /// The centre of the other end.
+        /// Centre of the other end.
         to: [T; 3],
         /// Radius of the capsule.
         radius: T,
     },
-    /// A cylinder of space with flat ends.
+    /// Cylinder with flat ends in a spatial scene.
     Cylinder {
-        /// The centre of one end.
+        /// Centre of one end.
         from: [T; 3],
-        /// The centre of the other end.
+        /// Centre of the other end.
         to: [T; 3],
         /// Radius of the cylinder.
         radius: T,
     },
-    /// A disc of the plane.
+    /// Disc in a planar scene.
     Disc {
         /// Centre of the disc.
         center: [T; 3],
         /// Radius of the disc.
         radius: T,
     },
-    /// A polygon of the plane.
+    /// Polygon in a planar scene.
     Polygon {
-        /// Corners of the polygon, one after the other.
+        /// Corners of the polygon, in order.
         points: Vec<[T; 3]>,
     },
-    /// A surface of triangles of space, from a file that only pictures read.
+    /// Surface of triangles in a spatial scene, from a file that only pictures read.
     Mesh {
         /// File with the triangles: STL, OBJ or MSH.
         file: String,
         /// Place of the origin of the file.
         at: [T; 3],
-        /// The file's first and second axis, any length; `None`: x and y.
+        /// First and second axis of the file, of any length; `None`: x and y.
         axes: Option<[[T; 3]; 2]>,
-        /// Factors of the file's numbers along its axes; a negative one mirrors [-].
+        /// Scale factors along the axes of the file; a negative one mirrors [-].
         scale: [T; 3],
     },
 }
@@ -107,7 +107,7 @@ impl<T> ShapeKind<T> {
         }
     }
 
-    /// Whether planar scenes have it, and whether spatial ones do.
+    /// Can planar scenes have the form, and can spatial scenes?
     #[must_use]
     pub const fn dimensions(&self) -> [bool; 2] {
         match self {

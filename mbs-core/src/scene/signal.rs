@@ -1,4 +1,5 @@
-//! Signals: numbers over time by name, made of constants, tables, waves, ramps, steps and inputs, and of one another.
+//! Signals: named numbers that depend on time or on the motion. They are constants, tables, waves, ramps, steps, inputs, or
+//! functions of other signals.
 //!
 //! ```text
 //! sum      Σ f_k s_k                      curve    f(s)
@@ -8,8 +9,9 @@
 //! integral x' = s, within limits          pid      p e + i x + d e',  x' = e = target - measured
 //! ```
 //!
-//! Guides and couplings take signals of time that are twice differentiable; forces and torques take all. Those that follow the motion,
-//! and the states x, belong to the mechanism: a step is made with them, and undone with them.
+//! Guides and couplings use signals of time that are twice differentiable. Forces and torques use any signal. Signals that depend
+//! on the motion, and their states x, are part of the state of the mechanism. A step advances them, and a rejected step restores
+//! them.
 
 use crate::Real;
 use crate::scene::{CouplingMeasure, Curve, CurveShape, SignalId, TableEnds};
@@ -30,18 +32,18 @@ pub struct NamedSignal<T> {
 /// Interpolation of a table between its rows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Interpolation {
-    /// Cubic spline through the rows, with these ends.
+    /// Cubic spline through the rows, with this condition at the ends.
     Spline(TableEnds),
-    /// Twice differentiable, between the values of the neighbouring rows.
+    /// Twice differentiable function that stays between the values of neighbouring rows, with this condition at the ends.
     Monotone(TableEnds),
     /// Straight lines between the rows.
     Linear,
-    /// The value of the last row that has passed.
+    /// Value of the latest row whose time has passed.
     Hold,
 }
 
 impl Interpolation {
-    /// Condition at both ends, where the interpolation is smooth; `None`: it is not.
+    /// Condition at both ends of a spline or monotone table; `None` for an interpolation that is not smooth.
     #[must_use]
     pub const fn ends(self) -> Option<TableEnds> {
         match self {
@@ -71,22 +73,22 @@ impl From<CurveShape> for Interpolation {
     }
 }
 
-/// The kinds of signal.
+/// Kind of a signal, with its numbers.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum SignalKind<T> {
-    /// A number that is the same at all times.
+    /// Constant number, the same at all times.
     Constant(T),
-    /// Through rows (time, value); the end values are held outside, or the table repeats.
+    /// Table of rows (time, value). Before the first and after the last row the end value is held, or the table repeats.
     Table {
         /// The rows [s, unit of the signal].
         rows: Vec<[T; 2]>,
         /// Interpolation between the rows.
         interpolation: Interpolation,
-        /// Does the table repeat? Its last value is then its first.
+        /// Does the table repeat? Its last value must then equal its first.
         periodic: bool,
     },
-    /// offset + amplitude sin(2 pi frequency t + phase).
+    /// Sine wave: offset + amplitude sin(2 pi frequency t + phase).
     Sine {
         /// Amplitude of the sine [unit of the signal].
         amplitude: T,
@@ -97,13 +99,13 @@ pub enum SignalKind<T> {
         /// Mean of the sine [unit of the signal].
         offset: T,
     },
-    /// A sine whose frequency goes from one to another at a constant rate, and stays there.
+    /// Sine wave whose frequency changes at a constant rate for a duration, and is constant afterwards.
     Chirp {
         /// Amplitude of the chirp [unit of the signal].
         amplitude: T,
         /// Frequency at the start [Hz].
         frequency: T,
-        /// Frequency at the end of the duration [Hz].
+        /// Frequency after the duration [Hz].
         to_frequency: T,
         /// Duration of the change of frequency [s].
         duration: T,
@@ -112,140 +114,141 @@ pub enum SignalKind<T> {
         /// Mean of the chirp [unit of the signal].
         offset: T,
     },
-    /// rate (t - start) between start and end, zero before and held after.
+    /// Ramp: rate (t - start) between start and end. Zero before the start, constant after the end.
     Ramp {
         /// Rate of the ramp [unit of the signal per s].
         rate: T,
-        /// When it begins [s].
+        /// Time at which the ramp begins [s].
         start: T,
-        /// When it ends [s]; `None`: never.
+        /// Time at which the ramp ends [s]; `None`: it never ends.
         end: Option<T>,
-        /// Length of each rounded corner, half before it and half after it; the values beside it stay [s].
+        /// Length of each rounded corner, half of it before the corner and half after [s]. Values outside the rounding do not
+        /// change.
         rounding: T,
     },
-    /// From one value to another: from + (to - from) s^3 (10 - 15 s + 6 s^2), s = (t - at)/rise.
+    /// Smooth step between two values: from + (to - from) s^3 (10 - 15 s + 6 s^2), s = (t - at)/rise.
     Step {
         /// Value before the step.
         from: T,
         /// Value after the step.
         to: T,
-        /// When it begins [s].
+        /// Time at which the step begins [s].
         at: T,
-        /// Duration of the step; zero is a jump [s].
+        /// Duration of the step [s]; zero makes a jump.
         rise: T,
     },
-    /// The sum of signals, each with its factor.
+    /// Sum of signals, each times its factor.
     Sum {
         /// Signals that are added.
         of: Vec<SignalId>,
         /// Factors of the signals, in their order.
         factors: Vec<T>,
     },
-    /// The product of signals.
+    /// Product of several signals.
     Product {
         /// Signals that are multiplied.
         of: Vec<SignalId>,
     },
-    /// A function of a signal.
+    /// Function (curve) of another signal.
     Curve {
-        /// Signal that the function takes.
+        /// Signal that is the argument of the function.
         of: SignalId,
         /// Function of the signal.
         curve: Curve<T>,
     },
-    /// A signal within limits.
+    /// Signal limited to a range.
     Clamp {
-        /// Signal that is kept within the limits.
+        /// Signal that is limited.
         of: SignalId,
         /// Lower limit of the value.
         lower: T,
         /// Upper limit of the value.
         upper: T,
     },
-    /// Ratio of a signal within limits to the signal itself; one where the signal is zero.
+    /// Ratio of a limited signal to the signal itself; one where the signal is zero.
     LimitRatio {
-        /// Signal that is kept within the limits.
+        /// Signal that is limited.
         of: SignalId,
         /// The lower limit, at most zero.
         lower: T,
         /// The upper limit, at least zero.
         upper: T,
     },
-    /// Held until it is set again between steps.
+    /// Input whose value is held until it is set between steps.
     Input {
         /// Value of the input at the start.
         value: T,
-        /// Unit of the input, for people.
+        /// Unit of the input, shown to users and not used in computation.
         unit: String,
     },
-    /// A number that the mechanism has, or its rate.
+    /// Measured number of the mechanism, or its rate.
     Measure {
-        /// Number that is measured; a length counts whole, and not from the reference configuration.
+        /// Number that is measured. A length is the full length, not the difference from the reference configuration.
         of: CouplingMeasure<T>,
         /// Is the rate of the number measured, and not its value?
         is_rate: bool,
     },
-    /// A signal that comes late: time x' = s - x.
+    /// First-order lag x of a signal s: time x' = s - x.
     Lag {
         /// Signal that the lag follows.
         of: SignalId,
-        /// In this time a jump is followed to 63 percent [s].
+        /// Time constant [s]: after a jump of the signal, the lag follows 63 percent of it in this time.
         time: T,
         /// Value of the lag at the start.
         value: T,
     },
-    /// The integral of a signal over time; at a limit it stops, and comes back as soon as the signal turns back.
+    /// Integral of a signal over time. At a limit it stops, and continues when the signal changes its sign.
     Integral {
         /// Signal that is integrated.
         of: SignalId,
-        /// Lower limit of the integral; `None`: it has none.
+        /// Lower limit of the integral; `None`: no limit.
         lower: Option<T>,
-        /// Upper limit of the integral; `None`: it has none.
+        /// Upper limit of the integral; `None`: no limit.
         upper: Option<T>,
         /// Value of the integral at the start.
         value: T,
     },
-    /// Demand of a controller: p e + i x + d e' with e = target - measured and x' = e.
+    /// Output of a PID controller: p e + i x + d e' with e = target - measured and x' = e.
     Pid {
-        /// The wanted number, and the measured one.
+        /// Target signal and measured signal.
         of: [SignalId; 2],
-        /// Factor of the difference.
+        /// Gain of the difference e.
         p: T,
-        /// Factor of the integral of the difference.
+        /// Gain of the integral x of the difference.
         i: T,
-        /// Factor of the rate of the difference.
+        /// Gain of the rate e' of the difference.
         d: T,
-        /// Largest size of what it asks for; there the integral stops.
+        /// Largest absolute value of the output; at this limit the integral stops. `None`: no limit.
         limit: Option<T>,
     },
 }
 
-/// Smoothness of a signal; the worst first.
+/// Smoothness class of a signal, in ascending order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Smoothness {
     /// Signal whose value jumps.
     Jump,
     /// Signal whose rate jumps.
     Corner,
-    /// Signal that is twice differentiable, but for jumps of its acceleration.
+    /// Signal that is twice differentiable, except where its acceleration jumps.
     Smooth,
 }
 
-/// Break of a signal, at which it is not smooth.
+/// Break of a signal: a place at which it is not smooth.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SignalBreak {
-    /// The signal that makes it: the one that was asked about, or one that it is made of.
+    /// Signal with the break: the examined signal, or one of its operands, direct or indirect.
     pub signal: SignalId,
-    /// Does the value jump, and not the rate alone?
+    /// Does the value jump? Otherwise only the rate jumps.
     pub is_jump: bool,
-    /// Does it follow the motion, whose accelerations are not known beforehand? It then counts as a jump.
+    /// Does the signal depend on the motion? Its accelerations are then not known in advance, and it counts as a jump.
     pub is_feedback: bool,
-    /// The first time [s]; `None`: not known beforehand.
+    /// First time of the break [s]; `None` if it is not known in advance.
     pub time: Option<f64>,
 }
 
 impl<T> SignalKind<T> {
-    /// The signals that it is made of.
+    /// Operands of the signal: the signals that it is computed from.
     #[must_use]
     pub fn operands(&self) -> &[SignalId] {
         match self {
@@ -260,7 +263,7 @@ impl<T> SignalKind<T> {
         }
     }
 
-    /// Does it follow the motion by itself, or has it a state?
+    /// Does the signal measure the motion, or have its own state?
     #[must_use]
     pub const fn is_feedback(&self) -> bool {
         matches!(
@@ -269,18 +272,18 @@ impl<T> SignalKind<T> {
         )
     }
 
-    /// Does it change by itself: in time, by what is set, or with the motion?
+    /// Does the signal change without its operands: in time, by an input, or with the motion?
     pub(crate) fn moves(&self) -> bool {
         let is_alone = self.operands().is_empty() && !matches!(self, Self::Constant(_));
         is_alone || self.is_feedback()
     }
 
-    /// Has it a rate that is known, where those have it that it is made of?
+    /// Is the rate of the signal known, provided that the rates of its operands are?
     pub(crate) const fn has_rate(&self) -> bool {
         !matches!(self, Self::Measure { is_rate: true, .. } | Self::Pid { .. })
     }
 
-    /// Remedy that makes the signal smooth, in the imperative.
+    /// Remedy that makes the signal smooth, as an imperative sentence.
     pub(crate) const fn remedy(&self) -> &'static str {
         match self {
             Self::Step { .. } => "give it `rise`",
@@ -359,8 +362,8 @@ impl<T> SignalKind<T> {
 }
 
 impl<T: Real> SignalKind<T> {
-    /// First break of the signal from time zero on, for smooth operands; `None`: it has none. Whether the break is a jump, not a corner, and
-    /// its time where that is known.
+    /// First break of the signal after time zero, with smooth operands; `None` if it has no break. The Boolean is true for a jump
+    /// and false for a corner. The number is the time of the break [s], if it is known.
     fn own_break(&self) -> Option<(bool, Option<f64>)> {
         let at = |is_jump, time: &T| Some((is_jump, Some(time.to_f64())));
         let is_within = |time: &T| *time > T::ZERO;
@@ -386,12 +389,12 @@ impl<T: Real> SignalKind<T> {
     }
 }
 
-/// Signals so that each comes after those that it is made of.
+/// Order of the signals in which each one comes after its operands.
 ///
-/// Cost: one pass over the signals and what they are made of.
+/// Cost: one pass over the signals and their operands.
 ///
 /// # Errors
-/// A circle of signals, in which each is made of the next, and the last of the first.
+/// A circle of signals: each one is an operand of the one before, and the first is an operand of the last.
 pub fn signal_order<T>(signals: &[NamedSignal<T>]) -> Result<Vec<usize>, Vec<usize>> {
     let n = signals.len();
     let operands = |i: usize| {
@@ -420,7 +423,7 @@ pub fn signal_order<T>(signals: &[NamedSignal<T>]) -> Result<Vec<usize>, Vec<usi
     seen[start] = Some(0);
     loop {
         let last = way[way.len() - 1];
-        // what is left open is made of another that is left open
+        // a signal in a circle has an operand that is also left open
         let Some(next) = operands(last).find(|&of| open[of] > 0) else { return Err(way) };
         if let Some(first) = seen[next] {
             return Err(way.split_off(first));
@@ -430,9 +433,10 @@ pub fn signal_order<T>(signals: &[NamedSignal<T>]) -> Result<Vec<usize>, Vec<usi
     }
 }
 
-/// Returns the worst break of each signal, its own or of what it is made of. Of equal ones it is the first that the signal is made of.
+/// Returns the worst break of each signal among its own break and those of its operands. Of equally bad breaks the first operand's
+/// is returned.
 ///
-/// A spline is smooth within its rows; [`Scene::check_run`](crate::scene::Scene::check_run) looks at its ends.
+/// Splines are smooth between their rows; [`Scene::check_run`](crate::scene::Scene::check_run) checks their ends.
 ///
 /// Cost: one pass over the signals in their [order](signal_order).
 #[must_use]
@@ -454,7 +458,7 @@ pub fn signal_breaks<T: Real>(
     breaks
 }
 
-/// The first signal, itself or one that it is made of, for which `is_one` holds.
+/// Finds for each signal the first one among its operands, direct or indirect, and itself for which `is_one` holds.
 pub(crate) fn first_of<T>(
     signals: &[NamedSignal<T>],
     order: &[usize],
@@ -483,7 +487,7 @@ impl Display for SignalBreak {
 }
 
 impl SignalBreak {
-    /// The class of a signal by where it is not smooth.
+    /// Smoothness class of a signal with this break; `None` is a signal without breaks.
     #[must_use]
     pub const fn class(broken: Option<&Self>) -> Smoothness {
         match broken {

@@ -1,4 +1,4 @@
-//! Accelerations and multipliers by the index-1 equations, the last level of a consistent state.
+//! Accelerations and multipliers by the index-1 equations: the last level of a consistent state.
 
 use super::error::AssemblyError;
 use super::problem::{MAX_SWEEPS, RAISE, raises};
@@ -10,8 +10,8 @@ use crate::model::{Load, Model, State, System, Tangent, Terms};
 use alloc::vec;
 use alloc::vec::Vec;
 
-/// Accelerations and multipliers at (q, v) of `s` by the index-1 equations, in correction form; sets multipliers, carried
-/// phi and power. Returns the acceleration residual left.
+/// Computes accelerations and multipliers at (q, v) of `s` by the index-1 equations, by repeated corrections. It also sets the stored phi
+/// and the power. Returns the remaining residual of the accelerations.
 ///
 /// # Errors
 /// [`AssemblyError::NoInertia`] or [`AssemblyError::Acceleration`].
@@ -54,7 +54,7 @@ pub fn accelerations<T: Real, M: Model<T>>(
             rates[k] += terms.phi_bias[k];
             lambda[k] += penalty[k] * rates[k];
         }
-        // What is left, not the correction: the second one takes back what the first one sagged.
+        // Compare residuals, not corrections: the second correction mainly compensates for the finite penalty of the first.
         let left = norm_inf(&rates);
         let slower = |share: f64| last.is_some_and(|last| !(left < last * T::from_f64(share)));
         let (is_slow, stalls) = (slower(0.5), slower(STALLED));
@@ -81,7 +81,8 @@ pub fn accelerations<T: Real, M: Model<T>>(
     Ok(residual)
 }
 
-/// Writes auxiliary accelerations, multipliers, `phi`, remembered angles, signals, applied inputs and power of a state with accelerations.
+/// Writes all parts of a state that follow from its accelerations: auxiliary accelerations, multipliers, `phi`, remembered angles, signals,
+/// applied inputs and power.
 fn keep<T: Real, M: Model<T>>(model: &M, s: &mut State<T>, lambda: &[T], terms: &Terms<T>) {
     s.a_aux.copy_from_slice(&s.a);
     for x in [&mut s.lambda, &mut s.lambda_previous, &mut s.reaction] {
@@ -94,17 +95,17 @@ fn keep<T: Real, M: Model<T>>(model: &M, s: &mut State<T>, lambda: &[T], terms: 
     s.power = model.power(&s.q, &s.v, &s.reaction, terms);
 }
 
-/// Criterion for the rows of accelerations; see `weak.rs`.
+/// Criterion for the residuals of accelerations; see `weak.rs`.
 struct Met<'a, T> {
     accepted: T,
     penalty: &'a [T],
-    /// The penalty in effective masses.
+    /// Penalty, relative to the effective masses of the rows.
     alpha: T,
 }
 
 impl<T: Real> Met<'_, T> {
-    /// Are the residuals met to what is accepted, but for what the tilt of weakly determined rows makes of the accelerations `a`? The
-    /// solver holds the factor of M + J^T alpha J.
+    /// Are the residuals acceptable, if the tilt of weakly determined rows may leave a part that grows with the accelerations `a`? The
+    /// solver must have the factor of M + J^T alpha J.
     fn but_for_tilt<M: Model<T>>(
         &self,
         model: &M,
@@ -128,7 +129,7 @@ impl<T: Real> Met<'_, T> {
             solver.solve(&mut d[..n], &mut scratch);
             model.multiply_jacobian(terms, &d, &mut moved);
             let product = |x: &[T]| mu.iter().zip(x).fold(T::ZERO, |sum, (&mu, &x)| sum + mu * x);
-            // what a sweep takes of them: P sigma^2
+            // a sweep removes the fraction alpha sigma^2 of the weak residual; sigma is the tilt
             tilt = (product(&moved) / (product(&weak) * self.alpha)).sqrt();
             weak.iter_mut().zip(&moved).for_each(|(y, &d)| *y -= d);
         }
@@ -141,16 +142,16 @@ impl<T: Real> Met<'_, T> {
     }
 }
 
-/// Acceleration residual that is accepted, relative to accelerations and to the largest sum of a row's terms [-]. Chosen, not tuned.
+/// Accepted residual of accelerations, relative to accelerations and to the largest sum of a row's terms [-]. Chosen, not tuned.
 const ACCEPTED: f64 = 1e-9;
-/// Least residual that is accepted, in units of rounding [-]: it counts in single precision alone. Chosen, not tuned.
+/// Smallest accepted residual, in multiples of machine precision [-]. It counts only in single precision. Chosen, not tuned.
 const ACCEPTED_ROUNDINGS: f64 = 1e4;
-/// Pivot that is rounding, in units of rounding of the diagonal that it comes from [-]. Chosen, not tuned.
+/// Largest pivot that counts as zero, in multiples of machine precision of its original diagonal entry [-]. Chosen, not tuned.
 const PIVOT_ROUNDINGS: f64 = 32.0;
-/// Ratio of residuals after and before a sweep from which it stalls [-]. Chosen, not tuned.
+/// Ratio of the residuals after and before a sweep above which the sweeps end [-]. Chosen, not tuned.
 const STALLED: f64 = 0.9;
 
-/// Acceleration residual that is accepted: relative to the accelerations, and to the largest sum of a row's terms.
+/// Accepted residual of accelerations. It is relative to the accelerations and to the largest sum of a row's terms.
 fn limit<T: Real, M: Model<T>>(model: &M, terms: &Terms<T>, a: &[T]) -> T {
     let mut size = T::ONE + norm_inf(a);
     let mut jacobian = Vec::new();
@@ -172,7 +173,7 @@ fn tangent<T: Real>(penalty: &[T]) -> Tangent<'_, T> {
     Tangent { stiffness: T::ZERO, damping: T::ZERO, penalty, geometric: None }
 }
 
-/// Factors M + J^T alpha J.
+/// Factors the matrix M + J^T alpha J.
 fn factor<T: Real, M: Model<T>>(
     model: &M,
     solver: &mut impl SpdSolver<T>,
@@ -188,7 +189,7 @@ fn no_inertia<T: Real>(model: &impl Model<T>, unknown: u32) -> AssemblyError {
     AssemblyError::NoInertia { owner: model.owner_of_unknown(unknown as usize) }
 }
 
-/// A pivot that is rounding of the diagonal it came from means that nothing determines the coordinate.
+/// Checks the pivots of the factor. A pivot at machine precision of its original diagonal entry means that nothing determines the coordinate.
 fn check_pivots<T: Real, M: Model<T>>(
     model: &M,
     solver: &impl SpdSolver<T>,

@@ -1,4 +1,4 @@
-//! The three levels of a consistent state, one after the other.
+//! Assembly of a consistent state: its three levels, one after the other.
 
 use super::accelerations::accelerations;
 use super::error::AssemblyError;
@@ -14,25 +14,25 @@ use crate::model::{Model, State};
 use crate::natural::NaturalModel;
 use crate::rigid::RigidMotion;
 
-/// A consistent state, and what was done to get it.
+/// A consistent state, with a summary of its assembly.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Assembled<T> {
-    /// State of the scene: positions, velocities, accelerations and multipliers satisfy everything.
+    /// State of the scene. Its positions, velocities, accelerations and multipliers satisfy all equations.
     pub state: State<T>,
     /// Largest change of a coordinate from the reference configuration [m or -].
     pub change: T,
-    /// Largest residual of joints and held values before any change [m or rad].
+    /// Largest residual of joints and of prescribed start values before any change [m or rad].
     pub residual_before: T,
-    /// Largest residuals that are left: position, velocity, acceleration.
+    /// Largest residuals of the result: position, velocity, acceleration.
     pub residual: [T; 3],
-    /// Number of continuation stages taken.
+    /// Number of continuation stages.
     pub stages: u32,
 }
 
-/// Assembles a scene: `make_start` analyses a solver for the start problem, `solver` is analysed for the model.
+/// Assembles a scene at time zero. `make_start` creates a solver that is analysed for the start problem. `solver` is analysed for the model.
 ///
 /// # Errors
-/// [`AssemblyError`] says which joint or entry cannot be met.
+/// [`AssemblyError`] with the joint or entry that cannot be satisfied.
 pub fn assemble<T: Real, const D: usize, S: SpdSolver<T>>(
     scene: &Scene<T>,
     model: &NaturalModel<T, D>,
@@ -56,12 +56,12 @@ pub fn assemble<T: Real, const D: usize, S: SpdSolver<T>>(
     Ok(Assembled { state, change, residual_before, residual, stages })
 }
 
-/// Velocities and accelerations at positions that are given, as [`assemble`] makes them: those that the scene holds, else the
-/// smallest. `state.q` must meet the constraints, with guides at their values of time zero; held positions are not asked for.
-/// Returns the largest residuals of position, velocity and acceleration.
+/// Computes velocities and accelerations at given positions, by the same rules as [`assemble`]. Velocities are those that the scene
+/// prescribes, or else the smallest ones. `state.q` must satisfy the constraints, with guides at their values of time zero; prescribed
+/// start positions are ignored. Returns the largest residuals of position, velocity and acceleration.
 ///
 /// # Errors
-/// [`AssemblyError`] says which joint or entry cannot be met.
+/// [`AssemblyError`] with the joint or entry that cannot be satisfied.
 pub fn restart<T: Real, const D: usize, S: SpdSolver<T>>(
     scene: &Scene<T>,
     model: &NaturalModel<T, D>,
@@ -81,11 +81,11 @@ pub fn restart<T: Real, const D: usize, S: SpdSolver<T>>(
     Ok([position, velocity, accelerations(model, solver, state, &mut terms)?])
 }
 
-/// The state of a scene whose bodies move as `motions` say at time `t`, which meets the constraints: velocities and positions are as they are
-/// given, accelerations and multipliers follow. Angles begin nearest to the scene's initial values.
+/// State of a scene at time `t` from given motions of its bodies, which must satisfy the constraints. Positions and velocities are as
+/// given; accelerations and multipliers are computed. Angles begin with the turns that are nearest to the scene's initial values.
 ///
 /// # Errors
-/// [`AssemblyError`] where no accelerations are found.
+/// [`AssemblyError`] if no accelerations are found.
 pub fn start_at<T: Real, const D: usize>(
     (scene, model): (&Scene<T>, &NaturalModel<T, D>),
     solver: &mut impl SpdSolver<T>,

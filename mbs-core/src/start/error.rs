@@ -1,50 +1,50 @@
-//! Reasons why a scene cannot be put together.
+//! Errors of the assembly of a scene at the start.
 
 use crate::model::Owner;
 use crate::natural::ModelError;
 
-/// A scene that cannot start.
+/// Error: the scene cannot start.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum AssemblyError {
-    /// Scene that gives no model.
+    /// The scene gives no model.
     Model(ModelError),
-    /// Loops, guides and held coordinates cannot be met together.
+    /// Loops, guides and prescribed start coordinates cannot be satisfied together.
     Position {
-        /// Largest residual left [m or rad].
+        /// Largest remaining residual [m or rad].
         residual: f64,
-        /// Owner of the row that is not met.
+        /// Owner of the row that is not satisfied.
         owner: Owner,
-        /// The `[[initial]]` entry concerned, if it is one.
+        /// Number of the `[[initial]]` entry of the row, if it has one.
         initial: Option<usize>,
-        /// The value at which the mechanism stopped on its way to that of `owner`, and that value [rad or m]: it locks there, or what
-        /// is held contradicts itself. `None` where it was not on its way.
+        /// Value at which the coordinate of `owner` stopped on the path to its prescribed value, and that value [rad or m]. The mechanism
+        /// locks there, or prescribed values contradict each other. `None` if no prescribed value was being approached.
         reached: Option<[f64; 2]>,
     },
-    /// The change from the reference configuration has no least value that could be found.
+    /// The search for the smallest change from the reference configuration did not converge.
     NotLeast {
-        /// The last correction of the search, relative to the scene's length.
+        /// Last correction of the search, relative to the scene's length.
         correction: f64,
     },
-    /// Held velocities contradict each other or the joints.
+    /// Prescribed velocities contradict each other or the joints.
     Velocity {
-        /// Largest residual left [m/s or rad/s].
+        /// Largest remaining residual [m/s or rad/s].
         residual: f64,
-        /// Owner of the row that is not met.
+        /// Owner of the row that is not satisfied.
         owner: Owner,
-        /// The `[[initial]]` entry concerned, if it is one.
+        /// Number of the `[[initial]]` entry of the row, if it has one.
         initial: Option<usize>,
     },
-    /// Accelerations do not follow: a force meets no inertia there.
+    /// Accelerations are not determined: a force acts on a coordinate without inertia.
     NoInertia {
         /// Owner of the coordinate that has no inertia.
         owner: Owner,
     },
-    /// Accelerations do not meet the constraints.
+    /// No accelerations satisfy the constraints.
     Acceleration {
-        /// Largest residual left [m/s^2].
+        /// Largest remaining residual [m/s^2].
         residual: f64,
-        /// Owner of the row that is not met.
+        /// Owner of the row that is not satisfied.
         owner: Owner,
     },
 }

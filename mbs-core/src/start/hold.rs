@@ -1,4 +1,4 @@
-//! Held coordinates and rates: rows that exist only while a mechanism is put together.
+//! Prescribed start coordinates and rates: rows that exist only during the assembly.
 
 use crate::Real;
 use crate::algebra::{Matrix, Vector, cross, lowered, raised, rotation, unit};
@@ -9,20 +9,21 @@ use crate::scene::{BodyId, Inertia, InitialTarget, Joint};
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 
-/// Quantity that a held row measures.
+/// Quantity that a start row measures.
 #[derive(Debug, Clone)]
 enum Kind<T: Real, const D: usize> {
     /// Angle of y in the frame x1, x2.
     Angle { x1: Affine<T, D>, x2: Affine<T, D>, y: Affine<T, D> },
-    /// Slide of two points along a direction, x.y.
+    /// Slide x.y of two points along a direction.
     Slide { x: Affine<T, D>, y: Affine<T, D> },
-    /// Orientation of the two bodies' frames, (R a)_i . b_j with R the wanted relative rotation: zero when it is reached.
+    /// Orientation of two bodies: (R a)_i . b_j, with the prescribed relative rotation R and the frames a and b. It is zero if the rotation
+    /// is R.
     Orientation { first: Box<[Affine<T, D>; 3]>, second: Affine<T, D>, vector: [T; 3], i: usize },
-    /// A velocity component of a point.
+    /// Velocity component of a point.
     PointRate { x: Affine<T, D>, axis: usize },
-    /// A component of x' = w x x of a rod's line, which has no turn about itself.
+    /// Component of the velocity x' = w x x of a rod's line, which has no rotation about itself.
     Swing { x: Affine<T, D>, w: [T; 3], axis: usize },
-    /// A component of the second body's angular velocity less the first's.
+    /// Component of the second body's angular velocity relative to the first.
     Spin {
         first: Option<Box<[Affine<T, D>; 3]>>,
         second: Option<Box<[Affine<T, D>; 3]>>,
@@ -30,21 +31,21 @@ enum Kind<T: Real, const D: usize> {
     },
 }
 
-/// Row that holds a value, a rate or both.
+/// Start row that prescribes a value, a rate or both.
 #[derive(Debug, Clone)]
 pub(super) struct StartRow<T: Real, const D: usize> {
     kind: Kind<T, D>,
-    /// Held value, `None` where only the rate is held; `rate` is the held rate, `None` where only the value is.
+    /// Prescribed value, `None` if only the rate is prescribed; prescribed rate, `None` if only the value is.
     pub(super) value: Option<T>,
     pub(super) rate: Option<T>,
-    /// Index of the `[[initial]]` entry.
+    /// Number of the `[[initial]]` entry.
     pub(super) initial: usize,
-    /// Joint or body it belongs to.
+    /// Joint or body to which the row belongs.
     pub(super) owner: crate::model::Owner,
 }
 
 impl<T: Real, const D: usize> StartRow<T, D> {
-    /// All rows that a scene's initial entries hold.
+    /// All rows of a scene's initial conditions.
     pub(super) fn all(scene: &Scene<T>, model: &NaturalModel<T, D>) -> Vec<Self> {
         let mut holds = Vec::new();
         for (initial, entry) in scene.initials.iter().enumerate() {
@@ -93,14 +94,14 @@ impl<T: Real, const D: usize> StartRow<T, D> {
         holds
     }
 
-    /// Sets the rate that a rod's line is to have where it is.
+    /// Sets the prescribed rate of a rod's line from its present direction.
     pub(super) fn place_rate(&mut self, q: &[T]) {
         if let Kind::Swing { x, w, axis } = &self.kind {
             self.rate = Some(cross(&Vector::from(*w), &raised(&x.value(q)))[*axis]);
         }
     }
 
-    /// The held value [rad or m]; of a rotation its angle.
+    /// Prescribed value [rad or m]; for a rotation its angle.
     pub(super) fn target(&self) -> T {
         match &self.kind {
             Kind::Orientation { vector, .. } => {
@@ -110,14 +111,14 @@ impl<T: Real, const D: usize> StartRow<T, D> {
         }
     }
 
-    /// Largest size of the held value, in radians or scene lengths: how far continuation must go.
+    /// Size of the prescribed value in radians or scene lengths: the distance that continuation must cover.
     pub(super) fn distance(&self, length: T) -> T {
         let target = self.target().abs();
         if matches!(self.kind, Kind::Slide { .. }) { target / length } else { target }
     }
 
-    /// Residual of the held value at continuation parameter `tau` (0 reference, 1 target), and the row's gradient over the
-    /// extended coordinates (added; `gradient` is zero on entry). The gradient is also that of the rate.
+    /// Residual of the value at continuation parameter `tau`: 0 in the reference configuration, 1 at the prescribed value. It adds the
+    /// gradient of the row over all coordinates to `gradient`, which must be zero before. The gradient is also that of the rate.
     pub(super) fn evaluate(&self, q: &[T], tau: T, gradient: &mut [T]) -> T {
         let target = self.value.map(|v| v * tau);
         match &self.kind {
@@ -163,8 +164,8 @@ impl<T: Real, const D: usize> StartRow<T, D> {
         }
     }
 
-    /// Adds `s` times the second derivatives of the held value, on motions that keep directions of unit length, to a packed block over
-    /// the clique's unknowns.
+    /// Adds `s` times the second derivatives of the value to a packed block over the clique's unknowns. They hold for motions that keep
+    /// directions at unit length.
     pub(super) fn add_curvature(&self, q: &[T], s: T, clique: &[u32], block: &mut [T]) {
         let mut add = |x: &Affine<T, D>, y: &Affine<T, D>, s: T| {
             x.add_product_curvature(y, s, clique, block);
@@ -188,7 +189,7 @@ impl<T: Real, const D: usize> StartRow<T, D> {
         }
     }
 
-    /// The extended coordinates it may touch, entity by entity.
+    /// Coordinates on which the row depends, by the first number of each point or direction.
     pub(super) fn entities(&self) -> Vec<u32> {
         let mut all = Vec::new();
         let mut visit = |x: &Affine<T, D>| all.extend(x.entities());
@@ -209,12 +210,12 @@ impl<T: Real, const D: usize> StartRow<T, D> {
     }
 }
 
-/// Returns the cross product e_axis x u.
+/// Vector product e_axis x u.
 fn spin_arm<T: Real, const D: usize>(u: &Vector<T, D>, axis: usize) -> Vector<T, D> {
     lowered(&cross(&unit(axis), &raised(u)))
 }
 
-/// Rows that hold an angular velocity: three in space, the angle's rate in the plane.
+/// Rows that prescribe an angular velocity: three in space, the rate of the angle in the plane.
 fn spins<T: Real, const D: usize>(
     model: &NaturalModel<T, D>,
     first: BodyId,
@@ -235,7 +236,7 @@ fn spins<T: Real, const D: usize>(
         .collect()
 }
 
-/// A joint whose coordinates are to be held.
+/// Joint with prescribed start coordinates.
 struct Source<'a, T: Real, const D: usize> {
     model: &'a NaturalModel<T, D>,
     joint: &'a Joint<T>,
@@ -245,7 +246,7 @@ struct Source<'a, T: Real, const D: usize> {
 type Row<T, const D: usize> = (Kind<T, D>, Option<T>, Option<T>);
 
 impl<T: Real, const D: usize> Source<'_, T, D> {
-    /// The rows of the joint's numbers, in their order; values and rates where they are given.
+    /// Rows of the joint's coordinates in their order, with the given values and rates.
     fn rows(&self, value: Option<&[T]>, rate: Option<&[T]>) -> Vec<Row<T, D>> {
         let mut rows = Vec::new();
         let mut model = self.model;
@@ -264,7 +265,7 @@ impl<T: Real, const D: usize> Source<'_, T, D> {
         rows
     }
 
-    /// Three rows of a relative rotation and three of a relative angular velocity, from number `from` on.
+    /// Three rows for a relative rotation and three for a relative angular velocity. `from` is the number of the first component.
     fn turning(&self, value: Option<&[T]>, rate: Option<&[T]>, from: usize) -> Vec<Row<T, D>> {
         let [first, second] = self.joint.bodies;
         let three = |x: Option<&[T]>| -> Option<[T; 3]> {

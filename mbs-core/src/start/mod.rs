@@ -1,4 +1,4 @@
-//! Assembly: positions, velocities and accelerations made consistent from what a scene's `[[initial]]` entries say.
+//! Assembly of the start: consistent positions, velocities and accelerations from a scene's `[[initial]]` entries.
 //!
 //! ```text
 //! q:  min (q - q_ref)^T M (q - q_ref)   s.t.  phi(q, 0) = 0,  held coordinates
@@ -6,9 +6,9 @@
 //! a:  M a + J^T lambda = Q,  J a + bias = 0
 //! ```
 //!
-//! Large held values are reached by continuation from the reference configuration, so that the assembly branch is the one
-//! that leads there continuously. The change is measured from the reference, whatever the stages were. Open trees need no
-//! continuation: they are placed joint by joint.
+//! q_ref is the reference configuration, M the mass matrix, lambda the multipliers. Large prescribed values are approached by continuation
+//! from the reference configuration. The mechanism thereby stays on the branch that leads there continuously. The change of q is measured
+//! from the reference configuration, independent of the stages. Open trees need no continuation: they are placed joint by joint.
 
 mod accelerations;
 mod assemble;

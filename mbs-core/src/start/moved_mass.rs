@@ -1,10 +1,11 @@
-//! The mass that a joint coordinate moves alone, in the reference configuration.
+//! Mass that a joint coordinate moves, in the reference configuration.
 //!
 //! ```text
 //! m = min v^T M v   with   J v = 0,  g v = 1          = 1 / (g P g^T), P the inverse mass on the constraints
 //! ```
 //!
-//! It is twice the kinetic energy of the smallest velocities at which the coordinate has the rate one: those of a start.
+//! J is the Jacobian of the constraints, g the gradient of the coordinate. The mass is twice the kinetic energy of the smallest velocities
+//! v at which the coordinate has a rate of one. The start of a simulation would compute the same velocities.
 
 use super::hold::StartRow;
 use super::problem::Problem;
@@ -18,8 +19,8 @@ use crate::scene::{Coupling, CouplingMeasure, CouplingTerm, Guide, JointId, Moti
 use alloc::vec;
 use alloc::vec::Vec;
 
-/// The mass that a coordinate, by joint and number, moves where all others follow freely [kg or kg m^2]; guides stand still and couplings
-/// hold. `None` where it moves none, or cannot move.
+/// Mass that a coordinate moves if all other coordinates follow freely [kg or kg m^2]. The coordinate is given by joint and number. Guides
+/// are at rest and couplings hold. `None` if the coordinate moves no mass or cannot move.
 ///
 /// Cost: a model of the scene, and a dense factorisation of its coordinates, (12 bodies)^3/3 products in space.
 #[must_use]
@@ -32,7 +33,7 @@ pub fn moved_mass(scene: &Scene<f64>, of: (JointId, usize)) -> Option<f64> {
     mass.filter(|mass| *mass > 0.0 && mass.is_finite())
 }
 
-/// The scene without forces and start values, but with its rotors, at rest but for one coordinate, whose rate is one.
+/// Scene without forces and start values, but with its rotors. One coordinate has a rate of one; guides and couplings are at rest.
 fn moving(scene: &Scene<f64>, (joint, number): (JointId, usize)) -> Scene<f64> {
     let guide = |guide: &Guide<f64>| Guide { law: Motion::Input([0.0; 3]), ..guide.clone() };
     let held = |coupling: &Coupling<f64>| Coupling { value: 0.0, motion: None, ..coupling.clone() };

@@ -1,4 +1,4 @@
-//! Open trees are placed joint by joint: no equation is solved.
+//! Placement of open trees joint by joint, without solving equations.
 
 use crate::Real;
 use crate::algebra::{Matrix, Vector, rotation};
@@ -10,31 +10,31 @@ use crate::scene::{BodyId, Joint};
 use alloc::vec;
 use alloc::vec::Vec;
 
-/// A joint with the coordinates that its bodies are placed by.
+/// Joint with the coordinates by which a body is placed.
 #[derive(Debug)]
 struct Branch<T> {
     joint: usize,
     values: Vec<T>,
-    /// Is the second body placed, and not the first?
+    /// Does the joint place the second body? Otherwise it places the first.
     is_forward: bool,
 }
 
-/// An open tree, from its roots outwards.
+/// Open tree of joints, from its roots outwards.
 #[derive(Debug)]
 pub(super) struct Placement<'a, T: Real> {
     scene: &'a Scene<T>,
     clusters: &'a Clusters<T>,
     branches: Vec<Branch<T>>,
-    /// Does every joint have its values, and every tree its root on the ground?
+    /// Does every joint have given values, and every tree a root on the ground?
     pub(super) is_complete: bool,
 }
 
 impl<'a, T: Real> Placement<'a, T> {
-    /// The tree of a scene with its initial values, those of its guides, and what couplings make of them; `None` where joints close loops.
+    /// Tree of a scene with given values: initial values, guides, and values that follow from couplings. `None` if joints close loops.
     pub(super) fn new(scene: &'a Scene<T>, clusters: &'a Clusters<T>) -> Option<Self> {
         let ground = clusters.clusters.len();
         let node = |body: BodyId| clusters.of(body).unwrap_or(ground);
-        // what holds a point to its own cluster is as rigid as a weld
+        // a joint of a point mass within a cluster is as rigid as a weld
         let is_inside = |j: &Joint<T>| {
             let [first, second] = j.bodies.map(node);
             j.kind.is_rigid() || first == second && scene.turns_point(j)
@@ -77,7 +77,7 @@ impl<'a, T: Real> Placement<'a, T> {
         (is_tree && is_known).then_some(Self { scene, clusters, branches, is_complete })
     }
 
-    /// The motions of the scene's bodies at rest, with all coordinates at the share `tau` of their values.
+    /// Motions of the bodies without velocity, with all coordinates at the fraction `tau` of their values.
     pub(super) fn motions(&self, tau: T) -> Vec<RigidMotion<T>> {
         let origin = Vector::<T, 3>::zeros();
         let mut motions = vec![RigidMotion::at_rest(origin); self.clusters.clusters.len()];
@@ -89,7 +89,7 @@ impl<'a, T: Real> Placement<'a, T> {
             let end = Vector::from(joint.points[1]);
             let (parent, child) = if branch.is_forward { (first, second) } else { (second, first) };
             let parent = parent.map_or(RigidMotion::at_rest(origin), |parent| motions[parent]);
-            // x of the second body is where turn (x - end) + place of the first one is.
+            // A point x of the second body is at turn (x - end) + place of the first body.
             let (from, to, turn) =
                 if branch.is_forward { (place, end, turn) } else { (end, place, turn.transpose()) };
             if let Some(child) = child {
@@ -105,12 +105,12 @@ impl<'a, T: Real> Placement<'a, T> {
     }
 }
 
-/// The coordinates in the reference configuration.
+/// Coordinates of a joint in the reference configuration.
 fn at_reference<T: Real>(joint: &Joint<T>, dimension: Dimension) -> Vec<T> {
     vec![T::ZERO; joint.kind.n_coordinates(dimension)]
 }
 
-/// The second body's rotation in the first's axes, and where the second body's point of the joint is in the first's reference.
+/// Rotation of the second body in axes of the first, and position of the second body's joint point in the first body's reference frame.
 fn relative<T: Real>(
     joint: &Joint<T>,
     dimension: Dimension,

@@ -1,11 +1,13 @@
-//! Positions: what is held is reached along a path of stages, then everything else changes least from the reference.
+//! Positions of the start. Continuation in stages approaches the prescribed values. Then all other coordinates are changed as little as
+//! possible from the reference configuration.
 //!
 //! ```text
 //! stage:  q <- the nearest to where the last stage ended with phi(q) = 0 and tau of the held values
 //! least:  min (q - q_ref)^T M (q - q_ref)  from there:  M (q - q_ref) + J^T sigma = 0,  phi(q) = 0, by Newton's method
 //! ```
 //!
-//! The stages choose the branch of the assembly only; where they are cut does not enter the result.
+//! q_ref is the reference configuration, tau the fraction of the prescribed values, sigma the multipliers. The stages only select the
+//! branch of the assembly; their lengths do not influence the result.
 
 use super::error::AssemblyError;
 use super::hold::StartRow;
@@ -21,36 +23,40 @@ use crate::natural::NaturalModel;
 use crate::outputs::start_values;
 use alloc::vec::Vec;
 
-/// Sweeps without halving the smallest residual after which the search ends [-]: entries that contradict each other drift. Chosen, not tuned.
+/// Number of sweeps without halving the smallest residual after which the search ends [-]. Entries that contradict each other never
+/// converge. Chosen, not tuned.
 const MAX_IDLE_SWEEPS: u32 = 10;
-/// Largest held angle of one continuation stage [rad], or slide in scene lengths. Chosen, not tuned: stages that jump are halved.
+/// Largest prescribed angle of one continuation stage [rad], or slide in scene lengths. Chosen, not tuned: stages with too large
+/// corrections are halved.
 const MAX_STAGE: f64 = 0.25;
-/// Largest correction of a coordinate in a stage, relative to its size [-]: beyond, another branch may be reached. Chosen, not tuned.
+/// Largest correction of a coordinate in a stage, relative to its size [-]. A larger one may lead to another branch. Chosen, not tuned.
 const MAX_STAGE_CORRECTION: f64 = 1.0;
-/// Most halvings of a stage before the path ends [-]. Chosen, not tuned.
+/// Largest number of halvings of a stage before the path ends [-]. Chosen, not tuned.
 const HALVINGS: i32 = 10;
-/// Largest gap that a stage before the last may leave, relative to the rows' spreads [-]. Chosen, not tuned: the last stage closes it.
+/// Largest residual that a stage before the last one may leave, relative to the rows' spreads [-]. Chosen, not tuned: the last stage
+/// removes it.
 const MAX_STAGE_GAP: f64 = 1e-6;
-/// Gap or correction, relative to sizes, in which the rows are straight [-]: their curvature is a millionth. A slow sweep then has too small
-/// a penalty.
+/// Residual or correction, relative to sizes, below which rows are almost linear [-]: their curvature then contributes 1e-6. A slow sweep
+/// then means that the penalty is too small.
 const STRAIGHT: f64 = 1e-3;
-/// Largest correction of a sweep towards the least change, relative to the coordinates' sizes [-]. Chosen, not tuned.
+/// Largest correction of a sweep towards the smallest change, relative to the coordinates' sizes [-]. Chosen, not tuned.
 const MAX_CORRECTION: f64 = 0.25;
-/// Most sweeps towards the least change [-]: flat minima take some dozens.
+/// Largest number of sweeps towards the smallest change [-]: flat minima need some dozens.
 const MAX_STEPS: u32 = 400;
-/// Correction at which Newton's method is at rounding, in roots of rounding [-]: the next one is its square.
+/// Correction below which Newton's method reaches machine precision next, in square roots of machine precision [-]: corrections decrease
+/// quadratically.
 const CLOSE: f64 = 1e-2;
-/// Ratio of two corrections from which damping grows [-]. Chosen, not tuned.
+/// Ratio of two corrections above which the damping is increased [-]. Chosen, not tuned.
 const GROWING: f64 = 0.9;
-/// Damping, relative to the masses, at which the search ends without success [-]. Chosen, not tuned.
+/// Damping, relative to the masses, above which the search fails [-]. Chosen, not tuned.
 const MAX_DAMPING: f64 = 1e6;
-/// Damping, relative to the masses, below which none is left [-]. Chosen, not tuned.
+/// Damping, relative to the masses, below which it is set to zero [-]. Chosen, not tuned.
 const LEAST_DAMPING: f64 = 0.1;
-/// Factor on the damping after a correction that shrinks [-]. Chosen, not tuned.
+/// Factor on the damping after a correction that is smaller than the last [-]. Chosen, not tuned.
 const DAMPING_FADE: f64 = 0.25;
 
 impl<T: Real, S: SpdSolver<T>, const D: usize> Assembly<'_, T, S, D> {
-    /// Puts the mechanism together; returns the largest residual before, and the stages taken.
+    /// Assembles the start positions. Returns the largest residual before, and the number of stages.
     pub(super) fn positions(
         &mut self,
         scene: &Scene<T>,
@@ -90,7 +96,7 @@ impl<T: Real, S: SpdSolver<T>, const D: usize> Assembly<'_, T, S, D> {
         stages
     }
 
-    /// Places an open tree; says whether its rows are then met, else `s` is as it was.
+    /// Places an open tree. Returns whether its rows are satisfied; otherwise `s` is unchanged.
     fn place(&mut self, placement: &Placement<'_, T>, stages: u32, s: &mut State<T>) -> bool {
         let (q, memory) = (s.q.clone(), s.memory.clone());
         for stage in 1..=stages {
@@ -109,13 +115,13 @@ impl<T: Real, S: SpdSolver<T>, const D: usize> Assembly<'_, T, S, D> {
         is_met
     }
 
-    /// Angles of effects are counted as those of outputs are: from what is held, else within half a turn of the reference.
+    /// Sets the turns of effects' angles as for outputs: from prescribed values, or else within half a turn of the reference configuration.
     pub(super) fn count_turns(&mut self, scene: &Scene<T>, s: &mut State<T>) {
         remember_given(scene, self.problem.model, &self.turns, s);
         self.remember(s);
     }
 
-    /// Angles are those nearest to the last stage's.
+    /// Remembers the angles at the present positions, with the turns nearest to the last stage.
     fn remember(&mut self, s: &mut State<T>) {
         let (model, terms) = (self.problem.model, &mut self.problem.terms);
         if !s.memory.is_empty() {
@@ -125,7 +131,7 @@ impl<T: Real, S: SpdSolver<T>, const D: usize> Assembly<'_, T, S, D> {
         }
     }
 
-    /// Follows the held values in `stages` or more; returns how many there were.
+    /// Approaches the prescribed values in at least `stages` stages. Returns the number of stages.
     fn follow(
         &mut self,
         scene: &Scene<T>,
@@ -152,7 +158,7 @@ impl<T: Real, S: SpdSolver<T>, const D: usize> Assembly<'_, T, S, D> {
             match end {
                 Ok(()) => closed = next,
                 Err(Stop::Gap(error)) if is_last => {
-                    // A small gap at the end is no way that stopped.
+                    // A small residual at the end is no path that stopped early.
                     let is_small = self.worst(&self.rows) <= T::from_f64(STRAIGHT);
                     let closed = if is_small { T::ONE } else { closed };
                     return Err(self.stopped((error, scene), closed));
@@ -167,8 +173,8 @@ impl<T: Real, S: SpdSolver<T>, const D: usize> Assembly<'_, T, S, D> {
         Ok(taken)
     }
 
-    /// Closes everything at one stage by sweeps of the correction form; rows must have been evaluated there. Where several values are
-    /// held they may fit together at the end only: the stages before it compromise by least squares.
+    /// Satisfies all rows of one stage by sweeps of corrections. The rows must have been evaluated at `tau`. Several prescribed values may
+    /// be compatible only at the end. Earlier stages then accept a compromise by least squares.
     fn close(&mut self, s: &mut State<T>, tau: T, is_last: bool) -> Result<(), Stop> {
         let n = self.problem.n_unknowns();
         self.problem.lower_penalties();
@@ -216,12 +222,12 @@ impl<T: Real, S: SpdSolver<T>, const D: usize> Assembly<'_, T, S, D> {
         if self.is_met(Level::Position, self.accepted(&s.q), &moved) {
             return Ok(());
         }
-        // Near a singular position corrections are larger than the gap that they close; at a compromise there are none.
+        // Close to a singular position corrections are larger than the residual that they remove. At a compromise they are zero.
         let is_compromise = correction <= residual * T::from_f64(STRAIGHT);
         Err(if is_compromise { Stop::Gap(self.gap()) } else { Stop::Jump(self.gap()) })
     }
 
-    /// Takes a part of the correction.
+    /// Applies a part of the correction.
     fn correct(&mut self, s: &mut State<T>, part: T) {
         for i in 0..self.problem.n_unknowns() {
             s.q[i] -= self.f[i] * part;
@@ -229,8 +235,8 @@ impl<T: Real, S: SpdSolver<T>, const D: usize> Assembly<'_, T, S, D> {
         }
     }
 
-    /// From a closed mechanism to the closed one that is least changed from the reference. Where the curvature of the rows makes the
-    /// matrix indefinite, or corrections grow, damping turns Newton's method towards steepest descent.
+    /// Moves an assembled mechanism to the assembled one with the smallest change from the reference configuration. Curvature of the rows
+    /// may make the matrix indefinite, or corrections may grow. Damping then turns Newton's method towards steepest descent.
     fn least(&mut self, s: &mut State<T>) -> Result<(), AssemblyError> {
         let n = self.problem.n_unknowns();
         self.drive(&s.q, T::ONE);
@@ -281,7 +287,7 @@ impl<T: Real, S: SpdSolver<T>, const D: usize> Assembly<'_, T, S, D> {
                 damping = if is_left { damping * T::from_f64(DAMPING_FADE) } else { T::ZERO };
             }
         }
-        // Weakly determined combinations keep a rounding times their condition.
+        // Weakly determined combinations of coordinates keep an error of machine precision times their condition number.
         if !(correction <= T::EPSILON.sqrt()) {
             return Err(AssemblyError::NotLeast { correction: correction.to_f64() });
         }
@@ -295,13 +301,13 @@ impl<T: Real, S: SpdSolver<T>, const D: usize> Assembly<'_, T, S, D> {
         Err(self.gap())
     }
 
-    /// Returns the error of a gap that is left open, with its largest residual.
+    /// Error of rows that are not satisfied, with the largest residual.
     fn gap(&self) -> AssemblyError {
         let (residual, owner, initial) = self.culprit();
         AssemblyError::Position { residual: residual.to_f64(), owner, initial, reached: None }
     }
 
-    /// Returns the error of a path that ended, with what was on its way: everything was closed up to `tau`.
+    /// Error of a path that stopped, with the coordinate that was being approached. All rows were satisfied up to `tau`.
     fn stopped(&self, (error, scene): (AssemblyError, &Scene<T>), tau: T) -> AssemblyError {
         let AssemblyError::Position { residual, mut owner, mut initial, .. } = error else {
             return error;
@@ -309,7 +315,7 @@ impl<T: Real, S: SpdSolver<T>, const D: usize> Assembly<'_, T, S, D> {
         let is_guided =
             |joint: &usize| scene.guides.iter().any(|guide| guide.joint.index() == *joint);
         if initial.is_none() && !matches!(&owner, Owner::Joint(joint) if is_guided(joint)) {
-            // What was on its way farthest is what the user can change.
+            // The largest prescribed value is the entry that the user can most likely change.
             let far = |hold: &StartRow<T, D>| hold.distance(self.length).to_f64();
             let holds = self.problem.holds.iter();
             if let Some(hold) = holds.max_by(|a, b| far(a).total_cmp(&far(b))) {
@@ -331,7 +337,7 @@ impl<T: Real, S: SpdSolver<T>, const D: usize> Assembly<'_, T, S, D> {
     }
 }
 
-/// The places of the angles that couplings remember and a scene gives, with these angles.
+/// Angles that couplings remember and that the scene determines: the place in the memory, and the angle.
 pub(super) fn given_turns<T: Real, const D: usize>(
     scene: &Scene<T>,
     model: &NaturalModel<T, D>,
@@ -343,15 +349,15 @@ pub(super) fn given_turns<T: Real, const D: usize>(
     angles.collect()
 }
 
-/// Reason why a stage ended before everything was closed.
+/// Reason why a stage ended before all rows were satisfied.
 enum Stop {
-    /// Corrections were too large, or did not end: shorter stages may lead on.
+    /// Corrections were too large, or did not end. Shorter stages may succeed.
     Jump(AssemblyError),
-    /// Gap that is left: what is held contradicts itself or the joints here.
+    /// A residual remains: prescribed values contradict each other or the joints.
     Gap(AssemblyError),
 }
 
-/// The angles that a state remembers begin with those that the scene gives: `turns` are those of couplings.
+/// Sets the angles that a state remembers to those that the scene determines. `turns` are the angles of couplings.
 pub(super) fn remember_given<T: Real, const D: usize>(
     scene: &Scene<T>,
     model: &NaturalModel<T, D>,
@@ -359,7 +365,7 @@ pub(super) fn remember_given<T: Real, const D: usize>(
     s: &mut State<T>,
 ) {
     let starts = start_values(scene);
-    // A scene that has a model has actions.
+    // A scene with a model always has valid actions.
     let actions = Actions::new(scene).map(|actions| actions.list).unwrap_or_default();
     for (effect, action) in actions {
         let Action::Angle { joint, number, .. } = action else { continue };

@@ -1,11 +1,13 @@
-//! The start problem as a sum of elements: those of the model, one row for each held coordinate, and a little mass everywhere.
+//! Start problem as a sum of elements: the elements of the model, a row for each prescribed coordinate, and a small mass for each unknown.
 //!
 //! ```text
 //! W = M + E + C + J^T S J,   S = P m_k of each row (model's and held alike)
 //! f = M (x - x*) + J^T mu
 //! ```
 //!
-//! E and the damping are in the matrix only: they make it regular, and what is converged knows nothing of them.
+//! M is the mass matrix, S the penalties of the rows, P the penalty factor, m_k the effective mass of a row, mu the multipliers. C is the
+//! curvature of the rows where it is used, and E a small mass. E and the damping of an iteration are in the matrix only. They make it
+//! regular, and do not influence the converged result.
 
 use super::hold::StartRow;
 use crate::Real;
@@ -16,64 +18,64 @@ use crate::natural::NaturalModel;
 use alloc::vec;
 use alloc::vec::Vec;
 
-/// Sweeps allowed at each level and stage.
+/// Largest number of sweeps at each level and stage [-].
 pub(super) const MAX_SWEEPS: u32 = 60;
-/// Factor on all penalties after a slow sweep: long chains of light links hardly feel some combinations of rows.
+/// Factor on all penalties after a slow sweep [-]. In long chains of light links the penalties hardly act on some combinations of rows.
 pub(super) const RAISE: f64 = 30.0;
-/// A sweep that leaves more than this share of a residual is slow.
+/// Ratio of residuals above which a sweep is slow [-].
 pub(super) const SLOW_RATIO: f64 = 0.3;
 
-/// Is it at least double precision?
+/// Does the scalar have at least double precision?
 pub(super) fn is_fine<T: Real>() -> bool {
-    /// Unit of rounding [-] between those of single precision (1e-7) and double precision (2e-16).
+    /// Machine precision [-] between that of single precision (1e-7) and that of double precision (2e-16).
     const FINE: f64 = 1e-12;
     T::EPSILON < T::from_f64(FINE)
 }
 
-/// Penalty of a start row in effective masses [-]: the middle of the range that the precision allows. A sweep leaves 1 / penalty of a
-/// violation, and adds rounding of penalty times epsilon.
+/// Penalty of a start row in effective masses [-]: the middle of the range that the precision allows. A sweep reduces a violation by the
+/// factor 1 / penalty, and adds an error of penalty times machine precision.
 pub(super) fn penalty<T: Real>() -> T {
     T::from_f64(if is_fine::<T>() { 1e6 } else { 500.0 })
 }
 
-/// Least mass where rows are scaled, relative to the largest [-]: rows through a light body between heavy ones are as stiff as those of
-/// its neighbours.
+/// Smallest mass for the scaling of rows, relative to the largest [-]. Rows of a light body between heavy ones then have penalties like
+/// those of its neighbours.
 fn lifted<T: Real>() -> T {
     T::from_f64(if is_fine::<T>() { 1e-4 } else { 1e-2 })
 }
 
-/// Mass in the matrix alone, relative to the largest [-]: a hundred roundings of the stiffest rows.
+/// Mass that is added to the matrix only, relative to the largest [-]: a hundred times the rounding error of the stiffest rows.
 fn lent<T: Real>() -> T {
     lifted::<T>() * penalty::<T>() * T::EPSILON * T::from_f64(100.0)
 }
 
-/// The structure of a start problem: what a solver is analysed for.
+/// Structure of a start problem, for which its solver is analysed.
 #[derive(Debug)]
 pub struct Problem<'a, T: Real, const D: usize> {
     pub(super) model: &'a NaturalModel<T, D>,
     pub(super) holds: Vec<StartRow<T, D>>,
     cliques: Vec<u32>,
     spans: Vec<Span>,
-    /// Size of each unknown: the scene's length or one.
+    /// Size of each unknown: the scene's length, or one for directions.
     pub(super) sizes: Vec<T>,
-    /// Diagonal of M, lifted.
+    /// Diagonal of M, with the smallest mass applied.
     pub(super) mass: Vec<T>,
     lent: Vec<T>,
     pub(super) terms: Terms<T>,
-    /// Gradients of the holds, each over its clique.
+    /// Gradients of the start rows, each over its clique.
     gradients: Vec<T>,
-    /// Residuals of the holds, of values or of rates.
+    /// Residuals of the start rows, in values or in rates.
     pub(super) residuals: Vec<T>,
-    /// Penalties of the model's rows, then of the holds.
+    /// Penalties of the model's rows, then of the start rows.
     pub(super) penalty: Vec<T>,
-    /// Size of the penalties, in effective masses.
+    /// Penalty of all rows, in effective masses.
     pub(super) alpha: T,
-    /// Largest change of each row over changes of the coordinates by their sizes; rows as for the penalties.
+    /// Largest change of each row for changes of the coordinates by their sizes. The order of rows is that of the penalties.
     pub(super) spreads: Vec<T>,
     scratch: Vec<T>,
 }
 
-/// Level that is being made consistent: it says which holds act.
+/// Level of the assembly, which determines the start rows that act.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Level {
     Position,
@@ -119,7 +121,7 @@ impl<'a, T: Real, const D: usize> Problem<'a, T, D> {
         }
     }
 
-    /// Scales all rows at the configuration last evaluated.
+    /// Scales all rows at the configuration that was last evaluated.
     pub(super) fn scale_rows(&mut self) {
         let m = self.model.n_constraints();
         self.model.row_masses(&self.mass, &self.terms, &mut self.penalty[..m]);
@@ -141,7 +143,7 @@ impl<'a, T: Real, const D: usize> Problem<'a, T, D> {
         }
     }
 
-    /// Evaluates rows and holds at `q`, without those that restrict velocities alone; guides must have been set in `terms`.
+    /// Evaluates model rows and start rows at `q`, except rows that restrict velocities only. Guides must be set in `terms`.
     pub(super) fn evaluate(&mut self, q: &[T], tau: T) {
         self.model.evaluate(q, &mut self.terms);
         self.model.release_slips(&mut self.terms);
@@ -152,7 +154,7 @@ impl<'a, T: Real, const D: usize> Problem<'a, T, D> {
             for (g, &u) in self.gradients[at..].iter_mut().zip(clique) {
                 *g = self.scratch[u as usize];
             }
-            // Only the touched entities are cleared, so that a large model pays for its holds alone.
+            // Only the coordinates of this row are cleared, so that the cost does not depend on the size of the model.
             for e in hold.entities() {
                 self.scratch[e as usize..e as usize + D].fill(T::ZERO);
             }
@@ -160,7 +162,7 @@ impl<'a, T: Real, const D: usize> Problem<'a, T, D> {
         }
     }
 
-    /// Rates of all rows for the velocity `v`: those of the model, then those of the holds that act.
+    /// Rates of all rows for the velocity `v`: those of the model, then those of the active start rows.
     pub(super) fn multiply(&self, v: &[T], level: Level, rates: &mut [T]) {
         let m = self.model.n_constraints();
         self.model.multiply_jacobian(&self.terms, v, &mut rates[..m]);
@@ -172,7 +174,7 @@ impl<'a, T: Real, const D: usize> Problem<'a, T, D> {
     }
 
     fn gradient(&self, h: usize) -> &[T] {
-        // Holds come first among the cliques, so that the gradients stand at the same places.
+        // The start rows come first among the cliques, so their gradients are at the same places.
         self.spans[h].of(&self.gradients)
     }
 
@@ -190,7 +192,7 @@ impl<'a, T: Real, const D: usize> Problem<'a, T, D> {
         self.penalty.iter_mut().for_each(|p| *p *= factor);
     }
 
-    /// The penalties are those of the precision again.
+    /// Resets the penalties to the value for the precision.
     pub(super) fn lower_penalties(&mut self) {
         self.alpha = penalty();
         self.scale_rows();
@@ -212,17 +214,17 @@ impl<T: Real, const D: usize> Cliques for Problem<'_, T, D> {
     }
 }
 
-/// A start problem with the vectors of one sweep.
+/// Start problem with the vectors of one sweep.
 pub(super) struct Sweep<'p, 'a, T: Real, const D: usize> {
     pub(super) problem: &'p Problem<'a, T, D>,
     pub(super) level: Level,
-    /// Change x - x* of the unknowns, extended.
+    /// Change x - x* of the unknowns, over all coordinates.
     pub(super) change: &'p [T],
-    /// Multipliers of the model's rows, then of the holds.
+    /// Multipliers of the model's rows, then of the start rows.
     pub(super) multipliers: &'p [T],
-    /// Coordinates and multipliers that the rows' curvature is taken with.
+    /// Coordinates and multipliers for the curvature of the rows; `None`: the matrix has no curvature.
     pub(super) curvature: Option<(&'p [T], &'p [T])>,
-    /// Lifted masses that are added to the matrix.
+    /// Damping: factor of the masses that are added to the matrix.
     pub(super) damping: T,
 }
 
@@ -276,7 +278,7 @@ impl<T: Real, const D: usize> BlockSource<T> for Sweep<'_, '_, T, D> {
     }
 }
 
-/// Number of raises that penalties may have: in double precision to 1e9 effective masses, in single precision to 15,000.
+/// Number of times that penalties may be raised [-]. In double precision they reach 1e9 effective masses, in single precision 15,000.
 pub(super) fn raises<T: Real>() -> u32 {
     if T::EPSILON < T::from_f64(1e-12) { 2 } else { 1 }
 }

@@ -1,5 +1,5 @@
-//! Rank of the constraint Jacobian at a state. That of a small one is by Householder QR of J^T with column pivoting on rows of unit
-//! length, that of a large one by sparse elimination.
+//! Rank of the constraint Jacobian J at a state. A small Jacobian is factored by Householder QR of J^T with column pivoting, with rows
+//! scaled to unit length. A large one is eliminated sparsely.
 
 use super::sparse_rank::sparse_rank;
 use crate::Real;
@@ -8,20 +8,21 @@ use crate::model::{Model, Terms};
 use alloc::vec;
 use alloc::vec::Vec;
 
-/// Most entries of a Jacobian that is dense here [-]: some hundred bodies, a few hundredths of a second.
+/// Largest number of entries of a Jacobian for the dense method [-]: about a hundred bodies, and a few hundredths of a second.
 const MAX_DENSE: usize = 250_000;
 
-/// The rank of J as last evaluated in `terms`.
+/// Rank of the Jacobian J as last evaluated in `terms`.
 ///
-/// Counts pivots above max(n, m) eps^(2/3) of the largest where n m is at most 250,000: about 2 n m^2 operations, dense. Beyond,
-/// products of rows are eliminated sparsely, and distances below 30 eps^(1/2) count as none. The cost is in proportion to the rows of chains
-/// and trees, somewhat faster growing in nets, with the square of the rows at one body. For reports.
+/// n is the number of unknowns, m the number of rows. If n m is at most 250,000, the method is dense and needs about 2 n m^2 operations. It
+/// counts pivots above max(n, m) eps^(2/3) of the largest. For larger Jacobians, products of rows are eliminated sparsely, and distances
+/// below 30 eps^(1/2) count as zero. The cost is then proportional to the rows of chains and trees, and grows somewhat faster in nets. It
+/// is quadratic in the number of rows at one body. Reports use this function; steps do not.
 pub fn constraint_rank<T: Real, M: Model<T> + Cliques>(model: &M, terms: &Terms<T>) -> usize {
     let (n, m) = (model.n_unknowns(), model.n_constraints());
     if n.saturating_mul(m) > MAX_DENSE {
         return sparse_rank(sparse_rows(model, terms), n);
     }
-    // Column k of A is row k of J, by multiplying unit vectors.
+    // Column k of A is row k of J; multiplying J by unit vectors gives its entries.
     let mut a = vec![T::ZERO; n * m];
     let (mut unit, mut column) = (vec![T::ZERO; model.n_extended()], vec![T::ZERO; m]);
     for i in 0..n {
@@ -41,7 +42,7 @@ pub fn constraint_rank<T: Real, M: Model<T> + Cliques>(model: &M, terms: &Terms<
     pivoted_rank(a, n, m)
 }
 
-/// The rows of J, element by element, without zeros.
+/// Rows of J, element by element, without zeros.
 fn sparse_rows<T: Real, M: Model<T> + Cliques>(model: &M, terms: &Terms<T>) -> Vec<Vec<(u32, T)>> {
     let mut rows = Vec::with_capacity(model.n_constraints());
     let mut dense = Vec::new();
@@ -61,7 +62,7 @@ fn sparse_rows<T: Real, M: Model<T> + Cliques>(model: &M, terms: &Terms<T>) -> V
     rows
 }
 
-/// Number of independent ones among `m` rows of `n` numbers each, one row behind the other.
+/// Number of linearly independent rows among `m` rows of `n` numbers each. The rows are stored one after the other.
 pub fn pivoted_rank<T: Real>(mut a: Vec<T>, n: usize, m: usize) -> usize {
     let tolerance = T::from_f64(n.max(m) as f64 * libm::pow(T::EPSILON.to_f64(), 2.0 / 3.0));
     let mut columns: Vec<usize> = (0..m).collect();
@@ -83,7 +84,7 @@ pub fn pivoted_rank<T: Real>(mut a: Vec<T>, n: usize, m: usize) -> usize {
         if norm <= tolerance * largest || norm == T::ZERO {
             return step;
         }
-        // Householder vector in place; the other columns are reflected.
+        // The Householder vector overwrites its column, and the other columns are reflected.
         let head = a[c * n + step];
         let alpha = if head > T::ZERO { -norm } else { norm };
         a[c * n + step] = head - alpha;

@@ -1,12 +1,13 @@
-//! The rank of a sparse matrix with short rows, by elimination of their products.
+//! Rank of a sparse matrix with short rows, by elimination of the products of its rows.
 //!
 //! ```text
 //! S = J J^T, rows of J of unit length        s_kk: square of the distance of row k from those eliminated before it
 //! S <- S - s_k s_k^T / s_kk                  large distances first, of these the rows with the fewest products
 //! ```
 //!
-//! S is positive semidefinite, and so is what is left of it: nothing grows, whatever the order, and a row that repeats others is
-//! left with rounding on its diagonal. Distances below some 5e-7 count as none (in double precision).
+//! s_k is row k of S. S is positive semidefinite, and so is the remaining matrix after each elimination. Entries therefore do not grow, in
+//! any order. A row that depends on others keeps only a rounding error on its diagonal. Distances below about 5e-7 count as zero (in double
+//! precision).
 
 use crate::Real;
 use alloc::collections::BinaryHeap;
@@ -14,17 +15,18 @@ use alloc::vec;
 use alloc::vec::Vec;
 use core::cmp::Reverse;
 
-/// Largest pivot that counts as zero, in units of rounding [-]: above what some dozen updates of a diagonal leave, and below the squared
-/// distances in chains of a million rows.
+/// Largest pivot that counts as zero, in multiples of machine precision [-]. It exceeds the error of some dozen updates of a diagonal. It
+/// is below the squared distances in chains of a million rows.
 const ROUNDINGS: f64 = 1000.0;
 
-/// Powers of ten within which diagonals are equally good [-]: a small pivot magnifies the rounding of what follows. Chosen, not tuned.
+/// Ratio, in powers of ten, within which diagonals are equally suitable as pivots [-]. A small pivot increases later rounding errors.
+/// Chosen, not tuned.
 const DECADES: f64 = 2.0;
 
-/// Entries of a row by ascending column.
+/// Entries of a row in ascending order of columns.
 pub(crate) type Row<T> = Vec<(u32, T)>;
 
-/// Number of rows that are independent: columns are below `n`, distinct within a row.
+/// Number of linearly independent rows. Columns are below `n`, and distinct within a row.
 pub fn sparse_rank<T: Real>(rows: Vec<Row<T>>, n: usize) -> usize {
     let mut left = products(rows, n);
     let mut turns: BinaryHeap<Reverse<Turn>> =
@@ -32,7 +34,7 @@ pub fn sparse_rank<T: Real>(rows: Vec<Row<T>>, n: usize) -> usize {
     let (mut rank, mut scratch) = (0, Vec::new());
     while let Some(Reverse(now)) = turns.pop() {
         let k = now.2;
-        // A row that has changed since has a turn of its own.
+        // A row that has changed has a newer turn in the queue.
         if turn(&left[k], k) != Some(now) {
             continue;
         }
@@ -48,10 +50,10 @@ pub fn sparse_rank<T: Real>(rows: Vec<Row<T>>, n: usize) -> usize {
     rank
 }
 
-/// Turn of a row: how small its diagonal is, its length, and its number.
+/// Turn of a row in the order of elimination: class of its diagonal (larger diagonals first), its length, and its number.
 type Turn = (u32, usize, usize);
 
-/// The turn of a row; `None` when nothing but rounding is left of its diagonal.
+/// Turn of a row in the order of elimination; `None` if its diagonal is only a rounding error.
 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small number")]
 fn turn<T: Real>(row: &Row<T>, k: usize) -> Option<Turn> {
     let square = entry(row, k);
@@ -62,7 +64,7 @@ fn turn<T: Real>(row: &Row<T>, k: usize) -> Option<Turn> {
     Some((class as u32, row.len(), k))
 }
 
-/// S = J J^T with the rows of J scaled to unit length; rows of zeros stay empty.
+/// Matrix S = J J^T, with the rows of J scaled to unit length. Rows of zeros stay empty.
 fn products<T: Real>(mut rows: Vec<Row<T>>, n: usize) -> Vec<Row<T>> {
     let mut columns = vec![Vec::new(); n];
     for (k, row) in rows.iter_mut().enumerate() {
@@ -94,13 +96,13 @@ fn products<T: Real>(mut rows: Vec<Row<T>>, n: usize) -> Vec<Row<T>> {
     rows.iter().map(product).collect()
 }
 
-/// The entry of a row in a column; zero where there is none.
+/// Entry of a row in a column; zero if it is not stored.
 fn entry<T: Real>(row: &Row<T>, column: usize) -> T {
     let place = row.binary_search_by_key(&column, |(c, _)| *c as usize);
     place.map_or(T::ZERO, |place| row[place].1)
 }
 
-/// row <- row - factor used, without the column of the row that was used.
+/// Subtracts factor times the eliminated row `used` from `row`, and removes the pivot column.
 fn subtract<T: Real>(
     row: &mut Row<T>,
     (used, pivot): (&Row<T>, usize),
@@ -121,6 +123,6 @@ fn subtract<T: Real>(
             merged.push((column, mine - factor * theirs));
         }
     }
-    // The old row's store is the next one's scratch.
+    // The memory of the old row is the scratch memory of the next subtraction.
     core::mem::swap(row, merged);
 }

@@ -1,10 +1,11 @@
-//! Sweeps of the augmented Lagrangian in correction form, which positions and velocities share.
+//! Sweeps of the augmented Lagrangian method in correction form, for positions and velocities.
 //!
 //! ```text
 //! W d = M (x - x*) + J^T (sigma + S phi),   x <- x - d,   sigma <- sigma + S (phi - J d)
 //! ```
 //!
-//! The multipliers grow by what d is in balance with, not by S phi after it, which has the square of d in it.
+//! W is the matrix of the start problem, S the penalties, sigma the multipliers, x* the reference. The multipliers change by the value that
+//! balances the correction d. S phi after the correction would contain an error of order d^2.
 
 use super::error::AssemblyError;
 use super::problem::{Level, Problem, Sweep};
@@ -15,7 +16,8 @@ use crate::model::{Model, Owner, State};
 use alloc::vec;
 use alloc::vec::Vec;
 
-/// Roundings of a row's own numbers that are accepted: what evaluating it and solving for its correction leave.
+/// Accepted residual of a row, in multiples of the machine precision of its terms [-]. It allows for the evaluation of the row and for its
+/// correction.
 const ROUNDINGS: f64 = 256.0;
 
 pub(super) struct Assembly<'a, T: Real, S, const D: usize> {
@@ -23,18 +25,18 @@ pub(super) struct Assembly<'a, T: Real, S, const D: usize> {
     pub(super) solver: S,
     pub(super) guides: Vec<[T; 3]>,
     pub(super) reference: Vec<T>,
-    /// Right-hand side, then the correction; extended, zero in the constants.
+    /// Right-hand side, then the correction; over all coordinates, zero in the constants.
     pub(super) f: Vec<T>,
     pub(super) scratch: Vec<T>,
-    /// x - x*, extended.
+    /// Change x - x*, over all coordinates.
     pub(super) change: Vec<T>,
     pub(super) sigma: Vec<T>,
     pub(super) mu: Vec<T>,
-    /// Residuals of all rows: the model's, then the holds'.
+    /// Residuals of all rows: the model's rows, then the start rows.
     pub(super) rows: Vec<T>,
     pub(super) products: Vec<T>,
     pub(super) length: T,
-    /// Places and angles of turns that the scene gives.
+    /// Places and values of the remembered angles that the scene determines.
     pub(super) turns: Vec<(usize, T)>,
 }
 
@@ -63,7 +65,7 @@ impl<'a, T: Real, S: SpdSolver<T>, const D: usize> Assembly<'a, T, S, D> {
         }
     }
 
-    /// Rows at `q` with holds and guides at the share `tau` of their initial values, as if they had been driven there.
+    /// Evaluates the rows at `q`, with prescribed values and guides at the fraction `tau` of their values.
     pub(super) fn drive(&mut self, q: &[T], tau: T) {
         for (value, full) in self.problem.terms.guides.iter_mut().zip(&self.guides) {
             *value = [full[0] * tau, full[1], full[2]];
@@ -78,14 +80,14 @@ impl<'a, T: Real, S: SpdSolver<T>, const D: usize> Assembly<'a, T, S, D> {
         holds.copy_from_slice(&p.residuals);
     }
 
-    /// f = W^-1 (M change + J^T mu), of the matrix as last factored.
+    /// Computes f = W^-1 (M change + J^T mu), with the last factor of W.
     pub(super) fn solve(&mut self, level: Level) {
         self.pull(level);
         let n = self.problem.n_unknowns();
         self.solver.solve(&mut self.f[..n], &mut self.scratch);
     }
 
-    /// f = M change + J^T mu.
+    /// Computes f = M change + J^T mu.
     pub(super) fn pull(&mut self, level: Level) {
         let n = self.problem.n_unknowns();
         let system = Sweep {
@@ -99,7 +101,7 @@ impl<'a, T: Real, S: SpdSolver<T>, const D: usize> Assembly<'a, T, S, D> {
         self.solver.assemble(&system, &mut self.f[..n]);
     }
 
-    /// Factors W, with the curvature of the rows at `curved` and some damping.
+    /// Factors W, with the curvature of the rows at `curved` and with damping.
     pub(super) fn factor(
         &mut self,
         level: Level,
@@ -119,14 +121,14 @@ impl<'a, T: Real, S: SpdSolver<T>, const D: usize> Assembly<'a, T, S, D> {
         })
     }
 
-    /// mu = sigma + S phi.
+    /// Computes mu = sigma + S phi.
     pub(super) fn load(&mut self) {
         for (k, &p) in self.problem.penalty.iter().enumerate() {
             self.mu[k] = self.sigma[k] + p * self.rows[k];
         }
     }
 
-    /// sigma <- sigma + S (phi - J d).
+    /// Updates the multipliers: sigma <- sigma + S (phi - J d).
     pub(super) fn grow(&mut self, level: Level) {
         self.problem.multiply(&self.f, level, &mut self.products);
         for (k, &p) in self.problem.penalty.iter().enumerate() {
@@ -134,23 +136,23 @@ impl<'a, T: Real, S: SpdSolver<T>, const D: usize> Assembly<'a, T, S, D> {
         }
     }
 
-    /// The largest coordinate of a correction or velocity, each relative to its size.
+    /// Largest component of a correction or velocity, relative to the sizes of the coordinates.
     pub(super) fn largest(&self, x: &[T]) -> T {
         self.problem.sizes.iter().zip(x).fold(T::ZERO, |s, (&size, &x)| s.max(x.abs() / size))
     }
 
-    /// The largest of `rows`, each relative to its spread.
+    /// Largest of `rows`, relative to the spreads of the rows.
     pub(super) fn worst(&self, rows: &[T]) -> T {
         let rows = self.problem.spreads.iter().zip(rows);
         rows.fold(T::ZERO, |s, (&spread, &x)| s.max(x.abs() / spread))
     }
 
-    /// A rounding of rows at `q`, relative to their spreads: places far from the origin have fewer digits left.
+    /// Rounding error of rows at `q`, relative to their spreads. It grows with the distance of `q` from the origin.
     pub(super) fn rounding(&self, q: &[T]) -> T {
         T::EPSILON * self.largest(q).max(T::ONE)
     }
 
-    /// Residual of a row that is accepted, relative to its spread.
+    /// Accepted residual of a row, relative to its spread.
     pub(super) fn accepted(&self, q: &[T]) -> T {
         self.rounding(q) * T::from_f64(ROUNDINGS)
     }
@@ -159,7 +161,7 @@ impl<'a, T: Real, S: SpdSolver<T>, const D: usize> Assembly<'a, T, S, D> {
         norm_inf(&[norm_inf(&self.problem.terms.phi), norm_inf(&self.problem.residuals)])
     }
 
-    /// Largest residual of all rows: its size, its owner, and the entry if it is a held row.
+    /// Row with the largest residual: the residual, its owner, and the number of the `[[initial]]` entry for a start row.
     pub(super) fn culprit(&self) -> (T, Owner, Option<usize>) {
         let p = &self.problem;
         let (rows, holds) = self.rows.split_at(p.model.n_constraints());
@@ -173,7 +175,7 @@ impl<'a, T: Real, S: SpdSolver<T>, const D: usize> Assembly<'a, T, S, D> {
         };
         let (row, hold) = (largest(rows, near), largest(holds, far));
         match (row, hold) {
-            // A held row near the largest residual is what the user wrote: name that.
+            // Report a start row if its residual is within a factor of ten of the largest one, since the user wrote it.
             (row, Some((h, size)))
                 if row.is_none_or(|(_, other)| size * T::from_f64(10.0) >= other) =>
             {

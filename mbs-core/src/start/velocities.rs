@@ -1,4 +1,4 @@
-//! The smallest velocities that meet all rates: a linear problem, whose matrix is factored once.
+//! Smallest velocities that satisfy all rates: a linear problem, whose matrix is factored once unless penalties are raised.
 
 use super::error::AssemblyError;
 use super::problem::{Level, MAX_SWEEPS, SLOW_RATIO, raises};
@@ -8,7 +8,7 @@ use crate::blocks::{Cliques, SpdSolver};
 use crate::model::{Model, State};
 
 impl<T: Real, S: SpdSolver<T>, const D: usize> Assembly<'_, T, S, D> {
-    /// Makes `s.v` the smallest velocity that meets all rates, at the positions last evaluated.
+    /// Sets `s.v` to the smallest velocity that satisfies all rates, at the positions last evaluated.
     pub(super) fn velocities(&mut self, s: &mut State<T>) -> Result<(), AssemblyError> {
         let n = self.problem.n_unknowns();
         if self.problem.model.has_velocity_rows() {
@@ -60,7 +60,7 @@ impl<T: Real, S: SpdSolver<T>, const D: usize> Assembly<'_, T, S, D> {
         Err(AssemblyError::Velocity { residual: residual.to_f64(), owner, initial })
     }
 
-    /// J v + phi_t, and the held rates that are missing.
+    /// Computes the residuals J v + phi_t of the model, and those of the prescribed rates.
     fn measure_rates(&mut self, v: &[T]) {
         let p = &self.problem;
         p.multiply(v, Level::Velocity, &mut self.rows);

@@ -1,141 +1,142 @@
-//! Errors that stop a step, and errors of options and inputs.
+//! Errors of steps, options and inputs.
 
 use crate::FactorError;
 #[cfg(feature = "alloc")]
 use crate::laws::code::CodeOwner;
 
-/// A step that could not be made. The state is as it was before the step.
+/// Error of a step that failed. The state is as it was before the step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum StepError {
-    /// The iteration did not converge.
+    /// Newton's iteration did not converge.
     NotConverged {
         /// Number of iterations made.
         iterations: u32,
         /// Last correction of a coordinate, relative to the scene's length.
         correction: f64,
-        /// The unknown that was corrected most.
+        /// Number of the unknown with the largest correction.
         unknown: u32,
     },
-    /// The tangent matrix lost positive definiteness: a force meets no inertia, or a coordinate is not determined.
+    /// The tangent matrix is not positive definite: a force acts on a coordinate without inertia, or nothing determines a coordinate.
     Singular(FactorError),
     /// A number became infinite or NaN.
     NotFinite {
         /// Number of the unknown concerned.
         unknown: u32,
     },
-    /// The constraints lost rank: the mechanism stands in (or near) a singular position, or rows repeat each other.
+    /// The constraints lost rank: the mechanism is in or close to a singular position, or rows are redundant.
     RankLost {
-        /// The row that depends on the others.
+        /// Number of the row that depends on the others.
         row: u32,
-        /// Size of its pivot, relative to what a row of full effect has.
+        /// Size of its pivot, relative to that of an independent row.
         pivot: f64,
     },
-    /// The control of the step needed one too short to matter.
+    /// The step-size control required a step that is too short.
     StepTooSmall {
-        /// The step it asked for [s].
+        /// Length of the required step [s].
         step: f64,
     },
-    /// A projection did not reach its level.
+    /// A projection did not reach its required accuracy.
     Violated {
-        /// 0 position, 1 velocity, 2 acceleration.
+        /// Level of the projection: 0 position, 1 velocity, 2 acceleration.
         level: u8,
-        /// Largest violation that is left.
+        /// Largest violation that remains.
         violation: f64,
-        /// The row that is violated most.
+        /// Number of the row with the largest violation.
         row: u32,
     },
-    /// A step whose length, or whose scene's length, is not positive and finite.
+    /// The length of the step or of the scene is not positive and finite.
     BadStep {
         /// Length of the step [s].
         dt: f64,
         /// Length of the scene [m].
         length: f64,
     },
-    /// An option outside its range.
+    /// An option is outside its range.
     BadOption(OptionError),
-    /// Numbers in a model's tables point outside of them, or a scratch is not the model's.
+    /// Indices in a model's tables are out of range, or a scratch belongs to another model.
     Tables,
-    /// A joint turned by more in one step than its position at the end can resolve: its turns would be lost.
+    /// A joint rotated by more in one step than its position at the end can resolve, so that its turns are unknown.
     TurnTooLarge {
-        /// The joint in the scene.
+        /// Number of the joint in the scene.
         joint: u32,
         /// Rate of the joint times the step [rad].
         turn: f64,
     },
-    /// An effect that measures a rotation in space has turned by more than its law holds for: a whole turn.
+    /// An effect that measures a rotation in space has rotated by a whole turn, where its law is not defined.
     Overturned {
-        /// The effect in the scene.
+        /// Number of the effect in the scene.
         effect: u32,
     },
-    /// A part of a coupling's line, such as a rope's, has no length left: it has no direction.
+    /// A part of a coupling's line, such as a rope, has zero length and therefore no direction.
     RopeCollapsed {
-        /// The coupling in the scene.
+        /// Number of the coupling in the scene.
         coupling: u32,
-        /// The part, from 0 in the order of the coupling's points.
+        /// Number of the part, from 0 in the order of the coupling's points.
         part: u32,
     },
-    /// A disc that rolls lies flat on its plane, where it has no lowest point; or a blade stands along the normal.
+    /// A rolling disc lies flat on its plane, where it has no lowest point, or a blade is parallel to the normal.
     RollingFlat {
-        /// The rolling in the scene.
+        /// Number of the rolling contact in the scene.
         rolling: u32,
     },
-    /// Rows of velocities, as of bodies that roll, in a formulation whose coordinates are independent: more places are free than velocities.
+    /// The formulation has independent coordinates, but the model has velocity rows, as for rolling bodies. Such rows restrict
+    /// velocities, but no coordinates.
     VelocityRows,
-    /// A part of an effect's line, such as an elastic rope's, has no length left while it pulls: it has no direction.
+    /// A part of an effect's line, such as an elastic rope, has zero length under tension and therefore no direction.
     LineCollapsed {
-        /// The effect in the scene.
+        /// Number of the effect in the scene.
         effect: u32,
-        /// The part, from 0 in the order of the effect's points.
+        /// Number of the part, from 0 in the order of the effect's points.
         part: u32,
     },
-    /// The axes of a ball are opposite: its twist is open there.
+    /// The axes of a ball are opposite, where its twist is undefined.
     TwistOpen {
-        /// The effect in the scene that is on the twist.
+        /// Number of the effect on the twist in the scene.
         effect: u32,
     },
-    /// A user-defined law with data gave a number that is infinite or NaN.
+    /// A user-defined law with data returned a number that is infinite or NaN.
     #[cfg(feature = "alloc")]
     Law {
-        /// The effect in the scene.
+        /// Number of the effect in the scene.
         effect: u32,
     },
-    /// The user-defined relation of a coupling gave a number that is infinite or NaN.
+    /// The user-defined relation of a coupling returned a number that is infinite or NaN.
     #[cfg(feature = "alloc")]
     Relation {
-        /// The coupling in the scene.
+        /// Number of the coupling in the scene.
         coupling: u32,
     },
-    /// A guided angle ended at the false root, half a turn from its guide.
+    /// A guided angle is half a turn from its guide, at the false root of the constraint.
     OppositeBranch {
-        /// The row of the guide.
+        /// Number of the row of the guide.
         row: u32,
     },
 }
 
-/// A value that cannot be set between steps. Nothing is set then.
+/// Error of a value that cannot be set between steps. The inputs are then unchanged.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum InputError {
-    /// There is no such effect or guide, it is switched off, or its values come from the scene.
+    /// The effect, guide or signal does not exist, is disabled, or gets its values from the scene.
     NotAnInput {
-        /// Number that is no input: of the effect or guide in the scene, of the course or guide in an exported model.
+        /// Number of the effect, guide or signal in the scene, or of the signal or guide in an exported model.
         number: usize,
     },
     /// A component is infinite or NaN.
     NotFinite {
-        /// The number of the effect, course or guide.
+        /// Number of the effect, guide or signal.
         number: usize,
-        /// The component, from 0.
+        /// Number of the component, from 0.
         component: usize,
     },
 }
 
 impl InputError {
-    /// Checks that a value is one that can be set.
+    /// Checks that all components of a value are finite.
     ///
     /// # Errors
-    /// [`InputError::NotFinite`] names the first component that is not finite.
+    /// [`InputError::NotFinite`] with the first component that is not finite.
     pub fn check<T: crate::Real>(number: usize, value: &[T; 3]) -> Result<(), Self> {
         match value.iter().position(|x| !x.is_finite()) {
             Some(component) => Err(Self::NotFinite { number, component }),
@@ -162,7 +163,7 @@ impl core::fmt::Display for InputError {
 impl core::error::Error for InputError {}
 
 impl StepError {
-    /// The sentence of an error without numbers.
+    /// Sentence of an error without numbers; `None` for other errors.
     const fn sentence(&self) -> Option<&'static str> {
         Some(match self {
             Self::NotFinite { .. } => "a number became infinite or NaN: try a smaller step",
@@ -248,7 +249,7 @@ impl core::fmt::Display for StepError {
                 "part {} of the rope has no length left, so that its direction is not known: end its motion before, by a limit or a bumper",
                 part + 1
             ),
-            // has a sentence
+            // has a sentence above
             _ => Ok(()),
         }
     }
@@ -278,14 +279,14 @@ impl From<OptionError> for StepError {
     }
 }
 
-/// An option outside its range, by name.
+/// Error of an option outside its range, with its name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum OptionError {
-    /// Must be positive and finite.
+    /// The option must be positive and finite.
     NotPositive(&'static str),
-    /// Must be finite and not negative.
+    /// The option must be finite and not negative.
     Negative(&'static str),
-    /// The combination is not built.
+    /// The combination of options is not implemented.
     NotBuilt(&'static str),
 }
 

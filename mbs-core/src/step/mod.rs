@@ -1,5 +1,5 @@
-//! Common parts of the steps of all formulations: errors, reports, and what they look for in vectors. Implicit ones in natural coordinates
-//! share more, which is in `implicit`.
+//! Common parts of the steps of all formulations: errors, reports, and scans of vectors. Implicit steps in natural coordinates have further
+//! common parts in `implicit`.
 
 mod error;
 mod report;

@@ -1,22 +1,22 @@
-//! Request for a step, and the report on what it did, in counts.
+//! Request for a step, and the report on the step in counts.
 
 use super::error::StepError;
 use crate::Real;
 
-/// A step that is asked for.
+/// Request for a step of a scene.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Step<T> {
     /// Length of the step [s].
     pub dt: T,
-    /// Length of the scene, beside which corrections and violations are small [m].
+    /// Length of the scene, with which corrections and violations are compared [m].
     pub length: T,
 }
 
 impl<T: Real> Step<T> {
-    /// The step, if both lengths are positive and finite.
+    /// Checks that both lengths are positive and finite, and returns the step.
     ///
     /// # Errors
-    /// [`StepError::BadStep`].
+    /// [`StepError::BadStep`] if they are not.
     #[inline]
     pub fn checked(self) -> Result<Self, StepError> {
         let Self { dt, length } = self;
@@ -28,43 +28,43 @@ impl<T: Real> Step<T> {
     }
 }
 
-/// Why the iteration of a step ended.
+/// Reason why the iteration of a step ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Stop {
-    /// The next correction, estimated from the last two, is below the tolerance of the step.
+    /// The next correction, estimated from the last two, is below the tolerance.
     Converged,
-    /// Corrections no longer shrink and are at the level of rounding.
+    /// Corrections no longer decrease and are at machine precision.
     Rounding,
-    /// The step ended within reach of a singular position: the multiplier of a combination of constraints that has almost no
-    /// effect there is left as it was extrapolated.
+    /// The step ended close to a singular position. A combination of constraints has almost no effect there, and its multiplier keeps its
+    /// extrapolated value.
     Passage,
-    /// The allowed iterations are used, and the last correction is small beside the step though not below its tolerance.
+    /// The largest number of iterations was used. The last correction is above the tolerance, but small relative to the step.
     Tolerance,
-    /// No iteration, since the method is explicit.
+    /// There was no iteration, since the method is explicit.
     Explicit,
 }
 
-/// Counts of a step's work with matrices.
+/// Counts of a step's operations with matrices.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Counts {
-    /// Number of factorisations made.
+    /// Number of factorisations of a matrix.
     pub factorizations: u32,
-    /// Number of back-substitutions made.
+    /// Number of solutions with a factor.
     pub solves: u32,
 }
 
-/// Report on what a step did. Counts only; time is measured from outside.
+/// Report on a step. It has counts only; the caller measures time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StepReport<T> {
-    /// Number of iterations made; in relative coordinates, of evaluations of the accelerations.
+    /// Number of iterations; in relative coordinates the number of evaluations of the accelerations.
     pub iterations: u32,
-    /// Number of factorisations made.
+    /// Number of factorisations of a matrix.
     pub factorizations: u32,
-    /// Number of back-substitutions made.
+    /// Number of solutions with a factor.
     pub solves: u32,
-    /// Accepted steps inside this one: 1, more where a step size is controlled inside.
+    /// Number of accepted steps inside this one: 1, or more if the method controls its step size.
     pub steps: u32,
-    /// Rejected steps inside this one.
+    /// Number of rejected steps inside this one.
     pub rejected: u32,
     /// Last correction of a coordinate [m or -].
     pub correction: T,
@@ -72,12 +72,12 @@ pub struct StepReport<T> {
     pub stop: Stop,
     /// Largest |phi|, |phi'|, |phi''| after the step [m, m/s, m/s^2].
     pub violation: [T; 3],
-    /// Energy that the penalties held after the first correction [P2 (29)]; zero in formulations without penalties [J].
+    /// Energy in the penalties after the first correction [P2 (29)] [J]; zero in formulations without penalties.
     pub penalty_energy: T,
 }
 
 impl<T: Real> StepReport<T> {
-    /// Of a step by Newton's method: iterations, the last correction and what ended them; work; largest violations.
+    /// Report of a step by Newton's method: iterations, last correction and reason of the end; counts; largest violations.
     pub fn of_newton(
         (iterations, correction, stop): (u32, T, Stop),
         Counts { factorizations, solves }: Counts,
@@ -89,7 +89,8 @@ impl<T: Real> StepReport<T> {
 }
 
 impl<T: Real> StepReport<T> {
-    /// Adds the counts of a step that followed; the rest is that step's, the larger where it is a size.
+    /// Adds the counts of the following step. Violations and penalty energy are the larger values; all other values are those of the
+    /// following step.
     pub fn add(&mut self, next: &Self) {
         let sums = Self {
             iterations: self.iterations + next.iterations,

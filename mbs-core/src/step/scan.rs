@@ -1,14 +1,14 @@
-//! Scans of a vector, as steps need them.
+//! Scans of vectors that steps need.
 
 use crate::Real;
 use crate::team::{Team, norm_inf};
 
-/// The displacement that accelerations cause in a step: what corrections are small against [m].
+/// Displacement that accelerations `a` cause in a step of `dt` [m]. Corrections are compared with it.
 pub fn step_scale<T: Real, W: Team>(team: &W, dt: T, a: &[T]) -> T {
     norm_inf(team, a) * dt * dt * T::HALF
 }
 
-/// Index of the entry largest in absolute value.
+/// Index of the entry with the largest absolute value.
 pub fn largest<T: Real>(x: &[T]) -> u32 {
     let (mut best, mut size) = (0, T::ZERO);
     for (i, x) in x.iter().enumerate() {
@@ -19,7 +19,7 @@ pub fn largest<T: Real>(x: &[T]) -> u32 {
     u32::try_from(best).unwrap_or(u32::MAX)
 }
 
-/// The first entry that is not finite, else the largest.
+/// Index of the first entry that is not finite; if all are finite, of the largest one.
 #[cold]
 pub fn largest_or_nan<T: Real>(x: &[T]) -> u32 {
     let bad = x.iter().position(|x| !x.is_finite());

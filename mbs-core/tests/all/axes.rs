@@ -1,14 +1,14 @@
-//! Outputs in the axes of a body, against closed forms.
+//! Outputs in the axes of a body, compared with closed forms.
 
 use crate::small::{GROUND, add_body, add_joint, hold, scene, start};
 use mbs_core::outputs::{Forces, Measures, RelativePoint};
 use mbs_core::scene::{BodyId, Dimension, Inertia, JointId, JointKind, Output, Quantity, Scene};
 
-/// Rounding of products of numbers of order ten, and of the assembly.
+/// Rounding error of products of numbers of order ten, and of the assembly.
 const CLOSED: f64 = 1e-11;
 const GRAVITY: f64 = 9.81;
 
-/// The components of these outputs at the start, one after another.
+/// Components of outputs at the start of a scene, in their order.
 fn measured<const D: usize>(
     scene: &Scene<f64>,
     outputs: Vec<(Quantity<f64>, Option<BodyId>)>,
@@ -35,7 +35,7 @@ fn assert_near(found: &[f64], expected: &[f64]) {
     }
 }
 
-/// A box that turns about an axis through its centre of mass, held at an angle and a rate.
+/// Scene of a box that rotates about an axis through its centre of mass, with prescribed angle and rate.
 fn spun(dimension: Dimension, axis: [f64; 3], (angle, rate): (f64, f64)) -> (Scene<f64>, BodyId) {
     let gravity = [0.0, 0.0, if dimension == Dimension::Planar { 0.0 } else { -GRAVITY }];
     let mut s = scene(dimension, gravity);
@@ -110,7 +110,7 @@ fn what_is_seen_from_a_body_has_the_axes_of_any_body() {
         (Quantity::Position { body: table, at: [1.0, 0.0, 0.0] }, Some(wheel)),
     ];
     let found = measured::<3>(&s, outputs);
-    // from the origin at (cos, sin, 0) to the wheel at (0, 2, 0)
+    // vector from the origin at (cos, sin, 0) to the wheel at (0, 2, 0)
     let (sin, cos) = phi.sin_cos();
     let gap = [-cos, 2.0 - sin, 0.0];
     assert_near(&found[..3], &found[3..6]);

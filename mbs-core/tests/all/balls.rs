@@ -1,4 +1,4 @@
-//! Swing and twist of a ball joint: value, rate and gradient against rotations, over turns, and near no swing.
+//! Swing and twist of a ball joint: value, rate and gradient compared with rotations, over full turns, and close to swing zero.
 
 use crate::gradient::{evaluate, gradients, scatter};
 use mbs_core::algebra::{Vector, cross, rotation};
@@ -10,14 +10,15 @@ use mbs_testkit::{Random, model, residual, scene};
 
 type V = Vector<f64, 3>;
 
-/// Step of central differences: 1e-16 of an angle over it, and its square times third derivatives of order ten.
+/// Step of central differences. Rounding costs 1e-16 of an angle over the step, truncation its square times third derivatives of
+/// order ten.
 const STEP: f64 = 1e-5;
-/// Largest difference of a gradient and of a rate from differences [-].
+/// Largest difference of gradients and rates from difference quotients [-].
 const DIFFERENCE: f64 = 1e-7;
-/// The axis of both angles, not of length one.
+/// Axis of both angles, which is no unit vector.
 const AXIS: [f64; 3] = [0.72, 0.96, 1.6];
 
-/// Two bodies on balls, with a spring on one angle of the second.
+/// Scene of two bodies on ball joints, with a spring on one angle of the second joint.
 fn chain(angle: &str) -> Scene<f64> {
     let body = |name: &str, x: f64| {
         format!(
@@ -38,7 +39,7 @@ fn chain(angle: &str) -> Scene<f64> {
     ))
 }
 
-/// The chain where both bodies are turned by these rotation vectors from their parents.
+/// State of the chain in which each body is rotated by a rotation vector relative to its parent.
 fn placed(scene: &Scene<f64>, model: &NaturalModel<f64, 3>, [first, own]: [V; 2]) -> State<f64> {
     let first = rotation(&first);
     let second = first * rotation(&own);
@@ -52,7 +53,7 @@ fn placed(scene: &Scene<f64>, model: &NaturalModel<f64, 3>, [first, own]: [V; 2]
     state
 }
 
-/// The rotation vector of a turn about the axis and then a swing about a direction across it.
+/// Rotation vector of a rotation about the axis followed by a swing about a perpendicular direction.
 fn turned(twist: f64, swing: f64, about: f64) -> (V, [f64; 2]) {
     let axis = V::from(AXIS) / V::from(AXIS).norm();
     let across = rotation(&(axis * about)) * cross(&axis, &V::new(1.0, 0.0, 0.0)).normalize();
@@ -74,7 +75,7 @@ fn swing_and_twist_are_those_of_the_rotation_and_have_the_gradient_of_their_diff
             let (own, angles) = turned(twist, swing, 3.0 * random.next());
             let first = V::from_fn(|_, _| random.next());
             let mut state = placed(&scene, &model, [first, own]);
-            // the last angle, from which turns count
+            // the last angle, relative to which turns are counted
             if let Some(place) = model.memory_of_effect(0) {
                 state.memory[place] = twist + 0.4;
             }

@@ -1,4 +1,4 @@
-//! User-defined laws with data, on the mechanism that every kind of effect is tried on.
+//! User-defined laws with data, on the mechanism on which every kind of effect is tested.
 
 use mbs_core::Real;
 use mbs_core::algebra::Vector;
@@ -12,7 +12,7 @@ use mbs_core::scene::{
     Number, Scene, Signal,
 };
 
-/// f = k x + h x³ + c (1 + x²) x', with k that grows over time, x from a length that is its input.
+/// Force f = k x + h x³ + c (1 + x²) x'. The stiffness k grows with time, and x is measured from a length that is an input.
 #[derive(Debug)]
 struct Hardening {
     stiffness: f64,
@@ -33,7 +33,7 @@ impl ForceLaw for Hardening {
     }
 }
 
-/// Against the motion and the turning of a body, along its direction, and towards the origin.
+/// Force against the motion and rotation of a body, along its direction, and towards the origin.
 #[derive(Debug)]
 struct Wind(f64);
 
@@ -46,7 +46,7 @@ impl BodyLaw for Wind {
     }
 }
 
-/// A law of each kind.
+/// Effects with a user-defined law of each kind.
 pub(crate) fn every(dimension: Dimension) -> Vec<(&'static str, EffectKind<f64>)> {
     let depth = if dimension == Dimension::Planar { 0.0 } else { 1.0 };
     let (body, at) = (BodyId::Body(3), [1.2, 1.3, 1.1 * depth]);
@@ -68,7 +68,7 @@ pub(crate) fn every(dimension: Dimension) -> Vec<(&'static str, EffectKind<f64>)
     ]
 }
 
-/// The tension of a law along x from the origin to a body at 1/3, which moves at 1/7.
+/// Tension of a law along x, from the origin to a body at 1/3 that moves at 1/7.
 fn tension<T: Real>() -> T {
     let mut scene = Scene::empty("line", Dimension::Planar, Number::from(1.0));
     let third = || Number::from_decimal("0.33333333333333333333333333333333").expect("a number");
@@ -93,7 +93,7 @@ fn tension<T: Real>() -> T {
 fn a_law_sees_the_nearest_doubles_in_every_precision() {
     let at = |x: f64, v: f64| 30.0 * x + 20.0 * x * x * x + 2.0 * (1.0 + x * x) * v;
     let told = at(1.0 / 3.0, 1.0 / 7.0);
-    // the length and its rate are rounded on their way
+    // the length and its rate are rounded before the law gets them
     let [double, pair] = [tension::<f64>(), tension::<DoubleDouble>().to_f64()];
     assert!((double - told).abs() < 1e-13 && (pair - told).abs() < 1e-13, "{double} {pair} {told}");
     assert!(tension::<DoubleDouble>().parts()[1] == 0.0);

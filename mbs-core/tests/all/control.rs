@@ -1,4 +1,4 @@
-//! The control of steps on a plane pendulum of 1 kg and 1 m, whose steps are solved by plain iteration.
+//! Step control, tested on a planar pendulum of 1 kg and 1 m whose steps are solved by fixed-point iteration.
 
 use mbs_core::control::*;
 use mbs_core::inside::Steering;
@@ -8,7 +8,8 @@ use mbs_core::step::{StepError, StepReport};
 /// Acceleration of gravity [m/s²].
 const G: f64 = 9.81;
 
-/// Angle and rate, stepped by the trapezoidal rule; fails above `fails_from` if that is set, and has an event at `event`.
+/// Pendulum by angle and rate, stepped by the trapezoidal rule. A step longer than `fails_from` fails, and `event` is the time of
+/// an event.
 #[derive(Debug, Clone)]
 struct Pendulum {
     t: f64,
@@ -16,11 +17,11 @@ struct Pendulum {
     saved: (f64, [f64; 2]),
     fails_from: f64,
     event: Option<f64>,
-    /// Length of each trial, and whether it was kept.
+    /// Length of each trial, and whether it was accepted.
     trials: Vec<(f64, bool)>,
-    /// Change of the energy that no step makes smaller [J].
+    /// Energy error that no step reduces [J].
     leak: f64,
-    /// Energies of the accelerations at both ends of a step, as the pendulum states them [J/s^2].
+    /// Acceleration energies at both ends of a step, as the pendulum reports them [J/s^2].
     accelerating: [f64; 2],
 }
 
@@ -132,7 +133,7 @@ fn a_rejected_step_leaves_no_trace() {
     pendulum.fails_from = 0.03;
     let steps = pendulum.run(energy([1e-6, 1e-8]), 0.1, 5.0);
     assert!(steps.iter().map(|s| s.rejected).sum::<u32>() > 2);
-    // The kept steps alone, one after the other, end in the same place to the last bit.
+    // The accepted steps alone, repeated in their order, give a bitwise equal end.
     let mut replay = Pendulum::new(2.5);
     steps.iter().for_each(|s| replay.step(s.step));
     assert_eq!(replay.x.map(f64::to_bits), pendulum.x.map(f64::to_bits));
@@ -145,12 +146,12 @@ fn every_kept_step_changes_the_invariant_by_less_than_its_limit_and_none_is_long
     let invariant = pendulum.invariant();
     let limits = [1e-5, 1e-7];
     let steps = pendulum.run(energy(limits), 0.1, 20.0);
-    // The energy that moves is at most twice the height of 2 m.
+    // The exchanged energy is at most that of a height of 2 m, twice.
     let scale = 4.0 * G;
     assert!(steps.iter().all(|s| s.change.abs() <= limits[0] * scale + invariant.rounding()));
-    // At 20 s the clock measures a step to a few of its last digits.
+    // At 20 s the time resolves a step to a few units of its last digits.
     assert!(steps.iter().all(|s| s.step <= 0.1 + 1e-14));
-    // It nearly stands at the top and falls through the bottom: steps differ by more than three.
+    // The pendulum is slow at the top and fast at the bottom: the lengths of steps differ by a factor above three.
     let lengths = steps[1..steps.len() - 1].iter().map(|s| s.step);
     let (least, most) = lengths.fold((1.0_f64, 0.0_f64), |(a, b), h| (a.min(h), b.max(h)));
     assert!(most > 3.0 * least, "{least} {most}");
@@ -166,7 +167,7 @@ fn accelerations_that_are_huge_at_one_end_loosen_no_limit_once_energy_moves() {
     for accelerating in [[0.0, 1e12], [1e12, 0.0]] {
         let (first, limit) = (usize::from(accelerating[1] > 0.0), 1e-5 * 4.0 * G);
         let steps = steps(accelerating);
-        // the first step begins at rest, and is measured by what accelerations give at its end
+        // the first step begins at rest, and its measure is the acceleration energy at its end
         assert!(steps[first..].iter().all(|s| s.change.abs() <= limit), "{accelerating:?}");
         assert!(steps.len() + 10 > plain.len(), "{accelerating:?}: {}", steps.len());
     }
@@ -188,10 +189,11 @@ fn tighter_limits_give_smaller_errors_in_both_forms_of_the_rule() {
     let limits = [[1e-4, 1e-6], [1e-5, 1e-7], [1e-6, 1e-8]];
     for form in [EnergyRule::new, EnergyRule::printed] {
         let errors = limits.map(|limits| worst(form(limits)).0);
-        // A change goes with h^3 and errors with h^2: a tenth of the change is 10^(2/3) = 4.6 of the error.
+        // The energy change goes with h^3, and the error with h^2: a tenth of the change gives 10^(2/3) = 4.6 times less error.
         assert!(errors[1] < errors[0] / 2.0 && errors[2] < errors[1] / 2.0, "{errors:?}");
     }
-    // Steering within the limits pays: cost times the root of the error is what counts at order two.
+    // Steering within the limits reduces cost. At order two the measure of cost is the number of steps times the square root of the
+    // error.
     let merit = |rule| {
         let (error, steps) = worst(rule);
         f64::sqrt(error) * f64::from(u32::try_from(steps).unwrap_or(u32::MAX))
@@ -211,7 +213,7 @@ fn true_error_falls_with_the_tolerance_of_the_estimate() {
     };
     let exact = end(1e-13);
     let errors = [1e-4, 1e-5, 1e-6, 1e-7].map(|tolerance| (end(tolerance) - exact).abs());
-    // Order two in a step that goes with the cube root: each tenth is 4.6 of the error, and at least two here.
+    // Order two, with a step that goes with the cube root of the tolerance: a tenth gives 4.6 times less error, here at least two.
     assert!(errors.windows(2).all(|e| e[1] < e[0] / 2.0), "{errors:?}");
 }
 
@@ -239,7 +241,7 @@ fn failures_shorten_the_step_and_it_grows_again() {
     let lengths: [f64; 12] = core::array::from_fn(|_| {
         driver.step(&mut pendulum, &mut invariant, (0.5, 10.0)).expect("it steps").step
     });
-    // Not right after the failure, then by a fifth at each step.
+    // The step after a failure is not longer. Then it grows by a fifth at each step.
     assert!((lengths[0] / accepted.step - 1.0).abs() < 1e-12, "{lengths:?}");
     assert!(lengths.windows(2).all(|h| (h[1] / h[0] - 1.2).abs() < 1e-9), "{lengths:?}");
 }
@@ -247,7 +249,7 @@ fn failures_shorten_the_step_and_it_grows_again() {
 #[test]
 fn a_run_whose_steps_would_never_end_says_so() {
     let mut pendulum = Pendulum::new(1.0);
-    // No longer trial ever succeeds, so that a largest step takes two hundred thousand.
+    // No longer trial succeeds, so that two hundred thousand steps are needed for a largest step.
     pendulum.fails_from = 5e-7;
     let (mut driver, mut invariant) =
         (Driver::new(energy([1e-2, 1e-4]), 0.1), pendulum.invariant());
@@ -260,7 +262,7 @@ fn a_run_whose_steps_would_never_end_says_so() {
         assert!(pendulum.trials.len() <= 100_000 && pendulum.t < 0.1);
         if !is_resumed && pendulum.trials.len() > 50_000 {
             is_resumed = true;
-            // One that is restored from its history continues the count.
+            // A driver that is restored from its history continues the count.
             let history = driver.history();
             driver = Driver::new(energy([1e-2, 1e-4]), 0.1);
             assert!(driver.set_history(history));
@@ -271,7 +273,7 @@ fn a_run_whose_steps_would_never_end_says_so() {
         "the mean step: {error:?}"
     );
     assert!(is_resumed && pendulum.t > 0.01, "the state is the last accepted one");
-    // Short steps in one place, as at an impact, are none of these.
+    // Short steps at one place, such as an impact, do not count.
     let mut pendulum = Pendulum::new(1.0);
     pendulum.event = Some(0.35);
     assert!(pendulum.run(energy([1e-6, 1e-8]), 0.1, 2.0).len() > 20);
@@ -309,7 +311,7 @@ fn the_factor_is_the_printed_one() {
     assert!((wish - 0.5).abs() < 1e-12);
     let mut steering = Steering::new(rule);
     assert_eq!(steering.judge(1e-6), Ok(1.0));
-    // One small change may be a passage through zero; after the second the step grows, at most to its double.
+    // One small change may be a zero crossing. After the second the step grows, at most by a factor of two.
     assert_eq!([1e-8, 1e-8].map(|e| steering.judge(e)), [Ok(1.0), Ok(2.0)]);
     assert_eq!(steering.judge(f64::NAN), Err(0.2));
 }
@@ -321,7 +323,8 @@ fn drift_and_scatter_are_those_of_a_line_with_a_ripple() {
         let ripple = if k % 2 == 0 { 1e-3 } else { -1e-3 };
         invariant.mark(0.01 * f64::from(k), [1.0, 2.0 + 1e-4 * f64::from(k) + ripple, 0.0]);
     }
-    // 1e-4 J in each 0.01 s; changes of 2e-3 up and down, with 1e-4 on top; the ripple tilts the line by 6 / n^2 of its height.
+    // Drift of 1e-4 J in each 0.01 s, and a ripple of 2e-3 J up and down. The ripple tilts the fitted line by 6 / n^2 of its
+    // height.
     assert!((invariant.drift() - 1e-2).abs() < 1e-6, "{}", invariant.drift());
     assert!((invariant.scatter() - 2e-3).abs() < 1e-5, "{}", invariant.scatter());
     assert!((invariant.error() - 0.101).abs() < 1e-12);
@@ -331,10 +334,10 @@ fn drift_and_scatter_are_those_of_a_line_with_a_ripple() {
 #[test]
 fn the_alarm_hears_what_is_beyond_its_share_and_what_is_no_number_but_not_rounding() {
     let mut invariant = Invariant::new([0.0, 1e5, 0.0], 1e5, f64::EPSILON);
-    // Nothing turned over: 1e-4 J is rounding of 1e5 J.
+    // No energy is exchanged: 1e-4 J is a rounding error of 1e5 J.
     invariant.mark(0.1, [0.0, 1e5 + 1e-4, 0.0]);
     assert!(!invariant.is_off(0.1));
-    // 10 J turned over, 2 J lost.
+    // 10 J are exchanged, 2 J are lost.
     invariant.mark(0.2, [10.0, 1e5 - 12.0, 0.0]);
     assert!(invariant.is_off(0.1) && !invariant.is_off(0.3));
     invariant.mark(0.3, [f64::NAN, 1e5, 0.0]);
@@ -352,7 +355,7 @@ fn the_estimate_is_the_error_of_a_short_step_in_every_integrator() {
     ] {
         let estimate = LocalError::new(&integrator);
         assert_eq!(estimate.power(), 3);
-        // q'' = -q from (1, 0.5); auxiliary accelerations start on their own smooth course.
+        // q'' = -q from (1, 0.5). The auxiliary accelerations start on the exact solution, shifted in time.
         let h = 1e-3;
         let shift = (integrator.alpha_m - integrator.alpha_f) * h;
         let exact = |t: f64| libm::cos(t) + 0.5 * libm::sin(t);
@@ -361,11 +364,11 @@ fn the_estimate_is_the_error_of_a_short_step_in_every_integrator() {
         let d = -(ap + 1.0 + dq) / (1.0 + rule.acceleration);
         let (q, a) = (1.0 + dq + d, ap + rule.acceleration * d);
         let (of, error) = (estimate.of(h, &[-1.0], &[a]), (q - exact(h)).abs());
-        // The next term is of relative size h.
+        // The relative size of the next term of the error is h.
         assert!((of / error - 1.0).abs() < 1e-2, "{integrator:?}: {of} {error}");
     }
     assert_eq!(LocalError::new(&Integrator::newmark(0.3025, 0.6)).power(), 2);
-    // A NaN is kept, whatever follows it.
+    // A NaN is kept, whatever numbers follow it.
     let of = |to: [f64; 2]| LocalError::new(&Integrator::trapezoidal()).of(1.0, &[0.0; 2], &to);
     assert!(of([f64::NAN, 1.0]).is_nan() && of([1.0, f64::NAN]).is_nan());
     let single = Integrator::<f32>::generalised_alpha(0.8);

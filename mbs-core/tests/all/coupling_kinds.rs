@@ -1,10 +1,10 @@
-//! Couplings in code against what a scene file makes of the same words, and against the sums that both mean.
+//! Couplings built in code, compared with scene files of the same words, and with the sums that both mean.
 
 use mbs_core::real::DoubleDouble;
 use mbs_core::scene::{BodyId, Coupling, CouplingTerm, Curve, GROUND, JointId, Number, Scene};
 use mbs_scene::SceneFile;
 
-/// Three wheels, a slide and a cylindrical joint.
+/// Joints of three wheels, a slide and a cylindrical joint.
 const JOINTS: &str = r#"
 [scene]
 dimension = 3
@@ -72,14 +72,14 @@ const C: JointId = JointId::new(2);
 const S: JointId = JointId::new(3);
 const Z: JointId = JointId::new(4);
 
-/// The scene with the coupling of a text.
+/// Scene with the coupling of a text.
 fn read(text: &str) -> Scene<Number> {
     let text = format!("{JOINTS}[[coupling]]\nname = \"k\"\n{text}\n");
     let file = SceneFile::parse(&text, "x.toml").unwrap_or_else(|e| panic!("{}", e.render()));
     file.numbers().unwrap_or_else(|e| panic!("{}", e.render()))
 }
 
-/// Factor, joint and number of each term in double precision.
+/// Factor, joint and coordinate number of each term, in double precision.
 fn terms(scene: &Scene<Number>) -> Vec<(f64, usize, usize)> {
     let coupling = &scene.resolve::<f64>().expect("a scene").couplings[0];
     assert!(coupling.value == 0.0 || coupling.terms.len() == 2, "only a mimic has an offset");
@@ -90,7 +90,7 @@ fn terms(scene: &Scene<Number>) -> Vec<(f64, usize, usize)> {
     coupling.terms.iter().map(term).collect()
 }
 
-/// Asserts that code and text mean the same, to all digits of every precision.
+/// Asserts that code and text give equal couplings, in all digits of every precision.
 fn is_the_same(coupling: Coupling<Number>, text: &str) -> Scene<Number> {
     let from_text = read(text);
     let in_code = Scene { couplings: vec![coupling.named("k")], ..from_text.clone() };

@@ -1,5 +1,5 @@
-//! The table of effects: what its fields say of each other, that values make the effect that they came from, and that
-//! docs/EFFECTS.md is written from it.
+//! Table of effects: its fields are consistent, values reproduce the effect that they come from, and docs/EFFECTS.md is written
+//! from the table.
 
 use crate::document::written;
 use mbs_core::effects::{
@@ -47,10 +47,10 @@ fn values_make_the_effect_that_they_came_from() {
             let row = EFFECTS.iter().position(|row| row == kind.row()).expect("a row");
             assert_eq!(EffectKind::of(row, kind.values()).as_ref(), Some(&kind), "{what}");
             assert!(kind.row().names.contains(&kind.name()), "{what}");
-            // There and back through another type of number.
+            // Conversion to another type of number and back.
             let there = kind.clone().map(&mut |x: f64| x.to_bits()).expect("not a law in code");
             assert_eq!(there.map(&mut f64::from_bits).as_ref(), Some(&kind), "{what}");
-            // A value of another form, or one too few, makes none.
+            // A missing value, or a value of another form, makes no effect.
             let mut values = kind.values();
             values.pop();
             assert_eq!(EffectKind::of(row, values.clone()), None, "{what}");
@@ -60,7 +60,7 @@ fn values_make_the_effect_that_they_came_from() {
     }
 }
 
-/// An example of each kind that has a name in scene files, with its row.
+/// Example of each kind that has a name in scene files, with its row.
 fn examples() -> impl Iterator<Item = (&'static Row, EffectKind<f64>)> {
     let pair = ([BodyId::Ground, BodyId::Body(0)], [[0.0; 3], [3.0, 4.0, 0.0]]);
     let (body, joint) = ((BodyId::Body(0), [1.0, 0.0, 0.0]), JointId::new(0));
@@ -100,7 +100,7 @@ fn what_a_kind_says_of_its_numbers_is_of_its_fields() {
             assert!(unit(key).is_some_and(|unit| units.contains(&unit)), "{}: {key}", row.module);
             hinted.push((row.module, key));
         }
-        // What rises within a small rate may hold by it, and steps must not pass it over.
+        // A force that rises within a small rate can hold by friction, and steps must not skip it.
         assert_eq!(kind.sticking().is_some(), has("regularisation"), "{}", row.module);
         for field in row.fields {
             let is_open = matches!(field.default, Default::Open | Default::OpenWith(_));
@@ -127,7 +127,7 @@ fn every_kind_is_tried_by_the_tests_of_effects() {
     }
 }
 
-/// Writes the tables of docs/EFFECTS.md where MBS_WRITE_DOCS is set.
+/// Writes the tables of docs/EFFECTS.md if MBS_WRITE_DOCS is set.
 #[test]
 fn the_document_has_the_fields_of_the_table() {
     let text = std::fs::read_to_string(DOCUMENT).expect("the document");
@@ -147,7 +147,7 @@ fn the_document_has_the_fields_of_the_table() {
     written(DOCUMENT, (&text, &expected));
 }
 
-/// The kinds between two bodies, on a joint, on a sum, on one body, on a line over points.
+/// Table of one group of kinds: between two bodies, on a joint, on a sum, on one body, on a line through points.
 fn table(group: usize) -> String {
     let mut text = "| kind | keys: unit, default | law and range |\n|---|---|---|\n".to_owned();
     let group_of = |row: &&Row| match row.fields.first().map(|field| field.form) {
@@ -166,7 +166,7 @@ fn table(group: usize) -> String {
     text
 }
 
-/// A field's key, unit and default.
+/// Key, unit and default of a field.
 fn key(field: &Field) -> Option<String> {
     let key = field.key;
     let named = match field.form {

@@ -1,4 +1,4 @@
-//! Every kind of effect in natural coordinates: power, tangents against central differences, action and reaction.
+//! Every kind of effect in natural coordinates: power, tangents compared with central differences, action and reaction.
 
 mod friction;
 mod limit;
@@ -19,13 +19,14 @@ use mbs_testkit::{Random, close, dot, matrix, model, plus, residual};
 
 type V = Vector<f64, 3>;
 
-/// Step of central differences: 1e-16 of 1e2 N over it is rounding, its square times third derivatives of order 1e3 truncation.
+/// Step of central differences. Rounding costs 1e-16 of 1e2 N over the step, truncation its square times third derivatives of order
+/// 1e3.
 const STEP: f64 = 1e-5;
 const DIFFERENCE: f64 = 2e-6;
-/// Sums of some tens of products of numbers of order a hundred.
+/// Rounding error of sums of some tens of products of numbers of order a hundred.
 const ROUNDING: f64 = 1e-11;
 
-/// A model with its state.
+/// Model with a state and its terms.
 struct At<const D: usize> {
     model: NaturalModel<f64, D>,
     motions: Vec<RigidMotion<f64>>,
@@ -34,7 +35,7 @@ struct At<const D: usize> {
 }
 
 impl<const D: usize> At<D> {
-    /// Bodies at random places, velocities of a size.
+    /// Places bodies at random, with random velocities of a given size.
     fn new(scene: &Scene<f64>, seed: u64, [spread, speed]: [f64; 2]) -> Self {
         let model = model::<D>(scene);
         let mut random = Random(seed);
@@ -65,7 +66,7 @@ impl<const D: usize> At<D> {
         self.model.evaluate_forces(q, v, &mut self.terms);
     }
 
-    /// (g(STEP) - g(-STEP)) / 2 STEP, where `moved` moves the state by its argument.
+    /// Central difference (g(STEP) - g(-STEP)) / 2 STEP, where `moved` changes the state by its argument.
     fn difference(
         &mut self,
         moved: impl Fn(&mut State<f64>, f64),
@@ -84,13 +85,13 @@ impl<const D: usize> At<D> {
         after.iter().zip(before).map(|(a, b)| (a - b) / (2.0 * STEP)).collect()
     }
 
-    /// Generalised forces of the effects with the opposite sign, -Q.
+    /// Negative generalised forces of the effects, -Q.
     fn minus_force(&self) -> Vec<f64> {
         let load = Load { mass: None, multipliers: None, force: 1.0 };
         residual(&self.model, &self.terms, &load)
     }
 
-    /// The velocities at which every body has the motion of a rigid whole: `velocity` at the origin, `omega`.
+    /// Velocities for which all bodies move as one rigid body: `velocity` at the origin, angular velocity `omega`.
     fn carried(&self, velocity: V, omega: V) -> Vec<f64> {
         let mut motions = self.motions.clone();
         for motion in &mut motions {
@@ -102,7 +103,7 @@ impl<const D: usize> At<D> {
         state.v
     }
 
-    /// Tangent of the forces by the factors of both parts: K, or C.
+    /// Tangent of the forces for the factors of stiffness and damping: K or C.
     fn tangent(&self, [stiffness, damping]: [f64; 2]) -> Vec<Vec<f64>> {
         let zero = vec![0.0; self.model.n_constraints()];
         let block = |stiffness, damping| {
@@ -114,17 +115,17 @@ impl<const D: usize> At<D> {
     }
 }
 
-/// A random vector of the plane or of space.
+/// Random vector of the plane or of space.
 fn vector<const D: usize>(random: &mut Random, size: f64) -> V {
     V::from_fn(|i, _| if i < D { size * random.next() } else { 0.0 })
 }
 
-/// A random vector as one to turn about.
+/// Rotation axis from a vector: along z in the plane.
 fn axial<const D: usize>(x: &V) -> V {
     if D == 2 { V::new(0.0, 0.0, x[0]) } else { *x }
 }
 
-/// Every kind of effect, and laws in code.
+/// Every kind of effect, and user-defined laws in code.
 fn tried(dimension: Dimension) -> impl Iterator<Item = (&'static str, EffectKind<f64>)> {
     every(dimension).into_iter().chain(codes::every(dimension))
 }
@@ -148,7 +149,7 @@ fn forces_do_the_work_that_energy_and_power_tell() {
             let mut at = At::<D>::new(scene, seed, [0.1, 1.0]);
             let v = at.state.v.clone();
             let power = at.model.power(&at.state.q, &v, &[], &at.terms);
-            // -Q.v = dV/dt - power
+            // energy balance: -Q.v = dV/dt - power
             let along = |state: &mut State<f64>, h| {
                 state.q = plus(&state.q, h, &v);
                 state.t += h;
@@ -166,7 +167,7 @@ fn forces_do_the_work_that_energy_and_power_tell() {
 #[test]
 fn tangents_of_laws_are_the_derivatives_of_their_tensions() {
     fn check<const D: usize>(what: &str, kind: &EffectKind<f64>, scene: &Scene<f64>) {
-        // A wheel's load acts on its other forces, which the tangent leaves out; its value is the depth, against the distance.
+        // A tire's load changes its other forces, which the tangent omits. Its value is the depth, opposite to the distance.
         let sign = match kind {
             EffectKind::Tire(Tire { rolling_resistance, .. }) if *rolling_resistance > 0.0 => {
                 return;
@@ -207,7 +208,7 @@ fn damping_is_the_derivative_of_forces_by_velocity() {
         let damping = at.tangent([0.0, 1.0]);
         let v = at.state.v.clone();
         match kind {
-            // Drag has its tangent along the velocity alone.
+            // Drag has a tangent along its velocity only.
             EffectKind::AeroDrag(_) => {
                 let by_size = |state: &mut State<f64>, h| state.v = plus(&v, h, &v);
                 let difference = at.difference(by_size, At::minus_force);
@@ -215,7 +216,7 @@ fn damping_is_the_derivative_of_forces_by_velocity() {
                 close(what, &told, &difference, DIFFERENCE);
             }
             EffectKind::Tire(Tire { rolling_resistance, .. }) if *rolling_resistance > 0.0 => {}
-            // It has no tangent.
+            // A law on a body has no tangent.
             EffectKind::LawOnBody(_) => {}
             _ => {
                 for (i, told) in damping.iter().enumerate() {
@@ -235,7 +236,7 @@ fn a_wheel_is_damped_along_and_across_its_plane_as_its_forces_change() {
         scene.road.left = vec![RoadFeature::Flat { height: 0.5 }];
         scene.road.right = scene.road.left.clone();
         for seed in 1..5 {
-            // A small slip, which the side force follows.
+            // A small slip, for which the side force is linear.
             let mut at = At::<D>::new(&scene, seed, [0.02, 0.03]);
             let normal = V::from_fn(|i, _| f64::from(u8::from(i == D - 1)));
             let axis = if D == 2 {
@@ -274,13 +275,13 @@ fn stiffness_is_the_derivative_of_forces_by_position() {
         }
     }
     fn all<const D: usize>(dimension: Dimension) {
-        // A spring that pulls, whose line turns.
+        // A spring under tension, whose line rotates.
         let (what, spring) = every(dimension).swap_remove(1);
         check::<D>(what, &with(dimension, spring), 0.05);
-        // A bushing without tension: what the turning of its axes adds is left out.
+        // A bushing without tension, because the tangent omits the effect of the rotation of its axes.
         check::<D>("bushing", &with(dimension, bushing(dimension, 0.0)), 0.0);
-        // A wheel on level ground, where the normal does not turn, and which does not lean: what the turning of a leaning
-        // axis adds to its arm is left out, as that of the bushing's axes is.
+        // A wheel that does not lean, on level ground, where the normal does not rotate. The tangent omits the rotation of a
+        // leaning axis, as it does for the axes of a bushing.
         let mut wheel = tire(dimension, false);
         if let EffectKind::Tire(Tire { axis, .. }) = &mut wheel {
             *axis = None;
@@ -303,7 +304,7 @@ fn what_acts_between_two_bodies_does_no_work_when_they_move_as_one() {
             let at = At::<D>::new(&scene, seed, [0.2, 1.0]);
             let random = &mut Random(seed + 200);
             let (velocity, omega) = match kind {
-                // a term is a joint to the ground
+                // a term of the sum is a joint to the ground
                 _ if kind.acts_on() == ActsOn::Sum => continue,
                 EffectKind::AeroDrag(_)
                 | EffectKind::SpeedHold(_)
@@ -316,7 +317,7 @@ fn what_acts_between_two_bodies_does_no_work_when_they_move_as_one() {
                 {
                     continue;
                 }
-                // The arm turns about its hinge alone.
+                // The arm rotates about its hinge only.
                 EffectKind::Limit(_) | EffectKind::Friction(_) | EffectKind::LawOnJoint(_) => {
                     let hinge = &scene.joints[0];
                     let omega = V::from(hinge.axes[0].unwrap_or([0.0, 0.0, 1.0]));
@@ -336,7 +337,7 @@ fn what_acts_between_two_bodies_does_no_work_when_they_move_as_one() {
     for_every_effect!(check);
 }
 
-/// An element that says it has no block is left out by solvers: whatever the weights, what it would write is zero.
+/// Solvers skip an element that reports no block. Its block must be zero for all weights.
 #[test]
 fn elements_without_a_block_would_write_zeros() {
     fn check<const D: usize>(what: &str, _: &EffectKind<f64>, scene: &Scene<f64>) {
@@ -361,7 +362,7 @@ fn elements_without_a_block_would_write_zeros() {
                 }
             }
         }
-        // Without weights no effect is in the matrix, and these scenes have one.
+        // Without weights no effect is in the matrix, so that these scenes have elements without a block.
         assert!(n_silent > 0, "{what}, {D}");
     }
     for_every_effect!(check);

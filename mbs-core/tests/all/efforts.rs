@@ -1,4 +1,4 @@
-//! Efforts of couplings, and the reactions of the joints that they act on, against closed forms.
+//! Efforts of couplings, and reactions of the joints that they act on, compared with closed forms.
 
 use crate::small::{GROUND, add_body, add_joint, hold, scene, start};
 use mbs_core::outputs::Reactions;
@@ -8,7 +8,7 @@ use mbs_core::scene::{
 };
 
 const G: f64 = 9.81;
-/// Forces are of order 1 to 100 N; assembled accelerations are good to eleven digits.
+/// Allowed error: forces are of order 1 to 100 N, and assembled accelerations have eleven digits.
 const CLOSED: f64 = 1e-9;
 
 fn joint(index: usize) -> JointId {
@@ -32,7 +32,7 @@ fn torque(scene: &mut Scene<f64>, joint: JointId, value: f64) {
     scene.effects.push(Effect { name, kind, enabled: true });
 }
 
-/// The reactions of a consistent start, which leave nothing unbalanced, and its state's accelerations of bodies about z.
+/// Reactions at a consistent start, whose forces are balanced, and angular accelerations of the bodies about z.
 fn reactions<const D: usize>(scene: &Scene<f64>) -> (Reactions<f64, D>, Vec<f64>) {
     let (model, state) = start::<D>(scene);
     let mut reactions = Reactions::new(scene, &model).expect("reactions");
@@ -46,7 +46,8 @@ fn assert_near(found: f64, expected: f64) {
     assert!((found - expected).abs() < CLOSED, "{found} is not {expected}");
 }
 
-/// A housing on a free hinge with two wheels in mesh of 40 and 17 teeth, and a motor of 0.8 N m between it and the first.
+/// Scene of a housing on a free hinge with two wheels in mesh, of 40 and 17 teeth. A motor of 0.8 N m acts between housing and
+/// first wheel.
 fn housing(dimension: Dimension) -> Scene<f64> {
     let mut s = scene(dimension, [0.0; 3]);
     let axis = [(dimension == Dimension::Spatial).then_some([0.0, 0.0, 2.0]), None];
@@ -70,7 +71,7 @@ fn housing(dimension: Dimension) -> Scene<f64> {
 }
 
 fn housing_is_as_computed_by_hand<const D: usize>(dimension: Dimension) {
-    /// The last digit of the reference.
+    /// Unit of the last digit of the reference.
     const DIGIT: f64 = 1e-9;
     let (r, turning) = reactions::<D>(&housing(dimension));
     let (of_frame, of_first) = (-0.675_944_334, 19.151_756_130);
@@ -125,7 +126,7 @@ fn a_rope_over_two_points_pulls_as_in_the_machine_of_atwood() {
     let rope = CouplingTerm { factor: 1.0, of: CouplingMeasure::Length { points }, curve: None };
     couple(&mut s, vec![rope]);
     let (r, _) = reactions::<2>(&s);
-    // 2 m1 m2 g / (m1 + m2), against growth
+    // tension 2 m1 m2 g / (m1 + m2), with the sign against growth
     assert_near(r.effort(0), -2.0 * 3.0 * 2.0 * G / 5.0);
     assert!(r.is_effort_unique(0));
 }
@@ -136,11 +137,11 @@ fn a_screw_turns_what_its_thread_pushes() {
     let body = add_body(&mut s, 2.0, [0.0; 3], Inertia::Spatial([0.1, 0.1, 0.05, 0.0, 0.0, 0.0]));
     let axis = [Some([0.0, 0.0, 1.0]), None];
     add_joint(&mut s, JointKind::Cylindrical, [GROUND, body], [0.0; 3], axis);
-    // slide = p angle
+    // coupling: slide = p angle
     let p = 0.3;
     couple(&mut s, vec![term(0, 0, 1.0), term(0, 1, -p)]);
     let (r, turning) = reactions::<3>(&s);
-    // m p alpha = -m g + f,   I alpha = -p f
+    // equations: m p alpha = -m g + f,   I alpha = -p f
     let alpha = -2.0 * p * G / (0.05 + 2.0 * p * p);
     assert_near(turning[0], alpha);
     assert_near(r.effort(0), -0.05 * alpha / p);
@@ -156,13 +157,13 @@ fn a_cam_pushes_by_its_slope_and_turns_by_it() {
     add_joint(&mut s, JointKind::Revolute, [GROUND, shaft], [0.0; 3], [None; 2]);
     let up = [Some([0.0, 1.0, 0.0]), None];
     add_joint(&mut s, JointKind::Prismatic, [GROUND, follower], [0.0, 1.0, 0.0], up);
-    // follower = 0.01 x^2 after almost two turns
+    // coupling: follower = 0.01 x^2, at almost two turns
     let curve = Some(Curve::Polynomial(vec![0.0, 0.0, 0.01]));
     couple(&mut s, vec![term(1, 0, 1.0), CouplingTerm { curve, ..term(0, 0, -1.0) }]);
     let (angle, rate) = (12.0, 3.0);
     hold(&mut s, 0, &[angle], &[rate]);
     let (r, turning) = reactions::<2>(&s);
-    // m y'' = -m g + f,   I alpha = -f y',   y'' = y' alpha + 0.02 rate^2
+    // equations: m y'' = -m g + f,   I alpha = -f y',   y'' = y' alpha + 0.02 rate^2
     let (slope, bias) = (0.02 * angle, 0.02 * rate * rate);
     let alpha = -0.5 * slope * (G + bias) / (0.02 + 0.5 * slope * slope);
     assert_near(turning[0], alpha);

@@ -1,4 +1,4 @@
-//! Every element against central differences through [`Model`], at random configurations near and away from the
+//! Every element is compared with central differences through [`Model`], at random configurations close to and far from the
 //! constraint manifold.
 
 use mbs_core::model::{Load, Model, Owner, State, Tangent, Terms};
@@ -8,17 +8,16 @@ use mbs_testkit::{
     scene,
 };
 
-/// Rows and forces are quadratic or smooth: central differences of this step lose 1e-16 / 1e-5 to rounding and 1e-10 to
-/// truncation.
+/// Step of central differences. Rows and forces are quadratic or smooth, so that rounding costs 1e-16 / 1e-5, and truncation 1e-10.
 const STEP: f64 = 1e-5;
-/// Both, times derivatives of order 100.
+/// Allowed difference: rounding and truncation, times derivatives of order 100.
 const DIFFERENCE: f64 = 2e-7;
-/// Sums of some tens of products of numbers of order ten.
+/// Rounding error of sums of some tens of products of numbers of order ten.
 const ROUNDING: f64 = 1e-12;
-/// Distances from the manifold at which everything is checked.
+/// Distances from the constraint manifold at which elements are checked.
 const SPREADS: [f64; 3] = [0.0, 0.01, 0.3];
 
-/// A model at random (q, v, t).
+/// Model with its terms at random (q, v, t).
 struct At<M> {
     model: M,
     q: Vec<f64>,
@@ -38,7 +37,7 @@ impl<M: Model<f64>> At<M> {
         at
     }
 
-    /// Evaluates everything at (q, v, t).
+    /// Evaluates all terms at (q, v, t).
     fn everything(&mut self) {
         let (model, terms) = (&self.model, &mut self.terms);
         model.set_inputs(self.t, &State::at_rest(model), terms);
@@ -48,7 +47,7 @@ impl<M: Model<f64>> At<M> {
         model.evaluate_forces(&self.q, &self.v, terms);
     }
 
-    /// (g(+STEP) - g(-STEP)) / 2 STEP, where `moved` moves (q, v, t) by its argument.
+    /// Central difference (g(+STEP) - g(-STEP)) / 2 STEP, where `moved` changes (q, v, t) by its argument.
     fn difference(
         &mut self,
         moved: impl Fn(&mut Self, f64),
@@ -67,14 +66,14 @@ impl<M: Model<f64>> At<M> {
         after.iter().zip(before).map(|(a, b)| (a - b) / (2.0 * STEP)).collect()
     }
 
-    /// Applied forces less everything else: -Q.
+    /// Negative applied forces, -Q: the residual without all other parts.
     fn minus_force(&self) -> Vec<f64> {
         let load = Load { mass: None, multipliers: None, force: 1.0 };
         residual(&self.model, &self.terms, &load)
     }
 }
 
-/// Couplings of every kind of term: angles and slides about axes of either body, a curve, a length, a sum that moves.
+/// Couplings with every kind of term: angles and slides about axes of either body, a curve, a length, a sum that depends on time.
 const PLANAR_COUPLINGS: &str = r#"
 [[coupling]]
 kind = "linear"
@@ -105,7 +104,7 @@ value = 0.2
 terms = [{ joint = "table", coordinate = 2, factor = 1.5, coefficients = [0.0, 0.2, 0.1, -0.3] }, { points = [{ body = "ground", at = [2.0, 3.0, 1.0] }, { body = "BODY", at = [-1.0, -2.0, 4.0] }], factor = -2.0 }, { joint = "floating", coordinate = 1, factor = 0.3 }]
 "#;
 
-/// A scene with couplings of its first body.
+/// Scene with couplings of its first body.
 fn coupled(text: &str, couplings: &str) -> Scene<f64> {
     let name = scene(text).bodies[0].name.clone();
     scene(&(text.to_owned() + &couplings.replace("BODY", &name)))
@@ -157,7 +156,7 @@ fn phi_t_and_bias_are_the_time_derivatives_along_a_motion() {
     at_random!(check);
 }
 
-/// Wheels, a ball and blades of the first body, on the ground and on the second.
+/// Scene with wheels, a ball and blades of its first body, on the ground and on the second body.
 fn rolling(text: &str) -> Scene<f64> {
     let of = scene(text);
     let [first, second] = [0, 1].map(|i| of.bodies[i].name.clone());
@@ -234,7 +233,7 @@ fn geometric_stiffness_is_the_derivative_of_the_constraint_forces() {
             Owner::Joint(j) => scene.guides.iter().any(|g| g.joint == JointId::new(j)),
             _ => false,
         };
-        // The curvature of guided rows is left out of the tangent.
+        // The tangent does not contain the curvature of guided rows.
         let lambda: Vec<f64> =
             (0..m).map(|k| if guided(k) { 0.0 } else { 10.0 * random.next() }).collect();
         let zero = vec![0.0; m];
@@ -282,7 +281,7 @@ fn damping_is_the_derivative_of_the_forces_with_respect_to_velocity() {
     at_random!(check);
 }
 
-/// Only the effects that are named, without damping; gravity has no tangent.
+/// Scene with only the named effects, without damping. Gravity has no tangent.
 fn with_effects(text: &str, names: &[&str]) -> Scene<f64> {
     let mut scene = scene(&text.replace("damping = 7.0", "").replace("damping = 2.0", ""));
     scene.effects.retain(|e| names.contains(&e.name.as_str()));
@@ -320,7 +319,7 @@ fn stiffness_of_a_stretched_spring_is_the_derivative_of_its_force() {
 
 #[test]
 fn stiffness_of_a_torsion_spring_without_torque_is_the_derivative_of_its_force() {
-    // At the free value, where the curvature of the angle, which the tangent leaves out, has no tension to act on.
+    // At the free value the torque is zero, so that the curvature of the angle, which the tangent omits, has no effect.
     let random = &mut Random(12);
     stiffness_check(&mut At::new(model::<2>(&with_effects(PLANAR, &["coil"])), random, 0.0));
     stiffness_check(&mut At::new(model::<3>(&with_effects(SPATIAL, &["coil"])), random, 0.0));
@@ -348,7 +347,7 @@ fn block_is_mass_plus_weighted_gram_matrix() {
 
 #[test]
 fn residual_changes_as_the_tangent_says_along_the_whole_newton_residual() {
-    // f = M x + J^T (lambda + s phi): T = M + J^T s J + K_geo(lambda + s phi), x moving with q.
+    // residual f = M x + J^T (lambda + s phi), tangent T = M + J^T s J + K_geo(lambda + s phi); x changes with q
     fn check<M: Model<f64>>(at: &mut At<M>, random: &mut Random, scene: &Scene<f64>) {
         let (n, m, e) = (at.model.n_unknowns(), at.model.n_constraints(), at.model.n_extended());
         let guided = |row| match at.model.owner_of_row(row) {
@@ -387,7 +386,7 @@ fn residual_changes_as_the_tangent_says_along_the_whole_newton_residual() {
 #[test]
 fn power_of_the_applied_forces_is_the_fall_of_potential_energy_plus_the_booked_power() {
     fn check<M: Model<f64>>(at: &mut At<M>, _: &mut Random) {
-        // -Q.v = dV/dt - power, along any velocity, for every effect at once; guides are switched off by lambda = 0.
+        // -Q.v = dV/dt - power, along any velocity, for all effects together; lambda = 0 switches guides off
         let zero = vec![0.0; at.model.n_constraints()];
         let power = at.model.power(&at.q, &at.v, &zero, &at.terms);
         let along = |at: &mut At<M>, h: f64| at.q = plus(&at.q, h, &at.v);

@@ -1,4 +1,4 @@
-//! Steps that end where laws have kinks: stops, wheels on roads, springs in pieces, on motions that are given.
+//! Events of prescribed motions: steps end at kinks of laws, such as stops, wheels on roads, and springs in pieces.
 
 mod given;
 
@@ -8,7 +8,7 @@ use mbs_core::laws::road::Feature;
 use mbs_core::laws::road_contact::road_contact;
 use mbs_core::laws::{LawInputs, Part};
 
-/// One body of a planar scene that slides along x, from zero.
+/// Planar scene with one body that slides along x, and starts at zero.
 fn slider(effects: &str) -> String {
     format!(
         r#"
@@ -31,7 +31,7 @@ axis = [1.0, 0.0]
     )
 }
 
-/// Pushes where x < 0: its points are two metres apart.
+/// Bumper that pushes for x < 0. Its points are two metres apart.
 const BUMPER: &str = r#"
 [[effect]]
 name = "stop"
@@ -42,7 +42,7 @@ stiffness = 5000.0
 clearance = 0.0
 "#;
 
-/// x = a sin(w t), where it is zero every half period.
+/// Motion x = a sin(w t), which is zero every half period.
 fn swing(a: f64, w: f64) -> impl Fn(f64) -> Vec<[[f64; 3]; 2]> {
     move |t: f64| {
         let (sin, cos) = (w * t).sin_cos();
@@ -50,7 +50,7 @@ fn swing(a: f64, w: f64) -> impl Fn(f64) -> Vec<[[f64; 3]; 2]> {
     }
 }
 
-/// Times agree to what the band of 1e-9 of a scene's few metres is at the rates of these tests, above 0.1 m/s.
+/// Allowed error of event times: the band of 1e-9 of a scene's few metres, at rates above 0.1 m/s.
 const INSTANT: f64 = 1e-7;
 
 #[test]
@@ -58,7 +58,7 @@ fn steps_end_at_every_touch_and_parting_of_a_bumper_once() {
     let course = swing(0.4, 2.0);
     for h in [0.3, 0.07, 0.011] {
         let mut given = Given::<f64, 2>::new(&slider(BUMPER), &course);
-        // It starts at a touch: that is none. 20 s are 12.7 half periods.
+        // The contact at the start is no event. 20 s are 12.7 half periods.
         let landings = given.run([0.0, 20.0], h);
         assert_eq!(landings.len(), 12, "{h}: {landings:?}");
         for (k, landing) in (1..).zip(&landings) {
@@ -77,7 +77,7 @@ fn single_precision_lands_within_its_own_rounding() {
     assert_eq!(landings.len(), 3, "{landings:?}");
     for (k, landing) in (1..).zip(&landings) {
         let exact = f64::from(k) * core::f64::consts::PI / 2.0;
-        // 128 roundings of 1e-7 of two metres at 0.8 m/s.
+        // 128 roundings of single precision (1e-7) of two metres, at 0.8 m/s.
         assert!((landing.t - exact).abs() < 1e-4, "{landing:?} for {exact}");
     }
 }
@@ -93,7 +93,7 @@ fn a_dip_into_a_bumper_within_one_step_is_found_and_a_touch_within_the_band_is_n
         assert_eq!(landings.len(), n, "{dip}: {landings:?}");
         for (landing, sign) in landings.iter().zip([-1.0, 1.0]) {
             let exact = 0.5 + sign * f64::max(dip, 0.0).sqrt();
-            // At the slower dip 2e-3 m/s.
+            // The less deep dip has a rate of 2e-3 m/s at its events.
             assert!((landing.t - exact).abs() < 100.0 * INSTANT, "{dip}: {landing:?}");
         }
     }
@@ -121,7 +121,7 @@ coefficients = [[1.0, 1.9, 0.0, 100.0], [1.9, 2.25, -190.0, 200.0], [2.25, 3.0, 
     );
     let course = swing(0.4, -1.0);
     let landings = Given::<f64, 2>::new(&slider(&effects), &course).run([0.0, 6.5], 0.9);
-    // Down over the kink of the spring and the lower stop, back, over the bumper, the upper stop and back.
+    // Order: kink of the spring and lower stop, both again on the way back, then bumper and upper stop, and both again.
     let expected = [
         (0.25_f64.asin(), 2),
         (0.5_f64.asin(), 1),
@@ -172,10 +172,10 @@ stiffness = 10.0
     }
 }
 
-/// The knots of that road's table.
+/// Points of the table in the road of the tests.
 const TABLE: [[f64; 2]; 4] = [[8.0, 0.0], [8.5, 0.05], [9.0, 0.06], [9.5, 0.1]];
 
-/// A wheel with a radius of 0.5 m at (0, 0.4), on every kind of feature.
+/// Scene of a wheel with a radius of 0.5 m at (0, 0.4), on a road with every kind of feature.
 fn wheel(speed: f64) -> String {
     format!(
         r#"
@@ -206,7 +206,7 @@ stiffness = 80000.0
     )
 }
 
-/// Position x of the foot of a wheel whose centre is at (x, z) over that road [m].
+/// Position x of the contact point of a wheel whose centre is at (x, z) over this road [m].
 fn foot_of([x, z]: [f64; 2]) -> f64 {
     let features = [
         Feature::Rise { start: 1.0, length: 2.0, height: 0.2, rounding: 0.5 },
@@ -217,7 +217,7 @@ fn foot_of([x, z]: [f64; 2]) -> f64 {
     x - at.normal[0] * at.distance
 }
 
-/// Rises with the road, so that the wheel stays pressed in.
+/// Height of the wheel's centre and its slope. It rises with the road, so that the wheel stays pressed in.
 fn height_at(x: f64) -> [f64; 2] {
     let (sin, cos) = (0.6 * x).sin_cos();
     [0.42 + 0.02 * x + 0.01 * sin, 0.02 + 0.006 * cos]
@@ -226,7 +226,7 @@ fn height_at(x: f64) -> [f64; 2] {
 #[test]
 fn a_wheel_that_rolls_ends_its_steps_where_its_foot_passes_the_kinks_of_the_road() {
     for (speed, h) in [(0.0, 0.2), (2.0, 0.35), (0.0, 0.9)] {
-        // Over the ground, or the ground under it.
+        // Either the wheel moves over the ground, or the ground moves under it.
         let course = move |t: f64| {
             let x = 2.0 * t;
             let [z, slope] = height_at(x);
@@ -250,7 +250,7 @@ fn a_wheel_passes_the_ends_of_a_table_once_in_a_hollow_and_twice_on_a_crest() {
     let (table, mut curvatures, mut scratch) = (TABLE, [0.0; 4], [0.0; 4]);
     spline_curvatures(&table, &mut curvatures, &mut scratch);
     let [first, last] = [8.0, 9.5].map(|x| spline(&table, &curvatures, x).rate);
-    // On the ramp's height of 0.2 m; the table adds 0.1 m.
+    // The ramp has a height of 0.2 m, to which the table adds 0.1 m.
     let z = 0.65;
     let course = move |t: f64| vec![[[7.0 + 2.0 * t, z, 0.0], [2.0, 0.0, 0.0]]];
     let landings = Given::<f64, 2>::new(&wheel(0.0), &course).run([0.1, 2.0], 0.13);
@@ -268,7 +268,7 @@ fn a_wheel_in_the_air_or_between_kinks_has_no_events() {
         let course = move |t: f64| vec![[[from + 2.0 * t, z, 0.0], [2.0, 0.0, 0.0]]];
         Given::<f64, 2>::new(&wheel(0.0), &course).run([0.0, 0.45], 0.1)
     };
-    // Over the ramp's foot in the air, between it and the ramp, and where nothing is.
+    // Places without events: in the air over the start of the ramp, on level ground, and within the bump.
     assert!(roll(0.5, 0.9).is_empty());
     assert!(roll(-3.0, 0.4).is_empty());
     assert!(roll(5.0, 0.6).is_empty());
@@ -277,7 +277,7 @@ fn a_wheel_in_the_air_or_between_kinks_has_no_events() {
 
 #[test]
 fn a_wheel_that_rolls_back_over_the_kink_it_has_landed_on_does_not_meet_it_twice() {
-    // Turns at x = 1 + dip of level ground, where the ramp begins.
+    // The wheel turns back at x = 1 + dip. The road is level before x = 1, where the ramp begins.
     for (dip, n) in [(0.01, 2), (1e-6, 2), (0.0, 0), (-0.01, 0)] {
         let course = move |t: f64| {
             let s = t - 1.0;
@@ -286,7 +286,7 @@ fn a_wheel_that_rolls_back_over_the_kink_it_has_landed_on_does_not_meet_it_twice
         let landings = Given::<f64, 2>::new(&wheel(0.0), &course).run([0.0, 2.0], 0.3);
         assert_eq!(landings.len(), n, "{dip}: {landings:?}");
     }
-    // From the kink itself, and at rest on it.
+    // Start at the kink, with a velocity or at rest.
     for v in [-1.0, 0.0, 1.0] {
         let course = move |t: f64| vec![[[1.0 + v * t, 0.4, 0.0], [v, 0.0, 0.0]]];
         let landings = Given::<f64, 2>::new(&wheel(0.0), &course).run([0.0, 0.4], 0.1);
@@ -299,7 +299,7 @@ fn a_state_set_from_outside_is_a_new_beginning() {
     let course = swing(0.4, 2.0);
     let mut given = Given::<f64, 2>::new(&slider(BUMPER), &course);
     given.run([0.0, 0.5], 0.1);
-    // Beyond the event at 1.57 s, without a step.
+    // The state jumps beyond the event at 1.57 s without a step.
     given.go(2.0);
     given.events.start(&given.state);
     given.go(2.1);
@@ -350,15 +350,15 @@ stiffness = 80000.0
     let found: Vec<usize> = landings.iter().map(|landing| landing.effect).collect();
     assert_eq!(found, [1, 0, 1, 0]);
     for (landing, place) in landings.iter().zip([1.0, 1.4, 4.0, 4.4]) {
-        // The road is level at the ends of a bump: the foot is under the centre.
+        // The road is level at the ends of a bump, so that the contact point is below the centre.
         assert!((2.0 * landing.t - place).abs() < INSTANT, "{landing:?}");
     }
 }
 
 #[test]
 fn a_contact_that_starts_with_a_step_too_long_for_it_is_told_with_the_share_that_resolves_it() {
-    // Of the 0.1 m that 1 m/s would give in 0.1 s it goes this far: 1 / (1 + x^2), x = w h / 2, by the trapezoidal rule; w h is 0.9
-    // in 0.45 / x of the step.
+    // Way in 0.1 s, over the 0.1 m without contact, by the trapezoidal rule: 1 / (1 + x^2), x = w h / 2. The product w h is 0.9 in
+    // 0.45 / x of the step.
     for (way, share) in [(0.02, Some(0.225)), (0.05, Some(0.45)), (0.09, None), (-0.03, Some(0.02))]
     {
         let course = move |t: f64| {
@@ -382,7 +382,7 @@ fn a_contact_that_starts_with_a_step_too_long_for_it_is_told_with_the_share_that
 
 #[test]
 fn a_step_ends_at_a_contact_that_holds_what_comes_to_it() {
-    // At 1 m/s to a stop that gives way by a micrometre: trials that end in it say nothing of the way to it.
+    // A stop that yields by a micrometre at 1 m/s: trials that end in contact do not show the motion before the contact.
     let course = |t: f64| {
         let (x, rate) = if t < 0.500_001 { (0.5 - t, -1.0) } else { (-1e-6, 0.0) };
         vec![[[x, 0.0, 0.0], [rate, 0.0, 0.0]]]

@@ -1,18 +1,18 @@
-//! The gradient of what an effect measures, against differences.
+//! Gradient of the number that an effect measures, compared with difference quotients.
 
 use mbs_core::Cliques;
 use mbs_core::model::{Load, Model, State, Terms};
 use mbs_core::natural::NaturalModel;
 use mbs_testkit::{Random, residual};
 
-/// Evaluates all that the forces need.
+/// Evaluates all terms that the forces need.
 pub(crate) fn evaluate(model: &NaturalModel<f64, 3>, state: &State<f64>, terms: &mut Terms<f64>) {
     model.set_inputs(0.0, state, terms);
     model.evaluate(&state.q, terms);
     model.evaluate_forces(&state.q, &state.v, terms);
 }
 
-/// Moves positions by up to `way` anywhere, also where directions are not of unit length, and chooses velocities up to one.
+/// Changes positions by up to `way`, also off unit length of directions, and chooses velocities up to one.
 pub(crate) fn scatter(
     model: &NaturalModel<f64, 3>,
     state: &mut State<f64>,
@@ -24,8 +24,8 @@ pub(crate) fn scatter(
     }
 }
 
-/// The gradient of the first measure, which a spring of one holds without load at zero, and its central differences of this step,
-/// coordinate by coordinate.
+/// Gradient of the first measure and its central differences with step `step`, coordinate by coordinate. A spring of stiffness one,
+/// without load at zero, acts on the measure.
 pub(crate) fn gradients(
     model: &NaturalModel<f64, 3>,
     state: &State<f64>,
@@ -34,7 +34,7 @@ pub(crate) fn gradients(
     let mut terms = model.terms();
     evaluate(model, state, &mut terms);
     let value = terms.measures[0].value;
-    // -Q = m grad m of a spring of one
+    // force of a spring of stiffness one: -Q = m grad m
     let force = residual(model, &terms, &Load { mass: None, multipliers: None, force: 1.0 });
     let mut side = |i: usize, h: f64| {
         let mut moved = state.clone();

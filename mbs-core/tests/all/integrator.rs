@@ -1,11 +1,11 @@
-//! Order and equations of the implicit rules on an oscillator.
+//! Order and equations of the implicit integration rules, tested on an oscillator.
 
 use mbs_core::integrator::{Integrator, Rule};
 
-/// Rounding of one step on numbers of order one.
+/// Rounding error of one step on numbers of order one.
 const ROUNDING: f64 = 1e-13;
 
-/// The correction that solves a = -q at the end of the step, by one linear equation.
+/// Step of the oscillator: the correction that satisfies a = -q at the end follows from one linear equation.
 fn step(rule: &Rule<f64>, q: f64, v: f64, a: f64, aux: f64) -> (f64, f64, f64, f64) {
     let (dq, vp, ap) = rule.predict(v, a, aux);
     let d = -(ap + q + dq) / (1.0 + rule.acceleration);

@@ -1,4 +1,4 @@
-//! The table of joints: equations and freedoms of every kind make up all motions.
+//! Table of joints: for every kind, equations and freedoms together span all motions.
 
 use crate::small::{GROUND, add_body, add_joint, hold, scene, start};
 use mbs_core::Cliques;
@@ -9,12 +9,12 @@ use mbs_core::scene::{Dimension, Freedom, Inertia, JOINTS, Joint, JointKind, Joi
 use mbs_testkit::Random;
 use std::collections::BTreeSet;
 
-/// Products of unit vectors.
+/// Rounding error of products of unit vectors.
 const ROUNDING: f64 = 1e-12;
-/// Volume of six unit vectors at random: less is dependent.
+/// Least volume of six independent unit vectors; random ones have more.
 const DEPENDENT: f64 = 1e-6;
 
-/// A joint with random axes at a random place.
+/// Joint with random axes at a random place.
 fn random(kind: JointKind, dimension: Dimension, random: &mut Random) -> Joint<f64> {
     let n = dimension.count();
     let mut vector = || {
@@ -27,7 +27,7 @@ fn random(kind: JointKind, dimension: Dimension, random: &mut Random) -> Joint<f
     Joint { name: String::new(), kind, bodies: [GROUND; 2], points, axes, limits }
 }
 
-/// The motions that a freedom allows, as (velocity of the joint's place, angular velocity).
+/// Motions that the freedoms of a joint allow: velocity of the joint's place, and angular velocity.
 fn twists(joint: &Joint<f64>, dimension: Dimension) -> Vec<[Vector<f64, 3>; 2]> {
     let zero = Vector::zeros();
     let of = |freedom: &Freedom| match *freedom {
@@ -49,7 +49,7 @@ fn wrenches(joint: &Joint<f64>, dimension: Dimension, is_guided: bool) -> Vec<Wr
     all
 }
 
-/// The volume that six-vectors span, by Gram and Schmidt.
+/// Volume that six-dimensional vectors span, by the Gram-Schmidt process.
 fn volume(vectors: &[[Vector<f64, 3>; 2]]) -> f64 {
     let dot = |a: &[Vector<f64, 3>; 2], b: &[Vector<f64, 3>; 2]| a[0].dot(&b[0]) + a[1].dot(&b[1]);
     let (mut basis, mut volume) = (Vec::<[Vector<f64, 3>; 2]>::new(), 1.0);
@@ -94,7 +94,7 @@ fn equations_of_every_kind_span_what_its_freedoms_leave() {
     }
 }
 
-/// A body on the ground by a joint, at rest but for the rates of its coordinates.
+/// Checks a body on the ground by a joint, with rates of the joint's coordinates as its only motion.
 fn swinging<const D: usize>(joint: &Joint<f64>, dimension: Dimension) {
     let mut s = scene(dimension, [0.0; 3]);
     let inertia = match dimension {
@@ -110,7 +110,7 @@ fn swinging<const D: usize>(joint: &Joint<f64>, dimension: Dimension) {
     let (model, state) = start::<D>(&s);
     let freedoms = model.n_unknowns() as isize - model.n_constraints() as isize;
     assert_eq!(freedoms, n as isize, "{joint:?}");
-    // v = sum of twists times rates, at the joint's place and of the body
+    // v = sum of twists times rates: velocity of the joint's place, and angular velocity
     let motion = model.motion(&s, 0, &state);
     let place = motion.point(&Vector::from(joint.points[1]))[1];
     let mut expected = [Vector::<f64, 3>::zeros(); 2];

@@ -1,4 +1,5 @@
-//! The tests of this crate, in one program: each program would compile the same solvers anew. `cargo test -p mbs-core start::` runs one module.
+//! Tests of this crate in one program, because each program compiles the same solvers again. `cargo test -p mbs-core start::` runs
+//! one module.
 
 mod gradient;
 mod small;

@@ -1,4 +1,4 @@
-//! Energies, forces and rank of whole models against mechanics written down directly.
+//! Energies, forces and rank of whole models, compared with mechanics written down directly.
 
 use mbs_core::Cliques;
 use mbs_core::model::{Load, Model, State};
@@ -15,7 +15,7 @@ use mbs_testkit::{
 
 type V = [f64; 3];
 
-/// Sums of some tens of products of numbers of order ten, through a projection on the null space.
+/// Rounding error of sums of some tens of products of numbers of order ten, after a projection on the null space.
 const ROUNDING: f64 = 1e-10;
 
 fn cross(a: V, b: V) -> V {
@@ -26,7 +26,7 @@ fn three<const D: usize>(x: &[f64]) -> V {
     std::array::from_fn(|i| if i < D { x[i] } else { 0.0 })
 }
 
-/// Velocity of a material point and angular velocity of a body, by the rates of points and directions.
+/// Velocities of material points and angular velocities of bodies, from the rates of points and directions.
 struct Field<'a, const D: usize> {
     model: &'a NaturalModel<f64, D>,
     q: &'a [f64],
@@ -44,7 +44,7 @@ impl<const D: usize> Field<'_, D> {
         let u = self.model.direction(body, d);
         (three::<D>(u.value(self.q).as_slice()), three::<D>(u.rate(self.v).as_slice()))
     }
-    /// w = 1/2 sum u x u' over three orthonormal directions.
+    /// Angular velocity w = 1/2 sum u x u' over three orthonormal directions u.
     fn spin(&self, body: BodyId) -> V {
         if D == 2 {
             let (u, w) = self.direction(body, [1.0, 0.0, 0.0]);
@@ -61,7 +61,7 @@ impl<const D: usize> Field<'_, D> {
     }
 }
 
-/// A random velocity of the reference configuration that the constraints allow (guides at rest).
+/// Random velocity in the reference configuration that the constraints allow, with guides at rest.
 fn admissible<const D: usize>(
     model: &NaturalModel<f64, D>,
     random: &mut Random,
@@ -77,7 +77,7 @@ fn admissible<const D: usize>(
     (q, v)
 }
 
-/// 1/2 m v.v + 1/2 w.I w, summed; a rod by the velocities of its ends.
+/// Kinetic energy 1/2 m v.v + 1/2 w.I w, summed over bodies. For a rod it follows from the velocities of its ends.
 fn kinetic_energy<const D: usize>(scene: &Scene<f64>, field: &Field<'_, D>) -> f64 {
     let mut energy = 0.0;
     for (i, body) in scene.bodies.iter().enumerate() {
@@ -108,7 +108,7 @@ fn kinetic_energy<const D: usize>(scene: &Scene<f64>, field: &Field<'_, D>) -> f
 }
 
 fn check_kinetic<const D: usize>(text: &str) {
-    // Guides are taken out so that their joints move too.
+    // The guides are removed, so that their joints move too.
     let mut scene = scene(text);
     scene.guides.clear();
     let model = model::<D>(&scene);
@@ -130,7 +130,7 @@ fn kinetic_energy_is_that_of_rigid_bodies_rods_and_welded_clusters_spatial() {
     check_kinetic::<3>(SPATIAL);
 }
 
-/// A body that floats: every basis is made of own entities.
+/// Scenes of free bodies, which share no entities: every basis has the body's own entities.
 const LOOSE: [&str; 2] = [
     "[scene]\nname = \"loose\"\ndimension = 2\ngravity = [1.0, -9.81]\nduration = 1.0\n[[body]]\nname = \"x\"\nmass = 2.0\ncenter = [3.0, -1.0]\ninertia = 0.7\n[[body]]\nname = \"r\"\nmass = 2.0\nrod = { from = [1.0, 2.0], to = [4.0, 3.0] }",
     "[scene]\nname = \"loose\"\ndimension = 3\ngravity = [1.0, 0.5, -9.81]\nduration = 1.0\n[[body]]\nname = \"x\"\nmass = 2.0\ncenter = [3.0, -1.0, 2.0]\ninertia = [0.7, 0.8, 0.9, 0.1, 0.05, -0.02]\n[[body]]\nname = \"r\"\nmass = 2.0\nrod = { from = [1.0, 2.0, 0.0], to = [4.0, 3.0, -1.0] }",
@@ -150,7 +150,7 @@ fn check_points<const D: usize>(text: &str) {
     let field = Field { model: &model, q: &q, v: &v };
     for (i, body) in scene.bodies.iter().enumerate() {
         let me = BodyId::Body(i);
-        // A rod held by balls has points on its line only.
+        // A rod held by ball joints has points on its line only.
         let points = if model.has_full_rotation(me) {
             vec![body.center, std::array::from_fn(|k| if k < D { 0.7 + k as f64 } else { 0.0 })]
         } else {
@@ -170,7 +170,7 @@ fn every_point_of_every_body_is_where_the_scene_says_in_the_reference_configurat
     check_points::<3>(LOOSE[1]);
 }
 
-/// The power of everything applied, from the laws as the scene format states them.
+/// Power of all applied forces, from the laws as the scene format defines them.
 fn power<const D: usize>(scene: &Scene<f64>, field: &Field<'_, D>) -> f64 {
     let at_start = |course: &Signal<f64>| match course {
         Signal::Constant(f) | Signal::Input(f) => *f,
@@ -302,7 +302,7 @@ fn planar_and_spatial_four_bars_have_one_freedom_however_redundant() {
     let mut spatial = scene(include_str!("../../../scenes/spatial-four-bar.toml"));
     let (n, _, r) = rank::<3>(&spatial);
     assert_eq!(n - r, 1);
-    // The same joint a second time adds nothing; a second hinge on the same axis only redundant rows.
+    // A second equal joint adds no rows. A second hinge on the same axis adds only redundant rows.
     for shift in [0.0, 0.1] {
         let mut again = spatial.joints[1].clone();
         again.name = format!("again-{shift}");
@@ -316,7 +316,7 @@ fn planar_and_spatial_four_bars_have_one_freedom_however_redundant() {
     }
 }
 
-/// So many copies of a scene, at the same places and free of each other.
+/// Scene with `n` independent copies of a scene, at the same places.
 fn copies(one: &Scene<f64>, n: usize) -> Scene<f64> {
     let mut many = one.clone();
     for k in 1..n {
@@ -340,7 +340,7 @@ fn the_rank_of_many_redundant_loops_is_that_of_one_as_often() {
     one.outputs.clear();
     let (n, m, r) = rank::<3>(&one);
     assert!(r < m);
-    // Sixty have a Jacobian that is no longer eliminated densely.
+    // The Jacobian of sixty copies is too large for dense elimination.
     assert_eq!(rank::<3>(&copies(&one, 60)), (60 * n, 60 * m, 60 * r));
 }
 
@@ -388,7 +388,8 @@ fn the_elements_of_a_hub_stay_small_however_many_joints_it_has() {
     assert_eq!((n - r, m - r), (203, 0));
 }
 
-/// A chain whose effects stand with the bodies that they act on: the angle of each is found, in whatever order they are told.
+/// The effects of a chain are stored next to their bodies. The remembered angle of each is found, whatever the order of the
+/// effects.
 #[test]
 fn remembered_angles_are_found_where_effects_act_along_a_chain() {
     let mut text = String::from("[scene]\nname = \"chain\"\ndimension = 2\nduration = 1.0\n");
@@ -418,7 +419,8 @@ fn remembered_angles_are_found_where_effects_act_along_a_chain() {
     assert_eq!(owners, (0..4).map(mbs_core::model::Owner::Effect).collect::<Vec<_>>());
 }
 
-/// The bodies of a small mechanism are one element: its unknowns and rows still belong to the bodies and joints that brought them.
+/// The bodies of a small mechanism form one element. Its unknowns and rows still belong to the bodies and joints that they come
+/// from.
 #[test]
 fn unknowns_of_a_small_mechanism_belong_to_their_bodies() {
     use mbs_core::model::Owner::Body;

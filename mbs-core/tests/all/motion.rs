@@ -1,11 +1,11 @@
-//! The motions of bodies read off natural coordinates, and natural coordinates written from them.
+//! Motions of bodies computed from natural coordinates, and natural coordinates computed from these motions.
 
 use mbs_core::Cliques;
 use mbs_core::model::{Model, State};
 use mbs_core::rigid::RigidMotion;
 use mbs_testkit::{PLANAR, Random, SPATIAL, close, jacobian, model, reference, scene, start};
 
-/// Positions are assembled to 1e-11 of the scene's length; a body's directions are orthonormal to as much.
+/// Allowed error: positions are assembled to 1e-11 of the scene's length, and directions are orthonormal to the same precision.
 const ASSEMBLED: f64 = 1e-9;
 
 fn motions_give_the_coordinates_back<const D: usize>(text: &str) {

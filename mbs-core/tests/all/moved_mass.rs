@@ -1,4 +1,4 @@
-//! The mass that a joint coordinate moves alone, against closed forms, and the stops that are made of it.
+//! Mass that a joint coordinate moves alone, compared with closed forms, and stops whose stiffness follows from it.
 
 use crate::small::{GROUND, add_body, add_joint, scene};
 use mbs_core::effects::Rotor;
@@ -9,7 +9,7 @@ use mbs_core::scene::{
 use mbs_core::start::moved_mass;
 use mbs_scene::SceneFile;
 
-/// The sweeps of the velocities end at rounding; the energy has twice their error.
+/// Allowed error: the iterations for the velocities end at rounding, and the energy has twice their error.
 const EXACT: f64 = 1e-9;
 
 fn is_near(found: Option<f64>, expected: f64) {
@@ -26,11 +26,11 @@ fn a_hinge_moves_the_inertia_about_it_and_what_follows() {
     let body = add_body(&mut s, 2.0, [0.5, 0.0, 0.0], inertia);
     add_joint(&mut s, JointKind::Revolute, [GROUND, body], [0.0; 3], TURN);
     is_near(moved_mass(&s, (JointId::new(0), 0)), 0.9);
-    // one more body on a hinge at its own centre of mass follows without turning
+    // another body on a hinge at its centre of mass is moved without rotation
     let next = add_body(&mut s, 3.0, [1.0, 0.0, 0.0], inertia);
     add_joint(&mut s, JointKind::Revolute, [body, next], [1.0, 0.0, 0.0], TURN);
     is_near(moved_mass(&s, (JointId::new(0), 0)), 0.9 + 3.0);
-    // held by a guide against the first body it turns with it
+    // fixed by a guide relative to the first body, it rotates with it
     let held = Guide { joint: JointId::new(1), number: 0, law: Motion::Ramp { rate: 5.0 } };
     s.guides.push(held);
     is_near(moved_mass(&s, (JointId::new(0), 0)), 0.9 + 3.0 + 0.4);
@@ -56,7 +56,7 @@ fn free_bodies_share_and_gears_reflect() {
     let [i1, i2] = [0.3, 0.5];
     let a = add_body(&mut s, 1.0, [0.0; 3], Inertia::Planar(i1));
     let b = add_body(&mut s, 2.0, [0.0; 3], Inertia::Planar(i2));
-    // two bodies on one hinge at their centres: reduced inertia
+    // two bodies on one hinge at their centres have the reduced inertia
     add_joint(&mut s, JointKind::Revolute, [a, b], [0.0; 3], [None; 2]);
     is_near(moved_mass(&s, (JointId::new(0), 0)), i1 * i2 / (i1 + i2));
     let mut geared = scene(Dimension::Planar, [0.0; 3]);
@@ -75,7 +75,7 @@ fn free_bodies_share_and_gears_reflect() {
     is_near(moved_mass(&geared, (JointId::new(1), 0)), i2 + 4.0 * i1);
 }
 
-/// Two crossed slides: the upper one carries 1 kg, the lower one both.
+/// Scene of two crossed slides: the upper one carries 1 kg, the lower one both bodies.
 const SLIDES: &str = r#"
 [scene]
 dimension = 2
@@ -126,7 +126,7 @@ fn what_a_limit_leaves_out_follows_from_its_joint() {
         for (found, expected) in [found.stiffness, found.damping].into_iter().zip(expected) {
             assert!((found - expected).abs() <= EXACT * expected, "{limit}: {found}");
         }
-        // what is left out stays left out
+        // a key that is left out is not written
         let text = mbs_scene::to_toml(&source).expect("a text");
         let again = SceneFile::parse(&text, "x").and_then(|file| file.numbers()).expect("a scene");
         assert_eq!(again.resolve::<f64>().expect("a scene"), scene, "{text}");

@@ -1,14 +1,14 @@
-//! The table of quantities: what each says of itself, and that docs/OUTPUTS.md is written from it.
+//! Table of quantities: its rows are consistent, and docs/OUTPUTS.md is written from the table.
 
 use crate::document::written;
 use mbs_core::outputs::{ComponentForm, QUANTITIES, QuantityRow, TargetKind};
 use std::fmt::Write;
 
 const DOCUMENT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/OUTPUTS.md");
-/// The marks around what is written.
+/// Marks around the written part of the document.
 const MARKS: [&str; 2] = ["<!-- quantities:begin -->\n", "<!-- quantities:end -->\n"];
 
-/// Headings, in the order of the document.
+/// Headings of the targets, in the order of the document.
 const HEADINGS: [(TargetKind, &str); 11] = [
     (TargetKind::Point, "Of a point of a body"),
     (TargetKind::RelativePoint, "Of a point, seen from another body"),
@@ -35,7 +35,7 @@ fn every_quantity_has_a_formula_and_a_sign() {
     }
 }
 
-/// Writes the tables of docs/OUTPUTS.md where MBS_WRITE_DOCS is set.
+/// Writes the tables of docs/OUTPUTS.md if MBS_WRITE_DOCS is set.
 #[test]
 fn the_document_has_every_quantity_of_the_table() {
     let text = std::fs::read_to_string(DOCUMENT).expect("the document");
@@ -45,7 +45,7 @@ fn the_document_has_every_quantity_of_the_table() {
     written(DOCUMENT, (&text, &expected));
 }
 
-/// A table for each thing that a quantity is of.
+/// Tables of quantities, one for each kind of target.
 fn tables() -> String {
     let mut text = String::new();
     for (target, heading) in HEADINGS {
@@ -63,7 +63,7 @@ fn tables() -> String {
     text
 }
 
-/// The line of a quantity.
+/// Table line of a quantity.
 fn line(row: &QuantityRow) -> String {
     let name = [Some(row.name), row.alias].into_iter().flatten().map(|name| format!("`{name}`"));
     let name = name.collect::<Vec<_>>().join(", ");
@@ -81,7 +81,7 @@ fn line(row: &QuantityRow) -> String {
     format!("| {} |", cells.map(|cell| cell.replace('|', "\\|")).join(" | "))
 }
 
-/// Labels of components, and their unit.
+/// Labels of the components of a quantity, and their unit.
 fn components(form: ComponentForm, target: TargetKind) -> [String; 2] {
     let [labels, unit] = match form {
         ComponentForm::Measured(per) if target == TargetKind::Signal => {

@@ -1,4 +1,4 @@
-//! Channels measured at known states.
+//! Output channels, measured at states with known values.
 
 mod coordinate;
 mod cubic;
@@ -17,7 +17,7 @@ use mbs_core::scene::{
 };
 use mbs_testkit::{PLANAR, SPATIAL, quantities};
 
-/// Assembly closes to rounding of a few products of numbers of order one.
+/// Error of the assembly: rounding of a few products of numbers of order one.
 const CLOSED: f64 = 1e-11;
 
 fn measured<const D: usize>(scene: &Scene<f64>) -> Vec<f64> {
@@ -35,7 +35,7 @@ fn assert_near(found: &[f64], expected: &[f64]) {
     }
 }
 
-/// A spatial body hanging on the ground by one joint at a place off all axes.
+/// Scene of a spatial body on the ground by one joint, at a place off all axes.
 fn single(kind: JointKind, axes: [Option<[f64; 3]>; 2]) -> Scene<f64> {
     let mut s = scene(Dimension::Spatial, [0.0, 0.0, -9.81]);
     let inertia = Inertia::Spatial([0.3, 0.4, 0.5, 0.02, 0.01, -0.03]);
@@ -75,7 +75,7 @@ fn is_as_its_row_says<const D: usize>(text: &str) {
         let row = quantity.row();
         assert!(QUANTITIES.contains(row), "{row:?}");
         assert_eq!(Quantity::of(row.name, quantity.target()).as_ref(), Some(quantity));
-        // There and back through another type of number.
+        // Conversion to another type of number and back.
         let there = quantity.map(&mut |x: &f64| x.to_bits());
         assert_eq!(&there.map(&mut |x| f64::from_bits(*x)), quantity);
     }
@@ -110,7 +110,7 @@ fn without_outputs_every_joint_coordinate_is_a_channel() {
     assert_eq!(measures.n_components(), 5);
 }
 
-/// Kind, axes, held values and rates.
+/// Kind of a joint, axes, prescribed values, and prescribed rates.
 type Case = (JointKind, [Option<[f64; 3]>; 2], &'static [f64], &'static [f64]);
 
 #[test]
@@ -157,7 +157,7 @@ fn a_rod_between_balls_turns_across_itself() {
     output(&mut s, Quantity::AngularVelocity { body: rod });
     let (model, mut state) = start::<3>(&s);
     assert!(!model.has_full_rotation(rod));
-    // the end moves by omega x (2, 0, 0)
+    // velocity of the end: omega x (2, 0, 0)
     state.v[..3].copy_from_slice(&[0.0, 3.0, -1.0]);
     let mut out = [0.0; 3];
     let mut measures = Measures::new(&s, &model).expect("channels");
@@ -165,7 +165,7 @@ fn a_rod_between_balls_turns_across_itself() {
     assert_near(&out, &[0.0, 0.5, 1.5]);
 }
 
-/// The present directions of what were the global axes, from the positions of points.
+/// Current directions of the body's axes, from positions of its points.
 fn frame_of(s: &Scene<f64>, body: BodyId) -> Matrix<f64, 3> {
     let (model, state) = start::<3>(s);
     let unit = |i: usize| core::array::from_fn(|k| if k == i { 1.0 } else { 0.0 });
@@ -211,7 +211,7 @@ fn turns_are_counted_over_three_turns_and_back() {
     let path = (0..=60).chain((0..60).rev());
     for i in path {
         let angle = f64::from(i) * core::f64::consts::PI / 10.0;
-        // one free point on a circle: two unknowns
+        // one free point on a circle, with two unknowns
         let (sin, cos) = angle.sin_cos();
         (state.q[0], state.q[1]) = (cos, sin);
         measures.track(&state).expect("turns are known");

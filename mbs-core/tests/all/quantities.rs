@@ -1,4 +1,4 @@
-//! Energies, momenta, orientation, and what effects, couplings and guides do, against closed forms.
+//! Energies, momenta and orientation, and forces of effects, couplings and guides, compared with closed forms.
 
 use crate::small::{GROUND, add_body, add_joint, add_rod, guide, hold, output, scene, start};
 use core::f64::consts::PI;
@@ -12,10 +12,10 @@ use mbs_core::scene::{
 };
 
 const G: f64 = 9.81;
-/// Assembly closes to rounding of a few products of numbers of order ten.
+/// Error of the assembly: rounding of a few products of numbers of order ten.
 const CLOSED: f64 = 1e-10;
 
-/// Values of these quantities at a scene's start.
+/// Values of quantities at the start of a scene.
 fn measured<const D: usize>(scene: &Scene<f64>, quantities: &[Quantity<f64>]) -> Vec<f64> {
     let mut scene = scene.clone();
     quantities.iter().for_each(|quantity| output(&mut scene, quantity.clone()));
@@ -41,7 +41,7 @@ fn add_effect(scene: &mut Scene<f64>, kind: impl Into<EffectKind<f64>>) -> Effec
     EffectId::new(scene.effects.len() - 1)
 }
 
-/// A rod of 3 kg and 2 m that swings about the origin.
+/// Scene of a rod of 3 kg and 2 m that swings about the origin.
 fn pendulum(angle: f64, rate: f64) -> Scene<f64> {
     let mut s = scene(Dimension::Planar, [0.0, -G, 0.0]);
     let rod = add_rod(&mut s, 3.0, [0.0; 3], [2.0, 0.0, 0.0]);
@@ -123,7 +123,7 @@ fn two_bodies_have_the_angular_momentum_of_their_going_round_each_other() {
         let joint = add_joint(&mut s, JointKind::Free, [GROUND, body], [x, 1.0, 0.0], [None; 2]);
         hold(&mut s, joint, &[0.0; 3], &[0.0, v, 0.0]);
     }
-    // reduced mass times distance times relative speed
+    // angular momentum: reduced mass times distance times relative speed
     let expected = [1.0, 1.0, 0.0, 3.0, 2.0 / 3.0 * 3.0 * 1.5];
     let quantities = [Quantity::CenterOfMass, Quantity::Momentum, Quantity::AngularMomentum];
     assert_near(&measured::<2>(&s, &quantities), &expected);
@@ -184,7 +184,7 @@ fn a_rotation_is_a_vector_over_two_turns_and_a_matrix() {
     let (sin, cos) = 0.4_f64.sin_cos();
     let quantities = [Quantity::RotationVector { body }, Quantity::RotationMatrix { body }];
     assert_near(&measured::<2>(&planar, &quantities), &[0.4, cos, -sin, sin, cos]);
-    // what measures several numbers, or has neither a free value nor a gap
+    // effects that measure several numbers, or have neither a free value nor a gap
     let push = Force {
         body,
         at: [2.0, 0.0, 0.0],
@@ -208,7 +208,7 @@ fn a_spring_pulls_stores_and_gives_what_its_law_says() {
         free_length: free,
     };
     let effect = add_effect(&mut s, kind);
-    // the end at (2 cos, 2 sin), the other at (0, -1)
+    // one end at (2 cos, 2 sin), the other at (0, -1)
     let (sin, cos) = angle.sin_cos();
     let length = (4.0 * cos * cos + (2.0 * sin + 1.0).powi(2)).sqrt();
     let speed = 2.0 * cos * rate / length;
@@ -226,7 +226,7 @@ fn a_spring_pulls_stores_and_gives_what_its_law_says() {
     let energy = stored + 3.0 * G * sin;
     let expected = [tension, length, speed, stored, -tension * speed, length - free, energy];
     assert_near(&measured::<2>(&s, &quantities), &expected);
-    // nothing of one that is switched off
+    // an effect that is switched off gives zeros
     s.effects[0].enabled = false;
     assert_near(&measured::<2>(&s, &quantities[..6]), &[0.0; 6]);
 }
@@ -239,7 +239,7 @@ fn stops_are_in_contact_beyond_their_range_alone() {
         let (joint, coordinate, range) = (JointId::new(0), None, false);
         let kind = Limit { joint, coordinate, range, lower, upper, stiffness, damping };
         let effect = add_effect(&mut s, kind);
-        // the tip of the rod at 2 sin from its height in the reference configuration, its bumper a tenth below
+        // the tip of the rod is 2 sin above its height in the reference configuration, its bumper a tenth below
         let points = [[2.0, -1.0, 0.0], [2.0, 0.0, 0.0]];
         let (bodies, clearance) = ([GROUND, BodyId::Body(0)], 0.1);
         let bumper = add_effect(&mut s, Bumper { bodies, points, stiffness, damping, clearance });
@@ -254,7 +254,7 @@ fn stops_are_in_contact_beyond_their_range_alone() {
         let turned = (angle - upper).max(lower - angle).max(0.0);
         let pressed = (1.0 - clearance - length).max(0.0);
         assert_near(&measured::<2>(&s, &quantities), &[expected, turned, touches, pressed]);
-        // nothing of one that is switched off
+        // an effect that is switched off gives zeros
         s.effects[0].enabled = false;
         assert_near(&measured::<2>(&s, &quantities[..2]), &[0.0; 2]);
     }
@@ -314,7 +314,7 @@ fn motors_forces_and_bushings_give_their_power() {
 
 #[test]
 fn a_driven_coupling_and_a_guide_give_what_the_motion_needs() {
-    /// Motions by an input: value, rate and acceleration.
+    /// Prescribed motion by an input: value, rate and acceleration.
     const INPUT: [f64; 3] = [7.0, 1.5, 4.0];
     let mut s = scene(Dimension::Planar, [0.0; 3]);
     let wheel = add_body(&mut s, 1.0, [0.0; 3], Inertia::Planar(0.3));
@@ -329,7 +329,7 @@ fn a_driven_coupling_and_a_guide_give_what_the_motion_needs() {
     ];
     assert_near(&measured::<2>(&guided, &effort), &[0.3 * 4.0, 7.0, 0.3 * 4.0 * 1.5]);
 
-    // 2 angle = the input
+    // coupling: 2 angle = the input
     let of = CouplingMeasure::Coordinate { joint, number: 0 };
     let terms = vec![CouplingTerm { factor: 2.0, of, curve: None }];
     let motion = Some(Motion::Input(INPUT));
@@ -345,7 +345,7 @@ fn a_driven_coupling_and_a_guide_give_what_the_motion_needs() {
     // 2 effort = I alpha,   alpha = 4 / 2
     let effort = 0.3 * 2.0 / 2.0;
     assert_near(&measured::<2>(&s, &quantities), &[effort, 7.0, 1.5, effort * 1.5, 0.0]);
-    // held, it gives no power
+    // a constant coupling gives no power
     s.couplings[0].motion = None;
     assert_near(&measured::<2>(&s, &quantities), &[0.0; 5]);
 }

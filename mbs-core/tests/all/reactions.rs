@@ -1,4 +1,4 @@
-//! Joint reactions against closed forms and against the balance of the whole.
+//! Joint reactions, compared with closed forms and with the balance of the whole mechanism.
 
 use crate::small::{GROUND, add_body, add_joint, add_rod, guide, hold, scene, start};
 use mbs_core::algebra::{Vector, rotation};
@@ -9,7 +9,7 @@ use mbs_core::scene::{
 };
 
 const G: f64 = 9.81;
-/// Forces are of order 10 to 100 N; assembled accelerations are good to eleven digits.
+/// Allowed error: forces are of order 10 to 100 N, and assembled accelerations have eleven digits.
 const CLOSED: f64 = 1e-9;
 const PLANE: [f64; 3] = [0.0, -G, 0.0];
 
@@ -27,12 +27,12 @@ fn assert_near(found: [f64; 6], expected: [f64; 6]) {
     }
 }
 
-/// A planar reaction as it is reported.
+/// Planar reaction in the six components of an output.
 fn planar(x: f64, y: f64, moment: f64) -> [f64; 6] {
     [x, y, moment, 0.0, 0.0, 0.0]
 }
 
-/// A rod of 2 kg and 1.5 m along x that swings about the origin.
+/// Scene of a rod of 2 kg and 1.5 m along x that swings about the origin.
 fn pendulum() -> Scene<f64> {
     let mut s = scene(Dimension::Planar, PLANE);
     let rod = add_rod(&mut s, 2.0, [0.0; 3], [1.5, 0.0, 0.0]);
@@ -55,13 +55,13 @@ fn a_swinging_pendulum_feels_weight_and_centrifugal_force() {
     let (angle, rate) = (-0.9_f64, 2.5);
     hold(&mut s, 0, &[angle], &[rate]);
     let (sin, cos) = angle.sin_cos();
-    // along the rod: m g sin - m l/2 w^2; across it: m g cos / 4
+    // along the rod: m g sin - m l/2 w^2; perpendicular to it: m g cos / 4
     let (along, across) = (2.0 * (G * sin - 0.75 * rate * rate), 2.0 * G * cos / 4.0);
     let expected = planar(along * cos - across * sin, along * sin + across * cos, 0.0);
     assert_near(reactions::<2>(&s).reaction(0), expected);
 }
 
-/// A body on an axis along x, its centre beside and below the bearing.
+/// Scene of a body on an axis along x, whose centre is beside and below the bearing.
 fn offset_pendulum(bodies: [usize; 2]) -> Scene<f64> {
     let mut s = scene(Dimension::Spatial, [0.0, 0.0, -G]);
     let inertia = Inertia::Spatial([0.3, 0.4, 0.5, 0.02, 0.01, -0.03]);
@@ -78,7 +78,7 @@ fn an_offset_bearing_carries_moments_across_its_axis() {
     let w = 1.7;
     hold(&mut s, 0, &[], &[w]);
     let force = 3.0 * (G + w * w * 0.7);
-    // (c - p) x F and w x I w with the products Ixy = 0.02, Izx = -0.03
+    // moments (c - p) x F and w x I w, with the products Ixy = 0.02, Izx = -0.03
     let expected = [0.0, 0.0, force, 0.0, -0.4 * force + 0.03 * w * w, 0.02 * w * w];
     let r = reactions::<3>(&s);
     assert_near(r.reaction(0), expected);
@@ -114,7 +114,7 @@ fn a_guided_joint_carries_the_torque_of_inverse_dynamics() {
     assert!(r.is_unique(0));
 }
 
-/// Two rods of 1 m in line, welded together; the first held at the origin by `kind`.
+/// Scene of two rods of 1 m in line, welded together. A joint of `kind` holds the first one at the origin.
 fn beam(kind: JointKind) -> Scene<f64> {
     let mut s = scene(Dimension::Planar, PLANE);
     let a = add_rod(&mut s, 2.0, [0.0; 3], [1.0, 0.0, 0.0]);
@@ -155,7 +155,7 @@ fn a_beam_clamped_at_both_ends_is_marked_and_its_smallest_reactions_are_symmetri
     assert!(!r.is_unique(0) && !r.is_unique(1) && !r.is_unique(2));
 }
 
-/// Three moving bars and the ground, in the plane z = 0, driven by nothing; every place turned by `w`.
+/// Scene of a four-bar linkage in the plane z = 0, without a drive. Every place is rotated by the rotation vector `w`.
 fn four_bar(dimension: Dimension, w: [f64; 3]) -> Scene<f64> {
     let turned =
         |x: [f64; 3]| -> [f64; 3] { (rotation(&Vector::from(w)) * Vector::from(x)).into() };
@@ -163,7 +163,7 @@ fn four_bar(dimension: Dimension, w: [f64; 3]) -> Scene<f64> {
     let [a, b, c, d] = [[0.0; 3], [0.0, 1.0, 0.0], [1.5, 1.4, 0.0], [1.2, 0.0, 0.0]].map(turned);
     let inertia = match dimension {
         Dimension::Planar => Inertia::Planar(0.2),
-        // a ball's, so that it need not be turned
+        // equal moments, so that the rotation does not change the inertia
         Dimension::Spatial => Inertia::Spatial([0.2, 0.2, 0.2, 0.0, 0.0, 0.0]),
     };
     let bars = [(a, b), (b, c), (c, d)].map(|(p, q)| {
@@ -186,7 +186,7 @@ fn the_planar_four_bar_is_determined_and_the_spatial_one_is_not() {
     for joint in 0..4 {
         assert!(flat.is_unique(joint) && !deep.is_unique(joint));
         let [x, y, moment, ..] = flat.reaction(joint);
-        // nothing acts out of the plane, so the smallest reactions stay in it
+        // no force acts out of the plane, so that the smallest reactions stay in the plane
         assert_near(deep.reaction(joint), [x, y, 0.0, 0.0, 0.0, moment]);
     }
 }
@@ -257,7 +257,7 @@ fn a_joint_named_twice_is_split_evenly_and_the_others_stay_unique() {
     assert_eq!([0, 1, 2].map(|j| doubled.is_unique(j)), [true, false, false]);
 }
 
-/// Seven spatial bodies in a row by every kind of joint, closed by a hinged link.
+/// Scene of seven spatial bodies in a row with a joint of every kind, closed by a hinged link.
 fn every_joint() -> Scene<f64> {
     let mut s = scene(Dimension::Spatial, [0.3, -1.0, -G]);
     let inertia = Inertia::Spatial([0.3, 0.4, 0.5, 0.02, 0.01, -0.03]);
@@ -289,7 +289,7 @@ fn every_joint() -> Scene<f64> {
     s
 }
 
-/// One effect of each kind and variant.
+/// Adds an effect of each kind and variant.
 fn add_effects(s: &mut Scene<f64>) {
     let rising = |end: [f64; 3]| Signal::Table(vec![(-1.0, [1.0, 2.0, -1.0]), (1.0, end)]);
     let spring = |(joint, coordinate), [stiffness, damping, free_value]: [f64; 3]| {
@@ -353,7 +353,7 @@ fn the_balance_closes_with_every_kind_of_joint_and_effect() {
     assert!((0..s.joints.len()).all(|joint| r.is_unique(joint)));
     add_effects(&mut s);
     hold(&mut s, 1, &[0.2, -0.3], &[]);
-    // `reactions` itself asserts that nothing is left unbalanced
+    // `reactions` itself asserts that all forces are balanced
     let loaded = reactions::<3>(&s);
     assert!((r.reaction(0)[2] - loaded.reaction(0)[2]).abs() > 1.0);
 }
@@ -369,7 +369,7 @@ fn a_rod_between_balls_and_a_planar_slide_are_balanced() {
     let block = add_body(&mut s, 2.0, [1.0, 0.5, 0.0], Inertia::Planar(0.1));
     let axis = [Some([3.0, 4.0, 0.0]), None];
     add_joint(&mut s, JointKind::Prismatic, [GROUND, block], [0.0; 3], axis);
-    // the normal force m g cos, with the moment that carries it to the joint's place
+    // the normal force m g cos, with the moment about the joint's place
     let normal = 2.0 * G * 0.6;
     let (x, y) = (-0.8 * normal, 0.6 * normal);
     assert_near(reactions::<2>(&s).reaction(0), planar(x, y, y - 0.5 * x));

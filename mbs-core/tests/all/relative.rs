@@ -1,10 +1,10 @@
-//! Motion as seen from a body that moves and turns, against derivatives by hand.
+//! Motion relative to a body that moves and rotates, compared with derivatives by hand.
 
 use crate::small::{GROUND, add_body, add_joint, hold, output, scene, start};
 use mbs_core::outputs::{Measures, RelativePoint};
 use mbs_core::scene::{BodyId, Dimension, Inertia, JointKind, Quantity, Scene};
 
-/// Rounding of products of numbers of order ten, and of the assembly.
+/// Rounding error of products of numbers of order ten, and of the assembly.
 const CLOSED: f64 = 1e-10;
 
 fn measured<const D: usize>(scene: &Scene<f64>, quantities: &[Quantity<f64>]) -> Vec<f64> {
@@ -28,7 +28,7 @@ fn assert_near(found: &[f64], expected: &[f64]) {
 fn a_slide_seen_from_a_falling_arm_has_the_derivatives_of_its_coordinates() {
     let (phi, w, x, v) = (0.7_f64, 1.3, 0.4, -0.9);
     let mut s = scene(Dimension::Planar, [0.0, -9.81, 0.0]);
-    // an arm of 2 kg whose centre is half a metre off its hinge: 0.3 + 2 0.25 kg m^2 about it
+    // an arm of 2 kg with its centre half a metre from its hinge: 0.3 + 2 0.25 kg m^2 about the hinge
     let arm = add_body(&mut s, 2.0, [0.5, 0.0, 0.0], Inertia::Planar(0.3));
     let block = add_body(&mut s, 1.0, [1.0, 0.2, 0.0], Inertia::Planar(0.1));
     add_joint(&mut s, JointKind::Revolute, [GROUND, arm], [0.0; 3], [None; 2]);
@@ -48,7 +48,7 @@ fn a_slide_seen_from_a_falling_arm_has_the_derivatives_of_its_coordinates() {
         Quantity::RelativeVelocity(seen([0.5, 0.1, 0.0])),
         Quantity::RelativeAngularVelocity { body: block, relative_to: arm },
     ];
-    // along and across the arm, of the point (1 + x, 0.2)
+    // components along and across the arm, of the point (1 + x, 0.2)
     let (px, py) = (1.0 + x, 0.2);
     let (a, b) = (px * cos + py * sin, -px * sin + py * cos);
     let (a_t, b_t) = (v * cos + w * b, -v * sin - w * a);
@@ -76,7 +76,7 @@ fn angular_velocities_are_turned_into_the_axes_of_the_other_body() {
     let quantities = [
         turning(wheel, table),
         turning(wheel, GROUND),
-        // a point that stands still goes round a table that turns
+        // a fixed point moves on a circle relative to a rotating table
         Quantity::RelativePosition(seen),
         Quantity::RelativeVelocity(seen),
         Quantity::RelativeAcceleration(seen),

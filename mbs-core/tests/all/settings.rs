@@ -1,17 +1,17 @@
-//! The table of settings against the fields that it is about, and against the sentences on them.
+//! Table of settings, compared with the fields that it describes, and with the sentences in it.
 
 use mbs_core::scene::{NotASetting, SETTINGS, Setting, SettingForm, SettingValue, SolverTable};
 
-/// Most words of a sentence: rule 1 of the language in docs/NOTATION.md.
+/// Largest number of words of a sentence: rule 1 of the language in docs/NOTATION.md.
 const MAX_WORDS: usize = 25;
 
-/// Files that say the meaning of a setting at a field of its own, with the first line behind those fields.
+/// Files whose fields have the meaning of a setting as doc comment, with the first line after these fields.
 const FILES: [(&str, &str); 2] = [
     ("src/scene/solver.rs", "/// Further keys"),
     ("../mbs-steps/src/settings.rs", "/// Interrupt that ends"),
 ];
 
-/// A value that the setting takes.
+/// Value that the setting accepts.
 fn some_value(row: &Setting) -> SettingValue<f64> {
     match row.form {
         SettingForm::Word(words) => SettingValue::Word(words[0].to_owned()),
@@ -61,7 +61,7 @@ fn fields_have_the_sentences_of_the_table() {
         let text = std::fs::read_to_string(path).expect("a source file");
         let text = text.split(end).next().unwrap_or_default();
         for row in &SETTINGS {
-            // a table has the key, a method the name
+            // a table names the field by the key, a method by the name
             for key in [row.path.trim_start_matches("solver."), row.name] {
                 let Some((before, _)) = text.split_once(&format!("\n    pub {key}: ")) else {
                     continue;

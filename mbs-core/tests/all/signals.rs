@@ -1,4 +1,4 @@
-//! Signals: their derivatives, their classes, and the order in which they are computed.
+//! Signals: derivatives, classes of smoothness, and order of computation.
 
 use mbs_core::inputs::SignalGraph;
 use mbs_core::scene::{
@@ -7,7 +7,7 @@ use mbs_core::scene::{
 };
 use mbs_testkit::Random;
 
-/// Derivatives against central differences of step 1e-5, relative to their size: truncation is 1e-10 times third derivatives.
+/// Allowed relative difference of derivatives from central differences of step 1e-5: truncation is 1e-10 times third derivatives.
 const AGREEMENT: f64 = 1e-7;
 
 fn named(kinds: Vec<SignalKind<f64>>) -> Vec<NamedSignal<f64>> {
@@ -25,7 +25,7 @@ fn table(interpolation: Interpolation, periodic: bool) -> SignalKind<f64> {
     SignalKind::Table { rows: ROWS.to_vec(), interpolation, periodic }
 }
 
-/// One of each kind, and products and curves of them; none of them is spoiled by a jump.
+/// Signals of each kind, with products and curves of them. None has a jump.
 fn every_kind() -> Vec<SignalKind<f64>> {
     let spline = Interpolation::Spline;
     vec![
@@ -71,7 +71,7 @@ fn rates_and_accelerations_of_every_kind_are_difference_quotients() {
         let [before, now, after] = [t - h, t, t + h].map(|t| graph.values(t));
         for i in 0..signals.len() {
             let quotient = |k: usize| (after[i][k] - before[i][k]) / (2.0 * h);
-            // a corner or a jump of the acceleration between the three
+            // a corner, or a jump of the acceleration, between the three times
             let bend = after[i][1] - 2.0 * now[i][1] + before[i][1];
             let jerk = after[i][2] - 2.0 * now[i][2] + before[i][2];
             if bend.abs() > 1e-6 || jerk.abs() > 1e-6 {
@@ -97,11 +97,11 @@ fn a_step_rises_from_its_first_value_to_its_last_at_rest_at_both_ends() {
     assert_eq!(graph.values(0.75), [[1.0, 0.0, 0.0]]);
     for (t, value) in [(0.5 + 1e-9, 0.0), (0.75 - 1e-9, 1.0)] {
         let [found, rate, acceleration] = graph.values(t)[0];
-        // s^3, s^2 and s of 4e-9 of the rise, times their factors; terms of order ten round by 1e-15
+        // s^3, s^2 and s with s = 4e-9 of the rise, times their factors; terms of order ten have rounding errors of 1e-15
         assert!((found - value).abs() < 1e-14 && rate.abs() < 1e-12 && acceleration.abs() < 1e-4);
     }
     let [middle, rate, acceleration] = graph.values(0.625)[0];
-    // 15/8 of the mean rate in the middle
+    // the rate in the middle is 15/8 of the mean rate
     assert!((middle - 0.5).abs() < 1e-14 && (rate - 7.5).abs() < 1e-12, "{middle} {rate}");
     assert!(acceleration.abs() < 1e-9, "{acceleration}");
 }
@@ -119,7 +119,7 @@ fn a_rounded_ramp_has_the_values_of_the_sharp_one_beside_its_corners() {
 
 #[test]
 fn signals_are_computed_in_an_order_of_their_own_and_each_once() {
-    // a chain of squares from the last to the first: each twice in the next would be 2^200 ways
+    // each signal is the square of the next one: computed without memory, this would take 2^200 evaluations
     let n = 200;
     let square = |i: usize| SignalKind::Product { of: of(&[i + 1, i + 1]) };
     let mut kinds: Vec<_> = (0..n).map(square).collect();

@@ -1,4 +1,4 @@
-//! Assembly: what is held holds exactly, the rest changes least, and what cannot be met is named.
+//! Assembly of a start: prescribed values hold exactly, other values change as little as possible, and contradictions are named.
 
 mod sparse_rank;
 
@@ -14,7 +14,7 @@ use mbs_testkit::{
 
 type V = [f64; 3];
 
-/// Held coordinates are met to this [m, rad, m/s, rad/s].
+/// Largest error of prescribed coordinates and rates [m, rad, m/s, rad/s].
 const HELD: f64 = 1e-10;
 
 fn start<const D: usize>(
@@ -27,7 +27,7 @@ fn start<const D: usize>(
     Ok((model, assembled))
 }
 
-/// x on a joint of this kind on the ground (or a moving base); extra lines follow.
+/// Scene of a body x on a joint of this kind, on the ground or on a moving base. `rest` has further lines.
 fn one_joint(kind: &str, axes: &str, first: &str, rest: &str) -> String {
     let base = if first == "base" {
         "[[body]]\nname = \"base\"\nmass = 1.5\ncenter = [0.0, -0.3, 0.2]\ninertia = [0.1, 0.15, 0.12, 0.01, 0.0, 0.0]\n"
@@ -48,7 +48,7 @@ fn unit(a: V) -> V {
     a.map(|x| x / l)
 }
 
-/// x turned by the rotation vector w (Rodrigues).
+/// Vector x rotated by the rotation vector w (Rodrigues' formula).
 fn turned(w: V, x: V) -> V {
     let angle = dot(&w, &w).sqrt();
     if angle < 1e-300 {
@@ -60,7 +60,7 @@ fn turned(w: V, x: V) -> V {
     std::array::from_fn(|i| x[i] * c + nx[i] * s + n[i] * dot(&n, &x) * (1.0 - c))
 }
 
-/// Components in the turned frame of a body, or global ones for the ground.
+/// Frame of a body, in which vectors have components; global axes for the ground.
 struct Frame<'a>(&'a NaturalModel<f64, 3>, &'a [f64], BodyId);
 
 impl Frame<'_> {
@@ -85,7 +85,7 @@ impl Frame<'_> {
         }
         w
     }
-    /// A global vector in the body's reference axes.
+    /// Components of a global vector in the body's axes.
     fn seen(&self, x: V) -> V {
         std::array::from_fn(|i| {
             let e = std::array::from_fn(|k| f64::from(u8::from(k == i)));
@@ -96,7 +96,8 @@ impl Frame<'_> {
 
 const AT: V = [0.1, 0.2, 0.3];
 
-/// Checks that x stands, seen from the first body, where `rotation` (of directions) and `shift` (of the place) put it.
+/// Checks the pose of body x relative to the first body: `rotation` rotates its directions, and `shift` is the displacement of its
+/// place.
 fn check_pose(first: &str, text: &str, rotation: impl Fn(V) -> V, shift: V) {
     let scene = scene(text);
     let (model, assembled) = start::<3>(&scene).unwrap_or_else(|e| panic!("{e}\n{text}"));
@@ -234,7 +235,7 @@ fn a_consistent_state_is_left_untouched() {
     check::<3>(SPATIAL);
 }
 
-/// The angle of a planar direction.
+/// Angle of a planar direction of a body [rad].
 fn heading(model: &NaturalModel<f64, 2>, q: &[f64], body: usize) -> f64 {
     let d = model.direction(BodyId::Body(body), [1.0, 0.0, 0.0]).value(q);
     d[1].atan2(d[0])
@@ -257,7 +258,7 @@ fn a_four_bar_keeps_its_branch_through_a_turn_of_its_crank() {
         assert!(turned.sin().abs() < HELD && turned.cos() > 0.0);
         let at = |body, p| model.point(BodyId::Body(body), p).value(q);
         let (b, c, d) = (at(0, [0.18, 0.24, 0.0]), at(1, [0.868, 0.576, 0.0]), [0.7, 0.0]);
-        // The coupler and rocker turn the same way round, as in the reference configuration.
+        // The coupler and the rocker have the same orientation as in the reference configuration.
         let area = (c[0] - b[0]) * (d[1] - b[1]) - (c[1] - b[1]) * (d[0] - b[0]);
         assert!(area < -1e-3, "area {area} at {angle}");
     }
@@ -265,7 +266,7 @@ fn a_four_bar_keeps_its_branch_through_a_turn_of_its_crank() {
 
 #[test]
 fn contradicting_entries_are_named() {
-    // The coupler's angle does not fit the crank's.
+    // The prescribed angle of the coupler contradicts that of the crank.
     let mut four_bar = scene(include_str!("../../../scenes/guided-four-bar.toml"));
     four_bar.guides.clear();
     let mut add = |joint: usize, value: Option<f64>, rate: Option<f64>| {
@@ -326,7 +327,7 @@ fn a_gap_of_a_millionth_of_the_size_is_refused_and_one_of_rounding_is_not() {
         }
         start::<2>(&four_bar)
     };
-    // At 1.5 rad what is held together fits at the end of the way only.
+    // At 1.5 rad the two prescribed angles are compatible only at the end of the assembly.
     for angle in [0.1, 0.3, 1.5] {
         let (model, assembled) = hold(&[angle]).unwrap_or_else(|e| panic!("{e}"));
         let [crank, coupler] = [0, 1].map(|body| heading(&model, &assembled.state.q, body));
@@ -358,7 +359,7 @@ fn a_massless_link_that_joints_determine_assembles() {
     assert!(assembled.residual[2] < 1e-9);
 }
 
-/// The assembled change (positions) or velocity is M-orthogonal to every motion that stays admissible.
+/// Checks that the assembled change of position (or the velocity) is M-orthogonal to every admissible motion.
 fn check_least<const D: usize>(
     scene: &Scene<f64>,
     holds: impl Fn(&NaturalModel<f64, D>, &[f64]) -> Vec<Vec<f64>>,
@@ -388,11 +389,11 @@ fn check_least<const D: usize>(
 
 #[test]
 fn what_is_not_held_changes_least() {
-    // A double pendulum whose tip moves freely while the elbow's angle is held.
+    // A double pendulum with a free tip, whose elbow angle is prescribed.
     let text = "[scene]\nname = \"d\"\ndimension = 2\nduration = 1.0\n[[body]]\nname = \"u\"\nmass = 1.0\ncenter = [0.5, 0.1]\ninertia = 0.1\n[[body]]\nname = \"l\"\nmass = 2.0\ncenter = [1.5, -0.1]\ninertia = 0.2\n[[joint]]\nname = \"p\"\nkind = \"revolute\"\nbodies = [\"ground\", \"u\"]\nat = [0.0, 0.0]\n[[joint]]\nname = \"e\"\nkind = \"revolute\"\nbodies = [\"u\", \"l\"]\nat = [1.0, 0.0]\n[[initial]]\njoint = \"e\"\nvalue = 0.2\nrate = 1.5\n";
     let scene = scene(text);
     check_least::<2>(&scene, |model, q| {
-        // Gradient of the elbow's angle by differences of cos and sin: a direction of one body seen from the other.
+        // Gradient of the elbow's angle, by differences of its cosine and sine: a direction of one body relative to the other.
         let n = model.n_unknowns();
         let angle = |q: &[f64]| {
             let u = model.direction(BodyId::Body(0), [1.0, 0.0, 0.0]).value(q);

@@ -1,4 +1,4 @@
-//! Effects on sums of joint coordinates and lengths: the sum, its rate and its gradient over several turns.
+//! Effects on sums of joint coordinates and lengths: sum, rate and gradient over several turns.
 
 use crate::gradient::{evaluate, gradients, scatter};
 use mbs_core::algebra::{Vector, rotation};
@@ -10,14 +10,15 @@ use mbs_testkit::{Random, model, scene};
 
 type V = Vector<f64, 3>;
 
-/// Step of central differences: 1e-16 of a sum of ten over it, and its square times third derivatives of order one.
+/// Step of central differences. Rounding costs 1e-16 of a sum of ten over the step, truncation its square times third derivatives
+/// of order one.
 const STEP: f64 = 1e-5;
-/// Largest difference of a gradient and of a rate from differences [-].
+/// Largest difference of gradients and rates from difference quotients [-].
 const DIFFERENCE: f64 = 1e-8;
-/// Factors of two turns, a slide and a line.
+/// Factors of two rotations, a slide and a line.
 const FACTORS: [f64; 4] = [1.3, -2.0, 0.7, 0.4];
 
-/// Axes of the turns and the slide.
+/// Axes of the rotations and of the slide.
 const AXES: [[f64; 3]; 3] = [[0.36, 0.48, 0.8], [0.6, -0.8, 0.2], [-0.2, 0.9, 0.4]];
 
 fn chain() -> Scene<f64> {
@@ -41,7 +42,7 @@ fn chain() -> Scene<f64> {
     scene(&text)
 }
 
-/// The chain at angles of its hinges and a way of its slide.
+/// State of the chain at given angles of its hinges and displacement of its slide.
 fn placed(scene: &Scene<f64>, model: &NaturalModel<f64, 3>, [a, b, slide]: [f64; 3]) -> State<f64> {
     let unit = |axis: [f64; 3]| V::from(axis) / V::from(axis).norm();
     let first = rotation(&(unit(AXES[0]) * a));
@@ -62,7 +63,7 @@ fn placed(scene: &Scene<f64>, model: &NaturalModel<f64, 3>, [a, b, slide]: [f64;
     state
 }
 
-/// The length of the line, less that in the reference configuration.
+/// Length of the line, less its length in the reference configuration.
 fn line(scene: &Scene<f64>, model: &NaturalModel<f64, 3>, state: &State<f64>) -> f64 {
     let [p, q, r] = [[0.0, 1.0, 0.0], [1.5, 0.3, 0.2], [2.5, 0.0, 0.4]].map(V::from);
     let at = |body: usize, x: &V| model.motion(scene, body, state).point(x)[0];

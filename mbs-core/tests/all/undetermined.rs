@@ -1,4 +1,4 @@
-//! Starts of what has fewer coordinates than it shows: rods without a turn about themselves, angles without a count of turns.
+//! Starts with undetermined motions: rods whose rotation about their line is unknown, and angles whose number of turns is unknown.
 
 use mbs_core::Cliques;
 use mbs_core::natural::NaturalModel;
@@ -7,7 +7,7 @@ use mbs_core::start::{Assembled, AssemblyError, assemble};
 use mbs_sparse::{Multifrontal, Options};
 use mbs_testkit::{close, scene};
 
-/// Rates and accelerations of order one are met to this.
+/// Largest error of rates and accelerations of order one.
 const HELD: f64 = 1e-10;
 
 fn start<const D: usize>(
@@ -27,7 +27,7 @@ fn a_free_rod_stays_two_points_and_its_angular_velocity_swings_them() {
     );
     let (model, Assembled { state: s, .. }) = start::<3>(&scene).unwrap();
     assert_eq!(model.n_unknowns(), 6);
-    // w x r about the centre, which the least velocities leave at rest; the turn about the line is no one's
+    // w x r about the centre, which the least velocities leave at rest; the rotation about the line is undetermined
     let rate =
         |v: &[f64], x| -> [f64; 3] { model.point(BodyId::Body(0), [x, 0.0, 0.0]).rate(v).into() };
     close("one end", &rate(&s.v, 1.0), &[0.0, -0.15, -0.1], HELD);
@@ -42,6 +42,6 @@ fn an_angle_that_is_not_held_starts_within_half_a_turn() {
     );
     let (model, Assembled { state: s, .. }) = start::<2>(&scene).unwrap();
     let angle = s.memory[model.memory_of_effect(0).unwrap()];
-    // on the way there it passes half a turn the other way, where the arm's end passes the place of x
+    // during the assembly the angle passes half a turn in the other sense, when the arm's end passes the place of x
     assert!((angle - 3.03).abs() < 0.02, "{angle}");
 }

@@ -1,4 +1,4 @@
-//! Camber, toe and caster of a carrier against rotations composed by hand.
+//! Camber, toe and caster of a carrier, compared with composed rotations.
 
 use crate::small::{GROUND, add_body, add_joint, hold, output, scene, start};
 use core::f64::consts::PI;
@@ -6,13 +6,13 @@ use mbs_core::algebra::{Matrix, Vector, norm, rotation};
 use mbs_core::outputs::{Measures, VehicleSide, WheelCarrier};
 use mbs_core::scene::{BodyId, Dimension, Inertia, JointKind, Quantity};
 
-/// Rounding of products of numbers of order one, and of the assembly [rad].
+/// Rounding error of products of numbers of order one, and of the assembly [rad].
 const CLOSED: f64 = 1e-12;
 
 type V = Vector<f64, 3>;
 type R = Matrix<f64, 3>;
 
-/// Turns and leans up to nearly a right angle, either way, and turns beyond.
+/// Angles of turning, also beyond a right angle, and angles of leaning up to almost a right angle, in both senses [rad].
 const TURNS: [f64; 7] = [-3.0, -1.2, -0.05, 0.0, 1e-7, 0.4, 2.6];
 const LEANS: [f64; 6] = [-1.5, -0.3, 0.0, 1e-7, 0.02, 1.4];
 
@@ -20,7 +20,7 @@ fn about(axis: V, angle: f64) -> R {
     rotation(&(axis * angle))
 }
 
-/// The rotation vector of a rotation.
+/// Rotation vector of a rotation matrix.
 fn vector_of(r: &R) -> V {
     let sines = V::from([r[(2, 1)] - r[(1, 2)], r[(0, 2)] - r[(2, 0)], r[(1, 0)] - r[(0, 1)]]);
     let (sine, cosine) = (0.5 * norm(&sines), 0.5 * (r.trace() - 1.0));
@@ -29,7 +29,7 @@ fn vector_of(r: &R) -> V {
     if sine > 0.0 { sines * (0.5 * angle / sine) } else { V::zeros() }
 }
 
-/// Data of a wheel: its side, the directions up and forward, and an axis where one is given.
+/// Data of a wheel: its side, the directions up and forward, and optionally an axis.
 #[derive(Clone, Copy)]
 struct Given {
     side: VehicleSide,
@@ -38,12 +38,12 @@ struct Given {
     axis: Option<[f64; 3]>,
 }
 
-/// Data of a wheel as a scene file has them where nothing is written.
+/// Data of a wheel with the defaults of a scene file.
 fn usual(side: VehicleSide) -> Given {
     Given { side, up: [0.0, 0.0, 1.0], forward: [1.0, 0.0, 0.0], axis: None }
 }
 
-/// Camber, toe and caster with vehicle body and carrier turned by these rotations.
+/// Camber, toe and caster if vehicle body and carrier are rotated by these rotations.
 fn angles([vehicle, carrier]: [&R; 2], given: Given) -> [f64; 3] {
     let mut s = scene(Dimension::Spatial, [0.0; 3]);
     let ball = Inertia::Spatial([0.2, 0.3, 0.25, 0.0, 0.0, 0.0]);
@@ -71,7 +71,7 @@ fn assert_near(found: [f64; 3], expected: [f64; 3], what: &str) {
     }
 }
 
-/// Mirror image of a rotation, at the middle of the vehicle.
+/// Mirror image of a rotation, by the middle plane of the vehicle.
 fn mirrored(r: &R) -> R {
     let sign = |i: usize| if i == 1 { -1.0 } else { 1.0 };
     let columns = [0, 1, 2].map(|j| V::from_fn(|i, _| sign(i) * sign(j) * r[(i, j)]));
@@ -82,13 +82,13 @@ fn mirrored(r: &R) -> R {
 fn a_steered_and_leaning_wheel_has_the_angles_that_it_was_turned_by() {
     for turn in TURNS {
         for lean in LEANS {
-            // steered about z after it was leaned about x, with any spin about its axis before: to the left and to the right
+            // leaned about x, then steered about z, with an initial spin about the wheel's axis: to the left and to the right
             let r = about(V::z(), turn) * about(V::x(), lean) * about(V::y(), 0.3);
             let [camber, toe, _] = angles([&R::identity(), &r], usual(VehicleSide::Left));
             assert_near([camber, toe, 0.0], [-lean, -turn, 0.0], "left");
             let [camber, toe, _] = angles([&R::identity(), &r], usual(VehicleSide::Right));
             assert_near([camber, toe, 0.0], [lean, turn, 0.0], "right");
-            // tilted about y after it was leaned: the same on both sides
+            // leaned, then tilted about y: equal on both sides
             let r = about(V::y(), turn) * about(V::x(), lean) * about(V::z(), 0.3);
             for side in [VehicleSide::Left, VehicleSide::Right] {
                 let [_, _, caster] = angles([&R::identity(), &r], usual(side));
@@ -100,7 +100,7 @@ fn a_steered_and_leaning_wheel_has_the_angles_that_it_was_turned_by() {
 
 #[test]
 fn tops_that_lean_out_fronts_that_point_in_and_steering_axes_that_lean_back_are_positive() {
-    // a left wheel: its top goes to +y, then its front to -y, then the top of its steering axis to -x
+    // a left wheel: the top moves to +y, then the front to -y, then the top of the steering axis to -x
     let identity = R::identity();
     for (r, at) in [about(-V::x(), 0.1), about(-V::z(), 0.1), about(-V::y(), 0.1)].iter().zip(0..) {
         let left = angles([&identity, r], usual(VehicleSide::Left));
@@ -135,7 +135,7 @@ fn up_and_forward_are_those_of_the_drawing() {
     let expected = angles([&R::identity(), &r], usual);
     for drawn in [[0.0, 0.0, 1.0], [1.5, 0.0, 0.0], [0.4, -0.9, 2.0]] {
         let q = rotation(&V::from(drawn));
-        // of any length, and forward at any angle above
+        // the directions may have any length, and forward any angle to up except zero
         let [up, forward] = [q * V::z() * 3.0, q * (V::x() + V::z() * 0.4)];
         let given = Given { up: up.into(), forward: forward.into(), ..usual };
         assert_near(angles([&R::identity(), &(q * r * q.transpose())], given), expected, "drawn");
@@ -157,7 +157,7 @@ fn the_axis_of_the_drawing_counts_in_either_sense() {
             let steered = Given { axis: Some((steering * sense).into()), ..usual(side) };
             let [_, _, caster] = angles([&R::identity(), &R::identity()], steered);
             assert_near([caster, 0.0, 0.0], [-tilt, 0.0, 0.0], "as drawn");
-            // drawn straight and turned, or drawn turned
+            // drawn straight and rotated by the joint, or drawn rotated
             let straight = angles([&R::identity(), &own], usual(side));
             let axis = Some((own * V::y() * sense).into());
             let [camber, toe, _] =

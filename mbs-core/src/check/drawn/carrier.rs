@@ -1,4 +1,4 @@
-//! The body in which the axes of a drawn coupling stand, and the joints between it and the bodies that carry each of them.
+//! Carrier of a coupling: the body in which its axes are fixed, and the joints between the carrier and the bodies with the axes.
 
 use crate::Real;
 use crate::algebra::{Vector, along, cross, norm};
@@ -9,11 +9,11 @@ use alloc::collections::VecDeque;
 use alloc::vec;
 use alloc::vec::Vec;
 
-/// Largest sine of the angle of axes that are parallel, and distance of axes that are one over the scene's reach [-]. Chosen, not tuned:
-/// digits of a file.
+/// Largest sine of the angle between parallel axes. Also the largest distance of equal axes, relative to the size of the scene [-]. Chosen,
+/// not tuned: numbers in files are rounded.
 pub(super) const PARALLEL: f64 = 1e-6;
 
-/// A coordinate of a joint in the reference configuration.
+/// Turn or slide of a joint, with its axis in the reference configuration.
 #[derive(Debug, Clone)]
 pub(super) struct Element<T: Real> {
     pub(super) joint: JointId,
@@ -25,7 +25,7 @@ pub(super) struct Element<T: Real> {
 }
 
 impl<T: Real> Element<T> {
-    /// Prepares a measured coordinate; `None`: it is no turn and no slide.
+    /// Prepares a measured coordinate; `None` unless it is a turn or a slide.
     pub(super) fn new(scene: &Scene<T>, of: &CouplingMeasure<T>) -> Option<Self> {
         let &CouplingMeasure::Coordinate { joint, number } = of else { return None };
         Self::of(scene, joint, number)
@@ -43,7 +43,7 @@ impl<T: Real> Element<T> {
         Some(Self { joint, number, bodies, is_turn, axis, point })
     }
 
-    /// The only turn or slide of a joint; one along the axis of its turn may be beside.
+    /// The only turn or slide of a joint, or the turn if the joint also has a slide along the same axis.
     fn only(scene: &Scene<T>, joint: usize) -> Option<Self> {
         let of: &Joint<T> = &scene.joints[joint];
         let number = match of.kind.freedoms(scene.dimension) {
@@ -54,18 +54,18 @@ impl<T: Real> Element<T> {
         Self::of(scene, JointId::new(joint), number)
     }
 
-    /// The sense of its axis against another that is parallel.
+    /// Sign of the axis relative to a parallel axis `other`; `None` if they are not parallel.
     pub(super) fn sense(&self, other: &Vector<T, 3>) -> Option<T> {
         let is_parallel = norm(&cross(&self.axis, other)) <= T::from_f64(PARALLEL);
         is_parallel.then(|| if self.axis.dot(other) < T::ZERO { -T::ONE } else { T::ONE })
     }
 
-    /// The sign of its coordinate as a motion of this one of its bodies.
+    /// Sign of the coordinate as a motion of `body`, one of the two bodies of the joint.
     pub(super) fn side(&self, body: BodyId) -> T {
         if self.bodies[1] == body { T::ONE } else { -T::ONE }
     }
 
-    /// Does it keep another where it is in both of its bodies: a turn about its axis, or a slide along it?
+    /// Does this motion leave the axis of `other` where it is? That holds for a turn about this axis, or a slide along it.
     fn keeps(&self, other: &Self, reach: T) -> bool {
         if self.is_turn != other.is_turn || self.sense(&other.axis).is_none() {
             return false;
@@ -76,26 +76,27 @@ impl<T: Real> Element<T> {
     }
 }
 
-/// A joint on the way between two carriers.
+/// Joint on the path between two carriers.
 #[derive(Debug, Clone)]
 pub(super) struct Leg<T: Real> {
     pub(super) element: Element<T>,
-    /// Does it keep the first element where it is? Otherwise the second.
+    /// Does the joint leave the first element in its place? Otherwise it leaves the second one in its place.
     pub(super) is_first: bool,
     sign: T,
 }
 
 impl<T: Real> Leg<T> {
-    /// The sign of its coordinate as a motion along the way, about or along another axis.
+    /// Sign of the coordinate as a motion along the path, about or along the axis of `other`.
     pub(super) fn sense_about(&self, other: &Element<T>) -> T {
         self.sign * self.element.sense(&other.axis).unwrap_or(T::ONE)
     }
 }
 
-/// A step of a way: the joint, whether it keeps the first element, and whether the next one keeps the second.
+/// Result for a joint on a path. It has the element and whether this leaves the first element in place; the flag says whether the carrier
+/// is passed. `None`: the path may not use the joint.
 type Admitted<T> = Option<(Option<(Element<T>, bool)>, bool)>;
 
-/// The signs of two elements as motions of their outer bodies in the carrier, and the way from the first one's own body to the second's.
+/// Signs of two elements as motions of their outer bodies in the carrier, and the path between their inner bodies.
 pub(super) fn of<T: Real>(
     scene: &Scene<T>,
     [first, second]: [&Element<T>; 2],
@@ -126,7 +127,7 @@ pub(super) fn of<T: Real>(
     best.map(|(signs, way, _)| (signs, way))
 }
 
-/// The sign of a wheel in its own carrier, and the turns about axes parallel to the cage's from that to the cage.
+/// Sign of a wheel in its carrier, and the path from there to the cage, over turns about axes parallel to the cage's.
 pub(super) fn to<T: Real>(
     scene: &Scene<T>,
     (wheel, cage): (&Element<T>, &Element<T>),
@@ -148,7 +149,7 @@ pub(super) fn to<T: Real>(
     ways.min_by_key(|found| found.2).map(|(sign, way, _)| (sign, way))
 }
 
-/// The shortest way from one body to another over joints that are admitted or weld, past bodies and joints that are not to be used.
+/// Shortest path between two bodies over admitted joints and welds. It avoids the listed bodies and joints.
 fn way<T: Real>(
     scene: &Scene<T>,
     [from, to]: [BodyId; 2],
@@ -161,7 +162,7 @@ fn way<T: Real>(
     let place = |(body, is_past): (BodyId, bool)| {
         2 * body.index().map_or(0, |body| body + 1) + usize::from(is_past)
     };
-    // of each body, before and past the carrier: whether it was reached, from where and over what
+    // for each body, before and after the carrier: the previous body and the joint by which the search reached it
     let mut seen: Vec<Option<(usize, Option<Leg<T>>)>> = vec![None; 2 * (scene.bodies.len() + 1)];
     let mut open = VecDeque::from([(from, false)]);
     seen[place((from, false))] = Some((usize::MAX, None));
@@ -199,7 +200,8 @@ fn way<T: Real>(
     None
 }
 
-/// The one of a joint's bodies that stands farther from the ground, over joints; else the one that fewer joints hold, or the second.
+/// Body of a joint that is farther from the ground, counted in joints. If both are equally far, it is the body with fewer joints, or else
+/// the second.
 pub(super) fn outer<T: Real>(scene: &Scene<T>, of: &Element<T>) -> BodyId {
     let [first, second] = of.bodies;
     let far = distances(scene);
@@ -212,13 +214,13 @@ pub(super) fn outer<T: Real>(scene: &Scene<T>, of: &Element<T>) -> BodyId {
     if is_first { first } else { second }
 }
 
-/// The one of a joint's bodies that is not the `outer` one.
+/// Body of a joint that is not the `outer` one.
 pub(super) fn inner<T: Real>(scene: &Scene<T>, of: &Element<T>) -> BodyId {
     let [first, second] = of.bodies;
     if outer(scene, of) == first { second } else { first }
 }
 
-/// Number of joints between each body and the ground; `None`: none lead there.
+/// Number of joints between each body and the ground; `None`: no joints connect them.
 fn distances<T: Real>(scene: &Scene<T>) -> Vec<Option<usize>> {
     let place = |body: BodyId| body.index().map_or(0, |body| body + 1);
     let mut neighbours = vec![Vec::new(); scene.bodies.len() + 1];

@@ -1,4 +1,4 @@
-//! Couplings that mean what is drawn: their sums follow from places and axes in the reference configuration.
+//! Couplings by geometry: their sums follow from positions and axes in the reference configuration.
 //!
 //! ```text
 //! gear          N1 w1 + N2 w2 = 0, internal N1 w1 - N2 w2 = 0        w: turn of a wheel in the carrier, about one sense of the axes
@@ -8,9 +8,12 @@
 //! differential  Na (wa - wc) + Nb (wb - wc) = 0
 //! ```
 //!
-//! The carrier is the body in which both axes stand. A joint's coordinate is the turn of its second body against the first: where the
-//! wheel is the first one its sign changes. Where the joints lead from different bodies, the turns between these and the carrier count.
-//! The first factor keeps its sign, so that a sum which was right stays as it is.
+//! w1, w2, wa, wb and wc are turns of wheels and of the cage c, N are numbers of teeth, r radii, v a velocity. The carrier is the body in
+//! which both axes are fixed.
+//!
+//! A joint's coordinate is the turn of its second body relative to the first. If the wheel is the first body, the sign changes. If the two
+//! joints start from different bodies, the turns between these bodies and the carrier are added. The first factor keeps its sign, so a sum
+//! that is already correct does not change.
 
 mod carrier;
 mod notes;
@@ -25,14 +28,14 @@ use crate::scene::{
 use alloc::vec::Vec;
 use carrier::{Element, Leg};
 
-/// Gives every coupling that is drawn its sum.
+/// Computes the sum of every coupling that follows from the geometry.
 ///
 /// # Errors
-/// [`SceneFault::NoCarrier`]; of a coupling that says that it is drawn [`SceneFault::NotDrawn`].
+/// [`SceneFault::NoCarrier`]. [`SceneFault::NotDrawn`] if the coupling says explicitly that it follows from the geometry.
 pub(super) fn fill<T: Real>(scene: &mut Scene<T>) -> Result<(), SceneError> {
     let bodies = scene.joints.iter().flat_map(|joint| joint.bodies);
     if bodies.filter_map(BodyId::index).any(|body| body >= scene.bodies.len()) {
-        // the check names the joint
+        // the check of the joints reports this error
         return Ok(());
     }
     for i in 0..scene.couplings.len() {
@@ -56,17 +59,17 @@ pub(super) fn fill<T: Real>(scene: &mut Scene<T>) -> Result<(), SceneError> {
     Ok(())
 }
 
-/// The joints that a coupling names, with what it takes of each.
+/// Joints that a coupling names, with their coordinates and factors.
 struct Named<'a, T: Real> {
     scene: &'a Scene<T>,
     kind: DrawnKind,
     elements: Vec<Element<T>>,
-    /// Factors as they are written.
+    /// Factors as given in the scene file.
     factors: Vec<T>,
 }
 
 impl<'a, T: Real> Named<'a, T> {
-    /// `None` where the terms are none that a check lets pass, or where they need no carrier: a screw in one joint.
+    /// Prepares a coupling for its sum. `None` if its terms are not valid, or if no carrier is necessary: a screw in one joint.
     fn new(scene: &'a Scene<T>, coupling: &Coupling<T>, kind: DrawnKind) -> Option<Self> {
         let n = match kind {
             DrawnKind::Ratio => return None,
@@ -87,7 +90,7 @@ impl<'a, T: Real> Named<'a, T> {
         Some(Self { scene, kind, elements, factors })
     }
 
-    /// The terms of the sum.
+    /// Terms of the coupling's sum.
     fn sum(&self) -> Result<Vec<CouplingTerm<T>>, SceneFault> {
         match self.kind {
             DrawnKind::Gear { is_internal, .. } => self.wheels(is_internal),
@@ -99,7 +102,7 @@ impl<'a, T: Real> Named<'a, T> {
         }
     }
 
-    /// Two wheels on parallel axes, which turn alike or against each other.
+    /// Sum of two wheels on parallel axes. `is_alike`: they turn in the same sense.
     fn wheels(&self, is_alike: bool) -> Result<Vec<CouplingTerm<T>>, SceneFault> {
         let [first, second] = [&self.elements[0], &self.elements[1]];
         let sense = self.parallel(first, second)?;
@@ -109,7 +112,7 @@ impl<'a, T: Real> Named<'a, T> {
         let mut sum = self.empty();
         sum.add(first, n1 * of_first);
         sum.add(second, n2 * sense * of_second);
-        // w1 = ± θ1 − (carrier against the first's),   w2 = ± θ2 + (the second's against the carrier)
+        // w1 = ± θ1 − (turn of the carrier relative to the first body), w2 = ± θ2 + (turn of the second body relative to the carrier)
         for leg in &path {
             let about = leg.sense_about(first);
             sum.add(&leg.element, if leg.is_first { -n1 * about } else { n2 * about });
@@ -127,7 +130,7 @@ impl<'a, T: Real> Named<'a, T> {
         if size <= least || side.abs() <= least * size * self.reach() {
             return Err(SceneFault::NotDrawn(NotDrawn::PitchLine));
         }
-        // (a × n)·d with n = ± (a × d): a × (a × d) is against d
+        // (a × n)·d with n = ± (a × d), since a × (a × d) is opposite to d
         let sense = if side > T::ZERO { -T::ONE } else { T::ONE };
         let radius = -self.factors[1];
         let ([of_pinion, of_rack], path) = self.carried(pinion, rack)?;
@@ -160,7 +163,7 @@ impl<'a, T: Real> Named<'a, T> {
         Ok(sum.led_by(slide))
     }
 
-    /// The wheels beside the cage. Shafts with joints of constant velocity lead to wheels whose carriers turn with the housing.
+    /// Sum of a differential's wheels and cage. Shafts with constant-velocity joints lead to wheels whose carriers turn with the housing.
     fn differential(&self) -> Result<Vec<CouplingTerm<T>>, SceneFault> {
         let [a, b, cage] = [&self.elements[0], &self.elements[1], &self.elements[2]];
         let cage_body = carrier::outer(self.scene, cage);
@@ -184,19 +187,19 @@ impl<'a, T: Real> Named<'a, T> {
         Ok(sum.led_by(a))
     }
 
-    /// A sum with the named coordinates, in their order.
+    /// Sum with the named coordinates in their order and zero factors.
     fn empty(&self) -> Sum<T> {
         let mut sum = Sum(Vec::new());
         self.elements.iter().for_each(|element| sum.add(element, T::ZERO));
         sum
     }
 
-    /// The sense of one axis against the other.
+    /// Sign of one axis relative to the other; they must be parallel.
     fn parallel(&self, one: &Element<T>, other: &Element<T>) -> Result<T, SceneFault> {
         one.sense(&other.axis).ok_or(SceneFault::NotDrawn(NotDrawn::Parallel))
     }
 
-    /// The signs of both elements in the carrier, and the joints between their own bodies.
+    /// Signs of both elements in the carrier, and the joints between their inner bodies.
     fn carried(
         &self,
         first: &Element<T>,
@@ -208,7 +211,7 @@ impl<'a, T: Real> Named<'a, T> {
         })
     }
 
-    /// The largest distance of a joint from the first that is named [m].
+    /// Largest distance of a joint from the first named joint [m].
     fn reach(&self) -> T {
         let first = self.elements[0].point;
         let far = |joint: &Joint<T>| norm(&(Vector::from(joint.points[0]) - first));
@@ -216,7 +219,7 @@ impl<'a, T: Real> Named<'a, T> {
     }
 }
 
-/// Terms of a sum, each coordinate once.
+/// Terms of a sum; each coordinate occurs once.
 struct Sum<T: Real>(Vec<CouplingTerm<T>>);
 
 impl<T: Real> Sum<T> {
@@ -231,7 +234,7 @@ impl<T: Real> Sum<T> {
         }
     }
 
-    /// The terms that count, with such a sign that the one of the first element grows.
+    /// Nonzero terms, all with a sign such that the factor of the first element is positive.
     fn led_by(mut self, first: &Element<T>) -> Vec<CouplingTerm<T>> {
         let leads = |term: &&CouplingTerm<T>| {
             term.of.coordinate() == Some((first.joint, first.number)) && term.factor < T::ZERO

@@ -1,4 +1,4 @@
-//! Notes of a run on couplings that mean something else than in version 0.1.
+//! Notes of a run on couplings whose meaning has changed since version 0.1.
 
 use crate::Real;
 use crate::mechanism::{MeshedWheels, Scene};
@@ -8,7 +8,7 @@ use alloc::format;
 use alloc::string::String;
 
 impl<T> Scene<T> {
-    /// Notes on the couplings of a resolved scene whose sums are not those of version 0.1, or that are not drawn.
+    /// Notes on couplings of a resolved scene whose sums differ from version 0.1, or whose sense does not follow from the geometry.
     pub fn sense_notes(&self) -> impl Iterator<Item = (CouplingId, String)> {
         let noted = self.couplings.iter().enumerate();
         noted.filter_map(|(i, coupling)| {
@@ -31,9 +31,9 @@ impl<T> Scene<T> {
 }
 
 impl<T: Real> Scene<T> {
-    /// Gears whose radii do not meet the distance of their axes: the motion has their ratio, the wheels do not touch.
+    /// Notes on gears whose radii do not agree with the distance of their axes. The motion has their ratio, but the wheels do not touch.
     pub fn radii_notes(&self) -> impl Iterator<Item = (CouplingId, String)> {
-        /// Distance of the radii from that of the axes, relative to that, which is none [-]. Chosen, not tuned: digits of a file.
+        /// Largest allowed error of the radii, relative to the distance of the axes [-]. Chosen, not tuned: numbers in files are rounded.
         const OFF: f64 = 1e-4;
         let noted = self.couplings.iter().enumerate();
         noted.filter_map(|(i, coupling)| {
@@ -56,7 +56,7 @@ impl<T: Real> Scene<T> {
         })
     }
 
-    /// Outputs of reactions that lack the force of a coupling.
+    /// Notes on outputs of reactions that lack the force of a coupling.
     pub fn reaction_notes(&self) -> impl Iterator<Item = String> {
         let reactions = self.outputs.iter().filter_map(|output| match output.quantity.target() {
             Target::Joint(joint) => {
@@ -88,11 +88,11 @@ impl<T: Real> Scene<T> {
         })
     }
 
-    /// Outputs of couplings that version 0.1 gave otherwise.
+    /// Notes on outputs of couplings whose values differ from version 0.1.
     pub fn effort_notes(&self) -> impl Iterator<Item = String> {
         self.outputs.iter().filter_map(|output| {
             let Target::Coupling(coupling) = output.quantity.target() else { return None };
-            // by the names that files of version 0.1 have: there are no others
+            // by the names of version 0.1, since its files have only these
             let is_effort = match output.quantity.row().name {
                 "effort" => true,
                 "power" => false,

@@ -11,23 +11,23 @@ use alloc::vec::Vec;
 /// A curve with its spline prepared.
 #[derive(Debug, Clone, PartialEq)]
 pub enum PreparedCurve<T> {
-    /// Identity: f(x) = x.
+    /// The identity f(x) = x.
     Identity,
-    /// A piecewise cubic function.
+    /// Piecewise cubic function of x.
     Spline {
         /// Knots (x, f) of the function.
         knots: Vec<[T; 2]>,
         /// Second derivatives at the knots.
         curvature: Vec<T>,
-        /// Period of the function; zero: it has none.
+        /// Period of the function; zero: the function is not periodic.
         period: T,
     },
-    /// A polynomial, by its coefficients.
+    /// Polynomial with these coefficients, the constant one first.
     Polynomial(Vec<T>),
 }
 
 impl<T: Real> PreparedCurve<T> {
-    /// Prepares a curve; `None` is the identity. Cost: one tridiagonal elimination.
+    /// Prepares a curve for evaluation. `None` gives the identity. Cost: one tridiagonal elimination.
     #[must_use]
     pub fn new(curve: Option<&Curve<T>>) -> Self {
         match curve {
@@ -41,7 +41,7 @@ impl<T: Real> PreparedCurve<T> {
         }
     }
 
-    /// Prepares a table; one that is held is taken as straight between its rows.
+    /// Prepares a table for evaluation. A table with interpolation `hold` becomes linear between its rows.
     ///
     /// Cost: one tridiagonal elimination.
     #[must_use]
@@ -54,7 +54,7 @@ impl<T: Real> PreparedCurve<T> {
         Self::Spline { knots, curvature, period }
     }
 
-    /// f, f' and f'' at `x`.
+    /// Value f, f' and f'' at `x`.
     #[must_use]
     pub fn at(&self, x: T) -> [T; 3] {
         match self {
@@ -64,7 +64,7 @@ impl<T: Real> PreparedCurve<T> {
         }
     }
 
-    /// f(x + dx) - f(x), free of cancellation.
+    /// Difference f(x + dx) - f(x), without cancellation of digits.
     #[must_use]
     pub fn change(&self, x: T, dx: T) -> T {
         match self {
@@ -76,7 +76,7 @@ impl<T: Real> PreparedCurve<T> {
         }
     }
 
-    /// Is its slope zero over a range: between rows, or where the end values are held?
+    /// Can the slope be zero over a range of x: between two rows, or outside a table without period?
     #[must_use]
     pub fn may_be_level(&self) -> bool {
         let Self::Spline { knots, curvature, period } = self else { return false };
@@ -86,7 +86,7 @@ impl<T: Real> PreparedCurve<T> {
         !(*period > T::ZERO) || (1..knots.len()).any(|i| is_flat(i - 1))
     }
 
-    /// Is it f(x) = x?
+    /// Is the curve the identity f(x) = x?
     #[must_use]
     pub const fn is_identity(&self) -> bool {
         matches!(self, Self::Identity)
@@ -96,7 +96,7 @@ impl<T: Real> PreparedCurve<T> {
 /// Interpolation by a natural spline.
 const SPLINE: Interpolation = Interpolation::Spline(TableEnds::Natural);
 
-/// Knots and second derivatives of the piecewise cubic function of a table, as [`guide::spline`] takes them.
+/// Knots and second derivatives of the piecewise cubic function of a table, as [`guide::spline`] needs them.
 pub(crate) fn knots<T: Real>(
     rows: &[[T; 2]],
     way: Interpolation,
@@ -119,13 +119,14 @@ pub(crate) fn knots<T: Real>(
     }
 }
 
-/// The second derivatives of the periodic cubic spline, one for each knot, those of the ends equal.
+/// Second derivatives of the periodic cubic spline, one for each knot. Those of the two end knots are equal.
 ///
 /// ```text
 /// h_(i-1) c_(i-1) + 2 (h_(i-1) + h_i) c_i + h_i c_(i+1) = 6 ((f_(i+1) - f_i)/h_i - (f_i - f_(i-1))/h_(i-1)),   cyclic
 /// ```
 ///
-/// The cyclic matrix is a tridiagonal one and u v^T with u = (-d, 0 .. 0, h), v = (1, 0 .. 0, -h/d): Sherman and Morrison's formula.
+/// h are the lengths of the intervals, f the values, c the second derivatives. The cyclic matrix is a tridiagonal one plus u v^T with u =
+/// (-d, 0 .. 0, h) and v = (1, 0 .. 0, -h/d). It is solved by the formula of Sherman and Morrison.
 fn periodic_curvatures<T: Real>(knots: &[[T; 2]]) -> Vec<T> {
     let n = knots.len().saturating_sub(1);
     if n < 2 {
@@ -139,7 +140,7 @@ fn periodic_curvatures<T: Real>(knots: &[[T; 2]]) -> Vec<T> {
     let mut right: Vec<T> = (0..n).map(|i| six * (slope[i] - slope[before(i)])).collect();
     let (corner, d) = (h[n - 1], diagonal[0]);
     if n == 2 {
-        // both neighbours of a knot are the same one
+        // the two neighbours of each knot are the same knot
         let off = h[0] + h[1];
         let det = diagonal[0] * diagonal[1] - off * off;
         let c0 = (right[0] * diagonal[1] - off * right[1]) / det;

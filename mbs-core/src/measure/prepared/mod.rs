@@ -1,4 +1,4 @@
-//! Numbers of a scene prepared for evaluation: the terms of a sum with their curves, and what rolls.
+//! Measured quantities of a scene, prepared for evaluation: terms of sums with their curves, and rolling bodies.
 
 mod curve;
 mod monotone;

@@ -1,5 +1,5 @@
-//! Tables that stay between their neighbouring rows: the spline, where it does; elsewhere its slopes and curvatures at the rows are
-//! held within bounds, and two more knots lie between two rows.
+//! Monotone interpolation of tables: the function does not leave the range of two neighbouring rows. It is the cubic spline where that
+//! satisfies the bounds. Elsewhere slopes and curvatures at the rows are limited, and each interval gets two inner knots.
 //!
 //! ```text
 //! on [x0, x1]:  h = x1 - x0,  D = (f1 - f0)/h,  knots x0 + h/4 and x1 - h/4;  slopes m, curvatures c of the two rows
@@ -7,35 +7,37 @@
 //! P0 = m0   P1 = m0 + c0 h/8   P2 = 3 D - e0 - e1   P3 = m1 - c1 h/8   P4 = m1,    e0 = (P0 + 3 P1)/4,  e1 = (3 P3 + P4)/4
 //! ```
 //!
-//! P2 is what leads from f0 to f1. B-splines are not negative: where no coefficient has another sign than D, neither has f', and f stays
-//! between f0 and f1. That holds for
+//! P2 follows from the condition that f leads from f0 to f1. B-splines are not negative. If no coefficient has the sign opposite to D,
+//! neither has f', and f stays between f0 and f1. Sufficient conditions are
 //!
 //! ```text
 //! m D >= 0      |c| h/8 <= |m| where c turns m down to the other sign      e0 + e1 between 0 and 3 D
 //! ```
 //!
-//! The first two are bounds of a row alone. For the third both rows of an interval are scaled by 3 D/(e0 + e1); a factor of a row keeps the
-//! first two, and a smaller one keeps the third. So each row takes the smaller factor of its two sides, and no order of the rows counts.
-//! Rows share m and c: f is twice differentiable. From rest to rest the largest third derivative is the least there is.
+//! The first two conditions limit each row by itself. For the third, both rows of an interval are scaled by 3 D/(e0 + e1). The scaling
+//! keeps the first two conditions, and a smaller factor keeps the third. Each row takes the smaller factor of its two intervals, so the
+//! result does not depend on the order of the rows. Neighbouring intervals have m and c in common, so f is twice differentiable. Between
+//! two rows with zero slope the largest third derivative is as small as possible.
 
 use crate::Real;
 use alloc::vec;
 use alloc::vec::Vec;
 
-/// Way of the outer knots into an interval [-]: from rest to rest, the third derivative then has one size throughout.
+/// Distance of an inner knot from its row, relative to the interval [-]. Between two rows with zero slope, the third derivative then has a
+/// constant magnitude.
 const INNER_KNOT: f64 = 0.25;
-/// Distance of two rows that counts as none, in units of rounding of their x [-]: no knots fit between them.
+/// Distance of two rows below which no knots fit between them, in multiples of machine precision of x [-].
 const MIN_DISTANCE: f64 = 64.0;
 
-/// Curvatures and knots that a table has in place of its spline.
+/// Curvatures and inner knots of a table that replace those of its spline.
 struct Bounded {
-    /// Curvature at each row; `None`: that of the spline.
+    /// Curvature at each row; `None`: the spline's curvature.
     curvature: Vec<Option<f64>>,
-    /// The knots (x, f, f'') between a row and the next; `None`: none are needed.
+    /// Inner knots (x, f, f'') between each row and the next; `None`: no inner knots are necessary.
     between: Vec<Option<[[f64; 3]; 2]>>,
 }
 
-/// Knots and curvatures of a table that stays between its neighbouring rows, from those of its spline.
+/// Knots and curvatures of the monotone interpolation of a table, from the curvatures of its spline.
 ///
 /// Cost: two passes over the rows.
 pub(super) fn monotone<T: Real>(
@@ -59,16 +61,16 @@ pub(super) fn monotone<T: Real>(
     (knots, bends)
 }
 
-/// One side of a row: slope to the neighbour, and distance.
+/// Interval on one side of a row: its slope and its length.
 #[derive(Clone, Copy)]
 struct Side {
     slope: f64,
     h: f64,
-    /// Is the neighbour too near for knots?
+    /// Is the neighbouring row too close for inner knots?
     is_close: bool,
 }
 
-/// The rows (x, f, f'') of a spline, held within the bounds.
+/// Limits the rows (x, f, f'') of a spline to the bounds.
 fn bounded(spline: &[[f64; 3]], is_periodic: bool, rounding: f64) -> Bounded {
     let side = |pair: &[[f64; 3]]| {
         let ([x0, f0, _], [x1, f1, _]) = (pair[0], pair[1]);
@@ -89,7 +91,7 @@ fn bounded(spline: &[[f64; 3]], is_periodic: bool, rounding: f64) -> Bounded {
     let of_spline: Vec<[f64; 2]> = (0..=n).map(|i| tangent(spline, &sides, i)).collect();
     let of_rows: Vec<[f64; 2]> =
         of_spline.iter().enumerate().map(|(i, &of)| of_row(of, beside(i))).collect();
-    // 3 D/(e0 + e1) of each interval
+    // the factor 3 D/(e0 + e1) of each interval
     let factor = |(i, side): (usize, &Side)| {
         let ends = end_sum(of_rows[i], side.h, 1.0) + end_sum(of_rows[i + 1], side.h, -1.0);
         if ends.abs() > 3.0 * side.slope.abs() { 3.0 * side.slope / ends } else { 1.0 }
@@ -128,7 +130,7 @@ fn tangent(spline: &[[f64; 3]], sides: &[Side], i: usize) -> [f64; 2] {
     [slope, c]
 }
 
-/// Slope and curvature of a row within its own bounds.
+/// Slope and curvature of a row, limited by the conditions of this row alone.
 fn of_row([slope, c]: [f64; 2], [before, after]: [Option<Side>; 2]) -> [f64; 2] {
     let sides = || [before, after].into_iter().flatten();
     if sides().any(|side| side.is_close || side.slope == 0.0) {
@@ -137,24 +139,24 @@ fn of_row([slope, c]: [f64; 2], [before, after]: [Option<Side>; 2]) -> [f64; 2] 
     let m = if sides().all(|side| side.slope * slope > 0.0) { slope } else { 0.0 };
     let mut c = c;
     if let Some(side) = after {
-        // P1 has the sign of D
+        // the coefficient P1 gets the sign of D
         let least = -8.0 * m.abs() / side.h;
         c = side.slope.signum() * (side.slope.signum() * c).max(least);
     }
     if let Some(side) = before {
-        // P3 has the sign of D
+        // the coefficient P3 gets the sign of D
         let most = 8.0 * m.abs() / side.h;
         c = side.slope.signum() * (side.slope.signum() * c).min(most);
     }
     [m, c]
 }
 
-/// e0 of a row at the left end of an interval, with the sign 1, or e1 of one at its right end, with -1.
+/// End sum of a row in an interval: e0 at the left end of the interval, with sign 1, or e1 at its right end, with sign -1.
 fn end_sum([m, c]: [f64; 2], h: f64, sign: f64) -> f64 {
     m + sign * 3.0 * c * h / 32.0
 }
 
-/// The two knots (x, f, f'') in an interval.
+/// Inner knots (x, f, f'') of an interval.
 fn inner([a, b]: [[f64; 3]; 2], [first, last]: [[f64; 2]; 2], side: Side) -> [[f64; 3]; 2] {
     let ([m0, c0], [m1, c1], h) = (first, last, side.h);
     let (p1, p3) = (m0 + c0 * h / 8.0, m1 - c1 * h / 8.0);

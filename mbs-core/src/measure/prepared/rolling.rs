@@ -1,4 +1,4 @@
-//! Rollings, as models take them: unit directions, the plane with two directions along it, the point of contact.
+//! Rolling bodies as models need them: unit directions, the plane with two directions in it, and the contact point.
 
 use crate::Real;
 use crate::algebra::{Vector, along, cross, unit};
@@ -6,27 +6,27 @@ use crate::joint::Dimension;
 use crate::measure::{lies_flat, lowest_place};
 use crate::scene::{BodyId, Rolling, RollingKind, transverse};
 
-/// An entry of a scene's rollings, reference configuration.
+/// Rolling contact of a scene, in the reference configuration.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RollingInput<T: Real> {
-    /// The radius of a disc or ball; of a blade zero [m].
+    /// Radius of the disc or ball [m]; zero for a blade.
     pub radius: T,
-    /// Is it a blade?
+    /// Is the rolling body a blade?
     pub is_blade: bool,
-    /// The body, and what it rolls on.
+    /// Rolling body, and the body on which it rolls.
     pub bodies: [BodyId; 2],
-    /// The centre, or the point of a blade [m].
+    /// Centre of the disc or ball, or point of the blade [m].
     pub center: Vector<T, 3>,
-    /// The unit axis of a disc in space, or the unit direction of a blade; of a ball, and of a wheel in the plane, zero.
+    /// Unit axis of a disc in space, or unit direction of a blade. Zero for a ball and for a wheel in a planar scene.
     pub axis: Vector<T, 3>,
-    /// A point of the plane [m].
+    /// Point of the plane [m].
     pub base: Vector<T, 3>,
-    /// The plane's unit normal, then two directions along it. In the plane the second is z.
+    /// Unit normal of the plane, then two directions in the plane. In a planar scene the second direction is z.
     pub plane: [Vector<T, 3>; 3],
 }
 
 impl<T: Real> RollingInput<T> {
-    /// Input of an entry that passed its scene's check.
+    /// Prepares a rolling contact of a checked scene.
     pub fn new(rolling: &Rolling<T>, dimension: Dimension) -> Self {
         let is_planar = dimension == Dimension::Planar;
         let radius = rolling.kind.radius().copied().unwrap_or(T::ZERO);
@@ -63,17 +63,17 @@ impl<T: Real> RollingInput<T> {
         self.center + lowest_place(self.radius, self.plane[0], self.axis)
     }
 
-    /// From the plane to the lowest point, along the normal [m]: zero where it touches.
+    /// Distance from the plane to the lowest point, along the normal [m]. It is zero in contact.
     pub fn gap(&self) -> T {
         self.plane[0].dot(&(self.contact() - self.base))
     }
 
-    /// Number of its rows.
+    /// Number of constraint rows of the contact.
     pub fn n_rows(&self, dimension: Dimension) -> usize {
         if self.is_blade { 1 } else { dimension.count() }
     }
 
-    /// Is its axis, or the blade, along the normal, or within a thousandth of a radian of it?
+    /// Is the axis of the disc, or the blade, within a thousandth of a radian of the normal?
     pub fn is_along_normal(&self) -> bool {
         lies_flat(&self.plane[0], &self.axis)
     }

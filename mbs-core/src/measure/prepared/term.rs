@@ -1,4 +1,4 @@
-//! A number that a mechanism has, with a factor and a curve, prepared.
+//! Prepared term of a sum: a measured number with a factor and a curve.
 
 use super::PreparedCurve;
 use crate::Real;
@@ -6,18 +6,18 @@ use crate::algebra::{Vector, norm};
 use crate::scene::{BodyId, CouplingMeasure, CouplingTerm};
 use alloc::vec::Vec;
 
-/// A term of a coupling, prepared.
+/// Term of a coupling, prepared for evaluation.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TermInput<T> {
     /// Factor of the term.
     pub factor: T,
-    /// Number that is measured.
+    /// Coordinate or length that is measured.
     pub of: CouplingMeasure<T>,
-    /// Joint and number of a coordinate; `None` of a length.
+    /// Joint and number of the coordinate; `None` for a length.
     pub coordinate: Option<(usize, usize)>,
-    /// The function of the measured number.
+    /// Function of the measured number.
     pub curve: PreparedCurve<T>,
-    /// Does a length count whole, and not from the reference configuration?
+    /// Does a length count in full? Otherwise the length in the reference configuration is subtracted.
     pub is_whole: bool,
 }
 
@@ -35,7 +35,7 @@ impl<T: Real> TermInput<T> {
         prepared.collect()
     }
 
-    /// A number by itself; a length counts whole.
+    /// Term that is a measured number without factor and curve; a length counts in full.
     #[must_use]
     pub fn measured(of: &CouplingMeasure<T>) -> Self {
         Self {
@@ -47,13 +47,14 @@ impl<T: Real> TermInput<T> {
         }
     }
 
-    /// The whole length of a line over points.
+    /// Term that is the full length of a line over points.
     #[must_use]
     pub fn line(points: &[(BodyId, [T; 3])]) -> Self {
         Self::measured(&CouplingMeasure::Length { points: points.to_vec() })
     }
 
-    /// Length from which a measured length over these points counts [m]: that in the reference configuration, or zero where it counts whole.
+    /// Length that is subtracted from a measured length over these points [m]. It is the length in the reference configuration, or zero if the
+    /// length counts in full.
     #[must_use]
     pub fn reference_of(&self, points: &[[T; 3]; 2]) -> T {
         let [p, q] = points.map(Vector::<T, 3>::from);

@@ -1,4 +1,4 @@
-//! The wrenches that effects apply to bodies.
+//! Wrenches that effects apply to bodies.
 //!
 //! ```text
 //! length      tension f along the line of two points
@@ -20,11 +20,11 @@ use crate::model::State;
 use crate::natural::{Affine, unwrap_rotation};
 use crate::scene::BodyId;
 
-/// Points at which a wrench acts on both bodies (`None`: a moment alone), and the wrench on the first.
+/// Points at which a wrench acts on both bodies (`None`: a moment only), and the wrench on the first body.
 type Pull<T> = ([Option<Vector<T, 3>>; 2], Wrench<T>);
 
 impl<T: Real, const D: usize> Load<T, D> {
-    /// Hands out the wrenches it applies at a state; `turned` gives the rotation of a body.
+    /// Passes to `take` the wrenches that the load applies at a state. `turned` gives the rotation matrix of a body.
     pub(in crate::outputs) fn apply(
         &self,
         (state, law_inputs): (&State<T>, &LawInputs<'_, T>),
@@ -80,7 +80,7 @@ impl<T: Real, const D: usize> Load<T, D> {
 }
 
 impl<T: Real, const D: usize> Measure<T, D> {
-    /// Pull of a law at a state; `axes`: the first body's rotation. Nothing at length zero.
+    /// Wrench of a law at a state. `axes` is the rotation matrix of the first body. `None` at length zero.
     fn pull(
         &self,
         law: &Law<T>,
@@ -113,7 +113,7 @@ impl<T: Real, const D: usize> Measure<T, D> {
         })
     }
 
-    /// Value that a law measures at a state, and its rate; no rate at length zero.
+    /// Value that a law measures at a state, and its rate. The rate is zero at length zero.
     pub(super) fn measure(&self, state: &State<T>) -> [T; 2] {
         match self {
             Self::Length { points } => {
@@ -146,7 +146,7 @@ impl<T: Real, const D: usize> Measure<T, D> {
         }
     }
 
-    /// The rotation vector of a rotation, as the state remembers it.
+    /// Rotation vector, with the turns that the state remembers.
     fn rotation(&self, state: &State<T>) -> Vector<T, 3> {
         let Self::Rotation { frames, memory, .. } = self else { return Vector::zeros() };
         let [first, second] = [0, 1].map(|i| frames[i].rotation(&state.q));
@@ -156,7 +156,7 @@ impl<T: Real, const D: usize> Measure<T, D> {
     }
 }
 
-/// Hands out the actions of a law on one body, with their numbers.
+/// Passes to `take` the unit wrenches of a law on one body, with their numbers.
 pub(super) fn for_each_action<T: Real>(
     law: &BodyLaw<T>,
     motion: &BodyMotion<T>,
@@ -169,7 +169,7 @@ pub(super) fn for_each_action<T: Real>(
     actions.iter().enumerate().for_each(|(i, action)| take(i, action));
 }
 
-/// Motion of a body as a law on it sees it, with the law's direction as it has turned.
+/// Motion of a body in the form that a law on the body needs. `axis` is the law's direction in its present orientation.
 pub(super) fn motion<T: Real, const D: usize>(
     (point, frame): (&Affine<T, D>, &Frame<T, D>),
     axis: &Vector<T, 3>,
@@ -183,7 +183,7 @@ pub(super) fn motion<T: Real, const D: usize>(
     }
 }
 
-/// Places of two points, and the rate of the way from the first to the second.
+/// Positions of two points, and the rate of the vector from the first to the second.
 fn ends<T: Real, const D: usize>(
     points: &[Affine<T, D>; 2],
     state: &State<T>,

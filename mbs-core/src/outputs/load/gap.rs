@@ -1,4 +1,4 @@
-//! Gaps of effects that act on one side only, positive apart, negative pressed in; and the kinks of laws.
+//! Gaps of one-sided effects: positive apart, negative in contact. Also the kinks of laws.
 //!
 //! ```text
 //! bumper   g = m - touch
@@ -24,29 +24,29 @@ pub struct Gap<T> {
     pub rate: T,
 }
 
-/// Gaps that one effect has at most: those of a limit, lower and upper.
+/// Largest number of gaps of one effect [-]: a limit has a lower and an upper one.
 pub(in crate::outputs) const MOST_GAPS: usize = 2;
 
-/// Gaps and coordinates of an effect that are watched, at a state.
+/// Gaps and coordinates of an effect at a state, for the detection of events.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(in crate::outputs) struct Reading<T> {
-    /// Gaps of the effect, [`Load::n_gaps`] of them.
+    /// Gaps of the effect. The first [`Load::n_gaps`] are used.
     pub(in crate::outputs) gaps: [Gap<T>; MOST_GAPS],
-    /// The coordinates of its kinks: a wheel's centre along its road and up, or a length and zero.
+    /// Coordinates for its kinks: the wheel's centre along the road and its height, or a length and zero.
     pub(in crate::outputs) place: [Gap<T>; 2],
 }
 
-/// Numbers of a [`Reading`].
+/// Number of values in a [`Reading`] [-].
 pub(in crate::outputs) const N_READING: usize = 8;
 
 impl<T: Real> Reading<T> {
-    /// Numbers of the reading: gaps, then coordinates, each with its rate.
+    /// Values of the reading: gaps, then coordinates, each with its rate.
     pub(in crate::outputs) fn numbers(&self) -> [T; N_READING] {
         let [[a, b], [c, d]] = [self.gaps, self.place].map(|of| of.map(|g| [g.value, g.rate]));
         [a[0], a[1], b[0], b[1], c[0], c[1], d[0], d[1]]
     }
 
-    /// The reading of these [`numbers`](Self::numbers).
+    /// Reading with these [`numbers`](Self::numbers).
     pub(in crate::outputs) fn of_numbers(numbers: &[T; N_READING]) -> Self {
         let gap = |i: usize| Gap { value: numbers[2 * i], rate: numbers[2 * i + 1] };
         Self { gaps: [gap(0), gap(1)], place: [gap(2), gap(3)] }
@@ -54,7 +54,7 @@ impl<T: Real> Reading<T> {
 }
 
 impl<T: Real, const D: usize> Load<T, D> {
-    /// How many gaps it has; none where it acts always.
+    /// Number of gaps; zero for an effect that always acts.
     pub(in crate::outputs) fn n_gaps(&self) -> usize {
         match self {
             Self::Between { law, .. } | Self::Sum { law, .. } => law.n_gaps(),
@@ -63,7 +63,7 @@ impl<T: Real, const D: usize> Load<T, D> {
         }
     }
 
-    /// The depth over which the damper of its contact fades in [m or rad], if it has one.
+    /// Depth over which the damper of the contact fades in [m or rad]; `None` if it has none.
     pub(in crate::outputs) fn fade(&self) -> Option<f64> {
         let has_fade = match self {
             Self::Between { law, .. } | Self::Sum { law, .. } => law.has_fade(),
@@ -73,7 +73,7 @@ impl<T: Real, const D: usize> Load<T, D> {
         has_fade.then_some(FADE)
     }
 
-    /// Can its law have kinks besides those of its gaps?
+    /// Can the law have kinks other than those of its gaps?
     pub(in crate::outputs) fn may_have_kinks(&self) -> bool {
         match self {
             Self::Between { law, .. } | Self::Sum { law, .. } => law.may_have_kinks(),
@@ -82,7 +82,7 @@ impl<T: Real, const D: usize> Load<T, D> {
         }
     }
 
-    /// Hands out the kinks of its law, in no order.
+    /// Passes to `take` the kinks of the law, in no particular order.
     pub(in crate::outputs) fn kinks(
         &self,
         law_inputs: &LawInputs<'_, T>,
@@ -95,7 +95,8 @@ impl<T: Real, const D: usize> Load<T, D> {
         }
     }
 
-    /// How far from its place a kink may be passed [m]: on a slope, a wheel stands off its foot by less than its radius.
+    /// Largest distance from its place at which a kink may be passed [m]. On a slope, wheel centre and contact point are apart along the
+    /// road by less than the radius.
     pub(in crate::outputs) fn reach(&self) -> T {
         match self {
             Self::OnBody { law, .. } => law.reach(),
@@ -103,7 +104,7 @@ impl<T: Real, const D: usize> Load<T, D> {
         }
     }
 
-    /// Does it measure an angle [rad], not a length [m]?
+    /// Is the measure an angle [rad]? Otherwise it is a length [m].
     pub(in crate::outputs) fn is_angular(&self) -> bool {
         match self {
             Self::Between { gauge, .. } => matches!(gauge, Measure::Angle { .. }),
@@ -112,7 +113,7 @@ impl<T: Real, const D: usize> Load<T, D> {
         }
     }
 
-    /// Reads the gaps and coordinates that are watched, at a state. Cost: one length or angle, or one wheel's nearest point of the road.
+    /// Evaluates gaps and coordinates at a state. Cost: one length or angle, or one nearest point of the road.
     pub(in crate::outputs) fn reading(
         &self,
         state: &State<T>,

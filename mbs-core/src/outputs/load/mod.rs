@@ -1,4 +1,4 @@
-//! Effects as seen by the bodies: what acts, at which places, by which law.
+//! Effects as loads on bodies: their attachment points and laws.
 
 mod apply;
 mod gap;
@@ -27,30 +27,30 @@ use alloc::boxed::Box;
 use alloc::vec;
 use alloc::vec::Vec;
 
-/// The enabled effects of a scene, with the inputs of an instant.
+/// Enabled effects of a scene, with the signals of one instant.
 #[derive(Debug, Clone)]
 pub(super) struct Loads<T: Real, const D: usize> {
     list: Vec<Load<T, D>>,
     prescribed: Prescribed<T>,
-    /// The courses' vectors at the instant.
+    /// Vectors of the signals at this instant.
     values: Vec<[T; 3]>,
     tables: Tables<T>,
 }
 
-/// Load of one effect, or of a part of one, on the bodies.
+/// Load of one effect, or of a part of an effect, on bodies.
 #[derive(Debug, Clone)]
 pub(super) enum Load<T: Real, const D: usize> {
-    /// A law of what is measured between two bodies.
+    /// Law of a measure between two bodies.
     Between { bodies: [BodyId; 2], gauge: Measure<T, D>, law: Law<T> },
-    /// A law of a sum of joint coordinates and lengths.
+    /// Law of a sum of joint coordinates and lengths.
     Sum { sum: CoupledSum<T, D>, law: Law<T> },
-    /// A force in fixed directions.
+    /// Constant force in global axes.
     Constant { body: usize, point: Affine<T, D>, force: Vector<T, 3> },
-    /// A force that follows a course.
+    /// Force with the values of a signal.
     Force { body: usize, point: Affine<T, D>, course: usize, turns: bool },
-    /// A torque that follows a course.
+    /// Torque with the values of a signal.
     Torque { body: usize, frame: Frame<T, D>, course: usize },
-    /// A law on one body.
+    /// Law on one body.
     OnBody {
         body: usize,
         point: Affine<T, D>,
@@ -60,7 +60,7 @@ pub(super) enum Load<T: Real, const D: usize> {
     },
 }
 
-/// Kind of number that a scalar law measures.
+/// Measure of a scalar law.
 #[derive(Debug, Clone)]
 pub(super) enum Measure<T: Real, const D: usize> {
     Length {
@@ -72,13 +72,13 @@ pub(super) enum Measure<T: Real, const D: usize> {
         offset: T,
     },
     Angle {
-        /// The joint's axis, fixed in the first body, as in the reference configuration; `None`: of two axes, each in its body.
+        /// Axis of the joint in the reference configuration, fixed in the first body. `None`: the joint has two axes, one in each body.
         axis: Option<Vector<T, 3>>,
         angle: Coordinate<T, D>,
         /// Place at which the state remembers the angle; `None`: neither body moves.
         memory: Option<usize>,
     },
-    /// A component of the rotation vector of the second body against the first.
+    /// Component of the rotation vector of the second body relative to the first.
     Rotation {
         frames: Box<[Frame<T, D>; 2]>,
         number: usize,
@@ -88,10 +88,10 @@ pub(super) enum Measure<T: Real, const D: usize> {
 }
 
 impl<T: Real, const D: usize> Loads<T, D> {
-    /// All enabled effects of a scene, and their indices.
+    /// All enabled effects of a scene, and their numbers.
     ///
     /// # Errors
-    /// [`ActionError`] as for the model.
+    /// [`ActionError`] as when the model is built.
     pub(super) fn new(
         scene: &Scene<T>,
         model: &NaturalModel<T, D>,
@@ -99,10 +99,10 @@ impl<T: Real, const D: usize> Loads<T, D> {
         Self::of(scene, model, |_| true)
     }
 
-    /// The enabled effects that act on one side only, and their indices.
+    /// Enabled one-sided effects, and their numbers.
     ///
     /// # Errors
-    /// [`ActionError`] as for the model.
+    /// [`ActionError`] as when the model is built.
     pub(super) fn one_sided(
         scene: &Scene<T>,
         model: &NaturalModel<T, D>,
@@ -110,10 +110,10 @@ impl<T: Real, const D: usize> Loads<T, D> {
         Self::of(scene, model, |load| load.n_gaps() > 0)
     }
 
-    /// The enabled effects whose laws have gaps or may have kinks, and their indices.
+    /// Enabled effects whose laws have gaps or may have kinks, and their numbers.
     ///
     /// # Errors
-    /// [`ActionError`] as for the model.
+    /// [`ActionError`] as when the model is built.
     pub(super) fn with_kinks(
         scene: &Scene<T>,
         model: &NaturalModel<T, D>,
@@ -135,24 +135,24 @@ impl<T: Real, const D: usize> Loads<T, D> {
         Ok((Self { list, prescribed, values, tables }, effects))
     }
 
-    /// The effects, and the courses of a state's instant, with the inputs that its accelerations were made with.
+    /// Loads, and the signals at the instant of a state. Inputs are those with which the accelerations of the state were computed.
     pub(super) fn at(&mut self, state: &State<T>) -> (&[Load<T, D>], LawInputs<'_, T>) {
         self.update(state);
         (&self.list, self.law_inputs())
     }
 
-    /// Sets the courses to those of a state's instant.
+    /// Sets the signals to the instant of a state.
     pub(super) fn update(&mut self, state: &State<T>) {
         self.prescribed.write_followed(&state.signals, &mut self.values);
         self.prescribed.write(state.t, &state.applied, &mut [], &mut self.values);
     }
 
-    /// Loads of the effects.
+    /// List of the loads.
     pub(super) fn list(&self) -> &[Load<T, D>] {
         &self.list
     }
 
-    /// The courses as last set.
+    /// Signals as last set.
     pub(super) fn law_inputs(&self) -> LawInputs<'_, T> {
         self.tables.law_inputs(&self.values)
     }

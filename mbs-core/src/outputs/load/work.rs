@@ -1,4 +1,4 @@
-//! Energy that effects store, and power that they give to bodies.
+//! Energy stored in effects, and power of effects on bodies.
 //!
 //! ```text
 //! scalar law   V(m),   power -f m'
@@ -17,7 +17,7 @@ use crate::model::State;
 use crate::scene::BodyId;
 
 impl<T: Real, const D: usize> Load<T, D> {
-    /// The one number that its law is of, and its rate; zeros where there is none.
+    /// Value that the law measures, and its rate; zeros for other loads.
     pub(super) fn measure(&self, state: &State<T>) -> [T; 2] {
         match self {
             Self::Between { gauge, .. } => gauge.measure(state),
@@ -26,7 +26,7 @@ impl<T: Real, const D: usize> Load<T, D> {
         }
     }
 
-    /// Value, rate and tension of a law of one number; `None` of what is none.
+    /// Value, rate and tension of a scalar law; `None` for other loads.
     pub(in crate::outputs) fn scalar(
         &self,
         state: &State<T>,
@@ -38,7 +38,7 @@ impl<T: Real, const D: usize> Load<T, D> {
         Some(ScalarForce { value, rate, tension, ..ScalarForce::default() })
     }
 
-    /// Energy stored in the effect [J]; `turned` gives the rotation of a body.
+    /// Energy stored in the effect [J]. `turned` gives the rotation matrix of a body.
     pub(in crate::outputs) fn energy(
         &self,
         (state, law_inputs): (&State<T>, &LawInputs<'_, T>),
@@ -66,7 +66,7 @@ impl<T: Real, const D: usize> Load<T, D> {
         }
     }
 
-    /// Forces of the road on a tire; `None` of what is none. `turned` gives the rotation of a body.
+    /// Forces of the road on a tire; `None` for other loads. `turned` gives the rotation matrix of a body.
     pub(in crate::outputs) fn tire(
         &self,
         (state, law_inputs): (&State<T>, &LawInputs<'_, T>),
@@ -77,7 +77,7 @@ impl<T: Real, const D: usize> Load<T, D> {
         law.tire(&motion((point, frame), &axis, state), law_inputs)
     }
 
-    /// Power that it gives to bodies [W]; `turned` gives the rotation of a body.
+    /// Power that the load supplies to bodies [W]. `turned` gives the rotation matrix of a body.
     pub(in crate::outputs) fn power(
         &self,
         (state, law_inputs): (&State<T>, &LawInputs<'_, T>),

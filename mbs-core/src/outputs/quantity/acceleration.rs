@@ -17,7 +17,7 @@ pub(super) const ROW: QuantityRow = QuantityRow::new(
     },
 );
 
-/// The point.
+/// Point whose acceleration is measured.
 #[derive(Debug, Clone)]
 pub(in crate::outputs) struct Acceleration<T: Real, const D: usize>(Affine<T, D>);
 

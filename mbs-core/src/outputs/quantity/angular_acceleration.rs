@@ -18,7 +18,7 @@ pub(super) const ROW: QuantityRow = QuantityRow::new(
     },
 );
 
-/// The directions of the body.
+/// Directions of the measured body.
 #[derive(Debug, Clone)]
 pub(in crate::outputs) struct AngularAcceleration<T: Real, const D: usize>(Frame<T, D>);
 

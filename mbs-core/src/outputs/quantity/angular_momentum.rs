@@ -18,7 +18,7 @@ pub(super) const ROW: QuantityRow = QuantityRow::new(
     },
 );
 
-/// The bodies.
+/// Bodies of the scene, with their mass properties.
 #[derive(Debug, Clone)]
 pub(in crate::outputs) struct AngularMomentum<T: Real, const D: usize>(Vec<BodyInertia<T, D>>);
 
@@ -31,7 +31,7 @@ impl<T: Real, const D: usize> Measured<T, D> for AngularMomentum<T, D> {
 
     fn write(&self, now: &Instant<'_, T, D>, out: &mut [T]) {
         let sum = inertia::angular_momentum(&self.0, now.state);
-        // in the plane its last component
+        // in a planar scene the component about z
         out.copy_from_slice(&sum.as_slice()[3 - out.len()..]);
     }
 }

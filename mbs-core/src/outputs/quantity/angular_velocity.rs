@@ -19,7 +19,7 @@ pub(super) const ROW: QuantityRow = QuantityRow::new(
     },
 );
 
-/// The directions of the body; of a thin rod that balls alone hold, the part across it.
+/// Directions of the measured body. A thin rod between ball joints has no spin about its axis.
 #[derive(Debug, Clone)]
 pub(in crate::outputs) struct AngularVelocity<T: Real, const D: usize>(Frame<T, D>);
 
@@ -31,7 +31,7 @@ impl<T: Real, const D: usize> Measured<T, D> for AngularVelocity<T, D> {
     }
 
     fn write(&self, now: &Instant<'_, T, D>, out: &mut [T]) {
-        // omega, in the plane its last component
+        // the angular velocity; in a planar scene the component about z
         let omega = self.0.turning(&now.state.q, &now.state.v);
         out.copy_from_slice(&omega.as_slice()[3 - out.len()..]);
     }

@@ -19,7 +19,7 @@ pub(super) const ROW: QuantityRow = QuantityRow::new(
 )
 .without_rotation();
 
-/// The body; the ground has none.
+/// Mass properties of the measured body; `None` for the ground.
 #[derive(Debug, Clone)]
 pub(in crate::outputs) struct BodyKineticEnergy<T: Real, const D: usize>(Option<BodyInertia<T, D>>);
 

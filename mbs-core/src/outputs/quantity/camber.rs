@@ -18,7 +18,7 @@ pub(super) const ROW: QuantityRow = QuantityRow::new(
     },
 );
 
-/// The wheel's axis.
+/// Axis of the measured wheel.
 #[derive(Debug, Clone)]
 pub(in crate::outputs) struct Camber<T: Real, const D: usize>(CarrierDirection<T, D>);
 
@@ -30,7 +30,7 @@ impl<T: Real, const D: usize> Measured<T, D> for Camber<T, D> {
     }
 
     fn write(&self, now: &Instant<'_, T, D>, out: &mut [T]) {
-        // asin(R_zy), by its cosine too: R_zy may round above one
+        // asin(R_zy) by an arc tangent, since R_zy may exceed one by a rounding error
         let [x, y, z] = self.0.parts(now.state);
         out[0] = z.atan2((x * x + y * y).sqrt());
     }

@@ -18,7 +18,7 @@ pub(super) const ROW: QuantityRow = QuantityRow::new(
     },
 );
 
-/// The steering axis.
+/// Steering axis of the measured wheel.
 #[derive(Debug, Clone)]
 pub(in crate::outputs) struct Caster<T: Real, const D: usize>(CarrierDirection<T, D>);
 

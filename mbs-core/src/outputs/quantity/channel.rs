@@ -1,4 +1,4 @@
-//! What one channel reads: a quantity of each kind.
+//! Channel of an output: one of the kinds of quantity.
 
 use super::kind::{Followed, Instant, Maker, Measured};
 use super::seen::SeenPoint;

@@ -1,4 +1,4 @@
-//! The components of a quantity: how many there are, their labels and their units.
+//! Components of a quantity: their number, labels and units.
 
 use crate::joint::{Dimension, Freedom};
 use crate::scene::SceneFault;
@@ -7,28 +7,28 @@ use alloc::string::String;
 use alloc::vec::Vec;
 use core::ops::Range;
 
-/// A component of a channel.
+/// A component of an output channel.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Component {
-    /// What follows the dot in a column's name; empty when the channel is one number.
+    /// Label after the dot in a column's name; empty if the channel has one component.
     pub label: String,
     /// Unit, such as `m` or `rad/s`.
     pub unit: String,
 }
 
-/// Components of a channel that are one vector.
+/// Vector among the components of a channel, whose magnitude can be recorded.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Magnitude {
-    /// What follows the dot in the name of a column with its magnitude: `abs`; of a wrench `F` and `M`.
+    /// Label after the dot in the name of the magnitude's column: `abs`; for a wrench `F` and `M`.
     pub label: &'static str,
-    /// Its unit.
+    /// Unit of the magnitude.
     pub unit: String,
-    /// The places of its components in the channel.
+    /// Places of the vector's components in the channel.
     pub places: Range<usize>,
 }
 
-/// The vectors among the components of a channel: `x`, `y`, `z`, forces and moments. Quaternions, matrices and coordinates of a joint are
-/// none, and a vector of one component is a number.
+/// Vectors among the components of a channel: `x`, `y`, `z`, forces and moments. Quaternions, matrices and coordinates of a joint are no
+/// vectors. A vector with one component is a number.
 ///
 /// ```
 /// use mbs_core::outputs::{Component, magnitudes};
@@ -40,7 +40,7 @@ pub struct Magnitude {
 pub fn magnitudes(components: &[Component]) -> Vec<Magnitude> {
     let of = |(prefix, label): (&str, &'static str)| {
         let is_part = |component: &Component| {
-            // a number without a unit is of a rotation
+            // a component without a unit belongs to a rotation matrix or a quaternion
             component.unit != "-"
                 && component.label.strip_prefix(prefix).is_some_and(|x| AXES.contains(&x))
         };
@@ -52,17 +52,17 @@ pub fn magnitudes(components: &[Component]) -> Vec<Magnitude> {
     [("", "abs"), ("F", "F"), ("M", "M")].into_iter().filter_map(of).collect()
 }
 
-/// Units of angles, of their rates and accelerations; and the same in degrees.
+/// Units of angles, angular rates and angular accelerations, each in radians and in degrees.
 const ANGLES: [[&str; 2]; 3] = [["rad", "deg"], ["rad/s", "deg/s"], ["rad/s^2", "deg/s^2"]];
 
-/// The unit in degrees of what has a unit of rad, rad/s or rad/s^2; `None` of other units.
+/// Unit in degrees for a unit of rad, rad/s or rad/s^2; `None` for other units.
 pub(super) fn in_degrees(unit: &str) -> Option<&'static str> {
     ANGLES.iter().find(|[radians, _]| *radians == unit).map(|[_, degrees]| *degrees)
 }
 
-/// The unit in radians of one in degrees, another one as it is; and how many of the given units are one of it [-].
+/// Unit in radians for a unit in degrees, and the number of given units in one of it [-]. Other units do not change.
 ///
-/// Sizes of outputs in both units compare by it.
+/// Sizes of outputs in both units are compared with it.
 ///
 /// ```
 /// use mbs_core::outputs::in_radians;
@@ -78,54 +78,55 @@ pub fn in_radians(unit: &str) -> (&str, f64) {
 /// Letters of the axes.
 const AXES: [&str; 3] = ["x", "y", "z"];
 
-/// The form of a quantity's components.
+/// Form of a quantity's components, with a unit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ComponentForm {
-    /// `x`, `y`, `z`, in the plane without `z`; with a unit.
+    /// Components `x`, `y`, `z` with this unit; in a planar scene without `z`.
     Vector(&'static str),
-    /// About `x`, `y`, `z`, in the plane one number; with a unit.
+    /// Components about `x`, `y`, `z` with this unit; in a planar scene one number.
     Axial(&'static str),
-    /// `1`, `2`, ... for the coordinates of a joint, one number where there is one; with what follows the unit of each.
+    /// Components `1`, `2`, ... for the coordinates of a joint, or one number for a single coordinate. The text follows the unit of each
+    /// coordinate.
     Coordinates(&'static str),
-    /// The same for the forces on the coordinates.
+    /// Components like `Coordinates`, for the forces on the coordinates.
     Efforts,
-    /// One number; with its unit.
+    /// One number with this unit.
     Number(&'static str),
-    /// One number that a coupling or an effect measures, with what follows its unit; nothing of an effect that measures several.
+    /// Number that a coupling or an effect measures; the text follows its unit. An effect that measures several numbers has no component.
     Measured(&'static str),
-    /// One length of a coupling that has lines [m]; nothing of others.
+    /// Length of a coupling's lines [m]; other couplings have no component.
     Length,
-    /// One number of an effect that acts on one side only; nothing of others.
+    /// Contact flag of a one-sided effect; other effects have no component.
     Contact,
-    /// One number of a tire, with its unit; nothing of other effects.
+    /// Number of a tire with this unit; other effects have no component.
     Tire(&'static str),
-    /// A place of a tire [m]; nothing of other effects.
+    /// Position of a tire's contact [m]; other effects have no component.
     TirePoint,
-    /// One number of an effect that has a free value or acts on one side only, with its unit; nothing of others.
+    /// Deflection of an effect with a free value or of a one-sided effect; other effects have no component.
     Deflection,
-    /// `xx`, `xy` and so on, row by row.
+    /// Components `xx`, `xy` and so on of a matrix, row by row.
     Matrix,
-    /// The force on what is measured; of an effect that measures several numbers, its wrench.
+    /// Force on the measured number; for an effect that measures several numbers, its wrench.
     Force,
-    /// `w`, `x`, `y`, `z` of a quaternion; in the plane an angle.
+    /// Components `w`, `x`, `y`, `z` of a quaternion; in a planar scene an angle.
     Orientation,
-    /// `Fx`, `Fy`, `Fz`, `Mx`, `My`, `Mz`; in the plane `Fx`, `Fy`, `Mz`.
+    /// Components `Fx`, `Fy`, `Fz`, `Mx`, `My`, `Mz`; in a planar scene `Fx`, `Fy`, `Mz`.
     Wrench,
 }
 
-/// The unit of what is done work on by a force: `N` on a length, `N m` on an angle and on a number.
+/// Unit of the generalised force on a measure: `N` on a length, `N m` on an angle or a number.
 fn effort(unit: &str) -> &'static str {
     if unit == "m" { "N" } else { "N m" }
 }
 
 impl ComponentForm {
-    /// Is it of tires alone?
+    /// Is the form for tires only?
     #[must_use]
     pub const fn is_of_tire(self) -> bool {
         matches!(self, Self::Tire(_) | Self::TirePoint)
     }
 
-    /// Fault of a quantity of an effect that has no components of this form.
+    /// Fault for an effect that has no components of this form.
     pub(crate) const fn fault_of_effect(self) -> SceneFault {
         match self {
             Self::Contact => SceneFault::NoContact,
@@ -145,7 +146,7 @@ impl ComponentForm {
         }
     }
 
-    /// Each component; of a joint with these freedoms, of a coupling or an effect with the unit of what it measures.
+    /// Components of this form. `freedoms` are those of a joint; `measured` is the unit of the number that a coupling or effect measures.
     pub(super) fn of(
         self,
         dimension: Dimension,

@@ -1,4 +1,4 @@
-//! The length of the lines of a coupling, such as that of a rope between its points.
+//! Length of the lines of a coupling, such as a rope between its points.
 
 use super::super::coupled_sum::CoupledSum;
 use super::kind::{Instant, Maker, Measured};
@@ -19,7 +19,7 @@ pub(super) const ROW: QuantityRow = QuantityRow::new(
     },
 );
 
-/// The sum with the lines in it.
+/// Sum of the coupling, which contains the lines.
 #[derive(Debug, Clone)]
 pub(in crate::outputs) struct CouplingLength<T: Real, const D: usize>(CoupledSum<T, D>);
 

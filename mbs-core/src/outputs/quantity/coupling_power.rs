@@ -1,4 +1,4 @@
-//! Power of a coupling: what one that is driven gives, and what one that is drawn passes on to its first part.
+//! Power of a coupling. A driven coupling supplies it. A gear, belt, rack or screw transmits it to its first part.
 
 use super::super::coupled_sum::CoupledSum;
 use super::kind::{Instant, Maker, Measured};
@@ -23,7 +23,7 @@ pub(super) const ROW: QuantityRow = QuantityRow::new(
 )
 .of_reactions();
 
-/// The coupling; with its sum, where that is driven, or the term that its effort does work on.
+/// Number of the coupling. Also its sum if it is driven, or the term on which its effort does work.
 #[derive(Debug, Clone)]
 pub(in crate::outputs) struct CouplingPower<T: Real, const D: usize>(
     usize,

@@ -1,4 +1,4 @@
-//! The rate of the sum of a coupling.
+//! Rate of the sum of a coupling.
 
 use super::super::coupled_sum::CoupledSum;
 use super::kind::{Instant, Maker, Measured};
@@ -18,7 +18,7 @@ pub(super) const ROW: QuantityRow = QuantityRow::new(
     },
 );
 
-/// Its sum.
+/// Sum of the measured coupling.
 #[derive(Debug, Clone)]
 pub(in crate::outputs) struct CouplingRate<T: Real, const D: usize>(CoupledSum<T, D>);
 

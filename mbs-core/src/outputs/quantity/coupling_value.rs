@@ -19,7 +19,7 @@ pub(super) const ROW: QuantityRow = QuantityRow::new(
     },
 );
 
-/// Its sum.
+/// Sum of the measured coupling.
 #[derive(Debug, Clone)]
 pub(in crate::outputs) struct CouplingValue<T: Real, const D: usize>(CoupledSum<T, D>);
 

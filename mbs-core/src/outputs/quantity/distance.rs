@@ -18,7 +18,7 @@ pub(super) const ROW: QuantityRow = QuantityRow::new(
 )
 .without_rotation();
 
-/// The point.
+/// Point whose distance is measured.
 #[derive(Debug, Clone)]
 pub(in crate::outputs) struct Distance<T: Real, const D: usize>(SeenPoint<T, D>);
 

@@ -1,4 +1,4 @@
-//! How far an effect is from its free value, or how deep in contact.
+//! Deflection of an effect from its free value, or its depth in contact.
 
 use super::kind::{Instant, Maker, Measured};
 use super::{ComponentForm, QuantityDefinition, QuantityRow, TargetKind};
@@ -21,19 +21,19 @@ pub(super) const ROW: QuantityRow = QuantityRow::new(
 )
 .of_effects();
 
-/// The keys of free values.
+/// Keys of free values in scene files.
 const FREE: [&str; 2] = ["free_length", "free_value"];
 
-/// The effect; with its free value, where it has one.
+/// Number of the measured effect, with its free value if it has one.
 #[derive(Debug, Clone)]
 pub(in crate::outputs) struct EffectDeflection<T: Real, const D: usize>(usize, Option<T>);
 
-/// Has a kind of effect a free value?
+/// Does a kind of effect have a free value?
 pub(super) fn has_free_value<T>(kind: &EffectKind<T>) -> bool {
     kind.row().fields.iter().any(|field| FREE.contains(&field.key))
 }
 
-/// The free value of an effect; a length that is left out is that in the reference configuration.
+/// Free value of an effect. A length that the scene leaves out is the length in the reference configuration.
 fn free_value<T: Real>(kind: &EffectKind<T>) -> Option<T> {
     let values = kind.values();
     let place = kind.row().fields.iter().position(|field| FREE.contains(&field.key))?;
@@ -47,7 +47,7 @@ fn free_value<T: Real>(kind: &EffectKind<T>) -> Option<T> {
     }
 }
 
-/// The length of a line over points.
+/// Length of a line over points in the reference configuration.
 fn length<T: Real>(points: &[(BodyId, [T; 3])]) -> T {
     let part = |pair: &[(BodyId, [T; 3])]| {
         norm(&(Vector::<T, 3>::from(pair[1].1) - Vector::from(pair[0].1)))

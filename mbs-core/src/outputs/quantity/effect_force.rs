@@ -24,7 +24,7 @@ pub(super) const ROW: QuantityRow = QuantityRow::new(
 .of_effects()
 .drawn_as(OutputPicture::Force);
 
-/// The effect.
+/// Number of the measured effect.
 #[derive(Debug, Clone)]
 pub(in crate::outputs) struct EffectForce<T: Real, const D: usize>(usize, PhantomData<T>);
 
@@ -42,7 +42,7 @@ impl<T: Real, const D: usize> Measured<T, D> for EffectForce<T, D> {
         } else {
             let sum = all.wrench(self.0, now.state);
             out[..D].copy_from_slice(&sum.force.as_slice()[..D]);
-            // in the plane its last component
+            // in a planar scene the component about z
             let n = out.len() - D;
             out[D..].copy_from_slice(&sum.moment.as_slice()[3 - n..]);
         }

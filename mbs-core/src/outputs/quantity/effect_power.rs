@@ -1,4 +1,4 @@
-//! Power that an effect gives.
+//! Power that an effect supplies to bodies.
 
 use super::kind::{Instant, Maker, Measured};
 use super::{ComponentForm, QuantityDefinition, QuantityRow, TargetKind};
@@ -21,7 +21,7 @@ pub(super) const ROW: QuantityRow = QuantityRow::new(
 )
 .of_effects();
 
-/// The effect.
+/// Number of the measured effect.
 #[derive(Debug, Clone)]
 pub(in crate::outputs) struct EffectPower<T: Real, const D: usize>(usize, PhantomData<T>);
 

@@ -1,4 +1,4 @@
-//! The rate of the number that an effect measures.
+//! Rate of the number that an effect measures.
 
 use super::kind::{Instant, Maker, Measured};
 use super::{ComponentForm, QuantityDefinition, QuantityRow, TargetKind};
@@ -19,7 +19,7 @@ pub(super) const ROW: QuantityRow = QuantityRow::new(
 )
 .of_effects();
 
-/// The effect.
+/// Number of the measured effect.
 #[derive(Debug, Clone)]
 pub(in crate::outputs) struct EffectRate<T: Real, const D: usize>(usize, PhantomData<T>);
 

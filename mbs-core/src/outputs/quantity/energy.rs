@@ -1,4 +1,4 @@
-//! Kinetic and potential energy.
+//! Total energy: kinetic and potential energy of bodies, rotors and effects.
 
 use super::super::inertia::{self, BodyInertia};
 use super::super::rotor::{self, RotorTorque};
@@ -21,7 +21,7 @@ pub(super) const ROW: QuantityRow = QuantityRow::new(
 )
 .of_effects();
 
-/// The bodies, the rotors, and gravity [m/s^2].
+/// Bodies and rotors of the scene, and gravity [m/s^2].
 #[derive(Debug, Clone)]
 pub(in crate::outputs) struct Energy<T: Real, const D: usize>(
     Vec<BodyInertia<T, D>>,

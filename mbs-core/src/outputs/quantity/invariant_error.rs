@@ -1,4 +1,4 @@
-//! Error of the energy invariant, which the run watches from step to step.
+//! Error of the energy invariant, which a run records from step to step.
 
 use super::kind::{Instant, Maker, Measured};
 use super::{ComponentForm, QuantityDefinition, QuantityRow, TargetKind};
@@ -18,7 +18,7 @@ pub(super) const ROW: QuantityRow = QuantityRow::new(
 )
 .of_the_run();
 
-/// What is handed to the measures.
+/// Channel without data: the run sets the error in the measures.
 #[derive(Debug, Clone)]
 pub(in crate::outputs) struct InvariantError<T: Real, const D: usize>(PhantomData<T>);
 

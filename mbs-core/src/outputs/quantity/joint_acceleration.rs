@@ -19,7 +19,7 @@ pub(super) const ROW: QuantityRow = QuantityRow::new(
     },
 );
 
-/// Its coordinates.
+/// Coordinates of the measured joint.
 #[derive(Debug, Clone)]
 pub(in crate::outputs) struct JointAcceleration<T: Real, const D: usize>(Vec<Coordinate<T, D>>);
 

@@ -1,4 +1,4 @@
-//! What a guide puts on the coordinates of a joint.
+//! Effort of a guide on the coordinates of a joint.
 
 use super::super::coordinate::Coordinate;
 use super::super::wrench::Wrench;
@@ -25,12 +25,12 @@ pub(super) const ROW: QuantityRow = QuantityRow::new(
 )
 .of_reactions();
 
-/// The joint and its coordinates.
+/// Number of the joint, and its coordinates.
 #[derive(Debug, Clone)]
 pub(in crate::outputs) struct JointEffort<T: Real, const D: usize>(usize, Vec<Coordinate<T, D>>);
 
 impl<T: Real, const D: usize> JointEffort<T, D> {
-    /// The coordinates of the joint.
+    /// Coordinates of the measured joint.
     pub(super) fn coordinates(&self) -> &[Coordinate<T, D>] {
         &self.1
     }

@@ -1,4 +1,4 @@
-//! Power that a guide gives through a joint.
+//! Power that a guide supplies through a joint.
 
 use super::super::coordinate::Coordinate;
 use super::joint_effort::JointEffort;
@@ -20,10 +20,10 @@ pub(super) const ROW: QuantityRow = QuantityRow::new(
 )
 .of_reactions();
 
-/// Most coordinates of a joint [-]: three slides and the three of a rotation.
+/// Largest number of coordinates of a joint [-]: three slides and three components of a rotation.
 const MOST_COORDINATES: usize = 6;
 
-/// What its guide does on the coordinates of the joint.
+/// Effort of the guide on the coordinates of the joint.
 #[derive(Debug, Clone)]
 pub(in crate::outputs) struct JointPower<T: Real, const D: usize>(JointEffort<T, D>);
 

@@ -1,4 +1,4 @@
-//! How the numbers of a quantity are read.
+//! Common interface of the quantities: how their values are computed from a state.
 
 use super::super::coordinate::Coordinate;
 use super::super::exerted::EffectWrenches;
@@ -13,35 +13,36 @@ use crate::scene::{BodyId, JointId};
 use alloc::vec;
 use alloc::vec::Vec;
 
-/// What a quantity is read with.
+/// Quantity that is prepared once and then evaluated at many states.
 pub(super) trait Measured<T: Real, const D: usize> {
-    /// The point, the body, the joint, the coupling or the effect; nothing of the whole scene.
+    /// Target of the quantity: a point, body, joint, coupling or effect; empty for the whole scene.
     type Of;
 
-    /// Prepares it.
+    /// Prepares the quantity of a target.
     fn new(of: Self::Of, from: &mut Maker<'_, T, D>) -> Self;
 
-    /// Writes its components at an instant. Cost: a few products, no allocation.
+    /// Writes the components at one instant. Cost: a few products, no allocation.
     fn write(&self, now: &Instant<'_, T, D>, out: &mut [T]);
 
-    /// The coordinates that it follows from step to step.
+    /// Coordinates that the quantity tracks from step to step.
     fn followed(&self) -> Option<&Followed<T, D>> {
         None
     }
 }
 
-/// Coordinates that are followed from step to step.
+/// Coordinates that are tracked from step to step.
 #[derive(Debug, Clone)]
 pub(in crate::outputs) struct Followed<T: Real, const D: usize> {
     pub coordinates: Vec<Coordinate<T, D>>,
-    /// Where their values start among those of all that are followed.
+    /// Place of their first value among the values of all tracked coordinates.
     pub start: usize,
-    /// The joint that they are of; `None`: a body against the ground.
+    /// Number of the joint with these coordinates; `None`: a body relative to the ground.
     pub joint: Option<usize>,
 }
 
 impl<T: Real, const D: usize> Followed<T, D> {
-    /// The rotation of a body against the ground from these first numbers on: its angle in the plane, in space what `spatial` makes.
+    /// Rotation of a body relative to the ground: an angle in a planar scene, the coordinate `spatial` in a spatial one. `first` is the
+    /// start value of its first component.
     pub(super) fn of_body(
         body: BodyId,
         from: &mut Maker<'_, T, D>,
@@ -58,46 +59,46 @@ impl<T: Real, const D: usize> Followed<T, D> {
         Self { coordinates: vec![coordinate], start, joint: None }
     }
 
-    /// Writes their present values.
+    /// Writes the present values of the coordinates.
     pub(super) fn write(&self, now: &Instant<'_, T, D>, out: &mut [T]) {
         out.copy_from_slice(&now.values[self.start..][..out.len()]);
     }
 }
 
-/// What quantities are made of.
+/// Data from which quantities are prepared.
 pub(in crate::outputs) struct Maker<'a, T: Real, const D: usize> {
     pub scene: &'a Scene<T>,
     pub model: &'a NaturalModel<T, D>,
     /// Coordinates of each joint at time zero.
     pub starts: &'a [Vec<T>],
-    /// The first values of coordinates that are followed.
+    /// Start values of tracked coordinates.
     pub values: Vec<T>,
 }
 
 impl<T: Real, const D: usize> Maker<'_, T, D> {
-    /// The coordinates of a joint, in the order of its numbers.
+    /// Coordinates of a joint in the order of their numbers.
     pub(super) fn coordinates(&self, joint: JointId) -> Vec<Coordinate<T, D>> {
         Coordinate::of_joint(self.scene, self.model, &self.scene.joints[joint.index()])
     }
 
-    /// All bodies with their masses.
+    /// All bodies with their mass properties.
     pub(super) fn bodies(&self) -> Vec<BodyInertia<T, D>> {
         let of = |body| BodyInertia::new(self.scene, self.model, body);
         (0..self.scene.bodies.len()).map(of).collect()
     }
 
-    /// All rotors.
+    /// All rotors of the scene.
     pub(super) fn rotors(&self) -> Vec<RotorTorque<T, D>> {
         RotorTorque::all(self.scene, self.model)
     }
 }
 
-/// What quantities are read of.
+/// Data from which quantities are evaluated at one instant.
 pub(in crate::outputs) struct Instant<'a, T: Real, const D: usize> {
     pub state: &'a State<T>,
-    /// The present values of coordinates that are followed.
+    /// Present values of tracked coordinates.
     pub values: &'a [T],
-    /// Those of the state; zero where there are none.
+    /// Reactions at the state; without them the values that need them are zero.
     pub reactions: Option<&'a Reactions<T, D>>,
     pub effects: Option<&'a EffectWrenches<T, D>>,
     /// Error of the energy invariant of the run [J].

@@ -19,7 +19,7 @@ pub(super) const ROW: QuantityRow = QuantityRow::new(
     },
 );
 
-/// The bodies, and the rotors.
+/// Bodies and rotors of the scene.
 #[derive(Debug, Clone)]
 pub(in crate::outputs) struct KineticEnergy<T: Real, const D: usize>(
     Vec<BodyInertia<T, D>>,

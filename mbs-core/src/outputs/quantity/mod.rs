@@ -1,5 +1,5 @@
-//! The quantities of outputs, a file each: name in scene files, components with their units, and how it is read of a state. Their list is in
-//! `scene/quantity`.
+//! Quantities of outputs, one file each. A file has the name in scene files, the components with their units, and the evaluation at a
+//! state. The list of quantities is in `scene/quantity`.
 
 mod channel;
 mod components;

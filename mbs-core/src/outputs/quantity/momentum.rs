@@ -18,7 +18,7 @@ pub(super) const ROW: QuantityRow = QuantityRow::new(
     },
 );
 
-/// The bodies.
+/// Bodies of the scene, with their mass properties.
 #[derive(Debug, Clone)]
 pub(in crate::outputs) struct Momentum<T: Real, const D: usize>(Vec<BodyInertia<T, D>>);
 

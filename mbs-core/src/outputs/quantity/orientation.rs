@@ -20,7 +20,7 @@ pub(super) const ROW: QuantityRow = QuantityRow::new(
     },
 );
 
-/// The angle or the quaternion, which is followed from step to step.
+/// Angle or quaternion of the body, tracked from step to step.
 #[derive(Debug, Clone)]
 pub(in crate::outputs) struct Orientation<T: Real, const D: usize>(Followed<T, D>);
 

@@ -1,4 +1,4 @@
-//! Outputs by what they measure, and the components of a quantity.
+//! Constructors of outputs by quantity, and the components of a quantity.
 
 use super::OutputPicture;
 use super::components::{Component, ComponentForm, Magnitude, in_degrees, magnitudes};
@@ -17,10 +17,10 @@ use alloc::vec::Vec;
 list::list!(table::constructors);
 
 impl<T: Clone> Output<T> {
-    /// Its components in a scene: those of its quantity, then the magnitudes that it has columns for; in its units.
+    /// Components in a scene, in the units of the output: those of its quantity, then the magnitudes of its vectors if they are required.
     ///
     /// # Panics
-    /// As [`Quantity::components`].
+    /// If [`Quantity::components`] panics.
     #[must_use]
     pub fn components(&self, scene: &Scene<T>) -> Vec<Component> {
         let mut components = self.measured(scene);
@@ -31,7 +31,7 @@ impl<T: Clone> Output<T> {
         components
     }
 
-    /// The places of its components that it converts to degrees.
+    /// Places of the components that the output converts to degrees.
     pub(crate) fn places_in_degrees(&self, scene: &Scene<T>) -> Vec<usize> {
         if !self.is_in_degrees {
             return Vec::new();
@@ -41,7 +41,7 @@ impl<T: Clone> Output<T> {
         (0..components.len()).filter(is_angle).collect()
     }
 
-    /// Its components in the units in which they are measured.
+    /// Components in the units of the quantity, before any conversion.
     fn measured(&self, scene: &Scene<T>) -> Vec<Component> {
         let mut components = self.quantity.components(scene);
         if self.magnitude {
@@ -54,7 +54,8 @@ impl<T: Clone> Output<T> {
 }
 
 impl<T: Clone> Quantity<T> {
-    /// The body in whose axes its vectors are by themselves: seen from another body that one, else the ground, for global axes.
+    /// Body in whose axes the vectors of the quantity are by default. It is the other body for relative quantities, and otherwise the
+    /// ground, for global axes.
     #[must_use]
     pub fn axes(&self) -> BodyId {
         match self.target() {
@@ -64,7 +65,7 @@ impl<T: Clone> Quantity<T> {
         }
     }
 
-    /// The body and the point whose way pictures draw, reference configuration [m]; `None`: they draw none.
+    /// Body and point [m] of which pictures draw the path, in the reference configuration; `None`: they draw no path.
     #[must_use]
     pub fn traced(&self) -> Option<(BodyId, [T; 3])> {
         match self.target() {
@@ -75,10 +76,10 @@ impl<T: Clone> Quantity<T> {
         }
     }
 
-    /// Its components in a scene.
+    /// Components of the quantity in a scene.
     ///
     /// # Panics
-    /// If it is of a joint, a coupling or an effect that is not there; [`Scene::check`] refuses those.
+    /// If its joint, coupling or effect does not exist; [`Scene::check`] refuses that.
     #[must_use]
     pub fn components(&self, scene: &Scene<T>) -> Vec<Component> {
         let form = self.row().components;
@@ -103,7 +104,7 @@ impl<T: Clone> Quantity<T> {
                 (&[][..], None)
             }
             Target::Effect(effect) if form.is_of_tire() => {
-                // a tire alone stands on the road
+                // only a tire is in contact with the road
                 if !scene.effects[effect.index()].kind.row().needs_road {
                     return Vec::new();
                 }
@@ -126,18 +127,18 @@ impl<T: Clone> Quantity<T> {
     }
 }
 
-/// The unit of a joint's coordinate.
+/// Unit of a joint's coordinate.
 fn unit_of_coordinate<T>(scene: &Scene<T>, joint: JointId, number: usize) -> &'static str {
     let joint = scene.joints.get(joint.index());
     let freedom = joint.and_then(|joint| joint.kind.freedom(scene.dimension, number));
     freedom.map_or("rad", Freedom::unit)
 }
 
-/// The unit of what a coupling holds; or of what its effort does work on.
+/// Unit of the sum of a coupling, or of the measure on which its effort does work.
 fn unit_of_coupling<T>(scene: &Scene<T>, coupling: CouplingId, is_effort: bool) -> &'static str {
     let of = &scene.couplings[coupling.index()];
     match of.drawn.map(|drawn| drawn.kind) {
-        // what a relation makes of its measures is its own
+        // the unit of a user-defined relation is unknown
         _ if of.relation.is_some() => "-",
         Some(DrawnKind::Belt { .. } | DrawnKind::Rack | DrawnKind::Screw) => "m",
         Some(DrawnKind::Gear { has_radii: true, .. }) if !is_effort => "m",
@@ -146,7 +147,7 @@ fn unit_of_coupling<T>(scene: &Scene<T>, coupling: CouplingId, is_effort: bool) 
     }
 }
 
-/// The unit of a sum: that of its slides and lengths, whose factors are numbers, else that of its angles.
+/// Unit of a sum. It is the metre if a term is a slide or a length: factors of such terms are numbers. Otherwise it is the radian.
 fn unit_of_sum<T>(scene: &Scene<T>, terms: &[CouplingTerm<T>]) -> &'static str {
     let mut units = terms.iter().map(|term| unit_of_number(scene, &term.of));
     units.find(|unit| *unit == "m").unwrap_or("rad")
@@ -160,10 +161,9 @@ fn unit_of_number<T>(scene: &Scene<T>, of: &CouplingMeasure<T>) -> &'static str 
     }
 }
 
-/// The unit of a signal: that of the number that it measures, and of an input, also late or within limits; `-` of what is made of
-/// others.
+/// Unit of a signal. A measured number and an input have a unit; lags and limits of signals keep it. Other signals have `-`.
 fn unit_of_signal<T>(scene: &Scene<T>, mut signal: SignalId) -> &str {
-    // No walk without a circle is longer.
+    // No path without a circle has more signals than the scene.
     for _ in &scene.signals {
         match scene.signals.get(signal.index()).map(|signal| &signal.kind) {
             Some(SignalKind::Measure { of, is_rate }) => {
@@ -181,15 +181,15 @@ fn unit_of_signal<T>(scene: &Scene<T>, mut signal: SignalId) -> &str {
     "-"
 }
 
-/// The unit of what an effect is from its free value, or of how deep it is in contact; `None` of one that has neither.
+/// Unit of the deflection or contact depth of an effect; `None` for an effect that has neither.
 fn unit_of_deflection<T: Clone>(scene: &Scene<T>, effect: EffectId) -> Option<&'static str> {
     let kind = &scene.effects[effect.index()].kind;
     let has_one = has_free_value(kind) || kind.is_one_sided();
-    // a tire is in contact by a length
+    // the contact depth of a tire is a length
     has_one.then(|| unit_of_measure(scene, effect).unwrap_or("m"))
 }
 
-/// The unit of the one number that an effect measures; `None` where it measures several.
+/// Unit of the number that an effect measures; `None` if it measures several.
 fn unit_of_measure<T: Clone>(scene: &Scene<T>, effect: EffectId) -> Option<&'static str> {
     let kind = &scene.effects[effect.index()].kind;
     match kind.acts_on() {

@@ -19,7 +19,7 @@ pub(super) const ROW: QuantityRow = QuantityRow::new(
 )
 .drawn_as(OutputPicture::Trace);
 
-/// The point.
+/// Point whose position is measured.
 #[derive(Debug, Clone)]
 pub(in crate::outputs) struct Position<T: Real, const D: usize>(Affine<T, D>);
 

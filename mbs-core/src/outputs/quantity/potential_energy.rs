@@ -20,7 +20,7 @@ pub(super) const ROW: QuantityRow = QuantityRow::new(
 )
 .of_effects();
 
-/// The bodies, and gravity [m/s^2].
+/// Bodies of the scene, and gravity [m/s^2].
 #[derive(Debug, Clone)]
 pub(in crate::outputs) struct PotentialEnergy<T: Real, const D: usize>(
     Vec<BodyInertia<T, D>>,

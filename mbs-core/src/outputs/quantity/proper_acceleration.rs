@@ -1,4 +1,4 @@
-//! Proper acceleration of a material point: what an accelerometer there measures, in global axes.
+//! Proper acceleration of a material point: the reading of an accelerometer, in global axes.
 
 use super::kind::{Instant, Maker, Measured};
 use super::{ComponentForm, QuantityDefinition, QuantityRow, TargetKind};
@@ -19,7 +19,7 @@ pub(super) const ROW: QuantityRow = QuantityRow::new(
     },
 );
 
-/// The point, and gravity [m/s^2].
+/// Point whose acceleration is measured, and gravity [m/s^2].
 #[derive(Debug, Clone)]
 pub(in crate::outputs) struct ProperAcceleration<T: Real, const D: usize>(
     Affine<T, D>,
@@ -34,7 +34,7 @@ impl<T: Real, const D: usize> Measured<T, D> for ProperAcceleration<T, D> {
     }
 
     fn write(&self, now: &Instant<'_, T, D>, out: &mut [T]) {
-        // a - g
+        // acceleration minus gravity
         let proper = raised(&self.0.rate(&now.state.a)) - self.1;
         out.copy_from_slice(&proper.as_slice()[..out.len()]);
     }

@@ -1,4 +1,4 @@
-//! Rates of a joint.
+//! Rates of the coordinates of a joint.
 
 use super::super::coordinate::Coordinate;
 use super::kind::{Instant, Maker, Measured};
@@ -20,7 +20,7 @@ pub(super) const ROW: QuantityRow = QuantityRow::new(
     },
 );
 
-/// Its coordinates.
+/// Coordinates of the measured joint.
 #[derive(Debug, Clone)]
 pub(in crate::outputs) struct JointRate<T: Real, const D: usize>(Vec<Coordinate<T, D>>);
 

@@ -18,7 +18,7 @@ pub(super) const ROW: QuantityRow = QuantityRow::new(
     },
 );
 
-/// The point.
+/// Point whose acceleration is measured.
 #[derive(Debug, Clone)]
 pub(in crate::outputs) struct RelativeAcceleration<T: Real, const D: usize>(SeenPoint<T, D>);
 

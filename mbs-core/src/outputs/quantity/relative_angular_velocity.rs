@@ -18,7 +18,7 @@ pub(super) const ROW: QuantityRow = QuantityRow::new(
     },
 );
 
-/// The body, and the one that it is seen from.
+/// Measured body, and the body to which it is relative.
 #[derive(Debug, Clone)]
 pub(in crate::outputs) struct RelativeAngularVelocity<T: Real, const D: usize>([Frame<T, D>; 2]);
 
@@ -33,7 +33,7 @@ impl<T: Real, const D: usize> Measured<T, D> for RelativeAngularVelocity<T, D> {
         let state = now.state;
         let [own, other] = self.0.each_ref().map(|frame| frame.turning(&state.q, &state.v));
         let spin = self.0[1].rotation(&state.q).transpose() * (own - other);
-        // in the plane its last component
+        // in a planar scene the component about z
         out.copy_from_slice(&spin.as_slice()[3 - out.len()..]);
     }
 }

@@ -17,7 +17,7 @@ pub(super) const ROW: QuantityRow = QuantityRow::new(
     },
 );
 
-/// The point.
+/// Point whose position is measured.
 #[derive(Debug, Clone)]
 pub(in crate::outputs) struct RelativePosition<T: Real, const D: usize>(SeenPoint<T, D>);
 

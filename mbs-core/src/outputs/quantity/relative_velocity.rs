@@ -17,7 +17,7 @@ pub(super) const ROW: QuantityRow = QuantityRow::new(
     },
 );
 
-/// The point.
+/// Point whose velocity is measured.
 #[derive(Debug, Clone)]
 pub(in crate::outputs) struct RelativeVelocity<T: Real, const D: usize>(SeenPoint<T, D>);
 

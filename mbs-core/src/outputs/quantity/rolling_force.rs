@@ -1,4 +1,4 @@
-//! Force on a body that rolls.
+//! Contact force on a rolling body.
 
 use super::kind::{Instant, Maker, Measured};
 use super::{ComponentForm, QuantityDefinition, QuantityRow, TargetKind};
@@ -20,7 +20,7 @@ pub(super) const ROW: QuantityRow = QuantityRow::new(
 )
 .of_reactions();
 
-/// The rolling.
+/// Number of the rolling contact.
 #[derive(Debug, Clone)]
 pub(in crate::outputs) struct RollingForce<T: Real, const D: usize>(usize, PhantomData<T>);
 

@@ -19,7 +19,7 @@ pub(super) const ROW: QuantityRow = QuantityRow::new(
     },
 );
 
-/// The body.
+/// Frame of the measured body.
 #[derive(Debug, Clone)]
 pub(in crate::outputs) struct RotationMatrix<T: Real, const D: usize>(Frame<T, D>);
 

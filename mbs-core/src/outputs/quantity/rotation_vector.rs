@@ -19,7 +19,7 @@ pub(super) const ROW: QuantityRow = QuantityRow::new(
     },
 );
 
-/// The vector, which is followed from step to step; in the plane the angle.
+/// Rotation vector of the body, tracked from step to step; in a planar scene its angle.
 #[derive(Debug, Clone)]
 pub(in crate::outputs) struct RotationVector<T: Real, const D: usize>(Followed<T, D>);
 

@@ -1,36 +1,36 @@
-//! What a quantity says of itself.
+//! Row of a quantity in the table of quantities: its name, target, components and definition.
 
 use super::components::ComponentForm;
 
-/// What a kind of quantity is of.
+/// Kind of target that a quantity measures.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TargetKind {
-    /// A material point of a body.
+    /// Material point of a body.
     Point,
-    /// A material point of a body, seen from another body.
+    /// Material point of a body, relative to another body.
     RelativePoint,
-    /// A body.
+    /// Body of the scene.
     Body,
-    /// A body, seen from another one.
+    /// Body relative to another body.
     RelativeBody,
-    /// The carrier of a wheel, seen from the vehicle body.
+    /// Carrier of a wheel, relative to the vehicle body.
     WheelCarrier,
-    /// A joint.
+    /// Joint of the scene.
     Joint,
-    /// A coupling.
+    /// Coupling of the scene.
     Coupling,
-    /// A rolling.
+    /// Rolling contact of the scene.
     Rolling,
-    /// An effect.
+    /// Effect of the scene.
     Effect,
-    /// A signal.
+    /// Signal of the scene.
     Signal,
-    /// The whole scene.
+    /// The scene as a whole.
     Scene,
 }
 
 impl TargetKind {
-    /// Its keys in scene files; the first one names the owner. The whole scene has none.
+    /// Keys of the target in scene files. The first one names the owner. The scene as a whole has no keys.
     #[must_use]
     pub const fn keys(self) -> &'static [&'static str] {
         match self {
@@ -50,65 +50,65 @@ impl TargetKind {
 }
 
 impl TargetKind {
-    /// Is it seen from another body?
+    /// Is the quantity relative to another body?
     #[must_use]
     pub const fn is_relative(self) -> bool {
         matches!(self, Self::RelativePoint | Self::RelativeBody | Self::WheelCarrier)
     }
 }
 
-/// What a quantity is: docs/OUTPUTS.md is written from it, and has the letters.
+/// Definition of a quantity. docs/OUTPUTS.md is written from it and explains the symbols.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct QuantityDefinition {
-    /// As it is computed.
+    /// Formula by which the quantity is computed.
     pub formula: &'static str,
-    /// The axes of its components, where no `frame` is given.
+    /// Axes of its components, unless the output sets a `frame`.
     pub axes: &'static str,
-    /// What a positive number means.
+    /// Meaning of a positive value.
     pub sign: &'static str,
-    /// What is in it, and what is not; empty: the formula says all.
+    /// Contributions that the quantity includes or leaves out. Empty: the formula says all.
     pub contents: &'static str,
 }
 
-/// Picture of a quantity of an output.
+/// Picture of an output's quantity.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum OutputPicture {
-    /// Nothing is drawn of it.
+    /// Nothing is drawn for it.
     Nothing,
-    /// The way of its point.
+    /// Path of its point.
     Trace,
-    /// An arrow where it acts.
+    /// Arrow at the point where the force acts.
     Force,
 }
 
-/// A kind of quantity.
+/// Row of a kind of quantity.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct QuantityRow {
-    /// Its name in scene files.
+    /// Name of the quantity in scene files.
     pub name: &'static str,
-    /// Another name that is read.
+    /// Second name that scene files may use.
     pub alias: Option<&'static str>,
-    /// What it is of.
+    /// Kind of target that the quantity measures.
     pub target: TargetKind,
-    /// Its components.
+    /// Form of the components.
     pub components: ComponentForm,
-    /// What it is.
+    /// Definition of the quantity.
     pub definition: QuantityDefinition,
-    /// Is it read of reactions, which are not unique everywhere?
+    /// Does the quantity need reactions? They are not always unique.
     pub needs_reactions: bool,
-    /// Is it read of effects?
+    /// Does the quantity need effects?
     pub needs_effects: bool,
-    /// Is it read of the rotation of its body, of the bodies of its joint, or of the one that it is seen from? It counts for these alone.
+    /// Does the quantity need the rotation of its body, of its joint's bodies, or of the body to which it is relative?
     pub needs_rotation: bool,
     /// Picture of the quantity.
     pub picture: OutputPicture,
-    /// Is it of the run rather than of the motion? Such numbers do not converge with those of other runs.
+    /// Does the quantity belong to the run rather than to the motion? Such values do not converge with those of other runs.
     pub is_of_run: bool,
 }
 
 impl QuantityRow {
-    /// The row of a quantity that is read of the state alone.
+    /// Row of a quantity that is computed from the state alone.
     pub(super) const fn new(
         name: &'static str,
         target: TargetKind,
@@ -129,17 +129,17 @@ impl QuantityRow {
         }
     }
 
-    /// The same, read of reactions too.
+    /// Row that also needs reactions.
     pub(super) const fn of_reactions(self) -> Self {
         Self { needs_reactions: true, ..self }
     }
 
-    /// The same, read of effects too.
+    /// Row that also needs effects.
     pub(super) const fn of_effects(self) -> Self {
         Self { needs_effects: true, ..self }
     }
 
-    /// Row that is read without a rotation.
+    /// Row that needs no rotation.
     pub(super) const fn without_rotation(self) -> Self {
         Self { needs_rotation: false, ..self }
     }
@@ -149,17 +149,17 @@ impl QuantityRow {
         Self { picture, ..self }
     }
 
-    /// The same, of the run itself.
+    /// Row of a quantity that belongs to the run.
     pub(super) const fn of_the_run(self) -> Self {
         Self { is_of_run: true, ..self }
     }
 
-    /// The same with another name that is read.
+    /// Row with another name that scene files may use.
     pub(super) const fn or(self, alias: &'static str) -> Self {
         Self { alias: Some(alias), ..self }
     }
 
-    /// Is this one of its names?
+    /// Is this a name of the quantity?
     #[must_use]
     pub fn has_name(&self, name: &str) -> bool {
         self.name == name || self.alias == Some(name)

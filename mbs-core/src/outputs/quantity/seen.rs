@@ -1,8 +1,11 @@
-//! A point as seen from a body that moves and turns.
+//! Material point relative to a body that moves and rotates.
 //!
 //! ```text
 //! r = p - o,   x = R^T r,   x' = R^T (r' - w x r),   x'' = R^T (r'' - w' x r - w x (w x r) - 2 w x (r' - w x r))
 //! ```
+//!
+//! p is the point and o the origin on the body. R is the rotation matrix of the body, w its angular velocity. x is the position of the
+//! point in axes of the body.
 
 use super::super::frame::Frame;
 use super::kind::Maker;
@@ -12,16 +15,16 @@ use crate::model::State;
 use crate::natural::Affine;
 use crate::scene::RelativePoint;
 
-/// A point, and the body that it is seen from.
+/// Material point, and the body to which it is relative.
 #[derive(Debug, Clone)]
 pub(in crate::outputs) struct SeenPoint<T: Real, const D: usize> {
-    /// From the origin to the point.
+    /// Vector from the origin to the point.
     gap: Affine<T, D>,
     frame: Frame<T, D>,
 }
 
 impl<T: Real, const D: usize> SeenPoint<T, D> {
-    /// The point of a quantity.
+    /// Prepares the point of a quantity.
     pub(super) fn new(of: &RelativePoint<T>, from: &Maker<'_, T, D>) -> Self {
         let (point, origin) =
             (from.model.point(of.body, of.at), from.model.point(of.relative_to, of.origin));
@@ -29,29 +32,29 @@ impl<T: Real, const D: usize> SeenPoint<T, D> {
         Self { gap: point.minus(&origin), frame }
     }
 
-    /// r, and r' without the turning of the body, global axes.
+    /// Vector r, and its rate relative to the body, in global axes.
     fn motion(&self, state: &State<T>) -> [Vector<T, 3>; 2] {
         let r = raised(&self.gap.value(&state.q));
         let spin = self.frame.turning(&state.q, &state.v);
         [r, raised(&self.gap.rate(&state.v)) - cross(&spin, &r)]
     }
 
-    /// Its distance from the origin.
+    /// Distance of the point from the origin [m].
     pub(super) fn distance(&self, state: &State<T>) -> T {
         norm(&self.gap.value(&state.q))
     }
 
-    /// Its position, in the body's axes.
+    /// Writes the position of the point, in axes of the body.
     pub(super) fn position(&self, state: &State<T>, out: &mut [T]) {
         self.write(state, raised(&self.gap.value(&state.q)), out);
     }
 
-    /// Its velocity against the body, in the body's axes.
+    /// Writes the velocity of the point relative to the body, in axes of the body.
     pub(super) fn velocity(&self, state: &State<T>, out: &mut [T]) {
         self.write(state, self.motion(state)[1], out);
     }
 
-    /// Its acceleration against the body, in the body's axes.
+    /// Writes the acceleration of the point relative to the body, in axes of the body.
     pub(super) fn acceleration(&self, state: &State<T>, out: &mut [T]) {
         let [r, rate] = self.motion(state);
         let [spin, spin_t] = [&state.v, &state.a].map(|x| self.frame.turning(&state.q, x));

@@ -1,4 +1,4 @@
-//! The value of a signal.
+//! Value of a signal of the scene.
 
 use super::kind::{Instant, Maker, Measured};
 use super::{ComponentForm, QuantityDefinition, QuantityRow, TargetKind};
@@ -19,7 +19,7 @@ pub(super) const ROW: QuantityRow = QuantityRow::new(
 )
 .of_effects();
 
-/// The signal.
+/// Number of the measured signal.
 #[derive(Debug, Clone)]
 pub(in crate::outputs) struct SignalValue<T: Real, const D: usize>(usize, PhantomData<T>);
 

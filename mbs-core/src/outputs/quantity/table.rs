@@ -1,6 +1,6 @@
-//! What the list of quantities is made into: modules, rows, constructors, and the enum that reads them.
+//! Macros that expand the list of quantities: to modules, rows, constructors, and the enum of channels.
 
-/// Modules and rows of a list of quantities.
+/// Expands a list of quantities to modules and rows.
 macro_rules! rows {
     (
         point { $($(#[doc = $point_doc:literal])+ $Point:ident in $point:ident;)* }
@@ -19,7 +19,7 @@ macro_rules! rows {
         $($(mod $module;)*)*
         $(mod $scene;)*
 
-        /// Every kind of quantity, in the order of the format.
+        /// All kinds of quantity, in the order of the scene format.
         pub const QUANTITIES: &[QuantityRow] =
             &[$($point::ROW,)* $($relative::ROW,)* $($turning::ROW,)* $($carrier::ROW,)* $($($module::ROW,)*)* $($scene::ROW,)*];
 
@@ -33,7 +33,7 @@ macro_rules! rows {
         };
 
         impl<T> Quantity<T> {
-            /// What is known of its kind.
+            /// Row of the quantity in the table of quantities.
             #[must_use]
             pub const fn row(&self) -> &'static QuantityRow {
                 match self {
@@ -46,7 +46,7 @@ macro_rules! rows {
                 }
             }
 
-            /// The quantity of this name in scene files; `None` where what it is to be of has none.
+            /// Quantity of this name in scene files; `None` if the target has no such quantity.
             ///
             /// ```
             /// use mbs_core::outputs::{Quantity, Target};
@@ -73,7 +73,7 @@ macro_rules! rows {
     };
 }
 
-/// Constructors of outputs.
+/// Expands a list of quantities to constructors of outputs.
 macro_rules! constructors {
     (
         point { $($(#[doc = $point_doc:literal])+ $Point:ident in $point:ident;)* }
@@ -134,7 +134,7 @@ macro_rules! constructors {
     };
 }
 
-/// What reads each.
+/// Expands a list of quantities to the enum of channels.
 macro_rules! channels {
     (
         point { $($(#[doc = $point_doc:literal])+ $Point:ident in $point:ident;)* }
@@ -146,7 +146,7 @@ macro_rules! channels {
         })*
         scene { $($(#[doc = $scene_doc:literal])+ $Scene:ident in $scene:ident;)* }
     ) => {
-        /// What one channel reads.
+        /// Channel of an output: one of the kinds of quantity.
         #[derive(Debug, Clone)]
         pub(in crate::outputs) enum Channel<T: Real, const D: usize> {
             $($Point(super::$point::$Point<T, D>),)*

@@ -1,4 +1,4 @@
-//! Load of a tire.
+//! Normal load of a tire.
 
 use super::kind::{Instant, Maker, Measured};
 use super::{ComponentForm, QuantityDefinition, QuantityRow, TargetKind};
@@ -20,7 +20,7 @@ pub(super) const ROW: QuantityRow = QuantityRow::new(
 )
 .of_effects();
 
-/// The effect.
+/// Number of the tire among the effects.
 #[derive(Debug, Clone)]
 pub(in crate::outputs) struct TireLoad<T: Real, const D: usize>(usize, PhantomData<T>);
 

@@ -1,4 +1,4 @@
-//! Force of a tire along its plane.
+//! Longitudinal force of a tire, in the plane of the wheel.
 
 use super::kind::{Instant, Maker, Measured};
 use super::{ComponentForm, QuantityDefinition, QuantityRow, TargetKind};
@@ -20,7 +20,7 @@ pub(super) const ROW: QuantityRow = QuantityRow::new(
 )
 .of_effects();
 
-/// The effect.
+/// Number of the tire among the effects.
 #[derive(Debug, Clone)]
 pub(in crate::outputs) struct TireLongitudinalForce<T: Real, const D: usize>(usize, PhantomData<T>);
 

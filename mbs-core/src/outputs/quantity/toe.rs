@@ -19,7 +19,7 @@ pub(super) const ROW: QuantityRow = QuantityRow::new(
     },
 );
 
-/// The wheel's axis.
+/// Axis of the measured wheel.
 #[derive(Debug, Clone)]
 pub(in crate::outputs) struct Toe<T: Real, const D: usize>(CarrierDirection<T, D>);
 

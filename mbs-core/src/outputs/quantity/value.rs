@@ -1,4 +1,4 @@
-//! Coordinates of a joint, which count turns.
+//! Coordinates of a joint, whole turns included.
 
 use super::kind::{Followed, Instant, Maker, Measured};
 use super::{ComponentForm, QuantityDefinition, QuantityRow, TargetKind};
@@ -19,7 +19,7 @@ pub(super) const ROW: QuantityRow = QuantityRow::new(
     },
 );
 
-/// Its coordinates, which are followed from step to step.
+/// Coordinates of the joint, tracked from step to step.
 #[derive(Debug, Clone)]
 pub(in crate::outputs) struct JointValue<T: Real, const D: usize>(Followed<T, D>);
 

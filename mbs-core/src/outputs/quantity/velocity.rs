@@ -12,7 +12,7 @@ pub(super) const ROW: QuantityRow = QuantityRow::new(
     QuantityDefinition { formula: "p'", axes: "global", sign: "along the axes", contents: "" },
 );
 
-/// The point.
+/// Point whose velocity is measured.
 #[derive(Debug, Clone)]
 pub(in crate::outputs) struct Velocity<T: Real, const D: usize>(Affine<T, D>);
 

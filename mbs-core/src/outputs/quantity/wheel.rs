@@ -6,9 +6,9 @@
 //! R_xz = x.s,  R_yz = y.s,  R_zz = z.s      s: the steering axis, upwards
 //! ```
 //!
-//! Inward is forward x up on the left, up x forward on the right: one set of formulas is of both sides. Axis and steering axis are directions
-//! of the carrier; where none is given they are y and z of the reference configuration, so that R is the rotation of the carrier in the
-//! vehicle body.
+//! Inward is forward x up on the left side and up x forward on the right side, so one set of formulas covers both sides. The wheel's axis
+//! and the steering axis are directions of the carrier. By default they are y and z of the reference configuration; R is then the rotation
+//! of the carrier relative to the vehicle body.
 
 use super::super::frame::{Frame, normalised};
 use super::kind::Maker;
@@ -17,22 +17,23 @@ use crate::algebra::{Vector, cross};
 use crate::model::State;
 use crate::scene::{VehicleSide, WheelCarrier};
 
-/// Carrier and vehicle body, and directions of both in the reference configuration.
+/// Carrier and vehicle body, with directions of both in the reference configuration.
 #[derive(Debug, Clone)]
 pub(in crate::outputs) struct CarrierDirection<T: Real, const D: usize> {
     carrier: Frame<T, D>,
     vehicle: Frame<T, D>,
-    /// Forward, inward and up.
+    /// Directions forward, inward and up of the vehicle body.
     axes: [Vector<T, 3>; 3],
-    /// Wheel's axis or steering axis.
+    /// Wheel's axis or steering axis, a direction of the carrier.
     direction: Vector<T, 3>,
 }
 
 impl<T: Real, const D: usize> CarrierDirection<T, D> {
-    /// With the direction that is axis number `i` of the vehicle body where none is given, and has a positive part along it.
+    /// Prepares a direction of the carrier. By default it is axis number `i` of the vehicle body; its component along this axis is
+    /// positive.
     pub(super) fn new(of: &WheelCarrier<T>, from: &Maker<'_, T, D>, i: usize) -> Self {
         let [up, forward] = [of.up, of.forward].map(|x| normalised(&Vector::from(x)));
-        // what of forward is across up
+        // component of `forward` that is perpendicular to `up`
         let forward = normalised(&(forward - up * up.dot(&forward)));
         let inward = match of.side {
             VehicleSide::Left => cross(&forward, &up),
@@ -45,7 +46,7 @@ impl<T: Real, const D: usize> CarrierDirection<T, D> {
         Self { carrier, vehicle, axes, direction }
     }
 
-    /// Its parts forward, inward and up.
+    /// Components of the direction forward, inward and up.
     pub(super) fn parts(&self, state: &State<T>) -> [T; 3] {
         let now = self.carrier.rotation(&state.q) * self.direction;
         let seen = self.vehicle.rotation(&state.q).transpose() * now;

@@ -1,4 +1,5 @@
-//! Quantities that outputs measure, as data: the kind of each with what it is of. `list` has them all; `outputs` reads them of a state.
+//! Quantities that outputs measure, as data: kind and target of each. `list` has all quantities; `outputs` computes them from a
+//! state.
 
 pub(crate) mod list;
 mod target;
@@ -7,7 +8,7 @@ pub use target::{RelativePoint, Target, VehicleSide, WheelCarrier};
 
 use crate::scene::{BodyId, CouplingId, EffectId, JointId, RollingId, SignalId};
 
-/// Makes the enum of a list of quantities.
+/// Makes the enum of all quantities from their list.
 macro_rules! quantities {
     (
         point { $($(#[doc = $point_doc:literal])+ $Point:ident in $point:ident;)* }
@@ -19,7 +20,7 @@ macro_rules! quantities {
         })*
         scene { $($(#[doc = $scene_doc:literal])+ $Scene:ident in $scene:ident;)* }
     ) => {
-        /// What a channel measures.
+        /// Quantity that an output channel measures.
         #[derive(Debug, Clone, PartialEq)]
         #[non_exhaustive]
         pub enum Quantity<T> {
@@ -63,7 +64,7 @@ macro_rules! quantities {
         }
 
         impl<T> Quantity<T> {
-            /// What it is of.
+            /// Target of the quantity: the part of the scene that is measured.
             #[must_use]
             pub fn target(&self) -> Target<T>
             where
@@ -79,7 +80,7 @@ macro_rules! quantities {
                 }
             }
 
-            /// The same with every number as `f` gives it.
+            /// Returns the quantity with each number converted by `f`.
             pub fn map<U>(&self, f: &mut impl FnMut(&T) -> U) -> Quantity<U> {
                 match self {
                     $(Self::$Point { body, at } => {

@@ -1,19 +1,19 @@
-//! Parts of a scene that a quantity is of.
+//! Parts of a scene that a quantity can measure.
 
 use crate::scene::{BodyId, CouplingId, EffectId, JointId, RollingId, SignalId};
 
-/// What a quantity is of.
+/// Target of a quantity: the part of the scene that is measured.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Target<T> {
-    /// The material point of a body that is at this place in the reference configuration [m].
+    /// Material point of a body, given by its place in the reference configuration [m].
     Point(BodyId, [T; 3]),
-    /// The same, seen from another body.
+    /// Material point of a body, relative to another body.
     RelativePoint(RelativePoint<T>),
     /// A body.
     Body(BodyId),
-    /// A body, seen from another one.
+    /// A body, relative to another body.
     RelativeBody(BodyId, BodyId),
-    /// The carrier of a wheel, seen from the vehicle body.
+    /// Carrier of a wheel, relative to the vehicle body.
     WheelCarrier(WheelCarrier<T>),
     /// A joint.
     Joint(JointId),
@@ -30,7 +30,7 @@ pub enum Target<T> {
 }
 
 impl<T> Target<T> {
-    /// The body of what is of a body or its point.
+    /// Body of a target that is a body or a point of a body; `None` for other targets.
     #[must_use]
     pub const fn own_body(&self) -> Option<BodyId> {
         match self {
@@ -49,38 +49,38 @@ impl<T> Target<T> {
     }
 }
 
-/// A material point of a body, seen from another body.
+/// Material point of a body, relative to another body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RelativePoint<T> {
-    /// The body.
+    /// Body that has the point.
     pub body: BodyId,
-    /// Its point in the reference configuration [m].
+    /// Place of the point in the reference configuration [m].
     pub at: [T; 3],
-    /// The other body: its axes are the global ones of the reference configuration, and turn with it.
+    /// Reference body, whose axes are the global axes in the reference configuration, and rotate with it.
     pub relative_to: BodyId,
-    /// The point of the other body that positions are counted from, in the reference configuration [m].
+    /// Point of the reference body from which positions are measured, in the reference configuration [m].
     pub origin: [T; 3],
 }
 
-/// The carrier of a wheel, seen from the vehicle body. Directions are those of the reference configuration.
+/// Carrier of a wheel, relative to the vehicle body. Directions are given in the reference configuration.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WheelCarrier<T> {
-    /// The carrier.
+    /// Body that carries the wheel.
     pub body: BodyId,
-    /// The vehicle body, with which up and forward turn.
+    /// Vehicle body, with which the directions up and forward rotate.
     pub relative_to: BodyId,
-    /// Where the wheel is.
+    /// Side of the vehicle on which the wheel is.
     pub side: VehicleSide,
-    /// Upwards in the vehicle; its length does not matter.
+    /// Upward direction of the vehicle, of any length.
     pub up: [T; 3],
-    /// Forward in the vehicle; what of it is along `up` does not count.
+    /// Forward direction of the vehicle. Its component along `up` is ignored.
     pub forward: [T; 3],
-    /// A direction of the carrier, in either sense: of camber and toe the wheel's axis, of caster the steering axis; `None`: across the
-    /// vehicle, and up.
+    /// Direction fixed in the carrier, of either sense: the wheel's axis for camber and toe, the steering axis for caster. `None`:
+    /// across the vehicle for camber and toe, up for caster.
     pub axis: Option<[T; 3]>,
 }
 
-/// A side of a vehicle, as seen by who looks forward with the head up.
+/// Side of a vehicle, as seen by a driver who looks forward.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum VehicleSide {
     /// The left.
@@ -90,6 +90,6 @@ pub enum VehicleSide {
 }
 
 impl VehicleSide {
-    /// Both, with their names in scene files.
+    /// All sides of a vehicle, with their names in scene files.
     pub const ALL: [(Self, &'static str); 2] = [(Self::Left, "left"), (Self::Right, "right")];
 }

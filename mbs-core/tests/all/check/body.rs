@@ -1,10 +1,10 @@
-//! Principal moments of inertia.
+//! Principal moments of inertia of bodies.
 
 use mbs_core::inside::check::principal_moments;
 
 #[test]
 fn principal_moments_of_a_turned_tensor_by_hand() {
-    // diag(1, 3) turned by 45 degrees in the plane: [[2, 1], [1, 2]]
+    // diag(1, 3) rotated by 45 degrees in the plane is [[2, 1], [1, 2]]
     let found = principal_moments([2.0_f64, 2.0, 2.5, 1.0, 0.0, 0.0]);
     for (found, expected) in found.iter().zip([1.0, 2.5, 3.0]) {
         assert!((found - expected).abs() < 1.0e-15, "{found} {expected}");

@@ -1,4 +1,5 @@
-//! Couplings that are drawn, against velocities where their parts touch: places and axes alone, by an oracle of its own.
+//! Drawn couplings, compared with the velocities at their contact points, which an independent reference computes from places and
+//! axes alone.
 
 use mbs_core::scene::{BodyId, CouplingMeasure};
 use mbs_testkit::machines::kinds::{COUPLED, machine};
@@ -24,7 +25,7 @@ fn parts_of_what_is_drawn_do_not_slip_where_they_touch() {
             let known = twists(&machine.joints, &rates);
             let of = |body: &str| known.iter().find(|(name, _)| *name == body).expect("a body").1;
             let slip = (machine.slip)(&of);
-            // the same rates in the coordinates of the file
+            // the same rates, in the coordinates of the scene file
             let rate = |joint: usize| {
                 let name = &scene.joints[joint].name;
                 let place = machine.joints.iter().position(|joint| joint.name == name);

@@ -1,4 +1,4 @@
-//! Effects and roads: what laws cannot mean is refused, what published data have passes.
+//! Checks of effects and roads: impossible data is refused, and published data passes.
 
 use super::{planar, refused, spatial};
 use mbs_core::scene::*;
@@ -11,7 +11,7 @@ pub(super) fn effect(kind: EffectKind<f64>) -> Vec<Effect<f64>> {
     vec![Effect { name: "e".into(), enabled: true, kind }]
 }
 
-/// Key and fault that an effect is refused for.
+/// Key and fault with which an effect is refused.
 fn fault(scene: Scene<f64>, kind: EffectKind<f64>) -> (&'static str, SceneFault) {
     let (entry, field, fault) = refused(scene, |s| s.effects = effect(kind));
     assert_eq!(entry, Entry::Effect(0));
@@ -58,7 +58,7 @@ fn polynomials_have_ordered_pieces_without_gaps() {
     let many = found(&[(0.0, 1.0, &[1.0; 9])]);
     assert_eq!(many.1, SceneFault::PieceCoefficients { piece: 0, found: 9 });
     assert_eq!(found(&[(0.0, 1.0, &[f64::NAN])]).1, SceneFault::NotFinite);
-    // a jump of the value, as the published damper of the Iltis has it
+    // a jump of the value, as in the published damper of the Iltis
     let mut scene = planar();
     scene.effects = effect(pieces(&[(-2.0, -0.2, &[-416.42, 1844.3]), (-0.2, 2.0, &[-400.0])]));
     assert_eq!(scene.check(), Ok(()));
@@ -137,7 +137,7 @@ fn a_torque_about_one_axis_is_one_number() {
             course: course(value),
         })
     };
-    // a vector about z, as in space: its first number is no torque
+    // a vector about z, as in space, is refused: in the plane its first number is no torque
     let three = ("value", SceneFault::WrongCount { needed: 1, found: 3 });
     assert_eq!(fault(planar(), on_body([0.0, 0.0, 5.0])), three);
     assert_eq!(fault(planar(), at_joint([0.0, 0.0, 5.0])), three);
@@ -215,14 +215,14 @@ fn roads_have_room_for_their_corners_and_for_the_largest_wheel() {
     };
     let overlap = SceneFault::LongRounding { rounding: 0.6, most: 0.5 };
     assert_eq!(road(rise(1.0, 0.1, 0.6)), ("rounding", overlap));
-    // h'' = height / ((length - rounding) rounding), for falls as for rises
+    // h'' = height / ((length - rounding) rounding), for falls and rises
     let tight = SceneFault::TightHollow { hollow: 0.25, wheel: 0.5 };
     assert_eq!(road(rise(1.0, -1.0, 0.5)), ("height", tight));
     let step = RoadFeature::Table(vec![[0.0, 0.0], [0.1, 0.0], [0.2, 1.0], [0.3, 1.0]]);
     assert!(matches!(road(step), ("points", SceneFault::TightHollow { .. })));
     let back = RoadFeature::Table(vec![[0.0, 0.0], [0.0, 1.0]]);
     assert_eq!(road(back), ("points", SceneFault::PointOrder(1)));
-    // without wheels no hollow is too tight
+    // a road without wheels may have any hollow
     let mut scene = spatial();
     scene.road.left = vec![rise(1.0, -1.0, 0.5)];
     assert_eq!(scene.check(), Ok(()));

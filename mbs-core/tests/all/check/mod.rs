@@ -1,4 +1,4 @@
-//! Every refusal by name, and what must pass; arbitrary data never panics.
+//! Checks of scenes: every refusal by its name, scenes that must pass, and arbitrary data, which must not panic.
 
 use mbs_core::scene::*;
 use proptest::prelude::*;
@@ -59,7 +59,7 @@ fn value(joint: usize, value: Option<Vec<f64>>, rate: Option<Vec<f64>>) -> Initi
     InitialCondition { target: InitialTarget::Joint { joint: JointId::new(joint), value, rate } }
 }
 
-/// Applies `spoil` and returns where and what is refused.
+/// Applies `spoil` to a scene and returns the entry, the key and the fault of the refusal.
 fn refused(
     mut scene: Scene<f64>,
     spoil: impl FnOnce(&mut Scene<f64>),
@@ -112,7 +112,7 @@ fn inertia_obeys_the_triangle_inequality_in_principal_moments() {
     let spoil = |six| refused(spatial(), |s| s.bodies[1].inertia = Inertia::Spatial(six));
     let found = spoil([1.0, 1.0, 2.5, 0.0, 0.0, 0.0]);
     assert_eq!(found, (Entry::Body(1), "inertia", SceneFault::TriangleInequality([2.5, 2.0])));
-    // diagonal fine, but turned by 45 degrees it has principal moments 0.5, 1.5, 2.5
+    // diagonal moments fine, but the principal moments, in axes turned by 45 degrees, are 0.5, 1.5, 2.5
     let (.., fault) = spoil([1.0, 1.0, 2.5, 0.5, 0.0, 0.0]);
     assert!(matches!(fault, SceneFault::TriangleInequality(_)), "{fault}");
     let (.., fault) = spoil([1.0, 1.0, 1.0, 2.0, 0.0, 0.0]);
@@ -121,7 +121,7 @@ fn inertia_obeys_the_triangle_inequality_in_principal_moments() {
     assert_eq!(fault, SceneFault::NegativeInertia(-0.1));
 }
 
-/// A frame with an inertia that no body has, welded to `upper` or to the ground.
+/// Scene with a frame whose inertia is physically impossible, welded to `upper` or to the ground.
 fn with_frame(mass: f64, six: [f64; 6], to: BodyId) -> Scene<f64> {
     let mut scene = spatial();
     scene.bodies.push(body("frame", mass, Inertia::Spatial(six)));
@@ -136,19 +136,19 @@ fn inertias_are_those_of_what_is_welded_together() {
     assert_eq!(scene.check(), Ok(()));
     let odd = scene.odd_parts();
     assert!(matches!(odd[..], [(2, SceneFault::TriangleInequality(_))]), "{odd:?}");
-    // without mass it counts in the sum too
+    // a frame without mass also adds its inertia to the sum
     scene.bodies[2].mass = 0.0;
     scene.bodies[2].inertia = Inertia::Spatial([1e-6, 1e-6, 1e-6, 0.0, 0.0, 0.0]);
     assert_eq!(scene.check(), Ok(()));
     assert_eq!(scene.odd_parts(), [(2, SceneFault::InertiaWithoutMass)]);
-    // the ground does not move, whatever is welded to it
+    // a frame on the ground does not move, so that any inertia passes
     assert_eq!(with_frame(0.0, [-1.0, 0.0, 0.0, 2.0, 0.0, 0.0], BodyId::Ground).check(), Ok(()));
-    // a part that spoils the sum is refused, at its place; not the heavy one
+    // a frame that makes the sum impossible is refused at its own entry, not at that of the heavy body
     let (entry, spoilt) = (Entry::Body(2), [0.1, 0.1, 2.0, 0.0, 0.0, 0.0]);
     let found = with_frame(0.001, spoilt, upper).check().unwrap_err();
     assert!(matches!(found.fault, SceneFault::TriangleInequality(_)), "{found}");
     assert_eq!((found.entry, found.field), (entry, "inertia"));
-    // beside a joint that moves it is a body of its own
+    // on a joint that moves, the frame is a separate body
     let mut scene = with_frame(0.001, dummy, upper);
     scene.joints[2].kind = JointKind::Spherical;
     assert_eq!(scene.check().map_err(|e| e.entry), Err(entry));
@@ -197,7 +197,7 @@ fn thin_rods_and_plates_pass_in_any_direction() {
     let mut scene = spatial();
     let n = [0.36, 0.48, 0.8];
     for k in 0..40 {
-        // rod: m L²/12 (1 − n nᵀ); plate: the same plus its thin axis; sizes over many decades
+        // rod: m L²/12 (1 − n nᵀ); plate: the same plus its thin axis; sizes over 40 decades
         let size = 10.0_f64.powi(k - 20);
         let [xx, yy, zz] = n.map(|c| size * (1.0 - c * c));
         let six = [xx, yy, zz, -size * n[0] * n[1], -size * n[1] * n[2], -size * n[2] * n[0]];

@@ -24,14 +24,14 @@ fn friction_is_odd_and_dissipates() {
 
 #[test]
 fn friction_reaches_both_levels() {
-    // At 1e-2 the bell is 0.99 and the regularisation 0.995.
+    // At 1e-2 the bell curve of static friction is 0.99, and the regularisation 0.995.
     assert!((LAW.force(1e-2).0 - 2.975).abs() < 0.02);
     assert!((LAW.force(10.0).0 - 2.5).abs() < 1e-3);
 }
 
 #[test]
 fn newtons_method_by_the_foreseen_share_converges_from_anywhere() {
-    // r + c f(r) = b: c a step over an inertia, b what the rate would be without friction.
+    // r + c f(r) = b: r is the rate, c a step over an inertia, b the rate without friction.
     let law = FrictionLaw { r#static: 2.0, ..LAW };
     for (c, b) in [(1e-3, 1e-2), (1e-2, 0.019), (1e-2, 0.021), (0.1, 0.12), (10.0, 19.0)] {
         for start in [-5.0, -0.01, 0.0, 0.02, 3.0] {

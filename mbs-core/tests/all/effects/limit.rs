@@ -1,4 +1,4 @@
-//! Stops of a joint.
+//! Limits (stops) of a joint coordinate.
 
 use mbs_core::effects::laws::LimitLaw;
 use mbs_core::laws::LawInputs;

@@ -1,4 +1,4 @@
-//! A drive that holds a speed.
+//! Drive that holds a constant speed.
 
 use mbs_core::effects::laws::SpeedHoldLaw;
 

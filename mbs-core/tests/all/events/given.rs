@@ -1,7 +1,7 @@
-//! Given motions, and a driver that cuts steps at their events.
+//! Prescribed motions, and a driver that cuts steps at their events.
 //!
 //! ```text
-//! trial of length h, end not landed: h <- share h;   landed or no event: the next step begins there
+//! trial of length h whose end is no event: h <- share h;   at an event, or without one: the next step begins there
 //! ```
 
 use mbs_core::Real;
@@ -13,10 +13,10 @@ use mbs_core::rigid::RigidMotion;
 use mbs_core::scene::Scene;
 use mbs_scene::SceneFile;
 
-/// Places and angles (x, up or y, about z or the wheel's axis) of the scene's bodies at a time, and their rates.
+/// Places and angles of the scene's bodies at a time, and their rates: x, up or y, and the angle about z or the wheel's axis.
 pub(crate) type Signal = dyn Fn(f64) -> Vec<[[f64; 3]; 2]>;
 
-/// An event at which a step ended.
+/// Event at which a step ended.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Landing {
     pub(crate) t: f64,
@@ -24,10 +24,10 @@ pub(crate) struct Landing {
     pub(crate) trials: u32,
 }
 
-/// Trials that a driver has for one event.
+/// Largest number of trials of the driver for one event.
 const MOST_TRIALS: u32 = 6;
 
-/// Motions that are given, and the events on their way.
+/// Prescribed motions of a scene, with its events.
 pub(crate) struct Given<'a, T: Real, const D: usize> {
     scene: Scene<T>,
     model: NaturalModel<T, D>,
@@ -50,7 +50,7 @@ impl<'a, T: Real, const D: usize> Given<'a, T, D> {
         given
     }
 
-    /// The state at a time.
+    /// Sets the state at a time.
     pub(crate) fn go(&mut self, t: f64) {
         let place = (self.course)(t);
         let up = D - 1;
@@ -73,7 +73,7 @@ impl<'a, T: Real, const D: usize> Given<'a, T, D> {
         self.model.write_motions(&motions, &mut self.state);
     }
 
-    /// Steps of length `h` from `from` to `to`, cut at events.
+    /// Makes steps of length `h` between two times, cut at events. Returns the events.
     pub(crate) fn run(&mut self, [from, to]: [f64; 2], h: f64) -> Vec<Landing> {
         let (mut t, mut landings) = (from, Vec::new());
         while t < to {

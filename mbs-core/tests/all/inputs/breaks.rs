@@ -1,4 +1,4 @@
-//! Times at which signals jump or bend.
+//! Times at which signals jump or have corners.
 
 use mbs_core::inputs::{SignalGraph, SignalTimes};
 use mbs_core::scene::{Interpolation, NamedSignal, SignalKind, TableEnds};
@@ -30,7 +30,7 @@ fn steps_ramps_and_tables_have_their_times_and_smooth_signals_none() {
     let of = |kind| until(&times(vec![kind]), 10.0);
     assert_eq!(of(step(0.0)), [(0.3, true)]);
     assert_eq!(of(ramp(0.0)), [(0.2, false), (0.7, false)]);
-    // straight from 0.5 to 1.5, then level
+    // sloped from 0.5 to 1.5, then level
     assert_eq!(of(table(Interpolation::Linear, false)), [(0.5, false), (1.5, false)]);
     assert_eq!(of(table(Interpolation::Hold, false)), [(1.0, true), (1.5, true)]);
     let spline = Interpolation::Spline(TableEnds::Natural);
@@ -48,7 +48,7 @@ fn tables_that_repeat_have_times_in_every_period() {
     let kind = SignalKind::Table { rows, interpolation: Interpolation::Hold, periodic: true };
     let all = times(vec![kind]);
     let found = until(&all, 100.0);
-    // two in each period of 0.3 s, as its end is the beginning of the next
+    // two times in each period of 0.3 s, because its end is the beginning of the next period
     assert!((660..=670).contains(&found.len()), "{}", found.len());
     for pair in found.windows(2) {
         let gap = pair[1].0 - pair[0].0;

@@ -2,7 +2,7 @@
 
 use mbs_core::laws::calspan::{Coefficients, Side, side};
 
-/// Load, slip, camber, side force, torque: computed independently from the formulas above with 34 digits.
+/// Load, slip, camber, side force and torque, computed independently from the formulas with 34 digits.
 const CASES: [[f64; 5]; 10] = [
     [2000.0, 0.05, 0.0, -1106.773098, 16.905052],
     [2000.0, 0.05, 0.03, -1184.170908, 16.519986],
@@ -21,7 +21,7 @@ fn evaluations_are_those_of_the_formulas() {
     let c = Coefficients::<f64>::iltis();
     for [f, slip, camber, force, torque] in CASES {
         let side = side(&c, f, slip, camber);
-        // The references have six digits after the point.
+        // The references have six digits after the decimal point.
         assert!((side.force - force).abs() < 6e-7, "{f} {slip} {camber}: {side:?}");
         assert!((side.torque - torque).abs() < 6e-7, "{f} {slip} {camber}: {side:?}");
     }
@@ -29,7 +29,7 @@ fn evaluations_are_those_of_the_formulas() {
 
 #[test]
 fn cornering_stiffness_camber_stiffness_and_trail_are_the_published_ones() {
-    // Load, stiffness of slip [N/rad], of camber [N/rad], trail [m]; published with four digits.
+    // Load [N], cornering stiffness [N/rad], camber stiffness [N/rad], trail [m]; published with four digits.
     let c = Coefficients::<f64>::iltis();
     for [f, slip, camber, trail] in
         [[3831.31, 41641.0, 6925.0, 0.06553], [3591.91, 40162.0, 6600.0, 0.06142]]
@@ -53,13 +53,13 @@ fn force_is_odd_in_slip_and_camber_and_continuous_in_all() {
             assert!((a.force + b.force).abs() < 1e-9 && (a.torque + b.torque).abs() < 1e-9);
             let h = 1e-6;
             for near in [side(&c, f + h, slip, 0.02), side(&c, f, slip + h, 0.02)] {
-                // Slopes are below 5e4 N/rad.
+                // The slopes are below 5e4 N/rad.
                 assert!((near.force - a.force).abs() < 0.1, "{f} {slip}");
             }
         }
     }
     assert_eq!(side(&c, 0.0, 0.1, 0.0), Side::default());
-    // Loads far beyond the model still push against the slip.
+    // At loads far beyond the model, the force is still opposite to the slip.
     assert!(side(&c, 40_000.0, 0.1, 0.0).force < 0.0);
 }
 

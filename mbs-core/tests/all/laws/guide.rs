@@ -1,8 +1,8 @@
-//! Guide laws: derivatives, splines and their ends.
+//! Laws of guides: derivatives, splines and their ends.
 
 use mbs_core::laws::guide::*;
 
-/// Times [s] and values of knots that are unequally far apart.
+/// Times [s] and values of knots with different distances.
 const TABLE: [[f64; 2]; 5] = [[-1.0, 0.3], [0.0, 0.0], [0.5, -0.2], [1.7, 1.1], [2.0, 1.0]];
 
 fn prepared() -> [f64; 5] {
@@ -11,7 +11,7 @@ fn prepared() -> [f64; 5] {
     curvature
 }
 
-/// Central differences of step 1e-5: truncation 1e-10 times a third derivative of order 100.
+/// Compares derivatives with central differences of step 1e-5: truncation is 1e-10 times a third derivative of order 100.
 fn derivatives_match(g: impl Fn(f64) -> GuideMotion<f64>, t: f64) {
     let h = 1.0e-5;
     let (before, now, after) = (g(t - h), g(t), g(t + h));
@@ -67,7 +67,7 @@ fn a_level_spline_is_at_rest_at_its_ends_and_smooth_within() {
 
 #[test]
 fn two_level_rows_are_the_cubic_from_rest_to_rest() {
-    // g = 3 s² − 2 s³ over 2 s to 0.6: fastest in the middle, at 1.5 of the mean rate
+    // g = 3 s² − 2 s³ during 2 s up to 0.6: the largest rate, in the middle, is 1.5 times the mean rate
     let table = [[1.0, 0.0], [3.0, 0.6]];
     let (mut curvature, mut scratch) = ([0.0; 2], [0.0; 2]);
     level_curvatures(&table, &mut curvature, &mut scratch);

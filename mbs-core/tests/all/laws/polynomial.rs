@@ -16,7 +16,7 @@ fn damper() -> [Piece<f64>; 3] {
 #[test]
 fn kinks_are_where_value_or_slope_jump_and_not_where_pieces_join_smoothly() {
     let piece = |range, c: &[f64]| Piece::new(range, c).unwrap();
-    // One parabola; a bend; a step.
+    // Three kinds of joints between pieces: none within a parabola, a bend, a step.
     let pieces = [
         piece([-1.0, 0.3], &[1.0, -2.0, 3.0]),
         piece([0.3, 2.0], &[1.0, -2.0, 3.0]),
@@ -26,7 +26,7 @@ fn kinks_are_where_value_or_slope_jump_and_not_where_pieces_join_smoothly() {
     let mut found = Vec::new();
     kinks(&pieces, |place| found.push(place));
     assert_eq!(found, [2.0, 3.0]);
-    // The published damper joins smoothly, to the digits of its coefficients.
+    // The pieces of the published damper join smoothly, within the digits of its coefficients.
     kinks(&damper(), |place| panic!("{place}"));
 }
 
@@ -52,7 +52,7 @@ fn re_centred_coefficients_give_the_same_polynomial() {
 fn the_elastic_part_of_the_iltis_damper_keeps_its_digits() {
     let c = [-4.0092e6, 2.8397e7, -6.7061e7, 5.2796e7];
     let pieces = [Piece::<f64>::new([0.3, 0.6], &c).unwrap()];
-    // At 0.44 m by rational arithmetic: -155.136 N exactly.
+    // The value at 0.44 m by rational arithmetic is exactly -155.136 N.
     assert!((value(&pieces, 0.44).0 + 155.136).abs() < 1e-8, "{}", value(&pieces, 0.44).0);
 }
 

@@ -1,8 +1,8 @@
-//! Checks of a user-defined relation's derivatives.
+//! Checks of the derivatives of a user-defined relation.
 
 use mbs_core::laws::relation::*;
 
-/// x y^2 z / l^3, with factors on its derivatives: of one they are right.
+/// Relation x y^2 z / l^3, with factors on its derivatives. They are right for factors of one.
 #[derive(Debug)]
 struct Product {
     length: f64,
@@ -30,7 +30,7 @@ impl Relation for Product {
 
 #[test]
 fn a_relation_is_right_over_any_length_and_each_wrong_derivative_is_found() {
-    // in the unit of the relation, off the axes
+    // a place off the axes, in units of the relation's length
     let place = [0.7, -1.3, 0.4];
     for length in [1e-4, 1.0, 1e3] {
         let at = place.map(|x| x * length);
@@ -46,7 +46,7 @@ fn a_relation_is_right_over_any_length_and_each_wrong_derivative_is_found() {
             assert_eq!(argument, k);
             assert!((given + found).abs() < 1e-2 * found.abs(), "{given} {found}");
         }
-        // mixed derivatives once instead of twice
+        // mixed derivatives counted once instead of twice
         let fault = check(&Product { length, by: [1.0; 3], mixed: 0.5 }, &at);
         assert!(matches!(fault, Err(RelationFault::Curvature { .. })), "{length}: {fault:?}");
     }

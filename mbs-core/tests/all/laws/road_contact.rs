@@ -1,11 +1,11 @@
-//! The point of a road that a wheel touches.
+//! Contact point of a wheel on a road.
 
 use mbs_core::laws::guide;
 use mbs_core::laws::road::{self, Feature};
 use mbs_core::laws::road_contact::*;
 use mbs_core::laws::{LawInputs, Part};
 
-/// Counts from 0 to 1 without repeating itself soon: the golden section.
+/// Evenly spread numbers from 0 to 1, by the golden section.
 fn spread(i: u32) -> f64 {
     (f64::from(i) * 0.618_033_988_749_894_9).fract()
 }
@@ -23,7 +23,7 @@ fn with<R>(features: &[Feature<f64>], f: impl FnOnce(Part, &LawInputs<'_, f64>) 
     f(Part { first: 0, n }, &LawInputs { features, ..LawInputs::courses(&[]) })
 }
 
-/// Least distance over places a ten-thousandth of it apart; too large by 1e-8 of it, times what bends.
+/// Least distance among places spaced by 1e-4 of the height. It is too large by 1e-8 of the height, times the curvature.
 fn by_search(road: Part, s: &LawInputs<'_, f64>, [x, z]: [f64; 2]) -> f64 {
     let reach = (z - road::height(road, s, x).value).abs();
     let places = (-10_000..=10_000).map(|i| x + f64::from(i) * 1e-4 * reach);
@@ -34,7 +34,7 @@ fn by_search(road: Part, s: &LawInputs<'_, f64>, [x, z]: [f64; 2]) -> f64 {
     places.map(distance).fold(f64::INFINITY, f64::min)
 }
 
-/// Both ways to the distance, for centres over the middle of a road.
+/// Compares both distances, for centres over the middle of a road.
 fn holds(features: &[Feature<f64>], [from, to]: [f64; 2], heights: [f64; 2]) {
     with(features, |road, s| {
         for i in 0..400 {
@@ -52,7 +52,7 @@ fn holds(features: &[Feature<f64>], [from, to]: [f64; 2], heights: [f64; 2]) {
 
 #[test]
 fn the_foot_is_the_nearest_point_in_hollows_up_to_as_tight_as_the_wheel() {
-    // Curvature times a wheel of 0.36 m: 0.4, 0.65, 0.8, 0.97.
+    // Curvature times the wheel's radius of 0.36 m: 0.4, 0.65, 0.8, 0.97.
     for [length, height] in [[0.9, -0.25], [0.577, -0.15], [0.522, -0.15], [0.545, -0.2]] {
         for sign in [1.0, -1.0] {
             let road = [rise(length, sign * height, length / 2.0)];
@@ -64,7 +64,7 @@ fn the_foot_is_the_nearest_point_in_hollows_up_to_as_tight_as_the_wheel() {
 
 #[test]
 fn the_foot_is_the_nearest_point_in_hollows_tighter_than_the_wheel_and_on_crests() {
-    // Curvature times the distance up to 4: some centres have two points that are nearly as near.
+    // Curvature times the distance up to 4: some centres have two almost equally near points.
     holds(&[rise(0.4, -0.2, 0.2)], [-0.4, 0.8], [0.01, 0.6]);
     holds(&[rise(0.3, 0.25, 0.1)], [-0.4, 0.8], [0.01, 0.6]);
     holds(&[bump(0.0, 1.0, 0.1), bump(1.0, 1.0, 0.1)], [0.0, 2.0], [0.01, 0.9]);
@@ -81,7 +81,7 @@ fn the_foot_is_the_nearest_point_far_above_a_road_and_a_little_below_it() {
 
 #[test]
 fn a_wheel_over_the_foot_of_a_stair_stands_where_it_touches() {
-    // The hollow that an unguarded Newton method leaves: 0.3912 m.
+    // Newton's method without a bracket leaves this hollow: 0.3912 m.
     with(&[rise(0.577, -0.15, 0.2885)], |road, s| {
         let at = road_contact(road, s, [0.343_526_631, 0.290_336_3]);
         assert!((at.distance - 0.356).abs() < 1e-9, "{at:?}");
@@ -107,9 +107,9 @@ fn the_normal_is_the_gradient_of_the_distance_and_turns_as_computed() {
                 slope(near(step, 0.0), near(-step, 0.0)),
                 slope(near(0.0, step), near(0.0, -step)),
             ];
-            // The curvature jumps at corners, so that second differences are of the order of the step.
+            // The curvature jumps at corners, so that second-order differences err by the order of the step.
             assert!((by[0] - at.normal[0]).abs() < 1e-5 && (by[1] - at.normal[1]).abs() < 1e-5);
-            // Along the tangent (up, -x), away from corners.
+            // Derivative along the tangent (up, -x), away from corners.
             let along = |h: f64| near(at.normal[1] * h, -at.normal[0] * h);
             let (before, after) = (along(-step), along(step));
             if (before.bend - after.bend).abs() < 1e-4 {
@@ -133,7 +133,7 @@ fn on_a_straight_slope_the_distance_is_that_of_a_line() {
             Feature::Rise { start: 1.0, length: 2.0, height: 0.3, rounding: 0.5 },
         ],
         |road, s| {
-            // Height 0.25 and slope 0.2 in the middle.
+            // The road has height 0.25 and slope 0.2 in the middle.
             let expected = (0.7 - 0.25) / 1.04_f64.sqrt();
             assert!((road_contact(road, s, [2.0, 0.7]).distance - expected).abs() < 1e-14);
         },
@@ -152,7 +152,7 @@ fn over_the_sharp_end_of_a_table_the_normal_points_to_the_centre() {
     assert!((at.distance - d).abs() < 1e-12, "{at:?}");
     assert!((at.normal[0] + 0.1 / d).abs() < 1e-12 && (at.normal[1] - 0.4 / d).abs() < 1e-12);
     assert!((at.turn() - 1.0 / d).abs() < 1e-6 / d);
-    // In the hollow at the other end the wheel rests on both sides, and one is found.
+    // In the hollow at the other end the wheel touches both sides, and one of the two points is found.
     let at = road_contact(road, &s, [-0.05, 0.3]);
     let slope = (0.3 + 0.05 * 0.5) / 1.25_f64.sqrt();
     assert!((at.distance - slope).abs() < 1e-14, "{at:?} {slope}");

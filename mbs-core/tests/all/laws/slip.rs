@@ -1,4 +1,4 @@
-//! Longitudinal force of a tire, and its slope.
+//! Longitudinal slip force of a tire, and its slope.
 
 use mbs_core::laws::slip::{LongitudinalSlip, share, slope};
 
@@ -6,7 +6,7 @@ const SLIP: LongitudinalSlip<f64> = LongitudinalSlip { stiffness: 6e4, friction:
 
 #[test]
 fn the_force_is_the_brush_models_and_all_friction_from_three_on() {
-    // 3200 N at most: 1 - (1 - r/3)^3 of them.
+    // The largest force is 3200 N. The force is 1 - (1 - r/3)^3 times this.
     for (slip, force) in [(0.02, 1056.25), (0.08, 2800.0), (0.16, 3200.0), (1.0, 3200.0)] {
         let found = SLIP.force(4000.0, slip, 0.0).resistance;
         assert!((found - force).abs() < 1e-6, "{slip}: {found}");
@@ -29,7 +29,8 @@ fn its_slope_is_that_of_differences() {
 
 #[test]
 fn the_foreseen_slope_at_a_solution_is_the_tangent_and_converges_from_anywhere() {
-    // v + c F(v) = b with F by the rate of slip over 5 m/s: c a step over an inertia, b what the rate would be without the tire
+    // v + c F(v) = b: v is the slip velocity, c a step over an inertia, b the velocity without the tire. F is a force by slip over
+    // 5 m/s.
     let law = |v: f64| {
         let force = SLIP.force(4000.0, v / 5.0, 0.0);
         (force.resistance, force.slope / 5.0, force.scale * 5.0)
@@ -76,7 +77,7 @@ fn both_forces_stay_within_friction() {
 
 #[test]
 fn a_wheel_that_slides_whole_is_held_against_its_slide() {
-    // equal stiffnesses: the force opposes (1, tan a)
+    // with equal stiffnesses the force is opposite to (1, tan a)
     let force = SLIP.force(4000.0, 1.0, 6e4 * 0.5);
     let alone = 6e4 * 0.5 * share(6e4 * 0.5 / 3200.0);
     assert!((alone * force.side_share / force.resistance - 0.5).abs() < 1e-12);

@@ -1,9 +1,9 @@
-//! Angular velocity of a rotation vector that moves.
+//! Angular velocity of a rotation vector that depends on time.
 
 use mbs_core::algebra::{Matrix, Vector, rotation};
 use mbs_core::laws::spin::{factors, spin};
 
-/// A rotation vector that turns about changing axes, up to three turns, with its derivatives.
+/// Rotation vector about changing axes, up to three turns, with its derivatives.
 fn moving(t: f64) -> [Vector<f64, 3>; 3] {
     let w = [1.3, 0.7, -0.4];
     let at = |k: usize, n: u32| {
@@ -14,14 +14,14 @@ fn moving(t: f64) -> [Vector<f64, 3>; 3] {
     [0, 1, 2].map(|n| Vector::<f64, 3>::new(at(0, n), at(1, n), at(2, n)))
 }
 
-/// The axial vector of the skew part.
+/// Axial vector of the skew-symmetric part of a matrix.
 fn axial(m: &Matrix<f64, 3>) -> Vector<f64, 3> {
     Vector::<f64, 3>::new(m[(2, 1)] - m[(1, 2)], m[(0, 2)] - m[(2, 0)], m[(1, 0)] - m[(0, 1)]) * 0.5
 }
 
 #[test]
 fn the_angular_velocity_is_the_rate_of_the_rotation_through_several_turns() {
-    // central differences of 1e-4: truncation 1e-8 times a third derivative of up to 1e3
+    // central differences of step 1e-4: truncation is 1e-8 times a third derivative of up to 1e3
     let h = 1.0e-4;
     for i in 0..100 {
         let t = -6.0 + 0.12 * f64::from(i);
@@ -38,7 +38,7 @@ fn the_angular_velocity_is_the_rate_of_the_rotation_through_several_turns() {
 #[test]
 fn series_and_closed_forms_meet_at_one_radian_and_the_series_begin_as_in_the_books() {
     let [below, above] = [1.0_f64, 1.0 + 1.0e-12].map(factors);
-    // the closed form of d loses two digits, and 1e-12 of the argument moves each by less
+    // the closed form of d loses two digits, and the difference 1e-12 of the argument changes each factor by less
     for (x, y) in below.iter().zip(above) {
         assert!((x - y).abs() < 1.0e-12, "{x} {y}");
     }

@@ -1,4 +1,4 @@
-//! A wheel by itself: its rows against differences, its work, and forces that do not jump.
+//! Law of a tire alone: its rows compared with differences, its work, and forces without jumps.
 
 use mbs_core::algebra::{Vector, cross, norm, rotation};
 use mbs_core::laws::body::{BodyMotion, MAX_ACTIONS, UnitWrench, WrenchesLaw};
@@ -10,12 +10,12 @@ use mbs_core::laws::{LawInputs, Part};
 
 type V = Vector<f64, 3>;
 
-/// A straight slope, a bump on it, and level ground before.
+/// Road of a straight slope with a bump, and level ground before it.
 const ROAD: [Feature<f64>; 2] = [
     Feature::Rise { start: 1.0, length: 8.0, height: 1.6, rounding: 1.0 },
     Feature::Bump { start: 4.0, length: 3.0, amplitude: 0.05 },
 ];
-/// Places at which the road is level, bends up, is straight, and is on the bump [m].
+/// Places x [m] at which the road is level, bends up, is straight, and is on the bump.
 const PLACES: [f64; 4] = [0.3, 1.4, 3.0, 5.1];
 
 fn wheel(leans: bool) -> TireLaw<f64> {
@@ -36,7 +36,7 @@ fn law_inputs() -> LawInputs<'static, f64> {
     LawInputs { features: &ROAD, ..LawInputs::courses(&[]) }
 }
 
-/// A wheel pressed in by `depth` with its axis leaning and turned to a side.
+/// Motion of a wheel that is pressed in by `depth`, and whose axis is leaned by `camber` and turned by `steer`.
 fn motion(x: f64, depth: f64, [camber, steer]: [f64; 2]) -> BodyMotion<f64> {
     let axis = rotation(&(V::z() * steer)) * rotation(&(V::x() * camber)) * V::y();
     let tire = wheel(true);
@@ -47,7 +47,7 @@ fn motion(x: f64, depth: f64, [camber, steer]: [f64; 2]) -> BodyMotion<f64> {
         axis: axis.into(),
         spin: [0.3, -0.2, 0.5],
     };
-    // The deflection falls with the height by about 1 / cos g: a few steps put it right.
+    // The deflection falls with the height by about 1 / cos g: a few iterations correct the height.
     for _ in 0..60 {
         z += (radial(&tire, &motion).measure.value - depth) * 0.5 * camber.cos();
         motion.position[2] = z;
@@ -65,14 +65,14 @@ fn radial(tire: &TireLaw<f64>, motion: &BodyMotion<f64>) -> UnitWrench<f64> {
     actions(tire, motion)[RADIAL]
 }
 
-/// The wheel moved by a small translation and rotation about its centre.
+/// Motion of the wheel after a small translation and rotation about its centre.
 fn moved(motion: &BodyMotion<f64>, by: [V; 2]) -> BodyMotion<f64> {
     let position = V::from(motion.position) + by[0];
     let axis = rotation(&by[1]) * V::from(motion.axis);
     BodyMotion { position: position.into(), axis: axis.into(), ..*motion }
 }
 
-/// Force and moment about the centre of all actions.
+/// Force and moment of all actions about the centre.
 fn wrench(tire: &TireLaw<f64>, motion: &BodyMotion<f64>) -> [V; 2] {
     actions(tire, motion).iter().fold([V::zeros(); 2], |[force, moment], action| {
         let f = -action.measure.tension;
@@ -80,7 +80,7 @@ fn wrench(tire: &TireLaw<f64>, motion: &BodyMotion<f64>) -> [V; 2] {
     })
 }
 
-/// Camber and steer [rad], up to a wheel that nearly lies on its side.
+/// Camber and steer angles [rad], up to a wheel almost flat on its side.
 const ANGLES: [[f64; 2]; 6] =
     [[0.0, 0.0], [0.03, 0.1], [-0.2, 0.4], [0.6, -0.7], [-1.0, 0.3], [1.35, 1.2]];
 
@@ -92,7 +92,7 @@ fn the_row_of_the_deflection_is_its_gradient_in_every_position() {
             let motion = motion(x, 0.008, angles);
             let row = radial(&tire, &motion);
             let value = |by: [V; 2]| radial(&tire, &moved(&motion, by)).measure.value;
-            // Differences of second order, 1e-12 times third derivatives of up to 1e4, and rounding, 1e-16 over 1e-6.
+            // Second-order differences err by 1e-12 times third derivatives of up to 1e4, and by rounding, 1e-16 over 1e-6.
             let slope = |by: [V; 2]| (value(by) - value(by.map(|b| -b))) / (2.0 * h);
             for i in 0..3 {
                 let unit = V::from_fn(|k, _| if k == i { h } else { 0.0 });
@@ -111,8 +111,8 @@ fn the_row_of_the_deflection_is_its_gradient_in_every_position() {
 #[test]
 fn a_spring_carries_a_wheel_round_a_closed_way_without_work() {
     let tire = TireLaw { radial: [4.6e5, 0.0], rolling: 0.0, side: None, ..wheel(true) };
-    // Round a circle in the space of a place and two angles, on the bend of the road. The mean of many chords' works errs
-    // by the square of a chord.
+    // A closed path in the space of a place and two angles, on the bend of the road. The sum of the work over many chords has an
+    // error of the order of the square of a chord.
     let place = |phase: f64| {
         let (sin, cos) = phase.sin_cos();
         let start = motion(1.4, 0.02, [0.3, 0.2]);
@@ -126,7 +126,7 @@ fn a_spring_carries_a_wheel_round_a_closed_way_without_work() {
             let [before, here, after] =
                 [-0.5, 0.0, 0.5].map(|share: f64| place(phase + share * turn));
             let way = V::from(after.position) - V::from(before.position);
-            // The rotations of `moved` by two vectors differ by what turns the axis.
+            // The displacements of `moved` for two vectors differ by a rotation of the axis.
             let [a, b] = [before, after].map(|m| V::from(m.axis));
             let turned = cross(&V::from(here.axis), &(b - a));
             let [force, moment] = wrench(&tire, &here);
@@ -137,7 +137,8 @@ fn a_spring_carries_a_wheel_round_a_closed_way_without_work() {
     };
     let (sum, size) = work(4000);
     assert!(size > 10.0, "{size}");
-    // 4000 chords of an error of (2 pi / 4000)^2 of themselves, which cancel over the turn to that of one.
+    // The error of each of 4000 chords is (2 pi / 4000)^2 of its work. Over the closed path these errors cancel to that of one
+    // chord.
     assert!(sum.abs() < 1e-6 * size, "{sum} of {size} J");
 }
 
@@ -159,7 +160,7 @@ fn on_level_ground_a_leaning_disc_touches_at_its_lowest_point() {
         let motion = motion(0.3, 0.01, [camber, steer]);
         let lowest = motion.position[2] - 0.36 * camber.cos();
         let depth = radial(&tire, &motion).measure.value;
-        // The disc reaches below the ground by the deflection's share in the normal.
+        // The disc reaches below the ground by the component of the deflection along the normal.
         assert!((depth * camber.cos() + lowest).abs() < 1e-12, "{camber}");
         let arm = cross(&V::from(motion.axis), &cross(&V::from(motion.axis), &V::z()));
         let arm = arm * (0.35 / norm(&arm));
@@ -179,34 +180,35 @@ fn a_wheel_on_its_side_and_one_below_the_road_have_finite_forces() {
             motion.position[2] = 0.4 - 0.002 * f64::from(i);
             let row = radial(&tire, &motion);
             let value = row.measure.value;
-            // 1 / cos g, and the way to the road along the wheel, R where it touches, over cos^2 g.
+            // Bounds of the row: 1 / cos g for the force, and the distance to the road along the wheel (R at contact) over cos^2 g
+            // for the moment.
             let reach = (10.0 * motion.position[2].abs()).max(0.36);
             assert!(norm(&V::from(row.force)) < 10.1, "{camber} {i}");
             let moment = norm(&V::from(row.moment));
             assert!(value < 0.0 || moment < 100.0 * reach + 0.1, "{camber} {i}");
-            // A tenth is the least cosine.
+            // The least cosine is a tenth.
             assert!(last.is_none_or(|last: f64| (value - last).abs() <= 0.0201), "{camber} {i}");
             last = Some(value);
         }
     }
 }
 
-/// The load: the stiffness times a deflection of 1 cm [N].
+/// Load of the wheel: stiffness times a deflection of 1 cm [N].
 const LOAD: f64 = 4.6e5 * 0.01;
-/// The largest side force over slip: the parabola's top, A0 + A1 A2 / 4 [N/rad].
+/// Largest cornering stiffness, at the top of the parabola: A0 + A1 A2 / 4 [N/rad].
 const CORNERING: f64 = 2625.0 + 14.47 * 12930.0 / 4.0;
 
 #[test]
 fn forces_do_not_jump_at_standstill_and_without_slip() {
     let tire = TireLaw { radial: [4.6e5, 0.0], ..wheel(true) };
     let step = 1e-4;
-    // Slip changes by 1 / v_s per m/s at most; so does the direction of what resists rolling; trail times load is 0.08 m.
+    // Slip changes by at most 1 / v_s per m/s, as does the direction of the rolling resistance. Trail times load is 0.08 m.
     let force = (CORNERING + 0.01 * LOAD) / STANDSTILL * step;
     let moment = force * (0.36 + 2.0 * 0.08);
     for angles in [[0.0, 0.0], [0.1, 0.3]] {
         let start = motion(0.3, 0.01, angles);
         let start = BodyMotion { spin: [0.0; 3], ..start };
-        // Through standstill at several velocities across, and through zero slip at several ahead.
+        // Through standstill at several lateral velocities, and through zero slip at several forward velocities.
         for (way, other) in [(0, 1), (1, 0)] {
             for aside in [-0.4, -0.03, 0.0, 0.002, 0.1, 3.0] {
                 let mut last: Option<[V; 2]> = None;
@@ -224,7 +226,7 @@ fn forces_do_not_jump_at_standstill_and_without_slip() {
             }
         }
     }
-    // At rest only what carries acts, and what camber pushes.
+    // At rest only the load acts, and the force of camber.
     let rest = BodyMotion { velocity: [0.0; 3], spin: [0.0; 3], ..motion(0.3, 0.01, [0.0; 2]) };
     assert!(norm(&(wrench(&tire, &rest)[0] - V::z() * LOAD)) < 1e-8);
 }
@@ -233,7 +235,7 @@ fn forces_do_not_jump_at_standstill_and_without_slip() {
 fn a_mirrored_wheel_has_mirrored_forces_and_the_sense_of_its_axis_does_not_matter() {
     let tire = wheel(true);
     let mirror = |[x, y, z]: [f64; 3]| [x, -y, z];
-    // Turning is mirrored the other way.
+    // A mirror reverses the other components of a rotation.
     let turning = |[x, y, z]: [f64; 3]| [-x, y, -z];
     for x in PLACES {
         for angles in ANGLES {
@@ -247,7 +249,7 @@ fn a_mirrored_wheel_has_mirrored_forces_and_the_sense_of_its_axis_does_not_matte
             };
             let reversed = BodyMotion { axis: motion.axis.map(|a| -a), ..motion };
             let case = format!("x {x}, {angles:?}");
-            // Rounding of forces of some kN.
+            // Tolerance: rounding of forces of some kN.
             let [f, m] = wrench(&tire, &mirrored);
             assert!(norm(&(f - V::from(mirror(force.into())))) < 1e-9, "{case}");
             assert!(norm(&(m - V::from(turning(moment.into())))) < 1e-9, "{case}");
@@ -270,7 +272,7 @@ fn nothing_pulls_a_wheel_down_and_one_off_the_road_is_free() {
                     let computed = actions(&tire, &motion);
                     let case = format!("x {x}, {angles:?}, {depth} m, {speed} m/s");
                     assert!(computed[RADIAL].measure.tension <= 0.0, "{case}");
-                    // `motion` leaves rounding of the depth.
+                    // `motion` reaches the depth up to rounding.
                     if depth < -1e-9 || computed[RADIAL].measure.tension == 0.0 {
                         assert!(
                             computed.iter().all(|action| action.measure.tension == 0.0),
@@ -283,7 +285,7 @@ fn nothing_pulls_a_wheel_down_and_one_off_the_road_is_free() {
     }
 }
 
-/// The wheel with force by slip.
+/// Law of a tire with longitudinal slip force.
 fn driven() -> TireLaw<f64> {
     TireLaw {
         longitudinal: Some(LongitudinalSlip { stiffness: 6e4, friction: 0.8 }),
@@ -291,14 +293,14 @@ fn driven() -> TireLaw<f64> {
     }
 }
 
-/// The motion with another rate about the wheel's axis [rad/s].
+/// Motion with another rate about the wheel's axis [rad/s].
 fn spinning(motion: &BodyMotion<f64>, rate: f64) -> BodyMotion<f64> {
     let axis = V::from(motion.axis);
     let spin = V::from(motion.spin);
     BodyMotion { spin: (spin + axis * (rate - spin.dot(&axis))).into(), ..*motion }
 }
 
-/// The rate at which a wheel has no slip [rad/s].
+/// Rate at which the wheel has no slip [rad/s].
 fn free_rate(motion: &BodyMotion<f64>) -> f64 {
     let slipping = |rate: f64| actions(&driven(), &spinning(motion, rate))[SLIP].measure.rate;
     slipping(0.0) / (slipping(0.0) - slipping(1.0))

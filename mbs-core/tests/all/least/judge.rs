@@ -1,11 +1,12 @@
-//! Starts from their definition, in joint coordinates and with dense matrices: what the library's are compared with. No code is shared.
+//! Reference solution of starts from their definition, in joint coordinates and with dense matrices. It uses no code of the
+//! library.
 //!
 //! ```text
-//! positions:   min sum_bodies m |c - c0|^2 + 2 tr(E) - 2 tr(R E)   over free coordinates, cuts closed, held ones given
-//! velocities:  min sum_bodies m |c'|^2 + w^T R I R^T w             likewise
+//! positions:   min sum_bodies m |c - c0|^2 + 2 tr(E) - 2 tr(R E)   over free coordinates, cuts closed, prescribed ones given
+//! velocities:  min sum_bodies m |c'|^2 + w^T R I R^T w             over free rates, cuts closed, prescribed ones given
 //! ```
 //!
-//! E is a body's second moment about its centre c, I = tr(E) 1 - E.
+//! The second moment of a body about its centre c is E, and its inertia I = tr(E) 1 - E. R is its rotation, w its angular velocity.
 
 pub(super) type V = [f64; 3];
 pub(super) type M = [V; 3];
@@ -18,7 +19,7 @@ pub(super) struct Body {
 
 pub(super) struct Joint {
     pub(super) kind: &'static str,
-    /// Body before the joint; `None`: the ground. The joint's own number is the body that it carries.
+    /// Body before the joint; `None`: the ground. The number of the joint is that of the body after it.
     pub(super) first: Option<usize>,
     pub(super) at: V,
     pub(super) axes: [V; 2],
@@ -26,7 +27,7 @@ pub(super) struct Joint {
     pub(super) rate: Option<Vec<f64>>,
 }
 
-/// A tree, and points of a body that stay on a point of another one or of the ground.
+/// Tree of bodies with cuts: points of a body that coincide with a point of another body or of the ground.
 pub(super) struct Mechanism {
     pub(super) is_planar: bool,
     pub(super) bodies: Vec<Body>,
@@ -102,7 +103,7 @@ fn solve(mut a: Vec<Vec<f64>>, mut b: Vec<f64>) -> Vec<f64> {
 }
 
 impl Joint {
-    /// Single freedoms of the joint as turns and slides: axes in the reference configuration.
+    /// Freedoms of the joint as rotations and slides, each with its axis in the reference configuration.
     fn freedoms(&self) -> Vec<(bool, V)> {
         let [a, b] = self.axes;
         match self.kind {
@@ -123,8 +124,8 @@ impl Mechanism {
         self.joints.iter().map(|j| j.freedoms().len()).sum()
     }
 
-    /// Poses of the bodies and the columns of the joint freedoms; held balls turn by their vector, and all balls have the columns of
-    /// the global axes where rates are asked for.
+    /// Poses of the bodies, and columns of the joint freedoms. Prescribed balls rotate by their rotation vector. For rates, all
+    /// balls have columns about the global axes.
     fn place(&self, z: &[f64], tau: f64, is_rate: bool) -> (Vec<Pose>, Vec<Column>) {
         let still = turn([0.0, 0.0, 1.0], 0.0);
         let (mut poses, mut columns, mut at) = (Vec::<Pose>::new(), Vec::new(), 0);
@@ -166,7 +167,7 @@ impl Mechanism {
         joint == body || self.joints[body].first.is_some_and(|first| self.carries(joint, first))
     }
 
-    /// Velocity of a point of a body at a rate of one of a freedom.
+    /// Velocity of a point of a body for a unit rate of a freedom.
     fn moves(&self, column: &Column, body: Option<usize>, point: V) -> V {
         match body {
             Some(body) if self.carries(column.joint, body) => {
@@ -180,7 +181,7 @@ impl Mechanism {
         }
     }
 
-    /// Gaps of the cuts and their derivatives.
+    /// Gaps of the cuts, with their derivatives.
     fn gaps(&self, poses: &[Pose], columns: &[Column]) -> (Vec<f64>, Vec<Vec<f64>>) {
         let (mut gaps, mut rows) = (Vec::new(), Vec::new());
         let n = if self.is_planar { 2 } else { 3 };
@@ -199,7 +200,7 @@ impl Mechanism {
         (gaps, rows)
     }
 
-    /// Gradient of the change, with the cuts' multipliers, then the gaps.
+    /// Gradient of the change with the multipliers of the cuts, followed by the gaps.
     fn stationary(&self, z: &[f64], lambda: &[f64], tau: f64, free: &[usize]) -> Vec<f64> {
         let (poses, columns) = self.place(z, tau, false);
         let (gaps, rows) = self.gaps(&poses, &columns);
@@ -231,7 +232,7 @@ impl Mechanism {
         all
     }
 
-    /// Which coordinates are not held, of values or of rates.
+    /// Coordinates without a prescribed value or rate.
     fn free(&self, is_rate: bool) -> Vec<usize> {
         let mut free = Vec::new();
         let mut at = 0;
@@ -244,7 +245,7 @@ impl Mechanism {
         free
     }
 
-    /// The poses of the least change, reached from the reference in many stages; `None` where the way ends.
+    /// Poses with the least change, reached from the reference configuration in 40 stages; `None` if a stage fails.
     pub(super) fn positions(&self) -> Option<(Vec<Pose>, Vec<f64>)> {
         let free = self.free(false);
         let mut z = vec![0.0; self.n_coordinates()];
@@ -294,7 +295,7 @@ impl Mechanism {
         Some((self.place(&z, 1.0, true).0, z))
     }
 
-    /// Velocities of centres and angular velocities of the bodies at coordinates `z`: the smallest that meet the held rates.
+    /// Velocities of centres and angular velocities of the bodies at coordinates `z`: the smallest with the prescribed rates.
     pub(super) fn velocities(&self, z: &[f64]) -> Vec<[V; 2]> {
         let (poses, columns) = self.place(z, 1.0, true);
         let (_, rows) = self.gaps(&poses, &columns);
@@ -315,7 +316,7 @@ impl Mechanism {
             let part = |(b, body): (usize, &Body)| {
                 let center = poses[b].point(body.center);
                 let (va, vc) = (self.moves(a, Some(b), center), self.moves(c, Some(b), center));
-                // seen from the body: w^T (tr(E) 1 - E) w
+                // components in the axes of the body: w^T (tr(E) 1 - E) w
                 let seen = |w: V| -> V {
                     std::array::from_fn(|k| (0..3).map(|l| poses[b].turn[l][k] * w[l]).sum())
                 };

@@ -1,4 +1,5 @@
-//! Starts from partly given values are the least mass-weighted change from the reference configuration, at every size.
+//! Starts from partly prescribed values: the library finds the smallest mass-weighted change of the reference configuration, at
+//! every size.
 
 mod judge;
 
@@ -10,12 +11,13 @@ use mbs_core::start::assemble;
 use mbs_sparse::{Multifrontal, Options};
 use mbs_testkit::{Random, scene_in};
 
-/// Error allowed, relative to the size and to the largest rate; ten roundings of the hundredfold condition of the joints are a hundredth of it.
+/// Allowed error, relative to the size and to the largest rate. Ten roundings, times the condition 100 of the joints, are a
+/// hundredth of it.
 const RIGHT: f64 = 1e-10;
-/// Error allowed in single precision, relative to the size and to the largest rate.
+/// Allowed error in single precision, relative to the size and to the largest rate.
 const RIGHT_IN_F32: f64 = 1e-4;
 
-/// Motion found for each body: centre, two directions, and their rates.
+/// Motion of each body: centre, two directions, and their rates.
 type Found = Vec<[V; 6]>;
 
 fn unit(x: V) -> V {
@@ -28,7 +30,7 @@ fn vector(random: &mut Random, is_planar: bool, size: f64) -> V {
     if is_planar { [x[0], x[1], 0.0] } else { x }
 }
 
-/// A body near `at` with a positive second moment.
+/// Body close to `at`, with a positive definite second moment.
 fn body(random: &mut Random, is_planar: bool, at: V) -> Body {
     let mut moment: M = [[0.0; 3]; 3];
     for i in 0..3 {
@@ -45,7 +47,7 @@ fn body(random: &mut Random, is_planar: bool, at: V) -> Body {
     Body { mass: 1.2 + random.next(), center, moment }
 }
 
-/// A random tree of `n` joints, some of them held, the last one closed on the ground where `is_loop`.
+/// Random tree of `n` joints, some of them with prescribed values. With `is_loop` the last one closes a loop with the ground.
 fn mechanism(seed: u64, is_planar: bool, is_loop: bool) -> Mechanism {
     let mut random = Random::new(seed);
     let n = if is_loop && is_planar { 4 } else { 3 + random.below(2) };
@@ -82,7 +84,7 @@ fn mechanism(seed: u64, is_planar: bool, is_loop: bool) -> Mechanism {
             _ => 2,
         };
         let (value, rate) = (number(count), number(count));
-        // one held joint of a loop leaves freedoms to be found
+        // one prescribed joint in a loop leaves freedoms to be found
         let holds = |random: &mut Random| {
             if is_loop { k == 1 } else { random.next() > 0.0 }
         };
@@ -96,7 +98,7 @@ fn mechanism(seed: u64, is_planar: bool, is_loop: bool) -> Mechanism {
     Mechanism { is_planar, bodies, joints, cuts }
 }
 
-/// The scene with lengths in units of 1 / `size` and masses in units of 1 / `mass`.
+/// Scene text with lengths multiplied by `size`, and masses by `mass`.
 fn text(m: &Mechanism, size: f64, mass: f64) -> String {
     let dimension = if m.is_planar { 2 } else { 3 };
     let mut text = format!("[scene]\nname = \"s\"\ndimension = {dimension}\nduration = 1.0\n");
@@ -154,7 +156,7 @@ fn text(m: &Mechanism, size: f64, mass: f64) -> String {
     text
 }
 
-/// Motion that the library finds, in units of size one; nothing where it refuses.
+/// Motion that the library finds, in units of size one; empty if the library refuses the scene.
 fn found<T: Real, const D: usize>(m: &Mechanism, size: f64, mass: f64) -> Found {
     let text = text(m, size, mass);
     let scene = scene_in::<T>(&text);
@@ -176,7 +178,7 @@ fn found<T: Real, const D: usize>(m: &Mechanism, size: f64, mass: f64) -> Found 
         })
     };
     let all = |b: usize| {
-        // the centre as the scene of this precision has it
+        // the centre as rounded to the precision of the scene
         let center = scene.bodies[b].center.map(Real::to_f64);
         let [c, cd] = seen(b, (center, true));
         let [x, xd] = seen(b, ([1.0, 0.0, 0.0], false));
@@ -186,7 +188,7 @@ fn found<T: Real, const D: usize>(m: &Mechanism, size: f64, mass: f64) -> Found 
     (0..m.bodies.len()).map(all).collect()
 }
 
-/// Motion that the judge finds; `None` where its way ends.
+/// Motion of the reference solution; `None` if one of its stages fails.
 fn expected(m: &Mechanism) -> Option<Found> {
     let (poses, z) = m.positions()?;
     let rates = m.velocities(&z);
@@ -197,7 +199,7 @@ fn expected(m: &Mechanism) -> Option<Found> {
     Some(all.collect())
 }
 
-/// The largest difference, rates relative to the largest of them.
+/// Largest difference of two motions. Rates are relative to the largest rate.
 fn apart(a: &Found, b: &Found) -> f64 {
     let rates = b.iter().flat_map(|x| x[3..].iter().flatten());
     let fastest = rates.fold(1.0_f64, |s, x| s.max(x.abs()));

@@ -1,4 +1,4 @@
-//! Curves of a number: derivatives, changes, and periodic splines.
+//! Curves of one number: derivatives, changes, and periodic splines.
 
 use mbs_core::measure::PreparedCurve;
 use mbs_core::scene::Curve;
@@ -37,13 +37,13 @@ fn changes_of_curves_are_differences_of_their_values() {
             for dx in [-3.7, -0.6, -1e-3, 0.0, 1e-3, 0.5, 2.9, 4.0] {
                 let expected = curve.at(x + dx)[0] - curve.at(x)[0];
                 let found = curve.change(x, dx);
-                // values of order ten, a hundred for the polynomial
+                // values are of order ten, for the polynomial a hundred
                 let size = curve.at(x)[0].abs().max(curve.at(x + dx)[0].abs()).max(1.0);
                 assert!((found - expected).abs() < 1e-13 * size, "{curve:?}: {x} {dx}");
             }
             let slope = curve.at(x + 1e-20)[1];
             let is_held = slope == 0.0;
-            // far below the rounding of x itself
+            // a change far below the rounding of x
             let found = curve.change(x, 1e-20);
             assert!(is_held || (found / 1e-20 - slope).abs() < 1e-9 * slope.abs().max(1.0));
         }
@@ -61,7 +61,7 @@ fn derivatives_of_curves_are_their_difference_quotients() {
         for x in [0.2, 0.9, 1.2, 2.0, 3.7] {
             let e = 1e-5_f64;
             let [a, b, at] = [curve.at(x - e), curve.at(x + e), curve.at(x)];
-            // the error of a central difference is e^2 f''' / 6, and rounding over e
+            // the error of a central difference is e^2 f''' / 6, plus rounding over e
             assert!(((b[0] - a[0]) / (2.0 * e) - at[1]).abs() < 1e-8, "{curve:?} at {x}");
             assert!(((b[1] - a[1]) / (2.0 * e) - at[2]).abs() < 1e-8, "{curve:?} at {x}");
         }

@@ -1,10 +1,10 @@
-//! Tables that stay between their neighbouring rows: values, derivatives, ranges.
+//! Monotone tables, which stay between neighbouring rows: values, derivatives and ranges.
 
 use mbs_core::measure::PreparedCurve;
 use mbs_core::scene::{Curve, CurveShape, Interpolation, TableEnds};
 use mbs_testkit::random::Random;
 
-/// Parts of an interval at which a table is looked at.
+/// Number of parts of an interval at whose ends a table is evaluated.
 const PARTS: usize = 64;
 
 fn monotone(rows: &[[f64; 2]], periodic: bool) -> PreparedCurve<f64> {
@@ -12,13 +12,13 @@ fn monotone(rows: &[[f64; 2]], periodic: bool) -> PreparedCurve<f64> {
     PreparedCurve::new(Some(&Curve::Shaped { rows: rows.to_vec(), shape, periodic }))
 }
 
-/// Places in the interval between two rows, both included.
+/// Places in the interval between two rows, with both ends.
 fn places(pair: &[[f64; 2]]) -> impl Iterator<Item = f64> {
     let [x0, x1] = [pair[0][0], pair[1][0]];
     (0..=PARTS).map(move |k| x0 + (x1 - x0) * k as f64 / PARTS as f64)
 }
 
-/// How far a table leaves the values of the two rows about each place [of the table's largest value].
+/// Largest excess of a table over the values of the two neighbouring rows, relative to the table's largest value.
 fn excess(curve: &PreparedCurve<f64>, rows: &[[f64; 2]]) -> f64 {
     let size = rows.iter().fold(0.0_f64, |most, row| most.max(row[1].abs()));
     let of = |pair: &[[f64; 2]]| {
@@ -34,7 +34,7 @@ fn assert_near(found: [f64; 3], expected: [f64; 3]) {
     assert!(is_near, "{found:?} {expected:?}");
 }
 
-/// A cam with two dwells, in degrees and millimetres.
+/// Cam with two dwells, in degrees and millimetres.
 const CAM: [[f64; 2]; 7] = [
     [0.0, 0.0],
     [60.0, 0.0],
@@ -44,10 +44,10 @@ const CAM: [[f64; 2]; 7] = [
     [300.0, 0.0],
     [360.0, 0.0],
 ];
-/// A buffer: travel [mm], force [kN].
+/// Characteristic of a buffer: travel [mm], force [kN].
 const BUFFER: [[f64; 2]; 5] = [[0.0, 100.0], [2.0, 80.0], [7.0, 20.0], [12.0, 0.0], [120.0, 0.0]];
 
-/// Smallest and largest value within the rows.
+/// Smallest and largest value of a table within its rows.
 fn range(curve: &PreparedCurve<f64>, rows: &[[f64; 2]]) -> [f64; 2] {
     let values = || rows.windows(2).flat_map(places).map(|x| curve.at(x)[0]);
     [values().fold(f64::MAX, f64::min), values().fold(f64::MIN, f64::max)]
@@ -76,7 +76,8 @@ fn a_buffer_never_pulls() {
     }
 }
 
-/// From rest to rest by three parabolas of the rate: f'' is 8 D/h at a quarter, f''' 32 D/h^2 throughout.
+/// A rise from rest to rest has a rate of three parabolas: the largest f'' is 8 D/h at a quarter, and |f'''| is 32 D/h^2
+/// everywhere.
 #[test]
 fn a_rise_from_rest_to_rest_has_its_closed_form() {
     let rows = [[0.0, 1.0], [1.0, 1.0], [3.0, 4.0], [4.0, 4.0]];
@@ -110,7 +111,7 @@ fn a_table_whose_spline_stays_between_its_rows_has_the_bits_of_the_spline() {
     }
 }
 
-/// Rows at random distances: rises, falls, dwells, and values that differ by powers of ten.
+/// Rows at random distances, with rises, falls, dwells, and values that differ by powers of ten.
 fn random_rows(random: &mut Random, n: usize, is_periodic: bool) -> Vec<[f64; 2]> {
     let (mut x, mut f) = (random.next(), 0.0);
     let mut rows = Vec::new();
@@ -141,7 +142,7 @@ fn random_tables_stay_between_their_rows_and_are_twice_differentiable() {
         }
         assert!(rows.iter().all(|row| (curve.at(row[0])[0] - row[1]).abs() <= 1e-12 * size));
         let PreparedCurve::Spline { knots, curvature, .. } = &curve else { panic!("a table") };
-        // within rounding of the pieces beside a knot
+        // both pieces beside a knot agree there, within rounding
         for i in 1..knots.len() - 1 {
             let (x, near) = (knots[i][0], 1e-9);
             let gaps = [x - knots[i - 1][0], knots[i + 1][0] - x];
@@ -188,14 +189,14 @@ fn a_mirrored_table_is_the_mirrored_function() {
     }
 }
 
-/// Samples of a smooth function: the error falls with the fourth power of the distance where it rises all through.
+/// Samples of a smooth increasing function: the error falls with the fourth power of the distance of the rows.
 #[test]
 fn a_smooth_rise_is_met_with_the_fourth_power_of_the_distance() {
     let error = |n: u32| {
         let rows: Vec<[f64; 2]> =
             (0..=n).map(|i| f64::from(i) / f64::from(n)).map(|x| [x, (2.0 * x).exp()]).collect();
         let curve = monotone(&rows, false);
-        // away from the ends, where the natural spline is of second order
+        // far from the ends, where the natural spline has order two only
         let at = (0..=200).map(|k| 0.3 + 0.002 * f64::from(k));
         at.map(|x| (curve.at(x)[0] - (2.0 * x).exp()).abs()).fold(0.0, f64::max)
     };

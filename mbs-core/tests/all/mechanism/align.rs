@@ -1,10 +1,10 @@
-//! Axes that are meant to be parallel, and those that are not.
+//! Alignment of axes that are intended to be parallel, and of axes that are not.
 
 use mbs_core::scene::align::*;
 use mbs_core::scene::{BodyId, Dimension, Joint, JointKind, JointLimits, Scene};
 use std::borrow::Cow;
 
-/// Hinges of a closed row of bodies, ground, 0, 1, ..., ground, with these axes; one more hangs from the last body.
+/// Scene of hinges in a closed row of bodies (ground, 0, 1, ..., ground) with these axes. One more hinge is on the last body.
 fn ring(axes: &[[f64; 3]]) -> Scene<f64> {
     let n = axes.len();
     let body = |i: usize| if i == 0 || i == n { BodyId::Ground } else { BodyId::Body(i - 1) };
@@ -29,7 +29,7 @@ fn ring(axes: &[[f64; 3]]) -> Scene<f64> {
     Scene { bodies: bodies.collect(), joints, ..Scene::empty("", Dimension::Spatial, 1.0) }
 }
 
-/// Direction of the axis z.
+/// Unit vector along the axis z.
 const Z: [f64; 3] = [0.0, 0.0, 1.0];
 
 #[test]

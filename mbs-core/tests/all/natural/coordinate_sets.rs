@@ -1,4 +1,4 @@
-//! Coordinates of short rows, and their squares.
+//! Coordinate sets of rows with few nonzero gradients, and the squares of such rows.
 
 use mbs_core::inside::natural::{CoordinateSet, add_pair_square, add_squares};
 

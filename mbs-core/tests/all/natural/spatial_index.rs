@@ -1,9 +1,9 @@
-//! Places that are near each other.
+//! Search for points that are near each other.
 
 use mbs_core::algebra::Vector;
 use mbs_core::inside::natural::SpatialIndex;
 
-/// Distance that counts as near [m].
+/// Distance within which points count as equal [m].
 const TOLERANCE: f64 = 1e-9;
 
 #[test]

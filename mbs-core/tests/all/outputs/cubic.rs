@@ -1,13 +1,13 @@
-//! Roots and changes of cubics that are known in closed form.
+//! Roots and sign changes of cubics with known closed forms.
 
 use mbs_core::inside::outputs::{AT_START, Change, Cubic, Gap};
 
-/// Rounding of a bisected fraction of a step, and of a cubic of order one [-]: that of a few products.
+/// Rounding error of a bisected fraction of a step, and of a cubic of order one [-]: that of a few products.
 const ROUNDING: f64 = 1e-15;
-/// Half width of the band about zero, as events have it [-].
+/// Half width of the band about zero in which events have no sign [-].
 const BAND: f64 = 1e-9;
 
-/// The cubic with the roots a, b, c over a step of length `h` from time zero, in shares of it.
+/// Cubic with the roots a, b, c, as fractions of a step of length `h` from time zero.
 fn with_roots([a, b, c]: [f64; 3], h: f64) -> Cubic {
     let gap = |r: f64| {
         let rate = (r - b) * (r - c) + (r - a) * (r - c) + (r - a) * (r - b);
@@ -16,12 +16,12 @@ fn with_roots([a, b, c]: [f64; 3], h: f64) -> Cubic {
     Cubic::new([gap(0.0), gap(1.0)], h)
 }
 
-/// Through values and derivatives by the share.
+/// Cubic with these values, and derivatives by the fraction of the step, at both ends.
 fn through(values: [f64; 2], rates: [f64; 2]) -> Cubic {
     Cubic::new([0, 1].map(|i| Gap { value: values[i], rate: rates[i] }), 1.0)
 }
 
-/// Checks that the first change of a cubic is near `share`: the way onto the new side is half the band over the slope.
+/// Checks that the first change of a cubic is near `share`. It is later by half the band over the slope.
 #[track_caller]
 fn changes_at(cubic: &Cubic, share: f64, slope: f64) {
     let change = cubic.change(BAND).expect("a change");
@@ -32,13 +32,13 @@ fn changes_at(cubic: &Cubic, share: f64, slope: f64) {
 
 #[test]
 fn the_root_of_a_cubic_is_exact_and_lies_within_the_step() {
-    // g = (t - 0.3)(t^2 + 1) over two units of time.
+    // g = (t - 0.3)(t^2 + 1) over a step of two units of time.
     let g = |t: f64| (t - 0.3) * (t * t + 1.0);
     let rate = |t: f64| t * t + 1.0 + 2.0 * t * (t - 0.3);
     let gaps = [-0.5, 1.5].map(|t| Gap { value: g(t), rate: rate(t) });
     let share = Cubic::new(gaps, 2.0).root(0.0, [0.0, 1.0]);
     assert!((share - 0.4).abs() < ROUNDING, "{share}");
-    // Rates that cannot be.
+    // Rates that no smooth motion has.
     let share = through([1.0, -1.0], [1e6, 1e6]).root(0.0, [0.0, 1.0]);
     assert!((0.0..=1.0).contains(&share));
 }
@@ -54,17 +54,17 @@ fn the_first_of_three_changes_is_reported_and_a_hair_onto_the_new_side() {
 
 #[test]
 fn a_dip_between_ends_on_the_same_side_is_a_change_unless_the_band_hides_it() {
-    // (r - 1/2)^2 - depth
+    // parabola (r - 1/2)^2 - depth
     let dip = |depth: f64| through([0.25 - depth; 2], [-1.0, 1.0]);
     for depth in [0.01, 1e-6, 1e-8, 1.1 * BAND] {
         let change = dip(depth).change(BAND).expect("a change");
-        // Where the slope is 6e-5 the rounding of 1/4 is one of 1e-12 of the share.
+        // The slope is 6e-5, so that a rounding error of 1/4 becomes 1e-12 of the fraction.
         let past = change.share - 0.5 + (depth - 0.5 * BAND).sqrt();
         assert!(past.abs() < 2e-12 && !change.lands, "{change:?}");
     }
     assert_eq!(dip(0.9 * BAND).change(BAND), None);
     assert_eq!(dip(-0.1).change(BAND), None);
-    // The same below zero.
+    // A rise from negative values also changes.
     let rise = through([-0.2, -0.2], [1.0, -1.0]).change(BAND).expect("a change");
     assert!((rise.share - 0.5 + 0.05_f64.sqrt()).abs() < 1e-8, "{rise:?}");
 }
@@ -75,14 +75,14 @@ fn a_step_from_within_the_band_leaves_it_to_either_side_without_a_change() {
         for rate in [-1.0, 1.0] {
             assert_eq!(through([value, rate], [rate, rate]).change(BAND), None, "{value} {rate}");
         }
-        // And stays where it rests.
+        // A value at rest does not change.
         assert_eq!(through([value, -value], [0.0; 2]).change(BAND), None);
     }
 }
 
 #[test]
 fn a_bounce_within_one_step_from_the_band_changes_where_it_leaves() {
-    // r (r - 0.6) from both sides of zero.
+    // parabola r (r - 0.6), from both sides of zero
     for value in [-1e-10, 1e-10] {
         changes_at(&through([value, 0.4 + value], [-0.6, 1.4]), 0.6 - value / 0.6, 0.6);
     }

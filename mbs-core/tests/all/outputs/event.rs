@@ -1,11 +1,11 @@
-//! Steps across a force that fades.
+//! Steps across a depth in which a force fades in.
 
 use mbs_core::inside::outputs::fading;
 
 #[test]
 fn means_of_the_ends_of_cut_steps_are_the_fade_s_own() {
     let force = |r: f64| r * r * (3.0 - 2.0 * r);
-    // from a little less than half of the fade in a step to forty times all of it
+    // step lengths from a little less than half of the fade to forty times the fade
     for way in [0.45, 0.7, 0.85, 1.5, 4.0, 40.0] {
         let (mut at, mut impulse) = (0.0, 0.0);
         while at < 1.0 - 1e-9 {
@@ -14,7 +14,7 @@ fn means_of_the_ends_of_cut_steps_are_the_fade_s_own() {
             impulse += 0.5 * (end - at) * (force(at) + force(end.min(1.0)));
             at = end;
         }
-        // ends that are not cut, as they come within a tenth, take that much more of the whole force
+        // a step end that is less than a tenth beyond the fade is not cut, and adds this part of the full force
         let passed = at - 1.0;
         assert!(passed < 0.1, "a step of {way} fades ends {passed} beyond it");
         assert!((impulse - 0.5 - passed).abs() < 0.02, "{way}: {impulse}");

@@ -1,4 +1,4 @@
-//! The smallest rotation between two directions.
+//! Smallest rotation between two directions.
 
 use mbs_core::algebra::{Matrix, Vector, norm, norm_inf};
 use mbs_core::inside::outputs::{carry, normalised};

@@ -1,11 +1,11 @@
-//! The order in which reactions are solved.
+//! Order in which reactions are computed, by elimination of leaves.
 
 use mbs_core::inside::outputs::{Block, eliminate_leaves};
 use mbs_core::scene::BodyId::{Body, Ground};
 
 #[test]
 fn a_chain_is_peeled_from_its_end_and_a_loop_stays_together() {
-    // 0 - 1 - 2 hang on the ground; 3, 4 close a loop through the ground, 5 hangs on 4
+    // bodies 0 - 1 - 2 form a chain on the ground; 3 and 4 form a loop with the ground; 5 is on 4
     let joints = [
         Some([Ground, Body(0)]),
         Some([Body(0), Body(1)]),
@@ -31,7 +31,7 @@ fn a_chain_is_peeled_from_its_end_and_a_loop_stays_together() {
 
 #[test]
 fn what_a_coupling_acts_on_is_solved_together_and_what_hangs_on_it_before() {
-    // 0 and 1 hang on the ground and are coupled, 2 hangs on 1; 3 has a coupling alone, with the ground
+    // bodies 0 and 1 are on the ground and coupled, 2 is on 1; 3 has only a coupling with the ground
     let joints = [Some([Ground, Body(0)]), Some([Ground, Body(1)]), Some([Body(1), Body(2)]), None];
     let couplings = [&[0, 1][..], &[3]];
     let blocks = eliminate_leaves(4, &joints, couplings);

@@ -1,8 +1,8 @@
-//! Solutions of smallest norm, by hand.
+//! Solutions of smallest norm, compared with solutions by hand.
 
 use mbs_core::inside::outputs::MinimumNorm;
 
-/// Rounding of a few operations on numbers of order one.
+/// Rounding error of a few operations on numbers of order one.
 const ROUNDING: f64 = 1e-14;
 
 fn solved(rows: &[[f64; 3]], right: &[f64]) -> (Vec<f64>, Vec<bool>, f64) {
@@ -21,7 +21,7 @@ fn solved(rows: &[[f64; 3]], right: &[f64]) -> (Vec<f64>, Vec<bool>, f64) {
 
 #[test]
 fn a_doubled_support_is_shared_as_computed_by_hand() {
-    // x0 + x1 = 2, x2 = 3, and their sum again
+    // x0 + x1 = 2, x2 = 3, and the sum of both equations
     let rows = [[1.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 1.0, 1.0]];
     let (x, determined, rest) = solved(&rows, &[2.0, 3.0, 5.0]);
     for (x, expected) in x.iter().zip([1.0, 1.0, 3.0]) {

@@ -1,14 +1,14 @@
-//! Rank by sparse and by dense elimination.
+//! Rank of matrices by sparse and by dense elimination.
 
 use mbs_core::inside::start::{pivoted_rank, sparse_rank};
 
-/// Pseudorandom number in (-1/2, 1/2), the same on every machine.
+/// Pseudorandom number in (-1/2, 1/2), equal on every machine.
 fn random(state: &mut u32) -> f64 {
     *state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
     f64::from(*state) / f64::from(u32::MAX) - 0.5
 }
 
-/// Rows of a few entries near the diagonal, every `repeat`-th the sum of multiples of two before it.
+/// Rows with a few entries near the diagonal. Every `repeat`-th row is a combination of two rows before it.
 fn rows(m: usize, n: usize, repeat: usize, state: &mut u32) -> Vec<Vec<(u32, f64)>> {
     let mut rows: Vec<Vec<(u32, f64)>> = Vec::new();
     for r in 0..m {
