@@ -1,4 +1,4 @@
-//! Readings of a model at a state that studies ask for, compiled here in `f64`: poses of the bodies, and gradients of the constraints.
+//! Quantities of a model at a given state, for studies, compiled here in `f64`: poses of the bodies, and gradients of the constraints.
 
 use mbs_core::model::{Model, Owner, State};
 use mbs_core::natural::NaturalModel;
@@ -8,7 +8,7 @@ use mbs_core::scene::Scene;
 use mbs_core::{Cliques, instances};
 use mbs_linear::Matrix;
 
-/// Returns the motions of the bodies of a scene at a state: where they are, and how they move.
+/// Returns the positions, rotations and velocities of the bodies of a scene at a state.
 pub fn poses<const D: usize>(
     scene: &Scene<f64>,
     model: &NaturalModel<f64, D>,
@@ -29,12 +29,12 @@ fn poses_here<const D: usize>(
     (0..scene.bodies.len()).map(|b| model.motion(scene, b, state)).collect()
 }
 
-/// A coupling or a contact that rolls, and the gradient of a row of it.
+/// Owner of a constraint row (a coupling or a rolling contact), and the gradient of the row.
 pub type Gradient = (Owner, Vec<f64>);
 
-/// The rows of joints and bodies at a state, and the gradients of the others.
+/// Returns the gradients of the rows of joints and bodies at a state, then those of couplings and rolling contacts with their owners.
 ///
-/// Cost: rows times unknowns, dense; allocates.
+/// Cost: number of rows times number of unknowns, as the matrix is dense; allocates.
 pub fn gradients<const D: usize>(
     model: &NaturalModel<f64, D>,
     state: &State<f64>,

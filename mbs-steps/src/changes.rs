@@ -1,4 +1,4 @@
-//! Distance between the outputs of two runs.
+//! Differences between the outputs of two runs.
 
 use crate::record::{Channel, OutputChange};
 use crate::run::Outcome;
@@ -8,25 +8,26 @@ use mbs_core::outputs::in_radians;
 use mbs_core::scene::Scene;
 use mbs_core::{Real, instances};
 
-/// Change of an output that is rounding or tolerance of the iteration, relative to the size of its unit [-]. Chosen, not tuned.
+/// Change of an output that counts as rounding error or iteration error, relative to the size of quantities with its unit [-]. Chosen, not
+/// tuned.
 const ROUNDING: f64 = 1e-9;
 
-/// The outputs of the run with all effects.
+/// The output ranges of the run with all effects, to which changes are compared.
 #[derive(Debug)]
 pub struct OutputRanges<'a> {
     run: &'a Outcome,
     parts: Vec<Part>,
 }
 
-/// The components of a channel that have one unit.
+/// The components of a channel that have the same unit.
 #[derive(Debug)]
 struct Part {
     channel: String,
     unit: String,
     columns: Vec<usize>,
-    /// The largest range of a component.
+    /// Largest range of a component: maximum minus minimum over the run.
     range: f64,
-    /// Largest change that is rounding.
+    /// Largest change that counts as rounding error.
     floor: f64,
 }
 
@@ -38,7 +39,7 @@ fn ranges<'a, T: Real>(scene: &Scene<T>, run: &'a Outcome) -> OutputRanges<'a> {
 }
 
 impl<'a> OutputRanges<'a> {
-    /// Takes the ranges of the outputs of a run.
+    /// Computes the ranges of the outputs of a run.
     pub fn new<T: Real>(scene: &Scene<T>, run: &'a Outcome) -> Self {
         if T::HAS_INSTANCES {
             return found::<New<T>>(NEW)(scene, run);
@@ -70,7 +71,8 @@ impl<'a> OutputRanges<'a> {
         outputs
     }
 
-    /// Ranges, and the sizes of units: the largest value of an output, but a length has at least the scene's, an angle one.
+    /// Computes the range of each part and its rounding floor. The floor uses the largest value with the same unit: at least the scene's
+    /// length for m, at least 1 for rad.
     fn measure(&mut self, length: f64) {
         let rows = self.run.rows();
         let extremes = |part: &Part| {
@@ -86,7 +88,7 @@ impl<'a> OutputRanges<'a> {
             largest
         };
         let found: Vec<[f64; 2]> = self.parts.iter().map(extremes).collect();
-        // degrees count among radians
+        // Degrees are converted to radians, so that both count as one unit.
         let of_unit = |(part, [_, size]): (&Part, &[f64; 2])| {
             let (unit, n) = in_radians(&part.unit);
             (unit.to_owned(), size / n)
@@ -105,7 +107,7 @@ impl<'a> OutputRanges<'a> {
         }
     }
 
-    /// The largest differences of the rows that both runs have.
+    /// The largest difference of each output, over the leading rows whose times agree in both runs.
     pub fn changes(&self, other: &Outcome) -> Vec<OutputChange> {
         let pairs = || {
             let pairs = self.run.rows().iter().zip(other.rows());
@@ -129,7 +131,7 @@ impl<'a> OutputRanges<'a> {
     }
 }
 
-/// The larger of two; a NaN stays one.
+/// The larger of two numbers; NaN if one of them is NaN.
 fn larger(a: f64, b: f64) -> f64 {
     if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) }
 }

@@ -1,4 +1,4 @@
-//! Channels that a run reads: measures, and reactions and effects where an output asks for them.
+//! Channels that a run evaluates: measures, and the reactions and effects that outputs request.
 
 use crate::checkpoint::tape::{Tape, Walked, holds};
 use crate::simulation::Simulation;
@@ -15,14 +15,14 @@ use mbs_core::{Real, instances};
 pub struct Channels<T: Real, const D: usize> {
     measures: Measures<T, D>,
     forces: Option<Forces<T, D>>,
-    /// The coordinates that the first state knows with their turns.
+    /// Joint coordinates of the first state, with full turns counted.
     remembered: Vec<RememberedAngle<T>>,
-    /// Joints, then couplings, then rollings, by number, whose reaction, effort or force is an output and was not unique at some row.
+    /// Numbers of joints, then couplings, then rollings, whose output reaction, effort or force was not unique in some row.
     not_unique: Vec<usize>,
     asked: Vec<usize>,
-    /// Number of joints, and of joints and couplings.
+    /// Number of joints, and number of joints plus couplings.
     ends: [usize; 2],
-    /// Ends of the components of each output.
+    /// End index of the components of each output.
     outputs: Vec<usize>,
     write_at: Write<T, D>,
     track: Track<T, D>,
@@ -44,10 +44,10 @@ impl<T: Real, const D: usize> Channels<T, D> {
         Self::of_outputs(&scene.channels(), scene, model)
     }
 
-    /// Creates channels of these outputs, whatever outputs the scene has.
+    /// Creates channels of the given outputs instead of the scene's outputs.
     ///
     /// # Errors
-    /// As [`new`](Self::new).
+    /// As for [`new`](Self::new).
     pub fn of_outputs(
         outputs: &[Output<T>],
         scene: &Scene<T>,
@@ -88,12 +88,12 @@ impl<T: Real, const D: usize> Channels<T, D> {
         Ok(Self { measures, forces, remembered, not_unique, asked, ends, outputs, write_at, track })
     }
 
-    /// Exchanges what forces are made of: the same scene with other effects has others.
+    /// Exchanges the tables that forces are computed from, because a scene with other effects needs other tables.
     pub fn exchange(&mut self, forces: &mut Option<Forces<T, D>>) {
         core::mem::swap(&mut self.forces, forces);
     }
 
-    /// Writes what is remembered of them, or reads it back.
+    /// Writes the memory of the channels to a checkpoint, or reads it from one.
     pub fn walk(&mut self, tape: &mut impl Tape) -> Walked {
         tape.reals(self.measures.memory_mut())?;
         let asked = &self.asked;
@@ -103,10 +103,10 @@ impl<T: Real, const D: usize> Channels<T, D> {
         })
     }
 
-    /// Follows angles at every step, so that no turn is lost.
+    /// Follows angles at every step, so that full turns are counted.
     ///
     /// # Errors
-    /// [`StopError::Step`] with the joint whose turns are not known.
+    /// [`StopError::Step`] with the joint whose number of turns is ambiguous.
     pub fn track(&mut self, simulation: &Simulation<T, D>) -> Result<(), StopError> {
         (self.track)(self, simulation)
     }
@@ -124,7 +124,7 @@ impl<T: Real, const D: usize> Channels<T, D> {
         self.measures.track(state).map_err(|error| simulation.explain(error))
     }
 
-    /// Takes the turns of the first state from what it remembers: a search for an equilibrium may have turned a joint more than once.
+    /// Initialises the turns of the first state from the assembly, because a search for an equilibrium may turn a joint more than once.
     fn begin(&mut self, state: &State<T>) {
         let Self { measures, remembered, .. } = self;
         measures.track_with(state, |joint, number| {
@@ -133,10 +133,10 @@ impl<T: Real, const D: usize> Channels<T, D> {
         });
     }
 
-    /// All components at the state of a simulation.
+    /// Writes the components of all channels at the state of a simulation.
     ///
     /// # Errors
-    /// As [`write_at`](Self::write_at).
+    /// As for [`write_at`](Self::write_at).
     pub fn write(&mut self, now: &Simulation<T, D>, out: &mut [T]) -> Result<(), StopError> {
         self.measures.set_invariant_error(T::from_f64(now.invariant().error()));
         if !self.measures.has_begun() {
@@ -145,10 +145,10 @@ impl<T: Real, const D: usize> Channels<T, D> {
         self.write_at(now.state(), out)
     }
 
-    /// All components at a state of no simulation.
+    /// Writes the components of all channels at a state that belongs to no simulation.
     ///
     /// # Errors
-    /// [`StopError::Output`] for one that is not finite, as the acceleration of a point beyond all measure.
+    /// [`StopError::Output`] for an output that is not finite, such as an overflowing acceleration of a point.
     pub fn write_at(&mut self, state: &State<T>, out: &mut [T]) -> Result<(), StopError> {
         (self.write_at)(self, state, out)
     }
@@ -173,7 +173,7 @@ impl<T: Real, const D: usize> Channels<T, D> {
         if !self.measures.has_begun() {
             self.begin(state);
         }
-        // A state that was tracked before: its turns are known.
+        // The angles of this state are tracked already, so their turns are known and no error can occur.
         let _ = self.measures.write(state, self.forces.as_ref(), out);
         let Some(bad) = out.iter().position(|x| !x.to_f64().is_finite()) else { return Ok(()) };
         Err(StopError::Output { output: self.outputs.partition_point(|end| *end <= bad) })
@@ -184,7 +184,7 @@ impl<T: Real, const D: usize> Channels<T, D> {
         self.measures.lengths()
     }
 
-    /// Names of what has a reaction, an effort or a force that was not unique.
+    /// Names of the joints, couplings and rollings whose reaction, effort or force was not unique.
     pub fn not_unique(&self, scene: &Scene<T>) -> Vec<String> {
         let [n_joints, n_both] = self.ends;
         let name = |&i: &usize| match i {

@@ -1,60 +1,60 @@
-//! The names of integrators, step rules and precisions that a scene or the command line may choose from, and what they stand for.
+//! Names and meanings of the integrators, step rules and precisions that a scene or the command line may choose.
 
 use mbs_core::Real;
 use mbs_core::integrator::Integrator;
 
-/// Integrators that are built.
+/// Names of the available integrators.
 pub const INTEGRATORS: [&str; 9] = IntegratorKind::NAMES;
-/// Precisions that are built.
+/// Names of the available precisions.
 pub const PRECISIONS: [&str; 3] = Precision::NAMES;
-/// Controls of the step size.
+/// Names of the available rules of step control.
 pub const STEP_RULES: [&str; 5] = StepRule::NAMES;
 
 mbs_core::named! {
-    /// An integrator that can run, with the parameters it is given.
+    /// Integrator of the equations of motion, with its fixed parameters.
     pub enum IntegratorKind {
-        /// Trapezoidal rule.
+        /// Trapezoidal rule, of order 2 and without numerical damping.
         Trapezoidal = "trapezoidal",
         /// Newmark's method with gamma = 0.6, beta = (gamma + 1/2)^2 / 4 = 0.3025: numerical damping, first order.
         Newmark = "newmark",
-        /// Generalised-alpha with spectral radius 0.8 at infinity.
+        /// Generalised-alpha method with spectral radius 0.8 at infinity.
         GeneralisedAlpha = "generalised-alpha",
-        /// HHT with alpha = 0.05.
+        /// HHT method (Hilber, Hughes, Taylor) with alpha = 0.05.
         Hht = "hht",
-        /// Explicit Runge-Kutta of order 4.
+        /// Explicit Runge-Kutta method of order 4.
         Rk4 = "rk4",
-        /// Explicit Runge-Kutta of order 5 with an estimate of order 4, which controls the step.
+        /// Explicit Runge-Kutta method of order 5, with an error estimate of order 4 for the step control.
         Rk54 = "rk54",
-        /// Explicit Runge-Kutta of order 8 with estimates of orders 5 and 3, which control the step.
+        /// Explicit Runge-Kutta method of order 8, with error estimates of orders 5 and 3 for the step control.
         Rk853 = "rk853",
-        /// Extrapolation of the midpoint rule (Gragg, Bulirsch and Stoer): of as high an order as the tolerance is worth, which controls
-        /// the step. For reference runs.
+        /// Extrapolation of the midpoint rule (Gragg, Bulirsch and Stoer). Order and step length follow from the tolerance. For reference
+        /// solutions.
         Extrapolation = "gbs",
-        /// Implicit Runge-Kutta of order 5, collocation at three Radau points, which controls the step. For stiff effects.
+        /// Implicit Runge-Kutta method of order 5 (collocation at three Radau points) with step control. For stiff effects.
         Radau5 = "radau5",
     }
 }
 
 impl IntegratorKind {
-    /// Is the integrator explicit?
+    /// Is the integrator an explicit method?
     #[must_use]
     pub fn is_explicit(self) -> bool {
         matches!(self, Self::Rk4 | Self::Rk54 | Self::Rk853 | Self::Extrapolation)
     }
 
-    /// Is it one for systems of first order, which relative coordinates alone make?
+    /// Is it an integrator for systems of first order? Only relative coordinates give such a system.
     #[must_use]
     pub fn is_of_first_order(self) -> bool {
         self.is_explicit() || self.controls_its_step()
     }
 
-    /// Does it control its own step by the tolerance?
+    /// Does the integrator control its internal steps by the tolerance?
     #[must_use]
     pub fn controls_its_step(self) -> bool {
         matches!(self, Self::Rk54 | Self::Rk853 | Self::Extrapolation | Self::Radau5)
     }
 
-    /// Coefficients of a method of the Newmark family; the trapezoidal rule's for the others.
+    /// Coefficients of a method of the Newmark family; other integrators return the coefficients of the trapezoidal rule.
     #[must_use]
     pub fn coefficients<T: Real>(self) -> Integrator<T> {
         match self {
@@ -71,7 +71,7 @@ impl IntegratorKind {
     }
 }
 
-/// A quotient of whole numbers, exact to rounding in every precision.
+/// A quotient of two integers, correct to machine precision in every precision.
 fn ratio<T: Real>(over: u16, under: u16) -> T {
     T::from_f64(over.into()) / T::from_f64(under.into())
 }
@@ -79,38 +79,38 @@ fn ratio<T: Real>(over: u16, under: u16) -> T {
 mbs_core::named! {
     /// Rule that chooses the length of the steps.
     pub enum StepRule {
-        /// Nothing: all steps are as long as asked for.
+        /// No control: all steps have the requested length.
         Fixed = "fixed",
-        /// The change of the energy invariant.
+        /// Control by the change of the energy invariant.
         Energy = "energy",
-        /// Change of the energy invariant, as publication 2 prints it: the step changes only where the change crosses a limit.
+        /// Control by the change of the energy invariant as in publication 2: the step changes only if the change crosses a limit.
         EnergyPrinted = "energy-printed",
-        /// An estimate of the local error.
+        /// Control by an estimate of the local error.
         Error = "error",
-        /// The shorter of both.
+        /// Control by both criteria: the shorter step is used.
         Both = "both",
     }
 }
 
 impl StepRule {
-    /// The name in [`STEP_RULES`] of a name that a scene or the command line gives: `energy-published` is `energy-printed`.
+    /// Returns the canonical name in [`STEP_RULES`]: `energy-published` is an alias of `energy-printed`.
     pub fn canonical(name: &str) -> &str {
         if name == "energy-published" { "energy-printed" } else { name }
     }
 
-    /// Does the energy invariant steer?
+    /// Does the change of the energy invariant control the step?
     #[must_use]
     pub fn has_energy(self) -> bool {
         matches!(self, Self::Energy | Self::EnergyPrinted | Self::Both)
     }
 
-    /// Does the error estimate steer?
+    /// Does the error estimate control the step?
     #[must_use]
     pub fn has_error(self) -> bool {
         matches!(self, Self::Error | Self::Both)
     }
 
-    /// The rule of those that are given.
+    /// Returns the rule that uses the given criteria.
     pub fn of(energy: bool, error: bool) -> Self {
         match (energy, error) {
             (false, false) => Self::Fixed,
@@ -124,11 +124,11 @@ impl StepRule {
 mbs_core::named! {
     /// Number format of a run.
     pub enum Precision {
-        /// Single precision.
+        /// Single precision, about 7 digits.
         F32 = "f32",
-        /// Double precision.
+        /// Double precision, about 16 digits.
         F64 = "f64",
-        /// Pairs of doubles, about 32 digits.
+        /// Double-double precision (pairs of doubles), about 32 digits.
         DoubleDouble = "dd",
     }
 }

@@ -1,4 +1,4 @@
-//! Steps of controlled length, whatever the formulation.
+//! Steps of controlled length, for every formulation.
 
 use crate::checkpoint::ControlSnapshot;
 use crate::choice::StepRule;
@@ -16,28 +16,28 @@ use mbs_core::outputs::{Events, Turns};
 use mbs_core::scene::Scene;
 use mbs_core::step::{Step, StepError};
 
-/// The driver of a run, with the state to which a rejected step goes back.
+/// Step control of a run, with the state that is restored after a rejected step.
 #[derive(Debug, Clone)]
 pub struct Control<T: Real, const D: usize> {
     driver: Driver<T>,
     estimate: Option<LocalError<T>>,
     events: Option<Events<T, D>>,
-    /// Angles of the joints in natural coordinates: a tree has its turns.
+    /// Angles of the joints with full turns, for natural coordinates. Relative coordinates count the turns themselves.
     turns: Option<Turns<T, D>>,
     saved: State<T>,
-    /// The law in code by which trials failed last, and when [s].
+    /// The user-defined law or relation that made the last trial fail, and the time of that trial [s].
     failed: Option<(CodeOwner, T)>,
     /// The largest step [s].
     max_step: T,
-    /// When signals jump or have corners, where steps end at events.
+    /// Times at which signals jump or have corners, if steps end at events.
     ends: Option<SignalEnds<T>>,
 }
 
 impl<T: Real, const D: usize> Control<T, D> {
-    /// Creates the control that the settings ask for; nothing for steps of fixed length.
+    /// Creates the step control that the settings request; `None` for steps of fixed length.
     ///
     /// # Errors
-    /// [`ModelError`] as for the model.
+    /// [`ModelError`] if the model of the scene cannot be built.
     pub fn new(
         scene: &Scene<T>,
         settings: &ResolvedMethod,
@@ -76,13 +76,13 @@ impl<T: Real, const D: usize> Control<T, D> {
         }))
     }
 
-    /// State that the next step continues from.
+    /// State of the step control that the next step depends on.
     pub fn snapshot(&self) -> ControlSnapshot<T> {
         let events = self.events.as_ref().map(Events::history);
         ControlSnapshot { driver: self.driver.history(), events }
     }
 
-    /// Restores what was kept; says whether it is of the same rules and effects.
+    /// Restores a snapshot; returns whether the snapshot has the same rules and effects.
     pub fn restore(&mut self, snapshot: &ControlSnapshot<T>) -> bool {
         let is_ours = match (&mut self.events, &snapshot.events) {
             (Some(events), Some(history)) => events.set_history(history),
@@ -91,12 +91,12 @@ impl<T: Real, const D: usize> Control<T, D> {
         is_ours && self.driver.set_history(snapshot.driver)
     }
 
-    /// The state was set from outside: what steps are watched for begins there.
+    /// Restarts the detection of events at a state that was set from outside.
     pub fn restart(&mut self, state: &State<T>) {
         self.events.iter_mut().for_each(|events| events.start(state));
     }
 
-    /// One step of at most `rest` [s], which ends where a signal jumps or has a corner.
+    /// Makes one step of at most `rest` [s], which ends where a signal jumps or has a corner.
     pub fn step(
         &mut self,
         (model, formulation): (&NaturalModel<T, D>, &mut dyn Formulation<T, D>),
@@ -122,20 +122,21 @@ impl<T: Real, const D: usize> Control<T, D> {
         Ok(Accepted { attempt, limit: Limit::Event, is_last: false, ..made })
     }
 
-    /// Notes by which law in code trials of a step to time `t` [s] failed, if they did.
+    /// Notes the user-defined law or relation that made trials of a step to time `t` [s] fail, if there is one.
     pub fn note(&mut self, failed: Option<CodeOwner>, t: T) {
         if let Some(failed) = failed {
             self.failed = Some((failed, t));
         }
     }
 
-    /// The law in code by which trials failed within a largest step before time `t` [s]: steps that came to an end there did so by it.
+    /// The user-defined law or relation whose last failure was at most one largest step before time `t` [s]. It is the cause if steps
+    /// become too small there.
     pub fn failed_before(&self, t: T) -> Option<CodeOwner> {
         self.failed.filter(|(_, at)| t - *at <= self.max_step).map(|(failed, _)| failed)
     }
 }
 
-/// The state that is tried, and the one to go back to.
+/// Trial state, and the saved state that is restored after a rejected trial.
 struct Trial<'a, T: Real, const D: usize> {
     model: &'a NaturalModel<T, D>,
     formulation: &'a mut dyn Formulation<T, D>,
@@ -147,7 +148,7 @@ struct Trial<'a, T: Real, const D: usize> {
 }
 
 impl<T: Real, const D: usize> Trial<'_, T, D> {
-    /// A trial of length `h` [s].
+    /// Returns a trial step of length `h` [s].
     fn length(&self, h: T) -> Step<T> {
         Step { dt: h, length: self.model.length() }
     }
@@ -198,7 +199,7 @@ impl<T: Real, const D: usize> Stepper<T> for Trial<'_, T, D> {
             events.accept(self.state);
         }
         if at_event {
-            // Multipliers bend here: nothing is extrapolated.
+            // The multipliers have a corner at an event, so nothing is extrapolated across it.
             self.state.dt = T::ZERO;
         }
     }

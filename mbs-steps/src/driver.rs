@@ -1,4 +1,4 @@
-//! The one loop that steps: from instant to instant, before observers.
+//! Loop that makes the steps of a run: from instant to instant, and calls observers.
 
 use crate::interrupt::Interrupt;
 use crate::precision::is_finer;
@@ -10,14 +10,15 @@ use mbs_core::once::found;
 use mbs_core::step::{InputError, Step, StepError, StepReport};
 use mbs_core::{Real, instances};
 
-/// Time that is no step at the end of a stretch, in units of rounding of the time [-]. Chosen, not tuned.
+/// Largest remaining time at the end of a stretch that is skipped, in units of machine precision of the time [-]. Chosen, not tuned.
 const ROUNDINGS: f64 = 32.0;
-/// Most time that is no step, relative to the stretch [-]: times of `f32` round by more than short steps last.
+/// Largest remaining time that is skipped, relative to the stretch [-]. It bounds `ROUNDINGS` in `f32`, where a rounding error of the time
+/// can exceed a short step.
 const MAX_SLIVER: f64 = 1e-5;
 
-/// Sees a run go, sets inputs on the way, and may end it. Does nothing by default.
+/// Observes a run, sets inputs between steps, and may end the run. All methods do nothing by default.
 ///
-/// What an observer returns as an error stops the run with that reason; [`ControlFlow::Break`] ends it without one.
+/// An error that an observer returns stops the run and becomes its reason. [`ControlFlow::Break`] ends the run without an error.
 ///
 /// ```
 /// use core::ops::ControlFlow;
@@ -58,19 +59,19 @@ const MAX_SLIVER: f64 = 1e-5;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub trait StepObserver<T: Real, const D: usize> {
-    /// Prepares a step, whose inputs may be set. Where lengths are controlled, a rejected trial is repeated with the same inputs.
+    /// Prepares a step; inputs may be set here. With step control, a rejected trial is repeated with the same inputs.
     ///
     /// # Errors
-    /// What stops the run.
+    /// The error that stops the run.
     fn before(&mut self, inputs: &mut StepInputs<'_, T, D>) -> Result<(), StopError> {
         let _ = inputs;
         Ok(())
     }
 
-    /// A step was made; `is_last`: it ends the run.
+    /// Called after each accepted step; `is_last` is true for the step that ends the run.
     ///
     /// # Errors
-    /// What stops the run.
+    /// The error that stops the run.
     fn step(
         &mut self,
         now: &Simulation<T, D>,
@@ -81,16 +82,17 @@ pub trait StepObserver<T: Real, const D: usize> {
         Ok(ControlFlow::Continue(()))
     }
 
-    /// An instant is reached at which a step had to end: a row of a comparison, the end of a period or of a step of fixed length.
+    /// Called at each instant at which a step must end. It is a row of a comparison, the end of a period, or the end of a step of fixed
+    /// length.
     ///
     /// # Errors
-    /// What stops the run.
+    /// The error that stops the run.
     fn instant(&mut self, now: &Simulation<T, D>) -> Result<ControlFlow<()>, StopError> {
         let _ = now;
         Ok(ControlFlow::Continue(()))
     }
 
-    /// The run has ended; why, where it stopped early.
+    /// Called when the run has ended; `stop` is the reason if the run stopped early.
     fn end(&mut self, now: &Simulation<T, D>, stop: Option<&StopError>) {
         let _ = (now, stop);
     }
@@ -98,7 +100,7 @@ pub trait StepObserver<T: Real, const D: usize> {
 
 impl<T: Real, const D: usize> StepObserver<T, D> for () {}
 
-/// One after the other.
+/// Observer that calls two observers, the first one first.
 impl<T: Real, const D: usize, A: StepObserver<T, D>> StepObserver<T, D>
     for (&mut A, &mut dyn StepObserver<T, D>)
 {
@@ -168,20 +170,20 @@ impl<T: Real, const D: usize> Deref for StepInputs<'_, T, D> {
     }
 }
 
-/// Continues a run on a condition, else ends it.
+/// Returns `Continue` if the condition holds, else `Break`.
 pub fn continue_if(yes: bool) -> ControlFlow<()> {
     if yes { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
 }
 
-/// System that the loop steps: a simulation, or several in turn of which one is shown.
+/// System that the loop steps: one simulation, or several simulations that step alternately, one of which observers see.
 pub trait Plant<T: Real, const D: usize> {
-    /// The simulation that steps.
+    /// The simulation that makes the next step.
     fn stepped(&mut self) -> &mut Simulation<T, D>;
 
-    /// The one that observers see.
+    /// The simulation that observers see.
     fn shown(&self) -> &Simulation<T, D>;
 
-    /// One step of `rest` [s], or of at most that.
+    /// Makes one step of length `rest` [s], or of at most `rest` with step control.
     fn advance(&mut self, rest: T) -> Result<Accepted<T>, StepError> {
         self.stepped().advance(rest)
     }
@@ -207,36 +209,36 @@ impl<T: Real, const D: usize> Plant<T, D> for Simulation<T, D> {
 pub struct Stretch<T> {
     /// End of the stretch [s].
     pub to: T,
-    /// Steps of fixed length; else as many as their control makes.
+    /// Steps of fixed length; `None`: the step control chooses the number of steps.
     pub fixed: Option<Fixed<T>>,
-    /// The run ends with it.
+    /// True if the run ends with this stretch.
     pub is_last: bool,
 }
 
-/// Steps of fixed length.
+/// Number, start and length of steps of fixed length.
 #[derive(Debug, Clone, Copy)]
 pub struct Fixed<T> {
     /// Number of the steps.
     pub n: u64,
-    /// Time before the first, in the digits of the run and in `f64` [s].
+    /// Time before the first step, in the precision of the run and in `f64` [s].
     pub from: (T, f64),
-    /// Length of a step, in the digits of the run and in `f64` [s].
+    /// Length of a step, in the precision of the run and in `f64` [s].
     pub dt: (T, f64),
 }
 
 impl<T: Real> Stretch<T> {
-    /// To an instant, in steps whose length is controlled or which fill it.
+    /// Stretch up to an instant. Its steps have controlled lengths, or one step fills it.
     pub fn to(to: T) -> Self {
         Self { to, fixed: None, is_last: false }
     }
 
-    /// The stretch, in one step of this length where it is given [s].
+    /// The stretch in a single step of length `dt` [s], if `dt` is given.
     pub fn in_one(self, dt: Option<T>) -> Self {
         let fixed = |dt: T| Fixed { n: 1, from: (T::ZERO, 0.0), dt: (dt, dt.to_f64()) };
         Self { fixed: dt.map(fixed), ..self }
     }
 
-    /// The stretch, from `now` in a number of equal steps whose sum is `dt`, in the digits of the run and in `f64` [s].
+    /// The stretch in `n` equal steps from time `now`; their sum `dt` is given in the precision of the run and in `f64` [s].
     pub fn in_parts(self, now: T, dt: (T, f64), n: f64) -> Self {
         let dt = (dt.0 / T::from_f64(n), dt.1 / n);
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
@@ -244,24 +246,24 @@ impl<T: Real> Stretch<T> {
         Self { fixed: Some(Fixed { n, from: (now, now.to_f64()), dt }), ..self }
     }
 
-    /// The time after `j` of its steps, where it is known [s].
+    /// The time after `j` steps of this stretch [s]; `None` for steps of controlled length.
     fn known(&self, j: u64) -> Option<T> {
         let Fixed { n, from, dt } = self.fixed?;
         Some(if j == n { self.to } else { multiple(from, j, dt) })
     }
 }
 
-/// Time t + k h [s]: in `f64` where that has as many digits, so that short numbers make no short times.
+/// Time t + k h [s]. It is computed in `f64` unless `T` has more digits, so that an `f32` run has no rounded times.
 pub fn multiple<T: Real>(t: (T, f64), k: u64, h: (T, f64)) -> T {
     #[allow(clippy::cast_precision_loss, reason = "step counts stay far below 2^53")]
     let count = k as f64;
     if is_finer::<T>() { t.0 + T::from_f64(count) * h.0 } else { T::from_f64(t.1 + count * h.1) }
 }
 
-/// Steps over all stretches, or to where it stops or is interrupted.
+/// Makes the steps of all stretches, until the end, an error, or an interrupt.
 ///
 /// # Errors
-/// Why it stopped.
+/// The reason why the run stopped.
 pub fn drive<T: Real, const D: usize>(
     plant: &mut impl Plant<T, D>,
     stretches: impl IntoIterator<Item = Stretch<T>>,
@@ -282,10 +284,10 @@ pub fn drive<T: Real, const D: usize>(
     Ok(())
 }
 
-/// [`drive`] of a simulation, for who steps it as a part of something larger: it is compiled here.
+/// [`drive`] of one simulation, for a caller that contains the simulation. It is compiled in this crate.
 ///
 /// # Errors
-/// Why it stopped.
+/// The reason why the run stopped.
 pub fn drive_simulation<T: Real, const D: usize>(
     simulation: &mut Simulation<T, D>,
     stretches: impl IntoIterator<Item = Stretch<T>>,
@@ -316,12 +318,13 @@ fn drive_here<T: Real, const D: usize>(
     drive(simulation, stretches, interrupt, observer)
 }
 
-/// Largest remainder of a stretch of this length up to `to` [s] that is no step: it is near the rounding of the time.
+/// Largest remaining time [s] of a stretch that is skipped instead of stepped, as it is close to the rounding error of the time. `to` is
+/// the end time.
 fn remainder<T: Real>(to: T, length: T) -> T {
     (to * T::EPSILON * T::from_f64(ROUNDINGS)).min(length * T::from_f64(MAX_SLIVER))
 }
 
-/// Steps over one stretch; says whether to continue.
+/// Makes the steps of one stretch; returns whether the run continues.
 fn along<T: Real, const D: usize>(
     plant: &mut impl Plant<T, D>,
     stretch: &Stretch<T>,
@@ -363,7 +366,7 @@ fn along<T: Real, const D: usize>(
     observer.instant(plant.shown())
 }
 
-/// Adds the reports of steps.
+/// Observer that sums the reports of steps.
 struct Sum<T>(StepReport<T>);
 
 impl<T: Real, const D: usize> StepObserver<T, D> for Sum<T> {
@@ -379,10 +382,10 @@ impl<T: Real, const D: usize> StepObserver<T, D> for Sum<T> {
 }
 
 impl<T: Real, const D: usize> Simulation<T, D> {
-    /// Advances by `dt` [s]: one step, or as many as the control of the step size takes.
+    /// Advances by `dt` [s]: in one step, or in as many steps as the step control makes.
     ///
     /// # Errors
-    /// [`StopError`] with the joint or body; the state is then that after the last accepted step.
+    /// [`StopError`] with the joint or body concerned; the state is then the state after the last accepted step.
     pub fn step(&mut self, dt: T) -> Result<StepReport<T>, StopError> {
         let mut stretch = Stretch::to(self.state().t + dt);
         if self.is_controlled() {

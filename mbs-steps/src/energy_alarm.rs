@@ -1,34 +1,35 @@
-//! The alarm of a run: its energy invariant has drifted too far.
+//! Energy alarm: it stops a run whose energy invariant has drifted too far.
 
 use crate::checkpoint::tape::{Tape, Walked};
 use crate::simulation::Simulation;
 use crate::stop::StopError;
 use mbs_core::Real;
 
-/// Steps in a row, or less at the end of a run, with a larger error before the run stops [-]. The first steps from rest exchange little
-/// energy: their error may be large beside it and small beside what follows. Chosen, not tuned.
+/// Number of successive steps with too large an error before the run stops [-]; at the end of a run one such step suffices. The first steps
+/// from rest exchange little energy. Their error can be large relative to that energy, yet small relative to the energy of later steps.
+/// Chosen, not tuned.
 const STEPS_IN_A_ROW: u32 = 10;
 
-/// Steps in a row after which the invariant was off.
+/// Counter of successive steps with too large an error of the energy invariant.
 #[derive(Debug, Clone, Copy)]
 pub struct Alarm {
-    /// Share of the energy turned over that it may be off by.
+    /// Allowed error, as a fraction of the exchanged energy [-].
     share: f64,
     off: u32,
 }
 
 impl Alarm {
-    /// Makes an alarm with a limit, as a fraction of the exchanged energy.
+    /// Makes an alarm with an allowed error, as a fraction of the exchanged energy [-].
     pub fn new(share: f64) -> Self {
         Self { share, off: 0 }
     }
 
-    /// Writes what it remembers, or reads it back.
+    /// Writes the counter to a checkpoint, or reads it from one.
     pub fn walk(&mut self, tape: &mut impl Tape) -> Walked {
         tape.small(&mut self.off)
     }
 
-    /// Has the invariant drifted too far after this step?
+    /// Returns the error to stop with, if the invariant has drifted too far after this step.
     pub fn rings<T: Real, const D: usize>(
         &mut self,
         simulation: &Simulation<T, D>,
@@ -37,7 +38,7 @@ impl Alarm {
         self.rings_for(simulation, is_last, None)
     }
 
-    /// Rings as [`rings`](Self::rings) does, with another reason for which steps in a row may be off.
+    /// Checks as [`rings`](Self::rings) does, with a further error `reason`: steps with this reason count as well, and the run stops with it.
     pub fn rings_for<T: Real, const D: usize>(
         &mut self,
         simulation: &Simulation<T, D>,

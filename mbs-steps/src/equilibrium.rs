@@ -1,4 +1,4 @@
-//! The static equilibrium that a run starts from.
+//! Static equilibrium as the start of a run.
 
 use crate::rest::at_rest;
 use crate::stop::StopError;
@@ -12,7 +12,7 @@ use mbs_linear::{
 };
 use mbs_sparse::{Indefinite, Multifrontal};
 
-/// Scratch of a static or linear analysis of a model.
+/// Returns the workspace of a static or linear analysis of a model.
 pub fn workspace<T: Real, const D: usize>(
     model: &NaturalModel<T, D>,
 ) -> Workspace<T, Indefinite<T>> {
@@ -21,19 +21,19 @@ pub fn workspace<T: Real, const D: usize>(
 }
 
 mbs_core::named! {
-    /// Search for an equilibrium.
+    /// Method of the search for an equilibrium.
     #[derive(Default)]
     pub enum Search {
-        /// Down from the start, to one that is stable.
+        /// Descent of the potential energy from the start, to a stable equilibrium.
         #[default]
         Down = "down",
-        /// Newton's method from the start, to the equilibrium nearby, stable or not.
+        /// Newton's method from the start, to the nearest equilibrium, stable or unstable.
         Near = "near",
     }
 }
 
 impl Search {
-    /// Returns the search for the equilibrium of a scene with this start; nothing where it starts from its initial conditions.
+    /// Returns the search that a scene with this start requests; `None` if the scene starts from its initial conditions.
     #[must_use]
     pub fn of_start(start: Start) -> Option<Self> {
         match start {
@@ -43,7 +43,7 @@ impl Search {
         }
     }
 
-    /// The start of a scene that seeks its equilibrium so.
+    /// Returns the start of a scene that requests this search.
     #[must_use]
     pub fn start(self) -> Start {
         match self {
@@ -53,11 +53,11 @@ impl Search {
     }
 }
 
-/// Moves a state to a static equilibrium, at rest and with guides at their values at the start. What only motion makes does not act:
-/// drives, drag, dry friction, and what a tire does when it rolls.
+/// Moves a state to a static equilibrium, at rest and with guides at their initial values. Effects that act in motion only are omitted:
+/// drives, drag, dry friction, and the forces of a rolling tire.
 ///
 /// # Errors
-/// [`StopError::Equilibrium`]; positions are then unchanged.
+/// [`StopError::Equilibrium`]; the positions are unchanged then.
 pub fn find_equilibrium<T: Real, const D: usize>(
     scene: &Scene<T>,
     model: &NaturalModel<T, D>,
@@ -77,7 +77,7 @@ pub fn find_equilibrium<T: Real, const D: usize>(
     Ok(found)
 }
 
-/// Transfers a state of one model to another of the same bodies and joints.
+/// Copies a state of one model to another model with the same bodies and joints.
 fn transfer<T: Real, const D: usize>(
     (scene, from): (&Scene<T>, &NaturalModel<T, D>),
     state: &State<T>,
@@ -86,7 +86,7 @@ fn transfer<T: Real, const D: usize>(
 ) {
     let motions: Vec<_> = (0..scene.bodies.len()).map(|b| from.motion(scene, b, state)).collect();
     to.take_motions(&motions, &mut to.terms(), target);
-    // The signals are those of the same scene, whatever effects it has.
+    // Both models have the signals of the same scene, although their effects differ.
     if target.signals.len() == state.signals.len() {
         target.signals.copy_from_slice(&state.signals);
     }
@@ -119,11 +119,12 @@ fn settle_model<T: Real, const D: usize>(
     })
 }
 
-/// Turns the start of a scene into one from its static equilibrium: positions settle from those assembled, with guides held;
-/// then velocities follow from the scene's initial ones, and accelerations. Initial positions only say where the search begins.
+/// Replaces the start of a scene by its static equilibrium. Positions move from the assembled ones to equilibrium, with guides held.
+/// Velocities then follow from the scene's initial velocities, and accelerations from the equations of motion. Initial positions only
+/// define where the search begins.
 ///
 /// # Errors
-/// [`StopError`] when there is no equilibrium, or the initial velocities do not fit there.
+/// [`StopError`] if there is no equilibrium, or the initial velocities are inconsistent with it.
 pub fn equilibrium_start<T: Real, const D: usize>(
     scene: &Scene<T>,
     model: &NaturalModel<T, D>,

@@ -16,10 +16,10 @@ use mbs_recursive::space::Space;
 use mbs_recursive::{Planar, Spatial, StartError, TreeModel, TreeState};
 use serde_json::Value;
 
-/// A scene as tables.
+/// A scene as tables, in two forms.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Exported {
-    /// A file of Rust.
+    /// Source text of a Rust file with the tables.
     pub rust: String,
     /// Bytes that `mbs_nostd::Tables::read` reads.
     pub bytes: Vec<u8>,
@@ -30,19 +30,20 @@ pub struct Exported {
 pub enum ExportError {
     /// The scene does not start.
     Stop(StopError),
-    /// An effect of this name is code, which no table has.
+    /// An effect of this name is a user-defined law, which has no table.
     Effect(String),
-    /// An effect of this name is on an angle of a ball, which is not written for controllers.
+    /// An effect of this name acts on an angle of a ball joint, which controllers do not support.
     Sum(String),
-    /// A signal of this name is a wave, a ramp or a table that holds or repeats, or a guide follows it that is no spline or step.
+    /// A signal of this name is a wave, a ramp, or a table that holds or repeats. Or a guide follows it, and it is neither a spline nor a
+    /// step.
     Signal(String),
-    /// A coupling of this name is a relation in code.
+    /// A coupling of this name is a user-defined relation.
     Relation(String),
-    /// A signal of this name measures a length or an angle of a ball, which is not written for controllers.
+    /// A signal of this name measures a length or an angle of a ball joint, which controllers do not support.
     Measure(String),
-    /// The guide of a joint of this name gives a rotation vector, which is not written for controllers.
+    /// The guide of a joint of this name gives a rotation vector, which controllers do not support.
     Guide(String),
-    /// A ladder names what the scene has not, or is no price list.
+    /// The degrade ladder names an effect that the scene does not have, or its file is no list of effect costs.
     Ladder(String),
 }
 
@@ -97,11 +98,11 @@ impl From<StopError> for ExportError {
     }
 }
 
-/// Writes a scene as tables in single or double precision; start and tables are made in double. `form` has indices of effects, the
-/// one to be dropped first in front, and whether precision is single.
+/// Writes a scene as tables in single or double precision; start and tables are computed in double precision. `form` has the effects of the
+/// degrade ladder by index, the first one to be dropped first, and whether the precision is single.
 ///
 /// # Errors
-/// [`ExportError`].
+/// [`ExportError`] if the scene cannot start or cannot be written as tables.
 pub fn export(
     scene: &Scene<f64>,
     settings: &ResolvedMethod,
@@ -157,9 +158,9 @@ fn in_space<S: Axes<f64>, const D: usize>(
     Ok(Exported { rust, bytes })
 }
 
-/// Operations of a step of a tree on a controller; `None` where it is not written for one.
+/// Number of operations of a step of a tree on a controller; `None` if controllers do not support the tree.
 ///
-/// Cost: that of the tables, and linear in them.
+/// Cost: the construction of the tables, linear in their size.
 #[must_use]
 pub fn operation_bound<T: Real, S: Space<T>>(tree: &TreeModel<T, S>) -> Option<Operations> {
     if T::HAS_INSTANCES {
@@ -175,14 +176,14 @@ instances!(
 );
 
 fn bound_here<T: Real, S: Space<T>>(tree: &TreeModel<T, S>) -> Option<Operations> {
-    // controllers have no guided rotation vectors
+    // Controllers do not support guided rotation vectors.
     let is_exported = tree.mechanism().links.iter().all(|link| link.kind != LinkKind::GuidedBall);
     let rest = TreeState::at_rest(tree);
     let collected = Collected::new(tree, &rest, &[]).ok().filter(|_| is_exported)?;
     Some(step_bound(&collected.model(), Bounds::default()))
 }
 
-/// The name of the first joint whose rotation vector is guided.
+/// The name of the first joint whose rotation vector a guide prescribes.
 fn guided_ball<T>(scene: &Scene<T>) -> Option<String> {
     let joints = scene.guides.iter().map(|guide| (&scene.joints[guide.joint], guide.number));
     let mut balls =
@@ -190,7 +191,7 @@ fn guided_ball<T>(scene: &Scene<T>) -> Option<String> {
     balls.next().map(|(joint, _)| joint.name.clone())
 }
 
-/// The name of the first enabled effect on an angle of a ball.
+/// The name of the first enabled effect on an angle of a ball joint.
 fn on_sum<T: Clone>(scene: &Scene<T>) -> String {
     let is_ball = |term: &CouplingTerm<T>| matches!(term.of, CouplingMeasure::Ball { .. });
     let is_it = |effect: &&Effect<T>| {
@@ -203,11 +204,11 @@ fn on_sum<T: Clone>(scene: &Scene<T>) -> String {
     scene.effects.iter().find(is_it).map(|effect| effect.name.clone()).unwrap_or_default()
 }
 
-/// The degrade ladder of a list of effect costs, the JSON of `mbs explain`. It has effects whose absence the run survives and
-/// that cost something, those in front that change the outputs least.
+/// The degrade ladder from a list of effect costs, the JSON of `mbs explain`. It has the effects that have a cost and without which the run
+/// completes. The effect that changes the outputs least comes first.
 ///
 /// # Errors
-/// [`ExportError::Ladder`].
+/// [`ExportError::Ladder`] if the text is no list of effect costs of this scene.
 pub fn ladder<T>(prices: &str, scene: &Scene<T>) -> Result<Vec<usize>, ExportError> {
     let fault = |what: &str| ExportError::Ladder(what.to_owned());
     let json: Value =

@@ -1,18 +1,18 @@
-//! Numbers by which changed data are known: FNV-1a of 64 bits, the same on every machine.
+//! Hashes that detect changed data: FNV-1a of 64 bits, identical on every machine.
 
 use core::fmt;
 
-/// The hash of nothing: FNV-1a's offset basis of 64 bits.
+/// Hash of empty data: the offset basis of FNV-1a, 64 bits.
 const BASIS: u64 = 0xcbf2_9ce4_8422_2325;
-/// The factor of a byte: FNV-1a's prime of 64 bits.
+/// Factor applied for each byte: the prime of FNV-1a, 64 bits.
 const PRIME: u64 = 0x0100_0000_01b3;
 
-/// Hash of what was written so far, as a number.
+/// Hash of the bytes added so far.
 #[derive(Debug, Clone, Copy)]
 pub struct Fingerprint(u64);
 
 impl Fingerprint {
-    /// Returns the fingerprint of nothing.
+    /// Returns the fingerprint of empty data.
     pub(crate) fn new() -> Self {
         Self(BASIS)
     }

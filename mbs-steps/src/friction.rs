@@ -1,12 +1,13 @@
-//! Friction that the steps of an explicit method pass over.
+//! Friction whose smooth transition is too steep for the steps of an explicit method.
 //!
 //! ```text
 //! |r| <= |a| h   and   |a| h > 3 e        r, a rate and acceleration of the joint or the sum, h the step, e the regularisation
 //! ```
 //!
-//! The acceleration would then carry the rate through rest within a step, and far beyond the rates at which friction rises. A rate that changes
-//! its sign does so for a step or two. One that friction throws back does so step after step, and what holds by friction creeps at a
-//! rate that is none of the law's. Implicit methods, and those that control their error, follow the rise.
+//! If both conditions hold, the acceleration reverses the rate within one step. The new rate is far above the rate e at which friction is
+//! fully developed. A rate that only changes its sign meets the conditions for one or two steps. If friction reverses the rate, the
+//! conditions hold in many successive steps. Sticking parts then creep at a rate that does not follow from the law. Implicit methods and
+//! methods with error control resolve the transition.
 
 use crate::choice::IntegratorKind;
 use crate::settings::ResolvedMethod;
@@ -19,20 +20,20 @@ use mbs_core::natural::NaturalModel;
 use mbs_core::outputs::CoordinateMotion;
 use mbs_core::scene::{CouplingTerm, Effect, EffectKind, JointId, Scene};
 
-/// Largest change of the rate in a step, in units of the regularisation [-]: where friction holds, the explicit method of order four is stable
-/// up to 2.8.
+/// Largest change of the rate in a step, in units of the regularisation [-]. In the transition of friction, the explicit method of order
+/// four is stable up to 2.8.
 const MAX_CHANGE: f64 = 3.0;
 
-/// Friction of a joint, or of a sum of joint coordinates.
+/// Friction in a joint, or on a sum of joint coordinates.
 #[derive(Debug, Clone)]
 struct Friction<T: Real, const D: usize> {
     effect: usize,
-    /// The coordinates with their factors.
+    /// The coordinates with their factors, whose weighted sum the friction acts on.
     terms: Vec<(T, CoordinateMotion<T, D>)>,
     regularisation: f64,
 }
 
-/// The coordinates of a law with a rise, and its regularisation; what has lengths or curves is not watched.
+/// Coordinates of a friction law and its regularisation; `None` for sums with lengths or curves, which are not monitored.
 type Watched<T, const D: usize> = Option<(Vec<(T, CoordinateMotion<T, D>)>, T)>;
 
 fn watched<T: Real, const D: usize>(
@@ -60,7 +61,7 @@ fn watched<T: Real, const D: usize>(
 }
 
 impl<T: Real, const D: usize> Friction<T, D> {
-    /// Rate and acceleration of what it is of.
+    /// Rate and acceleration of the coordinate or sum that the friction acts on.
     fn motion(&self, state: &State<T>) -> [T; 2] {
         self.terms.iter().fold([T::ZERO; 2], |[rate, acceleration], (factor, of)| {
             let [r, a] = of.at(state);
@@ -69,7 +70,7 @@ impl<T: Real, const D: usize> Friction<T, D> {
     }
 }
 
-/// The frictions of a run by explicit steps of fixed length.
+/// Friction effects of a run with explicit steps of fixed length.
 #[derive(Debug, Clone)]
 pub struct Frictions<T: Real, const D: usize> {
     all: Vec<Friction<T, D>>,
@@ -78,7 +79,7 @@ pub struct Frictions<T: Real, const D: usize> {
 }
 
 impl<T: Real, const D: usize> Frictions<T, D> {
-    /// Finds the frictions of a scene; none where the method of the settings follows them.
+    /// Finds the friction effects of a scene; the list is empty for methods that resolve the transition of friction.
     pub fn new(scene: &Scene<T>, settings: &ResolvedMethod, model: &NaturalModel<T, D>) -> Self {
         let is_explicit = settings.integrator == IntegratorKind::Rk4;
         let friction = |(effect, e): (usize, &Effect<T>)| {
@@ -89,7 +90,7 @@ impl<T: Real, const D: usize> Frictions<T, D> {
         Self { all: if is_explicit { all.collect() } else { Vec::new() }, step: settings.step }
     }
 
-    /// The first one that the last step has passed over.
+    /// Returns the error of the first effect whose transition the last step has skipped.
     pub fn passed(&self, simulation: &Simulation<T, D>) -> Option<StopError> {
         let is_passed = |friction: &&Friction<T, D>| {
             let [rate, acceleration] = friction.motion(simulation.state()).map(Real::to_f64);

@@ -1,23 +1,24 @@
-//! Request from outside to end a run: a flag that it looks at between its steps.
+//! Request from outside to end a run: a flag that the run reads between its steps.
 
 use core::fmt::{self, Debug, Formatter};
 use core::sync::atomic::{AtomicBool, Ordering};
 use std::sync::Arc;
 
-/// Whether a run is to end after the step that it makes. Without a flag, never.
+/// Flag that ends a run after its current step. The default interrupt has no flag and never ends the run.
 ///
-/// A run whose flag is set keeps what it has, as any run that stops early; it is no part of what makes a result, so all are equal.
+/// An interrupted run keeps its rows and summary, as any run that stops early. All interrupts compare as equal, because an interrupt does
+/// not affect the settings of a run.
 #[derive(Clone, Default)]
 pub struct Interrupt(Option<Arc<AtomicBool>>);
 
 impl Interrupt {
-    /// Makes an interrupt of a flag that somebody else sets: a signal handler, say.
+    /// Makes an interrupt from a flag that another part of the program sets, such as a signal handler.
     #[must_use]
     pub fn new(flag: Arc<AtomicBool>) -> Self {
         Self(Some(flag))
     }
 
-    /// Is the run to end?
+    /// Must the run end after this step?
     #[must_use]
     pub fn is_set(&self) -> bool {
         self.0.as_ref().is_some_and(|flag| flag.load(Ordering::Relaxed))

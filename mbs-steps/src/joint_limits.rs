@@ -1,4 +1,4 @@
-//! Joints whose coordinate leaves its range, or whose rate passes its limit: noted, without effect on the motion.
+//! Joints whose coordinate leaves its range or whose rate exceeds its limit. The run notes them; the motion is not affected.
 
 use crate::checkpoint::tape::{Tape, Walked};
 use crate::simulation::Simulation;
@@ -9,31 +9,31 @@ use mbs_core::outputs::{Measures, Quantity};
 use mbs_core::scene::{JointId, JointLimits, Output, Scene};
 use mbs_scene::format::{few, significant};
 
-/// Excess that is noted, relative to the width of a range or to a limit [-]: numbers of files have six digits or more.
+/// Smallest excess that is noted, relative to the width of the range or to the limit [-]. Numbers in files have six or more digits.
 const NOTED_EXCESS: f64 = 1e-6;
 
-/// Ends and limits, and their excess.
+/// Number of limits of a joint: lower end, upper end and rate.
 const N_LIMITS: usize = 3;
 
-/// A joint with a range or a limit of its rate.
+/// A joint with a range or with a limit of its rate.
 #[derive(Debug, Clone)]
 struct Watched {
     joint: usize,
-    /// Lower and upper end, and largest rate; infinite where there is none.
+    /// Lower end, upper end and largest rate; infinite if there is no limit.
     limits: [f64; N_LIMITS],
-    /// Smallest excess that is noted.
+    /// Smallest excess of each limit that is noted.
     noted: [f64; N_LIMITS],
-    /// When each was passed first [s].
+    /// Time at which each limit was exceeded first [s].
     first: [Option<f64>; N_LIMITS],
-    /// Largest excess of each.
+    /// Largest excess of each limit.
     most: [f64; N_LIMITS],
 }
 
-/// Watches the joints of a run that have a range or a limit of their rate.
+/// Monitor of the joints of a run that have a range or a limit of their rate.
 #[derive(Debug, Clone)]
 pub struct LimitWatch<T: Real, const D: usize> {
     all: Vec<Watched>,
-    /// Value and rate of each of them; `None`: there are none.
+    /// Value and rate of each monitored joint; `None` if there is no such joint.
     measures: Option<Measures<T, D>>,
     values: Vec<T>,
 }
@@ -67,7 +67,7 @@ impl Watched {
         tape.floats(&mut self.most)
     }
 
-    /// Notes on the limits that the joint has passed.
+    /// Notes on the limits that the joint has exceeded.
     fn notes<T>(&self, scene: &Scene<T>) -> impl Iterator<Item = String> {
         let joint = &scene.joints[self.joint];
         let unit = joint.kind.single(scene.dimension).map_or("", |freedom| freedom.unit());
@@ -91,7 +91,7 @@ impl Watched {
 }
 
 impl<T: Real, const D: usize> LimitWatch<T, D> {
-    /// Prepares the joints of a scene; without any, nothing is ever measured.
+    /// Prepares the joints of a scene; without such joints, nothing is evaluated.
     ///
     /// # Errors
     /// [`StopError`] where the scene has another dimension.
@@ -112,16 +112,16 @@ impl<T: Real, const D: usize> LimitWatch<T, D> {
         Ok(Self { all, measures: Some(measures), values })
     }
 
-    /// Watches a state of the run: that of the start, and that at the end of each step.
+    /// Checks one state of the run: the state at the start, or the state at the end of a step.
     ///
-    /// Cost: value and rate of each of the joints; no allocation.
+    /// Cost: value and rate of each monitored joint; no allocation.
     pub fn watch(&mut self, simulation: &Simulation<T, D>) {
         let Self { all, measures: Some(measures), values } = self else { return };
         let state = simulation.state();
         if simulation.has_own_coordinates() {
             measures.track_with(state, |joint, number| simulation.coordinate(joint, number));
         }
-        // turns that are not known are the outputs' affair
+        // An error here means an ambiguous number of turns; the outputs report it.
         let _ = measures.write(state, None, values);
         let t = state.t.to_f64();
         for (watched, now) in all.iter_mut().zip(values.chunks_exact(2)) {
@@ -129,7 +129,7 @@ impl<T: Real, const D: usize> LimitWatch<T, D> {
         }
     }
 
-    /// Writes what is remembered, or reads it back; nothing where no joint is watched.
+    /// Writes the maxima to a checkpoint, or reads them from one; a scene without such joints has none.
     pub fn walk(&mut self, tape: &mut impl Tape) -> Walked {
         if let Some(measures) = &mut self.measures {
             tape.reals(measures.memory_mut())?;
@@ -137,7 +137,7 @@ impl<T: Real, const D: usize> LimitWatch<T, D> {
         self.all.iter_mut().try_for_each(|watched| watched.walk(tape))
     }
 
-    /// Notes of a run: each limit once, with its first time and its largest excess.
+    /// Notes of a run: each exceeded limit once, with its first time and its largest excess.
     pub fn notes(&self, scene: &Scene<T>) -> Vec<String> {
         self.all.iter().flat_map(|watched| watched.notes(scene)).collect()
     }

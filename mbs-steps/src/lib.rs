@@ -87,7 +87,7 @@ pub mod words;
 #[doc(hidden)]
 pub use mbs_core as core;
 
-/// A scene in one scalar and dimension: for those who write generic code.
+/// A scene with known scalar and dimension, for generic code.
 pub mod typed {
     pub use crate::driver::{StepInputs, StepObserver};
     pub use crate::run::{Recording, run, run_recorded};

@@ -5,10 +5,9 @@
 //! w = (z, z', s):   x = S w + T u,   dx/dt = R w + W u,   y = P w + Q u
 //! A = R S^-1,   B = W - A T,   C = P S^-1,   D = Q - C T
 //! ```
-//!
-//! w are coordinates, their rates and the states of signals: x but for rotations, whose rates are angular velocities. S, T, R, W,
-//! P and Q are differences of what is measured at states next to it (`mbs_linear::linearise_ports`). T is not zero where a
-//! guide is an input: the joints that it moves are states as well.
+//! The vector w has coordinates z, their rates z' and the states s of signals. The state x differs from w only in rotations, whose rates in
+//! x are angular velocities. S, T, R, W, P and Q are difference quotients at neighbouring states (`mbs_linear::linearise_ports`). T is not
+//! zero if a guide is an input, because the joints that the guide moves are states as well.
 
 mod about;
 mod coordinates;
@@ -35,12 +34,12 @@ use mbs_core::rigid::RigidMotion;
 use mbs_core::scene::{Dimension, Scene};
 use names::{InputPlaces, OutputColumns};
 
-/// About which state a mechanism is linearised.
+/// Options of a linearisation: the state about which a mechanism is linearised.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct LinearizeOptions {
     /// State about which the mechanism is linearised. Default: the static equilibrium near the start.
     pub place: Place,
-    /// Search for the equilibrium. Default: downhill, to a stable one.
+    /// Search for the equilibrium. Default: descent of the potential energy, to a stable equilibrium.
     pub search: Search,
 }
 
@@ -51,9 +50,9 @@ impl Default for LinearizeOptions {
 }
 
 impl LinearSystem {
-    /// Assembles a scene, seeks its equilibrium if that is the place, and linearises it.
+    /// Assembles a scene, searches for its equilibrium if the place needs one, and linearises it.
     ///
-    /// Cost: that of `mbs_linear::linearise_ports`, and n^3 operations for n states.
+    /// Cost: the cost of `mbs_linear::linearise_ports`, and n^3 operations for n states.
     ///
     /// # Errors
     /// As for [`linearize`](crate::linearize).
@@ -67,24 +66,24 @@ impl LinearSystem {
             .about(scene, options)
     }
 
-    /// Linearises a scene about a rest or a steady motion, in axes that turn with it: its eigenvalues are those of the motion. Without
-    /// inputs and outputs.
+    /// Linearises a scene about an equilibrium or a steady motion, without inputs and outputs. The axes turn with the motion, so the
+    /// eigenvalues are those of the motion.
     ///
-    /// In motion, states are joint coordinates of one freedom, and places and rotations of bodies.
+    /// About a motion, the states are joint coordinates of one freedom, and positions and rotations of bodies.
     ///
-    /// Cost: that of `mbs_linear::linearise_ports`, in motion twice.
+    /// Cost: the cost of `mbs_linear::linearise_ports`; about a motion twice that.
     ///
     /// # Errors
-    /// As for [`linearize`](crate::linearize); `not-steady` where the state is neither a rest nor a steady motion.
+    /// As for [`linearize`](crate::linearize); `not-steady` if the state is neither an equilibrium nor a steady motion.
     pub fn steady(scene: &Scene<f64>, options: &LinearizeOptions) -> Result<Self, SimulationError> {
         let asked = Asked::alone(Some(options.place), Axes::Turning);
         asked.about(scene, options)?.or_not_steady(scene)
     }
 
-    /// Linearises as [`steady`](Self::steady) does, about a state whose bodies move as `motions` say, which meet the constraints.
+    /// Linearises as [`steady`](Self::steady) does, about a state whose bodies move as given by `motions`, which satisfy the constraints.
     ///
     /// # Errors
-    /// As for [`linearize_at`](crate::linearize_at); `not-steady` where the state is neither a rest nor a steady motion.
+    /// As for [`linearize_at`](crate::linearize_at); `not-steady` if the state is neither an equilibrium nor a steady motion.
     pub fn steady_at(
         scene: &Scene<f64>,
         motions: &[RigidMotion<f64>],
@@ -92,8 +91,8 @@ impl LinearSystem {
         Asked::alone(None, Axes::Turning).at(scene, motions)?.or_not_steady(scene)
     }
 
-    /// Linearises as [`steady`](Self::steady) does, about any state. About one that is no steady motion the matrices are those of the instant, in
-    /// axes that stand, with [`unsteady`](Self::unsteady) saying why.
+    /// Linearises as [`steady`](Self::steady) does, about any state. If the motion is not steady, the matrices hold at that instant, in
+    /// axes that do not turn, and [`unsteady`](Self::unsteady) gives the reason.
     ///
     /// # Errors
     /// As for [`linearize`](crate::linearize).
@@ -101,7 +100,7 @@ impl LinearSystem {
         Asked::alone(Some(options.place), Axes::TurningOrStanding).about(scene, options)
     }
 
-    /// Linearises as [`frozen`](Self::frozen) does, about a state whose bodies move as `motions` say, which meet the constraints.
+    /// Linearises as [`frozen`](Self::frozen) does, about a state whose bodies move as given by `motions`, which satisfy the constraints.
     ///
     /// # Errors
     /// As for [`linearize_at`](crate::linearize_at).
@@ -118,7 +117,8 @@ impl LinearSystem {
         Err(SimulationError::stopped(stop, 0.0, &Names::new(scene)))
     }
 
-    /// Linearises a scene whose bodies move as `motions` say, which meet the constraints; angles are next to the scene's initial values.
+    /// Linearises a scene whose bodies move as given by `motions`, which satisfy the constraints. Full turns of angles follow from the
+    /// scene's initial values.
     ///
     /// # Errors
     /// As for [`linearize_at`](crate::linearize_at).
@@ -132,7 +132,7 @@ impl LinearSystem {
     }
 }
 
-/// Request for a linear system: place, inputs, outputs and axes.
+/// Request for a linear system: its place, inputs, outputs and axes.
 struct Asked<'a> {
     place: Option<Place>,
     inputs: Option<&'a [&'a str]>,

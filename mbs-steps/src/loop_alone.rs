@@ -1,12 +1,14 @@
-//! The loops around a joint as a scene of their own.
+//! The closed loops through a joint, as a separate scene.
 //!
-//! Loops that share a joint belong together: the cycles that the other joints close over a spanning tree, joined where they meet.
+//! Loops that have a joint in common are kept together. They are found from the cycles of a spanning tree: cycles with a common joint are
+//! merged.
 
 use mbs_core::Real;
 use mbs_core::cluster::root;
 use mbs_core::scene::{BodyId, Joint, JointKind, JointLimits, Scene};
 
-/// The joints of a scene that share loops with one of them, and bodies, with nothing else: what has no part in the loops stands still.
+/// Returns a scene of the joints that belong to the loops of `joint`, with all bodies and nothing else. Bodies outside the loops are welded
+/// to the ground.
 pub(super) fn loops_alone<T: Real>(scene: &Scene<T>, joint: usize) -> Scene<T> {
     let ground = scene.bodies.len();
     let node = |body: BodyId| body.index().unwrap_or(ground);
@@ -19,7 +21,7 @@ pub(super) fn loops_alone<T: Real>(scene: &Scene<T>, joint: usize) -> Scene<T> {
         ends.iter().for_each(|&end| is_held[end] = false);
     }
     if is_held[ground] {
-        // loops of moving bodies: one of these stands still
+        // No joint of the loops is on the ground, so one body of the loops is fixed.
         is_held[ends[joint][0]] = true;
     }
     let held = scene.bodies.iter().enumerate().filter(|(b, _)| is_held[*b]);
@@ -35,14 +37,14 @@ pub(super) fn loops_alone<T: Real>(scene: &Scene<T>, joint: usize) -> Scene<T> {
     Scene { bodies, joints, ..Scene::empty("", scene.dimension, T::ONE) }
 }
 
-/// Returns for each edge of a graph with `n` nodes whether it shares cycles with the given edge.
+/// Returns, for each edge of a graph with `n` nodes, whether it lies on a common group of cycles with `edge`.
 fn together(ends: &[[usize; 2]], n: usize, edge: usize) -> Vec<bool> {
     let mut at_node = vec![Vec::new(); n];
     for (e, [a, b]) in ends.iter().enumerate() {
         at_node[*a].push(e);
         at_node[*b].push(e);
     }
-    // the edge towards the root, and the distance from it
+    // For each node: the edge towards the root, and the distance from the root.
     let (mut up, mut depth) = (vec![None; n], vec![usize::MAX; n]);
     for first in 0..n {
         if depth[first] != usize::MAX {

@@ -1,6 +1,6 @@
-//! The formulations that a run may take, one row for each: its name, what it can do, and how it is built.
+//! Table of the formulations, one row for each: its name, its abilities, and the function that builds it.
 //!
-//! What differs from one formulation to another is said here or in the formulation's crate, and nowhere else.
+//! All differences between formulations are in this table or in the formulation's crate. No other code distinguishes them.
 
 use crate::choice::IntegratorKind;
 use crate::stop::StopError;
@@ -28,17 +28,17 @@ pub struct Row {
     pub sentence: &'static str,
     /// Meaning of a penalty to the formulation.
     pub penalty: PenaltyUse,
-    /// Do threads share the work of its steps?
+    /// Can several threads work on one step?
     pub threads: bool,
-    /// Does it step relative coordinates? Integrators for systems of first order run in these alone.
+    /// Does the formulation step relative coordinates? Integrators for systems of first order need relative coordinates.
     pub relative: bool,
-    /// Does the energy rule choose the length of its steps unless another is named, since its index follows the length?
+    /// Is the energy rule its default step control? True for a formulation whose index depends on the step length.
     pub energy_rule: bool,
-    /// Does it take rows that repeat each other?
+    /// Does the formulation accept redundant constraints?
     pub redundant: bool,
-    /// May effects be left out while it runs?
+    /// May effects be omitted while the formulation runs?
     pub switches: bool,
-    /// Rank among the formulations that a reference is made and checked by; nothing: it serves for none.
+    /// Rank among the formulations that compute and check a reference solution; `None`: the formulation is not used for references.
     pub reference: Option<u8>,
 }
 
@@ -47,13 +47,13 @@ pub struct Row {
 pub enum PenaltyUse {
     /// The formulation has no penalty.
     None,
-    /// The caller may give one; a scene's is meant for others.
+    /// The caller may give a penalty; the penalty of a scene file is ignored, as it is intended for other formulations.
     OfCaller,
-    /// The penalty is that of scenes, in this unit.
+    /// The penalty of the scene file applies, in this unit.
     OfScene(&'static str),
 }
 
-/// A row that most are like.
+/// Default row, from which the rows of the table differ in few fields.
 const ROW: Row = Row {
     name: "",
     sentence: "",
@@ -73,7 +73,7 @@ pub struct Demands<T> {
     pub penalty: Option<f64>,
     pub tolerance: Option<f64>,
     pub threads: usize,
-    /// The step of the run, or the first one [s].
+    /// Length of a step of the run; with step control, length of the first step [s].
     pub step: T,
 }
 
@@ -83,7 +83,7 @@ pub struct Request<'a, T: Real, const D: usize> {
     pub scene: &'a Scene<T>,
     pub demands: Demands<T>,
     pub model: &'a NaturalModel<T, D>,
-    /// Analysed for the model's cliques.
+    /// Linear solver, analysed for the cliques of the model.
     pub solver: Multifrontal<T>,
     /// State at the start.
     pub state: &'a mut State<T>,
@@ -99,14 +99,14 @@ macro_rules! formulations {
             $(#[doc = $sentence] $kind,)*
         }
 
-        /// Formulations that are built, by their names in scenes and on the command line.
+        /// Names of the available formulations, in scenes and on the command line.
         pub const FORMULATIONS: [&str; FormulationKind::ALL.len() + 1] = ["auto", $($name),*];
 
         impl FormulationKind {
-            /// All of them, in the order of [`FORMULATIONS`] after `auto`.
+            /// All formulations, in the order of [`FORMULATIONS`] after `auto`.
             pub const ALL: [Self; [$($name),*].len()] = [$(Self::$kind),*];
 
-            /// Returns the name of the formulation and what it can do.
+            /// Returns the row of the formulation: name and abilities.
             #[must_use]
             pub fn row(self) -> Row {
                 match self {
@@ -140,9 +140,9 @@ formulations! {
 }
 
 impl FormulationKind {
-    /// The one that runs where nothing else is asked for, and that others are compared with.
+    /// Formulation that runs if none is requested; comparisons use it as the basis.
     pub const DEFAULT: Self = Self::Index3;
-    /// The one in relative coordinates.
+    /// Formulation in relative coordinates.
     pub const RELATIVE: Self = Self::Recursive;
 
     /// Name of the formulation in scenes and on the command line.
@@ -151,19 +151,19 @@ impl FormulationKind {
         self.row().name
     }
 
-    /// Returns the formulation of a name.
+    /// Returns the formulation with a name.
     #[must_use]
     pub fn of_name(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|f| f.name() == name)
     }
 
-    /// All of them in the order of tables: the default first.
+    /// All formulations in the order of tables: the default first.
     pub fn listed() -> impl Iterator<Item = Self> {
         let others = Self::ALL.into_iter().filter(|f| *f != Self::DEFAULT);
         core::iter::once(Self::DEFAULT).chain(others)
     }
 
-    /// Formulations that a reference is made and checked by, the best first.
+    /// Formulations that compute and check a reference solution, the best first.
     #[must_use]
     pub fn references() -> Vec<Self> {
         let mut all: Vec<Self> = Self::listed().filter(|f| f.row().reference.is_some()).collect();
@@ -171,7 +171,7 @@ impl FormulationKind {
         all
     }
 
-    /// The names of those that can do something, such as `index-3, index-1 or recursive`.
+    /// The names of the formulations with an ability, joined as in `index-3, index-1 or recursive`.
     pub fn names(can: impl Fn(&Row) -> bool, last: &str) -> String {
         let names: Vec<_> = Self::listed().map(Self::row).filter(can).map(|row| row.name).collect();
         match &names[..] {
@@ -182,7 +182,7 @@ impl FormulationKind {
         }
     }
 
-    /// The unit of a scene's penalty, where that is meant for it.
+    /// Unit of the scene's penalty, if the formulation uses the scene's penalty.
     #[must_use]
     pub fn scene_penalty(self) -> Option<&'static str> {
         match self.row().penalty {
@@ -191,7 +191,7 @@ impl FormulationKind {
         }
     }
 
-    /// Does it run with this integrator?
+    /// Can the formulation run with this integrator?
     #[must_use]
     pub fn runs_with(self, integrator: IntegratorKind) -> bool {
         self.row().relative || !integrator.is_of_first_order()
@@ -209,7 +209,7 @@ fn index3<T: Real, const D: usize>(request: Request<'_, T, D>) -> Built<T, D> {
 }
 
 fn multi_index<T: Real, const D: usize>(request: Request<'_, T, D>) -> Built<T, D> {
-    // One number cannot be kg and N/m: it is that of index-3.
+    // One number cannot be both in kg and in N/m. The penalty of a scene is that of index-3.
     let one = augmented_options(mbs_augmented::Options::index1(), &request.demands, None);
     let three = options_of_index3(&request.demands);
     augmented(Form::MultiIndex(IndexChange::new(one, three)), request)
@@ -284,7 +284,8 @@ fn tree<T: Real, S: Space<T>, const D: usize>(request: Request<'_, T, D>) -> Bui
     boxed(Tree::new(scene, (model, start), method, (natural, state)))
 }
 
-/// Error of a step by extrapolation where none is given, in units of rounding [-]: 2e-10 in double precision, 5e-26 in pairs.
+/// Default error of a step by extrapolation, in units of machine precision [-]: 2e-10 in double precision, 5e-26 in double-double
+/// precision.
 pub const ROUNDINGS: f64 = 1e6;
 
 pub fn tree_options<T: Real>(demands: &Demands<T>) -> mbs_recursive::Options<T> {
@@ -298,7 +299,7 @@ pub fn tree_options<T: Real>(demands: &Demands<T>) -> mbs_recursive::Options<T> 
         options.closure = Closure::Report { alpha, omega: T::from_f64(10.0), mu: T::ONE };
     }
     if demands.integrator == IntegratorKind::Extrapolation {
-        // Orders this high are chosen for digits.
+        // Methods of such high order are chosen for accuracy, so the default error is close to machine precision.
         options.error = T::EPSILON * T::from_f64(ROUNDINGS);
     }
     if let Some(tolerance) = demands.tolerance {
@@ -322,7 +323,7 @@ pub fn tree_method(integrator: IntegratorKind) -> TreeMethod {
     }
 }
 
-/// Returns the reason why the tree has no start, with the names' places.
+/// Returns the reason why the tree has no consistent start, with the part of the scene concerned.
 fn not_started<T: Real, S: Space<T>>(error: StartError, model: &TreeModel<T, S>) -> StopError {
     match error {
         StartError::Tree(error) => StopError::tree(error),
@@ -342,7 +343,7 @@ fn boxed<T: Real, const D: usize>(
     }
 }
 
-/// The threads that are asked for, up to the number of branches of a step: threads wait awake for their turn.
+/// Creates the thread team: the requested number of threads, at most one for each branch of a step. More threads would only wait actively.
 fn team<T>(demands: &Demands<T>, branches: usize) -> Result<Threads, StopError> {
     let n = demands.threads.min(most_threads()).min(branches.max(1));
     Threads::new(n).map_err(|_| StopError::NoThreads(n))

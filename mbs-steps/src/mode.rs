@@ -1,50 +1,51 @@
-//! Eigenvalues, conjugate ones once.
+//! Eigenvalues of a linearised motion; conjugate pairs are listed once.
 
 use core::f64::consts::TAU;
 
-/// An eigenvalue, or a pair of conjugate ones.
+/// A real eigenvalue, or a pair of conjugate eigenvalues.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Mode {
-    /// Real part of the eigenvalue [1/s]: negative decays.
+    /// Real part of the eigenvalue [1/s]; a negative one means decay.
     pub real: f64,
-    /// Imaginary part [rad/s], not negative; positive stands for a pair.
+    /// Imaginary part [rad/s], not negative; a positive one stands for a conjugate pair.
     pub imaginary: f64,
-    /// Not distinguishable from zero.
+    /// True if the eigenvalue is zero to the accuracy of the linearisation.
     pub is_neutral: bool,
 }
 
 impl Mode {
-    /// |lambda| / 2 pi [Hz].
+    /// Undamped natural frequency |lambda| / 2 pi [Hz].
     #[must_use]
     pub fn undamped_frequency(&self) -> f64 {
         libm::hypot(self.real, self.imaginary) / TAU
     }
 
-    /// Im lambda / 2 pi [Hz].
+    /// Frequency of the oscillation, Im lambda / 2 pi [Hz].
     #[must_use]
     pub fn frequency(&self) -> f64 {
         self.imaginary / TAU
     }
 
-    /// Does it grow, beyond rounding?
+    /// Does the mode grow, by more than rounding error?
     #[must_use]
     pub fn grows(&self) -> bool {
         !self.is_neutral && self.real > AXIS * libm::hypot(self.real, self.imaginary)
     }
 
-    /// -Re lambda / |lambda| [-]; `None` for a neutral one.
+    /// Damping ratio -Re lambda / |lambda| [-]; `None` for a neutral mode.
     #[must_use]
     pub fn damping_ratio(&self) -> Option<f64> {
         (!self.is_neutral).then(|| -self.real / libm::hypot(self.real, self.imaginary))
     }
 }
 
-/// Ratio of real part and eigenvalue below which it is rounding of an undamped one [-]: differences give ten digits.
+/// Ratio of real part to magnitude below which the real part is rounding error of an undamped mode [-]. Difference quotients have ten
+/// digits.
 const AXIS: f64 = 1e-8;
-/// Square of an eigenvalue that is zero, in units of rounding of the stiffness [-]. Chosen, not tuned.
+/// Square of an eigenvalue below which it counts as zero, in units of the rounding error of the stiffness [-]. Chosen, not tuned.
 pub(crate) const NOISE: f64 = 1e3;
 
-/// Conjugate eigenvalues once, from the slowest to the fastest, with the rounding of their squares [1/s^2].
+/// Lists eigenvalues in order of increasing magnitude, conjugate pairs once; `noise` is the rounding error of their squares [1/s^2].
 pub fn slowest_first(values: &[[f64; 2]], noise: f64) -> Vec<Mode> {
     let zero = (NOISE * noise).sqrt();
     let mut modes: Vec<Mode> = values

@@ -16,33 +16,34 @@ use mbs_core::scene::{Dimension, Scene};
 use mbs_linear::{Equilibrium, Linear, Matrix, singular_values};
 use serde_json::{Value, json};
 
-/// The modes of a scene, with its names.
+/// The modes (eigenvalues) of a scene, with the names of the scene.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Modes {
     /// Name of the scene.
     pub scene: String,
     /// State about which the scene is linearised.
     pub place: Place,
-    /// The equilibrium, if that is the place.
+    /// The equilibrium, if the place is an equilibrium.
     pub found: Option<Equilibrium<f64>>,
-    /// Parts that are left out of the scene, and of its equilibrium too.
+    /// Parts that are omitted from the scene, and from the search for its equilibrium.
     pub left_out: Vec<LeftOut>,
-    /// Number of freedoms of the scene.
+    /// Number of degrees of freedom of the scene.
     pub dof: usize,
-    /// Reason why the state is no rest and no steady motion, if it is none: the eigenvalues are then those of an instant.
+    /// Reason why the state is neither an equilibrium nor a steady motion; `None` if it is one. With a reason, the eigenvalues hold at one
+    /// instant only.
     pub unsteady: Option<Unsteady>,
-    /// Largest acceleration that joints ask for because bodies turn [m/s^2].
+    /// Largest acceleration in the joints that the rotation of bodies causes [m/s^2].
     pub turning: f64,
-    /// The eigenvalues from the slowest to the fastest.
+    /// The eigenvalues, in order of increasing magnitude.
     pub modes: Vec<Mode>,
 }
 
 impl Modes {
-    /// Assembles a scene, seeks its equilibrium if that is the place, and linearises it there: at rest, or in a steady motion.
+    /// Assembles a scene, searches for its equilibrium if the place needs one, and linearises it there: at rest, or in a steady motion.
     ///
     /// # Errors
-    /// [`StopError`] when there is no model, consistent start, equilibrium or linearisation; [`StopError::NotSteady`] where the state is
-    /// neither a rest nor a steady motion.
+    /// [`StopError`] when there is no model, consistent start, equilibrium or linearisation; [`StopError::NotSteady`] if the state is
+    /// neither an equilibrium nor a steady motion.
     pub fn new(scene: &Scene<f64>, place: Place, search: Search) -> Result<Self, StopError> {
         let found = Self::of(scene, (place, search), false)?;
         match found.unsteady {
@@ -51,11 +52,11 @@ impl Modes {
         }
     }
 
-    /// Modes of any state: of one that is no steady motion the eigenvalues of the instant, in axes that stand. They say nothing of what grows or
-    /// decays.
+    /// Modes at any state. If the motion is not steady, the eigenvalues hold at that instant, in axes that do not turn. They do not show
+    /// whether a disturbance grows or decays.
     ///
     /// # Errors
-    /// As for [`new`](Self::new), but for the last.
+    /// As for [`new`](Self::new), except the error for a motion that is not steady.
     pub fn frozen(scene: &Scene<f64>, place: Place, search: Search) -> Result<Self, StopError> {
         Self::of(scene, (place, search), true)
     }
@@ -80,10 +81,10 @@ impl Modes {
         Self::of_system(&About::alone(scene, &placed, axes).system()?, place)
     }
 
-    /// The modes of a system that was linearised about this place.
+    /// The modes of a system that was linearised at this place.
     ///
     /// # Errors
-    /// [`StopError::Eigenvalues`] where the iteration does not converge.
+    /// [`StopError::Eigenvalues`] if the iteration does not converge.
     pub fn of_system(system: &LinearSystem, place: Place) -> Result<Self, StopError> {
         Ok(Self {
             scene: system.scene.clone(),
@@ -97,7 +98,7 @@ impl Modes {
         })
     }
 
-    /// About an equilibrium, where the axes stand and all coordinates have the same eigenvalues.
+    /// Linearises about an equilibrium. The axes do not turn there, and every choice of coordinates gives the same eigenvalues.
     fn at_rest<const D: usize>(placed: PlacedScene<D>) -> Result<Self, StopError> {
         let linear = at_rest(&placed)?;
         let PlacedScene { scene, found, left_out, .. } = placed;
@@ -113,7 +114,8 @@ impl Modes {
         })
     }
 
-    /// Does every disturbance decay or stay small? Neutral eigenvalues and those on the axis within rounding count as stable.
+    /// Does every disturbance decay or stay small? Neutral eigenvalues, and eigenvalues on the imaginary axis to machine precision, count
+    /// as stable.
     #[must_use]
     pub fn is_stable(&self) -> bool {
         !self.modes.iter().any(Mode::grows)
@@ -152,10 +154,10 @@ impl Modes {
     }
 }
 
-/// The eigenvalues of a linearised motion, conjugate ones once, from the slowest to the fastest.
+/// The eigenvalues of a linearised motion in order of increasing magnitude, conjugate pairs once.
 ///
 /// # Errors
-/// [`StopError::Eigenvalues`] where the iteration does not converge.
+/// [`StopError::Eigenvalues`] if the iteration does not converge.
 pub fn eigenvalues(linear: &Linear<f64>) -> Result<Vec<Mode>, StopError> {
     let (n, a) = (linear.order(), linear.state_matrix());
     if n == 0 {
@@ -165,10 +167,10 @@ pub fn eigenvalues(linear: &Linear<f64>) -> Result<Vec<Mode>, StopError> {
     Ok(slowest_first(&values, linear.noise))
 }
 
-/// Directions without stiffness [-]: in which an equilibrium may stand anywhere.
+/// Number of directions without stiffness [-], along which the equilibrium is neutral.
 ///
 /// # Errors
-/// [`StopError::Eigenvalues`] where the iteration does not converge.
+/// [`StopError::Eigenvalues`] if the iteration does not converge.
 pub fn neutral_directions(linear: &Linear<f64>) -> Result<usize, StopError> {
     let f = linear.n_freedoms;
     if f == 0 {

@@ -1,4 +1,4 @@
-//! Names of what errors are about.
+//! Names of the parts of a scene, for error messages.
 
 use core::fmt::Display;
 use mbs_core::effects::Value;
@@ -8,20 +8,20 @@ use mbs_core::scene::{BodyId, CouplingMeasure, CouplingTerm, Effect, Scene};
 use mbs_core::step::StepError;
 use mbs_core::{Real, instances};
 
-/// Names of bodies and joints, and which joint holds which body: what errors need to speak.
+/// Names of bodies and joints, and the joint of each body, as error messages need them.
 #[derive(Debug, Clone)]
 pub struct Names {
     bodies: Vec<String>,
     joints: Vec<String>,
     pub couplings: Vec<String>,
     rollings: Vec<String>,
-    /// The bodies at the ends of the parts of each coupling's lines; `None`: the ground.
+    /// Bodies at both ends of each line segment of each coupling; `None`: the ground.
     parts: Vec<Vec<[Option<usize>; 2]>>,
     pub effects: Vec<String>,
-    /// Bodies at the ends of the parts of each effect's lines; `None`: the ground.
+    /// Bodies at both ends of each line segment of each effect; `None`: the ground.
     effect_parts: Vec<Vec<[Option<usize>; 2]>>,
     pub outputs: Vec<String>,
-    /// First joint in the file that touches each body.
+    /// First joint in the file that connects each body.
     joint_of_body: Vec<Option<usize>>,
 }
 
@@ -29,7 +29,7 @@ type New<T> = fn(&Scene<T>) -> Names;
 instances!(NEW: New<T> = Names::of_scene::<T>, {});
 
 impl Names {
-    /// Takes the names of a scene.
+    /// Copies the names of a scene.
     pub fn new<T: Real>(scene: &Scene<T>) -> Self {
         if T::HAS_INSTANCES {
             return found::<New<T>>(NEW)(scene);
@@ -59,7 +59,7 @@ impl Names {
         }
     }
 
-    /// Says what happened to a part of a line, with the names of its coupling or effect and of the bodies at its ends.
+    /// Formats an error of a line segment, with the name of its coupling or effect and of the bodies at its ends.
     pub fn part_of(&self, error: &StepError, what: &impl Display) -> Option<String> {
         let (names, parts, of, part) = match *error {
             StepError::RopeCollapsed { coupling, part } => {
@@ -87,7 +87,7 @@ impl Names {
         format!("`{name}`: from `{from}` to `{to}`, part {}, {what}", part + 1)
     }
 
-    /// Joint and body names of an owner.
+    /// Names of the joint and of the body that an owner stands for.
     pub fn of(&self, owner: Owner) -> (Option<String>, Option<String>) {
         match owner {
             Owner::Joint(j) => (self.joints.get(j).cloned(), None),
@@ -102,7 +102,7 @@ impl Names {
     }
 }
 
-/// The bodies at the ends of the parts of the lines of a sum, in order.
+/// The bodies at both ends of each line segment of a sum, in order.
 fn parts<T: Real>(terms: &[CouplingTerm<T>]) -> Vec<[Option<usize>; 2]> {
     let terms = terms.iter().filter(|term| !term.factor.is_zero());
     let lines = terms.filter_map(|term| match &term.of {
@@ -112,12 +112,12 @@ fn parts<T: Real>(terms: &[CouplingTerm<T>]) -> Vec<[Option<usize>; 2]> {
     lines.flat_map(|points| parts_of_line(points)).collect()
 }
 
-/// The bodies at the ends of the parts of a line.
+/// The bodies at both ends of each segment of a line.
 fn parts_of_line<T>(points: &[(BodyId, [T; 3])]) -> Vec<[Option<usize>; 2]> {
     points.windows(2).map(|pair| [pair[0].0, pair[1].0].map(BodyId::index)).collect()
 }
 
-/// Bodies at the ends of the parts of an effect's lines.
+/// The bodies at both ends of each line segment of an effect.
 fn parts_of_effect<T: Real>(effect: &Effect<T>) -> Vec<[Option<usize>; 2]> {
     let values = effect.kind.values();
     let found = values.iter().find_map(|value| match value {

@@ -1,5 +1,5 @@
-//! Contacts that roll and cams that would lift off, ropes and strands that would go slack: their rows hold both ways, and a run notes where
-//! they had to.
+//! Unilateral elements that are modelled by bilateral constraints: rolling contacts and cams that could lift off, ropes and strands that
+//! could go slack. A run notes where such a constraint had to pull or push in the direction that the real element cannot.
 
 use crate::checkpoint::tape::{Tape, Walked};
 use crate::simulation::Simulation;
@@ -9,26 +9,29 @@ use mbs_core::outputs::Reactions;
 use mbs_core::scene::{Coupling, CouplingKind, Curve, Freedom, Scene};
 use mbs_scene::format::{few, significant};
 
-/// Force the wrong way that is noted, relative to the largest of the row so far [-]: more than steps leave of a force.
+/// Smallest force in the inadmissible direction that is noted, relative to the largest force of the constraint so far [-]. It exceeds the
+/// errors of steps.
 const NOTED: f64 = 1e-6;
-/// Acceleration of all masses below whose force a row is at rest [m/s^2]: rounding of a scene without gravity.
+/// Acceleration that defines the smallest force that counts [m/s^2], multiplied by the total mass. It covers rounding errors without
+/// gravity.
 const AT_REST: f64 = 1e-9;
 
-/// Row of constraints that holds both ways.
+/// Bilateral constraint that models a unilateral element.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Row {
-    /// The contact of `scene.rollings` with this number.
+    /// The rolling contact with this index in `scene.rollings`.
     Contact(usize),
-    /// The rope of `scene.couplings` with this number, and the factor of its length.
+    /// The rope with this index in `scene.couplings`, and the factor of its length.
     Rope(usize, f64),
-    /// The cam of `scene.couplings` with this number, and the factor of its follower: negative where the cam lifts it the other way.
+    /// The cam with this index in `scene.couplings`, and the factor of its follower. A negative factor reverses the direction in which the
+    /// cam lifts.
     Cam(usize, f64),
-    /// The strands of the belt of `scene.couplings` with this number, and their pretension [N].
+    /// The strands of the belt with this index in `scene.couplings`, and their pretension [N].
     Strands(usize, f64),
 }
 
 impl Row {
-    /// The contacts that roll, the ropes, the cams and the strands of a scene.
+    /// The rolling contacts, ropes, cams and strands of a scene.
     fn all<T: Real>(scene: &Scene<T>) -> Vec<Self> {
         let rollings = scene.rollings.iter().enumerate();
         let contacts = rollings.filter(|(_, rolling)| rolling.kind.radius().is_some());
@@ -47,7 +50,7 @@ impl Row {
         contacts.map(|(i, _)| Self::Contact(i)).chain(couplings).collect()
     }
 
-    /// The force or moment with which it holds the wrong way [N, N m]: a contact's or a cam's pull, the push of a rope or of a strand.
+    /// The force or moment in the inadmissible direction [N, N m]: tension of a contact or a cam, compression of a rope or a strand.
     fn force<T: Real, const D: usize>(self, reactions: &Reactions<T, D>) -> f64 {
         match self {
             Self::Contact(rolling) => -reactions.rolling_push(rolling).to_f64(),
@@ -60,29 +63,29 @@ impl Row {
     }
 }
 
-/// A row that is watched.
+/// Constraint row that a run monitors, with its largest forces.
 #[derive(Debug, Clone)]
 struct Held {
     row: Row,
-    /// When it held the wrong way first [s].
+    /// Time of the first force in the inadmissible direction [s].
     first: Option<f64>,
-    /// Largest force the wrong way, and largest either way [N].
+    /// Largest force in the inadmissible direction, and largest force in either direction [N].
     most: f64,
     largest: f64,
 }
 
-/// Watches the rows of a run that stand for what holds one way.
+/// Monitor of the constraints of a run that model unilateral elements.
 #[derive(Debug, Clone)]
 pub struct OneWayWatch<T: Real, const D: usize> {
     all: Vec<Held>,
-    /// Reactions of the scene; `None`: there are no rows, or more forces than reactions are made for.
+    /// Reactions of the scene; `None` without such constraints, or with more forces than reactions are computed for.
     reactions: Option<Reactions<T, D>>,
-    /// Force below which a row is at rest [N].
+    /// Force below which a constraint counts as unloaded [N].
     rest: f64,
 }
 
 impl<T: Real, const D: usize> OneWayWatch<T, D> {
-    /// Prepares the rows of a scene; without any, nothing is ever measured.
+    /// Prepares the constraints of a scene; without any of them, no reaction is computed.
     pub fn new(scene: &Scene<T>, model: &NaturalModel<T, D>) -> Self {
         let held = |row| Held { row, first: None, most: 0.0, largest: 0.0 };
         let all: Vec<_> = Row::all(scene).into_iter().map(held).collect();
@@ -91,9 +94,9 @@ impl<T: Real, const D: usize> OneWayWatch<T, D> {
         Self { all, reactions, rest: mass * AT_REST }
     }
 
-    /// Watches a state of the run: that of the start, and that at the end of each step.
+    /// Checks one state of the run: the state at the start, or the state at the end of a step.
     ///
-    /// Cost: without such rows a comparison; with them all reactions. No allocation.
+    /// Cost: one comparison if the scene has no such constraint, else the computation of all reactions. No allocation.
     pub fn watch(&mut self, simulation: &Simulation<T, D>) {
         let Self { all, reactions: Some(reactions), rest } = self else { return };
         let state = simulation.state();
@@ -108,7 +111,7 @@ impl<T: Real, const D: usize> OneWayWatch<T, D> {
         }
     }
 
-    /// Writes what is remembered, or reads it back; nothing where nothing rolls, and no rope or cam runs.
+    /// Writes the maxima to a checkpoint, or reads them from one; a scene without such constraints has none.
     pub fn walk(&mut self, tape: &mut impl Tape) -> Walked {
         self.all.iter_mut().try_for_each(|held| {
             tape.option(&mut held.first, Tape::float)?;
@@ -117,7 +120,7 @@ impl<T: Real, const D: usize> OneWayWatch<T, D> {
         })
     }
 
-    /// Notes of a run: each row once, with the first time and its largest force the wrong way.
+    /// Notes of a run: for each constraint the time of the first force in the inadmissible direction, and the largest one.
     pub fn notes(&self, scene: &Scene<T>) -> Vec<String> {
         let note = |held: &Held| {
             let (t, most) = (significant(held.first?), few(held.most));
@@ -149,7 +152,7 @@ impl<T: Real, const D: usize> OneWayWatch<T, D> {
     }
 }
 
-/// Unit of what the follower of a cam is pushed with: of a force on a slide, of a moment on a turn.
+/// Unit of the force on the follower of a cam: N on a slide, N m on a rotation.
 fn follower_unit<T>(scene: &Scene<T>, cam: &Coupling<T>) -> &'static str {
     let follower = cam.terms.first().and_then(|term| term.of.coordinate());
     let freedom = follower

@@ -1,4 +1,4 @@
-//! Peaks of a number between the steps of a run: the turning point of the polynomial through five neighbouring values.
+//! Peaks of a signal between the steps of a run: the extremum of the polynomial through five neighbouring values.
 //!
 //! ```text
 //! p(t) = x₁ + x[1,2] (t − t₁) + x[1,2,3] (t − t₁)(t − t₂)          through the three in the middle
@@ -7,26 +7,26 @@
 //! q(t) = l(t) + x[0,1,2,3,4] ω(t) (t − t₀)                            all five
 //! ```
 //!
-//! The turning point of q counts where the neighbours justify it. There l and r differ by less than half of what it goes beyond the middle
-//! value. It also stays within the straight lines through the first two values and through the last two. Where a number jumps or has a
-//! kink this does not hold, and the peak is the value of a step.
+//! The extremum of q is used only under two conditions. First, l and r differ there by less than half of the height of q above the middle
+//! value. Second, q stays within the straight lines through the first two values and through the last two values. At a jump or a kink the
+//! conditions fail, and the peak is the value at a step.
 
-/// Largest distance of both cubics at a peak, relative to what the peak goes beyond the value of the step [-]: the half that is not agreed on.
+/// Largest difference of the two cubics at a peak, relative to the height of the peak above the value of the step [-].
 const AGREED: f64 = 0.5;
-/// Newton's iterations from the turning point of the parabola [-]: they converge quadratically from there.
+/// Number of Newton iterations from the extremum of the parabola [-]; they converge quadratically.
 const ITERATIONS: usize = 8;
-/// Correction at which a turning point is found, relative to a step [-]: the value changes with its square.
+/// Correction at which Newton's method ends, relative to a step [-]; the error of the value is proportional to its square.
 const FOUND: f64 = 1e-8;
 
-/// Returns where a number turns beside the third of five values, and its value there. Nothing where it does not turn, or where the neighbours do
-/// not justify more than the value of the step.
+/// Returns time and value of the extremum close to the third of five values. Returns `None` without an extremum, or if the neighbouring
+/// values do not justify more than the value of the step.
 pub fn turning_point(t: [f64; 5], x: [f64; 5]) -> Option<(f64, f64)> {
     let is_least = x[2] <= x[1] && x[2] <= x[3];
     let is_largest = x[2] >= x[1] && x[2] >= x[3];
     if is_least == is_largest {
         return None;
     }
-    // a largest value is the least of the opposite
+    // A maximum of x is computed as a minimum of -x.
     let sign = if is_least { 1.0 } else { -1.0 };
     let h = (t[3] - t[1]) / 2.0;
     let (u, y) = (t.map(|one| (one - t[2]) / h), x.map(|one| sign * (one - x[2])));
@@ -38,14 +38,14 @@ pub fn turning_point(t: [f64; 5], x: [f64; 5]) -> Option<(f64, f64)> {
     Some((t[2] + h * at, x[2] + sign * value))
 }
 
-/// The least value of the polynomial through five of which the third is the least, zero at zero.
+/// The minimum of the polynomial through five points: the third point is the smallest and is the origin.
 fn least(u: [f64; 5], y: [f64; 5]) -> Option<(f64, f64)> {
     let slope = |i: usize, j: usize, (a, b): (f64, f64)| (b - a) / (u[j] - u[i]);
     let first = [0, 1, 2, 3].map(|i| slope(i, i + 1, (y[i], y[i + 1])));
     let second = [0, 1, 2].map(|i| slope(i, i + 2, (first[i], first[i + 1])));
     let third = [0, 1].map(|i| slope(i, i + 3, (second[i], second[i + 1])));
     let fourth = slope(0, 4, (third[0], third[1]));
-    // u₂ = 0:   ω = u (u − u₁)(u − u₃)
+    // With u₂ = 0:   ω = u (u − u₁)(u − u₃)
     let omega = |s: f64| s * (s - u[1]) * (s - u[3]);
     let rate_of_omega = |s: f64| (2.0 * s - u[1] - u[3]) * s + (s - u[1]) * (s - u[3]);
     let curve_of_omega = |s: f64| 6.0 * s - 2.0 * (u[1] + u[3]);

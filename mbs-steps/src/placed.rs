@@ -1,4 +1,4 @@
-//! A scene at the state that it is linearised about.
+//! A scene at the state about which it is linearised.
 
 use crate::equilibrium::{Search, find_equilibrium};
 use crate::ready::AssembledScene;
@@ -9,40 +9,40 @@ use mbs_core::scene::Scene;
 use mbs_linear::{Equilibrium, Instant};
 
 mbs_core::named! {
-    /// About which state.
+    /// State about which a scene is linearised.
     pub enum Place {
-        /// The static equilibrium near the start, at rest.
+        /// The static equilibrium closest to the start, at rest.
         Equilibrium = "equilibrium",
-        /// The start of runs, with its velocities and the guides' rates.
+        /// The start of a run, with its velocities and the rates of its guides.
         Initial = "initial",
-        /// The positions of the static equilibrium with the scene's initial velocities: a vehicle that drives straight.
+        /// Positions of the static equilibrium with the scene's initial velocities, such as a vehicle that drives straight ahead.
         Moving = "moving",
     }
 }
 
-/// A scene with its model and the state of a place.
+/// A scene with its model at the state of a place.
 #[allow(
     missing_debug_implementations,
     reason = "it holds what has none, and is made and used in one call"
 )]
 pub struct PlacedScene<const D: usize> {
-    /// Scene at its place; in an equilibrium without what only motion makes.
+    /// Scene at its place; at an equilibrium, without the effects that act in motion only.
     pub scene: Scene<f64>,
-    /// Model of the scene, whose start is at the place.
+    /// Model of the scene; its start is the state of the place.
     pub ready: AssembledScene<f64, D>,
-    /// The equilibrium, if that is the place.
+    /// The equilibrium, if the place is an equilibrium.
     pub found: Option<Equilibrium<f64>>,
-    /// Parts that are left out of the scene; for a moving state, out of the search for its equilibrium alone.
+    /// Parts that are omitted from the scene. For a moving state they are omitted only in the search for its equilibrium.
     pub left_out: Vec<LeftOut>,
-    /// Motion of the guides at the place.
+    /// Motion of the guides at the place: held, or moving.
     pub instant: Instant,
 }
 
 impl<const D: usize> PlacedScene<D> {
-    /// Assembles a scene, and seeks its equilibrium if that is the place.
+    /// Assembles a scene, and searches for its equilibrium if the place needs one.
     ///
     /// # Errors
-    /// [`StopError`] when there is no model, consistent start or equilibrium.
+    /// [`StopError`] when there is no model, no consistent start or no equilibrium.
     pub fn new(scene: &Scene<f64>, place: Place, search: Search) -> Result<Self, StopError> {
         let left_out = match place {
             Place::Equilibrium => left_out(scene),
@@ -67,10 +67,10 @@ impl<const D: usize> PlacedScene<D> {
         Ok(Self { scene, ready, found, left_out, instant })
     }
 
-    /// A scene whose bodies move as `motions` say, which meet the constraints. Guides are where they begin, and move as they do there.
+    /// A scene whose bodies move as given by `motions`, which satisfy the constraints. Guides have their initial values and rates.
     ///
     /// # Errors
-    /// [`StopError`] when there is no model, or no accelerations.
+    /// [`StopError`] if the model cannot be built, or the accelerations cannot be computed.
     pub fn given(scene: &Scene<f64>, motions: &[RigidMotion<f64>]) -> Result<Self, StopError> {
         let ready = AssembledScene::placed(scene, (0.0, motions))?;
         let (found, left_out, instant) = (None, Vec::new(), Instant::Motion);

@@ -1,7 +1,7 @@
-//! The one place where a precision becomes a scalar: a scene, read in the digits of its run, and the work that is done with it.
+//! Dispatch of a precision to a scalar type: a scene is read in the precision of its run, and generic work is done on it.
 //!
-//! Every step exists once for each scalar and dimension that is named here. `f32` and `dd` are features of this crate, on by default: a
-//! build without them compiles half as much, and refuses what asks for them by [`PrecisionError::NotBuilt`].
+//! Every step is compiled once for each scalar and dimension listed here. `f32` and `dd` are features of this crate, on by default. A build
+//! without them compiles half as much. It rejects a scene in these precisions with [`PrecisionError::NotBuilt`].
 
 use crate::choice::Precision;
 use core::fmt::{self, Display, Formatter};
@@ -12,12 +12,12 @@ use mbs_core::scene::{Dimension, Scene};
 use mbs_scene::{ReadError, SceneFile};
 use std::borrow::Cow;
 
-/// Work on a scene in the digits and the dimensions of its run.
+/// Generic work on a scene, in the precision and dimension of its run.
 pub trait SceneWork {
     /// Result of the work.
     type Done;
 
-    /// Does the work on a scene.
+    /// Does the work on a scene with known scalar and dimension.
     fn done<T: Real, const D: usize>(self, scene: &Scene<T>) -> Self::Done;
 }
 
@@ -50,16 +50,16 @@ pub enum ReadScene<'a> {
     /// Scene in single precision.
     #[cfg(feature = "f32")]
     F32(Box<Scene<f32>>),
-    /// Scene in pairs of doubles.
+    /// Scene in double-double precision (pairs of doubles).
     #[cfg(feature = "dd")]
     DoubleDouble(Box<Scene<DoubleDouble>>),
 }
 
 impl<'a> ReadScene<'a> {
-    /// Takes the scene from any source that has it in `f64`, or reads it anew from the source in another precision.
+    /// Takes the scene in `f64`, or reads it again from the source in another precision.
     ///
     /// # Errors
-    /// Those of the source, and a precision that is not built.
+    /// The error of the source, or an error for a precision that is not built.
     pub fn of<S: Source>(
         source: &S,
         scene: Cow<'a, Scene<f64>>,
@@ -77,7 +77,7 @@ impl<'a> ReadScene<'a> {
         }
     }
 
-    /// Returns the scene with its own data, for as long as one likes.
+    /// Returns the scene with its data owned, without a borrow.
     pub fn into_owned(self) -> ReadScene<'static> {
         match self {
             Self::F64(scene) => ReadScene::F64(Box::new(Cow::Owned(scene.into_owned()))),
@@ -99,7 +99,7 @@ impl<'a> ReadScene<'a> {
         }
     }
 
-    /// Does the work in a number of the hardware; nothing in pairs of doubles, for which such work is not compiled.
+    /// Does the work in `f32` or `f64`; `None` in double-double precision, for which such work is not compiled.
     pub fn work_in_hardware<W: SceneWork>(&self, work: W) -> Option<W::Done> {
         match self {
             Self::F64(scene) => Some(in_space(&***scene, work)),
@@ -136,18 +136,18 @@ impl Precision {
     }
 }
 
-/// A scene cannot be had in the precision of its run.
+/// Reason why a scene is not available in the precision of its run.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum PrecisionError {
-    /// The text is no scene in that precision, though it is one in `f64`.
+    /// The text is a valid scene in `f64` but not in that precision.
     Read(Box<ReadError>),
     /// The build has no steps of that precision.
     NotBuilt(Precision),
 }
 
 impl PrecisionError {
-    /// The refusal with its place or its hint.
+    /// Message of the error, with its place in the text or its hint.
     #[must_use]
     pub fn render(&self) -> String {
         match self {

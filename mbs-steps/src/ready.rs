@@ -1,4 +1,4 @@
-//! Assembled scene, from which every way to simulate a scene begins.
+//! Assembled scene, the starting point of every simulation and analysis.
 
 use crate::equilibrium::{Search, equilibrium_start};
 use crate::rest::without_rates;
@@ -14,12 +14,12 @@ use mbs_core::{Cliques, Real, instances};
 use mbs_linear::Equilibrium;
 use mbs_sparse::Multifrontal;
 
-/// A model, its solver, and its consistent start.
+/// A model, its linear solver, and its consistent start.
 #[derive(Debug)]
 pub struct AssembledScene<T: Real, const D: usize> {
     /// Model in natural coordinates.
     pub model: NaturalModel<T, D>,
-    /// The solver of its start.
+    /// Linear solver of the assembly.
     pub solver: Multifrontal<T>,
     /// Consistent start of the model.
     pub start: Assembled<T>,
@@ -27,7 +27,7 @@ pub struct AssembledScene<T: Real, const D: usize> {
     parts: Parts<T, D>,
 }
 
-/// Functions that are compiled here, for who has an assembled scene.
+/// Functions that are compiled in this crate, for callers with an assembled scene.
 #[derive(Debug, Clone, Copy)]
 struct Parts<T: Real, const D: usize> {
     rank: Rank<T, D>,
@@ -54,7 +54,7 @@ instances!(ASSEMBLE: Assemble<T, D> = assemble_scene::<T, D>);
 instances!(SETTLE: Settle<T, D> = settle_scene::<T, D>);
 
 impl<T: Real, const D: usize> AssembledScene<T, D> {
-    /// Builds the model of a scene and assembles it; it settles where the scene asks for it.
+    /// Builds the model of a scene and assembles it; searches for a static equilibrium if the scene requests that start.
     ///
     /// # Errors
     /// [`StopError`] when there is no model, no consistent start or no equilibrium.
@@ -65,7 +65,7 @@ impl<T: Real, const D: usize> AssembledScene<T, D> {
         }
     }
 
-    /// Builds the model of a scene, and starts it from an equilibrium with the scene's initial velocities.
+    /// Builds the model of a scene, and starts at a static equilibrium with the scene's initial velocities.
     ///
     /// # Errors
     /// As for [`new`](Self::new).
@@ -73,18 +73,19 @@ impl<T: Real, const D: usize> AssembledScene<T, D> {
         find::<Settle<T, D>>(SETTLE).ok_or(StopError::NotBuilt)?(scene, search)
     }
 
-    /// Builds the model of a scene and assembles it, no more.
+    /// Builds the model of a scene and assembles it, without a search for an equilibrium.
     ///
     /// # Errors
-    /// [`StopError::Start`] when there is no model or no consistent start, [`StopError::AlmostDependent`] for an axis that is off.
+    /// [`StopError::Start`] when there is no model or no consistent start, [`StopError::AlmostDependent`] for an axis whose tilt locks a
+    /// loop.
     pub fn assembled(scene: &Scene<T>) -> Result<Self, StopError> {
         find::<Assemble<T, D>>(ASSEMBLE).ok_or(StopError::NotBuilt)?(scene)
     }
 
-    /// Builds the model of a scene whose bodies move as `motions` say at time `t`: see [`start_at`].
+    /// Builds the model of a scene whose bodies move as given by `motions` at time `t` [s]: see [`start_at`].
     ///
     /// # Errors
-    /// [`StopError::Start`] where there is no model, or no accelerations.
+    /// [`StopError::Start`] if the model cannot be built, or the accelerations cannot be computed.
     pub fn placed(
         scene: &Scene<T>,
         (t, motions): (T, &[RigidMotion<T>]),
@@ -97,7 +98,7 @@ impl<T: Real, const D: usize> AssembledScene<T, D> {
         Ok(Self { start, model, solver, rank: None, parts: Parts::new() })
     }
 
-    /// Coordinates, constraints, and their rank at the start, which is found once.
+    /// Number of coordinates, number of constraints, and their rank at the start; the rank is computed once.
     pub fn sizes(&mut self) -> [usize; 3] {
         let Self { model, start, rank: known, parts, .. } = self;
         let rank = *known.get_or_insert_with(|| (parts.rank)(model, &start.state));
@@ -137,7 +138,7 @@ fn settle_scene<T: Real, const D: usize>(
     Ok((ready, found))
 }
 
-/// [`rank`] in `f64`, compiled here.
+/// Computes [`rank`] in `f64`, compiled in this crate.
 pub fn constraint_rank<const D: usize>(model: &NaturalModel<f64, D>, state: &State<f64>) -> usize {
     found::<Rank<f64, D>>(RANK)(model, state)
 }

@@ -1,4 +1,5 @@
-//! Record of a run: rows of channels, energies, violations and counts, thinned to a bounded number; maxima over every step.
+//! Record of a run: rows of channels, energies, violations and counts, reduced to a bounded number of rows; maxima are taken over every
+//! step.
 
 use crate::checkpoint::tape::{Tape, Walked, holds};
 use crate::precision::is_finer;
@@ -12,59 +13,60 @@ use mbs_core::control::Limit;
 use mbs_core::real::DoubleDouble;
 use mbs_scene::format::full;
 
-/// Most rows that are kept, and one more for the end; twice as many where the number of steps is not known before. Chosen, not tuned.
+/// Largest number of recorded rows, without the row at the end. Twice as many are kept if the number of steps is not known before. Chosen,
+/// not tuned.
 pub const MOST_ROWS: u64 = 10_000;
 
-/// Mark that one step leaves: time, energies, violations and counts; of several steps, the largest.
+/// Data of one step: time, energies, violations and counts. For several steps together it has their largest values.
 #[derive(Debug, Clone, Default)]
 pub struct StepMark {
     pub t: f64,
-    /// Kinetic energy, potential energy, work.
+    /// Kinetic energy, potential energy and work [J].
     pub energies: [f64; 3],
     pub violation: [f64; 3],
     pub step: StepRow,
 }
 
 impl StepMark {
-    /// This one with the maxima of those that came before and were not kept.
+    /// Returns this mark with the maxima of itself and of an earlier mark that became no row.
     fn after(&self, before: &Self) -> Self {
         let violation = core::array::from_fn(|i| self.violation[i].max(before.violation[i]));
         Self { violation, step: self.step.after(&before.step), ..*self }
     }
 }
 
-/// Series and maxima of a run.
+/// Recorder of the series and maxima of a run.
 #[derive(Debug)]
 pub struct Recorder {
     pub channels: Vec<Channel>,
-    /// One mark for each row, and all components, row by row.
+    /// One mark for each row. `rows` has the components of all channels, row by row.
     marks: Vec<StepMark>,
     rows: Vec<f64>,
-    /// Remainders of the values beyond the numbers of the rows, where the values have more digits; else nothing.
+    /// Remainders of the values beyond `f64`, where the run has more digits than `f64`; else empty.
     rests: Vec<f64>,
     n_columns: usize,
-    /// Steps of which one row is kept.
+    /// Number of steps per recorded row.
     every: u64,
     initial: f64,
     max_violation: [f64; 3],
-    /// Largest values since the last row, so that thinning hides no peak.
+    /// Largest values since the last row. They enter the next row, so that a peak between rows is not lost.
     recent: StepMark,
     keep: RecordRows,
-    /// Statistics over every step that is taken, whatever rows there are.
+    /// Statistics over every step, independent of the recorded rows.
     tallies: Tallies,
 }
 
 /// Rows of a run that stay in memory.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RecordRows {
-    /// All rows, for files and pages.
+    /// All rows, for files and HTML pages.
     All,
-    /// The last row alone, for a row in a table of many runs.
+    /// The last row alone, for a study of many runs with one row each.
     Last,
 }
 
 impl StepMark {
-    /// Writes it, or reads it back.
+    /// Writes the mark to a checkpoint, or reads it from one.
     pub fn walk(&mut self, tape: &mut impl Tape) -> Walked {
         let Self { t, energies, violation, step } = self;
         tape.float(t)?;
@@ -81,12 +83,12 @@ impl StepMark {
         tape.word_of(&mut step.limit, &Limit::ALL.map(Limit::name))
     }
 
-    /// Least bytes of a mark in a file: a list that states more marks than the file has bytes for is refused.
+    /// Smallest size of a mark in a file, in bytes. A list is refused if its stated number of marks needs more bytes than the file has.
     const SIZE: usize = 80;
 }
 
 impl Recorder {
-    /// Writes all that is recorded so far, or reads it back; channels and what is kept stay.
+    /// Writes the record to a checkpoint, or reads it from one. The channels and the choice of rows are not part of it.
     pub fn walk(&mut self, tape: &mut impl Tape) -> Walked {
         tape.list(&mut self.marks, StepMark::SIZE, |tape, mark| mark.walk(tape))?;
         tape.list(&mut self.rows, 8, Tape::float)?;
@@ -101,7 +103,7 @@ impl Recorder {
         holds(n_rows == n_marks * self.n_columns && (n_rests == 0 || n_rests == n_rows))
     }
 
-    /// A number that changes where rows are thinned.
+    /// Number of steps per row; it changes when rows are removed.
     pub fn thinning(&self) -> u64 {
         self.every
     }
@@ -111,7 +113,7 @@ impl Recorder {
         self.marks.len()
     }
 
-    /// For a run of `n_steps`, where that is known, from the invariant at the start.
+    /// Creates a recorder for a run of `n_steps` steps (0: not known) from the value of the invariant at the start [J].
     pub fn new(channels: Vec<Channel>, n_steps: u64, initial: f64, keep: RecordRows) -> Self {
         let n_columns: usize = channels.iter().map(|c| c.components.len()).sum();
         Self {
@@ -129,7 +131,7 @@ impl Recorder {
         }
     }
 
-    /// Makes room for all rows of a run whose number of steps was known, so that none is allocated when it is kept.
+    /// Allocates memory for all rows of a run whose number of steps is known, so that no step allocates.
     pub fn reserve(&mut self, n_steps: u64) {
         let rows = usize::try_from(n_steps.min(MOST_ROWS)).unwrap_or(0) + 3;
         self.marks.reserve(rows);
@@ -142,7 +144,7 @@ impl Recorder {
         k.is_multiple_of(self.every)
     }
 
-    /// Takes the maxima of a step.
+    /// Adds the maxima of a step.
     pub fn mark(&mut self, step: &StepMark) {
         for (most, &v) in self.max_violation.iter_mut().zip(&step.violation) {
             *most = most.max(v);
@@ -150,19 +152,19 @@ impl Recorder {
         self.recent = step.after(&self.recent);
     }
 
-    /// The last step ends at `t` [s], whatever its rounded length says.
+    /// Sets the end of the last step to `t` [s], because the sum of step lengths has rounding errors.
     pub fn end_at(&mut self, t: f64) {
         self.recent.t = t;
     }
 
-    /// Takes the components of all channels at `t` [s] into the statistics.
+    /// Adds the components of all channels at time `t` [s] to the statistics.
     pub fn measure<T: Real>(&mut self, t: f64, values: &[T]) {
         self.tallies.take(t, values);
     }
 
-    /// Keeps the row of a step; `values` are all components of all channels.
+    /// Records the row of a step; `values` has the components of all channels.
     pub fn keep<T: Real>(&mut self, step: &StepMark, values: &[T]) {
-        // A step that was marked is among the recent ones; a start and a stop are not.
+        // A marked step is already in `recent`. The rows at the start and at a stop belong to no marked step.
         let is_marked = self.recent.step.length > 0.0 && self.recent.t >= step.t;
         if self.keep == RecordRows::Last {
             self.marks.clear();
@@ -183,7 +185,7 @@ impl Recorder {
         }
     }
 
-    /// Drops every second row, the first not.
+    /// Removes every second row; the first row remains.
     fn thin(&mut self) {
         self.every *= 2;
         let n = self.n_columns;
@@ -215,18 +217,18 @@ impl Recorder {
         self.keep == RecordRows::All
     }
 
-    /// Least and largest value of each component, by the statistics.
+    /// Least and greatest value of each component over every step.
     pub fn ranges(&self) -> Vec<[f64; 2]> {
         self.tallies.ranges()
     }
 
-    /// The last row by channels.
+    /// The last row, ordered by channels.
     pub fn last(&self) -> Vec<(String, Vec<f64>)> {
         let start = self.rows.len().saturating_sub(self.n_columns);
         self.by_channels(self.rows[start..].iter().copied())
     }
 
-    /// Returns the last row by channels with all digits, where there are more than those of `f64`.
+    /// Returns the last row, ordered by channels, with all digits, for runs with more digits than `f64`.
     pub fn last_long(&self) -> Option<Vec<(String, Vec<String>)>> {
         let row = self.long_table().last()?;
         Some(self.by_channels(row.into_iter().map(full)))
@@ -239,7 +241,7 @@ impl Recorder {
             .collect()
     }
 
-    /// The components of all rows with all digits; no row where those of `f64` are all.
+    /// The components of all rows with all digits; empty for runs without more digits than `f64`.
     pub fn long_table(&self) -> impl Iterator<Item = Vec<DoubleDouble>> {
         let n = self.n_columns.max(1);
         let both = self.rows.chunks(n).zip(self.rests.chunks(n));
@@ -248,14 +250,14 @@ impl Recorder {
         })
     }
 
-    /// All rows as time and components.
+    /// All rows, each as its time [s] and its components.
     pub fn table(&self) -> impl Iterator<Item = (f64, &[f64])> {
         let n = self.n_columns;
         let marks = self.marks.iter().enumerate();
         marks.map(move |(i, mark)| (mark.t, &self.rows[i * n..(i + 1) * n]))
     }
 
-    /// One number of each row.
+    /// One value of each row, as a column.
     fn column(&self, of: impl Fn(&StepMark) -> f64) -> Vec<f64> {
         self.marks.iter().map(of).collect()
     }
@@ -280,7 +282,7 @@ impl Recorder {
         self.channels.iter().zip(stats).map(of_channel).collect()
     }
 
-    /// The statistics as objects.
+    /// The statistics of each channel as objects for JSON.
     pub fn summaries(&self) -> Vec<ChannelSummary> {
         let stats = self.tallies.of_channels(&self.channels);
         let each = self.channels.iter().zip(&stats);
@@ -296,7 +298,7 @@ impl Recorder {
         }
     }
 
-    /// Pi(t) - Pi(0) [J].
+    /// Error of the energy invariant Pi: Pi(t) - Pi(0) [J].
     fn error(&self, mark: &StepMark) -> f64 {
         let [kinetic, potential, work] = mark.energies;
         kinetic + potential - work - self.initial
@@ -311,12 +313,12 @@ impl Recorder {
         }
     }
 
-    /// The rows that end a step: all but the start.
+    /// Rows that end a step: all rows except the one at the start.
     fn steps(&self) -> impl Iterator<Item = &StepMark> {
         self.steps_from(0)
     }
 
-    /// Rows that end a step, from a row on.
+    /// Rows that end a step, beginning with row `row`.
     fn steps_from(&self, row: usize) -> impl Iterator<Item = &StepMark> {
         let marks = self.marks.iter().skip(row);
         marks.filter(|mark| mark.step.length > 0.0)
@@ -329,7 +331,7 @@ impl Recorder {
         }
     }
 
-    /// The steps of the rows from one on.
+    /// Step lengths and counts of the rows, beginning with row `row`.
     pub fn step_series(&self, row: usize, totals: ControlSummary) -> StepSeries {
         StepSeries {
             times: self.steps_from(row).map(|mark| mark.t).collect(),

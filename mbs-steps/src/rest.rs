@@ -1,24 +1,24 @@
-//! A scene as it is at rest, and what is left out of it.
+//! A scene at rest, and the parts of the scene that are omitted for it.
 
 use mbs_core::Real;
 use mbs_core::inputs::{GuideInput, SignalGraph};
 use mbs_core::scene::{BodyId, InitialTarget, Motion, Scene};
 use serde_json::{Value, json};
 
-/// Part that an analysis at rest leaves out of a scene.
+/// Part of a scene that an analysis at rest omits.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct LeftOut {
     /// Kind of the owner of the part: `effect`, `joint` or `body`.
     pub of: &'static str,
     /// Name of the owner.
     pub name: String,
-    /// Part that is left out.
+    /// Name of the omitted part.
     pub part: &'static str,
 }
 
-/// A scene as it is at rest at its start: guides hold their values, no velocity is asked for, and what only motion makes is left out.
-/// That is dry friction, drives, and what a tire does when it rolls. Viscous friction stays: it damps small motions. Drag does not, as
-/// it grows with the square of the speed.
+/// Returns the scene at rest in its initial configuration: guides hold their values, and there are no initial velocities. Effects that act
+/// in motion only are omitted: dry friction, drives, and the forces of a rolling tire. Viscous friction remains, because it damps small
+/// motions. Drag is omitted, because it is of second order in the speed.
 pub fn at_rest<T: Real>(scene: &Scene<T>) -> Scene<T> {
     let mut still = scene.clone();
     for effect in &mut still.effects {
@@ -32,7 +32,8 @@ pub fn at_rest<T: Real>(scene: &Scene<T>) -> Scene<T> {
     without_rates(still)
 }
 
-/// A scene whose start asks for no velocity: those of a start need not fit to where a search for an equilibrium begins.
+/// Returns the scene without initial velocities, which need not be consistent with the positions at which a search for an equilibrium
+/// begins.
 pub fn without_rates<T: Real>(mut scene: Scene<T>) -> Scene<T> {
     for initial in &mut scene.initials {
         match &mut initial.target {
@@ -45,7 +46,7 @@ pub fn without_rates<T: Real>(mut scene: Scene<T>) -> Scene<T> {
     scene
 }
 
-/// Parts that [`at_rest`] leaves out and that could act at rest, or on small motions about it: parts of effects, then rates.
+/// Parts that [`at_rest`] omits although they could act at rest or on small motions: first parts of effects, then rates.
 pub fn left_out<T: Real>(scene: &Scene<T>) -> Vec<LeftOut> {
     let mut all = effects_left_out(scene);
     let mut leave = |of, name: &String, part| {
@@ -79,7 +80,7 @@ pub fn left_out<T: Real>(scene: &Scene<T>) -> Vec<LeftOut> {
     all
 }
 
-/// The parts of effects among them.
+/// Omitted parts that belong to effects.
 pub fn effects_left_out<T: Real>(scene: &Scene<T>) -> Vec<LeftOut> {
     let mut all = Vec::new();
     for effect in scene.effects.iter().filter(|effect| effect.enabled) {
@@ -89,7 +90,7 @@ pub fn effects_left_out<T: Real>(scene: &Scene<T>) -> Vec<LeftOut> {
     all
 }
 
-/// Returns the parts that are left out as they stand in JSON.
+/// Returns the omitted parts in their JSON form.
 pub fn left_out_json(left_out: &[LeftOut]) -> Value {
     left_out.iter().map(|l| json!({ l.of: l.name, "part": l.part })).collect()
 }

@@ -30,7 +30,7 @@ use summary::{contact, energy_summary, method_used, not_started, plain_summary};
 
 pub use outcome::Outcome;
 
-/// Runs a checked scene to its end, or to where it stops, before an observer; `&mut ()` is none.
+/// Runs a checked scene until its end or until it stops, and calls an observer at each step; pass `&mut ()` for no observer.
 pub fn run<T: Real, const D: usize>(
     scene: &Scene<T>,
     settings: &ResolvedMethod,
@@ -65,11 +65,11 @@ fn run_here<T: Real, const D: usize>(
 pub struct Recording<'a, T: Real, const D: usize> {
     /// Rows that stay in memory.
     pub keep: RecordRows,
-    /// Columns beside those of the scene.
+    /// Columns in addition to the scene's outputs.
     pub columns: Option<&'a mut dyn Columns<T, D>>,
     /// Checkpoint to resume from.
     pub from: Option<&'a Checkpoint>,
-    /// Writer that keeps checkpoints of the run.
+    /// Writer that saves checkpoints of the run.
     pub writer: Option<&'a mut CheckpointWriter>,
 }
 
@@ -79,10 +79,10 @@ impl<T: Real, const D: usize> Default for Recording<'_, T, D> {
     }
 }
 
-/// [`run`], from a checkpoint if there is one, and kept while it advances if it is to be.
+/// [`run`] that starts from a checkpoint where one is given, and saves checkpoints where a writer is given.
 ///
 /// # Errors
-/// [`CheckpointError`] for a checkpoint of something else.
+/// [`CheckpointError`] if the checkpoint belongs to another scene or other settings.
 pub fn run_recorded<'a, T: Real, const D: usize>(
     scene: &'a Scene<T>,
     settings: &'a ResolvedMethod,
@@ -106,7 +106,8 @@ pub fn run_recorded<'a, T: Real, const D: usize>(
     Ok(run.complete(observer))
 }
 
-/// Step `k` of a run, from 1: of fixed length, or an interval over which lengths are controlled. The last one ends with the run.
+/// Step `k` of a run, counted from 1. It is a step of fixed length, or an interval in which the step size is controlled. The last step ends
+/// with the run.
 pub fn step<T: Real>(settings: &ResolvedMethod, lengths: &Lengths<T>, k: u64) -> Stretch<T> {
     let (h, end) = (settings.step_max, settings.duration);
     let &Lengths { step_max, duration, .. } = lengths;
@@ -120,14 +121,14 @@ pub fn step<T: Real>(settings: &ResolvedMethod, lengths: &Lengths<T>, k: u64) ->
     Stretch { is_last, ..Stretch::to(to).in_one(Some(dt)) }
 }
 
-/// A simulation and what is recorded of it.
+/// A simulation and the record of its run.
 struct Run<'a, T: Real, const D: usize> {
     simulation: Simulation<T, D>,
     record: Record<'a, T, D>,
 }
 
 impl<'a, T: Real, const D: usize> Run<'a, T, D> {
-    /// Builds everything and takes the first row; else the outcome of a run that does not start.
+    /// Builds the simulation and records the first row; returns the outcome of the run if it cannot start.
     fn begin(
         scene: &'a Scene<T>,
         settings: &'a ResolvedMethod,
@@ -140,7 +141,7 @@ impl<'a, T: Real, const D: usize> Run<'a, T, D> {
         run.started()
     }
 
-    /// Everything that a run needs, for rows after steps or intervals; else how it did not start.
+    /// Builds simulation and record for a number of rows, one for each step or interval; returns the outcome of the run if it cannot start.
     fn new(
         scene: &'a Scene<T>,
         settings: &'a ResolvedMethod,
@@ -155,7 +156,7 @@ impl<'a, T: Real, const D: usize> Run<'a, T, D> {
         started.map_err(|error| Box::new(not_started(scene, settings, &channels, error)))
     }
 
-    /// The run with its first row; else the outcome of one that does not start.
+    /// Returns the run with its first row recorded, or the outcome of the run if it cannot start.
     fn started(mut self) -> Result<Self, Box<Outcome>> {
         match self.record.start(&self.simulation) {
             Ok(()) => Ok(self),
@@ -166,7 +167,7 @@ impl<'a, T: Real, const D: usize> Run<'a, T, D> {
         }
     }
 
-    /// All steps that are left, to the end or to where the run stops.
+    /// Makes all remaining steps, until the end or until the run stops.
     fn complete(mut self, observer: &mut dyn StepObserver<T, D>) -> Outcome {
         let Self { simulation, record } = &mut self;
         let (settings, lengths, done) = (record.settings, record.lengths, record.done);

@@ -1,4 +1,4 @@
-//! Settings of a run: the scene's `[solver]` table, overridden by the command line, checked against what is built.
+//! Settings of a run: the scene's `[solver]` table, overridden by the command line and checked against the available methods.
 
 mod error;
 pub mod length;
@@ -18,16 +18,17 @@ use mbs_core::scene::{NotASetting, Scene, SettingSlot, SettingValue, SolverTable
 use mbs_core::{Real, instances};
 use range::{checked, named, ordered, positive};
 
-/// Step when neither scene nor command line gives one [s].
+/// Length of a step if neither the scene nor the command line gives one [s].
 pub const DEFAULT_STEP: f64 = 1e-3;
 
-/// Tolerance of the estimated local error of a step when neither gives one, relative to the scene's length [-]. Chosen, not tuned.
+/// Tolerance of the estimated local error of a step, relative to the scene's length, if neither the scene nor the command line gives one
+/// [-]. Chosen, not tuned.
 const DEFAULT_ERROR: f64 = 1e-6;
 /// Largest error of the invariant before a run stops, relative to the exchanged energy [-]. Chosen, not tuned.
 const DEFAULT_ALARM: f64 = 0.1;
 
-/// Settings that the command line (or a caller) gives; `None` leaves a setting to the scene. [`SETTINGS`](mbs_core::scene::SETTINGS)
-/// has their defaults, and who takes them.
+/// Settings from the command line or a caller; `None` leaves a setting to the scene. [`SETTINGS`](mbs_core::scene::SETTINGS) lists their
+/// defaults and the methods that use them.
 ///
 /// ```
 /// use mbs::{FormulationKind, IntegratorKind, Method};
@@ -41,13 +42,13 @@ pub struct Method {
     pub integrator: Option<String>,
     /// Precision of the numbers.
     pub precision: Option<String>,
-    /// Length of a step; of the first one where lengths are controlled [s].
+    /// Length of a step; with step control, length of the first step [s].
     pub step: Option<f64>,
-    /// Longest step, and the distance of recorded rows [s].
+    /// Largest length of a step, and interval of recorded rows [s].
     pub step_max: Option<f64>,
     /// Rule for the length of steps.
     pub step_control: Option<String>,
-    /// Limits U and L of the invariant's change in a step, relative to the energy that moves.
+    /// Limits U and L of the change of the energy invariant per step, relative to the energy that moves.
     pub energy_tolerance: Option<[f64; 2]>,
     /// Tolerance of the estimated local error of a step, relative to the scene's length.
     pub error_tolerance: Option<f64>,
@@ -57,18 +58,18 @@ pub struct Method {
     pub energy_alarm: Option<f64>,
     /// Duration of the run [s].
     pub duration: Option<f64>,
-    /// Fixed penalty of the augmented Lagrangian, the printed alpha [N/m; index-1: kg].
+    /// Fixed penalty alpha of the augmented Lagrangian, as published [N/m; index-1: kg].
     pub penalty: Option<f64>,
     /// Tolerance of the iterations, relative to the displacement by accelerations in a step.
     pub tolerance: Option<f64>,
-    /// Threads that share the work of a step.
+    /// Number of threads of a step.
     pub threads: Option<usize>,
     /// Interrupt that ends the run from outside.
     pub interrupt: Interrupt,
 }
 
 impl Method {
-    /// Field of a setting; nothing for a name that is not in [`SETTINGS`](mbs_core::scene::SETTINGS).
+    /// Field of a setting; `None` for a name that is not in [`SETTINGS`](mbs_core::scene::SETTINGS).
     pub fn slot(&mut self, name: &str) -> Option<SettingSlot<'_, f64>> {
         Some(match name {
             "formulation" => SettingSlot::Word(&mut self.formulation),
@@ -89,7 +90,7 @@ impl Method {
         })
     }
 
-    /// Value of a setting, where it is given. Cost: a copy of the method.
+    /// Value of a setting; `None` if it is not given. Cost: a copy of the method.
     #[must_use]
     pub fn value(&self, name: &str) -> Option<SettingValue<f64>> {
         self.clone().slot(name)?.take()
@@ -98,12 +99,12 @@ impl Method {
     /// Sets a setting by its name.
     ///
     /// # Errors
-    /// [`NotASetting`] for a name that no setting has, and for a value of another form.
+    /// [`NotASetting`] if no setting has the name, or if the value has another type.
     pub fn set(&mut self, name: &str, value: SettingValue<f64>) -> Result<(), NotASetting> {
         self.slot(name).ok_or(NotASetting)?.set(value)
     }
 
-    /// Makes a method by this formulation; all else is the mechanism's, or its default.
+    /// Makes a method with this formulation; all other settings come from the scene or are defaults.
     #[must_use]
     pub fn new(formulation: FormulationKind) -> Self {
         Self::default().formulation(formulation)
@@ -115,8 +116,8 @@ impl Method {
         Self { formulation: Some(formulation.name().to_owned()), ..self }
     }
 
-    /// Sets [`integrator`](Self#structfield.integrator) of the method. Those of first order (`rk4`, `rk54`, `rk853`, `gbs`, `radau5`) are of relative
-    /// coordinates: where no formulation is named they take `recursive`.
+    /// Sets [`integrator`](Self#structfield.integrator) of the method. The integrators of first order (`rk4`, `rk54`, `rk853`, `gbs`,
+    /// `radau5`) need relative coordinates. They select `recursive` if no formulation is given.
     #[must_use]
     pub fn integrator(self, integrator: IntegratorKind) -> Self {
         Self { integrator: Some(integrator.name().to_owned()), ..self }
@@ -140,7 +141,8 @@ impl Method {
         Self { step_max: Some(dt), ..self }
     }
 
-    /// Sets [`step_control`](Self#structfield.step_control) of the method. Lengths only shrink unless [`step_max`](Self::step_max) lets them grow.
+    /// Sets [`step_control`](Self#structfield.step_control) of the method. Step lengths only shrink unless [`step_max`](Self::step_max)
+    /// allows longer steps.
     ///
     /// ```
     /// use mbs::{Method, StepRule};
@@ -200,10 +202,10 @@ impl Method {
     }
 }
 
-/// Settings of a run, with everything decided.
+/// Settings of a run, all resolved to values.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ResolvedMethod {
-    /// Formulation as asked for, `auto` included.
+    /// Formulation as requested; it may be `auto`.
     pub asked: String,
     /// Formulation that the run uses.
     pub formulation: FormulationKind,
@@ -211,13 +213,13 @@ pub struct ResolvedMethod {
     pub integrator: IntegratorKind,
     /// Precision of the run.
     pub precision: Precision,
-    /// Length of a step; of the first one where lengths are controlled [s].
+    /// Length of a step; with step control, length of the first step [s].
     pub step: f64,
-    /// Longest step, and the distance of recorded rows [s].
+    /// Largest length of a step, and interval of recorded rows [s].
     pub step_max: f64,
     /// Rule for the length of steps.
     pub rule: StepRule,
-    /// Limits U and L of the invariant's change in a step, relative to the energy that moves.
+    /// Limits U and L of the change of the energy invariant per step, relative to the energy that moves.
     pub energy_tolerance: [f64; 2],
     /// Tolerance of the estimated local error of a step, relative to the scene's length.
     pub error_tolerance: f64,
@@ -227,19 +229,20 @@ pub struct ResolvedMethod {
     pub energy_alarm: f64,
     /// Duration of the run [s].
     pub duration: f64,
-    /// Fixed penalty of the augmented Lagrangian, the printed alpha; `None`: by the formulation's own rule.
+    /// Fixed penalty alpha of the augmented Lagrangian, as published [N/m; index-1: kg]; `None`: the formulation chooses it.
     pub penalty: Option<f64>,
-    /// Tolerance of the iterations; `None`: that of the formulation, or of the integrator.
+    /// Tolerance of the iterations, relative to the displacement by accelerations in a step; `None`: default of the formulation or the
+    /// integrator.
     pub tolerance: Option<f64>,
-    /// Threads that share the work of a step.
+    /// Number of threads of a step.
     pub threads: usize,
-    /// Report of a pilot, where one chose.
+    /// Report of the pilot, where a pilot chose the method.
     pub choice: Option<Box<PilotReport>>,
     /// Interrupt that ends the run from outside.
     pub interrupt: Interrupt,
 }
 
-/// The lengths of time of a run in its own precision [s].
+/// Step, largest step and duration of a run, in the precision of the run [s].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Lengths<T> {
     /// Length of a step.
@@ -254,10 +257,10 @@ type New<T> = fn(&Scene<T>, &Method) -> Result<ResolvedMethod, SettingsError>;
 instances!(NEW: New<T> = ResolvedMethod::of::<T>, {});
 
 impl ResolvedMethod {
-    /// Decides from a scene and overrides.
+    /// Resolves the settings of a run from a scene and overrides.
     ///
     /// # Errors
-    /// [`SettingsError`] for what is not built or out of range.
+    /// [`SettingsError`] for a method that this build does not have, or for a value out of range.
     pub fn new<T: Real>(scene: &Scene<T>, overrides: &Method) -> Result<Self, SettingsError> {
         if T::HAS_INSTANCES {
             return found::<New<T>>(NEW)(scene, overrides);
@@ -296,7 +299,7 @@ impl ResolvedMethod {
         if duration / shorter > MOST_STEPS {
             return Err(SettingsError::TooManySteps { step: shorter, duration });
         }
-        // A scene's penalty is meant for the augmented Lagrangian.
+        // The penalty in a scene file is intended for formulations of the augmented Lagrangian.
         let of_file = of_scene(solver.penalty).filter(|_| formulation.scene_penalty().is_some());
         let penalty = overrides.penalty.or(of_file);
         Ok(Self {
@@ -329,7 +332,7 @@ impl ResolvedMethod {
         })
     }
 
-    /// Returns the method that asks for all that is decided.
+    /// Returns a method in which every resolved setting is given.
     #[must_use]
     pub fn decided(&self) -> Method {
         let name = |name: &str| Some(name.to_owned());
@@ -360,8 +363,8 @@ impl ResolvedMethod {
         Lengths { step, step_max, duration }
     }
 
-    /// Number of recorded intervals, each of one step or of as many as the control of the step size takes. A duration within
-    /// 1e-9 of a multiple is one; else the last interval is shorter.
+    /// Number of recorded intervals. Each is one step, or several steps of controlled length. If the duration is a multiple of `step_max`
+    /// within 1e-9 (relative), all intervals are equal; else the last interval is shorter.
     #[must_use]
     #[allow(
         clippy::cast_possible_truncation,
@@ -379,8 +382,8 @@ impl ResolvedMethod {
     }
 }
 
-/// A length of time [s] in the precision of a run: what the scene says with all its digits. Else it is the intended decimal
-/// number: the shortest one that `f64` reads as this.
+/// A length of time [s] in the precision of a run. If the scene has a value that rounds to `x`, that value is returned with all its digits.
+/// Else `x` stands for the shortest decimal number that `f64` reads as `x`.
 pub fn exact<T: Real>(scene: &Scene<T>, x: f64) -> T {
     if !is_finer::<T>() {
         return T::from_f64(x);
@@ -390,7 +393,7 @@ pub fn exact<T: Real>(scene: &Scene<T>, x: f64) -> T {
     same.or_else(|| T::from_decimal(&format!("{x:e}"))).unwrap_or(T::from_f64(x))
 }
 
-/// The formulation as asked and as it runs, and the integrator.
+/// Returns the formulation as requested, the formulation that runs, and the integrator.
 fn method<T>(
     solver: &SolverTable<T>,
     overrides: &Method,
@@ -399,7 +402,7 @@ fn method<T>(
         "formulation",
         (&overrides.formulation, &solver.formulation, "auto"),
         &FORMULATIONS,
-        // `auto` stands before them.
+        // The name `auto` precedes the formulations in the list of names.
         core::array::from_fn(|i| i.checked_sub(1).map(|i| FormulationKind::ALL[i])),
     )?;
     let (_, integrator) = named(
@@ -424,9 +427,9 @@ fn method<T>(
     Ok((asked, formulation, integrator))
 }
 
-/// Rule that chooses the length of the steps. The rule that the command line names comes first, then one that it gives tolerances for. Next is
-/// the rule that the scene names, and last the one of its error tolerance. The energy limits of a scene are meant for multi-index, which has the
-/// energy rule anyway.
+/// Rule that chooses the length of the steps. A rule named by the caller comes first, then the rule of the caller's tolerances. The next is
+/// a rule named by the scene, and the last is the rule of the scene's error tolerance. The energy limits of a scene select no rule: they
+/// are intended for `multi-index`, whose default is the energy rule.
 fn step_rule<T>(
     solver: &SolverTable<T>,
     overrides: &Method,
@@ -449,7 +452,7 @@ fn step_rule<T>(
     if rule == StepRule::Fixed || !integrator.is_of_first_order() {
         return Ok(rule);
     }
-    // A tolerance in the scene is for integrators that can use it.
+    // A tolerance in the scene is intended for integrators that can use it, so it is no error here.
     if !is_named && given == [false; 2] {
         return Ok(StepRule::Fixed);
     }
@@ -457,7 +460,7 @@ fn step_rule<T>(
     Err(SettingsError::NotTogether { formulation, option })
 }
 
-/// U and L of the energy rule: the caller's, the scene's, or the usual ones.
+/// Limits U and L of the energy rule: from the caller, else from the scene, else the defaults.
 fn energy_limits<T: Real>(solver: &SolverTable<T>, overrides: &Method) -> [f64; 2] {
     let of_scene = solver.energy_tolerance.map(|limits| limits.map(T::to_f64));
     let usual = EnergyRule::default();

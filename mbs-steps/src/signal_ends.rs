@@ -1,7 +1,7 @@
-//! Jumps and corners of signals as ends of steps.
+//! Steps that end at jumps and corners of signals.
 //!
-//! A step to a jump ends a little before it, so that its trials see none of it. Then the state becomes that a little behind it: the
-//! mechanism stays, and its accelerations jump. At a corner nothing jumps.
+//! A step towards a jump ends shortly before the jump, so that no trial evaluates the signal after it. The time is then set to shortly
+//! after the jump: positions and velocities are unchanged, and accelerations jump. At a corner no acceleration jumps.
 
 use mbs_core::Real;
 use mbs_core::formulation::Formulation;
@@ -10,18 +10,18 @@ use mbs_core::model::State;
 use mbs_core::natural::NaturalModel;
 use mbs_core::step::{Step, StepError, StepReport};
 
-/// Times at which steps end for signals: none where these are smooth.
+/// Times at which steps must end because of signals; empty if all signals are smooth.
 #[derive(Debug, Clone)]
 pub struct SignalEnds<T>(SignalTimes<T>);
 
-/// Distance at which a step ends before a jump of a signal, and the next begins behind it, in units of rounding of the time [-].
-/// It is more than the rounding of the times of rows in the thousandth period.
+/// Distance between a jump and the end of the step before it, in units of machine precision of the time [-]. The next step begins as far
+/// after the jump. It exceeds the rounding error of the times of rows up to the thousandth period.
 const BESIDE_JUMP: f64 = 32.0;
-/// Time to a jump or a corner that is no step, in the same units [-]. Chosen, not tuned.
+/// Time to a jump or a corner that is too short for a step, in units of machine precision of the time [-]. Chosen, not tuned.
 const NO_STEP: f64 = 96.0;
 
 impl<T: Real> SignalEnds<T> {
-    /// Takes the times of a model's signals.
+    /// Collects the times of a model's signals.
     pub fn new<const D: usize>(model: &NaturalModel<T, D>) -> Self {
         Self(model.prescribed().signal_times())
     }
@@ -42,10 +42,10 @@ impl<T: Real> SignalEnds<T> {
         }
     }
 
-    /// A step of a method that controls its own steps within it, in parts that end at jumps and corners.
+    /// Makes one step with an integrator that controls its internal steps, in parts that end at jumps and corners.
     ///
     /// # Errors
-    /// [`StepError`]; the state is then that after the last part that was made.
+    /// [`StepError`]; the state is then the state after the last completed part.
     pub fn advance<const D: usize>(
         &self,
         (model, formulation): (&NaturalModel<T, D>, &mut dyn Formulation<T, D>),
@@ -69,10 +69,10 @@ impl<T: Real> SignalEnds<T> {
         }
     }
 
-    /// Passes the end of a step that has led to it.
+    /// Moves the state across a jump or a corner at the end of a step.
     ///
     /// # Errors
-    /// [`StepError`] of the accelerations behind a jump.
+    /// [`StepError`] if the accelerations after a jump cannot be computed.
     pub fn pass<const D: usize>(
         at: &SignalTime<T>,
         (model, formulation): (&NaturalModel<T, D>, &mut dyn Formulation<T, D>),
@@ -84,13 +84,13 @@ impl<T: Real> SignalEnds<T> {
             formulation.set_time(at.time);
             state.t = at.time;
         }
-        // multipliers bend here: nothing is extrapolated
+        // The multipliers have a corner here, so nothing is extrapolated across it.
         state.dt = T::ZERO;
         Ok(())
     }
 }
 
-/// Returns the distance from a signal's time at which steps end and begin [s]; 0 where it is no jump.
+/// Returns the distance between a signal's jump and the adjacent steps [s]; 0 at a corner.
 fn beside<T: Real>(at: &SignalTime<T>) -> T {
     if at.is_jump { at.time.abs() * T::EPSILON * T::from_f64(BESIDE_JUMP) } else { T::ZERO }
 }

@@ -24,20 +24,19 @@ use mbs_core::step::{InputError, Step, StepError, largest};
 use mbs_core::{Real, instances};
 
 /// A scene ready to step, in D dimensions and scalar T.
-///
-/// Whatever the formulation, its state is written in natural coordinates too: outputs are measured there. A clone steps to the same bits and
-/// leaves the original as it is; the threads that share the work of a step are shared by both.
+/// The state is also written in natural coordinates, whatever the formulation, because outputs are measured in natural coordinates. A clone
+/// makes bitwise the same steps and does not change the original. Original and clone use the same thread team.
 #[derive(Debug, Clone)]
 pub struct Simulation<T: Real, const D: usize> {
     model: NaturalModel<T, D>,
     state: State<T>,
     formulation: Box<dyn Formulation<T, D>>,
-    /// Result of the assembly; the state in it is the start.
+    /// Result of the assembly; it contains the state at the start.
     pub start: Assembled<T>,
     sizes: [usize; 3],
     initial_energy: [f64; 2],
     control: Option<Box<Control<T, D>>>,
-    /// Ends of steps at the times of signals, for methods that control their steps within those of a run.
+    /// Times at which signals end a step, for integrators that control their internal steps within a step of the run.
     ends: Option<SignalEnds<T>>,
     invariant: Invariant,
     advance: Advance<T, D>,
@@ -112,7 +111,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 }
 
 impl<T: Real, const D: usize> Simulation<T, D> {
-    /// Makes one step of `rest` [s] where the length of steps is fixed, of at most that where it is controlled.
+    /// Makes one step: of length `rest` [s] where steps have a fixed length, of at most `rest` where the step size is controlled.
     ///
     /// # Errors
     /// [`StepError`]; the state is then unchanged.
@@ -137,8 +136,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         })
     }
 
-    /// Returns the error that a part of a rope loses its length, where its motion in a step that failed leads there. Of a controlled step,
-    /// no more than twice the length of the last one counts.
+    /// Returns the error "a part of a rope loses its length" if the motion of the failed step would shorten that part to zero. With step
+    /// control, the motion is followed over at most twice the length of the last step.
     fn collapsing(&self, rest: T) -> Option<StepError> {
         let State { v, a, dt, .. } = &self.state;
         let h = if *dt > T::ZERO { rest.min(T::TWO * *dt) } else { rest };
@@ -150,7 +149,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     fn advance_by(&mut self, rest: T) -> Result<Accepted<T>, StepError> {
         let Self { model, state, formulation, control, ends, invariant, .. } = self;
         let formulation = &mut **formulation;
-        // Before a formulation prepares its index for the step.
+        // The step is checked before a formulation prepares its index for the step.
         let step = Step { dt: rest, length: model.length() }.checked()?;
         if let Some(control) = control {
             formulation.take_inputs(model, state)?;
@@ -174,44 +173,44 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         })
     }
 
-    /// Are the lengths of the steps controlled?
+    /// Is the step size controlled?
     pub fn is_controlled(&self) -> bool {
         self.control.is_some()
     }
 
-    /// The energy invariant, watched over every step so far.
+    /// The energy invariant, monitored over every step so far.
     pub fn invariant(&self) -> &Invariant {
         &self.invariant
     }
 
-    /// The index in which the next step would be made, and the changes of it so far, where a formulation has one.
+    /// The index (1 or 3) of the next step and the number of index changes so far; `None` for a formulation of fixed index.
     pub fn index(&self) -> Option<(u8, u32)> {
         self.formulation.index()
     }
 
-    /// Sets the time of the state [s]: sums of many steps drift, multiples do not.
+    /// Sets the time of the state [s]. The caller gives a multiple of the step, because a sum of many steps would accumulate rounding
+    /// errors.
     pub fn set_time(&mut self, t: T) {
         self.state.t = t;
         self.formulation.set_time(t);
     }
 
-    /// Sets the input of `scene.effects[effect]` between two steps: a force, a torque, or what a law of your own asks for. It
-    /// holds until it is set again, and acts in the whole of the next step: acceleration and power at its beginning are those with
-    /// the new input. What a law stores under another input is booked as work.
+    /// Sets the input of `scene.effects[effect]` between two steps: a force, a torque, or the input of a user-defined law. The value holds
+    /// until it is set again. It acts during the whole next step, so acceleration and power at the beginning of that step include it. If
+    /// the new input changes the energy that a law stores, the change counts as work.
     ///
     /// # Errors
-    /// [`InputError`] where the effect has no input ([`Signal::Input`]), or where a component is not
-    /// finite. Nothing is set then.
+    /// [`InputError`] if the effect has no input ([`Signal::Input`]), or if a component is not finite. Then no input is set.
     pub fn set_input(&mut self, effect: usize, value: [T; 3]) -> Result<(), InputError> {
         self.model.prescribed().set_input(&mut self.state.inputs, effect, value)
     }
 
-    /// Sets value, rate and acceleration that `scene.guides[guide]` has at the end of the next step. Where lengths are controlled, the
-    /// first of the steps within the next [`step`](Self::step) takes it over.
+    /// Sets the value, rate and acceleration that `scene.guides[guide]` has at the end of the next step. With step control, the first
+    /// internal step of the next [`step`](Self::step) uses them.
     ///
     /// # Errors
-    /// [`InputError`] where the guide is no input ([`Motion::Input`](mbs_core::scene::Motion::Input)), or where a component is not
-    /// finite. Nothing is set then.
+    /// [`InputError`] if the guide is no input ([`Motion::Input`](mbs_core::scene::Motion::Input)), or if a component is not finite. Then
+    /// no input is set.
     pub fn set_guide(&mut self, guide: usize, motion: [T; 3]) -> Result<(), InputError> {
         self.model.prescribed().set_guide(&mut self.state.inputs, guide, motion)
     }
@@ -219,24 +218,24 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// Sets `scene.signals[signal]` between two steps, as [`set_input`](Self::set_input) does.
     ///
     /// # Errors
-    /// [`InputError`] where the signal is no input ([`SignalKind::Input`](mbs_core::scene::SignalKind::Input)), or the value not
-    /// finite. Nothing is set then.
+    /// [`InputError`] if the signal is no input ([`SignalKind::Input`](mbs_core::scene::SignalKind::Input)), or if the value is not finite.
+    /// Then no input is set.
     pub fn set_signal(&mut self, signal: usize, value: T) -> Result<(), InputError> {
         self.model.prescribed().set_signal(&mut self.state.inputs, signal, value)
     }
 
-    /// An angle or slide of a joint with its turns, by joint and number, where the formulation's own coordinates have it. A tree has all
-    /// but the joints that it cuts and rotations in space.
+    /// Angle or displacement of coordinate `number` of a joint, with full turns counted, where the formulation has it as a coordinate. A
+    /// tree has all joint coordinates, except those of cut joints and of rotations in space.
     pub fn coordinate(&self, joint: usize, number: usize) -> Option<T> {
         self.formulation.coordinate(joint, number)
     }
 
-    /// Does the formulation step coordinates of its own, those of a tree?
+    /// Does the formulation step relative coordinates (those of a tree) instead of natural coordinates?
     pub fn has_own_coordinates(&self) -> bool {
         self.formulation.terms().is_none()
     }
 
-    /// Model in natural coordinates: outputs are measured in it.
+    /// Model in natural coordinates, in which outputs are measured.
     pub fn model(&self) -> &NaturalModel<T, D> {
         &self.model
     }
@@ -246,12 +245,12 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         &self.state
     }
 
-    /// Formulation of the simulation; its options are changed in its own type.
+    /// Formulation of the simulation; a formulation's options are changed through its concrete type.
     pub fn formulation_mut(&mut self) -> &mut dyn Formulation<T, D> {
         &mut *self.formulation
     }
 
-    /// All that the next step continues from.
+    /// Snapshot of everything that the next step depends on.
     pub fn snapshot(&self) -> SimulationSnapshot<T> {
         SimulationSnapshot {
             state: self.state.clone(),
@@ -262,7 +261,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         }
     }
 
-    /// Restores what was kept; says whether it is of this simulation.
+    /// Restores a snapshot; returns whether the snapshot belongs to this simulation.
     pub fn restore_snapshot(&mut self, snapshot: &SimulationSnapshot<T>) -> bool {
         let SimulationSnapshot {
             state,
@@ -292,14 +291,15 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         is_ours
     }
 
-    /// Kinetic energy, potential energy, and work of dampers, guides and courses since the start [J].
+    /// Kinetic energy, potential energy, and work of dampers, guides and signals since the start [J].
     ///
-    /// Cost: before the first step an evaluation of the model, with its memory.
+    /// Cost: before the first step, one evaluation of the model and the allocation of its memory.
     pub fn energies(&self) -> [f64; 3] {
         energies_at(&*self.formulation, &self.model, &self.state)
     }
 
-    /// Kinetic energy, potential energy and work since the start [J], taken anew: what watching the invariant costs in each step.
+    /// Kinetic energy, potential energy and work since the start [J], evaluated again. Its cost is the cost of monitoring the invariant in
+    /// each step.
     #[doc(hidden)]
     pub fn watched_energies(&mut self) -> [f64; 3] {
         self.formulation.watch();
@@ -311,23 +311,24 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         [self.initial_energy[0], self.initial_energy[1], 0.0]
     }
 
-    /// Coordinates, constraints and their rank, of the formulation that runs.
+    /// Number of coordinates, number of constraints and rank of the constraints, in the formulation that runs.
     pub fn sizes(&self) -> [usize; 3] {
         self.sizes
     }
 
-    /// Threads that share the work of a step.
+    /// Number of threads that work on a step.
     pub fn threads(&self) -> usize {
         self.formulation.threads()
     }
 
-    /// A failed step with the joint or body it is about.
+    /// Converts the error of a failed step to a `StopError` that names the joint or body concerned.
     pub fn explain(&self, error: StepError) -> StopError {
         let unknown = |u| self.formulation.owner_of_unknown(&self.model, u);
         StopError::step(error, unknown, |row| self.formulation.owner_of_row(&self.model, row))
     }
 
-    /// Returns the owner of the constraint with the largest force; where no multipliers are known, of the coordinate that accelerates most.
+    /// Returns the owner of the constraint with the largest force. Without multipliers it is the owner of the coordinate with the largest
+    /// acceleration.
     pub fn most_loaded(&self) -> Owner {
         let is_known = self.state.reaction.iter().any(|&x| x != T::ZERO);
         if is_known {
@@ -335,14 +336,14 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         }
         let n = mbs_core::Cliques::n_unknowns(&self.model);
         if n == 0 {
-            // all bodies are welded to the ground
+            // The model has no unknowns, because all bodies are welded to the ground.
             return Owner::Body(0);
         }
         self.model.owner_of_unknown(largest(&self.state.a[..n]) as usize)
     }
 }
 
-/// The energies at a state; where no step led to it, the formulation has not evaluated its terms there.
+/// The energies at a state. Before the first step the formulation has not evaluated its terms, so the model is evaluated here.
 fn energies_at<T: Real, const D: usize>(
     formulation: &dyn Formulation<T, D>,
     model: &NaturalModel<T, D>,
@@ -350,7 +351,7 @@ fn energies_at<T: Real, const D: usize>(
 ) -> [f64; 3] {
     match formulation.terms() {
         Some(_) if state.dt == T::ZERO => {
-            // what is set for the next step does not act yet
+            // Inputs that are set for the next step do not act at this state yet.
             let mut now = state.clone();
             now.inputs.clone_from(&state.applied);
             energies(model, &now, None)
@@ -359,11 +360,12 @@ fn energies_at<T: Real, const D: usize>(
     }
 }
 
-/// Velocity that is rounding, in units of rounding of places in a step [-]. Chosen, not tuned.
+/// Largest velocity that counts as rounding error, in units of machine precision of positions per step [-]. Chosen, not tuned.
 const ROUNDINGS: f64 = 64.0;
 
-/// The energy that the scene has anyway [J], of which a root of the precision is nothing. It is that of weight and given forces over its
-/// length. To it comes that of a motion of all masses that the run would not show, or that is rounding of places in a step.
+/// Reference energy of the scene [J], to which energy errors are compared. It is the work of weight and given forces over the length of the
+/// scene. Added is the kinetic energy of an unnoticeable motion of all masses, divided by the square root of machine precision. Such a
+/// motion is too slow to show in the run, or is a rounding error of positions in a step.
 fn ground<T: Real, const D: usize>(
     scene: &Scene<T>,
     settings: &ResolvedMethod,
@@ -380,7 +382,7 @@ fn ground<T: Real, const D: usize>(
     mass * gravity * length + loads + still / epsilon.sqrt()
 }
 
-/// Largest force or torque that an effect is given, as work over the scene's length or a radian [J].
+/// Work of the largest force or torque that an effect prescribes, over the length of the scene or over one radian [J].
 fn given<T: Real>(kind: &EffectKind<T>, length: f64, peaks: &[f64]) -> f64 {
     let largest = |signal: &Signal<T>| match signal {
         Signal::Constant(value) | Signal::Input(value) => size(*value),
@@ -391,7 +393,7 @@ fn given<T: Real>(kind: &EffectKind<T>, length: f64, peaks: &[f64]) -> f64 {
         }
     };
     let given = |(field, value): (&Field, Value<T>)| match value {
-        // What a law makes of its input is not known.
+        // The force that a law computes from an input without unit is unknown, so it adds no energy.
         Value::Signal(_) if field.unit.is_empty() => 0.0,
         Value::Signal(signal) if field.unit == "N" => largest(&signal) * length,
         Value::Signal(signal) => largest(&signal),
@@ -400,10 +402,10 @@ fn given<T: Real>(kind: &EffectKind<T>, length: f64, peaks: &[f64]) -> f64 {
     kind.row().fields.iter().zip(kind.values()).map(given).sum()
 }
 
-/// Instants at which the signals of a run are looked at [-]. Chosen, not tuned.
+/// Number of instants at which the signals of a run are sampled [-]. Chosen, not tuned.
 const PEAK_INSTANTS: u32 = 256;
 
-/// The largest value that each signal of a scene has at equal instants of a run, with its inputs as they begin.
+/// The largest absolute value of each signal, sampled at equidistant instants of a run. Inputs have their initial values.
 fn peaks<T: Real>(scene: &Scene<T>, duration: f64) -> Vec<f64> {
     let signals = SignalGraph::new(&scene.signals);
     let mut peaks = vec![0.0_f64; signals.len()];
@@ -416,7 +418,7 @@ fn peaks<T: Real>(scene: &Scene<T>, duration: f64) -> Vec<f64> {
     peaks
 }
 
-/// Length of a vector.
+/// Euclidean length of a vector.
 fn size<T: Real>(x: [T; 3]) -> f64 {
     x.iter().map(|x| x.to_f64() * x.to_f64()).sum::<f64>().sqrt()
 }

@@ -1,12 +1,13 @@
-//! Sizes of a scene that assembles at its start.
+//! Sizes of a scene at its consistent start.
 
 use crate::ready::AssembledScene;
 use crate::stop::StopError;
 use mbs_core::scene::{Dimension, Scene};
 
-/// Coordinates, constraints, and the rank of these at the start, in natural coordinates, of a scene that is built and assembled without a run.
+/// Number of coordinates, number of constraints and their rank at the start, in natural coordinates. The scene is built and assembled
+/// without a run.
 ///
-/// Cost: that of the start of a run.
+/// Cost: the same as the start of a run.
 ///
 /// # Errors
 /// [`StopError`] when there is no model, no consistent start or no equilibrium.

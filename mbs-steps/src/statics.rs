@@ -1,4 +1,4 @@
-//! The static equilibrium of a scene in joints, reactions and outputs.
+//! Static equilibrium of a scene, with its joint coordinates, reactions and outputs.
 
 use crate::channels::Channels;
 use crate::equilibrium::{Search, find_equilibrium, workspace};
@@ -16,48 +16,48 @@ use mbs_core::scene::{Dimension, Joint, JointId, Output, Quantity, Scene};
 use mbs_linear::{Equilibrium, Instant, LinearOptions, linearise};
 use serde_json::{Map, Value, json};
 
-/// Largest way or turn of bodies from where they started, and which body's it is.
+/// Largest displacement or rotation of a body from its start, with the body's name.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Moved {
-    /// Way of a centre of mass [m], or turn about any axis, from 0 to pi [rad].
+    /// Displacement of the centre of mass [m], or rotation angle about any axis, from 0 to pi [rad].
     pub size: f64,
     /// Name of the body.
     pub body: String,
 }
 
-/// A static equilibrium, with its names.
+/// A static equilibrium, with the names of the scene.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StaticEquilibrium {
     /// Name of the scene.
     pub scene: String,
-    /// Coordinates, constraints, their rank.
+    /// Number of coordinates, number of constraints, rank of the constraints.
     pub sizes: [usize; 3],
     /// Search that was used.
     pub search: Search,
     /// Equilibrium that the search found.
     pub found: Equilibrium<f64>,
-    /// Largest way of centres of mass from the start, and largest turn of bodies; without bodies nothing.
+    /// Largest displacement of a centre of mass and largest rotation of a body from the start; `None` without bodies.
     pub moved: Option<[Moved; 2]>,
     /// Parts of the scene that are left out.
     pub left_out: Vec<LeftOut>,
-    /// Modes that grow, by the eigenvalues of the equations of motion; `None` where they cannot be linearised.
+    /// Number of growing modes, from the eigenvalues of the equations of motion; `None` where they cannot be linearised.
     pub unstable: Option<usize>,
-    /// Directions in which it may stand anywhere; likewise.
+    /// Number of directions of neutral equilibrium; `None` where the equations of motion cannot be linearised.
     pub neutral: Option<usize>,
     /// Potential energy of gravity, constant forces and springs [J].
     pub potential: f64,
     /// Joint coordinates [rad or m].
     pub joints: Vec<(Channel, Vec<f64>)>,
-    /// Reactions of the joints: what the first body does to the second; empty where the loops are too large for reactions.
+    /// Reactions of the joints, as loads of the first body on the second; empty where the closed loops are too large for reactions.
     pub reactions: Vec<(Channel, Vec<f64>)>,
-    /// Joints whose reaction is not unique: the smallest is given.
+    /// Joints whose reaction is not unique; the reaction of smallest norm is given.
     pub not_unique: Vec<String>,
     /// Values of the scene's outputs.
     pub outputs: Vec<(Channel, Vec<f64>)>,
 }
 
 impl StaticEquilibrium {
-    /// Assembles a scene and lets it settle.
+    /// Assembles a scene and searches for its static equilibrium.
     ///
     /// # Errors
     /// [`StopError`] when there is no model, no consistent start or no equilibrium.
@@ -148,7 +148,7 @@ impl StaticEquilibrium {
     }
 }
 
-/// The longest way of a centre of mass, and the largest turn.
+/// The largest displacement of a centre of mass, and the largest rotation of a body.
 fn moved(
     scene: &Scene<f64>,
     from: &[RigidMotion<f64>],
@@ -170,7 +170,7 @@ fn moved(
     Some([most(0)?, most(1)?])
 }
 
-/// Growing modes and neutral directions at an equilibrium; none where there is no linearisation.
+/// Number of growing modes and of neutral directions at an equilibrium; `None` where the equations of motion cannot be linearised.
 fn stability<const D: usize>(
     model: &NaturalModel<f64, D>,
     state: &State<f64>,

@@ -1,11 +1,11 @@
-//! The period of the stiffest force at a state.
+//! Period of the stiffest force at a state.
 //!
 //! ```text
 //! K x = lambda M x  where J x = 0,   period = 2 pi / sqrt(lambda),   the largest lambda by power iteration:
 //! x <- (M + J^T s J)^-1 K x,         K x by a difference of the applied forces
 //! ```
 //!
-//! Dampers and the motion have no part in it, nor has gravity.
+//! Dampers, velocities and gravity are not included.
 
 use core::f64::consts::TAU;
 use mbs_core::model::{Load, Model, State, System, Tangent};
@@ -14,18 +14,20 @@ use mbs_core::once::found;
 use mbs_core::{SpdSolver, instances};
 use mbs_sparse::Multifrontal;
 
-/// Iterations of the power method [-]: the root of the eigenvalue is then met to some per cent, unless others are close, which give the same.
+/// Iterations of the power method [-]. They give the root of the eigenvalue to a few per cent. Close eigenvalues do not matter: they give
+/// the same period.
 const ITERATIONS: u32 = 12;
-/// Penalty of the constraints in effective masses [-]: the motion across them is a millionth.
+/// Penalty of the constraints, relative to the effective masses [-]; motions that violate the constraints are then smaller by a factor of
+/// 1e-6.
 const PENALTY: f64 = 1e6;
 /// Difference of coordinates, relative to the length of the model [-]. Chosen, not tuned.
 const DIFFERENCE: f64 = 1e-6;
-/// Ratio of a difference of forces to the forces, below which a stiffness is rounding [-]. Chosen, not tuned.
+/// Ratio of a difference of forces to the forces, below which the difference is rounding error [-]. Chosen, not tuned.
 const NOISE: f64 = 1e-9;
 
-/// The period of the stiffest force [s]; nothing where no force grows with a displacement.
+/// Returns the shortest period of the forces [s]; `None` if no force grows with a displacement.
 ///
-/// Cost: a factorisation, and as many evaluations of the forces and solutions as there are iterations; allocates.
+/// Cost: one factorisation, then one evaluation of the forces and one solution in each iteration; allocates.
 pub fn shortest_period<const D: usize>(
     model: &NaturalModel<f64, D>,
     solver: &mut Multifrontal<f64>,
@@ -61,7 +63,7 @@ fn period<const D: usize>(
     solver.assemble(&System { model, terms: &terms, tangent, load }, &mut forces);
     let size = forces.iter().fold(0.0, |most: f64, f| most.max(f.abs()));
     let mut scratch = vec![0.0; solver.n_scratch()];
-    // numbers without a pattern of their own: the fractional parts of multiples of the golden ratio
+    // The start vector is irregular, to contain all eigenvectors: fractional parts of multiples of the golden ratio.
     let mut x: Vec<f64> = (1..=n).map(|i| (i as f64 * 0.618_034).fract() - 0.5).collect();
     let (mut q, mut moved, mut lambda) = (state.q.clone(), vec![0.0; n], 0.0);
     let mut extended = vec![0.0; state.q.len()];

@@ -1,4 +1,4 @@
-//! Reason why a run stopped, in words and with names.
+//! Reason why a run stopped, as a message with the names of the scene's parts.
 
 mod code;
 mod gap;
@@ -24,7 +24,7 @@ use mbs_core::step::StepError;
 use mbs_linear::{EquilibriumError, LinearError};
 use mbs_recursive::TreeError;
 
-/// The code of what was interrupted.
+/// Error code of an interrupted run.
 pub const INTERRUPTED: &str = "interrupted";
 
 /// Hint on a body whose motion no inertia resists.
@@ -38,31 +38,31 @@ const NO_INERTIA: &str = "give the body mass and inertia; write a point mass as 
 pub enum StopError {
     /// The scene has no consistent start.
     Start(AssemblyError),
-    /// Constraints that depend on each other but for a small tilt of an axis.
+    /// Constraints that would be dependent if a small tilt of an axis were zero.
     AlmostDependent(AlmostDependent),
-    /// Joint reactions were asked for that cannot be given.
+    /// Joint reactions that were requested but cannot be computed.
     Reaction(ReactionError),
-    /// A step that could not be made, and whose it is.
+    /// A step that failed, and the part of the scene that caused the failure.
     Step(StepError, Option<Owner>),
     /// The scene has no model in relative coordinates.
     Tree(TreeError, Option<Owner>),
-    /// No static equilibrium was found, and whose forces or joints are left open.
+    /// No static equilibrium was found. The owner is the part whose forces are unbalanced or whose joints are open.
     Equilibrium(EquilibriumError, Option<Owner>),
-    /// The motion cannot be linearised.
+    /// The equations of motion cannot be linearised.
     Linear(LinearError),
-    /// A state about which modes are asked for is neither a rest nor a steady motion.
+    /// Modes were requested at a state that is neither an equilibrium nor a steady motion.
     NotSteady(Box<Unsteady>),
     /// The iteration for the eigenvalues did not converge.
     Eigenvalues,
-    /// The operating system did not give that many threads.
+    /// The operating system did not create this number of threads.
     NoThreads(usize),
     /// This build has no steps in the scalar of the scene.
     NotBuilt,
-    /// The run was asked to end, and has ended after a step.
+    /// The run was interrupted, and ended after a complete step.
     Interrupted,
     /// An observer stopped the run.
     Observer {
-        /// Code of its error.
+        /// Code of the observer's error.
         code: &'static str,
         /// Message of the error.
         message: Box<str>,
@@ -71,33 +71,33 @@ pub enum StopError {
     },
     /// An output whose value is not finite.
     Output {
-        /// Number of the output in the scene.
+        /// Index of the output in the scene.
         output: usize,
     },
-    /// Friction that the steps of an explicit method pass over.
+    /// Friction whose velocity is too small for the steps of an explicit method, so that the steps are unstable.
     Friction {
-        /// Number of the effect in the scene.
+        /// Index of the effect in the scene.
         effect: usize,
-        /// Rate below which it falls [rad/s or m/s].
+        /// Velocity below which the friction force decreases to zero [rad/s or m/s].
         regularisation: f64,
         /// Length of the steps [s].
         step: f64,
     },
-    /// The energy invariant drifted by more than a tenth of the energy turned over.
+    /// The energy invariant drifted by more than the allowed ratio of the exchanged energy.
     Energy {
-        /// |Pi - Pi(0)| [J].
+        /// Error of the energy invariant, |Pi - Pi(0)| [J].
         error: f64,
-        /// Largest kinetic energy plus gross work [J].
+        /// Exchanged energy: largest kinetic energy plus gross work [J].
         turned_over: f64,
-        /// Share of it that was allowed [-].
+        /// Allowed ratio of error to exchanged energy [-].
         share: f64,
-        /// Owner of the constraint that carries the largest force, or of the coordinate that accelerates most.
+        /// Owner of the constraint with the largest force, or of the coordinate with the largest acceleration.
         owner: Owner,
     },
 }
 
 impl StopError {
-    /// A failed step with its owner, given whose unknowns and rows are.
+    /// A failed step with its owner; `unknown` and `row` return the owner of an unknown and of a constraint row.
     pub fn step(
         error: StepError,
         unknown: impl Fn(usize) -> Owner,
@@ -107,12 +107,12 @@ impl StopError {
         Self::Step(error, owner)
     }
 
-    /// Returns the failure of a user-defined law or relation, where one failed; else this error.
+    /// Returns the failure of a user-defined law or relation, if one failed; otherwise this error.
     pub fn or_law(self, codes: &Codes) -> Self {
         codes.failed().map_or(self, |failed| Self::Step(failed.into(), None))
     }
 
-    /// A search without equilibrium, given whose unknowns and rows are.
+    /// A search that found no equilibrium, with its owner; the functions return the owner of an unknown and of a constraint row.
     pub fn equilibrium(
         error: EquilibriumError,
         n: usize,
@@ -133,7 +133,7 @@ impl StopError {
         Self::Equilibrium(error, owner)
     }
 
-    /// A scene without a tree.
+    /// A scene that has no model as a tree.
     #[doc(hidden)]
     pub fn tree(error: TreeError) -> Self {
         let owner = match error {
@@ -151,7 +151,7 @@ impl StopError {
         Self::Tree(error, owner)
     }
 
-    /// The place in the scene file that the error is about.
+    /// Place in the scene file that the error concerns.
     #[must_use]
     pub fn entry(&self) -> Option<Entry> {
         let owner = match self {
@@ -183,7 +183,7 @@ impl StopError {
         })
     }
 
-    /// Hint for the user: what to try.
+    /// Hint on what the user can try.
     #[must_use]
     #[allow(clippy::too_many_lines, reason = "one line or two for each error")]
     pub fn hint(&self) -> &'static str {
@@ -263,7 +263,7 @@ impl StopError {
         }
     }
 
-    /// The keys that may stand behind the error, the likeliest first.
+    /// The scene keys that can cause the error, the most probable first.
     #[must_use]
     pub fn fields(&self) -> &'static [&'static str] {
         match self {
@@ -277,7 +277,7 @@ impl StopError {
         }
     }
 
-    /// Part of the scene that the error is about.
+    /// Part of the scene that the error concerns.
     pub fn owner(&self) -> Option<Owner> {
         match self {
             Self::Start(error) => start_owner(error),
@@ -297,7 +297,7 @@ impl StopError {
         }
     }
 
-    /// Returns the error as it stands in JSON.
+    /// Returns the error in its JSON form.
     #[must_use]
     pub fn report(&self, time: f64, names: &Names) -> RunError {
         let owner = self.owner();

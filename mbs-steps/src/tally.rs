@@ -1,10 +1,10 @@
-//! Statistics of the numbers of a run, gathered at every step: constant memory for each number.
+//! Statistics of the outputs of a run, updated at every step, with constant memory for each output.
 //!
 //! ```text
 //! rms = √(1/T ∫ x² dt),   ∫ x² dt ≈ Σ (tₖ − tₖ₋₁) (xₖ² + xₖ₋₁²)/2
 //! ```
 //!
-//! Peaks between steps are those of [`turning_point`].
+//! Peaks between steps are computed by [`turning_point`].
 
 use crate::checkpoint::tape::{Tape, Walked, holds};
 use crate::peak::turning_point;
@@ -12,14 +12,14 @@ use crate::record::{Channel, ComponentStatistics, Statistics, measured};
 use core::ops::Range;
 use mbs_core::Real;
 
-/// Statistics of one number, as they are gathered.
+/// Running statistics of one quantity.
 #[derive(Debug, Clone, Copy)]
 struct Tally {
     min: f64,
     at_min: f64,
     max: f64,
     at_max: f64,
-    /// Integral of its square over time.
+    /// Integral of the squared value over time.
     square: f64,
     last: f64,
     /// The last five values.
@@ -37,7 +37,7 @@ impl Tally {
         recent: [0.0; 5],
     };
 
-    /// Takes a value at `t` [s], `dt` after the last one.
+    /// Adds a value at time `t` [s], `dt` [s] after the last value.
     fn take(&mut self, t: f64, dt: f64, x: f64) {
         self.peak(t, x);
         self.square += dt * (x * x + self.last * self.last) / 2.0;
@@ -46,7 +46,7 @@ impl Tally {
         self.recent[4] = x;
     }
 
-    /// Takes what may be a peak.
+    /// Updates minimum and maximum with a value that may be a peak.
     fn peak(&mut self, t: f64, x: f64) {
         if x < self.min {
             (self.min, self.at_min) = (x, t);
@@ -57,17 +57,17 @@ impl Tally {
     }
 }
 
-/// Statistics of all numbers of a run.
+/// Statistics of all quantities of a run.
 #[derive(Debug)]
 pub struct Tallies {
-    /// Columns of which each number is made: one, or those of a vector whose magnitude it is.
+    /// Columns of each quantity: one column, or all columns of the vector whose magnitude it is.
     columns: Vec<Range<usize>>,
-    /// Whether each number is a magnitude.
+    /// Whether each quantity is the magnitude of a vector.
     is_magnitude: Vec<bool>,
     tallies: Vec<Tally>,
-    /// First and last time [s]; nothing before the first values.
+    /// First and last time [s]; `None` before the first values.
     times: Option<[f64; 2]>,
-    /// The last five times [s]; so many of them are known.
+    /// The last five times [s]; `n_recent` of them are valid.
     recent: [f64; 5],
     n_recent: u64,
 }
@@ -87,7 +87,7 @@ impl Tallies {
         Self { columns, is_magnitude, tallies, times: None, recent: [0.0; 5], n_recent: 0 }
     }
 
-    /// Takes the components of all channels at `t` [s]. No allocation.
+    /// Adds the components of all channels at time `t` [s]. No allocation.
     pub fn take<T: Real>(&mut self, t: f64, values: &[T]) {
         let [from, last] = self.times.unwrap_or([t, t]);
         self.times = Some([from, t]);
@@ -110,7 +110,7 @@ impl Tallies {
         }
     }
 
-    /// The statistics of each channel; the values of one instant where no time has passed.
+    /// The statistics of each channel. If no time has passed, the root mean square is the magnitude of the single value.
     pub fn of_channels(&self, channels: &[Channel]) -> Vec<Vec<ComponentStatistics>> {
         let Some([from, to]) = self.times else { return vec![Vec::new(); channels.len()] };
         let mut tallies = self.tallies.iter();
@@ -131,13 +131,13 @@ impl Tallies {
         channels.iter().map(of_channel).collect()
     }
 
-    /// Least and largest value of each column.
+    /// Least and greatest value of each column.
     pub fn ranges(&self) -> Vec<[f64; 2]> {
         let both = self.tallies.iter().zip(&self.is_magnitude);
         both.filter(|(_, is_magnitude)| !**is_magnitude).map(|(x, _)| [x.min, x.max]).collect()
     }
 
-    /// Writes all that is gathered so far, or reads it back.
+    /// Writes the statistics to a checkpoint, or reads them from one.
     pub fn walk(&mut self, tape: &mut impl Tape) -> Walked {
         tape.option(&mut self.times, |tape, times| tape.floats(times))?;
         tape.floats(&mut self.recent)?;

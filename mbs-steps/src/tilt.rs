@@ -1,4 +1,5 @@
-//! Axes that are almost parallel, or almost across each other: what is said of them, and when a scene is refused for them.
+//! Axes that are almost parallel or almost perpendicular to another axis: the notes about them, and the error if a tilt locks a closed
+//! loop.
 
 use crate::loop_alone::loops_alone;
 use mbs_core::model::{Model, State};
@@ -11,14 +12,14 @@ use mbs_core::{Cliques, Real, instances};
 use mbs_scene::format::{counted, few};
 use std::borrow::Cow;
 
-/// An axis whose tilt alone holds what would move without it.
+/// An axis whose small tilt locks a closed loop.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AlmostDependent {
-    /// The joint, and the one whose axis its own is meant to be parallel to, or across.
+    /// The joint with the tilted axis, and the joint to whose axis it should be parallel or perpendicular.
     pub joints: [usize; 2],
-    /// Angle by which the axis is off [rad].
+    /// Angle of the tilt [rad].
     pub angle: f64,
-    /// The unit axis that mends it.
+    /// Unit axis without the tilt, which corrects the scene.
     pub axis: [f64; 3],
 }
 
@@ -40,8 +41,7 @@ impl core::fmt::Display for AlmostDependent {
     }
 }
 
-/// Notes on the axes that are off by a little: those that are taken as parallel, or as across each other. An axis whose tilt takes freedoms
-/// has a note too.
+/// Notes on axes with a small tilt: axes that are treated as exactly parallel or perpendicular, and one axis whose tilt removes freedoms.
 pub fn notes<T: Real>(scene: &Scene<T>) -> Vec<(usize, String)> {
     if T::HAS_INSTANCES {
         return found::<Notes<T>>(NOTES)(scene);
@@ -64,11 +64,11 @@ fn notes_here<T: Real>(scene: &Scene<T>) -> Vec<(usize, String)> {
     tilts(scene, T::from_f64(MEANT)).iter().map(note).chain(binding_note(scene)).collect()
 }
 
-/// The scene as natural coordinates take it, and its tilts in loops that cannot move with them, for [`lock`].
+/// Returns the scene as natural coordinates use it, and the tilts in closed loops that cannot move with the tilt, for [`lock`].
 ///
-/// Tilts of the fifth digit that take freedoms of loops which move with them too are none: near such a place motions with a tilt, however
-/// small, differ from those without by more than it. Cost: nothing but the search for tilts where there is none; else the ranks of the
-/// constraints for some variants of the scene.
+/// A tilt up to five digits that removes freedoms of a loop is ignored if the loop can still move. In such a configuration even a tiny tilt
+/// changes the motion by more than its own size. Cost: the search for tilts; if there are tilts, also the ranks of the constraints for some
+/// variants of the scene.
 pub(crate) fn meant<T: Real, const D: usize>(
     scene: &Scene<T>,
 ) -> (Cow<'_, Scene<T>>, Vec<Tilt<T>>) {
@@ -82,8 +82,8 @@ pub(crate) fn meant<T: Real, const D: usize>(
     (meant, locks)
 }
 
-/// The axis whose tilt alone holds loops that cannot move with it, in the reference configuration: of the scene and the tilts that [`meant`]
-/// gives. Cost: nothing without such tilts; else the ranks of the constraints for some variants of the scene.
+/// The axis whose tilt locks closed loops in the reference configuration; `scene` and `locks` are results of [`meant`]. Cost: nothing
+/// without such tilts, else the ranks of the constraints for some variants of the scene.
 pub(crate) fn lock<T: Real, const D: usize>(
     scene: &Scene<T>,
     locks: &[Tilt<T>],
@@ -91,8 +91,8 @@ pub(crate) fn lock<T: Real, const D: usize>(
     binding::<T, D>(scene, locks).map(|(tilt, _)| AlmostDependent::new(&tilt))
 }
 
-/// Tilts that are too large to be taken as none, and small enough to be errors of the file: those in loops that cannot move with them, and
-/// the others.
+/// Tilts that are too large to be ignored but small enough to be errors of the file. The first list has tilts in loops that cannot move
+/// with the tilt, the second list has all others.
 fn doubtful<T: Real, const D: usize>(scene: &Scene<T>) -> [Vec<Tilt<T>>; 2] {
     let mut tilts = tilts(scene, T::from_f64(DOUBTFUL));
     tilts.retain(|tilt| tilt.angle > T::from_f64(MEANT));
@@ -101,7 +101,8 @@ fn doubtful<T: Real, const D: usize>(scene: &Scene<T>) -> [Vec<Tilt<T>>; 2] {
     [locks, others]
 }
 
-/// The tilt without which a mechanism has more freedoms, and how many more; the first of several that hold them together.
+/// The tilt whose removal gives the mechanism more freedoms, and the number of these freedoms. If only several tilts together do so, the
+/// first one.
 fn binding<T: Real, const D: usize>(
     scene: &Scene<T>,
     tilts: &[Tilt<T>],
@@ -117,7 +118,7 @@ fn binding<T: Real, const D: usize>(
     Some(one.unwrap_or((*first, all)))
 }
 
-/// Note on a tilt that takes freedoms: whether it is taken as it is.
+/// Note on a tilt that removes freedoms; it says whether the tilt is kept.
 fn binding_note<T: Real>(scene: &Scene<T>) -> Option<(usize, String)> {
     if scene.dimension != Dimension::Spatial {
         return None;
@@ -140,7 +141,7 @@ fn binding_note<T: Real>(scene: &Scene<T>) -> Option<(usize, String)> {
     Some((tilt.joint, text))
 }
 
-/// Freedoms in the reference configuration.
+/// Number of freedoms in the reference configuration.
 fn freedoms<T: Real, const D: usize>(scene: &Scene<T>) -> Option<usize> {
     let model = NaturalModel::<T, D>::new(scene).ok()?;
     let mut terms = model.terms();

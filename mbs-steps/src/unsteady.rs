@@ -1,4 +1,4 @@
-//! Reason why a motion is not steady, in words and numbers.
+//! Reason why a motion is not steady, as text and JSON.
 
 use mbs_scene::format::few;
 use serde_json::{Value, json};
@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum Unsteady {
-    /// A state accelerates in the axes that turn with the motion.
+    /// A state variable accelerates in the axes that turn with the motion.
     Accelerates {
         /// Name of the state.
         state: String,
@@ -18,9 +18,9 @@ pub enum Unsteady {
     },
     /// The linear equations change along the motion.
     Changes {
-        /// The state in whose equation an entry changes most.
+        /// Name of the state in whose equation a coefficient changes most.
         state: String,
-        /// Change of it in a radian of the motion, relative to the largest of its row [1/rad].
+        /// Change of the coefficient per radian of the motion, relative to the largest coefficient of its row [1/rad].
         by: f64,
     },
 }

@@ -1,4 +1,4 @@
-//! Words about a run: rows of a summary, notes, and when and why it stopped.
+//! Texts about a run: rows of a summary, notes, and the time, place and reason of a stop.
 
 pub mod paced;
 
@@ -12,7 +12,7 @@ use mbs_core::Real;
 use mbs_core::scene::{Body, BodyId, Inertia, Scene};
 use mbs_scene::format::{counted, rounded, significant};
 
-/// The summary table of a page.
+/// Rows of the summary table of an HTML page, as label and text.
 pub fn summary_rows(s: &RunSummary) -> Vec<(String, String)> {
     if s.coordinates == 0 && s.error.is_some() {
         return Vec::new();
@@ -44,7 +44,7 @@ pub fn summary_rows(s: &RunSummary) -> Vec<(String, String)> {
     rows
 }
 
-/// The estimate of the errors, for a table.
+/// Rows of the error estimate for a table.
 #[must_use]
 pub fn estimate(e: &ErrorEstimate) -> Vec<(&'static str, String)> {
     const LABEL: &str = "estimated error";
@@ -66,12 +66,12 @@ pub fn estimate(e: &ErrorEstimate) -> Vec<(&'static str, String)> {
     rows
 }
 
-/// Writes a number with two digits: an estimate has no more.
+/// Formats a number with two digits, because an error estimate is not more precise.
 fn small(x: f64) -> String {
     if x == 0.0 { "0".to_owned() } else { format!("{x:.1e}") }
 }
 
-/// The method that ran.
+/// Formats the names of formulation and integrator.
 fn method(m: &MethodUsed) -> String {
     [m.formulation.as_str(), &m.integrator].join(" ").trim_end().to_owned()
 }
@@ -89,16 +89,16 @@ pub fn steps(m: &MethodUsed) -> String {
     }
 }
 
-/// Difference of two steps that counts as none, relative to them [-]: ends of fixed steps round.
+/// Relative difference up to which two step lengths count as equal [-]; the ends of fixed steps have rounding errors.
 const SAME_STEP: f64 = 1e-9;
 
-/// Drift and scatter of the energy invariant, for a table.
+/// Formats the drift and the scatter of the energy invariant for a table.
 #[must_use]
 pub fn drift(s: &RunSummary) -> String {
     format!("{} W, {} J", size(s.energy.drift), size(s.energy.scatter))
 }
 
-/// Says what the control of the step size did, for a table.
+/// Describes for a table the work of the step control.
 #[must_use]
 pub fn control(c: &ControlSummary) -> String {
     let rule = match c.rule {
@@ -117,10 +117,10 @@ pub fn control(c: &ControlSummary) -> String {
     text
 }
 
-/// Most contacts and outputs of a line of text.
+/// Largest number of contacts and outputs listed in one line.
 const MAX_LISTED: usize = 8;
 
-/// The first contacts of a run, and how many there were.
+/// Lists the first contacts of a run, and their number.
 fn contacts(s: &RunSummary) -> Option<String> {
     if s.contacts.is_empty() {
         return None;
@@ -137,7 +137,7 @@ fn contacts(s: &RunSummary) -> Option<String> {
     Some(text)
 }
 
-/// The largest violation at the three levels, for a table.
+/// Formats the largest constraint violation of positions, velocities and accelerations for a table.
 #[must_use]
 pub fn violation(s: &RunSummary) -> String {
     let v = &s.violation;
@@ -146,13 +146,13 @@ pub fn violation(s: &RunSummary) -> String {
     format!("{position} m, {velocity} m/s, {acceleration} m/s^2 (or rad)")
 }
 
-/// When and where a run stopped, why, and what to try, in one sentence each.
+/// Says when, where and why a run stopped, and what to try, in one sentence each.
 #[must_use]
 pub fn stop_text(error: &RunError) -> String {
     format!("{}: {}. Hint: {}.", stopped_at(error), error.message, error.hint)
 }
 
-/// When and where a run stopped.
+/// Says when and where a run stopped.
 #[must_use]
 pub fn stopped_at(error: &RunError) -> String {
     let whose = match (&error.joint, &error.body) {
@@ -164,7 +164,7 @@ pub fn stopped_at(error: &RunError) -> String {
     format!("at t = {} s{whose}", significant(error.time))
 }
 
-/// A note where fewer threads are used than were asked for.
+/// Returns a note if fewer threads run than were requested.
 #[must_use]
 pub fn few_threads(asked: usize, used: usize) -> Option<String> {
     let are = if used == 1 { "thread is used" } else { "threads are used" };
@@ -172,7 +172,7 @@ pub fn few_threads(asked: usize, used: usize) -> Option<String> {
         .then(|| format!("{used} {are}, not {asked}: more have no work here, or no processor"))
 }
 
-/// Notes on what is unusual about a scene, each said once.
+/// Collects notes on unusual properties of a scene, each one once.
 pub fn notes<T: Real>(
     scene: &Scene<T>,
     settings: &ResolvedMethod,
@@ -232,7 +232,7 @@ pub fn notes<T: Real>(
     notes
 }
 
-/// Says of extrapolation, whose steps are long and err by nearly what they may, what they err by together.
+/// Returns the note on extrapolation about the accumulated error: its long steps have errors close to the tolerance, and the errors add up.
 fn summed<T: Real>(settings: &ResolvedMethod, s: &RunSummary) -> Option<String> {
     if settings.integrator != IntegratorKind::Extrapolation || s.steps < 2 {
         return None;
@@ -249,12 +249,13 @@ fn summed<T: Real>(settings: &ResolvedMethod, s: &RunSummary) -> Option<String> 
     ))
 }
 
-/// Least change of a coordinate at the start that is reported [m or rad]: numbers of files have six digits or more.
+/// Smallest change of a coordinate at the start that is reported [m or rad], because numbers in files have six or more digits.
 const REPORTED_CHANGE: f64 = 1e-6;
-/// Rounding of places that is reported, relative to the size of a body [-]: a tenth of the 1e-4 that single precision promises.
+/// Rounding error of positions that is reported, relative to the size of a body [-]: a tenth of the accuracy 1e-4 documented for single
+/// precision.
 const SPOILT: f64 = 1e-5;
 
-/// The body whose places lose most to rounding, with that rounding relative to its size, where it is too much.
+/// Returns the body whose positions have the largest rounding error relative to its size, and that ratio, if it exceeds `SPOILT`.
 fn spoilt<T: Real>(scene: &Scene<T>) -> Option<(&str, f64)> {
     let mut places: Vec<Vec<[f64; 3]>> = scene
         .bodies
@@ -278,7 +279,7 @@ fn spoilt<T: Real>(scene: &Scene<T>) -> Option<(&str, f64)> {
         let spread = places
             .iter()
             .fold(0.0, |a: f64, p| a.max(size(std::array::from_fn(|i| p[i] - first[i]))));
-        // Points that coincide in this precision may have been apart: the mass shows how far.
+        // Points that coincide in this precision may differ in the file. The radius of gyration gives the size of the body then.
         let inertia = match body.inertia {
             Inertia::Planar(polar) => polar.to_f64(),
             Inertia::Spatial(six) => six[..3].iter().map(|x| x.to_f64()).fold(0.0, f64::max),
@@ -297,13 +298,13 @@ fn in_f64<T: Real>(x: [T; 3]) -> [f64; 3] {
     x.map(Real::to_f64)
 }
 
-/// Returns the note on a joint whose reaction the motion does not determine.
+/// Returns the note on a joint whose reaction is not unique.
 #[must_use]
 pub fn not_unique(joint: &str) -> String {
     format!("the reaction of joint `{joint}` is not unique: the smallest one is given")
 }
 
-/// A time on the way, with as many digits as one can read while it runs.
+/// Formats a time [s] with three decimals, for the display during a run.
 #[must_use]
 pub fn time(t: f64) -> String {
     format!("{t:.3}")

@@ -1,4 +1,4 @@
-//! A checkpoint that cannot be resumed.
+//! Errors of a checkpoint that cannot be resumed.
 
 use crate::settings::SettingsError;
 use core::fmt::{self, Display, Formatter};
@@ -10,37 +10,37 @@ use std::io;
 pub enum CheckpointError {
     /// The file cannot be read.
     Io(io::Error),
-    /// A directory in which another process keeps a run.
+    /// Directory that another process uses for a run.
     Busy,
-    /// The file is something else.
+    /// The file is no checkpoint.
     NotACheckpoint,
-    /// The checkpoint was written by another version of mbs, which is given here.
+    /// The checkpoint was written by the given other version of mbs.
     Version(String),
-    /// The file has other than the bytes it says.
+    /// The length of the file differs from the length stated in its header.
     Torn {
-        /// Bytes after the head, as it says.
+        /// Number of bytes after the header, as stated in the header.
         stated: u64,
-        /// Bytes there are, or one more than stated where there are more.
+        /// Number of bytes found; one more than stated if the file is longer.
         found: u64,
     },
-    /// The sum over its bytes is another: they have changed since they were written.
+    /// The checksum of the bytes differs from the stored one, so the file was changed after it was written.
     Checksum,
-    /// The bytes are whole, but do not make a state of this scene.
+    /// The bytes are complete, but are no state of this scene.
     Misfit,
-    /// The checkpoint belongs to another scene; these parts of it differ.
+    /// The checkpoint belongs to another scene; the list has the parts of the scene that differ.
     Scene(Vec<&'static str>),
-    /// The checkpoint belongs to a run with another setting.
+    /// The checkpoint belongs to a run with another value of a setting.
     Setting {
         /// Name of the setting, as on the command line.
         key: &'static str,
         /// Value of the setting in the checkpoint.
         was: String,
-        /// Value of the setting now.
+        /// Value of the setting for the resumed run.
         is: String,
     },
-    /// The settings that are given are refused, whatever the checkpoint.
+    /// The given settings are invalid, independent of the checkpoint.
     Settings(SettingsError),
-    /// The checkpoint was saved from a `Simulation`; there is no recorded run in it.
+    /// The checkpoint was saved from a `Simulation`, so it has no recorded run.
     NoRun,
 }
 

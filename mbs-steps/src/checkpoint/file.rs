@@ -1,4 +1,4 @@
-//! File of a checkpoint: a head of fixed length that says what follows, and what it belongs to.
+//! File of a checkpoint: a header of fixed length, the identity of scene and settings, and the state.
 
 use super::CheckpointError;
 use super::identity::Identity;
@@ -12,26 +12,26 @@ use std::path::Path;
 
 /// First bytes of a checkpoint.
 const MAGIC: [u8; 8] = *b"mbs-ckpt";
-/// Number of the layout of what follows: it grows with every change, and others are refused.
+/// Version number of the file format. It increases with every change of the layout, and files with other numbers are not read.
 const FORMAT: u32 = 6;
-/// Bytes before those that are counted and summed: magic, format, length, checksum.
+/// Length of the header in bytes: magic, format, length, checksum. The stored length and checksum cover the bytes after it.
 const N_HEAD: usize = 28;
 
 /// Content of a checkpoint.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
-    /// State that a simulation steps on from.
+    /// State from which a simulation continues.
     Simulation,
-    /// State that a simulation steps on from, and the record of its run so far.
+    /// State from which a simulation continues, and the record of its run so far.
     Run,
 }
 
-/// A checkpoint that was read: whole, and of this version of mbs.
+/// A checkpoint that was read: it is complete, and of this version of mbs.
 #[derive(Debug, Clone)]
 pub struct Checkpoint {
     identity: Identity,
     kind: Kind,
-    /// Simulated time, and how much of it lies between two checkpoints of the run [s].
+    /// Simulated time of the checkpoint, and interval between checkpoints of the run [s].
     times: [f64; 2],
     body: Vec<u8>,
 }
@@ -40,15 +40,15 @@ impl Checkpoint {
     /// Reads a checkpoint from a file.
     ///
     /// # Errors
-    /// As [`read`](Self::read).
+    /// As for [`read`](Self::read).
     pub fn open(path: &Path) -> Result<Self, CheckpointError> {
         Self::read(std::fs::File::open(path)?)
     }
 
-    /// Reads a checkpoint, and nothing more than its bytes and one.
+    /// Reads a checkpoint; reads at most one byte after its end.
     ///
     /// # Errors
-    /// [`CheckpointError`] for what is no checkpoint, is not whole, or was written by another version.
+    /// [`CheckpointError`] for data that is no checkpoint, is incomplete, or was written by another version.
     pub fn read(mut source: impl Read) -> Result<Self, CheckpointError> {
         let mut start = Vec::with_capacity(N_HEAD);
         source.by_ref().take(N_HEAD as u64).read_to_end(&mut start)?;
@@ -82,22 +82,23 @@ impl Checkpoint {
         Ok(Self { identity, kind, times, body })
     }
 
-    /// The simulated time it was written at [s].
+    /// The simulated time of the checkpoint [s].
     #[must_use]
     pub fn time(&self) -> f64 {
         self.times[0]
     }
 
-    /// The simulated time between two checkpoints of its run [s]; zero where there was no run.
+    /// The interval between checkpoints of the run in simulated time [s]; zero without a run.
     #[must_use]
     pub fn every(&self) -> f64 {
         self.times[1]
     }
 
-    /// The settings to resume with: those of its run. What is given must agree with them, but for the number of threads.
+    /// Settings for the resumed run: the given ones and those of the checkpoint. Given settings must equal those of the checkpoint, except
+    /// the number of threads.
     ///
     /// # Errors
-    /// [`CheckpointError::Settings`] for what no run could have, [`CheckpointError::Setting`] for what this run did not have.
+    /// [`CheckpointError::Settings`] for invalid settings, [`CheckpointError::Setting`] for a setting that differs from the checkpoint.
     pub fn settings<T: Real>(
         &self,
         scene: &Scene<T>,
@@ -107,40 +108,40 @@ impl Checkpoint {
         self.settle(settings.map_err(CheckpointError::Settings)?)
     }
 
-    /// Returns the settings that are given, and those of the checkpoint's run where nothing is given. [`settle`](Self::settle) compares what
-    /// [`ResolvedMethod::new`] makes of them. The two are the halves of [`settings`](Self::settings).
+    /// Returns the given settings, completed by those of the checkpoint. A caller makes a [`ResolvedMethod::new`] from them, and
+    /// [`settle`](Self::settle) compares it with the checkpoint. The two functions together are [`settings`](Self::settings).
     ///
     /// # Errors
-    /// [`CheckpointError::Setting`] for what this run did not have.
+    /// [`CheckpointError::Setting`] for a setting that differs from the checkpoint.
     pub fn overrides(&self, given: &Method) -> Result<Method, CheckpointError> {
         self.identity.overrides(given)
     }
 
-    /// The settings that came of [`overrides`](Self::overrides), where they are those of the checkpoint's run.
+    /// Returns the settings that were resolved from [`overrides`](Self::overrides), after a check that they are those of the checkpoint.
     ///
     /// # Errors
-    /// [`CheckpointError::Setting`] for what this run did not have.
+    /// [`CheckpointError::Setting`] for a setting that differs from the checkpoint.
     pub fn settle(&self, settings: ResolvedMethod) -> Result<ResolvedMethod, CheckpointError> {
         self.identity.settle(settings)
     }
 
-    /// Is it of these, scene and settings?
+    /// Checks that the checkpoint belongs to this scene and these settings.
     pub fn check(&self, identity: &Identity) -> Walked {
         identity.check(&self.identity)
     }
 
-    /// Tape of the state of the simulation, and after it the record of its run, if it has one.
+    /// Tape with the state of the simulation, followed by the record of its run, if there is one.
     pub fn body(&self) -> Eye<'_> {
         Eye(&self.body)
     }
 
-    /// Has it the record of a run?
+    /// Has the checkpoint the record of a run?
     pub fn is_of_run(&self) -> bool {
         self.kind == Kind::Run
     }
 }
 
-/// Walks along what comes before the state: version, content, times and identity.
+/// Writes or reads the parts before the state: version, kind, times and identity.
 fn walk(
     tape: &mut impl Tape,
     kind: &mut Kind,
@@ -160,7 +161,7 @@ fn walk(
     identity.walk(tape)
 }
 
-/// The bytes of a checkpoint at simulated times (now, between two) [s], its state by `body`.
+/// Returns the bytes of a checkpoint. `times` has the simulated time and the checkpoint interval [s]; `body` writes the state.
 pub fn whole(
     identity: &Identity,
     (mut kind, mut times): (Kind, [f64; 2]),

@@ -1,13 +1,13 @@
-//! Histories and states on a tape.
+//! Writing and reading of histories and states on a tape.
 
 use super::tape::{Tape, Walked, holds};
 use mbs_core::Real;
 use mbs_core::history::{Entry, Numbers, Shape};
 use mbs_core::model::State;
 
-/// Parts that several have.
+/// Parts of a checkpoint that several owners use.
 pub(super) trait Parts: Tape {
-    /// Writes the history of a formulation, or reads it: its numbers in their order, without their names.
+    /// Writes or reads the history of a formulation: its values in order, without their names.
     fn history<T: Real>(&mut self, entries: &mut [Entry<T>]) -> Walked {
         entries.iter_mut().try_for_each(|Entry { shape, numbers, .. }| match numbers {
             Numbers::Reals(x) => array(self, *shape, (x, 8), Self::real),
@@ -22,13 +22,13 @@ pub(super) trait Parts: Tape {
         })
     }
 
-    /// Writes the memory of a control by error estimates, or reads it.
+    /// Writes or reads the memory of the step control by error estimates.
     fn errors(&mut self, (memory, was_rejected): &mut (Option<f64>, bool)) -> Walked {
         self.option(memory, Tape::float)?;
         self.flag(was_rejected)
     }
 
-    /// Writes a state in natural coordinates, or reads it.
+    /// Writes or reads a state in natural coordinates.
     fn state<T: Real>(&mut self, state: &mut State<T>) -> Walked {
         let State {
             t,
@@ -55,7 +55,7 @@ pub(super) trait Parts: Tape {
             .try_for_each(|x| self.reals(x))?;
         let (threes, ones) = applied.as_chunks_mut::<3>();
         self.places(threes, |tape, value| tape.reals(value))?;
-        // Absent where there are none: files without signals are as they were.
+        // Empty lists are not written, so a scene without signals needs no bytes for them.
         for numbers in [ones, signals.as_flattened_mut()] {
             if !numbers.is_empty() {
                 self.reals(numbers)?;
@@ -67,7 +67,7 @@ pub(super) trait Parts: Tape {
 
 impl<P: Tape> Parts for P {}
 
-/// An array of numbers that take at least `size` bytes each.
+/// Writes or reads an array of values that need at least `size` bytes each.
 fn array<P: Tape, E: Copy + Default + PartialEq>(
     tape: &mut P,
     shape: Shape,
@@ -101,7 +101,7 @@ fn array<P: Tape, E: Copy + Default + PartialEq>(
     x.iter_mut().try_for_each(|x| each(tape, x))
 }
 
-/// A number of rows that the model knows.
+/// Writes or reads a number of rows, which must be the number in the model.
 fn same(tape: &mut impl Tape, n: usize) -> Walked {
     let mut found = n as u64;
     tape.count(&mut found)?;

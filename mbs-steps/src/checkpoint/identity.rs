@@ -1,4 +1,4 @@
-//! Identity of a checkpoint: the scene, part by part, and the settings of its run.
+//! Identity of a checkpoint: a fingerprint of each part of the scene, and the settings of its run.
 
 use super::CheckpointError;
 use super::tape::{Tape, Walked, holds};
@@ -8,7 +8,7 @@ use core::fmt::{Debug, Write};
 use mbs_core::Real;
 use mbs_core::scene::{SETTINGS, Scene, Setting};
 
-/// Parts of a scene, as a file calls them.
+/// Parts of a scene, by their names in a scene file.
 const PARTS: [&str; 12] = [
     "[scene]",
     "[[body]]",
@@ -24,7 +24,7 @@ const PARTS: [&str; 12] = [
     "[solver]",
 ];
 
-/// Settings that a checkpoint holds to, in the order of its format; others follow in the order of the table.
+/// Settings that must equal those of the checkpoint, in the order of the file format. Further settings follow in the order of the table.
 const FORMAT: [&str; 13] = [
     "formulation",
     "integrator",
@@ -41,24 +41,24 @@ const FORMAT: [&str; 13] = [
     "tolerance",
 ];
 
-/// Setting that a checkpoint does not hold to: the bits are the same for any number of threads.
+/// Setting that may differ from the checkpoint, because the results are bitwise the same for any number of threads.
 const FREE: &str = "threads";
 
-/// Returns the settings that a checkpoint holds to.
+/// Returns the settings that must equal those of the checkpoint.
 fn held() -> impl Iterator<Item = &'static Setting> {
     let is_other = |row: &&Setting| row.name != FREE && !FORMAT.contains(&row.name);
     let first = FORMAT.into_iter().filter_map(Setting::named);
     first.chain(SETTINGS.iter().filter(is_other))
 }
 
-/// Scene and settings of a run.
+/// Identity of a run: scene and settings.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Identity {
-    /// A number for each of [`PARTS`].
+    /// Fingerprint of each of [`PARTS`].
     parts: [u64; PARTS.len()],
-    /// A text for each of [`held`]; empty: left out.
+    /// Text of each setting in [`held`]; empty for a setting without value.
     values: Vec<String>,
-    /// The formulation as asked, `auto` among them.
+    /// Formulation as requested; it may be `auto`.
     asked: String,
 }
 
@@ -70,13 +70,13 @@ impl Default for Identity {
 }
 
 impl Identity {
-    /// Makes the identity of a scene in the precision of its run. Comments, the order of keys and the name of the file have no part in it.
+    /// Makes the identity of a scene in the precision of its run. Comments, the order of keys and the name of the file do not change it.
     pub fn new<T: Real>(scene: &Scene<T>, settings: &ResolvedMethod) -> Self {
         let (parts, values) = (fingerprints(scene), values(settings));
         Self { parts, values, asked: settings.asked.clone() }
     }
 
-    /// Is that of a checkpoint the same?
+    /// Compares scene and settings with those of a checkpoint.
     pub(super) fn check(&self, kept: &Self) -> Walked {
         self.check_settings(kept)?;
         let differs = |&i: &usize| self.parts[i] != kept.parts[i];
@@ -95,10 +95,10 @@ impl Identity {
         }
     }
 
-    /// The settings of a checkpoint where `given` says nothing else.
+    /// Returns the given settings, completed by those of the checkpoint.
     pub(super) fn overrides(&self, given: &Method) -> Result<Method, CheckpointError> {
         let mut method = given.clone();
-        // what was asked for stands for what it was decided to be
+        // The same requested formulation, such as `auto`, stands for the formulation that the checkpoint's run used.
         if method.formulation.as_ref() == Some(&self.asked) {
             method.formulation = None;
         }
@@ -112,7 +112,7 @@ impl Identity {
         Ok(method)
     }
 
-    /// The settings, where they are those of the checkpoint; what was asked for is what its run was asked for.
+    /// Returns the settings after a check that they are those of the checkpoint. The requested formulation is taken from the checkpoint.
     pub(super) fn settle(
         &self,
         settings: ResolvedMethod,
@@ -122,7 +122,7 @@ impl Identity {
         Ok(ResolvedMethod { asked: self.asked.clone(), ..settings })
     }
 
-    /// Writes it, or reads it back.
+    /// Writes the identity to a checkpoint, or reads it from one.
     pub(super) fn walk(&mut self, tape: &mut impl Tape) -> Walked {
         tape.places(&mut self.parts, Tape::word)?;
         tape.places(&mut self.values, Tape::text)?;
@@ -131,7 +131,7 @@ impl Identity {
     }
 }
 
-/// A number for each of [`PARTS`].
+/// Computes the fingerprint of each of [`PARTS`].
 fn fingerprints<T: Real>(scene: &Scene<T>) -> [u64; PARTS.len()] {
     let Scene {
         name,
@@ -147,7 +147,7 @@ fn fingerprints<T: Real>(scene: &Scene<T>) -> [u64; PARTS.len()] {
         signals,
         road,
         start,
-        // names of places, and pictures: nothing moves by them
+        // Frames and drawn shapes do not influence the motion.
         frames: _,
         shapes: _,
         effects,
@@ -171,15 +171,15 @@ fn fingerprints<T: Real>(scene: &Scene<T>) -> [u64; PARTS.len()] {
     ]
 }
 
-/// Returns the fingerprint of all fields, as they are derived: numbers in the shortest text that reads back as the same bits.
+/// Returns the fingerprint of all fields in their `Debug` form, which has numbers as the shortest text that reads back exactly.
 fn of(part: &impl Debug) -> u64 {
     let mut print = Fingerprint::new();
-    // Nothing in it can fail.
+    // Writing into a fingerprint cannot fail.
     let _ = write!(print, "{part:?}");
     print.get()
 }
 
-/// A text for each of [`held`].
+/// Returns the text of each setting in [`held`].
 fn values(settings: &ResolvedMethod) -> Vec<String> {
     let decided = settings.decided();
     let text =

@@ -1,12 +1,12 @@
-//! Checkpoints: everything that the next step depends on, in one file, to resume later with the same bits.
+//! Checkpoints: files with all data that the next step depends on. A resumed run is bitwise the same as an uninterrupted one.
 //!
 //! ```text
 //! "mbs-ckpt" format | length checksum | mbs version | scene, settings | time | state, formulation, control, invariant | record
 //! ```
 //!
-//! [`Simulation::save`] and [`Simulation::restore`] are for programs that step themselves; [`CheckpointWriter`] is how `mbs run` keeps a run,
-//! its record among it. docs/CHECKPOINT.md says what is in the file and what is not. The numeric crates give plain histories of
-//! what they remember from step to step; the format is here alone.
+//! [`Simulation::save`] and [`Simulation::restore`] are for programs that make the steps themselves. `mbs run` saves a run and its record
+//! with [`CheckpointWriter`]. docs/CHECKPOINT.md describes the content of the file. The numerical crates return their memory between steps
+//! as plain histories, and only this module defines the file format.
 
 mod error;
 mod file;

@@ -1,4 +1,4 @@
-//! Snapshot that a simulation steps on from, as plain data.
+//! Snapshot from which a simulation continues, as plain data.
 
 use super::history::Parts;
 use super::tape::{Tape, Walked, holds};
@@ -9,18 +9,18 @@ use mbs_core::inputs::Prescribed;
 use mbs_core::model::State;
 use mbs_core::outputs::EventHistory;
 
-/// All of it, as plain data.
+/// Snapshot of a simulation: all data that its next step depends on.
 #[derive(Debug, Clone)]
 pub struct SimulationSnapshot<T> {
     pub state: State<T>,
     pub formulation: History<T>,
     pub control: Option<ControlSnapshot<T>>,
     pub invariant: [f64; Invariant::N_HISTORY],
-    /// Inputs that are set from outside: of effects, of guides and of signals; of these the first number.
+    /// Inputs of effects, of guides and of signals, by index; for signals only the first value is used.
     pub inputs: [Vec<(usize, [T; 3])>; 3],
 }
 
-/// Memory of the control of the step length.
+/// Memory of the step control.
 #[derive(Debug, Clone)]
 pub struct ControlSnapshot<T> {
     pub driver: DriverHistory<T>,
@@ -28,7 +28,7 @@ pub struct ControlSnapshot<T> {
 }
 
 impl<T: Real> SimulationSnapshot<T> {
-    /// Writes it, or reads it back in the same shape.
+    /// Writes the snapshot to a checkpoint, or reads one with the same sizes.
     pub fn walk(&mut self, tape: &mut impl Tape) -> Walked {
         let Self { state, formulation, control, invariant, inputs } = self;
         tape.state(state)?;
@@ -69,7 +69,7 @@ impl<T: Real> ControlSnapshot<T> {
     }
 }
 
-/// The inputs as they are set in a state: of effects, of guides, and of signals.
+/// Returns the inputs that are set in a state: of effects, of guides, and of signals.
 pub fn inputs<T: Real>(prescribed: &Prescribed<T>, inputs: &[T]) -> [Vec<(usize, [T; 3])>; 3] {
     let of_signals = prescribed.signals().inputs();
     let (threes, ones) = inputs.split_at(inputs.len() - of_signals.len());

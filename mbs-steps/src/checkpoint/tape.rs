@@ -1,34 +1,35 @@
-//! One walk over what is kept, that writes it or reads it back: little-endian numbers, lists after their lengths.
+//! Tapes: one function for each type both writes it and reads it, so that the two cannot differ. Numbers are little-endian; a list follows
+//! its length.
 //!
-//! Whatever the bytes, reading ends in an error at worst. A list is never longer than the bytes that are left allow, a number of the
-//! mechanics is finite, and a count has room to grow.
+//! Reading invalid bytes gives an error and no panic. A list is never longer than the remaining bytes allow. A physical value is finite,
+//! and a count is small enough to increase without overflow.
 
 use super::CheckpointError;
 use crate::precision::is_finer;
 use core::time::Duration;
 use mbs_core::Real;
 
-/// Result of a walk along a tape.
+/// Result of writing or reading on a tape.
 pub type Walked = Result<(), CheckpointError>;
 
-/// Largest count that a file may have: it has room to grow.
+/// Largest count of 64 bits in a file; a larger one could overflow during the run.
 const MAX_U64: u64 = 1 << 60;
-/// Largest count of 32 bits that a file may have: it has room to grow.
+/// Largest count of 32 bits in a file; a larger one could overflow during the run.
 const MAX_U32: u32 = 1 << 30;
 
-/// Bytes that are written or read.
+/// Bytes to which values are written, or from which values are read.
 #[allow(
     clippy::missing_errors_doc,
     reason = "each fails with a `CheckpointError` where the bytes are not those of the item"
 )]
 pub trait Tape: Sized {
-    /// Writes these bytes, or replaces them by those that were written.
+    /// Writes these bytes, or replaces them by the bytes read.
     fn bytes(&mut self, bytes: &mut [u8]) -> Walked;
 
-    /// Bytes that are left to be read; nothing where they are written.
+    /// Number of bytes that remain to be read; `None` for a tape that writes.
     fn left(&self) -> Option<usize>;
 
-    /// Writes a count, or reads it.
+    /// Writes or reads a count.
     fn count(&mut self, x: &mut u64) -> Walked {
         let mut bytes = x.to_le_bytes();
         self.bytes(&mut bytes)?;
@@ -36,7 +37,7 @@ pub trait Tape: Sized {
         holds(*x <= MAX_U64)
     }
 
-    /// A number of 64 bits that may be any.
+    /// Writes or reads 64 bits of any value.
     fn word(&mut self, x: &mut u64) -> Walked {
         let mut bytes = x.to_le_bytes();
         self.bytes(&mut bytes)?;
@@ -44,7 +45,7 @@ pub trait Tape: Sized {
         Ok(())
     }
 
-    /// Writes a count of 32 bits, or reads it.
+    /// Writes or reads a count of 32 bits.
     fn small(&mut self, x: &mut u32) -> Walked {
         let mut bytes = x.to_le_bytes();
         self.bytes(&mut bytes)?;
@@ -52,7 +53,7 @@ pub trait Tape: Sized {
         holds(*x <= MAX_U32)
     }
 
-    /// An index below a limit.
+    /// Writes or reads an index, which must be below a limit.
     fn index(&mut self, x: &mut usize, below: usize) -> Walked {
         let mut count = *x as u64;
         self.count(&mut count)?;
@@ -60,7 +61,7 @@ pub trait Tape: Sized {
         holds(*x < below)
     }
 
-    /// Writes yes or no as one byte, or reads it.
+    /// Writes or reads a Boolean as one byte.
     fn flag(&mut self, x: &mut bool) -> Walked {
         let mut byte = [u8::from(*x)];
         self.bytes(&mut byte)?;
@@ -68,7 +69,7 @@ pub trait Tape: Sized {
         holds(byte[0] <= 1)
     }
 
-    /// A number that may be any, infinite ones and NaN among them.
+    /// Writes or reads a number, which may be infinite or NaN.
     fn float(&mut self, x: &mut f64) -> Walked {
         let mut bits = x.to_bits();
         self.word(&mut bits)?;
@@ -76,12 +77,12 @@ pub trait Tape: Sized {
         Ok(())
     }
 
-    /// Writes several numbers that may be any, or reads them.
+    /// Writes or reads several numbers, which may be infinite or NaN.
     fn floats(&mut self, x: &mut [f64]) -> Walked {
         x.iter_mut().try_for_each(|x| self.float(x))
     }
 
-    /// A number of the mechanics, to the last bit.
+    /// Writes or reads a physical value with all its bits; it must be finite.
     fn real<T: Real>(&mut self, x: &mut T) -> Walked {
         let [mut near, mut rest] = x.parts();
         self.float(&mut near)?;
@@ -92,12 +93,12 @@ pub trait Tape: Sized {
         holds(self.left().is_none() || x.is_finite())
     }
 
-    /// Writes numbers of the mechanics, or reads them: as many as there are places.
+    /// Writes or reads physical values; their number is the length of the slice.
     fn reals<T: Real>(&mut self, x: &mut [T]) -> Walked {
         self.places(x, Self::real)
     }
 
-    /// A length of time.
+    /// Writes or reads a duration in nanoseconds.
     fn duration(&mut self, x: &mut Duration) -> Walked {
         let mut nanoseconds = u64::try_from(x.as_nanos()).unwrap_or(MAX_U64).min(MAX_U64);
         self.count(&mut nanoseconds)?;
@@ -105,7 +106,7 @@ pub trait Tape: Sized {
         Ok(())
     }
 
-    /// Writes things, or reads them: as many as there are places.
+    /// Writes or reads items; their number is the length of the slice.
     fn places<E>(
         &mut self,
         x: &mut [E],
@@ -117,7 +118,7 @@ pub trait Tape: Sized {
         x.iter_mut().try_for_each(|x| each(self, x))
     }
 
-    /// A list of things that take at least `size` bytes each.
+    /// Writes or reads a list of items that need at least `size` bytes each.
     fn list<E: Default>(
         &mut self,
         list: &mut Vec<E>,
@@ -134,7 +135,7 @@ pub trait Tape: Sized {
         list.iter_mut().try_for_each(|x| each(self, x))
     }
 
-    /// Writes something or nothing, or reads it.
+    /// Writes or reads an optional item.
     fn option<E: Default>(
         &mut self,
         x: &mut Option<E>,
@@ -148,7 +149,7 @@ pub trait Tape: Sized {
         x.as_mut().map_or(Ok(()), |x| each(self, x))
     }
 
-    /// Writes a text, or reads it.
+    /// Writes or reads a text.
     fn text(&mut self, text: &mut String) -> Walked {
         let mut bytes = core::mem::take(text).into_bytes();
         self.list(&mut bytes, 1, |tape, byte| tape.bytes(core::slice::from_mut(byte)))?;
@@ -156,7 +157,7 @@ pub trait Tape: Sized {
         Ok(())
     }
 
-    /// One of some words, or none.
+    /// Writes or reads one of the given words, or `None`.
     fn word_of(&mut self, x: &mut Option<&'static str>, words: &[&'static str]) -> Walked {
         let mut place = x.and_then(|x| words.iter().position(|w| *w == x)).unwrap_or(words.len());
         self.index(&mut place, words.len() + 1)?;
@@ -165,7 +166,7 @@ pub trait Tape: Sized {
     }
 }
 
-/// Refuses what does not hold as a misfit.
+/// Returns the error `Misfit` if a condition does not hold.
 pub fn holds(does: bool) -> Walked {
     if does { Ok(()) } else { Err(CheckpointError::Misfit) }
 }

@@ -1,23 +1,23 @@
-//! The time of a simulation that is stepped by hand: sums of many steps drift, multiples do not.
+//! Time of a simulation that a caller steps. Times are multiples of the step, because a sum of many steps would accumulate rounding errors.
 
 use crate::checkpoint::tape::{Tape, Walked};
 use crate::driver::multiple;
 use mbs_core::Real;
 
-/// A row of equal steps.
+/// A series of equal steps.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct StepClock<T> {
-    /// Time at which the row begins [s].
+    /// Time at which the series begins [s].
     origin: T,
-    /// Length of its steps [s], as asked for and in the digits of the run.
+    /// Length of its steps [s], as requested and in the precision of the run.
     dt: (f64, T),
     count: u64,
-    /// Time at its end [s].
+    /// Time at the end of the last step [s].
     end: T,
 }
 
 impl<T: Real> StepClock<T> {
-    /// The time after one more step of `dt` [s] from `now`.
+    /// Returns the time after one more step of `dt` [s] from `now`.
     pub fn advance(&mut self, now: T, dt: (f64, T)) -> T {
         if self.dt.0.to_bits() != dt.0.to_bits() || self.end != now {
             *self = Self { origin: now, dt, count: 0, end: now };
@@ -28,7 +28,7 @@ impl<T: Real> StepClock<T> {
         self.end
     }
 
-    /// Writes it, or reads it back.
+    /// Writes the clock to a checkpoint, or reads it from one.
     pub fn walk(&mut self, tape: &mut impl Tape) -> Walked {
         tape.real(&mut self.origin)?;
         tape.float(&mut self.dt.0)?;
@@ -37,7 +37,7 @@ impl<T: Real> StepClock<T> {
         tape.real(&mut self.end)
     }
 
-    /// The end of the row is known to be this time [s].
+    /// Sets the time at which the last step ended [s].
     pub fn land(&mut self, at: T) {
         self.end = at;
     }

@@ -1,22 +1,22 @@
-//! Errors of the front door: each with a code, what it is about by name, and what to do.
+//! Errors of the public API: each has a code, the names of the parts concerned, and a hint.
 
 use core::fmt::{self, Display, Formatter};
 use mbs_core::scene::{Entry, Number, Scene, SceneError as Refused};
 use mbs_scene::{Place, ReadError, SweepFault, WriteError, nearest_name};
 
-/// Error of the front door: its code, time, joint, body, hint and place in the file.
+/// Error of the public API: its code, time, joint, body, hint and place in the file.
 pub trait Error: core::error::Error {
-    /// Code of the error, a word that does not change.
+    /// Code of the error, a word that is part of the contract.
     fn code(&self) -> &'static str;
     /// Time in the run [s].
     fn time(&self) -> Option<f64> {
         None
     }
-    /// The joint that it is about.
+    /// Name of the joint that the error concerns.
     fn joint(&self) -> Option<&str> {
         None
     }
-    /// The body that it is about.
+    /// Name of the body that the error concerns.
     fn body(&self) -> Option<&str> {
         None
     }
@@ -48,7 +48,7 @@ impl Error for WriteError {
     }
 }
 
-/// A name that no part of that kind has.
+/// Error of a name that no part of that kind has.
 #[derive(Debug, Clone, PartialEq)]
 pub struct UnknownName {
     pub word: &'static str,
@@ -64,7 +64,7 @@ impl Display for UnknownName {
 }
 
 impl UnknownName {
-    /// Returns the kind of part that has no such name: `output`.
+    /// Returns the kind of the unknown part, such as `output`.
     #[must_use]
     pub fn kind(&self) -> &'static str {
         self.word
@@ -82,7 +82,7 @@ impl Error for UnknownName {
     }
 }
 
-/// A path that leads to no number, or a mechanism that has no paths.
+/// Error of a path to a number of a mechanism, or of a mechanism that has no paths.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum PathError {
@@ -93,14 +93,14 @@ pub enum PathError {
         /// Fault of the path.
         fault: SweepFault,
     },
-    /// The number makes no scene of the mechanism.
+    /// The scene is not valid with the new number.
     Refused(ReadError),
-    /// The number is infinite or none.
+    /// The number is infinite or not a number.
     NotFinite {
         /// The path as given.
         path: String,
     },
-    /// The mechanism has a part that is code, and so no text for paths to lead into.
+    /// The mechanism has a user-defined part, so it cannot be written as text and has no paths.
     NotWritten(WriteError),
 }
 
@@ -136,7 +136,7 @@ impl Error for PathError {
     }
 }
 
-/// A mechanism that is refused before a model is built: the part by its name, the key, and what is wrong.
+/// Error of a scene that is found before a model is built: the name of the part, the key, and the message.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SceneError {
     error: Refused,
@@ -145,7 +145,7 @@ pub struct SceneError {
 }
 
 impl SceneError {
-    /// `columns` are the names of all outputs.
+    /// Creates the error; `columns` are the names of all outputs.
     pub fn new<'a>(
         error: Refused,
         scene: &Scene<Number>,
@@ -166,7 +166,7 @@ impl SceneError {
         Self { error, part, place: place.map(Box::new) }
     }
 
-    /// The entry, its key and the fault with its numbers.
+    /// The entry, its key and the fault with its values.
     #[must_use]
     pub fn error(&self) -> &Refused {
         &self.error

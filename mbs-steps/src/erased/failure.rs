@@ -1,4 +1,4 @@
-//! Reason why a simulation was refused or stopped.
+//! Error of a simulation that could not be created or that stopped.
 
 use super::error::{Error, PathError, SceneError, UnknownName};
 use crate::checkpoint::CheckpointError;
@@ -13,10 +13,10 @@ use mbs_core::step::InputError;
 use mbs_parallel::ensemble::EnsembleError;
 use mbs_scene::{Place, ReadError, WriteError};
 
-/// Reason why a simulation or a study was refused, or why it stopped.
+/// Error of a simulation or a study that could not be created or that stopped.
 ///
-/// Programs branch on [`code`](Error::code), whose words are a contract (docs/CONTRACT.md); [`cause`](Self::cause) gives the typed error
-/// behind it.
+/// Programs compare the [`code`](Error::code), which is part of the contract (docs/CONTRACT.md). [`cause`](Self::cause) returns the typed
+/// error that caused this one.
 #[derive(Debug)]
 pub struct SimulationError(Box<Parts>);
 
@@ -33,7 +33,7 @@ struct Parts {
 }
 
 impl SimulationError {
-    /// An error of one's own, by which an [`Observer`](crate::Observer) stops a run: its code, what is wrong, and what to try.
+    /// Creates a user-defined error, with which an [`Observer`](crate::Observer) stops a run: its code, message and hint.
     ///
     /// ```
     /// use mbs::{Error, SimulationError};
@@ -47,14 +47,14 @@ impl SimulationError {
         Self(Box::new(Parts { code, message, time, joint, body, hint, place, cause }))
     }
 
-    /// Adds the typed error behind this one.
+    /// Adds the typed error that caused this one.
     #[must_use]
     pub fn with_cause(mut self, cause: impl core::error::Error + Send + Sync + 'static) -> Self {
         self.0.cause = Some(Box::new(cause));
         self
     }
 
-    /// An error of the front door.
+    /// Converts an error of the public API.
     fn of(error: impl Error + Send + Sync + 'static) -> Self {
         let mut found = Self::new(error.code(), &error, error.hint().unwrap_or_default());
         let owned = |name: Option<&str>| name.map(str::to_owned);
@@ -69,7 +69,7 @@ impl SimulationError {
         self
     }
 
-    /// A stop at a time [s], with the names of the scene.
+    /// Creates the error of a stop at a time [s], with the names of the scene.
     #[must_use]
     pub fn stopped(error: StopError, time: f64, names: &Names) -> Self {
         let report = error.report(time, names);
@@ -78,7 +78,7 @@ impl SimulationError {
         found.with_cause(error)
     }
 
-    /// A checkpoint that a run cannot be resumed from.
+    /// Creates the error of a checkpoint from which a run cannot be resumed.
     #[must_use]
     pub fn not_resumed(error: CheckpointError) -> Self {
         Self::new("checkpoint-refused", &error, error.hint()).with_cause(error)
@@ -90,7 +90,7 @@ impl SimulationError {
         &self.0.message
     }
 
-    /// Puts another hint in place of that of the error.
+    /// Replaces the hint of the error.
     #[must_use]
     pub fn with_hint(mut self, hint: String) -> Self {
         self.0.hint = hint;
@@ -108,7 +108,7 @@ impl SimulationError {
         }
     }
 
-    /// The typed error behind it: `error.cause::<StopError>()`.
+    /// The typed error that caused this one, for example `error.cause::<StopError>()`.
     #[must_use]
     pub fn cause<E: core::error::Error + 'static>(&self) -> Option<&E> {
         self.0.cause.as_ref()?.downcast_ref()
@@ -139,7 +139,7 @@ impl Error for SimulationError {
 impl Display for SimulationError {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let Parts { message, time, joint, body, hint, place, .. } = &*self.0;
-        // what a file was refused for begins with its name and place
+        // The message of an error in a file begins with the place already.
         if let Some(place) = place.as_ref().filter(|_| self.cause::<ReadError>().is_none()) {
             write!(f, "{}:{}: ", place.line, place.column)?;
         }

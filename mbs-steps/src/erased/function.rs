@@ -1,4 +1,4 @@
-//! Outputs that are code.
+//! User-defined outputs, written as code.
 
 use super::view::{Sight, View};
 use crate::record::Channel;
@@ -10,7 +10,8 @@ use mbs_core::Real;
 use mbs_scene::Component;
 use std::sync::Arc;
 
-/// An output of the user's own: a number that is read of a mechanism at an instant. Closures over a [`View`] are such functions.
+/// User-defined output of a mechanism: a number computed from a mechanism at an instant. A closure with a [`View`] as its argument is such
+/// a function.
 ///
 /// ```
 /// use mbs::{Mechanism, OutputFunction, View};
@@ -33,7 +34,7 @@ use std::sync::Arc;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub trait OutputFunction: Send + Sync {
-    /// Evaluates the output at an instant. A number that is not finite stops a run, with the output's name.
+    /// Evaluates the output at an instant. A value that is not finite stops the run with an error that names the output.
     fn evaluate(&self, now: &View<'_>) -> f64;
 }
 
@@ -43,11 +44,11 @@ impl<F: Fn(&View<'_>) -> f64 + Send + Sync> OutputFunction for F {
     }
 }
 
-/// An output that is code, by its place among those of its mechanism.
+/// Index of a user-defined output among those of its mechanism.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct FunctionId(pub usize);
 
-/// Output that is code, with its name. It lives beside the scene: clones share it.
+/// User-defined output with its name. It is stored beside the scene; clones refer to the same function.
 #[derive(Clone)]
 pub struct Function {
     pub name: String,
@@ -66,7 +67,7 @@ impl Debug for Function {
     }
 }
 
-/// Columns of a run for the outputs of a mechanism that are code.
+/// Columns of a run for the user-defined outputs of a mechanism.
 #[allow(
     missing_debug_implementations,
     reason = "it holds what has none, and is made and used in one call"

@@ -1,4 +1,4 @@
-//! Simulations behind their door: one implementation for every scalar and dimension.
+//! Simulations with a hidden scalar and dimension: one interface, implemented for every scalar and dimension.
 
 use super::clock::StepClock;
 use super::inputs::Sink;
@@ -25,35 +25,35 @@ use mbs_core::scene::{InitialCondition, InitialTarget, JointId, Scene, Start};
 use mbs_core::step::InputError;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// A simulation without its scalar and its dimension.
+/// A simulation whose scalar and dimension are hidden.
 pub trait Inner: Sink + Debug + Send + Sync {
     fn clone_box(&self) -> Box<dyn Inner>;
-    /// Readings of the simulation.
+    /// Interface for the quantities of the simulation.
     fn seen(&self) -> &dyn Read;
-    /// Contacts that began or ended since they are watched.
+    /// Contacts that began or ended since monitoring started.
     fn events(&self) -> &[Instant];
-    /// Watches contacts from now on.
+    /// Starts the monitoring of contacts.
     fn watch_events(&mut self) -> Result<(), StopError>;
-    /// Length of the steps that the method asks for [s].
+    /// Length of the steps, according to the method [s].
     fn length(&self) -> f64;
-    /// A time as its clock shows it [s], and the rounding of its numbers, relative.
+    /// Returns a time as rounded to the precision of the simulation [s], and the relative machine precision.
     fn rounded(&self, time: f64) -> (f64, f64);
     fn is_controlled(&self) -> bool;
-    /// Is it to end, by a flag that somebody sets?
+    /// Is the interrupt flag of the simulation set?
     fn is_interrupted(&self) -> bool;
     fn set_interrupt(&mut self, interrupt: Interrupt);
-    /// Advances by `dt` [s], or by what is left; `to` is the time at the end where that is known.
+    /// Advances by `dt` [s]; without `dt`, up to the time `to` [s]. If `to` is given, it is the exact time at the end.
     fn step(&mut self, dt: Option<f64>, to: Option<f64>) -> Result<StepReport, StopError>;
-    /// Does a joint follow a guide?
+    /// Does a guide prescribe the motion of a joint?
     fn is_guided(&self) -> bool;
-    /// Starts anew with these coordinates and rates of joints, or as the scene says, at a time [s].
+    /// Restarts at time `t` [s], from these joint coordinates and rates, or from the scene's initial conditions.
     fn start(
         &mut self,
         states: Option<&[(JointId, Coordinates, Coordinates)]>,
         t: f64,
     ) -> Result<(), StopError>;
-    /// Starts anew where the bodies move as these motions say, which meet the constraints, at the present time. Angles are those next to the
-    /// values of these joints.
+    /// Restarts at the current time from these motions of the bodies, which satisfy the constraints. Full turns of angles are chosen
+    /// closest to the given joint coordinates.
     fn place(
         &mut self,
         states: &[(JointId, Coordinates, Coordinates)],
@@ -63,16 +63,17 @@ pub trait Inner: Sink + Debug + Send + Sync {
     fn restore(&mut self, bytes: &[u8]) -> Result<(), CheckpointError>;
 }
 
-/// A step that an integrator divides by itself is made in parts of so many longest steps, so that an interrupt is heard between them [-].
+/// Largest length of a part, in units of the largest step [-]. A step that an integrator divides internally is made in such parts, so that
+/// an interrupt takes effect between them.
 const INTERRUPTED: f64 = 100.0;
 
-/// Simulation in its scalar and dimension, with its settings and clock.
+/// Simulation with its scalar, dimension, settings and clock.
 #[derive(Debug)]
 struct Typed<T: Real, const D: usize> {
     seen: Seen<T, D, Simulation<T, D>>,
     settings: ResolvedMethod,
     clock: StepClock<T>,
-    /// Contacts, where they are watched.
+    /// Contacts, if they are monitored.
     contacts: Option<Contacts<T, D>>,
 }
 
@@ -93,7 +94,7 @@ impl<T: Real, const D: usize> Typed<T, D> {
         Ok(Self { seen, settings: settings.clone(), clock, contacts: None })
     }
 
-    /// Continues as another one of the same mechanism; the scene's own conditions are those of a later reset.
+    /// Replaces this simulation by another one of the same mechanism. The scene is kept, because a later reset uses its initial conditions.
     fn take(&mut self, fresh: Self) {
         let (own, contacts) = (self.seen.scene.clone(), self.contacts.take());
         *self = fresh;
@@ -101,7 +102,7 @@ impl<T: Real, const D: usize> Typed<T, D> {
         self.rewatch();
     }
 
-    /// Forgets contacts so far: the state is another one than that after the last step.
+    /// Clears the list of contacts, because the state is no longer the one after the last step.
     fn rewatch(&mut self) {
         if let Some(contacts) = &mut self.contacts {
             contacts.resume(self.seen.simulation.state(), &[], 0);
@@ -178,7 +179,7 @@ impl<T: Real, const D: usize> Inner for Typed<T, D> {
         let readings = readings.get_mut().unwrap_or_else(PoisonError::into_inner);
         let fixed = (!simulation.is_controlled()).then_some(length);
         let mut watch = Watch { readings, contacts, sum: StepReport::default() };
-        // an interrupt ends a call between its steps, not behind its last
+        // An interrupt ends a call between two steps, but not after its last step.
         let mut stretch = Stretch { is_last: true, ..Stretch::to(end).in_one(fixed) };
         let parts = (dt / (settings.step_max * INTERRUPTED)).ceil();
         if fixed.is_some() && settings.integrator.controls_its_step() && parts > 1.0 {
@@ -211,7 +212,7 @@ impl<T: Real, const D: usize> Inner for Typed<T, D> {
         let mut fresh = Self::new(scene, &self.settings)?;
         let t = exact(own, t);
         if t != T::ZERO {
-            // what follows time is that of now
+            // Inputs, guides and signals must have their values at the current time.
             let simulation = &mut fresh.seen.simulation;
             simulation.set_time(t);
             simulation.resume().map_err(|error| simulation.explain(error))?;
@@ -260,7 +261,7 @@ impl<T: Real, const D: usize> Inner for Typed<T, D> {
     }
 }
 
-/// A scene that starts with these coordinates and rates of joints.
+/// Returns the scene with these initial coordinates and rates of its joints.
 pub fn started<T: Real>(
     own: &Scene<T>,
     states: &[(JointId, Coordinates, Coordinates)],
@@ -274,7 +275,7 @@ pub fn started<T: Real>(
     Scene { initials, start: Start::Initial, ..own.clone() }
 }
 
-/// A motion of a body in a scalar.
+/// Converts the motion of a body to another scalar.
 fn in_scalar<T: Real>(from: &RigidMotion<f64>) -> RigidMotion<T> {
     let vector = |x: &Vector<f64, 3>| x.map(T::from_f64);
     RigidMotion {
@@ -288,7 +289,7 @@ fn in_scalar<T: Real>(from: &RigidMotion<f64>) -> RigidMotion<T> {
     }
 }
 
-/// Follows the readings of a simulation over its steps, and adds their reports.
+/// Observer that updates the readings of a simulation after each step, and adds the reports of the steps.
 struct Watch<'a, T: Real, const D: usize> {
     readings: &'a mut Readings<T, D>,
     contacts: &'a mut Option<Contacts<T, D>>,
@@ -314,7 +315,7 @@ impl<T: Real, const D: usize> StepObserver<T, D> for Watch<'_, T, D> {
 /// Builds the simulation of a scene in the precision that it was read in.
 ///
 /// # Errors
-/// [`StopError`] where there is no model, no start, or no such formulation.
+/// [`StopError`] if there is no model, no consistent start, or no such formulation.
 pub fn built(read: &ReadScene<'_>, settings: &ResolvedMethod) -> Result<Box<dyn Inner>, StopError> {
     read.work(Built(settings))
 }

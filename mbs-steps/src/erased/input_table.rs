@@ -1,7 +1,7 @@
-//! Inputs that follow a table of times: in the scene they are tables then.
+//! Tables over time that inputs follow; in the scene the inputs then are tables.
 //!
-//! The first column is `t`, the others have the names of inputs. Values are linear between rows and held outside; the motion of a
-//! guide or a coupling is the cubic spline through its values.
+//! The first column is `t`, and the other columns have the names of inputs. Values are linear between rows, and constant before the first
+//! and after the last row. The motion of a guide or a coupling is the cubic spline through its values.
 
 use super::failure::SimulationError;
 use super::inputs::{InputInfo, InputOwner};
@@ -13,7 +13,7 @@ use mbs_core::scene::{
 };
 use mbs_scene::{Place, nearest_name};
 
-/// A table over time that inputs follow, from numbers or from CSV. Its names are those of inputs of a mechanism.
+/// A table over time that inputs follow, from numbers or from CSV. Its columns have the names of inputs of a mechanism.
 ///
 /// ```
 /// use mbs::{InputTable, Mechanism};
@@ -43,18 +43,18 @@ impl InputTable {
         Self(Data::Numbers { times: times.into(), columns })
     }
 
-    /// Takes the text of a CSV file, by whose name errors speak of it. The first column is `t`.
+    /// Makes a table from the text of a CSV file, whose name appears in errors. The first column is `t`.
     #[must_use]
     pub fn csv(bytes: &[u8], file: &str) -> Self {
         let text = String::from_utf8_lossy(bytes).into_owned();
         Self(Data::Csv { file: file.to_owned(), text })
     }
 
-    /// Lets the inputs of a scene follow the table.
+    /// Replaces inputs of a scene by the columns of the table.
     ///
     /// # Errors
-    /// [`InputTableError`] for unknown names, columns that come twice, a first column other than `t`, times that do not increase, and
-    /// numbers that are none.
+    /// [`InputTableError`] for unknown names, repeated columns, a first column other than `t`, times that do not increase, and fields that
+    /// are not numbers.
     pub fn put_into(
         &self,
         scene: &mut Scene<Number>,
@@ -73,22 +73,22 @@ impl InputTable {
     }
 }
 
-/// A table of inputs that is refused.
+/// Error of a table of inputs.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum InputTableError {
-    /// Fault of a file: its name, the place in it, what is wrong, and what to do.
+    /// Error in a file: its name, the place in it, the message and the hint.
     Table {
-        /// The file as it was named.
+        /// Name of the file as given.
         file: String,
-        /// Line, column and the line.
+        /// Line number, column number and text of the line.
         place: Place,
         /// Message on what is wrong.
         message: String,
         /// Hint on what to do.
         hint: String,
     },
-    /// Fault of a table of numbers: what is wrong, and what to do.
+    /// Error in a table of numbers: the message and the hint.
     Numbers {
         /// Message on what is wrong.
         message: String,
@@ -98,7 +98,7 @@ pub enum InputTableError {
 }
 
 impl InputTableError {
-    /// Returns what is wrong, without its place.
+    /// Returns the message of the error, without its place.
     #[must_use]
     pub fn message(&self) -> &str {
         match self {
@@ -143,7 +143,7 @@ enum Source<'a> {
 }
 
 impl Source<'_> {
-    /// A refusal at a field, from 0, of a line, from 1.
+    /// Returns the error at a field (counted from 0) of a line (counted from 1).
     fn fault<R>(
         self,
         (line, field): (u64, usize),
@@ -156,7 +156,7 @@ impl Source<'_> {
         };
         let line = usize::try_from(line).unwrap_or(usize::MAX).max(1);
         let text = text.lines().nth(line - 1).unwrap_or_default().to_owned();
-        // quotes may hide commas
+        // In a line with quotes a comma may belong to a field, so the error refers to the start of the line.
         let field = if text.contains('"') { 0 } else { field };
         let before: usize = text.split(',').take(field).map(|s| s.chars().count() + 1).sum();
         let rest: String = text.chars().skip(before).collect();
@@ -166,9 +166,9 @@ impl Source<'_> {
     }
 }
 
-/// A table that was read.
+/// A table after it was read.
 struct Table<'a> {
-    /// The input of each column behind the first.
+    /// The input of each column after the first one.
     columns: Vec<&'a InputInfo>,
     /// Time and values of each row.
     rows: Vec<Vec<Number>>,
@@ -178,7 +178,7 @@ const HINT_TIME: &str = "begin each row with its time [s], later than that of th
 const HINT_NUMBER: &str = "write a finite decimal number";
 
 impl<'a> Table<'a> {
-    /// Takes a table of numbers.
+    /// Converts a table of numbers.
     fn of(
         times: &[f64],
         columns: &[(String, Vec<f64>)],
@@ -210,7 +210,7 @@ impl<'a> Table<'a> {
         Ok(Self { columns: head, rows: (0..times.len()).map(row).collect() })
     }
 
-    /// Reads a table of CSV.
+    /// Reads a table from CSV.
     fn read(source: Source<'_>, inputs: &'a [InputInfo]) -> Result<Self, InputTableError> {
         let Source::Csv { text, .. } = source else {
             return source.fault((1, 0), NO_ROW.to_owned(), HINT_TIME);
@@ -247,13 +247,13 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// Each row's time, and one of its columns.
+    /// Time and value of one input, for each row; `None` if it has no column.
     fn pairs(&self, info: &InputInfo) -> Option<Vec<[Number; 2]>> {
         let place = self.columns.iter().position(|column| *column == info)?;
         Some(self.rows.iter().map(|row| [row[0].clone(), row[place + 1].clone()]).collect())
     }
 
-    /// Puts all columns of an owner into the scene.
+    /// Writes all columns of an owner into the scene.
     fn write(&self, scene: &mut Scene<Number>, owner: InputOwner) {
         let own = || self.columns.iter().filter(|column| column.owner == owner);
         let rows = own().next().and_then(|info| self.pairs(info)).unwrap_or_default();
@@ -285,7 +285,7 @@ fn not_after(time: &str) -> String {
     format!("the time `{time}` is not after that before it")
 }
 
-/// The inputs of the columns.
+/// Returns the inputs of the columns, from the names in the header.
 fn head<'a, 'n>(
     source: Source<'_>,
     line: u64,
@@ -330,7 +330,7 @@ fn head<'a, 'n>(
     Ok(columns)
 }
 
-/// The numbers of a row.
+/// Parses the numbers of a row.
 fn row(
     source: Source<'_>,
     (line, record): (u64, &StringRecord),
@@ -354,7 +354,7 @@ fn row(
     Ok(row)
 }
 
-/// Puts a table in place of an effect's input; components without a column keep their start.
+/// Replaces an effect's input by a table; components without a column keep their initial value.
 fn set_effect(
     effect: &mut Effect<Number>,
     times: &[[Number; 2]],

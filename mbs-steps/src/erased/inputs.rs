@@ -1,4 +1,4 @@
-//! Inputs of a mechanism: numbers by name that are set between steps.
+//! Inputs of a mechanism: named values that are set between steps.
 
 use super::failure::SimulationError;
 use mbs_core::inputs::Prescribed;
@@ -9,18 +9,18 @@ use mbs_core::scene::{
 use mbs_core::step::InputError;
 use std::sync::Arc;
 
-/// An input of a simulation, by its place in `Simulation::inputs`.
+/// An input of a simulation, by its index in `Simulation::inputs`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct InputId(usize);
 
 impl InputId {
-    /// The input at a place in the list.
+    /// The input at an index of the list.
     #[must_use]
     pub fn new(index: usize) -> Self {
         Self(index)
     }
 
-    /// Returns the place of the input in the list.
+    /// Returns the index of the input in the list.
     #[must_use]
     pub fn index(self) -> usize {
         self.0
@@ -42,35 +42,35 @@ pub enum InputOwner {
     Effect(EffectId),
     /// The prescribed motion of a guide.
     Guide(GuideId),
-    /// The sum of a coupling.
+    /// The prescribed sum of a coupling.
     Coupling {
         /// Coupling that has the sum.
         coupling: CouplingId,
-        /// Place of the sum behind the guides of the scene.
+        /// Index of the sum, counted after the guides of the scene.
         sum: GuideId,
     },
     /// A signal of the scene.
     Signal(SignalId),
 }
 
-/// Input of a simulation: its name, unit, owner and value at the start.
+/// Input of a simulation: its name, unit, owner and initial value.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct InputInfo {
-    /// `NAME` of its effect, or `NAME.x` of a vector; `JOINT`, `JOINT.rate` and `JOINT.acceleration` of a guide, likewise of a
-    /// coupling by its name; `NAME` of a signal.
+    /// Name of the input. For an effect it is `NAME`, or `NAME.x` for a component of a vector. For a guide it is `JOINT`, `JOINT.rate` or
+    /// `JOINT.acceleration`; a coupling has the same suffixes after its name. For a signal it is `NAME`.
     pub name: String,
-    /// Unit of the input; empty for the input of a user's law.
+    /// Unit of the input; empty for the input of a user-defined law.
     pub unit: String,
     /// Part that the input belongs to.
     pub owner: InputOwner,
-    /// Place of the input among the owner's numbers.
+    /// Index of the input among the values of its owner.
     pub component: usize,
     /// Value of the input at the start.
     pub start: f64,
 }
 
-/// The inputs of a simulation with their present values.
+/// The inputs of a simulation with their current values.
 #[derive(Debug, Clone)]
 pub struct Inputs {
     list: Arc<[InputInfo]>,
@@ -137,7 +137,7 @@ impl Inputs {
         &self.list
     }
 
-    /// Returns the place of each input among the inputs of a state.
+    /// Returns the index of each input among the inputs of a state.
     pub fn places(&self, prescribed: &Prescribed<f64>) -> Vec<usize> {
         let place = |info: &InputInfo| {
             let first = match info.owner {
@@ -147,7 +147,7 @@ impl Inputs {
                 }
                 InputOwner::Signal(signal) => prescribed.signal_input(signal.index()),
             };
-            // the list is made of the same scene
+            // The list was made from the same scene, so every owner has inputs.
             first.unwrap_or_default() + info.component
         };
         self.list.iter().map(place).collect()
@@ -224,22 +224,22 @@ impl Inputs {
         Ok(())
     }
 
-    /// Checks the number of values: those of another simulation of the same mechanism are as many.
+    /// Checks the number of values; another simulation of the same mechanism has the same number.
     pub fn check(&self, values: &[f64]) -> Result<(), SimulationError> {
         if values.len() == self.values.len() { Ok(()) } else { Err(self.missing(values.len())) }
     }
 
-    /// Takes the values of a state that the simulation has returned to.
+    /// Sets the values of a restored state.
     pub fn restore(&mut self, values: &[f64]) {
         self.values.copy_from_slice(values);
     }
 
-    /// The values at the start.
+    /// Sets all inputs to their initial values.
     pub fn reset(&mut self) {
         self.values = self.list.iter().map(|input| input.start).collect();
     }
 
-    /// Writes all present values into a simulation that was started anew.
+    /// Writes all current values into a restarted simulation.
     pub fn renew(&mut self, inner: &mut (impl Sink + ?Sized)) -> Result<(), SimulationError> {
         let list = self.list.clone();
         let firsts = list.iter().filter(|input| input.component == 0);
@@ -283,7 +283,7 @@ fn finite(input: &InputInfo, value: f64) -> Result<(), SimulationError> {
     Err(SimulationError::new("input-refused", message, "give a finite number"))
 }
 
-/// The signal of an effect, how many numbers it has, and their unit.
+/// The signal of an effect, its number of components, and their unit.
 fn signal(
     kind: &EffectKind<f64>,
     dimension: Dimension,

@@ -1,4 +1,4 @@
-//! A simulation without its scalar and dimension, and what is read of it by name.
+//! A simulation whose scalar and dimension are hidden, and the quantities that can be read by name.
 
 pub mod clock;
 pub mod error;

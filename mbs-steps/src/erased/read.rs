@@ -1,21 +1,21 @@
-//! Readings of a simulation between steps, and of a run at an instant: written once for both.
+//! Quantities of a simulation between steps and of a run at an instant; both types get the same methods from one macro.
 
-/// Readings of a type that has `seen`, which is read, and `stopped`, which makes an error of a reason to stop.
+/// Methods that read quantities. The type must have `seen`, the object to read, and `stopped`, which converts a stop reason to an error.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! readings {
     ($what:ty) => {
         impl $what {
-            /// Present time of the mechanism [s]. It is a count times the step plus a rest, so that 1000 steps of 1e-3 end at 1.0.
+            /// Current time of the mechanism [s]. It is a multiple of the step plus a rest, so that 1000 steps of 1e-3 end exactly at 1.0.
             #[must_use]
             pub fn time(&self) -> f64 {
                 self.seen().time()
             }
 
-            /// First coordinate of a joint, from the reference configuration, turns counted [rad, m].
+            /// First coordinate of a joint, relative to the reference configuration, with full turns counted [rad, m].
             ///
             /// # Panics
-            /// If the joint has no coordinates, as a weld.
+            /// If the joint has no coordinates, such as a weld.
             #[must_use]
             pub fn value(&self, joint: $crate::core::scene::JointId) -> f64 {
                 self.values(joint)[0]
@@ -39,7 +39,7 @@ macro_rules! readings {
                 self.rates(joint)[0]
             }
 
-            /// All rates of a joint; of a ball the relative angular velocity in global axes [rad/s, m/s].
+            /// All rates of a joint [rad/s, m/s]. For a ball joint they are the relative angular velocity in global axes.
             #[must_use]
             pub fn rates(
                 &self,
@@ -63,7 +63,7 @@ macro_rules! readings {
                 self.seen().body(body).1
             }
 
-            /// The material point of a body that is at `at` in the reference configuration [m].
+            /// Motion of the material point of a body whose position in the reference configuration is `at` [m].
             #[must_use]
             pub fn point(
                 &self,
@@ -74,13 +74,13 @@ macro_rules! readings {
                 self.seen().point(body, at)
             }
 
-            /// Force and moment of a joint's first body on the second, at the joint's place on the second, effort of guides included
-            /// [N, N m].
+            /// Force and moment that a joint's first body exerts on the second body, at the joint's point on the second body [N, N m]. The
+            /// effort of guides is included.
             ///
-            /// Cost: at the first call, the balance of every body is prepared; at the first call after a step, it is solved for all joints.
+            /// Cost: the first call prepares the balance of every body. The first call after a step solves it for all joints.
             ///
             /// # Errors
-            /// Where connected loops are too large for it.
+            /// If connected closed loops are too large for the computation.
             pub fn reaction(
                 &self,
                 joint: $crate::core::scene::JointId,
@@ -88,16 +88,16 @@ macro_rules! readings {
                 self.seen().reaction(joint.index()).map_err(|error| self.stopped(error))
             }
 
-            /// Force and moment of an effect on its body, or on the second of its two bodies [N, N m]. For an effect on a joint this is the joint's
-            /// second body.
+            /// Force and moment of an effect on its body, or on the second of its two bodies [N, N m]. For an effect on a joint this is the
+            /// joint's second body.
             ///
-            /// The moment is about the point of that body where the effect is attached, as it has moved. An effect about an angle has a moment alone;
-            /// one that is disabled exerts nothing. The first of two bodies takes the opposite force along the same line.
+            /// The moment is about the current position of the effect's attachment point on that body. An effect about an angle has a
+            /// moment only. A disabled effect has no force. The first of the two bodies receives the opposite force along the same line.
             ///
-            /// Cost: at the first call, all effects are prepared; at each, the laws of this one are evaluated.
+            /// Cost: the first call prepares all effects; each call evaluates the laws of this effect.
             ///
             /// # Errors
-            /// None that a simulation that was built can make; those of the model.
+            /// Errors of the model, which do not occur in a simulation that was created.
             ///
             /// ```
             /// use mbs::{Body, Effect, GROUND, Joint, Mechanism, Method};
@@ -120,7 +120,7 @@ macro_rules! readings {
             /// Components of an output of the mechanism.
             ///
             /// # Errors
-            /// Where one is not finite.
+            /// If a component is not finite.
             pub fn output(
                 &self,
                 output: $crate::core::scene::OutputId,
@@ -128,10 +128,11 @@ macro_rules! readings {
                 self.seen().output(output.index()).map_err(|error| self.stopped(error))
             }
 
-            /// Writes all outputs in their order: as many numbers as [`n_outputs`](Self::n_outputs), or the first ones.
+            /// Writes all outputs in their order. `out` has up to [`n_outputs`](Self::n_outputs) values; a shorter slice receives the first
+            /// ones.
             ///
             /// # Errors
-            /// Where one is not finite.
+            /// If a component is not finite.
             pub fn write_outputs(
                 &self,
                 out: &mut [f64],
@@ -139,7 +140,7 @@ macro_rules! readings {
                 self.seen().write_outputs(out).map_err(|error| self.stopped(error))
             }
 
-            /// Number of components of all outputs; of all joint coordinates where the mechanism names no output.
+            /// Number of components of all outputs. Without named outputs, the outputs are all joint coordinates.
             #[must_use]
             pub fn n_outputs(&self) -> usize {
                 self.seen().n_outputs()
@@ -151,7 +152,7 @@ macro_rules! readings {
                 self.seen().energies()
             }
 
-            /// Sizes of the model that steps.
+            /// Sizes of the model that makes the steps.
             #[must_use]
             pub fn sizes(&self) -> $crate::erased::values::Sizes {
                 self.seen().sizes()

@@ -1,4 +1,4 @@
-//! Readings of a simulation: computed at the first call after a step, and kept until the next.
+//! Readings of a simulation: computed by the first call after a step, and stored until the next step.
 
 use super::values::{Coordinates, Wrench};
 use crate::channels::Channels;
@@ -11,31 +11,31 @@ use mbs_core::algebra::Vector;
 use mbs_core::outputs::{EffectWrenches, Reactions};
 use mbs_core::scene::{JointId, Output, Quantity, Scene};
 
-/// Joint coordinates with their turns, outputs and reactions.
+/// Joint coordinates with full turns, outputs and reactions.
 #[derive(Debug, Clone)]
 pub struct Readings<T: Real, const D: usize> {
     joints: Group<T, D>,
     rates: Group<T, D>,
-    /// Outputs that the scene names; where it names none, the outputs are those of the joints.
+    /// Outputs that the scene names; `None`: the outputs are the joint coordinates.
     outputs: Option<Group<T, D>>,
-    /// Made where one is asked for; whether they are those of the present state.
+    /// Created by the first call that needs reactions; the flag is true if they belong to the current state.
     reactions: Option<(Box<Reactions<T, D>>, bool)>,
-    /// Made where one is asked for.
+    /// Created by the first call that needs the force of an effect.
     effects: Option<Box<EffectWrenches<T, D>>>,
 }
 
-/// Channels that are read together.
+/// Channels that are evaluated together.
 #[derive(Debug, Clone)]
 struct Group<T: Real, const D: usize> {
     channels: Channels<T, D>,
     row: Vec<T>,
-    /// Places of each channel's components in the row.
+    /// Index range of each channel's components in the row.
     places: Vec<Range<usize>>,
     is_present: bool,
 }
 
 impl<T: Real, const D: usize> Group<T, D> {
-    /// Makes a group of these outputs alone.
+    /// Creates a group of the given outputs.
     fn new(
         scene: &Scene<T>,
         outputs: &[Output<T>],
@@ -52,7 +52,7 @@ impl<T: Real, const D: usize> Group<T, D> {
         Ok(Self { channels, row: vec![T::ZERO; end], places, is_present: false })
     }
 
-    /// Makes the row that of the present state.
+    /// Evaluates the row at the current state, unless it is up to date.
     fn update(&mut self, now: &Simulation<T, D>) -> Result<(), StopError> {
         if !self.is_present {
             self.channels.write(now, &mut self.row)?;
@@ -61,7 +61,7 @@ impl<T: Real, const D: usize> Group<T, D> {
         Ok(())
     }
 
-    /// The components of a channel, and whether all of the row are finite.
+    /// Returns the components of a channel, and whether all components of the row are finite.
     fn of(
         &mut self,
         channel: usize,
@@ -74,7 +74,7 @@ impl<T: Real, const D: usize> Group<T, D> {
 }
 
 impl<T: Real, const D: usize> Readings<T, D> {
-    /// Prepares the readings of a simulation at its start.
+    /// Creates the readings of a simulation at its start.
     pub fn new(scene: &Scene<T>, simulation: &Simulation<T, D>) -> Result<Self, StopError> {
         let of_joints = |quantity: fn(JointId) -> Quantity<T>| {
             let joints = (0..scene.joints.len()).map(JointId::new);
@@ -93,7 +93,7 @@ impl<T: Real, const D: usize> Readings<T, D> {
         })
     }
 
-    /// Follows angles over a step, so that no turn is lost.
+    /// Follows angles over a step, so that full turns are counted.
     pub fn follow(&mut self, simulation: &Simulation<T, D>) -> Result<(), StopError> {
         self.stale();
         self.joints.channels.track(simulation)?;
@@ -104,7 +104,7 @@ impl<T: Real, const D: usize> Readings<T, D> {
         self.outputs.as_mut().unwrap_or(&mut self.joints)
     }
 
-    /// Marks what was read as out of date: the next call reads the present state.
+    /// Marks the values as out of date, so that the next call evaluates the current state.
     pub fn stale(&mut self) {
         for group in [&mut self.joints, &mut self.rates].into_iter().chain(&mut self.outputs) {
             group.is_present = false;
@@ -114,7 +114,7 @@ impl<T: Real, const D: usize> Readings<T, D> {
         }
     }
 
-    /// Coordinates of a joint; what is not finite is seen as that.
+    /// Coordinates of a joint; values that are not finite are returned as they are.
     pub fn values(&mut self, joint: usize, now: &Simulation<T, D>) -> Coordinates {
         self.joints.of(joint, now).0
     }
@@ -145,7 +145,7 @@ impl<T: Real, const D: usize> Readings<T, D> {
         written
     }
 
-    /// Force and moment of the first body of a joint on the second, at the joint's place on the second body [N, N m].
+    /// Force and moment that the first body of a joint exerts on the second, at the joint's point on the second body [N, N m].
     pub fn reaction(
         &mut self,
         joint: usize,
@@ -188,7 +188,7 @@ impl<T: Real, const D: usize> Readings<T, D> {
         Ok(Wrench { force: numbers(wrench.force), moment: numbers(wrench.moment) })
     }
 
-    /// Writes the turns that are remembered, or reads them back.
+    /// Writes the counted turns to a checkpoint, or reads them from one.
     pub fn walk(&mut self, tape: &mut impl Tape) -> Walked {
         self.joints.channels.walk(tape)?;
         self.outputs.as_mut().map_or(Ok(()), |outputs| outputs.channels.walk(tape))

@@ -1,4 +1,4 @@
-//! One run of a scene, whatever its scalar and its dimension.
+//! One run of a scene, for every scalar and dimension.
 
 use super::failure::SimulationError;
 use super::function::{Function, FunctionColumns};
@@ -21,19 +21,19 @@ use mbs_core::control::Accepted;
 use mbs_core::scene::Scene;
 use mbs_realtime::Clock;
 
-/// A run of a scene: how it is stepped, who watches it, and what it keeps.
+/// A run of a scene: its method, its observers, and the rows it keeps.
 #[allow(
     missing_debug_implementations,
     reason = "it holds what has none, and is made and used in one call"
 )]
 pub struct SceneRun<'a, 'b> {
-    /// Settings by which the scene is stepped.
+    /// Settings of the steps.
     pub settings: &'a ResolvedMethod,
     /// Names of the scene.
     pub names: &'a Names,
     /// Rows that stay in memory.
     pub keep: RecordRows,
-    /// Outputs that are code.
+    /// Outputs that are user-defined code.
     pub functions: &'a [Function],
     /// Observers, and the inputs that they may set.
     pub observers: (&'a mut [&'b mut dyn Observer], Inputs),
@@ -41,15 +41,15 @@ pub struct SceneRun<'a, 'b> {
     pub progress: Option<&'a mut dyn FnMut(f64)>,
     /// Checkpoint to resume from, and the writer of checkpoints.
     pub checkpoints: (Option<&'a Checkpoint>, Option<&'a mut CheckpointWriter>),
-    /// Pace of the run, and the clock that it follows. A paced run has no observers, functions and checkpoints.
+    /// Pacing of the run, and the clock that it follows. A paced run has no observers, user-defined outputs or checkpoints.
     pub pace: Option<(&'a Pacing, &'a mut dyn Clock)>,
 }
 
 impl SceneRun<'_, '_> {
-    /// Runs the scene in the precision that it was read in.
+    /// Runs the scene in the precision in which it was read.
     ///
     /// # Errors
-    /// [`SimulationError`] for a checkpoint of something else, and a pacing that is refused.
+    /// [`SimulationError`] for a checkpoint of another run, and for an invalid pacing.
     pub fn run(self, read: &ReadScene<'_>) -> Result<Outcome, SimulationError> {
         read.work(self)
     }
@@ -88,7 +88,7 @@ impl SceneWork for SceneRun<'_, '_> {
     }
 }
 
-/// Listener to the time that a run has reached [s].
+/// Observer that reports the time that a run has reached [s].
 struct Listener<'a>(Option<&'a mut dyn FnMut(f64)>);
 
 impl<T: Real, const D: usize> StepObserver<T, D> for Listener<'_> {

@@ -1,4 +1,4 @@
-//! Readings of a simulation, whatever its scalar and dimension: one implementation behind `Simulation` and [`View`](super::View).
+//! Quantities of a simulation, for every scalar and dimension: one implementation for `Simulation` and [`View`](super::View).
 
 use super::readings::Readings;
 use super::values::{BodyMotion, Coordinates, Energies, PointMotion, Pose, Sizes, Wrench, rows};
@@ -12,7 +12,7 @@ use mbs_core::rigid::RigidMotion;
 use mbs_core::scene::{BodyId, Scene};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-/// Readings of a mechanism between two steps.
+/// Quantities of a mechanism between two steps.
 pub trait Read: Debug + Send + Sync {
     fn time(&self) -> f64;
     fn values(&self, joint: usize) -> Coordinates;
@@ -26,11 +26,11 @@ pub trait Read: Debug + Send + Sync {
     fn point(&self, body: BodyId, at: [f64; 3]) -> PointMotion;
     fn energies(&self) -> Energies;
     fn sizes(&self) -> Sizes;
-    /// Puts a tree of the same mechanism where the simulation is.
+    /// Sets a tree of the same mechanism to the state of the simulation.
     fn follow(&self, tree: &mut Tree) -> Result<(), TreeError>;
 }
 
-/// A simulation, its own or borrowed for an instant, and what is read of it.
+/// A simulation, owned or borrowed for an instant, with its readings.
 #[derive(Debug)]
 pub struct Seen<T: Real, const D: usize, S> {
     pub scene: Arc<Scene<T>>,
@@ -44,7 +44,7 @@ impl<T: Real, const D: usize, S> Seen<T, D, S> {
     }
 
     pub fn read(&self) -> MutexGuard<'_, Readings<T, D>> {
-        // readings are made anew from the state: a panic while they were made leaves nothing behind
+        // Readings are always recomputed from the state, so a panic during an earlier computation leaves no invalid data.
         self.readings.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
@@ -152,12 +152,12 @@ where
     }
 }
 
-/// Components as plain numbers; those that the plane lacks are zero.
+/// Converts components to `f64`; components that the plane lacks are zero.
 fn numbers<T: Real>(from: &[T]) -> [f64; 3] {
     core::array::from_fn(|i| from.get(i).map_or(0.0, |x| x.to_f64()))
 }
 
-/// A motion of a body, nearest doubles.
+/// Converts the motion of a body to `f64`.
 fn in_doubles<T: Real>(from: &RigidMotion<T>) -> RigidMotion<f64> {
     let vector = |x: &[T]| numbers(x).into();
     RigidMotion {

@@ -1,4 +1,4 @@
-//! Values that are read of a simulation: plain arrays, in SI units and global axes.
+//! Values read from a simulation: plain arrays, in SI units and global axes.
 
 use core::fmt::{self, Debug, Formatter};
 use core::ops::Deref;
@@ -17,7 +17,7 @@ pub struct Coordinates {
 }
 
 impl Coordinates {
-    /// This many of the given numbers, six at most.
+    /// Creates coordinates from the given values; values after the sixth are dropped.
     pub fn new(from: impl IntoIterator<Item = f64>) -> Self {
         let mut coordinates = Self::default();
         for (to, value) in coordinates.values.iter_mut().zip(from) {
@@ -34,7 +34,7 @@ impl Debug for Coordinates {
     }
 }
 
-/// More than six numbers are refused by the compiler.
+/// An array of more than six values is a compile error.
 impl<const N: usize> From<[f64; N]> for Coordinates {
     fn from(values: [f64; N]) -> Self {
         const { assert!(N <= 6, "a joint has six coordinates at most") }
@@ -56,7 +56,7 @@ impl Deref for Coordinates {
     }
 }
 
-/// Components of an output, at most six.
+/// Components of an output, at most six values.
 pub type Components = Coordinates;
 
 /// Pose of a body: its centre of mass and its rotation.
@@ -65,11 +65,12 @@ pub type Components = Coordinates;
 pub struct Pose {
     /// Centre of mass [m].
     pub position: [f64; 3],
-    /// Rotation from the reference configuration, by rows: the columns are the present directions of what were the global axes.
+    /// Rotation matrix relative to the reference configuration, by rows: the columns are the current directions of axes that were global
+    /// axes there.
     pub rotation: [[f64; 3]; 3],
 }
 
-/// A matrix by rows.
+/// Converts a matrix to arrays, row by row.
 pub fn rows<T: Real>(matrix: &Matrix<T, 3>) -> [[f64; 3]; 3] {
     core::array::from_fn(|i| core::array::from_fn(|j| matrix[(i, j)].to_f64()))
 }
@@ -86,7 +87,7 @@ impl Pose {
     #[must_use]
     pub fn quaternion(&self) -> [f64; 4] {
         let r = &self.rotation;
-        // Shepperd: from the largest of the four, so that nothing is divided by a small number
+        // Method of Shepperd: the computation starts from the largest of the four components, so that no division by a small number occurs.
         let trace = r[0][0] + r[1][1] + r[2][2];
         let squares = [trace, r[0][0], r[1][1], r[2][2]];
         let largest = (0..4).max_by(|&a, &b| squares[a].total_cmp(&squares[b])).unwrap_or(0);
@@ -138,17 +139,17 @@ pub struct PointMotion {
     pub acceleration: [f64; 3],
 }
 
-/// A contact of a one-sided effect that begins or ends.
+/// A contact of a unilateral effect that begins or ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct ContactEvent {
     /// Time of the event [s].
     pub time: f64,
-    /// The bumper, limit or tire.
+    /// The bumper, limit or tire of the contact.
     pub effect: EffectId,
-    /// End of a limit: 0 at its lower end, 1 at its upper one; 0 for other effects.
+    /// End of a limit: 0 for its lower end, 1 for its upper end; 0 for other effects.
     pub end: usize,
-    /// Does the contact begin?
+    /// True if the contact begins, false if it ends.
     pub is_made: bool,
 }
 
@@ -171,7 +172,7 @@ pub struct Energies {
     pub work: f64,
 }
 
-/// Sizes of the model that steps.
+/// Sizes of the model that makes the steps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Sizes {
@@ -195,20 +196,20 @@ impl Sizes {
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
 pub struct StepReport {
-    /// Steps that were made.
+    /// Number of steps that were made.
     pub steps: u64,
-    /// Iterations of Newton's method; evaluations of the accelerations in relative coordinates.
+    /// Number of iterations of Newton's method; in relative coordinates, number of evaluations of the accelerations.
     pub iterations: u64,
-    /// Factorisations that were made.
+    /// Number of factorisations of matrices.
     pub factorizations: u64,
-    /// Steps that the step control rejected.
+    /// Number of steps that the step control rejected.
     pub rejected: u64,
-    /// Largest violation of positions, velocities and accelerations after a step [m, m/s, m/s^2].
+    /// Largest constraint violation in positions, velocities and accelerations after a step [m, m/s, m/s^2].
     pub violation: [f64; 3],
 }
 
 impl StepReport {
-    /// With one accepted step more.
+    /// Adds one accepted step.
     pub fn add<T: Real>(&mut self, accepted: &Accepted<T>) {
         let report = &accepted.attempt.report;
         self.steps += u64::from(report.steps);
@@ -218,7 +219,7 @@ impl StepReport {
         self.join(report.violation.map(Real::to_f64));
     }
 
-    /// With the steps of another call.
+    /// Adds the steps of another call.
     pub fn join_report(&mut self, other: &Self) {
         self.steps += other.steps;
         self.iterations += other.iterations;

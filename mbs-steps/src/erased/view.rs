@@ -1,4 +1,4 @@
-//! View of a run while it goes, for an observer, and the inputs that it may set.
+//! View of a run between its steps, for an observer, and the inputs that the observer may set.
 
 use super::failure::SimulationError;
 use super::inputs::{InputId, InputInfo, InputOwner, Inputs, Sink};
@@ -16,7 +16,7 @@ use mbs_core::scene::{EffectId, GuideId, Scene, SignalId};
 use mbs_core::step::InputError;
 use std::sync::Arc;
 
-/// A mechanism at an instant of a run: it is read as a `Simulation` is.
+/// A mechanism at an instant of a run, with the same methods as a `Simulation` for reading.
 #[derive(Debug, Clone, Copy)]
 pub struct View<'a> {
     seen: &'a dyn Read,
@@ -43,9 +43,10 @@ impl<'a> From<&Self> for View<'a> {
     }
 }
 
-/// Sees a run go, sets its inputs, and may end it. Does nothing by default.
+/// Observes a run, sets its inputs, and may end it. All methods do nothing by default.
 ///
-/// An error stops the run with that reason; [`SimulationError::new`] makes one of your own. [`ControlFlow::Break`] ends it without one.
+/// An error stops the run with that reason; [`SimulationError::new`] creates a user-defined one. [`ControlFlow::Break`] ends the run
+/// without an error.
 ///
 /// # Examples
 /// ```
@@ -82,10 +83,10 @@ impl<'a> From<&Self> for View<'a> {
 /// # Ok::<(), SimulationError>(())
 /// ```
 pub trait Observer {
-    /// Sets inputs before a step, if any; they hold until they are set again.
+    /// Sets inputs before a step; they hold until they are set again.
     ///
     /// # Errors
-    /// What stops the run.
+    /// The error that stops the run.
     fn inputs(
         &mut self,
         now: &View<'_>,
@@ -95,10 +96,10 @@ pub trait Observer {
         Ok(())
     }
 
-    /// A step was accepted.
+    /// Called after each accepted step.
     ///
     /// # Errors
-    /// What stops the run.
+    /// The error that stops the run.
     fn step(
         &mut self,
         now: &View<'_>,
@@ -114,7 +115,7 @@ pub trait Observer {
     }
 }
 
-/// The inputs of a run, to be set before a step: as those of a `Simulation`.
+/// The inputs of a run, which can be set before a step, as those of a `Simulation`.
 #[derive(Debug)]
 pub struct RunInputs<'a> {
     inputs: &'a mut Inputs,
@@ -122,38 +123,38 @@ pub struct RunInputs<'a> {
 }
 
 impl RunInputs<'_> {
-    /// All of them, in the order of effects, guides, couplings, then signals.
+    /// All inputs, in the order of effects, guides, couplings, then signals.
     #[must_use]
     pub fn list(&self) -> &[InputInfo] {
         self.inputs.list()
     }
 
-    /// The first input of an effect; those of a vector follow it.
+    /// The first input of an effect; the further components of a vector follow it.
     ///
     /// # Errors
-    /// Where the effect has none.
+    /// If the effect has no input.
     pub fn of_effect(&self, effect: EffectId) -> Result<InputId, SimulationError> {
         self.inputs.of_effect(effect)
     }
 
-    /// Sets one from now on: it acts in the whole of the coming step.
+    /// Sets an input from now on: it acts during the whole next step.
     ///
     /// # Errors
-    /// A value that is not finite, or an input of another mechanism. Nothing is set then.
+    /// A value that is not finite, or an input of another mechanism. Then no input is set.
     pub fn set(&mut self, input: InputId, value: f64) -> Result<(), SimulationError> {
         self.inputs.set(self.pending, input, value)
     }
 
-    /// Sets value, rate and acceleration that a guide has at the end of the coming step.
+    /// Sets the value, rate and acceleration that a guide has at the end of the next step.
     ///
     /// # Errors
-    /// A guide that is no input, or a number that is not finite.
+    /// A guide that is no input, or a value that is not finite.
     pub fn set_guide(&mut self, guide: GuideId, motion: [f64; 3]) -> Result<(), SimulationError> {
         self.inputs.set_guide(self.pending, guide, motion)
     }
 }
 
-/// Inputs that were set while the mechanism was seen: owner and numbers.
+/// Inputs that an observer has set and that are not yet in the simulation: owner and values.
 #[derive(Debug, Default)]
 struct Pending(Vec<(InputOwner, [f64; 3])>);
 
@@ -197,7 +198,7 @@ impl Pending {
     }
 }
 
-/// Readings of a run for its views: made at the first one, and followed from then on.
+/// Readings of a run for its views: created by the first view, and updated after each step.
 #[allow(
     missing_debug_implementations,
     reason = "it holds what has none, and is made and used in one call"
@@ -213,12 +214,12 @@ impl<'a, T: Real, const D: usize> Sight<'a, T, D> {
         Self { scene: Arc::new(scene.clone()), names, readings: None }
     }
 
-    /// A step was made.
+    /// Updates the readings after a step.
     pub fn follow(&mut self, now: &Simulation<T, D>) -> Result<(), StopError> {
         self.readings.as_mut().map_or(Ok(()), |readings| readings.follow(now))
     }
 
-    /// Shows the present instant.
+    /// Shows the current state to observers.
     pub fn show<R>(
         &mut self,
         now: &Simulation<T, D>,
@@ -235,7 +236,7 @@ impl<'a, T: Real, const D: usize> Sight<'a, T, D> {
     }
 }
 
-/// Observers of a run in `f64`, as one observer of it in its scalar and dimension.
+/// Adapter: several observers in `f64`, as one observer of a run in its scalar and dimension.
 #[allow(
     missing_debug_implementations,
     reason = "it holds what has none, and is made and used in one call"
@@ -256,7 +257,7 @@ impl<'a, 'b, T: Real, const D: usize> Observed<'a, 'b, T, D> {
         Self { sight, inputs, pending: Pending::default(), observers }
     }
 
-    /// Shows each observer the present instant.
+    /// Shows the current state to each observer.
     fn show(
         &mut self,
         now: &Simulation<T, D>,
@@ -300,7 +301,7 @@ impl<T: Real, const D: usize> typed::StepObserver<T, D> for Observed<'_, '_, T, 
     fn end(&mut self, now: &Simulation<T, D>, stop: Option<&StopError>) {
         let (t, names) = (now.state().t.to_f64(), self.sight.names);
         let stop = stop.map(|stop| SimulationError::stopped(stop.clone(), t, names));
-        // nothing is left to stop
+        // The run has ended, so an error of an observer cannot stop it and is ignored.
         let _ = self.show(now, |observer, now, _| {
             observer.end(now, stop.as_ref());
             Ok(())

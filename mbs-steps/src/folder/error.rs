@@ -1,20 +1,20 @@
-//! Reason why results cannot be written into a directory.
+//! Reasons why results cannot be written into a directory.
 
 use core::fmt::{self, Display, Formatter};
 use std::io;
 use std::path::PathBuf;
 
-/// A directory that results cannot be written into.
+/// Reason why results cannot be written into a directory.
 #[derive(Debug)]
 #[non_exhaustive]
 pub enum FolderError {
-    /// Directory in which another process writes; the number of the process, where it can be read.
+    /// Lock held by another process that writes into the directory; the number of the process, if it can be read.
     Busy(Option<u32>),
-    /// A directory stands where a file of the results goes.
+    /// A directory has the name of a file of the results.
     Taken(PathBuf),
-    /// A file stands where the directory should be.
+    /// A file has the name of the directory.
     IsFile,
-    /// The directory cannot be made or written.
+    /// The directory cannot be created or written.
     Io(io::Error),
 }
 

@@ -1,21 +1,22 @@
-//! The lock on a directory: a file in it, locked by the system, which lets go of it when the process ends, however it ends.
+//! Lock of a directory: a file in it that is locked by the operating system. The system releases the lock when the process ends, for any
+//! reason.
 
 use super::error::FolderError;
 use std::fs::{self, File, TryLockError};
 use std::io::{self, ErrorKind, Read, Seek, Write};
 use std::path::Path;
 
-/// The file that is locked, with the number of the process in it.
+/// Name of the locked file, which contains the number of the process.
 const LOCK: &str = ".lock";
 
-/// Takes the lock of a directory that is there.
+/// Locks an existing directory.
 pub(super) fn take(folder: &Path) -> Result<File, FolderError> {
     let path = folder.join(LOCK);
     loop {
         let mut options = File::options();
         let opened = options.read(true).write(true).create(true).truncate(false).open(&path);
         let mut file = match opened {
-            // another process has removed what it had made
+            // Another process has removed the directory that it had created.
             Err(error) if error.kind() == ErrorKind::NotFound && !folder.exists() => {
                 fs::create_dir_all(folder)?;
                 continue;
@@ -24,19 +25,19 @@ pub(super) fn take(folder: &Path) -> Result<File, FolderError> {
         };
         match file.try_lock() {
             Err(TryLockError::WouldBlock) => return Err(FolderError::Busy(process(&mut file))),
-            // a file system without locks has none to lose
+            // On a file system without locks the directory is used without a lock.
             Err(TryLockError::Error(_)) | Ok(()) => {}
         }
-        // Who had it may have removed it since it was opened.
+        // The previous owner may have removed the file after it was opened here.
         if is_at(&file, &path) {
-            // Whom it names is of use to a reader alone.
+            // The number of the process only informs a reader, so an error is ignored.
             let _ = name(&mut file);
             return Ok(file);
         }
     }
 }
 
-/// Removes the lock file; its lock is held by the caller.
+/// Removes the lock file; the caller holds its lock.
 pub(super) fn remove(folder: &Path) {
     let _ = fs::remove_file(folder.join(LOCK));
 }
@@ -53,7 +54,7 @@ fn process(file: &mut File) -> Option<u32> {
     text.trim().parse().ok()
 }
 
-/// Is the file the one that has that name now?
+/// Is the open file still the one with this name?
 #[cfg(unix)]
 fn is_at(file: &File, path: &Path) -> bool {
     use std::os::unix::fs::MetadataExt;
@@ -62,7 +63,7 @@ fn is_at(file: &File, path: &Path) -> bool {
     both.is_ok_and(|(open, there)| open == there)
 }
 
-/// Elsewhere a file that is open keeps its name.
+/// Other systems do not let an open file lose its name.
 #[cfg(not(unix))]
 fn is_at(_: &File, _: &Path) -> bool {
     true

@@ -1,4 +1,4 @@
-//! Results that do not belong together.
+//! Detection of files that do not belong to the same results.
 
 use crate::fingerprint::Fingerprint;
 use serde_json::{Map, Value};
@@ -6,7 +6,7 @@ use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
-/// JSON objects that list other files, and their pages.
+/// Names of JSON objects that list other files, each with the name of its page.
 const OBJECTS: [[&str; 2]; 4] = [
     ["run.json", "run.html"],
     ["compare.json", "compare.html"],
@@ -14,7 +14,7 @@ const OBJECTS: [[&str; 2]; 4] = [
     ["doctor.json", "doctor.html"],
 ];
 
-/// A file that does not belong to the results of its JSON object, and the object.
+/// Returns the first file that does not belong to the results of its JSON object, and the name of that object.
 pub(super) fn find(folder: &Path) -> Option<[String; 2]> {
     OBJECTS.into_iter().find_map(|[object, page]| {
         let value = read(&folder.join(object))?;
@@ -30,10 +30,10 @@ pub(super) fn find(folder: &Path) -> Option<[String; 2]> {
     })
 }
 
-/// The tables that a JSON object lists.
+/// The names of the tables that a JSON object lists.
 pub(super) fn listed(object: &Path) -> Vec<String> {
     let files = read(object).and_then(|value| value.get("files")?.as_object().cloned());
-    // a name with a place in it is none of ours
+    // A name that contains a path is not a table of the results.
     let is_ours = |name: &String| Path::new(name).file_name().is_some_and(|file| file == &**name);
     files
         .into_iter()

@@ -1,8 +1,8 @@
-//! A directory of results: locked while a process writes it, and replaced by results that are whole.
+//! A directory of results: locked while a process writes it, and replaced only by complete results.
 //!
-//! Files are written into `.part` within the directory, synced, and renamed into their places when all are there. The JSON object comes
-//! last, and has the sizes and checksums of the tables. A process that is killed before leaves the results as they were. One that is
-//! killed between two renames leaves a mixture, which [`Folder::mixed`] finds by the sums.
+//! Files are written into `.part` within the directory and synced. When all files are complete, they are renamed to their final names. The
+//! JSON object comes last; it has the sizes and checksums of the tables. A process that is killed before the renames leaves the old results
+//! unchanged. A process that is killed between two renames leaves a mixture, which [`Folder::mixed`] detects by the checksums.
 
 mod error;
 mod lock;
@@ -19,35 +19,35 @@ use crate::fingerprint::Fingerprint;
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 
-/// Name of the directory in which results are written before they are whole.
+/// Name of the directory into which incomplete results are written.
 pub const PART: &str = ".part";
 
-/// The id of results that depend on these texts: the scene, say, and how it is run.
+/// Identifier of results that depend on these texts, such as the scene and the method of the run.
 #[must_use]
 pub fn id(texts: &[&str]) -> String {
     let mut all = Fingerprint::new();
     for text in texts.iter().chain(&[env!("CARGO_PKG_VERSION")]) {
-        // with their lengths, so that none runs into the next
+        // Each text follows its length, so that different splits of the same characters give different identifiers.
         all.add(&(text.len() as u64).to_le_bytes());
         all.add(text.as_bytes());
     }
     format!("{:016x}", all.get())
 }
 
-/// A directory that this process alone writes results into, until it is dropped.
+/// A directory into which only this process writes results, until the value is dropped.
 #[derive(Debug)]
 pub struct Folder {
     path: PathBuf,
-    /// Directories that were made for it, the deepest first.
+    /// Directories that were created for it, the deepest first.
     made: Vec<PathBuf>,
     lock: Option<File>,
 }
 
 impl Folder {
-    /// Locks a directory, made if missing, for results in these files. Nothing that is in it is touched.
+    /// Locks a directory for results in these files, and creates it if it does not exist. Existing files are not changed.
     ///
     /// # Errors
-    /// [`FolderError`] where another process writes there, or nothing can be written.
+    /// [`FolderError`] if another process writes there, or if the directory cannot be written.
     pub fn open(path: &Path, files: &[&str]) -> Result<Self, FolderError> {
         if path.is_file() {
             return Err(FolderError::IsFile);
@@ -69,8 +69,8 @@ impl Folder {
         &self.path
     }
 
-    /// The first file of a directory that does not belong to the results of its JSON object, with the name of that object. It was changed, or a
-    /// process was killed between two renames.
+    /// The first file of a directory that does not belong to the results of its JSON object, with the name of that object. The file was
+    /// changed, or a process was killed between two renames.
     #[must_use]
     pub fn mixed(path: &Path) -> Option<[String; 2]> {
         mixed::find(path)
@@ -82,7 +82,7 @@ impl Drop for Folder {
         if self.lock.take().is_some() {
             lock::remove(&self.path);
         }
-        // What was made for results that never came goes again; what has something in it stays.
+        // Directories that were created for results that were never written are removed, unless they contain other files.
         for made in &self.made {
             if fs::remove_dir(made).is_err() {
                 return;

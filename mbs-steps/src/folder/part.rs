@@ -1,4 +1,4 @@
-//! Files that are written beside their places, and renamed when they are whole.
+//! Files that are written into a temporary directory, and renamed when they are complete.
 
 use super::mixed::listed;
 use super::{Folder, PART};
@@ -9,15 +9,15 @@ use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
-/// Results that are not whole yet. Dropped, they are thrown away.
+/// Results that are incomplete. If the value is dropped, their files are removed.
 #[derive(Debug)]
 pub struct Part<'a> {
     folder: &'a Folder,
-    /// Id of these results.
+    /// Identifier of these results.
     id: String,
-    /// Names of what is written, in this order.
+    /// Names of the written files, in this order.
     names: Vec<String>,
-    /// Sizes and checksums of the tables.
+    /// Sizes and checksums of the tables, by name.
     sums: [Map<String, Value>; 2],
 }
 
@@ -26,21 +26,21 @@ pub struct Part<'a> {
 pub struct WriteError {
     /// Path of the file.
     pub path: PathBuf,
-    /// Bytes of it that were written.
+    /// Number of bytes written before the error.
     pub bytes: u64,
     /// Error that ended the writing.
     pub error: io::Error,
 }
 
 impl Folder {
-    /// Begins new results, and removes what an earlier start has left of others. The id of the results is in the JSON object and in the page.
+    /// Begins new results, and removes incomplete results of an earlier process. The JSON object and the page contain the identifier `id`.
     ///
     /// # Errors
-    /// [`WriteError`] where nothing can be written.
+    /// [`WriteError`] if the directory cannot be written.
     pub fn begin(&self, id: &str) -> Result<Part<'_>, WriteError> {
         let path = self.path.join(PART);
         clear(&path);
-        // somebody may have removed all of it meanwhile
+        // Another program may have removed the directory in the meantime.
         match fs::create_dir_all(&path) {
             Ok(()) => {
                 let (id, names, sums) = (id.to_owned(), Vec::new(), Default::default());
@@ -55,7 +55,7 @@ impl Part<'_> {
     /// Writes a table of the results.
     ///
     /// # Errors
-    /// [`WriteError`]
+    /// [`WriteError`] if the file cannot be written.
     pub fn table(
         &mut self,
         name: &str,
@@ -67,20 +67,20 @@ impl Part<'_> {
         Ok(())
     }
 
-    /// Writes a page, with the id of the results at its end.
+    /// Writes an HTML page, with the identifier of the results at its end.
     ///
     /// # Errors
-    /// [`WriteError`]
+    /// [`WriteError`] if the file cannot be written.
     pub fn page(&mut self, name: &str, text: &str) -> Result<(), WriteError> {
         let end = format!("<!-- results {} -->", self.id);
         self.write(name, |sink| writeln!(sink, "{}\n{end}", text.trim_end())).map(drop)
     }
 
-    /// Writes the JSON object, with the id of the results, and with sizes and checksums of the tables so far, and puts everything into
-    /// its place. Gives the text of the object.
+    /// Writes the JSON object, and renames all files to their final names. The object has the identifier of the results, and the sizes and
+    /// checksums of the tables written so far. Returns the text of the object.
     ///
     /// # Errors
-    /// [`WriteError`]; the results are then those that were there, unless they could not be renamed.
+    /// [`WriteError`]; the old results are unchanged then, unless a rename failed.
     pub fn finish(mut self, name: &str, object: &str) -> Result<String, WriteError> {
         let text = self.sealed(object);
         self.write(name, |sink| writeln!(sink, "{text}"))?;
@@ -90,7 +90,7 @@ impl Part<'_> {
             let (from, to) = (part.join(name), folder.join(name));
             fs::rename(from, &to).map_err(|error| WriteError { path: to, bytes: 0, error })?;
         }
-        // tables of the results before that these have not
+        // Tables of the old results that the new results do not have are removed.
         for old in before.into_iter().filter(|old| !self.names.contains(old)) {
             let _ = fs::remove_file(folder.join(old));
         }
@@ -98,7 +98,7 @@ impl Part<'_> {
         Ok(text)
     }
 
-    /// An object with what else its file has.
+    /// Adds the identifier, sizes and checksums to the text of a JSON object.
     fn sealed(&self, object: &str) -> String {
         let Some(inner) = object.trim_end().strip_suffix('}') else { return object.to_owned() };
         let [files, checksums] = self.sums.clone().map(Value::Object);
@@ -110,7 +110,7 @@ impl Part<'_> {
         )
     }
 
-    /// Writes and syncs a file; its size and checksum.
+    /// Writes and syncs a file of the results; returns its size and checksum.
     fn write(
         &mut self,
         name: &str,
@@ -129,12 +129,12 @@ impl Drop for Part<'_> {
     }
 }
 
-/// Replaces a file of the user's by another that is whole, or writes into what is no file: a pipe, say.
+/// Replaces a file by complete new content. A path that is no regular file, such as a pipe, is written directly.
 ///
 /// # Errors
-/// [`WriteError`]; the file is then as it was.
+/// [`WriteError`]; the file is unchanged then.
 pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
-    // a link stays one
+    // A symbolic link remains a link; its target is replaced.
     let place = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
     let all = |sink: &mut dyn Write| sink.write_all(bytes);
     if fs::metadata(&place).is_ok_and(|data| !data.is_file()) {
@@ -154,15 +154,15 @@ pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
     renamed
 }
 
-/// Replaces a file of a directory that one process writes by another that is whole: after a kill or a crash it has the old bytes or the new
-/// ones. Until then they are in [`PART`].
+/// Replaces a file in a directory of results by complete new content. After a kill or a crash the file has either the old bytes or the new
+/// bytes. The new bytes are first written into [`PART`].
 ///
 /// # Errors
-/// [`WriteError`] with the path.
+/// [`WriteError`] with the path of the file.
 pub fn write_whole(folder: &Path, name: &str, bytes: &[u8]) -> Result<(), WriteError> {
     let (part, path) = (folder.join(PART), folder.join(name));
     let beside = part.join(name);
-    // where it cannot be made nothing can be written in it
+    // If the directory cannot be created, the write below fails and reports the error.
     let _ = fs::create_dir_all(&part);
     let done = written(&beside, |sink| sink.write_all(bytes)).and_then(|_| {
         let error = |error| WriteError { path, bytes: 0, error };
@@ -175,7 +175,7 @@ pub fn write_whole(folder: &Path, name: &str, bytes: &[u8]) -> Result<(), WriteE
     done
 }
 
-/// Writes and syncs a file; its size and checksum.
+/// Writes and syncs a file; returns its size and checksum.
 fn written(
     path: &Path,
     write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
@@ -185,13 +185,13 @@ fn written(
     let mut sink = BufWriter::new(Summed { file, bytes: 0, sum: Fingerprint::new() });
     let done = write(&mut sink).and_then(|()| sink.flush());
     let (Summed { file, bytes, sum }, _) = sink.into_parts();
-    // what is no file has nothing to sync
+    // Only regular files can be synced.
     let is_file = file.metadata().is_ok_and(|data| data.is_file());
     let done = done.and_then(|()| if is_file { file.sync_all() } else { Ok(()) });
     done.map(|()| (bytes, sum.get())).map_err(|error| failed(bytes, error))
 }
 
-/// A file whose bytes are counted and summed.
+/// Writer to a file that counts the bytes and computes their checksum.
 struct Summed {
     file: File,
     bytes: u64,
@@ -211,12 +211,12 @@ impl Write for Summed {
     }
 }
 
-/// Removes what was not finished; a file of that name too.
+/// Removes the directory of incomplete results, or a file with its name.
 fn clear(part: &Path) {
     let _ = if part.is_dir() { fs::remove_dir_all(part) } else { fs::remove_file(part) };
 }
 
-/// Names are in the directory; where directories cannot be synced there is nothing more to do.
+/// Syncs a directory, so that renamed files survive a crash. Errors are ignored, because some systems cannot sync directories.
 fn sync(folder: &Path) {
     if let Ok(folder) = File::open(folder) {
         let _ = folder.sync_all();
@@ -226,7 +226,7 @@ fn sync(folder: &Path) {
 impl Display for WriteError {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let (path, error) = (self.path.display(), self.error.to_string());
-        // the system's words without their number
+        // The message of the operating system is written without its error number.
         let words = error.split(" (os error").next().unwrap_or_default().to_lowercase();
         write!(f, "cannot write to `{path}`: {words}")?;
         if self.bytes > 0 { write!(f, " after {} bytes", self.bytes) } else { Ok(()) }

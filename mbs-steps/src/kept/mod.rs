@@ -1,4 +1,4 @@
-//! Files of a run that is kept while it goes: its checkpoint, its rows and its steps.
+//! Files that are written during a run: its checkpoint, its rows and its steps.
 
 mod rows;
 mod writer;

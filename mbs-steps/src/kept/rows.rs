@@ -1,4 +1,4 @@
-//! The rows of a run in its files, as it goes.
+//! Files of the rows of a run, written during the run.
 
 use crate::record::{Channel, ControlSummary, CsvWriter, append_steps, write_steps};
 use crate::recorder::Recorder;
@@ -7,32 +7,33 @@ use std::fs::{self, OpenOptions};
 use std::io::{self, Write};
 use std::path::Path;
 
-/// Files of rows, and of steps.
+/// Names of the files of rows and of steps.
 const FILES: [&str; 2] = ["run.csv", "steps.csv"];
 
-/// Progress of the files: the rows that they have, and their thinning.
+/// Progress of the files: the number of rows they have, and the number of steps per row.
 #[derive(Debug, Default)]
 pub(super) struct Rows {
     /// Number of rows in the files.
     n: usize,
-    /// The thinning that they have; where it has changed since, and where they could not be written, they are written anew.
+    /// Number of steps per row in the files. If it has changed, or if a write failed, the files are written again from the first row.
     thinning: u64,
-    /// Rows that there were when they were written last, or could not be.
+    /// Number of recorded rows at the last write, successful or not.
     tried: usize,
 }
 
 impl Rows {
-    /// Rows since the files were written last, or could not be.
+    /// Number of rows since the last write, successful or not.
     pub(super) fn waiting(&self, recorder: &Recorder) -> usize {
         recorder.n_rows().saturating_sub(self.tried)
     }
 
-    /// Brings the files of a directory up to date, by whole lines. The first time, and where rows were thinned, they are replaced.
+    /// Appends the new rows to the files of a directory, as complete lines. The first write replaces the files, as does a write after rows
+    /// were removed.
     pub(super) fn write(&mut self, out: &Path, recorder: &Recorder) -> io::Result<()> {
         let is_anew = self.thinning != recorder.thinning();
         let from = if is_anew { 0 } else { self.n };
         let (n, tried) = (recorder.n_rows(), recorder.n_rows());
-        // until all is written, nothing is
+        // If the write fails, the files count as empty and are replaced next time.
         *self = Self { n: 0, thinning: 0, tried };
         if is_anew {
             fs::create_dir_all(out)?;
@@ -52,7 +53,7 @@ impl Rows {
     }
 }
 
-/// The lines of both files from a row on; from the first with their headers.
+/// Returns the lines of both files, beginning with row `from`; for the first row with their headers.
 fn texts(recorder: &Recorder, from: usize) -> io::Result<[Vec<u8>; 2]> {
     let (mut rows, mut steps) = (Vec::new(), Vec::new());
     let table = recorder.table().skip(from);
@@ -68,21 +69,21 @@ fn texts(recorder: &Recorder, from: usize) -> io::Result<[Vec<u8>; 2]> {
     Ok([rows, steps])
 }
 
-/// Head that stands before the rows.
+/// Header lines before the rows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Head {
-    /// No head, as the file has it.
+    /// No header, because the file already has one.
     None,
-    /// The names of the columns.
+    /// A line with the names of the columns.
     Names,
-    /// The names, then the units.
+    /// A line with the names, then a line with the units.
     Units,
 }
 
-/// Writes rows as CSV, with all digits where there are long ones.
+/// Writes rows as CSV; with all digits if `long` has the values with more digits than `f64`.
 ///
 /// # Errors
-/// What the sink refuses.
+/// The errors of the sink.
 pub fn write_rows<'a>(
     (sink, channels): (impl Write, &[Channel]),
     head: Head,

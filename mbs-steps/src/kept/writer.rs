@@ -1,4 +1,4 @@
-//! Writer that keeps a run while it goes: a checkpoint now and then, and its rows in their files.
+//! Writer of checkpoints at intervals during a run, and of its rows.
 
 use super::rows::Rows;
 use crate::checkpoint::CheckpointError;
@@ -8,43 +8,45 @@ use std::fs::{self, File, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// The file of a run's checkpoint in its directory.
+/// Name of the checkpoint file in the directory of a run.
 pub const FILE: &str = "checkpoint.mbs";
 
-/// Most rows that wait until they are written. Chosen, not tuned.
+/// Largest number of rows that wait before they are written. Chosen, not tuned.
 const MOST_WAITING: usize = 256;
-/// Time by which a checkpoint may be early, relative to the interval of two [-]: times are rounded. Chosen, not tuned.
+/// Time by which a checkpoint may be early, relative to the interval [-], because times have rounding errors. Chosen, not tuned.
 const EARLY: f64 = 1e-6;
 
-/// The bytes of a checkpoint, or why there are none.
+/// The bytes of a checkpoint, or the error that prevented them.
 type Bytes = Result<Vec<u8>, CheckpointError>;
 
-/// Writer of a run's checkpoints: where and how often a run is kept.
+/// Writer of a run's checkpoints, into a directory and at an interval of simulated time.
 ///
-/// At its start, and at the first step that ends at or after each multiple of a simulated time, a new checkpoint replaces that in the
-/// directory. It is written beside it, synced, renamed. No step is made shorter for it. The rows are written as the run goes, to
-/// `run.csv` and `steps.csv` in [`PART`], so that the results of an earlier run stay until there are new ones. A write that fails is
-/// tried again the next time, and reported in the end.
+/// The first checkpoint is written at the start of the run. Then one is written at the first step that ends at or after each multiple of
+/// the interval; no step is shortened for it. The new file is written next to the old one, synced, and renamed to replace it.
+///
+/// Rows are written during the run to `run.csv` and `steps.csv` in [`PART`]. The results of an earlier run remain until the new results are
+/// complete. A failed write is repeated at the next checkpoint, and is reported at the end of the run.
 #[derive(Debug)]
 pub struct CheckpointWriter {
     out: PathBuf,
     every: f64,
-    /// When the next one is due [s].
+    /// Time of the next checkpoint [s].
     next: f64,
     rows: Rows,
     failure: Option<io::Error>,
-    /// Lock on the directory, until it is released.
+    /// Lock on the directory; `None` after its release.
     lock: Option<File>,
 }
 
 impl CheckpointWriter {
-    /// Into a directory, made if missing, each `every` [s] of simulated time. The directory is locked until this is dropped or released.
+    /// Creates a writer into a directory, with a checkpoint each `every` [s] of simulated time. The directory is created if missing, and
+    /// locked until the writer is dropped or releases it.
     ///
     /// # Errors
-    /// [`CheckpointError::Busy`] where another process keeps a run there, [`CheckpointError::Io`] where there is no directory.
+    /// [`CheckpointError::Busy`] if another process has locked the directory, [`CheckpointError::Io`] if the directory cannot be created.
     pub fn new(out: &Path, every: f64) -> Result<Self, CheckpointError> {
         fs::create_dir_all(out)?;
-        // Where directories cannot be opened or locked there is no lock to be had.
+        // On systems that cannot open or lock directories, the directory is used without a lock.
         let lock = File::open(out).ok();
         if let Some(Err(TryLockError::WouldBlock)) = lock.as_ref().map(File::try_lock) {
             return Err(CheckpointError::Busy);
@@ -53,7 +55,7 @@ impl CheckpointWriter {
         Ok(Self { out, every, next: f64::NEG_INFINITY, rows, failure: None, lock })
     }
 
-    /// Frees the directory for other runs.
+    /// Releases the lock on the directory, so that another run can use it.
     pub fn release(&mut self) {
         self.lock = None;
     }
@@ -64,7 +66,7 @@ impl CheckpointWriter {
         self.out.join(FILE)
     }
 
-    /// Error of the last attempt to write; nothing where it has not failed.
+    /// Error of the last write; `None` if it was successful.
     #[must_use]
     pub fn failure(&self) -> Option<&io::Error> {
         self.failure.as_ref()
@@ -80,12 +82,12 @@ impl CheckpointWriter {
         t >= self.next
     }
 
-    /// Are there rows enough to be written?
+    /// Are there enough unwritten rows for a write?
     pub fn is_waiting(&self, recorder: &Recorder) -> bool {
         self.rows.waiting(recorder) >= MOST_WAITING
     }
 
-    /// Writes the rows so far, and the bytes of a checkpoint at time `t` [s] where there is one.
+    /// Writes the recorded rows, and the bytes of a checkpoint at time `t` [s] if there are any.
     pub fn write(&mut self, recorder: &Recorder, checkpoint: Option<(f64, Bytes)>) {
         let mut done = self.rows.write(&self.out.join(PART), recorder);
         if let Some((t, bytes)) = checkpoint {

@@ -1,4 +1,4 @@
-//! The linear motion about one state: measured there, and a little later where it is asked whether it stays so.
+//! The linear motion about one state. To test whether the motion is steady, it is linearised again a short time later.
 
 use super::data::LinearSystem;
 use super::measured::{Layout, Measured};
@@ -16,14 +16,14 @@ use mbs_linear::{
     Linear, LinearError, LinearOptions, LinearPorts, Ports, advance, linearise, linearise_ports,
 };
 
-/// In which axes a motion is linearised.
+/// Axes in which a motion is linearised.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Axes {
     /// Axes that do not turn.
     Standing,
-    /// Axes that turn with the motion; it is tested that the motion is steady in them.
+    /// Axes that turn with the motion; a test checks that the motion is steady in these axes.
     Turning,
-    /// Axes that turn, and where the motion is not steady in them axes that stand: the system of the instant.
+    /// Axes that turn with the motion. If the motion is not steady in them, axes that do not turn: the system of the instant.
     TurningOrStanding,
 }
 
@@ -36,14 +36,14 @@ pub(crate) struct About<'a, const D: usize> {
     pub(super) axes: Axes,
 }
 
-/// Measurements about a state, and the linear motion there.
+/// Quantities measured about a state, and the linear motion there.
 struct At {
     layout: Layout,
-    /// The coordinates that are states.
+    /// Indices of the coordinates that are states.
     chosen: Vec<usize>,
     linear: Linear<f64>,
     ports: LinearPorts<f64>,
-    /// All coordinates, rotations as the scene counts them.
+    /// Values of all coordinates, with rotations relative to the reference configuration.
     values: Option<Vec<f64>>,
     not_unique: Vec<String>,
 }
@@ -55,10 +55,10 @@ impl<'a, const D: usize> About<'a, D> {
         Self { scene, placed, columns, inputs, axes }
     }
 
-    /// The linear system of the placed state.
+    /// Linearises at the placed state.
     ///
     /// # Errors
-    /// [`StopError`] where what is measured is not finite, or the motion cannot be linearised.
+    /// [`StopError`] if a measured quantity is not finite, or if the motion cannot be linearised.
     pub(crate) fn system(&self) -> Result<LinearSystem, StopError> {
         let found = self.system_in(self.axes != Axes::Standing)?;
         match (self.axes, &found.unsteady) {
@@ -70,7 +70,7 @@ impl<'a, const D: usize> About<'a, D> {
         }
     }
 
-    /// In axes that turn with the motion, or that stand.
+    /// Linearises in axes that turn with the motion, or in axes that do not turn.
     fn system_in(&self, turns: bool) -> Result<LinearSystem, StopError> {
         let (scene, placed) = (self.scene, self.placed);
         let (model, state) = (&placed.ready.model, &placed.ready.start.state);
@@ -131,7 +131,7 @@ impl<'a, const D: usize> About<'a, D> {
         })
     }
 
-    /// Linearises about `state`, in axes that turn or stand, with these coordinates as states where they are given.
+    /// Linearises about the state `state`. The states are the given coordinates, or else coordinates chosen for axes that turn or do not turn.
     fn measured(
         &self,
         (state, turns): (&State<f64>, bool),
@@ -175,10 +175,10 @@ impl<'a, const D: usize> About<'a, D> {
     }
 }
 
-/// The motion about a rest, in coordinates that have no names: its eigenvalues have all digits.
+/// Linear motion about an equilibrium, in tangent coordinates without names. They are well conditioned, so the eigenvalues are accurate.
 ///
 /// # Errors
-/// [`StopError`] where the motion cannot be linearised.
+/// [`StopError`] if the motion cannot be linearised.
 pub(crate) fn at_rest<const D: usize>(placed: &PlacedScene<D>) -> Result<Linear<f64>, StopError> {
     let (model, state) = (&placed.ready.model, &placed.ready.start.state);
     let how = (placed.instant, &LinearOptions::default());
@@ -187,14 +187,14 @@ pub(crate) fn at_rest<const D: usize>(placed: &PlacedScene<D>) -> Result<Linear<
 }
 
 impl At {
-    /// A, B, C and D in these axes.
+    /// Computes A, B, C and D in these axes.
     fn matrices(&self, turning: &Turning) -> Result<[crate::tree::Matrix; 4], StopError> {
         let parts = Parts { linear: &self.linear, ports: &self.ports };
         let singular = || StopError::Linear(LinearError::Singular { freedom: 0 });
         parts.matrices(&self.layout, &self.chosen, turning).ok_or_else(singular)
     }
 
-    /// Returns the sizes that accelerations are compared with.
+    /// Returns the reference sizes for accelerations.
     fn sizes(&self, length: f64) -> Sizes {
         let mut sizes = Sizes { length, rate: 0.0, lively: self.linear.lively };
         let rates = self.layout.part(1);
@@ -203,7 +203,7 @@ impl At {
         sizes
     }
 
-    /// The state that accelerates most in these axes, if any does.
+    /// Returns the state with the largest relative acceleration in these axes; `None` if no acceleration exceeds its limit.
     fn accelerating(
         &self,
         turning: &Turning,

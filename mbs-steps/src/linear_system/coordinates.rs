@@ -1,32 +1,32 @@
-//! The coordinates that may be states of a linear motion: those of joints, then places and rotations of bodies.
+//! Coordinates that can be states of a linear motion: first those of joints, then positions and rotations of bodies.
 
 use crate::record::Channel;
 use mbs_core::outputs::Target;
 use mbs_core::scene::{BodyId, Dimension, Freedom, JointId, Output, Quantity, Scene};
 
-/// First coordinate of a ball, with the bodies of its joint; the ground is none.
+/// First coordinate of a ball joint, with the bodies of the joint; `None` for the ground.
 pub(super) type Ball = (usize, [Option<usize>; 2]);
 
-/// The coordinates that may be states.
+/// The coordinates that can be states.
 pub(super) struct Coordinates {
-    /// Value, rate and acceleration.
+    /// Value, rate and acceleration of each coordinate or vector.
     pub(super) quantities: Vec<[Output<f64>; 3]>,
-    /// Name and unit of each component, and whether it is part of a rotation vector.
+    /// For each component its name, its unit, and whether it belongs to a rotation vector.
     pub(super) names: Vec<String>,
     pub(super) units: Vec<&'static str>,
     pub(super) turns: Vec<bool>,
     pub(super) n_of_joints: usize,
-    /// Whether each coordinate of a joint belongs to a joint with a vector among its coordinates: a ball, or two slides.
+    /// For each coordinate of a joint: does it belong to a ball joint, or to a joint with two translations?
     pub(super) of_vectors: Vec<bool>,
-    /// First coordinate and number of each vector in global axes.
+    /// First index and number of components of each vector in global axes.
     pub(super) vectors: Vec<[usize; 2]>,
-    /// First coordinate of each body's rotation.
+    /// Index of the first rotation coordinate of each body.
     pub(super) rotations: Vec<usize>,
     pub(super) balls: Vec<Ball>,
 }
 
 impl Coordinates {
-    /// Lists the coordinates of all joints, then centres of mass and rotations of all bodies.
+    /// Lists the coordinates of all joints, then the centres of mass and rotations of all bodies.
     pub(super) fn new(scene: &Scene<f64>) -> Self {
         let mut all = Self {
             quantities: Vec::new(),

@@ -6,61 +6,65 @@ use crate::tree::Matrix;
 use crate::unsteady::Unsteady;
 use mbs_linear::Equilibrium;
 
-/// dx/dt = A x + B u, y = C x + D u: deviations from a state, in SI units.
+/// Linear system dx/dt = A x + B u, y = C x + D u. The vectors x, u and y are deviations from a state, in SI units.
 ///
-/// **States** are as many joint coordinates as there are freedoms, the first ones of the scene that are independent: `JOINT`, or `JOINT.1`
-/// where a joint has several. Where joints have too few, places of bodies follow: `BODY.x` of the centre of mass and `BODY.rx` of the
-/// rotation vector. Then come their rates in the same order (`JOINT.rate`), and the states of signals: `SIGNAL`, or `SIGNAL.integral` of a
-/// controller. The rate of a rotation vector is the angular velocity, in global axes; of a joint the second body's against the first.
+/// **States** are independent joint coordinates, as many as there are degrees of freedom. They are the first independent ones in the order
+/// of the scene. The name is `JOINT`, or `JOINT.1` for a joint with several coordinates. If there are too few joint coordinates,
+/// coordinates of bodies follow: `BODY.x` of the centre of mass and `BODY.rx` of the rotation vector. Then come the rates in the same order
+/// (`JOINT.rate`). Last are the states of signals: `SIGNAL`, or `SIGNAL.integral` of a controller. The rate of a rotation vector is the
+/// angular velocity in global axes. For a joint it is the angular velocity of the second body relative to the first.
 ///
-/// **Inputs** that are the value, rate and acceleration of one guide are three inputs, of which each is the derivative of the one before.
+/// **Inputs** that are the value, rate and acceleration of one guide are three separate inputs, although each one is the derivative of the
+/// one before.
 ///
-/// About a rest, and about a motion that is steady in axes that stand, the matrices are constant. Elsewhere they hold for an instant:
-/// [`unsteady`](Self::unsteady) says why. [`steady`](Self::steady) takes axes that turn with the motion.
+/// The matrices are constant about an equilibrium, and about a motion that is steady in axes that do not turn. About other states they hold
+/// for an instant, and [`unsteady`](Self::unsteady) gives the reason. [`steady`](Self::steady) uses axes that turn with the motion.
 ///
-/// About a motion rotation vectors count from the rotations of the motion itself.
+/// About a motion, rotation vectors are relative to the rotations of the motion itself.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct LinearSystem {
     /// Name of the scene.
     pub scene: String,
-    /// State about which the scene is linearised; nothing where the state was given.
+    /// State about which the scene is linearised; `None` if the caller gave a state.
     pub place: Option<Place>,
-    /// The equilibrium, if that is the place.
+    /// The equilibrium, if the place is an equilibrium.
     pub found: Option<Equilibrium<f64>>,
-    /// Parts that are left out of the scene, and of its equilibrium too.
+    /// Parts that are omitted from the scene, and from the search for its equilibrium.
     pub left_out: Vec<LeftOut>,
     /// Names of the states.
     pub states: Vec<String>,
     /// Names of the inputs.
     pub inputs: Vec<String>,
-    /// Names of the outputs: the columns of a run.
+    /// Names of the outputs, as in the columns of a run.
     pub outputs: Vec<String>,
-    /// A, a row for each state.
+    /// Matrix A, one row for each state.
     pub a: Matrix,
-    /// B, a row for each state, a column for each input.
+    /// Matrix B, one row for each state and one column for each input.
     pub b: Matrix,
-    /// C, a row for each output.
+    /// Matrix C, one row for each output.
     pub c: Matrix,
-    /// D, a row for each output, a column for each input.
+    /// Matrix D, one row for each output and one column for each input.
     pub d: Matrix,
-    /// The states at the state itself, from which x counts.
+    /// Values of the states at the linearisation point, where x = 0.
     pub state_values: Vec<f64>,
-    /// The inputs there, from which u counts.
+    /// Values of the inputs at the linearisation point, where u = 0.
     pub input_values: Vec<f64>,
-    /// The outputs there, from which y counts.
+    /// Values of the outputs at the linearisation point, where y = 0.
     pub output_values: Vec<f64>,
-    /// Joints, couplings and rollings whose reaction, effort or force is an output and not unique: the smallest is linearised.
+    /// Joints, couplings and rollings whose reaction, effort or force is an output but not unique. The values of smallest norm are
+    /// linearised.
     pub not_unique: Vec<String>,
-    /// Reason why the state is no rest and no steady motion, if it is none: the matrices hold for an instant.
+    /// Reason why the state is neither an equilibrium nor a steady motion; `None` if it is one. With a reason, the matrices hold at one
+    /// instant only.
     pub unsteady: Option<Unsteady>,
-    /// Largest acceleration that joints ask for because bodies turn [m/s^2].
+    /// Largest acceleration in the joints that the rotation of bodies causes [m/s^2].
     pub turning: f64,
-    /// Number of freedoms of the scene.
+    /// Number of degrees of freedom of the scene.
     pub(crate) n_freedoms: usize,
-    /// At a rest the same motion as modes of an equilibrium have it, column by column: in coordinates that are better conditioned than the
-    /// named ones. Its eigenvalues are those of A.
+    /// At an equilibrium, the state matrix in tangent coordinates, column by column. It has the eigenvalues of A, but is better
+    /// conditioned, so that they are more accurate.
     pub(crate) rest: Option<Vec<f64>>,
-    /// Rounding of squares of eigenvalues [1/s^2]: those of this size are zero.
+    /// Rounding error of squared eigenvalues [1/s^2]; eigenvalues whose square is not larger count as zero.
     pub(crate) noise: f64,
 }

@@ -1,6 +1,7 @@
-//! Measurements at each state of a linearisation: outputs, and coordinates of joints and bodies with their rates.
+//! Quantities evaluated at each state of a linearisation: outputs, and coordinates of joints and bodies with their rates.
 //!
-//! About a motion rotations count from those of the motion itself, in global axes:
+//! About a motion, rotation vectors delta are relative to the rotations R_r of the motion, in global axes. omega and omega_r are the
+//! angular velocities:
 //!
 //! ```text
 //! R = exp(delta) R_r:   delta' = omega - omega_r + omega_r x delta,      of a joint delta_2 - delta_1
@@ -16,53 +17,54 @@ use mbs_core::natural::NaturalModel;
 use mbs_core::scene::{Output, Scene};
 use mbs_linear::LinearError;
 
-/// Way of a difference along the velocity, relative to the scene's length [-]: its fourth power is rounding of a rate.
+/// Step of a difference quotient along the velocity, relative to the scene's length [-]. The fourth power of it is the relative error of a
+/// rate.
 const WAY: f64 = 1e-3;
 
-/// Places of the numbers of a measurement: outputs; then coordinates, rates, derivatives of the coordinates, and accelerations.
+/// Indices in a vector of measured values. The order is: outputs, coordinates, rates, derivatives of the coordinates, accelerations.
 #[derive(Debug, Clone)]
 pub(super) struct Layout {
-    /// Places of the outputs among the measured components, in their order, and the number of these components.
+    /// Indices of the outputs among the measured components, in their order, and the number of these components.
     outputs: Vec<usize>,
     n_measured: usize,
-    /// The coordinates that may be states, those of joints first.
+    /// Names of the coordinates that can be states, those of joints first, and the number of those of joints.
     pub(super) names: Vec<String>,
     pub(super) n_of_joints: usize,
-    /// Whether a coordinate of a joint is part of a vector in the axes of a body: of a ball, or of two slides.
+    /// For each coordinate of a joint: is it part of a vector in body axes, for a ball joint or two translations?
     pub(super) of_vectors: Vec<bool>,
-    /// First coordinate and number of each vector in global axes: places and rotations of bodies.
+    /// First index and number of components of each vector in global axes: positions and rotations of bodies.
     pub(super) vectors: Vec<[usize; 2]>,
     /// Units of the coordinates.
     pub(super) units: Vec<&'static str>,
 }
 
 impl Layout {
-    /// The rows of one part for each coordinate.
+    /// Returns a function from a coordinate to its row. Part 0 has coordinates, 1 rates, 2 derivatives of the coordinates, 3 accelerations.
     pub(super) fn part(&self, part: usize) -> impl Fn(usize) -> usize {
         let start = self.n_measured + part * self.names.len();
         move |coordinate| start + coordinate
     }
 
-    /// Rows of the outputs.
+    /// Row numbers of the outputs.
     pub(super) fn output_rows(&self) -> impl Iterator<Item = usize> + '_ {
         self.outputs.iter().copied()
     }
 
-    /// Returns the changes of coordinates that may be states with each freedom, a row for each coordinate. `of_all` has the changes of all that is
-    /// measured, freedom by freedom.
+    /// Returns the derivatives of the coordinates by each freedom, one row for each coordinate. `of_all` has the derivatives of all
+    /// measured values, freedom by freedom.
     pub(super) fn slopes(&self, of_all: &[f64]) -> Vec<Vec<f64>> {
         let all = self.n_measured + 4 * self.names.len();
         let rows = (0..self.names.len()).map(self.part(0));
         rows.map(|row| of_all.chunks_exact(all.max(1)).map(|of| of[row]).collect()).collect()
     }
 
-    /// Coordinates that are states, then their rates.
+    /// Rows of the coordinates that are states, then rows of their rates.
     pub(super) fn state_rows(&self, chosen: &[usize]) -> impl Iterator<Item = usize> {
         let of = |part| chosen.iter().copied().map(self.part(part));
         of(0).chain(of(1)).collect::<Vec<_>>().into_iter()
     }
 
-    /// Names of the states.
+    /// Names of the states: coordinates, rates, and states of signals.
     pub(super) fn state_names(&self, chosen: &[usize], of_signals: Vec<String>) -> Vec<String> {
         let names = || chosen.iter().map(|&i| &self.names[i]);
         let rates = names().map(|name| format!("{name}.rate"));
@@ -70,21 +72,21 @@ impl Layout {
     }
 }
 
-/// Reads outputs and coordinates.
+/// Evaluates outputs and coordinates at a state.
 pub(super) struct Measured<const D: usize> {
     pub(super) layout: Layout,
     outputs: Option<Channels<f64, D>>,
     coordinates: Option<[Channels<f64, D>; 3]>,
-    /// Coordinates of a rotation: their rates are angular velocities.
+    /// True for each coordinate of a rotation, whose rate is a component of the angular velocity.
     turns: Vec<bool>,
-    /// First coordinate of each body's rotation, and of each joint's that is a rotation in space, with the bodies of the joint.
+    /// First rotation coordinate of each body; then the ball joints, with first coordinate and bodies.
     rotations: Vec<usize>,
     balls: Vec<Ball>,
-    /// The motion from which rotations count; nothing about a rest.
+    /// Motion to which rotations are relative; `None` about an equilibrium.
     reference: Option<Reference>,
     /// The scene's length [m].
     length: f64,
-    /// Reason why the last measurement failed.
+    /// Reason why the last evaluation failed.
     pub(super) stop: Option<StopError>,
 }
 
@@ -149,7 +151,7 @@ impl<const D: usize> Measured<D> {
         })
     }
 
-    /// Lets rotations count from those of `s`, where it moves.
+    /// Makes rotations relative to those of the state `s`, if it is in motion.
     pub(super) fn count_from(&mut self, s: &State<f64>) -> Result<(), StopError> {
         self.reference = None;
         let is_moving = s.v.iter().any(|v| *v != 0.0);
@@ -166,12 +168,12 @@ impl<const D: usize> Measured<D> {
         Ok(())
     }
 
-    /// The coordinates of the state that rotations count from, as they are without it.
+    /// Coordinates of the reference motion, with rotations relative to the reference configuration.
     pub(super) fn reference_values(&self) -> Option<&[f64]> {
         self.reference.as_ref().map(|reference| &reference.values[..])
     }
 
-    /// All numbers at a state.
+    /// Evaluates all values at a state.
     pub(super) fn write(&mut self, s: &State<f64>) -> Result<Vec<f64>, LinearError> {
         self.try_write(s).map_err(|stop| {
             let output = if let StopError::Output { output } = stop { output } else { 0 };
@@ -216,7 +218,7 @@ impl<const D: usize> Measured<D> {
     }
 }
 
-/// The derivatives of coordinates along the velocity, by differences of fourth order.
+/// Derivatives of the coordinates along the velocity, by difference quotients of fourth order.
 fn along<const D: usize>(
     values: &mut Channels<f64, D>,
     s: &State<f64>,
@@ -240,7 +242,7 @@ fn along<const D: usize>(
     Ok((0..n).map(slope).collect())
 }
 
-/// A motion from which rotations count.
+/// Motion to which rotations are relative.
 struct Reference {
     /// Rotation and angular velocity of each body.
     bodies: Vec<(Matrix<f64, 3>, Vector<f64, 3>)>,
@@ -249,7 +251,7 @@ struct Reference {
 }
 
 impl Reference {
-    /// Lets the rotations of bodies and balls among the values count from here, with what they change by.
+    /// Replaces the rotations of bodies and ball joints by rotations relative to this motion, and computes their derivatives.
     fn count(
         &self,
         (rotations, balls): (&[usize], &[Ball]),

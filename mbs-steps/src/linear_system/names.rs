@@ -1,4 +1,4 @@
-//! Inputs, outputs and states of signals by name.
+//! Names of inputs, outputs and states of signals, and their indices.
 
 use crate::erased::SimulationError;
 use crate::erased::UnknownName;
@@ -9,7 +9,7 @@ use mbs_core::model::Model;
 use mbs_core::natural::NaturalModel;
 use mbs_core::scene::{Output, Scene};
 
-/// The inputs that are asked for, and their places among those of a state.
+/// The requested inputs, and their indices among the inputs of a state.
 #[derive(Debug, Default)]
 pub(crate) struct InputPlaces {
     pub(super) names: Vec<String>,
@@ -17,7 +17,7 @@ pub(crate) struct InputPlaces {
 }
 
 impl InputPlaces {
-    /// Finds the inputs with these names; `None`: all. The model may be that of the scene at rest.
+    /// Finds the inputs with these names; `None`: all inputs. The model may be that of the scene at rest.
     pub(super) fn new<const D: usize>(
         scene: &Scene<f64>,
         model: &NaturalModel<f64, D>,
@@ -53,7 +53,7 @@ fn place<const D: usize>(
         InputOwner::Guide(guide) | InputOwner::Coupling { sum: guide, .. } => {
             prescribed.guide_input(guide.index()).map(|range| range.start)
         }
-        // no guide follows it: a scene whose guide does is refused, as inputs jump
+        // This signal drives no guide. A scene with a guide that follows an input signal is an error, because inputs can jump.
         InputOwner::Signal(signal) => prescribed.signal_input(signal.index()),
     };
     first.map(|first| first + info.component).map_err(|error| {
@@ -64,7 +64,7 @@ fn place<const D: usize>(
     })
 }
 
-/// Names of the states of signals, in their order.
+/// Names of the states of signals, in order.
 pub(super) fn signal_states<const D: usize>(
     scene: &Scene<f64>,
     model: &NaturalModel<f64, D>,
@@ -86,19 +86,19 @@ pub(super) fn signal_states<const D: usize>(
     names
 }
 
-/// The columns that are asked for.
+/// The requested columns of outputs.
 #[derive(Debug, Default)]
 pub(crate) struct OutputColumns {
-    /// The outputs that they are components of.
+    /// Outputs that have these columns as components.
     pub(super) measured: Vec<Output<f64>>,
-    /// Places of the columns among all components of these outputs.
+    /// Indices of the columns among all components of these outputs.
     pub(super) places: Vec<usize>,
     pub(super) names: Vec<String>,
 }
 
 impl OutputColumns {
-    /// Finds the columns with these names, or all of the outputs with these names. `None`: all columns, but for those of a run rather than of the
-    /// motion.
+    /// Finds the columns with these names; the name of an output stands for all its columns. `None`: all columns of the motion, without
+    /// columns about the run itself.
     pub(super) fn new(scene: &Scene<f64>, asked: Option<&[&str]>) -> Result<Self, UnknownName> {
         let (mut measured, mut columns) = (Vec::new(), Vec::new());
         for (output, channel) in scene.channels().into_iter().zip(Channel::of_scene(scene)) {

@@ -1,4 +1,4 @@
-//! The matrices of a linear system, of differences of what is measured.
+//! Matrices of a linear system, computed from difference quotients.
 
 use super::measured::Layout;
 use super::solve;
@@ -6,14 +6,14 @@ use super::steady::{Row, Turning};
 use crate::tree::Matrix;
 use mbs_linear::{Linear, LinearPorts};
 
-/// The linear motion in tangent coordinates, with what is measured of it.
+/// Linear motion in tangent coordinates, with the derivatives of the measured values.
 pub(super) struct Parts<'a> {
     pub(super) linear: &'a Linear<f64>,
     pub(super) ports: &'a LinearPorts<f64>,
 }
 
 impl Parts<'_> {
-    /// Derivatives of what is measured in these rows, by (z, z', s) and by the inputs: [P, Q].
+    /// Derivatives [P, Q] of the measured values in these rows, by (z, z', s) and by the inputs.
     fn of(&self, rows: impl Iterator<Item = usize>) -> [Matrix; 2] {
         let (rows, all) = (rows.collect::<Vec<_>>(), self.ports.values.len());
         let [by_states, by_inputs] = [&self.ports.outputs, &self.ports.feedthrough];
@@ -21,7 +21,7 @@ impl Parts<'_> {
             .map(|(n, from)| matrix(rows.len(), n, |i, j| from[j * all + rows[i]]))
     }
 
-    /// A row of what is measured: by (z, z', s), then by the inputs.
+    /// Derivatives of one measured value: by (z, z', s), then by the inputs.
     fn row(&self, place: usize) -> Row {
         let all = self.ports.values.len();
         let of = |from: &[f64], n: usize| (0..n).map(|j| from[j * all + place]).collect::<Vec<_>>();
@@ -29,7 +29,7 @@ impl Parts<'_> {
         [by_states, of(&self.ports.feedthrough, self.ports.n_inputs)].concat()
     }
 
-    /// [S, T] and [R, W]: the states and their derivatives, in these axes.
+    /// Matrices [S, T] of the states and [R, W] of their time derivatives, in these axes.
     fn states(&self, layout: &Layout, chosen: &[usize], turning: &Turning) -> [[Matrix; 2]; 2] {
         let rows = chosen.iter().map(|&i| turning.rows(layout, i, |place| self.row(place)));
         let rows: Vec<[Row; 4]> = rows.collect();
@@ -43,7 +43,7 @@ impl Parts<'_> {
         [of([0, 1]), of([2, 3])]
     }
 
-    /// A, B, C and D; nothing where the coordinates do not determine the motion.
+    /// Computes A, B, C and D; `None` if the chosen coordinates do not determine the motion.
     pub(super) fn matrices(
         &self,
         layout: &Layout,
@@ -77,7 +77,7 @@ impl Parts<'_> {
     }
 }
 
-/// A matrix by its entries.
+/// Makes a matrix from a function of row and column.
 fn matrix(rows: usize, columns: usize, entry: impl Fn(usize, usize) -> f64) -> Matrix {
     let entries = (0..rows).flat_map(|i| (0..columns).map(move |j| (i, j)));
     Matrix { rows, columns, data: entries.map(|(i, j)| entry(i, j)).collect() }

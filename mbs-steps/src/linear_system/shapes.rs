@@ -4,7 +4,7 @@
 //! (A - (lambda + d) 1) v_(k+1) = v_k / |v_k|,   d: rounding of A
 //! ```
 //!
-//! Equal eigenvalues have as many vectors as are independent: each is made orthogonal to those before.
+//! An eigenvalue of multiplicity m has up to m independent eigenvectors. Each one is made orthogonal to the previous ones.
 
 use super::data::LinearSystem;
 use super::solve::{Complex, Factor, product, quotient, size};
@@ -12,35 +12,38 @@ use crate::erased::SimulationError;
 use crate::mode::{Mode, slowest_first};
 use crate::stop::StopError;
 
-/// Iterations for a vector [-]: one is enough where the start is not orthogonal to it. Chosen, not tuned.
+/// Inverse iterations for an eigenvector [-]; one suffices unless the start vector is almost orthogonal to it. Chosen, not tuned.
 const ITERATIONS: usize = 3;
-/// Distance of eigenvalues that are equal, relative to the largest [-]: those of a double one split by the root of rounding.
+/// Distance up to which eigenvalues count as equal, relative to the largest [-]. Rounding errors split a double eigenvalue by their square
+/// root.
 const EQUAL: f64 = 1e-7;
-/// Part of a vector across others of the same eigenvalue, below which it is none of its own [-]. Chosen, not tuned.
+/// Smallest part of a vector orthogonal to previous vectors of the same eigenvalue, for which it counts as independent [-]. Chosen, not
+/// tuned.
 const OWN: f64 = 1e-3;
 
-/// An eigenvalue, or a pair of conjugate ones, with the motion that belongs to it.
+/// An eigenvalue, or a pair of conjugate eigenvalues, with its eigenvector.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct ModeShape {
     /// Eigenvalue of the mode.
     pub mode: Mode,
-    /// [real, imaginary] of each state: its largest component is one. That of the conjugate eigenvalue is conjugate.
+    /// Eigenvector as [real, imaginary] of each state, scaled to a largest component of one. The conjugate eigenvalue has the conjugate
+    /// vector.
     pub states: Vec<[f64; 2]>,
     /// Complex amplitude of each output, [real, imaginary].
     pub outputs: Vec<[f64; 2]>,
 }
 
 impl LinearSystem {
-    /// The eigenvalues of A, conjugate ones once, from the slowest to the fastest, each with its eigenvector.
+    /// Eigenvalues of A in order of increasing magnitude, conjugate pairs once, each with its eigenvector.
     ///
-    /// The largest component by size is one, whatever its unit. Of an eigenvalue that has fewer vectors than it counts, as that of a free
-    /// motion, a vector comes twice.
+    /// The component of largest magnitude is scaled to one, regardless of its unit. If an eigenvalue has fewer independent eigenvectors
+    /// than its multiplicity, as for a free motion, an eigenvector is listed twice.
     ///
     /// Cost: n^3 operations for each of n states.
     ///
     /// # Errors
-    /// The iteration for the eigenvalues does not converge.
+    /// If the iteration for the eigenvalues does not converge.
     ///
     /// ```
     /// use mbs::{Body, Effect, GROUND, Joint, LinearizeOptions, Mechanism, linearize};
@@ -78,7 +81,7 @@ impl LinearSystem {
         Ok(shapes)
     }
 
-    /// The eigenvalues of A.
+    /// Computes the eigenvalues of A.
     pub(crate) fn eigenvalues(&self) -> Result<Vec<Complex>, StopError> {
         let n = self.a.rows;
         if n == 0 {
@@ -89,7 +92,7 @@ impl LinearSystem {
         mbs_linear::eigenvalues(n, &matrix).ok_or(StopError::Eigenvalues)
     }
 
-    /// An eigenvector, with its largest component one.
+    /// Computes an eigenvector, scaled to a largest component of one.
     fn vector(&self, value: Complex, largest: f64, before: &[Vec<Complex>]) -> Vec<Complex> {
         let n = self.a.rows;
         let shift = value[0] + largest.max(f64::MIN_POSITIVE) * f64::EPSILON;
@@ -106,7 +109,7 @@ impl LinearSystem {
                 basis.push(unit);
             }
         }
-        // each start has another direction; all are no eigenvector of a regular pattern
+        // Each start vector has another direction. Its irregular components make it unlikely to be an eigenvector itself.
         let mut found = vec![[0.0; 2]; n];
         for start in 0..=before.len() {
             let of = |i: usize| ((i + 1) as f64 * (1.0 + start as f64 * 0.37)).sin() + 1.5;
@@ -136,7 +139,7 @@ fn dot(row: &[f64], x: &[Complex]) -> Complex {
     row.iter().zip(x).fold([0.0; 2], |sum, (a, x)| [sum[0] + a * x[0], sum[1] + a * x[1]])
 }
 
-/// Makes a vector one of unit length, and answers how long it was.
+/// Scales a vector to unit length, and returns its previous length.
 fn normalise(x: &mut [Complex]) -> f64 {
     let largest = x.iter().fold(f64::MIN_POSITIVE, |most, x| most.max(size(*x)));
     let squares: f64 = x.iter().map(|x| (size(*x) / largest).powi(2)).sum();
@@ -145,7 +148,7 @@ fn normalise(x: &mut [Complex]) -> f64 {
     length
 }
 
-/// Takes the parts along orthonormal vectors out.
+/// Subtracts the components along orthonormal vectors.
 fn take_out(basis: &[Vec<Complex>], x: &mut [Complex]) {
     for unit in basis {
         let along = unit.iter().zip(&*x).fold([0.0; 2], |sum: Complex, (u, x)| {

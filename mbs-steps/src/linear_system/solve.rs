@@ -1,4 +1,4 @@
-//! Elimination with complex numbers: [real, imaginary].
+//! Gaussian elimination with complex numbers, stored as [real, imaginary].
 
 use crate::tree::Matrix;
 
@@ -11,7 +11,7 @@ pub fn product([a, b]: Complex, [c, d]: Complex) -> Complex {
 }
 
 pub(super) fn quotient(a: Complex, [c, d]: Complex) -> Complex {
-    // scaled by the divisor's larger part, as squares overflow earlier
+    // The division is scaled by the larger part of the divisor, because squares could overflow.
     let scale = c.abs().max(d.abs());
     let [c, d] = [c / scale, d / scale];
     let by = (c * c + d * d) * scale;
@@ -29,19 +29,19 @@ fn subtract(from: &mut Complex, [a, b]: Complex) {
     from[1] -= b;
 }
 
-/// L and U of a square matrix with its rows exchanged.
+/// LU factorisation of a square matrix with row pivoting.
 #[derive(Debug)]
 pub struct Factor {
     n: usize,
     /// L and U in one matrix, row by row.
     lu: Vec<Complex>,
     rows: Vec<usize>,
-    /// The smallest pivot, relative to the largest entry of the matrix.
+    /// Smallest pivot, relative to the largest entry of the matrix.
     pub(super) least: f64,
 }
 
 impl Factor {
-    /// Eliminates a matrix, row by row. A pivot that is zero becomes rounding of the largest entry.
+    /// Factorises a matrix given row by row. A zero pivot is replaced by machine precision times the largest entry.
     pub fn new(n: usize, lu: Vec<Complex>) -> Self {
         let largest = lu.iter().fold(f64::MIN_POSITIVE, |most, x| most.max(size(*x)));
         let mut new = Self { n, lu, rows: (0..n).collect(), least: 1.0 };
@@ -72,7 +72,7 @@ impl Factor {
         size(self.lu[i * self.n + j])
     }
 
-    /// x of A x = b.
+    /// Solves A x = b.
     pub fn solve(&self, b: &[Complex]) -> Vec<Complex> {
         let n = self.n;
         let mut x: Vec<Complex> = self.rows.iter().map(|&row| b[row]).collect();
@@ -93,10 +93,10 @@ impl Factor {
     }
 }
 
-/// Smallest ratio of a pivot and the largest entry for which a matrix is regular [-]: its inverse leaves four digits.
+/// Smallest ratio of a pivot to the largest entry for a regular matrix [-]. The inverse then has four correct digits.
 const REGULAR: f64 = 1e-12;
 
-/// R S^-1 of each R; nothing where S is singular. Columns of S are taken in their own sizes.
+/// Computes R S^-1 for two matrices R; `None` if S is singular. The columns of S are scaled by their largest entries.
 pub fn divided(of: [&Matrix; 2], s: &Matrix) -> Option<[Matrix; 2]> {
     let n = s.rows;
     let column = |j: usize| (0..n).fold(0.0_f64, |most, i| most.max(s[(i, j)].abs()));
@@ -104,7 +104,7 @@ pub fn divided(of: [&Matrix; 2], s: &Matrix) -> Option<[Matrix; 2]> {
     if sizes.contains(&0.0) {
         return None;
     }
-    // S^T x = r for each row r
+    // Each row r of R is the right-hand side of S^T x = r.
     let entries = (0..n).flat_map(|j| (0..n).map(move |i| (i, j)));
     let transposed = entries.map(|(i, j)| [s[(i, j)] / sizes[j], 0.0]).collect();
     let factor = Factor::new(n, transposed);

@@ -1,18 +1,17 @@
-//! Choice of the coordinates that are the states: as many independent ones as there are freedoms, the first ones of the scene.
+//! Choice of the coordinates that are states: as many independent ones as there are freedoms, preferably the first ones of the scene.
 
 use core::ops::Range;
 
-/// Part of a coordinate that is independent of those before, relative to its size, above which it is taken in the scene's order [-].
-/// Chosen, not tuned.
+/// Smallest independent part of a coordinate, relative to its size, for a choice in the order of the scene [-]. Chosen, not tuned.
 const INDEPENDENT: f64 = 0.1;
-/// Part of a coordinate that is independent of those before, above which the largest one is taken where these are too few [-]. Below it,
-/// states and motion have no common digits.
+/// Smallest independent part of a coordinate for a choice by size, after the choice in order gave too few [-]. With a smaller part, the
+/// states would not determine the motion accurately.
 const LEAST: f64 = 1e-4;
-/// Change of a coordinate with the motion that is none, relative to the largest [-]: differences leave 1e-11.
+/// Largest change of a coordinate that counts as no motion, relative to the largest change [-]. Difference quotients have errors of 1e-11.
 const HELD: f64 = 1e-8;
 
-/// The places of the states among coordinates that change by these rows with each freedom. Those of joints are first, and bodies' fill up
-/// what they leave. Nothing where all together are too few.
+/// Chooses the states among coordinates, whose changes with each freedom are the rows of `slopes`. Coordinates of joints are chosen first,
+/// and coordinates of bodies complete the number. `None` if all coordinates together are too few.
 pub fn choose(slopes: &[Vec<f64>], n_of_joints: usize) -> Option<Vec<usize>> {
     let f = slopes.first().map_or(0, Vec::len);
     let mut taken = Taken { slopes, chosen: Vec::new(), basis: Vec::new() };
@@ -25,7 +24,7 @@ pub fn choose(slopes: &[Vec<f64>], n_of_joints: usize) -> Option<Vec<usize>> {
     (chosen.len() == f).then_some(chosen)
 }
 
-/// Coordinates that are taken, and an orthonormal basis of their rows.
+/// Chosen coordinates, and an orthonormal basis of their rows.
 struct Taken<'a> {
     slopes: &'a [Vec<f64>],
     chosen: Vec<usize>,
@@ -33,7 +32,7 @@ struct Taken<'a> {
 }
 
 impl Taken<'_> {
-    /// Takes from a group, of those that change by more than `held`, until there are `f` of them, or none is independent.
+    /// Chooses coordinates of a group that change by more than `held`, until there are `f` coordinates or no further one is independent.
     fn fill(&mut self, f: usize, group: Range<usize>, held: f64) {
         let moving = group.filter(|&i| norm(&self.slopes[i]) > held);
         let moving: Vec<usize> = moving.collect();
@@ -49,7 +48,7 @@ impl Taken<'_> {
         }
     }
 
-    /// Takes a coordinate with an independent part of more than this.
+    /// Chooses a coordinate if its independent part exceeds `least`; returns whether it was chosen.
     fn take(&mut self, f: usize, i: usize, least: f64) -> bool {
         let mut rest = self.rest(i);
         let size = norm(&rest);
@@ -62,11 +61,11 @@ impl Taken<'_> {
         true
     }
 
-    /// The part of a row of unit length that is independent of those taken.
+    /// Part of a row, scaled to unit length, that is orthogonal to the rows of the chosen coordinates.
     fn rest(&self, i: usize) -> Vec<f64> {
         let size = norm(&self.slopes[i]);
         let mut rest: Vec<f64> = self.slopes[i].iter().map(|x| x / size).collect();
-        // twice, as rounding of the first time is not orthogonal
+        // Orthogonalisation is done twice, because rounding errors of the first pass are not orthogonal.
         for basis in self.basis.iter().chain(&self.basis) {
             let along: f64 = rest.iter().zip(basis).map(|(x, y)| x * y).sum();
             rest.iter_mut().zip(basis).for_each(|(x, y)| *x -= along * y);

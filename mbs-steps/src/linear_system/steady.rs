@@ -1,4 +1,4 @@
-//! Is a motion steady, and what is its linear motion in the axes that turn with it?
+//! Test whether a motion is steady, and its linearisation in axes that turn with the motion.
 //!
 //! ```text
 //! Omega: the turning of the whole about gravity, by which vectors x of bodies change:   x'' = Omega x x'
@@ -6,25 +6,27 @@
 //! steady: w_c' = 0 in all states, at the state and a little later, with the same A in these axes
 //! ```
 //!
-//! Joint coordinates of one freedom are the same in all axes. Of joints with a vector the bodies are taken, whose vectors are in global axes.
+//! Joint coordinates of one freedom are the same in all axes. For joints with vector coordinates, the coordinates of bodies are used
+//! instead; their vectors are in global axes.
 
 use super::measured::Layout;
 use crate::unsteady::Unsteady;
 use mbs_core::algebra::{Matrix, Vector, rotation};
 use mbs_core::scene::{Dimension, Scene};
 
-/// Phase of the motion after which it is looked at again [rad]: what changes once a turn has changed by a thirtieth, and one step of a rule
-/// of order four errs by 1e-10.
+/// Phase of the motion after which it is linearised again [rad]. A quantity with one period per turn then has changed by about a thirtieth.
+/// One step of an integrator of order four has an error of 1e-10.
 const PHASE: f64 = 0.03;
-/// Largest acceleration in the turning axes that is none, relative to what a deviation of one radian, or of the scene's length, makes of
-/// it [-]: the state is then that near to a steady motion. Initial values are written with seven digits.
+/// Largest acceleration in the turning axes for a steady motion [-]. It is relative to the acceleration that a deviation of one radian, or
+/// of the scene's length, causes. Initial values written with seven digits satisfy it.
 const STEADY: f64 = 1e-6;
-/// Largest acceleration that rounding leaves where nothing deviates, relative to the largest force over the inertia that it moves [-].
+/// Largest acceleration by rounding errors without a deviation, relative to the largest ratio of force to inertia [-].
 const LEFT: f64 = 1e-9;
-/// Largest change of an entry of A within the phase that is none, relative to the largest of its row [-]: 1e-4 in a radian, as a state that
-/// is steady to seven digits changes them by 1e-5.
+/// Largest change of an entry of A within the phase for a steady motion, relative to the largest entry of its row [-]. It is 1e-4 per
+/// radian, because a state that is steady to seven digits changes the entries by 1e-5.
 const UNCHANGED: f64 = 1e-4 * PHASE;
-/// Rounding of squares of eigenvalues that entries of A may change by [-]: that of two matrices, and of the states between. Chosen, not tuned.
+/// Allowed change of entries of A, in units of the rounding error of squared eigenvalues [-]. It covers the errors of two matrices and of
+/// the motion between them. Chosen, not tuned.
 const ROUNDINGS: f64 = 1e2;
 
 /// Axes that turn with a motion.
@@ -32,20 +34,20 @@ const ROUNDINGS: f64 = 1e2;
 pub(super) struct Turning {
     /// Angular velocity Omega of the axes [rad/s].
     pub(super) rate: Vector<f64, 3>,
-    /// C, which is 1 at the state.
+    /// Rotation matrix C of the axes; the identity at the first state.
     pub(super) axes: Matrix<f64, 3>,
 }
 
-/// A row of what is measured, by states and by inputs; or a single number of it.
+/// Derivatives of a measured value by states and by inputs, or its value alone.
 pub(super) type Row = Vec<f64>;
 
 impl Turning {
-    /// Returns axes that stand.
+    /// Returns axes that do not turn.
     pub(super) fn none() -> Self {
         Self { rate: Vector::zeros(), axes: Matrix::<f64, 3>::identity() }
     }
 
-    /// Returns the axes of a state, given what is measured there: the turning by which the vectors among the chosen states change.
+    /// Returns the turning axes of a state from its measured values. Their rate Omega is that of the vectors among the chosen states.
     pub(super) fn of(
         scene: &Scene<f64>,
         (layout, chosen): (&Layout, &[usize]),
@@ -73,7 +75,7 @@ impl Turning {
             (true, true) => return Self::none(),
             (true, false) => Vector::<f64, 3>::new(0.0, 0.0, 1.0),
             (false, true) => gravity.normalize(),
-            // across the largest vector, if there is one
+            // Without gravity, the axis is that of the rotation of the vectors, if there is one.
             (false, false) => {
                 let norm = moment.norm();
                 if norm > 0.0 { moment / norm } else { return Self::none() }
@@ -84,12 +86,12 @@ impl Turning {
         Self { rate: axis * rate, axes: Matrix::<f64, 3>::identity() }
     }
 
-    /// A time `h` [s] later.
+    /// Returns the axes at a time `h` [s] later.
     pub(super) fn after(&self, h: f64) -> Self {
         Self { axes: rotation(&(self.rate * h)) * self.axes, ..*self }
     }
 
-    /// Value, rate, derivative of the value and acceleration of a coordinate in these axes, from `row`: what is measured at a place.
+    /// Value, rate, derivative of the value, and acceleration of a coordinate in these axes; `row` returns a measured value.
     pub(super) fn rows(&self, layout: &Layout, i: usize, row: impl Fn(usize) -> Row) -> [Row; 4] {
         let part = |part: usize, of: usize| row(layout.part(part)(of));
         if self.rate.iter().all(|rate| *rate == 0.0) {
@@ -118,7 +120,7 @@ impl Turning {
     }
 }
 
-/// The sum of rows with factors.
+/// Sum of rows multiplied by factors.
 fn combined(parts: impl Iterator<Item = (f64, Row)>) -> Row {
     let mut sum = Row::new();
     for (by, row) in parts {
@@ -128,40 +130,41 @@ fn combined(parts: impl Iterator<Item = (f64, Row)>) -> Row {
     sum
 }
 
-/// Sizes that accelerations are compared with.
+/// Reference sizes of accelerations.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Sizes {
     /// The scene's length [m].
     pub(super) length: f64,
-    /// The largest rate, in radians or lengths [1/s].
+    /// Largest rate, with lengths divided by the scene's length [1/s].
     pub(super) rate: f64,
-    /// The largest force over the inertia that it moves, in radians or lengths [1/s^2].
+    /// Largest ratio of force to inertia, with lengths divided by the scene's length [1/s^2].
     pub(super) lively: f64,
 }
 
-/// Largest rate of a vector that is none, relative to the largest of all [-]: rounding of its acceleration would turn the axes.
+/// Smallest rate of a vector that contributes to the axes, relative to the largest rate [-]. The acceleration of a slower vector is mostly
+/// rounding error.
 const STILL: f64 = 1e-6;
-/// Longest time after which a motion is looked at again [s]: one that is slower moves little in all.
+/// Longest time after which a motion is linearised again [s], because the time of a slow motion would be arbitrarily long.
 const LONGEST: f64 = 1.0;
 
 impl Sizes {
-    /// Does anything move, beyond what rounding leaves of rates?
+    /// Is there a motion, with rates larger than rounding errors?
     pub(super) fn has_motion(&self) -> bool {
         self.rate * self.rate > LEFT * self.lively
     }
 
-    /// When the motion is looked at again [s].
+    /// Time after which the motion is linearised again [s].
     pub(super) fn later(&self) -> f64 {
         (PHASE / self.rate).min(LONGEST)
     }
 
-    /// Returns the size of a coordinate with this unit: the scene's length for `m`, else 1.
+    /// Returns the reference size of a coordinate with this unit: the scene's length for `m`, else 1.
     pub(super) fn of(&self, unit: &str) -> f64 {
         if unit == "m" { self.length } else { 1.0 }
     }
 }
 
-/// The state that accelerates most, if any does, given the matrix A.
+/// Returns the state whose acceleration exceeds its limit most, given the matrix A; `None` if no limit is exceeded.
 pub(super) fn accelerating(
     (layout, chosen): (&Layout, &[usize]),
     (turning, values): (&Turning, &[f64]),
@@ -186,7 +189,8 @@ pub(super) fn accelerating(
     worst.1
 }
 
-/// The state whose equation changes most between two matrices, row by row, if any does; `noise` [1/s^2] is their rounding.
+/// Returns the state whose row changes most between two matrices, relative to its limit; `None` if no limit is exceeded. `noise` is their
+/// rounding error [1/s^2].
 pub(super) fn changing(
     names: &[String],
     [a, b]: [&crate::tree::Matrix; 2],

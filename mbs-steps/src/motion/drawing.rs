@@ -1,4 +1,4 @@
-//! Places of a scene as the picture has them.
+//! Points of a scene in the coordinates of the picture.
 
 use crate::record::{BodyPlace, DrawnForce, DrawnPoint};
 use mbs_core::Real;
@@ -14,7 +14,7 @@ pub(super) struct Drawing<'a, T> {
 }
 
 impl<T: Real> Drawing<'_, T> {
-    /// A place of the reference configuration on a body.
+    /// Converts a point on a body, given in the reference configuration.
     pub(super) fn place(&self, body: BodyId, at: [T; 3]) -> BodyPlace {
         place(self.scene, body, at)
     }
@@ -32,7 +32,8 @@ impl<T: Real> Drawing<'_, T> {
         outputs.filter_map(trace).collect()
     }
 
-    /// Reactions act on the second body of their joint, effects on their last body; those along a length have no vector and are left out.
+    /// Lists the points of measured forces: reactions act on the second body of their joint, effects on their last body. Effects along a
+    /// line are omitted, because they have no vector.
     pub(super) fn forces(&self) -> Vec<DrawnForce> {
         let acts = |quantity: &Quantity<T>| match quantity.target() {
             Target::Joint(joint) => {
@@ -68,7 +69,7 @@ impl<T: Real> Drawing<'_, T> {
     }
 }
 
-/// A place of the reference configuration on a body.
+/// Converts a point on a body, given in the reference configuration.
 pub(super) fn place<T: Real>(scene: &Scene<T>, body: BodyId, at: [T; 3]) -> BodyPlace {
     let body = body.index();
     let center = body.map_or([T::ZERO; 3], |body| scene.bodies[body].center);

@@ -1,5 +1,5 @@
-//! Shapes that are drawn of joints, by what they let move: pins, sockets, rails with blocks, marks of the ground. Planes on which bodies roll
-//! are drawn here too.
+//! Shapes of joints, by the kind of joint: pins, sockets, rails with blocks, and symbols of the ground. Planes on which bodies roll are
+//! drawn here too.
 
 use super::drawing::Drawing;
 use super::pose::unit_of;
@@ -9,7 +9,7 @@ use mbs_core::effects::EffectPicture;
 use mbs_core::scene::{Axis, BodyId, Dimension, Joint, Rotation, Translation};
 
 impl<T: Real> Drawing<'_, T> {
-    /// Adds what is drawn of every joint, and rings of effects.
+    /// Adds the shapes of every joint, and the rings of bushings.
     pub(super) fn add_joints(&self, motion: &mut RecordedMotion) {
         for joint in self.scene.joints.iter().filter(|joint| !joint.kind.is_free()) {
             let place = self.place(joint.bodies[1], joint.points[1]);
@@ -54,7 +54,7 @@ impl<T: Real> Drawing<'_, T> {
         match joint.kind.translation(self.scene.dimension) {
             Translation::Along(axis) => {
                 let axis = direction(axis);
-                // the rail stands on the ground where one of the two is the ground
+                // If one of the two bodies is the ground, the rail is on the ground.
                 let on = usize::from(second == BodyId::Ground);
                 let slider = ends[1 - on];
                 add(joint.bodies[on], ShapeForm::Rail { at: ends[on].at, axis, slider });

@@ -1,4 +1,4 @@
-//! Lines that are drawn between places on bodies: springs, dampers, bumpers, forces, bars of constant length, ropes.
+//! Lines between points on bodies: springs, dampers, bumpers, forces, bars of constant length, and ropes.
 
 use super::drawing::Drawing;
 use crate::record::{DrawnLine, LineStyle, RecordedMotion};
@@ -43,7 +43,7 @@ impl<T: Real> Drawing<'_, T> {
     }
 }
 
-/// Returns the style of a line with a look.
+/// Returns the style of a line.
 const fn style(look: LineLook) -> LineStyle {
     match look {
         LineLook::Coil => LineStyle::Coil,

@@ -1,4 +1,4 @@
-//! The motion of a run as it goes: the poses of all bodies at up to 600 instants.
+//! Recording of the motion of a run: the poses of all bodies at up to 600 instants.
 
 mod drawing;
 mod joints;
@@ -19,25 +19,25 @@ use mbs_core::natural::NaturalModel;
 use mbs_core::scene::{Dimension, Scene};
 use pose::BodyPose;
 
-/// Most pictures kept of a run [-]: ten seconds at sixty a second.
+/// Largest number of recorded frames of a run [-]: ten seconds at sixty frames per second.
 const MAX_PICTURES: f64 = 600.0;
-/// Time by which a picture may be early, relative to the interval of two [-]: times are rounded. Chosen, not tuned.
+/// Time by which a frame may be early, relative to the interval of frames [-], because times have rounding errors. Chosen, not tuned.
 const EARLY: f64 = 1e-6;
-/// Most numbers in all pictures [-]: eighty megabytes. Scenes of some thousand bodies get fewer pictures.
+/// Largest number of values in all frames [-], which is eighty megabytes. Scenes of some thousand bodies get fewer frames.
 const MAX_NUMBERS: f64 = 1e7;
 
-/// Recorder of the motion: functions from which the poses are read, and the motion that they fill.
+/// Recorder of the motion: functions that compute the poses, and the recorded motion.
 #[derive(Debug)]
 pub struct MotionRecorder<T: Real, const D: usize> {
     poses: Vec<BodyPose<T, D>>,
     motion: RecordedMotion,
-    /// Time between pictures, and of the next one [s].
+    /// Interval of frames, and time of the next frame [s].
     every: f64,
     next: f64,
 }
 
 impl<T: Real, const D: usize> MotionRecorder<T, D> {
-    /// Lays out what is drawn in a run of the given duration [s].
+    /// Creates a recorder and the shapes to draw, for a run of the given duration [s].
     pub fn new(scene: &Scene<T>, model: &NaturalModel<T, D>, duration: f64) -> Self {
         let up = scene.gravity.map_or([0.0; 3], |g| g.map(|x| -x.to_f64()));
         let drawing = Drawing { scene, length: model.length().to_f64() };
@@ -60,7 +60,7 @@ impl<T: Real, const D: usize> MotionRecorder<T, D> {
         Self { poses, motion, every: duration / pictures, next: 0.0 }
     }
 
-    /// Makes room for all pictures of a run, so that none is allocated when it is taken.
+    /// Allocates memory for all frames of a run, so that no step allocates.
     pub fn reserve(&mut self, duration: f64) {
         #[allow(
             clippy::cast_possible_truncation,
@@ -72,7 +72,7 @@ impl<T: Real, const D: usize> MotionRecorder<T, D> {
         self.motion.times.reserve(n);
     }
 
-    /// Writes the pictures so far, or reads them back.
+    /// Writes the recorded frames to a checkpoint, or reads them from one.
     pub fn walk(&mut self, tape: &mut impl Tape) -> Walked {
         tape.float(&mut self.next)?;
         tape.list(&mut self.motion.times, 8, Tape::float)?;
@@ -80,7 +80,7 @@ impl<T: Real, const D: usize> MotionRecorder<T, D> {
         holds(self.motion.times.len() * self.poses.len() * N_POSE == self.motion.poses.len())
     }
 
-    /// Takes a picture where one is due.
+    /// Records a frame if one is due.
     pub fn offer(&mut self, t: f64, q: &[T], is_last: bool) {
         if !(t >= self.next || is_last) {
             return;
@@ -97,7 +97,7 @@ impl<T: Real, const D: usize> MotionRecorder<T, D> {
         self.next = ((t / self.every + EARLY).floor() + 1.0 - EARLY) * self.every;
     }
 
-    /// The motion, with the road under its way.
+    /// Returns the motion, completed by the road along the path of the tires.
     pub fn finish(self, scene: &Scene<T>) -> RecordedMotion {
         let mut motion = self.motion;
         motion.road = road::under(scene, &motion);

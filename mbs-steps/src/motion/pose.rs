@@ -1,24 +1,24 @@
-//! The pose of a body from natural coordinates: three of its directions, made orthogonal, as a quaternion.
+//! Pose of a body from natural coordinates: two or three of its directions are made orthogonal and converted to a quaternion.
 
 use mbs_core::Real;
 use mbs_core::natural::{Affine, NaturalModel};
 use mbs_core::scene::{BodyId, Inertia, Scene};
 
-/// Functions of the coordinates from which the pose of a body is read.
+/// Functions of the coordinates that give the pose of a body.
 #[derive(Debug)]
 pub(super) struct BodyPose<T: Real, const D: usize> {
     center: Affine<T, D>,
     turn: Turn<T, D>,
 }
 
-/// Source from which a body's turn is read.
+/// Vectors that determine the rotation of a body.
 #[derive(Debug)]
 enum Turn<T: Real, const D: usize> {
-    /// The body has no turn: a point.
+    /// The body is a point and has no rotation.
     None,
-    /// The images of the global x and y axes of the reference configuration; in the plane of x alone.
+    /// Images of the global x and y axes of the reference configuration; in the plane only x is used.
     Axes([Affine<T, D>; 2]),
-    /// A rod that carries no spin: its ends, and its direction in the reference configuration. The smallest turn counts.
+    /// A rod without spin about its axis: its ends, and its direction in the reference configuration. The smallest rotation is used.
     Line([Affine<T, D>; 2], [f64; 3]),
 }
 
@@ -44,12 +44,12 @@ impl<T: Real, const D: usize> BodyPose<T, D> {
         numbers(&self.center, q)
     }
 
-    /// The turn since the reference configuration; of its two signs the one nearer to `before`.
+    /// Rotation from the reference configuration; of the two quaternions q and -q the one closer to `before`.
     pub(super) fn quaternion(&self, q: &[T], before: Option<[f64; 4]>) -> [f64; 4] {
         let turn = match &self.turn {
             Turn::None => [1.0, 0.0, 0.0, 0.0],
             Turn::Axes([x, y]) => {
-                // in the plane y follows from x
+                // In the plane the y axis is perpendicular to the x axis.
                 let x = unit_of(numbers(x, q));
                 let y = if D == 2 { [-x[1], x[0], 0.0] } else { numbers(y, q) };
                 let z = unit_of(cross(x, y));
@@ -65,7 +65,7 @@ impl<T: Real, const D: usize> BodyPose<T, D> {
     }
 }
 
-/// A place or direction in three numbers.
+/// Components of a point or a direction; the third one is zero in the plane.
 fn numbers<T: Real, const D: usize>(x: &Affine<T, D>, q: &[T]) -> [f64; 3] {
     let x = x.value(q);
     core::array::from_fn(|i| if i < D { x[i].to_f64() } else { 0.0 })
@@ -79,13 +79,13 @@ pub(super) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     (0..3).map(|i| a[i] * b[i]).sum()
 }
 
-/// The direction of a vector; +z where it has none.
+/// Unit vector in the direction of a vector; +z for a zero vector.
 pub(super) fn unit_of(a: [f64; 3]) -> [f64; 3] {
     let length = dot(a, a).sqrt();
     if length > 0.0 { a.map(|x| x / length) } else { [0.0, 0.0, 1.0] }
 }
 
-/// Unit axes, of which the first is the first and the second lies in the plane of both.
+/// Orthonormal axes: the first is along the first vector, the second is in the plane of both vectors.
 pub fn frame([first, second]: [[f64; 3]; 2]) -> [[f64; 3]; 3] {
     let x = unit_of(first);
     let along = dot(x, second);
@@ -93,7 +93,7 @@ pub fn frame([first, second]: [[f64; 3]; 2]) -> [[f64; 3]; 3] {
     [x, y, cross(x, y)]
 }
 
-/// The quaternion of a rotation matrix with these columns, by its largest number.
+/// Quaternion of a rotation matrix with these columns, computed from its largest component.
 pub fn of_axes([x, y, z]: [[f64; 3]; 3]) -> [f64; 4] {
     let squares = [
         1.0 + x[0] + y[1] + z[2],
@@ -113,11 +113,11 @@ pub fn of_axes([x, y, z]: [[f64; 3]; 3]) -> [f64; 4] {
     }
 }
 
-/// The smallest turn that carries one direction to another.
+/// Quaternion of the smallest rotation from one direction to another.
 pub fn smallest(from: [f64; 3], to: [f64; 3]) -> [f64; 4] {
     let w = 1.0 + dot(from, to);
     if w < 1e-12 {
-        // half a turn, about any axis across
+        // For opposite directions: half a turn about any perpendicular axis.
         let other = if from[0].abs() < 0.5 { [1.0, 0.0, 0.0] } else { [0.0, 1.0, 0.0] };
         let axis = unit_of(cross(from, other));
         return [0.0, axis[0], axis[1], axis[2]];

@@ -1,9 +1,9 @@
 //! Principal moments and axes of inertia: Jacobi's rotations of a symmetric 3 x 3 matrix.
 
-/// Rounds over the three entries beside the diagonal [-]: each at least squares their size, so that six are beyond rounding.
+/// Number of sweeps over the three off-diagonal entries [-]. Convergence is quadratic, so that six sweeps reach machine precision.
 const ROUNDS: usize = 8;
 
-/// Principal moments and their axes, unit vectors of a right-handed frame, of [xx, yy, zz, xy, yz, zx].
+/// Principal moments and principal axes of the inertia [xx, yy, zz, xy, yz, zx]; the axes are a right-handed orthonormal frame.
 pub fn principal([xx, yy, zz, xy, yz, zx]: [f64; 6]) -> ([f64; 3], [[f64; 3]; 3]) {
     let mut a = [[xx, xy, zx], [xy, yy, yz], [zx, yz, zz]];
     let mut axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
@@ -11,7 +11,7 @@ pub fn principal([xx, yy, zz, xy, yz, zx]: [f64; 6]) -> ([f64; 3], [[f64; 3]; 3]
         if a[p][q] == 0.0 {
             continue;
         }
-        // tan of the angle that makes a[p][q] zero; the smaller of two
+        // Tangent of the smaller angle that makes a[p][q] zero.
         let theta = (a[q][q] - a[p][p]) / (2.0 * a[p][q]);
         let t = theta.signum() / (theta.abs() + (theta * theta + 1.0).sqrt());
         let c = 1.0 / (t * t + 1.0).sqrt();

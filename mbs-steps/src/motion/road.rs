@@ -1,22 +1,22 @@
-//! The road under the way of the tires: heights at places along x.
+//! Drawn road along the path of the tires: heights at points along x.
 
 use crate::record::{BodyPlace, DrawnRoad, RecordedMotion, RoadStrip};
 use mbs_core::Real;
 use mbs_core::actions::track_heights;
 use mbs_core::scene::{Dimension, RoadFeature, Scene};
 
-/// Distance of the places where a road is drawn [m]: an edge rounded over 0.3 m has three.
+/// Distance of the points of a drawn road [m]; an edge rounded over 0.3 m has three points.
 const SPACING: f64 = 0.1;
-/// Road before and behind the way of the tires [m].
+/// Length of road before and after the path of the tires [m].
 const MARGIN: f64 = 3.0;
-/// Most places along a road [-]: four hundred metres at their usual distance.
+/// Largest number of points along a road [-]: four hundred metres at the usual distance.
 const MAX_PLACES: f64 = 4000.0;
-/// Half width of the strip of a track where the tracks differ, relative to the distance of the tracks [-].
+/// Half width of the strip of one track if the two tracks differ, relative to the distance of the tracks [-].
 const TRACK: f64 = 0.35;
 /// Half width of a planar road, relative to the scene's length [-].
 const PLANAR: f64 = 0.3;
 
-/// The road of a scene with tires, from a margin before the way of all tires to one behind it; `None` without tires.
+/// Returns the road of a scene with tires, along the path of all tires with a margin at both ends; `None` without tires.
 pub(super) fn under<T: Real>(scene: &Scene<T>, motion: &RecordedMotion) -> Option<DrawnRoad> {
     let enabled = scene.effects.iter().filter(|effect| effect.enabled);
     let wheels = enabled.filter_map(|effect| effect.kind.road_wheel());

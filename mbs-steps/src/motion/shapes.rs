@@ -1,4 +1,4 @@
-//! Shapes that are drawn of the bodies: rods, boxes and capsules of their inertia, wheels, strokes to their joints, planar polygons.
+//! Shapes of the bodies: rods, boxes and capsules of their inertia, wheels, bars to their joints, and planar polygons.
 
 use super::drawing::Drawing;
 use super::pose::{cross, dot, unit_of};
@@ -11,22 +11,22 @@ use mbs_core::scene::{Axis, BodyId, Dimension, Inertia, JointId, RollingKind, Sh
 
 /// Radius of a rod, relative to the scene's length [-].
 const ROD: f64 = 0.012;
-/// Radius of a point with mass, relative to the scene's length [-].
+/// Radius of a point mass, relative to the scene's length [-].
 const POINT: f64 = 0.02;
-/// Smallest half length of a box, relative to the scene's length [-]: it stays visible.
+/// Smallest half length of a box, relative to the scene's length [-], so that the box is visible.
 const MIN_HALF: f64 = 0.004;
-/// Half length from which a box is left out, relative to the scene's length [-]: it would hide all else.
+/// Half length above which a box is not drawn, relative to the scene's length [-], because it would hide everything else.
 const MAX_HALF: f64 = 3.0;
-/// Two half lengths of a capsule differ by at most this ratio [-].
+/// Largest ratio of the two shorter half lengths of a capsule [-].
 const ALIKE: f64 = 1.15;
-/// A capsule is longer than wide by at least this ratio [-].
+/// Smallest ratio of length to width of a capsule [-].
 const LONG: f64 = 1.5;
 /// Width of a tire, relative to its radius [-].
 const TIRE_WIDTH: f64 = 0.35;
-/// Width of discs that roll and of gears, relative to their radius [-].
+/// Width of rolling discs and of gears, relative to their radius [-].
 const DISC_WIDTH: f64 = 0.12;
 
-/// Does a box or capsule of inertia, with axes and half lengths, contain a place?
+/// Box or capsule of a body's inertia, by its half lengths and axes.
 struct Solid {
     half: [f64; 3],
     axes: [[f64; 3]; 3],
@@ -39,14 +39,14 @@ impl Solid {
 }
 
 impl<T: Real> Drawing<'_, T> {
-    /// Adds what is drawn on every body.
+    /// Adds the shapes of every body.
     pub(super) fn add_bodies(&self, motion: &mut RecordedMotion) {
         let wheels = self.add_wheels(motion);
         motion.shapes.extend(self.scene.shapes.iter().map(|shape| self.shape(shape)));
         for body in 0..self.scene.bodies.len() {
             let mut own = self.scene.shapes.iter().filter(|s| s.body == BodyId::Body(body));
             let has_any = own.clone().next().is_some();
-            // files of meshes may be missing
+            // A body with mesh files only also gets the shapes of its inertia, in case the files are missing.
             if own.all(|shape| matches!(shape.form, ShapeKind::Mesh { .. })) {
                 let first = motion.shapes.len();
                 self.add_body(body, wheels.contains(&body), motion);
@@ -73,7 +73,7 @@ impl<T: Real> Drawing<'_, T> {
                 add(ShapeForm::Polygon { points: around(used) });
             }
             Inertia::Planar(moment) if used.iter().all(|at| dot(*at, *at) == 0.0) && !is_wheel => {
-                // a disc with the same inertia: m r^2 / 2
+                // Disc with the same inertia, m r^2 / 2.
                 let mass = self.scene.bodies[body].mass.to_f64();
                 let radius = (2.0 * moment.to_f64() / mass).sqrt();
                 let radius = if radius > 0.0 && mass > 0.0 { radius } else { POINT * self.length };
@@ -91,7 +91,7 @@ impl<T: Real> Drawing<'_, T> {
         }
     }
 
-    /// Strokes from the centre to places that the body's box does not reach.
+    /// Adds bars from the centre of mass to the points that the body's box does not contain.
     fn add_strokes(
         &self,
         used: Vec<[f64; 3]>,
@@ -107,7 +107,8 @@ impl<T: Real> Drawing<'_, T> {
         }
     }
 
-    /// The box of a body's inertia: half lengths sqrt(3 (tr I / 2 - I_i) / m), as tr I / 2 - I_i is the integral of x_i^2 dm.
+    /// Box with the inertia of a body. Its half lengths are sqrt(3 (tr I / 2 - I_i) / m). The term tr I / 2 - I_i is the integral of x_i^2
+    /// dm.
     fn solid(&self, body: usize, inertia: [T; 6]) -> Option<Solid> {
         let mass = self.scene.bodies[body].mass.to_f64();
         let (moments, axes) = principal(inertia.map(Real::to_f64));
@@ -120,7 +121,7 @@ impl<T: Real> Drawing<'_, T> {
         is_drawn.then_some(Solid { half, axes })
     }
 
-    /// Places of joints, then of outputs, on a body, each once: a box must not hide them.
+    /// Points of joints, line effects and outputs on a body, each one once. A box must not hide them.
     fn used(&self, body: usize) -> Vec<[f64; 3]> {
         let scene = self.scene;
         let of_joints = scene.joints.iter().filter(|j| !j.kind.is_free());
@@ -138,7 +139,7 @@ impl<T: Real> Drawing<'_, T> {
         places
     }
 
-    /// Adds the wheels of tires, of what rolls and of teeth; the bodies that carry or are one.
+    /// Adds the wheels of tires, of rolling bodies and of gears; returns the bodies that are wheels or carry them.
     fn add_wheels(&self, motion: &mut RecordedMotion) -> Vec<usize> {
         let mut bodies = Vec::new();
         let mut add = |body: BodyId, form| {
@@ -182,19 +183,19 @@ impl<T: Real> Drawing<'_, T> {
         bodies
     }
 
-    /// The body that a wheel turns with, and its axis.
+    /// Body that rotates with a wheel, and the axis of rotation.
     fn wheel_of(&self, wheel: &RoadWheel<T>) -> (BodyId, [f64; 3]) {
         let joint = wheel.spin.map(|joint| &self.scene.joints[joint]);
         let others = joint.map(|joint| joint.bodies.into_iter().find(|body| *body != wheel.body));
         let body = others.flatten().filter(|body| body.index().is_some()).unwrap_or(wheel.body);
         let of_joint = || joint.map(|joint| joint.direction(Axis::First).into());
         let axis = wheel.axis.or_else(of_joint).map(|axis: [T; 3]| unit_of(axis.map(Real::to_f64)));
-        // without an axis: across the direction of travel
+        // Without an axis, the wheel is perpendicular to the direction of travel.
         let across = if self.is_planar() { [0.0, 0.0, 1.0] } else { [0.0, 1.0, 0.0] };
         (body, axis.filter(|_| !self.is_planar()).unwrap_or(across))
     }
 
-    /// The joints of wheels with teeth, and the pitch point of each mesh.
+    /// Joints of gear wheels, with the pitch point of each mesh.
     fn teeth(&self) -> Vec<(JointId, [T; 3])> {
         let mut found = Vec::new();
         for coupling in &self.scene.couplings {
@@ -206,7 +207,7 @@ impl<T: Real> Drawing<'_, T> {
         found
     }
 
-    /// A wheel with teeth as a disc through its pitch point, about the axis of its joint.
+    /// Gear wheel as a disc through its pitch point, about the axis of its joint.
     fn gear(&self, joint: JointId, pitch: [T; 3]) -> Option<(BodyId, ShapeForm)> {
         let joint = &self.scene.joints[joint];
         let body = joint.bodies[1];
@@ -227,12 +228,12 @@ impl<T: Real> Drawing<'_, T> {
     }
 }
 
-/// A disc that shows how it turns.
+/// Disc with marks that show its rotation.
 fn disc(at: [f64; 3], axis: [f64; 3], radius: f64) -> ShapeForm {
     ShapeForm::Wheel { at, axis, radius, width: DISC_WIDTH * radius, turns: true }
 }
 
-/// The corners of a polygon around their middle, so that its sides do not cross.
+/// Sorts the corners of a polygon by angle around their mean, so that its sides do not cross.
 fn around(mut points: Vec<[f64; 3]>) -> Vec<[f64; 3]> {
     #[allow(clippy::cast_precision_loss, reason = "numbers of joints are far below 2^53")]
     let n = points.len() as f64;
@@ -242,7 +243,7 @@ fn around(mut points: Vec<[f64; 3]>) -> Vec<[f64; 3]> {
     points
 }
 
-/// Form of a solid: a box, or a capsule where two half lengths are alike and the third is longer.
+/// Form of a solid: a capsule if two half lengths are similar and the third is longer, else a box.
 fn form_of(solid: &Solid, is_clear: bool) -> ShapeForm {
     let Solid { half, axes } = solid;
     let long = (0..3).fold(0, |a, b| if half[b] > half[a] { b } else { a });
@@ -256,7 +257,7 @@ fn form_of(solid: &Solid, is_clear: bool) -> ShapeForm {
     ShapeForm::Box { at: [0.0; 3], half: *half, axes: *axes, is_clear }
 }
 
-/// Distance of a place from a straight line through two others.
+/// Distance of a point from the straight line through two other points.
 fn distance_to_line(at: [f64; 3], from: [f64; 3], to: [f64; 3]) -> f64 {
     let along = unit_of([0, 1, 2].map(|i| to[i] - from[i]));
     let across = cross([0, 1, 2].map(|i| at[i] - from[i]), along);

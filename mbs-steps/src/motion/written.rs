@@ -1,4 +1,4 @@
-//! Shapes that the scene writes.
+//! Shapes that the scene file defines.
 
 use super::drawing::Drawing;
 use super::pose::frame;
@@ -6,11 +6,11 @@ use crate::record::{DrawnShape, ShapeForm};
 use mbs_core::Real;
 use mbs_core::scene::{BodyShape, ShapeKind};
 
-/// Width of a disc of the plane, relative to its radius [-].
+/// Width of a planar disc, relative to its radius [-].
 const DISC_WIDTH: f64 = 0.05;
 
 impl<T: Real> Drawing<'_, T> {
-    /// A shape of the scene as it is drawn.
+    /// Converts a shape of the scene to its drawn form.
     pub(super) fn shape(&self, shape: &BodyShape<T>) -> DrawnShape {
         let place = |at: [T; 3]| self.place(shape.body, at).at;
         let form = match &shape.form {
@@ -58,10 +58,10 @@ impl<T: Real> Drawing<'_, T> {
     }
 }
 
-/// Axes by the first and second of them.
+/// Orthonormal axes from the first and second one; the global axes if none are given.
 fn axes_of<T: Real>(axes: Option<&[[T; 3]; 2]>) -> [[f64; 3]; 3] {
     axes.map_or(GLOBAL, |axes| frame(axes.map(|axis| axis.map(Real::to_f64))))
 }
 
-/// Axes of a box that writes none: x, y and z [-].
+/// Default axes of a box: the global axes x, y and z [-].
 const GLOBAL: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];

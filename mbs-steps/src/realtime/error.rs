@@ -1,42 +1,42 @@
-//! Reason why a run cannot be paced as it is asked for.
+//! Error of the pacing settings of a run.
 
 use crate::methods::FormulationKind;
 use mbs_core::formulation::SwitchError;
 use mbs_scene::{format::significant, nearest_name};
 
-/// A pacing that is refused.
+/// Error of the pacing settings of a run.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum PacingError {
-    /// A time that must be positive and finite, or not negative.
+    /// Invalid time: `period` must be positive and finite, `awake` must not be negative.
     Time {
         /// Key of the time: `period` or `awake`.
         key: &'static str,
-        /// Value that is refused [s].
+        /// The invalid value [s].
         value: f64,
     },
-    /// A quiet time that is none.
+    /// The quiet time has no periods.
     Quiet,
-    /// A level names an effect that the scene has not, or has switched off.
+    /// A level names an effect that the scene does not have, or that is switched off.
     NoEffect {
         /// Name that the level gives.
         name: String,
-        /// Names of the effects that the scene has on.
+        /// Names of the effects that are switched on.
         known: Vec<String>,
     },
-    /// Steps cannot be made longer.
+    /// The steps cannot be made longer.
     Steps {
-        /// Whether the lengths of the steps are controlled; else a period has not steps enough.
+        /// True if the step size is controlled; false if a period has too few steps.
         is_controlled: bool,
     },
-    /// An effect that cannot be switched off while the scene runs.
+    /// An effect that cannot be switched off during the run.
     Fixed {
         /// Name of the effect.
         name: String,
         /// Reason why it cannot be switched off.
         why: SwitchError,
     },
-    /// Nothing that may be left out saves time.
+    /// No effect that may be omitted saves time, so there is no ladder.
     NoLadder,
 }
 

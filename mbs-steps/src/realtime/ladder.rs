@@ -1,4 +1,4 @@
-//! Levels below the full scene, and whether a running scene can change to them.
+//! Degraded levels below the full scene, and the check that a running scene can change to them.
 
 use super::error::PacingError;
 use crate::record::Degraded;
@@ -9,10 +9,10 @@ use mbs_core::Real;
 use mbs_core::formulation::SwitchError;
 use mbs_core::scene::Scene;
 
-/// The word for longer steps.
+/// Key word of a level with longer steps.
 const STEPS: &str = "steps";
 
-/// The run whose ladder is sought.
+/// The run for which a ladder is computed.
 pub(super) struct Sought<'a, T> {
     pub(super) scene: &'a Scene<T>,
     pub(super) settings: &'a ResolvedMethod,
@@ -20,7 +20,7 @@ pub(super) struct Sought<'a, T> {
 }
 
 impl<T: Real> Sought<'_, T> {
-    /// A level with these halvings and these effects off.
+    /// Creates a level with this number of halvings and these effects off.
     pub(super) fn rung(&self, halvings: u32, off: Vec<usize>) -> PacedLevel {
         let without = off.iter().map(|&e| self.scene.effects[e].name.clone()).collect();
         let steps = self.track.steps.unwrap_or(1);
@@ -29,26 +29,26 @@ impl<T: Real> Sought<'_, T> {
         PacedLevel { measured: Degraded { step_times, without, ..Degraded::default() }, ..rung }
     }
 
-    /// Do these halvings make steps longer than one fewer?
+    /// Does this number of halvings give longer steps than one halving fewer?
     pub(super) fn lengthens(&self, halvings: u32) -> bool {
         let Some(steps) = self.track.steps else { return false };
         let of = |halvings| PacedLevel { halvings, ..PacedLevel::default() }.steps(steps);
         halvings == 0 || of(halvings) < of(halvings - 1)
     }
 
-    /// Can the running scene change between everything and this level, and back?
+    /// Can the running scene change from the full scene to this level and back?
     pub(super) fn changes<const D: usize>(&self, rung: &PacedLevel) -> Result<(), SwitchError> {
         if rung.off.is_empty() {
             return Ok(());
         }
-        // What does not start is reported by the run itself.
+        // If the full scene does not start, the run itself reports the error.
         let Ok(full) = Simulation::<T, D>::new(self.scene, self.settings) else { return Ok(()) };
         let less = Simulation::<T, D>::new(&rung.scene(self.scene), self.settings);
         less.map_err(|_| SwitchError::Coordinates)?.takes_over(&full)
     }
 }
 
-/// The levels that a user names, after that of everything.
+/// Levels that a user lists, preceded by the full scene.
 pub(super) fn listed<T: Real, const D: usize>(
     sought: &Sought<'_, T>,
     words: &[String],

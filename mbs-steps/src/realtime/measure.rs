@@ -1,13 +1,13 @@
-//! A ladder by measurement: what saves time and changes the outputs least is left out first.
+//! A degradation ladder by measurement: effects that save time and change the outputs least are omitted first.
 //!
 //! ```text
 //! saves   = 1 − (median time of a period without it) / (that of the full scene)
 //! changes = max over outputs of (largest difference of the two runs) / (range of the output)
 //! ```
 //!
-//! Each candidate runs alone over the beginning of the scene, by the loop that is paced later, with a clock that does not wait.
-//! Those that save more than the noise are sorted by what they change; level k leaves the first k out, and is measured again. The
-//! ladder ends where a level changes an output by more than half of its range.
+//! Each candidate omits one thing and runs over the beginning of the scene. It uses the loop of the paced run, with a clock that does not
+//! wait. Candidates that save more time than the noise are sorted by their changes. Level k omits the first k of them, and is measured
+//! again. The ladder ends before a level that changes an output by more than half of its range.
 
 use super::error::PacingError;
 use super::ladder::Sought;
@@ -22,22 +22,23 @@ use mbs_core::Real;
 use mbs_realtime::{Clock, SystemClock};
 use std::time::Instant;
 
-/// Time of all measurements [s]. Chosen, not tuned.
+/// Time limit of all measurements [s]. Chosen, not tuned.
 const SECONDS: f64 = 3.0;
-/// Periods of the first run, and least periods of a measured one. Chosen, not tuned.
+/// Periods of the first run, and smallest number of periods of a measured run. Chosen, not tuned.
 const FEWEST: u64 = 50;
-/// Timings of each level, interleaved. Chosen, not tuned.
+/// Number of timings of each level, interleaved. Chosen, not tuned.
 const REPEATS: u32 = 3;
-/// Least saving of a level, relative to the time of a period [-]. Chosen, not tuned.
+/// Smallest saving of a level, relative to the time of a period [-]. Chosen, not tuned.
 const LEAST_SAVING: f64 = 0.02;
-/// Most levels below the full scene: more effects than that are taken by their kinds. Chosen, not tuned.
+/// Largest number of levels below the full scene. If there are more effects, effects of the same kind are omitted together. Chosen, not
+/// tuned.
 const MAX_LEVELS: usize = 8;
-/// Largest change of the outputs by a level, relative to their range [-]: a level beyond must be named. Chosen, not tuned.
+/// Largest change of the outputs by a measured level, relative to their range [-]; a user may list further levels. Chosen, not tuned.
 const MOST_CHANGE: f64 = 0.5;
-/// Halvings of the number of steps of a period [-]: steps are then twice and four times as long.
+/// Largest number of halvings of the number of steps per period [-]: steps are then twice and four times as long.
 const HALVINGS: u32 = 2;
 
-/// A clock that passes while there is work and jumps over what is waited for.
+/// Clock that runs during computations and skips waiting times.
 struct Hurried {
     system: SystemClock,
     ahead: Cell<Duration>,
@@ -55,7 +56,7 @@ impl Clock for Hurried {
     fn pause(&mut self) {}
 }
 
-/// A candidate, or a level: times of its repeats, and its run.
+/// A candidate or a level with the times of its repeats, and its run.
 struct Trial {
     rung: PacedLevel,
     times: Vec<f64>,
@@ -67,7 +68,7 @@ impl Trial {
         Self { rung, times: Vec::new(), outcome: None }
     }
 
-    /// The least of the repeats [s per period], and how far the next is from it, as a share.
+    /// Smallest time of the repeats [s per period], and relative distance of the second smallest from it [-].
     fn best(&self) -> Option<[f64; 2]> {
         let mut sorted = self.times.clone();
         sorted.sort_by(f64::total_cmp);
@@ -80,7 +81,7 @@ impl Trial {
     }
 }
 
-/// The levels, that of everything first, with what was measured of each.
+/// Levels of the ladder with their measurements, the full scene first.
 pub(super) fn measured<T: Real, const D: usize>(
     sought: &Sought<'_, T>,
 ) -> Result<Vec<PacedLevel>, PacingError> {
@@ -89,13 +90,13 @@ pub(super) fn measured<T: Real, const D: usize>(
     if candidates.is_empty() {
         return Err(PacingError::NoLadder);
     }
-    // Levels are as many as candidates at most.
+    // There are at most as many levels as candidates.
     let each = SECONDS / f64::from(REPEATS) / count(2 * candidates.len() + 2);
     let clock = Instant::now();
     let first = trial::<T, D>(sought, &full, FEWEST);
     let one = clock.elapsed().as_secs_f64() / count(FEWEST.min(sought.track.periods) as usize);
     if first.is_none_or(|outcome| !outcome.summary.completed) {
-        // The run will say why.
+        // The full scene fails here, so the run itself will report the error.
         return Ok(vec![full]);
     }
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
@@ -111,7 +112,7 @@ pub(super) fn measured<T: Real, const D: usize>(
     if rungs.len() == 1 { Err(PacingError::NoLadder) } else { Ok(rungs) }
 }
 
-/// Longer steps, and effects one by one, or by kinds where they are many.
+/// Candidates: longer steps, and effects individually, or by kind if there are too many.
 fn candidates<T: Real, const D: usize>(sought: &Sought<'_, T>) -> Vec<PacedLevel> {
     let effects = sought.scene.effects.iter().enumerate().filter(|(_, effect)| effect.enabled);
     let can = |off: &Vec<usize>| sought.changes::<D>(&sought.rung(0, off.clone())).is_ok();
@@ -133,7 +134,7 @@ fn candidates<T: Real, const D: usize>(sought: &Sought<'_, T>) -> Vec<PacedLevel
     longer.chain(groups.into_iter().map(|off| sought.rung(0, off))).collect()
 }
 
-/// The levels below the full scene: those that pay, one more each, in the order of what they change.
+/// Levels below the full scene: each omits one more candidate that saves time, in the order of their changes.
 fn ladder<T: Real>(sought: &Sought<'_, T>, alone: &[Trial]) -> Vec<PacedLevel> {
     let noise = |trial: &Trial| trial.best().map_or(f64::INFINITY, |[_, noise]| noise);
     let full = alone.first().map_or(f64::INFINITY, noise);
@@ -154,7 +155,7 @@ fn ladder<T: Real>(sought: &Sought<'_, T>, alone: &[Trial]) -> Vec<PacedLevel> {
     rungs
 }
 
-/// Runs the full scene and others interleaved, and reports what each saves and changes.
+/// Runs the full scene and other levels interleaved, and computes saving and change of each.
 fn run_all<T: Real, const D: usize>(
     sought: &Sought<'_, T>,
     full: &PacedLevel,
@@ -185,7 +186,7 @@ fn run_all<T: Real, const D: usize>(
     trials
 }
 
-/// The output that changes most, and by which share of its range; none where an output without a range changes.
+/// The output with the largest relative change, and that change; `None` if an output without a range changes.
 fn largest(changes: &[OutputChange]) -> Option<(String, f64)> {
     let share = |change: &OutputChange| match change.relative {
         Some(share) => Some(share),
@@ -197,7 +198,7 @@ fn largest(changes: &[OutputChange]) -> Option<(String, f64)> {
     Some((changes[i].output.clone(), shares[i]))
 }
 
-/// The first periods at one level, without waiting; `None` where the level is none of this scene.
+/// Runs the first periods at one level, without waiting; `None` if the level cannot run in this scene.
 fn trial<T: Real, const D: usize>(
     sought: &Sought<'_, T>,
     rung: &PacedLevel,

@@ -1,11 +1,11 @@
-//! Real time: a scene at the pace of a clock, or a loop of your own around a [`Simulation`].
+//! Real time: a scene at the pace of a clock, or a user-defined loop around a [`Simulation`].
 //!
-//! `mbs run SCENE --realtime` is a run with a [`Pacing`]; docs/REALTIME.md says what its policies do and what was measured. There is no
-//! clock in a solver: the pacer of [`mbs_realtime`] stands around the steps.
+//! `mbs run SCENE --realtime` is a run with a [`Pacing`]; docs/REALTIME.md describes its policies and measurements. No solver reads a
+//! clock: the pacer of [`mbs_realtime`] calls the steps from outside.
 //!
 //! # A loop of your own
-//! Who owns the loop, such as a test bench with hardware in it, sets inputs, steps, and reads outputs. The pacer calls `step` at the
-//! begin of each period and `publish` at its end, or later, as the policy for late steps says.
+//! A program with a loop of its own, such as a test bench with hardware, sets inputs, makes steps, and reads outputs. The pacer calls
+//! `step` at the begin of each period and `publish` at its end. After an overrun, `publish` follows later, depending on the policy.
 //!
 //! ```
 //! use core::{cell::Cell, ops::ControlFlow, time::Duration};
@@ -77,8 +77,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! A ladder of one's own: a second [`Simulation`] of the same scene with effects switched off takes the state over with
-//! [`Simulation::take_over`] when [`Task::level`] changes. Inputs are set in both.
+//! For a ladder in such a loop, a second [`Simulation`] of the same scene has some effects switched off. When [`Task::level`] changes, it
+//! copies the state with [`Simulation::take_over`]. Inputs are set in both simulations.
 
 mod error;
 mod ladder;
@@ -103,19 +103,19 @@ use crate::typed::Simulation;
 /// Settings by which a run is paced.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Pacing {
-    /// Time between two boundaries [s]; else the step, or the largest one where lengths are controlled.
+    /// Length of a period [s]; default: the step, or with step control the largest step.
     pub period: Option<f64>,
     /// Policy for a period that is late.
     pub overrun: Overrun,
-    /// The ladder of [`Overrun::Degrade`].
+    /// Ladder for the policy [`Overrun::Degrade`].
     pub degrade: Degrade,
-    /// The loop waits awake for so long before each begin [s].
+    /// Time before each begin during which the loop waits actively [s].
     pub awake: f64,
-    /// When a degraded run comes back up.
+    /// Condition for a degraded run to return to a better level.
     pub quiet: Recovery,
 }
 
-/// Time before a period's end in which a run waits awake, by default [s]. Chosen, not tuned.
+/// Default time before a period's end during which a run waits actively [s]. Chosen, not tuned.
 const AWAKE: f64 = 1e-4;
 
 impl Default for Pacing {
@@ -130,13 +130,13 @@ impl Default for Pacing {
     }
 }
 
-/// Ladder of levels below the full scene: what they leave out.
+/// Ladder of levels below the full scene, with the omissions of each level.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Degrade {
-    /// Steps twice and four times as long, and effects, where they save time; what changes the outputs least goes first. Time
-    /// and changes are measured before the run begins.
+    /// Levels found by measurement before the run: steps twice and four times as long, and omitted effects, if they save time. The first
+    /// level changes the outputs least.
     Measured,
-    /// Each entry is one more level, and leaves out what it names in addition: `steps` makes steps twice as long, the name of an
-    /// effect switches it off.
+    /// Levels listed by the user. Each entry adds a level with one more omission: `steps` doubles the step length, and the name of an
+    /// effect switches the effect off.
     Listed(Vec<String>),
 }

@@ -1,4 +1,4 @@
-//! A run at the pace of a clock.
+//! Run of a scene at the pace of a clock.
 
 use super::error::PacingError;
 use super::ladder::{Sought, listed};
@@ -18,10 +18,10 @@ use mbs_realtime::Clock;
 ///
 /// With [`Overrun::Degrade`] and [`Degrade::Measured`] some seconds pass before the run begins.
 ///
-/// Cost of a period beside its steps: the row of outputs and some hundred operations; no allocation.
+/// Cost of a period in addition to its steps: the row of outputs and some hundred operations; no allocation.
 ///
 /// # Errors
-/// [`PacingError`] for what cannot be paced as it is asked for; a run that stops is an [`Outcome`] with its error.
+/// [`PacingError`] for invalid pacing settings; a run that stops returns an [`Outcome`] with its error.
 pub fn run<T: Real, const D: usize>(
     scene: &Scene<T>,
     settings: &ResolvedMethod,
@@ -44,7 +44,7 @@ pub fn run<T: Real, const D: usize>(
     })
 }
 
-/// The pace, and how simulated time is cut.
+/// Computes the pace, and the division of simulated time into periods and steps.
 fn track<T: Real>(
     scene: &Scene<T>,
     settings: &ResolvedMethod,
@@ -81,12 +81,12 @@ fn track<T: Real>(
     Ok((Pace { overrun, awake, quiet, ..Pace::every(whole) }, track))
 }
 
-/// A time that a clock can have.
+/// Converts a time [s]; `None` if a clock cannot represent it.
 fn time(seconds: f64) -> Option<Duration> {
     Duration::try_from_secs_f64(seconds).ok()
 }
 
-/// Steps of a period: the fewest of equal length that are not longer than the step, but for rounding.
+/// Number of steps of a period: the fewest equal steps that are not longer than `step`, within rounding errors.
 pub fn parts(period: f64, step: f64) -> u32 {
     let n = (period / step * (1.0 - SAME_LENGTH)).ceil().clamp(1.0, f64::from(u32::MAX));
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "it is clamped")]

@@ -1,19 +1,19 @@
-//! Measurements of a pacer, as they stand in files.
+//! Measurements of a pacer, in their form for files.
 
 use crate::record::{Degraded, MarginSummary, Overrun as Logged, RealtimeSummary, Times};
 use crate::run::{PacedLevel, PacedSchedule};
 use mbs_realtime::{Action, Entry, Overrun, Pacer, Spread};
 
-/// Policies as they are written.
+/// Names of the policies for overruns.
 pub const OVERRUNS: [(&str, Overrun); 3] =
     [("finish", Overrun::Finish), ("hold", Overrun::Hold), ("degrade", Overrun::Degrade)];
 
-/// Returns the name of a policy, as it is written.
+/// Returns the name of a policy in files.
 fn name(overrun: Overrun) -> &'static str {
     OVERRUNS.iter().find(|(_, other)| *other == overrun).map_or("", |(name, _)| name)
 }
 
-/// The report of a pacer with what was simulated.
+/// Creates the timing report from a pacer and the schedule of the run.
 pub fn summary<T>(
     pacer: &Pacer,
     track: &PacedSchedule<T>,

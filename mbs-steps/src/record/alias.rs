@@ -1,8 +1,8 @@
-//! Keys of a JSON object that have two names: the value is written under the first, which programs know, and under the second.
+//! JSON keys with two names: the value is written under the first name, which is the contract, and under the second name.
 
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
-/// For `#[serde(flatten, serialize_with = ..)]`, a function for each pair of names.
+/// Defines a function for each pair of names, for `#[serde(flatten, serialize_with = ..)]`.
 macro_rules! two_names {
     ($($function:ident: $old:literal, $new:literal;)*) => {$(
         pub fn $function<S: Serializer>(value: &impl Serialize, to: S) -> Result<S::Ok, S::Error> {

@@ -7,14 +7,14 @@ use serde::Serialize;
 pub struct OutputChange {
     /// Name of the channel.
     pub output: String,
-    /// Unit of these components of it.
+    /// Unit of the components that are compared.
     pub unit: String,
     /// Largest difference of a component over the run.
     pub largest: f64,
     /// Largest minus smallest value of a component in the run with all effects.
     pub range: f64,
-    /// Ratio `largest / range` [-]; `None` where the range is nothing but rounding.
+    /// Ratio `largest / range` [-]; `None` if the range is only rounding error.
     pub relative: Option<f64>,
-    /// The difference is nothing but rounding: at most 1e-9 of the sizes that outputs of this unit have.
+    /// True if the difference is only rounding error: at most 1e-9 of the largest value among outputs of this unit.
     pub is_rounding: bool,
 }

@@ -1,4 +1,4 @@
-//! Channels of a run: what is recorded, with names and units.
+//! Channels of a run: the recorded quantities, with names and units.
 
 use mbs_core::outputs::{Component, QUANTITIES};
 use mbs_core::scene::{Output, Scene};
@@ -6,34 +6,35 @@ use mbs_core::scene::{Output, Scene};
 /// Recorded channel, with its name and its components.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Channel {
-    /// Name, unique among the channels.
+    /// Name of the channel, unique in a run.
     pub name: String,
-    /// Quantity that the channel measures, as scene files call it; empty of an output that is code.
+    /// Quantity that the channel measures, as named in scene files; empty for a user-defined output.
     pub quantity: &'static str,
-    /// Components in the order of the record; one for a number.
+    /// Components in the order of the record; a scalar has one component.
     pub components: Vec<Component>,
 }
 
 impl Channel {
-    /// Is it of the run itself, as its energy error, so that an error of it says nothing of the motion?
+    /// Does the channel belong to the run itself, such as its energy error? The accuracy of such a channel does not show the accuracy of
+    /// the motion.
     #[must_use]
     pub fn is_of_run(&self) -> bool {
         QUANTITIES.iter().any(|row| row.name == self.quantity && row.is_of_run)
     }
 
-    /// The channels of a scene: its outputs, or every joint coordinate when it names none.
+    /// Channels of a scene: its outputs, or every joint coordinate if the scene names no outputs.
     ///
-    /// Vectors have components `x`, `y`, `z`; joints with several coordinates `1`, `2`, ...; reactions
-    /// `Fx`, `Fy`, `Mz` or `Fx`, `Fy`, `Fz`, `Mx`, `My`, `Mz`.
+    /// Vectors have the components `x`, `y`, `z`. Joints with several coordinates have `1`, `2`, ... Reactions have `Fx`, `Fy`, `Mz` in the
+    /// plane, and `Fx`, `Fy`, `Fz`, `Mx`, `My`, `Mz` in space.
     ///
     /// # Panics
-    /// If an output points to a joint that is not there; [`Scene::check`] refuses those.
+    /// If an output refers to a joint that does not exist; [`Scene::check`] reports such outputs as errors.
     #[must_use]
     pub fn of_scene<T: Clone>(scene: &Scene<T>) -> Vec<Self> {
         Self::of_outputs(scene.channels(), scene)
     }
 
-    /// The channels of outputs of a scene, as [`of_scene`](Self::of_scene) has those of all.
+    /// Channels of some outputs of a scene, with the components described at [`of_scene`](Self::of_scene).
     #[must_use]
     pub fn of_outputs<T: Clone>(
         outputs: impl IntoIterator<Item = Output<T>>,
@@ -47,7 +48,7 @@ impl Channel {
         outputs.into_iter().map(channel).collect()
     }
 
-    /// The names of its columns: `name`, or `name.x`, `name.y`, ...
+    /// The names of the channel's columns: `name`, or `name.x`, `name.y`, ...
     pub fn columns(&self) -> impl Iterator<Item = String> + '_ {
         self.components.iter().map(|component| {
             if component.label.is_empty() {

@@ -1,110 +1,110 @@
-//! Evidence of a choice by measurement: who could run, what the pilot measured of each, who was chosen.
+//! Evidence of a choice by measurement: the candidates, the results of the pilot for each, and the chosen one.
 
 use super::alias;
 use mbs_scene::format::{duration, few, rounded, shortest, significant};
 use serde::Serialize;
 use std::io;
 
-/// The evidence of a choice.
+/// Evidence of a choice by measurement.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct PilotReport {
-    /// Wanted error of the outputs, each in its scale.
+    /// Required error of the outputs, relative to the scale of each output.
     pub error: Option<f64>,
-    /// Time for each frame of that length [s].
+    /// Time limit for each frame of that length [s].
     pub deadline: Option<f64>,
-    /// Structure of the scene, one sentence each.
+    /// Structure of the scene, described in one sentence each.
     pub structure: Vec<String>,
-    /// Length of the run that the pilot looked at [s].
+    /// Duration of the motion that the pilot simulated [s].
     pub span: f64,
-    /// Number of instants at which errors were taken.
+    /// Number of instants at which errors were evaluated.
     pub instants: usize,
-    /// CPU time of the pilot [s].
+    /// CPU time used by the pilot [s].
     pub pilot_seconds: f64,
-    /// CPU time that the pilot was allowed [s].
+    /// Largest CPU time allowed for the pilot [s].
     pub pilot_budget: f64,
-    /// Reference that errors were taken against, and how well that is known.
+    /// Reference solution of the errors, and its accuracy.
     pub reference: Option<PilotReference>,
-    /// Distance of the chosen candidate from index-3, where the chosen one is in relative coordinates.
+    /// Distance of the chosen candidate from index-3, if the chosen one is in relative coordinates.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub second_look: Option<SecondLook>,
-    /// All that were considered: the chosen one first, then by predicted CPU time, then those that are out.
+    /// All candidates: the chosen one first, then in the order of predicted CPU time, then the rejected ones.
     pub candidates: Vec<Candidate>,
-    /// Candidates that were chosen and stopped in the run.
+    /// Candidates that were chosen first and stopped in the run.
     pub fallbacks: Vec<Fallback>,
-    /// Notes that the reader should know.
+    /// Notes for the reader.
     pub notes: Vec<String>,
 }
 
-/// A comparison of the chosen candidate with one in other coordinates, which shares no model with it.
+/// Comparison of the chosen candidate with one in other coordinates, whose model is independent.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct SecondLook {
-    /// Largest distance of the outputs, each in its scale.
+    /// Largest difference of the outputs, relative to the scale of each output.
     pub distance: Option<f64>,
-    /// Error of the look itself.
+    /// Error of the comparison itself.
     pub own_error: Option<f64>,
-    /// The distance cannot be an error of either: the models differ.
+    /// True if the distance is too large to be an error of either run, so the models differ.
     pub differs: bool,
 }
 
-/// The most accurate run of the pilot.
+/// Most accurate run of the pilot.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct PilotReference {
     /// Name of the candidate that ran.
     pub method: String,
-    /// Step [s], or tolerance.
+    /// Step [s] or tolerance of the run.
     pub setting: f64,
-    /// Error of the reference itself, by the distance of its coarser neighbour.
+    /// Error of the reference, estimated by its distance from the run with the next coarser setting.
     pub uncertainty: f64,
 }
 
-/// A way to run the scene.
+/// Candidate method for the run of the scene.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct Candidate {
-    /// 1 for the chosen one; nothing for those that are out.
+    /// Rank of the candidate, 1 for the chosen one; `None` for a rejected candidate.
     pub rank: Option<usize>,
-    /// Name of the candidate: formulation, integrator and control, precision.
+    /// Name of the candidate: formulation, integrator, step control and precision.
     pub method: String,
     /// Formulation of the candidate.
     pub formulation: String,
     /// Integrator of the candidate.
     pub integrator: String,
-    /// Control of the steps: `fixed`, `error`, `energy`; `own` with an integrator that controls its own.
+    /// Step control: `fixed`, `error` or `energy`; `own` for an integrator that controls its internal steps.
     pub control: String,
-    /// Step [s], or tolerance, that it needs.
+    /// Step [s] or tolerance that the required error needs.
     pub setting: Option<f64>,
-    /// CPU time of the whole run with it [s], predicted.
+    /// Predicted CPU time of the whole run [s].
     pub seconds: Option<f64>,
-    /// Predicted CPU time over that of the chosen candidate [-].
+    /// Predicted CPU time divided by that of the chosen candidate [-].
     #[serde(flatten, serialize_with = "alias::over_chosen")]
     pub over_chosen: Option<f64>,
-    /// Error with it, predicted.
+    /// Predicted error of the run.
     pub error: Option<f64>,
-    /// The slowest step of its trials [s], where steps were timed one by one.
+    /// The longest CPU time of a step in its trials [s], if steps were timed individually.
     pub slowest_step: Option<f64>,
     /// Basis of the prediction.
     #[serde(flatten, serialize_with = "alias::basis")]
     pub basis: String,
-    /// Reason why the candidate is out.
+    /// Reason why the candidate is rejected.
     #[serde(flatten, serialize_with = "alias::out")]
     pub out: Option<String>,
-    /// Trials of the candidate, as measured.
+    /// Trials of the candidate with their measurements.
     pub trials: Vec<TrialEntry>,
 }
 
-/// A run of the pilot.
+/// Trial of the pilot: one run of a candidate.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct TrialEntry {
-    /// Step [s], or tolerance.
+    /// Step [s] or tolerance of the trial.
     pub setting: f64,
     /// CPU time of the trial [s].
     pub seconds: f64,
-    /// Number of steps made.
+    /// Number of steps in the trial.
     pub steps: u64,
-    /// Share of the span that was reached.
+    /// Fraction of the span that the trial reached [-].
     pub reached: f64,
-    /// Error against the reference, or by its own neighbour.
+    /// Error against the reference, or against the next trial of the same candidate.
     pub error: Option<f64>,
-    /// `completed`, `given up`, or the code of what stopped it.
+    /// Outcome of the trial: `completed`, `given up`, or the code of the error that stopped it.
     pub outcome: String,
 }
 
@@ -113,13 +113,13 @@ pub struct TrialEntry {
 pub struct Fallback {
     /// Name of the candidate that stopped.
     pub method: String,
-    /// Code of what stopped it.
+    /// Code of the error that stopped it.
     pub code: String,
-    /// Message of what stopped it.
+    /// Message of the error that stopped it.
     pub message: String,
     /// Time of the stop [s].
     pub time: f64,
-    /// CPU time that was lost [s].
+    /// CPU time of the stopped run [s].
     pub cpu_seconds: f64,
 }
 
@@ -189,7 +189,7 @@ impl PilotReport {
         reasons
     }
 
-    /// The candidates as a table, its head first.
+    /// Table of the candidates, with its header row first.
     #[must_use]
     pub fn table(&self) -> Vec<Vec<String>> {
         let number = |x: Option<f64>, unit: &str| {
@@ -234,10 +234,10 @@ const COLUMNS: [&str; 14] = [
     "trial_outcome",
 ];
 
-/// Writes a row for each trial of each candidate; one without trials has a row of its own.
+/// Writes one row for each trial of each candidate; a candidate without trials has one row.
 ///
 /// # Errors
-/// Those of the sink.
+/// The errors of the sink.
 pub fn write_choice(sink: impl io::Write, choice: &PilotReport) -> io::Result<()> {
     let mut out = csv::Writer::from_writer(sink);
     out.write_record(COLUMNS)?;
@@ -269,7 +269,7 @@ pub fn write_choice(sink: impl io::Write, choice: &PilotReport) -> io::Result<()
     out.flush()
 }
 
-/// Describes how far another model is from the chosen one.
+/// Describes the distance of another model from the chosen one.
 fn second_look(look: &SecondLook) -> String {
     let distance = look.distance.map_or_else(|| "?".to_owned(), few);
     let own = look.own_error.map_or_else(
@@ -279,7 +279,7 @@ fn second_look(look: &SecondLook) -> String {
     format!("index-3, which shares no model with it, differs by {distance}, {own}")
 }
 
-/// A candidate that stopped in the run.
+/// Describes a candidate that stopped in the run.
 fn fallback(lost: &Fallback) -> String {
     format!(
         "{} came before and stopped at {} s: {} ({}); {} of CPU time lost",

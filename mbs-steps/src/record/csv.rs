@@ -1,4 +1,4 @@
-//! CSV with one row per recorded time, written as the run goes.
+//! CSV with one row per recorded time, written during the run.
 
 use super::channel::Channel;
 use super::series::StepSeries;
@@ -6,10 +6,10 @@ use mbs_core::real::DoubleDouble;
 use mbs_scene::format::{full, shortest};
 use std::io::{self, Write};
 
-/// Writes a header and then one row per recorded time; floats in the shortest form that reads back exactly.
+/// Writes a header and then one row per recorded time; floats have the shortest form that reads back exactly.
 ///
-/// Rows reach the file every [`CsvWriter::FLUSH_EVERY`] rows, at [`CsvWriter::finish`], and when the writer
-/// is dropped, so a run that stops keeps what it recorded.
+/// Rows are flushed to the file every [`CsvWriter::FLUSH_EVERY`] rows, at [`CsvWriter::finish`], and when the writer is dropped. A run that
+/// stops therefore keeps its recorded rows.
 #[derive(Debug)]
 pub struct CsvWriter<W: Write> {
     out: csv::Writer<W>,
@@ -18,13 +18,13 @@ pub struct CsvWriter<W: Write> {
 }
 
 impl<W: Write> CsvWriter<W> {
-    /// Rows between two flushes. Chosen, not tuned.
+    /// Number of rows between two flushes. Chosen, not tuned.
     pub const FLUSH_EVERY: usize = 256;
 
     /// Starts a file with its header: `t`, then the columns of the channels.
     ///
     /// # Errors
-    /// Those of the sink.
+    /// The errors of the sink.
     pub fn new(sink: W, channels: &[Channel]) -> io::Result<Self> {
         let mut out = csv::Writer::from_writer(sink);
         let header: Vec<String> = core::iter::once("t".to_owned())
@@ -35,10 +35,10 @@ impl<W: Write> CsvWriter<W> {
         Ok(Self { out, n_columns: header.len(), n_rows: 0 })
     }
 
-    /// Writes the units as a line: that of the time, then those of the channels.
+    /// Writes the units as a line: first the unit of the time, then those of the channels.
     ///
     /// # Errors
-    /// Those of the sink.
+    /// The errors of the sink.
     pub fn units(&mut self, channels: &[Channel]) -> io::Result<()> {
         let of_channel = |channel: &Channel| channel.components.clone();
         let units = channels.iter().flat_map(of_channel).map(|component| component.unit);
@@ -46,7 +46,7 @@ impl<W: Write> CsvWriter<W> {
         self.out.write_record(&units).map_err(io::Error::from)
     }
 
-    /// Continues a file that has its header.
+    /// Continues a file that already has its header.
     pub fn append(sink: W, channels: &[Channel]) -> Self {
         let n_columns = 1 + channels.iter().map(|channel| channel.components.len()).sum::<usize>();
         Self { out: csv::Writer::from_writer(sink), n_columns, n_rows: 0 }
@@ -55,21 +55,21 @@ impl<W: Write> CsvWriter<W> {
     /// Writes one row with the time [s] and the components of all channels in order.
     ///
     /// # Errors
-    /// Those of the sink.
+    /// The errors of the sink.
     ///
     /// # Panics
-    /// If the count of values is not that of the header.
+    /// If the number of values differs from the number of columns.
     pub fn row(&mut self, time: f64, values: &[f64]) -> io::Result<()> {
         self.fields(core::iter::once(&time).chain(values).map(|&x| shortest(x)))
     }
 
-    /// Writes one row of values with 32 digits; the time has those of `f64`.
+    /// Writes one row of values with 32 digits; the time has the digits of `f64`.
     ///
     /// # Errors
-    /// Those of the sink.
+    /// The errors of the sink.
     ///
     /// # Panics
-    /// If the count of values is not that of the header.
+    /// If the number of values differs from the number of columns.
     pub fn long_row(&mut self, time: f64, values: &[DoubleDouble]) -> io::Result<()> {
         self.fields(core::iter::once(shortest(time)).chain(values.iter().map(|&x| full(x))))
     }
@@ -89,19 +89,19 @@ impl<W: Write> CsvWriter<W> {
         Ok(())
     }
 
-    /// Writes what is buffered.
+    /// Writes the buffered rows to the sink.
     ///
     /// # Errors
-    /// Those of the sink.
+    /// The errors of the sink.
     pub fn finish(mut self) -> io::Result<()> {
         self.out.flush()
     }
 }
 
-/// Writes one row for each step that is kept: when it ended, its length, and what came of it.
+/// Writes one row for each recorded step: its end time, its length, and its counts and errors.
 ///
 /// # Errors
-/// Those of the sink.
+/// The errors of the sink.
 pub fn write_steps(sink: impl Write, steps: &StepSeries) -> io::Result<()> {
     let mut out = csv::Writer::from_writer(sink);
     let header = [
@@ -120,10 +120,10 @@ pub fn write_steps(sink: impl Write, steps: &StepSeries) -> io::Result<()> {
     write_step_rows(out, steps)
 }
 
-/// Continues a file that has the header of [`write_steps`].
+/// Continues a file that already has the header of [`write_steps`].
 ///
 /// # Errors
-/// Those of the sink.
+/// The errors of the sink.
 pub fn append_steps(sink: impl Write, steps: &StepSeries) -> io::Result<()> {
     write_step_rows(csv::Writer::from_writer(sink), steps)
 }

@@ -7,111 +7,111 @@ use super::realtime::RealtimeSummary;
 use super::series::ControlSummary;
 use super::statistics::ChannelSummary;
 
-/// The summary of a run: one JSON object. Numbers that are not finite are written as `null`.
+/// Summary of a run, written as one JSON object. Values that are not finite are written as `null`.
 #[derive(Debug, Clone, Default, PartialEq, serde::Serialize)]
 pub struct RunSummary {
     /// Name of the scene.
     pub scene: String,
-    /// Formulation as asked, `auto` included.
+    /// Formulation as requested; it may be `auto`.
     pub formulation: String,
     /// Integrator that the run used.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub integrator: String,
     /// Precision of the run: `f32`, `f64`, `dd`.
     pub precision: String,
-    /// The method that ran, and its steps.
+    /// Method that ran, and its steps.
     pub method_used: MethodUsed,
     /// Dimension of the scene, 2 or 3.
     pub dimension: usize,
-    /// Coordinates of the formulation that ran.
+    /// Number of coordinates of the formulation that ran.
     pub coordinates: usize,
-    /// Constraint rows of the formulation that ran.
+    /// Number of constraint rows of the formulation that ran.
     pub constraints: usize,
-    /// Rank of their Jacobian at the start.
+    /// Rank of the constraint Jacobian at the start.
     pub constraint_rank: usize,
     /// Degrees of freedom: coordinates minus rank.
     pub dof: usize,
-    /// Step as asked [s].
+    /// Step that was requested [s].
     pub step: f64,
-    /// Number of steps done.
+    /// Number of completed steps.
     pub steps: u64,
-    /// The whole duration was reached.
+    /// True if the run reached its whole duration.
     pub completed: bool,
-    /// Reason why the whole duration was not reached.
+    /// Reason why the run stopped early; `null` if it completed.
     pub error: Option<RunError>,
     /// Time that the run reached [s].
     pub end_time: f64,
-    /// CPU time of all threads from the first step to the last; of a paced run the time of its periods by the clock [s].
+    /// CPU time of all threads from the first step to the last [s]. For a paced run it is the clock time of its periods.
     pub cpu_seconds: f64,
-    /// Time reached over the time it took.
+    /// Simulated time divided by the time of the computation [-].
     pub real_time_factor: f64,
-    /// The slowest step [s].
+    /// Longest time of a step [s].
     pub worst_step_seconds: f64,
-    /// Newton iterations of all steps.
+    /// Newton iterations, summed over all steps.
     pub iterations: u64,
-    /// Factorisations of all steps.
+    /// Factorisations, summed over all steps.
     pub factorizations: u64,
     /// Energy invariant over the run.
     pub energy: EnergySummary,
     /// Largest constraint violation over the run.
     pub violation: ViolationSummary,
-    /// Summary of the step size control; absent where steps are fixed.
+    /// Summary of the step control; absent for fixed steps.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub control: Option<ControlSummary>,
-    /// Report of how the run kept up with the clock; absent where it was not paced.
+    /// Timing report of a paced run; absent if the run was not paced.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub realtime: Option<RealtimeSummary>,
     /// Values of the channels at `end_time`.
     pub outputs: Outputs,
     /// Statistics of each channel over every step.
     pub channels: Vec<ChannelSummary>,
-    /// The outputs as texts of 32 digits, where the run had them: most readers of JSON keep no more than 17.
+    /// Outputs as texts of 32 digits, for a run with that precision. Most JSON readers keep at most 17 digits of a number.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub digits: Option<Outputs<String>>,
-    /// Accuracy of the outputs; absent where no estimate was made.
+    /// Estimated accuracy of the outputs; absent without an estimate.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub estimate: Option<ErrorEstimate>,
-    /// Method that `auto` chose, and why.
+    /// Method that `auto` chose, with the reasons.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub chosen: Option<MethodChoice>,
-    /// Joints whose reaction is not unique; the smallest one is given.
+    /// Joints whose reaction is not unique; the reaction of smallest norm is given.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub not_unique: Vec<String>,
-    /// When bumpers, limits and tires made and broke contact, in order.
+    /// Contacts of bumpers, limits and tires that began or ended, in order of time.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub contacts: Vec<Contact>,
-    /// Number of contacts beyond those that are listed.
+    /// Number of contacts that are not listed.
     #[serde(skip_serializing_if = "is_zero")]
     pub contacts_left_out: u64,
 }
 
-/// The method that ran, and its steps.
+/// Method that ran, and its steps.
 #[derive(Debug, Clone, Default, PartialEq, serde::Serialize)]
 pub struct MethodUsed {
     /// Formulation of the method that ran.
     pub formulation: String,
     /// Integrator of the method that ran.
     pub integrator: String,
-    /// Number of steps done.
+    /// Number of completed steps.
     pub steps: u64,
-    /// The shortest step [s]; absent where the integrator makes steps within those that are observed.
+    /// Shortest step [s]; absent if the integrator makes internal steps.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub smallest_step: Option<f64>,
-    /// The longest step [s]; absent there too.
+    /// Longest step [s]; absent if the integrator makes internal steps.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub largest_step: Option<f64>,
-    /// Time reached over the number of steps [s].
+    /// Mean step: simulated time divided by the number of steps [s].
     pub mean_step: f64,
 }
 
-/// A contact made or broken.
+/// Begin or end of a contact.
 #[derive(Debug, Clone, Default, PartialEq, serde::Serialize)]
 pub struct Contact {
-    /// When, interpolated within the step [s].
+    /// Time of the event, interpolated within the step [s].
     pub time: f64,
     /// Name of the effect.
     pub effect: String,
-    /// `lower` or `upper` end of a limit.
+    /// End of a limit, `lower` or `upper`; absent for other effects.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub end: Option<&'static str>,
     /// Kind of event: `made` or `broken`.
@@ -126,7 +126,7 @@ fn is_zero(n: &u64) -> bool {
 /// Reason why a run stopped early.
 #[derive(Debug, Clone, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct RunError {
-    /// Short fixed word for programs, such as `not-converged`.
+    /// Short constant word for programs, such as `not-converged`.
     pub code: String,
     /// Message of one sentence.
     pub message: String,
@@ -142,35 +142,35 @@ pub struct RunError {
     pub hint: String,
 }
 
-/// The energy invariant Pi = T + V - work of non-conservative forces and guides, in joules.
+/// Energy invariant Pi = T + V - W [J], with W the work of non-conservative forces and guides.
 #[derive(Debug, Clone, Copy, Default, PartialEq, serde::Serialize)]
 pub struct EnergySummary {
-    /// Pi at the start.
+    /// Pi at the start [J].
     pub initial: f64,
-    /// Largest |Pi(t) - Pi(0)| over every step.
+    /// Largest |Pi(t) - Pi(0)| over every step [J].
     pub max_error: f64,
-    /// |Pi - Pi(0)| at the end.
+    /// Value of |Pi - Pi(0)| at the end [J].
     pub final_error: f64,
-    /// Largest kinetic energy, plus the work done without regard to its sign: what errors compare with.
+    /// Exchanged energy: largest kinetic energy plus the sum of absolute work [J]. Errors are compared with it.
     pub turned_over: f64,
-    /// Root of the mean square of its changes from step to step.
+    /// Root mean square of the changes of Pi from step to step [J].
     pub scatter: f64,
-    /// Slope of the straight line through its errors, by least squares [W].
+    /// Slope of the least-squares line through the errors of Pi over time [W].
     pub drift: f64,
 }
 
-/// Largest residuals over every step.
+/// Largest constraint residuals over every step.
 #[derive(Debug, Clone, Copy, Default, PartialEq, serde::Serialize)]
 pub struct ViolationSummary {
-    /// Position level [m or rad].
+    /// Residual of the positions [m or rad].
     pub position: f64,
-    /// Velocity level [m/s or rad/s].
+    /// Residual of the velocities [m/s or rad/s].
     pub velocity: f64,
-    /// Acceleration level [m/s^2 or rad/s^2].
+    /// Residual of the accelerations [m/s^2 or rad/s^2].
     pub acceleration: f64,
 }
 
-/// Method that `auto` chose, and why.
+/// Method that `auto` chose, with the reasons.
 #[derive(Debug, Clone, Default, PartialEq, serde::Serialize)]
 pub struct MethodChoice {
     /// Formulation of the method that ran.
@@ -180,16 +180,16 @@ pub struct MethodChoice {
     pub ran: String,
     /// Reasons for the choice, one sentence each.
     pub reasons: Vec<String>,
-    /// Evidence that was measured; absent where nothing was.
+    /// Evidence from measurements; absent if nothing was measured.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub evidence: Option<PilotReport>,
 }
 
 impl RunSummary {
-    /// One JSON object in indented form, without a line end.
+    /// Returns one JSON object in indented form, without a line end.
     #[must_use]
     pub fn to_json(&self) -> String {
-        // all keys are texts and the sink is memory: serialisation has nothing to fail on
+        // All keys are strings and the sink is memory, so serialisation cannot fail.
         serde_json::to_string_pretty(self).unwrap_or_default()
     }
 }

@@ -1,4 +1,4 @@
-//! Records that a run leaves behind: plain data, and its rows and objects in files.
+//! Records of a run: plain data, and its rows and objects in files.
 
 #[doc(hidden)]
 pub mod alias;

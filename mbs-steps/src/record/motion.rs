@@ -1,45 +1,46 @@
-//! The motion of the bodies of a run, and what is drawn of them: plain data.
+//! The recorded motion of the bodies of a run, and the shapes to draw: plain data.
 
 use mbs_core::Real;
 use mbs_core::scene::{Body, Scene};
 use serde::Serialize;
 
-/// Numbers of a pose: the place of the centre of mass [m], then a unit quaternion w, x, y, z of the turn since the reference configuration.
+/// Number of values of a pose. They are the position of the centre of mass [m] and the unit quaternion w, x, y, z of the rotation from the
+/// reference configuration.
 pub const N_POSE: usize = 7;
 
-/// The motion of all bodies over time, and what is drawn of them.
+/// The motion of all bodies over time, and the shapes to draw.
 ///
-/// Places on a body count from its centre of mass, in the global axes of the reference configuration; those of the ground are global.
+/// Points on a body are relative to its centre of mass, in the global axes of the reference configuration. Points on the ground are global.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct RecordedMotion {
-    /// Dimension of the scene, 2 or 3; planar places have a third number zero.
+    /// Dimension of the scene, 2 or 3; the third component of a planar point is zero.
     pub dimension: usize,
-    /// The direction that points up in the picture of a spatial scene; zero: +z.
+    /// Upward direction in the picture of a spatial scene; a zero vector means +z.
     pub up: [f64; 3],
-    /// The scene's length [m]: sizes of marks follow from it.
+    /// Length of the scene [m], which determines the size of symbols.
     pub length: f64,
-    /// Times of the pictures [s].
+    /// Times of the frames [s].
     pub times: Vec<f64>,
-    /// The poses of all bodies, picture by picture: [`N_POSE`] numbers for each body.
+    /// The poses of all bodies, frame by frame: [`N_POSE`] values for each body.
     pub poses: Vec<f64>,
     /// The bodies, in file order.
     pub bodies: Vec<DrawnBody>,
     /// Shapes on bodies and on the ground.
     pub shapes: Vec<DrawnShape>,
-    /// Lines between places on bodies.
+    /// Lines between points on bodies.
     pub lines: Vec<DrawnLine>,
     /// Points whose path is drawn.
     pub traces: Vec<DrawnPoint>,
-    /// Places of the joints, for labels.
+    /// Positions of the joints, for labels.
     pub joints: Vec<DrawnPoint>,
-    /// Places where forces and moments act that outputs measure, by the names of the outputs.
+    /// Points of forces and moments that outputs measure, with the names of the outputs.
     pub forces: Vec<DrawnForce>,
-    /// The road under tires.
+    /// Surface of the road under tires.
     pub road: Option<DrawnRoad>,
 }
 
 impl RecordedMotion {
-    /// The name of the body that is farthest from its reference configuration in the first picture, by its way [m] or turn [rad].
+    /// Name of the body whose first pose differs most from the reference configuration, by displacement [m] or rotation [rad].
     pub fn most_moved<T: Real>(&self, scene: &Scene<T>) -> Option<&str> {
         let moved = |(pose, body): (&[f64], &Body<T>)| {
             let ways = pose[..3].iter().zip(body.center).map(|(x, c)| x - c.to_f64());
@@ -53,7 +54,7 @@ impl RecordedMotion {
     }
 }
 
-/// A body of a picture.
+/// Body of a picture, with its name and mass.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct DrawnBody {
     /// Name of the body.
@@ -62,65 +63,65 @@ pub struct DrawnBody {
     pub mass: f64,
 }
 
-/// A place on a body; on the ground without one.
+/// Point on a body, or on the ground.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
 pub struct BodyPlace {
-    /// Number of the body.
+    /// Index of the body; `None`: the ground.
     pub body: Option<usize>,
-    /// Place from the body's centre of mass in the reference configuration; on the ground from the global origin [m].
+    /// Position of the point [m]: relative to the body's centre of mass in the reference configuration, or global on the ground.
     pub at: [f64; 3],
 }
 
-/// A place with a name.
+/// Point with a name.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct DrawnPoint {
-    /// Name of the place.
+    /// Name of the point.
     pub name: String,
-    /// Place on a body, or on the ground.
+    /// Position on a body, or on the ground.
     #[serde(flatten)]
     pub place: BodyPlace,
 }
 
-/// A place where a force acts that an output measures, by its name.
+/// Point at which a measured force acts, with the name of the output.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct DrawnForce {
-    /// The output, and where the force acts.
+    /// Name of the output, and the point of the force.
     #[serde(flatten)]
     pub point: DrawnPoint,
-    /// Number of the body in whose axes its components are; none: global axes.
+    /// Index of the body in whose axes the components are; `None`: global axes.
     pub axes: Option<usize>,
 }
 
-/// A shape that moves with a body, or stands on the ground.
+/// Shape that is fixed to a body or to the ground.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct DrawnShape {
-    /// Number of the body; none: the ground.
+    /// Index of the body; `None`: the ground.
     pub body: Option<usize>,
     /// Form of the shape.
     #[serde(flatten)]
     pub form: ShapeForm,
-    /// Colour of the shape, `#rrggbb`; none: that of its body.
+    /// Colour of the shape, `#rrggbb`; `None`: the colour of its body.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub colour: Option<String>,
-    /// Opacity from 0, not seen, to 1 [-].
+    /// Opacity from 0 (invisible) to 1 [-].
     pub opacity: f64,
-    /// Is it drawn only where no file of its body's meshes can be read?
+    /// True for a substitute that is drawn only if no mesh file of the body can be read.
     #[serde(skip)]
     pub stands_in: bool,
 }
 
 impl DrawnShape {
-    /// In the colour of its body.
+    /// Creates a shape in the colour of its body.
     pub fn new(body: Option<usize>, form: ShapeForm) -> Self {
         Self { body, form, colour: None, opacity: 1.0, stands_in: false }
     }
 }
 
-/// The forms that are drawn; lengths in m.
+/// Geometric forms of shapes; all lengths in m.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(tag = "form", rename_all = "kebab-case")]
 pub enum ShapeForm {
-    /// A cylinder between two places.
+    /// Cylinder between two points.
     Rod {
         /// One end of the rod.
         from: [f64; 3],
@@ -137,10 +138,10 @@ pub enum ShapeForm {
         half: [f64; 3],
         /// Axes of the box, as unit vectors.
         axes: [[f64; 3]; 3],
-        /// Is something of interest inside it?
+        /// True if the box must be drawn transparent, to show something inside it.
         is_clear: bool,
     },
-    /// A cylinder with round ends between two places.
+    /// Cylinder with round ends between two points.
     Capsule {
         /// One end of the cylinder.
         from: [f64; 3],
@@ -148,41 +149,41 @@ pub enum ShapeForm {
         to: [f64; 3],
         /// Radius of the capsule.
         radius: f64,
-        /// Is something of interest inside it?
+        /// True if the capsule must be drawn transparent, to show something inside it.
         is_clear: bool,
     },
-    /// Ball, with marks where it shows that it turns.
+    /// Ball, with marks on its surface that show its rotation.
     Ball {
         /// Centre of the ball.
         at: [f64; 3],
         /// Radius of the ball.
         radius: f64,
-        /// Has the ball marks?
+        /// True if the ball has marks.
         turns: bool,
     },
-    /// A thin bar between two places.
+    /// Thin bar between two points.
     Stroke {
         /// One end of the bar.
         from: [f64; 3],
         /// Other end of the bar.
         to: [f64; 3],
     },
-    /// A surface of triangles, from a file that the page reads.
+    /// Surface of triangles, from a file that the HTML page reads.
     Mesh {
         /// File of the surface.
         #[serde(skip)]
         file: String,
-        /// Place of the mesh's origin.
+        /// Position of the mesh's origin.
         at: [f64; 3],
-        /// Axes of the mesh, times the factors of its numbers.
+        /// Axes of the mesh, multiplied by the scale factors of its coordinates.
         axes: [[f64; 3]; 3],
     },
-    /// A flat polygon across z.
+    /// Flat polygon, perpendicular to z.
     Polygon {
         /// Corners of the polygon.
         points: Vec<[f64; 3]>,
     },
-    /// A wheel, a disc or a gear.
+    /// Wheel, disc or gear.
     Wheel {
         /// Centre of the wheel.
         at: [f64; 3],
@@ -192,66 +193,66 @@ pub enum ShapeForm {
         radius: f64,
         /// Width of the wheel.
         width: f64,
-        /// Has its rim marks?
+        /// True if the rim has marks.
         turns: bool,
     },
-    /// The axis of a revolute joint.
+    /// Axis of a revolute joint.
     Pin {
-        /// Place of the pin.
+        /// Position of the pin.
         at: [f64; 3],
         /// Axis of the pin, a unit vector.
         axis: [f64; 3],
     },
     /// Socket of a ball joint.
     Socket {
-        /// Place of the socket.
+        /// Position of the socket.
         at: [f64; 3],
     },
-    /// A straight guide through a place; it is as long as the other place goes along it.
+    /// Straight rail through a point. Its length covers the motion of the sliding point along it.
     Rail {
-        /// Place on the rail.
+        /// Point on the rail.
         at: [f64; 3],
         /// Direction of the rail, a unit vector.
         axis: [f64; 3],
-        /// Place on the body that slides along the rail.
+        /// Point on the body that slides along the rail.
         slider: BodyPlace,
     },
-    /// A block that slides on a rail.
+    /// Block that slides on a rail.
     Block {
-        /// Place of the block.
+        /// Position of the block.
         at: [f64; 3],
         /// The rail's direction, a unit vector.
         axis: [f64; 3],
     },
-    /// A rubber ring of a bushing.
+    /// Rubber ring of a bushing.
     Ring {
-        /// Place of the ring.
+        /// Position of the ring.
         at: [f64; 3],
     },
-    /// A mark of the ground at a joint.
+    /// Symbol of the ground at a joint.
     Support {
-        /// Place of the mark.
+        /// Position of the symbol.
         at: [f64; 3],
     },
-    /// A plane on which bodies roll.
+    /// Plane on which bodies roll.
     Plane {
-        /// A place in it.
+        /// A point in the plane.
         at: [f64; 3],
         /// Normal of the plane, a unit vector.
         axis: [f64; 3],
-        /// Place on the body that rolls on the plane.
+        /// Point on the body that rolls on the plane.
         slider: BodyPlace,
     },
 }
 
-/// Something between places on bodies, straight from each to the next.
+/// Line between points on bodies, straight from each point to the next.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct DrawnLine {
     /// Name of the effect, joint or coupling.
     pub name: String,
     /// Style in which the line is drawn.
     pub style: LineStyle,
-    /// The places, two or more.
+    /// The points of the line, two or more.
     pub places: Vec<BodyPlace>,
 }
 
@@ -259,32 +260,32 @@ pub struct DrawnLine {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum LineStyle {
-    /// A spring.
+    /// A spring, drawn as a coil.
     Coil,
-    /// A damper.
+    /// A damper, drawn as a cylinder.
     Damper,
-    /// A spring with a damper in it.
+    /// A coil spring with a damper inside.
     CoilDamper,
-    /// A bumper.
+    /// A bumper, drawn as a stop.
     Bumper,
-    /// A force between two places.
+    /// A force element between two points.
     Actuator,
     /// A bar of constant length.
     Link,
-    /// A rope.
+    /// A rope through all points.
     Rope,
 }
 
-/// The surface of a road along x.
+/// Surface of a road along x.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct DrawnRoad {
-    /// The first place [m].
+    /// Position of the first point along x [m].
     pub start: f64,
-    /// Distance of the places [m].
+    /// Distance between successive points along x [m].
     pub spacing: f64,
-    /// Strips side by side across y, with their sides and the heights at the places [m].
+    /// Strips next to each other along y, with their sides and the heights of their points [m].
     pub strips: Vec<RoadStrip>,
-    /// Speed along -x [m/s].
+    /// Speed of the road in direction -x [m/s].
     pub speed: f64,
 }
 
@@ -293,19 +294,19 @@ pub struct DrawnRoad {
 pub struct RoadStrip {
     /// Two sides of the strip, along y [m].
     pub sides: [f64; 2],
-    /// Heights at the places [m].
+    /// Heights of the points [m].
     pub heights: Vec<f64>,
 }
 
 impl RecordedMotion {
-    /// Returns where a place is in a picture [m]; `None`: there is no such picture or body.
+    /// Returns the position of a point in a frame of the record [m]; `None` if the frame or the body does not exist.
     #[must_use]
     pub fn place(&self, picture: usize, place: &BodyPlace) -> Option<[f64; 3]> {
         let Some(body) = place.body else { return Some(place.at) };
         let n = self.bodies.len() * N_POSE;
         let pose = self.poses.get(picture * n..)?.get(body * N_POSE..)?.get(..N_POSE)?;
         let (center, q) = (&pose[..3], &pose[3..]);
-        // u = at + 2 r x (r x at + w at)
+        // With the quaternion (w, r), the rotated vector is at + 2 r x (r x at + w at).
         let cross = |a: [f64; 3], b: [f64; 3]| {
             [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
         };

@@ -1,8 +1,8 @@
-//! Values of channels by name.
+//! Values of channels, listed by name.
 
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
-/// Channels by name, in order; one number is written as a number, several as a list.
+/// Values of channels by name, in order; a single value is written as a number, several values as a list.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Outputs<V = f64>(pub Vec<(String, Vec<V>)>);
 

@@ -1,48 +1,48 @@
-//! Report of how a paced run kept up with the clock: an object of its JSON, and a line of CSV for each overrun.
+//! Timing report of a paced run: an object of its JSON, and a line of CSV for each overrun.
 
 use mbs_scene::format::shortest;
 use std::io::{self, Write};
 
-/// A run that was paced. Times in seconds.
+/// Timing of a paced run; all times in seconds.
 #[derive(Debug, Clone, Default, PartialEq, serde::Serialize)]
 pub struct RealtimeSummary {
-    /// `finish`, `hold` or `degrade`.
+    /// Policy for overruns: `finish`, `hold` or `degrade`.
     pub overrun: &'static str,
-    /// Time between two boundaries.
+    /// Length of a period [s].
     pub period: f64,
-    /// Steps of a period at level 0; absent where their lengths are controlled.
+    /// Number of steps of a period at level 0; absent with step control.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub steps_per_period: Option<u32>,
-    /// Periods that were simulated.
+    /// Number of simulated periods.
     pub periods: u64,
-    /// Was every period ready by its end?
+    /// True if every period was computed before its deadline.
     pub deadline_held: bool,
-    /// Periods that were not.
+    /// Number of periods that missed the deadline.
     pub overruns: u64,
-    /// Longest delay of a period.
+    /// Longest delay of a period [s].
     pub latest: f64,
-    /// Delay with which periods began that no period before had delayed.
+    /// Delay of the begin of those periods that no earlier overrun delayed.
     pub jitter: Times,
-    /// Time of the computation of a period.
+    /// Computation time of a period.
     pub duration: Times,
-    /// Time left until the deadline; negative where it was missed.
+    /// Time between the end of the computation and the deadline; negative if the deadline was missed.
     pub margin: MarginSummary,
-    /// Simulated time over the time of the computation alone.
+    /// Simulated time divided by the computation time [-].
     pub real_time_factor: f64,
-    /// From the first begin to the last end.
+    /// Clock time from the first begin to the last end [s].
     pub elapsed: f64,
-    /// Delay of the last result behind the clock.
+    /// Delay of the last result relative to the clock [s].
     pub behind: f64,
-    /// Periods by which `hold` put the schedule off.
+    /// Number of periods by which `hold` delayed the schedule.
     pub skipped: u64,
-    /// Periods below level 0: their results are not those of the full scene.
+    /// Number of periods at a degraded level; their results are not those of the full scene.
     pub degraded_periods: u64,
-    /// The ladder of `degrade`, level 0 first; empty with other policies.
+    /// Levels of the degradation ladder, level 0 first; empty for other policies.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub levels: Vec<Degraded>,
-    /// Overruns and changes of level, the first thousand.
+    /// List of overruns and changes of level, at most a thousand.
     pub log: Vec<Overrun>,
-    /// Number of overruns and changes of level beyond those in the log.
+    /// Number of overruns and changes of level that are not in the log.
     pub log_left_out: u64,
 }
 
@@ -62,61 +62,61 @@ pub struct Times {
 pub struct MarginSummary {
     /// Least of the margins.
     pub least: f64,
-    /// First percentile of the margins: 99 of 100 are not smaller.
+    /// First percentile of the margins: 99 of 100 margins are larger or equal.
     pub p1: f64,
     /// Median of the margins.
     pub p50: f64,
 }
 
-/// A level of the ladder.
+/// Level of the degradation ladder.
 #[derive(Debug, Clone, Default, PartialEq, serde::Serialize)]
 pub struct Degraded {
     /// Number of the level: 0 is the full scene.
     pub level: usize,
-    /// Times the length of a step at level 0.
+    /// Length of a step, relative to level 0 [-].
     pub step_times: f64,
-    /// Names of the effects that it leaves out.
+    /// Names of the effects that the level omits.
     pub without: Vec<String>,
-    /// Periods that ran at it.
+    /// Number of periods that ran at the level.
     pub periods: u64,
-    /// The measured share of the time of a period that it saves; `null` where nothing was measured, as in what follows.
+    /// Measured fraction of the computation time that the level saves [-]; this and the next two values are `null` without a measurement.
     pub saves: Option<f64>,
-    /// The time from the start over which it was measured [s].
+    /// Simulated time from the start over which the level was measured [s].
     pub measured_over: Option<f64>,
-    /// The measured largest change of an output, as a share of the output's range.
+    /// Measured largest change of an output, relative to the range of the output [-].
     pub changes: Option<f64>,
-    /// The output that changes so.
+    /// Output with the largest change.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub output: Option<String>,
 }
 
-/// A period that was late, or after which the level changed.
+/// Period that missed its deadline, or after which the level changed.
 #[derive(Debug, Clone, Default, PartialEq, serde::Serialize)]
 pub struct Overrun {
-    /// Number of the period, from 0.
+    /// Index of the period, counted from 0.
     pub index: u64,
-    /// Simulated time at its end [s].
+    /// Simulated time at the end of the period [s].
     pub time: f64,
-    /// When its computation ended, since the run began [s].
+    /// Clock time at the end of the computation, since the begin of the run [s].
     pub at: f64,
-    /// Time that the computation took [s].
+    /// Duration of the computation [s].
     pub duration: f64,
-    /// Time by which the deadline was missed [s]; 0 where it was not.
+    /// Time by which the deadline was missed [s]; 0 if it was met.
     pub late: f64,
-    /// The level at which it ran.
+    /// Level at which the period was computed.
     pub level: usize,
-    /// `finished`, `held`, `down` or `up`.
+    /// Action after the period: `finished`, `held`, `down` or `up`.
     pub action: &'static str,
-    /// The level of the next period.
+    /// Level of the next period.
     pub next_level: usize,
-    /// Periods in which the last outputs stood on.
+    /// Number of periods in which the last outputs were repeated.
     pub held_periods: u64,
 }
 
 /// Writes one line for each overrun and each change of level.
 ///
 /// # Errors
-/// Those of the sink.
+/// The errors of the sink.
 pub fn write_overruns(sink: impl Write, of: &RealtimeSummary) -> io::Result<()> {
     let mut out = csv::Writer::from_writer(sink);
     let head =

@@ -1,42 +1,42 @@
-//! Plain data that a run leaves behind: channels, pictures, energies, counts.
+//! Plain data of a run: channels, poses, energies and counts.
 
 use super::RecordedMotion;
 use super::channel::Channel;
 use super::statistics::ComponentStatistics;
 
-/// Everything the page of a run shows. Series may have any number of points; the page thins them.
+/// Data of the HTML page of a run. Series may have any number of points; the page reduces them.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct RunRecord {
     /// Name of the scene.
     pub scene: String,
-    /// Origin of the run: how it was made.
+    /// Provenance of the run: method, command and program version.
     pub provenance: Provenance,
     /// Recorded channels of the run.
     pub channels: Vec<ChannelSeries>,
-    /// The motion of the bodies, and what is drawn of them.
+    /// Motion of the bodies, and the shapes to draw.
     pub motion: Option<RecordedMotion>,
     /// Energies of the mechanism over time.
     pub energy: Option<EnergySeries>,
     /// Constraint violation over time.
     pub violation: Option<ViolationSeries>,
-    /// Newton iterations per step.
+    /// Newton iterations of each step.
     pub iterations: Option<IterationSeries>,
-    /// Lengths of the steps, where they are controlled.
+    /// Lengths of the steps; `None` for fixed steps.
     pub steps: Option<StepSeries>,
     /// Rows of the summary table: label and value.
     pub summary: Vec<(String, String)>,
-    /// Notes that the user should know, such as on redundant constraints.
+    /// Notes for the user, for example about redundant constraints.
     pub notes: Vec<String>,
-    /// The table of a choice by measurement, its head first.
+    /// Table of a choice by measurement, with its header row first.
     pub choice: Vec<Vec<String>>,
-    /// When and why the run stopped early: what follows after "The run stopped".
+    /// Time and reason of an early stop: the text after "The run stopped".
     pub error: Option<String>,
 }
 
-/// Origin of a run: how it was made; empty texts are left out.
+/// Provenance of a run: method, command and program version; empty texts are omitted.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Provenance {
-    /// The command line that makes the run again.
+    /// Command line that repeats the run.
     pub command: String,
     /// Precision of the run: `f32`, `f64`, `dd`.
     pub precision: String,
@@ -53,7 +53,7 @@ pub struct Provenance {
 }
 
 impl Provenance {
-    /// Label and text of each that is not empty.
+    /// Label and text of each entry that is not empty.
     pub fn rows(&self) -> impl Iterator<Item = [&str; 2]> {
         let rows = [
             ["command", self.command.as_str()],
@@ -68,7 +68,7 @@ impl Provenance {
     }
 }
 
-/// A channel over time.
+/// Values of a channel over time.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct ChannelSeries {
     /// Name and components of the channel.
@@ -77,7 +77,7 @@ pub struct ChannelSeries {
     pub times: Vec<f64>,
     /// One series per component, each as long as `times`.
     pub values: Vec<Vec<f64>>,
-    /// Statistics over every step, rows or not: of each component, then of the magnitude of each vector.
+    /// Statistics over every step, also steps without a row: first of each component, then of the magnitude of each vector.
     pub stats: Vec<ComponentStatistics>,
 }
 
@@ -90,68 +90,69 @@ pub struct EnergySeries {
     pub kinetic: Vec<f64>,
     /// Potential energy V of the mechanism.
     pub potential: Vec<f64>,
-    /// Pi(t) - Pi(0) of the invariant Pi = T + V - work.
+    /// Error of the energy invariant: Pi(t) - Pi(0), with Pi = T + V - work.
     pub invariant_error: Vec<f64>,
 }
 
-/// Largest residual at the three levels over time.
+/// Largest constraint residuals of positions, velocities and accelerations over time.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct ViolationSeries {
     /// Times of the residuals [s].
     pub times: Vec<f64>,
-    /// Position level [m or rad].
+    /// Residual of the positions [m or rad].
     pub position: Vec<f64>,
-    /// Velocity level [m/s or rad/s].
+    /// Residual of the velocities [m/s or rad/s].
     pub velocity: Vec<f64>,
-    /// Acceleration level [m/s^2 or rad/s^2].
+    /// Residual of the accelerations [m/s^2 or rad/s^2].
     pub acceleration: Vec<f64>,
 }
 
-/// Newton iterations per step.
+/// Newton iterations of each step.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct IterationSeries {
     /// Ends of the steps [s].
     pub times: Vec<f64>,
-    /// Iterations of each step.
+    /// Number of iterations of each step.
     pub counts: Vec<u32>,
 }
 
-/// The steps that a run made.
+/// Recorded steps of a run.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct StepSeries {
     /// Ends of the steps [s].
     pub times: Vec<f64>,
-    /// Pi(t) - Pi(0) there [J].
+    /// Error of the energy invariant, Pi(t) - Pi(0), at these times [J].
     pub energy_errors: Vec<f64>,
-    /// Rows of the steps, at the same times.
+    /// Data of the steps, at the same times.
     pub rows: Vec<StepRow>,
-    /// Counts over all steps, those that are not kept among them.
+    /// Counts over all steps, including those without a row.
     pub totals: ControlSummary,
 }
 
-/// Row of a step, or of several in a row where they are thinned: the shortest, and the largest of the rest.
+/// Data of one step, or of several successive steps. For several, the length and the index are the smallest, rejected trials are summed,
+/// and the other values are the largest.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct StepRow {
     /// Length of the step [s].
     pub length: f64,
-    /// 1 or 3, in formulations that have an index.
+    /// Index of the formulation, 1 or 3; `None` for a formulation without index changes.
     pub index: Option<u8>,
-    /// Iterations of the step.
+    /// Number of iterations of the step.
     pub iterations: u32,
-    /// Trials before it that were rejected.
+    /// Number of rejected trials before the step.
     pub rejected: u32,
-    /// Change of the invariant in it [J].
+    /// Change of the energy invariant in the step [J].
     pub energy_change: f64,
-    /// Energy that the penalties held after the first correction [J].
+    /// Energy of the penalty forces after the first correction [J].
     pub penalty_energy: f64,
-    /// Estimate of its error, relative to the scene's length.
+    /// Estimated local error of the step, relative to the scene's length [-].
     pub error_estimate: Option<f64>,
-    /// Limit that kept the next step from being longer: `max`, `energy`, `error`, `event`, `contact`, `failure`.
+    /// Limit of the next step length: `max`, `energy`, `error`, `event`, `contact` or `failure`.
     pub limit: Option<&'static str>,
 }
 
 impl StepRow {
-    /// This step together with one before it that is not kept.
+    /// Combines this step with an earlier one that gets no row.
     #[must_use]
     pub fn after(&self, before: &Self) -> Self {
         if before.length == 0.0 {
@@ -174,29 +175,29 @@ impl StepRow {
     }
 }
 
-/// Summary of the control of the step size.
+/// Summary of the step control.
 #[derive(Debug, Clone, Default, PartialEq, serde::Serialize)]
 pub struct ControlSummary {
-    /// `energy`, `energy-printed`, `error` or `both`.
+    /// Step rule: `energy`, `energy-printed`, `error` or `both`.
     pub rule: &'static str,
-    /// Number of steps kept.
+    /// Number of accepted steps.
     pub accepted: u64,
-    /// Trials rejected, or shortened to end at an event.
+    /// Number of trials that were rejected, or shortened to end at an event.
     pub rejected: u64,
-    /// The shortest step [s].
+    /// Shortest step of the run [s].
     pub smallest_step: f64,
     /// Longest step of the run [s].
     pub largest_step: f64,
-    /// Changes of the index, both ways.
+    /// Number of index changes, in both directions.
     pub index_changes: u64,
     /// Number of steps in index-1.
     pub index_1_steps: u64,
-    /// Steps that ended at an event.
+    /// Number of steps that ended at an event.
     pub events: u64,
 }
 
 impl ControlSummary {
-    /// Counts a step that is kept.
+    /// Counts an accepted step.
     pub fn take(&mut self, step: &StepRow) {
         self.accepted += 1;
         self.rejected += u64::from(step.rejected);

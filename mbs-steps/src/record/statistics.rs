@@ -3,19 +3,19 @@
 use super::channel::Channel;
 use mbs_core::outputs::magnitudes;
 
-/// Statistics of a number over every step, the start among them. Least and largest value may lie between steps, where five neighbouring
-/// values agree on a turning point.
+/// Statistics of a quantity over every step, including the start. The least and the greatest value may lie between steps, if the
+/// polynomials through five neighbouring values agree on an extremum.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Statistics {
-    /// Least value of the number.
+    /// Least value of the quantity.
     pub min: f64,
-    /// When it was first reached [s].
+    /// Time at which the least value was first reached [s].
     pub at_min: f64,
-    /// Largest value of the number.
+    /// Greatest value of the quantity.
     pub max: f64,
-    /// When it was first reached [s].
+    /// Time at which the greatest value was first reached [s].
     pub at_max: f64,
-    /// Root of the mean square over time, by the trapezoidal rule over the steps as they were.
+    /// Root mean square over time, by the trapezoidal rule over the steps of the run.
     pub rms: f64,
     /// Value at the end.
     pub end: f64,
@@ -24,45 +24,45 @@ pub struct Statistics {
 /// Statistics of a component of a channel, or of the magnitude of a vector in it.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct ComponentStatistics {
-    /// Label as in a column's name; of a magnitude `abs`, or `F` and `M` of a wrench. Empty: the channel is one number.
+    /// Label as in the column name; `abs` for a magnitude, or `F` and `M` for those of a wrench. Empty for a scalar channel.
     pub label: String,
     /// Unit of the component.
     pub unit: String,
-    /// Is it the magnitude of a vector?
+    /// True for the magnitude of a vector.
     pub is_magnitude: bool,
     /// Statistics of the component or magnitude.
     pub of: Statistics,
 }
 
-/// The statistics of a channel as an object: lists have a place for each component, then for the magnitude of each vector.
+/// Statistics of a channel for JSON. Each list has one entry for each component, then one for the magnitude of each vector.
 #[derive(Debug, Clone, Default, PartialEq, serde::Serialize)]
 pub struct ChannelSummary {
     /// Name of the channel.
     pub name: String,
-    /// Quantity that the channel measures; empty of an output that is code.
+    /// Quantity that the channel measures; empty for a user-defined output.
     pub quantity: String,
-    /// The unit of all components; absent where they differ.
+    /// Common unit of all components; absent if they differ.
     pub unit: Option<String>,
-    /// Labels as in the names of columns; empty: the channel is one number.
+    /// Labels as in the column names; empty for a scalar channel.
     pub components: Vec<String>,
     /// Units of the components and magnitudes.
     pub units: Vec<String>,
-    /// Least value of each.
+    /// Least value of each entry.
     pub min: Vec<f64>,
-    /// When they were first reached [s].
+    /// Times at which the least values were first reached [s].
     pub at_min: Vec<f64>,
-    /// Largest value of each.
+    /// Greatest value of each entry.
     pub max: Vec<f64>,
-    /// When they were first reached [s].
+    /// Times at which the greatest values were first reached [s].
     pub at_max: Vec<f64>,
-    /// Roots of the mean squares over time.
+    /// Root mean square of each entry over time.
     pub rms: Vec<f64>,
-    /// Values at the end.
+    /// Value of each entry at the end.
     pub end: Vec<f64>,
 }
 
 impl ChannelSummary {
-    /// Makes the summary of a channel with its statistics.
+    /// Creates the summary of a channel from its statistics.
     #[must_use]
     pub fn new(channel: &Channel, stats: &[ComponentStatistics]) -> Self {
         let mut units = channel.components.iter().map(|component| &component.unit);
@@ -84,8 +84,8 @@ impl ChannelSummary {
     }
 }
 
-/// Returns statistics without values for each component of a channel, then for the magnitude of each vector that is no component already. Each
-/// comes with the range of the components that it is made of.
+/// Returns empty statistics for each component of a channel, then for the magnitude of each vector that is not already a component. Each
+/// entry has the range of the components from which it is computed.
 pub fn measured(channel: &Channel) -> Vec<(ComponentStatistics, core::ops::Range<usize>)> {
     let components = &channel.components;
     let one = |label: &str, unit: &str| {

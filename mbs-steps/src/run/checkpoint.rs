@@ -1,4 +1,4 @@
-//! A run with checkpoints, and one that is resumed from a checkpoint.
+//! Checkpoints of a run, and the resumption of a run from a checkpoint.
 
 use super::Run;
 use super::record::{Counts, Record, RunCheckpoints};
@@ -11,7 +11,7 @@ use mbs_core::Real;
 use mbs_core::outputs::{Instant, MOST_INSTANTS};
 
 impl<T: Real, const D: usize> Run<'_, T, D> {
-    /// Resumes from a checkpoint. On an error the run is of no use any more.
+    /// Resumes from a checkpoint. After an error the run must not be used.
     pub(super) fn resume(
         &mut self,
         checkpoint: &Checkpoint,
@@ -36,19 +36,19 @@ impl<T: Real, const D: usize> Run<'_, T, D> {
 }
 
 impl<T: Real, const D: usize> Record<'_, T, D> {
-    /// Writes rows and a checkpoint where they are due after step `k`; says whether it took time.
+    /// Writes rows and a checkpoint if they are due after step `k`; returns whether anything was written.
     pub(super) fn keep(&mut self, simulation: &Simulation<T, D>, k: u64) -> bool {
         self.done = k;
         let is_due = self.checkpoints.as_ref().is_some_and(|c| c.writer.is_due(self.reached));
         self.write(simulation, is_due)
     }
 
-    /// Writes rows and a checkpoint, whether they are due or not.
+    /// Writes rows and a checkpoint, even if they are not due.
     pub(super) fn keep_now(&mut self, simulation: &Simulation<T, D>) {
         self.write(simulation, true);
     }
 
-    /// Writes what waits, and a checkpoint where one is due.
+    /// Writes the waiting rows, and a checkpoint if it is due.
     fn write(&mut self, simulation: &Simulation<T, D>, is_due: bool) -> bool {
         let Some(checkpoints) = self.checkpoints.take() else { return false };
         let is_busy = is_due || checkpoints.writer.is_waiting(&self.recorder);
@@ -62,7 +62,7 @@ impl<T: Real, const D: usize> Record<'_, T, D> {
         is_busy
     }
 
-    /// The bytes of a checkpoint.
+    /// Returns the bytes of a checkpoint.
     fn checkpoint(
         &mut self,
         simulation: &Simulation<T, D>,
@@ -76,7 +76,8 @@ impl<T: Real, const D: usize> Record<'_, T, D> {
         })
     }
 
-    /// Writes the record, or reads it back. What the last step left in `mark` and `values` the next one replaces.
+    /// Writes the record to a checkpoint, or reads it from one. `mark` and `values` are not part of it, because the next step replaces
+    /// them.
     fn walk(
         &mut self,
         simulation: &Simulation<T, D>,
@@ -101,7 +102,7 @@ impl<T: Real, const D: usize> Record<'_, T, D> {
         Ok(())
     }
 
-    /// The instants of contact; the gaps are those of the state.
+    /// Writes or reads the instants of contact; the gaps follow from the state.
     fn walk_contacts(&mut self, simulation: &Simulation<T, D>, tape: &mut impl Tape) -> Walked {
         let numbers = |i: &Instant| (i.t, i.effect, i.end, i.makes);
         let mut instants: Vec<_> = self.contacts.instants().iter().map(numbers).collect();
@@ -129,7 +130,7 @@ impl Counts {
         let Self { steps, iterations, factorizations, worst, control } = self;
         [steps, iterations, factorizations].into_iter().try_for_each(|x| tape.count(x))?;
         tape.duration(worst)?;
-        // Rule and changes of index are those of the settings and of the simulation.
+        // The rule belongs to the settings, and the index changes to the simulation, so neither is stored here.
         let ControlSummary { accepted, rejected, smallest_step, largest_step, .. } = control;
         [accepted, rejected].into_iter().try_for_each(|x| tape.count(x))?;
         tape.float(smallest_step)?;

@@ -3,41 +3,41 @@
 use core::time::Duration;
 use cpu_time::{ProcessTime, ThreadTime};
 
-/// CPU time of the steps, over all starts of a run.
+/// CPU time of the steps, summed over all parts of a resumed run.
 #[derive(Debug)]
 pub(super) struct Clock {
     begun: Begun,
-    /// CPU time of earlier starts.
+    /// CPU time of the parts before the last resumption.
     pub(super) before: Duration,
-    /// CPU time of writing.
+    /// CPU time of writing files, which does not count.
     apart: Duration,
 }
 
 impl Clock {
-    /// Begins now, after nothing; so many threads share the steps.
+    /// Starts the clock at zero, for steps on this number of threads.
     pub(super) fn new(threads: usize) -> Self {
         Self { begun: Begun::now(threads == 1), before: Duration::ZERO, apart: Duration::ZERO }
     }
 
-    /// Begins now, after what was before.
+    /// Restarts the clock; the time of earlier parts is kept.
     pub(super) fn begin(&mut self) {
         let is_alone = matches!(self.begun, Begun::Thread(_));
         (self.begun, self.apart) = (Begun::now(is_alone), Duration::ZERO);
     }
 
-    /// The time so far.
+    /// The CPU time of the steps so far.
     pub(super) fn get(&self) -> Duration {
         (self.before + self.begun.elapsed()).saturating_sub(self.apart)
     }
 
-    /// Takes off what was done since `get` returned this.
+    /// Excludes the time since `get` returned `since`.
     pub(super) fn take_off(&mut self, since: Duration) {
         self.apart += self.get().saturating_sub(since);
     }
 }
 
-/// When it was begun, by a clock that runs for those who share the steps and for no others: runs side by side in a process count each
-/// time once.
+/// Start of the measurement: by thread time for one thread, else by process time. With thread time, runs in parallel threads of one process
+/// each measure their own time only.
 #[derive(Debug, Clone, Copy)]
 enum Begun {
     Thread(ThreadTime),

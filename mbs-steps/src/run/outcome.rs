@@ -1,4 +1,4 @@
-//! Outcome of a run: its summary, and what its files are made of.
+//! Outcome of a run: its summary, and the data of its files.
 
 use crate::kept::{Head, write_rows};
 use crate::record::{Channel, ErrorEstimate, Provenance, RunRecord, RunSummary, StepSeries};
@@ -7,17 +7,17 @@ use crate::words::summary_rows;
 use mbs_core::real::DoubleDouble;
 use std::io;
 
-/// Outcome of a run: its summary, and what its files are made of.
+/// Outcome of a run: its summary, and the data of its files.
 #[derive(Debug)]
 pub struct Outcome {
-    /// Summary of the run, as the JSON object has it.
+    /// Summary of the run, as in the JSON object.
     pub summary: RunSummary,
     /// Reason why the run stopped early.
     pub error: Option<StopError>,
     pub(super) record: RunRecord,
     pub(super) channels: Vec<Channel>,
     pub(super) table: Vec<(f64, Vec<f64>)>,
-    /// Numbers of the table with all their digits, where there are more than those of `f64`.
+    /// Values of the table with all digits, if the run has more digits than `f64`.
     pub(super) long_table: Vec<Vec<DoubleDouble>>,
     pub(super) ranges: Vec<[f64; 2]>,
     pub(super) steps: StepSeries,
@@ -27,7 +27,7 @@ impl Outcome {
     /// Writes the rows as CSV.
     ///
     /// # Errors
-    /// Those of the sink.
+    /// The errors of the sink.
     pub fn write_csv(&self, sink: impl io::Write) -> io::Result<()> {
         let table = self.table.iter().map(|(t, row)| (*t, &row[..]));
         write_rows((sink, &self.channels), Head::Names, table, self.long_table.iter().cloned())
@@ -36,27 +36,27 @@ impl Outcome {
     /// Writes the rows as CSV, with the units as the second line.
     ///
     /// # Errors
-    /// Those of the sink.
+    /// The errors of the sink.
     pub fn write_csv_with_units(&self, sink: impl io::Write) -> io::Result<()> {
         let table = self.table.iter().map(|(t, row)| (*t, &row[..]));
         write_rows((sink, &self.channels), Head::Units, table, self.long_table.iter().cloned())
     }
 
-    /// Writes the steps as CSV: their lengths, and what came of them.
+    /// Writes the steps as CSV: their lengths, counts and errors.
     ///
     /// # Errors
-    /// Those of the sink.
+    /// The errors of the sink.
     pub fn write_steps(&self, sink: impl io::Write) -> io::Result<()> {
         crate::record::write_steps(sink, &self.steps)
     }
 
-    /// The steps of the rows.
+    /// The data of the steps at the recorded rows.
     #[must_use]
     pub fn steps(&self) -> &StepSeries {
         &self.steps
     }
 
-    /// Record that a page of the run shows, with how the run was made.
+    /// Record that the HTML page of the run shows, completed by the provenance of the run.
     #[must_use]
     pub fn record(&self, provenance: Provenance) -> RunRecord {
         RunRecord { provenance, ..self.record.clone() }
@@ -68,7 +68,7 @@ impl Outcome {
         &self.table
     }
 
-    /// Names and units of the components of the rows, as the columns of `run.csv` have them.
+    /// Names and units of the components of the rows, as in the columns of `run.csv`.
     #[must_use]
     pub fn columns(&self) -> [Vec<String>; 2] {
         let components = self.channels.iter().flat_map(|channel| &channel.components);
@@ -81,7 +81,7 @@ impl Outcome {
         &self.channels
     }
 
-    /// Takes an estimate of the errors; warnings become notes.
+    /// Adds an estimate of the errors; its warnings become notes.
     #[doc(hidden)]
     pub fn take_estimate(&mut self, estimate: ErrorEstimate) {
         self.record.notes.extend(estimate.warnings.iter().cloned());
@@ -89,14 +89,14 @@ impl Outcome {
         self.record.summary = summary_rows(&self.summary);
     }
 
-    /// Least and largest value of each component of each channel, as its statistics have them; empty when the run did not start.
-    /// Of a run that keeps its last row alone they are over its rows.
+    /// Least and greatest value of each component of each channel, from its statistics; empty if the run did not start. In a run that
+    /// records only the last row they cover only the recorded rows.
     #[must_use]
     pub fn ranges(&self) -> &[[f64; 2]] {
         &self.ranges
     }
 
-    /// Notes that the user should know.
+    /// Notes for the user about the run.
     #[must_use]
     pub fn notes(&self) -> &[String] {
         &self.record.notes

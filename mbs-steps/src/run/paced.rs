@@ -1,8 +1,8 @@
-//! A run that keeps up with a clock: each task simulates one period, at a level of a ladder.
+//! A run paced by a clock: each task simulates one period, at a level of the degradation ladder.
 //!
-//! Everything is built before the loop begins. The run's own simulation is level 0. A level without some effects has a simulation
-//! of its own, which takes the state over when the level changes, and shows it to the run's after each step. Outputs are measured
-//! there. The state, the clock of the simulation and the rows are those of simulated time, whatever the clock of the loop does.
+//! All memory is allocated before the loop begins. The run's simulation is level 0. A level that omits effects has a separate simulation.
+//! That simulation copies the state when the level changes. After each step the run's simulation copies the new state, and outputs are
+//! measured there. State and rows depend on simulated time only, not on the clock of the loop.
 
 use super::record::Record;
 use super::{Outcome, Run};
@@ -26,40 +26,40 @@ use mbs_core::step::StepError;
 use mbs_realtime::{Clock, Pacer, Task, Work};
 use mbs_scene::Component;
 
-/// The column that says at which level a row was simulated.
+/// Name of the column with the level at which a row was simulated.
 const LEVEL: &str = "realtime-level";
 
-/// Division of simulated time into periods and steps.
+/// Division of the simulated time into periods and steps.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PacedSchedule<T> {
     /// Length of a period in the precision of the run and in `f64` [s].
     pub period: (T, f64),
-    /// Periods, the last of which may be shorter.
+    /// Number of periods; the last one may be shorter.
     pub periods: u64,
-    /// Steps of a period at level 0; `None`: their lengths are controlled.
+    /// Number of steps of a period at level 0; `None` with step control.
     pub steps: Option<u32>,
-    /// Is the level a column?
+    /// True if the rows have a column with the level.
     pub has_level: bool,
 }
 
-/// A level of the ladder.
+/// A level of the degradation ladder.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct PacedLevel {
-    /// Halvings of the number of steps of a period.
+    /// Number of times that the number of steps of a period is halved.
     pub halvings: u32,
-    /// Effects that are off.
+    /// Effects that are switched off, by index.
     pub off: Vec<usize>,
-    /// Measurements of the level.
+    /// Measured costs and changes of the level.
     pub measured: Degraded,
 }
 
 impl PacedLevel {
-    /// Steps of a period.
+    /// Number of steps of a period at this level; `of` is the number at level 0.
     pub fn steps(&self, of: u32) -> u32 {
         of.div_ceil(1 << self.halvings.min(30)).max(1)
     }
 
-    /// The scene of this level.
+    /// The scene of this level, without the effects that are off.
     pub fn scene<T: Real>(&self, scene: &Scene<T>) -> Scene<T> {
         let mut scene = scene.clone();
         for &effect in &self.off {
@@ -69,10 +69,10 @@ impl PacedLevel {
     }
 }
 
-/// Runs a scene at the pace of a clock; `rungs` are the levels, the first that of everything.
+/// Runs a scene at the pace of a clock; `rungs` are the levels, and the first one is the full scene.
 ///
 /// # Errors
-/// [`SwitchError`] where a level cannot take the state over, with the effect that it was the last to leave out.
+/// [`SwitchError`] if a level cannot copy the state, with the effect that this level omits last.
 pub fn paced<T: Real, const D: usize>(
     scene: &Scene<T>,
     settings: &ResolvedMethod,
@@ -114,9 +114,9 @@ pub fn paced<T: Real, const D: usize>(
     Ok(Run { simulation, record }.finish(report.busy, error))
 }
 
-/// Reason why a level is not there.
+/// Reason why a level cannot be used.
 enum Unready {
-    /// The level cannot take the state over: the effect that was last left out, and why.
+    /// The level cannot copy the state: the effect that it omits last, and the reason.
     Refused((usize, SwitchError)),
     /// The simulation of the level does not start.
     Stopped(Box<StopError>),
@@ -128,17 +128,17 @@ impl From<StopError> for Unready {
     }
 }
 
-/// Simulation that a level steps, where it is not the run's own, with forces and steps.
+/// Simulation of a level, with its forces and steps; `None` if the level uses the run's simulation.
 struct Level<T: Real, const D: usize> {
     simulation: Option<Box<Simulation<T, D>>>,
-    /// Forces of the level's effects; while it runs, those of the full scene.
+    /// Forces of the level's effects; while the level runs, they are exchanged with the forces of the full scene.
     forces: Option<Forces<T, D>>,
-    /// Steps of a period, where their lengths are fixed.
+    /// Number of steps of a period; `None` with step control.
     steps: Option<u32>,
 }
 
 impl<T: Real, const D: usize> Level<T, D> {
-    /// Builds what a level needs beside the run.
+    /// Builds the simulation and forces of a level, if it omits effects.
     fn new(run: &Run<'_, T, D>, rung: &PacedLevel, steps: Option<u32>) -> Result<Self, Unready> {
         let steps = steps.map(|steps| rung.steps(steps));
         let Some(&last) = rung.off.last() else {
@@ -153,11 +153,11 @@ impl<T: Real, const D: usize> Level<T, D> {
     }
 }
 
-/// The run's own simulation, and those of the levels that take turns with it.
+/// The run's simulation, and the simulations of the other levels.
 struct Ladder<T: Real, const D: usize> {
     simulation: Simulation<T, D>,
     levels: Vec<Level<T, D>>,
-    /// The level that steps.
+    /// Index of the level that makes the steps.
     at: usize,
 }
 
@@ -185,7 +185,7 @@ impl<T: Real, const D: usize> Plant<T, D> for Ladder<T, D> {
 }
 
 impl<T: Real, const D: usize> Ladder<T, D> {
-    /// Continues at another level. No allocation.
+    /// Changes to another level. No allocation.
     fn change(&mut self, to: usize, record: &mut Record<'_, T, D>) -> Result<(), StopError> {
         let Self { simulation: own, levels, at } = self;
         let from = core::mem::replace(at, to);
@@ -205,7 +205,7 @@ impl<T: Real, const D: usize> Ladder<T, D> {
     }
 }
 
-/// A run in the hands of a pacer.
+/// A paced run as the work of a pacer.
 struct Paced<'a, T: Real, const D: usize> {
     ladder: Ladder<T, D>,
     record: Record<'a, T, D>,
@@ -241,14 +241,14 @@ impl<T: Real, const D: usize> Work for Paced<'_, T, D> {
 }
 
 impl<T: Real, const D: usize> Paced<'_, T, D> {
-    /// Period `k` from 1.
+    /// Stretch of period `k`, counted from 1.
     fn period(&self, k: u64) -> Stretch<T> {
         let PacedSchedule { period, periods, .. } = self.track;
         let is_last = k == periods;
         let at = |k| multiple((T::ZERO, 0.0), k, period);
         let from = at(k - 1);
         let to = if is_last { self.record.lengths.duration } else { at(k) };
-        // The length of a whole period is exact; that between two multiples is rounded.
+        // A full period uses the exact length. The difference of two multiples would have rounding errors.
         let is_whole =
             !is_last || (to - from - period.0).abs() <= period.0 * T::from_f64(SAME_LENGTH);
         let whole = if is_whole { period.0 } else { to - from };

@@ -1,4 +1,4 @@
-//! Record that a run makes of its steps: rows, maxima, counts, contacts, and the alarms that end it.
+//! Record of the steps of a run: rows, maxima, counts and contacts. It also has the alarms that stop the run.
 
 use super::clock::Clock;
 use crate::channels::Channels;
@@ -32,21 +32,21 @@ pub(super) struct Counts {
     pub(super) control: ControlSummary,
 }
 
-/// Columns of the rows beside those of the scene's channels.
+/// Additional columns of the rows, after the scene's channels.
 pub trait Columns<T: Real, const D: usize> {
     /// Returns the names and units of the columns.
     fn channels(&self) -> Vec<Channel>;
 
-    /// A step was made.
+    /// Called after each step, for columns with memory.
     ///
     /// # Errors
-    /// What stops the run.
+    /// The error that stops the run.
     fn follow(&mut self, now: &Simulation<T, D>) -> Result<(), StopError>;
 
     /// Writes the components of a row.
     ///
     /// # Errors
-    /// One that is not finite.
+    /// An error if a component is not finite.
     fn write(&mut self, now: &Simulation<T, D>, out: &mut [T]) -> Result<(), StopError>;
 }
 
@@ -62,33 +62,33 @@ pub(super) struct Record<'a, T: Real, const D: usize> {
     pub(super) recorder: Recorder,
     pub(super) motion: MotionRecorder<T, D>,
     values: Vec<T>,
-    /// Are these the values of the state, which the statistics have?
+    /// True if `values` belongs to the current state and is already in the statistics.
     is_measured: bool,
-    /// Number of components of the scene's channels, and what writes those behind them.
+    /// Number of components of the scene's channels; `others` writes the components after them.
     n_measured: usize,
     pub(super) others: Option<&'a mut dyn Columns<T, D>>,
-    /// Mark that the last step left.
+    /// Data of the last step.
     mark: StepMark,
     pub(super) counts: Counts,
     /// Time that the run has reached [s].
     pub(super) reached: f64,
     pub(super) alarm: Alarm,
     frictions: Frictions<T, D>,
-    /// Steps of the record's count that are made.
+    /// Number of completed steps or intervals that the record counts.
     pub(super) done: u64,
     pub(super) clock: Clock,
-    /// When the step began that is made next.
+    /// Time at which the next step began.
     begun: Instant,
     pub(super) checkpoints: Option<RunCheckpoints<'a>>,
-    /// Periods of a paced run, after each of which a row may be due, and how it kept up. Where there is a ladder, also the lowest level since
-    /// the last row.
+    /// Number of periods of a paced run, its timing summary, and the most degraded level since the last row (with a ladder). A paced run
+    /// may record one row after each period.
     pub(super) periods: Option<u64>,
     pub(super) realtime: Option<RealtimeSummary>,
     pub(super) level: Option<f64>,
 }
 
 impl<'a, T: Real, const D: usize> Record<'a, T, D> {
-    /// For rows after each of `n_rows` steps or intervals.
+    /// Creates the record for one row after each of `n_rows` steps or intervals.
     pub(super) fn new(
         (scene, settings): (&'a Scene<T>, &'a ResolvedMethod),
         simulation: &Simulation<T, D>,
@@ -127,7 +127,7 @@ impl<'a, T: Real, const D: usize> Record<'a, T, D> {
         })
     }
 
-    /// Takes the first row.
+    /// Records the first row.
     pub(super) fn start(&mut self, simulation: &Simulation<T, D>) -> Result<(), StopError> {
         let violation = simulation.start.residual.map(Real::to_f64);
         let energies = simulation.initial_energies();
@@ -139,13 +139,13 @@ impl<'a, T: Real, const D: usize> Record<'a, T, D> {
         self.row(simulation, false)
     }
 
-    /// The steps begin now.
+    /// Starts the clock of the steps.
     pub(super) fn begin(&mut self) {
         self.clock.begin();
         self.begin_step();
     }
 
-    /// The next step begins now.
+    /// Notes the start time of the next step.
     pub(super) fn begin_step(&mut self) {
         self.begun = Instant::now();
     }
@@ -155,10 +155,10 @@ impl<'a, T: Real, const D: usize> Record<'a, T, D> {
         self.clock.get()
     }
 
-    /// Evaluates all outputs at the state, once, and takes them into the statistics.
+    /// Evaluates all outputs at the state, at most once per state, and adds them to the statistics.
     ///
     /// # Errors
-    /// One that is not finite: the statistics are without it.
+    /// An error if an output is not finite; the statistics do not include this state then.
     fn measure(&mut self, simulation: &Simulation<T, D>) -> Result<(), StopError> {
         if self.is_measured {
             return Ok(());
@@ -178,10 +178,10 @@ impl<'a, T: Real, const D: usize> Record<'a, T, D> {
         Ok(())
     }
 
-    /// Records a row, or no row where an output is not finite.
+    /// Records a row; nothing is recorded if an output is not finite.
     fn row(&mut self, simulation: &Simulation<T, D>, is_last: bool) -> Result<(), StopError> {
         self.measure(simulation)?;
-        // the next row has the lowest level from here on
+        // For the next row, the most degraded level counts from here on.
         self.level = self.level.map(|_| 0.0);
         if self.recorder.keeps_all() {
             self.motion.offer(self.mark.t, &simulation.state().q, is_last);
@@ -190,7 +190,7 @@ impl<'a, T: Real, const D: usize> Record<'a, T, D> {
         Ok(())
     }
 
-    /// The statistics of a step, a row where one is due after step or period `k`, and the alarm.
+    /// Updates the statistics, records a row if one is due after step or period `k`, and checks the alarms.
     fn row_if_due(
         &mut self,
         simulation: &Simulation<T, D>,
@@ -203,12 +203,12 @@ impl<'a, T: Real, const D: usize> Record<'a, T, D> {
         } else {
             Ok(())
         };
-        // energy that is lost says more than an output that is not finite for it
+        // An alarm comes before an output that is not finite, because the energy error is its probable cause.
         let passed = self.frictions.passed(simulation);
         self.alarm.rings_for(simulation, is_last, passed).map_or(recorded, Err)
     }
 
-    /// Counts and maxima of a step.
+    /// Updates the counts and maxima with a step.
     fn take(
         &mut self,
         simulation: &Simulation<T, D>,
@@ -265,7 +265,7 @@ impl<T: Real, const D: usize> StepObserver<T, D> for Record<'_, T, D> {
         self.begun = to;
         taken?;
         if self.periods.is_some() {
-            // what is not finite stops the run at the end of its period
+            // An output that is not finite stops the run at the end of the period.
             let _ = self.measure(now);
         } else {
             let k = self.done + 1;
@@ -288,7 +288,7 @@ impl<T: Real, const D: usize> StepObserver<T, D> for Record<'_, T, D> {
         Ok(ControlFlow::Continue(()))
     }
 
-    /// Keeps the state at which the run stops.
+    /// Records the state at which the run stops.
     fn end(&mut self, now: &Simulation<T, D>, stop: Option<&StopError>) {
         if matches!(stop, Some(StopError::Interrupted)) {
             self.keep_now(now);
@@ -298,13 +298,13 @@ impl<T: Real, const D: usize> StepObserver<T, D> for Record<'_, T, D> {
             let energies = now.invariant().energies();
             self.mark = StepMark { t: self.reached, energies, ..StepMark::default() };
             self.is_measured = false;
-            // a row that cannot be recorded is no other reason to stop
+            // The run stops already, so an error of this row is ignored.
             let _ = self.row(now, true);
         }
     }
 }
 
-/// Checkpoints of a run: their writer, and the identity of what they belong to.
+/// Checkpoints of a run: their writer, and the identity of scene and settings.
 #[derive(Debug)]
 pub(super) struct RunCheckpoints<'a> {
     pub(super) writer: &'a mut CheckpointWriter,

@@ -1,4 +1,4 @@
-//! Parts of a run's summary.
+//! Functions for the parts of a run's summary.
 
 use super::Outcome;
 use super::record::Counts;
@@ -14,7 +14,7 @@ use mbs_core::control::Invariant;
 use mbs_core::outputs;
 use mbs_core::scene::Scene;
 
-/// An instant with the effect's name.
+/// Converts an instant of contact, with the name of its effect.
 pub(super) fn contact<T: Real>(scene: &Scene<T>, instant: &outputs::Instant) -> Contact {
     let effect = &scene.effects[instant.effect];
     Contact {
@@ -25,7 +25,7 @@ pub(super) fn contact<T: Real>(scene: &Scene<T>, instant: &outputs::Instant) -> 
     }
 }
 
-/// The invariant over every step.
+/// Summary of the energy invariant over every step.
 pub(super) fn energy_summary(invariant: &Invariant) -> EnergySummary {
     EnergySummary {
         initial: invariant.initial(),
@@ -40,7 +40,7 @@ pub(super) fn energy_summary(invariant: &Invariant) -> EnergySummary {
 /// The method that ran, and its steps up to time `reached` [s].
 pub(super) fn method_used(settings: &ResolvedMethod, counts: &Counts, reached: f64) -> MethodUsed {
     let control = &counts.control;
-    // where they differ the integrator has made steps of its own
+    // If the counts differ, the integrator has made internal steps of unknown length.
     let is_known = control.accepted == counts.steps && counts.steps > 0;
     #[allow(clippy::cast_precision_loss, reason = "step counts stay far below 2^53")]
     let mean_step = reached / counts.steps.max(1) as f64;

@@ -1,4 +1,4 @@
-//! Settings that are refused, and what to do about it.
+//! Errors of settings, with hints for the user.
 
 use super::length::{self, MOST_STEPS};
 use crate::choice::Precision;
@@ -7,19 +7,19 @@ use crate::precision::{PrecisionError, not_built_hint};
 use mbs_core::scene::SceneError;
 use mbs_scene::format::significant;
 
-/// A setting that is refused.
+/// Error of a setting of a run.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum SettingsError {
-    /// A name that is unknown or not built yet.
+    /// Name that is unknown or not available in this build.
     NotBuilt {
         /// Key of the setting.
         key: &'static str,
-        /// The value asked for.
+        /// Value that was requested.
         value: String,
-        /// Names that are built.
+        /// Names that are available.
         built: &'static [&'static str],
-        /// The scene asks for it, not the command line.
+        /// True if the scene requests the value, false if the caller does.
         from_scene: bool,
     },
     /// A precision that this build does not have.
@@ -31,16 +31,16 @@ pub enum SettingsError {
         /// Value of the setting.
         value: f64,
     },
-    /// U and L of the energy rule, the smaller one first.
+    /// Limits U and L of the energy rule, where the first must be the larger one but is not.
     LimitOrder([f64; 2]),
-    /// Names that do not go together.
+    /// Settings that cannot be combined.
     NotTogether {
-        /// Formulation that does not know the option.
+        /// Formulation that does not have the option.
         formulation: FormulationKind,
-        /// The option that it does not know.
+        /// The option that the formulation does not have.
         option: String,
     },
-    /// The scene cannot be meant in a run of this length.
+    /// The scene is not valid for a run of this duration.
     Scene(SceneError),
     /// A step of fixed length that is longer than the run.
     StepTooLong {
@@ -49,7 +49,7 @@ pub enum SettingsError {
         /// Duration of the run [s].
         duration: f64,
     },
-    /// The step is so short that the run would not end.
+    /// The step is so short that the number of steps exceeds its limit.
     TooManySteps {
         /// Length of a step [s].
         step: f64,
@@ -59,7 +59,7 @@ pub enum SettingsError {
 }
 
 impl SettingsError {
-    /// The key of the setting that it is about, where that is one.
+    /// Key of the setting that the error concerns; `None` if no setting is concerned.
     #[must_use]
     pub fn key(&self) -> Option<&str> {
         match self {

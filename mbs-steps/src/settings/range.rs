@@ -1,8 +1,8 @@
-//! Names and numbers of settings, refused where they are not built or out of range.
+//! Checks of the names and values of settings: available names, positive numbers.
 
 use super::error::SettingsError;
 
-/// The value that belongs to the first name given: override, scene, default.
+/// Returns the requested name and its value; the caller's name precedes the scene's name, and the default is last.
 pub(super) fn named<U: Copy, const N: usize>(
     key: &'static str,
     (from_caller, from_scene, default): (&Option<String>, &Option<String>, &str),
@@ -29,7 +29,7 @@ pub(super) fn positive(key: &'static str, value: f64) -> Result<f64, SettingsErr
     }
 }
 
-/// U and L of the energy rule.
+/// Checks the limits U and L of the energy rule: both positive, U larger than L.
 pub(super) fn ordered([upper, lower]: [f64; 2]) -> Result<[f64; 2], SettingsError> {
     let limits = [positive("energy_tolerance", upper)?, positive("energy_tolerance", lower)?];
     if upper > lower { Ok(limits) } else { Err(SettingsError::LimitOrder(limits)) }

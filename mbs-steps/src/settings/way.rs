@@ -1,4 +1,4 @@
-//! Settings as what runs: a step that goes with the run, and the way in words.
+//! Checks of the resolved step, and the method as text.
 
 use super::length::{is_controlled, is_too_long};
 use super::{ResolvedMethod, SettingsError};
@@ -9,11 +9,11 @@ use mbs_core::scene::Scene;
 use mbs_scene::format::significant;
 
 impl ResolvedMethod {
-    /// Refuses a step of fixed length that scene or caller ask for and that is longer than the run: something else was intended. The run
-    /// would take one step of its own length.
+    /// Checks that a requested step of fixed length is not longer than the run. Such a request is probably a mistake, because the run would
+    /// make a single step of the length of the run.
     ///
     /// # Errors
-    /// [`SettingsError::StepTooLong`].
+    /// [`SettingsError::StepTooLong`] for a longer step.
     pub fn check_step<T>(&self, scene: &Scene<T>, overrides: &Method) -> Result<(), SettingsError> {
         let is_asked = overrides.step.is_some() || scene.solver.step.is_some();
         let (step, duration) = (self.step, self.duration);
@@ -23,7 +23,7 @@ impl ResolvedMethod {
         Ok(())
     }
 
-    /// Formulation and integrator, with the step or the tolerance.
+    /// Formulation and integrator as text, with the step or the tolerance.
     #[must_use]
     pub fn way(&self) -> String {
         let mut way = self.formulation.name().to_owned();
@@ -40,7 +40,7 @@ impl ResolvedMethod {
         }
     }
 
-    /// Returns what `auto` chose and why; nothing where a formulation was asked for.
+    /// Returns the method that `auto` chose, with reasons; `None` if a formulation was requested.
     #[must_use]
     pub fn chosen(&self) -> Option<MethodChoice> {
         let (formulation, ran) = (self.formulation.name().to_owned(), self.way());

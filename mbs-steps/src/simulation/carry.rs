@@ -1,4 +1,4 @@
-//! The state of one simulation taken over by another of the same mechanism, in which some effects are on or off.
+//! Transfer of the state of a simulation to another simulation of the same mechanism, in which other effects are on or off.
 //!
 //! ```text
 //! q, v   as they are
@@ -6,7 +6,7 @@
 //! W      + (T + V)_after − (T + V)_before: what the change put into the mechanism or took out counts as work
 //! ```
 //!
-//! So Π = T + V − W continues without a jump, and the invariant stays watched.
+//! With this work the invariant Π = T + V − W has no jump, so that its error can be monitored further.
 
 use super::Simulation;
 use mbs_core::formulation::SwitchError;
@@ -15,12 +15,12 @@ use mbs_core::step::StepError;
 use mbs_core::{Cliques, Real};
 
 impl<T: Real, const D: usize> Simulation<T, D> {
-    /// May this simulation [`take_over`](Self::take_over) the state of another? It may where both are of one formulation (index-3,
-    /// index-1, multi-index or recursive). The scenes may differ in effects that are switched off, other than those that
-    /// count turns (torsion springs and the like). They differ in nothing else that makes coordinates.
+    /// Checks whether this simulation can [`take_over`](Self::take_over) the state of another one. Both must have the same formulation:
+    /// index-3, index-1, multi-index or recursive. The scenes may differ in effects that are on or off, except effects that count full
+    /// turns (such as torsion springs). They must not differ in anything else that defines coordinates.
     ///
     /// # Errors
-    /// [`SwitchError`].
+    /// [`SwitchError`] with the reason why it cannot.
     pub fn takes_over(&self, other: &Self) -> Result<(), SwitchError> {
         self.formulation.can_take_over(&*other.formulation)?;
         let is_same =
@@ -28,29 +28,29 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         if is_same { Ok(()) } else { Err(SwitchError::Coordinates) }
     }
 
-    /// Takes time, positions and velocities over from another simulation of the same mechanism, whose effects may be others, so that
-    /// the next step continues from there. The change of the energy by effects that come or go is booked as work.
+    /// Copies time, positions and velocities from another simulation of the same mechanism, which may have other effects on. The next step
+    /// continues from this state. A change of the energy by effects that are switched counts as work.
     ///
-    /// Cost: a copy, and two or three evaluations and factorisations; no allocation.
+    /// Cost: one copy, and two or three evaluations and factorisations; no allocation.
     ///
     /// # Errors
-    /// [`StepError`] where no accelerations are found there.
+    /// [`StepError`] if the accelerations at this state cannot be computed.
     ///
     /// # Panics
-    /// May panic if the other is none that this one [`takes_over`](Self::takes_over).
+    /// May panic if [`takes_over`](Self::takes_over) returns an error for the other simulation.
     pub fn take_over(&mut self, other: &Self) -> Result<(), StepError> {
         self.show(other);
         self.resume()
     }
 
-    /// Shows the state of another simulation, without being ready to continue from it.
+    /// Copies the state of another simulation for outputs. Before the next step, `resume` is needed.
     pub fn show(&mut self, other: &Self) {
         self.state.copy_unknowns(&other.state, self.model.n_unknowns());
         self.invariant = other.invariant;
         self.formulation.take_over(&*other.formulation);
     }
 
-    /// Makes ready to continue from a state that was shown.
+    /// Prepares the simulation to continue from a state that `show` copied.
     pub fn resume(&mut self) -> Result<(), StepError> {
         let Self { model, state, formulation, control, invariant, .. } = self;
         formulation.refresh(model, state)?;
@@ -67,7 +67,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     }
 }
 
-/// Do both remember the same angles in the same places?
+/// Do both models count the turns of the same angles, in the same order?
 fn same_memory<T: Real, const D: usize>(a: &NaturalModel<T, D>, b: &NaturalModel<T, D>) -> bool {
     a.remembered().eq(b.remembered())
 }

@@ -1,4 +1,4 @@
-//! A simulation saved and restored.
+//! Save and restore of a simulation.
 
 use super::Simulation;
 use crate::checkpoint::tape::{Tape, Walked, holds};
@@ -9,13 +9,13 @@ use mbs_core::scene::Scene;
 use std::io::{Read, Write};
 
 impl<T: Real, const D: usize> Simulation<T, D> {
-    /// Writes a checkpoint of the simulation, which was made of this scene and these settings. It has all that the next
-    /// steps depend on, inputs that were set included. They have the same bits after [`restore`](Self::restore).
+    /// Writes a checkpoint of the simulation, which was created from this scene and these settings. It has all data that the next steps
+    /// depend on, including inputs. After [`restore`](Self::restore) the next steps are bitwise the same.
     ///
-    /// Cost: the bytes are gathered in memory, about eight times as many as coordinates and multipliers have places, times eight.
+    /// Cost: the checkpoint is collected in memory. It has about eight numbers (of eight bytes each) for each coordinate and multiplier.
     ///
     /// # Errors
-    /// Those of the sink.
+    /// The errors of the sink.
     ///
     /// # Examples
     /// ```
@@ -62,10 +62,10 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         Ok(sink.write_all(&bytes)?)
     }
 
-    /// Restores a checkpoint of the same scene and settings: one of [`save`](Self::save), or the state in that of a run.
+    /// Restores a checkpoint of the same scene and settings: one of [`save`](Self::save), or the state in a checkpoint of a run.
     ///
     /// # Errors
-    /// [`CheckpointError`]; the simulation is then as it was, but that a state-space one may choose its coordinates anew.
+    /// [`CheckpointError`]; the state is unchanged then, but a state-space formulation may choose other independent coordinates.
     pub fn restore(
         &mut self,
         (scene, settings): (&Scene<T>, &ResolvedMethod),
@@ -76,7 +76,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         self.restore_from(&mut checkpoint.body())
     }
 
-    /// Restores the state at which a tape is.
+    /// Restores the state from the current position of a tape.
     pub fn restore_from(&mut self, tape: &mut impl Tape) -> Walked {
         let before = self.snapshot();
         let mut snapshot = before.clone();

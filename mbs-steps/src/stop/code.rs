@@ -1,11 +1,11 @@
-//! Codes of why a run stopped.
+//! Error codes of the reasons why a run stopped.
 
 use super::{INTERRUPTED, StopError};
 use mbs_core::start::AssemblyError;
 use mbs_core::step::StepError;
 
 impl StopError {
-    /// A short fixed word for programs.
+    /// Error code of the reason, a constant word for programs.
     #[must_use]
     pub fn code(&self) -> &'static str {
         match self {

@@ -1,11 +1,11 @@
-//! Distance of a mechanism from coming together.
+//! Remaining residual of an assembly that failed.
 
 use super::StopError;
 use mbs_core::start::AssemblyError;
 
 impl StopError {
-    /// The largest residual of joints and held values that a start leaves open [m or rad; of velocities per second]; nothing where it is not
-    /// that which stopped it.
+    /// Largest residual of joints and prescribed values in an assembly that failed [m or rad; for velocities m/s or rad/s]. `None` for
+    /// other errors.
     #[must_use]
     pub fn gap(&self) -> Option<f64> {
         match self {

@@ -1,4 +1,4 @@
-//! Linearisations that could not be made, in words.
+//! Messages of linearisations that failed.
 
 use mbs_linear::LinearError;
 use mbs_scene::format::few;

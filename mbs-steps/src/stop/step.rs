@@ -1,10 +1,10 @@
-//! Steps that could not be made, in words.
+//! Messages and hints of steps that failed.
 
 use mbs_core::model::Owner;
 use mbs_core::step::StepError;
 use mbs_scene::format::few;
 
-/// Part of the scene that a failed step is about, given whose unknowns and rows are.
+/// Part of the scene that a failed step concerns; `unknown` and `row` return the owner of an unknown and of a constraint row.
 pub(super) fn step_owner(
     error: &StepError,
     unknown: impl Fn(usize) -> Owner,
@@ -28,10 +28,10 @@ pub(super) fn step_owner(
     })
 }
 
-/// Failure of user-defined code, in words.
+/// Message of a user-defined law or relation that failed.
 const NO_NUMBER: &str = "gave a number that is infinite or not a number";
 
-/// Writes what happened in a failed step; what to try is the hint's.
+/// Writes the message of a failed step; the hint is separate.
 pub(super) fn write_step(error: &StepError, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
     match error {
         StepError::NotConverged { iterations, correction, .. } => write!(
@@ -94,7 +94,7 @@ pub(super) fn write_step(error: &StepError, f: &mut core::fmt::Formatter<'_>) ->
     }
 }
 
-/// Hint for the user where a step could not be made: what to try.
+/// Hint for the user after a failed step: what to try.
 pub(super) fn step_hint(error: &StepError) -> &'static str {
     match error {
         StepError::Singular(_) => {

@@ -9,16 +9,17 @@ use mbs_core::scene::{CouplingMeasure, CouplingTerm, Freedom};
 use mbs_recursive::own::{EffortSlopes, MovingColumns};
 
 impl Tree {
-    /// Derivatives of [`inverse_dynamics`](Self::inverse_dynamics) at accelerations. Joints may follow others by constant ratios; other
-    /// loops are refused.
+    /// Derivatives of [`inverse_dynamics`](Self::inverse_dynamics) at given accelerations. Couplings of joints by constant ratios are
+    /// allowed; other closed loops are an error.
     ///
-    /// ∂/∂q is along v, as a step of [`integrate`](Self::integrate): for a ball the turn about an axis of the second body, so it is
-    /// square like the others. Effects are left out, as everywhere here.
+    /// ∂/∂q is the derivative along v, as in a step of [`integrate`](Self::integrate). For a ball joint this is a rotation about axes of
+    /// the second body, so ∂/∂q is square too. Effects are not included, as in all equations of a tree.
     ///
-    /// Cost: an outward pass, and bodies times depth.
+    /// Cost: an outward pass, and operations proportional to the number of bodies times the depth of the tree.
     ///
     /// # Errors
-    /// [`TreeErrorKind::Loops`] with the joint that closes a loop; [`TreeErrorKind::Length`], [`TreeErrorKind::NotFinite`].
+    /// [`TreeErrorKind::Loops`] with the joint that closes a loop; [`TreeErrorKind::Length`], [`TreeErrorKind::NotFinite`] for invalid
+    /// accelerations.
     ///
     /// ```
     /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
@@ -46,16 +47,16 @@ impl Tree {
         Ok(&self.of_effort)
     }
 
-    /// Derivatives of [`forward_dynamics`](Self::forward_dynamics) under efforts: ∂v̇/∂(q, v) = −K ∂τ/∂(q, v), ∂v̇/∂τ = K. In an open tree K
-    /// is M⁻¹. Where joints follow others by constant ratios, J v̇ = 0, it is M⁻¹ − M⁻¹ Jᵀ (J M⁻¹ Jᵀ)⁻¹ J M⁻¹; other loops are refused.
+    /// Derivatives of [`forward_dynamics`](Self::forward_dynamics) at given efforts τ: ∂v̇/∂(q, v) = −K ∂τ/∂(q, v), ∂v̇/∂τ = K. In an open
+    /// tree K is M⁻¹. With couplings of constant ratio, J v̇ = 0, K is M⁻¹ − M⁻¹ Jᵀ (J M⁻¹ Jᵀ)⁻¹ J M⁻¹. Other closed loops are an error.
     ///
-    /// ∂/∂q is along v, as in [`inverse_dynamics_derivatives`](Self::inverse_dynamics_derivatives). Efforts stay as they are, in the
-    /// directions of v.
+    /// ∂/∂q is the derivative along v, as in [`inverse_dynamics_derivatives`](Self::inverse_dynamics_derivatives). The components of the
+    /// efforts along v are constant in it.
     ///
-    /// Cost: that of both dynamics and of their derivatives, and n² times depth.
+    /// Cost: both dynamics and their derivatives, and n² times the depth of the tree.
     ///
     /// # Errors
-    /// [`TreeErrorKind::Loops`] with the joint that closes a loop; as for [`forward_dynamics`](Self::forward_dynamics).
+    /// [`TreeErrorKind::Loops`] with the joint that closes a loop; further errors as for [`forward_dynamics`](Self::forward_dynamics).
     ///
     /// ```
     /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
@@ -77,7 +78,7 @@ impl Tree {
         with!(&mut self.inner, t => {
             let moving = t.moving.get_or_insert_with(|| MovingColumns::new(&t.model));
             let scratch = (&mut t.workspace, moving);
-            // the links are accelerated as the scratch has them
+            // The scratch has the accelerations of the links from the forward dynamics.
             t.own.write_effort_slopes_here(&t.model, scratch, &mut slopes);
         });
         self.factor()?;
@@ -95,10 +96,10 @@ impl Tree {
         Ok(&self.by_effort)
     }
 
-    /// Takes out of the derivatives what the rows of couplings forbid. With K = M⁻¹ and a constant row j each X becomes X − K jᵀ (j X) /
-    /// (j K jᵀ), K itself at last; a row that those before it contain changes nothing.
+    /// Projects the derivatives, so that accelerations satisfy the rows of couplings. With K = M⁻¹ and a constant row j, each matrix X
+    /// becomes X − K jᵀ (j X) / (j K jᵀ). K itself is changed last. A row that depends on earlier rows is skipped.
     fn keep_rows(&mut self) {
-        /// Share of j K jᵀ that rounding leaves, where rows before it contain j [-].
+        /// Fraction of j K jᵀ below which j depends on earlier rows, and the rest is rounding error [-].
         const ROUNDING: f64 = 1e-12;
         if self.loops.rows == 0 {
             return;
@@ -128,7 +129,7 @@ impl Tree {
         }
     }
 
-    /// Refuses loops whose rows change with the position: of joints, of what rolls, of curves and lines.
+    /// Returns an error for loops whose rows change with the position: cut joints, rolling contacts, curves and lines.
     fn has_constant_rows(&self, what: &'static str) -> Result<(), TreeError> {
         let is_constant = |term: &CouplingTerm<f64>| {
             let CouplingMeasure::Coordinate { joint, number } = &term.of else { return false };
@@ -156,7 +157,7 @@ impl Tree {
         }))
     }
 
-    /// Refuses what is of open trees alone.
+    /// Returns an error if the tree has closed loops; `what` names the quantity that only open trees have.
     pub fn open(&self, what: &'static str) -> Result<(), TreeError> {
         if self.loops.rows == 0 {
             return Ok(());
@@ -166,7 +167,7 @@ impl Tree {
     }
 }
 
-/// Makes the matrices of derivatives by positions, velocities and accelerations square, and returns their numbers.
+/// Makes the matrices of derivatives by positions, velocities and accelerations square, and returns their data.
 fn slopes_in(squares: [&mut Matrix; 3]) -> EffortSlopes<'_, f64> {
     let [q, v, a] = squares.map(|square| {
         square.resize_rows(square.columns);

@@ -1,4 +1,4 @@
-//! A tree with all that acts on it: effects, signals and inputs.
+//! Dynamics of a tree with all effects, signals and inputs.
 
 use super::inner::{Inner, Typed, with};
 use super::{Tree, TreeError, TreeErrorKind, checked};
@@ -15,7 +15,7 @@ impl Tree {
     /// Sets all inputs, in the order of [`inputs`](Self::inputs).
     ///
     /// # Errors
-    /// [`TreeErrorKind::Length`], [`TreeErrorKind::NotFinite`]; nothing is set then.
+    /// [`TreeErrorKind::Length`], [`TreeErrorKind::NotFinite`]; no input is set then.
     ///
     /// ```
     /// use mbs::{Body, Effect, GROUND, Joint, Mechanism, Signal};
@@ -39,13 +39,13 @@ impl Tree {
         Ok(())
     }
 
-    /// v̇ under all effects, signals and the inputs that are set, loops closed. States of signals are those that they begin with, or those
-    /// of the simulation that was [followed](Self::follow).
+    /// Accelerations v̇ under all effects, signals and inputs, with loops closed. States of signals have their initial values, or the
+    /// values of the simulation that was [followed](Self::follow).
     ///
     /// Cost: one evaluation; no allocation.
     ///
     /// # Errors
-    /// [`TreeErrorKind::NoAccelerations`] at a singular position, or where an effect gives no force.
+    /// [`TreeErrorKind::NoAccelerations`] at a singular position, or if the force of an effect cannot be computed.
     ///
     /// ```
     /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
@@ -86,12 +86,12 @@ impl Tree {
         with!(&mut self.inner, t => t.model.energies(&t.state, &mut t.workspace))
     }
 
-    /// Brings the coordinates onto the loops by the moves that are smallest in the masses' norm, and the velocities likewise. Returns the
-    /// largest change of a coordinate [rad, m].
+    /// Projects the coordinates onto the constraints of the loops, with the smallest motion in the norm of the mass matrix. Projects the
+    /// velocities in the same way. Returns the largest change of a coordinate [rad, m].
     ///
     /// # Errors
-    /// [`TreeErrorKind::OpenLoops`] where no small motion closes them, [`TreeErrorKind::NoAccelerations`] without loops; the tree is then
-    /// unchanged.
+    /// [`TreeErrorKind::OpenLoops`] if no small motion closes the loops, [`TreeErrorKind::NoAccelerations`] for a tree without
+    /// loops whose accelerations cannot be computed; the tree is unchanged then.
     pub fn make_consistent(&mut self) -> Result<f64, TreeError> {
         self.needs_inertia()?;
         let names = &self.names;

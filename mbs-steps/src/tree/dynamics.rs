@@ -9,9 +9,9 @@ use mbs_core::scene::BodyId;
 use mbs_recursive::EffortTerms;
 
 impl Tree {
-    /// M, n × n and symmetric; loops are open. ½ vᵀ M v is the kinetic energy where no joint is guided.
+    /// Mass matrix M of the open tree, n × n and symmetric. If no joint is guided, the kinetic energy is ½ vᵀ M v.
     ///
-    /// Cost: bodies times depth, and n².
+    /// Cost: proportional to the number of bodies times the depth of the tree, and n².
     ///
     /// ```
     /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
@@ -30,7 +30,7 @@ impl Tree {
         &self.mass
     }
 
-    /// J, one row for each equation of the joints that close loops, n columns.
+    /// Constraint Jacobian J of the cut joints: one row for each equation, n columns.
     ///
     /// ```
     /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/four-bar.toml");
@@ -48,7 +48,7 @@ impl Tree {
         &self.loops
     }
 
-    /// Returns g, the efforts that hold the mechanism at rest against gravity. A motor that gives them compensates gravity.
+    /// Returns g: the efforts that balance gravity at rest. Motors with these efforts compensate gravity.
     ///
     /// ```
     /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
@@ -62,8 +62,8 @@ impl Tree {
         self.efforts(EffortTerms::Gravity)
     }
 
-    /// Returns c + g, the efforts that keep all velocities as they are, against centrifugal and Coriolis forces, the motion of guided joints, and
-    /// gravity.
+    /// Returns c + g: the efforts that give zero accelerations v̇. They balance centrifugal and Coriolis forces, the motion of guided
+    /// joints, and gravity.
     ///
     /// ```
     /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
@@ -79,11 +79,11 @@ impl Tree {
         self.efforts(EffortTerms::WithoutEffects)
     }
 
-    /// v̇ under efforts τ along v and gravity, loops closed.
+    /// Accelerations v̇ under efforts τ along v and under gravity, with loops closed.
     ///
     /// # Errors
     /// [`TreeErrorKind::Length`], [`TreeErrorKind::NotFinite`]; [`TreeErrorKind::NoAccelerations`] at a singular position,
-    /// [`TreeErrorKind::NoInertia`] where a joint meets none.
+    /// [`TreeErrorKind::NoInertia`] if a joint moves no inertia.
     ///
     /// ```
     /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
@@ -102,12 +102,12 @@ impl Tree {
         Ok(&self.answer)
     }
 
-    /// The efforts τ that make accelerations v̇: M v̇ + c + g.
+    /// Efforts τ that cause given accelerations v̇: τ = M v̇ + c + g.
     ///
-    /// With loops many efforts make the same motion. Those returned are smallest in the norm of M⁻¹: τ = M (v̇ − v̇₀), with v̇₀ what
-    /// [`forward_dynamics`](Self::forward_dynamics) gives without efforts. They are zero for free motion. Accelerations that
-    /// open the loops are changed as little as the masses allow. Others are τ + Jᵀ λ for any λ: the motor of a four-bar
-    /// carries all where λ takes the efforts from the other joints.
+    /// With closed loops the efforts are not unique. The smallest ones in the norm of M⁻¹ are returned: τ = M (v̇ − v̇₀), with v̇₀ the
+    /// accelerations that [`forward_dynamics`](Self::forward_dynamics) gives without efforts. They are zero for free motion. Accelerations
+    /// that violate the loop constraints are projected with the norm of M. Other solutions are τ + Jᵀ λ for any λ. For example, λ can be
+    /// chosen such that the motor of a four-bar linkage has the only effort.
     ///
     /// # Errors
     /// As for [`forward_dynamics`](Self::forward_dynamics).
@@ -134,8 +134,8 @@ impl Tree {
         Ok(self.efforts(EffortTerms::Inertia))
     }
 
-    /// Returns the Jacobian of the velocity of a body's point, which was at `at` in the reference configuration [m]: 3 × n, global axes. In the
-    /// plane the third row is zero.
+    /// Returns the Jacobian of the velocity of a point of a body: 3 × n, in global axes. `at` is the position of the point in the reference
+    /// configuration [m]. In the plane the third row is zero.
     ///
     /// ```
     /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
@@ -150,8 +150,8 @@ impl Tree {
         self.jacobian(3, body, at)
     }
 
-    /// Returns the Jacobian of a body's centre of mass: 6 × n, global axes. Rows 0 to 2 are of its velocity, rows 3 to 5 of the body's angular
-    /// velocity.
+    /// Returns the Jacobian of a body's centre of mass: 6 × n, in global axes. Rows 0 to 2 belong to its velocity, rows 3 to 5 to the
+    /// body's angular velocity.
     ///
     /// ```
     /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
@@ -167,7 +167,7 @@ impl Tree {
         self.jacobian(6, body, center)
     }
 
-    /// Returns the Jacobian of the velocity of the centre of mass of all bodies: 3 × n, global axes.
+    /// Returns the Jacobian of the velocity of the centre of mass of all bodies: 3 × n, in global axes.
     ///
     /// ```
     /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
@@ -185,8 +185,8 @@ impl Tree {
         &self.jacobian
     }
 
-    /// Motion of a body's point, which was at `at` in the reference configuration [m]. The acceleration is that of v̇ = 0, J̇ v: add the
-    /// Jacobian times v̇.
+    /// Motion of a point of a body; `at` is its position in the reference configuration [m]. The acceleration is the part for v̇ = 0, which
+    /// is J̇ v. For the full acceleration add the Jacobian times v̇.
     ///
     /// ```
     /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
@@ -204,7 +204,7 @@ impl Tree {
         PointMotion::of(motion.point(&at.into()))
     }
 
-    /// Motion of the centre of mass of all bodies; the acceleration as that of a [`point`](Self::point).
+    /// Motion of the centre of mass of all bodies; its acceleration is the part for v̇ = 0, as in [`point`](Self::point).
     ///
     /// ```
     /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
@@ -224,7 +224,7 @@ impl Tree {
         PointMotion::of(sum)
     }
 
-    /// The motions of the bodies at v̇ = 0.
+    /// The motions of the bodies for v̇ = 0.
     pub fn motions(&mut self) -> &[RigidMotion<f64>] {
         self.place_accelerations(None);
         with!(&mut self.inner, tree => {
@@ -243,14 +243,14 @@ impl Tree {
         &self.jacobian
     }
 
-    /// Sets the accelerations of the state: those given, or v̇ = 0.
+    /// Sets the accelerations of the state to given ones, or to v̇ = 0.
     pub fn place_accelerations(&mut self, own: Option<&[f64]>) {
         let state = self.inner.state();
         let (own, velocities) = (own.unwrap_or(&self.zero), [&self.v[..], &state.v]);
         self.layout.accelerations_inward(velocities, (own, &mut state.a));
     }
 
-    /// Efforts of the state's accelerations.
+    /// Computes the efforts for the accelerations of the state.
     fn efforts(&mut self, terms: EffortTerms) -> &[f64] {
         let out = &mut self.tree;
         with!(&mut self.inner, t => t.model.write_efforts((&t.state, terms), &mut t.workspace, out));
@@ -258,7 +258,7 @@ impl Tree {
         &self.answer
     }
 
-    /// Accelerations under efforts, into the state.
+    /// Computes the accelerations under efforts and stores them in the state.
     pub fn accelerate(&mut self, effort: Option<&[f64]>) -> Result<(), TreeError> {
         self.needs_inertia()?;
         self.layout.efforts_inward(effort.unwrap_or(&self.zero), &mut self.tree);

@@ -1,4 +1,4 @@
-//! Errors of a tree, with names.
+//! Errors of a tree, with the names of joints and bodies.
 
 use crate::erased::Error;
 use crate::erased::error::UnknownName;
@@ -7,47 +7,47 @@ use crate::stop::StopError;
 use mbs_core::model::Owner;
 use std::fmt;
 
-/// Reason why there is no tree, or why it does not answer.
+/// Reason why a tree cannot be built, or cannot compute a quantity.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct TreeError {
-    /// Fault of the tree, or of what it was asked.
+    /// Kind of the error.
     pub kind: TreeErrorKind,
     joint: Option<String>,
     body: Option<String>,
 }
 
-/// Faults of a tree, or of what it was asked.
+/// Kinds of errors of a tree.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum TreeErrorKind {
     /// The mechanism has no model in relative coordinates.
     NoTree(StopError),
-    /// No accelerations follow from any efforts: a joint meets no inertia.
+    /// The mass matrix is singular, because a joint moves no inertia.
     NoInertia(StopError),
-    /// No accelerations follow from the efforts.
+    /// The efforts determine no accelerations, for example at a singular position.
     NoAccelerations(StopError),
-    /// From the position no small motion closes the loops.
+    /// No small motion from the position closes the loops.
     OpenLoops(StopError),
-    /// The question is for open trees alone, but the joint closes a loop, or it is a coupling that ties joints.
+    /// The quantity, which is named, exists for open trees only. The joint closes a loop, or it is a coupling of joints.
     Loops(&'static str),
-    /// No forces move the frame in some direction: it has no inertia there, because the joints do not move it so.
+    /// The joints cannot move the frame in some direction, so its operational-space inertia is infinite there.
     Held,
-    /// No frame has this name, and no body.
+    /// The name is neither that of a frame nor that of a body.
     UnknownFrame(UnknownName),
     /// The joint closes a loop: its equations are rows of the loop Jacobian.
     Cut,
-    /// The joint follows its guide.
+    /// The motion of the joint is prescribed by its guide, so it has no coordinates.
     Guided,
-    /// The joint carries nothing: it is free between two moving bodies, or within one body.
+    /// The joint carries no body: it is free between two moving bodies, or within one body.
     Idle,
-    /// Too many numbers, or too few: what they are, how many the tree has, how many were given.
+    /// Wrong number of values: name of the argument, expected number, given number.
     Length(&'static str, usize, usize),
-    /// An infinite number or none: what it is, and its place.
+    /// A value that is infinite or not a number: name of the argument, index of the value.
     NotFinite(&'static str, usize),
-    /// The rows that are given are not those of a rotation.
+    /// The given matrix is not a rotation matrix.
     NotOrthogonal,
-    /// Four zeros from this place of q are no quaternion.
+    /// The four values of q from this index are zero, so they are no quaternion.
     NoRotation(usize),
 }
 
@@ -70,7 +70,7 @@ impl TreeError {
         Self { kind, joint: Some(joint.to_owned()), body: None }
     }
 
-    /// Code, hint and message.
+    /// Code, hint and message of the error.
     fn words(&self) -> (&'static str, &'static str, String) {
         use TreeErrorKind as Kind;
         match &self.kind {
@@ -114,7 +114,7 @@ impl TreeError {
         }
     }
 
-    /// Code, hint and message of a fault in what was given: a joint without coordinates, or numbers.
+    /// Code, hint and message of an error in the arguments: a joint without coordinates, or invalid values.
     fn words_of_arguments(&self) -> (&'static str, &'static str, String) {
         use TreeErrorKind as Kind;
         let no_coordinates = |whose| format!("a joint that {whose} has no coordinates");

@@ -1,11 +1,12 @@
-//! Masses for mechanisms that lack them, so that loops close by a smallest motion: places and Jacobians do not depend on them.
+//! Fictitious masses for mechanisms without inertia, so that loops can be closed by a smallest motion. Positions and Jacobians do not
+//! depend on masses.
 
 use super::inner::{Inner, Typed, with};
 use crate::stop::StopError;
 use mbs_core::cluster::scene_length;
 use mbs_core::scene::{Body, Dimension, Inertia, Scene};
 
-/// The tree of a scene with masses, in the coordinates of its own one; `None` where it has no such tree.
+/// The tree of a scene with fictitious masses, in the same coordinates; `None` if it would have other coordinates.
 pub(super) fn tree(scene: &Scene<f64>, own: &Inner) -> Option<Inner> {
     let length = scene_length(scene);
     let mut heavy = scene.clone();
@@ -20,7 +21,7 @@ pub(super) fn tree(scene: &Scene<f64>, own: &Inner) -> Option<Inner> {
     (is_same && lack.is_none()).then_some(tree)
 }
 
-/// A body with 1 kg and a moment [kg m^2] about all axes in place of its own; a point has the mass alone.
+/// Returns a body with a mass of 1 kg and this moment of inertia about all axes [kg m^2]. A point mass gets no moment of inertia.
 pub fn with_mass<T: Clone + From<f64>>(
     body: &Body<T>,
     dimension: Dimension,
@@ -37,7 +38,7 @@ pub fn with_mass<T: Clone + From<f64>>(
     Body { mass: number(1.0), inertia, ..body.clone() }
 }
 
-/// Moves a state onto the loops by a tree with masses.
+/// Projects the state of a tree with masses onto its loop constraints.
 pub(super) fn close(inner: &mut Inner) -> Result<(), StopError> {
     with!(inner, tree => {
         let Typed { model, state, workspace, .. } = &mut **tree;

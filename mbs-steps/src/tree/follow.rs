@@ -1,4 +1,4 @@
-//! A tree at the state of a simulation.
+//! Copy of the state of a simulation into a tree.
 
 use super::{Tree, TreeError};
 use crate::erased::View;
@@ -8,11 +8,11 @@ use core::ops::Range;
 use mbs_core::scene::JointId;
 
 impl Tree {
-    /// Takes time, coordinates, velocities, inputs and signals of a simulation of the same mechanism, whatever its formulation. Turns of
-    /// joints are those of the simulation.
+    /// Copies time, coordinates, velocities, inputs and signals of a simulation of the same mechanism, for every formulation. The number of
+    /// full turns of joints is copied too.
     ///
     /// # Errors
-    /// [`TreeErrorKind::Length`](super::TreeErrorKind::Length) for a simulation of another number of bodies.
+    /// [`TreeErrorKind::Length`](super::TreeErrorKind::Length) if the simulation has another number of bodies.
     ///
     /// ```
     /// use mbs::{Mechanism, Method};
@@ -31,18 +31,18 @@ impl Tree {
         Ok(())
     }
 
-    /// Makes angles those within half a turn of the joints' own.
+    /// Adds full turns to angles, such that they differ by at most half a turn from the values of the simulation.
     fn count_turns(&mut self, values: impl Fn(JointId) -> Coordinates) {
         for (joint, at) in self.layout.numbers() {
             for (q, value) in self.q[at].iter_mut().zip(values(joint).iter()) {
-                // slides differ by rounding alone
+                // Displacements differ by rounding errors only, so nothing is added to them.
                 *q += TAU * ((value - *q) / TAU).round();
             }
         }
         self.layout.coordinates_inward(&self.q, &mut self.inner.state().z);
     }
 
-    /// The coordinates of the joints that are numbers by themselves, each with its joint.
+    /// The joints whose coordinates are angles or displacements, each with its values and rates.
     pub fn joint_states(&self) -> Vec<(JointId, Coordinates, Coordinates)> {
         let state = |(joint, at): (JointId, Range<usize>)| {
             let values = Coordinates::new(self.q[at].iter().copied());

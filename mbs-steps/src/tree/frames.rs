@@ -1,4 +1,4 @@
-//! Jacobians of named frames of a [`Tree`], their rates, and what resists the motion of a frame.
+//! Jacobians of named frames of a [`Tree`], their time derivatives, and the operational-space inertia of a frame.
 
 use super::inner::{Inner, with};
 use super::{Matrix, Tree, TreeError, TreeErrorKind};
@@ -7,15 +7,17 @@ use mbs_core::algebra::Matrix as Square;
 use mbs_core::scene::{BodyId, Dimension};
 use mbs_recursive::own::MovingColumns;
 
-/// Least pivot of a mobility whose diagonal is one [-], in units of rounding: below it a direction is held. Chosen, not tuned.
+/// Smallest pivot of a mobility matrix with unit diagonal, in units of machine precision [-]. With a smaller pivot, a direction of motion
+/// is locked. Chosen, not tuned.
 const ROUNDINGS: f64 = 64.0;
 
 impl Tree {
-    /// The body that carries a `[[frame]]` of the scene, and the frame's origin in the reference configuration [m]; of a body without a
-    /// frame of its name its centre of mass. Points and Jacobians take both.
+    /// Body that carries a `[[frame]]` of the scene, and origin of the frame in the reference configuration [m]. For the name of a body
+    /// without such a frame it returns the body and its centre of mass. The functions for points and Jacobians take body and origin as
+    /// arguments.
     ///
     /// # Errors
-    /// [`UnknownName`], which proposes the nearest name.
+    /// [`UnknownName`], which suggests the most similar name.
     ///
     /// ```
     /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
@@ -27,8 +29,8 @@ impl Tree {
         self.named(name).map(|frame| (frame.body, frame.at))
     }
 
-    /// Returns the Jacobian of a point that moves with a body, which was at `at` in the reference configuration [m]: 6 × n, global axes. Rows 0
-    /// to 2 are of its velocity, rows 3 to 5 of the body's angular velocity.
+    /// Returns the Jacobian of a point fixed to a body: 6 × n, in global axes. `at` is the position of the point in the reference
+    /// configuration [m]. Rows 0 to 2 belong to the point's velocity, rows 3 to 5 to the body's angular velocity.
     ///
     /// ```
     /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
@@ -42,7 +44,8 @@ impl Tree {
         self.jacobian(6, body, at)
     }
 
-    /// J̇, the rate of [`jacobian_at`](Self::jacobian_at) at the present velocities: J̇ v are the accelerations at v̇ = 0.
+    /// Returns J̇, the time derivative of [`jacobian_at`](Self::jacobian_at) at the current velocities. J̇ v is the acceleration of the
+    /// point and the body for v̇ = 0.
     ///
     /// ```
     /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
@@ -65,12 +68,12 @@ impl Tree {
         &self.jacobian
     }
 
-    /// J M⁻¹ Jᵀ of a point that moves with a body: the accelerations by which it answers to a force on it and a moment on the body, all
-    /// joints being free to move; 6 × 6 and symmetric, order and axes of [`jacobian_at`](Self::jacobian_at). Directions in which the
-    /// joints cannot move it are zero.
+    /// Mobility J M⁻¹ Jᵀ of a point fixed to a body, without motor efforts. It gives the accelerations caused by a force at the point and a
+    /// moment on the body. The matrix is 6 × 6 and symmetric; order and axes are those of [`jacobian_at`](Self::jacobian_at). It is zero in
+    /// directions in which the joints cannot move the point.
     ///
     /// # Errors
-    /// [`TreeErrorKind::Loops`] with the joint that closes a loop; [`TreeErrorKind::NoAccelerations`] where nothing resists a joint.
+    /// [`TreeErrorKind::Loops`] with the joint that closes a loop; [`TreeErrorKind::NoAccelerations`] if a joint moves no inertia.
     ///
     /// ```
     /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/simple-pendulum.toml");
@@ -94,13 +97,13 @@ impl Tree {
         Ok(&self.frame)
     }
 
-    /// Λ = (J M⁻¹ Jᵀ)⁻¹, the operational-space inertia of a point that moves with a body: the forces and moments that it needs for
-    /// accelerations; 6 × 6 and symmetric, order and axes of [`jacobian_at`](Self::jacobian_at). In the plane only rows and columns 0, 1
-    /// and 5 are not zero.
+    /// Operational-space inertia Λ = (J M⁻¹ Jᵀ)⁻¹ of a point fixed to a body: the forces and moments for given accelerations. The matrix is
+    /// 6 × 6 and symmetric; order and axes are those of [`jacobian_at`](Self::jacobian_at). In the plane only rows and columns 0, 1 and 5
+    /// are not zero.
     ///
     /// # Errors
-    /// [`TreeErrorKind::Held`] where the joints do not move it in every direction: less than six of them, or a singular position; as for
-    /// [`mobility_at`](Self::mobility_at).
+    /// [`TreeErrorKind::Held`] if the joints cannot move the point in every direction: less than six joints, or a singular position.
+    /// Further errors are those of [`mobility_at`](Self::mobility_at).
     ///
     /// ```
     /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/free-body.toml");
@@ -122,13 +125,13 @@ impl Tree {
         };
         self.mobility_at(body, at)?;
         let inertia = inverse(&self.frame, moves).ok_or(TreeErrorKind::Held)?;
-        // symmetric: columns are rows
+        // The matrix is symmetric, so its columns are its rows.
         self.frame.data.copy_from_slice(inertia.as_slice());
         Ok(&self.frame)
     }
 }
 
-/// The inverse of a mobility in some directions, scaled so that lengths and angles weigh alike; none where a direction is held.
+/// Inverse of a mobility in the directions `moves`, scaled such that lengths and angles have equal weight; `None` if a direction is locked.
 fn inverse(mobility: &Matrix, moves: &[usize]) -> Option<Square<f64, 6>> {
     let mut scale = [0.0; 6];
     for &i in moves {
@@ -137,7 +140,7 @@ fn inverse(mobility: &Matrix, moves: &[usize]) -> Option<Square<f64, 6>> {
     if !scale.iter().all(|x| x.is_finite()) {
         return None;
     }
-    // the others are on their own
+    // The other directions get a unit diagonal, so that they do not couple.
     let scaled = Square::<f64, 6>::from_fn(|i, j| match (scale[i] * scale[j], i == j) {
         (0.0, true) => 1.0,
         (scale, _) => mobility[(i, j)] * scale,

@@ -1,4 +1,4 @@
-//! A tree with its state in the coordinates of its links, in the plane or in space.
+//! A tree with its state in the coordinates of its links, planar or spatial.
 
 use super::layout::Layout;
 use crate::stop::StopError;
@@ -9,14 +9,14 @@ use mbs_recursive::own::{MovingColumns, OwnFreedoms};
 use mbs_recursive::space::Space;
 use mbs_recursive::{Planar, Spatial, TreeModel, TreeState, Workspace};
 
-/// Tree of the plane or of space.
+/// Tree in the plane or in space.
 #[derive(Debug, Clone)]
 pub(super) enum Inner {
     Planar(Box<Typed<Planar>>),
     Spatial(Box<Typed<Spatial>>),
 }
 
-/// Model, state and scratch.
+/// Model, state and workspace of a tree.
 #[derive(Debug, Clone)]
 pub(super) struct Typed<S: Space<f64>> {
     pub model: TreeModel<f64, S>,
@@ -24,14 +24,14 @@ pub(super) struct Typed<S: Space<f64>> {
     pub state: TreeState<f64>,
     pub motions: Vec<RigidMotion<f64>>,
     pub own: OwnFreedoms<f64, S>,
-    /// From the first call that asks for derivatives.
+    /// Columns of derivatives; allocated by the first call that needs derivatives.
     pub moving: Option<MovingColumns<f64>>,
 }
 
-/// With the layout of its coordinates, and why it has no accelerations, if it has none.
+/// A tree with the layout of its coordinates, and the reason why it has no accelerations, if there is one.
 type Made<X> = (X, Layout, Option<StopError>);
 
-/// Does the same in either dimension.
+/// Evaluates the same expression for the planar and the spatial tree.
 macro_rules! with {
     ($inner:expr, $tree:ident => $done:expr) => {
         match $inner {
@@ -43,7 +43,7 @@ macro_rules! with {
 pub(super) use with;
 
 impl Inner {
-    /// The tree of a scene, at rest in the reference configuration, and why it has no accelerations, if it has none.
+    /// The tree of a scene, at rest in the reference configuration, and the reason why it has no accelerations, if there is one.
     pub(super) fn new(scene: &Scene<f64>) -> Result<Made<Self>, StopError> {
         Ok(match scene.dimension {
             Dimension::Planar => {
@@ -63,7 +63,7 @@ impl Inner {
 }
 
 impl<S: Space<f64>> Typed<S> {
-    /// Returns the reason why a step error of the model stops, by the owners of what it names.
+    /// Converts a step error of the model to the reason of a stop, with the parts of the scene concerned.
     pub(super) fn reason(model: &TreeModel<f64, S>, error: StepError) -> StopError {
         let freedom = |unknown| model.owner_of_unknown(unknown);
         StopError::step(error, freedom, |row| model.owner_of_row(row))

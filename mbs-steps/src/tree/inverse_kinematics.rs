@@ -1,12 +1,13 @@
-//! Inverse kinematics: positions of a [`Tree`] at which a body is where it is wanted.
+//! Inverse kinematics: positions of a [`Tree`] at which a body has a target position and rotation.
 //!
 //! ```text
 //! δ = Aᵀ y,   (A Aᵀ + diag(μ, 0)) y = (e, 0),   A = (J; G)        μ = λ e·e        [Sugihara 2011 (9), (23)]
 //! ```
 //!
-//! e is the error of the wanted place, lengths by the scene's length; G are the rows of closed loops. Coordinates at an end of their range
-//! that a step would take out of it stay. After a step the loops are closed exactly; a step that does not lessen the error is taken
-//! back, and λ grows.
+//! The error e is the difference between target and body; lengths are divided by the scene's length. J is the Jacobian of the body's point,
+//! G has the rows of closed loops, and μ is a damping. If a step would move a coordinate out of its range, the coordinate remains at the
+//! end of the range. After a step the loops are closed to machine precision. A step that does not reduce the error is rejected, and λ
+//! increases.
 
 use super::inner::{Inner, with};
 use super::{Tree, TreeError, TreeErrorKind, checked, fictitious};
@@ -14,27 +15,28 @@ use crate::erased::values::rows;
 use mbs_core::algebra::{Matrix as Square, Vector, cross, rotation_vector};
 use mbs_core::scene::{BodyId, JointId};
 
-/// Largest number of steps [-]. A reachable place takes about ten.
+/// Largest number of steps [-]; a reachable target needs about ten.
 const MOST_STEPS: u32 = 200;
-/// Error of a place that is reached [-]: rounding of what the joints add up to.
+/// Error at which the target counts as reached, relative to the scene's length and to 1 rad [-]. The rounding errors of a chain of joints
+/// add up to less.
 const REACHED: f64 = 1e-12;
-/// Damping beyond which no step is tried [-]: then none lessens the error.
+/// Damping λ at which the search ends [-], because no step reduces the error.
 const MOST_DAMPING: f64 = 1e12;
-/// Damping of the first step [-], and its factors after a good step and after a bad one. Chosen, not tuned.
+/// Damping λ of the first step [-], its factor after an accepted step, and its factor after a rejected step. Chosen, not tuned.
 const DAMPING: [f64; 3] = [1e-3, 0.2, 8.0];
-/// Largest step of a coordinate [rad, scene lengths].
+/// Largest change of a coordinate in one step [rad, scene lengths].
 const LARGEST_STEP: f64 = 1.0;
-/// Tolerance of a target's rows against those of a rotation [-]: six digits that somebody writes.
+/// Tolerance of the orthogonality of a target rotation [-]; a matrix written with six digits is accepted.
 const ORTHOGONAL: f64 = 1e-5;
-/// Addition to a diagonal that repeated rows of loops leave without pivot, relative to its largest entry [-].
+/// Addition to the diagonal, relative to its largest entry [-], because redundant rows of loops have zero pivots.
 const REPEATED: f64 = 1e-13;
 
-/// Wanted place and rotation of a body; what is `None` is free.
+/// Target position and rotation of a body; a part that is `None` is free.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct FrameTarget {
-    /// Place of the point that is asked for [m], global axes.
+    /// Target position of the point in global axes [m].
     pub position: Option<[f64; 3]>,
-    /// Rotation of the body from the reference configuration, by rows.
+    /// Rotation matrix of the body relative to the reference configuration, by rows.
     pub rotation: Option<[[f64; 3]; 3]>,
 }
 
@@ -42,44 +44,44 @@ pub struct FrameTarget {
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum InverseKinematicsEnd {
-    /// The body is there.
+    /// The body has reached the target.
     Reached,
-    /// No motion of the joints takes it nearer: it is out of reach, or another start is needed.
+    /// No motion of the joints reduces the error: the target is out of reach, or needs another start.
     Nearest,
-    /// No motion of the joints takes the body nearer, with these joints at an end of their range.
+    /// No motion of the joints reduces the error, and these joints are at an end of their range.
     AtRange(Vec<JointId>),
-    /// Steps still lessened the error, and were too many.
+    /// The error was still decreasing at the largest number of steps.
     Unfinished,
 }
 
-/// Result of a search for a position. The tree stands there, at rest.
+/// Result of a search for a position. The tree has that position and zero velocity.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct InverseKinematics {
     /// Reason why the search ended.
     pub end: InverseKinematicsEnd,
-    /// Distance of the point from its target [m]; zero without one.
+    /// Distance between the point and its target [m]; zero without a target position.
     pub distance: f64,
-    /// Angle between the rotation and its target [rad]; zero without one.
+    /// Angle between the rotation and its target [rad]; zero without a target rotation.
     pub angle: f64,
-    /// Steps that were tried.
+    /// Number of steps, accepted and rejected ones.
     pub steps: u32,
 }
 
 impl Tree {
-    /// Moves the joints, from the present position on, until a point of a body, which was at `at` in the reference configuration [m], and
-    /// the body's rotation are those of the target, or as near as they come. The tree then stands there at rest; what was found
-    /// and why it ended is returned.
+    /// Moves the joints until a point of a body and the body's rotation match the target, or are as close as possible. The search starts at
+    /// the current position. `at` is the point in the reference configuration [m]. Afterwards the tree is at the found position, at rest.
+    /// The result has the remaining error and the reason of the end.
     ///
-    /// Loops stay closed. Joints that have a `range` keep it if they stood in it: it is data, so that this is the one place where it
-    /// holds them. Of many solutions the nearest in the joints is found, mostly; guides stand where [`set_time`](Self::set_time) has
-    /// them. The ground is nowhere but where it is.
+    /// Loops remain closed. A joint with a `range` remains within it if it starts within it; no other function of the tree uses ranges. Of
+    /// several solutions, the search usually finds the one closest to the start. Guided joints have the position of
+    /// [`set_time`](Self::set_time). For the ground the joints cannot change the error.
     ///
-    /// Cost: some tens of outward passes, and the cube of the rows of target and loops; allocates.
+    /// Cost: some tens of outward passes, and the cube of the number of rows of target and loops; allocates.
     ///
     /// # Errors
-    /// [`TreeErrorKind::NotFinite`], [`TreeErrorKind::NotOrthogonal`]; [`TreeErrorKind::OpenLoops`] where loops cannot be
-    /// closed at the start; the tree is then unchanged.
+    /// [`TreeErrorKind::NotFinite`] and [`TreeErrorKind::NotOrthogonal`] for an invalid target, [`TreeErrorKind::OpenLoops`] if the loops
+    /// cannot be closed at the start; the tree is unchanged then.
     ///
     /// ```
     /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
@@ -157,11 +159,11 @@ impl Tree {
         Ok(found)
     }
 
-    /// Moves the joints as [`inverse_kinematics`](Self::inverse_kinematics) does, for a frame by its name, which [`frame`](Self::frame)
-    /// knows. The `position` is that of its origin and the `rotation` that of its axes, in global axes.
+    /// Moves the joints as [`inverse_kinematics`](Self::inverse_kinematics) does, for a frame given by its name, as in
+    /// [`frame`](Self::frame). The target has the position of the frame's origin and the rotation of its axes, both in global axes.
     ///
     /// # Errors
-    /// As for [`inverse_kinematics`](Self::inverse_kinematics); [`TreeErrorKind::UnknownFrame`].
+    /// As for [`inverse_kinematics`](Self::inverse_kinematics); [`TreeErrorKind::UnknownFrame`] for an unknown name.
     ///
     /// ```
     /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
@@ -181,13 +183,13 @@ impl Tree {
         target: &FrameTarget,
     ) -> Result<InverseKinematics, TreeError> {
         let frame = self.named(frame)?;
-        // of the body, from the reference configuration
+        // Rotation of the body relative to the reference configuration.
         let of_body = |rows| matrix(&rows) * frame.axes.transpose();
         let rotation = target.rotation.map(|axes| rows(&of_body(axes)));
         self.inverse_kinematics(frame.body, frame.at, &FrameTarget { rotation, ..*target })
     }
 
-    /// Stands at rest at a position, with its loops closed.
+    /// Sets a position at rest, and closes its loops.
     fn close_loops(&mut self, q: &[f64]) -> Result<(), TreeError> {
         let (before, v) = (self.q.clone(), self.v.clone());
         let rest = vec![0.0; v.len()];
@@ -215,13 +217,13 @@ impl Tree {
     }
 }
 
-/// A wanted place, and what the joints keep to.
+/// Target of a search, and the ranges that the joints must not leave.
 struct Search {
     body: BodyId,
     at: [f64; 3],
     target: FrameTarget,
     length: f64,
-    /// Number in q, number in v, joint and range.
+    /// For each range: index in q and in v, the joint, and the ends of the range.
     ranges: Vec<([usize; 2], JointId, [f64; 2])>,
 }
 
@@ -238,7 +240,7 @@ impl Search {
         Self { body, at, target, length, ranges: ranges.collect() }
     }
 
-    /// Difference of the target from the body: lengths by the scene's length, then a rotation vector [-].
+    /// Difference between target and body [-]: position divided by the scene's length, then a rotation vector.
     fn error(&self, tree: &mut Tree) -> Vec<f64> {
         let mut error = Vec::with_capacity(6);
         if let Some(target) = self.target.position {
@@ -252,7 +254,7 @@ impl Search {
         error
     }
 
-    /// A step from a position, whose coordinates stay in their ranges to first order.
+    /// Computes a step from a position; to first order, no coordinate leaves its range.
     fn step(&self, tree: &mut Tree, (q, error): (&[f64], &[f64]), damping: f64) -> Vec<f64> {
         let jacobian = tree.jacobian_at(self.body, self.at).clone();
         let loops = tree.loop_jacobian().clone();
@@ -268,7 +270,7 @@ impl Search {
         let mu = damping * dot(error, error);
         let mut right = error.to_vec();
         right.resize(rows.len(), 0.0);
-        // at most every range is met once
+        // Each range can become active once at most.
         for _ in 0..=self.ranges.len() {
             let mut square: Vec<Vec<f64>> =
                 rows.iter().map(|a| rows.iter().map(|b| dot(a, b)).collect()).collect();
@@ -297,14 +299,14 @@ impl Search {
         vec![0.0; jacobian.columns]
     }
 
-    /// Puts coordinates back to the ends of their ranges.
+    /// Moves coordinates that left their range to the end of the range.
     fn keep(&self, q: &mut [f64]) {
         for &([place, _], _, [lower, upper]) in &self.ranges {
             q[place] = q[place].clamp(lower, upper);
         }
     }
 
-    /// Are all coordinates in their ranges, but for rounding?
+    /// Are all coordinates in their ranges, to machine precision?
     fn is_kept(&self, q: &[f64]) -> bool {
         let is_in = |q: f64, [lower, upper]: [f64; 2]| {
             let room = (upper - lower) * REACHED;
@@ -321,7 +323,7 @@ impl Search {
     }
 }
 
-/// Are the rows at right angles, of unit length and right-handed, but for six digits?
+/// Is the matrix orthogonal and right-handed, to six digits?
 fn is_rotation(rows: &[[f64; 3]; 3]) -> bool {
     let rotation = matrix(rows);
     let off = (rotation * rotation.transpose() - Square::<f64, 3>::identity()).amax();
@@ -341,7 +343,7 @@ fn norm(x: &[f64]) -> f64 {
     dot(x, x).sqrt()
 }
 
-/// Solves a symmetric system without negative pivots by L D Lᵀ; rows that repeat others get a pivot of rounding's size.
+/// Solves a symmetric positive semidefinite system by L D Lᵀ; redundant rows get a tiny pivot instead of zero.
 fn solve(mut a: Vec<Vec<f64>>, mut b: Vec<f64>) -> Vec<f64> {
     let n = b.len();
     let size = (0..n).fold(0.0_f64, |s, i| s.max(a[i][i]));

@@ -1,4 +1,4 @@
-//! Coordinates in the joints' own order and sense, against those of the links.
+//! Transformation between the coordinates of the joints (q, v) and the coordinates of the links (z, w).
 //!
 //! ```text
 //! a ball, second body against the first      q = quaternion,   v = ω in the second body's axes
@@ -9,7 +9,8 @@
 //!                         reversed  x = Rᵀ (P − p)     ẋ = −ω × x − Rᵀ ṗ,   ω of q = −R ω
 //! ```
 //!
-//! v = B w with B of the present position; v̇ = B ẇ + b, efforts go by the transposes. All other joints are in the same sense either way.
+//! v = B w, where B depends on the position; v̇ = B ẇ + b; efforts transform with the transposes. For all other joints both coordinates are
+//! equal, or of opposite sign for a reversed joint.
 
 use super::{TreeError, TreeErrorKind};
 use mbs_core::algebra::{Matrix, Vector, cross, rotation_vector};
@@ -23,45 +24,45 @@ type V3 = Vector<f64, 3>;
 /// Linear and angular part of a velocity, an acceleration, or a force with its moment.
 type Pair = [V3; 2];
 
-/// Owner of some coordinates, and their ranges.
+/// Coordinates of one joint or free body, and their index ranges.
 #[derive(Debug, Clone)]
 struct Place {
     own: TreeRange,
-    /// The joint of the scene, and a body that it carries.
+    /// The joint of the scene, if there is one, and a body that it carries.
     of: (Option<usize>, usize),
-    /// Does nothing hold the body?
+    /// True for a free body, which no joint connects.
     is_free: bool,
 }
 
-/// Coordinate of a link with one freedom.
+/// Coordinate of a joint with one freedom.
 #[derive(Debug, Clone, Copy)]
 struct Single {
     link: u32,
     q: u32,
     z: u32,
-    /// Places of the coordinate in v and in w.
+    /// Index of the coordinate in v and in w.
     at: [u32; 2],
 }
 
-/// The coordinates of a ball or of a free joint.
+/// The coordinates of a ball joint or of a free joint.
 #[derive(Debug, Clone)]
 struct Turning {
     own: TreeRange,
     link: usize,
-    /// First of its numbers in z.
+    /// Index of its first coordinate in z.
     z: usize,
-    /// First of what moves and of what turns, in v and in w.
+    /// First index of its translations and of its rotations, in v and in w.
     at: [[usize; 2]; 2],
-    /// Number of coordinates that move rather than turn.
+    /// Number of translations among the coordinates.
     n: usize,
     pose: Pose,
 }
 
-/// A ball or a free joint at the present state.
+/// Pose of a ball joint or of a free joint at the current state.
 #[derive(Debug, Clone)]
 struct Pose {
     is_reversed: bool,
-    /// P, from the base.
+    /// Attachment point P, relative to the base.
     point: V3,
     /// Arm r in the reference configuration.
     reference: V3,
@@ -77,7 +78,7 @@ impl Pose {
         (self.rotation, self.arm) = (rotation, rotation * self.reference);
     }
 
-    /// v = B w.
+    /// Computes v = B w, from link velocities w to joint velocities v.
     fn outward(&self, [linear, spin]: Pair) -> Pair {
         let turning = self.rotation * spin;
         let linear = linear + cross(&turning, &self.arm);
@@ -87,7 +88,7 @@ impl Pose {
         [-(cross(&spin, &self.gap) + self.rotation.transpose() * linear), -turning]
     }
 
-    /// w = B⁻¹ v.
+    /// Computes w = B⁻¹ v, from joint velocities v to link velocities w.
     fn inward(&self, [linear, spin]: Pair) -> Pair {
         let (linear, spin) = if self.is_reversed {
             let spin = -(self.rotation.transpose() * spin);
@@ -98,7 +99,7 @@ impl Pose {
         [linear - cross(&(self.rotation * spin), &self.arm), spin]
     }
 
-    /// Efforts along w of those along v: Bᵀ f.
+    /// Transforms efforts along v to efforts along w: Bᵀ f.
     fn forces_inward(&self, [force, moment]: Pair) -> Pair {
         let back = self.rotation.transpose();
         if !self.is_reversed {
@@ -109,7 +110,7 @@ impl Pose {
         [turned, moment - cross(&self.gap, &force)]
     }
 
-    /// Efforts along v of those along w: B⁻ᵀ f.
+    /// Transforms efforts along w to efforts along v: B⁻ᵀ f.
     fn forces_outward(&self, [force, moment]: Pair) -> Pair {
         let back = self.rotation.transpose();
         let moment = moment - back * cross(&self.arm, &force);
@@ -120,7 +121,7 @@ impl Pose {
         [force, -(self.rotation * (moment + cross(&self.gap, &force)))]
     }
 
-    /// b at the velocities v and w.
+    /// Computes the bias b of v̇ = B ẇ + b at the velocities v and w.
     fn bias(&self, [[linear, _], [_, spin]]: [Pair; 2]) -> V3 {
         let turning = self.rotation * spin;
         let central = cross(&turning, &cross(&turning, &self.arm));
@@ -132,28 +133,28 @@ impl Pose {
     }
 }
 
-/// Layout of each joint's numbers in q, v, z and w.
+/// Layout of each joint's coordinates in q, v, z and w.
 #[derive(Debug, Clone)]
 pub(super) struct Layout {
     places: Vec<Place>,
     singles: Vec<Single>,
     turning: Vec<Turning>,
-    /// Numbers of a rotation in q and in v.
+    /// Number of coordinates of a rotation in q and in v.
     turns: [usize; 2],
     rotation: fn(&[f64]) -> Matrix<f64, 3>,
-    /// Moves the coordinates of a rotation by a rotation vector in its own axes.
+    /// Changes the coordinates of a rotation by a rotation vector in body axes.
     advance: fn(&mut [f64], &[f64]),
-    /// Numbers in q and in v.
+    /// Number of coordinates in q and in v.
     pub n: [usize; 2],
 }
 
-/// Place of v, or of efforts along v.
+/// Index of v, or of efforts along v, in a pair.
 const OWN: usize = 0;
-/// Place of w, or of efforts along w.
+/// Index of w, or of efforts along w, in a pair.
 const TREE: usize = 1;
 
 impl Layout {
-    /// Coordinates in the order of the scene's joints; bodies that no joint holds stand behind them.
+    /// Creates the layout of a scene. Coordinates have the order of the scene's joints; free bodies follow after them.
     pub(super) fn new<S: Space<f64>>(scene: &Scene<f64>, model: &TreeModel<f64, S>) -> Self {
         let turns = [S::FREE - S::Point::N, S::Spin::N];
         let rotation = |z: &[f64]| S::rotation_into(&S::turned_by(&S::identity(), z));
@@ -211,7 +212,7 @@ impl Layout {
         }
     }
 
-    /// Returns where the freedoms of each link stand, the ground's among them.
+    /// Returns the freedoms of each link, including the ground, with their indices.
     pub(super) fn freedoms(&self, n_links: usize) -> Vec<LinkFreedoms<f64>> {
         let zero = V3::zeros();
         let none =
@@ -228,12 +229,12 @@ impl Layout {
         links
     }
 
-    /// Returns where the numbers of a joint of the tree stand; nothing for a guided one.
+    /// Returns the index range of the coordinates of a joint of the tree; `None` for a guided joint.
     pub(super) fn range(&self, joint: usize) -> Option<TreeRange> {
         self.range_of(|place| place.of.0 == Some(joint))
     }
 
-    /// From the first of some places to the last.
+    /// Range from the first to the last of the selected places.
     fn range_of(&self, is_own: impl Fn(&Place) -> bool) -> Option<TreeRange> {
         let mut own = self.places.iter().filter(|place| is_own(place));
         let first = own.next()?.own.clone();
@@ -241,7 +242,7 @@ impl Layout {
         Some(TreeRange { q: first.q.start..last.q.end, v: first.v.start..last.v.end })
     }
 
-    /// Returns where in q the numbers of each joint stand that are its angles and slides; quaternions are none.
+    /// Returns the index range in q of each joint's angles and displacements; quaternions are excluded.
     pub(super) fn numbers(&self) -> impl Iterator<Item = (JointId, Range<usize>)> + '_ {
         let mut joints: Vec<usize> = self.places.iter().filter_map(|place| place.of.0).collect();
         joints.dedup();
@@ -251,7 +252,7 @@ impl Layout {
         })
     }
 
-    /// Returns where the numbers of a free body stand.
+    /// Returns the index range of the coordinates of a free body.
     pub(super) fn range_of_free(&self, body: usize) -> Option<TreeRange> {
         self.range_of(|place| place.is_free && place.of.1 == body)
     }
@@ -259,7 +260,7 @@ impl Layout {
     /// Scales quaternions to unit length.
     ///
     /// # Errors
-    /// [`TreeErrorKind::NoRotation`] for one without length; nothing is changed then.
+    /// [`TreeErrorKind::NoRotation`] for a quaternion of zero length; nothing is changed then.
     pub(super) fn normalise(&self, from: &[f64], q: &mut [f64]) -> Result<(), TreeError> {
         self.rotations(from)?;
         q.copy_from_slice(from);
@@ -270,10 +271,10 @@ impl Layout {
         Ok(())
     }
 
-    /// Refuses quaternions without length.
+    /// Checks that no quaternion has zero length.
     ///
     /// # Errors
-    /// [`TreeErrorKind::NoRotation`].
+    /// [`TreeErrorKind::NoRotation`] for a quaternion of zero length.
     pub(super) fn rotations(&self, q: &[f64]) -> Result<(), TreeError> {
         match self.quaternions().find(|at| !(length(&q[at.clone()]) > f64::MIN_POSITIVE)) {
             Some(at) => Err(TreeErrorKind::NoRotation(at.start).into()),
@@ -281,13 +282,13 @@ impl Layout {
         }
     }
 
-    /// Returns where quaternions stand in q.
+    /// Returns the index ranges of quaternions in q.
     fn quaternions(&self) -> impl Iterator<Item = Range<usize>> {
         let ends = self.turning.iter().map(|turning| turning.own.q.end);
         ends.map(|end| end - self.turns[0]..end).filter(|at| at.len() == 4)
     }
 
-    /// q ⊕ δ, δ along the velocities.
+    /// q ⊕ δ: the coordinates after a step δ along the velocities.
     pub(super) fn integrate(&self, step: &[f64], q: &mut [f64]) {
         for single in &self.singles {
             q[single.q as usize] += step[single.at[OWN] as usize];
@@ -299,7 +300,7 @@ impl Layout {
         }
     }
 
-    /// The δ with which `from` ⊕ δ is `to`; rotations by the shorter way.
+    /// Step δ from one position to another, such that `from` ⊕ δ = `to`; rotations take the shorter way.
     pub(super) fn difference(&self, from: &[f64], to: &[f64], step: &mut [f64]) {
         for single in &self.singles {
             let q = single.q as usize;
@@ -317,7 +318,7 @@ impl Layout {
         }
     }
 
-    /// Writes z from q.
+    /// Computes z, the coordinates of the links, from q.
     pub(super) fn coordinates_inward(&mut self, q: &[f64], z: &mut [f64]) {
         for single in &self.singles {
             z[single.z as usize] = q[single.q as usize];
@@ -333,7 +334,7 @@ impl Layout {
         }
     }
 
-    /// Writes q from z.
+    /// Computes q from z, the coordinates of the links.
     pub(super) fn coordinates_outward(&mut self, z: &[f64], q: &mut [f64]) {
         for single in &self.singles {
             q[single.q as usize] = z[single.z as usize];
@@ -356,7 +357,7 @@ impl Layout {
     pub(super) fn velocities_outward(&self, w: &[f64], v: &mut [f64]) {
         self.map([TREE, OWN], (w, v), |joint, pair| joint.pose.outward(pair));
     }
-    /// ẇ of v̇ at the velocities v and w.
+    /// Computes ẇ from v̇ at the velocities v and w.
     pub(super) fn accelerations_inward(
         &self,
         velocities: [&[f64]; 2],
@@ -366,7 +367,7 @@ impl Layout {
             joint.pose.inward([linear - joint.bias(self.turns[1], velocities), spin])
         });
     }
-    /// v̇ of ẇ at the velocities v and w.
+    /// Computes v̇ from ẇ at the velocities v and w.
     pub(super) fn accelerations_outward(
         &self,
         velocities: [&[f64]; 2],
@@ -403,12 +404,12 @@ impl Layout {
 }
 
 impl Turning {
-    /// b at the velocities v and w.
+    /// Computes the bias b of v̇ = B ẇ + b at the velocities v and w.
     fn bias(&self, turns: usize, [v, w]: [&[f64]; 2]) -> V3 {
         self.pose.bias([self.pair(OWN, turns, v), self.pair(TREE, turns, w)])
     }
 
-    /// Returns the joint's numbers in v or w as vectors; one number turns about z.
+    /// Returns the joint's components of v or w as vectors; a single angular component is about z.
     fn pair(&self, side: usize, turns: usize, x: &[f64]) -> Pair {
         let [moving, turning] = self.at[side];
         let mut spin = V3::zeros();
@@ -418,7 +419,7 @@ impl Turning {
     }
 }
 
-/// A number of a table.
+/// Converts an index to the integer type of the tables.
 #[allow(clippy::cast_possible_truncation, reason = "trees have fewer freedoms than 2^32")]
 fn index(i: usize) -> u32 {
     i as u32
@@ -429,17 +430,17 @@ fn length(q: &[f64]) -> f64 {
     q.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
-/// A vector of the first components.
+/// Vector from the first components; the remaining ones are zero.
 fn vector(x: &[f64]) -> V3 {
     V3::from_fn(|i, _| x.get(i).copied().unwrap_or(0.0))
 }
 
-/// The first components of a vector.
+/// Copies the first components of a vector.
 fn put(x: &V3, to: &mut [f64]) {
     to.copy_from_slice(&x.as_slice()[..to.len()]);
 }
 
-/// An angle or quaternion, or the opposite one.
+/// Copies an angle or a quaternion, inverted for a reversed joint.
 fn invert(from: &[f64], is_reversed: bool, to: &mut [f64]) {
     to.copy_from_slice(from);
     if is_reversed {
@@ -447,12 +448,12 @@ fn invert(from: &[f64], is_reversed: bool, to: &mut [f64]) {
     }
 }
 
-/// Ranges of the numbers of a joint or of a free body.
+/// Index ranges of the coordinates of a joint or of a free body.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct TreeRange {
-    /// Range in the coordinates.
+    /// Index range in the coordinates.
     pub q: Range<usize>,
-    /// Range in the velocities, accelerations and efforts.
+    /// Index range in the velocities, accelerations and efforts.
     pub v: Range<usize>,
 }

@@ -1,13 +1,14 @@
-//! Steps along the velocities, and what is between two positions of a [`Tree`].
+//! Steps along the velocities, and the difference of two positions of a [`Tree`].
 
 use super::{Tree, TreeError, checked, sized};
 
 impl Tree {
-    /// `to` = q ⊕ δ: the position after a step δ along the velocities v [rad, m]. Angles and slides add up; quaternions turn about δ as
-    /// a rotation vector in their own axes, and stay unit. With δ = h v it is the position after the time h at constant v.
+    /// Position `to` = q ⊕ δ after a step δ along the velocities v [rad, m]. For angles and displacements ⊕ is the sum. A quaternion is
+    /// rotated by δ, a rotation vector in body axes, and remains a unit quaternion. With δ = h v the result is the position after time h at
+    /// constant v.
     ///
     /// # Errors
-    /// As for [`set`](Self::set); `to` is then unchanged.
+    /// As for [`set`](Self::set); `to` is unchanged then.
     ///
     /// ```
     /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/free-body.toml");
@@ -27,11 +28,11 @@ impl Tree {
         Ok(())
     }
 
-    /// The step δ along the velocities that leads `from` one position `to` another: `to` = `from` ⊕ δ, as
-    /// [`integrate`](Self::integrate) has it. Rotations go the shorter way, at most half a turn; angles keep their turns.
+    /// Step δ along the velocities from one position to another: `to` = `from` ⊕ δ, with ⊕ as in [`integrate`](Self::integrate). Rotations
+    /// take the shorter way of at most half a turn; differences of angles include full turns.
     ///
     /// # Errors
-    /// As for [`set`](Self::set); `step` is then unchanged.
+    /// As for [`set`](Self::set); `step` is unchanged then.
     ///
     /// ```
     /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");

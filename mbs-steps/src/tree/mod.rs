@@ -34,7 +34,7 @@ use mbs_core::rigid::RigidMotion;
 use mbs_core::scene::{BodyId, JointId, Scene};
 use std::collections::HashSet;
 
-/// A point of a body, in the reference configuration, and what it counts.
+/// A body, a point of it in the reference configuration [m], and its fraction of the total mass [-].
 type Weighted = (BodyId, [f64; 3], f64);
 
 /// A mechanism in relative coordinates, at any position and velocity.
@@ -43,40 +43,42 @@ type Weighted = (BodyId, [f64; 3], f64);
 /// M v̇ + c + g = τ + Jᵀ λ,   J v̇ + J̇ v = 0
 /// ```
 ///
-/// M is [`mass_matrix`](Self::mass_matrix), g [`gravity_forces`](Self::gravity_forces), c + g [`bias_forces`](Self::bias_forces),
-/// τ the efforts along the joints, J [`loop_jacobian`](Self::loop_jacobian). These are the bodies, the joints and gravity alone:
-/// springs, motors, friction and all other effects are left out. What they do is a part of τ. [`accelerations`](Self::accelerations) and
-/// [`rollout`](Self::rollout) have them all.
+/// M is [`mass_matrix`](Self::mass_matrix), g is [`gravity_forces`](Self::gravity_forces), c + g is [`bias_forces`](Self::bias_forces). τ
+/// are the efforts along the joints, λ the multipliers of closed loops, and J is [`loop_jacobian`](Self::loop_jacobian). The equation has
+/// bodies, joints and gravity only. Springs, motors, friction and all other effects are not in it; their forces can be added to τ.
+/// [`accelerations`](Self::accelerations) and [`rollout`](Self::rollout) include all effects.
 ///
-/// **Coordinates.** Every joint that closes no loop and is not guided has numbers in q and v, in the order of the scene; where they
-/// stand is [`coordinates_of`](Self::coordinates_of). Bodies that no joint holds come last, each as a free joint of its centre of
-/// mass. All count from the reference configuration, and are positive as the second body moves against the first.
+/// **Coordinates.** Every joint has coordinates in q and v, unless it closes a loop or is guided. Their order is that of the scene, and
+/// [`coordinates_of`](Self::coordinates_of) returns their index ranges. Bodies without a joint come last, each with a free joint at its
+/// centre of mass. All coordinates are measured from the reference configuration, as motion of the second body relative to the first.
 ///
 /// | joint | q | v |
 /// |---|---|---|
-/// | all but those below | the joint's angles and slides, as its outputs | their rates |
-/// | ball | unit quaternion (w, x, y, z) of the second body against the first | angular velocity, in axes of the second body |
-/// | free, plane | x, y of the second point from the first, in axes of the first body; angle | their rates |
-/// | free, space | x, y, z likewise; quaternion | rates of x, y, z; angular velocity, in axes of the second body |
+/// | all others | the joint's angles and displacements, as in its outputs | their rates |
+/// | ball | unit quaternion (w, x, y, z) of the second body relative to the first | angular velocity, in axes of the second body |
+/// | free, plane | x, y of the second body's point relative to the first body's point, in axes of the first body; angle | their rates |
+/// | free, space | x, y, z as in the plane; quaternion as for a ball | rates of x, y, z; angular velocity, in axes of the second body |
 ///
-/// A unit quaternion is (cos(φ/2), n sin(φ/2)) for a turn φ about n; q and −q are one rotation. Its rate is ½ q (0, ω). Efforts are
-/// conjugate to v: τ·v is power. A thin rod in space that balls alone hold has no spin about its line, and some inertia about it.
+/// A unit quaternion is (cos(φ/2), n sin(φ/2)) for a rotation by φ about the unit vector n; q and −q are the same rotation. Its time
+/// derivative is ½ q (0, ω). Efforts are conjugate to v: τ·v is their power. A thin rod in space with ball joints only has no spin about
+/// its axis, and a small inertia about it.
 ///
-/// **Time.** Only guided joints depend on it: they stand and move as their guides have them at [`time`](Self::set_time), zero at first.
+/// **Time.** Only guided joints depend on time. They have the position and velocity of their guide at the time of
+/// [`set_time`](Self::set_time), initially zero.
 ///
-/// Answers stand in the tree's own buffers until the next call. After the first calls nothing allocates but
-/// [`follow`](Self::follow), and [`coordinates_of`](Self::coordinates_of) where it refuses.
+/// Results are stored in buffers of the tree until the next call. After the first calls no function allocates, except
+/// [`follow`](Self::follow), and [`coordinates_of`](Self::coordinates_of) on an error.
 #[derive(Debug, Clone)]
 pub struct Tree {
     inner: Inner,
     layout: Layout,
-    /// Reason why no accelerations follow from forces, at any position.
+    /// Reason why no efforts determine accelerations, at any position; `None` if they do.
     lack: Option<TreeError>,
-    /// Tree with masses in place of its own, by which loops close where it has too few.
+    /// Tree with fictitious masses that closes loops, for a scene with too little inertia.
     closing: Option<Inner>,
-    /// Centres of mass, each with its part of all mass.
+    /// Centre of mass of each body, with its fraction of the total mass.
     shares: Vec<Weighted>,
-    /// Whether the scene has a frame of the name of each body.
+    /// Whether the scene has a frame with the name of each body.
     has_frame: Vec<bool>,
     /// Mass of all bodies [kg].
     total: f64,
@@ -85,7 +87,7 @@ pub struct Tree {
     q: Vec<f64>,
     v: Vec<f64>,
     answer: Vec<f64>,
-    /// In the tree's order.
+    /// Vector in the coordinates of the links.
     tree: Vec<f64>,
     /// Velocities that are all zero.
     zero: Vec<f64>,
@@ -99,15 +101,15 @@ pub struct Tree {
     by_effort: AccelerationDerivatives,
     of_effort: EffortDerivatives,
     input_list: Vec<InputInfo>,
-    /// Places of the inputs in a state.
+    /// Indices of the inputs in a state.
     input_places: Vec<usize>,
 }
 
 impl Tree {
-    /// The tree of a scene that passed its check, at rest in the reference configuration.
+    /// The tree of a checked scene, at rest in the reference configuration.
     ///
     /// # Errors
-    /// [`TreeErrorKind::NoTree`].
+    /// [`TreeErrorKind::NoTree`] if the scene has no model in relative coordinates.
     #[doc(hidden)]
     pub fn new(scene: &Scene<f64>) -> Result<Self, TreeError> {
         let names = Names::new(scene);
@@ -124,7 +126,7 @@ impl Tree {
             let (mass, center, _) = mass_properties(scene, b);
             (BodyId::new(b), center.into(), if total > 0.0 { mass / total } else { 0.0 })
         };
-        // squares are as large as that from the first call that asks for them
+        // The first call that needs a square matrix allocates its rows.
         let square = || Matrix::zeros(0, n);
         let inputs = Inputs::new(scene);
         let prescribed = with!(&inner, tree => tree.model.prescribed());
@@ -156,10 +158,11 @@ impl Tree {
         })
     }
 
-    /// Sets coordinates and velocities. Quaternions are made unit. Loops are not closed: what is asked then holds for the open ones.
+    /// Sets coordinates and velocities. Quaternions are normalised. Loops are not closed: results then hold for the given position with
+    /// open loops.
     ///
     /// # Errors
-    /// [`TreeError`] for a wrong number of numbers, or one that is not finite; the tree is then unchanged.
+    /// [`TreeError`] for a wrong number of values, or a value that is not finite; the tree is unchanged then.
     ///
     /// ```
     /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
@@ -182,8 +185,8 @@ impl Tree {
         Ok(())
     }
 
-    /// Returns the reason why no accelerations follow from forces at any position: some joint meets no inertia. Places, velocities, Jacobians,
-    /// inverse kinematics and the efforts of given accelerations need none. `None`: accelerations follow.
+    /// Returns the reason why no efforts determine accelerations at any position: some joint moves no inertia. `None`: accelerations can be
+    /// computed. Positions, velocities, Jacobians, inverse kinematics and inverse dynamics work without inertia.
     ///
     /// ```
     /// use mbs::{Body, Error, GROUND, Joint, Mechanism};
@@ -200,12 +203,12 @@ impl Tree {
         self.lack.as_ref()
     }
 
-    /// Refuses what needs the inertia that it lacks.
+    /// Returns the error of a missing inertia, for functions that need accelerations.
     fn needs_inertia(&self) -> Result<(), TreeError> {
         self.lack.clone().map_or(Ok(()), Err)
     }
 
-    /// Sets the time [s] at which guided joints stand.
+    /// Sets the time [s] that determines the positions of guided joints.
     ///
     /// ```
     /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/guided-four-bar.toml");
@@ -221,7 +224,7 @@ impl Tree {
         self.inner.state().t = t;
     }
 
-    /// Takes time, coordinates and velocities of a simulation in a scalar and dimension.
+    /// Copies time, coordinates and velocities of a simulation with known scalar and dimension.
     ///
     /// # Errors
     /// As for [`follow`](Self::follow).
@@ -236,7 +239,7 @@ impl Tree {
         self.follow_motions((*t, applied, signals), &motions)
     }
 
-    /// Takes the motions of the scene's bodies, at a time with these inputs applied and these signals.
+    /// Sets the state from the motions of the scene's bodies at time `t` [s], with the given inputs and signals.
     pub fn follow_motions(
         &mut self,
         (t, inputs, signals): (f64, &[f64], &[[f64; 2]]),
@@ -264,7 +267,8 @@ impl Tree {
         Ok(())
     }
 
-    /// Returns where the numbers of a joint stand in q and v. A weld has none, nor has a ball by which a point mass is part of another body.
+    /// Returns the index ranges of a joint's coordinates in q and v. They are empty for a weld, and for a ball joint that attaches a point
+    /// mass to a body.
     ///
     /// # Errors
     /// [`TreeErrorKind::Cut`], [`TreeErrorKind::Guided`] or [`TreeErrorKind::Idle`] with the joint's name.
@@ -298,8 +302,8 @@ impl Tree {
         Err(TreeError::of_joint(kind, &data.name))
     }
 
-    /// Returns where the numbers of a free body stand, whether a free joint names it or none. Of bodies that are welded the first one in the
-    /// scene has them.
+    /// Returns the index ranges of the coordinates of a free body, with or without a free joint in the scene. Of bodies that are welded
+    /// together, the first one in the scene has the coordinates.
     ///
     /// ```
     /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/free-body.toml");
@@ -345,13 +349,13 @@ impl Tree {
     }
 }
 
-/// Returns for each body whether the scene has a frame of its name.
+/// Returns for each body whether the scene has a frame with its name.
 fn has_frame(scene: &Scene<f64>) -> Vec<bool> {
     let frames: HashSet<&str> = scene.frames.iter().map(|frame| frame.name.as_str()).collect();
     scene.bodies.iter().map(|body| frames.contains(body.name.as_str())).collect()
 }
 
-/// Are there as many numbers as expected?
+/// Checks the number of values of an argument.
 fn sized(what: &'static str, x: &[f64], expected: usize) -> Result<(), TreeError> {
     match x.len() {
         n if n == expected => Ok(()),
@@ -363,7 +367,7 @@ fn sized(what: &'static str, x: &[f64], expected: usize) -> Result<(), TreeError
 /// [`TreeErrorKind::Length`] or [`TreeErrorKind::NotFinite`].
 fn checked(what: &'static str, x: &[f64], expected: usize) -> Result<(), TreeError> {
     sized(what, x, expected)?;
-    // all of them first, side by side
+    // All values are checked together first, because this loop is vectorised.
     if x.iter().fold(true, |all, x| all & x.is_finite()) {
         return Ok(());
     }

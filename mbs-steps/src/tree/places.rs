@@ -1,4 +1,4 @@
-//! Places of bodies and frames of a [`Tree`], and their momentum.
+//! Positions of bodies and frames of a [`Tree`], and the momentum of all bodies.
 
 use super::Tree;
 use super::inner::{Inner, with};
@@ -10,13 +10,13 @@ use mbs_core::cluster::mass_properties;
 use mbs_core::rigid::RigidMotion;
 use mbs_core::scene::BodyId;
 
-/// A frame at an instant, in global axes.
+/// Motion of a frame at an instant, in global axes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct FrameMotion {
     /// Origin of the frame [m].
     pub position: [f64; 3],
-    /// Axes of the frame, by rows: the columns are the directions of its x, y and z.
+    /// Rotation matrix of the frame, by rows: its columns are the directions of the axes x, y and z.
     pub rotation: [[f64; 3]; 3],
     /// Velocity of its origin [m/s].
     pub velocity: [f64; 3],
@@ -43,7 +43,7 @@ pub struct Frame {
 }
 
 impl Tree {
-    /// Centre of mass of a body, and its rotation from the reference configuration. The ground's is at the origin.
+    /// Centre of mass of a body, and its rotation from the reference configuration. For the ground the position is the origin.
     ///
     /// ```
     /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
@@ -59,11 +59,11 @@ impl Tree {
         Pose { position: motion.point(&center.into())[0].into(), rotation: rows(&motion.rotation) }
     }
 
-    /// A `[[frame]]` of the scene by its name; of a body without a frame of its name its centre of mass, with the global axes of the
-    /// reference configuration, as [`centers`](Self::centers) has it.
+    /// Motion of a `[[frame]]` of the scene, by name. The name of a body without such a frame gives its centre of mass, as in
+    /// [`centers`](Self::centers). The axes then are those that were the global axes in the reference configuration.
     ///
     /// # Errors
-    /// [`UnknownName`], which proposes the nearest name.
+    /// [`UnknownName`], which suggests the most similar name.
     ///
     /// ```
     /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
@@ -78,7 +78,8 @@ impl Tree {
         self.named(name).map(|frame| self.moved(frame))
     }
 
-    /// All frames of the scene, then all bodies without a frame of their name, each with its name, as [`frame`](Self::frame) has them.
+    /// Motions of all frames of the scene, then of all bodies without a frame of their name, each with its name, as in
+    /// [`frame`](Self::frame).
     ///
     /// ```
     /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
@@ -92,7 +93,7 @@ impl Tree {
         self.placed()
     }
 
-    /// The centres of mass of all bodies by name, with the global axes of the reference configuration.
+    /// Motions of the centres of mass of all bodies by name, with axes that were the global axes in the reference configuration.
     ///
     /// ```
     /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
@@ -106,12 +107,12 @@ impl Tree {
         self.bodies().map(|(name, frame)| (name, self.moved(frame)))
     }
 
-    /// The frames at the motions that were evaluated last.
+    /// The frames at the body motions that were evaluated last.
     fn placed(&self) -> impl Iterator<Item = (&str, FrameMotion)> {
         self.known().map(|(name, frame)| (name, self.moved(frame)))
     }
 
-    /// A frame at the motions that were evaluated last.
+    /// A frame at the body motions that were evaluated last.
     fn moved(&self, Frame { body, at, axes }: Frame) -> FrameMotion {
         let motions = with!(&self.inner, tree => &tree.motions);
         let at_rest = RigidMotion::at_rest(at.into());
@@ -121,7 +122,7 @@ impl Tree {
         FrameMotion { position, rotation, velocity, angular_velocity }
     }
 
-    /// All frames of the scene, then all bodies that have none of their name, with their names.
+    /// All frames of the scene, then all bodies without a frame of their name, each with its name.
     fn known(&self) -> impl Iterator<Item = (&str, Frame)> {
         let bodies = self.bodies().zip(&self.has_frame);
         let bodies = bodies.filter_map(|(body, &has_frame)| (!has_frame).then_some(body));
@@ -136,14 +137,14 @@ impl Tree {
         })
     }
 
-    /// The centres of mass of all bodies, with the names of these.
+    /// The centres of mass of all bodies as frames, with the names of the bodies.
     fn bodies(&self) -> impl Iterator<Item = (&str, Frame)> {
         self.scene.bodies.iter().zip(&self.shares).map(|(x, &(body, at, _))| {
             (x.name.as_str(), Frame { body, at, axes: Matrix::<f64, 3>::identity() })
         })
     }
 
-    /// The frame that a name stands for.
+    /// The frame with this name, of the scene or of a body.
     pub fn named(&self, name: &str) -> Result<Frame, UnknownName> {
         let found = self.known().find(|(known, _)| *known == name);
         found.map(|(_, frame)| frame).ok_or_else(|| {
@@ -152,7 +153,7 @@ impl Tree {
         })
     }
 
-    /// Momentum of all bodies.
+    /// Linear and angular momentum of all bodies.
     ///
     /// ```
     /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
@@ -165,7 +166,7 @@ impl Tree {
     /// ```
     pub fn momentum(&mut self) -> TotalMomentum {
         let center = Vector::<f64, 3>::from(self.center_of_mass().position);
-        // the motions are those of the centre of mass
+        // The motions were evaluated for the centre of mass.
         let motions = with!(&self.inner, tree => &tree.motions);
         let (mut linear, mut angular) = (Vector::<f64, 3>::zeros(), Vector::<f64, 3>::zeros());
         for (b, motion) in motions.iter().enumerate() {
@@ -179,7 +180,7 @@ impl Tree {
     }
 }
 
-/// The axes of a frame as columns; those of the scene where it writes none.
+/// The axes of a frame as columns; the global axes if the scene gives none.
 fn axes(axes: Option<[[f64; 3]; 2]>) -> Matrix<f64, 3> {
     axes.map_or_else(Matrix::<f64, 3>::identity, |axes| {
         Matrix::<f64, 3>::from_columns(&frame(axes).map(Vector::<f64, 3>::from))

@@ -1,4 +1,4 @@
-//! Motions of a tree from given starts: many short simulations without the rest of a run.
+//! Rollouts: motions of a tree from given initial states, as many short simulations without the record of a run.
 
 use super::inner::{Inner, Typed, with};
 use super::{Tree, checked};
@@ -12,35 +12,35 @@ use mbs_core::step::StepError;
 use mbs_recursive::space::Space;
 use mbs_recursive::{TreeModel, TreeState};
 
-/// A motion that is asked for: from coordinates and velocities, by equal steps, under inputs that are held over each step.
+/// Request for a motion: initial coordinates and velocities, equal steps, and inputs that are constant in each step.
 #[derive(Debug, Clone, Copy)]
 pub struct Rollout<'a> {
-    /// Coordinates at the start, those of [`Tree::coordinates`].
+    /// Initial coordinates, as in [`Tree::coordinates`].
     pub q: &'a [f64],
-    /// Velocities at the start.
+    /// Initial velocities [rad/s, m/s].
     pub v: &'a [f64],
-    /// All inputs in each step, a row for each; empty: as they begin.
+    /// Inputs, one row for each step; empty: all inputs have their initial values.
     pub inputs: &'a [f64],
     /// Length of a step [s].
     pub step: f64,
-    /// Number of steps.
+    /// Number of steps of the motion.
     pub n_steps: usize,
     /// Integrator of the steps.
     pub integrator: IntegratorKind,
-    /// Interrupt that ends the motion from outside.
+    /// Interrupt that ends the motion early.
     pub interrupt: Option<&'a Interrupt>,
 }
 
-/// Early end of a motion: its reason, and the number of steps before it.
+/// Early end of a motion: its reason, and the number of steps before the end.
 #[derive(Debug)]
 pub struct RolloutEnd {
-    /// Steps that were made; nothing where it could not begin.
+    /// Number of completed steps; `None` if the motion could not begin.
     pub steps: Option<usize>,
     /// Reason why the motion ended.
     pub error: SimulationError,
 }
 
-/// Are there steps, and as many inputs as steps ask for?
+/// Checks that the step is positive and that the inputs have one row for each step.
 fn check(task: &Rollout<'_>, n_inputs: usize) -> Result<(), SimulationError> {
     if !(task.step > 0.0 && task.step.is_finite()) {
         let message = format!("a step must be positive and finite, but is {} s", task.step);
@@ -53,19 +53,19 @@ fn check(task: &Rollout<'_>, n_inputs: usize) -> Result<(), SimulationError> {
 }
 
 impl Tree {
-    /// Makes a motion from time zero, with all effects, and writes it: `n_steps + 1` rows of q and of v, the first one the start with
-    /// its loops closed. Rows behind a step that fails are NaN.
+    /// Computes a motion with all effects from time zero. It writes `n_steps + 1` rows of q and of v; the first row is the initial state
+    /// with closed loops. After a failed step the remaining rows are NaN.
     ///
-    /// With the inputs of a simulation by `recursive` and the same integrator the numbers are the same to the bit where no loop is closed
-    /// and no joint is a ball or free, else to rounding.
+    /// A simulation by `recursive` with the same integrator and inputs gives the same result. It is bitwise the same if the tree has no
+    /// closed loop, no ball joint and no free joint; else it agrees to machine precision.
     ///
-    /// Cost: that of the steps alone: nothing is recorded but q and v, and nothing allocates in a step.
+    /// Cost: the steps only. Only q and v are recorded, and no step allocates.
     ///
     /// # Errors
-    /// [`RolloutEnd`]: a wrong number of numbers, one that is not finite, a start that does not close its loops, or a step that fails.
+    /// [`RolloutEnd`]: a wrong number of values, a value that is not finite, a start whose loops cannot be closed, or a step that fails.
     ///
     /// # Panics
-    /// If the rows do not hold `n_steps + 1` times the numbers of q and of v.
+    /// If the slices do not have `n_steps + 1` rows of q and of v.
     ///
     /// ```
     /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
@@ -106,7 +106,7 @@ impl Tree {
         Ok(())
     }
 
-    /// At the start of a motion, at time zero.
+    /// Sets the initial state of a motion at time zero, and closes its loops.
     fn begin(&mut self, task: &Rollout<'_>) -> Result<(), SimulationError> {
         check(task, self.input_list.len())?;
         self.reset();
@@ -118,7 +118,7 @@ impl Tree {
         Ok(())
     }
 
-    /// At rest in the reference configuration at time zero, inputs and signals as they begin.
+    /// Resets the tree to its start: at rest in the reference configuration at time zero, with the initial inputs and signals.
     pub fn reset(&mut self) {
         with!(&mut self.inner, tree => {
             let begun = TreeState::at_rest(&tree.model);
@@ -128,7 +128,7 @@ impl Tree {
         self.v.fill(0.0);
     }
 
-    /// Step k, from 0.
+    /// Makes step `k`, counted from 0.
     fn step(&mut self, task: &Rollout<'_>, k: usize) -> Result<(), SimulationError> {
         let n = self.input_list.len();
         let dt = task.step;
@@ -147,7 +147,7 @@ impl Tree {
                 places.iter().zip(row).for_each(|(&place, &value)| state.inputs[place] = value);
             }
             if task.integrator.is_explicit() {
-                // it evaluates the start of a step by itself
+                // An explicit method evaluates the start of the step, so the inputs of the step apply there.
                 model.prescribed().apply(&state.inputs, &mut state.applied);
             }
             let options = tree_options(&demands);
@@ -157,7 +157,7 @@ impl Tree {
             let end = (k + 1) as f64 * dt;
             match made {
                 Ok(_) => {
-                    // sums of many steps drift, multiples do not
+                    // The end is a multiple of the step, because a sum of many steps would accumulate rounding errors.
                     state.t = end;
                     Ok(())
                 }
@@ -166,7 +166,7 @@ impl Tree {
         })
     }
 
-    /// Writes row k of a motion.
+    /// Writes row k of the motion.
     fn keep(&mut self, (q_rows, v_rows): (&mut [f64], &mut [f64]), k: usize) {
         let [n_q, n] = self.layout.n;
         let state = self.inner.state();
@@ -177,7 +177,7 @@ impl Tree {
     }
 }
 
-/// A step that failed, with names.
+/// The error of a failed step, with names.
 fn stopped<S: Space<f64>>(
     (model, t, names): (&TreeModel<f64, S>, f64, &Names),
     error: StepError,

@@ -1,4 +1,4 @@
-//! Values that a tree answers with.
+//! Types of the results of a tree.
 
 use crate::erased::values::PointMotion;
 use mbs_core::algebra::Vector;
@@ -7,9 +7,9 @@ use std::ops::{Index, IndexMut};
 /// A dense matrix, row by row.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Matrix {
-    /// Number of rows.
+    /// Number of rows of the matrix.
     pub rows: usize,
-    /// Number of columns.
+    /// Number of columns of the matrix.
     pub columns: usize,
     /// Entries, row by row: entry (i, j) is `data[i * columns + j]`.
     pub data: Vec<f64>,
@@ -25,10 +25,10 @@ impl Matrix {
         self.data.resize(rows * self.columns, 0.0);
     }
 
-    /// Returns row `i`, from 0.
+    /// Returns row `i` of the matrix, counted from 0.
     ///
     /// # Panics
-    /// If there is no such row.
+    /// If the matrix has no row `i`.
     #[must_use]
     pub fn row(&self, i: usize) -> &[f64] {
         &self.data[i * self.columns..][..self.columns]
@@ -48,11 +48,11 @@ impl IndexMut<(usize, usize)> for Matrix {
     }
 }
 
-/// Derivatives of the efforts τ = M v̇ + c + g; each n × n, a row for each effort.
+/// Derivatives of the efforts τ = M v̇ + c + g; each matrix is n × n with one row for each effort.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct EffortDerivatives {
-    /// ∂τ/∂q, along the velocities: column j is the change while v_j moves q by its unit.
+    /// Derivative ∂τ/∂q along the velocities: column j is the rate of change for a motion of q with v_j = 1.
     pub q: Matrix,
     /// Derivative ∂τ/∂v by the velocities.
     pub v: Matrix,
@@ -60,11 +60,11 @@ pub struct EffortDerivatives {
     pub acceleration: Matrix,
 }
 
-/// Derivatives of the accelerations v̇; each n × n, a row for each acceleration.
+/// Derivatives of the accelerations v̇; each matrix is n × n with one row for each acceleration.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct AccelerationDerivatives {
-    /// ∂v̇/∂q, along the velocities: column j is the change while v_j moves q by its unit.
+    /// Derivative ∂v̇/∂q along the velocities: column j is the rate of change for a motion of q with v_j = 1.
     pub q: Matrix,
     /// Derivative ∂v̇/∂v by the velocities.
     pub v: Matrix,

@@ -1,4 +1,4 @@
-//! Words about a paced run: rows of a summary, and a note.
+//! Texts about a paced run: rows of a summary, and a note.
 
 use crate::record::{Degraded, RealtimeSummary};
 use mbs_scene::format::significant;
@@ -32,7 +32,7 @@ pub fn rows(s: &RealtimeSummary) -> Vec<(&'static str, String)> {
     rows
 }
 
-/// Did it hold, and what was done where not?
+/// Formats whether the deadlines were met, and the action after a missed deadline.
 fn deadline(s: &RealtimeSummary) -> String {
     let of = format!("{} periods of {} s", s.periods, significant(s.period));
     if s.deadline_held {
@@ -41,12 +41,12 @@ fn deadline(s: &RealtimeSummary) -> String {
     format!("missed in {} of {of} ({}), by at most {}", s.overruns, s.overrun, duration(s.latest))
 }
 
-/// A time that may be negative.
+/// Formats a time [s] that may be negative.
 fn signed(seconds: f64) -> String {
     if seconds < 0.0 { format!("-{}", duration(-seconds)) } else { duration(seconds) }
 }
 
-/// A level in words.
+/// Formats a level of degradation.
 fn level_text(level: &Degraded) -> String {
     let mut text = format!("{}: ", level.level);
     let longer = level.step_times > 1.0;
