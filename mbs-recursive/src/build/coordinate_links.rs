@@ -1,4 +1,4 @@
-//! The links that have the coordinates of joints.
+//! Links that carry the coordinates of joints.
 
 use crate::build::tree::{TreeModel, parts};
 use crate::link::LinkKind;
@@ -9,7 +9,7 @@ use mbs_core::Real;
 use mbs_core::scene::Scene;
 
 impl<T: Real, S: Space<T>> TreeModel<T, S> {
-    /// The links that have the coordinates of each joint, by joint and number; none for those of cut joints and of rotations in space.
+    /// Returns the link of each joint coordinate, by joint and number. `None` for coordinates of cut joints and of rotations in space.
     #[must_use]
     pub fn coordinate_links(&self, scene: &Scene<T>) -> Vec<Vec<Option<u32>>> {
         let count = |joint: &mbs_core::scene::Joint<T>| joint.kind.n_coordinates(scene.dimension);
@@ -18,7 +18,8 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
             let Some(joint) = seat.branch.joint else { continue };
             let kind = self.links[seat.link as usize].kind;
             match kind {
-                // The first coordinate of a free link in the plane is its angle against the ground, the last one of its joint.
+                // In the plane, the first coordinate of a free link is its angle against the ground, which is the last coordinate of its
+                // joint.
                 LinkKind::Free => {
                     let is_plain = S::DIMENSION == 2 && !seat.branch.is_reversed;
                     if let (true, Some(last)) = (is_plain, links[joint].last_mut()) {

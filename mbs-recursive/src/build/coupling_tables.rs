@@ -1,4 +1,4 @@
-//! The tables of couplings, filled while a tree is built.
+//! Tables of couplings, filled while a tree is built.
 
 use crate::build::curve_tables::CurveTables;
 use crate::rows::coupled::{
@@ -9,15 +9,15 @@ use alloc::vec::Vec;
 use mbs_core::Real;
 use mbs_core::laws::code::Codes;
 
-/// Start of a row on its way inward: at a link with K, or at the joint of a link with g.
+/// Point where a row begins on its way inward: a link, with gradient K, or the joint of a link, with slope g.
 pub(crate) struct Begin<'a> {
     pub(crate) link: u32,
     pub(crate) at_joint: bool,
-    /// Place where the number of its side is written.
+    /// Entry into which the number of the side is written.
     pub(crate) side: Option<&'a mut u32>,
 }
 
-/// The owner of [`Couplings`].
+/// Owner of the slices of [`Couplings`].
 #[derive(Debug, Clone)]
 pub(crate) struct CouplingTables<T: Real, S: Space<T>> {
     pub(crate) n_cut: u32,
@@ -54,7 +54,7 @@ impl<T: Real, S: Space<T>> CouplingTables<T, S> {
         }
     }
 
-    /// Returns the starts of a row: at the links of its lines, and at the joints whose coordinates it has.
+    /// Returns the points where a row begins: the links of its lines, and the joints whose coordinates are its terms.
     pub(crate) fn begins(&mut self, row: &CoupledRow<T>) -> Vec<Begin<'_>> {
         let starts = self.starts[row.starts.range()].iter_mut();
         let starts =

@@ -1,4 +1,4 @@
-//! The rows of couplings, from the scene.
+//! Construction of the rows of couplings from the scene.
 
 use crate::build::error::TreeError;
 use crate::build::tree::TreeModel;
@@ -19,7 +19,7 @@ use mbs_core::measure::{CouplingInput, TermInput};
 use mbs_core::scene::{BallAngle, BodyId, CouplingMeasure, JointId, Scene};
 
 impl<T: Real, S: Space<T>> TreeModel<T, S> {
-    /// Adds the rows of couplings behind those of cut joints.
+    /// Adds the rows of couplings after those of cut joints.
     ///
     /// # Errors
     /// [`TreeError::Coupling`], [`TreeError::CouplingGuided`].
@@ -34,7 +34,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
             let input = CouplingInput::new(coupling);
             let sum = input.sum.is_some().then_some(guide);
             guide += usize::from(sum.is_some());
-            // the factors of a relation's terms are its own
+            // the factors of a relation are arguments of its function, and are not scaled
             let by = if input.relation.is_some() { T::ONE } else { input.scale() };
             let added = self.add_terms((&input.terms, by), (scene, &links));
             let (terms, starts) = added.map_err(|_| TreeError::Coupling { coupling: i })?;
@@ -56,7 +56,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         Ok(())
     }
 
-    /// The links whose coordinates signals measure, and the functions of these signals.
+    /// Finds the links whose coordinates signals measure, and adds the tables of these signals.
     ///
     /// # Errors
     /// [`TreeError::Signal`].
@@ -88,10 +88,10 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         Ok(())
     }
 
-    /// Adds terms, their factors over `scale`, to the tables: the terms, and the links of their lines.
+    /// Adds terms and the links of their lines to the tables. Factors are divided by `scale`.
     ///
     /// # Errors
-    /// The joint whose coordinate no link has alone.
+    /// The number of a joint whose coordinate is not that of a single link.
     pub(crate) fn add_terms(
         &mut self,
         (terms, scale): (&[TermInput<T>], T),
@@ -108,10 +108,10 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         Ok((terms, starts))
     }
 
-    /// Makes the measure of a term; its links are added to those of its row, which begin at `first`.
+    /// Makes the measure of a term. Its links are added to the links of its row, which begin at index `first`.
     ///
     /// # Errors
-    /// The joint whose coordinate no link has alone.
+    /// The number of a joint whose coordinate is not that of a single link.
     fn sum_measure(
         &mut self,
         term: &TermInput<T>,
@@ -132,7 +132,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         }
     }
 
-    /// The link that has a coordinate of a joint, and no other one.
+    /// Returns the link whose coordinate is a coordinate of a joint, if there is one.
     fn sole_link(
         &self,
         links: &[Vec<Option<u32>>],
@@ -156,7 +156,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         self.rows.push(Row::Coupled(row));
     }
 
-    /// A line over points; its links are added to those of its row, which begin at `first`.
+    /// Makes a line over points. Its links are added to the links of its row, which begin at index `first`.
     fn line(
         &mut self,
         (points, term): (&[(BodyId, [T; 3])], &TermInput<T>),
@@ -175,7 +175,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         }
     }
 
-    /// Adds a point of a link to those of lines; the link, to those of its row, which begin at `first`.
+    /// Adds a point of a link to the points of lines. The link is added to the links of its row, which begin at index `first`.
     fn add_point(&mut self, link: u32, point: S::Point, first: usize) {
         let starts = &mut self.couplings.starts;
         let known = starts[first..].iter().position(|start| start.link == link);
@@ -186,10 +186,10 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         self.couplings.points.push(LinePoint { start: index(start), point });
     }
 
-    /// An angle of a ball. A twist is read off the link that carries the joint.
+    /// Makes an angle of a ball. A twist is computed from the coordinates of the link that carries the joint.
     ///
     /// # Errors
-    /// The joint, where no link carries it.
+    /// The number of a joint that no link carries.
     fn ball(
         &mut self,
         (scene, joint): (&Scene<T>, JointId),
@@ -214,7 +214,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         Ok(SumMeasure::Twist { axes, first, is_reversed: seat.branch.is_reversed })
     }
 
-    /// Is the sum an angle: does the term with the largest factor measure one?
+    /// Is the sum an angle: is the measured number of the term with the largest factor an angle?
     fn is_angle(&self, terms: Span) -> bool {
         let terms = &self.couplings.terms[terms.range()];
         let largest = terms.iter().filter(|term| term.factor.abs() == T::ONE);
@@ -228,7 +228,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         })
     }
 
-    /// Has one of its joints a freedom, or does it have lines between different links?
+    /// Has one of the row's joints a freedom, or does a line of the row connect different links?
     fn can_move(&self, row: &CoupledRow<T>) -> bool {
         let is_line = self.couplings.starts[row.starts.range()].len() > 1;
         is_line
@@ -238,11 +238,11 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
             })
     }
 
-    /// Do the guides of its joints hold it? They are compared at a few times.
+    /// Do the guides of the row's joints satisfy it? They are compared at a few times.
     fn is_held_by_guides(&self, row: &CoupledRow<T>) -> bool {
         /// Times at which guides are compared [s]. Chosen, not tuned.
         const TIMES: [f64; 5] = [0.0, 0.171_3, 0.618_2, 1.393_7, 7.129_1];
-        /// Sum of guides that is zero beside its terms [-]. Chosen, not tuned.
+        /// Sum of guides that counts as zero, relative to the sum of the absolute values of its terms [-]. Chosen, not tuned.
         const ROUNDING: f64 = 1e-9;
         let mut guides = alloc::vec![[T::ZERO; 3]; self.prescribed.n_guides()];
         let placed = alloc::vec![crate::link::LinkMotion::ground(); self.links.len()];

@@ -1,4 +1,4 @@
-//! The tables of curves, filled while a tree is built.
+//! Tables of curves, filled while a tree is built.
 
 use crate::link::curves::{CurveSlices, CurveTable};
 use crate::link::plan::Span;
@@ -7,7 +7,7 @@ use mbs_core::Real;
 use mbs_core::elements::NONE;
 use mbs_core::measure::PreparedCurve;
 
-/// The owner of curves, which are added one by one.
+/// Owner of the slices of curves. Curves are added one by one.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CurveTables<T> {
     curves: Vec<CurveTable<T>>,
@@ -22,7 +22,7 @@ impl<T> Default for CurveTables<T> {
 }
 
 impl<T: Real> CurveTables<T> {
-    /// A copy of curves, with their numbers.
+    /// Makes a copy of curves with their numbers.
     #[must_use]
     pub fn copied((curves, knots, numbers): CurveSlices<'_, T>) -> Self {
         Self { curves: curves.to_vec(), knots: knots.to_vec(), numbers: numbers.to_vec() }
@@ -34,7 +34,7 @@ impl<T: Real> CurveTables<T> {
         (&self.curves, &self.knots, &self.numbers)
     }
 
-    /// Adds a curve; returns its number.
+    /// Adds a curve to the tables and returns its number.
     pub fn add(&mut self, curve: &PreparedCurve<T>) -> u32 {
         let table = match curve {
             PreparedCurve::Identity => return NONE,
@@ -52,7 +52,7 @@ impl<T: Real> CurveTables<T> {
     }
 }
 
-/// Adds a list to another; where it stands there.
+/// Appends a list to another. Returns the range that it has there.
 fn extend<X: Copy>(to: &mut Vec<X>, list: &[X]) -> Span {
     let first = index(to.len());
     to.extend_from_slice(list);

@@ -1,4 +1,4 @@
-//! Equations of cut joints, and effects, from the scene.
+//! Equations of cut joints, and effects, made from the scene.
 //!
 //! | freedoms | rows (p: from the first body's point to the second's; u, n, v, w in the first body, v, w across n) |
 //! |---|---|
@@ -26,7 +26,7 @@ use mbs_core::measure::{RollingInput, RotorInput};
 use mbs_core::scene::{Axis, BodyId, Dimension, Joint, Scene, Translation, transverse};
 
 impl<T: Real, S: Space<T>> TreeModel<T, S> {
-    /// Adds a cut joint's rows.
+    /// Adds the rows of a cut joint.
     pub(crate) fn add_loop(&mut self, scene: &Scene<T>, index_of_joint: usize) {
         let joint = &scene.joints[index_of_joint];
         let [first, second] = [0, 1].map(|i| self.seat_point(joint.bodies[i], joint.points[i]));
@@ -35,7 +35,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         self.close([first, second], start, index_of_joint);
     }
 
-    /// Adds the loop of two points by the rows from `start` on, of this joint or rolling.
+    /// Adds a loop that connects two points. Its rows begin at index `start`. `owner` is the number of the joint or rolling.
     fn close(&mut self, [first, second]: [(u32, S::Point); 2], start: usize, owner: usize) {
         self.loops.push(ClosedLoop {
             links: [first.0, second.0],
@@ -81,7 +81,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         }
     }
 
-    /// Adds the rows of the bodies that roll.
+    /// Adds the rows of rolling bodies.
     pub(crate) fn add_rollings(&mut self, scene: &Scene<T>) {
         for (i, rolling) in scene.rollings.iter().enumerate() {
             let input = RollingInput::new(rolling, scene.dimension);
@@ -105,10 +105,10 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         }
     }
 
-    /// Adds effects; what acts on the ground alone is nothing.
+    /// Adds the effects of a scene. Effects on the ground alone are skipped.
     ///
     /// # Errors
-    /// [`TreeError::EffectCut`]: an effect about the axis of a joint that carries no angle.
+    /// [`TreeError::EffectCut`]: an effect about the axis of a cut joint, whose angle is not a coordinate of the tree.
     pub(crate) fn add_loads(
         &mut self,
         scene: &Scene<T>,
@@ -122,16 +122,17 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
             {
                 self.loads.push(load);
             }
-            // One load at most.
+            // An effect has at most one load here.
             self.effects.resize(self.loads.len(), *effect);
         }
         Ok(())
     }
 
-    /// Adds the rotors of a scene, those of a link as one. Between parts of one body nothing turns.
+    /// Adds the rotors of a scene. Rotors of the same link are added into one. Joints between parts of one rigid body do not turn and are
+    /// skipped.
     ///
     /// # Errors
-    /// [`TreeError::EffectCut`]: the rotor of a joint that carries no coordinate.
+    /// [`TreeError::EffectCut`]: a rotor on a cut joint, which has no coordinate in the tree.
     pub(crate) fn add_rotors(&mut self, scene: &Scene<T>) -> Result<(), TreeError> {
         let links = self.coordinate_links(scene);
         for RotorInput { effect, joint, number, inertia } in RotorInput::all(scene) {
@@ -150,11 +151,12 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         Ok(())
     }
 
-    /// A law of a turn: on the coordinate of the link that turns there. A free joint in the plane has no link between its bodies: their
-    /// angles differ by its own. Between parts of one body nothing turns.
+    /// Makes the load of a law about an axis, on the coordinate of the link that turns about the axis. A free joint in the plane has no
+    /// such link: the law then depends on the difference of its bodies' angles. Parts of one rigid body do not turn against each other, so
+    /// there is no load.
     ///
     /// # Errors
-    /// The joint, if nothing has its angle.
+    /// The number of the joint, if its angle is not known in the tree.
     fn about_axis(
         &self,
         scene: &Scene<T>,
@@ -174,10 +176,10 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         load.map(Some).ok_or(index)
     }
 
-    /// The load of an action; `coordinates` has the links of the joints' coordinates.
+    /// Makes the load of an action. `coordinates` has the links of the joints' coordinates.
     ///
     /// # Errors
-    /// The joint whose angle it asks for in vain.
+    /// The number of a joint whose angle the action needs, but the tree does not have.
     fn load(
         &mut self,
         (scene, coordinates): (&Scene<T>, &[Vec<Option<u32>>]),
@@ -193,7 +195,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
                 Load::Between { links, gauge: Measure::Length { points }, law: *law }
             }
             Action::Along { ends, direction, offset, of, law } => {
-                // A slide of a joint with several coordinates is a link of several.
+                // Each slide of a joint with several coordinates is the coordinate of one link.
                 if let Some(link) = of.and_then(|(joint, number)| link_of(joint, number)) {
                     return Ok(Some(Load::Angle { link, law: *law }));
                 }
@@ -232,7 +234,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         }))
     }
 
-    /// Links and points of two places.
+    /// Returns links and points of two attachment points.
     fn ends(&self, ends: &[actions::Attachment<T>; 2]) -> ([u32; 2], [S::Point; 2]) {
         let [first, second] = ends.map(|(body, at)| self.seat_point(body, at));
         ([first.0, second.0], [first.1, second.1])
@@ -240,7 +242,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
 }
 
 impl<T: Real, S: Space<T>> Load<T, S> {
-    /// Is it on one link, and that the ground?
+    /// Does the load act on the ground alone?
     pub(crate) fn is_idle(&self) -> bool {
         match self {
             Self::Between { .. } | Self::Sum(_) => false,

@@ -1,4 +1,4 @@
-//! Does every joint of a tree meet inertia, so that accelerations follow from forces?
+//! Checks that every joint of a tree moves some inertia. Otherwise forces do not determine accelerations.
 
 use crate::build::error::TreeError;
 use crate::build::own_tables::own;
@@ -14,7 +14,7 @@ use alloc::vec::Vec;
 use mbs_core::Real;
 
 impl<T: Real, S: Space<T>> TreeModel<T, S> {
-    /// No branch may end without mass.
+    /// Checks that no branch ends in a body without mass.
     pub(crate) fn check_ends(&self) -> Result<(), TreeError> {
         let mut is_heavy: Vec<bool> = self.links.iter().map(|l| l.mass > T::ZERO).collect();
         for (i, link) in self.links.iter().enumerate().skip(1) {
@@ -36,7 +36,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         Ok(())
     }
 
-    /// Every joint of the tree must meet inertia in the reference configuration.
+    /// Checks that every joint of the tree has a positive pivot in the reference configuration.
     pub(crate) fn check_inertia(&self) -> Result<(), TreeError> {
         let n = self.links.len();
         let mut z = vec![T::ZERO; self.n_coordinates];

@@ -1,4 +1,4 @@
-//! Scenes that cannot be made into a tree, and what cannot be asked of one.
+//! Errors for scenes that cannot be made into a tree, and for evaluations that a tree cannot make.
 
 use mbs_core::actions::ActionError;
 
@@ -8,61 +8,62 @@ use mbs_core::actions::ActionError;
 pub enum TreeError {
     /// The scene is not of this space's dimension.
     Dimension,
-    /// A guided joint closes a loop in which every joint is guided, or moves nothing.
+    /// A guided joint closes a loop in which every joint is guided, or it has no moving body.
     GuideCut {
         /// Number of the joint: `scene.joints[joint]`.
         joint: usize,
     },
-    /// A joint with a torsion spring or a torque closes a loop in which every joint has one or is guided.
+    /// A joint with a torsion spring or a torque closes a loop. It must be cut, because every joint of the loop has such an effect or is
+    /// guided.
     EffectCut {
         /// Number of the effect: `scene.effects[effect]`.
         effect: usize,
         /// Number of the joint: `scene.joints[joint]`.
         joint: usize,
     },
-    /// A coupling that relative coordinates do not have: a joint of it closes a loop in which every joint is guided or has an effect or a
-    /// coupling, is free, or holds parts of one body together.
+    /// A coupling that relative coordinates cannot express. One of its joints is free, connects parts of one rigid body, or must be cut. It
+    /// must be cut if every joint of its loop is guided or has an effect or a coupling.
     Coupling {
         /// Number of the coupling: `scene.couplings[coupling]`.
         coupling: usize,
     },
-    /// A signal measures a joint that relative coordinates do not give as one number: it closes a loop in which every joint is asked for,
-    /// is free, or holds parts of one body together.
+    /// A signal measures a joint whose coordinate is not a number of the tree. The joint is free, connects parts of one rigid body, or must
+    /// be cut. It must be cut if every joint of its loop is required as a coordinate.
     Signal {
         /// Number of the joint: `scene.joints[joint]`.
         joint: usize,
     },
-    /// A coupling of guided joints alone, which their guides do not hold.
+    /// A coupling of guided joints only, whose guides contradict it.
     CouplingGuided {
         /// Number of the coupling: `scene.couplings[coupling]`.
         coupling: usize,
     },
-    /// An effect gives no actions.
+    /// An effect cannot be made into actions.
     Effect(ActionError),
-    /// A body without mass at the end of a branch: its joint meets no inertia.
+    /// A body without mass at the end of a branch: its joint moves no inertia.
     MasslessEnd {
         /// Number of the body: `scene.bodies[body]`.
         body: usize,
     },
-    /// A joint meets no inertia: nothing beyond it resists its motion.
+    /// A joint without inertia: nothing beyond it resists its motion.
     NoInertia {
-        /// The joint, or the free body.
+        /// Owner of the freedom: the joint, or the free body.
         owner: mbs_core::model::Owner,
     },
 }
 
-/// Reason why several states of a mechanism are not evaluated at once.
+/// Reason why several states of a mechanism cannot be evaluated at once.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum LanesError {
-    /// There is no tree.
+    /// Error: the scene cannot be made into a tree.
     Tree(TreeError),
-    /// Loops are swept until they close, each as often as it needs.
+    /// The mechanism has loops. The number of sweeps of a loop depends on the state, so lanes may differ.
     Closed {
         /// Number of loop rows.
         rows: usize,
     },
-    /// A law with pieces, or one whose branches are not known.
+    /// An effect whose law has pieces, or a user-defined law, whose branches are unknown.
     Effect {
         /// Number of the effect: `scene.effects[effect]`.
         effect: usize,

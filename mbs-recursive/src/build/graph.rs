@@ -1,18 +1,18 @@
-//! The spanning tree: which joints carry coordinates and which are cut.
+//! The spanning tree: selection of the joints that carry coordinates, and of those that are cut.
 //!
-//! Bodies (welded ones as one) and the ground are nodes, joints are edges. The tree grows from the ground, always by the
-//! joint that comes first in this order (Prim), so that it depends on the scene alone:
+//! The ground and the bodies are nodes; welded bodies are one node. Joints are edges. The tree grows from the ground by Prim's algorithm.
+//! It depends on the scene alone, because the next joint is always the first in this order:
 //!
 //! 1. guided joints, since their motion is prescribed;
-//! 2. revolute joints with an effect about their axis, since it acts along a coordinate; joints with a rotor; joints of couplings and of
-//!    effects on sums, which are sums of coordinates; joints that signals measure. A free joint among them has its coordinates apart;
-//! 3. joints of bodies without mass, so that these end no branch where that can be avoided;
-//! 4. joints with few freedoms, so that few equations are left where the others are cut;
-//! 5. balls off the line of a thin rod, about which it has inertia in every direction;
-//! 6. joints near the ground; joints named first.
+//! 2. joints whose coordinates are needed: revolute joints with an effect about their axis, joints with a rotor, joints of couplings and
+//!    of effects on sums, and joints that signals measure. A free joint among them has one link for each coordinate;
+//! 3. joints of bodies without mass, so that these bodies are at the end of a branch only where this is unavoidable;
+//! 4. joints with few freedoms, so that the cut joints have few equations;
+//! 5. balls off the line of a thin rod, because the rod has inertia about such a point in every direction;
+//! 6. joints near the ground, then joints that come first in the file.
 //!
-//! What the ground does not reach starts from a root of its own, which is free: a body with a free joint to the ground, or
-//! the heaviest one. Links are always cut; other free joints between moving bodies constrain nothing.
+//! A part that the ground does not reach starts from a free root of its own. The root is a body with a free joint to the ground, or else
+//! the heaviest body. Joints of kind link are always cut. Other free joints between moving bodies are no constraints.
 
 use crate::build::error::TreeError;
 use alloc::collections::BinaryHeap;
@@ -25,20 +25,20 @@ use mbs_core::cluster::{Clusters, is_on_line};
 use mbs_core::measure::{RotorInput, TermInput};
 use mbs_core::scene::{BallAngle, BodyId, CouplingMeasure, Freedom, Scene, SignalKind};
 
-/// A step of the tree: a cluster and the joint it hangs by.
+/// Branch of the tree: a cluster (bodies welded together) with the joint that carries it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Branch {
     /// Number of the cluster.
     pub(crate) cluster: usize,
-    /// The cluster it hangs from; `None`: the ground.
+    /// Number of the parent cluster; `None` for the ground.
     pub(crate) parent: Option<usize>,
-    /// Number of the joint; `None`: free, without a joint of the scene.
+    /// Number of the joint; `None` for a free cluster without a joint in the scene.
     pub(crate) joint: Option<usize>,
-    /// The parent is the joint's second body.
+    /// Is the parent the joint's second body?
     pub(crate) is_reversed: bool,
-    /// The cluster is a point, which does not turn.
+    /// Is the cluster a point mass, which does not turn?
     pub(crate) is_point: bool,
-    /// A joint that is free has a link for each slide and one for its turn: something asks for one of its coordinates.
+    /// Has a free joint one link for each slide and one for its rotation? True if one of its coordinates is needed.
     pub(crate) is_apart: bool,
 }
 
@@ -54,12 +54,12 @@ pub(crate) struct Graph {
 /// A joint between different clusters that can carry coordinates.
 struct Edge {
     joint: usize,
-    /// Clusters, the ground being the last number.
+    /// Clusters at both ends; the ground has the largest number.
     ends: [usize; 2],
     rank: Rank,
 }
 
-/// The first five points of the order.
+/// Rank of a joint by the first five criteria of the order.
 type Rank = (bool, bool, bool, usize, bool);
 
 /// Finds the spanning tree.
@@ -80,7 +80,7 @@ pub(crate) fn span<T: Real>(
     growth.reach(ground);
     loop {
         growth.grow(&mut is_used);
-        // What is left starts from a free root.
+        // A part that is not reached starts from a free root.
         let Some((root, joint)) = roots.next(scene, &growth.depth, node) else { break };
         let is_reversed = joint.is_some_and(|j| node(scene.joints[j].bodies[1]) == ground);
         let is_point = clusters.clusters[root].is_point;
@@ -124,13 +124,13 @@ pub(crate) fn span<T: Real>(
 /// Demands for the coordinates of each joint, by guides, effects, couplings and signals.
 struct Demands {
     is_guided: Vec<bool>,
-    /// The first effect that acts along it.
+    /// Effect that acts along the joint, the first of several.
     effect: Vec<Option<usize>>,
-    /// The first coupling that has a coordinate of it.
+    /// Coupling with a coordinate of the joint, the first of several.
     coupling: Vec<Option<usize>>,
-    /// Does a signal measure it?
+    /// Does a signal measure a coordinate of the joint?
     is_measured: Vec<bool>,
-    /// Is a coordinate of it a term of a sum, or measured? Angles between bodies are known without one.
+    /// Is a coordinate of the joint a term of a sum, or measured? Angles between bodies are known without such a coordinate.
     is_apart: Vec<bool>,
 }
 
@@ -151,7 +151,7 @@ impl Demands {
             }
         }
         for signal in &scene.signals {
-            // a length and the swing of a ball are known wherever the joint is cut
+            // a length or the swing of a ball is known even if the joint is cut
             if let SignalKind::Measure { of: CouplingMeasure::Coordinate { joint, .. }, .. } =
                 signal.kind
             {
@@ -182,7 +182,7 @@ impl Demands {
     }
 }
 
-/// The joint whose coordinates a term asks for: the swing of a ball has none of its own.
+/// Returns the joint whose coordinates a term needs. The swing of a ball needs no coordinate.
 fn carried_joint<T: Real>(term: &TermInput<T>) -> Option<usize> {
     match term.of {
         CouplingMeasure::Ball { joint, angle: BallAngle::Twist, .. } => Some(joint.index()),
@@ -224,14 +224,14 @@ fn edges<T: Real>(
     edges
 }
 
-/// A tree that grows.
+/// State of a tree that grows.
 struct Growth {
     edges: Vec<Edge>,
-    /// Edges at each node.
+    /// Indices of the edges at each node.
     at_node: Vec<Vec<usize>>,
     ground: usize,
     depth: Vec<usize>,
-    /// Edges that led out of the tree when they were reached: rank, depth in the tree, number.
+    /// Edges that lead out of the tree, in the order rank, depth in the tree, number.
     open: BinaryHeap<Reverse<(Rank, usize, usize)>>,
     branches: Vec<Branch>,
 }
@@ -246,7 +246,7 @@ impl Growth {
         Self { edges, at_node, ground, depth, open: BinaryHeap::new(), branches: Vec::new() }
     }
 
-    /// Opens the edges that lead out of the tree at a node that is new in it.
+    /// Adds the edges at a new node of the tree that lead out of the tree.
     fn reach(&mut self, node: usize) {
         for &e in &self.at_node[node] {
             let [a, b] = self.edges[e].ends;
@@ -272,7 +272,7 @@ impl Growth {
                 parent: (parent != self.ground).then_some(parent),
                 joint: Some(joint),
                 is_reversed,
-                // what a joint holds turns: points on balls are parts of what they are joined to
+                // a cluster on a joint can turn: a point on a ball joint belongs to the body that the ball connects
                 is_point: false,
                 is_apart: true,
             });
@@ -281,17 +281,17 @@ impl Growth {
     }
 }
 
-/// Starts of the parts that the ground does not reach, best first.
+/// Candidates for the roots of parts that the ground does not reach, best first.
 struct Roots {
-    /// Free joints, in file order.
+    /// Free joints, in the order of the file.
     free: vec::IntoIter<usize>,
-    /// Clusters, the heaviest first, equal ones in order.
+    /// Clusters, the heaviest first; equal ones in their order.
     heavy: vec::IntoIter<usize>,
 }
 
 impl Roots {
     fn new<T: Real>(scene: &Scene<T>, clusters: &Clusters<T>) -> Self {
-        // a point that is part of a body has no place of its own
+        // a point mass that belongs to a rigid body is not a root
         let is_whole =
             |body: BodyId| clusters.of(body).is_some_and(|c| clusters.clusters[c].is_point);
         let is_free = |j: &usize| {
@@ -305,7 +305,7 @@ impl Roots {
         Self { free: free.into_iter(), heavy: heavy.into_iter() }
     }
 
-    /// The root of what the tree does not reach yet, with its free joint to the ground if it has one.
+    /// Returns the next root that the tree does not reach, with its free joint to the ground if there is one.
     fn next<T: Real>(
         &mut self,
         scene: &Scene<T>,
@@ -313,7 +313,7 @@ impl Roots {
         node: impl Fn(BodyId) -> usize,
     ) -> Option<(usize, Option<usize>)> {
         let ground = depth.len() - 1;
-        // What is reached stays reached: no candidate is looked at twice.
+        // Clusters of the tree remain in it, so each candidate is checked once.
         let with_joint = self.free.find_map(|j| {
             let [a, b] = scene.joints[j].bodies.map(&node);
             let other = if a == ground { b } else { a };

@@ -1,4 +1,4 @@
-//! Facts of each joint and each cluster of a scene, gathered in one pass.
+//! Facts of each joint and each cluster of a scene, collected in one pass.
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -6,11 +6,11 @@ use mbs_core::Real;
 use mbs_core::cluster::{Clusters, is_on_line};
 use mbs_core::scene::{BodyId, CouplingMeasure, Scene};
 
-/// Guides by joint, and thin rods without spin by cluster.
+/// Guides by joint, and by cluster whether it is a thin rod without spin.
 pub(crate) struct JointFacts {
-    /// The guide of each joint, of several the first.
+    /// Guide of each joint, the first of several.
     pub(crate) guide: Vec<Option<usize>>,
-    /// Is the cluster a thin rod that nothing can turn about itself?
+    /// Is the cluster a thin rod that no joint, coupling or rolling can turn about its line?
     pub(crate) is_idle: Vec<bool>,
 }
 

@@ -1,4 +1,4 @@
-//! A scene becomes a tree of links with its tables: built once, before any step.
+//! Construction of a tree of links with its tables from a scene, once before any step.
 
 mod coordinate_links;
 mod coupling_tables;

@@ -1,7 +1,8 @@
-//! Builds the lists of [`Plan`](crate::link::plan::Plan): who meets whom on the way inward, and in which order loops are eliminated.
+//! Construction of the lists of [`Plan`](crate::link::plan::Plan): which rows are coupled on the way inward, and the order in which loops
+//! are eliminated.
 //!
-//! Ancestors are taken from the outside in. At the same ancestor the loop with the fewest couplings left comes first
-//! (minimum degree), so that many loops through the ground stay sparse.
+//! Ancestors are processed from the outermost inward. At one ancestor the loop with the fewest remaining couplings is eliminated first
+//! (minimum degree). Many loops through the ground therefore remain sparse.
 
 use crate::build::coupling_tables::{Begin, CouplingTables};
 use crate::link::Link;
@@ -15,7 +16,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 use mbs_core::Real;
 
-/// The owner of a [`Plan`].
+/// Owner of the slices of a [`Plan`].
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub(crate) struct Order {
     stations: Vec<Station>,
@@ -24,11 +25,11 @@ pub(crate) struct Order {
     ends: Vec<End>,
     couplings: Vec<LoopCoupling>,
     updates: Vec<Update>,
-    /// Numbers in all blocks.
+    /// Number of entries of all blocks.
     pub(crate) n_blocks: usize,
-    /// Numbers in all gains.
+    /// Number of entries of all gains.
     pub(crate) n_gains: usize,
-    /// Most sides that a loop has.
+    /// Largest number of sides of a loop.
     pub(crate) n_sides: usize,
 }
 
@@ -44,7 +45,7 @@ impl Order {
         }
     }
 
-    /// Orders the elimination; writes each loop's ancestor and block.
+    /// Makes the elimination order, and sets each loop's ancestor and block.
     pub(crate) fn new<T: Real, S: Space<T>>(
         links: &[Link<T, S>],
         loops: &mut [ClosedLoop<T, S>],
@@ -83,7 +84,7 @@ impl Order {
             if turn[x] >= turn[y] { blocks[&(x, y)] } else { blocks[&(y, x)] }
         };
         for (i, mut passes) in alive.into_iter().enumerate() {
-            // The later loop of two gives the rows of their block.
+            // The loop of a pair that is eliminated later gives the rows of the block.
             passes.sort_by_key(|pass| turn[pass.lap as usize]);
             order.add_passes(links, loops, (i, &mut passes), &block);
         }
@@ -91,7 +92,7 @@ impl Order {
         order
     }
 
-    /// Gives every loop, and every two coupled ones, a block.
+    /// Assigns a block to every loop and to every pair of coupled loops.
     fn number_blocks<T: Real, S: Space<T>>(
         &mut self,
         loops: &mut [ClosedLoop<T, S>],
@@ -131,7 +132,7 @@ impl Order {
                     let block = block(passes[x].lap as usize, passes[y].lap as usize);
                     let (row, column) = (index(first + x), index(first + y));
                     self.pairs.push(Pair { row, column, block });
-                    // Two sides of a coupling on one way meet twice in the same number.
+                    // Two sides of a coupling that pass the same joint contribute twice to the same entry.
                     if x != y && passes[x].lap == passes[y].lap {
                         self.pairs.push(Pair { row: column, column: row, block });
                     }
@@ -155,7 +156,7 @@ impl Order {
             others.sort_by_key(|&l| turn[l]);
             let (first, first_update) = (self.couplings.len(), self.updates.len());
             for (x, &l) in others.iter().enumerate() {
-                // A loop that ends here too has been gathered on its first side.
+                // A loop that is eliminated here too has its sum in its first side.
                 let passes = &self.passes[self.stations[at as usize].passes.range()];
                 let pass = passes.iter().find(|pass| pass.lap as usize == l);
                 let side = pass.map_or(0, |pass| pass.side);
@@ -183,8 +184,8 @@ fn span(first: usize, end: usize) -> Span {
     Span { first: index(first), end: index(end) }
 }
 
-/// Writes the ancestor of a loop, and the passes of its sides on the way there; returns how many sides it has. A joint that another
-/// side passes has none of its own.
+/// Sets the ancestor of a loop, and adds the passes of its sides on the way there. Returns the number of sides. A joint term whose joint is
+/// passed by a side of the same loop uses this side.
 fn travel<T: Real, S: Space<T>>(
     links: &[Link<T, S>],
     (l, lap): (u32, &mut ClosedLoop<T, S>),
@@ -196,7 +197,7 @@ fn travel<T: Real, S: Space<T>>(
         starts.iter().map(|start| if start.at_joint { parent(start.link) } else { start.link });
     lap.ancestor = holds.reduce(|a, b| ancestor(links, [a, b])).unwrap_or(0);
     if starts.iter().any(|start| start.side.is_some()) {
-        // From the outside in, so that a joint is met by those outside of it.
+        // Links are sorted from the outermost inward, so that sides from outside pass a joint before its own term is added.
         starts.sort_by_key(|start| (core::cmp::Reverse(start.link), start.at_joint));
     }
     let mut n_sides = 0;
@@ -219,7 +220,7 @@ fn travel<T: Real, S: Space<T>>(
     n_sides as usize
 }
 
-/// The nearest link from which both hang.
+/// Returns the nearest common ancestor of two links.
 fn ancestor<T: Real, S: Space<T>>(links: &[Link<T, S>], [mut a, mut b]: [u32; 2]) -> u32 {
     while a != b {
         if a > b {
@@ -231,13 +232,13 @@ fn ancestor<T: Real, S: Space<T>>(links: &[Link<T, S>], [mut a, mut b]: [u32; 2]
     a
 }
 
-/// The order of elimination, and for each loop the later ones it is coupled with, fill included.
+/// Computes the order of elimination, and for each loop the later loops with which it is coupled, including fill.
 fn eliminate<T: Real, S: Space<T>>(
     n_links: usize,
     loops: &[ClosedLoop<T, S>],
     mut meets: Vec<BTreeSet<usize>>,
 ) -> (Vec<usize>, Vec<Vec<usize>>) {
-    // Loops that end at each link, those with the fewest couplings first.
+    // Loops to be eliminated at each link, those with the fewest couplings first.
     let mut waiting: Vec<BTreeSet<(usize, usize)>> = vec![BTreeSet::new(); n_links];
     let end = |l: usize| loops[l].ancestor as usize;
     for l in 0..loops.len() {

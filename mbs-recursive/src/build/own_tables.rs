@@ -1,11 +1,11 @@
-//! The tables of a tree fit each other: where one of them does not, the tree was made wrong.
+//! Access to the tables of a tree, which fit each other by construction. An error is a defect of the program.
 
 use crate::link::indexing::Outside;
 
-/// Returns the result of tables that fit because a tree made them all.
+/// Returns a result that cannot fail, because the tree made all tables itself.
 ///
 /// # Panics
-/// If they do not.
+/// If the tables do not fit each other.
 #[track_caller]
 pub(crate) fn own<X>(done: Result<X, Outside>) -> X {
     done.unwrap_or_else(|Outside| unreachable!("the tables of a tree fit each other"))

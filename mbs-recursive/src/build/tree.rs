@@ -1,4 +1,4 @@
-//! [`TreeModel`]: a scene as a tree of links with cut joints. Built once; constant from then on.
+//! [`TreeModel`]: a scene as a tree of links with cut joints. It is built once and constant afterwards.
 
 use crate::build::coupling_tables::CouplingTables;
 use crate::build::error::TreeError;
@@ -30,19 +30,19 @@ use mbs_core::scene::{BodyId, Freedom, Joint, Scene};
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Part<T: Real> {
     pub(crate) kind: LinkKind,
-    /// Axis or direction, reference axes.
+    /// Axis or direction of the part, reference axes.
     pub(crate) axis: Vector<T, 3>,
     /// Number of the part among the joint's coordinates.
     pub(crate) number: usize,
 }
 
-/// A cluster's place in the tree.
+/// Links that a cluster has in the tree.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct TreePlace {
     pub(crate) branch: Branch,
-    /// The last link of its joint, which carries its body.
+    /// Last link of its joint. This link carries the body.
     pub(crate) link: u32,
-    /// The first link of its joint.
+    /// First link of its joint.
     pub(crate) first: u32,
 }
 
@@ -54,37 +54,37 @@ pub struct TreeModel<T: Real, S: Space<T>> {
     pub(crate) rows: Vec<Row<T, S>>,
     pub(crate) couplings: CouplingTables<T, S>,
     pub(crate) feedback: Feedback<T>,
-    /// The link of each coordinate that signals measure.
+    /// Link of each coordinate that signals measure.
     pub(crate) measured: Vec<u32>,
     /// Lengths, and angles of balls, that signals measure.
     pub(crate) measures: Vec<FeedbackMeasure<T>>,
     pub(crate) order: Order,
-    /// Forces at centres of mass where gravity has a factor, then the effects.
+    /// Loads: first forces at centres of mass for factors of gravity, then the effects.
     pub(crate) loads: Vec<Load<T, S>>,
-    /// Number of loads that are parts of gravity.
+    /// Number of loads that represent factors of gravity.
     pub(crate) n_weights: usize,
     pub(crate) rotors: Vec<LinkRotor<T>>,
-    /// The effect of the scene that each load comes from; those of gravity come from none.
+    /// Index of the scene's effect for each load. Loads of gravity have no effect.
     pub(crate) effects: Vec<usize>,
     pub(crate) prescribed: Prescribed<T>,
     pub(crate) tables: Tables<T>,
     pub(crate) gravity: S::Point,
-    /// Point that positions are counted from [m].
+    /// Origin of the positions, global axes [m].
     pub(crate) base: Vector<T, 3>,
     pub(crate) length: T,
     pub(crate) floor: [T; 2],
     pub(crate) n_coordinates: usize,
     pub(crate) n_freedoms: usize,
     pub(crate) seats: Vec<TreePlace>,
-    /// Origin of each link in the reference configuration.
+    /// Origin of each link in the reference configuration, global axes [m].
     pub(crate) origins: Vec<Vector<T, 3>>,
-    /// Link of each body of the scene; 0: ground.
+    /// Link of each body of the scene; 0 for a body that is welded to the ground.
     pub(crate) link_of_body: Vec<u32>,
     pub(crate) clusters: Clusters<T>,
     pub(crate) owner_of_link: Vec<Owner>,
 }
 
-/// A tree, and why it has no accelerations, if it has none.
+/// A tree, with the reason why it has no accelerations, if any.
 type Built<T, S> = Result<(TreeModel<T, S>, Option<TreeError>), TreeError>;
 
 #[cfg(feature = "instances")]
@@ -96,10 +96,11 @@ mbs_core::instances!(
 );
 
 impl<T: Real, S: Space<T>> TreeModel<T, S> {
-    /// Makes the tree of a scene that passed its check.
+    /// Makes the tree of a scene that was checked before.
     ///
-    /// A thin rod in space that is held at points of its line by balls, distances and ropes alone, or is free, gets a sphere's inertia. It
-    /// starts without spin about itself, keeps none, and moves as the rod would.
+    /// A thin rod in space has no inertia about its line. It gets the inertia of a sphere if only balls, distances and ropes at points of
+    /// its line hold it, or if it is free. It starts without spin about its line and keeps none. Its motion is therefore that
+    /// of the rod.
     ///
     /// Cost: n log n in bodies and joints, and the elimination order of the loops.
     ///
@@ -109,8 +110,8 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         Ok(Self::made(scene, true)?.0)
     }
 
-    /// Makes the tree of a scene whose joints may meet no inertia: then with the fault for which it has no accelerations. Places,
-    /// velocities, Jacobians and the efforts of given accelerations need none.
+    /// Makes the tree of a scene that may have joints without inertia, and returns the fault for such a joint. Accelerations do not exist
+    /// then. Places, velocities, Jacobians and the efforts of given accelerations do not need inertia.
     ///
     /// # Errors
     /// [`TreeError`] names the body or joint.
@@ -213,12 +214,12 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
             origins: vec![base],
             link_of_body: vec![0; scene.bodies.len()],
             clusters,
-            // The ground is never named.
+            // The ground is link 0. Messages never name it.
             owner_of_link: vec![Owner::Body(0)],
         }
     }
 
-    /// The link of a cluster that is in the tree; the ground for `None`.
+    /// Returns the link of a cluster in the tree; for `None` the ground.
     fn link_of(&self, cluster: Option<usize>) -> u32 {
         cluster.map_or(0, |c| self.link_of_body[self.clusters.clusters[c].bodies[0]])
     }
@@ -283,7 +284,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         }
     }
 
-    /// The link that carries a body.
+    /// Returns the link that carries a body.
     pub(crate) fn link(&self, body: BodyId) -> u32 {
         match body {
             BodyId::Ground => 0,
@@ -291,13 +292,13 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         }
     }
 
-    /// A point of a body: its link, and the place from the link's origin.
+    /// Returns a point of a body as its link and the vector from the link's origin.
     pub(crate) fn seat_point(&self, body: BodyId, at: [T; 3]) -> (u32, S::Point) {
         let link = self.link(body);
         (link, S::point_from(&(Vector::from(at) - self.origins[link as usize])))
     }
 
-    /// The mechanism as slices.
+    /// Returns the mechanism as slices.
     #[must_use]
     pub fn mechanism(&self) -> TreeSlices<'_, T, S> {
         TreeSlices {
@@ -327,20 +328,20 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         }
     }
 
-    /// User-defined laws that are objects.
+    /// Returns the user-defined laws that are objects.
     #[must_use]
     pub fn codes(&self) -> &Codes {
         self.tables.codes()
     }
 
-    /// The index of the scene's effect that each load of the mechanism comes from. Those of gravity have one that no scene has.
+    /// Returns the index of the scene's effect for each load of the mechanism. Loads of gravity have the index `usize::MAX`.
     #[must_use]
     pub fn effect_of_load(&self) -> &[usize] {
         &self.effects
     }
 
-    /// Are the coordinates, the velocities and the rows of cut joints of another tree those of this one, in the same order? Trees of
-    /// a scene with and without an effect are the same unless the effect chose which joint is cut.
+    /// Has another tree the same coordinates, velocities and rows of cut joints, in the same order? Trees of a scene with and without an
+    /// effect do, unless the effect determines which joint is cut.
     #[must_use]
     pub fn has_same_coordinates(&self, other: &Self) -> bool {
         let sizes = |tree: &Self| [tree.n_coordinates, tree.n_freedoms, tree.rows.len()];
@@ -350,7 +351,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
             && self.links.iter().zip(&other.links).all(same)
     }
 
-    /// Returns the guides and signals: they name the places of a state's inputs, and set them.
+    /// Returns guides and signals. They give the indices of a state's inputs, and set the inputs.
     #[must_use]
     pub fn prescribed(&self) -> &Prescribed<T> {
         &self.prescribed
@@ -362,7 +363,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         self.n_freedoms
     }
 
-    /// Number of equations of cut joints.
+    /// Number of equations of cut joints and couplings.
     #[must_use]
     pub fn n_rows(&self) -> usize {
         self.rows.len()
@@ -374,7 +375,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         self.links.len() - 1
     }
 
-    /// Joints that are cut, one for each loop.
+    /// Returns the numbers of the cut joints, one for each loop.
     pub fn cut_joints(&self) -> impl Iterator<Item = usize> + '_ {
         let rolls = |lap: &&ClosedLoop<T, S>| {
             self.rows.get(lap.first as usize).is_some_and(Row::begins_rolling)
@@ -383,7 +384,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         cut.iter().filter(move |lap| !rolls(lap)).map(|lap| lap.joint as usize)
     }
 
-    /// The scene's length [m].
+    /// Returns the scene's length [m].
     pub fn length(&self) -> T {
         self.length
     }
@@ -395,7 +396,7 @@ impl<T: Real> Inputs<T> for (&Prescribed<T>, &[T]) {
     }
 }
 
-/// Inertia of a cluster about a point.
+/// Returns the inertia of a cluster about a point.
 fn tensor<T: Real>(cluster: &Cluster<T>, is_idle: bool, at: &Vector<T, 3>) -> Matrix<T, 3> {
     let mut inertia = cluster.inertia;
     if is_idle {
@@ -407,7 +408,7 @@ fn tensor<T: Real>(cluster: &Cluster<T>, is_idle: bool, at: &Vector<T, 3>) -> Ma
     inertia + (Matrix::<T, 3>::identity() * d.dot(&d) - d * d.transpose()) * cluster.mass
 }
 
-/// The parts of a branch's joint from the parent to the child.
+/// Returns the parts of a branch's joint, from the parent to the child.
 pub(crate) fn parts<T: Real>(scene: &Scene<T>, branch: &Branch, is_guided: bool) -> Vec<Part<T>> {
     let zero = Vector::<T, 3>::zeros();
     let free = Part { kind: LinkKind::Free, axis: zero, number: 0 };

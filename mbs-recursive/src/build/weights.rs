@@ -1,4 +1,4 @@
-//! Factors of gravity on single bodies: the tree falls as a whole, and forces at centres of mass make up for the rest.
+//! Factors of gravity on single bodies. The whole tree has full gravity; forces at the centres of mass add the difference.
 //!
 //! ```text
 //! F = m g (s − 1)        s: the body's `gravity_scale`
@@ -12,7 +12,7 @@ use mbs_core::cluster::mass_properties;
 use mbs_core::scene::{BodyId, Scene};
 
 impl<T: Real, S: Space<T>> TreeModel<T, S> {
-    /// Adds these forces as the first loads; those on what stands still are nothing.
+    /// Adds these forces as the first loads. Bodies that cannot move are skipped.
     pub(crate) fn add_weights(&mut self, scene: &Scene<T>) {
         for (b, body) in scene.bodies.iter().enumerate() {
             let Some(scale) = body.gravity_scale else { continue };
@@ -25,11 +25,11 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
             }
         }
         self.n_weights = self.loads.len();
-        // of no effect
+        // these loads belong to no effect
         self.effects.resize(self.n_weights, usize::MAX);
     }
 
-    /// The loads that are parts of gravity.
+    /// Returns the loads that represent factors of gravity.
     pub(crate) fn weights(&self) -> &[Load<T, S>] {
         &self.loads[..self.n_weights]
     }

@@ -1,4 +1,4 @@
-//! Joint coordinates with their turns, as the tree has them: nothing of them is measured.
+//! Joint coordinates, including whole turns, as the tree stores them. They are coordinates of the state and need no measurement.
 
 use crate::build::TreeModel;
 use crate::host::state::TreeState;
@@ -7,9 +7,9 @@ use mbs_core::Real;
 use mbs_core::scene::BodyId;
 
 impl<T: Real, S: Space<T>> TreeModel<T, S> {
-    /// The coordinate of a link of one freedom, or the angle of a free one in the plane, with its turns [rad or m].
+    /// Returns the coordinate of a link with one freedom, or the angle of a free link in the plane, including whole turns [rad or m].
     ///
-    /// Cost: none; for a guided joint, its law.
+    /// Cost: one read; for a guided joint, an evaluation of its law.
     ///
     /// # Panics
     /// If there is no such link.
@@ -26,7 +26,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         }
     }
 
-    /// The angle of the second body against the first in the plane, with its turns [rad].
+    /// Returns the angle of the second body against the first in the plane, including whole turns [rad].
     ///
     /// # Panics
     /// If there is no such body.

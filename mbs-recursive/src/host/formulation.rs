@@ -1,4 +1,5 @@
-//! The formulation of this crate behind the common trait: [`Tree`], whose state is written in natural coordinates too, for the outputs.
+//! Implementation of the common formulation trait for this crate: [`Tree`]. Its state is also written in natural coordinates, for the
+//! outputs.
 
 use crate::build::TreeModel;
 use crate::host::history::History as OfWorkspace;
@@ -19,24 +20,25 @@ use mbs_core::rigid::RigidMotion;
 use mbs_core::scene::{BodyId, Scene};
 use mbs_core::step::{OptionError, Step, StepError, StepReport};
 
-/// An angle that the tree has with its turns.
+/// An angle that the tree stores with its whole turns.
 #[derive(Debug, Clone, Copy)]
 enum Angle {
-    /// The coordinate of a link.
+    /// Coordinate of a link.
     Of(u32),
-    /// Minus a link's coordinate.
+    /// Coordinate of a link with opposite sign.
     Against(u32),
     /// Angle of the second body against the first, in the plane.
     Between([BodyId; 2]),
 }
 
-/// The angles that effects and couplings measure, by the place where the natural state remembers each: of a joint that is not cut, or in the plane.
+/// Finds the angles of effects and couplings that the tree stores, each with its index in the memory of the natural state. These are the
+/// angles of joints that are not cut, and all angles in the plane.
 fn angles<T: Real, const D: usize>(
     scene: &Scene<T>,
     natural: &NaturalModel<T, D>,
     coordinates: &[Vec<Option<u32>>],
 ) -> Vec<(usize, Angle)> {
-    // A scene that has a tree has actions.
+    // A scene that became a tree has valid actions.
     let list = Actions::new(scene).map(|actions| actions.list).unwrap_or_default();
     let angle = |(effect, action): &(usize, Action<T>)| {
         let angle = match action {
@@ -67,9 +69,9 @@ pub struct Tree<T: Real, S: Space<T>> {
     method: TreeMethod,
     motions: Vec<RigidMotion<T>>,
     terms: Terms<T>,
-    /// The links that have the coordinates of each joint.
+    /// Links that carry the coordinates of each joint; `None` for a coordinate without a link.
     coordinates: Vec<Vec<Option<u32>>>,
-    /// Places where the natural state remembers angles that the tree has, each with the angle.
+    /// Angles that the tree stores, each with its index in the memory of the natural state.
     angles: Vec<(usize, Angle)>,
     rank: usize,
     energies: [f64; 2],
@@ -77,7 +79,7 @@ pub struct Tree<T: Real, S: Space<T>> {
 }
 
 impl<T: Real, S: Space<T>> Tree<T, S> {
-    /// A tree that starts at `start`, which is the natural `state` of the same scene; that is then written from the tree.
+    /// Makes a tree that starts at `start`. The natural `state` of the same scene is overwritten with the tree's state.
     ///
     /// # Errors
     /// [`OptionError`] for an option out of range.
@@ -111,10 +113,10 @@ impl<T: Real, S: Space<T>> Tree<T, S> {
         Ok(tree)
     }
 
-    /// Steps with other options from now on.
+    /// Uses other options in the steps from now on.
     ///
     /// # Errors
-    /// [`OptionError`] for an option out of range; nothing is changed then.
+    /// [`OptionError`] for an option out of range; the old options are kept then.
     pub fn set_options(&mut self, options: Options<T>) -> Result<(), OptionError> {
         options.validate()?;
         self.options = options;
@@ -261,12 +263,12 @@ impl<T: Real, S: Space<T>, const D: usize> Trials<T, D> for Tree<T, S> {
 }
 
 impl<T: Real, S: Space<T>, const D: usize> Describe<T, D> for Tree<T, S> {
-    /// Freedoms of the tree, equations of its cut joints, their rank.
+    /// Numbers of freedoms of the tree, of equations of its cut joints, and of independent equations.
     fn sizes(&self) -> Option<[usize; 3]> {
         Some([self.state.v.len(), self.model.n_rows(), self.rank])
     }
 
-    /// Nothing where the joint is cut, or turns in space.
+    /// Returns `None` if the joint is cut, or if it has a rotation in space as coordinate.
     fn coordinate(&self, joint: usize, number: usize) -> Option<T> {
         let link = (*self.coordinates.get(joint)?.get(number)?)?;
         Some(self.model.coordinate(&self.state, link))
@@ -285,14 +287,14 @@ impl<T: Real, S: Space<T>, const D: usize> Describe<T, D> for Tree<T, S> {
     }
 }
 
-/// Over all that is remembered.
+/// Visits all numbers that a checkpoint stores.
 fn walk<T: Real>(
     (state, energies): (&mut TreeState<T>, &mut [f64; 2]),
     own: &mut OfWorkspace<T>,
     book: &mut Book<'_, T>,
 ) -> Restored {
     book.kind(3)?;
-    // What is set goes with the natural state.
+    // The inputs are saved with the natural state.
     let TreeState { t, z, v, a, a_aux, lambda, inputs: _, applied, signals, work, power } = state;
     book.real("t", t)?;
     book.real("work", work)?;
@@ -304,7 +306,7 @@ fn walk<T: Real>(
     book.rows("lambda", lambda)?;
     let (threes, ones) = applied.as_chunks_mut::<3>();
     book.vectors("inputs", threes)?;
-    // Absent where there are none: files without signals are as they were.
+    // Lists without entries are not written, so that files of scenes without signals do not change.
     for (name, numbers) in [("input of a signal", ones), ("signals", signals.as_flattened_mut())] {
         if !numbers.is_empty() {
             book.rows(name, numbers)?;
@@ -325,7 +327,7 @@ fn walk<T: Real>(
     book.doubles("energies", energies)
 }
 
-/// Over the control of a step inside a step.
+/// Visits the control of internal steps.
 fn walk_steps<T: Real>(book: &mut Book<'_, T>, history: &mut AdaptiveHistory<T>) -> Restored {
     let AdaptiveHistory { step, control: (memory, was_rejected), counts } = history;
     book.real("step", step)?;

@@ -1,4 +1,4 @@
-//! Memory that one step leaves for the next beside the state, to read and to restore.
+//! Memory that a step leaves for the next one in addition to the state. It can be read and restored.
 
 use crate::host::state::Workspace;
 use crate::link::options::Options;
@@ -12,22 +12,22 @@ use mbs_core::ode::{
 /// Memory of a [`Workspace`] from step to step.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct History<T> {
-    /// Most rows that were seen to have an effect.
+    /// Largest number of independent rows so far.
     pub rank: usize,
-    /// Pivots of the cut joints' rows as factored last, one for each row.
+    /// Pivots of the cut joints' rows in the last factorisation, one for each row.
     pub pivots: Vec<T>,
-    /// Error control of the pair 5(4), if it was asked for.
+    /// Error control of the pair 5(4), if it was used.
     pub pair: Option<AdaptiveHistory<T>>,
-    /// Error control of the method 8(5,3), if it was asked for.
+    /// Error control of the method 8(5,3), if it was used.
     pub eighth: Option<AdaptiveHistory<T>>,
-    /// Error control of extrapolation, if it was asked for.
+    /// Error control of extrapolation, if it was used.
     pub extrapolation: Option<AdaptiveHistory<T>>,
-    /// Error control of the collocation at Radau points, with its slopes, if it was asked for.
+    /// Error control of Radau collocation with its Jacobian, if it was used.
     pub radau: Option<(AdaptiveHistory<T>, RadauHistory<T>)>,
 }
 
 impl<T: Real, S: Space<T>> Workspace<T, S> {
-    /// State that the next step continues from.
+    /// Returns the memory from which the next step continues.
     #[must_use]
     pub fn history(&self) -> History<T> {
         let (rank, pivots) = self.last();
@@ -41,8 +41,8 @@ impl<T: Real, S: Space<T>> Workspace<T, S> {
         }
     }
 
-    /// Restores the history of the same model, stepped with the same `options`. Returns whether it is one; else nothing is
-    /// changed.
+    /// Restores the history of the same model with the same `options`. Returns false, and changes nothing, if the history does not fit the
+    /// model.
     pub fn set_history(&mut self, history: &History<T>, options: &Options<T>) -> bool {
         let n = self.explicit.y.len();
         let (s, explicit) = self.parts();
@@ -74,7 +74,7 @@ impl<T: Real, S: Space<T>> Workspace<T, S> {
     }
 }
 
-/// A driver that is restored from its history, if there is one; nothing where the history is none of its kind.
+/// Makes a driver from its history. Returns `Some(None)` without a history, and `None` if the history does not fit the method.
 fn driver<T: Real, M: Method<T>>(
     history: Option<AdaptiveHistory<T>>,
     method: impl FnOnce() -> M,

@@ -1,9 +1,10 @@
 //! Several states of one mechanism in one evaluation: for ensembles, sensitivities and finite differences.
 //!
-//! A tree in [`Lanes`] evaluates accelerations, efforts, energies and mass matrices of `N` states at once, each with the bits that it
-//! would have alone. Branches that numbers decide would be taken for all lanes: loops, which are swept until they close, and effects
-//! whose laws have pieces are refused. A spring must have a length in every lane. Steps decide by numbers for all lanes at once: integrate
-//! lane by lane, or by steps of fixed length around [`TreeModel::accelerate`].
+//! A tree in [`Lanes`] evaluates accelerations, efforts, energies and mass matrices of `N` states at once. Each result has the same bits as
+//! a separate evaluation. A branch on a number would be taken for all lanes together. Trees with such branches are therefore refused:
+//! loops, which need different numbers of sweeps, and effects whose laws have pieces. A spring must have a positive length in every lane.
+//! The methods of steps decide for all lanes at once too. Integrate lane by lane, or with steps of fixed length around
+//! [`TreeModel::accelerate`].
 
 use crate::build::{LanesError, TreeModel};
 use crate::host::state::TreeState;
@@ -12,12 +13,12 @@ use mbs_core::real::Lanes;
 use mbs_core::scene::Scene;
 
 impl<S: Space<Lanes<N>>, const N: usize> TreeModel<Lanes<N>, S> {
-    /// The tree of a scene whose numbers are the same in all lanes, such as one that was read.
+    /// Makes the tree of a scene whose numbers are equal in all lanes, such as a scene that was read from a file.
     ///
     /// Cost: that of [`TreeModel::new`].
     ///
     /// # Errors
-    /// [`LanesError`] names what has branches that lanes would not take alike.
+    /// [`LanesError`] names the loops or the effect whose branches may differ between lanes.
     pub fn in_lanes(scene: &Scene<Lanes<N>>) -> Result<Self, LanesError> {
         let branching = scene.effects.iter().position(|e| e.enabled && e.kind.has_branches());
         if let Some(effect) = branching {
@@ -32,10 +33,10 @@ impl<S: Space<Lanes<N>>, const N: usize> TreeModel<Lanes<N>, S> {
 }
 
 impl<const N: usize> TreeState<Lanes<N>> {
-    /// Puts coordinates and velocities into a lane.
+    /// Writes coordinates and velocities into one lane.
     ///
     /// # Panics
-    /// If there are not as many of them as the state has, or the lane is not one of `N`.
+    /// If the numbers of values differ from those of the state, or if the lane is not below `N`.
     pub fn set_lane(&mut self, lane: usize, z: &[f64], v: &[f64]) {
         assert_eq!((self.z.len(), self.v.len()), (z.len(), v.len()), "a state of this mechanism");
         let pairs = self.z.iter_mut().zip(z).chain(self.v.iter_mut().zip(v));
@@ -44,7 +45,7 @@ impl<const N: usize> TreeState<Lanes<N>> {
         }
     }
 
-    /// The accelerations of a lane.
+    /// Returns the accelerations of one lane.
     ///
     /// # Panics
     /// If the lane is not one of `N`.

@@ -1,4 +1,4 @@
-//! Equations of motion of a tree at any state, as matrices and efforts; without effects, unless they are asked for.
+//! Equations of motion of a tree at any state, as matrices and efforts. Effects are included on request only.
 //!
 //! ```text
 //! M v̇ + c + g = τ + Jᵀ λ,   J v̇ + J̇ v = 0        g: gravity,   c: velocity products and motion of guided joints
@@ -21,36 +21,36 @@ use core::ops::Range;
 use mbs_core::Real;
 use mbs_core::step::StepError;
 
-/// Parts of the efforts M v̇ + c + g.
+/// Selection of terms of the efforts M v̇ + c + g.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum EffortTerms {
-    /// All parts, less what effects do: zero at the accelerations of free motion.
+    /// All terms, minus the efforts of effects: zero at the accelerations of free motion.
     WithEffects,
-    /// All parts, effects left out.
+    /// All terms, without effects.
     WithoutEffects,
-    /// g alone, at rest.
+    /// Gravity g alone, at zero velocity.
     Gravity,
-    /// M v̇ alone, at rest without gravity.
+    /// Inertia M v̇ alone, at zero velocity and without gravity.
     Inertia,
 }
 
-/// The links of one joint of the tree, or of a body that no joint holds.
+/// Links of one joint of the tree, or of a free body without a joint.
 #[derive(Debug, Clone, PartialEq)]
 pub struct JointLinks<T> {
-    /// Number of the joint: `scene.joints[joint]`; `None` for a body that no joint holds.
+    /// Number of the joint: `scene.joints[joint]`; `None` for a free body without a joint.
     pub joint: Option<usize>,
-    /// The body that it carries, the first one of those that are welded.
+    /// Body that the joint carries. Of several welded bodies it is the first.
     pub body: usize,
-    /// Links of the joint from the parent to the child, one for each freedom; a ball or a free joint has one.
+    /// Links of the joint from the parent to the child, one for each freedom. A ball or a free joint has one link.
     pub links: Range<usize>,
-    /// The parent is the joint's second body; then the links stand in reverse order of the joint's numbers.
+    /// Is the parent the joint's second body? The links are then in reverse order of the joint's coordinates.
     pub is_reversed: bool,
     /// The origin of the last link in the reference configuration [m].
     pub origin: [T; 3],
 }
 
 impl<T: Real, S: Space<T>> TreeModel<T, S> {
-    /// The joints of the tree with their links, parents first; joints that are cut are not among them.
+    /// Returns the joints of the tree with their links, parents first. Cut joints are not included.
     pub fn joint_links(&self) -> impl Iterator<Item = JointLinks<T>> + '_ {
         self.seats.iter().map(|seat| JointLinks {
             joint: seat.branch.joint,
@@ -61,12 +61,12 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         })
     }
 
-    /// Writes the efforts along all freedoms that make the state's accelerations `a` where loops are open.
+    /// Writes the efforts along all freedoms that cause the state's accelerations `a`, with all loops open.
     ///
     /// Cost: two outward passes and an inward one; no allocation.
     ///
     /// # Panics
-    /// If `efforts` is not as long as the freedoms.
+    /// If the length of `efforts` is not the number of freedoms.
     pub fn write_efforts(
         &self,
         (state, terms): (&TreeState<T>, EffortTerms),
@@ -91,7 +91,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         if terms == EffortTerms::Inertia {
             s.a[0] = S::Motion::zero();
         }
-        // At rest v is zero: gravity alone is the effort of no acceleration.
+        // In this case v is zero. With zero accelerations the efforts are those of gravity.
         let a = if terms == EffortTerms::Gravity { &*s.v } else { &state.a };
         own(inverse::spread(m.links, s.placed, a, s.a));
         own(inverse::forces(&m, &mut s));
@@ -105,7 +105,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         }
     }
 
-    /// Evaluates accelerations and multipliers of a state under efforts along the freedoms and gravity, without effects.
+    /// Evaluates accelerations and multipliers of a state under given efforts along the freedoms and gravity, without effects.
     ///
     /// Cost: one evaluation; no allocation.
     ///

@@ -1,4 +1,4 @@
-//! Work that a caller asks of a tree at a state: accelerations, new inputs, energies, reactions.
+//! Evaluations of a tree at a state: accelerations, new inputs, energies, reactions.
 
 use crate::build::own_tables::own;
 use crate::build::tree::{TreeModel, TreePlace};
@@ -44,11 +44,11 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         Ok(())
     }
 
-    /// Makes accelerations, multipliers and power those of the inputs that are set now, if others were set since the last step; says
-    /// whether they were. What springs store under another input is booked as work. Every step begins with this; a caller that
-    /// keeps a state to go back to calls it before.
+    /// Applies inputs that were set since the last step: evaluates accelerations, multipliers and power with them. Returns whether an input
+    /// has changed. The change of stored spring energy by the new inputs is counted as work. Every step begins with this call. A caller
+    /// that wants to return to the state before a step calls it before copying the state.
     ///
-    /// Cost: nothing without a change, else one evaluation; no allocation.
+    /// Cost: nothing if no input changed, otherwise one evaluation; no allocation.
     ///
     /// # Errors
     /// [`StepError`]; the state is then unchanged.
@@ -65,7 +65,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         Ok(true)
     }
 
-    /// Makes the accelerations of a state, just before a signal jumps, those just after, at time `to` [s].
+    /// Replaces the accelerations before the jump of a signal by those after it, at time `to` [s].
     ///
     /// Cost: one evaluation; no allocation.
     ///
@@ -83,7 +83,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         Ok(())
     }
 
-    /// From the loads of a state to those of the inputs that are set, at time `to` [s].
+    /// Replaces the loads of a state by those of the inputs that are set, at time `to` [s].
     fn take_loads(
         &self,
         options: &Options<T>,
@@ -126,7 +126,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         ]
     }
 
-    /// Puts a state into the scratch.
+    /// Copies a state into the scratch and places the links.
     pub(crate) fn place_in(&self, state: &TreeState<T>, s: &mut Store<'_, T, S>) {
         s.z.copy_from_slice(&state.z);
         s.v.copy_from_slice(&state.v);
@@ -137,7 +137,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         own(follow_motion(&self.mechanism(), s));
     }
 
-    /// Puts a state with its accelerations into the scratch and finds the forces through all joints.
+    /// Copies a state with its accelerations into the scratch and evaluates the forces through all joints.
     fn balance(&self, state: &TreeState<T>, s: &mut Store<'_, T, S>) {
         let m = self.mechanism();
         self.place_in(state, s);
@@ -148,14 +148,15 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         own(rotor::add_efforts(&m, (&state.a, s.guides), s.condensed));
     }
 
-    /// The force and moment [N, N m] of the first body of each joint on the second, at the joint's place on the second, global axes.
-    /// Guides are included, effects along the joint are not; zero for welds and free joints. Where rows of loops repeat each other
-    /// the multipliers are those of least norm.
+    /// Writes the reaction [N, N m] of each joint: force and moment of the first body on the second. They are about the joint's point on
+    /// the second body, in global axes. Forces of guides are included; effects along the joint are not. Welds and free joints have zero. If
+    /// rows of loops are
+    /// redundant, the multipliers are those of least norm.
     ///
     /// Cost: an outward and an inward pass; no allocation.
     ///
     /// # Panics
-    /// If there are fewer places than joints.
+    /// If `out` has fewer entries than the scene has joints.
     pub fn reactions(
         &self,
         state: &TreeState<T>,
@@ -174,7 +175,8 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
             let through = s.condensed[link].force - along(seat, &s);
             let force = S::point_into(&S::point(&through));
             let moment = S::spin_into(&S::spin(&through));
-            // On the child about its origin, the joint's place on it; turned round, about the place on the parent side.
+            // On the child, about its origin, which is the joint's point. For a reversed joint: on the parent, about the joint's point
+            // there.
             out[joint] = if seat.branch.is_reversed {
                 let apart = s.placed[link].position - self.parent_place(seat, &s);
                 let arm = S::point_into(&apart);
@@ -196,8 +198,8 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         }
     }
 
-    /// The effort of `scene.couplings[coupling]`: the force along a coordinate is its factor times this [N m or N, by one of the factor].
-    /// Nothing of one whose joints are all guided.
+    /// Returns the effort of `scene.couplings[coupling]`. The force along a coordinate is the coordinate's factor times the effort [N m or
+    /// N, per unit of the factor]. Returns `None` for a coupling whose joints are all guided.
     #[must_use]
     pub fn coupling_effort(&self, state: &TreeState<T>, coupling: usize) -> Option<T> {
         let (_, coupled) = self.loops.split_at_checked(self.couplings.n_cut as usize)?;
@@ -207,7 +209,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         Some(-*state.lambda.get(row)? * of.inverse)
     }
 
-    /// The joint's place on the parent, from the base.
+    /// Returns the joint's point on the parent, from the base of the tree.
     fn parent_place(&self, seat: &TreePlace, s: &Store<'_, T, S>) -> S::Point {
         let first = &self.links[seat.first as usize];
         let parent = &s.placed[first.parent as usize];
@@ -215,7 +217,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
     }
 }
 
-/// Kinetic energy of the rotors [J].
+/// Returns the kinetic energy of the rotors [J].
 fn kinetic<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
     (v, guides): (&[T], &[[T; 3]]),
@@ -228,7 +230,7 @@ fn kinetic<T: Real, S: Space<T>>(
     Ok(twice * T::HALF)
 }
 
-/// Returns the wrench of effects and rotors along the coordinates of a joint, on its last link about its origin.
+/// Returns the wrench of effects and rotors along a joint's coordinates. It acts on the joint's last link, about its origin.
 fn along<T: Real, S: Space<T>>(place: &TreePlace, s: &Store<'_, T, S>) -> S::Motion {
     let mut sum = S::Motion::zero();
     for link in place.first as usize..=place.link as usize {

@@ -1,4 +1,4 @@
-//! Joint coordinates read from the motions of the bodies, and the motions written from them.
+//! Conversion between joint coordinates and the motions of the bodies.
 
 use crate::build::TreeError;
 use crate::build::graph::Branch;
@@ -25,13 +25,13 @@ use mbs_core::rigid::RigidMotion;
 use mbs_core::scene::Scene;
 use mbs_core::step::StepError;
 
-/// Reason why a tree does not start.
+/// Reason why a tree cannot start.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum StartError {
-    /// The scene has no tree.
+    /// Error: the scene cannot be made into a tree.
     Tree(TreeError),
-    /// The start cannot be made consistent.
+    /// Error: the start cannot be made consistent with the constraints.
     Step(StepError),
 }
 
@@ -59,11 +59,11 @@ impl From<StepError> for StartError {
 }
 
 impl<T: Real, S: Space<T>> TreeModel<T, S> {
-    /// The state of an assembled mechanism: coordinates read from natural ones, projected on the loops, with its accelerations.
-    /// Angles are those nearest to the scene's start values.
+    /// Returns the state of an assembled mechanism. Coordinates are computed from natural ones and projected onto the loops. Accelerations
+    /// are evaluated. Angles are those nearest to the scene's start values.
     ///
     /// # Errors
-    /// [`StartError`] if the loops do not close there, or stand in a singular position.
+    /// [`StartError`] if the loops do not close, or are in a singular position.
     pub fn start<const D: usize>(
         &self,
         scene: &Scene<T>,
@@ -80,10 +80,10 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         Ok(start)
     }
 
-    /// Makes the state of an assembled mechanism from the motions of the scene's bodies at time `t`, one for each.
+    /// Makes the state of an assembled mechanism at time `t` from one motion for each of the scene's bodies.
     ///
     /// # Errors
-    /// As for [`start`](Self::start).
+    /// The errors are those of [`start`](Self::start).
     ///
     /// # Panics
     /// If there are fewer motions than bodies.
@@ -98,8 +98,8 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         Ok(state)
     }
 
-    /// Reads coordinates and velocities from the motions of the scene's bodies, one for each, at the state's time. Angles are those
-    /// nearest to the state's own.
+    /// Computes coordinates and velocities from one motion for each of the scene's bodies, at the state's time. Angles are those nearest to
+    /// the angles in the state.
     ///
     /// # Panics
     /// If there are fewer motions than bodies.
@@ -116,7 +116,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
                     vec![-state.z[own.z as usize]]
                 }
                 LinkKind::Free if S::DIMENSION == 2 => vec![state.z[own.z as usize]],
-                // A quaternion has no turns to be counted.
+                // A quaternion does not count whole turns.
                 LinkKind::Ball | LinkKind::Free => Vec::new(),
                 LinkKind::GuidedRevolute | LinkKind::GuidedPrismatic | LinkKind::GuidedBall => {
                     continue;
@@ -133,7 +133,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         }
     }
 
-    /// Coordinates and velocities of motions.
+    /// Returns a state with the coordinates and velocities of given motions.
     fn read(&self, scene: &Scene<T>, t: T, motions: &[RigidMotion<T>]) -> TreeState<T> {
         let mut state = TreeState::at_rest(self);
         state.t = t;
@@ -145,9 +145,10 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         state
     }
 
-    /// Brings the positions of a state onto the loops by the moves that are smallest in the masses' norm; nothing else of it changes.
+    /// Projects the positions of a state onto the loops, by the change that is smallest in the norm of the masses. Everything else in the
+    /// state is kept.
     ///
-    /// Cost: some projections; no allocation.
+    /// Cost: a few projections; no allocation.
     ///
     /// # Errors
     /// [`StepError`]; the state is then unchanged.
@@ -194,7 +195,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         Ok(())
     }
 
-    /// Coordinates and velocities of a cluster's joint.
+    /// Computes coordinates and velocities of a cluster's joint.
     fn read_seat(
         &self,
         (scene, values): (&Scene<T>, &[T]),
@@ -241,7 +242,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         }
     }
 
-    /// Angles and slides of a joint of several parts, from the parent to the child.
+    /// Computes the angles and slides of a joint of several parts, from the parent to the child.
     fn read_chain(
         &self,
         seat: &TreePlace,
@@ -260,7 +261,8 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
             let z = &mut state.z[self.links[at].z as usize];
             axes[k] = rotation * part.axis;
             if part.kind == LinkKind::Revolute {
-                // What the next turn leaves fixed, or any direction across the axis, shows the angle.
+                // The angle is that of a direction about the axis: the next revolute axis, which later parts do not rotate about this axis,
+                // or else any direction across the axis.
                 let next = turns.iter().find(|&&j| j > k).map(|&j| chain[j].axis);
                 let shown = next.unwrap_or_else(|| across(&part.axis));
                 let v = shown - part.axis * part.axis.dot(&shown);
@@ -278,7 +280,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
                 *z = gap.dot(&axes[k]);
             }
         }
-        // Rates: the turns first, ω = Σ n z', then the slides in the frame that carries them.
+        // Rates: first the revolute ones from ω = Σ n z', then the slides, in the frame that carries them.
         let mut rates = vec![T::ZERO; chain.len()];
         match turns[..] {
             [j] => rates[j] = turning.dot(&axes[j]),
@@ -294,7 +296,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         for (k, part) in chain.iter().enumerate() {
             let v = &mut state.v[self.links[seat.first as usize + k].v as usize..];
             if part.kind == LinkKind::Ball {
-                // A ball stands alone, or with slides.
+                // A joint with a ball has no revolute part, but may have slides.
                 let own = child.rotation.transpose() * turning;
                 crate::build::own_tables::own(write(&S::spin_from(&own), v, 0));
                 spin = child.omega;
@@ -309,12 +311,12 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         }
     }
 
-    /// Writes the motions of the scene's bodies, one for each.
+    /// Writes one motion for each of the scene's bodies.
     ///
     /// Cost: two outward passes; no allocation.
     ///
     /// # Panics
-    /// If there are fewer places than bodies.
+    /// If `motions` has fewer entries than the scene has bodies.
     pub fn write_motions(
         &self,
         state: &TreeState<T>,
@@ -341,21 +343,22 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         }
     }
 
-    /// Number of independent equations among those of the cut joints at a state: freedoms of the mechanism are
-    /// [`n_freedoms`](Self::n_freedoms) less this.
+    /// Returns the number of independent equations of the loops at a state. The mechanism has [`n_freedoms`](Self::n_freedoms) minus this
+    /// number of freedoms.
     ///
     /// # Errors
-    /// [`StepError`] if the accelerations cannot be evaluated there.
+    /// [`StepError`] if the accelerations cannot be evaluated at the state.
     pub fn rank(
         &self,
         state: &TreeState<T>,
         workspace: &mut Workspace<T, S>,
     ) -> Result<usize, StepError> {
-        /// Regularisation of the rows for a rank, in units of rounding [-]. Chosen, not tuned.
+        /// Regularisation of the rows for the rank, in units of rounding [-]. Chosen, not tuned.
         const SHARP: f64 = 256.0;
         let m = self.mechanism();
         let options = Options { closure: Closure::Constraints, ..Options::default() };
-        // A repeated row keeps ε times the squares of the weights by which others make it up, which may be thousands.
+        // The pivot of a redundant row is ε times the sum of squared weights of the rows that it depends on. The weights may be in the
+        // thousands, so ε must be small.
         let regularisation = T::EPSILON * T::from_f64(SHARP);
         let sharp = Options { regularisation, ..options };
         let mut s = workspace.store();
@@ -368,12 +371,13 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         }
         let least = T::EPSILON.sqrt();
         let counted = s.loops.pivots.iter().filter(|&&pivot| pivot > least).count();
-        // no rows take more freedoms than there are
+        // the rank is at most the number of freedoms
         Ok(counted.min(self.n_freedoms()))
     }
 }
 
-/// Returns how far the child of a branch turned against the parent: the last coordinates of its joint, in reverse the other way round.
+/// Returns the rotation of a branch's child against its parent: the last coordinates of the joint, with opposite sign if the joint is
+/// reversed.
 fn turned<T: Real>(branch: &Branch, values: &[T]) -> Vector<T, 3> {
     let sign = if branch.is_reversed { -T::ONE } else { T::ONE };
     let mut last = Vector::<T, 3>::zeros();
@@ -381,13 +385,13 @@ fn turned<T: Real>(branch: &Branch, values: &[T]) -> Vector<T, 3> {
     last
 }
 
-/// A vector of space without what the plane does not have.
+/// Returns a spatial vector without the components that the plane does not have.
 fn lifted<T: Real, S: Space<T>>(x: &Vector<T, 3>) -> Vector<T, 3> {
     S::point_into(&S::point_from(x))
 }
 
-/// Gives the quaternion in `z` the sign of the rotation vector that is nearest to `last`: half its angle is below a quarter turn, or
-/// above it.
+/// Chooses the sign of the quaternion in `z` by the rotation vector nearest to `last`. The scalar part is negative if the rotation angle is
+/// above half a turn.
 fn orient<T: Real, S: Space<T>>(rotation: &Matrix<T, 3>, last: Vector<T, 3>, z: &mut [T]) {
     let Some((q, _)) = z.split_first_chunk_mut::<4>().filter(|_| S::DIMENSION == 3) else { return };
     let w = unwrap_rotation(&rotation_vector(rotation), &last);

@@ -19,32 +19,32 @@ use mbs_core::ode::{Adaptive, Extrapolation, Radau, Tableau, rk4_scratch};
 pub struct TreeState<T> {
     /// Time of the state [s].
     pub t: T,
-    /// Coordinates: angles [rad], slides [m], quaternions of balls; of free bodies rotation, then position [m].
+    /// Coordinates: angles [rad], slides [m], quaternions of balls. A free body has its rotation, then its position [m].
     pub z: Vec<T>,
-    /// Velocities: rates of angles and slides; angular velocities in the link's own axes; of free bodies then the velocity of
-    /// their centre in global axes.
+    /// Velocities: rates of angles and slides, and angular velocities in the link's own axes. A free body has its angular velocity, then
+    /// the velocity of its origin in global axes.
     pub v: Vec<T>,
-    /// Rates of the velocities.
+    /// Accelerations: rates of the velocities.
     pub a: Vec<T>,
-    /// Auxiliary accelerations of the generalised-alpha family; equal to `a` in the Newmark family.
+    /// Auxiliary accelerations of the generalised-alpha family. They equal `a` in the Newmark family.
     pub a_aux: Vec<T>,
     /// Multipliers of the cut joints' equations [N, N m].
     pub lambda: Vec<T>,
-    /// Values set from outside for the next step, in the places that [`Prescribed::input`](mbs_core::inputs::Prescribed::input) and
-    /// [`Prescribed::guide_input`](mbs_core::inputs::Prescribed::guide_input) name.
+    /// Inputs for the next step, set from outside. The functions [`Prescribed::input`](mbs_core::inputs::Prescribed::input) and
+    /// [`Prescribed::guide_input`](mbs_core::inputs::Prescribed::guide_input) return their indices.
     pub inputs: Vec<T>,
-    /// The inputs that accelerations, multipliers and power were made with.
+    /// Inputs for which accelerations, multipliers and power were evaluated.
     pub applied: Vec<T>,
-    /// States of signals that have one, then the signals that follow the motion, each with its rate.
+    /// States of signals that have a state, then the signals that depend on the motion, each with its rate.
     pub signals: Vec<[T; 2]>,
-    /// Work done by dampers, courses and guides since the start [J].
+    /// Work of dampers, signals and guides since the start [J].
     pub work: T,
-    /// Rate at which `work` grows at this instant [W].
+    /// Rate of `work` at this instant [W].
     pub power: T,
 }
 
 impl<T: Real> TreeState<T> {
-    /// A state at rest in the reference configuration at time zero; accelerations and multipliers are zero yet.
+    /// Returns a state at rest in the reference configuration at time zero. Accelerations and multipliers are not yet evaluated and zero.
     #[must_use]
     pub fn at_rest<S: Space<T>>(model: &TreeModel<T, S>) -> Self {
         let mut z = vec![T::ZERO; model.n_coordinates];
@@ -69,20 +69,20 @@ impl<T: Real> TreeState<T> {
         Start { t: self.t, z: &self.z, v: &self.v, a: &self.a, signals: &self.signals }
     }
 
-    /// Accelerations that are known anew: auxiliary ones follow.
+    /// Sets accelerations that were evaluated without a step; the auxiliary accelerations are set equal to them.
     pub(crate) fn set_accelerations(&mut self, a: &[T]) {
         self.a.copy_from_slice(a);
         self.a_aux.copy_from_slice(a);
     }
 
-    /// Overwrites this state with another of the same model, without allocating.
+    /// Copies another state of the same model into this state, without allocating.
     pub fn copy_from(&mut self, other: &Self) {
         self.copy_coordinates(other);
         self.inputs.copy_from_slice(&other.inputs);
         self.applied.copy_from_slice(&other.applied);
     }
 
-    /// Overwrites everything but inputs with the state of a model of the same coordinates, without allocating.
+    /// Copies everything except inputs from a state of a model with the same coordinates, without allocating.
     pub fn copy_coordinates(&mut self, other: &Self) {
         self.t = other.t;
         self.z.copy_from_slice(&other.z);
@@ -99,34 +99,34 @@ impl<T: Real> TreeState<T> {
 }
 
 impl<T: Real, S: Space<T>> TreeModel<T, S> {
-    /// The inputs that are set in a state, with the functions of time.
+    /// Returns the functions of time, with the inputs that are set in a state.
     pub(crate) fn inputs<'a>(&'a self, state: &'a TreeState<T>) -> (&'a Prescribed<T>, &'a [T]) {
         (&self.prescribed, &state.inputs)
     }
 }
 
-/// Scratch of the steps of one model. Nothing is allocated after [`Workspace::new`], but for the matrices of
-/// [`Radau5`](crate::TreeMethod::Radau5) by the first step of it.
+/// Scratch of the steps of one model. Only [`Workspace::new`] allocates, and the first step by [`Radau5`](crate::TreeMethod::Radau5), for
+/// its matrices.
 #[derive(Debug, Clone)]
 pub struct Workspace<T: Real, S: Space<T>> {
     placed: Vec<LinkMotion<T, S>>,
     trial: Vec<LinkMotion<T, S>>,
     condensed: Vec<ArticulatedInertia<T, S>>,
     motions: Vec<S::Motion>,
-    /// K as they are, and as they travel.
+    /// Gradients K of the loop rows, twice: as evaluated at the bodies, and as carried inward.
     gradients: Vec<S::Motion>,
     slopes: Vec<T>,
     rows: Vec<[T; 3]>,
-    /// l, λ, scales, pivots, summed λ.
+    /// Numbers of each loop row, in this order: l, λ, scales, pivots, summed λ.
     multipliers: Vec<T>,
     blocks: Vec<T>,
     gains: Vec<T>,
     inputs: Vec<[T; 3]>,
-    /// States of signals: at the start of a step, and at the instant.
+    /// States of signals at the start of a step, and at the instant.
     signals: [Vec<[T; 2]>; 2],
     course_slopes: Vec<CourseSlope<T>>,
     z: Vec<T>,
-    /// v, z̈, response, scratch.
+    /// Numbers of each freedom, in this order: v, z̈, response, scratch.
     freedoms: Vec<T>,
     history: Vec<T>,
     n_guides: usize,
@@ -139,15 +139,15 @@ pub struct Workspace<T: Real, S: Space<T>> {
 pub(crate) struct Explicit<T> {
     /// Vector y of the method: z, v, states of signals, work.
     pub(crate) y: Vec<T>,
-    /// Scratch of the method, its stages among it.
+    /// Scratch of the method, including its stages.
     pub(crate) scratch: Vec<T>,
-    /// Error control, from the first step that asks for it.
+    /// Error control of the pair 5(4); made by the first step that uses it.
     pub(crate) pair: Option<Adaptive<T, Tableau<T, 7>>>,
-    /// Error control of the method 8(5,3), from the first step that asks for it.
+    /// Error control of the method 8(5,3); made by the first step that uses it.
     pub(crate) eighth: Option<Adaptive<T, Tableau<T, 12>>>,
-    /// Error control of extrapolation, from the first step that asks for it.
+    /// Error control of extrapolation; made by the first step that uses it.
     pub(crate) extrapolation: Option<Adaptive<T, Extrapolation>>,
-    /// Error control of the collocation at Radau points, with its matrices, from the first step that asks for it.
+    /// Error control of Radau collocation with its matrices; made by the first step that uses it.
     pub(crate) radau: Option<Adaptive<T, Radau<T>>>,
 }
 
@@ -193,19 +193,19 @@ impl<T: Real, S: Space<T>> Workspace<T, S> {
         }
     }
 
-    /// Returns what stands of the last factorisation: most rows that had an effect so far, and the pivots of the rows.
+    /// Returns the largest number of independent rows so far, and the pivots of the rows in the last factorisation.
     pub(crate) fn last(&self) -> (usize, &[T]) {
         let rows = self.rows.len();
         (self.rank, &self.multipliers[3 * rows..4 * rows])
     }
 
-    /// The scratch as slices.
+    /// Returns the scratch as slices.
     #[inline]
     pub fn store(&mut self) -> Store<'_, T, S> {
         self.parts().0
     }
 
-    /// The scratch as slices, and that of explicit steps.
+    /// Returns the scratch as slices, and the scratch of explicit steps.
     #[inline]
     pub(crate) fn parts(&mut self) -> (Store<'_, T, S>, &mut Explicit<T>) {
         let (links, rows) = (self.placed.len(), self.rows.len());

@@ -15,8 +15,9 @@ use mbs_core::step::{Step, StepError, StepReport};
 
 /// Method of a step.
 ///
-/// Those with error control advance by exactly the length that is asked for, in as many steps as `options.error` asks for. The first
-/// step tried is `options.first_step`, else the whole length; none is longer. The workspace remembers the last good one for the next call.
+/// A method with error control advances by exactly the requested length, in as many steps as `options.error` requires. The first step tried
+/// has the length `options.first_step`, or the requested length if that is `None`. No step is longer than the requested length. The
+/// workspace stores the last accepted step length for the next call.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TreeMethod {
     /// The trapezoidal rule, or another of the Newmark and generalised-alpha families by `options.integrator`.
@@ -29,28 +30,28 @@ pub enum TreeMethod {
     Rk4,
     /// The pair 5(4) of Dormand and Prince, with error control.
     ///
-    /// Cost: six evaluations for each step tried. With loops up to seven and a quarter: the error is projected too.
+    /// Cost: six evaluations for each step tried. With loops up to seven and a quarter, because the error is projected too.
     Rk54,
-    /// The method 8(5,3) of Dormand and Prince, with error control: for six digits and more, where the motion is smooth.
+    /// The method 8(5,3) of Dormand and Prince, with error control: for errors of 1e-6 and below in smooth motions.
     ///
-    /// Cost: twelve evaluations for each step tried, and a half with loops.
+    /// Cost: twelve evaluations for each step tried; with loops twelve and a half.
     Rk853,
-    /// Extrapolation with error control, of the order that it is worth. For reference runs: in double-double the error may be 1e-28.
+    /// Extrapolation with error control, which chooses its order by cost. For reference runs: in double-double the error may be 1e-28.
     ///
-    /// Cost: k² evaluations for each step tried with k columns, one more with loops.
+    /// Cost: k² evaluations for each step tried with k columns; one more with loops.
     Extrapolation,
-    /// Collocation at three Radau points with error control, implicit and of order 5: for stiff effects, which do not limit the step.
-    /// Steps are of one length where possible.
+    /// Radau collocation with three points and error control, implicit and of order 5. Stiff effects do not limit its step. The step length
+    /// is kept constant where possible.
     ///
-    /// Cost: about ten evaluations for each step. For n components n + 1 more where slopes are found anew, and five times (n/2)³ products
-    /// where the step changes. The first call allocates 4 n² numbers.
+    /// Cost: about ten evaluations for each step. A new Jacobian takes n + 1 more for n components. A change of the step takes five times
+    /// (n/2)³ products. The first call allocates 4 n² numbers.
     Radau5,
 }
 
 impl<T: Real, S: Space<T>> TreeModel<T, S> {
-    /// Advances `state` by one step of length `dt` [s] of a method.
+    /// Advances `state` by one step of length `dt` [s] with a method.
     ///
-    /// Cost: that of the [`TreeMethod`]; no allocation but where it says so.
+    /// Cost: that of the [`TreeMethod`]; no allocation except where its documentation says so.
     ///
     /// # Errors
     /// [`StepError`]; the state is then as [`TreeModel::take_inputs`] left it.
@@ -70,7 +71,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         let report = report.map_err(|error| self.with_effect(error))?;
         let power = own(energy_balance::power(&m, &mut s));
         state.work += if method == TreeMethod::Trapezoidal {
-            // Work by the trapezoidal rule in time.
+            // The power is integrated by the trapezoidal rule.
             (state.power + power) * dt * T::HALF
         } else {
             scratch.y.last().copied().unwrap_or(T::ZERO)
@@ -79,9 +80,9 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         Ok(report)
     }
 
-    /// Advances `state` by one step of length `dt` [s] of bounded work: what a controller does, here on the host.
+    /// Advances `state` by one step of length `dt` [s] with bounded work, as a controller does.
     ///
-    /// The ledger of work is not kept.
+    /// The state's `work` is not updated.
     ///
     /// Cost: see [`bounded::step`]; no allocation.
     ///
@@ -102,7 +103,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         Ok(report)
     }
 
-    /// Checks that the step can be made, and makes the state that of the inputs that are set now. The tree's length has no part in it.
+    /// Checks that the step can be made, and applies the inputs that are set now.
     fn begin_step(
         &self,
         (dt, options): (T, &Options<T>),
@@ -114,7 +115,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         self.take_inputs(options, state, workspace).map(drop)
     }
 
-    /// The error with the effect of a load in place of its number.
+    /// Returns the error with the number of the scene's effect in place of the load's number.
     fn with_effect(&self, error: StepError) -> StepError {
         let of = |load: u32| {
             let effect = self.effects.get(load as usize).copied().unwrap_or(usize::MAX);
@@ -131,7 +132,8 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
     }
 }
 
-/// Makes one step of a method; its end is in `s`. But for the trapezoidal rule, the last entry of `y` is the work done.
+/// Makes one step of a method and leaves its end in `s`. For every method except the trapezoidal rule, the last entry of `y` is the work
+/// done.
 fn make<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
     inputs: &impl Inputs<T>,
@@ -168,7 +170,7 @@ fn make<T: Real, S: Space<T>>(
     }
 }
 
-/// The end of a step enters the state.
+/// Copies the end of a step into the state.
 fn take<T: Real, S: Space<T>>(
     options: &Options<T>,
     (dt, power): (T, T),

@@ -1,7 +1,8 @@
-//! Whole turns at the start: the angles that effects measure begin with the turns that the assembly counted on its way there.
+//! Whole turns at the start. The assembly counts whole turns of the angles that effects measure. The tree takes these turns over into its
+//! coordinates.
 //!
-//! A coordinate of a joint begins nearest to its given value. A free link has the turns of the matrix alone, within half a turn.
-//! What is between a free link and others may lack whole turns, which the natural state remembers.
+//! The coordinate of a joint starts at the value nearest to its given value. The angle of a free link comes from its rotation matrix,
+//! within half a turn. An angle between a free link and another link may therefore lack whole turns, which the natural state remembers.
 
 use crate::build::TreeModel;
 use crate::build::own_tables::own;
@@ -17,9 +18,9 @@ use mbs_core::model::State;
 use mbs_core::natural::{NaturalModel, unwrap};
 use mbs_core::scene::Scene;
 
-/// Links whose turns are known against each other: the free link that each hangs from, 0 for the ground.
+/// Groups of links whose relative turns are known. A group is named by the free link at its root, or 0 for the ground.
 struct Groups {
-    /// The group of each root.
+    /// Group of each root link.
     of: Vec<u32>,
 }
 
@@ -28,14 +29,14 @@ impl Groups {
         self.of[root as usize]
     }
 
-    /// Joins the second group to the first; the first keeps its name.
+    /// Joins the second group to the first; the joined group has the name of the first.
     fn join(&mut self, [first, second]: [u32; 2]) {
         self.of.iter_mut().filter(|of| **of == second).for_each(|of| *of = first);
     }
 }
 
 impl<T: Real, S: Space<T>> TreeModel<T, S> {
-    /// Gives coordinates the whole turns that the natural state remembers of couplings and effects.
+    /// Adds the whole turns that the natural state remembers for couplings and effects to the coordinates.
     pub(crate) fn take_turns<const D: usize>(
         &self,
         scene: &Scene<T>,
@@ -65,7 +66,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
                     if roots[0] == roots[1] {
                         continue;
                     }
-                    // The ground stays.
+                    // The ground cannot turn, so the other group turns.
                     let (roots, whole) =
                         if roots[1] == 0 { ([0, roots[0]], -whole) } else { (roots, whole) };
                     if whole != T::ZERO {
@@ -99,7 +100,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         }
     }
 
-    /// The free link that a link hangs from; 0 where it hangs from the ground.
+    /// Returns the free link at the root of a link's branch; 0 if the branch starts at the ground.
     fn root(&self, mut link: u32) -> u32 {
         while link > 0 && self.links[link as usize].kind != LinkKind::Free {
             link = self.links[link as usize].parent;
@@ -107,7 +108,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         link
     }
 
-    /// The whole turns that the rotation of the second link against the first lacks of what was remembered [rad].
+    /// Returns the whole turns by which the rotation of the second link against the first differs from the remembered one [rad].
     fn missing(&self, state: &TreeState<T>, links: [u32; 2], last: &[T]) -> T {
         if S::DIMENSION == 2 {
             return unwrap(T::ZERO, last[0] - self.turn_of(state, links));
@@ -117,12 +118,12 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         if gap.sqrt() > T::PI { T::TWO * T::PI } else { T::ZERO }
     }
 
-    /// The angle of the second link against the first in the plane, with its turns [rad].
+    /// Returns the angle of the second link against the first in the plane, including whole turns [rad].
     pub(crate) fn turn_of(&self, state: &TreeState<T>, links: [u32; 2]) -> T {
         self.with_angles(state, |at| own(at.turn(links[1])) - own(at.turn(links[0])))
     }
 
-    /// Evaluates `f` at an instant that has coordinates, and no places.
+    /// Evaluates `f` at an instant with coordinates only; the places of the links are not set.
     fn with_angles<R>(&self, state: &TreeState<T>, f: impl FnOnce(&Instant<'_, T, S>) -> R) -> R {
         let mut guides = vec![[T::ZERO; 3]; self.prescribed.n_guides()];
         let mut signals = vec![[T::ZERO; 3]; self.prescribed.signals().len()];
@@ -138,7 +139,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
     }
 }
 
-/// Turns a free link by whole turns [rad]: its angle in the plane, the sign of its quaternion in space.
+/// Turns a free link by whole turns [rad]: changes its angle in the plane, or the sign of its quaternion in space.
 fn turn<T: Real, S: Space<T>>(link: &Link<T, S>, whole: T, z: &mut [T]) {
     let first = link.z as usize;
     match (link.kind, S::DIMENSION) {

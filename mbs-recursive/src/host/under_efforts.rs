@@ -1,4 +1,4 @@
-//! Accelerations under efforts along the freedoms.
+//! Accelerations under given efforts along the freedoms.
 
 use crate::link::indexing::{Outside, at, at_mut};
 use crate::link::joint::read;
@@ -10,7 +10,7 @@ use crate::passes::slices::{Store, TreeSlices};
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
 
-/// Evaluates the accelerations under efforts along the freedoms; the loads are those of gravity.
+/// Evaluates the accelerations under given efforts along the freedoms; the other loads are those of gravity.
 pub(crate) fn accelerations_under<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
     options: &Options<T>,
@@ -26,7 +26,7 @@ pub(crate) fn accelerations_under<T: Real, S: Space<T>>(
     finish(m, options, level, s)
 }
 
-/// Lets efforts act along the freedoms; between two links those of a ball act on both.
+/// Adds efforts along the freedoms to the forces. The moment of a ball acts on its link and, with opposite sign, on its parent.
 fn add_efforts<T: Real, S: Space<T>>(
     links: &[Link<T, S>],
     placed: &[LinkMotion<T, S>],

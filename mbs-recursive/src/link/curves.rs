@@ -1,4 +1,4 @@
-//! Curves in tables: functions of the numbers that couplings, sums and signals measure.
+//! Curves in tables: functions of one number, used by couplings, effects on sums and signals.
 
 use crate::link::indexing::{Outside, at, part, range};
 use crate::link::plan::Span;
@@ -6,32 +6,33 @@ use mbs_core::Real;
 use mbs_core::elements::NONE;
 use mbs_core::measure::{polynomial, spline_curve};
 
-/// Are curves of couplings and sums in this build?
+/// Does this build support curves of couplings and sums?
 pub const IS_BUILT: bool = cfg!(feature = "curves");
 
 /// A twice differentiable function.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum CurveTable<T> {
-    /// A cubic spline.
+    /// A cubic spline through knots.
     Spline {
         /// Knots of the spline.
         knots: Span,
-        /// The first of its second derivatives, as many as knots.
+        /// Index of the spline's first second derivative in the numbers. A spline has one second derivative for each knot.
         first: u32,
-        /// Period of the spline; zero: it has none.
+        /// Period of the spline; zero means that the spline is not periodic.
         period: T,
     },
-    /// A polynomial.
+    /// A polynomial by its coefficients.
     Polynomial {
-        /// Coefficients of the polynomial, the constant one first.
+        /// Coefficients of the polynomial, beginning with the constant term.
         coefficients: Span,
     },
 }
 
-/// Curves, knots of splines, and second derivatives of splines at their knots with coefficients of polynomials.
+/// Slices of all curves: the curves, the knots of splines, and the numbers of curves. The numbers of a curve are the second derivatives at
+/// the knots of a spline or the coefficients of a polynomial.
 pub type CurveSlices<'a, T> = (&'a [CurveTable<T>], &'a [[T; 2]], &'a [T]);
 
-/// f, f' and f'' of a curve.
+/// Evaluates f, f' and f'' of a curve at `x`.
 pub(crate) fn function<T: Real>(
     (curves, knots, numbers): CurveSlices<'_, T>,
     curve: u32,

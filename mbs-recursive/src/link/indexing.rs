@@ -1,9 +1,9 @@
-//! Entries of tables by number, without a panic: a number that its table does not have is a typed error.
+//! Access to entries of tables by number, without a panic: a number beyond the end of a table returns a typed error.
 //!
-//! A model's numbers are checked when it is built or loaded, so that the error is not met. A compiler cannot know that, and would
-//! leave a path to a panic at every index.
+//! The numbers of a model are checked when the model is built or loaded, so this error does not occur in a valid model. The compiler cannot
+//! know this. With plain indexing it would add a path to a panic at every index.
 
-/// A number in a mechanism's tables, or the length of a scratch, that does not fit the rest.
+/// Error: a number in a mechanism's tables is out of range, or a scratch slice has the wrong length.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Outside;
 
@@ -13,25 +13,25 @@ pub(crate) fn at<X>(table: &[X], i: usize) -> Result<&X, Outside> {
     table.get(i).ok_or(Outside)
 }
 
-/// Entry `i`, to be written.
+/// Returns entry `i` of a table, mutable.
 #[inline(always)]
 pub(crate) fn at_mut<X>(table: &mut [X], i: usize) -> Result<&mut X, Outside> {
     table.get_mut(i).ok_or(Outside)
 }
 
-/// `n` entries from `first`.
+/// Returns `n` entries from entry `first`.
 #[inline(always)]
 pub(crate) fn part<X>(table: &[X], first: usize, n: usize) -> Result<&[X], Outside> {
     table.get(first..).and_then(|rest| rest.get(..n)).ok_or(Outside)
 }
 
-/// `n` entries from `first`, to be written.
+/// Returns `n` entries from entry `first`, mutable.
 #[inline(always)]
 pub(crate) fn part_mut<X>(table: &mut [X], first: usize, n: usize) -> Result<&mut [X], Outside> {
     table.get_mut(first..).and_then(|rest| rest.get_mut(..n)).ok_or(Outside)
 }
 
-/// Some entries, and others to be written, which are all before or all behind them.
+/// Returns two parts of a table at once: one to read and one to write. One part must lie entirely before the other.
 #[inline(always)]
 pub(crate) fn apart<X>(
     table: &mut [X],
@@ -47,13 +47,13 @@ pub(crate) fn apart<X>(
     }
 }
 
-/// The entries of a range.
+/// Returns the entries of a range.
 #[inline(always)]
 pub(crate) fn range<X>(table: &[X], range: core::ops::Range<usize>) -> Result<&[X], Outside> {
     table.get(range).ok_or(Outside)
 }
 
-/// All entries of one table over another of the same length.
+/// Copies all entries of one table into another of equal length.
 #[inline(always)]
 pub(crate) fn copy<X: Copy>(from: &[X], to: &mut [X]) -> Result<(), Outside> {
     if from.len() != to.len() {

@@ -1,4 +1,4 @@
-//! Work of the passes at a joint, kind by kind.
+//! Work of the three passes at one joint, for each kind of joint.
 //!
 //! ```text
 //! place      R, ω, v of the link from the parent's     [P3 (26)]
@@ -14,16 +14,16 @@ use mbs_core::Real;
 use mbs_core::algebra::{Vector, norm};
 use mbs_core::laws::spin::spin;
 
-/// A joint that meets no inertia.
+/// Error: the links beyond a joint have no inertia along the freedom of the joint.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NoInertia<T> {
     /// Number of the link that the joint carries.
     pub link: u32,
-    /// Pivot that was found: bᵀ I b.
+    /// Pivot bᵀ I b that was computed.
     pub pivot: T,
 }
 
-/// Returns place and motion of a link from its parent and its joint's coordinates; without `MOVES` at rest.
+/// Returns place and motion of a link from its parent and its joint's coordinates. Without `MOVES` all velocities are zero.
 #[inline(always)]
 pub(crate) fn place<T: Real, S: Space<T>, const MOVES: bool>(
     link: &Link<T, S>,
@@ -38,7 +38,7 @@ pub(crate) fn place<T: Real, S: Space<T>, const MOVES: bool>(
     Ok(match link.kind {
         LinkKind::Revolute | LinkKind::GuidedRevolute => {
             let [angle, rate, second] = number()?;
-            // ω = ω_p + n z',   d = (ω_p × n z', ω_p × (ω_p × r))
+            // revolute joint: ω = ω_p + n z',   d = (ω_p × n z', ω_p × (ω_p × r))
             let axis = S::rotate_spin(&parent.rotation, &link.axis);
             let rotation = S::turned(&parent.rotation, &link.axis, angle);
             let arm = S::rotate(&parent.rotation, &link.offset);
@@ -53,7 +53,7 @@ pub(crate) fn place<T: Real, S: Space<T>, const MOVES: bool>(
         }
         LinkKind::Prismatic | LinkKind::GuidedPrismatic => {
             let [slide, rate, second] = number()?;
-            // v = v_p + ω_p × r + e z',   d = (0, ω_p × (ω_p × r) + 2 ω_p × e z')
+            // prismatic joint: v = v_p + ω_p × r + e z',   d = (0, ω_p × (ω_p × r) + 2 ω_p × e z')
             let along = S::rotate(&parent.rotation, &link.direction);
             let arm = S::rotate(&parent.rotation, &link.offset) + along * slide;
             let mut p = still(S::motion(S::Spin::zero(), along), parent.rotation, arm);
@@ -70,7 +70,7 @@ pub(crate) fn place<T: Real, S: Space<T>, const MOVES: bool>(
     })
 }
 
-/// Returns place and motion of a link that moves with its parent, but for what its joint adds to velocity and bias.
+/// Returns place and motion of a link that moves with its parent. Velocity and bias do not yet contain the motion of the joint.
 #[inline(always)]
 fn carried<T: Real, S: Space<T>, const MOVES: bool>(
     link: &Link<T, S>,
@@ -96,7 +96,7 @@ fn ball<T: Real, S: Space<T>, const MOVES: bool>(
     z: &[T],
     v: &[T],
 ) -> Result<LinkMotion<T, S>, Outside> {
-    // ω = ω_p + w, w = R v,   d = (ω_p × w, ω_p × (ω_p × r))
+    // ball joint: ω = ω_p + w, w = R v,   d = (ω_p × w, ω_p × (ω_p × r))
     let arm = S::rotate(&parent.rotation, &link.offset);
     let turn = part(z, link.z as usize, S::FREE - S::Point::N)?;
     let rotation = S::turned_by(&parent.rotation, turn);
@@ -128,10 +128,10 @@ fn free<T: Real, S: Space<T>, const MOVES: bool>(
     Ok(p)
 }
 
-/// Are guided balls in this build? Tables for controllers have none.
+/// Does this build support guided balls? Tables for controllers have no guided balls.
 pub(crate) const HAS_GUIDED_BALLS: bool = cfg!(feature = "alloc");
 
-/// Returns place and motion of a link that a guided ball turns against its parent.
+/// Returns place and motion of a link whose rotation against its parent is prescribed by a guided ball.
 #[inline(never)]
 fn guided_ball<T: Real, S: Space<T>, const MOVES: bool>(
     link: &Link<T, S>,
@@ -143,10 +143,10 @@ fn guided_ball<T: Real, S: Space<T>, const MOVES: bool>(
     }
     let f = guided_vector(link, guides)?;
     let angle = norm(&f[0]);
-    // at no turn every axis serves
+    // without a rotation any axis gives the identity
     let axis = if angle > T::ZERO { f[0] * (T::ONE / angle) } else { f[0] };
     let rotation = S::turned(&parent.rotation, &S::spin_from(&axis), angle);
-    // ω = ω_p + w,   d = (ω_p × w + R_p ω'(f), ω_p × (ω_p × r)),   w = R_p ω(f)
+    // guided ball: ω = ω_p + w,   d = (ω_p × w + R_p ω'(f), ω_p × (ω_p × r)),   w = R_p ω(f)
     let [w, second] = spin(f).map(|w| S::rotate_spin(&parent.rotation, &S::spin_from(&w)));
     let arm = S::rotate(&parent.rotation, &link.offset);
     let freedom = S::motion(w, S::Point::zero());
@@ -159,7 +159,7 @@ fn guided_ball<T: Real, S: Space<T>, const MOVES: bool>(
     Ok(p)
 }
 
-/// The rotation vector of a guided ball against its parent, with its first two derivatives.
+/// Returns the rotation vector of a guided ball's link against its parent, with its first two derivatives.
 pub(crate) fn guided_vector<T: Real, S: Space<T>>(
     link: &Link<T, S>,
     guides: &[[T; 3]],
@@ -174,7 +174,7 @@ pub(crate) fn guided_vector<T: Real, S: Space<T>>(
     Ok(f)
 }
 
-/// The numbers of a slice from `first`.
+/// Reads consecutive numbers of a slice, from number `first`.
 #[inline(always)]
 pub(crate) fn read<T: Real, X: Numbers<T>>(from: &[T], first: usize) -> Result<X, Outside> {
     let mut x = X::zero();
@@ -184,7 +184,7 @@ pub(crate) fn read<T: Real, X: Numbers<T>>(from: &[T], first: usize) -> Result<X
     Ok(x)
 }
 
-/// Writes numbers into a slice from `first`.
+/// Writes numbers into a slice, from number `first`.
 #[inline(always)]
 pub(crate) fn write<T: Real, X: Numbers<T>>(
     x: &X,
@@ -197,14 +197,14 @@ pub(crate) fn write<T: Real, X: Numbers<T>>(
     Ok(())
 }
 
-/// Eliminates the joint: its inertia is factored, and what acts on the parent is returned: (I^a, p^a).
+/// Eliminates the joint: factors its inertia, and returns the articulated inertia and force (I^a, p^a) that act on the parent.
 #[inline(always)]
 pub(crate) fn eliminate<T: Real, S: Space<T>>(
     kind: LinkKind,
     p: &LinkMotion<T, S>,
     c: &mut ArticulatedInertia<T, S>,
 ) -> Result<(S::Inertia, S::Motion), T> {
-    /// Pivot that is no inertia, in units of rounding of the inertia's size [-]. Chosen, not tuned.
+    /// Largest pivot that counts as no inertia, in units of rounding of the inertia's size [-]. Chosen, not tuned.
     const ROUNDINGS: f64 = 64.0;
     let rounding = T::EPSILON * T::from_f64(ROUNDINGS);
     match kind {
@@ -222,10 +222,10 @@ pub(crate) fn eliminate<T: Real, S: Space<T>>(
             if !(pivot > rounding * size) {
                 return Err(pivot);
             }
-            // K I = I − U D⁻¹ Uᵀ   [P3 (36)–(37)]
+            // articulated inertia on the parent's side: K I = I − U D⁻¹ Uᵀ   [P3 (36)–(37)]
             (c.column, c.inverse) = (column, T::ONE / (pivot + c.resistance));
             let left = S::reduced(&c.inertia, &c.column, c.inverse);
-            // p + I^a d + U D⁻¹ u   [P3 (38)]
+            // bias force on the parent's side: p + I^a d + U D⁻¹ u   [P3 (38)]
             let force = impulse(kind, p, c) + S::times(&left, &p.bias);
             Ok((left, force))
         }
@@ -249,7 +249,7 @@ pub(crate) fn eliminate<T: Real, S: Space<T>>(
     }
 }
 
-/// u = τ − bᵀ p, and the part of p that acts on the parent without the bias: p + U D⁻¹ u.
+/// Computes u = τ − bᵀ p, and the part of p that acts on the parent without the bias: p + U D⁻¹ u.
 #[inline(always)]
 pub(crate) fn impulse<T: Real, S: Space<T>>(
     kind: LinkKind,
@@ -279,7 +279,7 @@ pub(crate) fn impulse<T: Real, S: Space<T>>(
     }
 }
 
-/// z'' = D⁻¹ (u − Uᵀ a') in world axes, less what loops hold back; the link's acceleration is returned.
+/// Computes z'' = D⁻¹ (u − Uᵀ a') in world axes, less the response to the multipliers of loops. Returns the link's acceleration.
 #[inline(always)]
 pub(crate) fn advance<T: Real, S: Space<T>>(
     link: &Link<T, S>,
@@ -296,7 +296,7 @@ pub(crate) fn advance<T: Real, S: Space<T>>(
             carried + p.freedom * x
         }
         LinkKind::Ball => {
-            // A⁻¹ (u − A ω'' − H a)
+            // acceleration of the ball joint: A⁻¹ (u − A ω'' − H a)
             let rest = S::spin(&c.drive) - S::ball_row(&c.inertia, &S::point(&carried));
             let turn = S::ball_solve(&c.inertia, &rest) - S::spin(&carried) - S::spin(held);
             write(&S::unrotate_spin(&p.rotation, &turn), zdd, first)?;
@@ -313,7 +313,8 @@ pub(crate) fn advance<T: Real, S: Space<T>>(
     })
 }
 
-/// The row k of a loop before the joint: h = bᵀ k, g = D⁻¹ h, each as long as the joint has freedoms, and k − U g behind it.
+/// Passes the row k of a loop through the joint: h = bᵀ k, g = D⁻¹ h, then k − U g on the parent's side. h and g have one number for each
+/// freedom of the joint.
 #[inline(always)]
 pub(crate) fn pass<T: Real, S: Space<T>>(
     kind: LinkKind,

@@ -1,19 +1,19 @@
-//! A link: one body, or a massless one between the parts of a composed joint, with the joint to its parent.
+//! Links of the tree. A link is one body with the joint to its parent. The parts of a composed joint are connected by links without mass.
 
 use crate::link::indexing::{Outside, at};
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
 
-/// The joints of the recursion. All others are made of several of these.
+/// Kinds of joints in the recursion. Every other joint is composed of several of these.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LinkKind {
-    /// Turns about an axis fixed in the parent; one freedom.
+    /// Rotation about an axis fixed in the parent; one freedom.
     Revolute,
-    /// Slides along an axis fixed in the parent; one freedom.
+    /// Translation along an axis fixed in the parent; one freedom.
     Prismatic,
     /// A ball joint; three freedoms (space only).
     Ball,
-    /// Free against the ground; six freedoms, in the plane three.
+    /// Free motion against the ground; six freedoms, in the plane three.
     Free,
     /// A revolute joint whose angle is prescribed.
     GuidedRevolute,
@@ -35,7 +35,7 @@ impl LinkKind {
         }
     }
 
-    /// Number of coordinates that hold the position.
+    /// Number of coordinates that store the position of the joint.
     #[must_use]
     pub fn n_coordinates<T: Real, S: Space<T>>(self) -> usize {
         match self {
@@ -45,51 +45,53 @@ impl LinkKind {
         }
     }
 
-    /// Is its motion prescribed?
+    /// Is the motion of the joint prescribed by a guide?
     #[must_use]
     pub fn is_guided(self) -> bool {
         matches!(self, Self::GuidedRevolute | Self::GuidedPrismatic | Self::GuidedBall)
     }
 }
 
-/// A link of the tree. Link 0 is the ground; a parent stands before its children.
+/// A link of the tree. Link 0 is the ground. In the list of links, parents come before their children.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Link<T: Real, S: Space<T>> {
-    /// The link it hangs from.
+    /// Number of the parent link.
     pub parent: u32,
     /// Kind of the joint to the parent.
     pub kind: LinkKind,
-    /// First of its coordinates in z.
+    /// Index of the link's first coordinate in z.
     pub z: u32,
-    /// First of its freedoms in v; of a guided joint the number of its guide, of a guided ball the first of three.
+    /// Index of the link's first freedom in v. For a guided joint: number of its guide. For a guided ball: number of the first of its three
+    /// guides.
     pub v: u32,
-    /// Unit axis of a revolute joint, reference axes; of a guided ball ±x, where its rotation vector is that of the link against its
-    /// parent or of the parent against it.
+    /// Unit axis of a revolute joint, reference axes. For a guided ball the axis is ±x: +x if the rotation vector is that of the link
+    /// against its parent, −x if it is that of the parent against the link.
     pub axis: S::Spin,
     /// Unit direction of a prismatic joint, reference axes.
     pub direction: S::Point,
-    /// From the parent's origin to the joint, reference axes [m].
+    /// Vector from the parent's origin to the joint, reference axes [m].
     pub offset: S::Point,
     /// Mass of the link [kg].
     pub mass: T,
-    /// From the link's origin to its centre of mass, reference axes [m].
+    /// Vector from the link's origin to its centre of mass, reference axes [m].
     pub center: S::Point,
     /// Inertia about the link's origin, reference axes [kg m^2].
     pub tensor: S::Tensor,
 }
 
 impl<T: Real, S: Space<T>> Link<T, S> {
-    /// The angle against its parent in the plane, at a coordinate; of a free link against the ground [rad].
+    /// Angle of the link against its parent in the plane, for a value of its coordinate; for a free link against the ground [rad].
     pub(crate) fn turn(&self, coordinate: T) -> T {
         match self.kind {
-            // the plane has no guided balls
+            // guided balls exist in space only
             LinkKind::Prismatic | LinkKind::GuidedPrismatic | LinkKind::GuidedBall => T::ZERO,
             LinkKind::Revolute | LinkKind::GuidedRevolute => self.axis[0] * coordinate,
             LinkKind::Ball | LinkKind::Free => coordinate,
         }
     }
 
-    /// Angle or slide of a joint with one coordinate, its rate and what is known of its acceleration, by coordinates, velocities and guides.
+    /// Angle or slide of a joint with one coordinate, its rate, and the known part of its acceleration, from coordinates, velocities and
+    /// guides.
     #[inline(always)]
     pub(crate) fn coordinate(
         &self,
@@ -102,27 +104,27 @@ impl<T: Real, S: Space<T>> Link<T, S> {
     }
 }
 
-/// Place and motion of a link, world axes, about its own origin.
+/// Place and motion of a link about the link's origin, in world axes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LinkMotion<T: Real, S: Space<T>> {
     /// Rotation from the reference configuration.
     pub rotation: S::Rotation,
     /// Origin of the link, from the tree's base [m].
     pub position: S::Point,
-    /// From the parent's origin to its own [m].
+    /// Vector from the parent's origin to the link's origin [m].
     pub arm: S::Point,
-    /// Motion b of unit rate of a joint with one freedom; of a guided ball the motion that its guides give.
+    /// Motion b for unit rate of a joint with one freedom. For a guided ball: the motion that its guides prescribe.
     pub freedom: S::Motion,
     /// Velocity (ω, v) of the link.
     pub velocity: S::Motion,
-    /// Acceleration d of the link without joint accelerations and its parent's acceleration.
+    /// Acceleration d: the part of the link's acceleration that remains if the accelerations of its joint and of its parent are zero.
     pub bias: S::Motion,
-    /// From its origin to its centre of mass [m].
+    /// Vector from the link's origin to its centre of mass [m].
     pub center: S::Point,
 }
 
 impl<T: Real, S: Space<T>> LinkMotion<T, S> {
-    /// Returns the place of the ground, at rest.
+    /// Returns place and motion of the ground, which is at rest.
     #[must_use]
     pub fn ground() -> Self {
         Self {
@@ -137,28 +139,28 @@ impl<T: Real, S: Space<T>> LinkMotion<T, S> {
     }
 }
 
-/// Inertia and forces of a link's subtree after condensation.
+/// Articulated inertia and bias force of a link's subtree.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ArticulatedInertia<T: Real, S: Space<T>> {
-    /// Articulated inertia of the subtree; after its joint's elimination its factors, where the joint has several freedoms.
+    /// Articulated inertia of the subtree. The elimination of a joint with several freedoms replaces it by its factors.
     pub inertia: S::Inertia,
     /// Bias force p: minus the condensed force.
     pub force: S::Motion,
-    /// U = I b.
+    /// Column U = I b.
     pub column: S::Motion,
-    /// 1 / bᵀ I b.
+    /// Inverse pivot 1 / bᵀ I b.
     pub inverse: T,
-    /// Force u along the joint, all its freedoms in world axes.
+    /// Force u along the joint's freedoms, in world axes.
     pub drive: S::Motion,
-    /// Torque or force of effects along a joint of one freedom.
+    /// Torque or force that effects apply along a joint with one freedom.
     pub effort: T,
-    /// Inertia that rotors and effects add to bᵀ I b of a joint of one freedom. Effects add by their resistance to its acceleration within
-    /// a step.
+    /// Inertia that rotors and effects add to the pivot bᵀ I b of a joint with one freedom. An effect adds its stiffness and damping,
+    /// multiplied by the integrator's coefficients, because its force changes with the acceleration within a step.
     pub resistance: T,
 }
 
 impl<T: Real, S: Space<T>> ArticulatedInertia<T, S> {
-    /// Returns no inertia and no force.
+    /// Returns a value with zero inertia and zero force.
     #[must_use]
     pub fn empty() -> Self {
         Self {
@@ -173,11 +175,11 @@ impl<T: Real, S: Space<T>> ArticulatedInertia<T, S> {
     }
 }
 
-/// Inertia that a rotor adds to the coordinate of a link with one.
+/// Inertia that a rotor adds to the coordinate of a link whose joint has one freedom.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LinkRotor<T> {
     /// Number of the link.
     pub link: u32,
-    /// Inertia times the square of the ratio [kg m^2, of a slide kg].
+    /// Rotor inertia times the square of its transmission ratio [kg m^2; kg for a slide].
     pub inertia: T,
 }

@@ -1,4 +1,4 @@
-//! Links with the joint to their parents, and the numbers, tables and options that every other room reads.
+//! Links with the joints to their parents, and the numbers, tables and options that the other modules use.
 
 pub mod curves;
 pub(crate) mod indexing;

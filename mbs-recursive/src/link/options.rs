@@ -1,71 +1,72 @@
-//! Options that the caller chooses. Public fields; start from [`Options::default`].
+//! Options that the caller chooses. The fields are public; start from [`Options::default`].
 
 use mbs_core::Real;
 use mbs_core::integrator::Integrator;
 use mbs_core::step::OptionError;
 
-/// Choices for a step.
+/// Options of a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Options<T> {
-    /// Time integrator of the implicit step; bounded steps take one of the Newmark family.
+    /// Time integrator of the implicit step. Bounded steps accept integrators of the Newmark family only.
     pub integrator: Integrator<T>,
-    /// A correction below this times the step's own displacement a dt²/2 is small [-].
+    /// Tolerance of the fixed-point iteration, relative to the displacement a dt²/2 that the accelerations make in the step [-].
     pub tolerance: T,
-    /// Fixed-point iterations allowed in one step.
+    /// Largest number of fixed-point iterations in a step.
     pub max_iterations: u32,
-    /// Sweeps after which a projection must have reached its level.
+    /// Largest number of sweeps of a projection.
     pub max_sweeps: u32,
     /// Method by which loops are closed.
     pub closure: Closure<T>,
-    /// Error of one step with error control, relative and absolute [-]; loops hold to a hundredth of it until the end of a call,
-    /// and to rounding there.
+    /// Error of one step with error control, relative and absolute [-]. Loops are closed to a hundredth of this error between steps, and to
+    /// rounding at the end of a call.
     pub error: T,
-    /// First step tried with error control [s]; the whole length asked for where left out.
+    /// First step tried with error control [s]. `None`: the first step has the length of the call.
     pub first_step: Option<T>,
-    /// Steps tried with error control within the length asked for; after ten thousand and a tenth of these a call ends where the rest
-    /// would take ten times as many.
+    /// Largest number of steps that a call with error control tries. A call fails earlier if its remaining time would take more than ten
+    /// times this number of steps. This is checked after a tenth of the number, and after 10,000 steps at the earliest.
     pub max_steps: u32,
-    /// ε in Λ + ε, relative to the rows' own scale [-].
+    /// Regularisation ε in Λ + ε, relative to the scale of each row [-].
     pub regularisation: T,
 }
 
 /// Method by which loops are closed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Closure<T> {
-    /// Multipliers that meet Φ̈ = 0 to rounding; positions and velocities projected after each step.
+    /// Multipliers that satisfy Φ̈ = 0 to rounding. Positions and velocities are projected after each step.
     Constraints,
-    /// The report's closure forces λ = α (Φ̈ + 2 μ Ω Φ̇ + Ω² Φ) [P3 (39)-(41)], without projections.
+    /// Closure forces of the report, λ = α (Φ̈ + 2 μ Ω Φ̇ + Ω² Φ) [P3 (39)-(41)], without projections.
     Report {
-        /// Penalty α [kg].
+        /// Penalty α of the closure forces [kg].
         alpha: T,
-        /// Frequency Ω [1/s].
+        /// Frequency Ω of the stabilisation [1/s].
         omega: T,
-        /// Damping ratio μ.
+        /// Damping ratio μ [-].
         mu: T,
     },
 }
 
 impl<T: Real> Closure<T> {
-    /// The report's closure with its α = 1e7, Ω = 10, μ = 1.
+    /// Returns the report's closure with its values α = 1e7, Ω = 10, μ = 1.
     #[must_use]
     pub fn report() -> Self {
-        // [P3 (39)-(41)]
+        // values of the report for [P3 (39)-(41)]
         let [alpha, omega] = [1e7, 10.0].map(T::from_f64);
         Self::Report { alpha, omega, mu: T::ONE }
     }
 }
 
 impl<T: Real> Default for Options<T> {
-    /// Returns the trapezoidal rule; tolerance 1e-10 (64 roundings in single precision); 50 iterations, 30 sweeps; error 1e-8, a million
-    /// steps; ε = √rounding / 256.
+    /// Returns the default options. Trapezoidal rule with tolerance 1e-10 (64 roundings in single precision), 50 iterations and 30 sweeps.
+    /// Error control with error 1e-8 and a million steps. Regularisation ε = √rounding / 256.
     fn default() -> Self {
-        /// Tolerance of corrections, relative to the displacement by accelerations in a step [-].
+        /// Default tolerance of corrections, relative to the displacement by accelerations in a step [-].
         const TOLERANCE: f64 = 1e-10;
-        /// Error of a step of an explicit method, relative to the size of a component [-].
+        /// Default error of a step with error control, relative to the size of a component [-].
         const ERROR: f64 = 1e-8;
-        /// Least tolerance and error, in units of rounding [-]: it counts in single precision alone. Chosen, not tuned.
+        /// Smallest tolerance and error, in units of rounding [-]. It is larger than the defaults in single precision only. Chosen, not
+        /// tuned.
         const ROUNDINGS: f64 = 64.0;
-        /// Regularisation of the rows of loops, in roots of rounding [-]. Chosen, not tuned.
+        /// Regularisation of the rows of loops, in units of the square root of rounding [-]. Chosen, not tuned.
         const REGULARISATION: f64 = 1.0 / 256.0;
         let least = T::EPSILON * T::from_f64(ROUNDINGS);
         Self {

@@ -1,20 +1,20 @@
-//! The order in which loops are carried inward and eliminated: fixed when the tree is built, read by the passes.
+//! Order in which the rows of loops are carried inward and eliminated. It is fixed when the tree is built, and the passes read it.
 //!
-//! A loop's rows travel from its two bodies to the link nearest to both from which both hang. Λ has a block for each two
-//! loops that meet on the way or through an eliminated third one. The lists below say who meets whom, so that the passes
-//! run along flat arrays.
+//! The rows of a loop are carried inward from its two bodies to their nearest common ancestor, and eliminated there. Λ = J M⁻¹ Jᵀ has a
+//! block for every pair of coupled loops. Two loops are coupled if their rows pass the same joint, or if an eliminated third loop couples
+//! both. The lists below contain these pairs, so that the passes read flat arrays only.
 
 /// A range of a flat list.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Span {
-    /// First place of the range.
+    /// First index of the range.
     pub first: u32,
-    /// The place behind its last.
+    /// Index after the last one of the range.
     pub end: u32,
 }
 
 impl Span {
-    /// Returns the places of the range.
+    /// Returns the indices of the range.
     #[inline(always)]
     #[must_use]
     pub fn range(self) -> core::ops::Range<usize> {
@@ -28,85 +28,85 @@ impl Span {
     }
 }
 
-/// Loops at a link: those that pass its joint, meet there, and are eliminated there.
+/// Loops at a link: those whose rows pass its joint, those coupled there, and those eliminated there.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Station {
-    /// Sides of loops that pass its joint.
+    /// Passes of loops through the joint of the link.
     pub passes: Span,
-    /// Pairs of these sides that meet.
+    /// Pairs of these passes that are coupled.
     pub pairs: Span,
-    /// Loops that are eliminated there, in order.
+    /// Loops that are eliminated at the link, in order.
     pub ends: Span,
 }
 
-/// One side of a loop passing a joint.
+/// Passage of one side of a loop through a joint.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Pass {
     /// Number of the loop.
     pub lap: u32,
-    /// Side of the loop: 0 from the first body, 1 from the second.
+    /// Side of the loop: 0 for the side of the first body, 1 for the side of the second.
     pub side: u32,
-    /// Place of its gains: rows times freedoms of the joint.
+    /// Index of its gains. Their number is the number of rows times the number of freedoms of the joint.
     pub gain: u32,
 }
 
-/// Two passes of a joint that meet in a block of Λ; the block's rows belong to the loop eliminated later.
+/// Two passes through a joint whose loops are coupled by a block of Λ. The block's rows belong to the loop that is eliminated later.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Pair {
-    /// The pass that gives the block's rows.
+    /// Index of the pass that gives the rows of the block.
     pub row: u32,
-    /// The pass that gives its columns.
+    /// Index of the pass that gives the columns of the block.
     pub column: u32,
-    /// Place of the block.
+    /// Index of the block.
     pub block: u32,
 }
 
-/// A loop being eliminated.
+/// Elimination of one loop.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct End {
     /// Number of the loop.
     pub lap: u32,
-    /// Loops eliminated later that it is coupled with.
+    /// Couplings of the loop with loops that are eliminated later.
     pub couplings: Span,
-    /// Blocks that its elimination changes.
+    /// Updates of blocks by this elimination.
     pub updates: Span,
 }
 
-/// A later loop that an eliminated one is coupled with.
+/// Coupling of an eliminated loop with a loop that is eliminated later.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct LoopCoupling {
     /// Number of the later loop.
     pub lap: u32,
-    /// The side by which it reaches the link of elimination.
+    /// Side by which the later loop passes the link of elimination.
     pub side: u32,
-    /// Place of the block (later loop, eliminated loop).
+    /// Index of the block (later loop, eliminated loop).
     pub block: u32,
 }
 
-/// A block changed by an elimination: block −= W(row) W(column)ᵀ.
+/// Update of a block by an elimination: block −= W(row) W(column)ᵀ.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Update {
-    /// The coupling that gives the rows.
+    /// Index of the coupling that gives the rows.
     pub row: u32,
-    /// The coupling that gives the columns.
+    /// Index of the coupling that gives the columns.
     pub column: u32,
-    /// Place of the block.
+    /// Index of the block.
     pub block: u32,
 }
 
-/// Lists of the order of all loops.
+/// All lists of the elimination order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Plan<'a> {
     /// Loops at each link; see [`Station`].
     pub stations: &'a [Station],
-    /// Sides that pass joints; see [`Pass`].
+    /// Passes of loops through joints; see [`Pass`].
     pub passes: &'a [Pass],
-    /// Passes that meet; see [`Pair`].
+    /// Pairs of passes that are coupled; see [`Pair`].
     pub pairs: &'a [Pair],
-    /// Loops being eliminated; see [`End`].
+    /// Eliminations of loops, in order; see [`End`].
     pub ends: &'a [End],
     /// Couplings of eliminated loops with later ones; see [`LoopCoupling`].
     pub couplings: &'a [LoopCoupling],
-    /// Blocks changed by eliminations; see [`Update`].
+    /// Updates of blocks by eliminations; see [`Update`].
     pub updates: &'a [Update],
 }

@@ -1,4 +1,4 @@
-//! Laws on one body as wrenches on its link.
+//! Laws that act on one body, as wrenches on its link.
 //!
 //! ```text
 //! action (d, m, f)   force -f d at the law's point, moment -f m
@@ -12,14 +12,14 @@ use mbs_core::Real;
 use mbs_core::algebra::Vector;
 use mbs_core::laws::body::{BodyLaw, BodyMotion, MAX_ACTIONS, UnitWrench};
 
-/// A law on one body.
+/// A law that acts on one body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BodyLoad<T: Real, S: Space<T>> {
-    /// Number of the link.
+    /// Point of the law, from the link's origin, reference axes [m].
     pub link: u32,
     /// The law's point, from the link's origin, reference axes.
     pub point: S::Point,
-    /// The law's direction, reference axes.
+    /// Direction of the law, reference axes.
     pub axis: [T; 3],
     /// Law that acts on the body.
     pub law: BodyLaw<T>,
@@ -31,7 +31,7 @@ impl<T: Real, S: Space<T>> BodyLoad<T, S> {
         let speed = at.speed(self.link, &at.arm(self.link, &self.point)?)?;
         let along = S::rotate(&placed.rotation, &S::point_from(&Vector::from(self.axis)));
         let mut axis = S::point_into(&along);
-        // In the plane the third direction stays.
+        // A direction across the plane does not turn.
         if S::DIMENSION == 2 {
             axis[2] = self.axis[2];
         }
@@ -45,7 +45,7 @@ impl<T: Real, S: Space<T>> BodyLoad<T, S> {
         Ok(())
     }
 
-    /// Sums something over the law's actions.
+    /// Sums a number over the actions of the law.
     fn sum(
         &self,
         at: &Instant<'_, T, S>,
@@ -71,7 +71,8 @@ impl<T: Real, S: Space<T>> BodyLoad<T, S> {
         Ok(S::wrench(&arm, &force) + S::motion(moment, S::Point::zero()))
     }
 
-    /// Applies the law where the accelerations `a` of the links are replaced by unknown ones, with what the law adds to the link's inertia.
+    /// Adds the wrench of the law and its dependence on the acceleration. `a` is the acceleration for which the wrench was evaluated. The
+    /// dependence is an inertia that is added to the link.
     pub(super) fn apply_ahead(
         &self,
         at: &Instant<'_, T, S>,
@@ -97,7 +98,7 @@ impl<T: Real, S: Space<T>> BodyLoad<T, S> {
         self.sum(at, |k, action| self.law.energy(k, &action.measure))
     }
 
-    /// Power that is not stored [W].
+    /// Returns the power that is not stored as energy [W].
     pub(super) fn power(&self, at: &Instant<'_, T, S>) -> Result<T, Outside> {
         self.sum(at, |k, action| self.law.power(k, &action.measure))
     }

@@ -1,4 +1,4 @@
-//! Instant at which loads are evaluated: its places, velocities and inputs.
+//! Data of an instant from which loads are evaluated: places, velocities and inputs.
 
 use crate::link::indexing::{Outside, at, at_mut};
 use crate::link::{ArticulatedInertia, Link, LinkKind, LinkMotion};
@@ -8,7 +8,7 @@ use mbs_core::Real;
 use mbs_core::algebra::Vector;
 use mbs_core::laws::LawInputs;
 
-/// Mechanism at one instant, as loads are evaluated from it.
+/// Mechanism at one instant, with the data from which loads are evaluated.
 #[derive(Debug, Clone, Copy)]
 pub struct Instant<'a, T: Real, S: Space<T>> {
     /// Links of the tree.
@@ -19,25 +19,25 @@ pub struct Instant<'a, T: Real, S: Space<T>> {
     pub coordinates: (&'a [T], &'a [T], &'a [[T; 3]]),
     /// Tables of couplings and sums.
     pub couplings: &'a Couplings<'a, T, S>,
-    /// Vectors of the courses, and tables.
+    /// Vectors of the signals, and tables of the laws.
     pub law_inputs: LawInputs<'a, T>,
-    /// The point that positions are counted from, global axes [m].
+    /// Origin of the positions, global axes [m].
     pub base: S::Point,
 }
 
 impl<T: Real, S: Space<T>> Instant<'_, T, S> {
-    /// The mechanism, as sums see it.
+    /// Returns the mechanism in the form that sums use.
     pub(super) fn mechanism(&self) -> Here<'_, T, S> {
         (self.links, self.placed, self.coordinates)
     }
 
-    /// Angle or slide of a joint with one coordinate, and its rate.
+    /// Returns angle or slide of a joint with one coordinate, and its rate.
     pub(crate) fn coordinate(&self, link: u32) -> Result<[T; 2], Outside> {
         let [value, rate, _] = at(self.links, link as usize)?.coordinate(self.coordinates)?;
         Ok([value, rate])
     }
 
-    /// Angle of a link against the ground, in the plane: the sum of the angles on the way there.
+    /// Returns the angle of a link against the ground in the plane: the sum of the angles of the joints in between [rad].
     pub(crate) fn turn(&self, link: u32) -> Result<T, Outside> {
         let (mut sum, mut number) = (T::ZERO, link);
         while number > 0 {
@@ -49,7 +49,8 @@ impl<T: Real, S: Space<T>> Instant<'_, T, S> {
         Ok(sum)
     }
 
-    /// Resists the acceleration of a joint of one freedom; a guided one has none.
+    /// Adds an inertia to a joint of one freedom, with the effort that cancels it at the accelerations `zdd`. A guided joint has no freedom
+    /// and is skipped.
     pub(super) fn resist_joint(
         &self,
         link: u32,
@@ -71,7 +72,7 @@ impl<T: Real, S: Space<T>> Instant<'_, T, S> {
         at(self.placed, link as usize)
     }
 
-    /// From a link's origin to one of its points, world axes [m].
+    /// Returns the vector from a link's origin to one of its points, world axes [m].
     pub(super) fn arm(&self, link: u32, point: &S::Point) -> Result<S::Point, Outside> {
         Ok(S::rotate(&self.placed(link)?.rotation, point))
     }
@@ -81,19 +82,19 @@ impl<T: Real, S: Space<T>> Instant<'_, T, S> {
         Ok(self.placed(link)?.position + self.arm(link, point)? + self.base)
     }
 
-    /// Velocity of the point at an arm [m/s].
+    /// Returns the velocity of the point at `arm` from the link's origin [m/s].
     pub(super) fn speed(&self, link: u32, arm: &S::Point) -> Result<S::Point, Outside> {
         Ok(S::point(&S::carried(&self.placed(link)?.velocity, arm)))
     }
 
-    /// A force of a course, world axes [N].
+    /// Returns the force of a signal, world axes [N].
     pub(super) fn force(&self, link: u32, course: u32, turns: bool) -> Result<S::Point, Outside> {
         let course = *at(self.law_inputs.courses, course as usize)?;
         let f = S::point_from(&Vector::from(course));
         Ok(if turns { S::rotate(&self.placed(link)?.rotation, &f) } else { f })
     }
 
-    /// A torque of a course, world axes [N m].
+    /// Returns the torque of a signal, world axes [N m].
     pub(super) fn torque(&self, course: u32) -> Result<S::Spin, Outside> {
         let c = *at(self.law_inputs.courses, course as usize)?;
         let c = if S::DIMENSION == 2 { [T::ZERO, T::ZERO, c[0]] } else { c };

@@ -1,4 +1,4 @@
-//! Numbers that scalar laws measure between two links, with their gradients by the links' motions.
+//! Numbers between two links that scalar laws depend on, with their gradients by the links' motions.
 //!
 //! ```text
 //! length   L = |p₂ − p₁|                       n on p₂, −n on p₁
@@ -15,7 +15,7 @@ use mbs_core::algebra::rotation_gradient;
 use mbs_core::effects::bushing;
 use mbs_core::laws::scalar::{Law, ScalarForce};
 
-/// Number that a law measures between two links; points from their links' origins, reference axes.
+/// Number between two links that a law depends on. Points are given from their links' origins, in reference axes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Measure<T: Real, S: Space<T>> {
     /// The distance of two points.
@@ -29,21 +29,21 @@ pub enum Measure<T: Real, S: Space<T>> {
         points: [S::Point; 2],
         /// The direction, reference axes.
         direction: S::Point,
-        /// Offset that the distance is counted from [m].
+        /// Origin from which the distance is counted [m].
         offset: T,
     },
-    /// A component of the rotation vector of the second link in the first, along what was a global axis: below a whole turn, as
-    /// the coordinates of the tree have it.
+    /// A component of the rotation vector of the second link in the first. The axis was a global one in the reference configuration. The
+    /// coordinates of the tree determine the rotation below a whole turn.
     Rotation {
-        /// The component, from 0.
+        /// Number of the component, from 0.
         number: u32,
     },
-    /// The angle of the second link in the first, in the plane: over any number of turns, as the coordinates of the tree have it.
+    /// The angle of the second link in the first, in the plane. The coordinates of the tree count its whole turns.
     Turn,
 }
 
 impl<T: Real, S: Space<T>> Measure<T, S> {
-    /// The law at what is measured, and the wrenches on both links for unit rate.
+    /// Evaluates the law for the measured number. Returns its force, and the wrenches on both links for a unit rate of the number.
     pub(super) fn evaluate(
         &self,
         at: &Instant<'_, T, S>,
@@ -54,7 +54,7 @@ impl<T: Real, S: Space<T>> Measure<T, S> {
             Self::Length { points } => {
                 let (arms, gap) = between(at, links, points)?;
                 let value = gap.dot(&gap).sqrt();
-                // At length zero the line has no direction.
+                // At length zero the direction is undefined, and zero is used.
                 let n = if value > T::ZERO { gap * (T::ONE / value) } else { S::Point::zero() };
                 (value, [-S::wrench(&arms[0], &n), S::wrench(&arms[1], &n)])
             }
@@ -77,7 +77,7 @@ impl<T: Real, S: Space<T>> Measure<T, S> {
                 let g = S::motion(S::moment(&x, &y), S::Point::zero());
                 (at.turn(links[1])? - at.turn(links[0])?, [-g, g])
             }
-            // Not in this build, or not in space: a model with one is not loaded.
+            // Not in this build, or not in this space: a model with this measure is refused when it is loaded.
             Self::Rotation { .. } | Self::Turn => return Err(Outside),
         };
         let rate = gradient[0].dot(&at.placed(links[0])?.velocity)
@@ -86,7 +86,7 @@ impl<T: Real, S: Space<T>> Measure<T, S> {
     }
 }
 
-/// The arms of two points, and the way from the first to the second.
+/// Returns the arms of two points, and the vector from the first point to the second.
 #[inline]
 fn between<T: Real, S: Space<T>>(
     at: &Instant<'_, T, S>,

@@ -29,11 +29,11 @@ use mbs_core::laws::scalar::Law;
 /// An effect on one or two links.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Load<T: Real, S: Space<T>> {
-    /// A law of what is measured between two links.
+    /// A law of a number that is measured between two links.
     Between {
         /// Numbers of the two links.
         links: [u32; 2],
-        /// Measure that the law is a function of.
+        /// Measured number on which the law depends.
         gauge: Measure<T, S>,
         /// Law of the measured number.
         law: Law<T>,
@@ -49,30 +49,30 @@ pub enum Load<T: Real, S: Space<T>> {
     Constant {
         /// Number of the link.
         link: u32,
-        /// The point, from the link's origin, reference axes.
+        /// Vector from the link's origin to the point of application, reference axes [m].
         point: S::Point,
         /// The force, global axes [N].
         force: S::Point,
     },
-    /// A force that follows a course.
+    /// A force that follows a signal.
     Force {
         /// Number of the link.
         link: u32,
-        /// The point, from the link's origin, reference axes.
+        /// Vector from the link's origin to the point of application, reference axes [m].
         point: S::Point,
-        /// Number of the course that the force follows.
+        /// Number of the signal that gives the force.
         course: u32,
-        /// Does it turn with the body?
+        /// Does the force turn with the body?
         turns: bool,
     },
-    /// A torque that follows a course: global axes, in the plane its first component.
+    /// A torque that follows a signal: global axes; in the plane the signal's first component.
     Torque {
         /// Number of the link.
         link: u32,
-        /// Number of the course that the torque follows.
+        /// Number of the signal that gives the torque.
         course: u32,
     },
-    /// A law on one body.
+    /// A law that acts on one body.
     BodyLoad(BodyLoad<T, S>),
     /// A law of a sum of coordinates and lengths.
     Sum(SumLoad<T>),
@@ -137,7 +137,7 @@ impl<T: Real, S: Space<T>> Load<T, S> {
         })
     }
 
-    /// Power that is not stored [W].
+    /// Returns the power that is not stored as energy [W].
     ///
     /// # Errors
     /// [`Outside`] if the tables do not fit each other.

@@ -1,27 +1,28 @@
-//! Effects that answer to accelerations: how far these reach within a step.
+//! Coefficients by which accelerations change positions and velocities within a step, for effects that depend on accelerations.
 
 use crate::link::ArticulatedInertia;
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
 use mbs_core::laws::scalar::ScalarForce;
 
-/// Reach of accelerations to places and rates within a step.
+/// Coefficients by which accelerations change positions and velocities at the end of a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Reach<T> {
-    /// Reach of accelerations to places, β h² [s^2].
+    /// Coefficient of positions, β h² [s^2].
     pub place: T,
-    /// Reach of accelerations to rates, γ h [s].
+    /// Coefficient of velocities, γ h [s].
     pub speed: T,
 }
 
 impl<T: Real> Reach<T> {
-    /// κ, not below zero.
+    /// Returns the weight κ = β h² stiffness + γ h damping, at least zero.
     #[inline]
     pub(super) fn weight(self, measure: &ScalarForce<T>) -> T {
         (self.place * measure.stiffness + self.speed * measure.damping).max(T::ZERO)
     }
 
-    /// A tension with the unit wrench `w` on a link that was to have the acceleration `a`. Images for controllers keep one copy.
+    /// Adds a tension with the unit wrench `w` on a link, and its dependence on the acceleration. The tension was evaluated for the
+    /// acceleration `a`. Builds for controllers do not inline this function, to have one copy of its code.
     #[cfg_attr(feature = "alloc", inline)]
     #[cfg_attr(not(feature = "alloc"), inline(never))]
     pub(super) fn resist<S: Space<T>>(

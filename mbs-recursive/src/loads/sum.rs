@@ -1,14 +1,15 @@
 //! A law of a sum of coordinates and lengths: a spring, a stop or a clutch between several joints.
 //!
 //! ```text
-//! m = Σ cₖ fₖ(mₖ)        its terms stand in the table of those of couplings
+//! m = Σ cₖ fₖ(mₖ)        the terms are stored in the table of terms of couplings
 //! joint                  τ = −g f,    g = c f'          along its coordinate
 //! line                   −g f n at the end of a part, its opposite at the beginning
 //! ball                   the moment −g f d on the second body, its opposite on the first
-//! ahead                  as f answers by κ, each end answers alone by κ n/2 w wᵀ, of n ends that move
+//! inertia of an end      κ n/2 w wᵀ for the dependence of f on accelerations, with n ends that move
 //! ```
 //!
-//! The last is enough for the iteration to contract: (Σ xₖ)² is at most n Σ xₖ². Of one end it is n = 2, the answer itself.
+//! The last line makes the iteration contract, because (Σ xₖ)² is at most n Σ xₖ². With one moving end n counts as two, and the weight κ
+//! n/2 is κ itself.
 
 use super::{Instant, Reach};
 use crate::link::ArticulatedInertia;
@@ -20,7 +21,7 @@ use mbs_core::Real;
 use mbs_core::laws::apart::is_apart;
 use mbs_core::laws::scalar::{Law, ScalarForce};
 
-/// Are effects on sums in this build?
+/// Does this build support effects on sums?
 pub const IS_BUILT: bool = cfg!(feature = "sums");
 
 /// A law of a sum.
@@ -28,14 +29,14 @@ pub const IS_BUILT: bool = cfg!(feature = "sums");
 pub struct SumLoad<T> {
     /// Terms of the sum.
     pub terms: Span,
-    /// The links on which its lines have points.
+    /// Links that carry points of its lines.
     pub starts: Span,
     /// Law of the sum.
     pub law: Law<T>,
 }
 
 impl<T: Real> SumLoad<T> {
-    /// The sum as a row whose value it is.
+    /// Returns the row whose value is the sum.
     pub(crate) fn row(&self) -> CoupledRow<T> {
         CoupledRow {
             terms: self.terms,
@@ -47,7 +48,7 @@ impl<T: Real> SumLoad<T> {
         }
     }
 
-    /// Does its law act on one side only, and not at the sum of a mechanism?
+    /// Is the law one-sided, and without force at the present sum?
     pub(crate) fn is_apart<S: Space<T>>(
         &self,
         couplings: &Couplings<'_, T, S>,
@@ -57,7 +58,7 @@ impl<T: Real> SumLoad<T> {
         Ok(is_apart(&self.law, value.row[0]))
     }
 
-    /// The tension at the sum, and at one that differs by `more`.
+    /// Returns the tension at the present sum, and at a sum that is larger by `more`.
     pub(crate) fn at_twists<S: Space<T>>(
         &self,
         here: &Instant<'_, T, S>,
@@ -67,12 +68,12 @@ impl<T: Real> SumLoad<T> {
         Ok([tension, self.law.evaluate(value + more, rate, &here.law_inputs).tension])
     }
 
-    /// The law at the sum.
+    /// Evaluates the law at the present sum.
     pub(super) fn evaluate<S: Space<T>>(
         &self,
         here: &Instant<'_, T, S>,
     ) -> Result<ScalarForce<T>, Outside> {
-        // Not in this build: a model with one is not loaded.
+        // Not in this build: a model with sums is refused when it is loaded.
         if !IS_BUILT {
             return Err(Outside);
         }
@@ -102,7 +103,7 @@ impl<T: Real> SumLoad<T> {
         })
     }
 
-    /// Adds its forces, and how they answer to accelerations.
+    /// Adds the forces of the law, and their dependence on accelerations.
     #[inline(never)]
     pub(super) fn apply_ahead<S: Space<T>>(
         &self,
@@ -152,7 +153,7 @@ impl<T: Real> SumLoad<T> {
         Ok(self.law.energy(self.evaluate(here)?.value, &here.law_inputs))
     }
 
-    /// Power that is not stored [W].
+    /// Returns the power that is not stored as energy [W].
     pub(super) fn power<S: Space<T>>(&self, here: &Instant<'_, T, S>) -> Result<T, Outside> {
         Ok(self.law.power(&self.evaluate(here)?, &here.law_inputs))
     }

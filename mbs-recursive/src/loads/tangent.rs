@@ -1,7 +1,7 @@
-//! Effects that answer to accelerations within a step: their stiffness and damping as inertia.
+//! Forces of effects that depend linearly on accelerations within a step. Their stiffness and damping act as inertia.
 //!
 //! ```text
-//! z̈ moves place and rate at the end of a step by s = β h² and c = γ h of itself, hence
+//! z̈ changes position and velocity at the end of a step by s z̈ and c z̈, with s = β h² and c = γ h, hence
 //! f(z̈) = f(z̈*) + κ w·(a − a*),   κ = s ∂f/∂m + c ∂f/∂m'      w the unit wrench, a* the accelerations that f was evaluated for
 //!
 //! on one link, or against the ground      I += κ w wᵀ,   p += w (f − κ w·a*)
@@ -10,9 +10,9 @@
 //! along a sum                             as on one link, for each of its ends
 //! ```
 //!
-//! The first two are the linear part exactly. In the third the other link's acceleration counts as known, so that an iteration is
-//! left. It contracts, for M + 2 κ diag(w wᵀ) − κ (w₁ − w₂)(w₁ − w₂)ᵀ is positive definite.
-//! Accelerations that no longer change do not depend on κ: only the iterates do. Friction and slip have the slope of their secants in it.
+//! The first two lines are the exact linear part. In the third line the acceleration of the other link is taken from the last iterate, so
+//! that an iteration remains necessary. It contracts, because M + 2 κ diag(w wᵀ) − κ (w₁ − w₂)(w₁ − w₂)ᵀ is positive definite. The
+//! converged accelerations do not depend on κ; only the iterates do. For friction and slip, κ uses the slope of the secant.
 
 use super::{Instant, Load, Reach};
 use crate::link::ArticulatedInertia;
@@ -21,8 +21,8 @@ use crate::space::{Numbers, Space};
 use mbs_core::Real;
 
 impl<T: Real, S: Space<T>> Load<T, S> {
-    /// Adds the load's forces as [`apply`](Self::apply) does, and how they answer to accelerations that differ from `zdd` of the
-    /// freedoms and `a` of the links.
+    /// Adds the load's forces as [`apply`](Self::apply) does, and their dependence on accelerations. The forces are those for the
+    /// accelerations `zdd` of the freedoms and `a` of the links.
     ///
     /// # Errors
     /// [`Outside`] if the tables do not fit each other.
@@ -69,7 +69,7 @@ impl<T: Real, S: Space<T>> Load<T, S> {
     }
 }
 
-/// Finds the one of two links that hangs from the other by one joint of at most one freedom, with its wrench.
+/// Finds the link of a pair whose parent is the other link, if its joint has at most one freedom. Returns the link with its wrench.
 fn outer<T: Real, S: Space<T>>(
     here: &Instant<'_, T, S>,
     [first, second]: [u32; 2],

@@ -1,4 +1,4 @@
-//! Rows carried over a joint: inward with their gains, and what they hold back there, outward.
+//! Rows of loops at a joint: carried inward with their gains, and the responses of the joint to multipliers, outward.
 
 use super::{LoopStore, Loops, inner};
 use crate::link::indexing::{Outside, at, at_mut, part, part_mut, range};
@@ -10,10 +10,10 @@ use crate::rows::coupled::{self, CoupledRow};
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
 
-/// A joint that is passed: its kind, where it is, and what its elimination left.
+/// A joint to be passed: its kind, the motion of its link, and the result of its elimination.
 type Joint<'s, T, S> = (LinkKind, &'s LinkMotion<T, S>, &'s ArticulatedInertia<T, S>);
 
-/// Carries all rows over the joint of link `i`.
+/// Carries all rows inward over the joint of link `i`.
 #[inline]
 pub(crate) fn pass<T: Real, S: Space<T>>(
     m: &Loops<'_, T, S>,
@@ -51,7 +51,7 @@ pub(crate) fn pass<T: Real, S: Space<T>>(
     Ok(())
 }
 
-/// Carries the rows of one side of a loop over a joint.
+/// Carries the rows of one side of a loop inward over a joint.
 #[inline(always)]
 fn carry<T: Real, S: Space<T>>(
     (n, freedoms): (usize, usize),
@@ -77,7 +77,7 @@ fn carry<T: Real, S: Space<T>>(
     Ok(())
 }
 
-/// Carries one side of a coupling's row over the joint of link `i`, where it may have g.
+/// Carries one side of a coupling's row inward over the joint of link `i`. The joint may be a term of the row, with slope g.
 #[inline(always)]
 fn carry_coupled<T: Real, S: Space<T>>(
     (m, row): (&Loops<'_, T, S>, &CoupledRow<T>),
@@ -97,7 +97,7 @@ fn carry_coupled<T: Real, S: Space<T>>(
     Ok(())
 }
 
-/// Adds the mobility that a joint gives the rows of two passes.
+/// Adds the mobility of a joint to the block of Λ of two passes.
 #[inline(always)]
 fn meet<T: Real, S: Space<T>>(
     (rows, columns, freedoms): (usize, usize, usize),
@@ -117,7 +117,7 @@ fn meet<T: Real, S: Space<T>>(
     Ok(())
 }
 
-/// Carries l alone over the joint of link `i`, whose drive changed.
+/// Carries only l over the joint of link `i`, after a change of its drive.
 #[inline]
 pub(crate) fn pass_again<T: Real, S: Space<T>>(
     m: &Loops<'_, T, S>,
@@ -148,7 +148,7 @@ fn carry_again<T: Real, S: Space<T>>(
     Ok(())
 }
 
-/// D⁻¹ (K b)ᵀ λ at the joint of link `i`.
+/// Returns the response D⁻¹ (K b)ᵀ λ at the joint of link `i`.
 #[inline]
 pub(crate) fn held<T: Real, S: Space<T>>(
     m: &Loops<'_, T, S>,
@@ -187,7 +187,7 @@ fn hold<T: Real, S: Space<T>>(
     Ok(())
 }
 
-/// g·u over the joint's freedoms.
+/// Returns the product g·u over the joint's freedoms.
 #[inline(always)]
 fn driven<T: Real, M: Numbers<T>>(drive: &M, gain: &[T]) -> T {
     let mut sum = T::ZERO;

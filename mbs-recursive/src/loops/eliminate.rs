@@ -1,4 +1,4 @@
-//! Loops eliminated at the link where their two sides meet.
+//! Elimination of loops at the common ancestor of their two sides.
 
 use super::fault::Fault;
 use super::{LoopStore, Loops, RankLost, Regularisation, index, inner};
@@ -10,7 +10,7 @@ use crate::rows::closed_loop::ClosedLoop;
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
 
-/// Eliminates the loops that end at link `i`; `a_ground` is the acceleration of the ground.
+/// Eliminates the loops whose ancestor is link `i`. `a_ground` is the acceleration of the ground.
 #[inline(always)]
 pub(crate) fn close<T: Real, S: Space<T>>(
     m: &Loops<'_, T, S>,
@@ -19,11 +19,11 @@ pub(crate) fn close<T: Real, S: Space<T>>(
     st: &mut LoopStore<'_, T, S>,
 ) -> Result<(), Fault<T>> {
     let ends = ends_at(m, i)?;
-    // Most links have none.
+    // Most links have no loop to eliminate.
     if ends.is_empty() { Ok(()) } else { close_some(m, ends, (i, regularisation, a_ground), c, st) }
 }
 
-/// The loops that end at link `i`.
+/// Returns the loops that are eliminated at link `i`.
 #[inline(always)]
 pub(crate) fn ends_at<'a, T: Real, S: Space<T>>(
     m: &Loops<'a, T, S>,
@@ -57,7 +57,7 @@ fn close_some<T: Real, S: Space<T>>(
     Ok(())
 }
 
-/// K of all sides behind the second one are added to it, in the rows that end here.
+/// Adds K of the third and further sides of couplings to K of the second side, for the rows that are eliminated here.
 #[inline(never)]
 fn join<T: Real, S: Space<T>>(
     m: &Loops<'_, T, S>,
@@ -80,7 +80,7 @@ fn join<T: Real, S: Space<T>>(
     Ok(())
 }
 
-/// K of both sides become one; at the ground, whose acceleration is known, a part of l.
+/// Adds K of the second side to K of the first. At the ground, the acceleration is known: K a is added to l.
 #[inline(always)]
 fn meet<T: Real, S: Space<T>>(
     n: usize,
@@ -103,7 +103,8 @@ fn meet<T: Real, S: Space<T>>(
     Ok(())
 }
 
-/// Adds ε times the rows' scale to Λ and factors it: Λ = C Cᵀ, in place, lower triangle, the diagonal's inverses on the diagonal.
+/// Adds ε times the rows' scale to Λ and factors it in place: Λ = C Cᵀ. The lower triangle has C, with the inverses of its diagonal
+/// entries.
 #[inline(always)]
 fn regularise<T: Real, S: Space<T>>(
     n: usize,
@@ -116,7 +117,7 @@ fn regularise<T: Real, S: Space<T>>(
     let block = part_mut(st.blocks, lap.block as usize, n * n)?;
     let (rows, scales) = (part(m.rows, first, n)?, part(st.scales, first, n)?);
     let pivots = part_mut(st.pivots, first, n)?;
-    // A coupling has one row.
+    // A loop of one row may be a coupling, which may be an angle.
     let is_angle = |row: &Row<T, S>| if n > 1 { row.is_cut_angle() } else { row.is_angle() };
     let mut scale = m.floor;
     for (row, &own) in rows.iter().zip(scales) {
@@ -155,7 +156,7 @@ fn regularise<T: Real, S: Space<T>>(
     Ok(())
 }
 
-/// l̃ = C⁻¹ l, and on a body K̃ = C⁻¹ K, I += K̃ᵀ K̃, p += K̃ᵀ l̃.
+/// Computes l̃ = C⁻¹ l. If the ancestor is a body, also K̃ = C⁻¹ K, I += K̃ᵀ K̃ and p += K̃ᵀ l̃.
 #[inline(always)]
 fn eliminate<T: Real, S: Space<T>>(
     n: usize,
@@ -183,7 +184,7 @@ fn eliminate<T: Real, S: Space<T>>(
     Ok(())
 }
 
-/// l ← C⁻¹ l.
+/// Solves for l in place: l ← C⁻¹ l.
 #[inline(always)]
 fn solve<T: Real>(n: usize, factor: &[T], l: &mut [T]) -> Result<(), Outside> {
     for r in 0..n {
@@ -198,7 +199,7 @@ fn solve<T: Real>(n: usize, factor: &[T], l: &mut [T]) -> Result<(), Outside> {
     Ok(())
 }
 
-/// Takes what an elimination changes from all later loops that are coupled with it.
+/// Updates all later loops that are coupled with an eliminated one.
 fn couple_all<T: Real, S: Space<T>>(
     m: &Loops<'_, T, S>,
     end: &End,
@@ -232,7 +233,7 @@ fn couple_all<T: Real, S: Space<T>>(
     Ok(())
 }
 
-/// W = Λₗₖ C⁻ᵀ, Kₗ −= W K̃, lₗ −= W l̃ for a later loop l.
+/// Computes W = Λₗₖ C⁻ᵀ, Kₗ −= W K̃ and lₗ −= W l̃ for a later loop l.
 #[inline(always)]
 fn couple<T: Real, S: Space<T>>(
     (rows, n): (usize, usize),
@@ -263,7 +264,7 @@ fn couple<T: Real, S: Space<T>>(
     Ok(())
 }
 
-/// Λₗₗ' −= W W'ᵀ.
+/// Updates a block of Λ: Λₗₗ' −= W W'ᵀ.
 #[inline(always)]
 fn take<T: Real, S: Space<T>>(
     (rows, columns, n): (usize, usize, usize),
@@ -282,7 +283,7 @@ fn take<T: Real, S: Space<T>>(
     Ok(())
 }
 
-/// Eliminates the loops that end at a link once more, for l alone.
+/// Repeats the elimination of the loops at a link for l only.
 #[inline(always)]
 pub(crate) fn close_again<T: Real, S: Space<T>>(
     m: &Loops<'_, T, S>,

@@ -1,25 +1,25 @@
-//! Faults that stop a pass.
+//! Faults by which a pass ends.
 
 use super::RankLost;
 use crate::link::indexing::Outside;
 use crate::link::joint::NoInertia;
 
-/// Reason why a pass stops.
+/// Reason why a pass ends with a fault.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Fault<T> {
     /// The tables do not fit each other.
     Outside,
-    /// A joint meets no inertia.
+    /// A joint moves no inertia.
     NoInertia(NoInertia<T>),
     /// The regularised rows of loops cannot be factored.
     RankLost(RankLost<T>),
-    /// The equations of loops do not come to their level.
+    /// The sweeps do not reach the level of the loops' equations.
     Unreached {
-        /// 0 position, 1 velocity, 2 acceleration.
+        /// Level of the equations: 0 position, 1 velocity, 2 acceleration.
         level: u8,
-        /// The row that is violated most.
+        /// Number of the row with the largest violation.
         row: u32,
-        /// Violation that is left.
+        /// Violation that the sweeps leave.
         violation: T,
     },
 }

@@ -1,4 +1,4 @@
-//! Multipliers of the loops, outward.
+//! Multipliers of the loops, computed outward.
 
 use super::eliminate::ends_at;
 use super::{LoopStore, Loops};
@@ -8,7 +8,8 @@ use crate::rows::closed_loop::ClosedLoop;
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
 
-/// λ of the loops that end at link `i`, whose acceleration is `a` (`None` for the ground, where it is in l already).
+/// Computes λ of the loops that are eliminated at link `i`. `a` is the acceleration of the link; `None` for the ground, whose acceleration
+/// is in l already.
 #[inline(always)]
 pub(crate) fn open<T: Real, S: Space<T>>(
     m: &Loops<'_, T, S>,
@@ -17,7 +18,7 @@ pub(crate) fn open<T: Real, S: Space<T>>(
     st: &mut LoopStore<'_, T, S>,
 ) -> Result<(), Outside> {
     let ends = ends_at(m, i)?;
-    // Most links have none.
+    // Most links have no loop to eliminate.
     if ends.is_empty() { Ok(()) } else { open_some(m, ends, a, st) }
 }
 
@@ -40,7 +41,7 @@ fn open_some<T: Real, S: Space<T>>(
     Ok(())
 }
 
-/// K̃ a + l̃.
+/// Sets λ to K̃ a + l̃.
 #[inline(always)]
 fn begin<T: Real, S: Space<T>>(
     n: usize,
@@ -61,7 +62,7 @@ fn begin<T: Real, S: Space<T>>(
     Ok(())
 }
 
-/// − Wᵀ λ of a later loop.
+/// Subtracts Wᵀ λ of a later loop.
 #[inline(always)]
 fn take<T: Real, S: Space<T>>(
     (rows, n): (usize, usize),
@@ -80,7 +81,7 @@ fn take<T: Real, S: Space<T>>(
     Ok(())
 }
 
-/// λ ← C⁻ᵀ λ.
+/// Solves for λ in place: λ ← C⁻ᵀ λ.
 #[inline(always)]
 fn solve_back<T: Real, S: Space<T>>(
     n: usize,

@@ -1,4 +1,4 @@
-//! Columns of the freedoms: which there are, and where they stand at a position.
+//! Columns of the freedoms: their list, and their values at a position.
 
 use super::six::{Moments, Six, V3};
 use crate::build::TreeModel;
@@ -15,106 +15,107 @@ use core::ops::Range;
 use mbs_core::Real;
 use mbs_core::algebra::Vector;
 
-/// Number that stands for no column.
+/// Column number that means no column.
 pub(super) const NONE: u32 = u32::MAX;
 
-/// Places of a link's freedoms in the own order, and the points from where they are seen.
+/// Numbers of a link's freedoms in the joints' order, and the points about which a free joint's freedoms are defined.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LinkFreedoms<T: Real> {
-    /// First number of those that move; of a joint that does not, anything.
+    /// Number of the link's first translational freedom. Not used for a joint without such freedoms.
     pub moves: usize,
-    /// First number of those that turn; the number of a joint with one freedom.
+    /// Number of the link's first rotational freedom, or of the only freedom of its joint.
     pub turns: usize,
-    /// Is it the motion of the parent against the child?
+    /// Is the freedom the motion of the parent against the child?
     pub is_reversed: bool,
-    /// A free joint's point on the ground, from the tree's base [m].
+    /// Point of a free joint on the ground, from the tree's base [m].
     pub point: Vector<T, 3>,
-    /// A free joint's point on the body, from the link's origin, reference axes [m].
+    /// Point of a free joint on the body, from the link's origin, reference axes [m].
     pub reference: Vector<T, 3>,
 }
 
 /// A part of a joint whose columns are of one kind.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum PartKind {
-    /// One freedom.
+    /// A joint with one freedom.
     Single,
-    /// Turns about axes that the child carries.
+    /// Rotations about axes fixed in the child.
     ChildBall,
-    /// Turns about axes of the parent.
+    /// Rotations about axes fixed in the parent.
     ParentBall,
-    /// Slides along axes of the parent.
+    /// Slides along axes fixed in the parent.
     ParentSlides,
-    /// Slides along axes that the child carries.
+    /// Slides along axes fixed in the child.
     ChildSlides,
 }
 
-/// Columns of one kind that stand side by side.
+/// Adjacent columns of one kind.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct ColumnPart<T: Real> {
     pub(super) link: usize,
     pub(super) kind: PartKind,
     pub(super) columns: Range<usize>,
-    /// Is it seen from the ground, as a free joint is?
+    /// Is the motion measured from the ground, as for a free joint?
     pub(super) is_free: bool,
     pub(super) point: V3<T>,
     pub(super) reference: V3<T>,
 }
 
-/// Column of a freedom, at a position.
+/// Column of a freedom at a position.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Column<T: Real> {
-    /// Number of the column in the own order.
+    /// Number of the freedom in the joints' order.
     pub(super) number: u32,
-    /// The column before it on the way to the ground.
+    /// Index of the preceding column on the way to the ground.
     pub(super) up: u32,
-    /// Column about its link's origin.
+    /// Column about the origin of its link.
     pub(super) here: Six<T>,
     /// Column about the origin of the first link on the way from the ground.
     pub(super) rooted: Six<T>,
 }
 
-/// Numbers of a link that its columns need, side by side.
+/// Data of a link that its columns need, stored together.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct OwnLink<T: Real> {
-    /// Origin of the link, from that of the first link on the way from the ground.
+    /// Vector from the origin of the first link on the way from the ground to the origin of this link.
     pub(super) place: V3<T>,
-    /// Number of the parent; of a free link the ground.
+    /// Number of the parent; for a free link the ground.
     pub(super) parent: usize,
     pub(super) columns: Range<usize>,
-    /// The parts of its joint.
+    /// Range of the parts of its joint.
     pub(super) parts: Range<usize>,
     /// Inertia tensor of the link about its origin in reference axes: xx, xy, xz, yy, yz, zz.
     pub(super) tensor: [T; 6],
 }
 
-/// The freedoms of a tree in the joints' own order and sense, with the scratch of what is made by them.
+/// The freedoms of a tree in the order and with the signs of the joints, with scratch for matrices over these freedoms.
 #[derive(Debug, Clone)]
 pub struct OwnFreedoms<T: Real, S: Space<T>> {
     pub(super) parts: Vec<ColumnPart<T>>,
     pub(super) columns: Vec<Column<T>>,
-    /// The numbers on the way to the ground from each column, the nearest first; from the first factorisation on.
+    /// For each column: numbers of the columns on its way to the ground, the nearest first. Empty before the first factorisation.
     pub(super) above: Vec<Vec<u32>>,
-    /// The numbers of the columns that have each column on their way to the ground; likewise.
+    /// For each column: numbers of the columns that have it on their way to the ground. Empty before the first factorisation.
     pub(super) below: Vec<Vec<u32>>,
-    /// From the least to the largest of all these numbers and its own, for each column; likewise.
+    /// For each column: range from the smallest to the largest number in `above`, `below` and its own. Empty before the first
+    /// factorisation.
     pub(super) related: Vec<Range<usize>>,
-    /// The links, the ground first.
+    /// Data of the links, beginning with the ground.
     pub(super) links: Vec<OwnLink<T>>,
-    /// Links on the way from the ground to one of them.
+    /// Links on the way from the ground to one link, as placed last.
     pub(super) way: Vec<usize>,
     pub(super) composite: Vec<Moments<T>>,
-    /// A row of a solution.
+    /// Scratch for a row of a solution.
     pub(super) row: Vec<T>,
-    /// The least pivot of each freedom.
+    /// Smallest allowed pivot of each freedom.
     pub(super) least: Vec<T>,
     space: core::marker::PhantomData<S>,
 }
 
 impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
-    /// The tree's freedoms, seen as `places` says for each link; guided links have none.
+    /// Makes the tree's freedoms in the numbering of `places`, which has one entry for each link. Guided links have no freedoms.
     ///
     /// # Panics
-    /// If there are not as many places as links, the ground among them.
+    /// If `places` has not one entry for each link, including the ground.
     #[must_use]
     pub fn new(model: &TreeModel<T, S>, places: &[LinkFreedoms<T>]) -> Self {
         let links = model.mechanism().links;
@@ -166,7 +167,7 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
         made
     }
 
-    /// The tree's freedoms in its own order, as its states have them.
+    /// Makes the tree's freedoms in the order of its states.
     #[must_use]
     pub fn of_tree(model: &TreeModel<T, S>) -> Self {
         let links = model.mechanism().links.iter();
@@ -178,7 +179,7 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
         Self::new(model, &links.map(place).collect::<Vec<_>>())
     }
 
-    /// Puts the links where a state has them, without velocities, and the columns.
+    /// Places the links at a state, without velocities, and writes the columns.
     pub(super) fn place(
         &mut self,
         model: &TreeModel<T, S>,
@@ -192,7 +193,7 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
         self.write_columns(&m, s.placed);
     }
 
-    /// Puts the links on the way from a link to the ground alone where a state has them, and their columns. `self.way` then has that way,
+    /// Places only the links on the way from a link to the ground at a state, and writes their columns. `self.way` has these links then,
     /// from the ground on.
     pub(super) fn place_way(
         &mut self,
@@ -215,12 +216,12 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
         }
     }
 
-    /// Writes the columns where the links are placed.
+    /// Writes all columns for the links as placed.
     pub(super) fn write_columns(&mut self, m: &TreeSlices<'_, T, S>, placed: &[LinkMotion<T, S>]) {
         self.write_columns_of(m, 0..self.parts.len(), placed);
     }
 
-    /// Writes the columns of some parts where the links are placed.
+    /// Writes the columns of some parts for the links as placed.
     #[inline]
     fn write_columns_of(
         &mut self,
@@ -244,14 +245,14 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
 }
 
 impl<T: Real> ColumnPart<T> {
-    /// The columns of a ball or of slides, about the link's origin.
+    /// Returns the columns of a ball or of slides, about the link's origin.
     fn columns<S: Space<T>>(
         &self,
         (p, parent): (&LinkMotion<T, S>, &S::Rotation),
     ) -> impl Iterator<Item = Six<T>> + use<T, S> {
         let is_turn = matches!(self.kind, PartKind::ChildBall | PartKind::ParentBall);
         let (of_child, of_parent) = (&p.rotation, parent);
-        // about what a turn is, and the axes with their sense
+        // the point about which the part rotates, its axes, and its sign
         let (point, axes, sense) = match self.kind {
             PartKind::ChildBall => {
                 let s = S::rotate(of_child, &S::point_from(&self.reference));
@@ -265,12 +266,12 @@ impl<T: Real> ColumnPart<T> {
             PartKind::ParentSlides | PartKind::Single => (V3::zeros(), of_parent, T::ONE),
         };
         let axes = S::rotation_into(axes);
-        // the plane turns about its normal alone
+        // in the plane only the rotation about the normal exists
         let first = if is_turn { 3 - S::Spin::N } else { 0 };
         (first..3).map(move |k| {
             let n = V3::new(axes[(0, k)], axes[(1, k)], axes[(2, k)]) * sense;
             if is_turn {
-                // (n, s × n)
+                // motion of a rotation about n at the point s: (n, s × n)
                 Six { turn: n, push: mbs_core::algebra::cross(&point, &n) }
             } else {
                 Six { turn: V3::zeros(), push: n }
@@ -279,7 +280,7 @@ impl<T: Real> ColumnPart<T> {
     }
 }
 
-/// The parts of a link's joint, from the parent outward, with the numbers of their columns.
+/// Returns the parts of a link's joint, from the parent outward, with the numbers of their columns.
 fn parts<T: Real, S: Space<T>>(
     kind: LinkKind,
     place: &LinkFreedoms<T>,
@@ -305,13 +306,13 @@ fn parts<T: Real, S: Space<T>>(
     parts.into_iter().flatten()
 }
 
-/// A motion of the plane or of space.
+/// Returns a motion of the plane or of space as a three-dimensional motion.
 #[inline(always)]
 pub(super) fn six<T: Real, S: Space<T>>(motion: &S::Motion) -> Six<T> {
     Six { turn: S::spin_into(&S::spin(motion)), push: S::point_into(&S::point(motion)) }
 }
 
-/// The numbers of a tensor in reference axes; of the plane the one about its normal.
+/// Returns the entries of a tensor in reference axes. In the plane only the entry about the normal is not zero.
 fn tensor<T: Real, S: Space<T>>(tensor: &S::Tensor) -> [T; 6] {
     let inertia = S::body_inertia(T::ZERO, &S::Point::zero(), tensor, &S::identity());
     let column = |k: usize| {
@@ -323,7 +324,7 @@ fn tensor<T: Real, S: Space<T>>(tensor: &S::Tensor) -> [T; 6] {
     [x[0], y[0], z[0], y[1], z[1], z[2]]
 }
 
-/// Places alone of some links, each behind its parent; velocities and velocity products stay as they are.
+/// Places some links, each after its parent. Velocities and velocity products are not changed.
 ///
 /// # Errors
 /// [`Outside`] if the tables do not fit each other.

@@ -1,4 +1,4 @@
-//! Derivatives of inverse dynamics: how efforts change with positions, velocities and accelerations.
+//! Derivatives of inverse dynamics: derivatives of efforts by positions, velocities and accelerations.
 //!
 //! ```text
 //! for columns j on the way from i to the ground, with the sums of the subtree of i        [Singh, Russo, Wensing 2022 (15)-(18)]
@@ -6,8 +6,8 @@
 //! ∂τⱼ/∂qᵢ = Sⱼᵀ (2 B Ψ̇ᵢ + I Ψ̈ᵢ + Sᵢ ×* f)   ∂τⱼ/∂vᵢ = Sⱼᵀ (2 B Sᵢ + I (Ψ̇ᵢ + Ṡᵢ))        Mⱼᵢ = Sⱼᵀ I Sᵢ
 //! ```
 //!
-//! ∂/∂q is along the velocities: by qᵢ stands the change while freedom i moves by its own unit. Within a ball of the child's axes the
-//! force is carried along by none of its columns, within one of the parent's axes by all: the source has the former alone.
+//! ∂/∂q is the derivative along velocities: ∂/∂qᵢ is the change while freedom i moves at unit rate. The source treats balls with axes fixed
+//! in the child: no column of the ball rotates the force. For axes fixed in the parent every column of the ball rotates it.
 
 use super::columns::{ColumnPart, NONE, PartKind};
 use super::moving::{MovingColumns, move_to};
@@ -17,24 +17,24 @@ use crate::host::{TreeState, Workspace};
 use crate::space::Space;
 use mbs_core::Real;
 
-/// Derivatives of efforts to be written, each a square of the freedoms, row by row: a row for each effort.
+/// Derivatives of efforts to be written. Each is a square matrix over the freedoms, by rows, with one row for each effort.
 #[derive(Debug)]
 pub struct EffortSlopes<'a, T> {
-    /// Derivatives by positions, along the velocities.
+    /// Derivatives by positions, in the directions of the freedoms' velocities.
     pub q: &'a mut [T],
-    /// Derivatives by velocities.
+    /// Derivatives of the efforts by velocities.
     pub v: &'a mut [T],
     /// Derivatives by accelerations: the mass matrix.
     pub a: &'a mut [T],
 }
 
 impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
-    /// Writes the derivatives of the efforts that make the state's accelerations, under gravity and without effects, loops open.
+    /// Writes the derivatives of the efforts that cause the state's accelerations, under gravity and without effects, with open loops.
     ///
-    /// Cost: an outward pass, and about 40 multiplications for each pair of freedoms on one way to the ground; no allocation.
+    /// Cost: an outward pass, and about 40 multiplications for each pair of freedoms on a common way to the ground; no allocation.
     ///
     /// # Panics
-    /// If `slopes` are not squares of the freedoms.
+    /// If the length of a matrix in `slopes` is not the square of the number of freedoms.
     pub fn write_effort_slopes(
         &mut self,
         model: &TreeModel<T, S>,
@@ -46,11 +46,11 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
         self.write_effort_slopes_here(model, (workspace, moving), slopes);
     }
 
-    /// Writes the derivatives of the efforts where the links stand and are accelerated as the scratch has them after
+    /// Writes the derivatives of the efforts for the places and accelerations that the scratch has after
     /// [`accelerate_under`](TreeModel::accelerate_under).
     ///
     /// # Panics
-    /// If `slopes` are not squares of the freedoms.
+    /// If the length of a matrix in `slopes` is not the square of the number of freedoms.
     pub fn write_effort_slopes_here(
         &mut self,
         model: &TreeModel<T, S>,
@@ -81,7 +81,7 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
         }
     }
 
-    /// Writes what column `c` and the columns on its way to the ground have of each other.
+    /// Writes the entries between column `c` and the columns on its way to the ground.
     #[inline(always)]
     fn write_slopes(
         &self,
@@ -109,7 +109,7 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
                 super::six::dot(&back, &there.first.turn) + momentum.dot(&there.second) + more;
             slopes.q[up] = there.column.dot(by_q);
         };
-        // the force is carried along with the axes of the parent
+        // the force rotates with the axes if they are fixed in the parent
         let is_carried = part.kind == PartKind::ParentBall;
         for j in part.columns.start..=c {
             if is_carried {

@@ -1,4 +1,5 @@
-//! A mass matrix as Lᵀ D L, with L as sparse as the tree: only columns on one way to the ground meet [Featherstone 2005].
+//! Factorisation of a mass matrix as Lᵀ D L. L is as sparse as the tree: an entry is not zero only between columns on a common way to the
+//! ground [Featherstone 2005].
 
 use super::OwnFreedoms;
 use super::columns::NONE;
@@ -8,19 +9,19 @@ use alloc::vec::Vec;
 use core::ops::Range;
 use mbs_core::Real;
 
-/// Pivot that is no inertia, in units of rounding of the diagonal [-]. Chosen, not tuned.
+/// Largest pivot that counts as no inertia, in units of rounding of the diagonal [-]. Chosen, not tuned.
 const ROUNDINGS: f64 = 64.0;
 
 impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
-    /// Replaces a mass matrix by D on its diagonal, and L below it in the order of the tree.
+    /// Replaces a mass matrix by its factors: D on the diagonal, and L below it in the order of the tree.
     ///
     /// Cost: freedoms times the square of the depth; no allocation after the first call.
     ///
     /// # Errors
-    /// The link whose joint meets no inertia.
+    /// The number of a link whose joint moves no inertia.
     ///
     /// # Panics
-    /// If `mass` has not the square of the freedoms.
+    /// If the length of `mass` is not the square of the number of freedoms.
     pub fn factor(&mut self, mass: &mut [T]) -> Result<(), usize> {
         let n = self.columns.len();
         assert_eq!(mass.len(), n * n, "numbers of the mass matrix");
@@ -38,7 +39,7 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
                 return Err(link.unwrap_or(0));
             }
             let inverse = T::ONE / pivot;
-            // M_ij −= M_ki M_kj / D_k for i, j on the way to the ground, L_ki = M_ki / D_k
+            // elimination of column k: M_ij −= M_ki M_kj / D_k for i, j on the way to the ground, L_ki = M_ki / D_k
             for (place, &i) in self.above[c].iter().enumerate() {
                 let factor = mass[k * n + i as usize] * inverse;
                 for &j in &self.above[c][place..] {
@@ -51,7 +52,7 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
         Ok(())
     }
 
-    /// Finds which columns are on one way to the ground.
+    /// Finds the columns on a common way to the ground.
     fn relate(&mut self) {
         let n = self.columns.len();
         (self.above, self.below) = (vec![Vec::new(); n], vec![Vec::new(); n]);
@@ -73,13 +74,13 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
         }
     }
 
-    /// Replaces a square by M⁻¹ times it, by the factors of M. Its entries are zero where row and column are not on one way to the ground, as
-    /// those of derivatives of efforts are, and of one.
+    /// Replaces a square X by M⁻¹ X, with the factors of M. Entries of X between freedoms that are not on a common way to the ground must
+    /// be zero. Derivatives of efforts and the identity have this property.
     ///
     /// Cost: twice the freedoms squared times depth; no allocation after the first call.
     ///
     /// # Panics
-    /// If `x` is not a square of the freedoms.
+    /// If the length of `x` is not the square of the number of freedoms.
     pub fn solve(&mut self, factors: &[T], x: &mut [T]) {
         let n = self.columns.len();
         assert_eq!(x.len(), n * n, "numbers of a square of freedoms");
@@ -87,7 +88,7 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
         let mut sum = core::mem::take(&mut self.row);
         for c in 0..n {
             let k = self.columns[c].number as usize;
-            // x_k ← x_k / D_k − Σ L_kj x_j over the way to the ground
+            // forward substitution: x_k ← x_k / D_k − Σ L_kj x_j over the way to the ground
             let scale = T::ONE / factors[k * n + k];
             sum.clear();
             sum.extend(row(x, n, k).iter().map(|&x| x * scale));
@@ -98,12 +99,12 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
         self.row = sum;
     }
 
-    /// Writes J M⁻¹ Jᵀ by the factors of M, for `width` rows J; on return `columns` has L⁻ᵀ Jᵀ.
+    /// Writes J M⁻¹ Jᵀ with the factors of M, for `width` rows J. On return `columns` has L⁻ᵀ Jᵀ.
     ///
     /// Cost: rows times freedoms times depth and rows; no allocation.
     ///
     /// # Panics
-    /// If `columns` is not as long as the rows, or `mobility` not the square of their number.
+    /// If `columns` does not have the length of `rows`, or that of `mobility` is not the square of the number of rows.
     pub fn write_mobility(
         &mut self,
         factors: &[T],
@@ -131,7 +132,7 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
         }
     }
 
-    /// Replaces the columns of `x` by L⁻ᵀ times them; those of a square are zero outside of the related columns.
+    /// Replaces `x` by L⁻ᵀ x. In a square, entries outside of the related columns are zero and skipped.
     fn solve_half(&mut self, (factors, is_square): (&[T], bool), x: &mut [T]) {
         let n = self.columns.len();
         assert_eq!(x.len() % n.max(1), 0, "rows of freedoms");
@@ -140,7 +141,7 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
             let k = self.columns[c].number as usize;
             let width = x.len() / n;
             let Range { start, end } = if is_square { self.related[c].clone() } else { 0..width };
-            // x_k ← x_k − Σ L_jk x_j over the subtree
+            // back substitution: x_k ← x_k − Σ L_jk x_j over the subtree
             sum.clear();
             sum.extend_from_slice(&row(x, n, k)[start..end]);
             let below = self.below[c].iter().map(|&j| (j as usize, factors[j as usize * n + k]));
@@ -161,7 +162,8 @@ fn row_mut<T>(x: &mut [T], n: usize, k: usize) -> &mut [T] {
     &mut x[k * width..][..width]
 }
 
-/// Subtracts rows of `x` from a column on, each times its factor, from a sum: four in one pass, so that the sum is read and written once for them.
+/// Subtracts rows of `x`, each times its factor, from a sum, beginning at a column. Four rows are subtracted in one pass, which reads and
+/// writes the sum only once.
 #[inline(always)]
 fn subtract<T: Real>(
     (x, n, start): (&[T], usize, usize),

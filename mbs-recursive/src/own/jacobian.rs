@@ -1,4 +1,4 @@
-//! Jacobians of points and frames.
+//! Jacobians of points and of frames fixed in bodies.
 
 use super::OwnFreedoms;
 use super::moving::{MovingColumns, move_to};
@@ -11,13 +11,13 @@ use mbs_core::algebra::cross;
 use mbs_core::scene::BodyId;
 
 impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
-    /// Writes the Jacobian of a body's point, which was at `at` in the reference configuration, row by row: of its velocity, and where
-    /// there are six rows of the body's angular velocity; global axes.
+    /// Writes the Jacobian of a body's point by rows, in global axes. The point was at `at` in the reference configuration. The first three
+    /// rows give the velocity of the point. If there are six rows, the last three give the body's angular velocity.
     ///
     /// Cost: that of the links on the way to the ground; no allocation.
     ///
     /// # Panics
-    /// If `rows` has not three or six rows.
+    /// If `rows` has neither three nor six rows.
     pub fn write_jacobian(
         &mut self,
         model: &TreeModel<T, S>,
@@ -41,13 +41,13 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
         }
     }
 
-    /// Writes the rate of [`write_jacobian`](Self::write_jacobian) at the state's velocities: times the velocities it is the acceleration
-    /// that a point has at constant velocities.
+    /// Writes the rate of [`write_jacobian`](Self::write_jacobian) at the state's velocities. The rate times the velocities is the
+    /// acceleration of the point at constant velocities.
     ///
     /// Cost: two outward passes; no allocation.
     ///
     /// # Panics
-    /// If `rows` has not three or six rows.
+    /// If `rows` has neither three nor six rows.
     pub fn write_jacobian_rate(
         &mut self,
         model: &TreeModel<T, S>,
@@ -70,7 +70,7 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
         while i > 0 {
             for c in self.links[i].columns.clone() {
                 let there = &moving.columns[c];
-                // d/dt (S_v + S_ω × x)
+                // rate d/dt (S_v + S_ω × x) of the column
                 let rate = there.rate.at(&x);
                 let push = rate.push + cross(&there.column.turn, &velocity);
                 put(rows, (n, self.columns[c].number as usize), [push, rate.turn]);
@@ -79,12 +79,12 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
         }
     }
 
-    /// Writes the Jacobian of the velocity of the centre of mass, row by row, of bodies of `total` mass.
+    /// Writes the Jacobian of the velocity of the centre of mass by rows. `total` is the mass of all bodies.
     ///
     /// Cost: an outward pass without velocities, and an inward one; no allocation.
     ///
     /// # Panics
-    /// If `rows` has not three rows.
+    /// If `rows` does not have three rows.
     pub fn write_center_jacobian(
         &mut self,
         model: &TreeModel<T, S>,
@@ -115,7 +115,7 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
     }
 }
 
-/// Writes a column of three or six rows.
+/// Writes one column of a matrix with three or six rows.
 #[inline(always)]
 pub(super) fn put<T: Real>(rows: &mut [T], (n, number): (usize, usize), column: [V3<T>; 2]) {
     assert!(number < n, "numbers of the columns");

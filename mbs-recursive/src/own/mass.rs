@@ -1,4 +1,4 @@
-//! The mass matrix by composite bodies.
+//! The mass matrix by the composite rigid body algorithm.
 
 use super::OwnFreedoms;
 use super::six::{Moments, V3};
@@ -9,12 +9,12 @@ use crate::space::Space;
 use mbs_core::Real;
 
 impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
-    /// Writes the mass matrix, loops being open, row by row.
+    /// Writes the mass matrix of the tree with open loops, by rows.
     ///
     /// Cost: an outward pass without velocities, and bodies times depth; no allocation.
     ///
     /// # Panics
-    /// If `mass` has not the square of the freedoms.
+    /// If the length of `mass` is not the square of the number of freedoms.
     pub fn write_mass_matrix(
         &mut self,
         model: &TreeModel<T, S>,
@@ -60,8 +60,8 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
         }
     }
 
-    /// Writes the bodies about their links' origins, and the columns about the origin of the first link on the way from the ground. From
-    /// there the way to other links is known to rounding of its length, wherever the mechanism is.
+    /// Writes the moments of the bodies about their links' origins. Writes the columns about the origin of the first link on the way from
+    /// the ground. Vectors between these origins are exact to rounding of their length, however far the mechanism is from the ground's origin.
     fn write_rooted(&mut self, links: &[Link<T, S>], placed: &[LinkMotion<T, S>]) {
         for (i, (link, p)) in links.iter().zip(placed).enumerate().skip(1) {
             let own = &self.links[i];
@@ -78,7 +78,7 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
     }
 }
 
-/// A body about its link's origin.
+/// Returns the moments of a body about its link's origin.
 #[inline(always)]
 pub(super) fn moments<T: Real, S: Space<T>>(
     link: &Link<T, S>,

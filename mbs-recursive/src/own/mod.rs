@@ -1,15 +1,17 @@
-//! Freedoms in the joints' own order and sense, as columns of motion: mass matrices, Jacobians and derivatives by them.
+//! Freedoms in the order and with the signs of the joints, as columns of motion, with mass matrices, Jacobians and derivatives over them.
 //!
 //! ```text
 //! one number                       n about the joint, or a slide
-//! ball, own                        axes of the child, about its place: R eₖ
+//! ball                             axes of the child, about its place: R eₖ
 //! ball, reversed                   axes of the parent: −Rₚ eₖ
-//! free, own                        slides along the ground's axes, then a ball of the child's axes about the body's point
+//! free                             slides along the ground's axes, then a ball of the child's axes about the body's point
 //! free, reversed                   a ball of the ground's axes about the ground's point, then slides along −R eₖ
 //! ```
 //!
-//! A column is the motion of a link at unit rate of one freedom, all others at rest. By columns of its own a joint of several
-//! freedoms needs no change of coordinates, whichever body it was written from.
+//! A joint is reversed if its parent in the tree is its second body.
+//!
+//! A column is the motion of a link for unit rate of one freedom, with all other freedoms at rest. The columns of a joint with several
+//! freedoms follow the definition of the joint. A change of coordinates is therefore not needed, whichever body is the parent.
 
 mod columns;
 mod derivatives;

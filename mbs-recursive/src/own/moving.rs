@@ -1,11 +1,12 @@
-//! Columns that move: with their rates, about a common point.
+//! Columns with their rates, about a common point.
 //!
 //! ```text
-//! Ṡ = w × S        w: the motion of what carries the column
-//! Ψ̇ = u × S,   Ψ̈ = u̇ × S + u × Ψ̇        u: the motion of what is at rest while the freedom moves
+//! Ṡ = w × S        w: the motion of the body in which the column is fixed
+//! Ψ̇ = u × S,   Ψ̈ = u̇ × S + u × Ψ̇        u: the motion of the body that is at rest while the freedom moves
 //! ```
 //!
-//! A column that the child carries has w behind the joint and u before it; one that the parent carries the other way round.
+//! For a column fixed in the child, w is the motion after the joint and u the motion before it. For a column fixed in the parent, w and u
+//! are exchanged.
 
 use super::OwnFreedoms;
 use super::columns::{ColumnPart, PartKind, six};
@@ -24,16 +25,16 @@ use alloc::vec::Vec;
 use mbs_core::Real;
 use mbs_core::algebra::cross;
 
-/// A column S with what its motion and that of its parent make of it.
+/// A column S with its rates.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Moving<T: Real> {
-    /// Column S itself.
+    /// Column S of the freedom.
     pub(super) column: Six<T>,
-    /// Rate Ṡ of the column with what carries it.
+    /// Rate Ṡ of the column by the motion of the body in which it is fixed.
     pub(super) rate: Six<T>,
-    /// Rate Ψ̇ by the motion of what is at rest while the freedom moves.
+    /// Rate Ψ̇ of the column by the motion u of the body that is at rest while the freedom moves.
     pub(super) first: Six<T>,
-    /// Second rate Ψ̈ by the motion of what is at rest while the freedom moves.
+    /// Second rate Ψ̈ of the column by the motion u.
     pub(super) second: Six<T>,
     /// Sum Ṡ + Ψ̇ of both rates.
     pub(super) both: Six<T>,
@@ -46,20 +47,20 @@ pub(super) struct Motion<T: Real> {
     pub(super) a: Six<T>,
 }
 
-/// Scratch of derivatives of one tree.
+/// Scratch for the derivatives of one tree.
 #[derive(Debug, Clone)]
 pub struct MovingColumns<T: Real> {
     pub(super) motions: Vec<Motion<T>>,
     pub(super) columns: Vec<Moving<T>>,
     pub(super) sums: Vec<Sums<T>>,
-    /// Masses m (s − 1) of the subtrees where gravity has a factor s, about the common point.
+    /// Masses m (s − 1) of the subtrees about the common point, for bodies whose gravity has a factor s.
     pub(super) weights: Vec<Moments<T>>,
-    /// The common point, from the tree's base.
+    /// Common point, from the tree's base [m].
     pub(super) origin: V3<T>,
 }
 
 impl<T: Real> MovingColumns<T> {
-    /// Scratch for a tree.
+    /// Makes the scratch for a tree.
     #[must_use]
     pub fn new<S: Space<T>>(model: &TreeModel<T, S>) -> Self {
         let zero = Six::zero();
@@ -74,7 +75,7 @@ impl<T: Real> MovingColumns<T> {
     }
 }
 
-/// Puts the links where a state has them, with its velocities and accelerations.
+/// Places the links at a state, with its velocities and accelerations.
 pub(super) fn move_to<T: Real, S: Space<T>>(
     model: &TreeModel<T, S>,
     state: &TreeState<T>,
@@ -88,9 +89,10 @@ pub(super) fn move_to<T: Real, S: Space<T>>(
 }
 
 impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
-    /// Writes motions, columns and the sums of the single links, where the links move so and have accelerations `a`.
+    /// Writes motions, columns and the sums of single links, for the links as placed and their accelerations `a`.
     ///
-    /// The common point is the first link's origin, so that a vehicle far from the ground's origin loses no digits.
+    /// The common point is the first link's origin. Rounding then does not grow with the distance of the mechanism from the ground's
+    /// origin.
     pub(super) fn write_moving(
         &mut self,
         m: &TreeSlices<'_, T, S>,
@@ -128,7 +130,7 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
         }
     }
 
-    /// The motions before and behind a part of a joint; between the two parts of a free joint is a body of its own.
+    /// Returns the motions before and after a part of a joint. A free joint has two parts; a fictitious body is between them.
     fn around(
         &self,
         part: &ColumnPart<T>,
@@ -138,7 +140,7 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
         let [before, behind] = [to.motions[self.links[part.link].parent], to.motions[part.link]];
         match (part.is_free, part.kind) {
             (true, PartKind::ParentSlides | PartKind::ChildBall) => {
-                // the body's point, without its turning
+                // translation with the body's point, without rotation
                 let arm = S::rotate(&p.rotation, &S::point_from(&part.reference));
                 let x = S::point_into(&(p.position + arm)) - to.origin;
                 let (v, a) = (behind.v.at(&x).push, behind.a.at(&x).push);
@@ -149,7 +151,7 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
                 if is_last { [between, behind] } else { [before, between] }
             }
             (true, PartKind::ParentBall | PartKind::ChildSlides) => {
-                // the body's turning, about the ground's point
+                // rotation of the body about the ground's point
                 let x = part.point - to.origin;
                 let turn = |six: &Six<T>| Six { turn: six.turn, push: cross(&x, &six.turn) };
                 let between = Motion { v: turn(&behind.v), a: turn(&behind.a) + before.a };

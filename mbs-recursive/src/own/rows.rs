@@ -1,4 +1,4 @@
-//! Rows of what closes loops and ties joints, along the columns.
+//! Jacobian rows of closed loops and couplings, over the columns.
 
 use super::OwnFreedoms;
 use super::columns::six;
@@ -13,12 +13,12 @@ use crate::space::Space;
 use mbs_core::Real;
 
 impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
-    /// Writes the Jacobian of the equations of cut joints and couplings row by row: rows times freedoms.
+    /// Writes the Jacobian of the equations of cut joints and couplings, by rows over the freedoms.
     ///
     /// Cost: for each row the links on the way to the ground; no allocation.
     ///
     /// # Panics
-    /// If `rows` has not rows times freedoms numbers.
+    /// If `rows` does not have as many numbers as rows times freedoms.
     pub fn write_loop_rows(
         &mut self,
         model: &TreeModel<T, S>,
@@ -59,7 +59,7 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
                 self.add_along((start.link as usize, gradient), s.placed, out);
             }
             for (link, _, slope) in m.loops.couplings.joints_of(row, s.loops.slopes)? {
-                // a guided joint has none
+                // a guided joint has no column
                 for c in self.links[link as usize].columns.clone() {
                     out[self.columns[c].number as usize] += slope;
                 }
@@ -68,7 +68,7 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
         Ok(())
     }
 
-    /// Adds what a force on a link about its origin does along the columns on the way to the ground.
+    /// Adds the products of a force on a link, about its origin, with the columns on the way to the ground.
     fn add_along(
         &self,
         (mut i, force): (usize, &S::Motion),

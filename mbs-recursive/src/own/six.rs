@@ -1,4 +1,4 @@
-//! Motions (ω, v) and forces (τ, f) about one point, and the inertia of a rigid body there, always of space.
+//! Motions (ω, v) and forces (τ, f) about a point, and inertias of rigid bodies about it, always in space.
 
 use core::ops::{Add, AddAssign, Mul, Neg, Sub};
 use mbs_core::Real;
@@ -24,7 +24,7 @@ impl<T: Real> Six<T> {
         Self { turn: V3::zeros(), push: V3::zeros() }
     }
 
-    /// Power of a force along a motion, in two sums side by side.
+    /// Returns the power of a force along a motion. Two independent sums let the processor work on both at once.
     #[inline(always)]
     pub(super) fn dot(&self, other: &Self) -> T {
         let (a, b, c, d) = (&self.turn, &self.push, &other.turn, &other.push);
@@ -33,27 +33,27 @@ impl<T: Real> Six<T> {
         even + odd
     }
 
-    /// Returns v × s: the rate of a motion s that is carried along by the motion v.
+    /// Returns the cross product v × s: the rate of a motion s that is fixed in a frame with the motion v.
     #[inline(always)]
     pub(super) fn carries(&self, s: &Self) -> Self {
         let push = cross(&self.turn, &s.push) + cross(&self.push, &s.turn);
         Self { turn: cross(&self.turn, &s.turn), push }
     }
 
-    /// Returns v ×* f: the rate of a force f that is carried along by the motion v.
+    /// Returns the dual cross product v ×* f: the rate of a force f that is fixed in a frame with the motion v.
     #[inline(always)]
     pub(super) fn carries_force(&self, f: &Self) -> Self {
         let turn = cross(&self.turn, &f.turn) + cross(&self.push, &f.push);
         Self { turn, push: cross(&self.turn, &f.push) }
     }
 
-    /// A motion about a point at `arm` from the former one.
+    /// Returns the motion about a point at `arm` from the present point.
     #[inline(always)]
     pub(super) fn at(&self, arm: &V3<T>) -> Self {
         Self { turn: self.turn, push: self.push + cross(&self.turn, arm) }
     }
 
-    /// A force about the point from which the present one is at `arm`.
+    /// Returns the force about another point. `arm` is the vector from that point to the present one.
     #[inline(always)]
     pub(super) fn gathered(&self, arm: &V3<T>) -> Self {
         Self { turn: self.turn + cross(arm, &self.push), push: self.push }
@@ -124,7 +124,7 @@ impl<T: Real> Moments<T> {
         )
     }
 
-    /// Momentum of a motion.
+    /// Returns the momentum of a motion.
     #[inline(always)]
     pub(super) fn times(&self, s: &Six<T>) -> Six<T> {
         Six {
@@ -133,7 +133,7 @@ impl<T: Real> Moments<T> {
         }
     }
 
-    /// About the point from which the present one is at `arm`.
+    /// Returns the moments about another point. `arm` is the vector from that point to the present one.
     #[inline(always)]
     pub(super) fn gathered(&self, arm: &V3<T>) -> Self {
         let (m, h) = (self.mass, &self.first);
@@ -153,7 +153,7 @@ impl<T: Real> Moments<T> {
         Self { mass: m, first: arm * m + h, second }
     }
 
-    /// R J Rᵀ of a tensor.
+    /// Returns the rotated tensor R J Rᵀ.
     #[inline(always)]
     pub(super) fn turned(tensor: &[T; 6], r: &Matrix<T, 3>) -> [T; 6] {
         let still = Self { mass: T::ZERO, first: V3::zeros(), second: *tensor };

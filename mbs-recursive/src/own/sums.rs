@@ -1,12 +1,12 @@
-//! Sums of a subtree about a common point: moments, momentum, how its momentum streams, and the force that moves it.
+//! Sums over a subtree about a common point: moments, momentum, the stream of the momentum, and the force that accelerates the subtree.
 //!
 //! ```text
 //! P = Σ m v        N x = Σ m r × (x × v)        f = Σ I a + v ×* I v
 //! 2 B s = 2 (N ω_s, ω_s × P)                    the change of velocity forces by a motion s, up to what is carried along
 //! ```
 //!
-//! B is a sum over particles in which the velocity of s drops out: only its turn streams momentum. So twelve numbers stand where the
-//! general form has thirty-six.
+//! B is a sum over particles. The translation of s cancels in it, because only the rotation of s changes the momentum's direction. Twelve
+//! numbers therefore replace the thirty-six of the general form.
 
 use super::six::{Moments, Six, V3, dot};
 use core::ops::AddAssign;
@@ -18,7 +18,7 @@ pub(super) struct Sums<T: Real> {
     pub(super) moments: Moments<T>,
     /// Momentum P of the subtree.
     momentum: V3<T>,
-    /// Stream N of the momentum.
+    /// Stream N of the momentum, defined above.
     stream: Matrix<T, 3>,
     pub(super) force: Six<T>,
 }
@@ -33,12 +33,12 @@ impl<T: Real> Sums<T> {
         }
     }
 
-    /// Sums of one body that moves by v and is accelerated by a, all about the point.
+    /// Returns the sums of one body with velocity v and acceleration a, all about the common point.
     #[inline(always)]
     pub(super) fn body(moments: Moments<T>, v: &Six<T>, a: &Six<T>) -> Self {
         let momentum = moments.times(v);
         let force = moments.times(a) + v.carries_force(&momentum);
-        // N = (h·v) − v hᵀ − [ω] Q with Q = ½ tr J − J = Σ m r rᵀ
+        // stream of the momentum: N = (h·v) − v hᵀ − [ω] Q with Q = ½ tr J − J = Σ m r rᵀ
         let (h, s, w) = (&moments.first, &moments.second, &v.turn);
         let half = (s[0] + s[3] + s[5]) * T::HALF;
         let q = [
@@ -58,14 +58,14 @@ impl<T: Real> Sums<T> {
         Self { moments, momentum: momentum.push, stream, force }
     }
 
-    /// Returns 2 B s, the change of velocity forces by a motion s.
+    /// Returns 2 B s, the change of the velocity-dependent forces by a motion s.
     #[inline(always)]
     pub(super) fn streams(&self, s: &Six<T>) -> Six<T> {
         let turn = self.stream * s.turn;
         Six { turn: turn * T::TWO, push: cross(&s.turn, &self.momentum) * T::TWO }
     }
 
-    /// Returns 2 Bᵀ s, which acts on turns alone.
+    /// Returns 2 Bᵀ s. Only rotations have a product with it.
     #[inline(always)]
     pub(super) fn streams_back(&self, s: &Six<T>) -> V3<T> {
         (self.stream.tr_mul(&s.turn) + cross(&self.momentum, &s.push)) * T::TWO

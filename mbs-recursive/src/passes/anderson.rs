@@ -1,21 +1,22 @@
-//! Iterates mixed so that what they left over cancels: the multisecant acceleration of a fixed-point iteration.
+//! Anderson mixing: a multisecant acceleration of a fixed-point iteration. The next iterate is a combination of earlier ones whose
+//! residuals cancel.
 //!
 //! ```text
 //! x ↦ g(x),   r = x − g(x)      pairs (p, q) of past steps Δx and changes Δr, the q made orthonormal
 //! next x = g − Σ (q·r) (p − q)
 //! ```
 //!
-//! In n steps of a linear iteration n slow directions are found and left out; an iteration that contracts fast is hardly changed.
-//! The newest pair takes the place of the oldest. Where r is a small part of what is missing, the length of the next move is its estimate.
-//! Source: Anderson (1965), in the form of Fang and Saad (2009), type II.
+//! A linear iteration with n slowly converging directions loses these directions after n iterates. A fast iteration is hardly changed. A
+//! new pair replaces the oldest pair. In a slow iteration r is much smaller than the error. The length of the next move estimates the error
+//! then. Source: Anderson (1965), in the form of Fang and Saad (2009), type II.
 
 use mbs_core::Real;
 use mbs_core::algebra::norm_inf;
 
-/// Pairs that are kept [-]: as many slow directions are found in as many steps. Chosen, not tuned.
+/// Number of pairs that are stored [-]. Each pair removes one slowly converging direction. Chosen, not tuned.
 pub const DEPTH: usize = 4;
 
-/// Numbers that the history of an iteration in `n` unknowns takes.
+/// Number of values that the history of an iteration in `n` unknowns has.
 #[must_use]
 pub fn history(n: usize) -> usize {
     (2 * (DEPTH + 1) + 1) * n
@@ -24,17 +25,17 @@ pub fn history(n: usize) -> usize {
 /// State of an iteration in progress.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) struct Mixing {
-    /// Is there a last x and r?
+    /// Does the history contain a last x and r?
     has_last: bool,
     /// Number of pairs found.
     n_pairs: usize,
-    /// The place of the next one, which takes that of the oldest.
+    /// Index at which the next pair is stored. It overwrites the oldest pair.
     place: usize,
 }
 
 impl Mixing {
-    /// Takes an iterate in; returns how far the next x would go, which estimates what is missing. `r` is x − g, `history`
-    /// has [`history`] numbers: last r and x, the pairs, the move; too short, nothing is mixed.
+    /// Adds an iterate to the history and returns the length of the next move, an estimate of the error. `r` is x − g. `history` has
+    /// [`history`] values: the last r and x, the pairs, and the next move. If `history` is too short, nothing is mixed.
     ///
     /// Cost: at most `5 DEPTH` products of n numbers.
     pub(crate) fn take<T: Real>(&mut self, r: &[T], g: &[T], history: &mut [T]) -> T {
@@ -54,7 +55,7 @@ impl Mixing {
                 self.n_pairs = self.n_pairs.max(self.place + 1);
                 self.place = (self.place + 1) % DEPTH;
             } else {
-                // nothing new is seen, but the iteration continues: the pairs are no longer its own
+                // r has not changed in a new direction: the old pairs no longer describe this iteration and are dropped
                 (self.n_pairs, self.place) = (0, 0);
             }
         }
@@ -62,7 +63,7 @@ impl Mixing {
             (last[i], last[n + i]) = (r[i], g[i] + r[i]);
         }
         self.has_last = true;
-        // the move stands behind the pairs, for [`mix`](Self::mix)
+        // the next move is stored after the pairs, where [`mix`](Self::mix) reads it
         let (before, rest) = pairs.split_at_mut(2 * n * DEPTH);
         let step = &mut rest[..n];
         for (x, &r) in step.iter_mut().zip(r) {
@@ -78,7 +79,7 @@ impl Mixing {
         norm_inf(step)
     }
 
-    /// Replaces g by the next x after the iterate that was taken in last.
+    /// Replaces g by the next x that was computed from the last iterate.
     pub(crate) fn mix<T: Real>(g: &mut [T], history: &[T]) {
         let n = g.len();
         if n == 0 || history.len() < self::history(n) {
@@ -91,7 +92,7 @@ impl Mixing {
     }
 }
 
-/// Takes the old pairs' directions off a new pair (q, p) and makes q a unit vector; false if nothing of q is left.
+/// Makes q of a new pair (q, p) orthogonal to the old pairs and gives it unit length. Returns false if the rest of q is rounding.
 fn orthonormalise<T: Real>(old: [&[T]; 2], new: &mut [T]) -> bool {
     let n = new.len() / 2;
     let before = norm_inf(&new[..n]);
@@ -102,7 +103,7 @@ fn orthonormalise<T: Real>(old: [&[T]; 2], new: &mut [T]) -> bool {
         }
     }
     let left = norm_inf(&new[..n]);
-    // What is left of a change that was seen before is rounding.
+    // If the change has no new direction, the remainder is rounding.
     if !(left > before * T::EPSILON.sqrt()) {
         return false;
     }
@@ -122,7 +123,8 @@ mod tests {
     use super::*;
     use alloc::{vec, vec::Vec};
 
-    /// Returns the rest r and the next iterate g = x − r of an iteration of diagonal contractions towards `solution`.
+    /// Returns the residual r and the next iterate g = x − r of an iteration that contracts each direction towards `solution` by its own
+    /// factor.
     fn left_over(x: &[f64], slow: &[f64], solution: f64) -> [Vec<f64>; 2] {
         let r: Vec<f64> = x.iter().zip(slow).map(|(x, share)| share * (x - solution)).collect();
         let g = x.iter().zip(&r).map(|(x, r)| x - r).collect();
@@ -138,7 +140,7 @@ mod tests {
             let [r, mut g] = left_over(&x, &slow, 7.0);
             let far = mixing.take(&r, &g, &mut history);
             if far < 1e-9 {
-                // one part in 1e5 of it is all that the slowest direction leaves over
+                // the residual of the slowest direction is 1e-5 of its error
                 let missing = x.iter().fold(0.0, |most: f64, x| most.max((x - 7.0).abs()));
                 assert!(missing < 1e-8, "{missing:e} is missing after {iterations} iterates");
                 return;
@@ -153,7 +155,7 @@ mod tests {
     fn pairs_that_add_nothing_new_are_forgotten() {
         let mut history = vec![0.0; history(1)];
         let (mut mixing, mut x) = (Mixing::default(), vec![0.0]);
-        // a contraction that changes on the way: the first pair would lead away from the new solution for ever
+        // The contraction changes during the iteration. The first pair alone would lead away from the new solution.
         for (turns, slow, solution) in [(4, 0.5, 1.0), (12, 1.4, -2.0)] {
             for _ in 0..turns {
                 let [r, mut g] = left_over(&x, &[slow], solution);

@@ -1,4 +1,4 @@
-//! Checks of what has no direction left after a step: parts of ropes without length, twists of balls with opposite axes, flat discs.
+//! Checks after a step for directions that became undefined: line parts of zero length, twists of balls with opposite axes, flat discs.
 
 use crate::link::indexing::{Outside, at};
 use crate::loads::{Load, SumLoad};
@@ -13,14 +13,15 @@ use crate::space::Space;
 use mbs_core::Real;
 use mbs_core::step::StepError;
 
-/// Looks whether a part of a line has collapsed in the step of `dt` [s] from `start` to where the links of `s` are, and whether a disc lies
-/// flat there.
+/// Checks whether a part of a line has collapsed in the step of `dt` [s] from `start` to the state in `s`. It also checks whether a disc
+/// lies flat at the end.
 ///
-/// Cost: without lines a comparison for each loop; with them, the places of the links at the start of the step.
+/// Cost: without lines one comparison for each loop; with lines also the places of the links at the start of the step.
 ///
 /// # Errors
-/// [`StepError::RopeCollapsed`] names coupling and part, [`StepError::LineCollapsed`] part, and the load in place of the effect,
-/// as do [`StepError::TwistOpen`] and [`StepError::Overturned`]; [`StepError::RollingFlat`] names the rolling.
+/// [`StepError::RopeCollapsed`] names coupling and part. [`StepError::LineCollapsed`] names the part and the load, by the load's number in
+/// place of the effect's. [`StepError::TwistOpen`] and [`StepError::Overturned`] name the load likewise. [`StepError::RollingFlat`] names
+/// the rolling.
 #[inline(always)]
 pub(crate) fn check_lines<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
@@ -34,7 +35,7 @@ pub(crate) fn check_lines<T: Real, S: Space<T>>(
     check_parts(m, inputs, step, s)
 }
 
-/// Looks whether a part of a line has collapsed in the step, without a look at discs.
+/// Checks whether a part of a line has collapsed in the step; discs are not checked.
 #[inline(always)]
 pub(crate) fn check_parts<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
@@ -103,7 +104,7 @@ fn check<T: Real, S: Space<T>>(
     Ok(())
 }
 
-/// The twists of a sum have a direction, and have not passed a whole turn where the law asks for it.
+/// Checks that the twists of a sum are defined. If the law depends on whole turns, it also checks that no twist has passed a whole turn.
 fn check_twists<T: Real, S: Space<T>>(
     (m, number): (&TreeSlices<'_, T, S>, usize),
     (sum, start): (&SumLoad<T>, &Start<'_, T>),
@@ -125,7 +126,7 @@ fn check_twists<T: Real, S: Space<T>>(
     Ok(())
 }
 
-/// Does the law of a sum act on one side only, and neither at the start nor at the end?
+/// Is the law of a sum one-sided, and without force at the start and at the end of the step?
 fn is_slack<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
     inputs: &impl Inputs<T>,

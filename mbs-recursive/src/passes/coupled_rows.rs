@@ -1,4 +1,4 @@
-//! The part of couplings in what is done with all rows: each function is called where there are couplings alone.
+//! Couplings in the work on all rows. Each function here is called only if the mechanism has couplings.
 
 use crate::link::indexing::{Outside, at, at_mut};
 use crate::loops::index;
@@ -6,19 +6,19 @@ use crate::passes::slices::{Store, TreeSlices};
 use crate::space::Space;
 use mbs_core::Real;
 
-/// Violation of a coupling that is rounding of its sum, in units of rounding of its terms [-]. Chosen, not tuned.
+/// Largest violation of a coupling that counts as rounding, in units of rounding of the sum of its terms [-]. Chosen, not tuned.
 const SUM_ROUNDINGS: f64 = 4.0;
 
-/// The largest number left, the row that has it, and the scale of its parts.
+/// Largest absolute value so far, its row, and the scale of the terms of the rows.
 pub(crate) type Largest<T> = (T, u32, T);
 
-/// Takes over a row's number if it is the largest.
+/// Returns the larger of the largest value so far and |x|, with its row.
 #[inline(always)]
 fn note<T: Real>((worst, row): (T, u32), k: usize, x: T) -> (T, u32) {
     if x.abs() <= worst { (worst, row) } else { (x.abs(), index(k)) }
 }
 
-/// Φ, Φ̇, the bias of Φ̈ and the gradients where the links are placed.
+/// Evaluates Φ, Φ̇, the bias of Φ̈ and the gradients of the couplings for the links as placed.
 #[inline(never)]
 pub(crate) fn evaluate<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
@@ -32,7 +32,7 @@ pub(crate) fn evaluate<T: Real, S: Space<T>>(
     Ok(())
 }
 
-/// J a + bias into l; the largest of all rows, with the scale of its parts.
+/// Writes J a + bias of the couplings into l. Returns the largest value over all rows, with the scale of the terms.
 #[inline(never)]
 pub(crate) fn residual<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
@@ -52,7 +52,8 @@ pub(crate) fn residual<T: Real, S: Space<T>>(
     Ok((worst, row, scale))
 }
 
-/// Φ or Φ̇ at the trial state into l; the largest of all rows, with the fastest one, and whether no more is left than the share.
+/// Writes Φ or Φ̇ of the couplings at the trial state into l. Returns the largest value of all rows with the scale of the rows' speeds, and
+/// whether every row is within `share`.
 #[inline(never)]
 pub(crate) fn violation<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
@@ -69,7 +70,7 @@ pub(crate) fn violation<T: Real, S: Space<T>>(
             (scale, own) = (scale.max(parts[1]), own.max(parts[1]));
         }
         *at_mut(s.loops.l, coupled.1)? = x;
-        // Angles grow with every turn, and rounding of their sum with them.
+        // The rounding of a sum of angles grows with the angles, which grow with every turn.
         if level == 0 && x.abs() <= parts[0] * T::EPSILON * T::from_f64(SUM_ROUNDINGS) {
             continue;
         }
@@ -79,7 +80,7 @@ pub(crate) fn violation<T: Real, S: Space<T>>(
     Ok(((worst, row, scale), is_within))
 }
 
-/// Φ into l and Φ̇ into the rows at the trial state; the largest |Φ| and |Φ̇| of all.
+/// Writes Φ of the couplings into l and Φ̇ into the rows, at the trial state. Returns the largest |Φ| and |Φ̇| of all rows.
 #[inline(never)]
 pub(crate) fn at_trial<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
@@ -96,7 +97,7 @@ pub(crate) fn at_trial<T: Real, S: Space<T>>(
     Ok(largest)
 }
 
-/// J δ into l, for motions of the links in `a_response` and of the freedoms.
+/// Writes J δ into l, where δ is given by motions of the links in `a_response` and of the freedoms in `delta`.
 #[inline(never)]
 pub(crate) fn along<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
@@ -111,7 +112,7 @@ pub(crate) fn along<T: Real, S: Space<T>>(
     Ok(())
 }
 
-/// The largest |Φ|, |Φ̇| and |Φ̈| of all rows as last evaluated.
+/// Largest |Φ|, |Φ̇| and |Φ̈| of all rows, as evaluated last.
 #[inline(never)]
 pub(crate) fn violations<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
@@ -130,7 +131,7 @@ pub(crate) fn violations<T: Real, S: Space<T>>(
     largest
 }
 
-/// −Jᵀ λ of the rows as forces on links, and as efforts along joints.
+/// Adds −Jᵀ λ of the couplings: forces on links, and efforts along joints.
 #[inline(never)]
 pub(crate) fn add_forces<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,

@@ -1,4 +1,4 @@
-//! Energies, and the power that enters through dampers, courses and guides.
+//! Kinetic and potential energy, and the power of dampers, signals and guides.
 
 use crate::link::indexing::{Outside, at};
 use crate::link::{Link, LinkKind, LinkMotion};
@@ -36,7 +36,7 @@ pub fn potential<T: Real, S: Space<T>>(
     Ok(energy)
 }
 
-/// Power that enters [W], at the place, accelerations and multipliers of the store.
+/// Power of non-conservative forces and of guides [W], at the positions, accelerations and multipliers in the store.
 ///
 /// # Errors
 /// [`Outside`] if the tables do not fit each other.
@@ -62,7 +62,7 @@ pub fn power<T: Real, S: Space<T>>(
             }
         }
     }
-    // -Jᵀ λ on motions with J v = s'
+    // power of −Jᵀ λ of a guided coupling, where J v = s'
     for (row, k, _) in m.loops.coupled() {
         if let Some([_, rate, _]) = s.guides.get(row.guide as usize) {
             power -= *at(s.lambda, k)? * *rate * row.inverse;

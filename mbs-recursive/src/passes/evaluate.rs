@@ -4,11 +4,12 @@
 //! M a + p + Jᵀ λ = 0,   J a + bias = 0            λ from (J M⁻¹ Jᵀ + ε) Δλ = J a + bias, a −= M⁻¹ Jᵀ Δλ, until it is zero
 //! ```
 //!
-//! One sweep of the regularised system leaves the share ε of the residual; further sweeps, which repeat the affine parts alone, take
-//! it to rounding. Rows that repeat others cost nothing but their own arithmetic, and share their force (least norm).
+//! One sweep of the regularised system leaves the fraction ε of the residual. Further sweeps reduce the residual to rounding. They repeat
+//! the force and row right-hand sides only, with the factored inertias. Redundant rows need no special treatment: their forces are the
+//! solution of least norm.
 //!
-//! The report's own closure is an option: λ = α (Φ̈ + 2 μ Ω Φ̇ + Ω² Φ)   [P3 (39)–(41)]. It is the same elimination with
-//! ε = 1/α, bias + 2 μ Ω Φ̇ + Ω² Φ in place of the bias, and one sweep.
+//! The closure of the report is an option: λ = α (Φ̈ + 2 μ Ω Φ̇ + Ω² Φ)   [P3 (39)–(41)]. It is the same elimination with ε = 1/α, one
+//! sweep, and bias + 2 μ Ω Φ̇ + Ω² Φ in place of the bias.
 
 use crate::link::ArticulatedInertia;
 use crate::link::indexing::{Outside, at, at_mut, copy};
@@ -24,37 +25,38 @@ use crate::rows::closed_loop::ClosedLoop;
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
 
-/// Most sweeps [-], after which the residual must be at its level. Chosen, not tuned.
+/// Largest number of sweeps [-]. The residual must have reached its level by then. Chosen, not tuned.
 const MAX_SWEEPS: u32 = 30;
-/// Largest pivot of a row without effect, in roots of rounding [-]: above what a repeated row leaves. Chosen, not tuned.
+/// Largest pivot of a redundant row, in units of the square root of rounding [-]. Rounding alone leaves smaller pivots. Chosen, not tuned.
 const NO_EFFECT: f64 = 64.0;
-/// Pivot below which rows are close to repeating each other [-]: a projection's moves then change accelerations 10,000 times as much.
+/// Pivot below which rows are nearly redundant [-]. A displacement by a projection may then change accelerations by 10,000 times as much.
 const TIGHT: f64 = 1e-4;
-/// Residual of an evaluation within an iteration, in roots of rounding [-]: later iterations reduce it. Chosen, not tuned.
+/// Residual of an evaluation within an iteration, in units of the square root of rounding [-]. Later iterations reduce it. Chosen, not
+/// tuned.
 const COARSE: f64 = 0.01;
-/// Residual of an evaluation for rates, relative to the error of the method [-]: a hundredth does not add to it. Chosen, not tuned.
+/// Residual of an evaluation for rates, relative to the error of the method [-]. A hundredth hardly adds to that error. Chosen, not tuned.
 const RATES_FRACTION: f64 = 0.01;
-/// Residual that is rounding, in units of rounding of a row's terms [-]. Chosen, not tuned.
+/// Residual that counts as rounding, in units of rounding of a row's terms [-]. Chosen, not tuned.
 const FINE_ROUNDINGS: f64 = 256.0;
-/// Residual that may remain where sweeps stall near a singular position [-]. Chosen, not tuned.
+/// Residual that is accepted if sweeps stall near a singular position [-]. Chosen, not tuned.
 const SINGULAR_RESIDUAL: f64 = 1e-3;
 
-/// The residual at which sweeps end.
+/// Level of the residual at which sweeps end.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Level {
-    /// One sweep, whatever is left.
+    /// One sweep, whatever residual remains.
     Once,
-    /// To the tolerance of an iteration that continues.
+    /// Tolerance of an iteration that is not yet converged.
     Coarse,
-    /// To a hundredth of the error that steps may make.
+    /// A hundredth of the error of a step.
     Rates,
-    /// To rounding of a row's terms.
+    /// Rounding of a row's terms.
     Fine,
-    /// This many sweeps after the first one, whatever is left.
+    /// This number of sweeps after the first one, whatever residual remains.
     Fixed(u32),
 }
 
-/// Evaluates the accelerations `s.zdd` at (`s.z`, `s.v`, `s.guides`, `s.courses`); returns the largest |Φ̈| left.
+/// Evaluates the accelerations `s.zdd` at (`s.z`, `s.v`, `s.guides`, `s.courses`). Returns the largest remaining |Φ̈|.
 pub(crate) fn accelerations<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
     options: &Options<T>,
@@ -69,11 +71,11 @@ pub(crate) fn accelerations<T: Real, S: Space<T>>(
     finish(m, options, level, s)
 }
 
-/// Evaluates the accelerations where the effects answer to those that are found: on entry `s.zdd` has those that (`s.z`, `s.v`) were made
-/// of. What differs from them meets the effects' stiffness and damping, in the ratio of `reach` (see [`Reach`]). Accelerations that do not
-/// differ are those of [`accelerations`].
+/// Evaluates accelerations with effects that depend linearly on them. On entry `s.zdd` has the accelerations from which (`s.z`, `s.v`) were
+/// computed. A difference from them changes the forces of effects by stiffness and damping times `reach` (see [`Reach`]). Without a
+/// difference the result is that of [`accelerations`].
 ///
-/// Cost: that of [`accelerations`], an outward pass without products, and a square of six numbers for each effect.
+/// Cost: that of [`accelerations`], one outward pass without velocity products, and a rank-one update of an inertia for each effect.
 pub(crate) fn accelerations_ahead<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
     options: &Options<T>,
@@ -90,7 +92,8 @@ pub(crate) fn accelerations_ahead<T: Real, S: Space<T>>(
     finish(m, options, level, s)
 }
 
-/// Places and own inertias; the articulated bodies are handed out for the loads. Images for controllers keep one copy.
+/// Evaluates places and each body's own inertia. Returns the articulated inertias, so that loads can add to them. Builds for controllers do
+/// not inline this function, to have one copy of its code.
 #[cfg_attr(feature = "alloc", inline(always))]
 pub(crate) fn begin<'b, T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
@@ -104,7 +107,7 @@ pub(crate) fn begin<'b, T: Real, S: Space<T>>(
     Ok(core::mem::take(&mut s.condensed))
 }
 
-/// Second and third pass, and the sweeps.
+/// Runs the second and third pass, then the sweeps.
 pub(crate) fn finish<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
     options: &Options<T>,
@@ -133,7 +136,7 @@ pub(crate) fn finish<T: Real, S: Space<T>>(
     }
 }
 
-/// Evaluates the rows and sets out K, l and Λ = 0; returns ε.
+/// Evaluates the rows and initialises K, l and Λ = 0. Returns the regularisation ε.
 fn begin_loops<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
     options: &Options<T>,
@@ -146,7 +149,7 @@ fn begin_loops<T: Real, S: Space<T>>(
     for (l, &[phi, phi_d, bias]) in s.loops.l.iter_mut().zip(&*s.rows) {
         *l = match options.closure {
             Closure::Constraints => bias,
-            // γ = Φ̇_Z Z + 2 μ Ω Φ̇ + Ω² Φ   [P3 (41)]
+            // closure of the report: γ = Φ̇_Z Z + 2 μ Ω Φ̇ + Ω² Φ   [P3 (41)]
             Closure::Report { omega, mu, .. } => {
                 bias + T::TWO * mu * omega * phi_d + omega * omega * phi
             }
@@ -158,7 +161,7 @@ fn begin_loops<T: Real, S: Space<T>>(
     })
 }
 
-/// Φ, Φ̇, the bias of Φ̈ and the gradients of all rows where the links are placed.
+/// Evaluates Φ, Φ̇, the bias of Φ̈ and the gradients of all rows for the links as placed.
 pub(crate) fn evaluate_rows<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
     s: &mut Store<'_, T, S>,
@@ -193,7 +196,8 @@ fn evaluate_cut<T: Real, S: Space<T>>(
     Ok(())
 }
 
-/// J a + bias into l; the largest, the row that has it, and the scale of its parts. Images for controllers keep one copy.
+/// Writes J a + bias into l. Returns the largest absolute value, its row, and the scale of its terms. Builds for controllers do not inline
+/// this function, to have one copy of its code.
 #[cfg_attr(feature = "alloc", inline(always))]
 fn residual<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
@@ -235,7 +239,7 @@ fn residual_of_cut<T: Real, S: Space<T>>(
     Ok((worst, row, scale))
 }
 
-/// Is the last factorisation near a singular position: have fewer rows an effect than at other times?
+/// Is the last factorisation near a singular position: is its rank lower than the largest rank so far?
 pub(crate) fn note_rank<T: Real, S: Space<T>>(s: &mut Store<'_, T, S>) -> bool {
     let least = T::EPSILON.sqrt() * T::from_f64(NO_EFFECT);
     let rank = s.loops.pivots.iter().filter(|&&pivot| pivot > least).count();
@@ -243,23 +247,23 @@ pub(crate) fn note_rank<T: Real, S: Space<T>>(s: &mut Store<'_, T, S>) -> bool {
     rank < *s.rank
 }
 
-/// Do rows repeat each other, or is a singular position near? Away from Φ = 0 such rows contradict each other, so that
-/// positions and velocities are projected before accelerations are evaluated.
+/// Are rows redundant, or is a singular position near? Away from Φ = 0 redundant rows contradict each other. Positions and velocities are
+/// therefore projected before accelerations are evaluated.
 pub(crate) fn is_redundant<T: Real, S: Space<T>>(s: &Store<'_, T, S>) -> bool {
     has_pivot_below(T::EPSILON.sqrt(), s)
 }
 
-/// Do rows come near to repeating each other? What a projection moves by little may then turn accelerations by much.
+/// Are rows nearly redundant? A small displacement by a projection may then change accelerations much.
 pub(crate) fn is_tight<T: Real, S: Space<T>>(s: &Store<'_, T, S>) -> bool {
     has_pivot_below(T::from_f64(TIGHT).max(T::EPSILON.sqrt()), s)
 }
 
-/// Is a pivot of the last factorisation no more than `least`, or no number?
+/// Is a pivot of the last factorisation NaN or at most `least`?
 fn has_pivot_below<T: Real, S: Space<T>>(least: T, s: &Store<'_, T, S>) -> bool {
     s.loops.pivots.iter().any(|&pivot| !(pivot > least))
 }
 
-/// Repeats the affine parts until J a + bias is at its level; returns what is left.
+/// Repeats the solution for new right-hand sides until J a + bias is at its level. Returns the remaining residual.
 fn sweep<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
     options: &Options<T>,
@@ -280,7 +284,7 @@ fn sweep<T: Real, S: Space<T>>(
         Level::Rates => (options.error * T::from_f64(RATES_FRACTION)).max(rounding()),
         Level::Fine => rounding(),
     };
-    // Near a singular position a combination of rows is weakly determined: a part of its residual may stay.
+    // Near a singular position a combination of rows is weakly determined: part of its residual may remain.
     let enough = if note_rank(s) { T::from_f64(SINGULAR_RESIDUAL) } else { T::EPSILON.sqrt() };
     let mut last: Option<T> = None;
     for _ in 0..MAX_SWEEPS {
@@ -303,8 +307,9 @@ fn sweep<T: Real, S: Space<T>>(
     }
 }
 
-/// The acceleration that gravity, the rows' speeds, or their forces alone would make along a row. Rounding is small beside it even where
-/// all accelerations cancel, as in a structure or in free fall. Rates of a rounding each second are rest.
+/// Largest acceleration along a row that gravity, the rows' speeds, or the rows' forces alone would cause. A residual of rounding is small
+/// relative to it, even where all accelerations cancel, as in a structure or in free fall. The lower limit is the rounding unit, so that
+/// the value is never zero.
 fn acting<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
     row: u32,
@@ -312,7 +317,7 @@ fn acting<T: Real, S: Space<T>>(
 ) -> Result<T, Outside> {
     let size = |k: usize| Ok(if at(m.loops.rows, k)?.is_angle() { T::ONE } else { m.length });
     let n = m.loops.rows.len();
-    // Squares of rates, whatever the row [1/s^2].
+    // Largest of the squares of rates, in the same unit for all rows [1/s^2].
     let mut acting = T::EPSILON.max(m.gravity.dot(&m.gravity).sqrt() / m.length);
     let forced = |k: usize| Ok(at(s.lambda, k)?.abs() * *at(s.loops.scales, k)? / size(k)?);
     for lap in m.loops.cut() {
@@ -351,7 +356,8 @@ fn improve<T: Real, S: Space<T>>(
     Ok(())
 }
 
-/// The smallest mass-weighted change of motion x with J x = −l, by one sweep: `s.v_response`, `s.a_response`.
+/// Computes the change of motion x with J x = −l that is smallest in the norm of the masses, by one sweep. Writes `s.v_response` and
+/// `s.a_response`.
 pub(crate) fn respond<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
     s: &mut Store<'_, T, S>,

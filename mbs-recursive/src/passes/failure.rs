@@ -1,4 +1,4 @@
-//! The step error that a fault of a pass becomes.
+//! Conversion of a fault of a pass into a step error.
 
 use crate::loops::Fault;
 use crate::passes::slices::TreeSlices;
@@ -6,7 +6,7 @@ use crate::space::Space;
 use mbs_core::Real;
 use mbs_core::step::StepError;
 
-/// The fault of a pass as the error of a step.
+/// Converts the fault of a pass into the error of a step.
 pub(crate) fn failure<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
     fault: Fault<T>,

@@ -1,4 +1,4 @@
-//! Signals that follow the motion, in relative coordinates: joint coordinates are those of links.
+//! Signals that depend on the motion, in relative coordinates: each joint coordinate is the coordinate of a link.
 
 use crate::link::indexing::{Outside, at, copy};
 pub use crate::passes::slices::{FeedbackMeasure, FeedbackSlices};
@@ -9,7 +9,7 @@ use mbs_core::Real;
 use mbs_core::feedback::{follow, note_followed};
 
 impl<T: Real, S: Space<T>> Store<'_, T, S> {
-    /// States of signals start from `starts`, `dt` [s] before the instants that are evaluated.
+    /// Sets the states of signals at the start of a step, `dt` [s] before the instants that are evaluated, to `starts`.
     #[inline(always)]
     pub(crate) fn begin_signals(&mut self, dt: T, starts: &[[T; 2]]) -> Result<(), Outside> {
         self.signals.dt = dt;
@@ -17,10 +17,10 @@ impl<T: Real, S: Space<T>> Store<'_, T, S> {
     }
 }
 
-/// Are signals that follow the motion, and those that are splines or steps over time, in this build?
+/// Does this build have signals that depend on the motion, and splines or steps over time as signals?
 pub const IS_BUILT: bool = cfg!(feature = "signals");
 
-/// Evaluates the signals that follow the motion, and the courses that name them, at (`s.z`, `s.v`).
+/// Evaluates the signals that depend on the motion at (`s.z`, `s.v`), and writes them to `s.courses`.
 #[inline(always)]
 pub(crate) fn follow_motion<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,

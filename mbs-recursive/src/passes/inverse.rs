@@ -1,4 +1,4 @@
-//! The other way round: efforts from accelerations, forces through joints.
+//! Inverse dynamics: efforts from accelerations, and forces through joints.
 //!
 //! ```text
 //! outward   Ż = Żₚ + b z̈ + d
@@ -14,7 +14,7 @@ use crate::passes::slices::{Store, TreeSlices};
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
 
-/// Accelerations of the links for given joint accelerations; `a[0]` is given.
+/// Accelerations of the links for given joint accelerations. The acceleration `a[0]` of the ground is an input.
 ///
 /// # Errors
 /// [`Outside`] if the tables do not fit each other.
@@ -27,7 +27,8 @@ pub fn spread<T: Real, S: Space<T>>(
     spread_each(links, (placed, true), zdd, a)
 }
 
-/// Motions of the links for given joint motions, with velocity products where they are accelerations; `a[0]` is given.
+/// Motions of the links for given joint motions. Velocity products are added if the motions are accelerations. The motion `a[0]` of the
+/// ground is an input.
 #[inline(always)]
 pub(crate) fn spread_each<T: Real, S: Space<T>>(
     links: &[Link<T, S>],
@@ -38,7 +39,7 @@ pub(crate) fn spread_each<T: Real, S: Space<T>>(
     let ground = *at(a, 0)?;
     for (i, link) in links.iter().enumerate().skip(1) {
         let (p, first) = (at(placed, i)?, link.v as usize);
-        // Ż = Żₚ + b z̈ + d   [P3 (27)]
+        // acceleration of the link: Ż = Żₚ + b z̈ + d   [P3 (27)]
         let mut carried = match link.kind {
             LinkKind::Free => ground,
             _ => S::carried(at(a, link.parent as usize)?, &p.arm),
@@ -64,8 +65,8 @@ pub(crate) fn spread_each<T: Real, S: Space<T>>(
     Ok(())
 }
 
-/// The force through every joint, on the link about its origin, for the accelerations and multipliers of the store: into the
-/// links' `force`. Effects along the joint are part of it, and are in `effort`; the factors of the links stay.
+/// Writes the force through every joint into the links' `force`: the force on the link about its origin, at the accelerations and
+/// multipliers of the store. It includes the effects along the joint, which are also in `effort`. The factored inertias are not changed.
 pub(crate) fn forces<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
     s: &mut Store<'_, T, S>,
@@ -83,7 +84,7 @@ pub(crate) fn forces<T: Real, S: Space<T>>(
     let n = m.loops.rows.len();
     for lap in m.loops.cut() {
         for k in lap.range() {
-            // p += Kᵀ λ
+            // forces of the multipliers: p += Kᵀ λ
             for (side, &link) in lap.links.iter().enumerate() {
                 let push = *at(s.gradient, side * n + k)? * *at(s.lambda, k)?;
                 at_mut(s.condensed, link as usize)?.force += push;
@@ -102,7 +103,7 @@ pub(crate) fn forces<T: Real, S: Space<T>>(
     Ok(())
 }
 
-/// bᵀ f of a link's joint, less what effects apply along it: the effort that the joint itself must give; of a guided ball the power.
+/// Writes the effort bᵀ f that a link's joint must apply, without the efforts of effects along it. For a guided ball the effort is a power.
 pub(crate) fn effort<T: Real, S: Space<T>>(
     link: &Link<T, S>,
     p: &LinkMotion<T, S>,

@@ -1,6 +1,6 @@
-//! The end of the laws of rotations in space: a whole turn.
+//! Check of laws of rotations in space, which are valid up to a whole turn.
 //!
-//! Beyond it the half angles of a tree give the turn the other way round: the rotation vector has changed its sign.
+//! Beyond a whole turn the half angles of the tree describe the opposite rotation: the rotation vector changes its sign.
 
 use crate::link::LinkMotion;
 use crate::link::indexing::Outside;
@@ -13,12 +13,12 @@ use mbs_core::effects::bushing;
 use mbs_core::laws::LawInputs;
 use mbs_core::step::StepError;
 
-/// Looks whether a rotation has passed a whole turn in the step of `dt` [s] from `start` to (`s.z`, `s.v`).
+/// Checks whether a rotation has passed a whole turn in the step of `dt` [s] from `start` to (`s.z`, `s.v`).
 ///
-/// Cost: one look at each effect; for a rotation, the half angles on the way at both ends.
+/// Cost: one comparison for each effect; for a rotation, the half angles of the joints in between, at the start and at the end.
 ///
 /// # Errors
-/// [`StepError::Overturned`] with the number of the load in place of the effect.
+/// [`StepError::Overturned`] with the number of the load in place of the number of the effect.
 #[inline(always)]
 pub(crate) fn check_rotations<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,

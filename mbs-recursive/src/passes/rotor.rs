@@ -1,4 +1,4 @@
-//! Rotors that turn with a joint's coordinate: an inertia on the diagonal of the joint's own block.
+//! Rotors that turn with a joint's coordinate. A rotor adds an inertia to the diagonal entry of the joint.
 //!
 //! ```text
 //! D += I        τ += I z̈,   E = ½ I ż²          I: the rotor's inertia times the square of its ratio
@@ -10,16 +10,16 @@ use crate::passes::slices::TreeSlices;
 use crate::space::Space;
 use mbs_core::Real;
 
-/// Are rotors in this build?
+/// Does this build support rotors?
 pub const IS_BUILT: bool = cfg!(feature = "rotors");
 
-/// Returns the rotors; none in a build without them.
+/// Returns the rotors; a build without rotors returns an empty slice.
 #[inline(always)]
 fn built<T>(rotors: &[LinkRotor<T>]) -> &[LinkRotor<T>] {
     if IS_BUILT { rotors } else { &[] }
 }
 
-/// Adds the rotors' inertias to what resists the joints.
+/// Adds the rotors' inertias to the resistances of the joints.
 #[inline]
 pub(crate) fn resist<T: Real, S: Space<T>>(
     rotors: &[LinkRotor<T>],
@@ -31,7 +31,7 @@ pub(crate) fn resist<T: Real, S: Space<T>>(
     Ok(())
 }
 
-/// Adds what the rotors' inertias do along their joints at accelerations `zdd` of the freedoms, as an effect's effort.
+/// Adds the inertia forces of the rotors to the efforts along their joints, for accelerations `zdd` of the freedoms.
 pub(crate) fn add_efforts<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
     (zdd, guides): (&[T], &[[T; 3]]),
@@ -44,7 +44,7 @@ pub(crate) fn add_efforts<T: Real, S: Space<T>>(
     Ok(())
 }
 
-/// The number of a link's coordinate among those of the freedoms; of a guided one that derivative of its guide.
+/// Returns the entry of a link's freedom in `numbers`. For a guided link returns the given derivative of its guide.
 pub(crate) fn of_link<T: Real, S: Space<T>>(
     links: &[Link<T, S>],
     link: u32,

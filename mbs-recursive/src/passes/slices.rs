@@ -1,4 +1,4 @@
-//! A mechanism and its scratch as slices, so that every step runs on memory of the caller's choice.
+//! A mechanism and its scratch as slices, so that every step uses memory that the caller provides.
 
 use crate::link::plan::Span;
 use crate::link::{ArticulatedInertia, Link, LinkMotion, LinkRotor};
@@ -10,26 +10,26 @@ use mbs_core::Real;
 use mbs_core::feedback::{FeedbackStep, SignalStates};
 use mbs_core::laws::LawInputs;
 
-/// A mechanism in relative coordinates: constant.
+/// A mechanism in relative coordinates; its data are constant during a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TreeSlices<'a, T: Real, S: Space<T>> {
-    /// The links, parents first; the first is the ground.
+    /// Links, parents before children; the first link is the ground.
     pub links: &'a [Link<T, S>],
     /// Closed loops: cut joints and couplings.
     pub loops: Loops<'a, T, S>,
     /// Effects on links and joints.
     pub loads: &'a [Load<T, S>],
-    /// The rotors, one a link.
+    /// Rotors of joints, with the links whose coordinates they follow.
     pub rotors: &'a [LinkRotor<T>],
-    /// Tables of their laws, without courses: these are of an instant.
+    /// Tables of the laws of effects. The signals are not included, because their values belong to an instant.
     pub tables: LawInputs<'a, T>,
-    /// Signals that follow the motion.
+    /// Signals that depend on the motion.
     pub feedback: FeedbackSlices<'a, T>,
     /// Acceleration of gravity [m/s^2].
     pub gravity: S::Point,
-    /// The point that positions are counted from, global axes [m].
+    /// Origin of the positions, global axes [m].
     pub base: S::Point,
-    /// The scene's length [m].
+    /// Characteristic length of the scene [m].
     pub length: T,
     /// Number of coordinates in z.
     pub n_coordinates: usize,
@@ -37,73 +37,73 @@ pub struct TreeSlices<'a, T: Real, S: Space<T>> {
     pub n_freedoms: usize,
 }
 
-/// A length or an angle of a ball that signals measure.
+/// Length, or angle of a ball, that is measured for signals.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FeedbackMeasure<T> {
-    /// Number of the measure among all that is measured.
+    /// Index of the measured number among all measured numbers.
     pub number: u32,
-    /// Length, or angle of a ball, that is measured.
+    /// Measured length or measured angle of a ball.
     pub of: SumMeasure<T>,
-    /// The links on which it has points.
+    /// Links that carry points of the measured line or axes of the ball.
     pub starts: Span,
 }
 
-/// The operations that give signals which follow the motion, with the links whose coordinates they measure. Functions are those of
+/// Operations that compute signals which depend on the motion, with the links whose coordinates they measure. Curves are those of
 /// [`Couplings`](crate::rows::coupled::Couplings).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FeedbackSlices<'a, T> {
-    /// Operations that give the signals.
+    /// Operations that compute the signals.
     pub steps: &'a [FeedbackStep<T>],
-    /// The link of each measured coordinate; [`NONE`](crate::rows::coupled::NONE): what is measured is no coordinate.
+    /// Link of each measured number; [`NONE`](crate::rows::coupled::NONE) if the measured number is not a coordinate.
     pub links: &'a [u32],
-    /// Lengths, and angles of balls, that are measured and are no coordinates.
+    /// Measured numbers that are not coordinates: lengths, and angles of balls.
     pub measures: &'a [FeedbackMeasure<T>],
     /// Number of states of signals.
     pub n_states: usize,
-    /// The signals that follow the motion, by their numbers among the courses.
+    /// Numbers of the signals that depend on the motion.
     pub signals: &'a [u32],
 }
 
 impl<T> FeedbackSlices<'_, T> {
-    /// Feedback of a mechanism without signals that follow the motion.
+    /// Returns the feedback of a mechanism without signals that depend on the motion.
     #[must_use]
     pub const fn none() -> Self {
         Self { steps: &[], links: &[], measures: &[], n_states: 0, signals: &[] }
     }
 }
 
-/// Guides and courses as functions of time.
+/// Guides and signals as functions of time.
 pub trait Inputs<T> {
-    /// Writes value, rate and acceleration of each guide, and the vector of each course.
+    /// Writes value, rate and acceleration of each guide, and the vector of each signal, at time `t` [s].
     fn evaluate(&self, t: T, guides: &mut [[T; 3]], courses: &mut [[T; 3]]);
 }
 
 /// Scratch of a step.
 #[derive(Debug)]
 pub struct Store<'a, T: Real, S: Space<T>> {
-    /// Links where the inertias were factored; as many as links.
+    /// Links at the state for which inertias were factored; one for each link.
     pub placed: &'a mut [LinkMotion<T, S>],
-    /// Links at a trial state; as many as links.
+    /// Links at a trial state; one for each link.
     pub trial: &'a mut [LinkMotion<T, S>],
-    /// Articulated bodies, one a link.
+    /// Articulated inertias, one for each link.
     pub condensed: &'a mut [ArticulatedInertia<T, S>],
-    /// Accelerations of the links, gravity's taken off.
+    /// Accelerations of the links, minus the acceleration of gravity.
     pub a: &'a mut [S::Motion],
-    /// Responses of the links.
+    /// Response of each link's motion to the right-hand side of a sweep.
     pub a_response: &'a mut [S::Motion],
-    /// Responses of the freedoms.
+    /// Response of each freedom to the right-hand side of a sweep.
     pub v_response: &'a mut [T],
     /// Scratch of the loops.
     pub loops: LoopStore<'a, T, S>,
-    /// K of the rows on both bodies: first sides, then second ones.
+    /// Gradients K of the rows: first for the first bodies of all rows, then for the second bodies.
     pub gradient: &'a mut [S::Motion],
     /// Φ, Φ̇ and the bias of Φ̈, one of each for each row.
     pub rows: &'a mut [[T; 3]],
     /// Multipliers, summed over the sweeps.
     pub lambda: &'a mut [T],
-    /// Guides at the instant.
+    /// Value, rate and acceleration of each guide at the instant.
     pub guides: &'a mut [[T; 3]],
-    /// Courses at the instant.
+    /// Vector of each signal at the instant.
     pub courses: &'a mut [[T; 3]],
     /// States of signals in a step.
     pub signals: SignalStates<'a, T>,
@@ -113,28 +113,28 @@ pub struct Store<'a, T: Real, S: Space<T>> {
     pub v: &'a mut [T],
     /// Accelerations of the step being made.
     pub zdd: &'a mut [T],
-    /// Increments of the step being made, or accelerations of the last iteration.
+    /// Increments of the coordinates in the step being made, or accelerations of the last iteration.
     pub scratch: &'a mut [T],
-    /// Memory of the iteration of a step with effects: [`history`](crate::passes::anderson::history) numbers, or none, and the iteration is a plain
-    /// one.
+    /// Memory of the iteration of a step with effects: [`history`](crate::passes::anderson::history) numbers. If it is empty, iterates are
+    /// not mixed.
     pub history: &'a mut [T],
-    /// The most rows that had an effect so far.
+    /// Largest number of independent rows so far.
     pub rank: &'a mut usize,
-    /// Counts of the work that was done.
+    /// Counts of the work done.
     pub counts: Counts,
 }
 
 /// Work done in a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Counts {
-    /// Evaluations with a condensation of inertias.
+    /// Number of evaluations that condense inertias and forces.
     pub condensations: u32,
-    /// Condensations of forces with the inertias as they were.
+    /// Number of responses, which condense forces only, with the inertias that were factored before.
     pub responses: u32,
 }
 
 impl<'a, T: Real, S: Space<T>> Store<'a, T, S> {
-    /// Returns the mechanism as loads see it at the place where inertias were factored.
+    /// Returns the data of the mechanism from which loads are evaluated, at the state for which inertias were factored.
     #[allow(clippy::needless_update, reason = "with effects compiled there are tables")]
     pub(crate) fn instant<'b>(&'b self, m: &'b TreeSlices<'_, T, S>) -> Instant<'b, T, S> {
         Instant {

@@ -6,9 +6,9 @@
 //! 3  outward   z̈ = (bᵀ M̂ b)⁻¹ [bᵀ (Q̂ − M̂ d) − bᵀ M̂ Żₚ],   Ż = Żₚ + b z̈ + d                  [P3 (27), (35)]
 //! ```
 //!
-//! Differs from the source: every link's quantities are about its own origin, a point of the body near its joint, in world axes.
-//! Inertias and forces are shifted to the parent's origin on the way in. p = −Q̂. Loops join in at their common ancestors
-//! (`loops`), where the source has one derivation by hand for each mechanism.
+//! Differences from the source: each link's quantities refer to the link's own origin, a point of the body near its joint, in world axes.
+//! Inertias and forces are shifted to the parent's origin on the way inward. p = −Q̂. The equations of a loop are eliminated at the common
+//! ancestor of its bodies (`loops`). The source derives them by hand for each mechanism.
 
 use crate::link::indexing::{Outside, at, at_mut};
 use crate::link::joint::{self, NoInertia};
@@ -30,7 +30,7 @@ pub fn kinematics<T: Real, S: Space<T>>(
     placed: &mut [LinkMotion<T, S>],
 ) -> Result<(), Outside> {
     for (i, link) in links.iter().enumerate().skip(1) {
-        // Zᵢ = Zₚ + bᵢ żᵢ   [P3 (26)]
+        // velocity of the link: Zᵢ = Zₚ + bᵢ żᵢ   [P3 (26)]
         let here =
             joint::place::<T, S, true>(link, at(placed, link.parent as usize)?, z, v, guides)?;
         *at_mut(placed, i)? = here;
@@ -38,7 +38,7 @@ pub fn kinematics<T: Real, S: Space<T>>(
     Ok(())
 }
 
-/// A body's own inertia about its link's origin, and its velocity forces: M and −Q without effects [P3 (24)–(25)].
+/// Returns a body's inertia about its link's origin, and its velocity-dependent forces: M and −Q without effects [P3 (24)–(25)].
 #[inline(always)]
 pub(crate) fn body<T: Real, S: Space<T>>(
     link: &Link<T, S>,
@@ -46,12 +46,12 @@ pub(crate) fn body<T: Real, S: Space<T>>(
 ) -> (S::Inertia, S::Motion) {
     let inertia = S::body_inertia(link.mass, &p.center, &link.tensor, &p.rotation);
     let spin = S::spin(&p.velocity);
-    // p = (ω × J ω, m ω × (ω × r_G))
+    // velocity-dependent force: p = (ω × J ω, m ω × (ω × r_G))
     let turning = S::cross_spin(&spin, &S::turning_block(&inertia, &spin));
     (inertia, S::motion(turning, S::centrifugal(&spin, &p.center) * link.mass))
 }
 
-/// Sets out each body's own inertia and velocity forces.
+/// Sets the inertia and the velocity-dependent forces of each body.
 #[inline]
 pub fn inertias<T: Real, S: Space<T>>(
     links: &[Link<T, S>],
@@ -64,7 +64,7 @@ pub fn inertias<T: Real, S: Space<T>>(
     }
 }
 
-/// Second pass of an evaluation, inward: articulated inertias and forces; loops are eliminated at their ancestors.
+/// Second pass of an evaluation, inward: articulated inertias and forces. Each loop is eliminated at the common ancestor of its bodies.
 ///
 /// # Errors
 /// [`Fault`] names the link or row.
@@ -84,7 +84,7 @@ pub fn condense<T: Real, S: Space<T>>(
         if has_loops {
             loops::close(m, (i, regularisation, a_ground), c, st)?;
         }
-        // M̂ₚ += K M̂,   Q̂ₚ += K (Q̂ − M̂ d)   [P3 (37)–(38)]
+        // inertia and force of the parent: M̂ₚ += K M̂,   Q̂ₚ += K (Q̂ − M̂ d)   [P3 (37)–(38)]
         let (inertia, force) = joint::eliminate(link.kind, p, c)
             .map_err(|pivot| Fault::NoInertia(NoInertia { link: index(i), pivot }))?;
         if has_loops {
@@ -102,7 +102,7 @@ pub fn condense<T: Real, S: Space<T>>(
     Ok(())
 }
 
-/// The second pass again with the inertias as factored, for other forces and rows l: no velocity products, ground at rest.
+/// Second pass again for other forces and rows l, with the factored inertias. It has no velocity products, and the ground is at rest.
 ///
 /// Cost: about a fifth of [`condense`].
 ///
@@ -130,11 +130,11 @@ pub fn condense_again<T: Real, S: Space<T>>(
     loops::close_again(m, 0, at_mut(condensed, 0)?, st)
 }
 
-/// Motions and articulated inertias that the first two passes leave of each link.
+/// Motions and articulated inertias of the links, as computed by the first two passes.
 pub type Factors<'a, T, S> = (&'a [LinkMotion<T, S>], &'a [ArticulatedInertia<T, S>]);
 
-/// Third pass of an evaluation, outward: joint accelerations, links' accelerations, λ. `a[0]` is given: minus gravity, or zero for a
-/// response (`has_bias` false), which has no velocity products.
+/// Third pass of an evaluation, outward: accelerations of joints and links, and the multipliers λ. `a[0]` is an input: minus gravity, or
+/// zero for a response. A response (`has_bias` false) has no velocity products.
 ///
 /// # Errors
 /// [`Outside`] if the tables do not fit each other.
@@ -154,7 +154,7 @@ pub fn accelerate<T: Real, S: Space<T>>(
     for (i, link) in links.iter().enumerate().skip(1) {
         let (p, c) = (at(placed, i)?, at(condensed, i)?);
         let held = if has_loops { loops::held(m, (i, link.kind), st)? } else { S::Motion::zero() };
-        // Ż = Żₚ + b z̈ + d   [P3 (27)],   z̈ as in [P3 (35)]
+        // acceleration of the link: Ż = Żₚ + b z̈ + d   [P3 (27)],   z̈ as in [P3 (35)]
         let mut carried = match link.kind {
             LinkKind::Free => ground,
             _ => S::carried(at(a, link.parent as usize)?, &p.arm),

@@ -1,12 +1,13 @@
-//! Angles of a ball that effects act on, by an axis in each of its two bodies.
+//! Angles of a ball joint for effects and couplings, each defined by an axis in each of the two bodies.
 //!
 //! ```text
-//! swing   γ = atan2(|a × b|, a·b)              g = (a × b)/|a × b|, zero at no swing
+//! swing   γ = atan2(|a × b|, a·b)              g = (a × b)/|a × b|, zero without swing
 //! twist   τ = 2 atan2(v·a, w)                  g = (a + b)/(1 + a·b)          (w, v) the half angles of the joint
 //! rate    g·(ω₂ − ω₁),   wrench g on the second link, −g on the first
 //! ```
 //!
-//! The half angles keep their sign from step to step: the twist is known up to a whole turn to both sides. Beyond, they begin anew.
+//! The half angles keep their sign from step to step. The twist is therefore known up to a whole turn in both directions. Beyond that it
+//! jumps by two turns.
 
 use crate::link::LinkMotion;
 use crate::link::indexing::{Outside, at, range};
@@ -17,11 +18,11 @@ use mbs_core::Real;
 use mbs_core::algebra::{Vector, cross, norm};
 use mbs_core::elements::{ball_directions, is_open};
 
-/// The axes of a ball where its links are, and the links.
+/// Links of a ball, and world directions of its axes.
 type Axes<T> = ([u32; 2], [Vector<T, 3>; 2]);
 
 impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
-    /// Links and world directions of the axes of a ball.
+    /// Returns the links of a ball and the world directions of its axes.
     fn ball_axes(
         &self,
         (axes, starts): (Span, Span),
@@ -38,13 +39,13 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
         Ok(([i, j], [a, b]))
     }
 
-    /// The direction of an angle of a ball.
+    /// Returns the direction g of an angle of a ball.
     fn direction(of: &SumMeasure<T>, [a, b]: &[Vector<T, 3>; 2]) -> Vector<T, 3> {
         let [swing, twist] = ball_directions(a, b);
         if matches!(of, SumMeasure::Twist { .. }) { twist } else { swing }
     }
 
-    /// An angle of a ball and its rate.
+    /// Returns an angle of a ball and its rate.
     pub(crate) fn ball_angle(
         &self,
         (of, axes, starts): (&SumMeasure<T>, Span, Span),
@@ -64,7 +65,7 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
         Ok([value, rate])
     }
 
-    /// The twist by the half angles that begin at `first` in z.
+    /// Returns the twist from the half angles that begin at index `first` in z.
     fn twist(&self, (axes, first, is_reversed): (Span, u32, bool), z: &[T]) -> Result<T, Outside> {
         let axis = range(self.points, axes.range())?.first().ok_or(Outside)?;
         let axis = S::point_into(&axis.point);
@@ -74,7 +75,7 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
         Ok(if is_reversed { -twist } else { twist })
     }
 
-    /// The links of a ball, and the wrench of unit rate on the second.
+    /// Returns the links of a ball, and the wrench on the second link for unit rate.
     pub(crate) fn ball_wrench(
         &self,
         (of, axes, starts): (&SumMeasure<T>, Span, Span),
@@ -85,7 +86,7 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
         Ok((links, S::motion(g, crate::space::Numbers::zero())))
     }
 
-    /// Has a row a twist that is open where its links are?
+    /// Does the row have an undefined twist: are the axes of a ball opposite in these places?
     pub(crate) fn has_open_twist(
         &self,
         row: &CoupledRow<T>,
@@ -101,8 +102,8 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
         Ok(false)
     }
 
-    /// Computes what a row's sum lacks of twists that have begun anew on the way between two states. `None` where the row is not linear in
-    /// such a twist.
+    /// Returns the amount that a row's sum lacks because twists have jumped by two turns between two states. `None` if the row is not
+    /// linear in such a twist.
     pub(crate) fn lost_twist(
         &self,
         row: &CoupledRow<T>,

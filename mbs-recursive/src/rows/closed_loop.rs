@@ -1,4 +1,4 @@
-//! The equations of cut joints, in terms of the motions of their two bodies.
+//! Equations of cut joints, in terms of the motions of the two bodies.
 //!
 //! ```text
 //! Φ̇ = K₁ V₁ + K₂ V₂,   Φ̈ = K₁ a₁ + K₂ a₂ + bias      a = (ω', v') of the links' origins     [P3 (40)–(41)]
@@ -16,37 +16,38 @@ use crate::rows::{Row, RowValue, rolling};
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
 
-/// A cut joint, which is a loop of the mechanism; a body that rolls on another; or a coupling, whose links and points are those of its row.
+/// A closed loop of the mechanism: a cut joint, a body that rolls on another, or a coupling. A coupling's links and points are in its
+/// row instead.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ClosedLoop<T: Real, S: Space<T>> {
-    /// Links of its first and second body.
+    /// Links of the loop's first and second body.
     pub links: [u32; 2],
     /// Point of the loop on each link, from the link's origin, reference axes [m].
     pub points: [S::Point; 2],
-    /// First of its rows.
+    /// Index of the loop's first row.
     pub first: u32,
-    /// Number of its rows.
+    /// Number of the loop's rows.
     pub n: u32,
-    /// The link nearest to both bodies from which both hang: the rows are eliminated there.
+    /// Nearest common ancestor of both links. The rows are eliminated there.
     pub ancestor: u32,
-    /// Place of its block of Λ.
+    /// Index of the loop's diagonal block of Λ.
     pub block: u32,
     /// Index of the joint, rolling or coupling in the scene.
     pub joint: u32,
 }
 
 impl<T: Real, S: Space<T>> ClosedLoop<T, S> {
-    /// The numbers of its rows.
+    /// Returns the indices of the loop's rows.
     #[inline(always)]
     #[must_use]
     pub fn range(&self) -> core::ops::Range<usize> {
         self.first as usize..self.first as usize + self.n as usize
     }
 
-    /// Evaluates the loop's rows and hands them out in order.
+    /// Evaluates the loop's rows and passes each one to `take`, in order.
     ///
     /// # Errors
-    /// [`Outside`] if the tables do not fit each other, or what `take` says.
+    /// [`Outside`] if the tables do not fit each other, or an error of `take`.
     #[inline(always)]
     pub fn evaluate(
         &self,
@@ -64,7 +65,7 @@ impl<T: Real, S: Space<T>> ClosedLoop<T, S> {
         }
     }
 
-    /// Evaluates the rows of a cut joint and hands them out in order.
+    /// Evaluates the rows of a cut joint and passes each one to `give`, in order.
     #[inline(always)]
     fn evaluate_cut(
         &self,
@@ -89,7 +90,7 @@ impl<T: Real, S: Space<T>> ClosedLoop<T, S> {
             let rate = gradient[0].dot(&a.velocity) + gradient[1].dot(&b.velocity);
             take(k, RowValue { gradient, value, rate, bias })
         };
-        // Most loops: the axes one after the other, so that their numbers are constants.
+        // Fast path for most loops: with the axes in order, the axis numbers are constants.
         if own.len() == S::Point::N && own.iter().enumerate().all(|(i, row)| row.is_along(i)) {
             for axis in 0..S::Point::N {
                 give(self.first as usize + axis, coincidence(axis))?;
@@ -104,7 +105,7 @@ impl<T: Real, S: Space<T>> ClosedLoop<T, S> {
                 }
                 Row::Coincidence { axis } => coincidence(*axis as usize),
                 Row::Gap { direction, constant } => {
-                    // Φ̈: g̈·d + 2 ġ·ḋ + g·d̈
+                    // bias of Φ̈ from g̈·d + 2 ġ·ḋ + g·d̈
                     let d = S::rotate(&a.rotation, direction);
                     let turning = S::cross(&spins[0], &d);
                     let bias = gap_bias.dot(&d)
@@ -114,7 +115,7 @@ impl<T: Real, S: Space<T>> ClosedLoop<T, S> {
                     (gap.dot(&d) - *constant, bias, gradient)
                 }
                 Row::Dot { x, y, constant } => {
-                    // Φ̈: ẍ·y + 2 ẋ·ẏ + x·ÿ
+                    // bias of Φ̈ from ẍ·y + 2 ẋ·ẏ + x·ÿ
                     let (x, y) = (S::rotate(&a.rotation, x), S::rotate(&b.rotation, y));
                     let bias = S::centrifugal(&spins[0], &x).dot(&y)
                         + T::TWO * S::cross(&spins[0], &x).dot(&S::cross(&spins[1], &y))

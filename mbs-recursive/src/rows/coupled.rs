@@ -18,49 +18,50 @@ use crate::space::{Numbers, Space};
 use mbs_core::Real;
 pub use mbs_core::elements::NONE;
 
-/// Are couplings in this build?
+/// Does this build support couplings?
 pub const IS_BUILT: bool = cfg!(feature = "couplings");
-/// Are lines over points of links in this build?
+/// Does this build support lines over points of links?
 pub const HAS_LINES: bool = cfg!(feature = "lines");
-/// Are angles of balls in this build? Tables for controllers have none.
+/// Does this build support angles of balls? Tables for controllers have no such angles.
 pub(crate) const HAS_BALL_ANGLES: bool = cfg!(feature = "alloc");
 
-/// The row of a coupling.
+/// Data of the row of a coupling.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CoupledRow<T> {
     /// Terms of the row.
     pub terms: Span,
-    /// The links on which its lines have points.
+    /// Links that carry points of its lines or axes of its balls.
     pub starts: Span,
-    /// Number of the guide that is its sum; [`NONE`]: it is zero.
+    /// Number of the guide to which the sum is equal; [`NONE`] if the sum is zero.
     pub guide: u32,
-    /// Part of the sum beside the guide, over the largest factor: what a guide adds to its law where it is exported.
+    /// Constant that is subtracted from the sum, divided by the largest factor. An exported guide has its constant part here.
     pub value: T,
-    /// One over the largest factor: the sum is divided by it.
+    /// One over the largest factor. The sum is multiplied by it.
     pub inverse: T,
-    /// Is its value an angle (otherwise a length)?
+    /// Is the value of the row an angle (otherwise a length)?
     pub is_angle: bool,
 }
 
 /// A term of a coupling.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SumTerm<T> {
-    /// Factor of the term over the largest one.
+    /// Factor of the term, divided by the largest factor of the row.
     pub factor: T,
-    /// Number of the term's curve; [`NONE`]: the measured number itself.
+    /// Number of the term's curve; [`NONE`] if the term is the measured number itself.
     pub curve: u32,
     /// Measure that the term is a function of.
     pub of: SumMeasure<T>,
 }
 
 impl<T: Real> SumTerm<T> {
-    /// Returns the growth of the term by its coordinate; that of a curve was noted when the term, number `i` of all, was evaluated.
+    /// Returns the derivative of term `i` by its measured number. If the term has a curve, `slopes` has the derivative from the last
+    /// evaluation.
     #[inline(always)]
     fn slope(&self, i: usize, slopes: &[T]) -> Result<T, Outside> {
         if self.has_curve() { at(slopes, i).copied() } else { Ok(self.factor) }
     }
 
-    /// Has it a curve? In a build without curves no model has one.
+    /// Does the term have a curve? In a build without curves no term has one.
     #[inline(always)]
     fn has_curve(&self) -> bool {
         curves::IS_BUILT && self.curve != NONE
@@ -74,10 +75,10 @@ pub enum SumMeasure<T> {
     Joint {
         /// Number of the link.
         link: u32,
-        /// The side by which its part of the row travels inward; [`NONE`]: its joint is guided.
+        /// Side by which this part of the row is carried inward; [`NONE`] if the joint is guided.
         side: u32,
     },
-    /// The length of a line, less that in the reference configuration.
+    /// The length of a line minus its length in the reference configuration.
     Line {
         /// Points of the line.
         points: Span,
@@ -86,16 +87,16 @@ pub enum SumMeasure<T> {
     },
     /// The swing of a ball: the angle between a direction of one link and one of another.
     Swing {
-        /// The directions, in place of points.
+        /// Directions of the ball, stored in the list of points.
         axes: Span,
     },
-    /// The twist of a ball about such directions.
+    /// The twist of a ball about a direction of one link and one of another.
     Twist {
-        /// The directions, in place of points.
+        /// Directions of the ball, stored in the list of points.
         axes: Span,
-        /// The first of the joint's half angles in z.
+        /// Index of the first of the joint's half angles in z.
         first: u32,
-        /// The parent of its link is the joint's second body.
+        /// Is the parent of the link the joint's second body?
         is_reversed: bool,
     },
 }
@@ -103,31 +104,31 @@ pub enum SumMeasure<T> {
 /// A point of a line, or a direction of a ball.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LinePoint<T: Real, S: Space<T>> {
-    /// Number of the point's link among those of its row.
+    /// Index of the point's link in the list of the row's links.
     pub start: u32,
-    /// The point, from the link's origin, reference axes [m].
+    /// Vector from the link's origin to the point, reference axes [m].
     pub point: S::Point,
 }
 
-/// A link at which a row begins.
+/// A link from which a row is carried inward.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct LinkStart {
-    /// Number of the link.
+    /// Side by which the row is carried inward from this link.
     pub link: u32,
-    /// The side by which it travels inward.
+    /// Number of the side by which the row is carried inward from the link.
     pub side: u32,
 }
 
-/// Tables that the rows of couplings refer to: constant.
+/// Tables for the rows of couplings; they are constant.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Couplings<'a, T: Real, S: Space<T>> {
-    /// Number of loops that are cut joints; those behind them are couplings. More than there are: all are.
+    /// Number of loops that are cut joints or rollings. The loops after these are couplings. A number beyond the list means no couplings.
     pub n_cut: u32,
     /// Terms of all rows.
     pub terms: &'a [SumTerm<T>],
     /// Points of lines, and directions of balls.
     pub points: &'a [LinePoint<T, S>],
-    /// Links at which the rows of lines and of balls begin.
+    /// Links from which the rows of lines and balls are carried inward.
     pub starts: &'a [LinkStart],
     /// Curves of terms and signals.
     pub curves: &'a [CurveTable<T>],
@@ -135,16 +136,16 @@ pub struct Couplings<'a, T: Real, S: Space<T>> {
     pub knots: &'a [[T; 2]],
     /// Second derivatives of splines at their knots, and coefficients of polynomials.
     pub numbers: &'a [T],
-    /// Codes of the user-defined relations.
+    /// Program code of the user-defined relations.
     #[cfg(feature = "alloc")]
     pub relations: Option<&'a mbs_core::laws::code::Codes>,
 }
 
-/// A mechanism at an instant: its links and where they are, and its coordinates, velocities and guides.
+/// A mechanism at an instant: links, their places and motions, and coordinates, velocities and guides.
 pub(crate) type Here<'a, T, S> =
     (&'a [Link<T, S>], &'a [LinkMotion<T, S>], (&'a [T], &'a [T], &'a [[T; 3]]));
 
-/// The gradients of all rows: K of all sides, those of the first in front; and the slope of each term that has a curve.
+/// Gradients of all rows: K of all sides, first sides first, and the slopes of terms with curves.
 pub(crate) type Gradients<'a, T, S> = (&'a mut [<S as Space<T>>::Motion], &'a mut [T]);
 
 /// Value of the row of a coupling at an instant.
@@ -152,7 +153,7 @@ pub(crate) type Gradients<'a, T, S> = (&'a mut [<S as Space<T>>::Motion], &'a mu
 pub(crate) struct CoupledValue<T> {
     /// Φ, Φ̇, and Φ̈ without accelerations.
     pub(crate) row: [T; 3],
-    /// The sizes of the parts of Φ and of Φ̇.
+    /// Sums of absolute values of the parts of Φ and of Φ̇.
     pub(crate) parts: [T; 2],
 }
 
@@ -162,7 +163,7 @@ impl<T: Real> CoupledValue<T> {
         Self { row: [T::ZERO; 3], parts: [T::ZERO; 2] }
     }
 
-    /// Adds what a term or a guide gives, and the size of what its rate is made of.
+    /// Adds value, rate and bias of a term or guide, and the size of the parts of its rate.
     #[inline(always)]
     pub(crate) fn add(&mut self, x: [T; 3], speed: T) {
         self.row.iter_mut().zip(x).for_each(|(sum, x)| *sum += x);
@@ -171,7 +172,7 @@ impl<T: Real> CoupledValue<T> {
 }
 
 impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
-    /// Couplings of a mechanism that has none.
+    /// Returns the tables of a mechanism without couplings.
     #[must_use]
     pub const fn none() -> Self {
         Self {
@@ -187,19 +188,20 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
         }
     }
 
-    /// f, f' and f'' of a term's curve.
+    /// Evaluates f, f' and f'' of a term's curve.
     pub(crate) fn function(&self, curve: u32, x: T) -> Result<[T; 3], Outside> {
         curves::function((self.curves, self.knots, self.numbers), curve, x)
     }
 
-    /// Returns the number of slopes that an evaluation remembers: one for each term up to the last that has a curve.
+    /// Returns the number of slopes that an evaluation stores: one for each term up to the last term with a curve.
     #[must_use]
     pub fn n_slopes(&self) -> usize {
         let last = self.terms.iter().rposition(|term| term.curve != NONE);
         last.map_or(0, |last| last + 1)
     }
 
-    /// Value, rate and the part of the acceleration that is known, of what a term measures; and the size of what the rate is made of.
+    /// Returns value, rate and known part of the acceleration of a term's measured number. The last result is the size of the parts of its
+    /// rate.
     pub(crate) fn measure(
         &self,
         (of, starts): (&SumMeasure<T>, Span),
@@ -212,7 +214,7 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
                 Ok((numbers, numbers[1].abs()))
             }
             SumMeasure::Line { points, reference } if HAS_LINES => {
-                // ends that move across their part cancel in its rate
+                // Parts of a rate may cancel where the ends move across their part of the line, so `speed` sums their sizes.
                 let (mut sum, mut speed) = ([-reference, T::ZERO, T::ZERO], T::ZERO);
                 self.each_part((points, starts), here.1, |part| {
                     let along = part.direction.dot(&part.rate);
@@ -228,12 +230,12 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
                 let numbers = self.ball_angle((of, axes, starts), here)?;
                 Ok(([numbers[0], numbers[1], T::ZERO], numbers[1].abs()))
             }
-            // Not in this build: a model with one is not loaded.
+            // Not in this build: a model with this measure is refused when it is loaded.
             _ => Err(Outside),
         }
     }
 
-    /// Evaluates row `k` of a coupling; its gradients are written where they are wanted, of `n_rows` rows.
+    /// Evaluates row `k` of `n_rows`, the row of a coupling. If `out` is given, the gradients are written there.
     #[inline(always)]
     pub(crate) fn evaluate(
         &self,
@@ -247,7 +249,7 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
             #[cfg(feature = "alloc")]
             None if self.is_related(row) => self.of_relation(place, here, out)?,
             None if curves::IS_BUILT || HAS_LINES => self.of_terms(place, here, out)?,
-            // Not in this build: a model with one is not loaded.
+            // Not in this build: a model with such a row is refused when it is loaded.
             None => return Err(Outside),
         };
         sum.add([-row.value, T::ZERO, T::ZERO], T::ZERO);
@@ -259,7 +261,8 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
         Ok(sum)
     }
 
-    /// The terms of a row, where they are coordinates without curves; `None`: others are among them. Such a row has no gradients that change.
+    /// Sums the terms of a row if all of them are coordinates without curves; otherwise returns `None`. The gradients of such a row are
+    /// constant.
     #[inline(always)]
     fn of_joints(
         &self,
@@ -278,7 +281,7 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
         Ok(Some(sum))
     }
 
-    /// The terms of any row.
+    /// Sums the terms of any row, and writes gradients if requested.
     #[inline(never)]
     fn of_terms(
         &self,
@@ -307,7 +310,7 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
         Ok(sum)
     }
 
-    /// Hands out the ends that a row has, without guides: at joints with their slopes, and at links with wrenches.
+    /// Calls `take` for each coordinate or link whose motion changes a row's sum, with the derivative. The row's guide is not included.
     pub(crate) fn each_end(
         &self,
         row: &CoupledRow<T>,
@@ -337,19 +340,19 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
                         Ok(())
                     })?;
                 }
-                // Not in this build: a model with one is not loaded.
+                // Not in this build: a model with this measure is refused when it is loaded.
                 _ => return Err(Outside),
             }
         }
         Ok(())
     }
 
-    /// The links at which a row begins.
+    /// Returns the links from which a row is carried inward.
     pub(crate) fn starts_of(&self, row: &CoupledRow<T>) -> Result<&[LinkStart], Outside> {
         if HAS_LINES { range(self.starts, row.starts.range()) } else { Ok(&[]) }
     }
 
-    /// The links whose coordinates a row has: each with the side by which it travels inward, and g.
+    /// Returns the links whose coordinates are terms of a row, each with the side by which it is carried inward, and its slope g.
     pub(crate) fn joints_of<'s>(
         &'s self,
         row: &CoupledRow<T>,
@@ -362,7 +365,8 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
         }))
     }
 
-    /// Σ K a + Σ g x of row `k` for motions `a` of the links and `x` of the freedoms, and the size of its parts.
+    /// Returns Σ K a + Σ g x of row `k` for motions `a` of the links and `x` of the freedoms. The second result is the sum of absolute
+    /// values of its parts.
     #[inline(always)]
     pub(crate) fn along(
         &self,
@@ -389,7 +393,7 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
         Ok(sum)
     }
 
-    /// g of the joint of link `i` where a row passes it by this side; zero where it has none.
+    /// Returns the slope g of a row by the coordinate of link `i`, for one side of the row; zero if the side has no such term.
     #[inline(always)]
     pub(crate) fn slope(
         &self,
@@ -408,21 +412,21 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
     }
 }
 
-/// Coordinate or link by whose motion a sum grows, with the growth.
+/// Coordinate or link whose motion changes a sum, with the derivative of the sum.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum SumEnd<T: Real, S: Space<T>> {
     /// The coordinate of a link.
     Joint {
         /// Number of the link.
         link: u32,
-        /// The growth by it.
+        /// Derivative of the sum by the coordinate.
         slope: T,
     },
     /// The motion of a link.
     Link {
         /// Number of the link.
         link: u32,
-        /// The growth by it.
+        /// Derivative of the sum by the motion, as a wrench on the link.
         wrench: S::Motion,
     },
 }

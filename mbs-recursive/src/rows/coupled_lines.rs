@@ -1,4 +1,4 @@
-//! Lines over points of links, part by part: lengths, how they grow, and where they are lost.
+//! Lines over points of links, part by part: lengths, gradients, and parts that collapse.
 
 use crate::link::LinkMotion;
 use crate::link::indexing::{Outside, at, at_mut, range};
@@ -9,7 +9,7 @@ use mbs_core::Real;
 use mbs_core::elements::has_collapsed;
 
 impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
-    /// Hands out the parts of a line that have a length.
+    /// Calls `take` for each part of a line that has a positive length.
     pub(crate) fn each_part(
         &self,
         (points, starts): (Span, Span),
@@ -39,7 +39,7 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
         Ok(())
     }
 
-    /// Adds what a term that is a line has of the gradient of row `k` of `n_rows`, with its slope.
+    /// Adds the gradient of a line term, times its slope, to row `k` of `n_rows`.
     #[inline(always)]
     pub(crate) fn add_gradient(
         &self,
@@ -58,7 +58,7 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
         })
     }
 
-    /// The part of a row's lines that has no length left, or whose ends met, while the links went from one place to another.
+    /// Finds the part of a row's lines whose length became zero, or whose ends passed each other, between two configurations.
     pub(crate) fn collapsed(
         &self,
         row: &CoupledRow<T>,
@@ -90,11 +90,11 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
     }
 }
 
-/// The link of a point of a line, its spin, the arm of the point on it, its place and its velocity.
+/// End of a part of a line: link, angular velocity, arm of the point, and place and velocity of the point.
 type LineEnd<T, S> =
     (LinkStart, <S as Space<T>>::Spin, <S as Space<T>>::Point, [<S as Space<T>>::Point; 2]);
 
-/// A point of a line.
+/// Evaluates a point of a line.
 fn line_end<T: Real, S: Space<T>>(
     starts: &[LinkStart],
     of: &LinePoint<T, S>,
@@ -110,13 +110,13 @@ fn line_end<T: Real, S: Space<T>>(
 
 /// A part of a line.
 pub(crate) struct LinePart<T: Real, S: Space<T>> {
-    /// The links of its ends, and its points from their origins.
+    /// Links at both ends, each with the arm of the point from the link's origin.
     pub(crate) ends: [(LinkStart, S::Point); 2],
-    /// From the first to the second.
+    /// Unit vector from the first end to the second.
     pub(crate) direction: S::Point,
     pub(crate) length: T,
-    /// Velocity of the part's second end against its first.
+    /// Velocity of the second end minus that of the first [m/s].
     pub(crate) rate: S::Point,
-    /// Acceleration of the second end against the first that is left without accelerations of the links.
+    /// Acceleration of the second end minus that of the first, for zero accelerations of the links [m/s^2].
     pub(crate) bias: S::Point,
 }

@@ -1,4 +1,4 @@
-//! The equations of loops: of cut joints, of what rolls, and of couplings, with their gradients.
+//! Equations of loops, with gradients: of cut joints, of rolling bodies and of couplings.
 
 mod ball;
 pub mod closed_loop;

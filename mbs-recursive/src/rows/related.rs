@@ -1,11 +1,11 @@
-//! User-defined relations: rows over joint coordinates and lengths whose terms are not summed.
+//! User-defined relations: rows that are a function φ of joint coordinates and lengths in place of their sum.
 //!
 //! ```text
 //! Φ = (φ(c₁ m₁ .. cₙ mₙ) − s(t)) / c          c: its largest derivative in the reference configuration
 //! Φ̈ = Σ φₖ cₖ m̈ₖ + ṁᵀ H ṁ                     head = K b + g as of a sum, with the slopes φₖ cₖ
 //! ```
 //!
-//! The terms of such a row have a number of their relation in place of a curve: their slopes are noted, as those of curves are.
+//! A term of such a row has the number of its relation in place of a curve. The derivatives of φ are stored as the slopes of curves are.
 
 use crate::link::indexing::{Outside, at_mut, range};
 use crate::rows::coupled::{CoupledRow, CoupledValue, Couplings, Gradients, Here, NONE};
@@ -15,12 +15,12 @@ use mbs_core::laws::code::NumberedRelation;
 use mbs_core::laws::relation::MAX_ARGUMENTS;
 use mbs_core::measure::Arguments;
 
-/// Curves from this number on are none: their term is an argument of the relation that has the rest for its number. No scene has as
+/// First number that marks a relation in place of a curve. The number minus this constant is the number of the relation. No scene has as
 /// many curves.
 pub(crate) const ARGUMENTS: u32 = 1 << 31;
 
 impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
-    /// Is the row that of a relation?
+    /// Is the row that of a user-defined relation?
     #[inline(always)]
     pub(crate) fn is_related(&self, row: &CoupledRow<T>) -> bool {
         let first = self.terms.get(row.terms.first as usize);
@@ -32,7 +32,7 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
         Ok(self.relations.ok_or(Outside)?.relation(first.curve - ARGUMENTS))
     }
 
-    /// The terms of a row that is a relation.
+    /// Evaluates the row of a user-defined relation, and writes gradients if requested.
     #[inline(never)]
     pub(crate) fn of_relation(
         &self,
@@ -60,7 +60,7 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
             let ([m, rate, known], speed) = of;
             let slope = arguments.slope(number) * row.inverse * term.factor;
             sum.add([T::ZERO, slope * rate, slope * known], slope * speed);
-            // its value is rounded as its parts are
+            // the rounding of the value is that of its parts
             sum.parts[0] += (slope * m).abs();
             let Some((gradient, slopes)) = &mut out else { continue };
             *at_mut(slopes, i)? = slope;

@@ -15,14 +15,14 @@ use mbs_core::Real;
 use mbs_core::algebra::{Vector, cross, unit};
 use mbs_core::measure::{Moving, lies_flat, lowest_point};
 
-/// Are rows of what rolls in this build?
+/// Does this build support rows of rolling bodies?
 pub const IS_BUILT: bool = cfg!(feature = "rolling");
 
-/// A body that rolls, or its plane, in space.
+/// The rolling body, or the body with the plane, in space.
 struct Carrier<T: Real> {
     origin: Moving<T>,
     spin: Vector<T, 3>,
-    /// The centre, or the point of the plane.
+    /// Centre of the rolling body, or point of the plane, with its velocity.
     point: Moving<T>,
 }
 
@@ -35,12 +35,13 @@ impl<T: Real> Carrier<T> {
         Self { origin, spin, point }
     }
 
-    /// A direction that turns with it.
+    /// Returns a body-fixed direction with its rate.
     fn turning(&self, x: Vector<T, 3>) -> Moving<T> {
         [x, cross(&self.spin, &x)]
     }
 
-    /// From its origin to a point, the point's velocity as one of it, and what the point's own motion adds to the acceleration.
+    /// Returns the arm from the origin to a point and the velocity of the body there. The third result is the acceleration by the point's
+    /// motion relative to the origin.
     fn carries(&self, [r, r_t]: &Moving<T>) -> [Vector<T, 3>; 3] {
         let arm = *r - self.origin[0];
         let velocity = self.origin[1] + cross(&self.spin, &arm);
@@ -48,7 +49,7 @@ impl<T: Real> Carrier<T> {
     }
 }
 
-/// The normal and the axis, or the direction of a blade, of the first of a rolling's rows.
+/// Returns the normal of the plane, and the axis of the disc or the direction of the blade, from the first row of a rolling.
 fn directions<T: Real, S: Space<T>>(
     first: &Row<T, S>,
     [body, on]: [&LinkMotion<T, S>; 2],
@@ -64,7 +65,7 @@ fn directions<T: Real, S: Space<T>>(
     Ok((normal, S::point_into(&S::rotate(&body.rotation, axis))))
 }
 
-/// Evaluates the rows of a rolling, the first with its number `k`, and hands them out in order.
+/// Evaluates the rows of a rolling, the first of which has number `k`, and passes each one to `take`, in order.
 pub(crate) fn evaluate<T: Real, S: Space<T>>(
     (own, mut k): (&[Row<T, S>], usize),
     (links, points): ([&LinkMotion<T, S>; 2], &[S::Point; 2]),
@@ -107,7 +108,7 @@ pub(crate) fn evaluate<T: Real, S: Space<T>>(
     Ok(())
 }
 
-/// Does the disc of this row lie flat, or the blade stand along the normal?
+/// Does the disc of this row lie flat on the plane, or the direction of the blade lie along the normal?
 pub(crate) fn is_flat<T: Real, S: Space<T>>(
     first: &Row<T, S>,
     links: [&LinkMotion<T, S>; 2],

@@ -1,10 +1,10 @@
-//! The equations of loops: of cut joints, of what rolls, and of couplings.
+//! Data of one equation of a closed loop: of a cut joint, of a rolling body, or of a coupling.
 
 use crate::rows::coupled::CoupledRow;
 use crate::space::Space;
 use mbs_core::Real;
 
-/// One equation of a cut joint.
+/// One equation of a closed loop.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Row<T: Real, S: Space<T>> {
     /// The points coincide along a world axis.
@@ -12,46 +12,46 @@ pub enum Row<T: Real, S: Space<T>> {
         /// Number of the axis.
         axis: u32,
     },
-    /// The gap keeps its part along a direction of the first body.
+    /// The component of the gap between the points along a direction of the first body is constant.
     Gap {
         /// Unit direction, reference axes.
         direction: S::Point,
-        /// Part of the gap that is kept [m].
+        /// Constant component of the gap [m].
         constant: T,
     },
-    /// Two directions keep their angle.
+    /// The angle between two directions is constant.
     Dot {
-        /// In the first body, reference axes.
+        /// Direction in the first body, reference axes.
         x: S::Point,
-        /// In the second body, reference axes.
+        /// Direction in the second body, reference axes.
         y: S::Point,
-        /// Cosine of the angle.
+        /// Cosine of the constant angle.
         constant: T,
     },
-    /// The points keep their distance.
+    /// The distance of the points is constant.
     Length {
         /// Distance of the points [m].
         length: T,
     },
-    /// The lowest point of a disc or ball stays on a plane of the second body: the first row of a body that rolls.
+    /// The lowest point of a disc or ball remains on a plane of the second body. It is the first row of a rolling body.
     Height {
         /// Radius of the disc or ball [m].
         radius: T,
-        /// The disc's unit axis, reference axes of the first body; of a ball, and in the plane, zero.
+        /// Unit axis of the disc, reference axes of the first body; zero for a ball and in the plane.
         axis: S::Point,
-        /// The plane's unit normal, reference axes of the second body.
+        /// Unit normal of the plane, reference axes of the second body.
         normal: S::Point,
     },
-    /// The body that rolls does not slip along a direction of the second body: a row of velocities.
+    /// The rolling body does not slip along a direction of the second body: a constraint on velocities.
     NoSlip {
         /// Unit direction, reference axes.
         direction: S::Point,
     },
-    /// A point does not move across a blade: a row of velocities.
+    /// A point does not move across a blade: a constraint on velocities.
     Blade {
-        /// The unit direction along which it may move, reference axes of the first body.
+        /// Unit direction along which the point may move, reference axes of the first body.
         direction: S::Point,
-        /// The plane's unit normal, reference axes of the second body; in the plane not used.
+        /// Unit normal of the plane, reference axes of the second body; not used in the plane.
         normal: S::Point,
     },
     /// A coupling, which is a loop of one row.
@@ -59,7 +59,7 @@ pub enum Row<T: Real, S: Space<T>> {
 }
 
 impl<T: Real, S: Space<T>> Row<T, S> {
-    /// Is its value an angle (otherwise a length)?
+    /// Is the value of the row an angle (otherwise a length)?
     #[must_use]
     pub fn is_angle(&self) -> bool {
         match self {
@@ -68,18 +68,18 @@ impl<T: Real, S: Space<T>> Row<T, S> {
         }
     }
 
-    /// Is it the first row of a rolling?
+    /// Is this the first row of a rolling?
     #[must_use]
     pub fn begins_rolling(&self) -> bool {
         matches!(self, Self::Height { .. } | Self::Blade { .. })
     }
 
-    /// Is it the equation of a cut joint, and its value an angle?
+    /// Is this the equation of a cut joint whose value is an angle?
     pub(crate) fn is_cut_angle(&self) -> bool {
         matches!(self, Self::Dot { .. })
     }
 
-    /// Does it hold points together along this world axis?
+    /// Does this equation make points coincide along this world axis?
     pub(crate) fn is_along(&self, world_axis: usize) -> bool {
         matches!(self, Self::Coincidence { axis } if *axis as usize == world_axis)
     }
@@ -90,7 +90,7 @@ impl<T: Real, S: Space<T>> Row<T, S> {
 pub struct RowValue<T: Real, S: Space<T>> {
     /// Gradients K₁ and K₂ by the motions of both bodies.
     pub gradient: [S::Motion; 2],
-    /// Φ [m or rad].
+    /// Value Φ [m or rad].
     pub value: T,
     /// Rate Φ̇ of the equation.
     pub rate: T,

@@ -1,4 +1,4 @@
-//! One algebra for plane and space, so that every pass is written once: [`Space`].
+//! Algebra of motions, forces and inertias for plane and space. With the trait [`Space`] every pass is written once for both.
 //!
 //! ```text
 //! motion (ω, v)   force (τ, f)   about a link's own origin, world axes
@@ -7,7 +7,7 @@
 //!     (τ, f) ↦ (τ + r × f, f)        inward
 //! ```
 //!
-//! The plane has three numbers, space six; inertias are symmetric, 6 and 21 numbers.
+//! A motion has three numbers in the plane and six in space. Inertias are symmetric, with 6 and 21 numbers.
 
 mod planar;
 mod spatial;
@@ -20,7 +20,7 @@ use core::ops::{Add, AddAssign, Index, IndexMut, Mul, Neg, Sub, SubAssign};
 use mbs_core::Real;
 use mbs_core::algebra::Vector;
 
-/// A few numbers that add up and have an inner product.
+/// Vector of a few numbers, with addition and an inner product.
 pub trait Numbers<T>:
     Copy
     + Debug
@@ -37,13 +37,13 @@ pub trait Numbers<T>:
     + Sync
     + 'static
 {
-    /// Number of components.
+    /// Number of components of the vector.
     const N: usize;
     /// Returns zero in every component.
     fn zero() -> Self;
     /// Returns the inner product with `other`.
     fn dot(&self, other: &Self) -> T;
-    /// The inner product of absolute values: what rounding of the inner product is small against.
+    /// Returns the inner product of absolute values, the scale of the inner product's rounding error.
     fn parts(&self, other: &Self) -> T;
 }
 
@@ -70,13 +70,13 @@ impl<T: Real, const N: usize> Numbers<T> for Vector<T, N> {
     }
 }
 
-/// The plane or space: what the passes need to know of it.
+/// Plane or space, with the operations that the passes use.
 pub trait Space<T: Real>: Copy + Debug + Send + Sync + 'static {
     /// Vectors of points and directions.
     type Point: Numbers<T>;
     /// Angular velocities and moments.
     type Spin: Numbers<T>;
-    /// A motion (ω, v) or a force (τ, f), first the turning part.
+    /// A motion (ω, v) or a force (τ, f), with the rotational part first.
     type Motion: Numbers<T>;
     /// Rotation from body-fixed to world axes.
     type Rotation: Copy + Debug + PartialEq + Send + Sync + 'static;
@@ -87,57 +87,58 @@ pub trait Space<T: Real>: Copy + Debug + Send + Sync + 'static {
 
     /// Dimension of the space: 2 or 3.
     const DIMENSION: usize;
-    /// Numbers that hold the coordinates of a free body: an angle or a quaternion, then the position.
+    /// Number of coordinates of a free body: an angle or a quaternion, then the position.
     const FREE: usize;
 
     /// Returns the motion (ω, v).
     fn motion(spin: Self::Spin, point: Self::Point) -> Self::Motion;
-    /// ω of (ω, v).
+    /// Returns ω of the motion (ω, v).
     fn spin(motion: &Self::Motion) -> Self::Spin;
-    /// v of (ω, v).
+    /// Returns v of the motion (ω, v).
     fn point(motion: &Self::Motion) -> Self::Point;
     /// Returns the cross product ω × x.
     fn cross(spin: &Self::Spin, x: &Self::Point) -> Self::Point;
-    /// ω × n, for angular velocities; zero in the plane.
+    /// Returns the cross product ω × n of angular velocities; zero in the plane.
     fn cross_spin(spin: &Self::Spin, n: &Self::Spin) -> Self::Spin;
     /// Returns the moment r × f.
     fn moment(r: &Self::Point, f: &Self::Point) -> Self::Spin;
 
-    /// Returns the rotation that turns nothing.
+    /// Returns the identity rotation.
     fn identity() -> Self::Rotation;
-    /// A body-fixed vector in world axes.
+    /// Returns a body-fixed vector in world axes.
     fn rotate(r: &Self::Rotation, x: &Self::Point) -> Self::Point;
-    /// A body-fixed axial vector in world axes.
+    /// Returns a body-fixed axial vector in world axes.
     fn rotate_spin(r: &Self::Rotation, x: &Self::Spin) -> Self::Spin;
-    /// A world axial vector in body axes.
+    /// Returns a world axial vector in body axes.
     fn unrotate_spin(r: &Self::Rotation, x: &Self::Spin) -> Self::Spin;
-    /// A world vector in body axes.
+    /// Returns a world vector in body axes.
     fn unrotate(r: &Self::Rotation, x: &Self::Point) -> Self::Point;
-    /// `r` followed inside by a turn about the body-fixed unit axis: R Rot(n, angle).
+    /// Returns R Rot(n, angle): the rotation `r` composed with a rotation about a body-fixed unit axis n.
     fn turned(r: &Self::Rotation, axis: &Self::Spin, angle: T) -> Self::Rotation;
-    /// `r` followed inside by the rotation of joint coordinates (a quaternion; in the plane an angle).
+    /// Returns `r` composed with the body-fixed rotation of joint coordinates (a quaternion; in the plane an angle).
     fn turned_by(r: &Self::Rotation, z: &[T]) -> Self::Rotation;
     /// Writes the joint coordinates of a rotation.
     fn write_rotation(r: &Self::Rotation, z: &mut [T]);
     /// Returns the relative rotation Rᵀ S.
     fn relative(r: &Self::Rotation, s: &Self::Rotation) -> Self::Rotation;
-    /// Moves the coordinates of a rotation by a rotation vector in its own axes: q ← q exp(δ), normalised.
+    /// Updates the coordinates of a rotation by a body-fixed rotation vector δ: q ← q exp(δ), normalised.
     fn advance_rotation(z: &mut [T], delta: &[T]);
-    /// Rate of the coordinates of a rotation: q' = ½ q ω, ω in its own axes.
+    /// Writes the rate of the coordinates of a rotation: q' = ½ q ω, with ω in body axes.
     fn rotation_rate(z: &[T], spin: &[T], rate: &mut [T]);
-    /// Makes the coordinates of a rotation unit again.
+    /// Normalises the coordinates of a rotation to unit length.
     fn normalise_rotation(z: &mut [T]);
 
     /// Returns an inertia of zero.
     fn no_inertia() -> Self::Inertia;
-    /// The inertia of a body about its link's origin; `center` from there in world axes, `tensor` about it in body axes.
+    /// Returns the inertia of a body about its link's origin. `center` is the vector from that origin to the centre of mass in world axes;
+    /// `tensor` is about the origin in body axes.
     fn body_inertia(
         mass: T,
         center: &Self::Point,
         tensor: &Self::Tensor,
         r: &Self::Rotation,
     ) -> Self::Inertia;
-    /// The angular momentum of the body's own tensor: the turning block times ω.
+    /// Returns the angular momentum of the body's tensor: the rotational block times ω.
     fn turning_block(inertia: &Self::Inertia, spin: &Self::Spin) -> Self::Spin;
     /// Returns the product I a.
     fn times(inertia: &Self::Inertia, a: &Self::Motion) -> Self::Motion;
@@ -145,63 +146,64 @@ pub trait Space<T: Real>: Copy + Debug + Send + Sync + 'static {
     fn times_spin(inertia: &Self::Inertia, n: &Self::Spin) -> Self::Motion;
     /// Returns the product I (0, d).
     fn times_point(inertia: &Self::Inertia, d: &Self::Point) -> Self::Motion;
-    /// I − u w uᵀ, for a weight w.
+    /// Returns I − w u uᵀ, for a weight w.
     fn reduced(inertia: &Self::Inertia, u: &Self::Motion, w: T) -> Self::Inertia;
-    /// I += k kᵀ.
+    /// Adds a rank-one term: I += k kᵀ.
     fn add_square(inertia: &mut Self::Inertia, k: &Self::Motion);
-    /// I += J about an origin at `arm` from I's.
+    /// Adds the inertia J, given about an origin at `arm` from the origin of I.
     fn add_shifted(inertia: &mut Self::Inertia, j: &Self::Inertia, arm: &Self::Point);
-    /// The largest diagonal numbers: of the turning and of the moving block.
+    /// Returns the largest diagonal entries: of the rotational and of the translational block.
     fn size(inertia: &Self::Inertia) -> (T, T);
 
-    /// Replaces I by its factors; false if it is not positive definite.
+    /// Replaces I by its factors. Returns false if I is not positive definite.
     fn factor(inertia: &mut Self::Inertia) -> bool;
-    /// I⁻¹ f by the factors.
+    /// Returns I⁻¹ f, from the factors of I.
     fn solve(factors: &Self::Inertia, f: &Self::Motion) -> Self::Motion;
-    /// Replaces the turning block A of [[A, H], [Hᵀ, M]] by its inverse; false if it is not positive definite.
+    /// Replaces the rotational block A of [[A, H], [Hᵀ, M]] by its inverse. Returns false if A is not positive definite.
     fn invert_turning(inertia: &mut Self::Inertia) -> bool;
-    /// From [[A⁻¹, H], [Hᵀ, M]]: what a ball leaves over, M − Hᵀ A⁻¹ H in the moving block.
+    /// Returns the inertia that remains after a ball joint is eliminated: M − Hᵀ A⁻¹ H in the translational block, from [[A⁻¹, H], [Hᵀ,
+    /// M]].
     fn ball_reduced(inertia: &Self::Inertia) -> Self::Inertia;
-    /// From [[A⁻¹, H], ..]: A⁻¹ x.
+    /// Returns A⁻¹ x, from [[A⁻¹, H], ..].
     fn ball_solve(inertia: &Self::Inertia, x: &Self::Spin) -> Self::Spin;
-    /// From [[.., H], [Hᵀ, ..]]: Hᵀ x.
+    /// Returns Hᵀ x, from [[.., H], [Hᵀ, ..]].
     fn ball_column(inertia: &Self::Inertia, x: &Self::Spin) -> Self::Point;
-    /// From [[.., H], ..]: H x.
+    /// Returns H x, from [[.., H], ..].
     fn ball_row(inertia: &Self::Inertia, x: &Self::Point) -> Self::Spin;
 
-    /// The first components of a vector of space.
+    /// Returns the components of a spatial vector that exist in this space.
     fn point_from(x: &Vector<T, 3>) -> Self::Point;
-    /// A vector of space; zero across the plane.
+    /// Returns a vector as a spatial one; the component across the plane is zero.
     fn point_into(x: &Self::Point) -> Vector<T, 3>;
-    /// The axial vector of a vector of space: z in the plane.
+    /// Returns the axial part of a spatial vector: in the plane its z component.
     fn spin_from(x: &Vector<T, 3>) -> Self::Spin;
-    /// An axial vector of space.
+    /// Returns an axial vector as a spatial one.
     fn spin_into(x: &Self::Spin) -> Vector<T, 3>;
-    /// A rotation from a matrix of space.
+    /// Returns the rotation of a spatial rotation matrix.
     fn rotation_from(r: &mbs_core::algebra::Matrix<T, 3>) -> Self::Rotation;
-    /// A rotation as a matrix of space.
+    /// Returns a rotation as a spatial rotation matrix.
     fn rotation_into(r: &Self::Rotation) -> mbs_core::algebra::Matrix<T, 3>;
-    /// A tensor from a matrix of space.
+    /// Returns the tensor of a spatial inertia matrix.
     fn tensor_from(i: &mbs_core::algebra::Matrix<T, 3>) -> Self::Tensor;
 
-    /// (ω, v + ω × r).
+    /// Returns the motion (ω, v + ω × r) of the point at `arm` r.
     #[inline(always)]
     fn carried(m: &Self::Motion, arm: &Self::Point) -> Self::Motion {
         let spin = Self::spin(m);
         Self::motion(spin, Self::point(m) + Self::cross(&spin, arm))
     }
-    /// (τ + r × f, f).
+    /// Returns the force (τ + r × f, f), shifted inward by `arm` r.
     #[inline(always)]
     fn gathered(f: &Self::Motion, arm: &Self::Point) -> Self::Motion {
         let push = Self::point(f);
         Self::motion(Self::spin(f) + Self::moment(arm, &push), push)
     }
-    /// ω × (ω × x).
+    /// Returns the centripetal acceleration ω × (ω × x).
     #[inline(always)]
     fn centrifugal(spin: &Self::Spin, x: &Self::Point) -> Self::Point {
         Self::cross(spin, &Self::cross(spin, x))
     }
-    /// The force f at a point at `arm`: (arm × f, f).
+    /// Returns the force f at the point at `arm`, as (arm × f, f).
     #[inline(always)]
     fn wrench(arm: &Self::Point, f: &Self::Point) -> Self::Motion {
         Self::motion(Self::moment(arm, f), *f)

@@ -1,21 +1,21 @@
-//! The plane: motions (ω, vx, vy), inertias of six numbers.
+//! The plane: motions (ω, vx, vy) and inertias of six numbers.
 
 use super::Space;
 use mbs_core::Real;
 use mbs_core::algebra::{Matrix, Vector};
 
-/// The plane, as the space of a mechanism.
+/// The plane as the space in which a mechanism moves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Planar;
 
 /// A symmetric 3×3 map from (ω, v) to (τ, f): [[a, h], [hᵀ, m]].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PlanarInertia<T> {
-    /// Turning block a.
+    /// Rotational block a of the inertia.
     pub a: T,
-    /// Coupling block h.
+    /// Coupling block h of the inertia.
     pub h: [T; 2],
-    /// Moving block xx, xy, yy.
+    /// Translational block xx, xy, yy.
     pub m: [T; 3],
 }
 
@@ -23,7 +23,7 @@ impl<T: Real> Space<T> for Planar {
     type Point = Vector<T, 2>;
     type Spin = Vector<T, 1>;
     type Motion = Vector<T, 3>;
-    /// Cosine and sine of the angle.
+    /// Cosine and sine of the rotation angle.
     type Rotation = [T; 2];
     type Inertia = PlanarInertia<T>;
     type Tensor = T;
@@ -115,7 +115,7 @@ impl<T: Real> Space<T> for Planar {
         tensor: &Self::Tensor,
         _: &Self::Rotation,
     ) -> Self::Inertia {
-        // τ = m c × a = m (cx ay − cy ax)
+        // coupling block from the torque τ = m c × a = m (cx ay − cy ax)
         PlanarInertia {
             a: *tensor,
             h: [-mass * center[1], mass * center[0]],
@@ -161,7 +161,7 @@ impl<T: Real> Space<T> for Planar {
     #[inline(always)]
     fn add_shifted(i: &mut Self::Inertia, j: &Self::Inertia, arm: &Self::Point) {
         let (x, y) = (arm[0], arm[1]);
-        // h' = h + (x m_y − y m_x),  a' = a + (x h_y − y h_x) + (x h'_y − y h'_x)
+        // inertia about the new origin: h' = h + (x m_y − y m_x),  a' = a + (x h_y − y h_x) + (x h'_y − y h'_x)
         let h = [j.h[0] + (x * j.m[1] - y * j.m[0]), j.h[1] + (x * j.m[2] - y * j.m[1])];
         i.a += j.a + (x * (j.h[1] + h[1]) - y * (j.h[0] + h[0]));
         for k in 0..2 {
@@ -177,7 +177,7 @@ impl<T: Real> Space<T> for Planar {
     }
 
     fn factor(i: &mut Self::Inertia) -> bool {
-        // L D Lᵀ from the moving block inward: pivots m_xx, m_yy', a'.
+        // L D Lᵀ factors, from the translational block inward: pivots m_xx, m_yy', a'.
         let d0 = i.m[0];
         let l1 = i.m[1] / d0;
         let d1 = i.m[2] - l1 * i.m[1];

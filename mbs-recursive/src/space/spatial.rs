@@ -1,25 +1,25 @@
-//! Space: motions (ω, v) of six numbers, inertias of twenty-one.
+//! Space: motions (ω, v) of six numbers and inertias of twenty-one.
 
 use super::Space;
 use mbs_core::Real;
 use mbs_core::algebra::{Matrix, Vector, cross, norm};
 
-/// Space of three dimensions, as that of a mechanism.
+/// Three-dimensional space, in which a mechanism moves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Spatial;
 
 /// A symmetric 6×6 map from (ω, v) to (τ, f): [[A, H], [Hᵀ, M]].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SpatialInertia<T> {
-    /// Turning block A: xx, xy, xz, yy, yz, zz.
+    /// Rotational block A: xx, xy, xz, yy, yz, zz.
     pub a: [T; 6],
     /// Coupling block H by rows.
     pub h: [T; 9],
-    /// Moving block M: xx, xy, xz, yy, yz, zz.
+    /// Translational block M: xx, xy, xz, yy, yz, zz.
     pub m: [T; 6],
 }
 
-/// Place of (i, j) in a symmetric 3×3.
+/// Index of entry (i, j) of a symmetric 3×3 matrix.
 const AT: [[usize; 3]; 3] = [[0, 1, 2], [1, 3, 4], [2, 4, 5]];
 
 #[inline(always)]
@@ -27,7 +27,7 @@ fn v3<T: Real>(x: T, y: T, z: T) -> Vector<T, 3> {
     Vector::<T, 3>::new(x, y, z)
 }
 
-/// S x of a symmetric 3×3.
+/// Returns the product S x of a symmetric 3×3 matrix and a vector.
 #[inline(always)]
 fn symmetric<T: Real>(s: &[T; 6], x: &Vector<T, 3>) -> Vector<T, 3> {
     v3(
@@ -57,7 +57,7 @@ fn backward<T: Real>(h: &[T; 9], x: &Vector<T, 3>) -> Vector<T, 3> {
     )
 }
 
-/// The quaternion in joint coordinates; no rotation where they are too few.
+/// Returns the quaternion in joint coordinates; the identity if there are fewer than four.
 #[inline(always)]
 fn quaternion<T: Real>(z: &[T]) -> [T; 4] {
     z.first_chunk().copied().unwrap_or([T::ONE, T::ZERO, T::ZERO, T::ZERO])
@@ -71,7 +71,7 @@ fn set_quaternion<T: Real>(z: &mut [T], q: [T; 4]) {
     }
 }
 
-/// A quaternion made unit.
+/// Returns a quaternion scaled to unit length.
 #[inline(always)]
 fn unit<T: Real>(q: [T; 4]) -> [T; 4] {
     let square = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
@@ -79,7 +79,7 @@ fn unit<T: Real>(q: [T; 4]) -> [T; 4] {
     [q[0] * scale, q[1] * scale, q[2] * scale, q[3] * scale]
 }
 
-/// Rotation matrix of a quaternion (w, x, y, z), of any length near one.
+/// Returns the rotation matrix of a quaternion (w, x, y, z) whose length is near one.
 fn of_quaternion<T: Real>([w, x, y, z]: [T; 4]) -> Matrix<T, 3> {
     let s = T::TWO / (w * w + x * x + y * y + z * z);
     let one = T::ONE;
@@ -96,7 +96,7 @@ fn of_quaternion<T: Real>([w, x, y, z]: [T; 4]) -> Matrix<T, 3> {
     )
 }
 
-/// p q of quaternions.
+/// Returns the product p q of quaternions.
 fn product<T: Real>(p: [T; 4], q: [T; 4]) -> [T; 4] {
     [
         p[0] * q[0] - p[1] * q[1] - p[2] * q[2] - p[3] * q[3],
@@ -106,7 +106,7 @@ fn product<T: Real>(p: [T; 4], q: [T; 4]) -> [T; 4] {
     ]
 }
 
-/// R S, column by column.
+/// Returns the product R S, column by column.
 #[inline(always)]
 fn times<T: Real>(r: &Matrix<T, 3>, s: &Matrix<T, 3>) -> Matrix<T, 3> {
     let mut p = *r;
@@ -124,7 +124,7 @@ impl<T: Real> Space<T> for Spatial {
     type Motion = Vector<T, 6>;
     type Rotation = Matrix<T, 3>;
     type Inertia = SpatialInertia<T>;
-    /// xx, xy, xz, yy, yz, zz.
+    /// Entries xx, xy, xz, yy, yz, zz.
     type Tensor = [T; 6];
 
     const DIMENSION: usize = 3;
@@ -184,7 +184,7 @@ impl<T: Real> Space<T> for Spatial {
     }
     #[inline(always)]
     fn turned(r: &Self::Rotation, n: &Self::Spin, angle: T) -> Self::Rotation {
-        // Rot(n, angle) = c 1 + (1 − c) n nᵀ + s [n]
+        // Rodrigues' formula: Rot(n, angle) = c 1 + (1 − c) n nᵀ + s [n]
         let (s, c) = angle.sin_cos();
         let (x, y, z) = (n[0], n[1], n[2]);
         let k = T::ONE - c;
@@ -208,7 +208,7 @@ impl<T: Real> Space<T> for Spatial {
         times(r, &of_quaternion(quaternion(z)))
     }
     fn write_rotation(r: &Self::Rotation, z: &mut [T]) {
-        // The largest of the four squares decides the branch, so that no digits are lost.
+        // The largest of the four squares selects the branch, so that no digits cancel.
         let (xx, yy, zz) = (r[(0, 0)], r[(1, 1)], r[(2, 2)]);
         let squares = [xx + yy + zz, xx - yy - zz, yy - xx - zz, zz - xx - yy];
         let mut k = 0;
@@ -237,7 +237,7 @@ impl<T: Real> Space<T> for Spatial {
         let Some(&[x, y, w]) = delta.first_chunk() else { return };
         let d = v3(x, y, w);
         let angle = norm(&d);
-        // exp(δ) = (cos |δ|/2, sin(|δ|/2) δ/|δ|); the quotient tends to 1/2
+        // quaternion of the rotation vector δ: exp(δ) = (cos |δ|/2, sin(|δ|/2) δ/|δ|); the quotient tends to 1/2
         let (s, c) = (angle * T::HALF).sin_cos();
         let quotient = s / angle;
         let share = if angle > T::EPSILON { quotient } else { T::HALF };
@@ -263,7 +263,7 @@ impl<T: Real> Space<T> for Spatial {
         tensor: &Self::Tensor,
         r: &Self::Rotation,
     ) -> Self::Inertia {
-        // A = R I Rᵀ, row by row; H = m [c]; M = m 1
+        // rotational block A = R I Rᵀ, row by row; coupling block H = m [c], the cross-product matrix of m c; M = m 1
         let mut a = [T::ZERO; 6];
         for i in 0..3 {
             let row = symmetric(tensor, &v3(r[(i, 0)], r[(i, 1)], r[(i, 2)]));
@@ -314,7 +314,7 @@ impl<T: Real> Space<T> for Spatial {
     }
     #[inline(always)]
     fn add_shifted(i: &mut Self::Inertia, j: &Self::Inertia, r: &Self::Point) {
-        // H' = H + r̃ M,   A' = A + r̃ Hᵀ + H' r̃ᵀ,   M' = M; column k of r̃ M is r × (column k of M)
+        // inertia about the new origin: H' = H + r̃ M,   A' = A + r̃ Hᵀ + H' r̃ᵀ,   M' = M; column k of r̃ M is r × (column k of M)
         let mut h = j.h;
         for k in 0..3 {
             let c = cross(r, &v3(j.m[AT[0][k]], j.m[AT[1][k]], j.m[AT[2][k]]));
@@ -366,7 +366,7 @@ impl<T: Real> Space<T> for Spatial {
         true
     }
     fn solve(i: &Self::Inertia, f: &Self::Motion) -> Self::Motion {
-        // ω = (A − G Hᵀ)⁻¹ (τ − G f),   v = M⁻¹ f − Gᵀ ω
+        // solution by the block factors: ω = (A − G Hᵀ)⁻¹ (τ − G f),   v = M⁻¹ f − Gᵀ ω
         let (t, f) = (<Self as Space<T>>::spin(f), <Self as Space<T>>::point(f));
         let w = symmetric(&i.a, &(t - forward(&i.h, &f)));
         Self::motion(w, symmetric(&i.m, &f) - backward(&i.h, &w))
@@ -421,10 +421,10 @@ impl<T: Real> Space<T> for Spatial {
     }
 }
 
-/// Leading minor that is zero, in units of rounding of its factors [-]. Chosen, not tuned.
+/// Largest leading minor that counts as zero, in units of rounding of its factors [-]. Chosen, not tuned.
 const MINOR_ROUNDINGS: f64 = 64.0;
 
-/// Inverse of a symmetric positive definite 3×3; `None` if a leading minor is not safely positive.
+/// Inverse of a symmetric positive definite 3×3 matrix. `None` if a leading minor is not clearly positive.
 fn inverse<T: Real>(s: &[T; 6]) -> Option<[T; 6]> {
     let [xx, xy, xz, yy, yz, zz] = *s;
     let two = xx * yy - xy * xy;
@@ -432,7 +432,7 @@ fn inverse<T: Real>(s: &[T; 6]) -> Option<[T; 6]> {
     let determinant = xx * a + xy * b + xz * c;
     let rounding = T::EPSILON * T::from_f64(MINOR_ROUNDINGS);
     let size = xx.max(yy).max(zz);
-    // A block that is singular to rounding has no inverse.
+    // A block that is singular within rounding has no inverse.
     if !(xx > rounding * size && two > rounding * size * xx && determinant > rounding * size * two)
     {
         return None;

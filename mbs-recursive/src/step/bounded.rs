@@ -6,10 +6,10 @@
 //! p times:   z ← z ⊕ −M⁻¹ Jᵀ (J M⁻¹ Jᵀ + ε)⁻¹ Φ,   v ← v − M⁻¹ Jᵀ (J M⁻¹ Jᵀ + ε)⁻¹ Φ̇      both at the same places
 //! ```
 //!
-//! Nothing is tested to decide how long to iterate, so that the work of a step depends on the mechanism alone. What is left over is
-//! reported. It is what `trapezoidal` does with its iteration cut off, without the mixing of iterates, without the evaluation at
-//! the projected end, and with one outward pass for both projections. The accelerations that a step starts from are those
-//! of the last evaluation, which differ from the converged ones by O(h²).
+//! The number of iterations is fixed, so that the work of a step depends on the mechanism alone. The remaining residuals are reported. The
+//! method is `trapezoidal` with its iteration cut off. It does not mix iterates, does not evaluate accelerations at the projected end, and
+//! uses one outward pass for both projections. A step starts from the accelerations of the last evaluation, which differ from the converged
+//! ones by O(h²).
 
 use crate::link::indexing::{Outside, at_mut, copy};
 use crate::link::options::{Closure, Options};
@@ -29,31 +29,31 @@ use mbs_core::Real;
 use mbs_core::algebra::norm_inf;
 use mbs_core::step::{OptionError, StepError, largest_or_nan};
 
-/// Work of a step: evaluations, sweeps and projections.
+/// Limits of the work of a step: evaluations, sweeps and projections.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Bounds {
     /// Evaluations of the accelerations, at least one.
     pub evaluations: u32,
-    /// Sweeps of the loops' equations after the first one in each evaluation.
+    /// Number of sweeps of the loops' equations in each evaluation, after the first sweep.
     pub sweeps: u32,
-    /// Projections of positions and velocities.
+    /// Number of projections of positions and velocities.
     pub projections: u32,
 }
 
 impl Default for Bounds {
-    /// One evaluation, no further sweep, one projection.
+    /// Returns one evaluation, no further sweep, one projection.
     fn default() -> Self {
         Self { evaluations: 1, sweeps: 0, projections: 1 }
     }
 }
 
-/// Says whether there is time for more: asked before each evaluation but the first, and before each projection.
+/// Clock that reports whether time remains. A step asks it before each evaluation except the first, and before each projection.
 pub trait Watch {
-    /// Is there time for more?
+    /// Is there time for further work?
     fn has_time(&mut self) -> bool;
 }
 
-/// Watch of steps that always have time.
+/// Clock for steps without a time limit: it always reports that time remains.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Unwatched;
 
@@ -71,31 +71,31 @@ impl<F: FnMut() -> bool> Watch for F {
     }
 }
 
-/// Work of a bounded step, and the errors that it left over.
+/// Work of a bounded step and its remaining errors.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BoundedReport<T> {
     /// Number of evaluations made.
     pub evaluations: u32,
     /// Number of projections made.
     pub projections: u32,
-    /// The last change of a coordinate by a change of its acceleration: β h² times it [m or rad].
+    /// Last correction of a coordinate: β h² times the last change of an acceleration [m or rad].
     pub correction: T,
-    /// Largest |Φ| and |Φ̇| that the last projection found, of which it leaves the share ε and what is not linear [m, m/s];
-    /// |Φ̈| after the last sweep [m/s^2].
+    /// Largest |Φ| and |Φ̇| before the last projection [m, m/s], and largest |Φ̈| after the last sweep [m/s^2]. The projection leaves the
+    /// fraction ε of |Φ| and |Φ̇|, and a part of second order.
     pub violation: [T; 3],
-    /// Time ran out, and evaluations or projections were left out.
+    /// Is true if time ran out, so that evaluations or projections were omitted.
     pub is_cut_short: bool,
 }
 
-/// Makes one step of length `dt` [s]: the end is in `s.z`, `s.v`, `s.zdd`, `s.lambda`.
+/// Makes one step of length `dt` [s]. The end is in `s.z`, `s.v`, `s.zdd`, `s.lambda`.
 ///
-/// Of `options` the integrator, one of the Newmark family, the closure and the regularisation count.
+/// Three of the `options` are used: the integrator (of the Newmark family), the closure and the regularisation.
 ///
-/// Cost: `bounds.evaluations` evaluations, and as many responses as further sweeps, and two for each projection; no allocation.
+/// Cost: `bounds.evaluations` evaluations, one response for each further sweep, and two for each projection; no allocation.
 ///
 /// # Errors
 /// [`StepError::NotFinite`], [`StepError::Singular`], [`StepError::RankLost`], [`StepError::Tables`], [`StepError::BadOption`];
-/// [`StepError::RopeCollapsed`] and [`StepError::LineCollapsed`] where a part of a line has no length left.
+/// [`StepError::RopeCollapsed`] and [`StepError::LineCollapsed`] if a part of a line has length zero.
 pub fn step<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
     inputs: &impl Inputs<T>,
@@ -120,8 +120,9 @@ pub fn step<T: Real, S: Space<T>>(
     }
 }
 
-/// Accelerations and multipliers at (`z`, `v`) with the guides and courses of `s`, in `s.zdd` and `s.lambda`; states of signals are
-/// `signals`, and in `s.signals.ends` with their rates. Where inputs were set since the last step, the next one begins with these.
+/// Evaluates accelerations and multipliers at (`z`, `v`) into `s.zdd` and `s.lambda`, with the guides and signals in `s`. The states of
+/// signals are `signals`; they are written to `s.signals.ends` with their rates. After a change of inputs, the next step starts from these
+/// accelerations.
 ///
 /// Cost: one evaluation; no allocation.
 ///
@@ -147,7 +148,7 @@ pub fn begin<T: Real, S: Space<T>>(
     }
 }
 
-/// The step at given inputs.
+/// Makes the step, with the inputs already in `s`.
 fn advance_by<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
     (dt, options, bounds): (T, &Options<T>, Bounds),
@@ -201,7 +202,7 @@ fn advance_by<T: Real, S: Space<T>>(
     Ok(report)
 }
 
-/// One projection of positions and of velocities with the inertias factored last; the largest |Φ| and |Φ̇| that it found.
+/// Projects positions and velocities once with the inertias that were factored last. Returns the largest |Φ| and |Φ̇| before it.
 fn project<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
     s: &mut Store<'_, T, S>,

@@ -1,12 +1,12 @@
-//! Steps of a first-order system. Explicit Runge-Kutta of order 4 has a fixed step; the pair 5(4), the method 8(5,3), extrapolation
-//! and the implicit collocation at Radau points have error control.
+//! Steps of the mechanism as a first-order system. The explicit Runge-Kutta method of order 4 has a fixed step. The pair 5(4), the method
+//! 8(5,3), extrapolation and implicit Radau collocation have error control.
 //!
 //! ```text
 //! y = (z, ż, x, W),   y' = (ż or ½ q ω for rotations, z̈, x', power)      x: states of signals
 //! ```
 //!
-//! Positions and velocities are projected on the loops after each accepted step, quaternions made unit at the end. The stages
-//! are those of [`mbs_core::ode`].
+//! Positions and velocities are projected onto the loops after each accepted step. Quaternions are normalised at the end. The stages are
+//! those of [`mbs_core::ode`].
 
 use crate::link::indexing::Outside;
 use crate::link::options::{Closure, Options};
@@ -24,22 +24,23 @@ use mbs_core::Real;
 use mbs_core::ode::{self, Adaptive, EndState, Method, OdeError, Rates};
 use mbs_core::step::{StepError, StepReport, Stop};
 
-/// A mechanism as a system of first order.
+/// A mechanism as a system of first-order differential equations.
 struct System<'r, 'a, 'b, T: Real, S: Space<T>, I> {
     m: &'r TreeSlices<'a, T, S>,
     inputs: &'r I,
     options: &'r Options<T>,
     s: &'r mut Store<'b, T, S>,
     evaluations: u32,
-    /// Error control tries a shorter step where an evaluation fails.
+    /// Is a shorter step tried after a failed evaluation? True with error control.
     is_patient: bool,
-    /// Residual at which sweeps for the accelerations end: with error control a hundredth of its error.
+    /// Residual at which sweeps for the accelerations end: a hundredth of the error with error control.
     level: Level,
     last_failure: Option<StepError>,
 }
 
 impl<'r, 'a, 'b, T: Real, S: Space<T>, I: Inputs<T>> System<'r, 'a, 'b, T, S, I> {
-    /// Makes the system with the level of its accelerations: to rounding with a fixed step, else to the error's.
+    /// Makes the system of a mechanism. `level` is the accuracy of its accelerations: rounding for a fixed step, a part of the error with
+    /// error control.
     fn new(
         m: &'r TreeSlices<'a, T, S>,
         inputs: &'r I,
@@ -50,7 +51,7 @@ impl<'r, 'a, 'b, T: Real, S: Space<T>, I: Inputs<T>> System<'r, 'a, 'b, T, S, I>
         Self { m, inputs, options, s, evaluations: 0, is_patient, level, last_failure: None }
     }
 
-    /// Takes over time and state.
+    /// Sets time and state, and evaluates the inputs at that time.
     fn set(&mut self, t: T, y: &[T]) {
         let (nz, nv) = (self.m.n_coordinates, self.m.n_freedoms);
         self.inputs.evaluate(t, self.s.guides, self.s.courses);
@@ -63,7 +64,7 @@ impl<'r, 'a, 'b, T: Real, S: Space<T>, I: Inputs<T>> System<'r, 'a, 'b, T, S, I>
         }
     }
 
-    /// Projects the end of a step until no more than this share is left, with the inertias of its last stage.
+    /// Projects the end of a step until at most `share` of the scales remains, with the inertias of the last stage.
     fn clean(&mut self, t: T, y: &mut [T], share: T) -> Result<EndState, StepError> {
         if self.m.loops.loops.is_empty() || self.options.closure != Closure::Constraints {
             return Ok(EndState::Kept);
@@ -76,7 +77,7 @@ impl<'r, 'a, 'b, T: Real, S: Space<T>, I: Inputs<T>> System<'r, 'a, 'b, T, S, I>
         Ok(if is_tight(self.s) { EndState::Changed } else { EndState::Projected })
     }
 
-    /// Accelerations at the end, and what was done.
+    /// Evaluates the accelerations at the end of the step and returns its report.
     fn finish(&mut self, t: T, y: &[T]) -> Result<StepReport<T>, StepError> {
         self.set(t, y);
         normalise(self.m.links, self.s.z);
@@ -109,7 +110,7 @@ impl<T: Real, S: Space<T>, I: Inputs<T>> Rates<T> for System<'_, '_, '_, T, S, I
             && self.options.closure == Closure::Constraints
             && is_redundant(self.s);
         let ready = if projects {
-            // With the inertias of this very stage, so that the projected rates are a smooth function of y.
+            // The inertias of this stage make the projected rates a smooth function of y.
             accelerations(self.m, self.options, Level::Once, self.s)
                 .and_then(|_| project(self.m, (self.options, project::rounding()), self.s))
                 .map(|_| ())
@@ -119,12 +120,12 @@ impl<T: Real, S: Space<T>, I: Inputs<T>> Rates<T> for System<'_, '_, '_, T, S, I
         let done = ready.and_then(|()| accelerations(self.m, self.options, self.level, self.s));
         if let Err(fault) = done {
             let failure = failure(self.m, fault);
-            // Numbers that follow from a failed stage say nothing.
+            // An error after a state with NaN or infinity is a consequence of an earlier one, and is not stored.
             if y.iter().all(|y| y.is_finite()) {
                 self.last_failure = Some(failure);
             }
             if self.is_patient {
-                // No number: the step is tried shorter.
+                // NaN rates make the step controller try a shorter step.
                 dy.fill(T::from_f64(f64::NAN));
                 return Ok(());
             }
@@ -153,7 +154,8 @@ impl<T: Real, S: Space<T>, I: Inputs<T>> Rates<T> for System<'_, '_, '_, T, S, I
         let (nz, nv) = (self.m.n_coordinates, self.m.n_freedoms);
         let failed = |outside: Outside| failure(self.m, outside.into());
         let (places, rest) = error.split_at_mut(nz);
-        // Elsewhere what is taken from positions is less by a step; coordinates of rotations are not those of freedoms.
+        // Away from singular positions this part of the position error is smaller by a factor of the step. Rotations with quaternions have
+        // more coordinates than freedoms, so that the projection does not apply to them.
         if nz == nv && is_tight(self.s) {
             project::keep(self.m, places, self.s).map_err(failed)?;
         }
@@ -161,13 +163,13 @@ impl<T: Real, S: Space<T>, I: Inputs<T>> Rates<T> for System<'_, '_, '_, T, S, I
     }
 }
 
-/// Number of components of y.
+/// Number of components of the vector y.
 #[must_use]
 pub fn n_components<T: Real, S: Space<T>>(m: &TreeSlices<'_, T, S>) -> usize {
     m.n_coordinates + m.n_freedoms + m.feedback.n_states + 1
 }
 
-/// z' from z and v.
+/// Computes the rates z' from z and v.
 fn coordinate_rates<T: Real, S: Space<T>>(links: &[Link<T, S>], z: &[T], v: &[T], rates: &mut [T]) {
     for link in links.iter().skip(1) {
         let (at, from) = (link.z as usize, link.v as usize);
@@ -186,7 +188,7 @@ fn coordinate_rates<T: Real, S: Space<T>>(links: &[Link<T, S>], z: &[T], v: &[T]
     }
 }
 
-/// Makes quaternions unit.
+/// Normalises all quaternions to unit length.
 fn normalise<T: Real, S: Space<T>>(links: &[Link<T, S>], z: &mut [T]) {
     for link in links.iter().skip(1) {
         if matches!(link.kind, LinkKind::Ball | LinkKind::Free) {
@@ -195,7 +197,7 @@ fn normalise<T: Real, S: Space<T>>(links: &[Link<T, S>], z: &mut [T]) {
     }
 }
 
-/// y at the start of a step.
+/// Writes the vector y at the start of a step.
 fn begin<T: Real, S: Space<T>>(m: &TreeSlices<'_, T, S>, start: &Start<'_, T>, y: &mut [T]) {
     let (nz, nv) = (m.n_coordinates, m.n_freedoms);
     y[..nz].copy_from_slice(start.z);
@@ -205,9 +207,9 @@ fn begin<T: Real, S: Space<T>>(m: &TreeSlices<'_, T, S>, start: &Start<'_, T>, y
     work[0] = T::ZERO;
 }
 
-/// Makes one step of order 4: the end is in `s.z`, `s.v`, `s.zdd`, `s.lambda`, the work done in the last place of `y`.
+/// Makes one step of order 4. The end is in `s.z`, `s.v`, `s.zdd`, `s.lambda`; the work done is the last entry of `y`.
 ///
-/// `y` has [`n_components`] numbers, `scratch` at least [`mbs_core::ode::rk4_scratch`] of them.
+/// `y` has [`n_components`] numbers. `scratch` has at least [`mbs_core::ode::rk4_scratch`] of that number.
 ///
 /// Cost: five evaluations; no allocation.
 ///
@@ -231,14 +233,14 @@ pub fn rk4<T: Real, S: Space<T>>(
     Ok(report)
 }
 
-/// Advances by exactly `dt` [s] with the driver's method, in as many steps as the tolerance asks for.
+/// Advances by exactly `dt` [s] with the driver's method, in as many steps as the tolerance requires.
 ///
 /// `scratch` has at least [`Method::n_scratch`] numbers.
 ///
-/// Cost: the method's evaluations for each step tried, one more with loops; no allocation.
+/// Cost: the method's evaluations for each step tried, and one more with loops; no allocation.
 ///
 /// # Errors
-/// [`StepError`]; where no step is short enough, what made the last one fail.
+/// [`StepError`]. If even the shortest step fails, the error is the cause of the last failure.
 pub fn controlled<T: Real, S: Space<T>, M: Method<T>>(
     m: &TreeSlices<'_, T, S>,
     inputs: &impl Inputs<T>,
@@ -255,7 +257,8 @@ pub fn controlled<T: Real, S: Space<T>, M: Method<T>>(
     let done =
         driver.advance(&mut system, (start.t, dt), (y, scratch), &control, |system, t, y| {
             system.last_failure = None;
-            // Near a singular position what is left of rows leaves positions off by it over the root of a small pivot.
+            // Near a singular position a small violation of rows means a large position error: the violation over the root of a small
+            // pivot.
             let is_fine = t == start.t + dt || is_tight(system.s);
             let share =
                 if is_fine { project::rounding() } else { project::share_of(options.error) };

@@ -1,4 +1,4 @@
-//! Steps of a mechanism in slices: the trapezoidal rule, work that is bounded, methods with error control, projections, and states set from outside.
+//! Steps of a mechanism in slices: trapezoidal rule, bounded work, error control, projections, and states that are set from outside.
 
 pub mod bounded;
 pub mod explicit;

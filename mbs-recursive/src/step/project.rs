@@ -1,16 +1,16 @@
-//! Positions and velocities brought back to the loops' equations by the smallest mass-weighted change.
+//! Projection of positions and velocities onto the loops' equations, by the change that is smallest in the norm of the masses.
 //!
 //! ```text
 //! δ = −M⁻¹ Jᵀ (J M⁻¹ Jᵀ + ε)⁻¹ Φ,   z ← z ⊕ δ       until Φ is at its level
 //! v ← v − M⁻¹ Jᵀ (J M⁻¹ Jᵀ + ε)⁻¹ Φ̇                 until Φ̇ is
 //! ```
 //!
-//! The level is rounding at the end of a step or of a call. Between the steps of a call with error control it is a hundredth of the
-//! error, and rounding near singular positions.
+//! The level is rounding at the end of a step or of a call. Between the steps of a call with error control it is a hundredth of the error;
+//! near singular positions it is rounding there too.
 //!
-//! Both are responses of the tree as it was factored last, which is near enough after a step: the residuals are always those of the
-//! new state. Inertias are then those of the last iteration: with effects their resistance to accelerations within the step is part of
-//! the weight, so that stiff springs are spared. Cost: an evaluation of the rows and about a fifth of a condensation for each sweep.
+//! Both changes are responses of the tree with its last factored inertias. These are accurate enough after a step, because the residuals
+//! are always evaluated at the new state. The inertias include the resistance of effects to accelerations, so that the projection deforms
+//! stiff springs little. Cost: an evaluation of the rows and about a fifth of a condensation for each sweep.
 
 use crate::link::indexing::{Outside, at, at_mut, part, part_mut};
 use crate::link::options::Options;
@@ -25,7 +25,7 @@ use crate::rows::closed_loop::ClosedLoop;
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
 
-/// Moves coordinates along freedoms: z ← z ⊕ δ.
+/// Moves coordinates along the freedoms: z ← z ⊕ δ.
 pub(crate) fn advance<T: Real, S: Space<T>>(
     links: &[Link<T, S>],
     delta: &[T],
@@ -55,36 +55,38 @@ pub(crate) fn advance<T: Real, S: Space<T>>(
     Ok(())
 }
 
-/// Violation that is rounding, in units of rounding of its scale [-]. Chosen, not tuned.
+/// Violation that counts as rounding, in units of rounding of its scale [-]. Chosen, not tuned.
 const ROUNDINGS: f64 = 16.0;
-/// Violation within a call of a method, relative to its error [-]: a hundredth does not add to it. Chosen, not tuned.
+/// Violation allowed within a call of a method, relative to the error of the method [-]. A hundredth hardly adds to that error. Chosen, not
+/// tuned.
 const ERROR_FRACTION: f64 = 0.01;
-/// Violation that may remain where sweeps stall, in roots of rounding of its scale [-]. Chosen, not tuned.
+/// Violation that is accepted if sweeps stall, in units of the square root of rounding of its scale [-]. Chosen, not tuned.
 const STALLED: f64 = 0.1;
-/// Violation that may remain near a singular position, in roots of rounding of its scale [-]: a combination of rows moves nothing there.
-/// Chosen, not tuned.
+/// Violation that is accepted near a singular position, in units of the square root of rounding of its scale [-]. A combination of rows has
+/// no effect on the motion there. Chosen, not tuned.
 const STALLED_SINGULAR: f64 = 1e2;
 
-/// Closings of loops at most [-]: each begins where the sweeps of the last one ended, with inertias and rows of that place. Chosen, not tuned.
+/// Largest number of attempts to close the loops [-]. Each attempt factors inertias and rows at the end of the last one. Chosen, not tuned.
 const MAX_CLOSINGS: u32 = 4;
-/// Violation from which another closing is tried, in parts of the scene's length [-]: sweeps that come nearer, but slowly, are below.
+/// Violation below which a further attempt is made, relative to the scene's length [-]. The sweeps converged slowly then, but did converge.
 /// Chosen, not tuned.
 const NEARING: f64 = 0.1;
 
-/// Share of the scales of Φ and Φ̇ that may be left of them: rounding.
+/// Smallest level of a projection: rounding, relative to the scales of Φ and Φ̇.
 pub(crate) fn rounding<T: Real>() -> T {
     T::EPSILON * T::from_f64(ROUNDINGS)
 }
 
-/// Share that may be left within a call of a method with this error: a fraction of it.
+/// Level of a projection within a call of a method with error control: a fraction of `error`.
 pub(crate) fn share_of<T: Real>(error: T) -> T {
     (error * T::from_f64(ERROR_FRACTION)).min(T::EPSILON.sqrt()).max(rounding())
 }
 
-/// Brings positions and velocities of the store onto the loops, from wherever they are: inertias are factored there first. Far off, where
-/// sweeps come nearer too slowly, they are factored again.
+/// Projects positions and velocities of the store onto the loops, from any state. Inertias are factored at that state first. If the sweeps
+/// converge too slowly, inertias are factored again.
 ///
-/// Cost: without loops nothing; else one evaluation, far off up to [`MAX_CLOSINGS`] of them, and a response for each sweep.
+/// Cost: without loops nothing. With loops one evaluation, up to [`MAX_CLOSINGS`] evaluations far from closure, and one response for each
+/// sweep.
 pub(crate) fn onto_loops<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
     options: &Options<T>,
@@ -107,8 +109,8 @@ pub(crate) fn onto_loops<T: Real, S: Space<T>>(
     project(m, (options, rounding()), s)
 }
 
-/// Projects the positions and velocities of the store until no more than this share of their scales is left; returns the largest
-/// |Φ| and |Φ̇| left.
+/// Projects the positions and velocities of the store until at most the fraction `share` of their scales remains. Returns the largest
+/// remaining |Φ| and |Φ̇|.
 pub(crate) fn project<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
     (options, share): (&Options<T>, T),
@@ -123,14 +125,14 @@ pub(crate) fn project<T: Real, S: Space<T>>(
     Ok([position, velocity])
 }
 
-/// Sweeps one level until no more than the share is left; `s.trial` is at the state before and after.
+/// Sweeps positions (level 0) or velocities (level 1) until at most `share` remains. `s.trial` matches the state before and after.
 fn settle<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
     (options, share): (&Options<T>, T),
     level: u8,
     s: &mut Store<'_, T, S>,
 ) -> Result<T, Fault<T>> {
-    // Near a singular position a combination of rows hardly moves anything: a part of it may stay.
+    // Near a singular position a combination of rows hardly affects the motion: part of its violation may remain.
     let leave = if note_rank(s) { STALLED_SINGULAR } else { STALLED };
     let enough = T::EPSILON.sqrt() * T::from_f64(leave);
     let mut last: Option<T> = None;
@@ -142,7 +144,7 @@ fn settle<T: Real, S: Space<T>>(
         {
             return Ok(worst);
         }
-        // A first sweep may overshoot far from the loops; then they must come nearer.
+        // The first sweep may overshoot if the loops are far from closed. Later sweeps must not grow.
         if !worst.is_finite() || last.is_some_and(|last| worst > last * T::TWO) {
             return Err(Fault::Unreached { level, row, violation: worst });
         }
@@ -165,8 +167,8 @@ fn settle<T: Real, S: Space<T>>(
     }
 }
 
-/// Is this violation of velocities rounding of what moves elsewhere? A link may rest though the joints move that it hangs from: its rows
-/// are then as slow as the rounding of their rates.
+/// Is this velocity violation only rounding of larger velocities elsewhere? A link may be at rest although the joints inward of it move.
+/// The speeds of its rows then consist of the rounding of these joints' rates.
 #[inline(never)]
 fn is_elsewhere<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
@@ -174,13 +176,13 @@ fn is_elsewhere<T: Real, S: Space<T>>(
     s: &Store<'_, T, S>,
 ) -> bool {
     let fastest = s.v.iter().fold(T::ZERO, |most, v| most.max(v.abs()));
-    // Rates are in m/s or in rad/s.
+    // The rates have units m/s or rad/s, so the length is at least one.
     level > 0 && worst <= rounding::<T>() * fastest * m.length.max(T::ONE)
 }
 
-/// Takes from an error of velocities, or of freedoms, what a projection takes: δ − M⁻¹ Jᵀ (J M⁻¹ Jᵀ + ε)⁻¹ J δ, with the rows and the
-/// inertias as they were evaluated last, at `s.z` and `s.v`. Near a singular position a large part of the rounding
-/// is in directions that constraints soon forbid: shorter steps would only go there more often.
+/// Removes from an error δ of velocities, or of freedoms, the part that a projection removes: δ − M⁻¹ Jᵀ (J M⁻¹ Jᵀ + ε)⁻¹ J δ. Rows and
+/// inertias are those evaluated last, at `s.z` and `s.v`. Near a singular position most of the rounding error lies in directions that the
+/// constraints do not allow a little further on. Without the removal, error control would reduce the step in vain.
 pub(crate) fn keep<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
     delta: &mut [T],
@@ -207,19 +209,20 @@ pub(crate) fn keep<T: Real, S: Space<T>>(
     Ok(())
 }
 
-/// Violation of the equations of loops, against the level that they are to reach.
+/// Violation of the loops' equations, with the scale to compare it with.
 struct Violation<T> {
     /// The largest |Φ| or |Φ̇|.
     worst: T,
     /// Number of the row with the largest violation.
     row: u32,
-    /// Scale that rounding of the violation is small against: the scene's length, the fastest row.
+    /// Scale of the violation: the scene's length for positions, the speed of the fastest row for velocities.
     scale: T,
-    /// Is no more left than the share that was asked for, of the scale and of each row's own speed, or one, or rounding?
+    /// Is every row within the tolerance relative to max(1, its own speed), and the largest within it relative to `scale`? Also true if the
+    /// largest violation is rounding.
     is_within: bool,
 }
 
-/// Φ or Φ̇ at the trial state into l, and what of it is left.
+/// Writes Φ or Φ̇ at the trial state into l, and returns the violation.
 fn violation<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
     (level, share): (u8, T),
@@ -252,14 +255,14 @@ fn violation_of_cut<T: Real, S: Space<T>>(
     s: &mut Store<'_, T, S>,
 ) -> Result<(Largest<T>, bool), Outside> {
     let (mut worst, mut row, mut is_within) = (T::ZERO, 0, true);
-    // Speeds of a rounding of the length each second are rest.
+    // Speeds below rounding of the length per second count as rest.
     let mut scale = if level == 0 { m.length } else { m.length * T::EPSILON };
     for lap in cut {
         let [a, b] = lap.links;
         let speeds = [at(s.trial, a as usize)?.velocity, at(s.trial, b as usize)?.velocity];
         lap.evaluate(m.loops.rows, s.trial, |k, values| {
             let x = if level == 0 { values.value } else { values.rate };
-            // As the error of a step: absolute, and of speeds relative.
+            // The tolerance is that of a step's error: absolute, and for speeds also relative.
             let mut own = T::ONE;
             if level > 0 {
                 let [first, second] = &values.gradient;

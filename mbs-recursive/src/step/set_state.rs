@@ -1,15 +1,15 @@
-//! A state that is set from outside: brought onto the loops, with its accelerations.
+//! A state that is set from outside: it is projected onto the loops, and its accelerations are evaluated.
 //!
 //! ```text
 //! z ← z ⊕ −M⁻¹ Jᵀ (J M⁻¹ Jᵀ + ε)⁻¹ Φ,   then v ← v − M⁻¹ Jᵀ (J M⁻¹ Jᵀ + ε)⁻¹ Φ̇,   each again and again
 //! z̈ by the three passes there
 //! ```
 //!
-//! M and J are those of the state that was given: all loops are closed together, by the smallest move in the norm of the masses to
-//! first order. Velocities are projected along the same directions. Where sweeps come nearer too slowly, M and J are taken anew.
+//! M and J are evaluated at the given state. All loops are closed together, by the change that to first order is smallest in the norm of
+//! the masses. Velocities are projected with the same M and J. If the sweeps converge too slowly, M and J are evaluated again.
 //!
-//! Sweeps go on until what is left is rounding. They also end where it no longer halves and is below a tenth of √ε of the scene's
-//! length, near a singular position below 100 √ε. The report says what is left; the next step projects it again.
+//! Sweeps end when the remaining violation is rounding. They also end when it no longer halves and is below √ε/10 of the scene's length, or
+//! near a singular position below 100 √ε. The report contains the remaining violation; the next step projects it again.
 
 use crate::link::indexing::{Outside, copy, part_mut};
 use crate::link::options::{Closure, Options};
@@ -25,34 +25,37 @@ use crate::step::project::onto_loops;
 use mbs_core::Real;
 use mbs_core::step::{StepError, largest_or_nan};
 
-/// Error of a quaternion's squared length that is left as it is, in units of rounding [-]. The quaternions of steps are within four:
-/// their bits stay.
+/// Error of a quaternion's squared length below which it is not normalised, in units of rounding [-]. The quaternions of steps have errors
+/// below four units, so that their bits are kept.
 const UNIT_ROUNDINGS: f64 = 16.0;
 
-/// Work of a state that was set, and what it changed.
+/// Work and results of setting a state.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StateReport<T> {
-    /// Evaluations of the accelerations: one, with closed loops two, where they are far from closed up to five.
+    /// Number of evaluations of the accelerations: one without loops, two with closed loops, and up to five if the loops are far from
+    /// closed.
     pub evaluations: u32,
-    /// Responses of the tree, each about a fifth of an evaluation: one for each sweep that closes loops or refines accelerations.
+    /// Number of responses of the tree, one for each sweep that closes loops or refines accelerations. A response takes about a fifth of an
+    /// evaluation.
     pub responses: u32,
-    /// Largest change of a coordinate by the closing of loops and the unit length of quaternions [m, rad or, of quaternions, -].
+    /// Largest change of a coordinate, by closing the loops and normalising quaternions [m, rad or, for quaternions, -].
     pub moved: T,
-    /// Largest |Φ|, |Φ̇| and |Φ̈| that are left [m, m/s, m/s^2].
+    /// Largest remaining |Φ|, |Φ̇| and |Φ̈| [m, m/s, m/s^2].
     pub violation: [T; 3],
 }
 
-/// Sets a state: positions and velocities of `start` on the loops are in `s.z` and `s.v`, accelerations and multipliers there in `s.zdd` and
-/// `s.lambda`. Accelerations of `start` are not read. States of signals stay, and are in `s.signals.ends` with their rates.
+/// Sets a state from outside. Positions and velocities of `start`, projected onto the loops, are written to `s.z` and `s.v`. The
+/// accelerations and multipliers there are written to `s.zdd` and `s.lambda`. The accelerations of `start` are not read. The states of
+/// signals are kept, and written to `s.signals.ends` with their rates.
 ///
-/// Of `options` the regularisation, the sweeps of a projection, and for the accelerations the closure count.
+/// Of `options` three are used: the regularisation, the number of sweeps of a projection, and the closure for the accelerations.
 ///
-/// Cost: one evaluation; with loops another one and a response for each sweep. Near a closed state there are at most `2 (max_sweeps + 1)`
-/// sweeps for the loops and thirty for the accelerations. Far off there are at most four evaluations and `5 (max_sweeps + 1)` sweeps for
-/// the loops. No allocation.
+/// Cost: one evaluation. With loops, one more evaluation and a response for each sweep. Near a closed state there are at most
+/// `2 (max_sweeps + 1)` sweeps for the loops and thirty for the accelerations. Far from closure there are at most four evaluations and
+/// `5 (max_sweeps + 1)` sweeps for the loops. No allocation.
 ///
 /// # Errors
-/// [`StepError::Violated`] if the loops do not close; else as for [`step`](crate::step::trapezoidal::step).
+/// [`StepError::Violated`] if the loops do not close. Other errors are those of [`step`](crate::step::trapezoidal::step).
 pub fn set_state<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
     inputs: &impl Inputs<T>,
@@ -73,7 +76,7 @@ pub fn set_state<T: Real, S: Space<T>>(
     Ok(report)
 }
 
-/// Closes the loops at given inputs.
+/// Closes the loops with the inputs already in `s`.
 fn close<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
     options: &Options<T>,
@@ -84,7 +87,7 @@ fn close<T: Real, S: Space<T>>(
     copy(start.z, s.z)?;
     copy(start.v, s.v)?;
     make_unit(m.links, s.z)?;
-    // A projection reads inertias and rows, no forces: effects are not evaluated here.
+    // A projection uses inertias and rows, but no forces: effects are not evaluated.
     let bare = TreeSlices { loads: &[], ..*m };
     let projected = Options { closure: Closure::Constraints, ..*options };
     let [position, velocity] = onto_loops(&bare, &projected, s)?;
@@ -98,7 +101,7 @@ fn close<T: Real, S: Space<T>>(
     })
 }
 
-/// Gives the quaternions of balls and free links unit length.
+/// Normalises the quaternions of balls and free links to unit length.
 fn make_unit<T: Real, S: Space<T>>(links: &[Link<T, S>], z: &mut [T]) -> Result<(), Outside> {
     if S::DIMENSION < 3 {
         return Ok(());

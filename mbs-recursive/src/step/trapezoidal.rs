@@ -1,4 +1,4 @@
-//! The trapezoidal rule and its family by fixed-point iteration [P3 (43)-(44)], in increments.
+//! The trapezoidal rule and its family, solved by fixed-point iteration [P3 (43)-(44)], in increments.
 //!
 //! ```text
 //! δ = h ż + h² ((1/2 − β) z̈ + β z̈ₙ₊₁),   zₙ₊₁ = zₙ ⊕ δ       β = 1/4                  [P3 (43)]
@@ -6,14 +6,14 @@
 //! z̈ₙ₊₁ by the three passes at (zₙ₊₁, żₙ₊₁), until h² β Δz̈ is small
 //! ```
 //!
-//! Generalised-alpha and HHT have auxiliary accelerations in both formulas, and z̈ₙ₊₁ in balance as above [P1 (32)]
-//! ([`Integrator::auxiliary`]).
+//! Generalised-alpha and HHT use auxiliary accelerations in both formulas, while z̈ₙ₊₁ satisfies the equations of motion at the end [P1
+//! (32)] ([`Integrator::auxiliary`]).
 //!
-//! Effects answer to Δz̈ within the passes, so that stiff ones let the iteration contract (`loads::Reach`), and iterates of models with
-//! effects are mixed (`anderson`). Without effects the iteration is the source's.
+//! Within the passes, the forces of effects depend linearly on Δz̈. The iteration therefore contracts with stiff effects too
+//! (`loads::Reach`). Iterates of models with effects are mixed (`anderson`). Without effects the iteration is that of the source.
 //!
-//! Differs from the source: increments in place of hats, which round less; rotations are quaternions, q exp(δ). Positions and
-//! velocities are projected on the loops afterwards, and the accelerations are those of the projected state.
+//! Differences from the source: increments replace the hats, because they have less rounding error. Rotations are quaternions, q exp(δ).
+//! Positions and velocities are projected onto the loops afterwards, and the accelerations are those of the projected state.
 
 pub use crate::passes::slices::Start;
 
@@ -34,29 +34,31 @@ use mbs_core::algebra::norm_inf;
 use mbs_core::integrator::Integrator;
 use mbs_core::step::{StepError, StepReport, Stop, largest, largest_or_nan};
 
-/// Iterates in a row that do not halve the least correction, after which it has stopped falling [-]. Chosen, not tuned.
+/// Number of consecutive iterates that do not halve the smallest correction, after which the iteration counts as stalled [-]. Chosen, not
+/// tuned.
 const STALLED: u32 = 4;
-/// Ratio of what an iterate leaves to what the last left, from which mixing begins anew [-]. Chosen, not tuned.
+/// Growth of the residual between two iterates at which mixing restarts [-]. Chosen, not tuned.
 const LOST: f64 = 4.0;
-/// Correction that is rounding, in units of rounding of the displacement by accelerations [-]. Chosen, not tuned.
+/// Correction that counts as rounding, in units of rounding of the displacement by accelerations [-]. Chosen, not tuned.
 const ROUNDINGS: f64 = 64.0;
-/// Correction that is rounding of the coordinates that forces depend on, in units of rounding of the scene's length [-]. Chosen, not tuned.
+/// Correction that counts as rounding of the coordinates in the forces, in units of rounding of the scene's length [-]. Chosen, not tuned.
 const PLACE_ROUNDINGS: f64 = 8.0;
-/// Correction with which a stalled iteration may end without effects, relative to the displacement by accelerations [-]. Chosen, not tuned.
+/// Largest correction at which a stalled iteration without effects may end, relative to the displacement by accelerations [-]. Chosen, not
+/// tuned.
 const ENOUGH: f64 = 1e-2;
-/// Correction with which a stalled iteration may end with effects, relative to the displacement by accelerations [-]. A stiff effect makes
-/// much of what is left in its place. Chosen, not tuned.
+/// Largest correction at which a stalled iteration with effects may end, relative to the displacement by accelerations [-]. It is smaller
+/// because a stiff effect turns a small error of position into a large force. Chosen, not tuned.
 const ENOUGH_WITH_EFFECTS: f64 = 1e-6;
-/// Correction with which a stalled iteration may end near a singular position, relative to the displacement by accelerations [-]: rounding
-/// is amplified there. Chosen, not tuned.
+/// Largest correction at which a stalled iteration may end near a singular position, relative to the displacement by accelerations [-].
+/// Rounding errors are amplified there. Chosen, not tuned.
 const PASSAGE: f64 = 0.1;
 
-/// Makes one step of length `dt` [s] from a start with its auxiliary accelerations: the end is in `s.z`, `s.v`, `s.zdd`, `s.lambda`.
+/// Makes one step of length `dt` [s] from a start and its auxiliary accelerations. The end is in `s.z`, `s.v`, `s.zdd`, `s.lambda`.
 ///
-/// Cost: three to six evaluations for steps that resolve the motion, stiff effects or not; no allocation.
+/// Cost: three to six evaluations for steps that resolve the motion, with or without stiff effects; no allocation.
 ///
 /// # Errors
-/// [`StepError`]; unknowns and rows are numbered as freedoms and rows.
+/// [`StepError`]. Its unknowns are numbers of freedoms; its rows are numbers of loop equations.
 pub fn step<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
     inputs: &impl Inputs<T>,
@@ -67,7 +69,7 @@ pub fn step<T: Real, S: Space<T>>(
     s.counts = crate::passes::slices::Counts::default();
     let mut projects = false;
     if options.closure == Closure::Constraints && is_redundant(s) {
-        // A factor at the start, to project with.
+        // The projections need factored inertias, here at the start of the step.
         inputs.evaluate(start.t, s.guides, s.courses);
         s.z.copy_from_slice(start.z);
         s.v.copy_from_slice(start.v);
@@ -101,7 +103,7 @@ pub fn step<T: Real, S: Space<T>>(
     })
 }
 
-/// Runs the fixed-point loop; returns iterations, last correction, and what ended it.
+/// Runs the fixed-point iteration. Returns the number of iterations, the last correction, and the reason for the end.
 fn iterate<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
     (dt, options): (T, &Options<T>),
@@ -121,7 +123,7 @@ fn iterate<T: Real, S: Space<T>>(
             project(m, (options, rounding()), s).map_err(|f| failure(m, f))?;
         }
 
-        // z̈ₙ₊₁ by the three passes
+        // accelerations z̈ₙ₊₁ by the three passes
         if m.loads.is_empty() {
             accelerations(m, options, Level::Coarse, s)
         } else {
@@ -131,7 +133,7 @@ fn iterate<T: Real, S: Space<T>>(
         for i in 0..start.v.len() {
             s.scratch[i] -= s.zdd[i];
         }
-        // Where directions contract slowly a correction is a small part of what is missing: the mixed move estimates that.
+        // In slow directions the correction is much smaller than the error. The length of the mixed move estimates the error.
         let rest = norm_inf(s.scratch) * share;
         let mut correction = rest;
         if !m.loads.is_empty() {
@@ -143,7 +145,7 @@ fn iterate<T: Real, S: Space<T>>(
         }
         let is_best = correction + correction <= best;
         (best, stalled) = if is_best { (correction, 0) } else { (best, stalled + 1) };
-        // The next correction, from the last two, is below the tolerance.
+        // Converged also if the next correction, extrapolated from the last two, is below the tolerance.
         let goal = scale * options.tolerance;
         let rate = if last > T::ZERO { (correction / last).max(rest / last_rest) } else { T::ONE };
         if correction <= goal || (iterations > 2 && rate < T::HALF && correction * rate <= goal) {
@@ -155,7 +157,7 @@ fn iterate<T: Real, S: Space<T>>(
         {
             return Ok((iterations, correction, stop));
         }
-        // Near a singular position accelerations depend on what z and v violate: then each iteration projects them.
+        // Near a singular position accelerations depend on the violations of z and v, so each iteration projects z and v.
         let was_slow = is_slow;
         is_slow |= iterations > 2 && rate >= T::HALF && options.closure == Closure::Constraints;
         let is_lost = iterations > 1 && rest > last_rest * T::from_f64(LOST);
@@ -175,13 +177,14 @@ fn iterate<T: Real, S: Space<T>>(
     })
 }
 
-/// Reach of the accelerations at the end of a step to the places and velocities there.
+/// Returns the coefficients by which accelerations at the end of a step change positions and velocities there.
 fn reach_of<T: Real>(integrator: &Integrator<T>, dt: T) -> Reach<T> {
     let share = integrator.share();
     Reach { place: dt * dt * integrator.beta * share, speed: dt * integrator.gamma * share }
 }
 
-/// Returns why an iteration that does not contract may end with this correction, beside what accelerations move in the step, if it may.
+/// Returns the reason for which an iteration that does not contract may end with this correction, or `None`. `scale` is the displacement by
+/// accelerations in the step.
 fn given_up<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
     options: &Options<T>,
@@ -199,12 +202,14 @@ fn given_up<T: Real, S: Space<T>>(
     if correction <= scale * passage && note_rank(s) {
         return Some(Stop::Passage);
     }
-    // What is left is small against scene and step, and mixed iterates, which do not fall at each turn, have stopped falling.
+    // The correction is small relative to the scene and the step. Mixed iterates do not decrease monotonically, so these must also have
+    // stalled.
     let is_small = correction <= m.length * options.tolerance && correction <= scale * enough;
     (is_small && (!has_effects || stalled >= STALLED)).then_some(Stop::Tolerance)
 }
 
-/// zₙ₊₁ and żₙ₊₁ from z̈ₙ₊₁, with the auxiliary accelerations at the start and, by `next`, at the end; increments are left in the scratch.
+/// Computes zₙ₊₁ and żₙ₊₁ from z̈ₙ₊₁. `aux` has the auxiliary accelerations at the start; `next` gives those at the end. The increments
+/// remain in the scratch.
 #[inline]
 pub(crate) fn reach_end<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
@@ -214,7 +219,7 @@ pub(crate) fn reach_end<T: Real, S: Space<T>>(
 ) -> Result<(), Outside> {
     let (beta, gamma) = (options.integrator.beta, options.integrator.gamma);
     for (i, (&v, &a)) in start.v.iter().zip(aux).enumerate() {
-        // [P3 (43)-(44)]
+        // velocities and increments by [P3 (43)-(44)]
         let next = next(i, *at(s.zdd, i)?);
         *at_mut(s.v, i)? = v + dt * ((T::ONE - gamma) * a + gamma * next);
         *at_mut(s.scratch, i)? = dt * (v + dt * ((T::HALF - beta) * a + beta * next));
@@ -223,7 +228,7 @@ pub(crate) fn reach_end<T: Real, S: Space<T>>(
     advance(m.links, s.scratch, s.z)
 }
 
-/// |Φ|, |Φ̇| and |Φ̈| as last evaluated.
+/// Returns the largest |Φ|, |Φ̇| and |Φ̈|, as evaluated last.
 pub(crate) fn violations<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
     s: &Store<'_, T, S>,

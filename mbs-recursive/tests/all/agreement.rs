@@ -1,4 +1,4 @@
-//! The recursion against natural coordinates: independent derivations of the same accelerations.
+//! The recursion compared with natural coordinates: independent derivations of the same accelerations.
 
 use crate::support::{Run, imbalance, random};
 use mbs_core::model::State;
@@ -8,13 +8,13 @@ use mbs_recursive::space::Space;
 use mbs_recursive::{Planar, Spatial, TreeModel, Workspace};
 use mbs_testkit::{file, start};
 
-/// Residual of the equations, relative to their parts: a few hundred roundings.
+/// Largest residual of the equations, relative to their terms [-]: a few hundred rounding errors.
 const ROUNDING: f64 = 1e-12;
 
-/// Two evaluations of accelerations whose loops have the conditioning of random geometry.
+/// Largest difference of two evaluations of accelerations, for loops with the conditioning of random geometry [-].
 const TWICE: f64 = 1e-8;
 
-/// Largest difference of positions, velocities and accelerations, relative to the largest of each.
+/// Returns the largest differences of positions, velocities and accelerations, each relative to the largest value.
 fn apart<S: Space<f64>, const D: usize>(scene: &Scene<f64>) -> [f64; 3] {
     let (model, state) = start::<D>(scene);
     let motions = Run::<S>::new::<D>(scene).motions(scene.bodies.len());
@@ -35,7 +35,7 @@ fn check(scene: &Scene<f64>) {
     assert!(apart.iter().all(|&d| d < ROUNDING), "{}: {apart:?}", scene.name);
 }
 
-/// Checks a state that has moved on from random velocities against the equations of natural coordinates there.
+/// Checks a state that was reached from random velocities with the equations of natural coordinates.
 fn wander<S: Space<f64>, const D: usize>(scene: &Scene<f64>, seed: u64) {
     let mut run = Run::<S>::wandering(scene, seed);
     let motions = run.motions(scene.bodies.len());
@@ -99,7 +99,7 @@ fn a_loop_given_twice_changes_nothing() {
         other.state.v.copy_from_slice(&run.state.v);
         other.accelerate();
         mbs_testkit::close(&once.name, &other.state.a, &run.state.a, TWICE);
-        // The doubled loops share their force, so that each row carries less.
+        // The two equal loops divide their force between them, so that each row has a smaller one.
         let rank = |run: &mut Run<Spatial>| run.model.rank(&run.state, &mut run.workspace);
         let mut run = run;
         assert_eq!(rank(&mut run), rank(&mut other), "{}", once.name);

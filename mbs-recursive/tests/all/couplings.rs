@@ -1,4 +1,4 @@
-//! Couplings: gears, cams and ropes against closed forms, dense saddle systems and natural coordinates.
+//! Couplings: gears, cams and ropes compared with closed forms, dense saddle systems and natural coordinates.
 
 use crate::support::{Run, imbalance, random};
 use mbs_core::model::State;
@@ -11,7 +11,7 @@ use mbs_recursive::space::Space;
 use mbs_recursive::{EffortTerms, Planar, Spatial, TreeError, TreeModel};
 use mbs_testkit::Random;
 
-/// Two wheels in a housing that turns freely; a motor between housing and the first wheel.
+/// Two wheels in a housing that can turn freely, with a motor between the housing and the first wheel.
 const HOUSING: &str = r#"
 [scene]
 dimension = 2
@@ -53,7 +53,7 @@ joint = "a"
 value = 0.8
 "#;
 
-/// The wheels in mesh; the second joint is the other way round, so that its coordinate has the other sign.
+/// A coupling of the wheels as meshing gears. The second joint is reversed, so that its coordinate has the opposite sign.
 const MESH: &str = r#"
 [[coupling]]
 name = "mesh"
@@ -68,7 +68,7 @@ fn coordinate<S: Space<f64>>(run: &Run<S>, scene: &Scene<f64>, joint: usize) -> 
 
 #[test]
 fn wheels_in_a_free_housing_accelerate_as_the_closed_form_says() {
-    // [[0.3, I1 - k I2], [I1 - k I2, I1 + k^2 I2]] (x, y) = (0, 0.8),  k = 40/17
+    // [[0.3, I1 - k I2], [I1 - k I2, I1 + k^2 I2]] (x, y) = (0, 0.8): accelerations of housing and first wheel, k = 40/17
     let scene = mbs_testkit::scene(&format!("{HOUSING}{MESH}"));
     let run = Run::<Planar>::new::<2>(&scene);
     let [housing, first, second] =
@@ -99,7 +99,7 @@ fn couple(scene: &mut Scene<f64>, random: &mut Random) {
     scene.couplings.push(Coupling::sum(terms, 0.0));
 }
 
-/// Accelerations and efforts against [M -Cᵀ; C 0] (a, e) = (-bias, 0); returns how far they are apart, relative.
+/// Solves [M -Cᵀ; C 0] (a, e) = (-bias, 0) for accelerations and efforts. Returns the relative difference from those of the tree.
 fn apart_from_saddle<S: Space<f64>>(scene: &Scene<f64>, seed: u64) -> f64 {
     let mut run = Run::<S>::wandering(scene, seed);
     run.accelerate();
@@ -134,7 +134,7 @@ fn apart_from_saddle<S: Space<f64>>(scene: &Scene<f64>, seed: u64) -> f64 {
     found.iter().zip(&x).fold(0.0_f64, |worst, (x, y)| worst.max((x - y).abs() / largest))
 }
 
-/// The solution of a system whose right side is its last column, by elimination with the largest pivots.
+/// Returns the solution of a system by elimination with the largest pivots. The last column is the right side.
 fn solved(mut rows: Vec<Vec<f64>>) -> Vec<f64> {
     let n = rows.len();
     for k in 0..n {
@@ -169,7 +169,7 @@ fn accelerations_and_efforts_of_random_trees_with_couplings_meet_the_dense_saddl
     }
 }
 
-/// A sun that a motor turns, a planet, a carrier, and a ring that stands still.
+/// A planetary gear: a sun that a motor turns, a planet, a carrier, and a fixed ring.
 const PLANETARY: &str = r#"
 [scene]
 dimension = 2
@@ -221,7 +221,7 @@ terms = [{ joint = "c", factor = 60.0 }, { joint = "p", factor = 20.0 }]
 
 #[test]
 fn a_planetary_set_with_its_ring_held_accelerates_as_the_closed_form_says() {
-    // 4 N m / (16 I_sun + I_carrier + m r^2 + 4 I_planet)
+    // acceleration of the carrier: 4 N m / (16 I_sun + I_carrier + m r^2 + 4 I_planet)
     let scene = mbs_testkit::scene(PLANETARY);
     let run = Run::<Planar>::new::<2>(&scene);
     let [sun, carrier, planet] =
@@ -230,7 +230,7 @@ fn a_planetary_set_with_its_ring_held_accelerates_as_the_closed_form_says() {
     assert!((sun - 4.0 * carrier).abs() < 1e-11 && (planet + 3.0 * carrier).abs() < 1e-11);
 }
 
-/// The housing as a pendulum, its wheels eccentric.
+/// Returns the scene with the housing as a pendulum and eccentric wheels.
 fn swinging() -> Scene<f64> {
     let text = format!("{HOUSING}{MESH}")
         .replace("dimension = 2", "dimension = 2\ngravity = [0.0, -9.81]");
@@ -257,7 +257,7 @@ fn a_gear_on_a_swinging_housing_keeps_its_ratio_over_ten_thousand_steps() {
     }
 }
 
-/// The ratio of the errors of coordinates after half a second in steps of a length and half of it.
+/// Returns the ratio of the errors of coordinates after half a second, for steps of length `dt` and of half that length.
 fn ratio(scene: &Scene<f64>, (dt, n): (f64, u32), is_explicit: bool) -> f64 {
     let mut exact = Run::<Planar>::new::<2>(scene);
     exact.options.error = 1e-13;
@@ -280,7 +280,7 @@ fn a_gear_on_a_swinging_housing_has_the_orders_of_the_methods() {
     assert!((14.0..20.0).contains(&fourth) && (3.8..4.2).contains(&second), "{fourth} {second}");
 }
 
-/// A cam that lifts a follower against gravity, and a spring-less follower of a polynomial.
+/// A cam that lifts a follower against gravity, and a follower without a spring that moves by a polynomial.
 const CAM: &str = r#"
 [scene]
 dimension = 2
@@ -329,7 +329,7 @@ fn a_cam_is_followed_with_the_order_of_the_rule_and_without_drift() {
     assert!((lift - curve).abs() < 1e-13 && energy < 1e-4, "{lift} {curve} {energy}");
 }
 
-/// A screw, a rack, a universal joint, a rope over three bodies with a drum, and a driven wheel, on a moving base.
+/// A screw, a rack, a universal joint, a rope over three bodies with a drum, and a driven wheel, all on a moving base.
 const MACHINE: &str = r#"
 [scene]
 dimension = 3
@@ -449,7 +449,7 @@ fn a_driven_sum_books_its_work() {
 
 #[test]
 fn rows_of_couplings_stand_in_the_jacobian() {
-    // J v is the rate of the sum, J a + bias its acceleration: both are zero but for the driven sum.
+    // J v is the rate of the sum, and J a + bias its acceleration. Both are zero, except for the driven sum.
     let scene = mbs_testkit::scene(MACHINE);
     let mut run = Run::<Spatial>::wandering(&scene, 3);
     let (model, workspace) = (&run.model, &mut run.workspace);
@@ -486,7 +486,7 @@ fn a_guided_wheel_turns_the_other_one() {
     let turn = 0.3 * (4.0 * core::f64::consts::PI * run.state.t).sin();
     let [hinge, second] = [0, 2].map(|joint| run.state.z[coordinate(&run, &scene, joint)]);
     assert!((second - turn * 40.0 / 17.0).abs() < 1e-13, "{second} {turn}");
-    // Angular momentum stays: 0.3 φ' + I1 a' - I2 b' = 0 from a start with the rates of the guide.
+    // The angular momentum 0.3 φ' + I1 a' - I2 b' remains zero, from a start with the rates of the guide.
     let rates = |x: [f64; 3]| 0.3 * x[0] + 0.02 * x[1] - 0.004 * x[2];
     let start = Run::<Planar>::new::<2>(&scene);
     let before = rates([

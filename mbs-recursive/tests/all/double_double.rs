@@ -1,7 +1,6 @@
-//! Reference runs: extrapolation in double-double against rows of 15 to 20 digits that others computed.
+//! Reference runs: extrapolation in double-double compared with published rows of 15 to 20 digits.
 //!
-//! Rows come from extrapolations with 30 and 34 digits, of which two settings agree to the digits given; the scenes cite the
-//! same numbers.
+//! The rows come from extrapolations with 30 and 34 digits. Two settings agree to the given digits. The scenes cite the same numbers.
 #![allow(clippy::print_stdout, reason = "what is measured is shown with --nocapture")]
 
 use mbs_core::Real;
@@ -18,7 +17,7 @@ fn pair(text: &str) -> Pair {
     Pair::from_decimal(text).expect("a number")
 }
 
-/// A tree, and the natural model that its outputs are measured in.
+/// A tree, and the natural model that measures its outputs.
 struct Run {
     natural: NaturalModel<Pair, 2>,
     told: State<Pair>,
@@ -85,13 +84,13 @@ fn assert_digits(what: &str, got: Pair, text: &str, slack: f64) {
     assert!(off.to_f64() <= slack, "{what}: {got} is off by {} units of {text}", off.to_f64());
 }
 
-/// Up to the last two digits.
+/// Tolerance of the last two digits, in units of the last one.
 const LAST_TWO: f64 = 100.0;
 
 #[test]
 fn the_double_pendulum_has_all_digits_of_its_reference() {
     let mut run = Run::new(&file_in("double-pendulum"), 1e-26);
-    // The row of the table at 1 s has another ninth digit in y than the sines of the angles beside it, which are right.
+    // The row of the table at 1 s differs in the ninth digit of y from the sines of its angles, which are correct.
     let rows = [
         ["-1.66211513581612758", "-1.04146663719322474"],
         ["0.313524776450181586", "-1.91474661756230525"],
@@ -107,7 +106,7 @@ fn the_double_pendulum_has_all_digits_of_its_reference() {
     let out = run.advance("2", 4);
     assert_digits("5 s, x", out[0], "1.8552219377580891", LAST_TWO);
     assert_digits("5 s, y", out[1], "-.739567932546795851", LAST_TWO);
-    // The table says of its last row that it is right to 3e-16.
+    // The table states that its last row has an error of 3e-16.
     let out = run.advance("5", 10);
     assert_digits("10 s, x", out[0], "-1.6558674241800307", 3.0);
     assert_digits("10 s, y", out[1], "-.52844548102495235", 30.0);

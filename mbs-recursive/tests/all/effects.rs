@@ -1,4 +1,4 @@
-//! Every kind of effect in joint coordinates: accelerations of natural coordinates, and a balance of power.
+//! Every kind of effect in joint coordinates: accelerations compared with natural coordinates, and a balance of power.
 
 use crate::support::{Run, imbalance};
 use mbs_core::model::State;
@@ -9,13 +9,13 @@ use mbs_recursive::space::Space;
 use mbs_recursive::{Planar, Spatial};
 use mbs_testkit::effects::{every, with};
 
-/// Residual of the equations, relative to their parts: a few hundred roundings.
+/// Largest residual of the equations, relative to their terms [-]: a few hundred rounding errors.
 const ROUNDING: f64 = 1e-12;
-/// Residual of the balances of single bodies under forces of order a hundred [N].
+/// Largest residual of the balances of single bodies [N], under forces of about a hundred newtons.
 const BODIES: f64 = 1e-10;
-/// A step so short that its energy is known by its powers at both ends [s].
+/// Length of a step so short that the powers at both ends determine its work [s].
 const SHORT: f64 = 1e-4;
-/// The error of that, relative to energies over the step: third derivatives of order 1e3, and rounding.
+/// Error of that work, relative to energies divided by the step [-]: third derivatives of order 1e3, and rounding.
 const BALANCE: f64 = 1e-4;
 
 const SEEDS: std::ops::Range<u64> = 1..5;
@@ -30,12 +30,12 @@ fn check<S: Space<f64>, const D: usize>(what: &str, scene: &Scene<f64>) {
         model.write_motions(&motions, &mut state);
         let left = imbalance(&model, &state);
         assert!(left.iter().all(|&x| x < ROUNDING), "{what}, {D}, seed {seed}: {left:?}");
-        // Effects, gravity and what the joints carry move every body.
+        // Effects, gravity and joint reactions balance the inertia of every body.
         let mut reactions = Reactions::new(scene, &model).expect("no loops");
         reactions.update(&state);
         let left = reactions.residual();
         assert!(left < BODIES, "{what}, {D}, seed {seed}: {left} N");
-        // d(T + V)/dt = power
+        // balance of power: d(T + V)/dt = power
         let energy = |run: &mut Run<S>| {
             let [kinetic, potential] = run.model.energies(&run.state, &mut run.workspace);
             kinetic + potential

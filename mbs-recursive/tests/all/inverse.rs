@@ -1,4 +1,4 @@
-//! Inverse dynamics, mass matrix and reactions against the forward way and against natural coordinates.
+//! Inverse dynamics, mass matrix and reactions compared with forward dynamics and with natural coordinates.
 
 use crate::support::{Run, random};
 use mbs_core::algebra::Vector;
@@ -9,7 +9,7 @@ use mbs_recursive::space::Space;
 use mbs_recursive::{EffortTerms, Planar, Spatial};
 use mbs_testkit::{file, start};
 
-/// Rounding through trees of 20 bodies of random geometry.
+/// Rounding through trees of 20 bodies with random geometry [-].
 const ROUNDING: f64 = 1e-10;
 
 fn check_tree<S: Space<f64>>(scene: &Scene<f64>, seed: u64) {
@@ -23,7 +23,7 @@ fn check_tree<S: Space<f64>>(scene: &Scene<f64>, seed: u64) {
     };
     let free = inverse(&mut run);
     let a = run.state.a.clone();
-    // τ(a) = M a + bias: from τ(0), which is the bias, to τ of free motion, which is zero.
+    // τ(a) = M a + bias. τ(0) is the bias, and τ of the free motion is zero.
     run.state.a.fill(0.0);
     let bias = inverse(&mut run);
     mbs_testkit::close("efforts of free motion", &free, &vec![0.0; n], ROUNDING * largest(&bias));
@@ -33,7 +33,7 @@ fn check_tree<S: Space<f64>>(scene: &Scene<f64>, seed: u64) {
     let product: Vec<f64> =
         (0..n).map(|i| mbs_testkit::dot(&mass[i * n..(i + 1) * n], &a) + bias[i]).collect();
     mbs_testkit::close("M a + bias", &product, &vec![0.0; n], ROUNDING * largest(&bias));
-    // Another acceleration, so that the product is not of one direction alone.
+    // A second acceleration tests the product in another direction.
     let other = mbs_testkit::Random(seed + 99).vector(n, n, 3.0);
     run.state.a.copy_from_slice(&other);
     let efforts = inverse(&mut run);
@@ -54,7 +54,7 @@ fn inverse_dynamics_and_mass_matrix_return_what_forward_dynamics_took() {
     }
 }
 
-/// Reactions at the start against those that natural coordinates give where they are unique; returns how many were compared.
+/// Compares reactions at the start with those of natural coordinates, where these are unique. Returns the number of comparisons.
 fn reactions<S: Space<f64>, const D: usize>(scene: &Scene<f64>) -> usize {
     let (model, state) = start::<D>(scene);
     let mut reference = Reactions::new(scene, &model).expect("reactions of the scene");

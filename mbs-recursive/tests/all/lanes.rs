@@ -1,4 +1,4 @@
-//! Several states in one evaluation against each of them alone.
+//! Several states in one evaluation, compared with an evaluation of each.
 
 use mbs_core::real::Lanes;
 use mbs_recursive::space::Space;
@@ -7,7 +7,8 @@ use mbs_recursive::{
 };
 use mbs_testkit::file_in;
 
-/// A state some way off the reference: angles, slides and all velocities; balls stay where they are, their quaternions have length one.
+/// Returns a state at some distance from the reference: angles, slides and all velocities differ. Balls keep their coordinates, because
+/// their quaternions must have length one.
 fn wandered<S: Space<f64>>(model: &TreeModel<f64, S>, seed: usize) -> TreeState<f64> {
     let mut state = TreeState::at_rest(model);
     for (k, z) in state.z.iter_mut().enumerate().filter(|(_, z)| **z == 0.0) {
@@ -19,7 +20,7 @@ fn wandered<S: Space<f64>>(model: &TreeModel<f64, S>, seed: usize) -> TreeState<
     state
 }
 
-/// Holds accelerations and efforts of four states in lanes against each alone, bit by bit.
+/// Checks that accelerations and efforts of four states in lanes have the bits of separate evaluations.
 fn hold<S: Space<f64> + Space<Lanes<4>>>(name: &str) {
     let model = TreeModel::<f64, S>::new(&file_in(name)).expect("a tree");
     let wide = TreeModel::<Lanes<4>, S>::in_lanes(&file_in(name)).expect("a tree in lanes");
@@ -55,7 +56,7 @@ fn each_lane_has_the_bits_of_its_state_alone() {
     hold::<Spatial>("tree-30");
 }
 
-/// Central differences of four freedoms at once: bits of differences one by one.
+/// Central differences of four freedoms at once have the bits of separate differences.
 #[test]
 fn finite_differences_in_lanes_are_those_one_by_one() {
     const STEP: f64 = 1e-6;

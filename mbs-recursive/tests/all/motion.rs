@@ -1,13 +1,15 @@
-//! Runs: order, energy, singular positions, the report's closure.
+//! Runs of whole mechanisms: order, energy, singular positions, and the report's closure.
 
 use crate::support::Run;
 use mbs_core::integrator::Integrator;
 use mbs_recursive::{Closure, Planar, Spatial};
 use mbs_testkit::file;
 
-/// The largest energy error of the trapezoidal rule on the double pendulum in natural coordinates, 10 s at 1e-2 and 1e-3 [J].
+/// Largest energy error of the trapezoidal rule on the double pendulum in natural coordinates [J]. Runs of 10 s with steps of 1e-2 s and
+/// 1e-3 s.
 const DOUBLE_PENDULUM: [f64; 2] = [4.645e-1, 4.636e-3];
-/// Tip of the first crank of the two four-bars after 10 s, by the pendulum that they are (stated in the scene) [m].
+/// Tip of the first crank of the two four-bars after 10 s [m]. The mechanism moves as a pendulum, as the scene states, so the tip has a
+/// closed form.
 const TIP: [f64; 2] = [0.328_458_111_540_815_4, 0.944_518_538_178_601];
 
 #[test]
@@ -20,7 +22,8 @@ fn trapezoidal_rule_is_of_second_order_and_below_the_level_of_natural_coordinate
 
 #[test]
 fn generalised_alpha_and_hht_are_of_second_order_on_trees_loops_and_a_damped_oscillator() {
-    // Against order 8 at its tolerance, 1e-5 of the error of the steps; a first order would halve with them.
+    // The reference is the method of order 8, with an error of 1e-5 of that of the steps. With order one the error would halve with the
+    // step.
     fn ratio(name: &str, integrator: Integrator<f64>) -> f64 {
         let scene = file(name);
         let mut exact = Run::<Planar>::new::<2>(&scene);
@@ -43,7 +46,7 @@ fn generalised_alpha_and_hht_are_of_second_order_on_trees_loops_and_a_damped_osc
 
 #[test]
 fn rk4_loses_energy_with_order_four_or_better_on_trees_and_loops() {
-    // The energy error of RK4 falls with h⁴ or h⁵.
+    // The energy error of RK4 is proportional to h⁴ or h⁵.
     fn ratio<S: mbs_recursive::space::Space<f64>, const D: usize>(name: &str, dt: f64) -> f64 {
         let run = |n: u32, dt: f64| Run::<S>::new::<D>(&file(name)).drift_of(n, |run| run.rk4(dt));
         run(400, dt) / run(800, dt * 0.5)
@@ -92,13 +95,13 @@ fn order_8_takes_half_the_evaluations_of_order_5_for_ten_digits() {
 fn error_control_begins_with_the_first_step_and_stays_within_the_length_asked_for() {
     let steps = |first_step| {
         let mut run = Run::<Planar>::new::<2>(&file("double-pendulum"));
-        // Every step passes, and the next one is five times as long.
+        // Every step is accepted, and the next one is five times as long.
         (run.options.error, run.options.first_step) = (1e6, first_step);
         let report = run.rk54(0.1).expect("a step");
         assert_eq!((report.rejected, run.state.t.to_bits()), (0, 0.1_f64.to_bits()));
         report.steps
     };
-    // 0.1; 0.01, 0.05, 0.04; 0.001, 0.005, 0.025, 0.069; 0.1
+    // steps: 0.1; 0.01, 0.05, 0.04; 0.001, 0.005, 0.025, 0.069; 0.1
     assert_eq!([None, Some(0.01), Some(0.001), Some(0.7)].map(steps), [1, 3, 4, 1]);
 }
 
@@ -106,7 +109,7 @@ fn error_control_begins_with_the_first_step_and_stays_within_the_length_asked_fo
 fn the_redundant_loop_of_the_spatial_four_bar_has_its_rank() {
     let mut run = Run::<Spatial>::new::<3>(&file("spatial-four-bar"));
     let rank = run.model.rank(&run.state, &mut run.workspace).expect("regular");
-    // Of the five equations of a cut hinge three say again that the linkage stays in its plane.
+    // Three of the five equations of a cut hinge are redundant, because the linkage stays in its plane.
     assert_eq!((run.model.n_freedoms(), run.model.n_rows(), rank), (3, 5, 2));
 }
 
@@ -114,13 +117,13 @@ fn the_redundant_loop_of_the_spatial_four_bar_has_its_rank() {
 fn a_hinge_of_two_balls_repeats_one_row_though_its_weights_are_large() {
     let mut run = Run::<Spatial>::new::<3>(&file("iltis-links"));
     let rank = run.model.rank(&run.state, &mut run.workspace).expect("regular");
-    // Four hinges; the vehicle has ten freedoms.
+    // There are four redundant rows, one for each hinge. The vehicle has ten freedoms.
     assert_eq!((run.model.n_freedoms(), run.model.n_rows(), rank), (42, 36, 32));
 }
 
 #[test]
 fn two_four_bars_pass_their_singular_positions_on_the_pendulum_s_branch() {
-    // Ten passages in 10 s; the error of the tip falls with the order of the method.
+    // Ten passages of the singular position in 10 s. The error of the tip decreases with the order of the method.
     let tip = |run: &mut Run<Planar>| {
         let tip = run.motions(5)[0].point(&[0.0, 1.0, 0.0].into())[0];
         (tip[0] - TIP[0]).abs().max((tip[1] - TIP[1]).abs())
@@ -138,8 +141,9 @@ fn two_four_bars_pass_their_singular_positions_on_the_pendulum_s_branch() {
 
 #[test]
 fn singular_positions_cost_no_digits_at_tight_tolerances() {
-    // Beside a singular position the constraints leave rounding / distance² in a velocity that they soon forbid. Were that an error
-    // of the step, the steps would be shortened until one of them lands there: 1e-5 m, whatever the tolerance.
+    // Near a singular position, velocities have an error of rounding / distance² in a direction that the constraints forbid a little
+    // further on. If this counted as an error of the step, steps would become shorter until one ends in the singular position. The error of
+    // the tip would be 1e-5 m for any tolerance.
     for (name, tip) in
         [("four-bar", [0.478_385_057_760_970_6, 0.878_150_178_791_209_3]), ("two-four-bars", TIP)]
     {
@@ -170,7 +174,7 @@ fn the_report_s_closure_holds_loops_within_its_penalty() {
         }
     }
     let energy = (run.invariant() - start).abs();
-    // λ = α Φ̈ of some 10 N with α = 1e7: Φ̈ of 1e-6, and loops that open by far less than they would by drift.
+    // λ = α Φ̈ is about 10 N with α = 1e7, so Φ̈ is 1e-6. The loops open much less than by drift.
     assert!(worst[0] > 0.0 && worst[0] < 1e-4 && worst[1] < 1e-4 && worst[2] < 1e-3, "{worst:?}");
     assert!(energy < 1e-2, "{energy}");
 }
@@ -182,7 +186,7 @@ fn guides_and_dampers_are_in_the_ledger() {
     assert!((3.5..4.5).contains(&(errors[0] / errors[1])), "{errors:?}");
 }
 
-/// A body that a guide turns, and that meets no other.
+/// A body that a guide turns, without contact or joint to any other body.
 const FLAG: &str = r#"
 [[body]]
 name = "flag"
@@ -202,7 +206,8 @@ ramp = { rate = 3.0 }
 
 #[test]
 fn a_guided_body_that_meets_no_other_changes_nothing() {
-    // Its power is found from the forces through the joints; projections then need what links were factored to.
+    // The power of the guide is computed from the forces through the joints. The following projections need the factored inertias, which
+    // must not change.
     let path = format!("{}/../scenes/rssr.toml", env!("CARGO_MANIFEST_DIR"));
     let alone = std::fs::read_to_string(path).expect("the scene is there");
     let ends = |step: fn(&mut Run<Spatial>)| {
@@ -224,7 +229,7 @@ fn a_guided_body_that_meets_no_other_changes_nothing() {
     for [(z, v), (z_beside, v_beside)] in [fixed, controlled] {
         assert_eq!((z.len(), v.len()), (z_beside.len(), v_beside.len()));
         for (x, y) in z.iter().chain(&v).zip(z_beside.iter().chain(&v_beside)) {
-            // Roundings of numbers of order ten over twenty steps, which the motion makes larger.
+            // Rounding errors of numbers of order ten over twenty steps, which the motion amplifies.
             assert!((x - y).abs() < 1e-11, "{x} {y}");
         }
     }

@@ -1,4 +1,4 @@
-//! Stiff forces and rest: what the iteration of a trapezoidal step must carry.
+//! Stiff forces and rest: cases in which the iteration of a trapezoidal step is difficult.
 
 use crate::support::Run;
 use core::f64::consts::PI;
@@ -9,18 +9,19 @@ use mbs_testkit::file;
 
 #[test]
 fn a_mechanism_that_comes_to_rest_stays_there() {
-    // At 1.2 s what still moves is below the rounding of its coordinates.
+    // At 1.2 s the remaining motion is below the rounding of the coordinates.
     let mut run = Run::<Spatial>::new::<3>(&file("iltis-suspension"));
     for i in 0..3000 {
         run.step(1e-3).unwrap_or_else(|e| panic!("step {i}: {e}"));
     }
     let fastest = run.state.v.iter().fold(0.0_f64, |most, v| most.max(v.abs()));
-    // Coordinates of order one, rounded to 2e-16, in steps of 1e-3 s.
+    // Coordinates of order one are rounded to 2e-16, and steps have 1e-3 s.
     assert!(fastest < 1e-12, "{fastest}");
 }
 
-/// Masses on slides in a row, each on the slide of the one before, with springs between them; the first is held to the ground.
-/// Frequencies in rad/s are 2 √(k/m) sin((2 j − 1) π / (2 (2 n + 1))), modes sin((2 j − 1) π i / (2 n + 1)), j = 1 to n.
+/// Returns masses on slides in a row, each on the slide of the preceding mass, with springs between them. The first spring is fixed to the
+/// ground. For j = 1 to n, the frequencies are 2 √(k/m) sin((2 j − 1) π / (2 (2 n + 1))) [rad/s]. The modes are
+/// sin((2 j − 1) π i / (2 n + 1)).
 fn masses(n: usize) -> Scene<f64> {
     let mut text = String::from("[scene]\nname = \"masses\"\ndimension = 2\nduration = 1.0\n");
     for i in 0..n {
@@ -42,7 +43,7 @@ const STIFFNESS: f64 = 1e6;
 
 #[test]
 fn a_stiff_chain_follows_the_trapezoidal_rule_s_own_phase_and_keeps_its_amplitude() {
-    // In the fastest mode of ten masses the step is 5 / ω: plain iteration grows by (5/2)² each time.
+    // In the fastest mode of ten masses the step is 5 / ω. The error of the plain iteration would grow by (5/2)² in each iteration.
     const N: usize = 10;
     let odd = (2 * N - 1) as f64 * PI / (2 * N + 1) as f64;
     let omega = 2.0 * (STIFFNESS / MASS).sqrt() * (0.5 * odd).sin();
@@ -53,15 +54,15 @@ fn a_stiff_chain_follows_the_trapezoidal_rule_s_own_phase_and_keeps_its_amplitud
         run.state.z[i] = amplitude * (mode(i + 1) - mode(i));
     }
     run.accelerate();
-    // By the rule an oscillator goes on by 2 atan(ω dt / 2) in each step.
+    // With this rule the phase of an oscillator advances by 2 atan(ω dt / 2) in each step.
     let turn = 2.0 * (0.5 * omega * dt).atan();
     for n in 1..=200 {
         let report = run.step(dt).unwrap_or_else(|e| panic!("step {n}: {e}"));
-        // Springs across joints are met exactly: one iteration finds the end, one more sees that it stays.
+        // Springs across joints are in the tangent exactly. The first iteration computes the end, and the second confirms it.
         assert!(report.iterations <= 3, "step {n}: {} iterations", report.iterations);
         for i in 0..N {
             let told = amplitude * (mode(i + 1) - mode(i)) * (turn * f64::from(n)).cos();
-            // Each step may be off by the tolerance 1e-10 of its displacement a dt²/2 = 12.5 of the amplitude.
+            // Each step may have an error of the tolerance 1e-10 times its displacement a dt²/2, which is 12.5 times the amplitude.
             let apart = (run.state.z[i] - told).abs() / amplitude;
             assert!(apart < 1e-10 * 25.0 * f64::from(n), "step {n}, mass {i}: {apart}");
         }
@@ -70,8 +71,8 @@ fn a_stiff_chain_follows_the_trapezoidal_rule_s_own_phase_and_keeps_its_amplitud
 
 #[test]
 fn generalised_alpha_and_hht_damp_high_frequencies_by_their_closed_forms() {
-    // For ω h → ∞ the steps have the roots −ρ, twice, and −s, s = αf / (1 − αf) (Chung and Hulbert, 1993; Hilber, 1977). Here ω h is
-    // 3162: what that leaves out is 1e-7, and the rounding of a length of 1 m some 1e-7 of the last places.
+    // For ω h → ∞ the steps have the double root −ρ, and the root −s with s = αf / (1 − αf) (Chung and Hulbert, 1993; Hilber, 1977). Here ω
+    // h is 3162. The neglected terms are 1e-7, and the rounding of a length of 1 m is about 1e-7 of the smallest displacements.
     const LEVEL: f64 = 3e-6;
     let cases = [(Integrator::generalised_alpha(0.8), 0.8), (Integrator::hht(0.05), 0.95 / 1.05)];
     for (integrator, rho) in cases {
@@ -95,7 +96,7 @@ fn generalised_alpha_and_hht_damp_high_frequencies_by_their_closed_forms() {
     }
 }
 
-/// Two free bodies with a spring between them: no joint is between its ends.
+/// Two free bodies with a spring between them, and no joint between the spring's attachment points.
 const FREE_PAIR: &str = r#"
 [scene]
 name = "pair"
@@ -123,11 +124,11 @@ free_length = 1.0
 
 #[test]
 fn a_stiff_spring_between_bodies_without_a_joint_follows_the_rule_too() {
-    // ω = √(k (1/m₁ + 1/m₂)) = 2000 rad/s, and a step of 20 / ω: each link's own share of the tangent leaves 0.98 of an error
-    // in each iteration, which mixed iterates need not repeat.
+    // ω = √(k (1/m₁ + 1/m₂)) = 2000 rad/s, and the step is 20 / ω. The tangent treats each link separately, so an iteration reduces the
+    // error only to 0.98 of it. Mixed iterates remove this slow direction.
     let (omega, dt, amplitude) = (2000.0_f64, 1e-2, 1e-4);
     let mut run = Run::<Planar>::new::<2>(&mbs_testkit::scene(FREE_PAIR));
-    // The common centre of mass stays. Coordinates of a free body: angle, x, y; the heavier one is first.
+    // The common centre of mass remains at rest. The coordinates of a free body are angle, x, y; the heavier body is first.
     let start = [run.state.z[1], run.state.z[4]];
     let shares = [-0.25 * amplitude, 0.75 * amplitude];
     (run.state.z[1], run.state.z[4]) = (start[0] + shares[0], start[1] + shares[1]);
@@ -139,14 +140,15 @@ fn a_stiff_spring_between_bodies_without_a_joint_follows_the_rule_too() {
         let now = [run.state.z[1], run.state.z[4]];
         for i in 0..2 {
             let told = shares[i] * (turn * f64::from(n)).cos();
-            // Each step may be off by the tolerance 1e-10 of its displacement a dt²/2 = 200 of the amplitude.
+            // Each step may have an error of the tolerance 1e-10 times its displacement a dt²/2, which is 200 times the amplitude.
             let apart = (now[i] - start[i] - told).abs() / amplitude;
             assert!(apart < 1e-10 * 400.0 * f64::from(n), "step {n}, body {i}: {apart}");
         }
     }
 }
 
-/// Ten periods of the slowest mode, which the fastest outruns 13 times: three digits more of the tolerance give three more of the motion.
+/// Runs ten periods of the slowest mode; the fastest mode has 13 times its frequency. A tolerance smaller by 1e-3 must reduce the error by
+/// 1e-3.
 #[test]
 fn collocation_follows_the_slow_mode_of_a_stiff_chain_to_its_tolerance() {
     const N: usize = 10;
@@ -162,7 +164,7 @@ fn collocation_follows_the_slow_mode_of_a_stiff_chain_to_its_tolerance() {
         run.options.error = error;
         run.options.first_step = Some(1e-5);
         run.radau5(10.25 * 2.0 * PI / omega).expect("a run");
-        // A quarter of a period later all are back where nothing pulls.
+        // After a further quarter of a period all masses are at their positions of equilibrium.
         run.state.z.iter().fold(0.0_f64, |most, z| most.max(z.abs()))
     };
     let errors = [off(1e-6), off(1e-9)];

@@ -1,4 +1,4 @@
-//! The tangents of effects against differences of their forces.
+//! Tangents of effects compared with differences of their forces.
 
 use mbs_core::algebra::Vector;
 use mbs_core::laws::LawInputs;
@@ -13,7 +13,7 @@ type Motion = Vector<f64, 3>;
 const Z: [f64; 3] = [0.3, -0.7, 1.1];
 const V: [f64; 3] = [0.4, 0.9, -1.3];
 
-/// Three bars one behind the other with one effect.
+/// Returns a chain of three bars with one effect.
 fn chain(effect: &str) -> TreeModel<f64, Planar> {
     let bar = |i: usize, before: &str| {
         let x = i as f64;
@@ -33,7 +33,7 @@ fn chain(effect: &str) -> TreeModel<f64, Planar> {
     TreeModel::new(&scene).expect("a tree")
 }
 
-/// A spring and damper between two bodies.
+/// Returns a spring with a damper between two bodies.
 fn spring(first: &str, second: &str, points: [[f64; 2]; 2], free: f64) -> String {
     format!(
         "kind = \"spring-damper\"\nbodies = [\"{first}\", \"{second}\"]\npoints = {points:?}\nstiffness = 70.0\ndamping = 9.0\nfree_length = {free:?}\n"
@@ -50,7 +50,7 @@ impl Bench {
         Self { model: chain(effect), placed: vec![LinkMotion::ground(); 4] }
     }
 
-    /// Forces along the three freedoms from what `fill` puts on the links.
+    /// Returns the forces along the three freedoms from the forces that `fill` adds to the links.
     fn along(
         &mut self,
         (z, v): (&[f64; 3], &[f64; 3]),
@@ -87,7 +87,7 @@ impl Bench {
         })
     }
 
-    /// Decrease of the forces by accelerations `x`, from the tangents at (z, v).
+    /// Returns the decrease of the forces by accelerations `x`, from the tangents at (z, v).
     fn resistance(&mut self, reach: Reach<f64>, v: &[f64; 3], x: &[f64; 3]) -> [f64; 3] {
         self.along((&Z, v), |load, at, condensed| {
             load.apply_ahead(at, (reach, &[0.0; 3], &[Motion::zeros(); 4]), condensed)
@@ -104,7 +104,7 @@ impl Bench {
         .map(|f| -f)
     }
 
-    /// Decrease of the forces by accelerations `x`, from central differences of the forces.
+    /// Returns the decrease of the forces by accelerations `x`, from central differences of the forces.
     fn difference(&mut self, reach: Reach<f64>, v: &[f64; 3], x: &[f64; 3]) -> [f64; 3] {
         let h = 1e-6;
         let mut moved = |sign: f64| {
@@ -120,10 +120,10 @@ impl Bench {
 
 /// Directions of acceleration in joint coordinates.
 const X: [[f64; 3]; 4] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.7, -1.2, 0.4]];
-/// A step of 0.2 s.
+/// Coefficients of a step of 0.2 s with the trapezoidal rule.
 const REACH: Reach<f64> = Reach { place: 0.01, speed: 0.1 };
 
-/// Length that a spring of this stiffness measures at [`Z`], where it is larger than zero: V = k L² / 2 without free length.
+/// Returns the length that a spring measures at [`Z`], if it is larger than zero. It follows from V = k L² / 2 without free length.
 fn at_z(effect: &str, stiffness: f64) -> f64 {
     let mut bench = Bench::new(effect);
     let m = bench.model.mechanism();
@@ -139,7 +139,7 @@ fn at_z(effect: &str, stiffness: f64) -> f64 {
     (2.0 * m.loads[0].potential(&at).expect("tables that fit") / stiffness).sqrt()
 }
 
-/// A spring between two points as long as it is at [`Z`], where it carries no force and turning it takes none.
+/// Returns a spring whose free length is its length at [`Z`]. It has no force there, so a rotation of it causes none.
 fn slack(first: &str, second: &str, points: [[f64; 2]; 2]) -> String {
     spring(first, second, points, at_z(&spring(first, second, points, 0.0), 70.0))
 }
@@ -162,7 +162,7 @@ fn tangents_against_the_ground_and_across_joints_are_those_of_the_forces() {
                 let told = bench.resistance(reach, &v, x);
                 let found = bench.difference(reach, &v, x);
                 for i in 0..3 {
-                    // Central differences: (1e-6)² of third derivatives, and rounding 1e-16 of 10 N over 1e-6.
+                    // Central differences have an error of (1e-6)² times third derivatives, and of rounding: 1e-16 of 10 N divided by 1e-6.
                     assert!((told[i] - found[i]).abs() < 1e-7, "{effect}{x:?}: {told:?} {found:?}");
                 }
             }
@@ -170,7 +170,7 @@ fn tangents_against_the_ground_and_across_joints_are_those_of_the_forces() {
     }
 }
 
-/// Checks that (M + T̃)⁻¹ (T̃ − T) contracts for every M: 2 T̃ − T is not negative, along a whole cone of directions here.
+/// Checks that (M + T̃)⁻¹ (T̃ − T) contracts for every M. The condition is that 2 T̃ − T is not negative, here for many directions.
 fn contracts(effect: &str) {
     let mut bench = Bench::new(effect);
     for i in 0..200_u32 {
@@ -179,7 +179,7 @@ fn contracts(effect: &str) {
         let told = bench.resistance(REACH, &[0.0; 3], &x);
         let found = bench.difference(REACH, &[0.0; 3], &x);
         let work = |f: &[f64; 3]| f.iter().zip(&x).map(|(f, x)| f * x).sum::<f64>();
-        // The rounding of differences, as above.
+        // The tolerance is the rounding of differences, as above.
         assert!(2.0 * work(&told) - work(&found) > -1e-7, "{x:?}");
         assert!(work(&found) > -1e-7, "{x:?}");
     }
@@ -192,7 +192,7 @@ fn between_other_links_the_tangent_is_enough_for_the_iteration_to_contract() {
 
 #[test]
 fn along_a_sum_the_tangent_is_enough_for_the_iteration_to_contract() {
-    // no tension at Z, where the turning of lines would add to the differences
+    // no tension at Z, because the rotation of lines would add a term to the differences
     let joints = "{ joint = \"j0\", factor = 0.7 }, { joint = \"j1\", factor = 1.0 }, { joint = \"j2\", factor = -2.0 }";
     let sum = 0.7 * Z[0] + Z[1] - 2.0 * Z[2];
     let of = |terms: &str, free: f64| {
@@ -203,7 +203,7 @@ fn along_a_sum_the_tangent_is_enough_for_the_iteration_to_contract() {
     contracts(&of(joints, sum));
     contracts(&of("{ joint = \"j0\" }, { joint = \"j2\", factor = -1.0 }", Z[0] - Z[2]));
     let line = "{ points = [{ body = \"b0\", at = [0.4, 0.3] }, { body = \"ground\", at = [1.0, 2.0] }, { body = \"b2\", at = [2.8, 0.2] }] }";
-    // the sum counts from the reference configuration, and its energy has no sign
+    // the sum is counted from the reference configuration, and the energy does not determine its sign
     let sum = at_z(&of(line, 0.0), 30.0);
     let free = if at_z(&of(line, sum), 30.0) < 1e-9 { sum } else { -sum };
     contracts(&of(line, free));

@@ -11,8 +11,8 @@ use nalgebra::Vector3;
 
 pub(crate) mod random;
 
-/// How far a state's accelerations are from the equations of natural coordinates, relative to their parts: what is left of M a - Q
-/// along all directions that the constraints leave free, and J a + bias.
+/// Returns the residuals of a state's accelerations in the equations of natural coordinates, relative to their terms. The first is that of
+/// M a - Q along all directions that the constraints allow. The second is that of J a + bias.
 pub(crate) fn imbalance<const D: usize>(
     model: &NaturalModel<f64, D>,
     state: &State<f64>,
@@ -41,7 +41,7 @@ pub(crate) struct Run<S: Space<f64>> {
 }
 
 impl<S: Space<f64>> Run<S> {
-    /// At the assembled start of a scene.
+    /// Makes a run at the assembled start of a scene.
     pub(crate) fn new<const D: usize>(scene: &Scene<f64>) -> Self {
         let (natural, state) = mbs_testkit::start::<D>(scene);
         let model =
@@ -51,7 +51,8 @@ impl<S: Space<f64>> Run<S> {
         Self { workspace: Workspace::new(&model), options: Options::default(), model, state }
     }
 
-    /// From the reference configuration with random velocities, brought onto the loops, some time later.
+    /// Makes a run from the reference configuration with random velocities, which are projected onto the loops, and advances it for some
+    /// time.
     pub(crate) fn wandering(scene: &Scene<f64>, seed: u64) -> Self {
         let model =
             TreeModel::<f64, S>::new(scene).unwrap_or_else(|e| panic!("{}: {e}", scene.name));
@@ -74,28 +75,28 @@ impl<S: Space<f64>> Run<S> {
             .expect("a regular position");
     }
 
-    /// One step of a method.
+    /// Makes one step of a method.
     pub(crate) fn by(&mut self, method: TreeMethod, dt: f64) -> Result<StepReport<f64>, StepError> {
         self.model.step(method, dt, &self.options, &mut self.state, &mut self.workspace)
     }
 
-    /// One step of the trapezoidal rule.
+    /// Makes one step of the trapezoidal rule.
     pub(crate) fn step(&mut self, dt: f64) -> Result<StepReport<f64>, StepError> {
         self.by(TreeMethod::Trapezoidal, dt)
     }
 
-    /// The invariant T + V - work [J].
+    /// Returns the invariant T + V - work [J].
     pub(crate) fn invariant(&mut self) -> f64 {
         let [kinetic, potential] = self.model.energies(&self.state, &mut self.workspace);
         kinetic + potential - self.state.work
     }
 
-    /// The largest change of the invariant over `n` steps.
+    /// Returns the largest change of the invariant over `n` steps.
     pub(crate) fn drift(&mut self, dt: f64, n: u32) -> f64 {
         self.drift_of(n, |run| run.step(dt))
     }
 
-    /// The largest change of the invariant over `n` steps of any kind.
+    /// Returns the largest change of the invariant over `n` steps of any kind.
     pub(crate) fn drift_of(
         &mut self,
         n: u32,
@@ -109,27 +110,27 @@ impl<S: Space<f64>> Run<S> {
         worst
     }
 
-    /// One step of the Runge-Kutta method of order 4.
+    /// Makes one step of the Runge-Kutta method of order 4.
     pub(crate) fn rk4(&mut self, dt: f64) -> Result<StepReport<f64>, StepError> {
         self.by(TreeMethod::Rk4, dt)
     }
 
-    /// Error control over `dt`.
+    /// Advances over `dt` with error control, by the pair 5(4).
     pub(crate) fn rk54(&mut self, dt: f64) -> Result<StepReport<f64>, StepError> {
         self.by(TreeMethod::Rk54, dt)
     }
 
-    /// Steps over `dt` with error control, by the Runge-Kutta method of order 8.
+    /// Advances over `dt` with error control, by the Runge-Kutta method of order 8.
     pub(crate) fn rk853(&mut self, dt: f64) -> Result<StepReport<f64>, StepError> {
         self.by(TreeMethod::Rk853, dt)
     }
 
-    /// Steps over `dt` with error control, by collocation at Radau points.
+    /// Advances over `dt` with error control, by Radau collocation.
     pub(crate) fn radau5(&mut self, dt: f64) -> Result<StepReport<f64>, StepError> {
         self.by(TreeMethod::Radau5, dt)
     }
 
-    /// The motions of the bodies.
+    /// Returns the motions of the bodies.
     pub(crate) fn motions(&mut self, n: usize) -> Vec<RigidMotion<f64>> {
         let mut motions = vec![RigidMotion::at_rest(Vector3::zeros()); n];
         self.model.write_motions(&self.state, &mut self.workspace, &mut motions);

@@ -1,10 +1,10 @@
-//! Seeded random mechanisms with every kind of joint.
+//! Random mechanisms from a seed, with every kind of joint.
 
 use mbs_core::scene::{Body, BodyId, Dimension, Inertia, Joint, JointKind, JointLimits, Scene};
 use mbs_testkit::Random;
 use mbs_testkit::scenes::empty;
 
-/// Kinds that carry coordinates in a tree.
+/// Kinds of joints that carry coordinates in a spatial tree.
 const SPATIAL: [JointKind; 6] = [
     JointKind::Revolute,
     JointKind::Spherical,
@@ -38,7 +38,7 @@ fn body(random: &mut Random, dimension: Dimension, center: [f64; 3]) -> Body<f64
     Body { name: String::new(), mass, center, inertia, gravity_scale: None }
 }
 
-/// A joint of a kind at a place, its axes at random.
+/// Returns a joint of a kind at a place, with random axes.
 pub(crate) fn joint(
     random: &mut Random,
     dimension: Dimension,
@@ -50,14 +50,14 @@ pub(crate) fn joint(
     Joint { name: String::new(), kind, bodies, points: [at; 2], axes, limits: JointLimits::NONE }
 }
 
-/// A tree of `n` bodies, some of them reached from their second body.
+/// Returns a tree of `n` bodies. Some joints have the parent as their second body.
 pub(crate) fn tree(seed: u64, n: usize, dimension: Dimension) -> Scene<f64> {
     let random = &mut Random(seed);
     let mut scene = empty(&format!("tree {seed}"), dimension, Some([0.3, -9.81, 0.0]));
     for i in 0..n {
         let center = vector(random, dimension).map(|x| 2.0 * x);
         scene.bodies.push(body(random, dimension, center));
-        // The second root floats.
+        // The second root body is free.
         if i == n / 2 {
             continue;
         }
@@ -78,7 +78,7 @@ pub(crate) fn tree(seed: u64, n: usize, dimension: Dimension) -> Scene<f64> {
     scene
 }
 
-/// Cuts that a closed mechanism may have.
+/// Kinds of joints that may be cut in a closed mechanism.
 const CUTS: [JointKind; 7] = [
     JointKind::Distance,
     JointKind::Spherical,
@@ -89,7 +89,7 @@ const CUTS: [JointKind; 7] = [
     JointKind::Prismatic,
 ];
 
-/// A tree of balls (revolutes in the plane) with `loops` further joints, which close in the reference configuration.
+/// Returns a tree of balls (revolute joints in the plane) with `loops` further joints. These close loops in the reference configuration.
 pub(crate) fn closed(seed: u64, n: usize, loops: usize, dimension: Dimension) -> Scene<f64> {
     let random = &mut Random(seed);
     let mut scene = tree(seed ^ 0x55, n, dimension);
