@@ -1,4 +1,4 @@
-//! Puts the memory map where the linker finds it, and asks for the model that is to be built in.
+//! Copies the memory map to the linker's search path, and checks that MBS_MODEL names the model to be compiled in.
 
 use std::path::PathBuf;
 use std::{env, fs};

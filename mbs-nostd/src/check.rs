@@ -1,4 +1,4 @@
-//! Models are checked once, when they are loaded: afterwards every number in their tables points into them.
+//! Check of a model when it is loaded: every number in its tables that points into a table must be valid.
 
 mod couplings;
 mod plan;
@@ -18,44 +18,44 @@ use mbs_recursive::passes::{feedback, rotor};
 use mbs_recursive::rows::{Row, coupled};
 use mbs_recursive::space::Space;
 
-/// Reason why a model is not loaded.
+/// Reason why a model cannot be loaded.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum LoadError {
-    /// A model is larger than what is to hold it.
+    /// The model is larger than the memory reserved for it.
     Capacity {
-        /// Name of what the model has too much of.
+        /// Name of the size that is too large.
         of: &'static str,
-        /// Number that the model needs.
+        /// Size that the model needs.
         needed: usize,
-        /// Number that there is room for.
+        /// Largest size that the memory allows.
         capacity: usize,
     },
-    /// A number in a table points outside of what it is to point into, or this build leaves the effect out.
+    /// A number in a table points outside of its target table, or this build does not contain the effect.
     Index {
         /// Name of the table.
         table: &'static str,
         /// Number of the entry in the table.
         entry: usize,
     },
-    /// An effect on an angle of a ball, which no controller has.
+    /// An effect on an angle of a ball joint, which tables for controllers do not support.
     Sum {
-        /// The entry in the table of effects.
+        /// Number of the entry in the table of effects.
         entry: usize,
     },
-    /// A guided rotation vector, which no controller has.
+    /// A guided rotation vector, which tables for controllers do not support.
     GuidedBall {
         /// Number of the link whose joint is guided.
         link: usize,
     },
-    /// The model has a machine element that this build leaves out.
+    /// The model has a machine element that this build does not contain.
     Feature {
-        /// The Cargo feature that brings it.
+        /// The Cargo feature that adds the element.
         feature: &'static str,
     },
     /// The text is not a model of this version and dimension.
     Format,
-    /// The text has a law that this build leaves out, or the text is not what a model is written as.
+    /// The text has a law that this build does not contain, or an entry that is malformed.
     Record {
         /// Number of bytes in the text before the entry that cannot be read.
         byte: usize,
@@ -103,30 +103,30 @@ impl core::fmt::Display for LoadError {
 
 impl core::error::Error for LoadError {}
 
-/// Sizes that a model has, or may have at most.
+/// Sizes of a model, or largest sizes for which there is memory.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Sizes {
-    /// Links, the ground among them.
+    /// Number of links, including the ground.
     pub links: usize,
-    /// Number of coordinates.
+    /// Number of coordinates of all links.
     pub coordinates: usize,
-    /// Number of freedoms.
+    /// Number of freedoms of all joints.
     pub freedoms: usize,
     /// Number of rows of loops.
     pub rows: usize,
-    /// Numbers in blocks of Λ.
+    /// Number of entries of the blocks of Λ.
     pub blocks: usize,
-    /// Gains of rows at joints.
+    /// Number of gains of rows at joints.
     pub gains: usize,
-    /// Number of guides.
+    /// Number of guides of joints.
     pub guides: usize,
-    /// Number of signals, those of effects alone included.
+    /// Number of signals, including those that only effects use.
     pub courses: usize,
     /// Number of states of signals.
     pub states: usize,
-    /// Courses, where there are operations on them; else none.
+    /// Number of signals if there are operations on signals; otherwise zero.
     pub followed: usize,
-    /// Sides of rows: two, or as many branches as a coupling has joints and points on.
+    /// Number of sides of a row: two, or for couplings as many branches as carry their joints and points.
     pub sides: usize,
 }
 
@@ -134,7 +134,7 @@ impl Sizes {
     /// Checks that a model of these sizes fits into `room`.
     ///
     /// # Errors
-    /// [`LoadError::Capacity`] names what there is too much of.
+    /// [`LoadError::Capacity`] names the size that is too large.
     pub fn fit(&self, room: &Self) -> Result<(), LoadError> {
         for (of, needed, capacity) in [
             ("links", self.links, room.links),
@@ -156,7 +156,7 @@ impl Sizes {
         Ok(())
     }
 
-    /// The sizes of a mechanism.
+    /// Returns the sizes of a mechanism.
     #[must_use]
     pub fn of<T: Real, S: Space<T>>(m: &TreeSlices<'_, T, S>) -> Self {
         let plan = &m.loops.plan;
@@ -195,7 +195,7 @@ impl Sizes {
     }
 }
 
-/// A model whose tables fit each other: every number in them has been looked at.
+/// A model whose tables were checked: every number that points into a table is valid.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Checked<'a, T: Real, S: Space<T>> {
     model: Model<'a, T, S>,
@@ -203,12 +203,12 @@ pub struct Checked<'a, T: Real, S: Space<T>> {
 }
 
 impl<'a, T: Real, S: Space<T>> Checked<'a, T, S> {
-    /// Looks at every number.
+    /// Checks every number of a model.
     ///
-    /// Cost: linear in the tables. Once, when a model is loaded.
+    /// Cost: linear in the tables. It occurs once, when a model is loaded.
     ///
     /// # Errors
-    /// [`LoadError::Index`] names the table and the entry, [`LoadError::Feature`] what is off in this build.
+    /// [`LoadError::Index`] names the table and the entry. [`LoadError::Feature`] names a feature that this build lacks.
     pub fn new(model: &Model<'a, T, S>) -> Result<Self, LoadError> {
         if let Some(feature) = elements::missing(model) {
             return Err(LoadError::Feature { feature });
@@ -243,7 +243,7 @@ impl<'a, T: Real, S: Space<T>> Checked<'a, T, S> {
         Ok(Self { model: *model, sizes })
     }
 
-    /// Makes a checked model again: the tables of `model` have not changed since they were checked with these `sizes`.
+    /// Makes a checked model without a check. The tables of `model` must not have changed since they were checked with these `sizes`.
     pub(crate) fn again(model: Model<'a, T, S>, sizes: Sizes) -> Self {
         Self { model, sizes }
     }
@@ -260,39 +260,39 @@ impl<'a, T: Real, S: Space<T>> Checked<'a, T, S> {
         self.sizes
     }
 
-    /// Returns the number of slopes of curves that a step remembers: one for each term up to the last with a curve.
+    /// Returns the number of slopes of curves that a step stores: one for each term up to the last term with a curve.
     #[must_use]
     pub fn n_slopes(&self) -> usize {
         if curves::IS_BUILT { self.model.mechanism.loops.couplings.n_slopes() } else { 0 }
     }
 
-    /// The effects that are kept on a rung, where these are not all.
+    /// Returns the effects that act on a rung of the degradation ladder; `None` if all effects act.
     pub(crate) fn kept_on(&self, rung: u32) -> Option<&'a [Load<T, S>]> {
         let kept = self.model.rungs.get((rung as usize).checked_sub(1)?)?;
         self.model.mechanism.loads.get(..*kept as usize)
     }
 }
 
-/// Tables under check, with the sizes that their numbers must stay within.
+/// Tables under check, with the sizes that limit their numbers.
 struct Look<'a, 'b, T: Real, S: Space<T>> {
     m: &'a TreeSlices<'b, T, S>,
     sizes: Sizes,
 }
 
-/// An entry that points outside.
+/// Returns the error for an entry that points outside.
 fn fault(table: &'static str, entry: usize) -> LoadError {
     LoadError::Index { table, entry }
 }
 
-/// Sides up to that of this number.
+/// Returns the number of sides if `side` is the last one.
 fn sides(side: u32) -> usize {
     (side as usize).saturating_add(1)
 }
 
-/// Sides that every row has [-]: those of a cut joint, at its two bodies.
+/// Smallest number of sides of a row [-]: a cut joint has one at each of its two bodies.
 pub(crate) const MIN_SIDES: usize = 2;
 
-/// The most sides that a row has. A side that begins on the ground passes no joint.
+/// Returns the largest number of sides of a row. A side that begins on the ground passes no joint, so the starts are counted too.
 pub(crate) fn n_sides<T: Real, S: Space<T>>(m: &TreeSlices<'_, T, S>) -> usize {
     let passes = m.loops.plan.passes.iter().map(|pass| pass.side);
     let starts = if coupled::HAS_LINES { m.loops.couplings.starts } else { &[] };
@@ -301,12 +301,12 @@ pub(crate) fn n_sides<T: Real, S: Space<T>>(m: &TreeSlices<'_, T, S>) -> usize {
         .fold(MIN_SIDES, |most, side| most.max(sides(side)))
 }
 
-/// Returns the fault of `entry` in `table` unless `holds`.
+/// Returns the error of `entry` in `table` unless `holds`.
 fn ensure(holds: bool, table: &'static str, entry: usize) -> Result<(), LoadError> {
     if holds { Ok(()) } else { Err(fault(table, entry)) }
 }
 
-/// Do `n` entries from `first` end by `end`?
+/// Do `n` entries from `first` end at or before `end`?
 fn ends_by(first: u32, n: usize, end: usize) -> bool {
     (first as usize).checked_add(n).is_some_and(|last| last <= end)
 }
@@ -387,7 +387,7 @@ impl<T: Real, S: Space<T>> Look<'_, '_, T, S> {
         Ok(())
     }
 
-    /// Has a link's joint one coordinate?
+    /// Has the link's joint one coordinate?
     fn has_one_coordinate(&self, link: u32) -> bool {
         self.m
             .links
@@ -436,7 +436,7 @@ impl<T: Real, S: Space<T>> Look<'_, '_, T, S> {
     }
 }
 
-/// Is a range one of a list of `end` entries?
+/// Is a range valid for a list of `end` entries?
 fn is_within(span: Span, end: usize) -> bool {
     span.first <= span.end && span.end as usize <= end
 }

@@ -1,4 +1,4 @@
-//! Machine elements that a model may have: a Cargo feature each, so that an image has the code of its own ones alone.
+//! Machine elements of a model. Each has a Cargo feature, so that a program contains only the code of its own elements.
 
 use crate::inputs::{Motion, SignalLaw};
 use crate::model::Model;
@@ -10,18 +10,18 @@ use mbs_recursive::rows::coupled::{self, NONE, SumMeasure};
 use mbs_recursive::rows::{Row, rolling};
 use mbs_recursive::space::Space;
 
-/// A machine element that a build may leave out.
+/// A machine element that a build may omit.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Element {
-    /// Cargo feature that brings the element.
+    /// Cargo feature that adds the element.
     pub(crate) feature: &'static str,
-    /// Is it in this build?
+    /// Is the element in this build?
     is_built: bool,
-    /// Has the model one?
+    /// Has the model such an element?
     pub(crate) is_needed: bool,
 }
 
-/// The elements, and which of them a model has.
+/// Returns all elements, and for each whether the model has it.
 pub(crate) fn all<T: Real, S: Space<T>>(model: &Model<'_, T, S>) -> [Element; 7] {
     let (m, laws) = (&model.mechanism, &model.prescriptions);
     let has_coupled = m.loops.rows.iter().any(|row| matches!(row, Row::Coupled(_)));
@@ -46,7 +46,7 @@ pub(crate) fn all<T: Real, S: Space<T>>(model: &Model<'_, T, S>) -> [Element; 7]
     .map(|(feature, is_built, is_needed)| Element { feature, is_built, is_needed })
 }
 
-/// The feature of an element that a model has and this build has not.
+/// Returns the feature of an element that the model has, but this build does not.
 pub(crate) fn missing<T: Real, S: Space<T>>(model: &Model<'_, T, S>) -> Option<&'static str> {
     all(model).into_iter().find(Element::is_missing).map(|element| element.feature)
 }

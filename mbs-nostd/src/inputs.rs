@@ -1,4 +1,4 @@
-//! Laws of guides and signals: functions of time from tables, or values written between steps.
+//! Laws of guides and signals: functions of time from tables, or inputs that the program sets between steps.
 
 use mbs_core::Real;
 use mbs_core::laws::{Part, guide};
@@ -6,12 +6,12 @@ use mbs_core::step::InputError;
 use mbs_recursive::passes::feedback;
 use mbs_recursive::passes::slices::Inputs;
 
-/// A guide as a function of time.
+/// Law of a guide, as a function of time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Motion<T> {
-    /// Value, rate and acceleration written between steps; these at the start.
+    /// An input: value, rate and acceleration are set between steps. These are the values at the start.
     Input([T; 3]),
-    /// amplitude sin(2 pi frequency t + phase).
+    /// Sine: amplitude sin(2 pi frequency t + phase).
     Sine {
         /// Amplitude [rad or m].
         amplitude: T,
@@ -25,71 +25,71 @@ pub enum Motion<T> {
         /// Rate [rad/s or m/s].
         rate: T,
     },
-    /// Cubic spline through a part of the knots, with the curvatures of its ends.
+    /// Cubic spline through a part of the knots, with the second derivatives at the knots.
     Table(Part),
-    /// From one value to another.
+    /// Step from one value to another.
     Step(Rise<T>),
 }
 
-/// A step that takes its time: from + (to - from) s^3 (10 - 15 s + 6 s^2), s = (t - at)/rise.
+/// A smooth step: from + (to - from) s^3 (10 - 15 s + 6 s^2), with s = (t - at)/rise from 0 to 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rise<T> {
     /// Value before the step.
     pub from: T,
     /// Value after the step.
     pub to: T,
-    /// When it begins [s].
+    /// Time at which the step begins [s].
     pub at: T,
-    /// Duration of the rise; zero is a jump [s].
+    /// Duration of the step; zero means a jump [s].
     pub rise: T,
 }
 
-/// The vector of an effect, or value, rate and acceleration of a signal, as a function of time.
+/// Law of a signal, or of the vector of an effect, as a function of time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum SignalLaw<T> {
-    /// Value, rate and acceleration of a signal, or a vector, written between steps; these at the start.
+    /// An input: value, rate and acceleration of a signal, or a vector, are set between steps. These are the values at the start.
     Input([T; 3]),
-    /// Value that is always the same.
+    /// Constant value, with zero derivatives.
     Constant([T; 3]),
-    /// Way and speed of a road that moves: (speed t, speed, 0) [m/s].
+    /// Position and speed of a moving road: (speed t, speed, 0) [m, m/s].
     Travel(T),
-    /// A part of the rows, linear between them.
+    /// Linear interpolation of a part of the rows.
     Table(Part),
-    /// Cubic spline through a part of the knots, with the curvatures of its ends, and its derivatives; straight where these are zero.
+    /// Cubic spline through a part of the knots, with its derivatives. Zero second derivatives at the knots give straight lines.
     Spline(Part),
-    /// From one value to another, with its derivatives.
+    /// Step from one value to another, with its derivatives.
     Step(Rise<T>),
 }
 
-/// All guides and courses of a model.
+/// Laws of all guides and signals of a model.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Prescriptions<'a, T> {
     /// Guides, each as a function of time or as an input.
     pub guides: &'a [Motion<T>],
     /// Signals, each as a function of time or as an input.
     pub courses: &'a [SignalLaw<T>],
-    /// Knots (time, value) of guides and signals, and the second derivatives there.
+    /// Knots (time, value) of guides and signals, and the second derivatives at the knots.
     pub knots: (&'a [[T; 2]], &'a [T]),
-    /// Rows (time, vector) of the courses.
+    /// Rows (time, vector) of the signals.
     pub rows: &'a [[T; 4]],
 }
 
-/// Values written between steps: a place for each guide and each signal, read where it is an input.
+/// Values set between steps. Each guide and each signal has an entry, which is used only if it is an input.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Values<const G: usize, const C: usize, T> {
     pub(crate) guides: [[T; 3]; G],
     pub(crate) courses: [[T; 3]; C],
-    /// The guides that the last step ended with.
+    /// Motions of the guides at the end of the last step.
     pub(crate) ended: [[T; 3]; G],
-    /// Whether each guide is an input.
+    /// Is each guide an input?
     is_guide: [bool; G],
     is_course: [bool; C],
-    /// Courses are other than those that the accelerations were made with.
+    /// Do signals differ from those for which the accelerations were evaluated?
     pub(crate) has_new: bool,
 }
 
 impl<T: Real, const G: usize, const C: usize> Values<G, C, T> {
-    /// The inputs at the start.
+    /// Returns the inputs at the start.
     pub(crate) fn new(from: &Prescriptions<'_, T>) -> Self {
         let mut values = Self {
             guides: [[T::ZERO; 3]; G],
@@ -117,13 +117,13 @@ impl<T: Real, const G: usize, const C: usize> Values<G, C, T> {
         values
     }
 
-    /// The state is at the beginning of the model again, where inputs were those at the start.
+    /// Adapts to a state at the beginning of the model, which belongs to the inputs at the start.
     pub(crate) fn restart(&mut self, from: &Prescriptions<'_, T>) {
         let first = Self::new(from);
         (self.ended, self.has_new) = (first.guides, self.courses != first.courses);
     }
 
-    /// Writes a course that is an input.
+    /// Sets a signal that is an input.
     pub(crate) fn set_input(&mut self, number: usize, value: [T; 3]) -> Result<(), InputError> {
         InputError::check(number, &value)?;
         let (Some(to), Some(true)) = (self.courses.get_mut(number), self.is_course.get(number))
@@ -135,7 +135,7 @@ impl<T: Real, const G: usize, const C: usize> Values<G, C, T> {
         Ok(())
     }
 
-    /// Writes a guide that is an input.
+    /// Sets a guide that is an input.
     pub(crate) fn set_guide(&mut self, number: usize, motion: [T; 3]) -> Result<(), InputError> {
         InputError::check(number, &motion)?;
         let (Some(to), Some(true)) = (self.guides.get_mut(number), self.is_guide.get(number))
@@ -147,7 +147,7 @@ impl<T: Real, const G: usize, const C: usize> Values<G, C, T> {
     }
 }
 
-/// Laws and written values together: what a step asks for.
+/// Laws and set values together, as a step evaluates them.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Written<'a, const G: usize, const C: usize, T> {
     pub(crate) laws: Prescriptions<'a, T>,
@@ -180,7 +180,7 @@ fn guide_at<T: Real>(
         Motion::Ramp { rate } => guide::ramp(*rate, t),
         Motion::Table(part) => return spline(*part, laws, t),
         Motion::Step(rise) if feedback::IS_BUILT => return rise.at(t),
-        // Not in this build: a model with one is not loaded.
+        // Not in this build: a model with a step is refused when it is loaded.
         Motion::Step(_) => return [T::ZERO; 3],
     };
     [motion.value, motion.rate, motion.acceleration]
@@ -210,7 +210,7 @@ fn course_at<T: Real>(
         SignalLaw::Travel(speed) => return [*speed * t, *speed, T::ZERO],
         SignalLaw::Spline(part) if feedback::IS_BUILT => return spline(*part, laws, t),
         SignalLaw::Step(rise) if feedback::IS_BUILT => return rise.at(t),
-        // Not in this build: a model with one is not loaded.
+        // Not in this build: a model with a spline or step is refused when it is loaded.
         SignalLaw::Spline(_) | SignalLaw::Step(_) => return [T::ZERO; 3],
         SignalLaw::Table(part) => part.of(laws.rows),
     };

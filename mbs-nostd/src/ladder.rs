@@ -1,11 +1,11 @@
-//! Answer to overruns: effects are dropped rung by rung, and taken up again when there is time.
+//! Degradation ladder: after overruns of the time limit, effects are dropped one rung at a time. Later they act again.
 
-/// Climbs a rung after steps that ran out of time, and comes down after steps that did not.
+/// Rung of the dropped effects. It rises after consecutive overruns, and falls after consecutive steps in time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct DegradationLadder {
-    /// Overruns in a row before an effect is dropped.
+    /// Number of consecutive overruns after which an effect is dropped.
     pub patience: u32,
-    /// Steps in time in a row before one is taken up again.
+    /// Number of consecutive steps in time after which an effect acts again.
     pub recovery: u32,
     rung: u32,
     overruns: u32,
@@ -13,26 +13,27 @@ pub struct DegradationLadder {
 }
 
 impl Default for DegradationLadder {
-    /// Drops at the second overrun in a row, takes up after a thousand steps in time.
+    /// Returns a ladder that drops an effect after two consecutive overruns. An effect acts again after a thousand consecutive steps in
+    /// time.
     fn default() -> Self {
         Self::new(2, 1000)
     }
 }
 
 impl DegradationLadder {
-    /// On the lowest rung, where all effects are kept. A patience or recovery of zero counts as one.
+    /// Makes a ladder on its lowest rung, where all effects act. A patience or recovery of zero counts as one.
     #[must_use]
     pub const fn new(patience: u32, recovery: u32) -> Self {
         Self { patience, recovery, rung: 0, overruns: 0, in_time: 0 }
     }
 
-    /// Returns the number of rungs of effects that are dropped.
+    /// Returns the number of rungs whose effects are dropped.
     #[must_use]
     pub const fn rung(&self) -> u32 {
         self.rung
     }
 
-    /// Takes note of a step; `n_rungs` are there to climb.
+    /// Counts a step with or without an overrun. The ladder has `n_rungs` rungs.
     pub fn note(&mut self, has_overrun: bool, n_rungs: u32) {
         if has_overrun {
             self.in_time = 0;

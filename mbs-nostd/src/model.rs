@@ -5,21 +5,21 @@ use mbs_core::Real;
 use mbs_recursive::passes::slices::TreeSlices;
 use mbs_recursive::space::Space;
 
-/// A scene as tables, in flash or in memory of the caller's.
+/// A scene as tables, in flash memory or in memory of the caller.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Model<'a, T: Real, S: Space<T>> {
     /// Links, loops, effects and gravity.
     pub mechanism: TreeSlices<'a, T, S>,
-    /// Guides and courses as functions of time, or as inputs.
+    /// Laws of guides and signals: functions of time, or inputs.
     pub prescriptions: Prescriptions<'a, T>,
-    /// The state to start from.
+    /// State at the start of a run.
     pub start: StartState<'a, T>,
-    /// Number of effects that are kept at each rung of the degrade ladder, fewer on each: the least needed stand last. Empty: all
-    /// are always kept.
+    /// Number of effects that act on each rung of the degradation ladder; higher rungs have fewer. Effects that are dropped first are last
+    /// in the list of effects. If `rungs` is empty, all effects always act.
     pub rungs: &'a [u32],
 }
 
-/// A consistent state that a run starts from.
+/// Consistent state at the start of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StartState<'a, T> {
     /// Time of the start [s].

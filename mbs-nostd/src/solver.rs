@@ -1,4 +1,4 @@
-//! [`Solver`]: state, scratch and inputs of one model in arrays of fixed capacity, and its step.
+//! [`Solver`]: state, scratch and inputs of one model in arrays of fixed capacity, with a step function.
 
 mod set_state;
 
@@ -17,12 +17,14 @@ use mbs_recursive::step::bounded::{self, BoundedReport, Bounds, Watch};
 use mbs_recursive::step::trapezoidal::Start;
 use mbs_recursive::{Options, Outside};
 
-/// State, scratch and inputs of a model with at most `L` links (the ground among them), `Z` coordinates, `V` freedoms and `R`
-/// rows of loops. It has at most `B` numbers in blocks of Λ, `N` gains, `G` guides and `C` courses. It has at most
-/// `M` states of signals, and `F` courses where there are operations on them. A row has at most `K` sides: two, or as many branches as
-/// a coupling has joints and points on. Of the terms of couplings and sums the last with a curve is at most the `W`-th.
+/// State, scratch and inputs of a model. The parameters are the largest sizes: `L` links including the ground, `Z` coordinates, `V`
+/// freedoms, `R` rows of loops. `B` is the number of entries in blocks of Λ, `N` of gains, `G` of guides, `C` of signals. `M` is the number
+/// of states of signals, and `F` that of signals if there are operations on signals. `K` is the number of sides of a row: two, or for
+/// couplings as many branches as carry their joints and points. `W` is the number of terms of couplings and sums up to the last term with a
+/// curve.
 ///
-/// Its size is about 130 numbers for each link, 46 for each row, 10 for each freedom, and at most six for each of the others.
+/// The size of a solver is about 130 numbers for each link, 46 for each row and 10 for each freedom. Each of
+/// the other sizes adds at most six numbers.
 #[derive(Debug, Clone)]
 pub struct Solver<
     T: Real,
@@ -40,9 +42,9 @@ pub struct Solver<
     const K: usize = 2,
     const W: usize = 0,
 > {
-    /// Choices for the steps.
+    /// Options of the steps.
     pub options: Options<T>,
-    /// Bounds on the work of a step.
+    /// Limits of the work of a step.
     pub bounds: Bounds,
     /// Ladder by which effects are dropped after overruns.
     pub ladder: DegradationLadder,
@@ -78,10 +80,10 @@ struct Scratch<
     trial: [LinkMotion<T, S>; L],
     condensed: [ArticulatedInertia<T, S>; L],
     motions: [[S::Motion; L]; 2],
-    /// K as it travels, and at its bodies; all sides.
+    /// K as carried inward, and K at the bodies; for all sides.
     gradients: [[[S::Motion; R]; K]; 2],
     rows: [[T; 3]; R],
-    /// l, λ of a sweep, summed λ, scales, pivots.
+    /// Numbers of each row: l, λ of a sweep, summed λ, scales, pivots.
     multipliers: [[T; R]; 5],
     blocks: [T; B],
     gains: [[T; N]; 2],
@@ -93,7 +95,7 @@ struct Scratch<
     /// Slopes of the terms of couplings that have curves.
     slopes: [T; W],
     z: [T; Z],
-    /// v, z̈, response, scratch.
+    /// Numbers of each freedom: v, z̈, response, scratch.
     freedoms: [[T; V]; 4],
     rank: usize,
 }
@@ -115,7 +117,7 @@ impl<
     const W: usize,
 > Solver<T, S, L, Z, V, R, B, N, G, C, M, F, K, W>
 {
-    /// A solver at the beginning of a model.
+    /// Makes a solver at the start of a model.
     ///
     /// # Errors
     /// [`LoadError::Capacity`] if the model is larger than the solver.
@@ -140,7 +142,7 @@ impl<
         }
         let zero = S::Motion::zero();
         let from = &model.model().start;
-        // Made where it is returned: the stack holds no second one.
+        // The value is built in place, so that the stack does not hold a second copy.
         Ok(Self {
             options: Options::default(),
             bounds: Bounds::default(),
@@ -175,7 +177,7 @@ impl<
         })
     }
 
-    /// Goes back to the beginning of the model; inputs and choices stay.
+    /// Returns to the start of the model. Inputs, options and limits are kept.
     pub fn restart(&mut self, model: &Checked<'_, T, S>) {
         let from = &model.model().start;
         self.t = from.t;
@@ -193,57 +195,57 @@ impl<
         self.t
     }
 
-    /// Returns the coordinates: angles, slides, quaternions; of free bodies rotation, then position.
+    /// Returns the coordinates: angles, slides, quaternions. A free body has its rotation, then its position.
     pub fn coordinates(&self) -> &[T] {
         self.z.get(..self.sizes.coordinates).unwrap_or(&[])
     }
 
-    /// Returns the velocities.
+    /// Returns the velocities of the freedoms [rad/s, m/s].
     pub fn velocities(&self) -> &[T] {
         self.v.get(..self.sizes.freedoms).unwrap_or(&[])
     }
 
-    /// Accelerations that the last step found.
+    /// Returns the accelerations of the last evaluation.
     pub fn accelerations(&self) -> &[T] {
         self.a.get(..self.sizes.freedoms).unwrap_or(&[])
     }
 
-    /// Multipliers of the loops' rows [N, N m].
+    /// Returns the multipliers of the loops' rows [N, N m].
     pub fn multipliers(&self) -> &[T] {
         self.lambda.get(..self.sizes.rows).unwrap_or(&[])
     }
 
-    /// States of signals, each with its rate.
+    /// Returns the states of signals, each with its rate.
     pub fn signal_states(&self) -> &[[T; 2]] {
         states(&self.signals, self.sizes.states)
     }
 
-    /// Writes the vector of a course from now on: the next step is made with it from its beginning. The scene's signals are the first
-    /// courses, in their order, and those of effects follow. A signal's vector is its value, its rate and its acceleration: zeros
-    /// where the value is held.
+    /// Sets the vector of a signal from now on, beginning with the start of the next step. The scene's signals come first, in their order;
+    /// then those of effects. The vector of a scene's signal is its value, rate and acceleration. Rate and acceleration are zero if the
+    /// value is held.
     ///
     /// # Errors
-    /// [`InputError`] where there is no such course, it is no input, or a component is not finite. Nothing is written then.
+    /// [`InputError`] if the signal does not exist or is not an input, or if a component is not finite. Nothing is set then.
     pub fn set_input(&mut self, course: usize, value: [T; 3]) -> Result<(), InputError> {
         self.inputs.set_input(course, value)
     }
 
-    /// Writes value, rate and acceleration that a guide has at the end of the next step.
+    /// Sets value, rate and acceleration of a guide at the end of the next step.
     ///
     /// # Errors
-    /// [`InputError`] where there is no such guide, it is no input, or a component is not finite. Nothing is written then.
+    /// [`InputError`] if the guide does not exist or is not an input, or if a component is not finite. Nothing is set then.
     pub fn set_guide(&mut self, guide: usize, motion: [T; 3]) -> Result<(), InputError> {
         self.inputs.set_guide(guide, motion)
     }
 
-    /// Advances by one step of length `dt` [s]: work within the bounds, as long as `watch` says that there is time.
+    /// Advances by one step of length `dt` [s], with work within the bounds, while `watch` reports that time remains.
     ///
-    /// The rung of the ladder says which effects act, and takes note of the step. Where a course was written since the last step,
-    /// the accelerations at the beginning are evaluated anew first, whatever `watch` says.
+    /// The rung of the ladder selects the effects that act, and the ladder counts the step. If a signal was set since the last step, the
+    /// accelerations at the start are evaluated again first, even if no time remains.
     ///
     /// # Errors
-    /// [`StepError`]; time, coordinates and velocities are then unchanged, and accelerations are those of the inputs that are set.
-    /// [`StepError::Tables`] if the model is not the solver's.
+    /// [`StepError`]. Time, coordinates and velocities are unchanged then, and the accelerations belong to the inputs that are set.
+    /// [`StepError::Tables`] if the model is not that of the solver.
     pub fn step(
         &mut self,
         model: &Checked<'_, T, S>,
@@ -270,7 +272,7 @@ impl<
         let sizes = &self.sizes;
         let mut s = self.scratch.store(sizes).map_err(|Outside| StepError::Tables)?;
         if self.inputs.has_new {
-            // Guides are those that the last step ended with: those of now are of the end of this one.
+            // The motions of guides are those of the end of the last step. The values set since then belong to the end of this step.
             let ended = Written { guides: &self.inputs.ended, ..inputs };
             ended.evaluate(self.t, s.guides, s.courses);
             let place = (
@@ -292,7 +294,7 @@ impl<
         };
         let work = (dt, &self.options, self.bounds);
         let report = bounded::step(mechanism, &inputs, work, (start, watch), &mut s)?;
-        // The step has checked the lengths.
+        // The step has checked these lengths.
         for (to, from) in [
             (&mut self.z[..], &*s.z),
             (&mut self.v, &*s.v),
@@ -310,7 +312,7 @@ impl<
     }
 }
 
-/// The first `n` entries.
+/// Returns the first `n` entries.
 #[inline]
 fn first<X>(of: &mut [X], n: usize) -> Result<&mut [X], Outside> {
     of.get_mut(..n).ok_or(Outside)
@@ -333,7 +335,7 @@ impl<
     const W: usize,
 > Scratch<T, S, L, Z, V, R, B, N, G, C, M, F, K, W>
 {
-    /// The scratch as slices of a model's sizes.
+    /// Returns the scratch as slices with the sizes of a model.
     fn store(&mut self, n: &Sizes) -> Result<Store<'_, T, S>, Outside> {
         let [a, a_response] = &mut self.motions;
         let [k, gradient] = &mut self.gradients;
@@ -385,20 +387,20 @@ impl<
     }
 }
 
-/// The first `n` states of signals; a build without signals has none.
+/// Returns the first `n` states of signals; a build without signals returns none.
 #[inline(always)]
 fn states<T>(of: &[[T; 2]], n: usize) -> &[[T; 2]] {
     if feedback::IS_BUILT { of.get(..n).unwrap_or(&[]) } else { &[] }
 }
 
-/// The entries of a slice, with zeros behind them.
+/// Returns an array with the entries of a slice, followed by `zero`.
 fn taken<X: Copy, const N: usize>(from: &[X], zero: X) -> [X; N] {
     let mut to = [zero; N];
     put(from, &mut to);
     to
 }
 
-/// Entries over the first ones of another list.
+/// Copies a list over the first entries of another.
 #[inline(always)]
 fn put<X: Copy>(from: &[X], to: &mut [X]) {
     for (to, from) in to.iter_mut().zip(from) {

@@ -1,14 +1,14 @@
-//! [`StateError`]: why a state is not set.
+//! [`StateError`]: reason why a state cannot be set.
 
 use mbs_core::step::StepError;
 
-/// Reason why a state is not set. The solver is then as it was, to the bit.
+/// Reason why a state cannot be set. The solver is not changed then, in any bit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum StateError {
-    /// A list has another length than the model's.
+    /// A list does not have the length that the model needs.
     Length {
-        /// Name of the list: `coordinates` or `velocities`.
+        /// Name of the list, `coordinates` or `velocities`.
         of: &'static str,
         /// Length that the list has.
         given: usize,
@@ -17,7 +17,7 @@ pub enum StateError {
     },
     /// A number is infinite or NaN.
     NotFinite {
-        /// Name of the list: `coordinates` or `velocities`.
+        /// Name of the list, `coordinates` or `velocities`.
         of: &'static str,
         /// Number of the entry in the list, from 0.
         entry: usize,
@@ -27,16 +27,16 @@ pub enum StateError {
         /// Number of its first entry in the coordinates.
         entry: usize,
     },
-    /// The loops stay open: the closing does not converge from there.
+    /// The loops do not close: the projection does not converge from this state.
     Open {
-        /// 0: positions, 1: velocities.
+        /// Level: 0 for positions, 1 for velocities.
         level: u8,
-        /// The row that is violated most.
+        /// Number of the row with the largest violation.
         row: u32,
-        /// Violation that is left [m or rad, m/s or rad/s].
+        /// Violation that remains [m or rad, m/s or rad/s].
         violation: f64,
     },
-    /// The loops cannot be closed, or there are no accelerations at the state. [`StepError::Tables`]: the model is not the solver's.
+    /// The loops cannot be closed, or the state has no accelerations. With [`StepError::Tables`] the model is not that of the solver.
     Failed(StepError),
 }
 

@@ -1,4 +1,4 @@
-//! Names that a model written by `mbs export --rust` is made of.
+//! Names that source files by `mbs export --rust` use.
 
 pub use crate::{
     LoadError, Model, Motion, Planar, Prescriptions, Rise, SignalLaw, Solver, Spatial, StartState,

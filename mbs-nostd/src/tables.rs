@@ -21,29 +21,29 @@ use mbs_recursive::rows::closed_loop::ClosedLoop;
 use mbs_recursive::rows::coupled::{Couplings, LinePoint, LinkStart, SumTerm};
 use mbs_recursive::space::Space;
 
-/// First numbers of a model's text: its mark, and the version.
+/// First numbers of a model's text: the format's mark, and the version.
 pub(crate) const HEAD: [u32; 2] = [u32::from_le_bytes(*b"MBSN"), 2];
-/// Added to the version of a text that ends with rotors [-].
+/// Number added to the version if the text ends with rotors [-].
 pub(crate) const WITH_ROTORS: u32 = 1;
-/// Added to the version of a text that ends with operations on signals [-].
+/// Number added to the version if the text ends with operations on signals [-].
 pub(crate) const WITH_SIGNALS: u32 = 2;
-/// Added to the version of a text that ends with curves, but for those that come with operations on signals [-].
+/// Number added to the version if the text ends with curves that do not belong to operations on signals [-].
 pub(crate) const WITH_CURVES: u32 = 4;
-/// Added to the version of a text that ends with points of lines and their links [-].
+/// Number added to the version if the text ends with points of lines and their links [-].
 pub(crate) const WITH_LINES: u32 = 8;
 
-/// Are these the parts of a text? Curves come once.
+/// Are these valid parts of a text? Curves may occur only once.
 fn are_known(parts: u32) -> bool {
     let twice = WITH_SIGNALS + WITH_CURVES;
     parts <= WITH_ROTORS + WITH_SIGNALS + WITH_CURVES + WITH_LINES && parts & twice != twice
 }
 
-/// A model read from bytes: at most `L` links, `K` loops with `R` rows, `P` entries in each list of the plan, `E` effects.
-/// It has at most `X` entries in each table of laws, `I` guides and as many courses, `Q` coordinates and as many freedoms. There are at
-/// most `F` operations on signals, as many states and measured coordinates of these, and as many curves, of couplings too. Lines of
-/// couplings have at most `W` points on as many links.
+/// A model that was read from bytes, in arrays of fixed capacity. The parameters are the largest sizes: `L` links, `K` loops with `R` rows,
+/// `P` entries in each list of the plan, `E` effects, `X` entries in each table of laws. `I` limits guides and signals, `Q` coordinates and
+/// freedoms. `F` limits operations on signals, their states and measured coordinates, and all curves. `W` limits the points of lines and
+/// their links.
 ///
-/// Models in flash need no such memory: `mbs export --rust` writes them as constants.
+/// A model in flash needs no such memory, because `mbs export --rust` writes its tables as constants.
 #[derive(Debug, Clone)]
 pub struct Tables<
     T: Real,
@@ -99,7 +99,7 @@ pub struct Tables<
     t: T,
 }
 
-/// Reads a list that has its length first.
+/// Reads the length of a list, then its entries.
 fn list<X: Record, const N: usize>(
     of: &'static str,
     from: &mut Reader<'_>,
@@ -107,7 +107,7 @@ fn list<X: Record, const N: usize>(
     list_by(of, from, X::read)
 }
 
-/// Reads a list of what laws refer to; in a build without its effect the list must be empty.
+/// Reads a list of entries that laws refer to. In a build without the effect the list must be empty.
 fn entries<T: Real + Record, X: Entry<T>, const N: usize>(
     of: &'static str,
     from: &mut Reader<'_>,
@@ -145,7 +145,7 @@ impl<
     const W: usize,
 > Tables<T, S, L, K, R, P, E, X, I, Q, F, W>
 {
-    /// Reads a model, and checks that every number in its tables points into them.
+    /// Reads a model, and checks every number that points into its tables.
     ///
     /// Cost: linear in the bytes; no allocation.
     ///
@@ -212,7 +212,7 @@ impl<
         Ok(tables)
     }
 
-    /// The parts that a model of this version has.
+    /// Reads the optional parts that a model of this version has.
     fn read_parts(&mut self, parts: u32, from: &mut Reader<'_>) -> Result<(), LoadError> {
         if parts & WITH_ROTORS != 0 {
             self.rotors = list("rotors", from)?;
@@ -239,7 +239,7 @@ impl<
         Ok(())
     }
 
-    /// The model, which was checked when it was read.
+    /// Returns the model, which was checked when it was read.
     #[must_use]
     pub fn model(&self) -> Checked<'_, T, S> {
         Checked::again(self.unchecked(), self.sizes)

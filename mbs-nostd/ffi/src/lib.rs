@@ -1,7 +1,7 @@
-//! mbs-nostd for programs in C; `include/mbs.h` says what each function does.
+//! Interface of mbs-nostd for C programs. The header `include/mbs.h` documents each function.
 //!
-//! This is the file that handles pointers. Callers promise by the header: a solver pointer is one that `mbs_init` gave and
-//! whose memory is still there, and no two calls use it at once. Arrays are as long as they say. Null is looked for.
+//! Only this file handles pointers. Callers promise in the header that a solver pointer comes from `mbs_init`, and that its memory still
+//! exists. No two calls use it at the same time. Arrays have the lengths that the arguments state. Null pointers are checked.
 
 #![no_std]
 
@@ -13,7 +13,7 @@ type Scalar = f32;
 #[cfg(not(feature = "single"))]
 type Scalar = f64;
 
-/// Room for a vehicle of about twenty bodies: change the numbers to fit a model, and build again.
+/// Memory for a vehicle of about twenty bodies. Change the numbers to fit a model, and build again.
 type Model = Tables<Scalar, Spatial, 24, 16, 40, 96, 40, 64, 32, 96, 64, 32>;
 type Room = Solver<Scalar, Spatial, 24, 96, 72, 40, 1024, 1024, 8, 32, 12, 32, 6, 32>;
 
@@ -28,7 +28,7 @@ const LENGTH: c_int = 7;
 const QUATERNION: c_int = 8;
 const OPEN: c_int = 9;
 
-/// What lives in the caller's memory.
+/// A model with its solver, in the memory of the caller.
 #[allow(non_camel_case_types, reason = "the name in C")]
 #[derive(Debug)]
 pub struct mbs_solver {
@@ -36,7 +36,7 @@ pub struct mbs_solver {
     solver: Room,
 }
 
-/// `mbs_report` of the header.
+/// Report of a step: `mbs_report` of the header.
 #[allow(non_camel_case_types, reason = "the name in C")]
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
@@ -48,7 +48,7 @@ pub struct mbs_report {
     is_cut_short: u32,
 }
 
-/// `mbs_state_report` of the header.
+/// Report of a state that was set: `mbs_state_report` of the header.
 #[allow(non_camel_case_types, reason = "the name in C")]
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
@@ -59,25 +59,25 @@ pub struct mbs_state_report {
     violation: [Scalar; 3],
 }
 
-/// Says whether there is time for more.
+/// Callback that returns whether there is time for further work.
 type Watch = Option<unsafe extern "C" fn(*mut c_void) -> c_int>;
 
-/// Bytes of a solver.
+/// Returns the size of a solver in bytes.
 #[unsafe(no_mangle)]
 pub extern "C" fn mbs_size() -> usize {
     size_of::<mbs_solver>()
 }
 
-/// Alignment of a solver.
+/// Returns the alignment of a solver in bytes.
 #[unsafe(no_mangle)]
 pub extern "C" fn mbs_align() -> usize {
     align_of::<mbs_solver>()
 }
 
-/// Reads a model into memory.
+/// Reads a model and makes its solver in the caller's memory.
 ///
 /// # Safety
-/// `memory` has `size` bytes, `model` has `n`; nothing else uses `memory` while the solver is used.
+/// `memory` has `size` bytes, and `model` has `n`. Nothing else uses `memory` while the solver is in use.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mbs_init(
     memory: *mut c_void,
@@ -93,11 +93,11 @@ pub unsafe extern "C" fn mbs_init(
     if size < mbs_size() || !place.is_aligned() {
         return MEMORY;
     }
-    // SAFETY: the caller gave `n` bytes, and not null.
+    // SAFETY: the pointer is not null, and the caller gave `n` bytes.
     let bytes = unsafe { core::slice::from_raw_parts(model, n) };
     let Ok(model) = Model::read(bytes) else { return MODEL };
     let Ok(room) = Room::new(&model.model()) else { return MODEL };
-    // SAFETY: `place` is aligned and has room; `solver` is a place for a pointer.
+    // SAFETY: `place` is aligned and large enough; `solver` is valid for writing a pointer.
     unsafe {
         place.write(mbs_solver { model, solver: room });
         solver.write(place);
@@ -105,7 +105,7 @@ pub unsafe extern "C" fn mbs_init(
     OK
 }
 
-/// What became of a value that was to be set.
+/// Returns the status code of an input that was to be set.
 fn status(done: Result<(), InputError>) -> c_int {
     match done {
         Ok(()) => OK,
@@ -114,44 +114,44 @@ fn status(done: Result<(), InputError>) -> c_int {
     }
 }
 
-/// Writes a guide's motion.
+/// Sets the motion of a guide.
 ///
 /// # Safety
-/// `solver` is one that `mbs_init` gave; `motion` has three numbers.
+/// `solver` comes from `mbs_init`; `motion` has three numbers.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mbs_set_guide(
     solver: *mut mbs_solver,
     guide: usize,
     motion: *const [Scalar; 3],
 ) -> c_int {
-    // SAFETY: null is looked for; else as the caller promises.
+    // SAFETY: null is checked; otherwise the caller's promise holds.
     let (Some(own), Some(motion)) = (unsafe { solver.as_mut() }, unsafe { motion.as_ref() }) else {
         return NULL;
     };
     status(own.solver.set_guide(guide, *motion))
 }
 
-/// Writes a course's vector.
+/// Sets the vector of a signal.
 ///
 /// # Safety
-/// As for [`mbs_set_guide`].
+/// The promises are those of [`mbs_set_guide`].
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mbs_set_input(
     solver: *mut mbs_solver,
     course: usize,
     value: *const [Scalar; 3],
 ) -> c_int {
-    // SAFETY: null is looked for; else as the caller promises.
+    // SAFETY: null is checked; otherwise the caller's promise holds.
     let (Some(own), Some(value)) = (unsafe { solver.as_mut() }, unsafe { value.as_ref() }) else {
         return NULL;
     };
     status(own.solver.set_input(course, *value))
 }
 
-/// Says how much work a step may be.
+/// Sets the limits of the work of a step.
 ///
 /// # Safety
-/// `solver` is one that `mbs_init` gave.
+/// `solver` comes from `mbs_init`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mbs_set_bounds(
     solver: *mut mbs_solver,
@@ -159,16 +159,16 @@ pub unsafe extern "C" fn mbs_set_bounds(
     sweeps: u32,
     projections: u32,
 ) -> c_int {
-    // SAFETY: null is looked for; else as the caller promises.
+    // SAFETY: null is checked; otherwise the caller's promise holds.
     let Some(own) = (unsafe { solver.as_mut() }) else { return NULL };
     own.solver.bounds = Bounds { evaluations, sweeps, projections };
     OK
 }
 
-/// Makes a step.
+/// Advances the model by one step.
 ///
 /// # Safety
-/// `solver` is one that `mbs_init` gave; `report` is null or a place for one; `watch` may be called with `context`.
+/// `solver` comes from `mbs_init`. `report` is null or valid for writing a report. `watch` may be called with `context`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mbs_step(
     solver: *mut mbs_solver,
@@ -177,19 +177,19 @@ pub unsafe extern "C" fn mbs_step(
     context: *mut c_void,
     report: *mut mbs_report,
 ) -> c_int {
-    // SAFETY: null is looked for; else as the caller promises.
+    // SAFETY: null is checked; otherwise the caller's promise holds.
     let Some(own) = (unsafe { solver.as_mut() }) else { return NULL };
     let model = own.model.model();
     let done = match watch {
         None => own.solver.step(&model, dt, &mut Unwatched),
         Some(watch) => {
-            // SAFETY: the caller lets it be called.
+            // SAFETY: the caller allows calls of `watch` with `context`.
             let mut has_time = || unsafe { watch(context) } != 0;
             own.solver.step(&model, dt, &mut has_time)
         }
     };
     let Ok(done) = done else { return STOPPED };
-    // SAFETY: null is looked for; else a place for a report.
+    // SAFETY: null is checked; otherwise the pointer is valid for writing a report.
     if let Some(report) = unsafe { report.as_mut() } {
         *report = mbs_report {
             evaluations: done.evaluations,
@@ -202,7 +202,7 @@ pub unsafe extern "C" fn mbs_step(
     OK
 }
 
-/// The code of a state that is refused.
+/// Returns the status code of a state that was refused.
 fn refused(error: &StateError) -> c_int {
     match error {
         StateError::Length { .. } => LENGTH,
@@ -216,8 +216,8 @@ fn refused(error: &StateError) -> c_int {
 /// Sets coordinates and velocities, and closes the loops.
 ///
 /// # Safety
-/// `solver` is one that `mbs_init` gave; `z` and `v` are aligned, have as many numbers as they say, and stand outside the solver's memory;
-/// `report` is null or a place for one.
+/// `solver` comes from `mbs_init`. `z` and `v` are aligned, have as many numbers as the arguments state, and do not overlap the solver's
+/// memory. `report` is null or valid for writing a report.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mbs_set_state(
     solver: *mut mbs_solver,
@@ -227,7 +227,7 @@ pub unsafe extern "C" fn mbs_set_state(
     n_v: usize,
     report: *mut mbs_state_report,
 ) -> c_int {
-    // SAFETY: null is looked for; else as the caller promises.
+    // SAFETY: null is checked; otherwise the caller's promise holds.
     let Some(own) = (unsafe { solver.as_mut() }) else { return NULL };
     if z.is_null() || v.is_null() {
         return NULL;
@@ -235,14 +235,14 @@ pub unsafe extern "C" fn mbs_set_state(
     if (n_z, n_v) != (own.solver.coordinates().len(), own.solver.velocities().len()) {
         return LENGTH;
     }
-    // SAFETY: not null, and the caller gave as many numbers, which the model has.
+    // SAFETY: the pointers are not null, and the caller gave arrays of these lengths, which are those of the model.
     let (z, v) =
         unsafe { (core::slice::from_raw_parts(z, n_z), core::slice::from_raw_parts(v, n_v)) };
     let done = match own.solver.set_state(&own.model.model(), z, v) {
         Ok(done) => done,
         Err(error) => return refused(&error),
     };
-    // SAFETY: null is looked for; else a place for a report.
+    // SAFETY: null is checked; otherwise the pointer is valid for writing a report.
     if let Some(report) = unsafe { report.as_mut() } {
         *report = mbs_state_report {
             evaluations: done.evaluations,
@@ -254,10 +254,10 @@ pub unsafe extern "C" fn mbs_set_state(
     OK
 }
 
-/// Copies numbers out.
+/// Copies up to `n` numbers to the caller. Returns how many there are.
 ///
 /// # Safety
-/// `to` is null or has `n` places.
+/// `to` is null or valid for writing `n` numbers.
 unsafe fn copy(from: &[Scalar], to: *mut Scalar, n: usize) -> usize {
     if !to.is_null() {
         for (i, x) in from.iter().take(n).enumerate() {
@@ -268,68 +268,68 @@ unsafe fn copy(from: &[Scalar], to: *mut Scalar, n: usize) -> usize {
     from.len()
 }
 
-/// Copies the point that positions are counted from.
+/// Copies the origin of the positions.
 ///
 /// # Safety
-/// As for [`mbs_coordinates`].
+/// The promises are those of [`mbs_coordinates`].
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mbs_base(solver: *const mbs_solver, to: *mut Scalar, n: usize) -> usize {
-    // SAFETY: null is looked for; else as the caller promises.
+    // SAFETY: null is checked; otherwise the caller's promise holds.
     let Some(own) = (unsafe { solver.as_ref() }) else { return 0 };
     let base = own.model.model().model().mechanism.base;
-    // SAFETY: as the caller promises.
+    // SAFETY: the caller's promise holds.
     unsafe { copy(&[base[0], base[1], base[2]], to, n) }
 }
 
-/// Copies the coordinates.
+/// Copies the coordinates to the caller.
 ///
 /// # Safety
-/// `solver` is one that `mbs_init` gave; `to` is null or has `n` places.
+/// `solver` comes from `mbs_init`; `to` is null or valid for writing `n` numbers.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mbs_coordinates(
     solver: *const mbs_solver,
     to: *mut Scalar,
     n: usize,
 ) -> usize {
-    // SAFETY: null is looked for; else as the caller promises.
+    // SAFETY: null is checked; otherwise the caller's promise holds.
     unsafe { solver.as_ref().map_or(0, |own| copy(own.solver.coordinates(), to, n)) }
 }
 
-/// Copies the velocities.
+/// Copies the velocities to the caller.
 ///
 /// # Safety
-/// As for [`mbs_coordinates`].
+/// The promises are those of [`mbs_coordinates`].
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mbs_velocities(
     solver: *const mbs_solver,
     to: *mut Scalar,
     n: usize,
 ) -> usize {
-    // SAFETY: null is looked for; else as the caller promises.
+    // SAFETY: null is checked; otherwise the caller's promise holds.
     unsafe { solver.as_ref().map_or(0, |own| copy(own.solver.velocities(), to, n)) }
 }
 
-/// Copies the accelerations.
+/// Copies the accelerations to the caller.
 ///
 /// # Safety
-/// As for [`mbs_coordinates`].
+/// The promises are those of [`mbs_coordinates`].
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mbs_accelerations(
     solver: *const mbs_solver,
     to: *mut Scalar,
     n: usize,
 ) -> usize {
-    // SAFETY: null is looked for; else as the caller promises.
+    // SAFETY: null is checked; otherwise the caller's promise holds.
     unsafe { solver.as_ref().map_or(0, |own| copy(own.solver.accelerations(), to, n)) }
 }
 
-/// The time [s].
+/// Returns the time of the solver [s].
 ///
 /// # Safety
-/// `solver` is null or one that `mbs_init` gave.
+/// `solver` is null or comes from `mbs_init`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mbs_time(solver: *const mbs_solver) -> Scalar {
-    // SAFETY: null is looked for; else as the caller promises.
+    // SAFETY: null is checked; otherwise the caller's promise holds.
     unsafe { solver.as_ref() }.map_or(0.0, |own| own.solver.time())
 }
 

@@ -1,4 +1,4 @@
-//! Asks for the model that is to be built in.
+//! Checks that MBS_MODEL names the model to be compiled in.
 
 fn main() {
     println!("cargo:rerun-if-env-changed=MBS_MODEL");

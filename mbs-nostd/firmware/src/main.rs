@@ -1,4 +1,4 @@
-//! A model on an emulated Cortex-M: states and instructions of each step by `run`, and the stack:
+//! A model on an emulated Cortex-M. It prints states and instructions of each step by `run`, and the stack:
 //!
 //! ```text
 //! m STACK     bytes of stack that were used

@@ -1,3 +1,3 @@
-//! The model: what `mbs export SCENE --rust FILE` wrote, FILE being named by MBS_MODEL.
+//! The model: a file by `mbs export SCENE --rust FILE`, which MBS_MODEL names.
 
 include!(env!("MBS_MODEL"));

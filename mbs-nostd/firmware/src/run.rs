@@ -1,11 +1,11 @@
-//! Steps the model at 1 kHz of its own time and reports the result; the same on the controller and on the host.
+//! Steps the model at 1 kHz of simulated time and reports the result. The code is the same on the controller and on the host.
 //!
 //! ```text
-//! s STEP COORDINATES      every so many steps, as hexadecimal bits
+//! s STEP COORDINATES      every 100 steps, as hexadecimal bits
 //! v STEP VELOCITIES
 //! r POSITION VELOCITY ACCELERATION     the largest residuals of the steps, as bits
-//! n LEAST MEAN MOST       what a step took, by the clock that is given
-//! e MEAN                  what one more evaluation in a step took
+//! n LEAST MEAN MOST       time of a step by the given clock: minimum, mean, maximum
+//! e MEAN                  time of one more evaluation in a step
 //! z BYTES                 the size of the solver
 //! ```
 
@@ -13,14 +13,14 @@ use crate::model::{Axes, MODEL, ModelSolver, Scalar};
 use core::fmt::{Arguments, Write};
 use mbs_nostd::{BoundedReport, Checked, StepError, Unwatched};
 
-/// Steps of 1 ms.
+/// Number of steps of 1 ms [-].
 const STEPS: u32 = 10_000;
-/// Pairs of steps, with one evaluation and with two, behind these.
+/// Number of pairs of further steps, one with one evaluation and one with two [-].
 const COMPARED: u32 = 100;
-/// Steps between two that are reported.
+/// Number of steps between two reports [-].
 const REPORT_INTERVAL: u32 = 100;
 
-/// One step: what is proved to have no path to a panic.
+/// Makes one step of the model. A check of the compiled code proves that this function has no path to a panic.
 #[unsafe(no_mangle)]
 #[inline(never)]
 pub fn mbs_step(
@@ -30,13 +30,13 @@ pub fn mbs_step(
     solver.step(model, 1e-3, &mut Unwatched)
 }
 
-/// The run; `None` after an error, which was reported. `clock` gives the time since the last call.
+/// Runs the model with reports. Returns `None` after an error, which was printed. `clock` returns the time since its last call.
 pub fn run(out: &mut impl Write, mut clock: impl FnMut() -> u32) -> Option<()> {
     let Ok(model) = Checked::new(&MODEL) else {
         writeln!(out, "the model does not pass its check").ok()?;
         return None;
     };
-    // Borrowed where it was made: taken out, it would be on the stack twice.
+    // A reference avoids a move out of the result, which would need the stack twice.
     let mut made = ModelSolver::new(&model);
     let Ok(solver) = &mut made else {
         writeln!(out, "the model does not fit its solver").ok()?;
@@ -79,7 +79,7 @@ pub fn run(out: &mut impl Write, mut clock: impl FnMut() -> u32) -> Option<()> {
     writeln!(out, "z {}", size_of::<ModelSolver>()).ok()
 }
 
-/// A line of numbers, as bits.
+/// Writes a line of numbers as hexadecimal bits.
 fn write_line(out: &mut impl Write, what: Arguments<'_>, numbers: &[Scalar]) -> Option<()> {
     write!(out, "{what}").ok()?;
     for x in numbers {
@@ -88,7 +88,7 @@ fn write_line(out: &mut impl Write, what: Arguments<'_>, numbers: &[Scalar]) -> 
     writeln!(out).ok()
 }
 
-/// What stopped a step, in a word: names and numbers are for the host.
+/// Returns the kind of a step's error as text. The host shows names and numbers.
 fn what(error: &StepError) -> &'static str {
     match error {
         StepError::NotFinite { .. } => "not finite",

@@ -1,8 +1,8 @@
-//! How much stack was used, by paint: the one file here that touches memory by address.
+//! Measurement of the used stack by a fill pattern. Only this file accesses memory by address.
 //!
-//! The stack grows down from the end of RAM to the end of the static data (`_stack_start` and `__euninit` of the linker script).
-//! What lies between the latter and the stack pointer is not in use; it is painted, and whoever used it later has
-//! scratched the paint off. Words are read and written volatile, within these two addresses alone.
+//! The stack grows down from the end of RAM to the end of the static data (`_stack_start` and `__euninit` of the linker script). The memory
+//! between the static data and the stack pointer is unused. It is filled with a pattern, which later stack frames overwrite. Words are read
+//! and written volatile, and only between these two addresses.
 
 use core::ptr::{addr_of, addr_of_mut};
 
@@ -11,16 +11,16 @@ unsafe extern "C" {
     static _stack_start: u32;
 }
 
-/// What unused words hold.
+/// Pattern of unused words.
 const PAINT: u32 = 0x5ca1_ab1e;
-/// Bytes below the stack pointer that are left alone: the frames of this file.
+/// Number of bytes below the stack pointer that are not filled: the frames of this file.
 const MARGIN: usize = 512;
 
-/// Paints what is unused.
+/// Fills the unused memory with the pattern.
 #[inline(never)]
 pub fn paint() {
     let here = cortex_m::register::msp::read() as usize;
-    // SAFETY: from the end of the static data to a margin below the stack pointer lies nothing that anybody uses.
+    // SAFETY: the memory from the end of the static data to a margin below the stack pointer is unused.
     unsafe {
         let mut word = addr_of_mut!(__euninit);
         while (word as usize) + MARGIN < here {
@@ -30,10 +30,10 @@ pub fn paint() {
     }
 }
 
-/// Bytes used since.
+/// Returns the number of bytes used since `paint`.
 #[inline(never)]
 pub fn used() -> usize {
-    // SAFETY: words between the end of the static data and the start of the stack are read, and nothing more.
+    // SAFETY: words between the end of the static data and the start of the stack are only read.
     unsafe {
         let end = addr_of!(_stack_start) as usize;
         let mut word = addr_of!(__euninit);

@@ -1,20 +1,20 @@
-//! Instructions by the system timer: the emulator runs one in a nanosecond of its time, the timer ticks at 25 MHz.
+//! Instruction count by the system timer. The emulator runs one instruction in a nanosecond of its time, and the timer ticks at 25 MHz.
 
 use cortex_m::peripheral::syst::SystClkSource;
 use cortex_m::peripheral::{Peripherals, SYST};
 
-/// Instructions in a tick, with `-icount shift=0` on boards of 25 MHz.
+/// Number of instructions in a tick, with `-icount shift=0` on boards of 25 MHz.
 pub const INSTRUCTIONS_PER_TICK: u32 = 40;
 
-/// The counter has 24 bits.
+/// Largest value of the counter, which has 24 bits.
 const MASK: u32 = 0x00ff_ffff;
 
-/// The running timer.
+/// System timer that was started.
 #[derive(Debug)]
 pub struct Timer(());
 
 impl Timer {
-    /// Starts it.
+    /// Starts the system timer.
     pub fn start() -> Self {
         if let Some(mut peripherals) = Peripherals::take() {
             let timer = &mut peripherals.SYST;
@@ -26,12 +26,12 @@ impl Timer {
         Self(())
     }
 
-    /// What it stands at: it counts down.
+    /// Returns the counter, which counts down.
     pub fn now(&self) -> u32 {
         SYST::get_current()
     }
 
-    /// Ticks since it stood at `before`, up to 671 million instructions.
+    /// Returns the ticks since the counter was `before`, for up to 671 million instructions.
     pub fn since(&self, before: u32) -> u32 {
         before.wrapping_sub(self.now()) & MASK
     }

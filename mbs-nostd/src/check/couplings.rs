@@ -1,4 +1,4 @@
-//! Checks of couplings and sums: their terms, the points and links of their lines, and their curves.
+//! Check of couplings and sums: their terms, the points and links of their lines, and their curves.
 
 use super::{Look, ends_by, ensure, fault, is_within, sides};
 use crate::check::LoadError;
@@ -11,7 +11,7 @@ use mbs_recursive::rows::coupled::{CoupledRow, LinkStart, NONE, SumMeasure};
 use mbs_recursive::space::Space;
 
 impl<T: Real, S: Space<T>> Look<'_, '_, T, S> {
-    /// The row of a coupling.
+    /// Checks the row of a coupling.
     pub(super) fn coupling(
         &self,
         (i, lap): (usize, &ClosedLoop<T, S>),
@@ -22,13 +22,13 @@ impl<T: Real, S: Space<T>> Look<'_, '_, T, S> {
         self.terms(("loops", i), (row.terms, row.starts), fault("loops", i))
     }
 
-    /// An effect on a sum.
+    /// Checks an effect on a sum.
     pub(super) fn sum(&self, (i, sum): (usize, &SumLoad<T>)) -> Result<(), LoadError> {
         self.terms(("effects", i), (sum.terms, sum.starts), LoadError::Sum { entry: i })?;
         ensure(sum.law.fits(&self.m.tables, self.sizes.courses), "effects", i)
     }
 
-    /// Terms, and the links of their lines; `on_ball` is the error of an angle of a ball.
+    /// Checks terms and the links of their lines. `on_ball` is the error for an angle of a ball.
     fn terms(
         &self,
         (table, i): (&'static str, usize),
@@ -59,14 +59,14 @@ impl<T: Real, S: Space<T>> Look<'_, '_, T, S> {
         Ok(())
     }
 
-    /// Is a link that has one coordinate guided? Others have none.
+    /// Returns for a link with one coordinate whether it is guided; `None` for other links.
     fn has_one(&self, link: u32) -> Option<bool> {
         let kind = self.m.links.get(link as usize).filter(|_| link > 0)?.kind;
         let n = kind.n_freedoms::<T, S>();
         (n < 2).then_some(n == 0)
     }
 
-    /// The links of lines.
+    /// Checks the links of lines.
     pub(super) fn starts(&self) -> Result<(), LoadError> {
         for (i, start) in self.m.loops.couplings.starts.iter().enumerate() {
             let LinkStart { link, side } = *start;
@@ -76,7 +76,7 @@ impl<T: Real, S: Space<T>> Look<'_, '_, T, S> {
         Ok(())
     }
 
-    /// Checks that curves find their knots and numbers.
+    /// Checks that the knots and numbers of all curves exist.
     pub(super) fn curves(&self) -> Result<(), LoadError> {
         let couplings = &self.m.loops.couplings;
         for (i, curve) in couplings.curves.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! The order of elimination: every number in its lists points into them.
+//! Check of the order of elimination: every number in its lists must point to an entry.
 
 use super::{Look, ends_by, ensure, is_within, sides};
 use crate::check::LoadError;

@@ -1,4 +1,4 @@
-//! Checks of the operations on signals.
+//! Check of the operations on signals.
 
 use super::{Look, ensure};
 use crate::check::LoadError;

@@ -1,4 +1,4 @@
-//! A model as bytes, as `Tables::read` reads them.
+//! A model as bytes, in the format that `Tables::read` reads.
 
 use crate::format::{Axes, Bytes, Record};
 use crate::model::Model;
@@ -9,17 +9,17 @@ use mbs_core::laws::entry::{Entry, EntryWriter};
 use mbs_recursive::rows::coupled::Couplings;
 
 impl Bytes {
-    /// A list of what laws refer to.
+    /// Writes a list of table entries that laws refer to.
     fn entries<T: Real + Record, X: Entry<T>>(&mut self, list: &[X]) -> bool {
         list.len().write(self) && list.iter().all(|entry| entry.numbers(self))
     }
 
-    /// A list with its length first; false if an entry cannot be written.
+    /// Writes the length of a list, then its entries. Returns false if an entry cannot be written.
     fn list<X: Record>(&mut self, list: &[X]) -> bool {
         list.len().write(self) && list.iter().all(|entry| entry.write(self))
     }
 
-    /// Operations on signals, with what they refer to.
+    /// Writes the operations on signals, with the tables that they refer to.
     fn signals<T: Real + Record, S: Axes<T>>(&mut self, model: &Model<'_, T, S>) -> bool {
         let feedback = &model.mechanism.feedback;
         self.list(feedback.steps)
@@ -28,13 +28,14 @@ impl Bytes {
             && self.list(model.start.signals)
     }
 
-    /// Curves, with what they are made of.
+    /// Writes curves, with their knots and numbers.
     fn curves<T: Real + Record, S: Axes<T>>(&mut self, of: &Couplings<'_, T, S>) -> bool {
         self.list(of.curves) && self.list(of.knots) && self.list(of.numbers)
     }
 }
 
-/// The bytes of a model, in single or double precision; `None` if it has an effect that cannot be written, as a law of a user's own.
+/// Returns the bytes of a model, in single or double precision. `None` if the model has an effect that cannot be written, such as a
+/// user-defined law.
 #[must_use]
 pub fn bytes<T: Real + Record, S: Axes<T>>(
     model: &Model<'_, T, S>,

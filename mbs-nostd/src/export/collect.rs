@@ -1,4 +1,4 @@
-//! A tree's tables in the order in which its effects may be dropped.
+//! Tables of a tree, with the effects in the order in which they may be dropped.
 
 use super::signals::{MovingSignal, SignalTables, add_laws, held};
 use crate::elements;
@@ -16,7 +16,7 @@ use mbs_recursive::rows::Row;
 use mbs_recursive::space::Space;
 use mbs_recursive::{TreeModel, TreeState};
 
-/// A model whose tables are partly those of a tree, partly its own.
+/// A model whose tables belong partly to a tree and partly to this value.
 #[derive(Debug, Clone)]
 pub struct Collected<'a, T: Real, S: Space<T>> {
     mechanism: TreeSlices<'a, T, S>,
@@ -29,7 +29,7 @@ pub struct Collected<'a, T: Real, S: Space<T>> {
     rows: Vec<[T; 4]>,
     signals: SignalTables<T>,
     rungs: Vec<u32>,
-    /// The equations of loops; those of couplings have what their guides add to a law.
+    /// Rows of the loops. A row of a coupling also has the constant that its guide adds to its law.
     lap_rows: Vec<Row<T, S>>,
 }
 
@@ -38,12 +38,12 @@ fn index(i: usize) -> u32 {
 }
 
 impl<'a, T: Real, S: Space<T>> Collected<'a, T, S> {
-    /// Gathers a tree's tables and a state to begin from. `ladder` names effects of the scene by index, the one to be dropped first
-    /// in front; each has a rung.
+    /// Collects the tables of a tree and a start state. `ladder` has the indices of effects in the scene, beginning with the first to be
+    /// dropped. Each effect is one rung.
     ///
     /// # Errors
-    /// [`MovingSignal`]: tables have no waves and ramps, no tables that hold or repeat, and guides follow constants, splines and steps
-    /// alone.
+    /// [`MovingSignal`] for a function that tables do not support: waves, ramps, and tables that hold their last value or repeat. Guides
+    /// support constants, splines and steps only.
     pub fn new(
         tree: &'a TreeModel<T, S>,
         state: &'a TreeState<T>,
@@ -68,7 +68,8 @@ impl<'a, T: Real, S: Space<T>> Collected<'a, T, S> {
         Ok(model)
     }
 
-    /// The effects that stay, in the order of the scene; behind them those of the ladder, the first to be dropped last.
+    /// Orders the effects: first those that always act, in the order of the scene. Then those of the ladder, with the first to be dropped
+    /// last.
     fn order(&mut self, effects: &[usize], ladder: &[usize]) {
         let loads = self.mechanism.loads;
         let with = |wanted: &dyn Fn(usize) -> bool| -> Vec<Load<T, S>> {
@@ -89,7 +90,7 @@ impl<'a, T: Real, S: Space<T>> Collected<'a, T, S> {
             let guide = prescribed.guides().get(row.guide as usize);
             row.value = guide.and_then(|guide| guide.offset()).map_or(T::ZERO, |x| x * row.inverse);
         }
-        // signals that are not constant are added to courses by operations
+        // signals that are not constant are computed by operations
         let signals = held(prescribed.signals());
         let knots = (&mut self.knots, &mut self.curvatures);
         add_laws(prescribed.signals(), &signals, (&mut self.courses, knots))?;
@@ -171,14 +172,14 @@ impl<'a, T: Real, S: Space<T>> Collected<'a, T, S> {
     }
 }
 
-/// The features of mbs-nostd that the machine elements of a model need.
+/// Returns the features of mbs-nostd for the machine elements of a model.
 #[must_use]
 pub fn elements<T: Real, S: Space<T>>(model: &Model<'_, T, S>) -> Vec<&'static str> {
     let needed = elements::all(model).into_iter().filter(|element| element.is_needed);
     needed.map(|element| element.feature).collect()
 }
 
-/// The features of mbs-core that the effects of a model need.
+/// Returns the features of mbs-core for the effects of a model.
 #[must_use]
 pub fn needs<T: Real, S: Space<T>>(model: &Model<'_, T, S>) -> Vec<&'static str> {
     let mut needed = Vec::new();

@@ -1,4 +1,4 @@
-//! Models as tables: collected from a tree, written as bytes or as Rust. On the host, with the feature `export`.
+//! Models as tables: collected from a tree, then written as bytes or as Rust source. Only on the host, with the feature `export`.
 
 mod bytes;
 mod collect;

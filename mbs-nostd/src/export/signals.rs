@@ -1,4 +1,4 @@
-//! Tables of signals: functions of time and inputs as laws, all others by operations on these.
+//! Tables of signals: laws for functions of time and inputs, and operations for all other signals.
 
 use crate::inputs::{Rise, SignalLaw};
 use alloc::vec::Vec;
@@ -14,7 +14,8 @@ use mbs_recursive::passes::slices::TreeSlices;
 use mbs_recursive::rows::coupled::Couplings;
 use mbs_recursive::space::Space;
 
-/// A function of time that tables do not have, or a signal that guides follow and that is neither constant nor a spline or a step.
+/// Error: a signal that tables do not support. It is an unsupported function of time, or a guide's signal that is not a constant, a spline
+/// or a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct MovingSignal {
     /// Number of the signal in the scene.
@@ -34,7 +35,7 @@ impl core::fmt::Display for MovingSignal {
 
 impl core::error::Error for MovingSignal {}
 
-/// The operations on signals, and the functions that they name.
+/// Operations on signals, with the curves that they refer to.
 #[derive(Debug, Clone)]
 pub(super) struct SignalTables<T> {
     steps: Vec<FeedbackStep<T>>,
@@ -43,7 +44,7 @@ pub(super) struct SignalTables<T> {
 }
 
 impl<T: Real> SignalTables<T> {
-    /// Collects the operations that give the signals made of others. Functions that the mechanism has keep their numbers; others are behind
+    /// Collects the operations of the signals that depend on other signals. Curves of the mechanism keep their numbers; new curves follow
     /// them.
     pub(super) fn new<S: Space<T>>(
         prescribed: &Prescribed<T>,
@@ -72,7 +73,7 @@ impl<T: Real> SignalTables<T> {
         tables
     }
 
-    /// The couplings with these functions.
+    /// Returns the couplings with these curves.
     pub(super) fn couplings<'a, S: Space<T>>(
         &'a self,
         of: &Couplings<'a, T, S>,
@@ -81,7 +82,7 @@ impl<T: Real> SignalTables<T> {
         Couplings { curves, knots, numbers, ..*of }
     }
 
-    /// The operations, with the links of the measured coordinates.
+    /// Returns the operations, with the links of the measured coordinates.
     pub(super) fn feedback<'a>(&'a self, links: &'a [u32]) -> FeedbackSlices<'a, T> {
         FeedbackSlices {
             steps: &self.steps,
@@ -92,23 +93,24 @@ impl<T: Real> SignalTables<T> {
         }
     }
 
-    /// The states among those of signals.
+    /// Returns the part of `states` that belongs to signals with a state.
     pub(super) fn starts<'a>(&self, states: &'a [[T; 2]]) -> &'a [[T; 2]] {
         states.get(..self.n_states).unwrap_or(states)
     }
 }
 
-/// The values of signals that are constant; zero for others.
+/// Returns the values of constant signals; zero for other signals.
 pub(super) fn held<T: Real>(signals: &SignalGraph<T>) -> Vec<[T; 3]> {
     let all = signals.values(T::ZERO).into_iter().enumerate();
     let is_constant = |i| signals.is_constant(SignalId::new(i));
     all.map(|(i, value)| if is_constant(i) { value } else { [T::ZERO; 3] }).collect()
 }
 
-/// Tables that signals are added to: their laws, and the knots and curvatures of their splines.
+/// Tables to which signals are added: laws, and the knots and curvatures of splines.
 type Laws<'a, T> = (&'a mut Vec<SignalLaw<T>>, (&'a mut Vec<[T; 2]>, &'a mut Vec<T>));
 
-/// Adds the courses of signals, of which `held` has the constant ones; those of the others are made by operations.
+/// Adds the laws of signals. `held` has the values of constant signals. Signals that depend on others get a constant law, because
+/// operations compute them.
 pub(super) fn add_laws<T: Real>(
     signals: &SignalGraph<T>,
     held: &[[T; 3]],

@@ -1,4 +1,4 @@
-//! A model as a file of Rust: constant tables, and a solver of just their size.
+//! A model as a Rust source file: constant tables, and the type of a solver with exactly these sizes.
 
 use super::collect::{elements, needs};
 use crate::check::{Checked, LoadError, MIN_SIDES, Sizes};
@@ -16,7 +16,7 @@ fn table<X: Record>(name: &str, of: &str, list: &[X], to: &mut String) {
     constants((name, of), list, &X::source, to);
 }
 
-/// A constant table whose entries are written by `write`.
+/// Writes a constant table whose entries are written by `write`.
 fn constants<X>(
     (name, of): (&str, &str),
     list: &[X],
@@ -32,18 +32,18 @@ fn constants<X>(
     to.push_str(if list.is_empty() { "];\n" } else { "\n];\n" });
 }
 
-/// The value of a field.
+/// Returns the value of a field as source.
 fn value<X: Record>(x: &X) -> String {
     let mut text = String::new();
     x.source(&mut text);
     text
 }
 
-/// The source of a model in single or double precision, to be included as a module of a crate that depends on mbs-nostd. `title`
-/// says what it is of. Decimal texts keep the precision of the model, and are rounded once, by the compiler.
+/// Returns the source of a model in single or double precision, to be included as a module of a crate that depends on mbs-nostd. `title`
+/// names the scene. Decimal numbers have the precision of the model; only the compiler rounds them.
 ///
 /// # Errors
-/// What [`Checked::new`] says; a law of a user's own is left as a word that does not compile.
+/// The errors of [`Checked::new`]. A user-defined law is written as a word that does not compile.
 pub fn source<T: Real + Record, S: Axes<T>>(
     model: &Model<'_, T, S>,
     (title, is_single): (&str, bool),
@@ -95,7 +95,7 @@ pub fn source<T: Real + Record, S: Axes<T>>(
     Ok(to)
 }
 
-/// The sizes of a solver that have defaults, where the model needs others.
+/// Returns the optional sizes of a solver, up to the last one that differs from its default.
 fn further(sizes: &Sizes, n_slopes: usize) -> String {
     let all = [(sizes.states, 0), (sizes.followed, 0), (sizes.sides, MIN_SIDES), (n_slopes, 0)];
     let last = all.iter().rposition(|(needed, default)| needed != default);
@@ -103,7 +103,7 @@ fn further(sizes: &Sizes, n_slopes: usize) -> String {
     written.map(|(needed, _)| format!(", {needed}")).collect()
 }
 
-/// The constant that holds all tables.
+/// Writes the constant that contains all tables.
 fn constant<T: Real + Record, S: Axes<T>>(
     model: &Model<'_, T, S>,
     (law_inputs, couplings, [feedback, states]): (&str, &str, [&str; 2]),
@@ -159,7 +159,7 @@ fn constant<T: Real + Record, S: Axes<T>>(
     ));
 }
 
-/// All tables but those of laws.
+/// Writes all tables except those of laws.
 fn lists<T: Real + Record, S: Axes<T>>(model: &Model<'_, T, S>, to: &mut String) {
     let m = &model.mechanism;
     let (plan, laws, begin) = (&m.loops.plan, &model.prescriptions, &model.start);
@@ -186,7 +186,7 @@ fn lists<T: Real + Record, S: Axes<T>>(model: &Model<'_, T, S>, to: &mut String)
     table("A", "Scalar", begin.a, to);
 }
 
-/// The tables of signals, if there are operations on them: what feedback and start have of them.
+/// Writes the tables of signals, if there are operations on them. Returns the fields of feedback and start state that refer to them.
 fn signals<T: Real + Record, S: Axes<T>>(
     model: &Model<'_, T, S>,
     to: &mut String,
@@ -204,7 +204,7 @@ fn signals<T: Real + Record, S: Axes<T>>(
     ]
 }
 
-/// The curves and lines of couplings that are not empty, and the fields that hold them, with what stands for others.
+/// Writes the tables of curves and lines that are not empty. Returns the fields for them, with the defaults of the others.
 fn couplings<T: Real + Record, S: Axes<T>>(of: &Couplings<'_, T, S>, to: &mut String) -> String {
     let mut fields = Vec::new();
     if !of.curves.is_empty() {
@@ -222,7 +222,7 @@ fn couplings<T: Real + Record, S: Axes<T>>(of: &Couplings<'_, T, S>, to: &mut St
     fields.join(", ")
 }
 
-/// The tables of laws that are not empty, and the expression that holds them.
+/// Writes the tables of laws that are not empty. Returns the expression that contains them.
 fn law_inputs<T: Real + Record>(
     tables: mbs_core::laws::LawInputs<'_, T>,
     to: &mut String,
@@ -248,7 +248,7 @@ fn law_inputs<T: Real + Record>(
     }
 }
 
-/// A constant table of what laws refer to.
+/// Writes a constant table of entries that laws refer to.
 fn entries<T: Real + Record, X: Entry<T>>(name: &str, of: &str, list: &[X], to: &mut String) {
     let write = |entry: &X, to: &mut String| {
         entry.numbers(&mut Source(to));

@@ -1,8 +1,8 @@
-//! Bytes of a model being written.
+//! Buffer for the bytes of a model.
 
 use alloc::vec::Vec;
 
-/// Bytes of a model being written.
+/// Buffer for the bytes of a model that is being written.
 #[derive(Debug, Clone, Default)]
 pub struct Bytes {
     pub(crate) bytes: Vec<u8>,
@@ -10,12 +10,12 @@ pub struct Bytes {
 }
 
 impl Bytes {
-    /// Adds bytes as they are.
+    /// Appends bytes without a conversion.
     pub(crate) fn put(&mut self, bytes: &[u8]) {
         self.bytes.extend_from_slice(bytes);
     }
 
-    /// Adds a real number, in the precision of the text.
+    /// Appends a real number in the precision of the text.
     #[allow(clippy::cast_possible_truncation, reason = "the nearest number of this precision")]
     pub(crate) fn put_real(&mut self, x: f64) {
         if self.is_single {

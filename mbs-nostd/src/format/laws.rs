@@ -1,4 +1,4 @@
-//! Force laws and their tables, whose numbers mbs-core lists.
+//! Force laws and their tables. mbs-core lists the numbers of each law.
 
 #[cfg(feature = "export")]
 use super::{Bytes, Source};

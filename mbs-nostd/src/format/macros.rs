@@ -1,6 +1,6 @@
-//! Macros that turn a list of fields into reading, writing and source.
+//! Macros that generate reading, writing and source from a list of fields.
 
-/// A struct, by its fields.
+/// Implements the format of a struct from its fields.
 macro_rules! record_struct {
     ([$($bounds:tt)*] $type:ty = $name:ident { $($field:tt),* $(,)? }) => {
         impl<$($bounds)*> $crate::format::Record for $type {
@@ -26,7 +26,7 @@ macro_rules! record_struct {
     };
 }
 
-/// An enum, by its variants, their numbers and their fields: a name for each field, or its place.
+/// Implements the format of an enum from its variants with their numbers and fields. A field is given by a name or by its position.
 macro_rules! record_enum {
     ([$($bounds:tt)*] $type:ty = $name:ident {
         $($(#[$meta:meta])* $tag:literal $variant:ident { $($field:tt $own:ident),* }),* $(,)?

@@ -1,7 +1,7 @@
-//! Entries of tables as bytes and as Rust source: each type's fields are listed once.
+//! Entries of tables as bytes and as Rust source. Each type lists its fields once, for both.
 //!
 //! ```text
-//! numbers      little endian: u32 for counts and places, four or eight bytes for reals (the text's head says which)
+//! numbers      little endian: u32 for counts and indices, four or eight bytes for reals (the head of the text has the width)
 //! variants     a u32, then their fields
 //! ```
 
@@ -23,7 +23,7 @@ pub(crate) use source::{Source, close, name, open};
 
 use crate::check::LoadError;
 
-/// Bytes of a model being read, with the place reached.
+/// Reader of the bytes of a model, with its position.
 #[derive(Debug, Clone)]
 pub struct Reader<'a> {
     bytes: &'a [u8],
@@ -38,12 +38,12 @@ impl<'a> Reader<'a> {
         Self { bytes, at: 0, is_double: true }
     }
 
-    /// Says how wide reals are from here on.
+    /// Sets the width of reals in the following bytes.
     pub(crate) fn set_double(&mut self, is_double: bool) {
         self.is_double = is_double;
     }
 
-    /// The next `N` bytes.
+    /// Reads the next `N` bytes.
     fn take<const N: usize>(&mut self) -> Result<[u8; N], LoadError> {
         let rest = self.bytes.get(self.at..).unwrap_or(&[]);
         let bytes = rest.first_chunk().ok_or(LoadError::Length)?;
@@ -51,30 +51,30 @@ impl<'a> Reader<'a> {
         Ok(*bytes)
     }
 
-    /// Returns the fault of an entry that cannot be read and begins `back` bytes before the place reached.
+    /// Returns the error of a malformed entry that begins `back` bytes before the position.
     pub(crate) fn fault(&self, back: usize) -> LoadError {
         LoadError::Record { byte: self.at.saturating_sub(back) }
     }
 
-    /// Has all been read?
+    /// Have all bytes been read?
     pub(crate) fn is_at_end(&self) -> bool {
         self.at >= self.bytes.len()
     }
 }
 
-/// An entry of a table.
+/// Format of an entry of a table.
 pub trait Record: Sized {
-    /// Reads an entry.
+    /// Reads an entry from the bytes.
     ///
     /// # Errors
     /// [`LoadError`].
     fn read(from: &mut Reader<'_>) -> Result<Self, LoadError>;
 
-    /// Writes it as bytes; false if it cannot be written.
+    /// Writes the entry as bytes. Returns false if it cannot be written.
     #[cfg(feature = "export")]
     fn write(&self, to: &mut Bytes) -> bool;
 
-    /// Writes it as an expression of Rust.
+    /// Writes the entry as an expression of Rust.
     #[cfg(feature = "export")]
     fn source(&self, to: &mut alloc::string::String);
 }

@@ -1,4 +1,4 @@
-//! Numbers, places, and what is made of a few of them.
+//! Format of numbers, of indices, and of tuples and arrays of them.
 
 #[cfg(feature = "export")]
 use super::Bytes;
@@ -10,7 +10,7 @@ use mbs_core::Real;
 use mbs_core::algebra::{Vector, vector};
 use mbs_recursive::space::{Planar, Space, Spatial};
 
-/// A space whose parts can be read.
+/// A space whose points, axial vectors and tensors can be read.
 pub trait Axes<T: Real>: Space<T, Point: Record, Spin: Record, Tensor: Record> {}
 
 impl<T: Real + Record> Axes<T> for Planar {}

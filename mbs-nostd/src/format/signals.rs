@@ -1,4 +1,4 @@
-//! Courses, operations on signals, and the functions that these name.
+//! Format of the laws of signals, of the operations on signals, and of the curves that these refer to.
 
 use super::Record;
 use super::macros::{record_enum, record_struct};

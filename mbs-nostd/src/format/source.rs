@@ -1,4 +1,4 @@
-//! Expressions of Rust: structs, tuples and the entries of laws.
+//! Writer of Rust expressions: structs, tuples and the entries of laws.
 
 use super::Record;
 use alloc::string::String;
@@ -11,7 +11,7 @@ pub(crate) fn open(name: &str, to: &mut String) {
     to.push('\u{1}');
 }
 
-/// Begins a field: by name, or by its place in a tuple.
+/// Begins a field: a named field, or a position of a tuple.
 pub(crate) fn name(field: &str, to: &mut String) {
     let is_tuple = field.starts_with(|c: char| c.is_ascii_digit());
     let opens = to.ends_with('\u{1}');
@@ -35,7 +35,7 @@ pub(crate) fn close(to: &mut String) {
         to.pop();
         return;
     }
-    // The innermost expression that is open says how it ends.
+    // The mark of the innermost open expression determines how it is closed.
     let tuple = to.rfind('\u{2}');
     let named = to.rfind('\u{3}');
     let (at, end) = if tuple > named { (tuple, ")") } else { (named, " }") };
@@ -45,7 +45,7 @@ pub(crate) fn close(to: &mut String) {
     }
 }
 
-/// An expression of Rust being written.
+/// Rust expression that is being written.
 #[derive(Debug)]
 pub(crate) struct Source<'a>(pub(crate) &'a mut String);
 

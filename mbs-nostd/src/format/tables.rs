@@ -1,4 +1,4 @@
-//! Links, loops, rows, the plan of elimination, loads.
+//! Format of links, loops, rows, the plan of elimination, and loads.
 
 use super::macros::{record_enum, record_struct};
 use super::{Axes, Record};

@@ -1,8 +1,8 @@
-//! Operations of couplings and sums: N numbers of a motion, d of a point, p parts of a line.
+//! Operation counts of couplings and sums. N is the number of components of a motion, d that of a point, p the number of parts of a line.
 //!
 //! ```text
-//! joint      a coordinate                    with a curve: the function, and what its slope and its bend add
-//! line       p (geometry + length, rate, bias),   once more p (geometry + 2 (wrench + N)) where it is pushed
+//! joint      a coordinate                    with a curve: the function, and the products with its first and second derivatives
+//! line       p (geometry + length, rate, bias),   in addition p (geometry + 2 (wrench + N)) for its forces
 //! step       where there are lines: all links placed at its start, and the gaps of all parts at both ends
 //! ```
 
@@ -17,28 +17,28 @@ use mbs_recursive::rows::Row;
 use mbs_recursive::rows::coupled::{CoupledRow, Couplings, NONE, SumMeasure, SumTerm};
 use mbs_recursive::space::{Numbers, Space};
 
-/// Entries that the value of a term looks up [-]: those of a gear train on a Cortex-M7, rounded up.
+/// Table entries that the value of a term reads [-]. Counted for a gear train on a Cortex-M7, rounded up.
 const TERM_ENTRIES: u64 = 4;
-/// Entries that its residual looks up [-]: as above.
+/// Table entries that the residual of a term reads [-]. Counted for a gear train on a Cortex-M7, rounded up.
 const RESIDUAL_ENTRIES: u64 = 2;
-/// Entries that its curve looks up [-]: those of a cam with nine knots on a Cortex-M7, rounded up.
+/// Table entries that the curve of a term reads [-]. Counted for a cam with nine knots on a Cortex-M7, rounded up.
 const CURVE_ENTRIES: u64 = 24;
 
 const fn ops(products: u64, sums: u64) -> Operations {
     Operations::new(products, sums)
 }
 
-/// Numbers of a point, and of a motion.
+/// Returns the numbers of components of a point and of a motion.
 const fn numbers<T: Real, S: Space<T>>() -> (u64, u64) {
     (count(S::Point::N), count(S::Motion::N))
 }
 
-/// A point turned, and its product with a spin.
+/// Operations to rotate a point, and for the cross product of a spin and a point.
 fn turned<T: Real, S: Space<T>>() -> [Operations; 2] {
     if S::DIMENSION == 3 { [ops(9, 6), ops(6, 3)] } else { [ops(4, 2), ops(2, 0)] }
 }
 
-/// Parts of a term's line; of a coordinate none.
+/// Returns the number of parts of a term's line; zero for other terms.
 fn parts<T>(term: &SumTerm<T>) -> u64 {
     match term.of {
         SumMeasure::Line { points, .. } => count(points.range().len().saturating_sub(1)),
@@ -46,7 +46,7 @@ fn parts<T>(term: &SumTerm<T>) -> u64 {
     }
 }
 
-/// The terms of a list, and whether all are coordinates without curves.
+/// Returns the terms of a range, and whether all of them are coordinates without curves.
 fn terms<'a, T: Real, S: Space<T>>(
     couplings: &Couplings<'a, T, S>,
     of: Span,
@@ -57,12 +57,12 @@ fn terms<'a, T: Real, S: Space<T>>(
     (terms, terms.iter().all(is_plain))
 }
 
-/// Parts of all lines of a list of terms.
+/// Returns the number of parts of all lines of a range of terms.
 fn n_parts<T: Real, S: Space<T>>(couplings: &Couplings<'_, T, S>, of: Span) -> u64 {
     terms(couplings, of).0.iter().map(parts).sum()
 }
 
-/// A part of a line: its ends with velocities and their biases, its direction.
+/// Operations for a part of a line: its ends with velocities and biases, and its direction.
 fn geometry<T: Real, S: Space<T>>() -> Operations {
     let ([turned, cross], (d, _)) = (turned::<T, S>(), numbers::<T, S>());
     (turned + cross * 3 + ops(0, 2 * d)) * 2 + ops(2 * d, 4 * d).and(1, 1, 0)
@@ -80,14 +80,14 @@ fn pushed<T: Real, S: Space<T>>() -> Operations {
     geometry::<T, S>() + (cross + ops(n, n)) * 2
 }
 
-/// Value, rate, bias and gradient of a sum.
+/// Operations for value, rate, bias and gradient of a sum.
 fn value<T: Real, S: Space<T>>(couplings: &Couplings<'_, T, S>, of: Span) -> Operations {
     let (terms, is_plain) = terms(couplings, of);
     let mut sum = Operations::NONE;
     for term in terms {
         sum += ops(8, 8) + Operations::entries(TERM_ENTRIES);
         if !is_plain {
-            // looked at once more
+            // other terms need a second pass over the terms
             sum += ops(3, 5) + function(couplings, term.curve);
             sum += (measured::<T, S>() + pushed::<T, S>()) * parts(term);
         }
@@ -98,7 +98,7 @@ fn value<T: Real, S: Space<T>>(couplings: &Couplings<'_, T, S>, of: Span) -> Ope
     sum
 }
 
-/// The row of a coupling.
+/// Operations for the row of a coupling.
 pub(super) fn row<T: Real, S: Space<T>>(
     couplings: &Couplings<'_, T, S>,
     row: &CoupledRow<T>,
@@ -106,7 +106,7 @@ pub(super) fn row<T: Real, S: Space<T>>(
     value(couplings, row.terms) + ops(3, 12)
 }
 
-/// J a + bias of a coupling's row, beside what any row has.
+/// Operations for J a + bias of a coupling's row, in addition to those of any row.
 pub(super) fn residual<T: Real, S: Space<T>>(row: &Row<T, S>) -> Operations {
     let (_, n) = numbers::<T, S>();
     match row {
@@ -118,12 +118,12 @@ pub(super) fn residual<T: Real, S: Space<T>>(row: &Row<T, S>) -> Operations {
     }
 }
 
-/// Sides of rows that are added to the second one before an elimination.
+/// Returns the number of sides whose gradients are added to that of the second side before an elimination.
 pub(super) fn added<T: Real, S: Space<T>>(m: &TreeSlices<'_, T, S>) -> u64 {
     count(n_sides(m).saturating_sub(1))
 }
 
-/// A sum that an effect acts on, ahead; `resist` is an end's answer.
+/// Operations for an effect on a sum that depends on accelerations. `resist` is the count for one end.
 pub(super) fn sum<T: Real, S: Space<T>>(
     couplings: &Couplings<'_, T, S>,
     sum: &SumLoad<T>,
@@ -143,14 +143,15 @@ pub(super) fn sum<T: Real, S: Space<T>>(
     total
 }
 
-/// The gaps of the parts of a sum at both ends of a step.
+/// Operations for the gaps of the parts of a sum at the start and at the end of a step.
 fn gaps<T: Real, S: Space<T>>(couplings: &Couplings<'_, T, S>, of: Span) -> Operations {
     let ([turned, cross], (d, _)) = (turned::<T, S>(), numbers::<T, S>());
     let part = (turned + cross + ops(0, 2 * d)) * 4 + ops(4 * d + 6, 8 * d + 3);
     part * n_parts(couplings, of)
 }
 
-/// Whether a part of a line has collapsed in a step: with the inputs of an instant, and the places of all links.
+/// Operations to check whether a part of a line has collapsed in a step. The arguments are the counts for inputs at an instant and for the
+/// places of all links.
 pub(super) fn collapse<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
     [inputs, places]: [Operations; 2],
@@ -169,7 +170,7 @@ pub(super) fn collapse<T: Real, S: Space<T>>(
     for load in m.loads {
         let Load::Sum(load) = load else { continue };
         sum += gaps(couplings, load.terms);
-        // is the law apart from it at both ends?
+        // is the law without force at the start and at the end?
         if n_parts(couplings, load.terms) > 0 {
             sum += value(couplings, load.terms) * 2 + both_ends;
         }

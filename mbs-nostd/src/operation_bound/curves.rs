@@ -1,4 +1,4 @@
-//! Operations of the curves of couplings and signals.
+//! Operation counts of the curves of couplings and signals.
 
 use super::{Operations, count};
 use mbs_core::Real;
@@ -10,10 +10,10 @@ const fn ops(products: u64, sums: u64) -> Operations {
     Operations::new(products, sums)
 }
 
-/// A cubic spline with its derivatives.
+/// Operations for a cubic spline with its derivatives.
 pub(super) const SPLINE: Operations = ops(22, 14).and(4, 0, 0);
 
-/// A function with its two derivatives.
+/// Operations for a curve with its two derivatives.
 pub(super) fn function<T: Real, S: Space<T>>(
     couplings: &Couplings<'_, T, S>,
     curve: u32,

@@ -1,4 +1,4 @@
-//! Operations of effects and inputs: of the branch that costs most.
+//! Operation counts of effects and inputs, each for its most expensive branch.
 
 use super::Operations;
 use super::count;
@@ -14,10 +14,10 @@ const fn ops(products: u64, sums: u64) -> Operations {
     Operations::new(products, sums)
 }
 
-/// A step that takes its time, with its derivatives.
+/// Operations for a smooth step with its derivatives.
 const STEP: Operations = ops(16, 7).and(3, 0, 0);
 
-/// Guides and courses at an instant.
+/// Operations for all guides and signals at an instant.
 pub(super) fn inputs<T>(laws: &Prescriptions<'_, T>) -> Operations {
     let mut sum = Operations::NONE;
     for guide in laws.guides {
@@ -41,19 +41,19 @@ pub(super) fn inputs<T>(laws: &Prescriptions<'_, T>) -> Operations {
     sum
 }
 
-/// The parts of which loads are made, in space or in the plane.
+/// Operation counts of the parts of loads, in space or in the plane.
 struct Parts {
-    /// Operations that turn a vector.
+    /// Operations to rotate a vector.
     turned: Operations,
-    /// A wrench at an arm.
+    /// Operations for the wrench of a force at an arm.
     wrench: Operations,
-    /// The inner product of two motions, or two points.
+    /// Operations for the inner product of two motions.
     motions: Operations,
     points: Operations,
-    /// Numbers of a point, and of a motion.
+    /// Number of components of a point.
     point: u64,
     motion: u64,
-    /// A force ahead on a link: tension, resistance, inertia.
+    /// Operations to add a force that depends on accelerations to a link: tension, resistance, inertia.
     resist: Operations,
 }
 
@@ -83,13 +83,13 @@ impl Parts {
     }
 }
 
-/// An effect in an evaluation, ahead.
+/// Operations for an effect in an evaluation, with its dependence on accelerations.
 pub(super) fn load<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
     load: &Load<T, S>,
 ) -> Operations {
     let parts = Parts::of::<T, S>();
-    // κ, and what it adds to a joint.
+    // weight κ and its contribution to a joint
     let across = ops(3, 3);
     match load {
         Load::Between { links, gauge, law } => {
@@ -116,7 +116,7 @@ pub(super) fn load<T: Real, S: Space<T>>(
         }
         Load::Torque { .. } => ops(0, parts.motion),
         Load::BodyLoad(load) => {
-            // Point and arm, its place and velocity, the law's direction; each action on its own.
+            // Point and arm, place and velocity of the point, and direction of the law; then each action.
             let place = parts.turned * 4 + parts.wrench * 2 + ops(0, 4 * parts.point);
             let law = load.law.operations(&m.tables);
             let action = parts.wrench + ops(0, parts.motion) + parts.resist;
@@ -147,14 +147,14 @@ fn measured<T: Real, S: Space<T>>(
                 + ops(0, 1)
                 + rate
         }
-        // The half angles of both links, by all that are on the way at most; the rotation vector, its gradient, and the moment.
+        // Half angles of both links, over at most all links; then the rotation vector, its gradient, and the moment.
         Measure::Rotation { .. } => {
             let joint = ops(20, 12).and(0, 0, 1);
             let vector = ops(24, 14).and(1, 1, 1);
             let gradient = ops(28, 16).and(1, 1, 1);
             joint * (2 * n_links as u64) + vector + gradient + parts.turned + rate
         }
-        // The angles of both links, by all that are on the way at most.
+        // Angles of both links, over at most all links.
         Measure::Turn => ops(2 * n_links as u64, 2 * n_links as u64 + 1) + parts.wrench + rate,
     }
 }

@@ -1,4 +1,4 @@
-//! Operations of a link, by the kind of its joint. Tables have no guided balls.
+//! Operation counts of a link, by the kind of its joint. Tables for controllers have no guided balls.
 
 use super::Operations;
 use mbs_core::Real;
@@ -14,7 +14,7 @@ const fn is_spatial<T: Real, S: Space<T>>() -> bool {
     S::DIMENSION == 3
 }
 
-/// Place, velocity and velocity products.
+/// Operations for place, velocity and velocity products of a link.
 pub(super) fn place<T: Real, S: Space<T>>(kind: LinkKind) -> Operations {
     match (kind, is_spatial::<T, S>()) {
         (LinkKind::Revolute | LinkKind::GuidedRevolute, true) => ops(99, 79).and(0, 0, 1),
@@ -28,12 +28,12 @@ pub(super) fn place<T: Real, S: Space<T>>(kind: LinkKind) -> Operations {
     }
 }
 
-/// Own inertia and velocity forces.
+/// Operations for a body's inertia and its velocity-dependent forces.
 fn inertia<T: Real, S: Space<T>>() -> Operations {
     if is_spatial::<T, S>() { ops(78, 45) } else { ops(9, 0) }
 }
 
-/// Operations of the joint's elimination.
+/// Operations for the elimination of the joint.
 fn eliminate<T: Real, S: Space<T>>(kind: LinkKind) -> Operations {
     match (kind, is_spatial::<T, S>()) {
         (LinkKind::Revolute | LinkKind::Prismatic, true) => ops(96, 81).and(1, 0, 0),
@@ -48,7 +48,7 @@ fn eliminate<T: Real, S: Space<T>>(kind: LinkKind) -> Operations {
     }
 }
 
-/// Joint and link accelerations, without velocity products.
+/// Operations for joint and link accelerations, without velocity products.
 fn advance<T: Real, S: Space<T>>(kind: LinkKind) -> Operations {
     match (kind, is_spatial::<T, S>()) {
         (LinkKind::Revolute | LinkKind::Prismatic, true) => ops(19, 19),
@@ -62,7 +62,7 @@ fn advance<T: Real, S: Space<T>>(kind: LinkKind) -> Operations {
     }
 }
 
-/// Operations that add a link to a parent that is not the ground: its inertia with its force, and its force alone.
+/// Operations to add a link to a parent other than the ground: inertia and force, and the force alone.
 fn shift<T: Real, S: Space<T>>() -> [Operations; 2] {
     if is_spatial::<T, S>() { [ops(60, 81), ops(6, 12)] } else { [ops(8, 19), ops(2, 5)] }
 }
@@ -76,7 +76,7 @@ pub(super) fn evaluation<T: Real, S: Space<T>>(link: &Link<T, S>) -> Operations 
     if link.parent > 0 { sum + shift::<T, S>()[0] } else { sum }
 }
 
-/// A response to other forces.
+/// Operations for a response to other forces.
 pub(super) fn response<T: Real, S: Space<T>>(link: &Link<T, S>) -> Operations {
     let impulse = match (link.kind, is_spatial::<T, S>()) {
         (LinkKind::Revolute | LinkKind::Prismatic, true) => ops(10, 9),
@@ -92,7 +92,7 @@ pub(super) fn response<T: Real, S: Space<T>>(link: &Link<T, S>) -> Operations {
     if link.parent > 0 { sum + shift::<T, S>()[1] } else { sum }
 }
 
-/// Accelerations of the links for those of the joints.
+/// Operations for the accelerations of the links from those of the joints.
 pub(super) fn spread<T: Real, S: Space<T>>(kind: LinkKind) -> Operations {
     match (kind, is_spatial::<T, S>()) {
         (LinkKind::Revolute | LinkKind::Prismatic, true) => ops(12, 18),
@@ -106,7 +106,7 @@ pub(super) fn spread<T: Real, S: Space<T>>(kind: LinkKind) -> Operations {
     }
 }
 
-/// Coordinates moved along freedoms.
+/// Operations to move coordinates along the freedoms.
 pub(super) fn moved<T: Real, S: Space<T>>(kind: LinkKind) -> Operations {
     match (kind, is_spatial::<T, S>()) {
         (LinkKind::Revolute | LinkKind::Prismatic, _) => ops(0, 1),
@@ -119,7 +119,7 @@ pub(super) fn moved<T: Real, S: Space<T>>(kind: LinkKind) -> Operations {
     }
 }
 
-/// A row of a loop that passes: its head, its gain, and what is behind the joint.
+/// Operations to pass a row of a loop over the joint: its head, its gain, and the row on the parent's side.
 pub(super) fn pass<T: Real, S: Space<T>>(kind: LinkKind) -> Operations {
     match (kind, is_spatial::<T, S>()) {
         (LinkKind::Revolute | LinkKind::Prismatic, true) => ops(10, 8),

@@ -1,4 +1,4 @@
-//! Operations of closed loops: m rows of a loop, f freedoms of a joint on its way, N numbers of a motion.
+//! Operation counts of closed loops. A loop has m rows, a joint f freedoms, a motion N components.
 //!
 //! ```text
 //! passing a joint     m (pass + N·N + shift + 2 f),   pairs m m' f
@@ -11,29 +11,29 @@ use mbs_recursive::passes::slices::TreeSlices;
 use mbs_recursive::rows::Row;
 use mbs_recursive::space::{Numbers, Space};
 
-/// Entries that the values of a row look up, and its residual [-]: a slider-crank's on a Cortex-M7, rounded up.
+/// Table entries that the values and the residual of a row read [-]. Counted for a slider-crank on a Cortex-M7, rounded up.
 const ROW_ENTRIES: u64 = 4;
 
 const fn ops(products: u64, sums: u64) -> Operations {
     Operations::new(products, sums)
 }
 
-/// Numbers of a motion.
+/// Returns the number of components of a motion.
 const fn motion<T: Real, S: Space<T>>() -> u64 {
     count(S::Motion::N)
 }
 
-/// 1 + 2 + ... + (n − 1).
+/// Returns the sum 1 + 2 + ... + (n − 1).
 const fn below(n: u64) -> u64 {
     n * n.saturating_sub(1) / 2
 }
 
-/// A triangular system with the inverses of its diagonal.
+/// Operations to solve a triangular system with stored inverses of the diagonal.
 const fn solve(rows: u64) -> Operations {
     ops(below(rows) + rows, below(rows))
 }
 
-/// J a + bias of all rows, with the scale of its parts.
+/// Operations for J a + bias of all rows, with the scale of its terms.
 pub(super) fn residual<T: Real, S: Space<T>>(m: &TreeSlices<'_, T, S>) -> Operations {
     let n = motion::<T, S>();
     let terms = count(m.loops.couplings.terms.len());
@@ -45,7 +45,7 @@ pub(super) fn residual<T: Real, S: Space<T>>(m: &TreeSlices<'_, T, S>) -> Operat
     sum
 }
 
-/// Values, rates, gradients and biases of all rows.
+/// Operations for values, rates, gradients and biases of all rows.
 pub(super) fn rows<T: Real, S: Space<T>>(m: &TreeSlices<'_, T, S>) -> Operations {
     let is_spatial = S::DIMENSION == 3;
     let ends = if is_spatial { ops(54, 51) } else { ops(20, 18) };
@@ -62,7 +62,7 @@ pub(super) fn rows<T: Real, S: Space<T>>(m: &TreeSlices<'_, T, S>) -> Operations
             (Row::Length { .. }, true) => ops(40, 25).and(1, 0, 0),
             (Row::Coupled(row), _) => couplings::row(&m.loops.couplings, row),
             (Row::Length { .. }, false) => ops(22, 12).and(1, 0, 0),
-            // the first row has the lowest point
+            // the first row computes the lowest point for all rows
             (Row::Height { .. } | Row::Blade { .. }, _) => ops(240, 200).and(1, 1, 0),
             (Row::NoSlip { .. }, _) => ops(60, 45),
         };
@@ -70,7 +70,7 @@ pub(super) fn rows<T: Real, S: Space<T>>(m: &TreeSlices<'_, T, S>) -> Operations
     sum
 }
 
-/// Passing all joints, elimination at the ancestors, and opening.
+/// Operations to pass all joints, to eliminate at the ancestors, and to compute the multipliers.
 pub(super) fn evaluation<T: Real, S: Space<T>>(m: &TreeSlices<'_, T, S>) -> Operations {
     let n = motion::<T, S>();
     let gathered = if S::DIMENSION == 3 { ops(6, 6) } else { ops(2, 2) };
@@ -79,7 +79,7 @@ pub(super) fn evaluation<T: Real, S: Space<T>>(m: &TreeSlices<'_, T, S>) -> Oper
     let slopes = |lap: u32| {
         let first = m.loops.loops.get(lap as usize).map(|lap| lap.first as usize);
         match first.and_then(|k| m.loops.rows.get(k)) {
-            // K b over all numbers, and g, which is looked for among the terms
+            // K b over all components, and a search for g among the terms
             Some(Row::Coupled(row)) => {
                 ops(n, n) + Operations::entries(count(row.terms.range().len()))
             }
@@ -87,7 +87,7 @@ pub(super) fn evaluation<T: Real, S: Space<T>>(m: &TreeSlices<'_, T, S>) -> Oper
         }
     };
     let plan = &m.loops.plan;
-    // K of all sides behind the first one are added to it.
+    // K of all further sides is added to that of the first side.
     let added = couplings::added(m);
     let mut sum = opening(m);
     for (station, link) in plan.stations.iter().zip(m.links) {
@@ -108,7 +108,7 @@ pub(super) fn evaluation<T: Real, S: Space<T>>(m: &TreeSlices<'_, T, S>) -> Oper
             let rows = lap_rows(end.lap);
             let pairs = below(rows);
             sum += ops(0, n) * (rows * added);
-            // Λ = C Cᵀ: the inner products, products with inverses, pivots.
+            // Λ = C Cᵀ: inner products, products with inverses, and pivots.
             let inner = rows * (rows + 1) * rows.saturating_sub(1) / 6;
             sum += ops(inner + pairs + rows, inner + rows).and(2 * rows, rows, 0);
             sum += solve(rows);
@@ -136,7 +136,7 @@ pub(super) fn evaluation<T: Real, S: Space<T>>(m: &TreeSlices<'_, T, S>) -> Oper
     sum
 }
 
-/// Passing and elimination of l alone, and opening.
+/// Operations to pass and eliminate l only, and to compute the multipliers.
 pub(super) fn response<T: Real, S: Space<T>>(m: &TreeSlices<'_, T, S>) -> Operations {
     let n = motion::<T, S>();
     let lap_rows = |lap: u32| m.loops.loops.get(lap as usize).map_or(0, |lap| u64::from(lap.n));
@@ -161,7 +161,7 @@ pub(super) fn response<T: Real, S: Space<T>>(m: &TreeSlices<'_, T, S>) -> Operat
     sum
 }
 
-/// λ of all loops, and what joints are held back by.
+/// Operations for λ of all loops, and for the responses of the joints to λ.
 fn opening<T: Real, S: Space<T>>(m: &TreeSlices<'_, T, S>) -> Operations {
     let n = motion::<T, S>();
     let lap_rows = |lap: u32| m.loops.loops.get(lap as usize).map_or(0, |lap| u64::from(lap.n));

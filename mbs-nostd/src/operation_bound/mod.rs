@@ -1,4 +1,4 @@
-//! The bound: operations of one step, from the structure of a model alone.
+//! Bound of the operations of one step, from the structure of a model only.
 //!
 //! ```text
 //! step         inputs + (E + 1) reach + E evaluation + P projection          E evaluations, P projections, σ further sweeps
@@ -9,11 +9,13 @@
 //! projection   Σ links place + Σ loops rows + 2 response + move
 //! ```
 //!
-//! Counts are exact for mechanisms without effects, and with springs and dampers: no branch of the kernels depends on numbers. Of other effects the branch that costs most is counted, and on roads
-//! that are not level the longest search for the nearest point: there the count is a bound.
+//! Counts are exact for mechanisms without effects, and with springs and dampers only, because no branch of the code depends on numbers
+//! then. Other effects are counted by their most expensive branch. A road that is not level is counted with the longest search for the
+//! nearest point. In these cases the count is a bound.
 //!
-//! Products, sums and differences, quotients, roots, and calls of sine with cosine or of the arc tangent are counted. Changes of
-//! sign, comparisons and copies are not: they are in the instructions of the others, and of the entries that links, rows and terms look up.
+//! The counts contain products, sums and differences, quotients, square roots, and calls of sine with cosine or of the arc tangent. Changes
+//! of sign, comparisons and copies are not counted. Their instructions are included in those of the counted operations, and of the table
+//! entries that links, rows and terms read.
 
 mod couplings;
 mod curves;
@@ -31,12 +33,13 @@ use mbs_recursive::link::Link;
 use mbs_recursive::space::{Numbers, Space};
 use mbs_recursive::step::bounded::Bounds;
 
-/// Entries that a step looks up beside those of links and loops [-]: a pendulum's of two links on a Cortex-M7, rounded up.
+/// Table entries that a step reads, in addition to those of links and loops [-]. Counted for a pendulum of two links on a Cortex-M7,
+/// rounded up.
 const STEP_ENTRIES: u64 = 8;
-/// Entries that an evaluation looks up for a link [-]: as above.
+/// Table entries that an evaluation reads for a link [-]. Counted for a pendulum of two links on a Cortex-M7, rounded up.
 const LINK_ENTRIES: u64 = 8;
 
-/// The operations of one step within `bounds`.
+/// Returns the operations of one step within `bounds`.
 ///
 /// Cost: linear in the tables.
 #[must_use]
@@ -45,12 +48,12 @@ pub fn step<T: Real, S: Space<T>>(model: &Model<'_, T, S>, bounds: Bounds) -> Op
     let freedoms = count(m.n_freedoms);
     let has_loops = !m.loops.loops.is_empty();
     let evaluations = u64::from(bounds.evaluations.max(1));
-    // h² β and h γ; the time at the end, for inputs and for the state.
+    // h² β and h γ, and the time at the end, for the inputs and for the state
     let mut total = Operations::new(3, 2) + effects::inputs(&model.prescriptions);
     total += Operations::entries(STEP_ENTRIES);
     let reach = Operations::new(7, 6) * freedoms + moves::<T, S>(m.links);
     total += reach * (evaluations + 1);
-    // What the accelerations changed by, and its scale.
+    // Largest change of an acceleration, and its scale.
     let mut evaluation = Operations::new(1, freedoms);
     for link in skip_ground(m.links) {
         evaluation += joints::evaluation::<T, S>(link) + Operations::entries(LINK_ENTRIES);
@@ -83,7 +86,7 @@ pub fn step<T: Real, S: Space<T>>(model: &Model<'_, T, S>, bounds: Bounds) -> Op
     total += couplings::collapse(m, ends);
     let written = |course: &SignalLaw<T>| matches!(course, SignalLaw::Input(_));
     if model.prescriptions.courses.iter().any(written) {
-        // A step after a course was written begins with an evaluation.
+        // A step begins with an evaluation if a signal was set before.
         total += evaluation + effects::inputs(&model.prescriptions);
     }
     total + evaluation * evaluations
@@ -93,7 +96,7 @@ fn skip_ground<T: Real, S: Space<T>>(links: &[Link<T, S>]) -> impl Iterator<Item
     links.iter().skip(1)
 }
 
-/// Places and velocities of all links.
+/// Operations for places and velocities of all links.
 fn places<T: Real, S: Space<T>>(links: &[Link<T, S>]) -> Operations {
     let mut sum = Operations::NONE;
     for link in skip_ground(links) {
@@ -102,7 +105,7 @@ fn places<T: Real, S: Space<T>>(links: &[Link<T, S>]) -> Operations {
     sum
 }
 
-/// Coordinates moved along freedoms.
+/// Operations to move all coordinates along the freedoms.
 fn moves<T: Real, S: Space<T>>(links: &[Link<T, S>]) -> Operations {
     let mut sum = Operations::NONE;
     for link in skip_ground(links) {
@@ -111,7 +114,7 @@ fn moves<T: Real, S: Space<T>>(links: &[Link<T, S>]) -> Operations {
     sum
 }
 
-/// A response to rows alone.
+/// Operations for a response to rows only.
 fn response<T: Real, S: Space<T>>(
     m: &mbs_recursive::passes::slices::TreeSlices<'_, T, S>,
 ) -> Operations {

@@ -1,4 +1,4 @@
-//! Operations on signals, with how these answer to what is measured: of the branch that costs most.
+//! Operation counts of the operations on signals, with their derivatives. Each count is that of the most expensive branch.
 
 use super::Operations;
 use super::curves::function;
@@ -11,7 +11,7 @@ const fn ops(products: u64, sums: u64) -> Operations {
     Operations::new(products, sums)
 }
 
-/// All operations at an instant.
+/// Returns the count of all operations on signals at an instant.
 pub(super) fn evaluation<T: Real, S: Space<T>>(m: &TreeSlices<'_, T, S>) -> Operations {
     let mut sum = Operations::NONE;
     for step in m.feedback.steps {

@@ -1,4 +1,4 @@
-//! States that are set from outside, as an observer sets them.
+//! States that are set from outside, for example by an observer.
 
 use super::{Solver, put, states};
 use crate::check::Checked;
@@ -30,12 +30,12 @@ impl<
     const W: usize,
 > Solver<T, S, L, Z, V, R, B, N, G, C, M, F, K, W>
 {
-    /// Puts the model into another state at the present time. Closed loops are closed from there. Accelerations and multipliers are
-    /// evaluated anew, and the next step starts from them.
+    /// Sets the state of the model at the present time, and closes its loops from there. Accelerations and multipliers are evaluated, and
+    /// the next step starts from them.
     ///
-    /// `z` and `v` are as [`coordinates`](Self::coordinates) and [`velocities`](Self::velocities) give them, in the order of the exported
-    /// links. [`Link::z`](mbs_recursive::link::Link::z) and [`Link::v`](mbs_recursive::link::Link::v) say where the numbers of a link
-    /// begin. The numbers of each kind are:
+    /// `z` and `v` have the order of [`coordinates`](Self::coordinates) and [`velocities`](Self::velocities), which is that of the exported
+    /// links. [`Link::z`](mbs_recursive::link::Link::z) and [`Link::v`](mbs_recursive::link::Link::v) are the indices of a link's first
+    /// numbers. The numbers of each kind are:
     ///
     /// | link | in `z` | in `v` |
     /// |---|---|---|
@@ -46,16 +46,18 @@ impl<
     /// | free, plane | angle [rad]; position of the link's origin from `mechanism.base`, global axes [m] | rate [rad/s]; velocity, global axes [m/s] |
     /// | guided | none | none |
     ///
-    /// A quaternion q and its negative −q are the same attitude, but not the same twist of a bushing or a torsion spring: give the one
-    /// nearer to the present quaternion.
+    /// A quaternion q and its negative −q are the same attitude, but different twists of a bushing or a torsion spring. Give the quaternion
+    /// that is nearer to the present one.
     ///
-    /// All loops are closed together, positions first, then velocities, by the smallest move in the norm of the masses to first order. In a
-    /// model with loops any coordinate may move. In one without, all are taken to the bit, but for quaternions that are not unit.
-    /// Time, inputs, the states of signals and the rung of the ladder stay. Guides are where the last step ended.
+    /// All loops are closed together, first in positions, then in velocities. The change is to first order the smallest in the norm of the
+    /// masses. In a model with loops any coordinate may change. In a model without loops all values are kept exactly, except quaternions
+    /// that are not of unit length. Time, inputs, the states of signals and the rung of the ladder are kept. The motions of guides are
+    /// those at the end of the last step.
     ///
-    /// Cost: one evaluation, without loops about nine tenths of a step with its default bounds. With loops it is two evaluations and a
-    /// response for each sweep, which the report counts: some five near a closed state. Far off there are at most five evaluations, and
-    /// `5 (options.max_sweeps + 1)` sweeps for the loops and thirty for the accelerations. No allocation. An image that does not call it has none of its code.
+    /// Cost: one evaluation. Without loops that is about nine tenths of a step with its default bounds. With loops it is two evaluations,
+    /// and one response for each sweep. The report counts the sweeps: about five near a closed state. Far from closure there are at most
+    /// five evaluations. There are at most `5 (options.max_sweeps + 1)` sweeps for the loops and thirty for the accelerations. No
+    /// allocation. A program that does not call this function does not contain its code.
     ///
     /// # Errors
     /// [`StateError`]: lists of another length, numbers that are not finite, quaternions without direction, loops that stay open, no
@@ -99,13 +101,13 @@ impl<
         let rank = self.scratch.rank;
         let done = self.close(model, z, v);
         if done.is_err() {
-            // The rows that have had an effect so far are a part of the state for the next closing.
+            // The largest rank so far is part of the state that later closings use, so it is restored.
             self.scratch.rank = rank;
         }
         Ok(done?)
     }
 
-    /// Closes the loops from finite numbers; nothing but the scratch is written if that fails.
+    /// Closes the loops from a finite state. If that fails, only the scratch is changed.
     fn close(
         &mut self,
         model: &Checked<'_, T, S>,
@@ -115,7 +117,7 @@ impl<
         let whole = &model.model().mechanism;
         let loads = model.kept_on(self.ladder.rung()).unwrap_or(whole.loads);
         let mechanism = TreeSlices { loads, ..*whole };
-        // Guides are those that the last step ended with.
+        // The motions of guides are those at the end of the last step.
         let inputs = Written {
             laws: model.model().prescriptions,
             guides: &self.inputs.ended,
@@ -139,7 +141,7 @@ impl<
     }
 }
 
-/// Checks length and numbers of a list.
+/// Checks the length of a list, and that its numbers are finite.
 fn check<T: Real>(of: &'static str, list: &[T], needed: usize) -> Result<(), StateError> {
     if list.len() != needed {
         return Err(StateError::Length { of, given: list.len(), needed });
@@ -150,7 +152,7 @@ fn check<T: Real>(of: &'static str, list: &[T], needed: usize) -> Result<(), Sta
     }
 }
 
-/// Checks that the quaternions of balls and free links can be made unit: their square is finite and above rounding.
+/// Checks that the quaternions of balls and free links can be normalised: their squared length is finite and above rounding.
 fn check_quaternions<T: Real, S: Space<T>>(
     links: &[Link<T, S>],
     z: &[T],

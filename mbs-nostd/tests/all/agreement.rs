@@ -1,4 +1,4 @@
-//! The solver of fixed capacity against mbs-recursive on the same scenes.
+//! The solver of fixed capacity compared with mbs-recursive on the same scenes.
 
 use crate::support::start;
 use mbs_core::effects::{bushing, laws::SpringDamperLaw};
@@ -10,7 +10,7 @@ use mbs_nostd::{Bounds, Checked, LoadError, Options, Planar, Solver, Spatial, Ta
 use mbs_recursive::{TreeMethod, TreeModel, TreeState, Workspace};
 use mbs_testkit::file;
 
-/// Room for the vehicle.
+/// Solver with memory for the vehicle.
 type Room = Solver<f64, Spatial, 12, 40, 32, 16, 256, 256, 2, 8>;
 type RoomTables = Tables<f64, Spatial, 12, 12, 16, 64, 24, 64, 8, 40>;
 
@@ -45,7 +45,7 @@ fn a_solver_of_fixed_capacity_gives_the_bits_of_the_recursion() {
     }
 }
 
-/// A gear between wheels of a free housing, and a wheel that is driven against it.
+/// Gears between the wheels of a free housing, and a wheel that is driven relative to it.
 const GEARS: &str = include_str!("couplings.toml");
 
 const DRIVEN: &str = r#"
@@ -56,7 +56,7 @@ terms = [{ joint = "a", factor = 1.0 }, { joint = "hinge", factor = 0.5 }]
 sine = { amplitude = 0.3, frequency = 1.0 }
 "#;
 
-/// The largest difference of coordinates and accelerations from the recursion over steps of a scene.
+/// Returns the largest difference of coordinates and accelerations between solver and recursion over steps of a scene.
 fn apart_on_controller(text: &str) -> Result<f64, LoadError> {
     type Small = Solver<f64, Planar, 5, 5, 5, 5, 64, 64, 4, 1, 0, 0, 3>;
     let (tree, begin) = start::<Planar, 2>(&mbs_testkit::scene(text));
@@ -86,7 +86,7 @@ fn apart_on_controller(text: &str) -> Result<f64, LoadError> {
 fn couplings_of_joints_hold_on_a_controller_as_in_the_recursion() {
     assert_eq!(apart_on_controller(GEARS), Ok(0.0));
     assert_eq!(apart_on_controller(&format!("{GEARS}{DRIVEN}")), Ok(0.0));
-    // What a guide adds to its law is apart from it there: roundings of accelerations.
+    // The exported guide has its constant separately, which changes the rounding of the accelerations.
     let held = format!("{GEARS}{}", DRIVEN.replace("sine", "value = 0.1\nsine"));
     let apart = apart_on_controller(&held).expect("a model");
     assert!(apart < 1e-10, "{apart}");
@@ -103,7 +103,7 @@ fn couplings_of_joints_hold_on_a_controller_as_in_the_recursion() {
     }
 }
 
-/// A third wheel, and a differential between all three.
+/// A third wheel, and a differential between all three wheels.
 const DIFFERENTIAL: &str = r#"
 [[body]]
 name = "third"
@@ -177,7 +177,7 @@ fn rotors_turn_on_a_controller_as_in_the_recursion() {
     let arm =
         std::fs::read_to_string(mbs_testkit::repository::path("geared-arm")).expect("a scene");
     assert_eq!(apart_on_controller(&arm), Ok(0.0));
-    // texts without them are those of version 2
+    // texts without optional parts have version 2
     let version = |text: &str| {
         let (tree, begin) = start::<Planar, 2>(&mbs_testkit::scene(text));
         let collected = Collected::new(&tree, &begin, &[]).expect("no signal moves");
@@ -199,7 +199,7 @@ fn laws_on_sums_act_on_a_controller_as_in_the_recursion() {
     }
 }
 
-/// Largest difference of a coordinate from the converged trapezoidal rule over 10 s [m or rad].
+/// Returns the largest difference of a coordinate from the converged trapezoidal rule over 10 s [m or rad].
 fn apart(name: &str, evaluations: u32) -> f64 {
     let (tree, begin) = vehicle(name);
     let (mut state, mut workspace) = (begin.clone(), Workspace::new(&tree));
@@ -222,7 +222,7 @@ fn apart(name: &str, evaluations: u32) -> f64 {
 #[test]
 fn one_evaluation_a_step_stays_below_the_error_of_the_step_itself_on_level_roads_and_a_second_one_on_stairs()
  {
-    // The trapezoidal rule itself is off by h² times a third derivative: 1e-6 times what a jump has, some 100 m/s³.
+    // The error of the trapezoidal rule itself is h² times a third derivative. A jump has about 100 m/s³, so the error is 1e-6 times that.
     for name in ["iltis-slalom", "iltis-bump-5", "iltis-jump", "iltis-suspension"] {
         let apart = apart(name, 1);
         assert!(apart < 1e-4, "{name}: {apart}");
@@ -289,7 +289,7 @@ fn whatever_word_of_a_model_is_broken_nothing_panics() {
             };
             let model = tables.model();
             let Ok(mut solver) = Room::new(&model) else { continue };
-            // A number may be wrong: then a step says so, or the motion is another one.
+            // A changed number may be wrong. Then a step returns an error, or the motion differs.
             for _ in 0..3 {
                 let _ = solver.step(&model, 1e-3, &mut Unwatched);
             }

@@ -1,4 +1,5 @@
-//! The tests of this crate, in one program: each program would compile the same solvers anew. `cargo test -p mbs-nostd operation_bound::` runs one module.
+//! The tests of this crate as one program, because several programs would compile the same solvers several times.
+//! `cargo test -p mbs-nostd operation_bound::` runs one module.
 
 mod support;
 

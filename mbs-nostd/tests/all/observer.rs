@@ -1,4 +1,4 @@
-//! A Luenberger observer of the two-link arm: what the firmware does on an emulated board, here in both precisions.
+//! A Luenberger observer of the two-link arm. The firmware runs it on an emulated board; here it runs in both precisions.
 
 use crate::support::start;
 use mbs_core::Real;
@@ -14,14 +14,14 @@ const STEP: f64 = 1e-3;
 /// Double root of the observer's error [1/s].
 const ROOT: f64 = 20.0;
 
-/// Accelerations of the arm at (`z`, `v`), by a state that is set.
+/// Returns the accelerations of the arm at (`z`, `v`), by setting this state.
 fn accelerations(model: &Checked<'_, f64, Spatial>, z: [f64; 2], v: [f64; 2]) -> [f64; 2] {
     let mut solver = Arm::<f64>::new(model).expect("room");
     solver.set_state(model, &z, &v).expect("an open chain");
     [solver.accelerations()[0], solver.accelerations()[1]]
 }
 
-/// A and B of the linearised arm, hanging at rest, by central differences of the accelerations.
+/// Returns A and B of the linearised arm, hanging at rest, by central differences of the accelerations.
 fn linearised(model: &Checked<'_, f64, Spatial>) -> [[[f64; 2]; 2]; 2] {
     let by = 1e-4;
     let mut matrices = [[[0.0; 2]; 2]; 2];
@@ -40,7 +40,7 @@ fn linearised(model: &Checked<'_, f64, Spatial>) -> [[[f64; 2]; 2]; 2] {
     matrices
 }
 
-/// Runs arm and observer beside each other; the largest error of an angle after 0.4 s, and the largest of the whole run [rad].
+/// Runs the arm and its observer together. Returns the largest error of an angle after 0.4 s, and that of the whole run [rad].
 fn observed<T: Real + Record>(
     model: &Checked<'_, T, Spatial>,
     gains: [[[f64; 2]; 2]; 2],
@@ -82,7 +82,7 @@ fn an_observer_on_the_exported_arm_reaches_a_milliradian_within_four_tenths_of_a
     let collected = Collected::new(&tree, &begin, &[]).expect("an input");
     let model = Checked::new(&collected.model()).expect("a model");
     let [a, b] = linearised(&model);
-    // the closed form that the firmware has: A = -K/M and B = -D/M
+    // the firmware computes this closed form: A = -K/M and B = -D/M
     let (m22, k22) = (0.03, 9.81 * 0.15);
     let (m12, k11) = (m22 + 0.06, 9.81 * 0.8 + k22);
     let m11 = 0.32 / 3.0 + 0.16 + 0.12 + m22;
@@ -109,7 +109,7 @@ fn an_observer_on_the_exported_arm_reaches_a_milliradian_within_four_tenths_of_a
     for largest in [observed(&model, gains), observed(&tables.model(), gains)] {
         assert!(largest[0] < 1e-3 && largest[1] < 0.045, "{largest:?}");
     }
-    // without gains the arm damps its own error, and more slowly
+    // without gains the error decays by the arm's damping only, which is slower
     let free = observed(&model, [[[0.0; 2]; 2]; 2]);
     assert!(free[0] > 1e-3, "{free:?}");
 }

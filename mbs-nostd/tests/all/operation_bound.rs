@@ -1,4 +1,4 @@
-//! The bound, by a number that counts what is done with it.
+//! The bound of operations compared with a number type that counts its operations.
 
 use crate::ropes_and_cams::{HOIST, SUMS, WINCH};
 use crate::signals::{ARM, LINE};
@@ -15,7 +15,7 @@ use mbs_testkit::file;
 type Room<S> = Solver<Counted, S, 64, 80, 48, 160, 4096, 4096, 2, 24, 4, 24, 6, 8>;
 type RoomTables<S> = Tables<Counted, S, 64, 48, 160, 512, 64, 64, 24, 80, 40, 16>;
 
-/// A scene of the repository or of this test.
+/// Returns a scene of the repository or of this test.
 fn scene(name: &str) -> Scene<f64> {
     if name == "planar-rows" {
         mbs_testkit::scene(include_str!("planar-rows.toml"))
@@ -24,7 +24,7 @@ fn scene(name: &str) -> Scene<f64> {
     }
 }
 
-/// Counts each of some steps of a scene beside the bound.
+/// Counts the operations of some steps of a scene. Returns the bound and the counts.
 fn counted<S: Axes<Counted> + Axes<f64>, const D: usize>(
     name: &str,
     bounds: Bounds,
@@ -40,7 +40,7 @@ fn counted_of<S: Axes<Counted> + Axes<f64>, const D: usize>(
     let name = &scene.name;
     let collected = Collected::new(&tree, &begin, &[]).expect("no signals");
     let text = bytes(&collected.model(), false).expect("a scene without own laws");
-    // The same numbers again, as counting ones.
+    // The same model is read again, with numbers of the counting type.
     let tables = Box::new(RoomTables::<S>::read(&text).unwrap_or_else(|e| panic!("{name}: {e}")));
     let model = tables.model();
     let mut solver = Box::new(Room::<S>::new(&model).unwrap_or_else(|e| panic!("{name}: {e}")));
@@ -59,9 +59,9 @@ fn is_exact<S: Axes<Counted> + Axes<f64>, const D: usize>(name: &str) {
     for (evaluations, sweeps, projections) in [(1, 0, 1), (2, 1, 1), (3, 0, 2)] {
         let bounds = Bounds { evaluations, sweeps, projections };
         let (bound, steps) = counted::<S, D>(name, bounds);
-        // The first steps from rest may not turn yet.
+        // The first steps from rest may have no rotation, whose functions would then take another branch.
         for step in &steps[3..] {
-            // Entries that are looked up are no arithmetic.
+            // Table entries are not arithmetic operations and are not counted by the type.
             assert_eq!(*step, Operations { entries: 0, ..bound }, "{name} {bounds:?}");
         }
     }
@@ -125,7 +125,7 @@ fn curves_and_lines_stay_below_the_bound() {
     }
 }
 
-/// A wheel, a ball and a blade of free bodies, on the ground and on each other, in space or in the plane.
+/// Returns a scene with a wheel, a ball and a blade of free bodies, in space or in the plane. They roll on the ground and on each other.
 fn rolling(dimension: usize) -> String {
     let [at, inertia] = if dimension == 2 {
         ["[0.1, 0.3]", "0.02"]
@@ -167,7 +167,7 @@ fn rows_of_what_rolls_stay_below_the_bound() {
 
 #[test]
 fn laws_on_sums_stay_below_the_bound() {
-    // without loops, whose rows leave room below their bound
+    // without loops, because the counts of their rows are above the actual operations
     let text = include_str!("couplings.toml");
     let alone = text.split("[[coupling]]").next().expect("what stands before");
     let effect =

@@ -1,4 +1,4 @@
-//! Couplings with curves and with lengths over points on a controller: the steps of the host, and closed forms.
+//! Couplings with curves and with lines over points on a controller, compared with the steps of the host and with closed forms.
 
 use crate::support::start;
 use mbs_core::step::StepError;
@@ -14,12 +14,12 @@ use mbs_testkit::{allocations, repository};
 type Room<T, S> = Solver<T, S, 8, 16, 16, 8, 64, 64, 2, 12, 2, 12, 6, 8>;
 type RoomTables<T, S> = Tables<T, S, 8, 4, 8, 32, 8, 32, 12, 16, 16, 16>;
 
-/// A cam that lifts a slide, and a rope over the slide and a load to a drum.
+/// A cam that lifts a slide, and a rope from a drum over the slide and a load.
 pub(crate) const HOIST: &str = include_str!("hoist.toml");
-/// A cam and a rope as in [`HOIST`], but in space, about axes across.
+/// A cam and a rope as in [`HOIST`], but in space, with axes across each other.
 pub(crate) const WINCH: &str = include_str!("winch.toml");
 
-/// Steps of each comparison.
+/// Number of steps of each comparison [-].
 const STEPS: u32 = 500;
 
 fn exported<S: Axes<f64>, const D: usize>(text: &str) -> Vec<u8> {
@@ -28,7 +28,7 @@ fn exported<S: Axes<f64>, const D: usize>(text: &str) -> Vec<u8> {
     bytes(&collected.model(), false).expect("a scene of tables")
 }
 
-/// The largest difference of coordinates, velocities, accelerations and multipliers from the recursion over steps of 1 ms.
+/// Returns the largest difference of coordinates, velocities, accelerations and multipliers from the recursion, over steps of 1 ms.
 fn apart<S: Axes<f64>, const D: usize>(text: &str) -> Result<f64, LoadError> {
     let (tree, begin) = start::<S, D>(&mbs_testkit::scene(text));
     let collected = Collected::new(&tree, &begin, &[]).expect("no signal moves");
@@ -82,7 +82,7 @@ fn cams_and_ropes_have_the_bits_of_the_recursion_on_a_controller() {
     assert_eq!(apart::<Spatial, 3>(WINCH), Ok(0.0));
 }
 
-/// A rope that may be slack over a slide and the load, and a spring on a curve of the shaft's angle.
+/// A rope over a slide and the load that may be slack, and a spring on a curve of the shaft's angle.
 pub(crate) const SUMS: &str = r#"
 [[effect]]
 name = "sling"
@@ -102,7 +102,7 @@ terms = [{ joint = "shaft", factor = 0.5, coefficients = [0.0, 1.0, 0.1] }, { jo
 #[test]
 fn effects_on_lengths_and_curves_have_the_bits_of_the_recursion_on_a_controller() {
     assert_eq!(apart::<Planar, 2>(&format!("{HOIST}{SUMS}")), Ok(0.0));
-    // without couplings too
+    // the effects without couplings
     let alone = HOIST.split("[[coupling]]").next().expect("what stands before");
     let start = "[[initial]]\njoint = \"shaft\"\nvalue = 0.3\nrate = 15.0\n";
     assert_eq!(apart::<Planar, 2>(&format!("{alone}{start}{SUMS}")), Ok(0.0));
@@ -127,13 +127,13 @@ joint = "axle"
 signal = "falls"
 "#;
     let text = format!("{HOIST}{signals}");
-    // signals are kept to rounding, as the tests of signals say
+    // signals agree to rounding, as the tests of signals show
     let apart = apart::<Planar, 2>(&text).expect("a model");
     assert!(apart < 1e-9, "{apart:e}");
     assert_eq!(version(&exported::<Planar, 2>(&text)), 2 + 2 + 8);
 }
 
-/// The version of a text.
+/// Returns the version of a text.
 fn version(text: &[u8]) -> u32 {
     u32::from_le_bytes([text[4], text[5], text[6], text[7]])
 }
@@ -145,7 +145,7 @@ fn texts_say_by_their_version_whether_curves_and_lines_follow() {
     assert_eq!(version(&exported::<Planar, 2>(HOIST)), 2 + 4 + 8);
     let alone = HOIST.split("[[coupling]]").next().expect("what stands before");
     assert_eq!(version(&exported::<Planar, 2>(alone)), 2);
-    // curves that come twice, and parts that nobody knows
+    // curves that are present twice, and unknown parts
     for unknown in [2 + 2 + 4, 2 + 16, 1] {
         let mut broken = cam.clone();
         broken[4..8].copy_from_slice(&u32::to_le_bytes(unknown));
@@ -154,7 +154,7 @@ fn texts_say_by_their_version_whether_curves_and_lines_follow() {
     }
 }
 
-/// Coordinates after some steps in a precision.
+/// Returns the coordinates after some steps in a precision.
 fn after<T: Real + Record, S: Axes<T>>(text: &[u8], (steps, dt): (u32, f64)) -> Vec<f64> {
     let tables = RoomTables::<T, S>::read(text).expect("a model");
     let model = tables.model();
@@ -165,7 +165,7 @@ fn after<T: Real + Record, S: Axes<T>>(text: &[u8], (steps, dt): (u32, f64)) -> 
     solver.coordinates().iter().map(|x| x.to_f64()).collect()
 }
 
-/// The largest difference of a coordinate in single precision from double.
+/// Returns the largest difference of a coordinate in single precision from that in double precision.
 fn apart_in_single<S: Axes<f64> + Axes<f32>, const D: usize>(text: &str) -> f64 {
     let (tree, begin) = start::<S, D>(&mbs_testkit::scene(text));
     let collected = Collected::new(&tree, &begin, &[]).expect("no signal moves");
@@ -178,7 +178,7 @@ fn apart_in_single<S: Axes<f64> + Axes<f32>, const D: usize>(text: &str) -> f64 
 
 #[test]
 fn in_single_precision_cams_and_ropes_stay_near_the_run_in_double() {
-    // a step rounds angles of some 8 rad to 5e-7; 500 roundings that all add up are 2.4e-4
+    // a step rounds angles of about 8 rad to 5e-7; 500 rounding errors of the same sign are 2.4e-4
     const NEAR: f64 = 2.4e-4;
     for apart in [
         apart_in_single::<Planar, 2>(&file("cam-follower")),
@@ -190,7 +190,7 @@ fn in_single_precision_cams_and_ropes_stay_near_the_run_in_double() {
     }
 }
 
-/// Masses of 3 kg and 2 kg on slides below two points of the ground, over which a rope goes from one to the other.
+/// Returns a scene with masses of 3 kg and 2 kg on slides. A rope connects them over two points of the ground.
 fn atwood(below: f64) -> String {
     let mut text = String::from(
         "[scene]\nname = \"atwood\"\ndimension = 2\nduration = 2.0\ngravity = [0.0, -9.81]\n",
@@ -211,29 +211,29 @@ fn atwood(below: f64) -> String {
 
 #[test]
 fn the_heavier_of_two_masses_on_a_rope_falls_with_a_fifth_of_gravity() {
-    // a = (3 - 2)/(3 + 2) g = 1.962 m/s²: 0.981 m in a second
+    // a = (3 - 2)/(3 + 2) g = 1.962 m/s²: a displacement of 0.981 m in a second
     let (tree, begin) = start::<Planar, 2>(&mbs_testkit::scene(&atwood(2.0)));
     let collected = Collected::new(&tree, &begin, &[]).expect("no signal moves");
     let [double, single] =
         [false, true].map(|is_single| bytes(&collected.model(), is_single).expect("tables"));
     for (z, near) in [
-        // rounding of a thousand steps in each precision
+        // rounding errors of a thousand steps in each precision
         (after::<f64, Planar>(&double, (1000, 1e-3)), 1e-12),
         (after::<f32, Planar>(&single, (1000, 1e-3)), 1e-4),
     ] {
         assert!((z[0] + 0.981).abs() < near && (z[1] - 0.981).abs() < near, "{z:?}");
     }
-    // T = 2·3·2/(3 + 2) g = 23.544 N, the sum over its largest factor, which is one
+    // T = 2·3·2/(3 + 2) g = 23.544 N. The multiplier belongs to the sum divided by its largest factor, which is one.
     let model = Checked::new(&collected.model()).expect("a model");
     let mut solver = Room::<f64, Planar>::new(&model).expect("room");
     solver.step(&model, 1e-3, &mut Unwatched).expect("a step");
-    // one sweep leaves the share of the regularisation, 1e-10 of it
+    // one sweep leaves the fraction ε of the regularisation, 1e-10 of the force
     assert!((solver.multipliers()[0].abs() - 23.544).abs() < 1e-8, "{:?}", solver.multipliers());
 }
 
 #[test]
 fn a_part_of_a_rope_that_collapses_stops_a_controller_with_its_number() {
-    // half a metre with 1.962 m/s²: 0.714 s
+    // half a metre with 1.962 m/s² takes 0.714 s
     let text = exported::<Planar, 2>(&atwood(0.5));
     let tables = RoomTables::<f64, Planar>::read(&text).expect("a model");
     let model = tables.model();
@@ -249,7 +249,7 @@ fn a_part_of_a_rope_that_collapses_stops_a_controller_with_its_number() {
     assert!((712..=716).contains(&step), "{step}");
 }
 
-/// A cam without gravity whose follower's way is 0.05 a + 0.1 a²: the rate of its angle.
+/// A cam without gravity, with the lift 0.05 a + 0.1 a² of its follower at the angle a.
 const BY_COEFFICIENTS: &str = r#"
 [scene]
 name = "cam"
@@ -286,7 +286,8 @@ value = 0.0
 rate = 4.0
 "#;
 
-/// The angle of that cam after a time: the energy (I + m f'²) a'²/2 is kept; the classical method of fourth order.
+/// Returns the angle of that cam after a time, by the Runge-Kutta method of order 4. The rate follows from the energy (I + m f'²) a'²/2,
+/// which is constant.
 fn angle_of_cam(duration: f64) -> f64 {
     let slope = |a: f64| {
         let [f, f0] = [0.05 + 0.2 * a, 0.05];
@@ -332,7 +333,7 @@ fn a_cam_drifts_and_is_projected() {
     };
     let ([drift, rates], [kept, kept_rates]) = (left(0), left(1));
     assert!(drift > 1e-7 && rates > 1e-6, "{drift:e} {rates:e}");
-    // a projection leaves what is not linear in the way back: f''/2 times its square, which is below 1e-11
+    // a projection leaves the second-order part of the correction: f''/2 times its square, which is below 1e-11
     assert!(kept < 1e-10 && kept_rates < 1e-6, "{kept:e} {kept_rates:e}");
 }
 
@@ -385,7 +386,7 @@ fn numbers_of_points_links_and_curves_that_point_outside_are_refused_with_their_
     assert_eq!(refused(Couplings { curves, ..couplings }), index("curves", 0));
 }
 
-/// A table with one entry changed.
+/// Returns a table with one entry changed.
 fn changed<X: Copy>(table: &[X], i: usize, change: impl Fn(&mut X)) -> &'static [X] {
     let mut table = table.to_vec();
     change(&mut table[i]);

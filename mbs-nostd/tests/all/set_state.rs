@@ -1,4 +1,4 @@
-//! States that are set from outside: against the recursion on the host, against closed forms, and refused.
+//! States that are set from outside: compared with the recursion on the host and with closed forms, or refused.
 
 use crate::support::start;
 use mbs_core::Real;
@@ -10,14 +10,14 @@ use mbs_recursive::space::Space;
 use mbs_recursive::{Options, TreeModel, TreeState, Workspace};
 use mbs_testkit::{allocations, file};
 
-/// Room for the vehicle and for an arm on its drives.
+/// Solver with memory for the vehicle and for an arm with drives.
 type Room<S> = Solver<f64, S, 12, 40, 32, 16, 256, 256, 2, 40, 40, 40>;
 type RoomTables = Tables<f32, Planar, 8, 12, 16, 64, 24, 64, 8, 40, 4>;
 
-/// A four-bar linkage of ground 1 m, a crank of 0.3 m and a coupler and a rocker between places of one decimal.
+/// A four-bar linkage with a ground of 1 m, a crank of 0.3 m, a coupler and a rocker. Its points have one decimal.
 const CRANK: &str = include_str!("crank-rocker.toml");
 
-/// The state after `n` steps of 1 ms, put aside by small numbers of both signs; quaternions stay unit.
+/// Returns the state after `n` steps of 1 ms, changed by small numbers of both signs. Quaternions remain of unit length.
 fn aside<S: Space<f64>>(
     tree: &TreeModel<f64, S>,
     begin: &TreeState<f64>,
@@ -42,14 +42,14 @@ fn aside<S: Space<f64>>(
     state
 }
 
-/// All that a solver shows, as bits.
+/// Returns all outputs of a solver as bits.
 fn shown<S: Space<f64>>(solver: &Room<S>) -> Vec<u64> {
     let lists = [solver.coordinates(), solver.velocities(), solver.accelerations()];
     let numbers = lists.into_iter().flatten().chain(solver.multipliers());
     numbers.chain([&solver.time()]).map(|x| x.to_bits()).collect()
 }
 
-/// Sets states of a scene in the solver and in the recursion; the steps from there have the same bits.
+/// Sets states of a scene in the solver and in the recursion, and checks that the following steps have the same bits.
 fn same_as_in_the_recursion<S: mbs_nostd::format::Axes<f64>, const D: usize>(
     name: &str,
     (n, by): (usize, f64),
@@ -94,7 +94,7 @@ fn a_state_that_is_set_is_that_of_the_recursion_to_the_bit_and_so_are_the_steps_
     for name in ["six-joint-arm", "servo-arm", "spatial-four-bar", "iltis-slalom"] {
         same_as_in_the_recursion::<Spatial, 3>(name, (50, 1e-3));
     }
-    // its quaternion is that of a step, and keeps its bits
+    // the quaternion comes from a step, and its bits are kept
     same_as_in_the_recursion::<Spatial, 3>("free-body", (50, 0.0));
 }
 
@@ -122,8 +122,9 @@ fn a_solver_set_to_the_state_of_another_run_follows_it_but_for_the_accelerations
             *apart = apart.max((x - y).abs());
         }
     }
-    // A run starts its step from the accelerations at the last predicted place, which is off by β h² times their change in a step, h³/4 times
-    // a third derivative. Accelerations anew are off by as much times ∂z̈/∂z, and move the end by h²/4 of that: h⁵ in all.
+    // A run starts its step from the accelerations at the last predicted position, which has an error of β h² times their change in a step.
+    // This is h³/4 times a third derivative. Newly evaluated accelerations differ by this error times ∂z̈/∂z. They change the end of the
+    // step by h²/4 of the difference, which is h⁵ in total.
     assert!(apart[0] < 1e-10 && apart[1] < apart[0] / 16.0, "{apart:?}");
 }
 
@@ -146,17 +147,17 @@ fn after_a_new_input_steps_begin_with_accelerations_anew_and_a_state_that_is_set
     }
 }
 
-/// The gap of the crank-rocker's loop between the end of its coupler and that of its rocker, and its first and second rate, from
-/// the coordinates of its links alone.
+/// Returns the gap of the crank-rocker's loop between the ends of its coupler and its rocker, with its first and second rate. It is
+/// computed from the coordinates of the links only.
 ///
-/// A link turned by the sum φ of the angles on the way to it puts the point r of its axes at R(φ) r, with the rate φ' R(φ) i r and the
+/// A link is rotated by the sum φ of the angles up to the ground. A point r in its axes is at R(φ) r. Its rate is φ' R(φ) i r, and its
 /// second rate φ'' R(φ) i r - φ'² R(φ) r.
 fn gap<T: Real>(model: &Checked<'_, T, Planar>, motion: [&[T]; 3]) -> [f64; 3] {
     let mechanism = &model.model().mechanism;
     let point = |link: usize, own: [f64; 2]| -> [[f64; 2]; 3] {
         let (mut at, mut number, mut arm) = ([[0.0; 2]; 3], link, own);
         loop {
-            // the turn of this link, over all links up to the ground
+            // rotation of this link: the sum over all links up to the ground
             let (mut turn, mut k) = ([0.0; 3], number);
             while k > 0 {
                 let v = mechanism.links[k].v as usize;
@@ -204,7 +205,7 @@ fn a_loop_is_closed_with_its_velocities_and_accelerations_in_both_precisions() {
     let report = solver.set_state(&double, &given.z, &given.v).expect("it is near");
     let motion = [solver.coordinates(), solver.velocities(), solver.accelerations()];
     let after = gap(&double, motion);
-    // rates are about 6 rad/s, accelerations 100 rad/s^2
+    // rates are about 6 rad/s, and accelerations about 100 rad/s^2
     assert!(after[0] < 1e-14 && after[1] < 1e-13 && after[2] < 1e-11, "{after:?} {report:?}");
     assert!(report.violation[0] < 1e-14 && report.responses < 40, "{report:?}");
     let text = bytes(&collected.model(), true).expect("a scene without own laws");
@@ -232,22 +233,22 @@ fn a_loop_is_closed_by_the_move_that_is_smallest_in_the_norm_of_the_masses() {
     let mut mass = vec![0.0; n * n];
     let mut freedoms = mbs_recursive::own::OwnFreedoms::of_tree(&tree);
     freedoms.write_mass_matrix(&tree, &begin, &mut Workspace::new(&tree), &mut mass);
-    // The motion of a linkage with one freedom is along its velocities: a smallest move has no part along it, u' M d = 0.
+    // The linkage has one freedom and can move along its velocities u only. The smallest correction d has no part along u: u' M d = 0.
     let moved: Vec<f64> = solver.coordinates().iter().zip(&given.z).map(|(x, y)| x - y).collect();
     let along = |a: &[f64], b: &[f64]| -> f64 {
         (0..n).map(|i| a[i] * (0..n).map(|j| mass[i * n + j] * b[j]).sum::<f64>()).sum()
     };
     let (part, speed) = (along(&begin.v, &moved), along(&begin.v, &begin.v).sqrt());
     let size = along(&moved, &moved).sqrt();
-    // It is 1e-4 of the linkage, so that the direction turns by as much.
+    // The correction is 1e-4 of the linkage's size, so the direction of the velocities changes by as much.
     assert!(size > 1e-6 && part.abs() < 1e-3 * size * speed, "{part} of {size}");
 }
 
-/// Steps of a solver after a refusal are those of one that was not asked.
+/// Checks that a solver after a refused state has the same outputs, closings and steps as a solver without the call.
 fn is_untouched(model: &Checked<'_, f64, Planar>, asked: &Room<Planar>, other: &Room<Planar>) {
     let (mut after, mut other) = (asked.clone(), other.clone());
     assert_eq!(shown(&after), shown(&other));
-    // What a closing remembers is as before too.
+    // The memory for later closings is unchanged too.
     let mut closed = [&after, &other].map(Clone::clone);
     let reports = closed.each_mut().map(|solver| {
         let (mut z, v) = (solver.coordinates().to_vec(), solver.velocities().to_vec());
@@ -292,15 +293,15 @@ fn what_is_no_state_is_refused_and_the_state_before_stays_to_the_bit() {
         assert_eq!(solver.set_state(&model, &z, &v), refused);
         is_untouched(&model, &solver, &before);
     }
-    // A rate whose square is infinite: there is no acceleration.
+    // The square of this rate is infinite, so the accelerations do not exist.
     let error = solver.set_state(&model, &z, &with(&v, 0, 1e200)).expect_err("too fast");
     assert!(matches!(error, StateError::Failed(_) | StateError::Open { .. }), "{error}");
     is_untouched(&model, &solver, &before);
-    // The second link put aside by up to 1.5 rad closes; by 2 rad the closing does not converge.
+    // The loops close if the second link is displaced by up to 1.5 rad. For 2 rad the projection does not converge.
     for turn in [0.5, 1.0, 1.5] {
         let mut asked = before.clone();
         asked.set_state(&model, &with(&z, 1, z[1] + turn), &v).expect("it is near enough");
-        // Far away the closing contracts slowly, and ends below a root of rounding; the next step projects what is left.
+        // Far from closure the projection converges slowly, and ends below a root of rounding. The next step projects the remainder.
         let motion = [asked.coordinates(), asked.velocities(), asked.accelerations()];
         assert!(gap(&model, motion)[0] < 2e-9, "{turn}");
         asked.step(&model, 1e-3, &mut Unwatched).expect("a step");

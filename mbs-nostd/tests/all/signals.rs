@@ -1,4 +1,4 @@
-//! Signals on a controller: the steps of the host, inputs changed on the way, from tables in flash and from bytes.
+//! Signals on a controller, compared with the steps of the host. Inputs change during the run; models are in flash and in bytes.
 
 use crate::support::start;
 use mbs_core::scene::{Scene, SignalKind};
@@ -14,7 +14,7 @@ use mbs_testkit::allocations;
 type Room<S> = Solver<f64, S, 40, 64, 48, 40, 1024, 1024, 4, 48, 8, 48>;
 type RoomTables<S> = Tables<f64, S, 40, 24, 40, 256, 48, 64, 48, 64, 80>;
 
-/// Two links in the plane with a controller at each joint: one follows an input, the other a table.
+/// Two links in the plane with a controller at each joint. One controller follows an input, the other a table.
 pub(crate) const ARM: &str = r#"
 [scene]
 dimension = 2
@@ -83,7 +83,7 @@ joint = "elbow"
 signal = "bend"
 "#;
 
-/// A wheel driven by an engine whose torque falls with its speed and comes late, with a throttle, a brake and a load.
+/// A wheel that an engine drives, with throttle, brake and load. The engine's torque decreases with its speed and is delayed.
 pub(crate) const LINE: &str = r#"
 [scene]
 dimension = 2
@@ -185,15 +185,15 @@ coulomb = 20.0
 signal = "pressed"
 "#;
 
-/// Steps of each comparison.
+/// Number of steps of each comparison [-].
 const STEPS: u32 = 300;
 
-/// Value that an input is set to before a step.
+/// Returns the value to which an input is set before a step.
 fn input(number: usize, step: u32) -> f64 {
     [0.5, 0.9, -0.2, 1.3][(step / 60) as usize % 4] * if number == 1 { 0.4 } else { 1.0 }
 }
 
-/// The numbers of the signals that are inputs.
+/// Returns the numbers of the signals that are inputs.
 fn inputs(scene: &Scene<f64>) -> Vec<usize> {
     let all = scene.signals.iter().enumerate();
     all.filter(|(_, signal)| matches!(signal.kind, SignalKind::Input { .. }))
@@ -201,7 +201,7 @@ fn inputs(scene: &Scene<f64>) -> Vec<usize> {
         .collect()
 }
 
-/// The largest difference from the host's steps, of coordinates, velocities, accelerations and states.
+/// Returns the largest difference of coordinates, velocities, accelerations and states from the host's steps.
 fn apart<S: Axes<f64>, const D: usize>(scene: &Scene<f64>) -> f64 {
     let inputs = inputs(scene);
     let (tree, begin) = start::<S, D>(scene);
@@ -212,7 +212,7 @@ fn apart<S: Axes<f64>, const D: usize>(scene: &Scene<f64>) -> f64 {
     let mut worst = 0.0_f64;
     for model in [flash, tables.model()] {
         let mut solver = Room::<S>::new(&model).expect("room");
-        // the second run begins anew
+        // the second run starts from the beginning again
         for _ in 0..2 {
             let (mut state, mut workspace) = (begin.clone(), Workspace::new(&tree));
             for k in 0..STEPS {
@@ -261,7 +261,7 @@ fn an_arm_in_space_with_servos_steps_as_on_the_host() {
     assert!(apart < 1e-10, "{apart:e}");
 }
 
-/// A model as bytes.
+/// Returns a model as bytes.
 fn exported(text: &str) -> Vec<u8> {
     let (tree, begin) = start::<Planar, 2>(&mbs_testkit::scene(text));
     let collected = Collected::new(&tree, &begin, &[]).expect("signals of a controller");

@@ -1,5 +1,5 @@
-//! The run of the firmware on the host, with a panic handler of its own: a second one, of a standard library that sneaked in,
-//! would not compile.
+//! The run of the firmware on the host. It has a panic handler of its own. If the standard library were linked by mistake, its second panic
+//! handler would be a compile error.
 
 #![no_std]
 #![no_main]
@@ -20,18 +20,18 @@ unsafe extern "C" {
     fn abort() -> !;
 }
 
-/// Standard output.
+/// Writer to the standard output.
 struct Out;
 
 impl fmt::Write for Out {
     fn write_str(&mut self, text: &str) -> fmt::Result {
-        // SAFETY: `write` of the C library reads `n` bytes, which the text has.
+        // SAFETY: `write` of the C library reads `n` bytes, and the text has `n` bytes.
         let n = unsafe { write(1, text.as_ptr().cast(), text.len()) };
         if usize::try_from(n) == Ok(text.len()) { Ok(()) } else { Err(fmt::Error) }
     }
 }
 
-/// What each coordinate is: m a way, r an angle, q one of the four numbers of a turn.
+/// Writes the kind of each coordinate: m for a slide, r for an angle, q for one of the four numbers of a quaternion.
 fn write_units() -> fmt::Result {
     write!(Out, "u")?;
     // Link 0 is the ground.
@@ -48,12 +48,12 @@ fn write_units() -> fmt::Result {
     writeln!(Out)
 }
 
-/// Has a free link three coordinates?
+/// Is the free link planar, with three coordinates?
 fn is_planar(free: LinkKind) -> bool {
     free.n_coordinates::<model::Scalar, model::Axes>() == 3
 }
 
-/// What the C library starts.
+/// Entry point that the C library calls.
 #[unsafe(no_mangle)]
 pub extern "C" fn main() -> c_int {
     let bound = operation_bound::step(&model::MODEL, Bounds::default());
@@ -65,6 +65,6 @@ pub extern "C" fn main() -> c_int {
 
 #[panic_handler]
 fn panic(_: &core::panic::PanicInfo<'_>) -> ! {
-    // SAFETY: `abort` asks for nothing.
+    // SAFETY: `abort` has no preconditions.
     unsafe { abort() }
 }

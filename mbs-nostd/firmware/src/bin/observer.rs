@@ -1,11 +1,11 @@
-//! An observer of a two-link arm, and a loop that is closed, on an emulated Cortex-M7. `ffi/controller/observer.c` computes the same in C,
-//! with the same bits. The lines that they print:
+//! An observer of a two-link arm and the closing of a loop, on an emulated Cortex-M7. `ffi/controller/observer.c` computes the same in C,
+//! with the same bits. Both print these lines:
 //!
 //! ```text
 //! o STEP ERROR ERROR      differences of the two angles between the arm and the observer [rad], as hexadecimal bits
-//! c MOVED VIOLATION VIOLATION      of the loop that was closed: largest move, positions and velocities left, as bits
-//! s STEP COORDINATES      of the loop after its steps, as bits
-//! n ARM LOOP STEP         instructions: a state of the arm, one of the loop, a step of the arm
+//! c MOVED VIOLATION VIOLATION      closing of the loop: largest change, remaining violations of positions and velocities, as bits
+//! s STEP COORDINATES      coordinates of the loop after the following steps, as bits
+//! n ARM LOOP STEP         numbers of instructions: setting a state of the arm, setting one of the loop, a step of the arm
 //! m STACK                 bytes of stack that were used
 //! ```
 
@@ -17,12 +17,12 @@ mod stack;
 #[path = "../timer.rs"]
 mod timer;
 
-/// The arm: a file of `mbs export --rust` that MBS_MODEL names.
+/// Arm: the source file by `mbs export --rust` that MBS_MODEL names.
 mod arm {
     include!(env!("MBS_MODEL"));
 }
 
-/// The linkage: a file of `mbs export --rust` that MBS_LOOP names.
+/// Linkage: the source file by `mbs export --rust` that MBS_LOOP names.
 mod linkage {
     include!(env!("MBS_LOOP"));
 }
@@ -34,33 +34,34 @@ use mbs_nostd::{Checked, StateError, StateReport, Unwatched};
 
 /// Step of the arm, of the observer and of the linkage [s].
 const STEP: f64 = 1e-3;
-/// Steps of the run [-]: half a second, which is longer than the observer may take.
+/// Number of steps of the run [-]: half a second, more than the observer needs to converge.
 const STEPS: u32 = 500;
-/// Steps between two that are reported.
+/// Number of steps between two reports [-].
 const REPORT_INTERVAL: u32 = 50;
 /// Errors of the observer's angles at the start [rad].
 const START_ERRORS: [f64; 2] = [0.04, 0.02];
-/// Torque of the shoulder's motor, which arm and observer are given [N m].
+/// Torque of the shoulder's motor on both arm and observer [N m].
 const TORQUE: f64 = 0.5;
-/// Changes by which the coordinates and the velocities of the loop are put aside [rad, rad/s].
+/// Changes of the loop's coordinates and velocities before it is closed [rad, rad/s].
 const ASIDE: [f64; 3] = [0.05, -0.025, 0.0125];
 
-/// Double root of the observer's error [1/s]. From errors of 0.04 rad what is left after 0.4 s is (1 + 8) exp(-8) of it at most, 0.12 mrad.
+/// Double root of the observer's error [1/s]. After 0.4 s at most the fraction (1 + 8) exp(-8) of 0.04 rad remains, 0.12 mrad.
 const ROOT: f64 = 20.0;
 
-/// The gains of the observer for one step: h L1, h L2 in
+/// Returns the gains of the observer for one step, h L1 and h L2 in
 ///
 /// ```text
 /// z' = v + L1 (y - z),   v' = f(z, v) + L2 (y - z)
 /// ```
 ///
-/// With e = y - z the linearised arm, v' = A z + B v, gives e'' + (L1 - B) e' + (L2 - A - B L1) e = 0. It is e'' + 2 r e' + r² e = 0 for
+/// With e = y - z the linearised arm v' = A z + B v gives e'' + (L1 - B) e' + (L2 - A - B L1) e = 0. This equation is e'' + 2 r e' + r² e =
+/// 0 for
 ///
 /// ```text
 /// L1 = 2 r 1 + B,   L2 = r² 1 + A + B L1
 /// ```
 ///
-/// Hanging at rest A = -M⁻¹ K and B = -M⁻¹ D, with uniform links of mass m and length l, m = (2, 1) kg and l = (0.4, 0.3) m:
+/// For the arm hanging at rest, A = -M⁻¹ K and B = -M⁻¹ D. The links are uniform, with mass m = (2, 1) kg and length l = (0.4, 0.3) m:
 ///
 /// ```text
 /// M22 = m2 l2²/3,   M12 = M22 + m2 l1 l2/2,   M11 = m1 l1²/3 + m2 l1² + m2 l1 l2 + M22
@@ -83,7 +84,7 @@ fn gains() -> [[[f64; 2]; 2]; 2] {
     let mut first = b;
     first[0][0] += 2.0 * ROOT;
     first[1][1] += 2.0 * ROOT;
-    // B L1
+    // product -B L1, subtracted below
     let damped = minus_product(&b, &first);
     let mut second = a;
     for i in 0..2 {
@@ -99,7 +100,7 @@ fn gains() -> [[[f64; 2]; 2]; 2] {
     [first, second]
 }
 
-/// -x y of two matrices.
+/// Returns the product -x y of two matrices.
 fn minus_product(x: &[[f64; 2]; 2], y: &[[f64; 2]; 2]) -> [[f64; 2]; 2] {
     let mut product = [[0.0; 2]; 2];
     for i in 0..2 {
@@ -110,7 +111,7 @@ fn minus_product(x: &[[f64; 2]; 2], y: &[[f64; 2]; 2]) -> [[f64; 2]; 2] {
     product
 }
 
-/// A state that is set: what is proved to have no path to a panic.
+/// Sets a state of the linkage. A check of the compiled code proves that this function has no path to a panic.
 #[unsafe(no_mangle)]
 #[inline(never)]
 pub fn mbs_set_state(
@@ -148,7 +149,7 @@ fn whole() -> Option<()> {
     writeln!(out, "m {}", stack::used()).ok()
 }
 
-/// Runs arm and observer beside each other; the instructions of a state and of a step.
+/// Runs the arm and its observer together. Returns the numbers of instructions for setting a state and for a step.
 fn observe(out: &mut impl Write, clock: &mut impl FnMut() -> u32) -> Option<[u32; 2]> {
     let model = Checked::new(&arm::MODEL).ok()?;
     let mut arm = arm::ModelSolver::new(&model).ok()?;
@@ -188,7 +189,8 @@ fn observe(out: &mut impl Write, clock: &mut impl FnMut() -> u32) -> Option<[u32
     Some(spent)
 }
 
-/// Closes the loop of the linkage from beside it, and steps on; refuses what is no state. The instructions of the state.
+/// Displaces the linkage, closes its loop, continues with steps, and checks that invalid states are refused. Returns the number
+/// of instructions for setting the state.
 fn close(out: &mut impl Write, clock: &mut impl FnMut() -> u32) -> Option<u32> {
     let model = Checked::new(&linkage::MODEL).ok()?;
     let mut solver = linkage::ModelSolver::new(&model).ok()?;
@@ -221,7 +223,7 @@ fn close(out: &mut impl Write, clock: &mut impl FnMut() -> u32) -> Option<u32> {
     Some(spent)
 }
 
-/// A line of numbers, as bits.
+/// Writes a line of numbers as hexadecimal bits.
 fn write_line(out: &mut impl Write, what: Arguments<'_>, numbers: &[f64]) -> Option<()> {
     write!(out, "{what}").ok()?;
     for x in numbers {

@@ -1,4 +1,4 @@
-//! Scenes as trees that stand at their start.
+//! Trees of scenes at their start state.
 
 #[path = "../../../../lab/src/runner/bench/counted.rs"]
 pub(crate) mod counted;
@@ -7,7 +7,7 @@ use mbs_core::scene::Scene;
 use mbs_recursive::space::Space;
 use mbs_recursive::{TreeModel, TreeState};
 
-/// A scene's tree and the state that it starts from.
+/// Returns a scene's tree and its start state.
 pub(crate) fn start<S: Space<f64>, const D: usize>(
     scene: &Scene<f64>,
 ) -> (TreeModel<f64, S>, TreeState<f64>) {
