@@ -62,7 +62,7 @@ pub use statics::{Moved, StaticEquilibrium};
 pub use stop::{INTERRUPTED, StopError};
 pub use tilt::AlmostDependent;
 
-/// Items that the studies of mbs-study share with this crate, and that its tests call; no part of its interface.
+/// Items for the studies of mbs-study and for tests; they are no part of the crate's interface.
 #[doc(hidden)]
 pub mod inside {
     pub use crate::front::prepared::PreparedRun;
@@ -96,7 +96,7 @@ pub mod inside {
 #[doc = include_str!("../TASKS.md")]
 pub mod tasks {}
 
-/// The programs of docs/RUST.md, which packages leave out.
+/// Example programs of docs/RUST.md, compiled as tests; published packages do not contain them.
 #[cfg(doctest)]
 #[doc = include_str!("../../docs/RUST.md")]
 mod guide {}

@@ -4,11 +4,11 @@ use super::options::{Run, Watchers};
 use crate::erased::SimulationError;
 use core::fmt::{self, Display, Formatter};
 
-/// Options of a run that exclude each other, or that another function takes. The code is `settings-refused`.
+/// Conflict of the options of a run: two of them exclude each other, or one needs `mbs_study::run`. The error code is `settings-refused`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum RunConflict {
-    /// A goal or an estimate is for `mbs_study::run`.
+    /// A goal or an estimate was given: only `mbs_study::run` makes such runs.
     Study,
     /// Two parts of a run exclude each other.
     Together {
@@ -21,7 +21,7 @@ pub enum RunConflict {
     Interval(f64),
 }
 
-/// Words for the parts of a run.
+/// Names of the options of a run in messages.
 const GOAL: &str = "a required error or deadline";
 const CHECKPOINTS: &str = "checkpoints";
 const PACE: &str = "the pace of a clock";
@@ -31,7 +31,7 @@ const FUNCTIONS: &str = "outputs in code";
 const LAST_ROW: &str = "the last row alone";
 
 impl RunConflict {
-    /// Finds what excludes each other in the options of a run; `n_functions` counts outputs in code.
+    /// Checks that no two options of a run exclude each other. `n_functions` is the number of outputs that are written in code.
     ///
     /// # Errors
     /// The first conflict.
@@ -58,7 +58,7 @@ impl RunConflict {
         run.checkpoints.as_ref().map_or(Ok(()), |(_, every)| Self::check_interval(*every))
     }
 
-    /// Finds what in the options of a run excludes its observers.
+    /// Checks that the options of a run allow its observers.
     ///
     /// # Errors
     /// The first conflict.
@@ -78,7 +78,7 @@ impl RunConflict {
     /// Checks the simulated time between two checkpoints [s].
     ///
     /// # Errors
-    /// [`Interval`](Self::Interval) for one that is not positive and finite.
+    /// [`Interval`](Self::Interval) for a time that is not positive and finite.
     pub fn check_interval(every: f64) -> Result<(), Self> {
         if every > 0.0 && every.is_finite() { Ok(()) } else { Err(Self::Interval(every)) }
     }
@@ -94,7 +94,8 @@ impl RunConflict {
     }
 }
 
-/// The first of some conflicts that is one.
+/// Returns an error for the first rule whose condition is true. A rule is a condition, two options and the reason why they exclude each
+/// other.
 fn first<const N: usize>(
     rules: [(bool, [&'static str; 2], &'static str); N],
 ) -> Result<(), RunConflict> {

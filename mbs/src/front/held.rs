@@ -8,14 +8,15 @@ use mbs_core::effects::Value;
 use mbs_core::scene::{Effect, Motion, Number, Signal, SignalKind};
 
 impl Mechanism {
-    /// Lets its inputs begin at these values, in the order of [`inputs`](Self::inputs): what starts, rests or is linearised then is under
-    /// them.
+    /// Sets the values at which the inputs begin, in the order of [`inputs`](Self::inputs). Each simulation, equilibrium or linearisation
+    /// made afterwards starts with these values.
     ///
     /// # Errors
-    /// [`SimulationError`] for a wrong number of values, one that is not finite, and as [`inputs`](Self::inputs). Nothing is set then.
+    /// [`SimulationError`] for a wrong number of values, for a value that is not finite, and for the errors of [`inputs`](Self::inputs). No
+    /// input is set then.
     ///
     /// # Examples
-    /// A bar of 2 kg at 0.5 m, level, which its motor holds:
+    /// A level bar of 2 kg, whose centre of mass is at 0.5 m, is held by the torque of a motor:
     /// ```
     /// use mbs::{Body, Effect, GROUND, Joint, Mechanism, Signal};
     /// let mut m = Mechanism::planar("held bar");
@@ -62,11 +63,11 @@ impl Mechanism {
 }
 
 impl Mechanism {
-    /// The mechanism with inputs that follow a table over time: in it they are tables. Values are linear between the times and held outside;
-    /// a guide or a coupling follows the cubic spline through its values.
+    /// Returns a copy of the mechanism whose inputs follow a table over time. Values between two times of the table are interpolated
+    /// linearly. Outside the table, its first or last value holds. A guide or a coupling follows the cubic spline through the values instead.
     ///
     /// # Errors
-    /// [`SimulationError`] for a table that is refused, and as [`inputs`](Self::inputs).
+    /// [`SimulationError`] for a table that is refused, and for the errors of [`inputs`](Self::inputs).
     pub fn following(&self, table: &InputTable) -> Result<Self, SimulationError> {
         let inputs = self.inputs()?;
         let mut driven = self.clone();
@@ -75,7 +76,7 @@ impl Mechanism {
     }
 }
 
-/// Checks that there are as many values as inputs, all of them finite.
+/// Checks that the number of values is the number of inputs, and that all values are finite.
 fn check(inputs: &[InputInfo], values: &[f64]) -> Result<(), SimulationError> {
     let names = || inputs.iter().map(|info| info.name.as_str()).collect::<Vec<_>>().join(", ");
     if inputs.len() != values.len() {
@@ -90,7 +91,7 @@ fn check(inputs: &[InputInfo], values: &[f64]) -> Result<(), SimulationError> {
     })
 }
 
-/// Sets one number of the input of an effect.
+/// Sets one component of the signal input of an effect.
 fn set_effect(effect: &mut Effect<Number>, component: usize, value: &Number) {
     let values = effect.kind.values().into_iter().map(|old| match old {
         Value::Signal(Signal::Input(mut start)) => {

@@ -1,4 +1,4 @@
-//! Mechanism as its scene in decimal numbers, and the file that it came from.
+//! Mechanism as data: its scene in decimal numbers, and the file that it was read from.
 
 use super::function::{Function, FunctionId, OutputFunction};
 use super::inputs::{InputInfo, Inputs};
@@ -15,10 +15,10 @@ use std::borrow::Cow;
 use std::path::Path;
 use std::sync::Arc;
 
-/// Mechanism of bodies, joints and what acts on them, by name. Start with [`planar`](Self::planar) or [`spatial`](Self::spatial), or
+/// Mechanism of bodies, joints, effects and other named parts. Start with [`planar`](Self::planar) or [`spatial`](Self::spatial), or
 /// [`read`](Self::read) a scene file.
 ///
-/// Adding parts does not fail; [`check`](Self::check) and whatever builds a model say what is wrong, with the part's name.
+/// Adding a part never fails. [`check`](Self::check), and each function that builds a model, reports a wrong part by its name.
 ///
 /// # Examples
 /// ```
@@ -36,7 +36,7 @@ use std::sync::Arc;
 #[derive(Debug, Clone)]
 pub struct Mechanism {
     pub(super) scene: Scene<Number>,
-    /// The file that says the same, or said so before the last change by handle.
+    /// Scene file of this mechanism; older than the scene where `is_changed` is true.
     file: Option<SceneFile>,
     is_changed: bool,
     functions: Vec<Function>,
@@ -82,7 +82,7 @@ impl Mechanism {
         Self::of_file(SceneFile::parse(text, "scene")?)
     }
 
-    /// The mechanism of a scene file that is read: with what a command line has set in it.
+    /// Makes the mechanism of a scene file that is already read, including the values that a command line has set in it.
     ///
     /// # Errors
     /// [`ReadError`] with file, line, column and a hint.
@@ -91,11 +91,11 @@ impl Mechanism {
         Ok(Self { scene, file: Some(file), is_changed: false, functions: Vec::new() })
     }
 
-    /// The scene file of this mechanism. Numbers keep their digits: `parse` of it is equal to this. What came from a file keeps its text and
-    /// comments but for what changed.
+    /// Returns the text of the mechanism's scene file. Numbers keep their digits: `parse` of the text gives an equal mechanism. A mechanism
+    /// that was read from a file keeps its text and comments, except in the parts that were changed.
     ///
     /// # Errors
-    /// [`WriteError`] where a part is code, or refers to a part that is not there.
+    /// [`WriteError`] where a part is code, or refers to a part that does not exist.
     pub fn to_toml(&self) -> Result<String, WriteError> {
         Ok(self.to_file()?.text().to_owned())
     }
@@ -103,24 +103,24 @@ impl Mechanism {
     /// Writes the scene file of this mechanism.
     ///
     /// # Errors
-    /// As [`to_toml`](Self::to_toml), and [`WriteError::NotWritten`] where the system refuses.
+    /// Those of [`to_toml`](Self::to_toml), and [`WriteError::NotWritten`] where the file cannot be written.
     pub fn write(&self, path: impl AsRef<Path>) -> Result<(), WriteError> {
         std::fs::write(path, self.to_toml()?).map_err(|e| WriteError::NotWritten(e.to_string()))
     }
 
-    /// Sets the gravity vector [m/s^2]; without it there is none, and no code for it.
+    /// Sets the gravity vector [m/s^2]. Default: no gravity.
     pub fn set_gravity(&mut self, gravity: impl Into<Vector3>) -> &mut Self {
         self.scene_mut().gravity = Some(gravity.into().0);
         self
     }
 
-    /// Length of a run [s]; without it 1 s.
+    /// Sets the length of a run [s]. Default: 1 s.
     pub fn set_duration(&mut self, duration: impl Into<Number>) -> &mut Self {
         self.scene_mut().duration = duration.into();
         self
     }
 
-    /// The road under the tires; without it there is level ground at height zero.
+    /// Sets the road under the tires. Default: level ground at height zero.
     ///
     /// ```
     /// use mbs::{Mechanism, Road, RoadFeature};
@@ -134,8 +134,8 @@ impl Mechanism {
         self
     }
 
-    /// Makes a method that of the mechanism, for [`simulate`](Self::simulate), [`run`](crate::run) and its file: what it leaves open stays.
-    /// Precision, threads and interrupt are no part of a mechanism and are left out.
+    /// Sets the method of the mechanism, which [`simulate`](Self::simulate), [`run`](crate::run) and the scene file use. Settings that
+    /// `method` leaves open keep their value. Precision, threads and interrupt are no part of a mechanism: they are ignored.
     ///
     /// ```
     /// use mbs::{FormulationKind, Mechanism, Method};
@@ -148,7 +148,7 @@ impl Mechanism {
         let scene = self.scene_mut();
         for (key, row) in Setting::of_table("solver") {
             if let (Some(value), Some(slot)) = (method.value(row.name), scene.solver.slot(key)) {
-                // both have the form of the row
+                // value and slot have the same type, as both belong to this row: `set` cannot fail
                 let _ = slot.set(value.map(&mut Number::from));
             }
         }
@@ -158,20 +158,22 @@ impl Mechanism {
         self
     }
 
-    /// Length of a run that the mechanism's file or code asks for [s].
+    /// Length of a run that the mechanism's file or code sets [s]; `None` where neither sets it.
     #[must_use]
     pub fn duration(&self) -> Option<f64> {
         let duration = &self.scene.duration;
         (!duration.is_absent()).then(|| duration.to_f64())
     }
 
-    /// Adds a body, joint, initial condition, guide, effect or output and returns its handle. A part without a name is `body-1`, ...
+    /// Adds a body, joint, initial condition, guide, effect or output and returns its handle. A part without a name is named `body-1`,
+    /// `joint-1` and so on.
     pub fn add<P: Part>(&mut self, part: P) -> P::Id {
         P::Id::new(part.add_to(self.scene_mut()))
     }
 
-    /// Adds an output that is code: a column of runs, and read by [`Simulation::function`](crate::Simulation::function). It lives beside the
-    /// scene: clones share it, and what writes the mechanism as text refuses it. Its name is that of no other column: [`check`](Self::check).
+    /// Adds an output that is code. A run records it as a column, and [`Simulation::function`](crate::Simulation::function) reads its present
+    /// value. Clones of the mechanism share the function. A mechanism with such an output cannot be written as text. [`check`](Self::check)
+    /// refuses a name that another column has.
     pub fn add_function(
         &mut self,
         name: &str,
@@ -186,7 +188,7 @@ impl Mechanism {
         &self.functions
     }
 
-    /// The handle of a name: `m.find::<JointId>("elbow")`. Guides and initial conditions go by the name of their joint or body.
+    /// Finds the handle of a named part: `m.find::<JointId>("elbow")`. A guide or an initial condition has the name of its joint or body.
     ///
     /// # Errors
     /// [`UnknownName`], which proposes the nearest name.
@@ -199,16 +201,16 @@ impl Mechanism {
         Err(UnknownName { word: I::WORD, name: name.to_owned(), known })
     }
 
-    /// Takes all initial conditions out: it then starts at rest in the reference configuration.
+    /// Removes all initial conditions. The mechanism then starts without velocity, in its reference configuration.
     pub fn clear_initial_conditions(&mut self) -> &mut Self {
         self.scene_mut().initials.clear();
         self
     }
 
-    /// The name of a part; the ground's is `ground`.
+    /// Returns the name of a part; the name of the ground is `ground`.
     ///
     /// # Panics
-    /// For a handle of another mechanism, as an index does.
+    /// For a handle of another mechanism whose index is out of range.
     pub fn name<I: Id>(&self, id: I) -> &str {
         match id.place() {
             Some(index) => I::name(&I::parts(&self.scene)[index], &self.scene),
@@ -216,7 +218,7 @@ impl Mechanism {
         }
     }
 
-    /// Handles of all parts of a kind: `m.ids::<BodyId>()`. The ground is no part.
+    /// Handles of all parts of a kind: `m.ids::<BodyId>()`. The ground is not among the bodies.
     pub fn ids<I: Id>(&self) -> impl ExactSizeIterator<Item = I> + use<I> {
         (0..I::parts(&self.scene).len()).map(I::new)
     }
@@ -224,35 +226,36 @@ impl Mechanism {
     /// The data of a part.
     ///
     /// # Panics
-    /// For a handle of another mechanism, as an index does, and for the ground.
+    /// For the ground, and for a handle of another mechanism whose index is out of range.
     pub fn part<I: Id>(&self, id: I) -> &I::Part {
         &I::parts(&self.scene)[id.place().unwrap_or(usize::MAX)]
     }
 
-    /// The data of a part, to change it.
+    /// Returns the data of a part for changes.
     ///
     /// # Panics
-    /// As [`part`](Self::part).
+    /// For the same handles as [`part`](Self::part).
     pub fn part_mut<I: Id>(&mut self, id: I) -> &mut I::Part {
         &mut I::parts_mut(self.scene_mut())[id.place().unwrap_or(usize::MAX)]
     }
 
-    /// A number by its path, as sweeps write it: `body.upper.mass`, `joint.tie-rod.points.0.2`.
+    /// Reads a number by its path, in the form that sweeps use: `body.upper.mass`, `joint.tie-rod.points.0.2`.
     ///
     /// # Errors
-    /// [`PathError`] for a path to nothing, or to something that is no number.
+    /// [`PathError`] for a path that does not exist, or whose value is not a number.
     pub fn get(&self, path: &str) -> Result<f64, PathError> {
         let file = self.data().map_err(PathError::NotWritten)?;
         let fault = |fault| PathError::Path { path: path.to_owned(), fault };
         Ok(file.number(path).map_err(fault)?.to_f64())
     }
 
-    /// Sets a number by its path. A mechanism from a file keeps the rest of its text.
+    /// Sets a number by its path. The text of a mechanism's file changes at this number only.
     ///
-    /// Cost: the scene is read again from the tree of its file; no text is parsed.
+    /// Cost: the scene is read again from the syntax tree of its file; no text is parsed.
     ///
     /// # Errors
-    /// As [`get`](Self::get), and a number that is not finite. One that cannot be meant is refused by [`check`](Self::check).
+    /// Those of [`get`](Self::get), and a number that is not finite. Other invalid values, such as a negative mass, are found by
+    /// [`check`](Self::check).
     pub fn set(&mut self, path: &str, value: impl Into<Number>) -> Result<&mut Self, PathError> {
         let file = self.data().map_err(PathError::NotWritten)?;
         let fault = |fault| PathError::Path { path: path.to_owned(), fault };
@@ -266,31 +269,31 @@ impl Mechanism {
         Ok(self)
     }
 
-    /// Inputs that can be set between steps, in the order of effects, guides, couplings, then signals.
+    /// Inputs that can be set between steps. Inputs of effects come first, then those of guides, couplings and signals.
     ///
     /// # Errors
-    /// As [`check`](Self::check).
+    /// Those of [`check`](Self::check).
     pub fn inputs(&self) -> Result<Vec<InputInfo>, SceneError> {
         Ok(Inputs::new(&self.resolve_scene()?).list().to_vec())
     }
 
-    /// Everything that can be wrong before a model is built.
+    /// Checks the mechanism for all faults that can be found before a model is built.
     ///
     /// # Errors
-    /// [`SceneError`] with the part's name and key, and the place in the file that it came from.
+    /// [`SceneError`] with the part's name and key, and the place in the file where the mechanism was read from one.
     pub fn check(&self) -> Result<(), SceneError> {
         self.resolve_scene().map(|_| ())
     }
 
-    /// The scene in `f64`, checked. A fault of a scene that came from a file has its place there.
+    /// Returns the checked scene in `f64`. An error of a mechanism that was read from a file names the place in the file.
     ///
     /// # Errors
-    /// [`SimulationError`] as [`check`](Self::check).
+    /// [`SimulationError`] for the faults that [`check`](Self::check) finds.
     pub fn resolve(&self) -> Result<Scene<f64>, SimulationError> {
         self.resolve_scene().map_err(|error| self.located(error))
     }
 
-    /// A refusal of the scene; of one that came from a file with its place there.
+    /// Makes an error of a refused scene. The error names the place in the scene file where the mechanism was read from a file.
     pub(super) fn located(&self, error: SceneError) -> SimulationError {
         match (&self.file, self.data()) {
             (Some(_), Ok(file)) => file.meaning(*error.error()).into(),
@@ -298,12 +301,12 @@ impl Mechanism {
         }
     }
 
-    /// The scene in `f64`, checked.
+    /// Returns the checked scene in `f64`.
     pub(crate) fn resolve_scene(&self) -> Result<Scene<f64>, SceneError> {
         self.resolved()
     }
 
-    /// The scene in a precision, checked.
+    /// Returns the checked scene in a given precision.
     pub(crate) fn resolved<T: Real>(&self) -> Result<Scene<T>, SceneError> {
         let scene = self.scene.resolve().and_then(|scene| {
             self.check_functions()?;
@@ -316,7 +319,7 @@ impl Mechanism {
         })
     }
 
-    /// Names of all outputs, those that are code last. Where there are no others the joints are recorded.
+    /// Names of the columns of a run: outputs of the scene, then outputs that are code. A scene without outputs records its joints.
     fn columns(&self) -> impl Iterator<Item = &String> {
         let Scene { outputs, joints, .. } = &self.scene;
         let joints = if outputs.is_empty() { &joints[..] } else { &[] };
@@ -324,7 +327,7 @@ impl Mechanism {
         data.chain(self.functions.iter().map(|f| &f.name))
     }
 
-    /// Outputs that are code have names of their own.
+    /// Checks that no output that is code has an empty or reserved name, or the name of an earlier column.
     fn check_functions(&self) -> Result<(), RefusedScene> {
         let names: Vec<&String> = self.columns().collect();
         for (i, name) in names.iter().enumerate().skip(names.len() - self.functions.len()) {
@@ -338,16 +341,16 @@ impl Mechanism {
         Ok(())
     }
 
-    /// The scene, to change it.
+    /// Returns the scene for changes, and marks the mechanism as changed.
     pub(crate) fn scene_mut(&mut self) -> &mut Scene<Number> {
         self.is_changed = true;
         &mut self.scene
     }
 
-    /// The scene file of this mechanism as it is now.
+    /// Returns the scene file of this mechanism in its present state.
     ///
     /// # Errors
-    /// [`WriteError`] where a part of it is code.
+    /// [`WriteError`] where a part of the mechanism is code.
     pub fn to_file(&self) -> Result<SceneFile, WriteError> {
         match self.functions.first() {
             Some(function) => Err(WriteError::InCode(format!("output `{}`", function.name))),
@@ -355,7 +358,7 @@ impl Mechanism {
         }
     }
 
-    /// Returns the scene file of all that is data.
+    /// Returns the scene file of the mechanism without the outputs that are code.
     fn data(&self) -> Result<Cow<'_, SceneFile>, WriteError> {
         match &self.file {
             Some(file) if !self.is_changed => Ok(Cow::Borrowed(file)),

@@ -1,4 +1,4 @@
-//! The front door: a mechanism as a list of named parts, in code or from a file.
+//! Main interface of the crate: a mechanism as a list of named parts, made in code or read from a file.
 
 mod conflict;
 mod held;
@@ -51,13 +51,13 @@ pub type Joint = scene::Joint<Number>;
 pub type InitialCondition = scene::InitialCondition<Number>;
 /// Prescribed motion of a joint coordinate.
 pub type Guide = scene::Guide<Number>;
-/// Coupling by a sum of joint coordinates and lengths that holds.
+/// Coupling: a constraint on a sum of joint coordinates and lengths.
 pub type Coupling = scene::Coupling<Number>;
-/// A body that rolls without slipping, or a blade.
+/// Rolling contact without slip, or a blade.
 pub type Rolling = scene::Rolling<Number>;
-/// A number over time by name, which guides, couplings and effects follow.
+/// Named function of time, which guides, couplings and effects can follow.
 pub type NamedSignal = scene::NamedSignal<Number>;
-/// A force, a spring, friction, a tire, ...
+/// Effect: a force, a spring, friction, a tire and so on.
 pub type Effect = scene::Effect<Number>;
 /// A quantity that is recorded.
 pub type Output = scene::Output<Number>;

@@ -1,4 +1,4 @@
-//! Options of a run as data, and who watches it.
+//! Options of a run as data, and the observers of a run.
 
 use crate::checkpoint::Checkpoint;
 use crate::erased::input_table::InputTable;
@@ -9,23 +9,24 @@ use mbs_steps::realtime::{Clock, Pacing};
 use mbs_steps::recorder::RecordRows;
 use std::path::{Path, PathBuf};
 
-/// Requirement on a run: mbs-study chooses formulation, integrator and step for it by a pilot.
+/// Requirement on a run. mbs-study chooses formulation, integrator and step for the requirement by short trial runs.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Goal {
-    /// Largest error of the outputs over the run, each relative to its range [-], as `mbs compare` takes it.
+    /// Largest error of the outputs over the run, as `mbs compare` measures it. The error of each output is relative to the range of that
+    /// output [-].
     pub error: Option<f64>,
-    /// Length of the frames in which the run is made [s]; each is computed within the same time.
+    /// Length of a frame [s]. The steps of each frame must be computed in at most this time.
     pub deadline: Option<f64>,
 }
 
 impl Goal {
-    /// Requires an error of the outputs, relative to their ranges [-].
+    /// Requires that the outputs have at most this error, relative to their ranges [-].
     #[must_use]
     pub fn error(error: f64) -> Self {
         Self { error: Some(error), deadline: None }
     }
 
-    /// Requires that each frame of this length [s] is computed within the same time.
+    /// Requires that the steps of each frame of this length [s] are computed in at most this time.
     #[must_use]
     pub fn deadline(frame: f64) -> Self {
         Self { error: None, deadline: Some(frame) }
@@ -38,45 +39,45 @@ impl Goal {
     }
 }
 
-/// Options of a run, as data: `mbs run`, `Mechanism.run` of Python and `mbs_study::run` make the same of them.
+/// Options of a run as data, which `mbs run`, `Mechanism.run` of Python and `mbs_study::run` interpret in the same way.
 ///
-/// [`run`](crate::run) takes all but a goal and an estimate, which need more runs than one: those are for `mbs_study::run`.
+/// [`run`](crate::run) refuses a goal and an estimate, because they need several runs. Use `mbs_study::run` for them.
 #[derive(Debug, Clone, Default)]
 pub struct Run {
-    /// Method by which the mechanism is stepped; what it leaves open is the mechanism's.
+    /// Method of the run. Settings that it leaves open are taken from the mechanism.
     pub method: Method,
     /// Required error or deadline, for which the method is chosen.
     pub goal: Goal,
-    /// Table that inputs of the mechanism follow; the others keep their start.
+    /// Table that inputs of the mechanism follow. Inputs without a column in the table keep their start value.
     pub inputs: Option<InputTable>,
-    /// Checkpoint to resume from, with the method of its run.
+    /// Checkpoint to resume from. The run uses the method of the checkpoint.
     pub resume: Option<Checkpoint>,
     /// Folder of checkpoints, and the simulated time between two of them [s].
     pub checkpoints: Option<(PathBuf, f64)>,
-    /// Pace of a run that follows a clock.
+    /// Pacing of a run that is synchronised with a clock.
     pub pacing: Option<Pacing>,
-    /// Whether the errors of the outputs are estimated after the run, and a method that runs is sought where it stops. Beside a goal nothing is
-    /// estimated: its pilot states what it measured.
+    /// Whether the errors of the outputs are estimated after the run. If the run stops early, another method that completes is searched.
+    /// Together with a goal nothing is estimated, because the goal's trial runs already give the errors.
     pub estimate: bool,
-    /// Whether the last row alone is kept; statistics are those of all rows.
+    /// Whether only the last row is recorded. Statistics of the outputs cover all rows nevertheless.
     pub last_row_alone: bool,
 }
 
 impl Run {
-    /// A run as the mechanism asks for it.
+    /// Options of a run with the settings of the mechanism alone.
     #[must_use]
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// Sets the method of the run. A [`duration`](Self::duration) that was given stays where the method has none.
+    /// Sets the method of the run. A [`duration`](Self::duration) that was set before stays, unless the method has one.
     #[must_use]
     pub fn method(self, method: Method) -> Self {
         let duration = method.duration.or(self.method.duration);
         Self { method: Method { duration, ..method }, ..self }
     }
 
-    /// Sets the duration [s], in place of the mechanism's; left out in both, 1 s.
+    /// Sets the duration [s], in place of the mechanism's. Default, where the mechanism has none: 1 s.
     #[must_use]
     pub fn duration(mut self, duration: f64) -> Self {
         self.method.duration = Some(duration);
@@ -89,26 +90,27 @@ impl Run {
         Self { goal, ..self }
     }
 
-    /// Lets inputs follow a table.
+    /// Sets the table that inputs of the mechanism follow.
     #[must_use]
     pub fn inputs(self, table: InputTable) -> Self {
         Self { inputs: Some(table), ..self }
     }
 
-    /// Resumes from a checkpoint. Settings that are given must be those of its run, but for the number of threads.
+    /// Resumes from a checkpoint. Settings that are given must equal those of the checkpoint's run, except the number of threads.
     #[must_use]
     pub fn resume(self, checkpoint: Checkpoint) -> Self {
         Self { resume: Some(checkpoint), ..self }
     }
 
-    /// Keeps checkpoints in a folder, each `every` [s] of simulated time. The last one stays there, and the first of the next run replaces it:
-    /// look for it before, and [`resume`](Self::resume) from it. [`RunResult::checkpoints`](crate::RunResult::checkpoints) says what could not be written.
+    /// Writes checkpoints into a folder, one each `every` [s] of simulated time. The folder keeps the last checkpoint until the next run
+    /// writes its first one there. To [`resume`](Self::resume), read the checkpoint before that run begins.
+    /// [`RunResult::checkpoints`](crate::RunResult::checkpoints) reports checkpoints that could not be written.
     #[must_use]
     pub fn checkpoints(self, folder: impl AsRef<Path>, every: f64) -> Self {
         Self { checkpoints: Some((folder.as_ref().to_owned(), every)), ..self }
     }
 
-    /// Runs at the pace of a clock, by default that of the system. A paced run reports no progress.
+    /// Synchronises the run with a clock; default: the system's clock. Such a run reports no progress.
     #[must_use]
     pub fn pacing(self, pacing: Pacing) -> Self {
         Self { pacing: Some(pacing), ..self }
@@ -120,7 +122,7 @@ impl Run {
         Self { estimate: true, ..self }
     }
 
-    /// Keeps the last row alone.
+    /// Records only the last row.
     #[must_use]
     pub fn last_row_alone(self) -> Self {
         Self { last_row_alone: true, ..self }
@@ -131,14 +133,14 @@ impl Run {
     }
 }
 
-/// Observers of a run, a listener to its progress, and the clock of a paced one.
+/// Observers of a run, a listener to its progress, and the clock of a run with pacing.
 #[derive(Default)]
 pub struct Watchers<'a, 'b> {
-    /// Observers: they set inputs on the way, read the mechanism after each step, and may end the run.
+    /// Observers of the run. An observer can set inputs, read the mechanism after each step, and end the run.
     pub observers: &'a mut [&'b mut dyn Observer],
     /// Listener that receives the time of each step [s].
     pub progress: Option<&'a mut dyn FnMut(f64)>,
-    /// Clock of a paced run; that of the system if none is given.
+    /// Clock of a run with pacing. Default: the system's clock.
     pub clock: Option<&'a mut dyn Clock>,
 }
 
@@ -161,17 +163,17 @@ impl<'a, 'b> Watchers<'a, 'b> {
         Self { progress: Some(listener), ..self }
     }
 
-    /// Makes watchers of observers alone.
+    /// Makes watchers that are observers only.
     pub fn observers(observers: &'a mut [&'b mut dyn Observer]) -> Self {
         Self { observers, progress: None, clock: None }
     }
 
-    /// Makes watchers of a listener alone.
+    /// Makes watchers that are a progress listener only.
     pub fn progress(listener: &'a mut dyn FnMut(f64)) -> Self {
         Self { observers: &mut [], progress: Some(listener), clock: None }
     }
 
-    /// Makes watchers of a clock alone.
+    /// Makes watchers that are a clock only.
     pub fn clock(clock: &'a mut dyn Clock) -> Self {
         Self { observers: &mut [], progress: None, clock: Some(clock) }
     }

@@ -6,10 +6,10 @@ use mbs_core::scene::{
     RollingId, Scene, SignalId, StartedJoint,
 };
 
-/// Part that [`Mechanism::add`](crate::Mechanism::add) takes: a body, joint, initial condition, guide, coupling, rolling, signal, effect or
+/// Part that [`Mechanism::add`](crate::Mechanism::add) accepts: a body, joint, initial condition, guide, coupling, rolling, signal, effect or
 /// output.
 pub trait Part: sealed::Part {
-    /// The handle of such a part.
+    /// Type of the handle of this part.
     type Id: Id;
 }
 
@@ -24,7 +24,7 @@ pub(super) mod sealed {
     }
 
     pub trait Id: Sized {
-        /// Word for such a part in messages, and in the name of one that has none.
+        /// Word for a part of this kind in messages, and in the name of a part that the user did not name.
         const WORD: &'static str;
         type Part: 'static;
         fn new(index: usize) -> Self;
@@ -113,7 +113,7 @@ part!(
     |id| Some(id.index())
 );
 
-/// A name that no part of a kind has: its word and the next number.
+/// Returns a name that no part of this kind has: the word of the kind and the next free number.
 fn free_name<I: Id>(scene: &Scene<Number>) -> String {
     let parts = I::parts(scene);
     let is_free = |name: &String| !parts.iter().any(|p| I::name(p, scene) == name);

@@ -1,4 +1,4 @@
-//! A run that may begin: what a mechanism and the options of its run give together.
+//! Checked run: a mechanism and the options of its run.
 
 use super::conflict::RunConflict;
 use super::mechanism::Mechanism;
@@ -17,24 +17,24 @@ use mbs_steps::run::Outcome;
 use std::borrow::Cow;
 use std::sync::OnceLock;
 
-/// A run that may begin: mechanism, scene and settings go together, and the options do not contradict each other.
+/// Checked run: the settings suit the scene, and the options do not contradict each other.
 #[derive(Debug)]
 pub struct PreparedRun<'a> {
     mechanism: Cow<'a, Mechanism>,
     options: &'a Run,
-    /// Method as asked for, with the settings of the checkpoint to resume from.
+    /// Requested method, completed by the settings of the checkpoint if the run resumes from one.
     pub method: Method,
-    /// Scene in `f64`, with the table that inputs follow.
+    /// Scene in `f64`, in which inputs follow the given table.
     pub scene: Scene<f64>,
-    /// Settings of the run; a pilot finds others where there is a goal.
+    /// Settings of the run. With a goal, trial runs choose other settings later.
     pub settings: ResolvedMethod,
 }
 
 impl<'a> PreparedRun<'a> {
-    /// Checks mechanism and options, and decides what is left open.
+    /// Checks mechanism and options, and decides the settings that both leave open.
     ///
     /// # Errors
-    /// [`SimulationError`] for what is refused.
+    /// [`SimulationError`] for a mechanism, an option or a checkpoint that is refused.
     pub fn new(m: &'a Mechanism, options: &'a Run) -> Result<Self, SimulationError> {
         RunConflict::check(options, m.functions().len())?;
         let method = match &options.resume {
@@ -46,7 +46,7 @@ impl<'a> PreparedRun<'a> {
             None => Cow::Borrowed(m),
         };
         let own = m.resolve()?;
-        // what a table begins and ends with is not held against the ends of the run
+        // settings are checked against the scene without the table: a table may begin and end at other times than the run
         let settings = ResolvedMethod::new(&own, &method)?;
         settings.check_step(&own, &method)?;
         let scene = if options.inputs.is_some() { mechanism.resolve()? } else { own };
@@ -57,7 +57,7 @@ impl<'a> PreparedRun<'a> {
         Ok(Self { mechanism, options, method, scene, settings })
     }
 
-    /// Checks that the options go together with who watches the run.
+    /// Checks that the options allow the watchers of the run.
     ///
     /// # Errors
     /// [`SimulationError`] with a [`RunConflict`].
@@ -70,19 +70,19 @@ impl<'a> PreparedRun<'a> {
         self.options
     }
 
-    /// The scene in the precision of its run.
+    /// Reads the scene in the precision of the run.
     ///
     /// # Errors
-    /// [`SimulationError`] where it cannot be had.
+    /// [`SimulationError`] where the scene cannot be read in this precision.
     pub fn read(&self) -> Result<ReadScene<'_>, SimulationError> {
         ReadScene::of(&*self.mechanism, Cow::Borrowed(&self.scene), self.settings.precision)
     }
 
-    /// Runs to the end.
+    /// Runs the mechanism to the end of its duration.
     ///
     /// # Errors
-    /// [`SimulationError`] for options that contradict their watchers, a folder of checkpoints that another run has, a checkpoint of
-    /// something else, and a pacing that is refused.
+    /// [`SimulationError`] in four cases: the options do not allow the watchers, another run uses the folder of checkpoints, the checkpoint
+    /// belongs to another mechanism or method, or the pacing is refused.
     pub fn run(&self, watchers: &mut Watchers<'_, '_>) -> Result<RunResult, SimulationError> {
         self.check(watchers)?;
         let checkpoints = self.options.checkpoints.as_ref();
@@ -97,10 +97,10 @@ impl<'a> PreparedRun<'a> {
         Ok(RunResult { checkpoints: writer, ..self.result(outcome, settings) })
     }
 
-    /// Runs by one of several settings, which are of the same precision.
+    /// Runs the mechanism with given settings. Their precision must be that of `read`.
     ///
     /// # Errors
-    /// As for [`run`](Self::run).
+    /// Those of [`run`](Self::run).
     pub fn run_by(
         &self,
         read: &ReadScene<'_>,
@@ -111,7 +111,7 @@ impl<'a> PreparedRun<'a> {
         self.outcome(read, settings, (watchers, None))
     }
 
-    /// Result of an outcome with its settings.
+    /// Makes the result of a run from its outcome and the settings that it was made with.
     pub fn result(&self, outcome: Outcome, settings: ResolvedMethod) -> RunResult {
         let mechanism = match &self.mechanism {
             Cow::Owned(driven) => Some(driven.clone()),

@@ -1,19 +1,19 @@
-//! A simulation put into a state of relative coordinates.
+//! Setting the state of a simulation by the relative coordinates of a tree.
 
 use super::failure::SimulationError;
 use super::simulation::Simulation;
 use super::tree::Tree;
 
 impl Simulation {
-    /// Puts the mechanism into a state of its coordinates and velocities in a tree of the same mechanism, at the present time. Loops are
-    /// closed by the moves that are smallest in the masses' norm. Energies and work are counted anew, signals begin anew, and inputs keep
-    /// their values. Returns the largest change of a coordinate [rad, m]; the tree is where the simulation is.
+    /// Sets the state of the simulation from coordinates and velocities of a tree of the same mechanism. The time does not change. Loops are
+    /// closed by the smallest mass-weighted change of the coordinates. Energy and work are counted from zero again, signals start anew, and
+    /// inputs keep their values. Returns the largest change of a coordinate [rad, m]. The tree is then in the same state as the simulation.
     ///
-    /// Cost: that of building the simulation.
+    /// Cost: as much as building the simulation.
     ///
     /// # Errors
-    /// A wrong number of numbers, one that is not finite, loops that do not close, or no accelerations there. The simulation is then as it
-    /// was.
+    /// A wrong number of values, a value that is not finite, loops that cannot be closed, or accelerations that cannot be solved for. The
+    /// simulation keeps its state then.
     ///
     /// ```
     /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
@@ -31,7 +31,7 @@ impl Simulation {
         q: &[f64],
         v: &[f64],
     ) -> Result<f64, SimulationError> {
-        // signals begin anew in both
+        // the tree and the simulation both start their signals anew
         tree.reset();
         tree.set_time(self.time());
         tree.set_inputs(self.input_values())?;

@@ -10,7 +10,7 @@ use crate::settings::ResolvedMethod;
 use mbs_steps::run::Outcome;
 use std::sync::OnceLock;
 
-/// Result of a run: its table, its summary, and why it stopped early, if it did.
+/// Result of a run: a table, a summary and, for a run that stopped early, the reason.
 #[derive(Debug)]
 pub struct RunResult {
     pub(super) outcome: Outcome,
@@ -22,18 +22,18 @@ pub struct RunResult {
 }
 
 impl RunResult {
-    /// Table of the outputs over time. Cost: its columns are made at the first call.
+    /// Table of the outputs over time. The first call builds the columns.
     #[must_use]
     pub fn table(&self) -> &Table {
         self.table.get_or_init(|| Table::new(self.outcome.channels(), self.outcome.rows()))
     }
 
-    /// Reason why the run stopped early; the table then ends there.
+    /// Reason why the run stopped early, if it did. The table then ends at the time of the stop.
     #[must_use]
     pub fn stop(&self) -> Option<SimulationError> {
         let Outcome { summary, error, .. } = &self.outcome;
         let stop = SimulationError::stopped(error.clone()?, summary.end_time, &self.names);
-        // the summary's may name a method that was tried
+        // the hint of the summary may name another method that was tried
         Some(match &summary.error {
             Some(report) => stop.with_hint(report.hint.clone()),
             None => stop,
@@ -52,37 +52,37 @@ impl RunResult {
         self.outcome.notes()
     }
 
-    /// Settings that the run was made with: of a goal, those that were chosen.
+    /// Settings that the run was made with. For a run with a goal they are the chosen settings.
     #[must_use]
     pub fn settings(&self) -> &ResolvedMethod {
         &self.settings
     }
 
-    /// The mechanism with the table that its inputs followed; none where they followed no table.
+    /// The mechanism whose inputs follow the table of the run; `None` for a run without a table.
     #[must_use]
     pub fn driven_mechanism(&self) -> Option<&Mechanism> {
         self.mechanism.as_ref()
     }
 
-    /// Outcome of the run: what its files and its page are made of.
+    /// Outcome of the run, from which its files and its report page are made.
     #[must_use]
     pub fn outcome(&self) -> &Outcome {
         &self.outcome
     }
 
-    /// Outcome of the run, without the rest.
+    /// Returns the outcome of the run and drops the rest.
     #[must_use]
     pub fn into_outcome(self) -> Outcome {
         self.outcome
     }
 
-    /// Writer of the run's checkpoints, which says what it could not write, if anything. The folder is free again.
+    /// Writer of the run's checkpoints, which reports the checkpoints that it could not write. Another run may use the folder again.
     #[must_use]
     pub fn checkpoints(&self) -> Option<&CheckpointWriter> {
         self.checkpoints.as_ref()
     }
 
-    /// Outcome of the run, to which a study adds its estimate, and the settings.
+    /// Outcome of the run, to which a study adds its estimate of the errors, and the settings of the run.
     #[doc(hidden)]
     pub fn outcome_mut(&mut self) -> (&mut Outcome, &ResolvedMethod) {
         (&mut self.outcome, &self.settings)

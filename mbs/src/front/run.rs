@@ -7,10 +7,10 @@ use super::prepared::PreparedRun;
 use super::result::RunResult;
 use crate::erased::SimulationError;
 
-/// Runs a mechanism to its end. One that stops early is a result with [`stop`](RunResult::stop).
+/// Runs a mechanism to the end of its duration. A run that stops early is no error: its result has a [`stop`](RunResult::stop).
 ///
 /// # Errors
-/// [`SimulationError`] for a mechanism, a method or options that are refused. A goal and an estimate are for `mbs_study::run`.
+/// [`SimulationError`] for a mechanism, a method or options that are refused. A goal and an estimate are refused here: use `mbs_study::run`.
 ///
 /// # Examples
 /// ```
@@ -29,13 +29,13 @@ pub fn run(m: &Mechanism, options: &Run) -> Result<RunResult, SimulationError> {
     run_with(m, options, &mut Watchers::default())
 }
 
-/// Runs a mechanism as [`run`] does, before watchers.
+/// Runs a mechanism as [`run`] does, with watchers.
 ///
-/// Where there is an observer or an output that is code, the turns of all joints are followed. A joint that turns by more than half a circle
-/// in a step then stops a run that would not have read it.
+/// With an observer or an output that is code, the run follows the revolutions of all joints. A joint that turns by more than half a
+/// revolution in one step then stops the run. Without them, only joints that the run reads can stop it so.
 ///
 /// # Errors
-/// As for [`run`].
+/// Those of [`run`].
 pub fn run_with(
     m: &Mechanism,
     options: &Run,

@@ -1,4 +1,4 @@
-//! From a mechanism to what moves: its simulation, its tree, and what a study of it runs.
+//! Models of a mechanism: its simulation, its tree in relative coordinates, and the model of a study.
 
 use super::failure::SimulationError;
 use super::inner::built;
@@ -15,8 +15,8 @@ use mbs_core::scene::Scene;
 use std::borrow::Cow;
 
 impl Mechanism {
-    /// Builds the model, assembles it and allocates all that a step needs. What the method leaves open is what the mechanism's file asks for,
-    /// else index-3 with steps of 1 ms.
+    /// Builds the model, assembles it and allocates all memory that a step needs. Settings that `method` leaves open are taken from the
+    /// mechanism. Default, where neither sets them: index-3 with steps of 1 ms.
     ///
     /// # Errors
     /// [`SimulationError`] for a part, a method or a start that is refused.
@@ -28,16 +28,16 @@ impl Mechanism {
         Ok(Simulation::of(inner, Inputs::new(&scene), names, self.functions()))
     }
 
-    /// The mechanism in relative coordinates, at any position and velocity.
+    /// Builds the tree of the mechanism: its model in relative coordinates, for any position and velocity.
     ///
     /// # Errors
-    /// [`SimulationError`] for a part that is refused, or a mechanism that has no tree.
+    /// [`SimulationError`] for a part that is refused, or for a mechanism without a spanning tree.
     pub fn tree(&self) -> Result<Tree, SimulationError> {
         Ok(Tree::new(&self.resolve_scene()?)?)
     }
 
-    /// Returns the mechanism with 1 kg and 1 kg m^2 for each body in place of its own masses. Positions and velocities that fulfil joints and
-    /// initial conditions need no others: of a mechanism that lacks masses they are found with these.
+    /// Returns the mechanism with bodies of 1 kg and 1 kg m^2 in place of their own masses. With them, a mechanism that lacks masses can be
+    /// assembled: positions and velocities that fulfil joints and initial conditions can be found for any masses.
     #[must_use]
     pub fn with_fictitious_masses(&self) -> Self {
         let mut heavy = self.clone();
@@ -48,14 +48,14 @@ impl Mechanism {
         heavy
     }
 
-    /// Starts from an equilibrium of this mechanism: what is simulated or run from now on begins there, with the initial velocities of the
-    /// mechanism. Each start seeks it anew, from the same configuration and in the same way.
+    /// Starts later simulations and runs from an equilibrium of this mechanism, with the initial velocities of the mechanism. Each start
+    /// searches the equilibrium anew, from the same configuration and by the same search.
     pub fn start_from(&mut self, rest: &StaticEquilibrium) -> &mut Self {
         self.scene_mut().start = rest.search.start();
         self
     }
 
-    /// The scene in the precision of its settings, the settings, and the scene in `f64`.
+    /// Returns the scene in the precision of the settings, the settings, and the scene in `f64`.
     pub(super) fn prepared(
         &self,
         method: &Method,

@@ -1,4 +1,4 @@
-//! A mechanism in motion.
+//! Simulation of a mechanism, step by step.
 
 use super::failure::SimulationError;
 use super::function::{Function, FunctionId};
@@ -17,15 +17,15 @@ use mbs_core::model::Owner;
 use mbs_core::scene::{EffectId, GuideId, JointId};
 use std::sync::Arc;
 
-/// Largest difference of a sum of steps and its end, in units of rounding of the time [-]. Chosen, not tuned.
+/// Largest difference between the sum of the steps and the end time, in units of the rounding of that time [-]. Chosen, not tuned.
 const TIME_ROUNDINGS: f64 = 4.0;
-/// Largest difference of a sum of steps and its end, relative to a step [-]. Chosen, not tuned.
+/// Largest difference between the sum of the steps and the end time, relative to a step [-]. Chosen, not tuned.
 const STEP_FRACTION: f64 = 1e-3;
 
-/// A mechanism in motion: stepped by hand, read between steps, and cloned to try something and throw the copy away.
+/// Simulation of a mechanism. A program makes the steps, reads the state between them, and can clone the simulation to try something out.
 ///
-/// Numbers are in SI units, vectors in global axes; in a planar mechanism the third component is zero, and rotations are about z. Handles are
-/// those of the [`Mechanism`](crate::Mechanism) that it was made of: one of another mechanism panics like an index.
+/// Numbers are in SI units, vectors in global axes. In a planar mechanism the third component is zero, and rotations are about z. Handles are
+/// those of the [`Mechanism`](crate::Mechanism) that was simulated. A handle of another mechanism panics if its index is out of range.
 ///
 /// ```
 /// use mbs::{Body, GROUND, Joint, Mechanism, Method};
@@ -83,11 +83,11 @@ impl Simulation {
         SimulationError::stopped(error, self.time(), &self.names)
     }
 
-    /// Advances by `dt` [s]: one step, or as many as the step control takes. What an integrator divides by itself is divided into equal parts
-    /// before, of a hundred of the longest steps at most: an interrupt is heard between them.
+    /// Advances by `dt` [s]: in one step, or in several if the method controls their length. An integrator with its own step control first
+    /// divides `dt` into equal parts. A part is at most a hundred of its longest steps, and an interrupt can end the call between two parts.
     ///
     /// # Errors
-    /// [`SimulationError`] with time and joint; the state is then that before the failed step.
+    /// [`SimulationError`] with time and joint. The state is then the state before the failed step.
     pub fn step(&mut self, dt: f64) -> Result<StepReport, SimulationError> {
         if !(dt > 0.0 && dt.is_finite()) {
             let message = format!("a step must be positive and finite, but is {dt} s");
@@ -106,23 +106,23 @@ impl Simulation {
         self.inner.is_controlled()
     }
 
-    /// Sets what ends [`advance_to`](Self::advance_to), and calls that make several steps of a controlled length, from now on. Copies share it
-    /// with what they are copies of until they get their own.
+    /// Sets the interrupt that ends [`advance_to`](Self::advance_to) and steps of controlled length from now on. A copy shares the interrupt
+    /// of its original until it gets one itself.
     pub fn set_interrupt(&mut self, interrupt: Interrupt) {
         self.inner.set_interrupt(interrupt);
     }
 
-    /// Length of the steps that the method asks for [s].
+    /// Step length of the method [s].
     #[must_use]
     pub fn step_length(&self) -> f64 {
         self.inner.length()
     }
 
-    /// Advances to `time` [s] by steps of the method's length, the last one shorter where they do not fit; at once where the method controls
-    /// their length.
+    /// Advances to `time` [s] by steps of the method's length. The last step is shorter if the length does not divide the interval. A method
+    /// that controls its steps advances in one call.
     ///
     /// # Errors
-    /// As for [`step`](Self::step); one before now is refused.
+    /// Those of [`step`](Self::step), and a time before the present one.
     pub fn advance_to(&mut self, time: f64) -> Result<StepReport, SimulationError> {
         let (from, h) = (self.time(), self.inner.length());
         let (there, epsilon) = self.inner.rounded(time);
@@ -142,7 +142,8 @@ impl Simulation {
         if self.inner.is_controlled() {
             return self.inner.step(None, Some(time)).map_err(|error| self.stopped(error));
         }
-        // times of short numbers round, by more than short steps last where they are late
+        // times in single precision are rounded; late in a run with short steps, this rounding may exceed a step, hence the bound by
+        // `STEP_FRACTION`
         let rounding = (TIME_ROUNDINGS * epsilon * there.abs()).min(STEP_FRACTION * h);
         let slack = SAME_LENGTH * (span + h) + rounding;
         loop {
@@ -161,26 +162,28 @@ impl Simulation {
         }
     }
 
-    /// The present value of an output that is code, whatever it gives.
+    /// Returns the present value of an output that is code, without a check that it is finite.
     ///
     /// # Panics
-    /// For a handle of another mechanism, as an index does.
+    /// For a handle of another mechanism whose index is out of range.
     #[must_use]
     pub fn function(&self, function: FunctionId) -> f64 {
         self.functions[function.0].code.evaluate(&self.view())
     }
 
-    /// Contacts of bumpers, limits and tires that began or ended since the last [`clear_events`](Self::clear_events), in order, a thousand at
-    /// most; none before its first call. Their times are interpolated within steps.
+    /// Contacts of bumpers, limits and tires that began or ended since the last [`clear_events`](Self::clear_events), in the order of time.
+    /// The list has at most a thousand events, and none before the first call of `clear_events`. The time of an event is interpolated within
+    /// a step.
     pub fn events(&self) -> impl Iterator<Item = ContactEvent> + '_ {
         self.inner.events().iter().map(ContactEvent::of)
     }
 
-    /// Lists contacts anew from now on. The first call begins to watch them, which costs an evaluation of each one-sided effect at a step.
-    /// Another state, by [`set_state`](Self::set_state), [`reset`](Self::reset) or [`restore`](Self::restore), clears the list too.
+    /// Clears the list of contact events. The first call also starts the recording of events, which evaluates each one-sided effect once more
+    /// a step. Changing the state by [`set_state`](Self::set_state), [`reset`](Self::reset) or [`restore`](Self::restore) clears the list
+    /// too.
     ///
     /// # Errors
-    /// None that a simulation that was built can make; those of the model.
+    /// Errors of the model. A simulation that was built has none.
     ///
     /// ```
     /// use mbs::{Body, Effect, GROUND, Joint, Mechanism, Method};
@@ -201,7 +204,7 @@ impl Simulation {
         self.inner.watch_events().map_err(|error| self.stopped(error))
     }
 
-    /// Inputs that can be set between steps, in the order of effects, guides, couplings, then signals.
+    /// Inputs that can be set between steps. Inputs of effects come first, then those of guides, couplings and signals.
     #[must_use]
     pub fn inputs(&self) -> &[InputInfo] {
         self.inputs.list()
@@ -213,23 +216,23 @@ impl Simulation {
         self.inputs.values()
     }
 
-    /// Writes all inputs into what was started anew.
+    /// Writes all inputs into the model after it was started anew.
     pub(super) fn renew_inputs(&mut self) -> Result<(), SimulationError> {
         self.inputs.renew(&mut *self.inner)
     }
 
-    /// The first input of an effect; those of a vector follow it.
+    /// Returns the first input of an effect; inputs of the other components of a vector follow it.
     ///
     /// # Errors
-    /// Where the effect has none: its signal is no [`Signal::Input`](crate::Signal::Input).
+    /// An effect without input: its signal is no [`Signal::Input`](crate::Signal::Input).
     pub fn input_of(&self, effect: EffectId) -> Result<InputId, SimulationError> {
         self.inputs.of_effect(effect)
     }
 
-    /// Sets an input from now on: it acts in the whole of the next step.
+    /// Sets the value of an input. The value acts from the start of the next step.
     ///
     /// # Errors
-    /// A value that is not finite, or an input of another mechanism. Nothing is set then.
+    /// A value that is not finite, or an input of another mechanism. The input keeps its value then.
     pub fn set_input(&mut self, input: InputId, value: f64) -> Result<(), SimulationError> {
         self.inputs.set(&mut *self.inner, input, value)
     }
@@ -237,15 +240,15 @@ impl Simulation {
     /// Sets all inputs, in the order of [`inputs`](Self::inputs).
     ///
     /// # Errors
-    /// As for [`set_input`](Self::set_input); a wrong number of values.
+    /// Those of [`set_input`](Self::set_input), and a wrong number of values.
     pub fn set_inputs(&mut self, all: &[f64]) -> Result<(), SimulationError> {
         self.inputs.set_all(&mut *self.inner, all)
     }
 
-    /// Sets value, rate and acceleration that a guide has at the end of the next step.
+    /// Sets the value, rate and acceleration that a guide has at the end of the next step.
     ///
     /// # Errors
-    /// A guide that is no [`Motion::Input`](crate::Motion::Input), or a number that is not finite.
+    /// A guide whose motion is no [`Motion::Input`](crate::Motion::Input), or a number that is not finite.
     pub fn set_guide(
         &mut self,
         guide: GuideId,
@@ -256,13 +259,14 @@ impl Simulation {
         self.inputs.set_guide(&mut *self.inner, guide, [value, rate, acceleration])
     }
 
-    /// Puts the mechanism into another state: coordinates and rates of these joints hold exactly, the rest follows by the least
-    /// mass-weighted change from the reference configuration. `[].into()` holds nothing. The clock stays; energies and work are counted
-    /// anew, and inputs keep their values.
+    /// Sets the state of the mechanism at the present time. The given joints have exactly the given coordinates and rates. All others follow
+    /// by the smallest mass-weighted change from the reference configuration. `[].into()` leaves the coordinates or rates of a joint free.
+    /// Energy and work are counted from zero again, and inputs keep their values.
     ///
     /// # Errors
-    /// States that the joints do not allow, a wrong number of numbers, a joint that comes twice, a number that is not finite. After time zero
-    /// also a mechanism with guides, whose joints are assembled where guides begin. The simulation is then as it was.
+    /// A state that the joints do not allow, a wrong number of values, a joint that is given twice, or a value that is not finite. After time
+    /// zero, a mechanism with guides is refused, because guided joints can be assembled only where their guides begin. The simulation keeps
+    /// its state then.
     pub fn set_state(
         &mut self,
         joints: &[(JointId, Coordinates, Coordinates)],
@@ -278,7 +282,7 @@ impl Simulation {
         self.renew_inputs()
     }
 
-    /// Each joint once, with all its coordinates or none, and its rates likewise, finite.
+    /// Checks that each joint is given once. All of its coordinates or none must be given, likewise its rates, and all must be finite.
     fn check_state(
         &self,
         joints: &[(JointId, Coordinates, Coordinates)],
@@ -302,28 +306,29 @@ impl Simulation {
         Ok(())
     }
 
-    /// Starts anew at time zero, with the inputs of the mechanism.
+    /// Starts again at time zero, with the start values of the mechanism's inputs.
     ///
     /// # Errors
-    /// Those of the first start.
+    /// Errors of the first start.
     pub fn reset(&mut self) -> Result<(), SimulationError> {
         self.inner.start(None, 0.0).map_err(|error| self.stopped(error))?;
         self.inputs.reset();
         Ok(())
     }
 
-    /// All that the next steps depend on.
+    /// Saves the state that the next steps depend on.
     ///
     /// # Errors
-    /// None that a user can make; those of the format.
+    /// Errors of the snapshot's format only, which no use of this interface causes.
     pub fn save(&self) -> Result<Snapshot, SimulationError> {
         Ok(Snapshot { bytes: self.inner.save()?, inputs: self.inputs.values().to_vec() })
     }
 
-    /// Returns to a snapshot of a simulation of the same mechanism and method: the next steps have the same bits.
+    /// Restores a snapshot of a simulation of the same mechanism and method. The next steps then give the same bits as after the snapshot was
+    /// taken.
     ///
     /// # Errors
-    /// A snapshot of another mechanism, method or version; the simulation is then as it was.
+    /// A snapshot of another mechanism, method or version. The simulation keeps its state then.
     pub fn restore(&mut self, snapshot: &Snapshot) -> Result<(), SimulationError> {
         self.inputs.check(&snapshot.inputs)?;
         self.inner.restore(&snapshot.bytes)?;
@@ -332,18 +337,18 @@ impl Simulation {
     }
 }
 
-/// A state to return to.
+/// Saved state of a simulation, which it can return to.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Snapshot {
     bytes: Vec<u8>,
     inputs: Vec<f64>,
 }
 
-/// First bytes of a snapshot, with the number of its form.
+/// First bytes of a snapshot, with the version number of its format.
 const MAGIC: &[u8; 10] = b"mbs-snap\x02\x00";
 
 impl Snapshot {
-    /// Returns the snapshot as bytes, for a file: the checkpoint in it knows its mechanism, method and version.
+    /// Returns the snapshot as bytes for a file. The bytes identify the mechanism, method and version.
     #[must_use]
     pub fn to_bytes(&self) -> Vec<u8> {
         let mut bytes = MAGIC.to_vec();
@@ -354,10 +359,10 @@ impl Snapshot {
         bytes
     }
 
-    /// From the bytes of [`to_bytes`](Self::to_bytes); what is in them is checked by [`Simulation::restore`].
+    /// Makes a snapshot from the bytes of [`to_bytes`](Self::to_bytes). [`Simulation::restore`] checks that the state suits the simulation.
     ///
     /// # Errors
-    /// Bytes that are no snapshot, or not all of it as they were.
+    /// Bytes that are no snapshot, or that were truncated or changed.
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, SimulationError> {
         let parts = || {
             let (bytes, sum) = bytes.split_last_chunk::<8>()?;

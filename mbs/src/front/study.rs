@@ -1,4 +1,4 @@
-//! Studies of a mechanism that need a model of it: equilibrium and linear systems, each with a typed result.
+//! Studies of one model of a mechanism: equilibria and linear systems, each with a typed result.
 
 use super::failure::SimulationError;
 use super::inner::started;
@@ -15,14 +15,14 @@ use mbs_core::scene::Scene;
 /// Options of the search for an equilibrium.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct EquilibriumOptions {
-    /// Downhill to a stable one, or to the nearest one of any kind.
+    /// Search for a stable equilibrium downhill in potential energy, or for the nearest equilibrium of any kind.
     pub search: Search,
 }
 
-/// Finds a static equilibrium: where the mechanism stays at rest, dampers and time-dependent parts left out.
+/// Finds a static equilibrium: a configuration in which the mechanism stays at rest. Dampers and time-dependent parts are left out.
 ///
 /// # Errors
-/// [`SimulationError`] where there is none, or it is not found.
+/// [`SimulationError`] where there is no equilibrium, or the search does not find one.
 pub fn equilibrium(
     m: &Mechanism,
     options: &EquilibriumOptions,
@@ -32,7 +32,8 @@ pub fn equilibrium(
     found.map_err(|error| SimulationError::stopped(error, 0.0, &Names::new(&scene)))
 }
 
-/// Frequencies and damping ratios of the motion about an equilibrium of this mechanism, which is sought again as it was found.
+/// Finds frequencies and damping ratios of the motion about an equilibrium of this mechanism. The equilibrium is searched again in the way it
+/// was found.
 ///
 /// # Errors
 /// [`SimulationError`] where the motion cannot be linearised.
@@ -42,17 +43,17 @@ pub fn modes(m: &Mechanism, at: &StaticEquilibrium) -> Result<Modes, SimulationE
     found.map_err(|error| SimulationError::stopped(error, 0.0, &Names::new(&scene)))
 }
 
-/// The linear motion of this mechanism about a state, with inputs and outputs by name; `None`: all of them. Outputs that are code are left
-/// out.
+/// Linearises the motion of this mechanism about a state, with inputs and outputs selected by name. `None` selects all of them. Outputs that
+/// are code are left out.
 ///
-/// An input is named as [`Simulation::inputs`](crate::Simulation::inputs) lists it, and an output as its column in a run, or without the
-/// component for all of a vector.
+/// The name of an input is that in [`Simulation::inputs`](crate::Simulation::inputs). The name of an output is that of its column in a run. A
+/// vector without a component selects all of its columns.
 ///
 /// # Errors
-/// [`SimulationError`] for an unknown name, an input that has no derivative there, and where the motion cannot be linearised.
+/// [`SimulationError`] for an unknown name, for an input without a derivative in this state, and for motion that cannot be linearised.
 ///
 /// # Examples
-/// A pendulum of 2 kg at 0.5 m, with a torque on its pivot:
+/// A pendulum of 2 kg at a length of 0.5 m, with a torque on its pivot:
 /// ```
 /// use mbs::{Body, Effect, GROUND, Joint, LinearizeOptions, Mechanism, Signal, linearize};
 /// let mut m = Mechanism::planar("pendulum");
@@ -76,11 +77,11 @@ pub fn linearize(
     LinearSystem::new(&m.resolve_scene()?, options, inputs, outputs)
 }
 
-/// [`linearize`] about coordinates and velocities of a tree of the mechanism, at time zero with the inputs as they begin. Loops are closed
-/// first; the tree is at the state then.
+/// Linearises as [`linearize`] does, about coordinates and velocities of a tree of the mechanism. The time is zero, and the inputs have their
+/// start values. Loops are closed first. The tree is in the linearised state afterwards.
 ///
 /// # Errors
-/// As for [`linearize`], and those of [`Tree::set`] and [`Tree::make_consistent`].
+/// Those of [`linearize`], [`Tree::set`] and [`Tree::make_consistent`].
 ///
 /// # Examples
 /// ```
@@ -104,14 +105,16 @@ pub fn linearize_at(
     LinearSystem::at(&scene, tree.motions(), inputs, outputs)
 }
 
-/// The linear motion of this mechanism about a rest or a steady motion, in axes that turn with it, without inputs and outputs: its
-/// eigenvalues and shapes are those of the motion.
+/// Linearises the motion about a state of rest or a steady motion, in axes that rotate with the steady motion. The system has no inputs and
+/// outputs. Its eigenvalues and mode shapes describe small disturbances of the motion.
 ///
 /// # Errors
-/// As for [`linearize`]; `not-steady` where the state is neither a rest nor a steady motion, with what accelerates or changes.
+/// Those of [`linearize`]. The code `not-steady` reports a state that is neither at rest nor steady, and names the quantity that accelerates
+/// or changes.
 ///
 /// # Examples
-/// A top that spins upright about its vertical axis: m g l = 1 N m, 0.05 and 0.01 kg m^2. It sleeps from 2 (m g l A)^(1/2) / C = 44.72 rad/s on.
+/// A top spins upright about its vertical axis. m g l is 1 N m. Its moments of inertia are A = 0.05 kg m^2 about the pivot, and C = 0.01 kg
+/// m^2 about its axis. The motion is stable from a rate of 2 (m g l A)^(1/2) / C = 44.72 rad/s on.
 /// ```
 /// use mbs::{Body, GROUND, InitialCondition, Joint, LinearizeOptions, Mechanism, Place, linearize_steady};
 /// let grows = |rate: f64| {
@@ -134,10 +137,10 @@ pub fn linearize_steady(
     LinearSystem::steady(&m.resolve_scene()?, options)
 }
 
-/// [`linearize_steady`] about coordinates and velocities of a tree of the mechanism, as [`linearize_at`] takes them.
+/// Linearises as [`linearize_steady`] does, about coordinates and velocities of a tree as in [`linearize_at`].
 ///
 /// # Errors
-/// As for [`linearize_steady`] and [`linearize_at`].
+/// Those of [`linearize_steady`] and [`linearize_at`].
 pub fn linearize_steady_at(
     m: &Mechanism,
     state: (&mut Tree, &[f64], &[f64]),
@@ -147,11 +150,11 @@ pub fn linearize_steady_at(
     LinearSystem::steady_at(&scene, tree.motions())
 }
 
-/// Linearises about any state, as [`linearize_steady`] does about a steady motion. About any other state it gives the matrices of the
-/// instant, in axes that stand, and [`LinearSystem::unsteady`] says why.
+/// Linearises about any state. About a steady motion it does the same as [`linearize_steady`]. About any other state it gives the matrices of
+/// this instant, in axes that do not rotate, and [`LinearSystem::unsteady`] gives the reason.
 ///
 /// # Errors
-/// As for [`linearize`].
+/// Those of [`linearize`].
 pub fn linearize_frozen(
     m: &Mechanism,
     options: &LinearizeOptions,
@@ -159,10 +162,10 @@ pub fn linearize_frozen(
     LinearSystem::frozen(&m.resolve_scene()?, options)
 }
 
-/// [`linearize_frozen`] about coordinates and velocities of a tree of the mechanism, as [`linearize_at`] takes them.
+/// Linearises as [`linearize_frozen`] does, about coordinates and velocities of a tree as in [`linearize_at`].
 ///
 /// # Errors
-/// As for [`linearize_at`].
+/// Those of [`linearize_at`].
 pub fn linearize_frozen_at(
     m: &Mechanism,
     state: (&mut Tree, &[f64], &[f64]),
@@ -172,7 +175,7 @@ pub fn linearize_frozen_at(
     LinearSystem::frozen_at(&scene, tree.motions())
 }
 
-/// Moves a tree to a state; the scene that starts there.
+/// Moves a tree to a state, and returns the scene whose start is this state.
 fn at(
     m: &Mechanism,
     (tree, q, v): (&mut Tree, &[f64], &[f64]),

@@ -1,4 +1,4 @@
-//! Rows of a run as columns: contiguous arrays by name.
+//! Rows of a run as a table: one contiguous array for each named column.
 
 use crate::checkpoint::{Head, write_rows};
 use crate::record::Channel;
@@ -59,13 +59,13 @@ impl Table {
         self.time.len()
     }
 
-    /// Is the table without rows?
+    /// Does the table have no rows?
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.time.is_empty()
     }
 
-    /// Writes it as `mbs run` writes `run.csv`: a line of names, then a line for each instant.
+    /// Writes the table as `mbs run` writes `run.csv`: a line of names, then a line for each instant.
     ///
     /// # Errors
     /// Those of the sink.

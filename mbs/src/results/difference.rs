@@ -4,13 +4,15 @@
 //! d = max |a(t) - b(t)|    over the times of both, a and b linear between rows
 //! ```
 //!
-//! A difference of two such lines is one too, with its corners at the times of both: its largest value is at one of them.
+//! The difference of two piecewise linear functions is piecewise linear too. Its corners are at the times of the rows of both runs, so its
+//! largest magnitude is at one of these times.
 
 use super::read::{ResultColumn, ResultTable};
 
-/// Rounding that counts as no difference, relative to the largest value of a channel [-]: a channel that stands still has no range.
+/// Difference that counts as zero, relative to the largest value of a channel [-]. A constant channel has no range that its rounding errors
+/// could be compared with.
 const ROUNDING: f64 = 1e-12;
-/// Difference of the ends of two runs that counts as none, relative to them [-]: sums of steps round.
+/// Difference of the end times of two runs that counts as zero, relative to these times [-]. An end time is a rounded sum of steps.
 const SAME_END: f64 = 1e-9;
 
 /// Difference of a column between two runs.
@@ -26,29 +28,29 @@ pub struct ColumnDifference {
     pub rms: [f64; 2],
     /// Largest difference of the two runs.
     pub difference: f64,
-    /// When it is [s].
+    /// Time of the largest difference [s].
     pub at: f64,
-    /// The range of the channel: the largest of its components that have this unit, in both runs.
+    /// Range of the channel: the largest range of its components that have this unit, in both runs.
     pub range: f64,
-    /// Difference over range [-].
+    /// Largest difference divided by the range [-].
     pub relative: f64,
 }
 
 /// Difference of two runs.
 #[derive(Debug, Clone, Default, PartialEq, serde::Serialize)]
 pub struct Difference {
-    /// Columns that both have.
+    /// Columns that both runs have.
     pub columns: Vec<ColumnDifference>,
     /// Channels that the first run alone has.
     pub only_a: Vec<String>,
     /// Channels that the second run alone has.
     pub only_b: Vec<String>,
-    /// When each run ends [s].
+    /// End time of each run [s].
     pub ends: [f64; 2],
 }
 
 impl Difference {
-    /// Do both runs end at the same time, and is no column farther from the other than `within` times its range?
+    /// Do both runs end at the same time, and is each column's largest difference at most `within` times its range?
     #[must_use]
     pub fn is_within(&self, within: f64) -> bool {
         self.ends_together() && self.columns.iter().all(|column| column.relative <= within)
@@ -62,7 +64,7 @@ impl Difference {
     }
 }
 
-/// The difference of two runs in the channels of these names; of no names, in all.
+/// Compares two runs in the channels or columns of the given names. An empty list selects all channels.
 #[must_use]
 pub fn difference(a: &ResultTable, b: &ResultTable, names: &[String]) -> Difference {
     let is_asked = |column: &&ResultColumn| {
@@ -81,7 +83,7 @@ pub fn difference(a: &ResultTable, b: &ResultTable, names: &[String]) -> Differe
     Difference { columns, only_a: only(a, b), only_b: only(b, a), ends: [a.end(), b.end()] }
 }
 
-/// The first run less the second in a column that both have: times, and values at them.
+/// Subtracts the second run from the first in a column that both have. Returns times and differences.
 #[must_use]
 pub fn difference_over_time(a: &ResultTable, b: &ResultTable, name: &str) -> Option<[Vec<f64>; 2]> {
     let rows = rows((a, a.column(name)?), (b, b.column(name)?));
@@ -89,7 +91,7 @@ pub fn difference_over_time(a: &ResultTable, b: &ResultTable, name: &str) -> Opt
     Some([times, values])
 }
 
-/// Times of both runs that both have, and the first run less the second at them.
+/// Times within the span that both runs cover, and the first run minus the second at each of them.
 fn rows(
     (a, x): (&ResultTable, &ResultColumn),
     (b, y): (&ResultTable, &ResultColumn),
@@ -135,7 +137,7 @@ fn of_columns(
     }
 }
 
-/// The largest range, and the largest magnitude, among the columns of a column's channel that have its unit.
+/// Returns the largest range and the largest magnitude among the columns of a channel that have the unit of `of`.
 fn scale(table: &ResultTable, of: &ResultColumn) -> [f64; 2] {
     let same = table.columns.iter().filter(|x| x.channel == of.channel && x.unit == of.unit);
     same.fold([0.0; 2], |[range, size], column| {
@@ -145,7 +147,7 @@ fn scale(table: &ResultTable, of: &ResultColumn) -> [f64; 2] {
     })
 }
 
-/// The value at a time within the rows, linear between them; `from` is where the last search ended, as times grow.
+/// Returns the value at time `t`, linear between the rows. `from` is the row where the last search ended; successive times must not decrease.
 pub(super) fn value(times: &[f64], values: &[f64], t: f64, from: &mut usize) -> f64 {
     while *from + 1 < times.len() && times[*from + 1] <= t {
         *from += 1;

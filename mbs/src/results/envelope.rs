@@ -1,10 +1,10 @@
-//! Envelope of several runs: the least and the largest value of a column at each time.
+//! Envelope of several runs: the smallest and the largest value of a column at each time.
 
 use super::difference::value;
 use super::read::ResultTable;
 
-/// The times of all runs that have a column, and its least and its largest value at them, linear between the rows of a run. A run counts
-/// from its first to its last row. `None` where no run has it.
+/// Returns the times of all runs that have a column, and the column's smallest and largest value at each of them. Values are linear between
+/// the rows of a run, and a run counts from its first to its last row only. `None` means that no run has the column.
 #[must_use]
 pub fn envelope(runs: &[&ResultTable], name: &str) -> Option<[Vec<f64>; 3]> {
     let columns = runs.iter().filter_map(|run| Some((*run, run.column(name)?)));
@@ -21,7 +21,7 @@ pub fn envelope(runs: &[&ResultTable], name: &str) -> Option<[Vec<f64>; 3]> {
         let (first, last, mut from) = (run.times[0], run.end(), 0);
         for (i, t) in times.iter().enumerate().filter(|(_, t)| (first..=last).contains(*t)) {
             let here = value(&run.times, &column.values, *t, &mut from);
-            // a number beside NaN is the number
+            // `min` and `max` of a number and NaN are the number
             (least[i], largest[i]) = (least[i].min(here), largest[i].max(here));
         }
     }

@@ -1,4 +1,4 @@
-//! Results that were written, read again: rows and statistics of a run; and how two runs differ.
+//! Results read again from the files of a run, and differences of two runs.
 
 mod difference;
 mod envelope;

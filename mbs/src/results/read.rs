@@ -1,4 +1,4 @@
-//! The rows and the statistics of a run: of its folder, or as it has ended.
+//! Rows and statistics of a run, read from its folder or taken from its outcome.
 
 use crate::run::Outcome;
 use core::fmt::{self, Display, Formatter};
@@ -12,24 +12,24 @@ const FILES: [&str; 2] = ["run.csv", "run.json"];
 /// A column of a run.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct ResultColumn {
-    /// Name as in the header.
+    /// Name in the header of the file.
     pub name: String,
     /// Name of its channel.
     pub channel: String,
-    /// Unit of the column; empty where it is not known.
+    /// Unit of the column; empty if it is unknown.
     pub unit: String,
     /// Value in each row.
     pub values: Vec<f64>,
-    /// Largest magnitude, and root mean square over time: over every step where the run says so, else over the rows.
+    /// Largest magnitude of the values. It covers every step if the run has recorded it in its statistics, and otherwise the rows.
     pub peak: f64,
-    /// Root mean square over time.
+    /// Root mean square over time, likewise of every step or of the rows.
     pub rms: f64,
 }
 
 /// The rows of a run.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct ResultTable {
-    /// Name of the scene; empty where it is not known.
+    /// Name of the scene; empty if it is unknown.
     pub scene: String,
     /// Times of the rows [s], increasing.
     pub times: Vec<f64>,
@@ -74,10 +74,10 @@ impl ResultTable {
         Self::parse(&rows.0?, &summary).map_err(|message| fault(&rows.1, message))
     }
 
-    /// The rows of a run that has ended.
+    /// Takes the rows and statistics of a run that has ended.
     ///
     /// # Errors
-    /// [`UnreadableResults`] of a run that has no row.
+    /// [`UnreadableResults`] for a run without rows.
     pub fn of_outcome(outcome: &Outcome) -> Result<Self, UnreadableResults> {
         let fault = |message: String| UnreadableResults { file: FILES[0].into(), message };
         let mut rows = Vec::new();
@@ -87,7 +87,7 @@ impl ResultTable {
         Self::parse(&rows, &summary).map_err(fault)
     }
 
-    /// Rows as CSV, and the object of the run.
+    /// Parses rows in CSV, and takes the statistics from the run's JSON object.
     fn parse(rows: &[u8], summary: &Value) -> Result<Self, String> {
         let mut reader = csv::Reader::from_reader(rows);
         let header = reader.headers().map_err(|error| error.to_string())?.clone();
@@ -133,7 +133,7 @@ impl ResultTable {
         Ok(table)
     }
 
-    /// Takes units and statistics of a channel's object.
+    /// Takes units and statistics from the JSON object of a channel.
     fn take(&mut self, channel: &Value) {
         let name = channel["name"].as_str().unwrap_or_default();
         let labels = channel["components"].as_array().into_iter().flatten();
@@ -153,7 +153,7 @@ impl ResultTable {
         }
     }
 
-    /// Takes the units of another table where a column is in degrees in one of them and in radians in the other.
+    /// Converts columns to the units of another table where one table has degrees and the other has radians.
     pub fn in_units_of(&mut self, other: &Self) {
         for column in &mut self.columns {
             let Some(same) = other.column(&column.name) else { continue };
@@ -180,7 +180,7 @@ impl ResultTable {
     }
 }
 
-/// Root of the mean square over time, by trapezoids; of a single row its magnitude.
+/// Root mean square over time, by the trapezoidal rule. For a single row it is the magnitude.
 fn root_mean_square(times: &[f64], values: &[f64]) -> f64 {
     let square = |x: &[f64]| (x[0] * x[0] + x[1] * x[1]) / 2.0;
     let parts = times.windows(2).zip(values.windows(2));

@@ -1,4 +1,4 @@
-//! The start from an equilibrium.
+//! Start of a run from an equilibrium.
 
 use crate::common::scene;
 use mbs::core::model::Model;
@@ -29,7 +29,7 @@ fn rests<const D: usize>(scene: &mbs::core::scene::Scene<f64>) {
         .unwrap_or_else(|e| panic!("{}: {e}", scene.name));
     assert!(found.relative < 1e-12, "{}: {found:?}", scene.name);
     assert!(start.state.v.iter().all(|v| *v == 0.0), "{}", scene.name);
-    // Rounding of forces over the lightest inertia, some 1e-3 kg m^2 of the tree.
+    // rounding of forces divided by the smallest inertia, about 1e-3 kg m^2 of the tree
     let fastest = start.state.a.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
     assert!(fastest < 1e-8, "{}: {fastest}", scene.name);
     assert!(start.residual.iter().all(|r| *r < 1e-9), "{:?}", start.residual);
@@ -53,7 +53,7 @@ fn a_start_from_equilibrium_takes_the_initial_velocities() {
     let mut start = start.expect("it assembles");
     mbs::equilibrium_start(&scene, &model, mbs::Search::Down, &mut solver, &mut start)
         .expect("it hangs");
-    // Hanging straight down, turning at 2 rad/s: the centripetal acceleration is 4 m/s^2 for 1 m.
+    // the bob hangs straight down and turns at 2 rad/s: the centripetal acceleration is 4 m/s^2 at 1 m
     let tip = model.point(mbs::core::scene::BodyId::Body(0), [-1.0, 0.0, 0.0]);
     let (x, v, a) = (tip.value(&start.state.q), tip.rate(&start.state.v), tip.rate(&start.state.a));
     assert!(x[0].abs() < 1e-10 && (x[1] + 1.0).abs() < 1e-10, "{x:?}");

@@ -1,4 +1,4 @@
-//! Andrews' squeezing mechanism against its reference: seven angles, a point, and what the motion keeps.
+//! Andrews' squeezing mechanism against its reference: seven angles, a point, and conserved quantities.
 #![allow(
     clippy::print_stdout,
     clippy::excessive_precision,
@@ -7,7 +7,7 @@
 
 use crate::common::{FORMULATIONS, distance, run_in, scene, with_fixed_steps, worst};
 
-/// Names of the angles, as channels of the scene.
+/// Names of the angles, which are channels of the scene.
 const ANGLES: [&str; 7] = ["beta", "theta", "gamma", "phi", "delta", "omega", "epsilon"];
 /// Angles at the start (test set, 30 digits) [rad].
 const START: [f64; 7] = [
@@ -19,7 +19,7 @@ const START: [f64; 7] = [
     -0.222_668_390_165_885_884_674_5,
     1.230_547_444_549_821_192_497_4,
 ];
-/// Angles at 0.03 s: extrapolation with 30 digits, two settings agree (benchmarks, section 1.2) [rad].
+/// Angles at 0.03 s [rad], by extrapolation with 30 digits; two settings agree (benchmarks, section 1.2).
 const END: [f64; 7] = [
     15.810_771_195_153_707_097,
     -15.756_371_058_411_839_470,
@@ -49,10 +49,10 @@ fn errors(formulation: &str, step: f64) -> [f64; 8] {
     errors
 }
 
-/// Ratio of the errors at a step and at half of it in a method of order 2; the terms of order 4 make the rest.
+/// Ratio of the errors at a step and at half of it in a method of order 2. Terms of order 4 explain the difference from 4.
 const SECOND_ORDER: core::ops::Range<f64> = 3.9..4.1;
-/// Error constants of the trapezoidal rule at 0.03 s [rad/s^2, m/s^2]: error = c dt^2. Measured at 1e-5, with a twentieth of
-/// room: all formulations integrate the same rule, so that theirs are the same.
+/// Error constants c of the trapezoidal rule at 0.03 s [rad/s^2, m/s^2]: error = c dt^2. They are measured at 1e-5 s, with a margin of a
+/// twentieth. All formulations use the same rule, so their constants are equal.
 const LEVELS: [f64; 8] = [2.53e6, 3.16e6, 2.45e4, 4.29e4, 1.27e3, 4.29e4, 720.0, 1.77e4];
 
 #[test]
@@ -71,9 +71,10 @@ fn andrews_angles_converge_with_order_2_to_the_reference() {
     }
 }
 
-/// Energy error of the trapezoidal rule [J/s^2]: largest error = c dt^2. 8.1e5 in the limit, 8.5e5 at 1e-4.
+/// Constant c of the largest energy error of the trapezoidal rule [J/s^2]: error = c dt^2. The constant is 8.1e5 in the limit, 8.5e5 at 1e-4
+/// s.
 const ENERGY_LEVEL: f64 = 8.6e5;
-/// The iteration stops at 1e-10 of the scene's length, which is about that of the two links [rad].
+/// Largest asymmetry [rad]: the iteration stops at 1e-10 of the scene's length, which is about that of the two links.
 const SYMMETRY: f64 = 1e-10;
 
 #[test]
@@ -83,7 +84,7 @@ fn andrews_keeps_its_energy_with_order_2_and_its_symmetry() {
         let energy = [1e-4, 1e-5, 1e-6].map(|step| {
             let outcome = run_in(&scene, formulation, Some(step));
             assert!(outcome.error.is_none(), "{formulation} {step}: {:?}", outcome.error);
-            // omega = -phi: channels are changes from starts that have the same symmetry.
+            // omega = -phi by symmetry, as channels are changes from starts with the same symmetry
             let mut asymmetry = 0.0;
             for (_, row) in outcome.rows() {
                 asymmetry = worst(asymmetry, (row[3] + row[5]).abs());
@@ -101,7 +102,7 @@ fn andrews_keeps_its_energy_with_order_2_and_its_symmetry() {
     }
 }
 
-/// Beta at a step of 1e-6 [rad]: twice the trapezoidal rule's own error.
+/// Error of beta at a step of 1e-6 s [rad]: twice the error of the trapezoidal rule.
 const BETA_AT_1E_6: f64 = 5e-6;
 
 #[test]

@@ -1,5 +1,5 @@
-//! Effects on each coordinate of a joint: every kind of joint that has one, in both orders of its bodies, on the ground and on a body that
-//! moves, in every formulation, and by closed forms; and guides on every joint of a chain.
+//! Effects on each coordinate of a joint, and guides on every joint of a chain. All kinds of joints are tested in both orders of their
+//! bodies, on the ground and on a moving body. Formulations are compared with each other and with closed forms.
 
 use crate::common::oracle::{Way, disagreement, everything, methods, rows, rows_with_errors};
 use crate::common::run;
@@ -7,7 +7,7 @@ use mbs::Method;
 use mbs::core::scene::{JointId, Quantity};
 use mbs_testkit::{quantities, scene};
 
-/// A body that hangs on the ground, or on a body that swings itself, by a joint with an effect.
+/// Scene of a body on a joint with an effect. The joint is on the ground, or on a body that itself swings.
 fn hung(is_planar: bool, kind: &str, [is_on_body, is_reversed]: [bool; 2], effect: &str) -> String {
     let first = if is_on_body { "base" } else { "ground" };
     let bodies = if is_reversed { ["a", first] } else { [first, "a"] };
@@ -103,13 +103,13 @@ fn effects_on_each_coordinate_are_the_same_in_every_formulation() {
     ] {
         for effect in ON_ONE_ROTATION[2..].iter().chain(&ON_ONE_COORDINATE) {
             let effect = format!("{effect}\ncoordinate = {coordinate}");
-            // on the ground: closed forms below
+            // only on a moving body: on the ground, closed forms are tested below
             every_method_agrees(is_planar, kind, &effect, &[true]);
         }
     }
 }
 
-/// In both orders of the bodies, on the ground and on a body that moves.
+/// Asserts that all methods agree, in both orders of the bodies, on the ground and on a moving body.
 fn every_method_agrees(is_planar: bool, kind: &str, effect: &str, is_on_body: &[bool]) {
     let mut faults = Vec::new();
     for place in is_on_body.iter().flat_map(|&of| [[of, false], [of, true]]) {
@@ -147,14 +147,14 @@ fn effects_on_each_coordinate_keep_the_energy_balance() {
                 assert!(outcome.error.is_none(), "{kind} {effect} {formulation}");
                 let errors = &outcome.steps().energy_errors;
                 let worst = errors.iter().fold(0.0, |worst, error| f64::max(worst, error.abs()));
-                // of up to 50 J that a stop stores; errors fall with the square of the step
+                // a stop stores up to 50 J; energy errors fall with the square of the step
                 assert!(worst < 2e-3, "{kind} {effect} {formulation} {integrator}: {worst:e} J");
             }
         }
     }
 }
 
-/// A body with its centre in the joint, its principal axes along the joint's, and what resists each coordinate.
+/// Body with its centre in the joint and its principal axes along the joint's, and the inertia against each coordinate.
 fn centred(kind: &str, is_planar: bool) -> (&'static str, Vec<(&'static str, f64)>) {
     let (m, [jx, jy, jz]) = (2.0, [0.02, 0.03, 0.04]);
     match (kind, is_planar) {
@@ -172,10 +172,10 @@ fn centred(kind: &str, is_planar: bool) -> (&'static str, Vec<(&'static str, f64
     }
 }
 
-/// Value and rate at the start, an effect, value and rate at the end.
+/// Value and rate at the start, an effect, and value and rate at the end.
 type Case = ([f64; 2], &'static str, [f64; 2]);
 
-/// A start, an effect, and value and rate after `t` [s]; and the frequency of the springs among them [rad/s].
+/// Cases of start, effect, and value and rate after `t` [s]. The first number is the angular frequency of their springs [rad/s].
 fn cases(inertia: f64, t: f64) -> (f64, [Case; 4]) {
     let omega = (5.0 / inertia).sqrt();
     // value and rate at the start, effect, value and rate at t
@@ -207,7 +207,7 @@ fn cases(inertia: f64, t: f64) -> (f64, [Case; 4]) {
     (omega, cases)
 }
 
-/// The scene of one body with one joint on the ground and one effect on a coordinate of it.
+/// Scene of one body with a joint on the ground, and an effect on one coordinate of the joint.
 fn alone(
     (is_planar, kind): (bool, &str),
     (axes, name): (&str, &str),
@@ -280,7 +280,7 @@ fn effects_move_each_coordinate_alone_by_closed_form() {
 
 #[test]
 fn a_torque_on_a_free_joint_turns_its_body_by_closed_form() {
-    // a body on nothing:   α = M / J,   rate of the second body in the first after 0.6 s: 0.6 · 0.7 / 0.05
+    // a free body: α = M / J; rate of the second body relative to the first after 0.6 s: 0.6 · 0.7 / 0.05 rad/s
     for place in [[false, false], [false, true]] {
         let mut scene = scene(&hung(true, "free", place, ON_ONE_ROTATION[0]));
         let joint = JointId::new(scene.joints.len() - 1);
@@ -296,7 +296,7 @@ fn a_torque_on_a_free_joint_turns_its_body_by_closed_form() {
 
 #[test]
 fn chains_that_are_guided_at_every_joint_run_in_relative_coordinates() {
-    // two bars of 1 m and 1 kg, q = 0.5 sin 2πt and 0.3 sin 2πt:   at 1 s q = 0, q' = π and 0.6 π, q'' = 0
+    // two bars of 1 m and 1 kg with angles q = 0.5 sin 2πt and 0.3 sin 2πt; at 1 s q = 0, q' = π and 0.6 π, q'' = 0
     let text = "[scene]\nname = \"guided\"\ndimension = 2\ngravity = [0.0, -9.81]\nduration = 1.0\n\
         [[body]]\nname = \"a\"\nmass = 1.0\nrod = { from = [0.0, 0.0], to = [1.0, 0.0] }\n\
         [[body]]\nname = \"b\"\nmass = 1.0\nrod = { from = [1.0, 0.0], to = [2.0, 0.0] }\n\
@@ -313,7 +313,7 @@ fn chains_that_are_guided_at_every_joint_run_in_relative_coordinates() {
         let rows = rows(&scene, *method, (1e-3, 1.0), 1000);
         let rows = rows.unwrap_or_else(|e| panic!("{method:?}: {e}"));
         let last = &rows.last().expect("rows").1;
-        // force of the ground, and the moments of the guides:   m g (0.5 + 1.5) about the first
+        // force of the ground, and the moments of the guides; the first moment is m g (0.5 + 1.5)
         for (found, expected) in last.iter().zip([x, 19.62, 19.62]) {
             assert!((found - expected).abs() < 1e-6 * 27.0, "{method:?}: {last:?}");
         }

@@ -1,4 +1,5 @@
-//! Balance of every body of random machines: gravity, reactions, effects and couplings make its momenta change, by laws and places of the file alone.
+//! Balance of momentum of every body of random machines. Gravity, reactions, effects and couplings must explain the change of its momenta.
+//! Forces are computed from the laws and points in the file alone.
 
 use crate::common::{run, run_in};
 use mbs::core::scene::{BodyId, CouplingKind, CouplingMeasure, Inertia, Joint, Scene};
@@ -33,18 +34,18 @@ fn three(row: &[f64]) -> Vector {
     [row[0], row[1], row[2]]
 }
 
-/// A body at an instant, and what acts on it.
+/// State of a body at an instant, and the sum of the forces on it.
 #[derive(Debug, Clone, Default)]
 struct Placed {
     center: Vector,
     /// Centre of the body in the reference configuration.
     drawn: Vector,
-    /// Rows of its rotation from there.
+    /// Rows of the rotation matrix from the reference configuration.
     rotation: [Vector; 3],
     force: Vector,
     /// Moment on the body about its centre.
     moment: Vector,
-    /// The largest force, or moment over a metre, that acts on it.
+    /// Largest force on the body [N], or moment divided by a metre.
     largest: f64,
 }
 
@@ -66,7 +67,7 @@ impl Placed {
     }
 }
 
-/// Columns of a body and of a joint.
+/// Number of output columns of a body and of a joint.
 const OF_BODY: usize = 21;
 const OF_JOINT: usize = 8;
 
@@ -88,13 +89,13 @@ fn outputs(machine: &Machine) -> String {
     bodies.chain(joints).collect::<String>() + &rest
 }
 
-/// A machine at the end of a run.
+/// State of a machine at the end of a run.
 struct Instant<'a> {
     scene: &'a Scene<f64>,
     machine: &'a Machine,
     wording: &'a Wording,
     row: &'a [f64],
-    /// Bodies of the machine, the ground last.
+    /// Bodies of the machine; the last one is the ground.
     bodies: Vec<Placed>,
 }
 
@@ -131,7 +132,7 @@ impl<'a> Instant<'a> {
         place.unwrap_or(self.scene.bodies.len())
     }
 
-    /// A joint with value, rate and reaction.
+    /// Returns a joint with its value, rate and reaction.
     fn joint(&self, name: &str) -> (&'a Joint<f64>, &'a [f64]) {
         let place =
             self.machine.joints.iter().position(|joint| joint.name == name).expect("a joint");
@@ -144,13 +145,13 @@ impl<'a> Instant<'a> {
         self.bodies[self.number(joint.bodies[0])].turned(unit(joint.axes[0].expect("an axis")))
     }
 
-    /// A wrench on the second of two bodies, its opposite on the first.
+    /// Applies a wrench to the second of two bodies, and its opposite to the first.
     fn between(&mut self, bodies: [usize; 2], at: Vector, (force, moment): (Vector, Vector)) {
         self.bodies[bodies[1]].take(at, force, moment);
         self.bodies[bodies[0]].take(at, force.map(|x| -x), moment.map(|x| -x));
     }
 
-    /// A force along a coordinate: on the second body at the joint's place, its opposite on the first.
+    /// Applies a force along a coordinate at the joint's point: to the second body, and its opposite to the first.
     fn along(&mut self, name: &str, effort: f64) {
         let (joint, _) = self.joint(name);
         let bodies = joint.bodies.map(|body| self.number(body));
@@ -170,7 +171,7 @@ impl<'a> Instant<'a> {
         }
     }
 
-    /// The springs and the motor of the machine.
+    /// Applies the springs and the motor of the machine.
     fn effects(&mut self) {
         let (_, swing) = self.joint("swing");
         self.along("swing", -30.0 * swing[0] - 0.3 * swing[1]);
@@ -186,7 +187,8 @@ impl<'a> Instant<'a> {
         self.bodies[ground].take(from, pull.map(|x| -x), [0.0; 3]);
     }
 
-    /// Applies the coupling where it acts on the drawn machine; by its coordinates where nothing says where that is.
+    /// Applies the force of the coupling at its point of action. Where the machine does not determine the point, the effort acts on the
+    /// coordinates.
     fn coupling(&mut self, kind: usize) {
         let effort = self.row[self.row.len() - 2];
         match kind {
@@ -226,7 +228,7 @@ impl<'a> Instant<'a> {
         if self.number(joint.bodies[1]) == body { 1.0 } else { -1.0 }
     }
 
-    /// At the pitch point along the tangent, and apart under 20 degrees.
+    /// Applies the tooth force at the pitch point: a tangential part, and a separating part at 20 degrees.
     fn teeth(&mut self, effort: f64) {
         let (one, n, about) = self.first();
         let two = self.joint("two").0;
@@ -240,7 +242,7 @@ impl<'a> Instant<'a> {
         self.between([two, one], pitch, (plus(force, apart, smaller), [0.0; 3]));
     }
 
-    /// Along both common tangents, with 200 N and half of the difference.
+    /// Applies the belt forces along both common tangents: 200 N each, plus and minus half of the difference.
     fn strands(&mut self, effort: f64, is_crossed: bool) {
         let (one, n, about) = self.first();
         let [c1, c2] = [one, self.joint("two").0].map(|joint| self.on_frame(joint));
@@ -261,7 +263,7 @@ impl<'a> Instant<'a> {
         }
     }
 
-    /// Along the axis of the screw on its nut, and about it.
+    /// Applies the thread force along the axis of the screw to its nut, and the moment about the axis.
     fn thread(&mut self, effort: f64) {
         let (one, n, about) = self.first();
         let (two, wheels) = (self.joint("two").0, self.wheels());
@@ -272,7 +274,7 @@ impl<'a> Instant<'a> {
         self.between(wheels, self.on_frame(one), (force, moment));
     }
 
-    /// Along the line, at the rim on the drum.
+    /// Applies the tension of the rope along its line, and at the rim of the drum.
     fn rope(&mut self, effort: f64) {
         let CouplingMeasure::Length { points } = &self.scene.couplings[0].terms[0].of else {
             panic!("no line")
@@ -284,7 +286,7 @@ impl<'a> Instant<'a> {
         self.bodies[wheels[1]].take(weight, pull.map(|x| -x), [0.0; 3]);
     }
 
-    /// Largest force or moment that is missing on a body, in parts of the largest force on any.
+    /// Largest missing force or moment on a body, relative to the largest force on any body [-].
     fn missing(&self) -> f64 {
         let largest = self.bodies.iter().fold(0.0_f64, |most, body| most.max(body.largest));
         let mut worst = 0.0_f64;
@@ -299,7 +301,7 @@ impl<'a> Instant<'a> {
                 panic!("inertia")
             };
             let rows = [[xx, xy, zx], [xy, yy, yz], [zx, yz, zz]];
-            // R I R^T x
+            // product of the rotated inertia R I R^T and a vector
             let r = &placed.rotation;
             let times = |x: Vector| {
                 let own: Vector = core::array::from_fn(|i| (0..3).map(|j| r[j][i] * x[j]).sum());
@@ -313,7 +315,7 @@ impl<'a> Instant<'a> {
     }
 }
 
-/// The largest part of a force that is missing on a body of so many machines, by a method.
+/// Largest relative missing force on a body of `machines` random machines, by a method.
 fn worst(machines: u64, method: &dyn Fn(&Scene<f64>) -> Outcome) -> f64 {
     let mut worst = 0.0_f64;
     for seed in 0..machines {
@@ -355,7 +357,7 @@ fn every_body_is_in_balance_by_fixed_steps() {
     for formulation in mbs::FormulationKind::ALL.map(mbs::FormulationKind::name) {
         let worst = worst(2 * COUPLED as u64, &|scene| run_in(scene, formulation, Some(1e-3)));
         println!("{formulation}: {worst:e}");
-        // augmented ones leave velocities and accelerations open by what iterations leave
+        // augmented formulations satisfy velocities and accelerations only to the tolerance of their iterations
         let allowed =
             if formulation == "state-space" || formulation == "recursive" { 1e-9 } else { 1e-6 };
         assert!(worst < allowed, "{formulation}: {worst:e} of the largest force");

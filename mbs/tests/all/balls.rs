@@ -6,10 +6,11 @@ use crate::common::oracle::{
 use mbs_testkit::scene;
 
 const GRAVITY: f64 = 9.81;
-/// Inertias of a body about its point on the ball, across its axis and about it [kg m^2].
+/// Inertias of a body about its point on the ball joint: across its axis, and about it [kg m^2].
 const INERTIAS: [f64; 2] = [0.5, 0.06];
 
-/// One body on a ball at the origin, its centre `height` above it along z, with what it does at the start and its effects.
+/// Scene of one body on a ball joint at the origin. Its centre is `height` above the joint along z. `rotation` and `spin` are its initial
+/// state, `rest` its effects.
 fn body_on_ball(height: f64, rotation: [f64; 3], spin: [f64; 3], rest: &str) -> String {
     let [across, about] = INERTIAS;
     let across = across - 2.0 * height * height;
@@ -23,7 +24,7 @@ fn body_on_ball(height: f64, rotation: [f64; 3], spin: [f64; 3], rest: &str) -> 
 
 #[test]
 fn a_body_that_turns_about_the_vertical_rests_on_its_cone() {
-    // (J - I) w^2 sin cos - m g l sin = k (swing - end): what turns about the vertical as a whole, below its ball
+    // steady precession about the vertical, below the ball joint: (J - I) w^2 sin cos - m g l sin = k (swing - end)
     let (below, swing, omega, stiffness) = (0.4, 0.7_f64, 8.0, 900.0);
     let [across, about] = INERTIAS;
     let pull = (across - about) * omega * omega * swing.sin() * swing.cos()
@@ -47,7 +48,7 @@ fn a_body_that_turns_about_the_vertical_rests_on_its_cone() {
 
 #[test]
 fn what_stands_above_its_ball_comes_to_rest_on_the_cone() {
-    // m g l sin(swing) = k (swing - end)
+    // equilibrium of moments: m g l sin(swing) = k (swing - end)
     let (above, end, stiffness) = (0.3, 0.5_f64, 400.0);
     let mut swing = end;
     for _ in 0..50 {
@@ -66,7 +67,7 @@ fn what_stands_above_its_ball_comes_to_rest_on_the_cone() {
     }
 }
 
-/// A body about its centre, whose axis stays: it twists by this at a time, from this rate at the start.
+/// Scene of a body that only twists about its fixed axis, from a given rate at the start, and its angular frequency.
 fn twisting(rate: f64) -> (String, f64) {
     let stiffness = 2.0;
     let spring = format!(
@@ -85,14 +86,14 @@ fn a_twist_spring_has_the_frequency_of_the_inertia_about_its_axis() {
     for way in WAYS {
         for (t, row) in run(&text, way, (1e-4, 1.2)) {
             let (sin, cos) = (omega * t).sin_cos();
-            // (w h)^2/12 of a phase of seven radians, in natural coordinates that of 30 rad/s
+            // phase error (w h)^2/12 of seven radians; in natural coordinates that of w = 30 rad/s
             let most = 2e-5 * amplitude;
             assert!((row[0] - amplitude * sin).abs() < most, "{way:?}, {t}: {row:?}");
             assert!((row[1] - 28.0 * cos).abs() < most * omega, "{way:?}, {t}: {row:?}");
             assert!((row[2] - 2.0 * row[0]).abs() < 1e-9, "{way:?}, {t}: {row:?}");
         }
     }
-    // natural coordinates remember any number of turns; relative ones know a twist below a whole turn
+    // natural coordinates count revolutions; relative coordinates determine a twist only within one revolution
     let (text, omega) = twisting(60.0);
     for way in WAYS {
         let result = rows(&scene(&text), way, (1e-4, 0.6), 1);
@@ -129,7 +130,7 @@ fn a_torque_on_a_twist_turns_on_past_whole_turns() {
 
 #[test]
 fn a_twist_is_open_where_its_axes_are_opposite() {
-    // about x, across the axis: half a turn at pi seconds
+    // rotation about x, across the axis: half a revolution after pi seconds
     let damper = "[[effect]]\nname = \"e\"\nkind = \"torsion-spring\"\njoint = \"ball\"\ncoordinate = \"twist\"\naxis = [0.0, 0.0, 1.0]\nstiffness = 1.0\n";
     let text = body_on_ball(0.0, [0.0; 3], [1.0, 0.0, 0.0], damper);
     for way in WAYS {
@@ -141,7 +142,7 @@ fn a_twist_is_open_where_its_axes_are_opposite() {
     }
 }
 
-/// Two bodies on balls, a ball that closes a loop of a rod, and smooth laws on swings and twists about axes of any direction.
+/// Scene of two bodies on ball joints, and a closed loop of a rod with a ball joint. Smooth laws act on swings and twists about oblique axes.
 fn chain() -> String {
     let body = |name: &str, at: [f64; 3], mass: f64| {
         format!(
@@ -165,7 +166,7 @@ fn chain() -> String {
         body("one", [0.3, 0.1, -0.2], 2.0),
         body("two", [0.8, 0.0, -0.5], 1.5),
         ball("a", ["ground", "one"], [0.0, 0.0, 0.0]),
-        // its tree hangs the second body by the first
+        // its tree attaches the second body to the first
         ball("b", ["two", "one"], [0.6, 0.1, -0.3]),
         "[[initial]]\njoint = \"a\"\nvalue = [0.3, 0.2, -0.4]\nrate = [1.0, -0.5, 2.0]\n[[initial]]\njoint = \"b\"\nvalue = [-0.2, 0.5, 0.3]\nrate = [0.4, 1.0, -1.5]\n".to_owned(),
         effect("swing-a", "torsion-spring", "a", "swing", "axis = [0.36, 0.48, -0.8]\nstiffness = 20.0\ndamping = 0.3\nfree_value = 0.1"),
@@ -192,7 +193,7 @@ fn the_energy_of_laws_on_balls_balances() {
 
 #[test]
 fn a_thin_rod_swings_about_its_line_without_a_turn_of_its_own() {
-    // a rod on a ball below the ground, held by a spring on its swing: small swings at sqrt((m g l/2 + k)/J)
+    // a rod on a ball joint below the ground, with a spring on its swing: small swings have the frequency sqrt((m g l/2 + k)/J)
     let text = format!(
         "[scene]\nname = \"rod\"\ndimension = 3\nduration = 1.0\ngravity = [0.0, 0.0, -{GRAVITY:?}]\n\
          [[body]]\nname = \"rod\"\nmass = 3.0\nrod = {{ from = [0.0, 0.0, 0.0], to = [0.0, 0.0, -1.0] }}\n\
@@ -206,7 +207,7 @@ fn a_thin_rod_swings_about_its_line_without_a_turn_of_its_own() {
     for way in WAYS {
         for (t, row) in run(&text, way, (1e-3, 1.0)) {
             let expected = (rate / omega * (omega * t).sin()).abs();
-            // amplitude^3 and (w h)^2
+            // errors by the amplitude cubed, and by (w h)^2
             assert!((row[0] - expected).abs() < 1e-6, "{way:?}, {t}: {row:?} {expected}");
         }
     }

@@ -1,4 +1,4 @@
-//! A run that goes on from a checkpoint is the run in one go, to the last bit.
+//! Resuming a run from a checkpoint gives every bit of the run without interruption.
 
 use crate::common::files::{scratch, without_clocks};
 use crate::common::{path, scene};
@@ -19,10 +19,10 @@ mod record;
 mod refused;
 mod tape;
 
-/// Rows of the summary that clocks give.
+/// Rows of the summary that clocks determine.
 const CLOCK_ROWS: [&str; 3] = ["CPU time of the steps", "times real time", "slowest step"];
 
-/// Everything that a run gives, but for what clocks say: rows, steps, JSON, and what its page shows.
+/// All results of a run except times: rows, steps, JSON, and the contents of its page.
 fn results(outcome: &Outcome) -> [String; 4] {
     let (mut rows, mut steps) = (Vec::new(), Vec::new());
     outcome.write_csv(&mut rows).expect("memory");
@@ -48,10 +48,10 @@ fn same(a: &[String; 4], b: &[String; 4], what: &str) {
     }
 }
 
-/// More than two ticks of a file system's clock.
+/// Time of more than two ticks of a file system's clock.
 const COARSE: Duration = Duration::from_millis(20);
 
-/// Runs a scene in one go, kept, and from each of its checkpoints; gives the outcome of the first.
+/// Runs a scene without interruption, with checkpoints, and from each of these checkpoints. Returns the outcome of the first run.
 fn split(name: &str, overrides: &Method, every: f64) -> Outcome {
     let document = std::fs::read(path(name)).expect("the scene is in the repository");
     let document = SceneFile::from_bytes(&document, name).expect("TOML");
@@ -66,7 +66,7 @@ fn split(name: &str, overrides: &Method, every: f64) -> Outcome {
     let mut look = |_| {
         let file = out.join(CHECKPOINT);
         let written = file.metadata().and_then(|m| m.modified()).expect("there is always one");
-        // Clocks of files are coarse: one that was just written may have been written again.
+        // clocks of files are coarse: a file that was just written may have been written again within the same tick
         if of_last == Some(written) && written.elapsed().is_ok_and(|age| age > COARSE) {
             return;
         }
@@ -115,7 +115,7 @@ fn every_formulation_resumes_to_the_same_bits() {
     for formulation in FormulationKind::ALL {
         for (name, step) in scenes {
             let overrides = with(formulation.name(), 0.9);
-            // the classical Lagrangian takes redundant constraints only where it is regularised
+            // the classical Lagrangian accepts redundant constraints only with regularisation
             let is_redundant =
                 formulation == FormulationKind::Classical && name == "spatial-four-bar";
             let penalty = is_redundant.then_some(1e10);
@@ -201,7 +201,7 @@ fn changes_of_index_resume_to_the_same_bits() {
 
 #[test]
 fn what_is_thinned_resumes_to_the_same_bits() {
-    // 30,000 steps of which every third is a row; and some 30,000 steps of lengths that are not known before
+    // 30,000 steps, of which every third is a row; then about 30,000 steps of controlled lengths
     let fixed = Method { step: Some(1e-4), ..with("recursive", 3.0) };
     assert_eq!(split("double-pendulum", &fixed, 0.7501).summary.steps, 30_000);
     let controlled = Method {
@@ -217,14 +217,14 @@ fn what_is_thinned_resumes_to_the_same_bits() {
 
 #[test]
 fn a_run_that_stops_resumes_to_the_same_stop() {
-    // long steps of the double pendulum: the invariant is off by too much of what was turned over, ten times in a row
+    // long steps of the double pendulum: the energy error is too large, relative to the exchanged energy, in ten steps in a row
     let alarm = Method { energy_alarm: Some(1e-3), step: Some(1e-2), ..with("index-3", 10.0) };
     let outcome = split("double-pendulum", &alarm, 0.13);
     let stop = outcome.summary.error.expect("it stops");
     assert!(stop.time > 0.5 && stop.time < 9.0, "{stop:?}");
 }
 
-/// The guided four-bar linkage with a torque and its guide that are set from outside.
+/// The guided four-bar linkage with a torque and a guide that are inputs.
 fn driven() -> Scene<f64> {
     let mut scene = scene("guided-four-bar");
     scene.guides[0].law = Motion::Input([0.0, 0.0, 0.0]);
@@ -234,7 +234,7 @@ fn driven() -> Scene<f64> {
     scene
 }
 
-/// Bits of state and energies after each of some steps.
+/// Bits of state and energies after each of `steps` steps.
 fn bits<const D: usize>(simulation: &mut Simulation<f64, D>, steps: usize) -> Vec<u64> {
     let mut told = Vec::new();
     for k in 0..=steps {
@@ -254,7 +254,7 @@ fn bits<const D: usize>(simulation: &mut Simulation<f64, D>, steps: usize) -> Ve
 fn a_simulation_that_is_restored_continues_with_inputs_as_they_are_set() {
     let scene = driven();
     assert_eq!(scene.dimension, Dimension::Planar);
-    // multi-index steps are controlled: the first of those within a step takes a guide's motion over
+    // multi-index controls its steps: the first part of a divided step would use up the guide's input
     for formulation in
         FormulationKind::ALL.into_iter().filter(|f| *f != FormulationKind::MultiIndex)
     {
@@ -269,13 +269,13 @@ fn a_simulation_that_is_restored_continues_with_inputs_as_they_are_set() {
             first.set_input(effect, [0.3, 0.0, 0.3]).expect("an input");
             first.step(1e-3).expect("a regular step");
         }
-        // set, and no step made with it yet
+        // the inputs are set, but not yet used by a step
         first.set_input(effect, [0.5, 0.0, 0.2]).expect("an input");
         let mut bytes = Vec::new();
         first.save((&scene, &settings), &mut bytes).expect("memory");
         second.restore((&scene, &settings), &bytes[..]).expect("of the same scene");
         assert_eq!(first.state(), second.state(), "{}", formulation.name());
-        // the guide stands still from here on, where it was set last
+        // from here on the guide keeps the value that was set last
         assert_eq!(bits(&mut first, 5), bits(&mut second, 5), "{}", formulation.name());
     }
 }

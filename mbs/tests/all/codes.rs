@@ -1,5 +1,5 @@
-//! User-defined laws with data, on the front door: the same motion as the library's own in every formulation and integrator, and what
-//! is refused.
+//! User-defined laws with data, through the main interface. They give the same motion as the library's laws in every formulation and
+//! integrator. Wrong laws are refused.
 
 use mbs::core::scene::{EffectKind, LawOnLine, Scene};
 use mbs::{
@@ -8,7 +8,7 @@ use mbs::{
     Method, Precision, Run, Signal, Simulation, StepRule, Wrench, equilibrium, modes, run,
 };
 
-/// k (x - x0) + c x'.
+/// Force k (x - x0) + c x' of a spring and a damper.
 #[derive(Debug)]
 struct Spring {
     stiffness: f64,
@@ -30,7 +30,7 @@ impl ForceLaw for Spring {
 
 const SPRING: Spring = Spring { stiffness: 200.0, damping: 3.0, free: 0.7 };
 
-/// -c v and -d w, and what the input adds to both along x and about z.
+/// Drag force -c v and drag moment -d w, plus the input along x and about z.
 #[derive(Debug)]
 struct Honey {
     drag: f64,
@@ -47,7 +47,7 @@ impl BodyLaw for Honey {
     }
 }
 
-/// A spring that breaks, in one way or another, below a length.
+/// Spring that returns a wrong force below a length.
 #[derive(Debug)]
 struct Breaking(Force, f64);
 
@@ -80,7 +80,7 @@ fn pendulum() -> (Mechanism, [BodyId; 2], [JointId; 2]) {
     (m, [upper, lower], [pivot, elbow])
 }
 
-/// The double pendulum with a spring from the ground to its end, as the library has it or in code.
+/// The double pendulum with a spring from the ground to its end, by the library or by code.
 fn on_line(law: Option<impl ForceLaw + 'static>) -> Mechanism {
     let (mut m, [_, lower], _) = pendulum();
     let ends = [(GROUND, [2.0, 1.0]), (lower, [2.0, 0.0])];
@@ -96,7 +96,7 @@ fn simulate(m: &Mechanism, method: &Method) -> Simulation {
     m.simulate(method).unwrap_or_else(|e| panic!("{method:?}: {e}"))
 }
 
-/// Are the lengths of steps those that the energy invariant asks for?
+/// Does the energy invariant control the lengths of the steps?
 fn follows_energy(method: &Method) -> bool {
     method.formulation.as_deref() == Some(FormulationKind::MultiIndex.name())
 }
@@ -106,15 +106,15 @@ fn coordinates(sim: &Simulation, m: &Mechanism) -> Vec<f64> {
     m.ids::<JointId>().map(|joint| sim.value(joint)).collect()
 }
 
-/// Are the motions of both the same in every formulation and integrator, and what the ledgers tell of them?
+/// Asserts that both mechanisms have the same motion and energies in every formulation and integrator.
 fn are_the_same(library: &Mechanism, code: &Mechanism) {
     for method in methods() {
         let (mut a, mut b) = (simulate(library, &method), simulate(code, &method));
         for sim in [&mut a, &mut b] {
             sim.advance_to(0.3).unwrap_or_else(|e| panic!("{method:?}: {e}"));
         }
-        // Rounding of the law differs and grows in 300 steps of the iterations' tolerance; that of dV/dm is 1e-10 of some 100 J, which
-        // multi-index takes its steps by.
+        // the laws differ by rounding, which grows over 300 steps with the tolerance of the iterations; the numerical derivative of V differs
+        // by 1e-10 of 100 J, and multi-index chooses its steps by it
         let allowed = if follows_energy(&method) { 1e-6 } else { 1e-11 };
         for (x, y) in coordinates(&a, library).into_iter().zip(coordinates(&b, code)) {
             assert!((x - y).abs() < allowed, "{method:?}: {x} {y}");
@@ -152,7 +152,7 @@ fn a_slider_on_a_spring_in_code_swings_as_the_closed_form_says() {
     for method in methods() {
         let mut sim = simulate(&m, &method.step(1e-4));
         sim.advance_to(0.4).expect("regular steps");
-        // x = x0 (1 - cos w t), w = 5 rad/s; steps of h err by (w h)^2 w t / 12 = 4e-8 of the phase, Newmark's damping by w h w t / 2.
+        // x = x0 (1 - cos w t), w = 5 rad/s; steps of h have a phase error of (w h)^2 w t / 12 = 4e-8, and Newmark's damping is w h w t / 2
         let x = 0.1 * (1.0 - f64::cos(5.0 * 0.4));
         assert!((sim.value(slide) - x).abs() < 1e-4, "{}", sim.value(slide));
     }
@@ -171,14 +171,14 @@ fn a_body_in_honey_slows_down_as_the_closed_form_says() {
         sim.advance_to(0.5).unwrap_or_else(|e| panic!("{method:?}: {e}"));
         let rates = sim.rates(free);
         let (slower, turns) = (f64::exp(-4.0 / 2.0 * 0.5), f64::exp(-1.5 / 0.5 * 0.5));
-        // Second order: (3/s h)^2 / 12 of 1.5 is 1e-6; Newmark's damping is of first order, 3/s h / 4.
+        // errors of second order, (3/s h)^2 / 12 of 1.5, are 1e-6; Newmark's damping of first order is 3/s h / 4
         for (x, y) in rates.iter().zip([3.0 * slower, -slower, 2.0 * turns]) {
             assert!((x - y).abs() < 1e-3 * y.abs(), "{method:?}: {x} {y}");
         }
         let e = sim.energies();
         let before = 0.5 * (2.0 * 10.0 + 0.5 * 4.0);
         assert!((e.kinetic - e.work - before).abs() < 1e-2, "{method:?}: {e:?}");
-        // Its input acts from the next step on.
+        // its input acts from the next step on
         let push = sim.input_of(honey).expect("every law has one");
         sim.set_input(push, 4000.0).expect("finite");
         let v = sim.rates(free)[0];
@@ -192,19 +192,19 @@ fn equilibrium_modes_and_runs_see_laws_in_code() {
     let [library, code] = [on_line(None::<Spring>), on_line(Some(SPRING))];
     let rests = [&library, &code].map(|m| equilibrium(m, &EquilibriumOptions::default()));
     let [a, b] = rests.map(|rest| rest.expect("a spring holds it"));
-    // Rounding of the search.
+    // the searches differ by rounding
     assert!((a.potential - b.potential).abs() < 1e-9, "{} {}", a.potential, b.potential);
     let [x, y] = [(&library, &a), (&code, &b)].map(|(m, rest)| modes(m, rest).expect("smooth"));
     assert_eq!(x.modes.len(), y.modes.len());
     for (x, y) in x.modes.iter().zip(&y.modes) {
-        // Differences of forces give ten digits.
+        // numerical derivatives of forces have ten digits
         assert!((x.frequency() - y.frequency()).abs() < 1e-7, "{x:?} {y:?}");
     }
     let [a, b] = [&library, &code].map(|m| run(m, &Run::new()).expect("a run"));
     assert!(a.stop().is_none() && b.stop().is_none());
     let ends = [&a, &b].map(|r| r.table().column("joint-2").expect("an angle").last().copied());
     assert!((ends[0].unwrap_or(0.0) - ends[1].unwrap_or(1.0)).abs() < 1e-11, "{ends:?}");
-    // A tree has the joints; forces of effects act nowhere there.
+    // the tree has the joints only, without the forces of effects
     assert_eq!(code.tree().expect("a tree").coordinates().len(), 2);
 }
 
@@ -221,7 +221,7 @@ fn every_precision_that_is_built_moves_as_doubles_do() {
             Some(coordinates(&sim, &m))
         };
         let doubles = end(Precision::F64).expect("always built");
-        // Rounding of 300 steps; in pairs of doubles that of the other run.
+        // rounding of 300 steps; in double-double the difference is the rounding of the run in doubles
         for (precision, allowed) in [(Precision::F32, 1e-2), (Precision::DoubleDouble, 1e-9)] {
             for (x, y) in end(precision).into_iter().flatten().zip(&doubles) {
                 assert!((x - y).abs() < allowed, "{precision:?}: {x} {y}");
@@ -232,7 +232,7 @@ fn every_precision_that_is_built_moves_as_doubles_do() {
 
 #[test]
 fn the_invariant_stays_with_an_energy_and_without() {
-    /// A spring that says it stores nothing, or a tenth too much.
+    /// Spring whose stated energy is zero, or a tenth too large.
     #[derive(Debug)]
     struct StatedEnergy(f64);
     impl ForceLaw for StatedEnergy {
@@ -251,8 +251,8 @@ fn the_invariant_stays_with_an_energy_and_without() {
             sim.step(1e-3).unwrap_or_else(|e| panic!("{method:?}: {e}"));
             let before = off(&sim);
             sim.advance_to(0.3).unwrap_or_else(|e| panic!("{method:?}: {e}"));
-            // The rules' own error is some 1e-5 of 100 J, and what Newmark's damping takes 1e-2. What is not stored is work, by the
-            // energy that is stated: that of a spring cannot be stated wrongly so that it shows.
+            // the integrators have errors of 1e-5 of 100 J, Newmark's damping 1e-2; energy that is not stored counts as work, so a wrong
+            // stated energy of a spring leaves the invariant constant
             assert!((off(&sim) - before).abs() < 0.5, "{method:?}: {} J", off(&sim) - before);
         }
     }
@@ -270,7 +270,7 @@ fn an_input_is_the_law_s_own_from_the_next_step_on() {
         for sim in [&mut sim, &mut still] {
             sim.advance_to(0.05).unwrap_or_else(|e| panic!("{method:?}: {e}"));
         }
-        // The same steps but for the lengths that multi-index chooses.
+        // the steps are the same, except for their lengths in multi-index
         let elbow = m.find("joint-2").expect("a name");
         let apart = (sim.value(elbow) - still.value(elbow)).abs();
         let allowed = if follows_energy(&method) { 1e-4 } else { 1e-9 };
@@ -294,9 +294,9 @@ fn a_law_that_is_not_finite_ends_the_step_with_the_name_of_its_effect() {
         .flat_map(|f| controls.map(|rule| Method::new(f).control(rule)));
     for method in methods().chain(controlled) {
         for force in wrong {
-            // The end begins at 1 m, and the spring lifts it.
+            // the end of the pendulum starts at 1 m, and the spring lifts it
             let m = on_line(Some(Breaking(force, 0.95)));
-            // Not every formulation has every rule.
+            // not every formulation has every integrator
             let Ok(mut sim) = m.simulate(&method) else { continue };
             let error = sim.advance_to(1.0).expect_err("the law ends");
             assert_eq!(error.code(), "law-not-finite", "{method:?}: {error}");

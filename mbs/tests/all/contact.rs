@@ -1,4 +1,5 @@
-//! One-sided contact in runs: bouncing masses and wheels against their exact motion, energy, instants, and a wheel at standstill.
+//! One-sided contact: bouncing masses and wheels against their exact motion, energies, instants of contact, and a wheel at standstill. With
+//! the deflection d [m], the speed v [m/s] and w^2 = k/m:
 //!
 //! ```text
 //! pressed in   d'' = g - w^2 d,   d(0) = 0, d'(0) = v:   d = (g / w^2)(1 - cos w t) + (v / w) sin w t
@@ -13,16 +14,16 @@ use mbs::core::outputs::Contacts;
 use mbs::core::scene::{Dimension, EffectKind, JointId, Limit, Scene};
 use mbs::{Method, Outcome};
 
-/// Formulations whose rule is the trapezoidal one.
+/// Formulations that use the trapezoidal rule.
 const FORMULATIONS: [&str; 4] = ["index-3", "classical", "state-space", "recursive"];
 
-/// A mass that slides along a vertical line and meets one unilateral effect.
+/// Mass on a vertical slide that touches one one-sided effect.
 struct Bounce {
     scene: Scene<f64>,
     gravity: f64,
     /// Square of the frequency in contact [1/s^2].
     stiffness: f64,
-    /// Height over that of the first touch at the start, and velocity there [m, m/s].
+    /// Height above the first contact at the start [m], and velocity there [m/s].
     start: [f64; 2],
 }
 
@@ -73,7 +74,7 @@ quantity = "velocity"
     Bounce { scene, gravity, stiffness: 2500.0, start: [height, velocity] }
 }
 
-/// A wheel of 20 kg that is dropped on level ground, upright in the plane or leaning by 0.3 in space.
+/// Wheel of 20 kg that falls on level ground, upright in the plane, or leaning by 0.3 rad in space.
 fn wheel(dimension: Dimension, height: f64, damping: f64) -> Bounce {
     let (stiffness, radius) = (80_000.0, 0.3);
     let is_planar = dimension == Dimension::Planar;
@@ -124,18 +125,18 @@ at = {at}
 quantity = "velocity"
 "#
     ));
-    // The force acts along the normal, and the deflection is that of the disc: both are larger by 1 / cos g.
+    // the force acts along the normal and the deflection is measured in the disc's plane: both are larger by 1 / cos g, where g is the lean
     let stiffness = stiffness / (20.0 * cos * cos);
     Bounce { scene, gravity: 9.81, stiffness, start: [height, 0.0] }
 }
 
 impl Bounce {
-    /// Height over that of the first touch and velocity at a time, and the instants of contact until then.
+    /// Height above the first contact and velocity at a time, and the instants of contact until then.
     fn exact(&self, t: f64) -> ([f64; 2], Vec<f64>) {
         let ([mut height, mut velocity], mut now, mut instants) = (self.start, 0.0, Vec::new());
         let (g, w) = (self.gravity, self.stiffness.sqrt());
         loop {
-            // Down to the touch.
+            // free fall down to the contact
             let fall = if g > 0.0 {
                 (velocity + (velocity * velocity + 2.0 * g * height).sqrt()) / g
             } else if velocity < 0.0 {
@@ -167,7 +168,7 @@ impl Bounce {
     }
 
     fn run(&self, formulation: &str, step: f64) -> Outcome {
-        // Below the errors of the rule at the smallest step.
+        // this tolerance is below the errors of the rule at the smallest step
         self.run_with(formulation, step, Method { tolerance: Some(1e-13), ..Method::default() })
     }
 
@@ -201,11 +202,11 @@ impl Bounce {
     }
 }
 
-/// Share that a step smaller by ten leaves of an error of order two, at most. It is a hundredth, times what changes by where within their steps
-/// the contacts begin and end. A kink of the force at a share r of a step leaves r (1 - r) of the largest error.
+/// Largest ratio of the errors of order two at a tenth of the step. It is a hundredth, times a change by the position of the contacts within
+/// their steps. A kink of the force at a fraction r of a step gives r (1 - r) of the largest error.
 const TENTH: f64 = 0.03;
 
-/// Every bounce without a damper, and what it is.
+/// Cases without a damper, with their names.
 fn bounces() -> Vec<(&'static str, Bounce)> {
     vec![
         ("thrown against a bumper", bumper(0.0, [0.2, -1.3], 0.0)),
@@ -243,7 +244,7 @@ fn contacts_leave_no_energy_behind_but_an_error_of_order_two_of_the_step() {
                 energy.max_error / energy.turned_over
             });
             println!("{what}, {formulation}: {errors:?} of the energy turned over");
-            // Two quarters of an error of order two leave 1 / 256, times what changes by where contacts fall in their steps.
+            // quartering the step of order two twice gives 1 / 256, times a change by the position of contacts within their steps
             assert!(errors[2] < 0.02 * errors[0] && errors[2] < 2e-5, "{what}, {formulation}");
         }
     }
@@ -259,7 +260,7 @@ fn a_damper_takes_energy_at_every_bounce_and_gives_none_back() {
         let n = bounce.scene.dimension.count();
         let contacts: Vec<f64> = outcome.summary.contacts.iter().map(|c| c.time).collect();
         assert!(contacts.len() >= 5, "{what}: {contacts:?}");
-        // Highest between two contacts.
+        // largest height between two contacts
         let top = |from: f64, to: f64| {
             let rows = outcome.rows().iter().filter(|(t, _)| (from..to).contains(t));
             rows.fold(f64::MIN, |top, (_, row)| top.max(row[n - 1]))
@@ -278,7 +279,7 @@ fn a_damper_takes_energy_at_every_bounce_and_gives_none_back() {
 
 #[test]
 fn a_damper_that_fades_in_within_a_step_gives_its_impulse_where_steps_end_at_events() {
-    // from three steps in the millimetre of the fade to five millimetres in a step
+    // the damper fades in over a millimetre: three steps at the lowest speed, a fifth of a step at the highest
     let (step, damping, mass) = (1e-3, 400.0, 2.0);
     for rate in [-0.35, -0.7, -0.95, -1.3, -2.1, -5.0] {
         let bounce = bumper(0.0, [0.05, rate], damping);
@@ -286,7 +287,7 @@ fn a_damper_that_fades_in_within_a_step_gives_its_impulse_where_steps_end_at_eve
         let landed = bounce.run_with("multi-index", step, Method::default());
         let velocity = |outcome: &Outcome| outcome.rows().last().map(|(_, row)| row[3]);
         let error = (velocity(&landed).unwrap() - velocity(&right).unwrap()).abs();
-        // A force that is there at once, and counted in one end of a step only, is off by half of its impulse in that step.
+        // a force that acts at once, but is evaluated at one end of a step only, has an error of half of its impulse in that step
         let blunder = 0.5 * step * damping * rate.abs() / mass;
         println!("{rate} m/s: {error:.1e} of {blunder:.1e} m/s");
         assert!(
@@ -296,7 +297,7 @@ fn a_damper_that_fades_in_within_a_step_gives_its_impulse_where_steps_end_at_eve
     }
 }
 
-/// A mass of 400 kg on one wheel, held at its height and upright. It rolls and slips to a side, is pushed back, and goes through
+/// Scene of a mass of 400 kg on one wheel, held upright at a constant height. It rolls and slips sideways, is pushed back, and passes
 /// standstill.
 const STANDSTILL: &str = r#"
 [scene]
@@ -371,7 +372,7 @@ fn a_wheel_goes_through_standstill_on_a_path_that_does_not_depend_on_the_step() 
         };
         let (coarse, fine) = (apart(&a, &b), apart(&b, &c));
         println!("{formulation}: {coarse:.1e} and {fine:.1e} m, m/s");
-        // An error of order two falls to a quarter.
+        // an error of order two falls to a quarter at half the step
         assert!(fine < 0.3 * coarse && fine < 1e-5, "{formulation}: {coarse:e} {fine:e}");
     }
 }
@@ -408,7 +409,7 @@ fn a_limit_reports_which_end_was_touched_and_watching_allocates_nothing() {
         let (end, event) = ([Some("upper"), Some("lower")][i / 2 % 2], ["made", "broken"][i % 2]);
         assert_eq!((contact.end, contact.event), (end, event), "{told:?}");
     }
-    // 0.1 m at 1.3 m/s; the force at the end of the step shifts it by some w^2 h^3.
+    // the contact begins after 0.1 m at 1.3 m/s; the force at the end of the step shifts it by about w^2 h^3
     assert!((told[0].time - 0.1 / 1.3).abs() < 2500.0 * 1e-12, "{told:?}");
 
     let mut bench = Bench::<2>::of_scene(&bounce.scene, "index-3", 1e-3);

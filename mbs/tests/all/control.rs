@@ -1,5 +1,4 @@
-//! Steps of controlled length: what they cost beside fixed ones, how errors follow the tolerances, and hard passages from many
-//! starts.
+//! Steps of controlled length: their cost relative to fixed steps, errors relative to tolerances, and difficult passages from many starts.
 
 use crate::common;
 use crate::common::allocations;
@@ -30,7 +29,7 @@ fn multi_index(limits: [f64; 2], (step, step_max): (f64, f64)) -> Method {
     }
 }
 
-/// Trials made, those rejected among them.
+/// Number of trial steps, including rejected ones.
 fn trials(outcome: &Outcome) -> u64 {
     outcome.summary.steps + outcome.summary.control.as_ref().map_or(0, |c| c.rejected)
 }
@@ -47,7 +46,7 @@ fn largest_difference(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).fold(0.0, |most, (a, b)| f64::max(most, (a - b).abs()))
 }
 
-/// The cheapest run with a fixed step, in trials, that keeps the energy within `error`.
+/// Number of trial steps of the cheapest run with a fixed step and an energy error of at most `error` [J].
 fn cheapest_fixed(scene: &Scene<f64>, formulation: &str, error: f64) -> u64 {
     let steps = (0..24).map(|k| 1e-2 / f64::powf(2.0, 0.25 * f64::from(k)));
     let reached = steps
@@ -56,7 +55,7 @@ fn cheapest_fixed(scene: &Scene<f64>, formulation: &str, error: f64) -> u64 {
     reached.map(|outcome| trials(&outcome)).expect("some step is short enough")
 }
 
-/// The suspension over its bump, with the tolerances of publication 2.
+/// Asserts that controlled steps are cheaper for the suspension on its bump, with the tolerances of publication 2.
 fn suspension(name: &str) {
     let scene = scene(name);
     let index1 = completed(&scene, &fixed("index-1", 5e-4));
@@ -70,11 +69,11 @@ fn suspension(name: &str) {
         trials(&multi)
     );
     assert!(multi.summary.energy.max_error <= limit, "{name}");
-    // Factorisations are what both spend their time on: a quarter of the CPU time was the report's gain.
+    // both runs spend most time in factorisations; the report's gain was a quarter of the CPU time
     assert!(many <= 0.25 * one, "{name}: {many} of {one}");
     assert!(trials(&multi) as f64 <= 0.7 * cheapest as f64, "{name}: of {cheapest}");
-    // Steps are short while it settles, from 0 to 0.8 s, and over the bump and after it, from 3 to 3.8 s, only: before and after
-    // they are as long as they may be.
+    // steps are short only while the vehicle settles, from 0 to 0.8 s, and from the bump on, from 3 to 3.8 s; otherwise they have their
+    // largest length
     let steps = multi.steps();
     let lengths = |from: f64, to: f64| {
         let rows = steps.times.iter().zip(&steps.rows);
@@ -111,7 +110,7 @@ fn the_double_pendulum_takes_no_more_trials_than_the_best_fixed_step_and_short_o
     let cheapest = cheapest_fixed(&scene, "index-3", multi.summary.energy.max_error);
     println!("double pendulum: {} trials, fixed {cheapest}", trials(&multi));
     assert!(trials(&multi) <= cheapest);
-    // At the whips the tip is thrown: the tenth of the instants with the largest acceleration has the shortest steps.
+    // steps are shortest where the tip's acceleration is largest: in a tenth of the instants
     let mut points: Vec<(f64, f64)> = multi.rows()[1..]
         .iter()
         .zip(&multi.steps().rows)
@@ -126,7 +125,7 @@ fn the_double_pendulum_takes_no_more_trials_than_the_best_fixed_step_and_short_o
     assert!(whips < 0.6 * rest, "{whips} {rest}");
 }
 
-/// The exact angle of `hammer-blow` at 7.5 s, released at `angle`.
+/// Exact angle of `hammer-blow` at 7.5 s [rad], released at `angle`.
 fn hammer(angle: f64) -> f64 {
     let (inertia, spring, stop) = (2.02, 0.199_366_01, 1e8);
     let (w, in_contact) = (f64::sqrt(spring / inertia), f64::sqrt((stop + spring) / inertia));
@@ -141,7 +140,7 @@ fn a_blow_in_a_calm_motion_costs_a_tenth_of_the_fixed_step_that_works_everywhere
     let exact = hammer(0.8);
     let error = |outcome: &Outcome| (output(outcome, "angle")[0] - exact).abs();
     let multi = completed(&scene, &to(by("multi-index")));
-    // The largest fixed step, by halves, that is as near to the exact answer.
+    // the largest fixed step, by halving, with the same error
     let wanted = error(&multi).max(1e-4);
     let steps = (0..14).map(|k| 2e-2 / f64::powi(2.0, k));
     let works = steps
@@ -159,10 +158,10 @@ fn a_blow_in_a_calm_motion_costs_a_tenth_of_the_fixed_step_that_works_everywhere
     assert!(10 * trials(&multi) <= trials(&works));
 }
 
-/// Scene, time, outputs and their values then.
+/// Scene, time, outputs and their values at this time.
 type Reference = (&'static str, f64, &'static [&'static str], Option<&'static [f64]>);
 
-/// References: digits of the scene files, else the recursive formulation by Runge-Kutta steps with error control.
+/// References: values in the scene files, otherwise runs of the recursive formulation by an explicit Runge-Kutta method with error control.
 const REFERENCES: [Reference; 5] = [
     ("double-pendulum", 3.0, &["tip"], Some(&[1.330_436_825_144_049, -1.398_644_860_519_204])),
     (
@@ -181,7 +180,7 @@ const REFERENCES: [Reference; 5] = [
     ("iltis-suspension", 3.3, &["wheel"], None),
 ];
 
-/// The outputs one after the other.
+/// Values of several outputs in one list.
 fn outputs(outcome: &Outcome, names: &[&str]) -> Vec<f64> {
     names.iter().flat_map(|name| output(outcome, name)).collect()
 }
@@ -219,7 +218,7 @@ fn true_errors_fall_with_the_tolerance_of_the_estimate_over_four_decades() {
         let told: Vec<String> = errors.iter().map(|e| format!("{e:.1e}")).collect();
         println!("{name}: 1e-4 to 1e-8: {}", told.join(", "));
         assert!(errors.windows(2).all(|e| e[1] <= 2.0 * e[0]), "{name}: {errors:?}");
-        // Errors go with the square of the step, which goes with the cube root: 10^(8/3) = 460 over four decades.
+        // errors are proportional to the square of the step, and the step to the cube root of the tolerance: 10^(8/3) = 460 over four decades
         assert!(errors[4] <= errors[0] / 50.0, "{name}: {errors:?}");
     }
 }
@@ -244,7 +243,8 @@ fn every_formulation_takes_controlled_steps_and_tighter_tolerances_give_better_a
             };
             let [loose, tight] = [1e-5, 1e-7].map(error);
             println!("{formulation} {rule}: {loose:.1e}, {tight:.1e}");
-            // Order two and a step with the cube root: 10^(4/3) = 21; the energy rule may be lucky at the loose end.
+            // order two and a step proportional to the cube root of the tolerance: 10^(4/3) = 21; the energy rule may have a small error by
+            // chance at the larger tolerance
             assert!(tight <= loose / 2.0, "{formulation} {rule}: {loose:.1e}, {tight:.1e}");
         }
     }
@@ -253,7 +253,7 @@ fn every_formulation_takes_controlled_steps_and_tighter_tolerances_give_better_a
 #[test]
 fn an_alarm_stops_the_run_with_a_typed_error_before_numbers_are_lost() {
     let scene = scene("double-pendulum");
-    // At 0.02 s the whips are not resolved.
+    // steps of 0.02 s do not resolve the fast phases of the motion
     let outcome = run(&scene, &Method { energy_alarm: Some(1e-3), ..fixed("index-3", 2e-2) });
     let error = outcome.summary.error.as_ref().expect("it stops");
     assert_eq!(error.code, "energy-drift");
@@ -262,7 +262,7 @@ fn an_alarm_stops_the_run_with_a_typed_error_before_numbers_are_lost() {
     assert!(same.summary.completed, "{:?}", same.summary.error);
     let energy = same.summary.energy;
     assert!(energy.scatter > 0.0 && energy.scatter < energy.max_error);
-    // The line through the errors of 10 s rises by no more than they differ.
+    // the fitted line through the errors of 10 s rises by no more than their scatter
     assert!(energy.drift.abs() * 10.0 <= 4.0 * energy.max_error && energy.drift != 0.0);
 }
 
@@ -323,7 +323,7 @@ fn a_controlled_step_allocates_nothing_even_when_it_is_rejected_or_ends_at_an_ev
 fn runs_in_single_precision_end_where_they_should_and_rows_count_every_trial() {
     let text = std::fs::read_to_string(common::path("double-pendulum")).expect("it is there");
     let scene: Scene<f32> = mbs_testkit::scene_in(&text);
-    // Ends that are no numbers of single precision, above and below what is.
+    // end times that single precision cannot represent, rounded up and down
     for duration in [0.0101, 0.0107, 0.3, 1.1, 2.0] {
         for tolerance in [[1e-4, 1e-6], [1e-3, 1e-5]] {
             let overrides = Method {
@@ -378,12 +378,12 @@ table = [[0, 0, 0], [1, 0, 0], [2, 10, 0]]
         let outcome = completed(&scene, &overrides);
         let x = outcome.summary.outputs.0[0].1[0];
         println!("push {formulation}: {x} in {} trials", trials(&outcome));
-        // x'' = 5 (t - 1) from rest after 1 s: 5/6 m; the force has a kink at 1 s.
+        // x'' = 5 (t - 1) from rest after 1 s gives 5/6 m; the force has a kink at 1 s
         assert!((x - 5.0 / 6.0).abs() < 1e-3, "{formulation}: {x}");
     }
 }
 
-/// The double pendulum, to be stepped by a method.
+/// Simulation of the double pendulum by a method.
 fn double_pendulum(method: &Method) -> Simulation<f64, 2> {
     let scene = scene("double-pendulum");
     let settings = ResolvedMethod::new(&scene, method).expect("the settings are built");
@@ -392,7 +392,7 @@ fn double_pendulum(method: &Method) -> Simulation<f64, 2> {
 
 #[test]
 fn rejected_trials_leave_no_trace_to_the_last_bit() {
-    // The printed form runs into its upper limit again and again.
+    // the published form of the rule exceeds its upper limit repeatedly
     let step_control = Some("energy-printed".to_owned());
     let printed = Method { step_control, ..multi_index([1e-7, 6e-8], (2e-2, 2e-2)) };
     let [mut tried, mut replay] = [printed, fixed("index-3", 1e-3)].map(|m| double_pendulum(&m));
@@ -409,14 +409,14 @@ fn rejected_trials_leave_no_trace_to_the_last_bit() {
 
 #[test]
 fn the_motion_does_not_feel_the_changes_of_index() {
-    // Steps about the threshold, so that the index changes many times; the exact tip at 1 s by extrapolation in 34 digits.
+    // steps close to the threshold, so that the index changes often; the exact tip at 1 s is by extrapolation with 34 digits
     let often = multi_index([1e-10, 1e-12], (1e-4, 1e-3));
     let outcome = completed(&scene("double-pendulum"), &Method { duration: Some(1.0), ..often });
     let changes = outcome.summary.control.as_ref().map_or(0, |control| control.index_changes);
     assert!(changes > 2, "{changes} changes");
     let tip = output(&outcome, "tip");
     let error = (tip[0] + 1.662_115_135_816_127_6).hypot(tip[1] + 1.041_466_667_193_224_7);
-    // Order two at 1e-4: fixed index-3 has 2e-7.
+    // order two at 1e-4 s: index-3 with fixed steps has an error of 2e-7 m
     assert!(error < 2e-6, "{error}");
     let energy = outcome.summary.energy.max_error;
     assert!(energy < 1e-5, "{energy}");

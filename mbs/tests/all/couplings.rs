@@ -4,16 +4,16 @@ use crate::common::oracle::{TRAPEZOIDAL, Way, last, rows};
 use mbs::core::scene::Scene;
 use mbs_testkit::scene;
 
-/// Constant accelerations are met to this, relative: in half a millisecond the trapezoidal rule of turning directions leaves 1e-9, and
-/// rounding over the step as much.
+/// Relative error of constant accelerations [-]. In half a millisecond, the trapezoidal rule of rotating directions gives 1e-9, and rounding
+/// divided by the step as much.
 const EXACT: f64 = 1e-8;
 
-/// Every formulation with the trapezoidal rule.
+/// Ways of all formulations with the trapezoidal rule.
 fn ways() -> [Way; 5] {
     TRAPEZOIDAL.map(|f| Way(f, "trapezoidal"))
 }
 
-/// Last values of the outputs after `duration` by each formulation.
+/// Last values of the outputs after `duration` [s] by each formulation.
 fn ends(scene: &Scene<f64>, duration: f64) -> Vec<(Way, Vec<f64>)> {
     let run = |way| {
         let rows = rows(scene, way, (duration / 16.0, duration), 1);
@@ -23,7 +23,7 @@ fn ends(scene: &Scene<f64>, duration: f64) -> Vec<(Way, Vec<f64>)> {
     ways().map(run).to_vec()
 }
 
-/// Rates at the end of a motion with these constant accelerations.
+/// Asserts the rates after a motion with these constant accelerations.
 fn has_accelerations(name: &str, text: &str, expected: &[f64]) {
     let duration = 5e-4;
     for (way, found) in ends(&scene(text), duration) {
@@ -66,7 +66,7 @@ fn rates(joints: &[&str]) -> String {
     joints.iter().map(one).collect()
 }
 
-/// Two wheels on the ground with these inertias, and what else there is.
+/// Scene of two wheels on the ground with these inertias, and further text.
 fn wheels(inertias: [f64; 2], others: &[&str]) -> String {
     [
         HEAD,
@@ -79,7 +79,7 @@ fn wheels(inertias: [f64; 2], others: &[&str]) -> String {
     .concat()
 }
 
-/// Two wheels in a housing on a free hinge; a motor from the housing on the first.
+/// Scene of two wheels in a housing on a free hinge. A motor acts from the housing on the first wheel.
 fn housing() -> String {
     [
         HEAD.to_owned(),
@@ -98,7 +98,7 @@ fn housing() -> String {
 
 #[test]
 fn a_gear_in_a_free_housing_takes_the_housing_along() {
-    // [[0.3, I1 - k I2], [I1 - k I2, I1 + k^2 I2]] (h, a)'' = (0, 0.8), k = 40/17
+    // equations of motion: [[0.3, I1 - k I2], [I1 - k I2, I1 + k^2 I2]] (h, a)'' = (0, 0.8), k = 40/17
     has_accelerations("housing", &housing(), &[-0.675_944_334_0, 19.151_756_130]);
     let (i1, i2, k) = (0.02, 0.004, 40.0 / 17.0);
     let (m12, m22) = (i1 - k * i2, i1 + k * k * i2);
@@ -108,7 +108,7 @@ fn a_gear_in_a_free_housing_takes_the_housing_along() {
 
 #[test]
 fn a_planetary_set_drives_its_carrier() {
-    // sun and ring on the ground's axis, the ring fixed, one planet on the carrier
+    // sun and ring turn about the ground's axis, the ring is fixed, and one planet is on the carrier
     let parts = |couplings: &str| {
         [
             HEAD.to_owned(),
@@ -126,21 +126,21 @@ fn a_planetary_set_drives_its_carrier() {
     };
     let of_wheels = "[[coupling]]\nkind = \"linear\"\nterms = [{ joint = \"s\", factor = 20.0 }, { joint = \"c\", factor = -20.0 }, { joint = \"p\", factor = 20.0 }]\n[[coupling]]\nkind = \"linear\"\nterms = [{ joint = \"c\", factor = 60.0 }, { joint = \"p\", factor = 20.0 }]\n";
     let carrier = 18.135_654_697;
-    // the planet's angle is against the carrier: -2 of it against the ground
+    // the planet's angle is relative to the carrier; relative to the ground it is -2 times the carrier's
     let expected = [carrier, 4.0 * carrier, -3.0 * carrier];
     has_accelerations("planetary set", &parts(of_wheels), &expected);
 }
 
 #[test]
 fn elements_between_two_coordinates_share_their_inertia() {
-    // each: m1 x'' + m2 r^2 x'' = f for y = r x
+    // each coupling: m1 x'' + m2 r^2 x'' = f for y = r x
     let turn_and_slide = |coupling: &str| {
         [
             HEAD.to_owned(),
             body("wheel", 1.0, [0.0, 0.0], 0.02),
             body("slider", 3.0, [0.0, 1.0], 0.1),
             revolute("a", ["ground", "wheel"], [0.0, 0.0]),
-            // the rack lies below its pinion
+            // the rack is below its pinion
             prismatic("s", ["ground", "slider"], [0.0, -0.3], [1.0, 0.0]),
             coupling.to_owned(),
             torque("a", 0.5),
@@ -180,7 +180,7 @@ fn elements_between_two_coordinates_share_their_inertia() {
 
 #[test]
 fn a_differential_shares_its_torque_by_the_teeth() {
-    // cage c drives a and b: a - c = -(b - c); T on the cage: (Ia + Ib) c'' = T for equal wheels
+    // the cage c drives a and b: a - c = -(b - c); with a torque T on the cage, (Ia + Ib) c'' = T for equal wheels
     let text = [
         HEAD.to_owned(),
         body("wa", 1.0, [0.0, 1.0], 0.03),
@@ -194,7 +194,7 @@ fn a_differential_shares_its_torque_by_the_teeth() {
         rates(&["a", "b", "c"]),
     ]
     .concat();
-    // a'' = l/Ia, b'' = l/Ib, c'' = (T - 2 l)/Ic, a'' + b'' = 2 c''
+    // with the coupling's torque l: a'' = l/Ia, b'' = l/Ib, c'' = (T - 2 l)/Ic, a'' + b'' = 2 c''
     let (ia, ib, ic, t) = (0.03, 0.01, 0.02, 0.7);
     let l = 2.0 * t / ic / (1.0 / ia + 1.0 / ib + 4.0 / ic);
     has_accelerations("differential", &text, &[l / ia, l / ib, (t - 2.0 * l) / ic]);
@@ -239,13 +239,13 @@ fn ropes_over_points_share_their_tension() {
         ]),
         rates(&["p-s", "n-s"]),
     ];
-    // 4 p'' = 2 T - 4 g, 3 n'' = T - 3 g, n'' = -2 p''
+    // pulley p and mass n with tension T: 4 p'' = 2 T - 4 g, 3 n'' = T - 3 g, n'' = -2 p''
     has_accelerations("movable pulley", &movable.concat(), &[1.226_25, -2.4525]);
 }
 
-/// Two wheels with their centres of mass beside their axles, coupled; and the motion of both by the one equation that is left.
+/// Two coupled wheels whose centres of mass are not on their axles, and the one equation of motion that remains.
 struct Eccentric {
-    /// The second angle by the first, with its derivatives.
+    /// Second angle as a function of the first, with its derivatives.
     curve: fn(f64) -> [f64; 3],
     coupling: &'static str,
 }
@@ -265,7 +265,7 @@ impl Eccentric {
                 return body(name, mass, [center, 0.0], inertia)
                     + &revolute(joint, ["ground", name], [x, 0.0]);
             }
-            // about an axis along no axis of the frame: (0, -0.6, 0.8); gravity is across it
+            // the axis (0, -0.6, 0.8) is oblique; gravity is perpendicular to it
             format!(
                 "[[body]]\nname = \"{name}\"\nmass = {mass:?}\ncenter = [{center:?}, 0.0, 0.0]\ninertia = [{inertia:?}, {inertia:?}, {inertia:?}, 0.0, 0.0, 0.0]\n[[joint]]\nname = \"{joint}\"\nkind = \"revolute\"\nbodies = [\"ground\", \"{name}\"]\nat = [{x:?}, 0.0, 0.0]\naxis = [0.0, -0.6, 0.8]\n"
             )
@@ -287,7 +287,7 @@ impl Eccentric {
         force / (inertia(0) + slope * slope * inertia(1))
     }
 
-    /// Both angles at time one, by Runge and Kutta's method with steps that leave 1e-12.
+    /// Both angles at time one, by the classical Runge-Kutta method with an error of 1e-12.
     fn end(&self) -> [f64; 2] {
         let (n, mut x, mut v) = (20_000, 0.0, Self::RATE);
         let h = 1.0 / f64::from(n);
@@ -366,7 +366,7 @@ fn a_gear_keeps_its_ratio_over_many_hundred_turns() {
 
 #[test]
 fn a_driven_sum_prescribes_motion() {
-    // a + b = 0.5 sin(2 pi t): with equal inertias both turn by half of it
+    // a + b = 0.5 sin(2 pi t): with equal inertias each wheel turns by half of it
     let text = wheels(
         [0.02, 0.02],
         &[
@@ -379,7 +379,7 @@ fn a_driven_sum_prescribes_motion() {
             rows(&scene(&text), way, (1e-3, 0.25), 1).unwrap_or_else(|e| panic!("{way:?}: {e}"));
         for (t, row) in &rows {
             let expected = 0.25 * (core::f64::consts::TAU * t).sin();
-            // the trapezoidal rule leaves h^2 w^2 / 12 of it
+            // the trapezoidal rule has a relative error of h^2 w^2 / 12
             assert!((row[0] - expected).abs() < 2e-5, "{way:?} at {t}: {row:?}");
             assert!((row[0] + row[1] - 2.0 * expected).abs() < 1e-12, "{way:?} at {t}: {row:?}");
         }

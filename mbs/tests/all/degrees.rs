@@ -1,4 +1,4 @@
-//! Outputs in degrees beside the same in radians: rows, statistics and units. Angles of wheels beside rotation matrices.
+//! Outputs in degrees against the same in radians: rows, statistics and units. Angles of wheels against rotation matrices.
 
 use crate::common::{by, run, scene};
 use mbs::core::outputs::{Quantity, VehicleSide, WheelCarrier};
@@ -7,16 +7,17 @@ use mbs::results::{ResultTable, difference};
 use mbs::{FormulationKind, Method, Outcome};
 use mbs_testkit::repository::field;
 
-/// Difference of a product from the same with another order of its factors, relative [-].
+/// Relative difference of a product from the product in another order [-].
 const ROUNDING: f64 = 1e-14;
-/// Difference of peaks, which are interpolated between steps, relative [-].
+/// Relative difference of peaks, which are interpolated between steps [-].
 const PEAKS: f64 = 1e-12;
-/// Difference of an angle by one entry of a rotation and by all of its column [rad]: columns leave length one by the violation of steps.
+/// Difference of an angle from one entry of a rotation matrix and from its whole column [rad]. The violation of the constraints changes the
+/// length of columns.
 const VIOLATION: f64 = 1e-8;
-/// Degrees in a radian.
+/// Number of degrees in a radian.
 const DEGREES: f64 = 180.0 / core::f64::consts::PI;
 
-/// Returns the scene with these outputs alone, in degrees or not.
+/// Returns the scene with only these outputs, in degrees or radians.
 fn with(scene: &Scene<f64>, quantities: &[Quantity<f64>], is_in_degrees: bool) -> Scene<f64> {
     let named = |(i, quantity): (usize, &Quantity<f64>)| Output {
         is_in_degrees,
@@ -141,7 +142,7 @@ fn angles_of_a_wheel_are_those_of_its_rotation_in_the_vehicle_body_in_every_form
         assert!(outcome.summary.completed, "{formulation}: {:?}", outcome.error);
         for (t, row) in outcome.rows() {
             let [o, b] = [&row[..9], &row[9..18]];
-            // R = R_o^T R_b, y to the left
+            // rotation of the wheel relative to its carrier, R = R_o^T R_b; y is to the left
             let r = |i: usize, j: usize| (0..3).map(|k| o[3 * k + i] * b[3 * k + j]).sum::<f64>();
             let (lean, turn) = (r(2, 1).asin(), (-r(0, 1)).atan2(r(1, 1)));
             let tilt = (-r(0, 2)).atan2(r(2, 2));

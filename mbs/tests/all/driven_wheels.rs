@@ -1,15 +1,15 @@
-//! Wheels that drive and brake, against closed forms in every formulation.
+//! Driven and braked wheels, against closed forms in every formulation.
 
 use crate::common::oracle::{TRAPEZOIDAL, Way, rows};
 use mbs_testkit::scene;
 
-/// Radius, height of the hub [m], radial stiffness [N/m]: pressed in by 20 mm, the wheel carries 4 kN.
+/// Radius [m], height of the hub [m] and radial stiffness [N/m]: with a deflection of 20 mm the wheel carries 4 kN.
 const TIRE: [f64; 3] = [0.32, 0.3, 2e5];
 const LOAD: f64 = 4000.0;
-/// Car and wheel [kg], the wheel's inertia [kg m^2].
+/// Mass of car and wheel [kg], and the wheel's inertia [kg m^2].
 const MASSES: [f64; 3] = [380.0, 20.0, 1.1];
 
-/// A car on a rail along x, its wheel pressed on the road, in the plane or with y as the wheel's axis in space.
+/// Scene of a car on a rail along x, with its wheel pressed on the road: planar, or in space with y as the wheel's axis.
 fn car(dimension: usize, slip: &str, speed: f64, rate: f64, rest: &str) -> String {
     let [radius, height, stiffness] = TIRE;
     let [car, wheel, inertia] = MASSES;
@@ -47,7 +47,7 @@ fn car(dimension: usize, slip: &str, speed: f64, rate: f64, rest: &str) -> Strin
     )
 }
 
-/// The last row by each formulation.
+/// Last row of a run by each formulation.
 fn ends(text: &str, step: f64, duration: f64) -> Vec<(Way, Vec<f64>)> {
     let run = |formulation| {
         let way = Way(formulation, "trapezoidal");
@@ -58,7 +58,7 @@ fn ends(text: &str, step: f64, duration: f64) -> Vec<(Way, Vec<f64>)> {
     TRAPEZOIDAL.map(run).to_vec()
 }
 
-/// Force by slip over load and friction, 1 - (1 - r/3)^3 up to r = 3.
+/// Fraction of the largest friction force at the normalised slip r: 1 - (1 - r/3)^3 up to r = 3.
 fn share(r: f64) -> f64 {
     if r < 3.0 { 1.0 - (1.0 - r / 3.0).powi(3) } else { 1.0 }
 }
@@ -71,17 +71,17 @@ fn locked_wheels_stop_where_friction_and_the_slip_near_rest_say() {
     let slip = format!("{{ stiffness = {stiffness:?}, friction = {friction:?} }}");
     let most = friction * LOAD;
     let mass = MASSES[0] + MASSES[1];
-    // x = integral of v / a(v), a = force / mass; the midpoint rule, whose error falls by four: 1e-8 m
+    // x = integral of v / a(v), a = force / mass, by the midpoint rule, whose error is 1e-8 m
     let force = |v: f64| most * share(stiffness * v / v.hypot(0.1) / most);
     let n = 400_000;
     let h = from / f64::from(n);
     let x: f64 = (0..n).map(|i| (f64::from(i) + 0.5) * h).map(|v| mass * v / force(v) * h).sum();
-    // all friction to the end: v^2 mass / (2 most)
+    // with full friction up to the end it would be v^2 mass / (2 most)
     assert!((x - 6.25).abs() < 2e-3 && x > 6.25, "{x}");
     for dimension in [2, 3] {
         let text = car(dimension, &slip, from, 0.0, brake);
         for (way, row) in ends(&text, 1e-3, 3.0) {
-            // of the step, and what the brake's own slip of 1e-3 rad/s times the radius leaves
+            // errors of the step, and of the brake's slip of 1e-3 rad/s times the radius
             assert!((row[0] - x).abs() < 1e-3, "{dimension}, {way:?}: {row:?}, not {x}");
             assert!(row[1].abs() < 1e-3, "{dimension}, {way:?}: {row:?}");
         }
@@ -96,13 +96,13 @@ fn a_torque_on_a_wheel_with_stiff_slip_drives_the_car() {
     let (mass, inertia) = (MASSES[0] + MASSES[1], MASSES[2]);
     let a = torque * radius / (mass * radius * radius + inertia);
     for dimension in [2, 3] {
-        // about z a wheel that rolls to +x turns backward, about y forward
+        // a wheel that rolls to +x turns backward about z, and forward about y
         let sign = if dimension == 2 { -1.0 } else { 1.0 };
         let drive = drive.replace("180.0", &format!("{:?}", sign * torque));
         let slip = "{ stiffness = 4e7, friction = 0.8 }";
         let text = car(dimension, slip, from, sign * from / radius, &drive);
         for (way, row) in ends(&text, 1e-3, 1.0) {
-            // slip of force over stiffness, 2e-5 at 5 m/s
+            // the slip is force over stiffness, 2e-5 of 5 m/s
             let v = from + a;
             assert!((row[1] - v).abs() < 2e-5 * v, "{dimension}, {way:?}: {row:?}, not {v}");
             assert!((sign * row[2] * radius - v).abs() < 5e-5 * v, "{dimension}, {way:?}: {row:?}");
@@ -112,7 +112,7 @@ fn a_torque_on_a_wheel_with_stiff_slip_drives_the_car() {
 
 #[test]
 fn a_brake_by_a_signal_slows_a_wheel_by_its_impulse() {
-    // 1.1 kg m^2 at 40 rad/s; 10 N m times a ramp of the pedal over a second: 5 N m s
+    // a wheel of 1.1 kg m^2 at 40 rad/s; 10 N m times a ramp of the pedal over a second give 5 N m s
     let text = "[scene]\nname = \"b\"\ndimension = 2\nduration = 1.0\n\
         [[body]]\nname = \"w\"\nmass = 1.0\ncenter = [0.0, 0.0]\ninertia = 1.1\n\
         [[joint]]\nname = \"a\"\nkind = \"revolute\"\nbodies = [\"ground\", \"w\"]\nat = [0.0, 0.0]\n\
@@ -121,7 +121,7 @@ fn a_brake_by_a_signal_slows_a_wheel_by_its_impulse() {
         [[output]]\nname = \"rate\"\njoint = \"a\"\nquantity = \"rate\"\n";
     let tables = [
         ("table = [[0.0, 0.0], [1.0, 1.0]]", 5.0),
-        // below zero it counts as zero
+        // a negative signal counts as zero
         ("table = [[0.0, -1.0], [0.5, -1.0], [0.5000001, 1.0], [1.0, 1.0]]", 5.0),
         ("value = 0.5", 5.0),
         ("value = -1.0", 0.0),
@@ -129,13 +129,13 @@ fn a_brake_by_a_signal_slows_a_wheel_by_its_impulse() {
     for (table, impulse) in tables {
         for (way, row) in ends(&text.replace("TABLE", table), 1e-3, 1.0) {
             let rate = 40.0 - impulse / 1.1;
-            // a jump within a step of 1 ms: its impulse
+            // the tolerance is the impulse of a jump within a step of 1 ms
             assert!((row[0] - rate).abs() < 1e-2, "{table}, {way:?}: {row:?}, not {rate}");
         }
     }
 }
 
-/// Time [s], place of the car [m] and its speed ahead [m/s] in `drive-and-brake`: see the scene.
+/// Time [s], position of the car [m] and its speed [m/s] in `drive-and-brake`; the scene explains them.
 const REFERENCE: [(f64, [f64; 3]); 4] = [
     (2.0, [2.382_934_017, 0.539_398_417, 3.762_536_568]),
     (4.0, [15.054_902_573, 0.539_398_947, 7.531_235_032]),
@@ -143,7 +143,7 @@ const REFERENCE: [(f64, [f64; 3]); 4] = [
     (6.0, [20.716_675_344, 0.539_397_975, -0.006_871_324]),
 ];
 
-/// Largest difference from the reference.
+/// Largest difference from the reference at its times.
 fn away(formulation: &'static str, integrator: &'static str, step: f64) -> f64 {
     let scene = mbs_testkit::file("drive-and-brake");
     let rows =
@@ -159,12 +159,12 @@ fn away(formulation: &'static str, integrator: &'static str, step: f64) -> f64 {
 
 #[test]
 fn a_car_that_drives_and_brakes_follows_equations_derived_apart_with_order_2() {
-    // the reference's digits, and what the control of the step leaves
+    // error of the reference's digits and of the step control
     let error = away("recursive", "radau5", 1e-3);
     assert!(error < 5e-8, "{error}");
     for formulation in TRAPEZOIDAL {
         let [coarse, fine] = [1e-3, 5e-4].map(|step| away(formulation, "trapezoidal", step));
-        // natural coordinates turn directions, whose errors at 25 rad/s are a hundred times those of angles
+        // natural coordinates rotate directions, whose errors at 25 rad/s are a hundred times those of angles
         assert!(coarse < 5e-5, "{formulation}: {coarse}");
         assert!((3.6..4.4).contains(&(coarse / fine)), "{formulation}: {coarse} {fine}");
     }

@@ -1,10 +1,10 @@
-//! Energy books: how far the invariant may drift, step by step, and that no run drifts far in silence.
+//! Energy balance: drift of the invariant over the steps, and alarms for runs whose energy drifts.
 
 use crate::common::{Bench, FORMULATIONS, SCENES, run, run_in, scene, settings, worst};
 use mbs::core::scene::Dimension;
 use mbs::core::step::StepError;
 
-/// Steps of the tables [s].
+/// Steps of the tables below [s].
 const STEPS: [f64; 5] = [1e-2, 1e-3, 1e-4, 1e-5, 1e-6];
 
 /// Largest energy error of a run to 10 s [J].
@@ -25,14 +25,14 @@ fn check(name: &str, formulation: &str, limits: &[f64]) {
     }
 }
 
-/// Publication 2's table in joules, remade by a prototype in double precision; 6e-9 J is what rounding leaves at 1e-6.
+/// Publication 2's table of energy errors for index-3 [J], computed again by a prototype in double precision. 6e-9 J at 1e-6 s is rounding.
 const DOUBLE_PENDULUM_INDEX3: [f64; 5] = [4.7e-1, 4.7e-3, 4.4e-5, 4.5e-7, 6e-9];
-/// Publication 2's table in joules for index-1, which it follows to 1e-5.
+/// Publication 2's table of energy errors for index-1 [J], which agree to 1e-5 s.
 const DOUBLE_PENDULUM_INDEX1: [f64; 4] = [4.7e-1, 4.75e-3, 4.4e-5, 4.5e-7];
-/// Trapezoidal rule on the symmetric branch, remade by a prototype. At 1e-6 ten passages leave rounding: steps that differ in the seventh digit
-/// give 1.7e-9 to 2.3e-8 J.
+/// Energy errors of the trapezoidal rule on the symmetric branch [J], computed again by a prototype. At 1e-6 s, the rounding of ten passages
+/// dominates: steps that differ in the seventh digit give 1.7e-9 to 2.3e-8 J.
 const TWO_FOUR_BARS: [f64; 5] = [9.4e-2, 8.5e-4, 8.6e-6, 1e-7, 3e-8];
-/// Index-1 may be this much worse: its step differs from index-3's in the third order of dt.
+/// Largest ratio of the errors of index-1 to those of index-3 [-]. The steps of both differ in the third order of dt.
 const INDEX1_SHARE: f64 = 1.5;
 
 #[test]
@@ -45,15 +45,15 @@ fn double_pendulum_keeps_its_energy_in_index1_at_all_steps() {
     check("double-pendulum", "index-1", &DOUBLE_PENDULUM_INDEX1);
 }
 
-/// Heights of the outer crank ends may differ by this much [m]: on the symmetric branch they are equal, and each passage
-/// leaves what rounding makes of a lost constraint.
+/// Largest difference of the heights of the outer crank ends for index-3 [m]. On the symmetric branch they are equal, but in each passage
+/// rounding acts while a constraint is lost.
 const APART_INDEX3: f64 = 1e-6;
-/// Heights may differ by this much for index-1 [m], which knows the positions of a passage through its accelerations.
+/// Largest difference of the heights for index-1 [m], which controls positions in a passage only through accelerations.
 const APART_INDEX1: f64 = 1e-4;
-/// Passages of the horizontal in 10 s.
+/// Number of passages through the horizontal in 10 s.
 const PASSAGES: u32 = 10;
 
-/// Largest energy error and largest difference of heights, and passages counted.
+/// Largest energy error, largest difference of heights, and number of passages.
 fn symmetric_branch(
     formulation: &str,
     step: f64,
@@ -114,7 +114,8 @@ fn two_four_bars_in_index1_at_a_twentieth_of_a_second_pass_or_stop() {
     }
 }
 
-/// Energy that a passage may cost at 1e-4 s [J]: the trapezoidal rule has 1e-2 at 1e-2 s for one loop, and less with the square of the step.
+/// Largest change of the energy by a passage at 1e-4 s [J]. The trapezoidal rule has 1e-2 J at 1e-2 s for one loop, and the error falls with
+/// the square of the step.
 const PASSAGE: f64 = 1e-4;
 
 #[test]
@@ -142,7 +143,7 @@ fn at_small_steps_a_singular_position_is_passed_in_recursive_or_refused_by_name(
 
 /// Steps at which the motions are not resolved [s].
 const LARGE_STEPS: [f64; 6] = [0.05, 0.1, 0.15, 0.2, 0.35, 0.5];
-/// Share of the energy turned over that the invariant may be off by.
+/// Largest energy error relative to the exchanged energy [-].
 const ALARM: f64 = 0.1;
 
 #[test]
@@ -180,10 +181,10 @@ fn no_run_drifts_by_a_tenth_of_its_energy_in_silence() {
     }
 }
 
-/// A mechanism that stands still turns nothing over; its energy may be off by rounding [J].
+/// Largest energy error by rounding [J], for mechanisms at rest, which exchange no energy.
 const ROUNDING: f64 = 1e-9;
 
-/// Largest kinetic energy plus gross work of a run that is known to complete [J].
+/// Exchanged energy of a run that completes [J]: the largest kinetic energy plus the gross work.
 fn turned_over(scene: &mbs::core::scene::Scene<f64>, formulation: &str, step: f64) -> f64 {
     fn of<const D: usize>(
         scene: &mbs::core::scene::Scene<f64>,
@@ -193,7 +194,7 @@ fn turned_over(scene: &mbs::core::scene::Scene<f64>, formulation: &str, step: f6
         let mut bench = Bench::<D>::of_scene(scene, formulation, step);
         let mut kinetic = bench.simulation.initial_energies()[0];
         let (mut work, mut gross) = (0.0, 0.0);
-        // A last, shorter step may fail here and not in the run: what was turned over before it is a lower bound.
+        // a last, shorter step may fail here although the run completes: the sum before it is a lower bound
         let _ = bench.run(scene.duration, |b| {
             let [k, _, w] = b.simulation.energies();
             kinetic = kinetic.max(k);
@@ -208,10 +209,10 @@ fn turned_over(scene: &mbs::core::scene::Scene<f64>, formulation: &str, step: f6
     }
 }
 
-/// Parts of a long run whose worst numbers are kept apart.
+/// Number of parts of a long run, each with its largest violation.
 const PARTS: usize = 10;
 
-/// Largest violation of the positions in each tenth of 1000 s of double pendulum at 1 ms [m], and the largest energy error [J].
+/// Largest violation of the positions in each tenth of 1000 s of the double pendulum at 1 ms [m], and the largest energy error [J].
 fn thousand_seconds(formulation: &str) -> ([f64; PARTS], f64) {
     let scene = scene("double-pendulum");
     let settings = settings(&scene, formulation, Some(1e-3));
@@ -240,9 +241,8 @@ fn thousand_seconds(formulation: &str) -> ([f64; PARTS], f64) {
     (violation, error)
 }
 
-/// Closed to 1e-9 m throughout, and no more open in the end than in the beginning: what is left is rounding, whose worst case in a
-/// hundred thousand steps scatters by less than a factor of four. The whips of the motion let the energy wander; a prototype's
-/// wandered by 2.1e-2 J.
+/// Joints stay closed to 1e-9 m, and the violation does not grow. It is rounding, whose maximum over a hundred thousand steps scatters by
+/// less than a factor of four. In fast phases of the motion the energy error wanders; a prototype had 2.1e-2 J.
 #[test]
 fn a_million_steps_keep_joints_closed_without_a_trend_and_the_energy() {
     for formulation in ["index-3", "multi-index"] {
@@ -254,7 +254,7 @@ fn a_million_steps_keep_joints_closed_without_a_trend_and_the_energy() {
     }
 }
 
-/// A four-bar whose links can all lie in one line, which they do twice in the second: two motions go on from there.
+/// Scene of a four-bar linkage whose links are all in one line twice in the second. From this position it can continue in two ways.
 const CHANGE_POINT: &str = r#"
 [scene]
 name = "change point"
@@ -311,8 +311,8 @@ body = "b2"
 at = [0.7093583914263255, 0.6361639383743557]
 "#;
 
-/// Error of the trapezoidal rule on it in squares of the step, by where the classical Lagrangian, which knows no penalty, ends with steps of
-/// 1.5e-4 s and 1e-4 s [m/s^2].
+/// Error constant of the trapezoidal rule for this scene [m/s^2], in squares of the step. It is found from the classical Lagrangian, which
+/// has no penalty, with steps of 1.5e-4 s and 1e-4 s.
 const CHANGE_POINT_ERROR: f64 = 46.2;
 
 #[test]
@@ -331,7 +331,7 @@ fn a_change_point_is_passed_in_index3_and_multi_index_wherever_steps_land() {
         outcome.summary.outputs.0[0].1[0]
     };
     let right = end("recursive", "gbs", (1e-3, Some(1e-13)));
-    // the singular positions are met at every part of a step, at 1.1e-4 s three microseconds away
+    // the singular positions are passed at different fractions of a step, at 1.1e-4 s three microseconds from an end
     for k in 0..20 {
         let step = 1e-4 * (1.0 + f64::from(k) / 40.0);
         for formulation in ["index-3", "multi-index"] {

@@ -1,10 +1,10 @@
-//! The excavator against the triangles of its pins and the slope of its weight's energy, derived apart.
+//! The excavator against two independent computations: triangles of its pins, and the slope of its potential energy.
 
 use crate::common::oracle::{TRAPEZOIDAL, Way, rows};
 
 type Point = [f64; 2];
 
-/// Pins of the reference configuration [m]: feet of boom, stick and bucket, ends of the cylinders, rocker and link.
+/// Pins in the reference configuration [m]: foot points of boom, stick and bucket, attachment points of the cylinders, rocker and link.
 const A: Point = [0.0, 1.6];
 const C: Point = [3.9, 4.9];
 const F: Point = [5.2, 2.5];
@@ -22,7 +22,8 @@ fn distance(p: Point, q: Point) -> f64 {
     (q[0] - p[0]).hypot(q[1] - p[1])
 }
 
-/// The point at distances r from p and s from q, on the side of the line from p to q where `like` was beside those of the reference.
+/// Returns the point at distance r from p and s from q. It is on the side of the line from p to q on which `like` is in the reference
+/// configuration.
 fn corner((p, r): (Point, f64), (q, s): (Point, f64), [p0, q0, like]: [Point; 3]) -> Point {
     let turn = (q0[0] - p0[0]) * (like[1] - p0[1]) - (q0[1] - p0[1]) * (like[0] - p0[0]);
     let d = distance(p, q);
@@ -32,7 +33,7 @@ fn corner((p, r): (Point, f64), (q, s): (Point, f64), [p0, q0, like]: [Point; 3]
     [p[0] + along * x - across * y, p[1] + along * y + across * x]
 }
 
-/// A body by two of its points, there and in the reference configuration: where another one is.
+/// Returns the present position of a point x of a body. Two of its points are given in the present and the reference configuration.
 fn carried([p0, q0]: [Point; 2], [p, q]: [Point; 2], x: Point) -> Point {
     let angle = (q[1] - p[1]).atan2(q[0] - p[0]) - (q0[1] - p0[1]).atan2(q0[0] - p0[0]);
     let (sin, cos) = angle.sin_cos();
@@ -44,7 +45,7 @@ fn between(p: Point, q: Point, share: f64) -> Point {
     [p[0] + (q[0] - p[0]) * share, p[1] + (q[1] - p[1]) * share]
 }
 
-/// The bucket's tip, and the energy of all weights, by the lengths of boom, stick and bucket cylinder beyond the reference.
+/// Position of the bucket's tip [m] and potential energy [J], from the extensions of the boom, stick and bucket cylinders [m].
 fn placed([s1, s2, s3]: [f64; 3]) -> (Point, f64) {
     let e = corner((A, distance(A, E)), (D, distance(D, E) + s1), [A, D, E]);
     let boom = |x| carried([A, E], [A, e], x);
@@ -55,7 +56,7 @@ fn placed([s1, s2, s3]: [f64; 3]) -> (Point, f64) {
     let l = corner((m, distance(M, L)), (k, distance(K, L) + s3), [M, K, L]);
     let n = corner((f, distance(F, N)), (l, distance(L, N)), [F, L, N]);
     let bucket = |x| carried([F, N], [f, n], x);
-    // the barrel and the rod of a cylinder keep their distances from their own pins
+    // the centres of a cylinder's barrel and rod keep their distances from their pins
     let cylinder = |[p, q]: [Point; 2], [p0, q0]: [Point; 2], masses: [f64; 2]| {
         let quarter = 0.25 * distance(p0, q0) / distance(p, q);
         masses[0] * between(p, q, quarter)[1] + masses[1] * between(q, p, quarter)[1]
@@ -80,10 +81,10 @@ fn the_excavator_reaches_where_its_triangles_say_and_its_cylinders_carry_it() {
         for (t, row) in &rows {
             let lengths = [row[2], row[4], row[6]];
             let (tip, energy) = placed(lengths);
-            // what the rows of the joints leave open, a thousand times
+            // a thousand times the violation of the joints' rows
             let off = distance(tip, [row[0], row[1]]);
             assert!(off < 1e-8, "{formulation}, {t} s: {row:?}, {tip:?}");
-            // at rest before the first and behind the last motion
+            // the machine is at rest before the first and after the last motion
             if !(*t < 0.45 || *t > 7.6) {
                 continue;
             }
@@ -94,7 +95,7 @@ fn the_excavator_reaches_where_its_triangles_say_and_its_cylinders_carry_it() {
                     lengths[i] += h;
                     placed(lengths).1
                 };
-                // central differences of fourth order: 1e-9 of the force
+                // central differences of fourth order have a relative error of 1e-9
                 let h = 1e-3;
                 let right = (8.0 * (slope(h) - slope(-h)) - (slope(2.0 * h) - slope(-2.0 * h)))
                     / (12.0 * h);

@@ -1,4 +1,4 @@
-//! Signals that follow the motion: controllers, engine curves and late signals, against closed forms in every formulation.
+//! Signals that depend on the motion: controllers, engine curves and lags, against closed forms in every formulation.
 
 use crate::common::oracle::{TRAPEZOIDAL, Way, rows};
 use crate::common::{cross, dot};
@@ -8,10 +8,10 @@ use mbs::scene_file::SceneFile;
 use mbs::{Modes, Place, Search};
 use mbs_testkit::scene;
 
-/// Integrators of relative coordinates whose error is small beside any tolerance here.
+/// Integrators in relative coordinates whose error is smaller than all tolerances of these tests.
 const ACCURATE: [&str; 3] = ["rk4", "rk853", "radau5"];
 
-/// A wheel of 2 kg m^2 on an axle: in the plane, or in space about an axis along no global one.
+/// Scene of a wheel of 2 kg m^2 on an axle: planar, or in space about an oblique axis.
 fn wheel(dimension: usize, rest: &str) -> String {
     let (point, inertia, axis) = if dimension == 2 {
         ("[0.0, 0.0]", "2.0", "")
@@ -30,7 +30,7 @@ fn wheel(dimension: usize, rest: &str) -> String {
     )
 }
 
-/// The last row of a run.
+/// Last row of a run of a scene.
 fn end(text: &str, way: Way, step: f64, duration: f64) -> Vec<f64> {
     let steps = (duration / step).round() as usize;
     let rows = rows(&scene(text), way, (step, duration), steps);
@@ -38,7 +38,8 @@ fn end(text: &str, way: Way, step: f64, duration: f64) -> Vec<f64> {
     rows.last().expect("a row").1.to_vec()
 }
 
-/// The error of the first output at two steps by each formulation, which must fall by four; and by accurate integrators.
+/// Asserts the first output at the end. Its error must fall by four at half the step in each formulation, and be small with accurate
+/// integrators.
 fn meets(text: &str, (duration, right): (f64, f64), allowed: f64) {
     for formulation in TRAPEZOIDAL {
         let way = Way(formulation, "trapezoidal");
@@ -60,25 +61,25 @@ const SERVO: &str = "[[signal]]\nname = \"target\"\nkind = \"constant\"\nvalue =
 
 #[test]
 fn a_servo_turns_its_wheel_as_its_third_order_equation_says() {
-    // 2 w''' + 6 w'' + 40 w' + 30 w = 0 for w = angle - 1, by its three roots: machine-elements' figure
+    // 2 w''' + 6 w'' + 40 w' + 30 w = 0 for w = angle - 1, solved by its three roots; the number is that of the document on machine elements
     for dimension in [2, 3] {
         meets(&wheel(dimension, SERVO), (1.0, 1.327_874_856), 1e-4);
     }
 }
 
-/// `asked` as a signal of a kind, with others that it needs.
+/// Text of the signal `asked` of a kind, with other signals that it needs.
 fn asked(kind: &str, others: &str) -> String {
     format!("[[signal]]\nname = \"asked\"\nkind = {kind}\n{others}")
 }
 
-/// A signal of a constant.
+/// Text of a constant signal.
 fn constant(name: &str, value: f64) -> String {
     format!("[[signal]]\nname = \"{name}\"\nkind = \"constant\"\nvalue = {value:?}\n")
 }
 
 #[test]
 fn an_engine_whose_torque_falls_with_its_speed_runs_up_as_an_exponential() {
-    // half throttle of 12 - 4 w on 2 kg m^2: w = 3 (1 - e^-t), angle 3 (t - 1 + e^-t)
+    // half of the torque 12 - 4 w acts on 2 kg m^2: rate w = 3 (1 - e^-t), angle 3 (t - 1 + e^-t)
     let curve = "[[signal]]\nname = \"full\"\nkind = \"curve\"\nof = \"speed\"\ncoefficients = [12.0, -4.0]\n";
     let others = format!("{curve}{}", constant("throttle", 0.5));
     let text = wheel(3, &asked("\"product\"\nof = [\"throttle\", \"full\"]", &others));
@@ -87,7 +88,7 @@ fn an_engine_whose_torque_falls_with_its_speed_runs_up_as_an_exponential() {
 
 #[test]
 fn a_late_torque_follows_its_command_with_its_time() {
-    // 4 N m, late by 0.2 s, on 2 kg m^2: angle t^2 - 2 T t + 2 T^2 (1 - e^(-t/T))
+    // 4 N m with a lag of T = 0.2 s on 2 kg m^2: angle t^2 - 2 T t + 2 T^2 (1 - e^(-t/T))
     let text = wheel(2, &asked("\"lag\"\nof = \"command\"\ntime = 0.2", &constant("command", 4.0)));
     let t = 0.2_f64;
     meets(&text, (1.0, 1.0 - 2.0 * t + 2.0 * t * t * (1.0 - (-5.0_f64).exp())), 1e-5);
@@ -95,7 +96,7 @@ fn a_late_torque_follows_its_command_with_its_time() {
 
 #[test]
 fn a_controller_counts_the_turns_of_what_it_measures() {
-    // 2 w'' + 6 w' + 40 w = 0 from w = -10 rad, more than a turn: overdamped in nothing, 1.6 turns on the way
+    // 2 w'' + 6 w' + 40 w = 0 from w = -10 rad, which is more than a revolution: 1.6 revolutions on the way
     let pid = "\"pid\"\ntarget = \"target\"\nmeasured = \"angle\"\np = 40.0\nd = 6.0";
     let text = wheel(3, &asked(pid, &constant("target", 10.0)));
     let w = 17.75_f64.sqrt();
@@ -105,23 +106,23 @@ fn a_controller_counts_the_turns_of_what_it_measures() {
 
 #[test]
 fn an_integral_stops_at_its_limit_and_comes_back_at_once() {
-    // the integral of 8 up to 4 N m at 0.5 s, on 2 kg m^2; then of -8 from 0.75 s
+    // the integral of 8 reaches its limit of 4 N m at 0.5 s, and acts on 2 kg m^2; from 0.75 s it is the integral of -8
     let command = "[[signal]]\nname = \"command\"\nkind = \"table\"\ninterpolation = \"hold\"\ntable = [[0.0, 8.0], [0.75, -8.0]]\n";
     let kind = "\"integral\"\nof = \"command\"\nlower = -1.0\nupper = 4.0";
     let text = wheel(2, &asked(kind, command));
-    // angle: 4 t^3/6 to 0.5 s, then t^2 + ..., then falling by -4 t^3/6
+    // angle: 4 t^3/6 up to 0.5 s, then with a constant torque, then with a torque that falls as -4 t^3/6
     let (w1, a1) = (0.5, 0.5 / 6.0);
     let (w2, a2) = (w1 + 2.0 * 0.25, a1 + w1 * 0.25 + 0.25 * 0.25);
     let right = a2 + w2 * 0.25 + 0.25 * 0.25 - 4.0 / 6.0 * 0.25_f64.powi(3);
     for formulation in TRAPEZOIDAL {
         let found = end(&text, Way(formulation, "trapezoidal"), 1e-3, 1.0)[0];
-        // the command jumps within a step of 1 ms: 8 (N m/s) 1 ms 0.25 s / 2 / 2 kg m^2
+        // the command jumps within a step of 1 ms, which gives an error of 8 (N m/s) 1 ms 0.25 s / 2 / 2 kg m^2
         assert!((found - right).abs() < 1e-3, "{formulation}: {found}, not {right}");
     }
 }
 
-/// The angle after `duration` of a wheel under p 40, i 30, d 6 with a limit, by equations of its own: RK4 at 20 us.
-/// `stops`: does its integral stop there?
+/// Angle after `duration` [s] of a wheel under a controller of p 40, i 30, d 6 with a limit. Independent equations are integrated by RK4 with
+/// 20 us. `stops` means that the integral is held at the limit.
 fn limited(limit: f64, stops: bool, duration: f64) -> f64 {
     let rates = |_, [angle, speed, sum]: [f64; 3]| {
         let (e, rate) = (1.0 - angle, -speed);
@@ -140,7 +141,7 @@ fn a_controller_at_its_limit_does_not_wind_up() {
     assert!(wound_up > right + 0.05, "{wound_up} and {right} are told apart");
     for formulation in TRAPEZOIDAL {
         let found = end(&text, Way(formulation, "trapezoidal"), 1e-3, 2.0)[0];
-        // the end of the limit lies within a step
+        // the torque leaves the limit within a step
         assert!((found - right).abs() < 1e-4, "{formulation}: {found}, not {right}");
     }
 }
@@ -167,7 +168,7 @@ fn signals_that_nothing_can_follow_are_refused_at_their_place() {
 
 #[test]
 fn a_stiff_controller_converges_where_its_damping_outweighs_the_inertia() {
-    // d h / 2 is five times the inertia; the target rises within 0.1 s
+    // d h / 2 is five times the inertia; the target rises over 0.1 s
     let servo = SERVO
         .replace("p = 40.0\ni = 30.0\nd = 6.0", "p = 1e6\nd = 2e4")
         .replace("kind = \"constant\"\nvalue = 1.0", "kind = \"step\"\nto = 1.0\nrise = 0.1");
@@ -185,13 +186,13 @@ fn a_stiff_controller_converges_where_its_damping_outweighs_the_inertia() {
         for formulation in TRAPEZOIDAL {
             let way = Way(formulation, "trapezoidal");
             let found = end(&wheel(dimension, &servo), way, 1e-3, 0.08)[0];
-            // where the target is after 80 of its 100 steps: (h/T)^2
+            // position of the target after 80 of its 100 steps; errors are (h/T)^2
             assert!((found - right).abs() < 1e-4, "{formulation}: {found}, not {right}");
         }
     }
 }
 
-/// The end of a duration in steps of a length by the method of order 4.
+/// Integrates over a duration with fixed steps by the classical Runge-Kutta method.
 fn rk4<const N: usize>(
     rates: impl Fn(f64, [f64; N]) -> [f64; N],
     mut y: [f64; N],
@@ -209,7 +210,7 @@ fn rk4<const N: usize>(
     y
 }
 
-/// Two rods in space on skew axes; the torque on the first answers to the turn of the second.
+/// Scene of two spatial rods on skew axes. The torque on the first depends on the rotation of the second.
 fn crossed() -> String {
     let rod = |name: &str, center: &str| {
         format!(
@@ -251,7 +252,7 @@ fn what_a_motor_gives_is_its_signal_and_turns_are_counted_in_every_formulation()
         let [coarse, fine] = [1e-3, 5e-4].map(|step| end(&text, way, step, 1.0));
         let [asked, turn] = [fine[2], fine[3]];
         assert!((fine[1] + asked).abs() < 1e-12 * asked.abs(), "{formulation}: {fine:?}");
-        // value, and slide and turn, of the joint
+        // value of the joint, from its slide and its rotation
         assert!((turn - fine[5]).abs() < 1e-9, "{formulation}: {fine:?}");
         let (power, rate) = (fine[6], fine[7]);
         assert!((power - asked * rate).abs() < 1e-9 * power.abs(), "{formulation}: {fine:?}");
@@ -270,7 +271,7 @@ fn the_modes_of_a_servo_are_the_roots_of_its_cubic() {
     for dimension in [2, 3] {
         let scene = scene(&wheel(dimension, &servo));
         let modes = Modes::new(&scene, Place::Initial, Search::default()).expect("modes");
-        // 2 s^3 + 6 s^2 + 40 s + 30 = 0
+        // the eigenvalues are roots of 2 s^3 + 6 s^2 + 40 s + 30 = 0
         let right = [(-0.823_851, 0.0), (-1.088_075, 4.125_927)];
         assert_eq!(modes.modes.len(), right.len(), "{:?}", modes.modes);
         for (mode, (real, imaginary)) in modes.modes.iter().zip(right) {
@@ -286,7 +287,7 @@ fn the_servo_arm_ends_at_its_targets_with_the_torques_of_its_weight() {
     let targets = [0.4, 0.3, -0.5, 0.6, 0.5, -0.8];
     scene.outputs.truncate(6);
     let (bodies, n) = (scene.bodies.clone(), scene.bodies.len());
-    // each body's centre, the place of its joint, and a point a metre further on the joint's axis
+    // outputs: each body's centre, the point of its joint, and a point a metre further on the joint's axis
     let axes = [
         [0.0, 0.0, 1.0],
         [0.0, 1.0, 0.0],
@@ -330,7 +331,7 @@ fn the_servo_arm_ends_at_its_targets_with_the_torques_of_its_weight() {
                 })
                 .sum();
             let torque = row[n + 9 * n + k];
-            // what is left of the motion after six seconds
+            // the tolerance is the rest of the motion after six seconds
             assert!((torque + moment).abs() < 1e-3, "{formulation}, {k}: {torque}, {moment}");
         }
     }
@@ -338,7 +339,7 @@ fn the_servo_arm_ends_at_its_targets_with_the_torques_of_its_weight() {
 
 #[test]
 fn an_equilibrium_is_one_of_integrals_and_lags_too() {
-    // 5 N m push the wheel away: the integral alone holds against them, at the target
+    // a torque of 5 N m acts on the wheel: at the target the integral alone balances it
     let push = "[[effect]]\nname = \"push\"\nkind = \"torque\"\njoint = \"axle\"\nsignal = \"late\"\n\
         [[signal]]\nname = \"late\"\nkind = \"lag\"\nof = \"five\"\ntime = 0.3\n\
         [[signal]]\nname = \"five\"\nkind = \"constant\"\nvalue = 5.0\n\
@@ -349,11 +350,11 @@ fn an_equilibrium_is_one_of_integrals_and_lags_too() {
         for formulation in TRAPEZOIDAL {
             let row = end(&text, Way(formulation, "trapezoidal"), 1e-2, 1.0);
             let off = [row[0] - 1.0, row[1], row[2] + 5.0].map(f64::abs);
-            // the search ends at rounding of its differences
+            // the search ends at the rounding of its differences
             assert!(off.iter().all(|off| *off < 1e-8), "{dimension}, {formulation}: {row:?}");
         }
     }
-    // without an integral the spring of the controller yields: 5 / 40 rad
+    // without an integral the proportional controller yields like a spring: 5 / 40 rad
     for i in ["", "i = 0.0\n"] {
         let servo = SERVO.replace("i = 30.0\n", i);
         let text = wheel(2, &format!("{servo}{push}"));
@@ -364,7 +365,7 @@ fn an_equilibrium_is_one_of_integrals_and_lags_too() {
             assert!(off.iter().all(|off| *off < 1e-8), "{formulation}: {row:?}");
         }
     }
-    // an integral of what nothing changes has no rest
+    // an integral of a constant that no motion changes has no equilibrium
     let ramp = asked("\"integral\"\nof = \"five\"", &constant("five", 5.0));
     let text = wheel(
         2,
@@ -378,15 +379,15 @@ fn an_equilibrium_is_one_of_integrals_and_lags_too() {
     assert!(error.contains("does not come to rest"), "{error}");
 }
 
-/// A wheel with a pin, its angle, and a line from a fixed point over the pin to another one.
+/// Wheel with a pin, its angle, and a line from a fixed point over the pin to another fixed point.
 struct Line {
-    /// The pin's place at angle zero, and a quarter turn further [m].
+    /// Position of the pin at angle zero, and after a quarter revolution [m].
     pin: [[f64; 3]; 2],
     ends: [[f64; 3]; 2],
 }
 
 impl Line {
-    /// Length of the line at an angle, and its growth with the angle [m, m/rad].
+    /// Length of the line at an angle [m], and its derivative with respect to the angle [m/rad].
     fn at(&self, angle: f64) -> [f64; 2] {
         let (sine, cosine) = angle.sin_cos();
         let [x, y] = self.pin;
@@ -399,7 +400,8 @@ impl Line {
         })
     }
 
-    /// The angle after `duration` from 0.4 rad and 1 rad/s, under -90 (L - 1.5) - 4 L' on 2 kg m^2, by small steps of order four.
+    /// Angle after `duration` [s] from 0.4 rad and 1 rad/s, by small Runge-Kutta steps. The tension is -90 (L - 1.5) - 4 L', the inertia 2 kg
+    /// m^2.
     fn angle_after(&self, duration: f64) -> f64 {
         let rate = |[angle, w]: [f64; 2]| {
             let [length, growth] = self.at(angle);
@@ -426,7 +428,7 @@ fn a_torque_by_the_length_of_a_line_turns_its_wheel_as_the_equation_of_its_angle
             let pin = [[0.3, 0.0, 0.0], [0.0, 0.3, 0.0]];
             (pin, [[0.9, 0.2, 0.0], [-0.1, 0.8, 0.0]])
         } else {
-            // across the axle
+            // the pin in a plane perpendicular to the axle
             let pin = [[0.24, 0.0, -0.18], [-0.108, 0.24, -0.144]];
             (pin, [[0.9, 0.2, 0.3], [-0.1, 0.8, -0.2]])
         };
@@ -456,7 +458,7 @@ fn a_torque_by_the_length_of_a_line_turns_its_wheel_as_the_equation_of_its_angle
 
 #[test]
 fn the_swing_of_a_ball_is_measured_by_each_formulation() {
-    // a ball of equal moments turns about (0.48, 0.6, 0.64), across the axis of the swing
+    // a ball with equal moments of inertia turns about (0.48, 0.6, 0.64), perpendicular to the axis of the swing
     let text = "[scene]\ndimension = 3\nduration = 1.0\ngravity = [0.0, 0.0, 0.0]\n\
         [[body]]\nname = \"ball\"\nmass = 1.0\ncenter = [0.0, 0.0, 0.0]\ninertia = [2.0, 2.0, 2.0, 0.0, 0.0, 0.0]\n\
         [[joint]]\nname = \"socket\"\nkind = \"spherical\"\nbodies = [\"ground\", \"ball\"]\nat = [0.0, 0.0, 0.0]\n\

@@ -1,4 +1,4 @@
-//! The fingerprint of bytes.
+//! Fingerprint (hash) of bytes.
 
 use mbs::inside::fingerprint;
 

@@ -1,4 +1,4 @@
-//! Results are old or new, never lost, and never of two processes at once.
+//! Results of a run in its folder: a file has its old or its new content, and one process has the folder at a time.
 
 use mbs::folder::*;
 use std::fs;
@@ -30,7 +30,7 @@ fn a_directory_is_one_writers_and_leaves_nothing_of_the_lock() {
     names.sort();
     assert_eq!(names, ["run.csv", "run.html", "run.json"]);
     drop(Folder::open(&path, &[]).unwrap());
-    // what was made for nothing goes
+    // a folder that was created without results is removed
     let none = scratch("none");
     drop(Folder::open(&none.join("deep"), &[]).unwrap());
     assert!(!none.exists());
@@ -52,7 +52,7 @@ fn what_cannot_be_finished_leaves_the_results_before() {
     drop(part);
     assert_eq!(fs::read_to_string(path.join("run.csv")).unwrap(), "old\n");
     assert!(!path.join(PART).exists());
-    // and so does a process that was killed; what it has left, file or directory, stops no other
+    // a killed process releases the folder too; a file or directory that it left does not stop another process
     fs::write(path.join(PART), "left").unwrap();
     put(&folder, "new\n").unwrap();
     assert_eq!(fs::read_to_string(path.join("run.csv")).unwrap(), "new\n");

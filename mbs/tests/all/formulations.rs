@@ -1,4 +1,4 @@
-//! Properties of every formulation alike: steps that cannot be made, clones, and the registry.
+//! Properties that all formulations have: failed steps, clones, and the registry.
 
 use crate::common::{scene, settings};
 use mbs::core::scene::{Dimension, Scene};
@@ -12,7 +12,7 @@ fn simulation<const D: usize>(scene: &Scene<f64>, overrides: Method) -> Simulati
     Simulation::new(scene, &settings).expect("the scene assembles")
 }
 
-/// The bits of all that a step leaves.
+/// Bits of all results of a step.
 fn bits<const D: usize>(simulation: &Simulation<f64, D>) -> Vec<u64> {
     let s = simulation.state();
     let all = [&s.q[..], &s.q_low, &s.v, &s.a, &s.lambda, &s.reaction, &s.phi, &s.memory];
@@ -20,7 +20,7 @@ fn bits<const D: usize>(simulation: &Simulation<f64, D>) -> Vec<u64> {
     numbers.copied().chain(simulation.energies()).map(f64::to_bits).collect()
 }
 
-/// Steps of 1 ms, and the bits after them.
+/// Makes steps of 1 ms and returns the bits after each.
 fn go<const D: usize>(simulation: &mut Simulation<f64, D>, steps: usize) -> Vec<u64> {
     for _ in 0..steps {
         simulation.step(1e-3).expect("it steps");

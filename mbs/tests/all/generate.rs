@@ -1,4 +1,4 @@
-//! Generated scenes: as many bodies and joints as said, consistent at the start, and sound in motion.
+//! Generated scenes: the requested numbers of bodies and joints, a consistent start, and a motion without faults.
 
 use mbs::scene_file::{Family, GenerateError, SceneFile, generate};
 use mbs::{Method, Outcome};
@@ -6,10 +6,10 @@ use mbs_core::scene::Scene;
 
 const COMMAND: &str = "mbs generate";
 
-/// Position violation of index-3 after its projections: rounding of lengths of some metres.
+/// Position violation of index-3 after its projections [m]: the rounding of lengths of some metres.
 const VIOLATION: f64 = 1e-10;
-/// Share of the energy turned over by which the trapezoidal rule may be off over the first hundred steps of 1 ms: it is of
-/// second order and these motions take seconds.
+/// Energy error of the trapezoidal rule over the first hundred steps of 1 ms, relative to the exchanged energy [-]. The rule is of second
+/// order, and these motions take seconds.
 const DRIFT: f64 = 1e-3;
 
 fn scene(family: &Family<'_>) -> Scene<f64> {
@@ -18,7 +18,7 @@ fn scene(family: &Family<'_>) -> Scene<f64> {
     SceneFile::parse(&text, "generated.toml").and_then(|d| d.scene()).expect("can be read")
 }
 
-/// Numbers of bodies, joints and outputs.
+/// Returns the numbers of bodies, joints and outputs.
 fn counts(scene: &Scene<f64>) -> [usize; 3] {
     [scene.bodies.len(), scene.joints.len(), scene.outputs.len()]
 }
@@ -29,7 +29,7 @@ fn vehicle(name: &str) -> SceneFile {
     SceneFile::parse(&text, &file).expect("TOML")
 }
 
-/// Runs the first tenth of a second in index-3 and asserts that nothing drifts.
+/// Runs the first tenth of a second in index-3, and asserts that violation and energy error are small.
 fn run(scene: &Scene<f64>) -> Outcome {
     let overrides = Method {
         formulation: Some("index-3".to_owned()),
@@ -54,7 +54,7 @@ fn a_chain_has_a_joint_for_each_link_and_keeps_its_energy() {
         assert_eq!(counts(&scene), [n, n, 2]);
         run(&scene);
     }
-    // Freedoms of four joints by turns: 1 + 2 + 1 + 3.
+    // four kinds of joints alternate, with 1 + 2 + 1 + 3 degrees of freedom
     assert_eq!(run(&scene(&Family::Chain { bodies: 40 })).summary.dof, 70);
 }
 
@@ -83,7 +83,7 @@ fn a_net_has_a_freedom_less_for_each_rod_and_keeps_its_energy() {
         let scene = scene(&Family::Net { rows, columns });
         let rods = rows * (columns + 1) + columns * (rows + 1);
         let knots = (rows + 1) * (columns + 1);
-        // Each rod beyond the first at a knot has a joint there, and each corner one with the ground.
+        // each rod after the first one at a knot has a joint there, and each corner has a joint with the ground
         assert_eq!(counts(&scene), [rods, 2 * rods - knots + 4, 2]);
         let summary = run(&scene).summary;
         assert_eq!(summary.dof, 3 * (knots - 4) - rods);
@@ -110,7 +110,7 @@ fn a_convoy_is_the_vehicle_many_times_over_on_one_road() {
     let [first, last] = [0, 2].map(|k| three.bodies[k * bodies].center);
     assert_eq!((first, last), (one.bodies[0].center, [-16.0, 0.0, 0.57]));
     let outcome = run(&convoy(2));
-    // The road is level at first: both start and drive alike, 8 m apart, but for the rounding of places.
+    // the road is level at first: both vehicles move alike, 8 m apart, except for the rounding of positions
     let (_, row) = outcome.rows().last().expect("the end");
     let half = row.len() / 2;
     assert!((row[0] - row[half] - 8.0).abs() < 1e-6 && (row[2] - row[half + 2]).abs() < 1e-6);

@@ -1,4 +1,4 @@
-//! `gravity_scale` of bodies: gravity times a factor, in every formulation and in all that a tree is asked for.
+//! Key `gravity_scale` of bodies, a factor of gravity, in every formulation and in all quantities of a tree.
 
 use crate::common::oracle::{disagreement, everything, methods, rows_with_errors};
 use crate::common::scene as shared;
@@ -8,12 +8,12 @@ use mbs::{Effect, Mechanism, Method, Signal};
 use mbs_testkit::random::Random;
 use mbs_testkit::{close, dot, file};
 
-/// Rounding through trees of some bodies.
+/// Relative rounding error through trees of some bodies [-].
 const ROUNDING: f64 = 1e-11;
-/// Half a step of the differences, which err by its fourth power and by rounding over it.
+/// Half of a step of the differences. Their error is of fourth order, plus rounding divided by the step.
 const STEP: f64 = 1e-3;
 
-/// A scene on whose bodies gravity acts with different factors, also with none and upwards.
+/// Returns the scene with different factors of gravity, including zero and negative ones.
 pub(crate) fn lightened(scene: &Scene<f64>) -> Scene<f64> {
     let mut scene = scene.clone();
     let factors = [Some(0.3), None, Some(-0.5), Some(0.0), Some(1.0)];
@@ -39,7 +39,7 @@ fn every_formulation_has_the_same_motion_and_energies_under_factors_of_gravity()
 
 #[test]
 fn a_factor_is_the_same_as_a_force_that_carries_the_rest_of_the_weight() {
-    // one with the key, one with a constant force at the centre: m g (1 − s) upwards
+    // one mechanism with the key, another with a constant upward force m g (1 − s) at the centre
     let mut light =
         Mechanism::parse(include_str!("../../../scenes/double-pendulum.toml")).expect("a scene");
     let mut carried = light.clone();

@@ -1,4 +1,4 @@
-//! Joints that are guided whole and guided bodies, against kinematics and balances by hand, in every formulation.
+//! Joints with guides for all coordinates, and guided bodies, against kinematics and balances by hand, in every formulation.
 
 mod hexapod;
 mod kinematics;
@@ -15,7 +15,7 @@ fn head(dimension: usize, gravity: &str) -> String {
     )
 }
 
-/// The signals of a guide, by the names a, b, c and so on, and the list of these names.
+/// Texts of a guide's signals a, b, c and so on, and of the list of their names.
 fn signals(sines: &[Sine]) -> (String, String) {
     let (mut text, mut names) = (String::new(), Vec::new());
     for (sine, name) in sines.iter().zip('a'..) {
@@ -35,14 +35,14 @@ fn output(of: &str, rest: &str, quantity: &str) -> String {
     format!("[[output]]\nname = \"{name}\"\n{of}\nquantity = \"{quantity}\"\n{rest}\n")
 }
 
-/// The largest difference of numbers from those expected, over one and their size; NaN if there is one.
+/// Largest difference of numbers from the expected ones, divided by one plus their size; NaN if a number is NaN.
 fn off(found: &[f64], expected: &[f64]) -> f64 {
     let size = 1.0 + expected.iter().fold(0.0_f64, |a, x| a.max(x.abs()));
     let pairs = found.iter().zip(expected);
     pairs.fold(0.0, |a, (x, y)| crate::common::worst(a, (x - y).abs() / size))
 }
 
-/// Signals of translations and a rotation vector that sweeps up to three turns [m, Hz, rad].
+/// Signals of three translations, and of a rotation vector that reaches three revolutions [m, Hz, rad].
 const SIX: [Sine; 6] = [
     Sine([0.08, 0.7, 0.4]),
     Sine([0.06, 0.9, -0.2]),
@@ -52,7 +52,7 @@ const SIX: [Sine; 6] = [
     Sine([19.0, 0.3, 0.0]),
 ];
 
-/// A rotation vector of the last three of [`SIX`].
+/// Motion without translation, whose rotation vector is the last three signals of [`SIX`].
 fn turning() -> Motion {
     Motion { translation: [Sine([0.0; 3]); 3], rotation: [SIX[3], SIX[4], SIX[5]] }
 }

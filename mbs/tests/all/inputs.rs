@@ -1,4 +1,4 @@
-//! Inputs that are set between steps, and laws of a user's own: drivers, controllers and machines, in every formulation.
+//! Inputs that are set between steps, and user-defined laws: drivers, controllers and machines, in every formulation.
 
 use crate::common;
 
@@ -42,7 +42,7 @@ fn methods() -> impl Iterator<Item = (&'static str, &'static str)> {
     all.flat_map(move |name| with(name, &RULES)).chain(with("recursive", &SLOPES))
 }
 
-/// A wheel of 1 kg m^2 on a fixed axle, with a torque that is set between steps.
+/// Scene of a wheel of 1 kg m^2 on a fixed axle, with a torque that is set between steps.
 fn wheel() -> Scene<f64> {
     const TEXT: &str = r#"
         [scene]
@@ -77,7 +77,7 @@ fn wheel() -> Scene<f64> {
     scene
 }
 
-/// The turning speed of the first body [rad/s].
+/// Angular velocity of the first body [rad/s].
 fn speed(simulation: &Simulation<f64, 2>, scene: &Scene<f64>) -> f64 {
     simulation.model().motion(scene, 0, simulation.state()).omega[2]
 }
@@ -91,7 +91,7 @@ fn an_input_set_for_one_step_acts_in_that_whole_step_and_does_its_work_there() {
             let torque = if k == 2 { 1.0 } else { 0.0 };
             simulation.set_input(0, [torque, 0.0, 0.0]).expect("an input");
             simulation.step(h).expect("a regular step");
-            // 1 N m for one step on 1 kg m^2: the step's length in rad/s, and half its square in J.
+            // 1 N m for one step h on 1 kg m^2 gives a rate of h and a work of h^2/2
             let (rate, work) = if k < 2 { (0.0, 0.0) } else { (1.0, 5e-7) };
             let (found, [_, _, done]) = (speed(&simulation, &scene) / h, simulation.energies());
             assert!((found - rate).abs() < 1e-9, "{method:?}, step {k}: {found} of the step");
@@ -152,11 +152,11 @@ fn a_torque_that_is_set_every_ten_milliseconds_leaves_every_rule_its_order_in_a_
         let [kinetic, potential, work] = simulation.energies();
         let [k0, p0, _] = simulation.initial_energies();
         let motion = simulation.model().motion(&scene, 0, simulation.state());
-        // Energy of the ledger: the power jumps with the input, and both sides of the jump are in it.
+        // error of the energy balance: the power jumps with the input, and the work contains both values at the jump
         ([motion.rotation[(0, 0)], motion.omega[2]], kinetic + potential - work - k0 - p0)
     };
     let (right, _) = run(("recursive", "rk853"), 1);
-    // Steps of multi-index are as long as its energy rule lets them be.
+    // the energy rule of multi-index chooses the lengths of its steps
     let has_fixed_steps =
         |(formulation, rule): &_| *formulation != "multi-index" && *rule != "rk853";
     for method in methods().filter(has_fixed_steps) {
@@ -166,12 +166,12 @@ fn a_torque_that_is_set_every_ten_milliseconds_leaves_every_rule_its_order_in_a_
         };
         let ((coarse, _), (fine, ledger)) = (error(5), error(10));
         let order = (coarse / fine).log2();
-        // Newmark's rule damps and is of first order; half of an input in the wrong step would leave the others no more than that.
+        // Newmark's rule damps and is of first order; the others would be of first order too if half of an input acted in the wrong step
         let least = if method.1 == "newmark" { 0.9 } else { 1.8 };
-        // Methods with control of their error, and of higher order.
+        // methods with error control, and of higher order
         let is_exact = fine < 1e-8;
         assert!(is_exact || order > least, "{method:?}: order {order}, {coarse:e} and {fine:e}");
-        // Of some 10 J; twice what the rules leave at 1 ms.
+        // of about 10 J; the limits are twice the errors of the rules at 1 ms
         let allowed = if method.1 == "newmark" { 1.2e-3 } else { 1e-6 };
         assert!(ledger < allowed, "{method:?}: {ledger:e} J");
     }
@@ -211,7 +211,7 @@ fn what_a_spring_stores_when_its_input_is_set_is_booked_as_work() {
         let [kinetic, potential, work] = simulation.energies();
         let [k0, p0, _] = simulation.initial_energies();
         let off = kinetic + potential - work - k0 - p0;
-        // Some 10 J are set in; the rules' own error is 1e-4 of the energy, and Newmark's damping 1e-2 of it.
+        // the inputs add about 10 J; the rules have errors of 1e-4 of the energy, and Newmark's damping 1e-2
         let allowed = if method.1 == "newmark" { 1.0 } else { 1e-2 };
         assert!(work.abs() > 1.0 && off.abs() < allowed, "{method:?}: {off} of {work} J");
     }
@@ -281,12 +281,12 @@ fn an_input_changes_the_motion_from_the_next_step_on() {
             still.step(1e-3).expect("a regular step");
             driven.step(1e-3).expect("a regular step");
         }
-        // 40 N m on 8/3 kg m^2 (two rods in line) for 0.05 s: about 0.02 rad, 0.04 m at the tip.
+        // 40 N m on 8/3 kg m^2 (two rods in a line) for 0.05 s: about 0.02 rad, or 0.04 m at the tip
         assert!(common::distance(tip(&still), tip(&driven)) > 0.01, "{formulation}");
     }
 }
 
-/// A spring of 200 N/m towards the length that is its input.
+/// Spring of 200 N/m whose free length is its input.
 struct Towards;
 
 impl ScalarLaw<f64> for Towards {
@@ -302,7 +302,7 @@ impl ScalarLaw<f64> for Towards {
     }
 }
 
-/// Linear drag, in proportion to the input.
+/// Linear drag in proportion to its input.
 struct Honey;
 
 impl WrenchLaw<f64> for Honey {
@@ -332,7 +332,7 @@ fn a_spring_of_one_s_own_is_the_spring_of_the_library() {
             b.step(1e-3).expect("a regular step");
         }
         close(tip(&a), tip(&b), 1e-12, formulation);
-        // The ledgers tell of the same energies; of some 200 J, rounding of the motion.
+        // both energy balances agree, except for the rounding of the motion; energies are about 200 J
         for (x, y) in a.energies().iter().zip(b.energies()) {
             assert!((x - y).abs() < 1e-9, "{formulation}: {x} {y}");
         }
@@ -365,7 +365,7 @@ fn a_guide_that_is_set_follows_what_it_is_told() {
     for formulation in common::with_fixed_steps() {
         let mut scene = common::scene("guided-four-bar");
         scene.outputs.clear();
-        // At rest, then at 2 rad/s^2.
+        // at rest, with an acceleration of 2 rad/s^2
         scene.guides[0].law = Motion::Input([0.0, 0.0, 2.0]);
         scene.initials.clear();
         let joint = scene.guides[0].joint;

@@ -1,4 +1,4 @@
-//! Properties that must be kept whatever moves: angular momenta, constraints after projection, the frame of reference, and memory.
+//! Invariants of every motion: angular momenta, constraints after projection, the frame of reference, and memory.
 
 use crate::common;
 use crate::common::allocations;
@@ -9,12 +9,12 @@ use crate::retell::{turn_scene, turned};
 use mbs::core::natural::Affine;
 use mbs::core::scene::{Dimension, Inertia, InitialTarget, Scene};
 
-/// Falls by 4 when the step is halved, in a method of order 2, or faster; higher orders of the step make the rest.
+/// Ratio of the errors at a step and at half of it in a method of order 2: about 4. Terms of higher order may make it larger.
 const SECOND_ORDER: core::ops::RangeFrom<f64> = 3.5..;
 
 type Vector = [f64; 3];
 
-/// A spatial body read through four of its points: centre, and centre plus each axis of the reference.
+/// Spatial body observed at four points: its centre, and the centre plus each axis of the reference configuration.
 struct Gyro {
     points: [Affine<f64, 3>; 4],
     mass: f64,
@@ -76,7 +76,7 @@ fn scale(a: Vector, s: f64) -> Vector {
     a.map(|x| x * s)
 }
 
-/// Below this share of its size a deviation is rounding, summed over a few thousand steps, and has no order.
+/// Largest relative deviation that is rounding, summed over a few thousand steps, and has no order [-].
 const ROUNDING: f64 = 1e-10;
 
 fn assert_second_order(case: &str, errors: [f64; 3], size: f64) {
@@ -126,9 +126,9 @@ fn spinning_top_keeps_energy_and_two_angular_momenta_to_order_2() {
     }
 }
 
-/// The free body turns over for the first time about then [s], from Euler's equations.
+/// Time at which the free body turns over first, from Euler's equations [s].
 const TURNS_AT: f64 = 2.97;
-/// Error that the trapezoidal rule at 1e-3 s and the three digits of the reference leave [s].
+/// Error of this time [s], by the trapezoidal rule at 1e-3 s and the three digits of the reference.
 const TURNS_WITHIN: f64 = 0.02;
 
 #[test]
@@ -159,7 +159,7 @@ fn free_body_turns_over_and_keeps_its_angular_momentum_to_order_2() {
     }
 }
 
-/// Largest violation allowed in position [m] and velocity [m/s], and in acceleration in shares of 1 + the largest one.
+/// Largest violation of positions [m] and velocities [m/s], and of accelerations relative to 1 + the largest one.
 const VIOLATION: f64 = 1e-9;
 
 #[test]
@@ -209,7 +209,7 @@ fn a_step_allocates_nothing() {
     for formulation in ["index-3", "index-1", "classical", "recursive"] {
         assert_eq!(in_steps::<2>("guided-four-bar", formulation), 0, "planar with guide");
         assert_eq!(in_steps::<2>("two-four-bars", formulation), 0, "planar");
-        // classical refuses redundant joints
+        // the classical Lagrangian refuses redundant joints
         if formulation != "classical" {
             assert_eq!(in_steps::<3>("spatial-four-bar", formulation), 0, "spatial");
         }
@@ -225,13 +225,13 @@ fn a_step_allocates_nothing() {
     assert_eq!(allocations::count(), counted + 1, "the allocator counts");
 }
 
-/// How far the same mechanism, told in another way, may be off after half a second, in metres: rounding of a start of order
-/// one, with room for what the motion makes of it.
+/// How far two descriptions of one mechanism may differ after half a second [m]: the rounding of a start of order one, with a margin for its
+/// growth in the motion.
 const RETOLD: f64 = 1e-9;
 const RETOLD_STEP: f64 = 1e-3;
 const RETOLD_DURATION: f64 = 0.5;
 
-/// Runs both scenes; returns the largest distance of a point of a body in both, the first turned by `turn`.
+/// Runs both scenes and returns the largest distance of a body's point between them. The point of the first scene is rotated by `turn`.
 fn apart(
     (original, retold): (&Scene<f64>, &Scene<f64>),
     bodies: [usize; 2],
@@ -289,7 +289,7 @@ fn reversing_the_bodies_of_joints_changes_the_motion_only_by_rounding() {
                 joint.bodies.reverse();
                 joint.points.reverse();
             }
-            // Second relative to first turns round.
+            // with exchanged bodies, values and rates change their sign
             for initial in &mut other.initials {
                 if let InitialTarget::Joint { value, rate, .. } = &mut initial.target {
                     [value, rate].into_iter().flatten().flatten().for_each(|x| *x = -*x);

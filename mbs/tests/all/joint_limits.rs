@@ -1,11 +1,11 @@
-//! Ranges and limits of joints: noted with joint and time, without effect on the motion.
+//! Ranges and limits of joints: exceeding them is noted with joint and time, without an effect on the motion.
 
 use mbs::{
     Body, Effect, FormulationKind, GROUND, Guide, Joint, JointId, JointLimits, Mechanism, Method,
     Motion, Number, Run,
 };
 
-/// A wheel on a hinge without forces that turns at 2 rad/s, and its hinge; the way is 2 t.
+/// Mechanism of a wheel on a hinge without forces that rotates at 2 rad/s, so that its angle is 2 t.
 fn wheel(limits: JointLimits<Number>) -> Mechanism {
     let mut m = Mechanism::planar("wheel");
     m.set_duration(1.0);
@@ -15,7 +15,7 @@ fn wheel(limits: JointLimits<Number>) -> Mechanism {
     m
 }
 
-/// Steps of 10 ms: the end of the range at 0.99 rad is passed in the step that ends at 0.5 s.
+/// Options with steps of 10 ms. The angle leaves the range at 0.99 rad in the step that ends at 0.5 s.
 fn by(kind: FormulationKind) -> Run {
     Run::new().method(Method { step: Some(0.01), ..Method::new(kind) })
 }
@@ -39,7 +39,7 @@ fn a_run_notes_each_limit_once_with_joint_and_time_in_every_formulation() {
         let expected =
             ["joint `hinge` leaves its range below 0.5 rad at t = 0 s, by up to 0.5 rad"];
         assert_eq!(below, expected, "{}", kind.name());
-        // what is not left is not noted, and nothing moves otherwise
+        // a range that the angle does not leave is not noted, and the motion is the same
         let plain = run(JointLimits::NONE);
         assert_eq!(plain.notes(), [""; 0], "{}", kind.name());
         for other in [run(limits([-1.0, 2.5], 2.5)), run(limits([-1.0, 0.5], 1.0))] {
@@ -64,7 +64,7 @@ fn turns_count_and_a_guide_that_reaches_the_end_of_its_range_does_not_leave_it()
         assert!(notes(&m).iter().all(|note| !note.contains("range")), "{:?}", notes(&m));
         let mut narrow = m.clone();
         narrow.part_mut(hinge).limits.range = Some([(-6.5).into(), 7.0.into()]);
-        // the sine falls below -6.5 at 2.7579 s; a step of controlled length ends later
+        // the sine falls below -6.5 at 2.7579 s; a controlled step ends later than this
         let found = notes(&narrow);
         let [begin, end] =
             ["joint `hinge` leaves its range below -6.5 rad at t = 2.76", ", by up to 0.5 rad"];
@@ -73,7 +73,7 @@ fn turns_count_and_a_guide_that_reaches_the_end_of_its_range_does_not_leave_it()
     }
 }
 
-/// A pendulum of 2 kg and 0.4 kg m^2 about its centre, 0.5 m from its hinge, that falls into a stop.
+/// Mechanism of a pendulum of 2 kg, 0.4 kg m^2 about its centre and 0.5 m to its hinge, which falls on a stop.
 fn pendulum(stops: Effect) -> Mechanism {
     let mut m = Mechanism::planar("stopped");
     m.set_gravity([0.0, -9.81]).set_duration(1.0);
@@ -86,7 +86,7 @@ fn pendulum(stops: Effect) -> Mechanism {
 
 #[test]
 fn stops_without_numbers_are_those_of_the_moved_inertia() {
-    // about the hinge 0.4 + 2 0.5^2 kg m^2; tau is 20 ms
+    // inertia about the hinge, 0.4 + 2 0.5^2 kg m^2; the time tau of the stop is 20 ms
     let (inertia, tau) = (0.9, 0.02);
     let hinge = JointId::new(0);
     let explicit = Effect::limit(hinge, [-0.6, 0.4], inertia / (tau * tau), 2.0 * inertia / tau);

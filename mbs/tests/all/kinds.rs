@@ -1,4 +1,5 @@
-//! Every kind of joint in every formulation: in a tree, in a loop, and beside a chain of massless bodies with one freedom each.
+//! Every kind of joint in every formulation: in a tree, in a closed loop, and beside a chain of massless bodies with one degree of freedom
+//! each.
 
 use crate::common::oracle::{Way, disagreement, everything, methods, rows_with_errors};
 use crate::common::random;
@@ -8,7 +9,7 @@ use mbs::core::scene::{Dimension, JointKind, Quantity, Scene};
 /// Step and span [s].
 const SPAN: (f64, f64) = (1e-3, 0.2);
 
-/// All methods agree with the first one of them, on what the first scene asks for.
+/// Asserts that all methods agree with the first one, in the outputs of the first scene.
 fn agree(scenes: [&Scene<f64>; 2], others: &[Way], faults: &mut Vec<String>) {
     let reference = rows_with_errors(scenes[0], methods()[0], SPAN);
     let reference = reference.unwrap_or_else(|e| panic!("{}: {e}", scenes[0].name));
@@ -24,7 +25,7 @@ fn agree(scenes: [&Scene<f64>; 2], others: &[Way], faults: &mut Vec<String>) {
     }
 }
 
-/// Kinds with freedoms, each in the plane where it can be and in space.
+/// Kinds of joints with degrees of freedom, in the plane where possible, and in space.
 fn kinds() -> impl Iterator<Item = (JointKind, Dimension)> {
     let all = |dimension| JointKind::ALL.map(|kind| (kind, dimension)).into_iter();
     let all = all(Dimension::Spatial).chain(all(Dimension::Planar));

@@ -1,4 +1,4 @@
-//! The state-space form against closed forms, the tree's derivatives, motion by differences, and modes.
+//! State-space form against closed forms, the tree's derivatives, differences of the motion, and modes.
 
 mod solve;
 mod states;
@@ -11,9 +11,9 @@ use mbs::{
     Place, Search, Signal, equilibrium, linearize,
 };
 
-/// Differences of fourth order leave rounding alone, 1e-11 of these numbers; an equilibrium is found to 1e-10 rad.
+/// Error of matrix entries [-]: differences of fourth order are exact to rounding, 1e-11 here, and an equilibrium to 1e-10 rad.
 const SAME: f64 = 1e-8;
-/// Differences of the motion are of second order with a step of 1e-4: their error is some 1e-8 of the third derivative.
+/// Error of differences of the motion [-]: they are of second order with a step of 1e-4, so about 1e-8 of the third derivative.
 const MOTION: f64 = 1e-5;
 
 fn assert_entries(name: &str, found: &Matrix, expected: &[&[f64]]) {
@@ -46,7 +46,7 @@ fn read(name: &str) -> Mechanism {
     Mechanism::read(common::path(name)).unwrap_or_else(|e| panic!("{e}"))
 }
 
-/// 2 kg along x on a spring of 50 N/m with a damper of 3 N s/m, pushed by an input.
+/// Mass of 2 kg that slides along x on a spring of 50 N/m with a damper of 3 N s/m, and an input force.
 fn sprung_mass() -> Mechanism {
     let mut m = Mechanism::planar("mass on a spring");
     let mass = m.add(Body::planar([1.0, 0.0], 2.0, 0.1).named("mass"));
@@ -106,7 +106,7 @@ fn a_pendulum_falls_back_with_its_weight_and_its_pivot_carries_it() {
     let system = about(&m, Place::Equilibrium);
     assert_entries("A", &system.a, &[&[0.0, 1.0], &[-g / length, 0.0]]);
     assert_entries("B", &system.b, &[&[0.0], &[1.0 / (mass * length * length)]]);
-    // m l (theta'') along x: the bob's weight takes its part back, and the torque pushes at the arm's length
+    // the force along x is m l theta'': the weight and the torque cause theta''
     assert_entries("C", &system.c, &[&[-mass * g, 0.0], &[0.0, 0.0], &[0.0, 0.0]]);
     assert_eq!(system.outputs, ["carried.Fx", "carried.Fy", "carried.Mz"]);
     assert_entries("D", &system.d, &[&[1.0 / length], &[0.0], &[0.0]]);
@@ -115,7 +115,7 @@ fn a_pendulum_falls_back_with_its_weight_and_its_pivot_carries_it() {
 
 #[test]
 fn a_four_bar_in_motion_is_the_pendulum_that_its_cranks_are() {
-    // (5/3) theta'' = 2 g sin(theta) + u from the upright crank, as the file says of parallel cranks
+    // as the scene file says of parallel cranks: (5/3) theta'' = 2 g sin(theta) + u, with theta from the upright crank
     for (place, theta) in [
         (Place::Initial, 0.0_f64),
         (Place::Initial, 0.5),
@@ -152,7 +152,7 @@ fn a_long_chain_keeps_its_digits_in_relative_angles() {
     assert!(
         system.states[..n].iter().enumerate().all(|(i, name)| *name == format!("joint-{}", i + 1))
     );
-    // about the upper end of rod i: it carries what hangs below, and the relative angles up to it turn it
+    // moments about the upper end of rod i: the weight of all rods below it acts there, and the relative angles up to it rotate it
     let below = |i: usize| (n - 1 - i) as f64;
     let mass = |i: usize, k: usize| below(i.max(k)) + if i == k { 1.0 / 3.0 } else { 0.5 };
     for j in 0..n {
@@ -165,7 +165,7 @@ fn a_long_chain_keeps_its_digits_in_relative_angles() {
             let weight = if j <= i { g * (below(i) + 0.5) } else { 0.0 };
             let moments = turns.iter().enumerate().map(|(k, turn)| mass(i, k) * turn);
             let left = (weight + moments.sum::<f64>()).abs();
-            // one unit of angle against the weight of the whole
+            // error relative to the weight of the whole chain, for an angle of one
             assert!(left < SAME * g * n as f64, "{i}, {j}: {left} N m");
         }
     }
@@ -221,7 +221,7 @@ fn a_slider_crank_in_motion_answers_as_its_motion_does() {
     }
 }
 
-/// x of M x = b by elimination with pivots, for each column.
+/// Solution x of M x = b by elimination with pivots, for each column.
 fn solved(matrix: &Matrix, b: &Matrix) -> Matrix {
     let (n, mut m, mut x) = (matrix.rows, matrix.clone(), b.clone());
     for k in 0..n {
@@ -258,7 +258,7 @@ fn servos_take_each_joint_to_its_target_and_no_other() {
             let through: f64 = (0..18).map(|k| system.c[(i, k)] * x[(k, j)]).sum();
             let gain = system.d[(i, j)] - through;
             let expected = if i == j { 1.0 } else { 0.0 };
-            // the integral of the weakest joint is determined by a thousandth of the strongest
+            // the equations are ill-conditioned: coefficients of the weakest joint are a thousandth of those of the strongest
             assert!((gain - expected).abs() < 1e-7, "{i} {j}: {gain}");
         }
     }
@@ -316,7 +316,7 @@ fn two_damped_masses_move_in_the_golden_ratio() {
     let system = about(&m, Place::Equilibrium);
     let shapes = system.shapes().expect("they converge");
     let root = 5.0_f64.sqrt();
-    // x2 = (2 - omega^2 m / k) x1,   lambda^2 + beta omega^2 lambda + omega^2 = 0
+    // mode shape and eigenvalue: x2 = (2 - omega^2 m / k) x1, lambda^2 + beta omega^2 lambda + omega^2 = 0
     for (shape, sign) in shapes.iter().zip([-1.0, 1.0]) {
         let square = 0.5 * k * (3.0 + sign * root);
         let real = -0.5 * beta * square;
@@ -358,7 +358,7 @@ fn eigenvalues_are_those_of_modes_whatever_the_states() {
         let system = system.unwrap_or_else(|e| panic!("{name}: {e}"));
         println!("{name}: {:?}", &system.states[..modes.dof]);
         let shapes = system.shapes().expect("they converge");
-        // neutral ones are two real ones or a pair, as rounding has it
+        // rounding makes a neutral pair of eigenvalues two real ones or a complex pair
         let shapes: Vec<_> = shapes.iter().filter(|shape| !shape.mode.is_neutral).collect();
         let lively: Vec<_> = modes.modes.iter().filter(|mode| !mode.is_neutral).collect();
         assert_eq!(shapes.len(), lively.len(), "{name}: {shapes:?}, not {lively:?}");
@@ -366,7 +366,7 @@ fn eigenvalues_are_those_of_modes_whatever_the_states() {
         for (shape, mode) in shapes.iter().zip(lively) {
             let found = shape.mode;
             let apart = (found.real - mode.real).hypot(found.imaginary - mode.imaginary);
-            // a root of rounding of squares where eigenvalues are double
+            // double eigenvalues have an error of the square root of rounding
             assert!(apart < 1e-6 * largest, "{name}: {found:?}, not {mode:?}");
             for i in 0..system.a.rows {
                 let sum = |part: usize| -> f64 {
@@ -402,7 +402,8 @@ fn a_tumbling_body_turns_as_eulers_equations_say() {
         [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
     };
     let unit = |j: usize| core::array::from_fn::<f64, 3, _>(|i| if i == j { 1.0 } else { 0.0 });
-    // omega' = R a(R^T omega) in global axes with a = -J^-1 (w x J w), R = 1 + theta x; theta' = omega - w + w x theta, from the motion itself
+    // omega' = R a(R^T omega) in global axes with a = -J^-1 (w x J w) and R = 1 + theta x; theta' = omega - w + w x theta from the motion
+    // itself
     let gyration = |a: [f64; 3], b: [f64; 3]| {
         let both = cross(a, core::array::from_fn(|i| inertia[i] * b[i]));
         core::array::from_fn::<f64, 3, _>(|i| -both[i] / inertia[i])
@@ -447,7 +448,7 @@ fn a_guided_cart_swings_its_bob_by_its_acceleration_alone() {
         let none = [0.0; 3];
         assert_entries("A", &system.a, &[&[0.0, 1.0], &[-g / length, 0.0]]);
         assert_entries("B", &system.b, &[&none, &[0.0, 0.0, -1.0 / length]]);
-        // the bob's height goes with (1 - cos) of its angle: its speed by the angle is that of the turning at the state
+        // the bob's height is proportional to (1 - cos) of its angle, so its speed depends on the angle by the rate of this state
         let rise = length * system.state_values[1];
         let c: [&[f64]; 4] = [&[length, 0.0], &[0.0, 0.0], &[0.0, length], &[rise, 0.0]];
         assert_entries("C", &system.c, &c);
@@ -466,7 +467,7 @@ fn unknown_names_and_inputs_without_a_derivative_are_refused() {
     assert!(code == "unknown-name" && message.contains("no input `push`"), "{code}: {message}");
     let (code, message) = refused(None, Some(&["tensions"]), &m);
     assert!(code == "unknown-name" && message.contains("no output `tensions`"), "{message}");
-    // nothing is free, and nothing is asked for
+    // no joint is free, and no input or output is requested
     let mut m = Mechanism::planar("held");
     let cart = m.add(Body::planar([0.0, 0.0], 2.0, 0.1));
     let slide = m.add(Joint::prismatic([GROUND, cart], [0.0, 0.0]).along([1.0, 0.0]));

@@ -1,4 +1,4 @@
-//! Random machines in other words move as they are drawn: bodies of joints swapped, axes reversed, another order, turned, in millimetres.
+//! Random machines move the same way in any description: exchanged bodies of joints, reversed axes, another order, rotated, in millimetres.
 
 use crate::common::{run, run_in};
 use mbs::{Method, Outcome};
@@ -6,7 +6,7 @@ use mbs_testkit::machines::kinds::{COUPLED, KINDS, machine};
 use mbs_testkit::machines::{Ways, Wording};
 use mbs_testkit::{Random, scene};
 
-/// Each way to word a machine, and all of them.
+/// Ways to describe a machine differently, and all of them together.
 const WAYS: [(&str, Ways); 6] = {
     let drawn =
         Ways { swaps: false, reverses: false, shuffles: false, turns: false, millimetres: false };
@@ -20,7 +20,7 @@ const WAYS: [(&str, Ways); 6] = {
     ]
 };
 
-/// The vectors of a run's rows as they are drawn: places in metres, angular velocities.
+/// Vectors of a run's rows in the original description: positions in metres, and angular velocities.
 fn drawn(outcome: &Outcome, wording: &Wording, what: &str) -> Vec<Vec<[f64; 3]>> {
     assert_eq!(outcome.error, None, "{what}");
     let vectors = |row: &[f64]| {
@@ -34,7 +34,7 @@ fn drawn(outcome: &Outcome, wording: &Wording, what: &str) -> Vec<Vec<[f64; 3]>>
     outcome.rows().iter().map(|(_, row)| vectors(row)).collect()
 }
 
-/// The largest difference of two runs, in ranges of the outputs.
+/// Largest difference of two runs, relative to the ranges of the outputs.
 fn apart(one: &[Vec<[f64; 3]>], other: &[Vec<[f64; 3]>]) -> f64 {
     assert_eq!(one.len(), other.len());
     let n = one[0].len();
@@ -46,7 +46,7 @@ fn apart(one: &[Vec<[f64; 3]>], other: &[Vec<[f64; 3]>]) -> f64 {
     let ranges: Vec<f64> = (0..n)
         .map(|k| size(&|row| core::array::from_fn(|i| one[row][k][i] - one[0][k][i])))
         .collect();
-    // what hardly moves is measured by what moves most among its like
+    // outputs with a small range are compared relative to the largest range of their kind
     let most = |k: usize| (0..n).filter(|j| j % 2 == k % 2).map(|j| ranges[j]).fold(0.0, f64::max);
     let relative = (0..n).map(|k| {
         let off = size(&|row| core::array::from_fn(|i| one[row][k][i] - other[row][k][i]));
@@ -55,7 +55,7 @@ fn apart(one: &[Vec<[f64; 3]>], other: &[Vec<[f64; 3]>]) -> f64 {
     relative.fold(0.0, f64::max)
 }
 
-/// The largest difference of wordings of machines from how they are drawn, by a method: so many machines of each of the first kinds.
+/// Largest difference between descriptions of random machines by a method. `each` machines of each of the first `kinds` kinds are run.
 fn differ(
     (each, kinds): (usize, usize),
     method: &dyn Fn(&mbs::core::scene::Scene<f64>) -> Outcome,
@@ -93,12 +93,12 @@ fn machines_move_as_they_are_drawn_in_whatever_words() {
     assert!(worst < 1e-9, "{worst:e} of a range");
 }
 
-/// Agreement of wordings over 100 steps. Index-1 lets slip give way where sweeps are slow by the largest violation, in which lengths stand beside
-/// directions. Over 200 steps a wheel on a plank in millimetres is off by 1.8e-6 of a range.
+/// Descriptions agree over 100 steps. In index-1 the slip of wheels is limited by the largest violation, in which lengths and directions are
+/// compared. Over 200 steps, a wheel on a plank in millimetres differs by 1.8e-6 of a range.
 #[test]
 fn every_formulation_steps_alike_in_whatever_words() {
     for formulation in mbs::FormulationKind::ALL.map(mbs::FormulationKind::name) {
-        // rows of wheels depend on those of their joints, or restrict velocities alone
+        // rows of rolling wheels depend on those of their joints, or constrain velocities only
         let refuses = ["classical", "state-space"].contains(&formulation);
         let kinds = if refuses { COUPLED } else { KINDS };
         let worst = differ((1, kinds), &|scene| {

@@ -1,5 +1,5 @@
-//! The tests of the face, in one program: each program compiles the steps of every formulation anew, which takes more than a
-//! minute. `cargo test -p mbs -- energy::` runs one of them.
+//! Tests of the crate's interface, in one program. Each test program compiles all formulations again, which takes more than a minute. `cargo
+//! test -p mbs -- energy::` runs one module.
 #![allow(clippy::print_stdout, reason = "what is measured is shown with --nocapture")]
 
 mod common;

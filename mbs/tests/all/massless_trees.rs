@@ -1,11 +1,12 @@
-//! Trees whose joints meet no inertia: places, Jacobians and inverse kinematics need none; frames by the name of their body.
+//! Trees with joints that move no inertia. Positions, Jacobians and inverse kinematics do not need inertia. Frames have the names of their
+//! bodies.
 
 use crate::tree::tree;
 use mbs::scene_file::SceneFile;
 use mbs::{BodyId, Error as _, FrameTarget, InverseKinematicsEnd, Tree};
 use mbs_testkit::{close, file};
 
-/// Rounding through trees of some bodies.
+/// Relative rounding error through trees of some bodies [-].
 const ROUNDING: f64 = 1e-12;
 
 fn massless(name: &str) -> Tree {
@@ -77,7 +78,7 @@ fn what_needs_inertia_is_refused_by_the_name_of_the_body() {
     }
 }
 
-/// A pendulum with frames: of its own name, turned by a right angle, and another one.
+/// Scene of a pendulum with two frames: one with the body's name, rotated by a right angle, and another one.
 const FRAMED: &str = r#"
 [scene]
 name = "framed"

@@ -13,11 +13,12 @@ use mbs::linear::{Instant, Linear, LinearOptions, Saddle, linearise};
 use mbs::sparse::{Indefinite, Multifrontal};
 use mbs::{Modes, Place, Search, equilibrium_start};
 
-/// Pitch, bounce, and the hops in phase and out of phase of the axles: eigenvalues of the vehicle at rest on its tires, moving in
-/// its plane of symmetry.
+/// Eigenvalues of pitch, bounce, and the two axle hops, in phase and out of phase. The vehicle is at rest on its tires and moves in its plane
+/// of symmetry.
 ///
-/// From the potential energy of chassis and axles over height, pitch and the angles of the two A-arms, second differences, the
-/// loops of each suspension closed by Newton's method, in double precision: another set of coordinates and no constraints.
+/// They are computed independently, with other coordinates and no constraints. The potential energy of chassis and axles is a function of
+/// height, pitch and the angles of two A-arms. Its second differences give the stiffness, and Newton's method closes the loops of each
+/// suspension, in double precision.
 const IN_PLANE: [[f64; 2]; 4] = [
     [-3.774_606, 9.577_940],
     [-4.823_723, 11.004_927],
@@ -35,12 +36,12 @@ fn modes_at_rest_are_those_of_an_independent_model_of_the_plane_of_symmetry() {
         let near = modes.iter().map(distance).fold(f64::INFINITY, f64::min);
         let size = real.hypot(imaginary);
         println!("{real} + {imaginary} i: {:.1e} of it apart", near / size);
-        // Second differences of the energy leave 1e-4, and the reference takes the arms' centres at mid-length.
+        // second differences of the energy have an error of 1e-4, and the reference has the arms' centres at mid-length
         assert!(near < 1e-3 * size, "{real} + {imaginary} i is {near} away in {modes:?}");
     }
 }
 
-/// z at time t of z'' + C z' + K z = 0 from z = 0 and z' = the unit vector of one freedom.
+/// Solution z at time t of z'' + C z' + K z = 0. The start has z = 0 and the unit vector of one degree of freedom as z'.
 fn response(linear: &Linear<f64>, freedom: usize, t: f64) -> Vec<f64> {
     let f = linear.n_freedoms;
     let rate = |y: &[f64]| {
@@ -56,7 +57,7 @@ fn response(linear: &Linear<f64>, freedom: usize, t: f64) -> Vec<f64> {
     };
     let mut y = vec![0.0; 2 * f];
     y[f + freedom] = 1.0;
-    // The fastest mode has 91 1/s: the error of order four is below 1e-9.
+    // the fastest mode has 91 1/s, so the error of order four is below 1e-9
     let steps = 2000;
     let h = t / f64::from(steps);
     for _ in 0..steps {
@@ -72,12 +73,12 @@ fn response(linear: &Linear<f64>, freedom: usize, t: f64) -> Vec<f64> {
     y
 }
 
-/// Differences of coordinates between a disturbed run and an undisturbed one, and what z'' + C z' + K z = 0 says of them.
+/// Differences of coordinates between a disturbed and an undisturbed run are those of z'' + C z' + K z = 0.
 ///
-/// The vehicle rolls freely with locked steering; each velocity of the ten freedoms is disturbed in turn.
+/// The vehicle rolls freely with locked steering. The velocity of each of its ten degrees of freedom is disturbed, one at a time.
 #[test]
 fn a_rolling_vehicle_moves_as_its_linearisation_says() {
-    // Its wheels do not spin: nothing turns, and the coefficients are constant.
+    // its wheels do not spin: no body rotates, and the coefficients are constant
     let mut scene = common::scene("iltis-bump-5");
     scene.road = Road::default();
     for initial in &mut scene.initials {
@@ -103,7 +104,7 @@ fn a_rolling_vehicle_moves_as_its_linearisation_says() {
         }
         s
     };
-    // Cambered tires push the tracks apart: after some seconds the vehicle has settled to that and rolls uniformly.
+    // cambered tires push the wheels apart: after some seconds the vehicle rolls uniformly
     let state = run(start.state, (1e-3, 4000));
     let mut scratch =
         mbs::linear::Workspace::new(&model, Indefinite::analyse(&Saddle::new(&model), analyse));
@@ -114,7 +115,7 @@ fn a_rolling_vehicle_moves_as_its_linearisation_says() {
     let t = 0.15;
     let n = model.n_unknowns();
     for freedom in 0..linear.n_freedoms {
-        // Kicked to both sides, so that the bend of the dampers' curves over some 0.2 m/s goes by its square.
+        // the velocity is disturbed in both directions, so that the curvature of the dampers' curves has an effect of second order only
         let kicked = |kick: f64| {
             let mut s = state.clone();
             for (v, b) in s.v.iter_mut().zip(&linear.basis[freedom * n..]) {
@@ -128,7 +129,7 @@ fn a_rolling_vehicle_moves_as_its_linearisation_says() {
             let (ahead, back) = (run(kicked(kick), steps).q, run(kicked(-kick), steps).q);
             ahead.iter().zip(&back).map(|(a, b)| (a - b) / (2.0 * kick)).collect()
         };
-        // The first step has the acceleration from before the kick, an error that goes with the step and is extrapolated away.
+        // the first step uses the acceleration before the disturbance, which gives an error of first order; extrapolation removes it
         let (coarse, fine) = (moved(5e-4), moved(2.5e-4));
         let z = response(&linear, freedom, t);
         let (mut apart, mut size) = (0.0_f64, 0.0_f64);
@@ -139,7 +140,7 @@ fn a_rolling_vehicle_moves_as_its_linearisation_says() {
             size = size.max(predicted.abs());
         }
         println!("freedom {freedom}: {:.1e} of {size:.1e} apart", apart / size);
-        // What is left goes with the square of the step: (omega h)^2 / 6 = 3e-4 of the fastest mode in each of its periods.
+        // the remaining error is of second order: (omega h)^2 / 6 = 3e-4 of the fastest mode in each of its periods
         assert!(apart < 2e-4 * size, "freedom {freedom}: {apart:e} of {size:e}");
     }
 }

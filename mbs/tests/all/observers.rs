@@ -1,5 +1,5 @@
-//! Observers of a run: what they set acts as it does on a simulation that is stepped by hand, what they read is what the run records,
-//! and what they return ends the run with its rows.
+//! Observers of a run. Their inputs act as in a simulation that a program steps. Their readings are those that the run records. Their return
+//! value can end the run, whose rows are kept.
 
 use core::ops::ControlFlow;
 use mbs::core::control::Accepted;
@@ -12,7 +12,7 @@ use mbs::{
 /// Length of a step [s].
 const STEP: f64 = 1e-3;
 
-/// An arm with a motor, and the output of its tip.
+/// Mechanism of an arm with a motor, and the output of its tip.
 struct Arm {
     mechanism: Mechanism,
     pivot: JointId,
@@ -41,12 +41,12 @@ fn methods() -> [Method; 3] {
     ]
 }
 
-/// The torque of a controller at an angle and a rate [N m].
+/// Torque of a controller at an angle and a rate [N m].
 fn torque(angle: f64, rate: f64) -> f64 {
     -80.0 * angle - 12.0 * rate
 }
 
-/// Holds the arm, and keeps what it reads after each step.
+/// Observer that controls the arm, and stores its readings after each step.
 struct Hold {
     pivot: JointId,
     motor: EffectId,
@@ -116,7 +116,7 @@ fn a_controller_in_a_run_has_the_bits_of_one_around_a_simulation() {
     }
 }
 
-/// Ends the run at a time, one way or the other.
+/// Observer that ends the run at a time, normally or by an error.
 struct Ends {
     at: f64,
     by: fn(&mut RunInputs<'_>) -> Result<(), SimulationError>,
@@ -217,15 +217,15 @@ fn outputs_in_code_are_shared_by_clones_and_have_no_text() {
     let error = m.to_toml().expect_err("it has no text");
     assert!(error.to_string().contains("output `twice`"), "{error}");
     assert!(serde_json::to_string(&m).is_err());
-    // numbers by path, with the function kept
+    // a change by path keeps the function
     m.set("body.body-1.mass", 2.5).expect("a path");
     let result = run(&m, &Run::new()).expect("it runs");
     assert!(result.table().column("twice").is_some());
-    // names are unique, and what is not finite is said
+    // names of outputs must be unique, and values that are not finite are reported
     m.add_function("tip", |_: &View<'_>| 0.0);
     let twice = m.check().expect_err("a name twice").to_string();
     assert!(twice.starts_with("`name` of output 3, `tip`, repeats"), "{twice}");
-    // without outputs the joints are the columns
+    // without outputs in the scene, joints are the columns
     let mut m = Mechanism::planar("pendulum");
     let bob = m.add(Body::rod([0.0, 0.0], [1.0, 0.0], 1.0));
     m.add(Joint::revolute([GROUND, bob], [0.0, 0.0]).named("pivot"));
@@ -241,7 +241,7 @@ fn outputs_in_code_are_shared_by_clones_and_have_no_text() {
     assert_eq!(result.table().len(), 100);
 }
 
-/// Keeps the coordinates after each step.
+/// Observer that stores the coordinates after each step.
 #[derive(Default)]
 struct Coordinates(Vec<(f64, Vec<u64>)>);
 
@@ -258,7 +258,7 @@ impl<const D: usize> typed::StepObserver<f64, D> for Coordinates {
     }
 }
 
-/// The coordinates of a run, and of a loop of single steps from its start.
+/// Coordinates of a run, and of a loop of single steps from the same start.
 fn both<const D: usize>(name: &str, formulation: &str) -> [Vec<(f64, Vec<u64>)>; 2] {
     let scene = crate::common::scene(name);
     let formulation = Some(formulation.to_owned());

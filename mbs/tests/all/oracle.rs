@@ -1,4 +1,4 @@
-//! The cross-formulation oracle on every scene of the repository.
+//! Comparison of all formulations on every scene of the repository.
 
 use crate::common;
 use crate::retell;
@@ -9,7 +9,7 @@ use crate::common::oracle::{
 };
 use mbs::core::scene::{BodyId, Output, Quantity, Scene};
 
-/// Step and span of a scene: the step resolves its motion, and the span ends before chaos has made rounding large.
+/// Step and length of a scene's run [s]. The step resolves the motion, and the run ends before chaos has enlarged rounding errors.
 fn span(name: &str) -> (f64, f64) {
     match name {
         "andrews" => (1e-5, 0.01),
@@ -21,11 +21,11 @@ fn span(name: &str) -> (f64, f64) {
     }
 }
 
-/// Pairs that end in a typed error, by its code: what the formulation cannot do, and says.
+/// Pairs of scene and formulation that end in an error, by its code: the formulation does not support the scene.
 const REFUSED: [(&str, &str, &[&str]); 2] = [
-    // Redundant rows have no unique multipliers.
+    // redundant rows have no unique multipliers
     ("spatial-four-bar", "classical", &["rank-lost"]),
-    // Coordinates that are independent are as many as velocities.
+    // independent coordinates and velocities must have the same number
     ("rolling-disc", "state-space", &["velocity-rows"]),
 ];
 
@@ -56,7 +56,7 @@ fn fault(
         (Ok(told), _) => {
             let (ratio, component) = disagreement(reference, &told);
             println!("{name:<20} {:<12} {:<12} {ratio:.2}", method.0, method.1);
-            // A refusal that does not come must at least be no silent wrong answer.
+            // a formulation that does not refuse the scene must compute the right motion
             (!(ratio <= 1.0)).then(|| {
                 format!(
                     "{name} {method:?}: {ratio:.2} times what is allowed, component {component}"
@@ -106,8 +106,8 @@ fn the_redundant_spatial_four_bar_moves_like_the_planar_one_or_is_refused() {
                 worst = worst.max(apart);
             }
         }
-        // In natural coordinates both integrate in the metric of the mass, which is the same, and only rounding differs. Trees
-        // cut another joint, and errors depend on that: each run has its own.
+        // in natural coordinates both scenes are integrated in the same mass metric and differ by rounding only; trees cut another joint, so
+        // each run has its own error
         let own = rows_with_errors(&planar, method, (1e-3, 1.0))
             .map_or(0.0, |told| told.errors.into_iter().fold(0.0, f64::max));
         let allowed = if method.0 == "recursive" { (2.0 * own).max(1e-9) } else { 1e-9 };

@@ -8,16 +8,16 @@ use mbs::inside::turning_point;
 use mbs::record::Provenance;
 use mbs::{Method, Search, StaticEquilibrium};
 
-/// Difference from the weight at an equilibrium, relative [-]: its residual is below 1e-12.
+/// Relative difference from the weight at an equilibrium, whose residual is below 1e-12 [-].
 const SAME: f64 = 1e-9;
-/// Difference of two ways to add the same products, relative [-].
+/// Relative difference of the same sum in two orders [-].
 const ROUNDING: f64 = 1e-9;
 /// Gravity of the scenes [m/s^2].
 const GRAVITY: f64 = 9.81;
-/// Speed below which slip is regularised [m/s]: that of the law.
+/// Speed below which the tire law regularises slip [m/s].
 const STANDSTILL: f64 = 0.1;
 
-/// The effects that stand on the road.
+/// Effects that are tires on the road.
 fn tires(scene: &Scene<f64>) -> Vec<EffectId> {
     let effects = scene.effects.iter().enumerate();
     let tires = effects.filter(|(_, effect)| effect.kind.row().needs_road);
@@ -87,7 +87,7 @@ fn a_column_of_magnitudes_is_the_root_of_the_sum_of_squares_of_its_components() 
         turning_point(of(&|i| rows[i].0), of(&|i| rows[i].1[6]))
     });
     largest = peaks.map(|(_, peak)| peak).fold(largest, f64::max);
-    // the statistics have each magnitude once
+    // the statistics have each magnitude only once
     let stats = &outcome.record(Provenance::default()).channels[0].stats;
     assert_eq!(stats.len(), 8);
     assert!((stats[6].of.max - largest).abs() <= ROUNDING * largest, "{stats:?}");
@@ -137,7 +137,7 @@ fn forces_of_a_tire_are_the_parts_of_its_wrench_and_its_slip_is_that_of_its_cont
         let (force, moment) = (three(0), three(3));
         let [load, side, along_force, aligning, slip] = [row[6], row[7], row[8], row[9], row[10]];
         let [contact, hub, velocity, spin] = [three(11), three(14), three(17), three(20)];
-        // the second column of the rotation: the axis, which is y in the reference configuration
+        // the second column of the rotation matrix is the axis, which is y in the reference configuration
         let axis = [row[24], row[27], row[30]];
         let normal = [0.0, 0.0, 1.0];
         let width = axis[0].hypot(axis[1]);
@@ -153,7 +153,7 @@ fn forces_of_a_tire_are_the_parts_of_its_wrench_and_its_slip_is_that_of_its_cont
         close(along_force, dot(force, along), load, "longitudinal force");
         let side_moment = cross(arm, [side * across[0], side * across[1], 0.0]);
         close(aligning + side_moment[2], moment[2], load, "aligning torque");
-        // the lowest point of the disc is on its plane, and below the road by its deflection
+        // the lowest point of the disc is in its plane, and below the road by the deflection
         close(dot(arm, axis), 0.0, 1.0, "plane");
         let at_contact: Vector = core::array::from_fn(|i| velocity[i] + cross(spin, arm)[i]);
         let effective = dot(velocity, along).hypot(STANDSTILL);
@@ -164,7 +164,7 @@ fn forces_of_a_tire_are_the_parts_of_its_wrench_and_its_slip_is_that_of_its_cont
     assert!(most_side > 100.0 && most_slip > 1e-3, "{most_side} N, {most_slip} rad");
 }
 
-/// The body of a tire, and its centre.
+/// Body of a tire, and the centre of the wheel.
 fn wheel(scene: &Scene<f64>, effect: EffectId) -> (BodyId, Vector) {
     let (mut body, mut center) = (None, None);
     for value in scene.effects[effect.index()].kind.values() {
@@ -179,7 +179,7 @@ fn wheel(scene: &Scene<f64>, effect: EffectId) -> (BodyId, Vector) {
 
 #[test]
 fn the_invariant_error_is_that_of_the_summary_to_the_bit() {
-    // fixed steps without losses, dampers and inputs on a road, controlled steps
+    // three cases: fixed steps without losses; dampers and inputs on a road; controlled steps
     let controlled = Method { step_control: Some("error".to_owned()), ..Method::default() };
     for (name, method) in [
         ("double-pendulum", Method::default()),
@@ -196,7 +196,7 @@ fn the_invariant_error_is_that_of_the_summary_to_the_bit() {
         assert_eq!(stats.end.abs().to_bits(), energy.final_error.to_bits(), "{name}");
         assert!(energy.max_error > 0.0, "{name}");
         if name == "double-pendulum" {
-            // nothing takes or gives energy there: it is what the energy has changed by
+            // no part takes or gives energy here: the error is the change of the energy
             let rows = outcome.rows();
             let size = rows.iter().map(|(_, row)| row[1].abs()).fold(1.0, f64::max);
             for (t, row) in rows {

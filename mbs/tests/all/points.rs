@@ -1,4 +1,5 @@
-//! Point masses against elliptic integrals, closed forms and equations of motion apart, in every formulation, in the plane and in space.
+//! Point masses against elliptic integrals, closed forms and independent equations of motion, in every formulation, in the plane and in
+//! space.
 
 mod closed_forms;
 mod motions;
@@ -8,7 +9,7 @@ use crate::common::oracle::{self, Rows, TRAPEZOIDAL, Way, last};
 
 const GRAVITY: f64 = 9.81;
 
-/// A run of a scene.
+/// Rows of a run of a scene.
 fn run(text: &str, way: Way, step: f64, duration: f64) -> Rows {
     oracle::run(text, way, (step, duration))
 }
@@ -41,7 +42,7 @@ fn velocity(body: &str, at: &[f64], v: &[f64]) -> String {
     format!("[[initial]]\nbody = \"{body}\"\nat = {at}\nvelocity = {v}\n")
 }
 
-/// An output of a body's point.
+/// Text of an output of a body's point.
 fn output(body: &str, at: &[f64], quantity: &str) -> String {
     let at = list(at);
     format!(
@@ -49,13 +50,13 @@ fn output(body: &str, at: &[f64], quantity: &str) -> String {
     )
 }
 
-/// The largest difference of the first numbers of the last row from those that they should be.
+/// Largest difference of the first numbers of the last row from the expected ones.
 fn apart(rows: &Rows, right: &[f64]) -> f64 {
     last(rows).iter().zip(right).fold(0.0, |a, (x, y)| a.max((x - y).abs()))
 }
 
-/// Ends at the right values: a method of high order to `digits`, the trapezoidal rule with an error that falls with the square of the
-/// step and is at most `error` at it.
+/// Asserts the values at the end. A method of high order has an error of `digits`. The trapezoidal rule has an error of at most `error` at
+/// `step`, which falls with the square of the step.
 fn check(text: &str, duration: f64, (step, error): (f64, f64), (right, digits): (&[f64], f64)) {
     let exact = apart(&run(text, Way("recursive", "rk853"), step, duration), right);
     assert!(exact < digits, "rk853: {exact:e}");
@@ -70,7 +71,7 @@ fn check(text: &str, duration: f64, (step, error): (f64, f64), (right, digits): 
     }
 }
 
-/// The classical method of fourth order, `n` steps.
+/// Classical Runge-Kutta method of fourth order, with `n` steps.
 fn rk4<const N: usize>(
     slope: impl Fn(&[f64; N]) -> [f64; N],
     start: [f64; N],

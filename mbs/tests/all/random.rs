@@ -1,4 +1,4 @@
-//! The oracle on random trees and random closed loops, as they are, turned as a whole, and told in another order.
+//! Comparison of formulations on random trees and random closed loops: as generated, rotated as a whole, and in another order.
 
 use crate::common::random;
 use crate::retell;
@@ -10,10 +10,10 @@ use mbs::core::scene::{Dimension, Motion, Scene};
 use mbs::typed::Simulation;
 use mbs::{Method, ResolvedMethod};
 
-/// Step and span [s]: at some metres and radians per second a step is a hundredth of what moves.
+/// Step and length of the runs [s]. At some metres and radians per second, a step is a hundredth of the motion.
 const SPAN: (f64, f64) = (1e-3, 0.2);
-/// How far the same mechanism told in another way may be off, in metres and radians: rounding of a start assembled to 1e-11
-/// of its length, grown by a fifth of a second of motion.
+/// How far two descriptions of one mechanism may differ [m, rad]: the rounding of a start assembled to 1e-11 of its length, which grows over
+/// a fifth of a second.
 const RETOLD: f64 = 1e-8;
 
 fn agree(scene: &Scene<f64>) {
@@ -29,7 +29,7 @@ fn agree(scene: &Scene<f64>) {
     for method in &methods()[1..] {
         let told = match rows_with_errors(&scene, *method, SPAN) {
             Ok(told) => told,
-            // Redundant rows have no unique multipliers, and random loops have some by chance.
+            // redundant rows have no unique multipliers, and random loops have some by chance
             Err(e) if method.0 == "classical" && e.code() == "rank-lost" => {
                 assert!(redundant(&scene) > 0, "{}: {e}, and no row is redundant", scene.name);
                 continue;
@@ -82,7 +82,7 @@ fn formulations_agree_on_random_loops_with_a_guided_joint() {
     for (dimension, n) in [(Dimension::Planar, 8), (Dimension::Spatial, 6)] {
         for seed in 1..=6 {
             let mut scene = random::guided(random::sound(seed, dimension, n), seed, 2);
-            // From the reference configuration: another value may be out of reach.
+            // guides begin in the reference configuration, since other values may be out of reach
             scene.guides.truncate(1);
             for guide in &mut scene.guides {
                 guide.law = Motion::Sine { amplitude: 0.2, frequency: 1.0, phase: 0.0 };
@@ -94,7 +94,7 @@ fn formulations_agree_on_random_loops_with_a_guided_joint() {
     assert!(n_guided >= 10, "{n_guided}");
 }
 
-/// Constraints that follow from others.
+/// Number of constraints that depend on others.
 fn redundant(scene: &Scene<f64>) -> usize {
     let settings = ResolvedMethod::new(scene, &Method::default()).expect("the defaults are built");
     let [_, rows, rank] = match scene.dimension {
@@ -131,7 +131,7 @@ fn formulations_agree_on_random_spatial_loops() {
     (1..=6).for_each(|seed| agree(&random::loops(seed, Dimension::Spatial, 6, 2)));
 }
 
-/// Positions of all centres, of a scene and of the same retold with bodies renumbered by `body` and places moved by `turn`.
+/// Positions of all centres, of a scene and of another description of it. Bodies are renumbered by `body`, positions rotated by `turn`.
 fn described_apart(
     (scene, other): (&Scene<f64>, &Scene<f64>),
     body: impl Fn(usize) -> usize,

@@ -1,4 +1,4 @@
-//! Readings of a simulation between steps, in every formulation, against what they must be by definition.
+//! Readings of a simulation between steps in every formulation, against their definitions.
 
 use core::f64::consts::PI;
 use mbs::{
@@ -7,7 +7,7 @@ use mbs::{
 };
 use mbs_testkit::apart;
 
-/// A simulation in each formulation, by steps of this length [s].
+/// Makes a simulation in each formulation, with steps of this length [s].
 fn simulations(m: &Mechanism, step: f64) -> impl Iterator<Item = (&'static str, Simulation)> {
     FormulationKind::listed().map(move |kind| {
         let simulation = m.simulate(&Method::new(kind).step(step));
@@ -15,7 +15,7 @@ fn simulations(m: &Mechanism, step: f64) -> impl Iterator<Item = (&'static str, 
     })
 }
 
-/// A body that turns about its centre on an axis along no other one, with a rate [rad/s].
+/// Mechanism of a body that rotates about its centre on an oblique axis, with a rate [rad/s].
 fn rotor(axis: [f64; 3], rate: f64) -> (Mechanism, BodyId) {
     let mut m = Mechanism::spatial("rotor");
     let inertia = [0.3, 0.4, 0.5, 0.02, 0.01, -0.03];
@@ -25,7 +25,7 @@ fn rotor(axis: [f64; 3], rate: f64) -> (Mechanism, BodyId) {
     (m, body)
 }
 
-/// Two bodies that swing and turn over, in the plane or in space.
+/// Mechanism of two bodies that swing and turn over, in the plane or in space.
 fn swinging(is_planar: bool) -> (Mechanism, [BodyId; 2]) {
     if is_planar {
         let mut m = Mechanism::planar("two bars");
@@ -57,14 +57,14 @@ fn a_rotor_on_a_skew_axis_keeps_its_angular_velocity_along_it_in_every_formulati
     for (name, mut sim) in simulations(&m, 1e-3) {
         sim.advance_to(0.3).expect("it turns");
         for (found, axis) in sim.output(spin).expect("finite").iter().zip(axis) {
-            // the axis has length 3; trapezoidal steps of 7 mrad change the rate by less than its square, and steps that are controlled
-            // by their tolerance
+            // the axis has length 3; trapezoidal steps of 7 mrad change the rate by less than its square, and controlled steps by their
+            // tolerance
             assert!((found - rate * axis / 3.0).abs() < 1e-4, "{name}: {found}");
         }
     }
 }
 
-/// The rotation vector's rate from three rotations: of R(t + h) R(t - h)', divided by 2 h.
+/// Rate of the rotation vector from two rotations: that of R(t + h) R(t - h)', divided by 2 h.
 fn turning(before: [[f64; 3]; 3], after: [[f64; 3]; 3], h: f64) -> [f64; 3] {
     let entry = |i: usize, j: usize| (0..3).map(|k| after[i][k] * before[j][k]).sum::<f64>();
     [[2, 1], [0, 2], [1, 0]].map(|[i, j]| (entry(i, j) - entry(j, i)) / (4.0 * h))
@@ -87,7 +87,7 @@ fn angular_velocity_is_the_difference_of_rotations_in_every_formulation() {
                 let right = turning(before, after, h);
                 assert_eq!(found.len(), if is_planar { 1 } else { 3 }, "{name}");
                 for (found, right) in found.iter().rev().zip(right.iter().rev()) {
-                    // h^2/6 times third derivatives of a motion at 3 rad/s and 100 rad/s^2
+                    // error h^2/6 times third derivatives, of a motion at 3 rad/s and 100 rad/s^2
                     assert!((found - right).abs() < 1e-5, "{name}: {found} is not {right}");
                 }
             }
@@ -134,7 +134,7 @@ fn what_effects_exert_is_the_mass_times_the_acceleration_in_every_formulation() 
                 mass * motion.acceleration[i] - force[i],
                 inertia * motion.angular_acceleration[i] - moment[i],
             ];
-            // Newton's method ends where forces of 20 N are off by less than a part in ten thousand
+            // Newton's method ends when the residual of forces of 20 N is below a relative 1e-4
             assert!(off.iter().all(|x| x.abs() < 2e-3), "{name}: {off:?}");
         }
     }
@@ -149,7 +149,7 @@ fn an_effect_on_a_joint_exerts_its_moment_on_the_second_body() {
     let sim = m.simulate(&Method::default()).expect("it is built");
     let exerted = sim.effect_force(motor).expect("it is there");
     assert!(apart(&exerted.moment, &[0.0, 0.0, 3.0]) < 1e-12, "{exerted:?}");
-    // the bar takes the opposite: 3 N m over m l^2/3
+    // the opposite torque acts on the bar: 3 N m over m l^2/3
     let angular = sim.motion(bar).angular_acceleration[2];
     assert!((angular + 9.0).abs() < 1e-9, "{angular}");
 }
@@ -162,7 +162,7 @@ fn contacts_are_listed_from_the_first_call_on_and_until_the_state_is_another() {
     let body = m.add(Body::planar([0.0, 0.0], mass, 0.1));
     let slide = m.add(Joint::prismatic([GROUND, body], [0.0, 0.0]).along([0.0, 1.0]));
     let stop = m.add(Effect::limit(slide, [-fall, 1.0], stiffness, 0.0));
-    // depth: g/w^2 (1 - cos w t) + v/w sin w t, zero again at tan(w t/2) = -v w/g
+    // deflection: g/w^2 (1 - cos w t) + v/w sin w t; it is zero again at tan(w t/2) = -v w/g
     let (hit, speed, w) =
         ((2.0 * fall / g).sqrt(), (2.0 * fall * g).sqrt(), (stiffness / mass).sqrt());
     let leave = hit + 2.0 * (core::f64::consts::PI - (speed * w / g).atan()) / w;
@@ -175,7 +175,7 @@ fn contacts_are_listed_from_the_first_call_on_and_until_the_state_is_another() {
             sim.events().map(|event| (event.effect, event.end, event.is_made)).collect();
         assert_eq!(found, [(stop, 0, true), (stop, 0, false)], "{name}");
         for (event, right) in sim.events().zip([hit, leave]) {
-            // the period of steps of 0.1 ms is off by (w h)^2/12, of controlled ones by their tolerance
+            // steps of 0.1 ms change the period by a relative (w h)^2/12, controlled steps by their tolerance
             assert!((event.time - right).abs() < 2e-5, "{name}: {} is not {right}", event.time);
         }
         sim.reset().expect("it starts");
@@ -193,7 +193,7 @@ fn energies_before_the_first_step_and_after_a_return_are_those_of_the_state() {
     let ends = [(GROUND, [0.0, 0.0]), (mass, [0.0, -1.5])];
     m.add(Effect::spring_damper(ends, 40.0, 0.0, 1.0));
     for (name, mut sim) in simulations(&m, 1e-3) {
-        // half a metre too long: 40/2 · 0.5²
+        // the spring is half a metre too long: energy 40/2 · 0.5² J
         let stored = |sim: &Simulation| sim.energies().potential;
         assert!((stored(&sim) - 5.0).abs() < 1e-12, "{name}: {}", stored(&sim));
         let start = sim.save().expect("a snapshot");
@@ -213,7 +213,7 @@ fn single_precision_arrives_at_times_that_it_cannot_write() {
     let mut sim = m.simulate(&method).expect("it starts");
     let mut steps = 0;
     for k in 1..=50_u32 {
-        // tenths are no numbers of f32
+        // single precision cannot represent tenths
         steps += sim.advance_to(f64::from(k) * 0.1).expect("it arrives").steps;
         assert_eq!(sim.advance_to(f64::from(k) * 0.1).expect("it is there").steps, 0);
     }
@@ -230,7 +230,7 @@ fn a_run_starts_from_the_equilibrium_that_was_found_stable_or_not() {
         let rest = equilibrium(&m, &EquilibriumOptions { search }).expect("there are two");
         let mut there = m.clone();
         let sim = there.start_from(&rest).simulate(&Method::default()).expect("it starts");
-        // the search ends where forces are 1e-10 of the weight
+        // the search ends when the residual is 1e-10 of the weight
         let off = (sim.value(pivot) - angle).rem_euclid(2.0 * PI);
         assert!(off.min(2.0 * PI - off) < 1e-8, "{search:?}: {}", sim.value(pivot));
         let again = Mechanism::parse(&there.to_toml().expect("data")).expect("a scene");

@@ -1,5 +1,5 @@
-//! Runs at the pace of a clock: what they compute, and what a change of level does to the state. No test asserts how long anything
-//! takes: clocks here are told what time it is.
+//! Runs that are synchronised with a clock: their results, and the state after a change of level. No test asserts a real time, because the
+//! test sets its clocks.
 
 mod document;
 
@@ -14,12 +14,12 @@ use mbs::{
 use std::cell::Cell;
 use std::time::Duration;
 
-/// A clock that stands still but where it is waited for. Sleepers may wake late once. It notes the allocations between its first
-/// and its last reading.
+/// Clock that advances only while a run waits for it. One sleep may be too long. The clock records the allocations between its first and last
+/// reading.
 #[derive(Default)]
 struct ScriptedClock {
     time: Cell<Duration>,
-    /// The sleep, counted from 1, that is too long, and by how much.
+    /// Number of the sleep that is too long, from 1, and the excess.
     oversleeps: Option<(u32, Duration)>,
     sleeps: u32,
     allocations: Cell<Option<[u64; 2]>>,
@@ -50,7 +50,7 @@ fn document(name: &str) -> SceneFile {
     SceneFile::from_bytes(&bytes, name).expect("a document")
 }
 
-/// A run on a clock that is told.
+/// Runs a scene with pacing, on a clock that the test sets.
 fn paced(
     document: &SceneFile,
     overrides: &Method,
@@ -64,7 +64,7 @@ fn paced(
         .map_err(|error| error.cause::<PacingError>().expect("a refusal of the pace").clone())
 }
 
-/// A run that has no pace.
+/// Runs a scene without pacing.
 fn plain(document: &SceneFile, overrides: &Method) -> Outcome {
     let mechanism = Mechanism::of_file(document.clone()).expect("a scene");
     let run = mbs::run(&mechanism, &Run::new().method(overrides.clone()));
@@ -90,7 +90,7 @@ fn pacing_changes_no_bit_of_the_results() {
         ("rssr", "recursive"),
     ] {
         let document = document(name);
-        // Not a multiple: the last period is shorter.
+        // the duration is no multiple of the period, so the last period is shorter
         let step = document.scene::<f64>().expect("a scene").duration / 2000.5;
         let overrides = Method { duration: None, ..asked(formulation, step, 1.0) };
         let plain = plain(&document, &overrides);
@@ -111,12 +111,12 @@ fn a_period_of_several_steps_has_the_results_of_these_steps() {
     let pacing = Pacing { period: Some(5e-3), ..Pacing::default() };
     let run = paced(&document, &fine, &pacing, &mut ScriptedClock::default()).expect("it is paced");
     assert_eq!((run.rows().len(), run.summary.steps), (101, 500));
-    // 5e-3 / 5 is not 1e-3 to the last bit; this motion is not chaotic yet.
+    // 5e-3 / 5 is not exactly 1e-3, but this motion is not chaotic yet
     for ((t, a), (u, b)) in run.rows().iter().zip(plain.rows().iter().step_by(5)) {
         assert!((t - u).abs() < 1e-12);
         assert!(a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-11), "{t}: {a:?} {b:?}");
     }
-    // Lengths of steps may be controlled: each period ends exactly where it should.
+    // with controlled steps, each period must end exactly at its time
     let controlled =
         Method { error_tolerance: Some(1e-6), step_max: Some(0.05), ..asked("index-3", 1e-3, 0.5) };
     let run =
@@ -125,12 +125,12 @@ fn a_period_of_several_steps_has_the_results_of_these_steps() {
     for (k, (t, row)) in run.rows().iter().enumerate() {
         assert!((t - k as f64 * 5e-3).abs() < 1e-12, "{t}");
         let near = &plain.rows()[5 * k].1;
-        // Both are within some 1e-5 m of the motion.
+        // both runs have errors of about 1e-5 m
         assert!(row.iter().zip(near).all(|(a, b)| (a - b).abs() < 1e-4), "{t}");
     }
 }
 
-/// A mass on a rail between a spring and a damper, in motion.
+/// Scene of a mass that moves on a rail between a spring and a damper.
 const SLIDER: &str = r#"
 [scene]
 dimension = 2
@@ -182,7 +182,7 @@ fn slide(formulation: &str, is_on: bool) -> Simulation<f64, 2> {
     Simulation::new(&scene, &settings).expect("it starts")
 }
 
-/// Place, speed and acceleration along the rail.
+/// Position, velocity and acceleration along the rail.
 fn motion(simulation: &Simulation<f64, 2>) -> [f64; 3] {
     use mbs::core::scene::BodyId;
     let point = simulation.model().point(BodyId::Body(0), [0.0; 3]);
@@ -206,17 +206,17 @@ fn a_spring_that_is_taken_away_leaves_a_mass_that_moves_on_evenly_and_one_that_c
         for _ in 0..200 {
             less.step(1e-3).expect("a regular step");
         }
-        // Even motion is exact in every rule, to rounding of 200 steps; half a step under the old force would be 1e-2 m off.
+        // uniform motion is exact in every rule, to the rounding of 200 steps; half a step with the old force would give an error of 1e-2 m
         let [x_less, v_less, a_less] = motion(&less);
         assert!((x_less - x - 0.2 * v).abs() < 1e-11, "{formulation}: {x_less}");
         assert!((v_less - v).abs() < 1e-11 && a_less.abs() < 1e-8, "{formulation}");
         assert!((less.state().t - 0.3).abs() < 1e-12);
-        // What the spring held is booked as work: the invariant goes on.
+        // the energy of the removed spring counts as work, so the invariant continues without a jump
         assert!((less.invariant().error() - invariant).abs() < 1e-10, "{formulation}");
         full.take_over(&less).expect("it comes back");
         let [x, _, a] = motion(&full);
         assert!((x - x_less).abs() < 1e-14 && (a + 150.0 * x).abs() < 1e-8, "{formulation}: {a}");
-        // The trapezoidal rule keeps energies of a linear motion.
+        // the trapezoidal rule conserves the energy of a linear motion
         for _ in 0..200 {
             full.step(1e-3).expect("a regular step");
         }
@@ -245,12 +245,13 @@ fn a_state_taken_over_with_the_same_effects_continues_as_if_it_had_stayed() {
             stayed.step(1e-3).expect("a regular step");
         }
         let apart = one.state().q.iter().zip(&stayed.state().q).map(|(a, b)| (a - b).abs());
-        // Accelerations are made anew to the tolerance of an iteration, 1e-10 of what they move in a step.
+        // accelerations are solved for again, with a tolerance of 1e-10 of their displacement in a step
         assert!(apart.fold(0.0, common::worst) < 1e-9, "{name} {formulation}");
     }
 }
 
-/// Degraded by a single sleep that is fifty periods too long: late in a row for longer than the patience.
+/// Runs a scene with pacing, on a clock with one sleep of fifty periods too much. The run is then late in a row for longer than its limit,
+/// and degrades.
 fn degraded(document: &SceneFile, overrides: &Method, words: &[&str]) -> (Outcome, ScriptedClock) {
     let pacing = Pacing {
         overrun: Overrun::Degrade,
@@ -267,13 +268,13 @@ fn degraded(document: &SceneFile, overrides: &Method, words: &[&str]) -> (Outcom
 
 #[test]
 fn degraded_periods_are_marked_in_rows_log_and_notes_and_the_full_scene_comes_back() {
-    // Lengths of multi-index are controlled: its steps are made no longer.
+    // multi-index controls its steps, so degradation does not lengthen them
     for formulation in ["index-3", "index-1", "recursive"] {
         let overrides = asked(formulation, 1e-3, 2.0);
         let (run, _) = degraded(&slider(), &overrides, &["steps", "spring"]);
         assert!(run.summary.completed, "{formulation}");
         let realtime = run.summary.realtime.clone().expect("it was paced");
-        // Sleep 100 is before period 101, which is the first late one; down after eleven in a row, twice.
+        // sleep 100 is before period 101, the first late one; the level changes after eleven late periods in a row, twice
         let log: Vec<_> = realtime
             .log
             .iter()
@@ -299,12 +300,12 @@ fn degraded_periods_are_marked_in_rows_log_and_notes_and_the_full_scene_comes_ba
         assert_eq!(realtime.levels[2].without, ["spring"]);
         assert!((realtime.levels[2].step_times - 2.0).abs() < 1e-15);
         assert!(run.notes().iter().any(|note| note.contains("were degraded")));
-        // Even motion while the spring is off, and its energy is booked: the invariant has no jump.
+        // the motion is uniform while the spring is off, and its energy counts as work: the invariant has no jump
         let place = |k: u64| run.rows()[k as usize].1[0];
         let even = (place(up) - place(up - 5)) - (place(up - 5) - place(up - 10));
         assert!(even.abs() < 1e-10, "{formulation}: {even}");
         assert!(run.summary.energy.max_error < 1e-7, "{formulation}: {:?}", run.summary.energy);
-        // The rail carries the weight alone, along the whole way: no force of a spring that is not there.
+        // the rail carries the weight only, all the time: the removed spring exerts no force
         for (t, row) in run.rows() {
             let [along, across] = [row[1], row[2]];
             assert!(along.abs() < 1e-6 && (across.abs() - 19.62).abs() < 1e-6, "{t}: {row:?}");
@@ -343,7 +344,7 @@ fn a_ladder_by_measurement_has_levels_that_were_measured() {
     let overrides = asked("index-3", 1e-3, 0.4);
     let run = match paced(&document, &overrides, &pacing, &mut ScriptedClock::default()) {
         Ok(run) => run,
-        // A machine may be so busy that half the work cannot be told from all of it.
+        // on a busy machine, the times of half the work and of all work may not differ
         Err(error) => return assert_eq!(error, PacingError::NoLadder),
     };
     let realtime = run.summary.realtime.expect("it was paced");
@@ -374,7 +375,7 @@ fn what_cannot_be_left_out_while_a_scene_runs_is_refused() {
         assert_eq!(found, fixed(SwitchError::Formulation), "{formulation}");
         assert_eq!(refused(&slider(), formulation, &["steps"], 4e-3), None, "{formulation}");
     }
-    // A torsion spring counts turns: while it was gone nobody would.
+    // a torsion spring counts revolutions, which is not possible while it is off
     let text = SLIDER
         .replace("kind = \"prismatic\"", "kind = \"revolute\"")
         .replace("axis = [1.0, 0.0]\n", "")
@@ -402,7 +403,7 @@ fn what_cannot_be_left_out_while_a_scene_runs_is_refused() {
 
 #[test]
 fn a_run_that_stops_keeps_its_rows_and_its_measures() {
-    // State space ends where the four-bar is singular, at 3.14 s.
+    // the state-space formulation stops at the singular position of the four-bar linkage, at 3.14 s
     let run = paced(
         &document("four-bar"),
         &Method { duration: None, ..asked("state-space", 1e-3, 0.0) },

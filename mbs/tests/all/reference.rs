@@ -9,7 +9,7 @@ use crate::common;
 
 use crate::common::{Bench, FORMULATIONS, distance, steps, worst};
 
-/// Errors at a step and at half of it have this ratio in a method of order 2; higher orders of the step make the rest.
+/// Ratio of the errors at a step and at half of it in a method of order 2. Terms of higher order explain the difference from 4.
 const SECOND_ORDER: core::ops::Range<f64> = 3.7..4.3;
 
 /// Asserts that errors fall by 4 with each halving.
@@ -43,13 +43,13 @@ fn errors_at<const N: usize>(
     errors
 }
 
-/// Extrapolation with 34 digits, two settings agree (benchmarks, section 6).
+/// Position of the double pendulum's tip by extrapolation with 34 digits; two settings agree (benchmarks, section 6).
 const DOUBLE_PENDULUM_TIP: [(f64, [f64; 2]); 3] = [
     (1.0, [-1.662_115_135_816_127_6, -1.041_466_637_193_224_7]),
     (2.0, [0.313_524_776_450_181_57, -1.914_746_617_562_305_2]),
     (3.0, [1.330_436_825_144_049_1, -1.398_644_860_519_204]),
 ];
-/// Error constants of the trapezoidal rule there [m/s^2]: error = c dt^2, with a tenth of room.
+/// Error constants c of the trapezoidal rule at these times [m/s^2]: error = c dt^2, with a margin of a tenth.
 const DOUBLE_PENDULUM_LEVEL: [f64; 3] = [10.5, 128.0, 157.0];
 
 #[test]
@@ -76,7 +76,7 @@ fn double_pendulum_tip_converges_with_order_2_to_the_reference() {
     }
 }
 
-/// Jacobi elliptic functions, 18 digits (benchmarks, section 2).
+/// Position of the pendulum by Jacobi elliptic functions, with 18 digits (benchmarks, section 2).
 const PENDULUM: [(f64, [f64; 2]); 4] = [
     (1.0, [0.986_291_751_131_875_3, -0.165_010_853_125_541_17]),
     (2.0, [-0.793_566_195_343_321_7, -0.608_483_930_443_791_5]),
@@ -103,15 +103,15 @@ fn simple_pendulum_follows_the_elliptic_functions_with_order_2() {
     }
 }
 
-/// Elliptic functions, 20 digits (benchmarks, section 3).
+/// Position of the crank's end by elliptic functions, with 20 digits (benchmarks, section 3).
 const CRANK_END: [(f64, [f64; 2]); 1] =
     [(10.0, [0.328_458_111_540_815_4, 0.944_518_538_178_600_9])];
 
-/// Steps down to which the order is followed [s].
+/// Steps over which the order is observed [s].
 const CRANK_END_STEPS: [f64; 8] = [2e-3, 1e-3, 5e-4, 2e-4, 1e-4, 5e-5, 2e-5, 1e-5];
-/// Error constant of the trapezoidal rule there [m/s^2]: 38 in the limit, 57 at 2e-3.
+/// Error constant of the trapezoidal rule at this time [m/s^2]: 38 in the limit, 57 at 2e-3 s.
 const CRANK_END_LEVEL: f64 = 60.0;
-/// How far the order over a decade of steps may be from 2: the terms of higher order at its coarse end.
+/// How far the order over a decade of steps may differ from 2 [-]: terms of higher order matter at the largest steps.
 const CRANK_END_ORDER: f64 = 0.1;
 
 #[test]
@@ -124,7 +124,7 @@ fn two_four_bars_crank_end_converges_with_order_2_to_the_exact_row_down_to_1e_5(
         println!("two-four-bars dt {step:e}: {error:.3e} m, error / dt^2 = {level:.2}");
         assert!(level <= CRANK_END_LEVEL, "{step:e}: {level}");
     }
-    // At 1e-3 terms of higher order still add a fifth; at 1e-4 halving gives a quarter.
+    // at 1e-3 s terms of higher order add a fifth; at 1e-4 s the error falls to a quarter at half the step
     assert_second_order("two-four-bars", &errors[4..6]);
     for (i, j) in [(1, 4), (4, 7)] {
         let order =
@@ -134,7 +134,7 @@ fn two_four_bars_crank_end_converges_with_order_2_to_the_exact_row_down_to_1e_5(
     }
 }
 
-/// One and forty four-bars: elliptic functions, 20 digits (benchmarks, section 3).
+/// Positions of one and of forty four-bar linkages by elliptic functions, with 20 digits (benchmarks, section 3).
 const ROWS_OF_FOUR_BARS: [(&str, (f64, [f64; 2])); 2] = [
     ("four-bar", (10.0, [0.478_385_057_760_970_56, 0.878_150_178_791_209_3])),
     ("n-four-bar-40", (10.0, [0.180_512_226_686_728_39, 0.983_572_740_582_311_6])),
@@ -154,11 +154,11 @@ fn rows_of_four_bars_end_at_their_exact_places_with_order_2() {
     }
 }
 
-/// The rocker's angle of the scene rssr from its crank's, on the branch of the start.
+/// Angle of the rocker in the scene rssr from its crank's angle, on the branch of the start.
 fn rocker(crank: f64) -> f64 {
     let (s, c) = crank.sin_cos();
-    // (0.4 + 0.5 cos b)^2 + (0.5 sin b - 0.15 c)^2 = 1.0425 - (0.7 - 0.15 s)^2:
-    // 0.4 cos b - 0.15 c sin b = rest
+    // closing equation with the rocker's angle b and c, s of the crank: (0.4 + 0.5 cos b)^2 + (0.5 sin b - 0.15 c)^2 = 1.0425 - (0.7 - 0.15
+    // s)^2; so 0.4 cos b - 0.15 c sin b = rest
     let rest = 1.0425 - (0.7 - 0.15 * s).powi(2) - 0.16 - 0.25 - 0.0225 * c * c;
     let (x, y) = (0.4, -0.15 * c);
     y.atan2(x) + (rest / x.hypot(y)).acos() - 0.4_f64.atan2(0.3)
@@ -203,14 +203,15 @@ fn four_bar(t: f64) -> [Motion; 2] {
         [-0.3 * rate * s, 0.3 * rate * c],
         [-0.3 * rate * rate * c, -0.3 * rate * rate * s],
     ];
-    // B is where the circle of the coupler about A meets that of the rocker about its pivot D, on the left of A to D.
+    // B is where the coupler's circle about A meets the rocker's circle about its pivot D; of two points, the one left of the line from A to
+    // D
     let (coupler2, rocker2, pivot) = (0.58624_f64, 0.36, [0.7, 0.0]);
     let d = minus(pivot, a[0]);
     let d2 = dot(d, d);
     let along = (coupler2 - rocker2 + d2) / (2.0 * d2);
     let across = (coupler2 / d2 - along * along).sqrt();
     let b = [a[0][0] + along * d[0] - across * d[1], a[0][1] + along * d[1] + across * d[0]];
-    // The lengths are constant: (B - A) . (B - A)' = 0 and (B - D) . B' = 0, and once more.
+    // the lengths are constant: (B - A) . (B - A)' = 0 and (B - D) . B' = 0, and their derivatives
     let (r, p) = (minus(b, a[0]), minus(b, pivot));
     let solve = |x: f64, y: f64| {
         let det = r[0] * p[1] - r[1] * p[0];
@@ -222,15 +223,15 @@ fn four_bar(t: f64) -> [Motion; 2] {
     [a, [b, v, acceleration]]
 }
 
-/// d(T + V)/dt of a uniform rod between two moving points [W].
+/// Rate of the kinetic and potential energy d(T + V)/dt of a uniform rod between two moving points [W].
 fn rod_power(mass: f64, x: &Motion, y: &Motion) -> f64 {
     let kinetic = 2.0 * dot(x[1], x[2]) + dot(x[1], y[2]) + dot(y[1], x[2]) + 2.0 * dot(y[1], y[2]);
     mass * kinetic / 6.0 + mass * 9.81 * (x[1][1] + y[1][1]) / 2.0
 }
 
-/// Error where everything is determined: positions and velocities are as exact as their projections [m, m/s].
+/// Error of positions and velocities [m, m/s], which the guide determines: the accuracy of their projections.
 const KINEMATICS: f64 = 1e-9;
-/// Accelerations and torque, in shares of 1 + their size: the level of the acceleration projection.
+/// Error of accelerations and torque, relative to 1 + their size [-]: the accuracy of the acceleration projection.
 const DYNAMICS: f64 = 1e-7;
 
 #[test]
@@ -251,7 +252,7 @@ fn guided_four_bar_follows_its_closed_form_kinematics_and_inverse_dynamics() {
                     let size = 1.0 + dot(exact[2], exact[2]).sqrt();
                     off[2] = worst(off[2], distance(b.acceleration(pin), exact[2]) / size);
                 }
-                // Virtual power: torque times crank rate is what kinetic and potential energy gain.
+                // power balance: torque times crank rate is the rate of kinetic and potential energy
                 let power = rod_power(0.4, &fixed([0.0, 0.0]), &crank)
                     + rod_power(1.0, &crank, &rocker)
                     + rod_power(0.8, &fixed([0.7, 0.0]), &rocker);
@@ -283,7 +284,7 @@ fn guided_four_bar_crank_reaction_carries_the_torque_of_inverse_dynamics() {
                 + rod_power(1.0, &crank, &rocker)
                 + rod_power(0.8, &fixed([0.7, 0.0]), &rocker);
             let torque = power / core::f64::consts::PI;
-            // Three angles, then the two forces and the moment of the crank's pivot.
+            // the columns are three angles, then two forces and the moment of the crank's pivot
             off = worst(off, (row[5] - torque).abs() / (1.0 + torque.abs()));
         }
         println!("guided-four-bar {formulation}: moment of the crank reaction {off:.1e}");

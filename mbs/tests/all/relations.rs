@@ -1,4 +1,4 @@
-//! User-defined relations of several measures, against equations of motion written apart, in every formulation.
+//! User-defined relations of several measures, against independent equations of motion, in every formulation.
 
 mod closed_forms;
 mod linkages;
@@ -10,7 +10,7 @@ use mbs::core::scene::{Quantity, Scene};
 use mbs::scene_file::SceneFile;
 use mbs::{Coupling, CouplingId, CouplingMeasure, JointId, Number, Output, Relation};
 
-/// (1 + x)(1 + y), and times 1 + z where there is a third number.
+/// Product (1 + x)(1 + y), times 1 + z if there is a third number.
 #[derive(Debug)]
 struct Product;
 
@@ -34,7 +34,7 @@ impl Relation for Product {
     }
 }
 
-/// (x/a + 1)^2 + (y/b)^2: a bead that is at a vertex in the reference configuration.
+/// Ellipse (x/a + 1)^2 + (y/b)^2, for a bead that is at a vertex in the reference configuration.
 #[derive(Debug)]
 struct Ellipse([f64; 2]);
 
@@ -52,7 +52,7 @@ impl Relation for Ellipse {
     }
 }
 
-/// The sum of its numbers, each with a factor.
+/// Sum of numbers, each with a factor.
 #[derive(Debug)]
 struct Sum(Vec<f64>);
 
@@ -67,7 +67,7 @@ impl Relation for Sum {
     }
 }
 
-/// A scene with a coupling more, named `held`, and its outputs `effort` and `value` behind those of the text.
+/// Scene with a further coupling `held`, whose outputs `effort` and `value` follow those of the text.
 fn scene(text: &str, couplings: impl IntoIterator<Item = Coupling>) -> Scene<f64> {
     with(text, couplings).resolve().unwrap_or_else(|e| panic!("{e}"))
 }
@@ -88,12 +88,12 @@ fn with(text: &str, couplings: impl IntoIterator<Item = Coupling>) -> Scene<Numb
     scene
 }
 
-/// The relation of the first coordinates of joints by number.
+/// Relation of the first coordinates of joints, which are given by number.
 fn of_joints(joints: &[usize], relation: impl Relation + 'static) -> Coupling {
     Coupling::relation(joints.iter().map(|&joint| JointId::new(joint)), relation)
 }
 
-/// Bodies on slides from bodies by name (name, mass, on, direction), each through the origin, in two or three dimensions.
+/// Scene of bodies on slides (name, mass, base, direction), each through the origin, in two or three dimensions. The base is a body by name.
 fn slides(dimension: usize, gravity: [f64; 3], bodies: &[(&str, f64, &str, [f64; 3])]) -> String {
     let vector = |v: [f64; 3]| format!("{:?}", &v[..dimension]);
     let inertia = if dimension == 2 { "0.1" } else { "[0.1, 0.1, 0.1, 0.0, 0.0, 0.0]" };
@@ -127,7 +127,7 @@ fn run(scene: &Scene<f64>, way: Way, step: f64, duration: f64, every: usize) -> 
     rows(scene, way, (step, duration), every).unwrap_or_else(|e| panic!("{way:?}: {e}"))
 }
 
-/// x'' = f(x, x') from (x, x') over a time, by Runge and Kutta's method; with steps of a thousandth what is left is below 1e-11.
+/// Integrates x'' = f(x, x') from (x, x') over a time by the classical Runge-Kutta method. With these steps the error is below 1e-11.
 fn solve(mut x: [f64; 2], time: f64, f: impl Fn([f64; 2]) -> f64) -> [f64; 2] {
     let n = (time * 2e4).ceil();
     let h = time / n;
@@ -143,7 +143,7 @@ fn solve(mut x: [f64; 2], time: f64, f: impl Fn([f64; 2]) -> f64) -> [f64; 2] {
     x
 }
 
-/// Measures of a length and of a joint, of which there may be several.
+/// Measure of a length over points.
 fn line(points: &[(mbs::BodyId, [f64; 3])]) -> CouplingMeasure<Number> {
     CouplingMeasure::line(points.iter().copied())
 }

@@ -1,4 +1,4 @@
-//! Simulations and trees of the same mechanism: states that go from one to the other, accelerations under all effects, rollouts.
+//! Simulations and trees of the same mechanism: exchange of states, accelerations with all effects, rollouts.
 
 use mbs::{
     BodyId, Error as _, FormulationKind, IntegratorKind, Mechanism, Method, Rollout, Simulation,
@@ -6,7 +6,7 @@ use mbs::{
 };
 use mbs_testkit::random::Random;
 
-/// Scenes of every kind: open trees, loops, balls, free bodies, guides, tires, gears, rolling, controllers, ropes.
+/// Scenes of every kind: open trees, loops, ball joints, free bodies, guides, tires, gears, rolling, controllers, ropes.
 const SCENES: [&str; 16] = [
     "andrews",
     "crane",
@@ -25,10 +25,10 @@ const SCENES: [&str; 16] = [
     "six-joint-arm",
     "spinning-top",
 ];
-/// Difference of accelerations, relative to the largest: natural and relative coordinates round apart, and stiff controllers and tires make
-/// forces of that.
+/// Largest difference of accelerations, relative to the largest acceleration [-]. Natural and relative coordinates are rounded differently,
+/// and stiff controllers and tires amplify this.
 const ROUNDED: f64 = 1e-7;
-/// Error of a state after it went through natural coordinates, relative to one: angles come back through arc tangents.
+/// Relative error of a state after conversion to natural coordinates and back [-]. Angles are recovered by arc tangents.
 const RETURNED: f64 = 1e-9;
 
 fn read(name: &str) -> Mechanism {
@@ -36,7 +36,7 @@ fn read(name: &str) -> Mechanism {
     Mechanism::read(path).unwrap_or_else(|error| panic!("{}", error.render()))
 }
 
-/// A simulation a little after its start.
+/// Simulation some steps after its start.
 fn moving(m: &Mechanism, kind: FormulationKind) -> Simulation {
     let method = Method::new(kind).integrator(IntegratorKind::Trapezoidal).step(1e-3);
     let mut simulation = m.simulate(&method).expect("a start");
@@ -54,7 +54,7 @@ fn accelerations_of_a_tree_move_the_bodies_as_those_of_the_simulation_do() {
         let mut tree = m.tree().expect("a tree");
         tree.follow(&simulation).expect("the same mechanism");
         let [q, v] = elsewhere(&mut tree, 5);
-        // a start evaluates the equations in natural coordinates at this very state; what projections leave of a step would not
+        // the new start evaluates the equations in natural coordinates at exactly this state; a step would leave projection errors
         simulation.set_coordinates(&mut tree, &q, &v).expect("a state");
         let a = tree.accelerations().expect("accelerations").to_vec();
         for body in m.ids::<BodyId>() {
@@ -72,7 +72,7 @@ fn accelerations_of_a_tree_move_the_bodies_as_those_of_the_simulation_do() {
     }
 }
 
-/// The positions moved a little, and velocities, that meet the loops.
+/// Slightly changed positions, and velocities, that both satisfy the closed loops.
 fn elsewhere(tree: &mut Tree, seed: u64) -> [Vec<f64>; 2] {
     let n = tree.velocities().len();
     let mut random = Random::new(seed);
@@ -128,7 +128,7 @@ fn turns_of_joints_go_with_a_state() {
     }
 }
 
-/// Rows of q of the same motion by a simulation, step by step.
+/// Rows of the coordinates q of the same motion by a simulation, step by step.
 fn stepped(m: &Mechanism, inputs: &[f64], task: &Rollout<'_>) -> Vec<f64> {
     let method =
         Method::new(FormulationKind::Recursive).integrator(task.integrator).step(task.step);
@@ -184,7 +184,7 @@ fn a_rollout_that_fails_says_when_and_leaves_no_numbers_behind() {
     let mut tree = m.tree().expect("a tree");
     let integrator = IntegratorKind::Rk4;
     let (mut q, mut v) = ([0.0; 2 * 11], [0.0; 2 * 11]);
-    // rates at which squares are infinite
+    // rates whose squares are infinite
     let task = Rollout {
         q: &[0.0; 2],
         v: &[1e200, 0.0],

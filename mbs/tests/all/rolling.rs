@@ -1,4 +1,4 @@
-//! Rolling without slipping, and blades, against closed forms and equations of motion apart, in every formulation that has them.
+//! Rolling without slip, and blades, against closed forms and independent equations of motion, in every formulation that supports them.
 
 mod closed_forms;
 mod contacts;
@@ -7,28 +7,28 @@ mod refusals;
 
 use crate::common::oracle::{self, Rows, Way, last};
 
-/// The formulations that have rows of velocities, with the trapezoidal rule.
+/// Formulations with velocity constraints, by the trapezoidal rule.
 const WAYS: [&str; 4] = ["index-3", "index-1", "classical", "recursive"];
-/// Methods of high order.
+/// Explicit integrators of high order.
 const EXPLICIT: [&str; 2] = ["rk853", "rk4"];
 
 fn run(text: &str, way: Way, step: f64, duration: f64) -> Rows {
     oracle::run(text, way, (step, duration))
 }
 
-/// The components at the end.
+/// Components of the last row.
 fn end(text: &str, way: Way, step: f64, duration: f64) -> Vec<f64> {
     last(&run(text, way, step, duration)).to_vec()
 }
 
-/// The largest difference of numbers from those that they should be.
+/// Largest difference of numbers from the expected ones.
 fn apart(found: &[f64], right: &[f64]) -> f64 {
     assert_eq!(found.len(), right.len());
     found.iter().zip(right).fold(0.0, |a, (x, y)| a.max((x - y).abs()))
 }
 
-/// Ends at the right values: methods of high order to `digits`, the trapezoidal rule with an error that falls with the square of the step
-/// and is at most `error` at it.
+/// Asserts the values at the end. Methods of high order have an error of `digits`. The trapezoidal rule has an error of at most `error` at
+/// `step`, which falls with the square of the step.
 fn check(text: &str, duration: f64, (step, error): (f64, f64), (right, digits): (&[f64], f64)) {
     for method in EXPLICIT {
         let found = end(text, Way("recursive", method), step, duration);

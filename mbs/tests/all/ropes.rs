@@ -1,9 +1,9 @@
-//! Ropes whose parts lose their length: every formulation stops there by name.
+//! Ropes with a part whose length becomes zero: every formulation stops there and names the rope.
 
 use crate::common::run_in;
 use mbs::{Body, Coupling, Error, FormulationKind, GROUND, Joint, Mechanism, Method, Run};
 
-/// 3 kg and 2 kg on a rope over two points of the ground; the lighter one hangs half a metre below its point.
+/// Mechanism of 3 kg and 2 kg on a rope over two points of the ground. The lighter mass hangs half a metre below its point.
 fn atwood() -> Mechanism {
     let mut m = Mechanism::planar("atwood");
     m.set_gravity([0.0, -9.81]).set_duration(2.0);
@@ -20,7 +20,7 @@ fn atwood() -> Mechanism {
 
 #[test]
 fn a_part_that_has_no_length_left_stops_the_run_in_every_formulation() {
-    // a = g (3 - 2)/(3 + 2), and half a metre is passed at t = sqrt(1/a)
+    // a = g (3 - 2)/(3 + 2), and the lighter mass reaches its point, half a metre away, at t = sqrt(1/a)
     let meeting = (1.0_f64 / 1.962).sqrt();
     for kind in FormulationKind::listed() {
         let method = Method { step: Some(1e-3), ..Method::new(kind) };
@@ -38,7 +38,7 @@ fn a_part_that_has_no_length_left_stops_the_run_in_every_formulation() {
 
 #[test]
 fn a_part_that_only_turns_keeps_its_rope() {
-    // a mass on one rope swings through more than half a turn
+    // a mass on one rope swings through more than half a revolution
     let mut m = Mechanism::planar("swing");
     m.set_gravity([0.0, -9.81]).set_duration(1.5);
     let bob = m.add(Body::planar([0.3, 0.0], 1.0, 1e-3));
@@ -69,7 +69,7 @@ fn explicit_steps_and_methods_with_error_control_stop_there_too() {
     }
 }
 
-/// A mass below a carriage that goes up and down by 0.1 m, both on vertical slides.
+/// A mass hangs below a carriage that oscillates by 0.1 m, both on vertical slides.
 #[test]
 fn a_rope_that_would_have_to_push_is_noted_with_its_time_and_force() {
     let text = |frequency: f64, kind: &str| {
@@ -95,12 +95,12 @@ fn a_rope_that_would_have_to_push_is_noted_with_its_time_and_force() {
             let method = Method { step: Some(1e-3), ..Method::new(kind) };
             mbs::run(&m, &Run::new().method(method)).expect("it runs").notes().to_vec()
         };
-        // 0.1 (2 pi f)^2 = 9.81 at 1.576 Hz
+        // the acceleration 0.1 (2 pi f)^2 reaches 9.81 m/s^2 at f = 1.576 Hz
         assert_eq!(notes(1.5, rope), [""; 0], "{}", kind.name());
         assert_eq!(notes(3.0, rod), [""; 0], "{}", kind.name());
         let noted = notes(3.0, rope);
         let omega = core::f64::consts::TAU * 3.0;
-        // the first step behind sin(w t) = g / (A w^2)
+        // the first step after sin(w t) = g / (A w^2)
         let first = ((9.81 / (0.1 * omega * omega)).asin() / omega * 1e3).ceil() / 1e3;
         let begin = format!("the rope `line` pushes at t = {first} s, by up to ");
         assert_eq!(noted.len(), 1, "{}: {noted:?}", kind.name());
@@ -114,8 +114,8 @@ fn a_rope_that_would_have_to_push_is_noted_with_its_time_and_force() {
     }
 }
 
-/// A rod of no thickness hangs on a rope 0.1 m beside its line, and 3 N pull 0.2 m beside it: about the line T 0.1 = 3 0.2, across it
-/// 1 kg rises with T - 3 N.
+/// Scene of a thin rod on a rope 0.1 m beside its axis; a force of 3 N acts 0.2 m beside the axis. The balance about the axis is T 0.1 = 3
+/// 0.2, and 1 kg rises with T - 3 N.
 const ROD: &str = "[scene]\ndimension = 3\nduration = 0.005\n\
     [[body]]\nname = \"rod\"\nmass = 1.0\nrod = { from = [-0.5, 0.0, 0.0], to = [0.5, 0.0, 0.0] }\n\
     [[joint]]\nname = \"place\"\nkind = \"free\"\nbodies = [\"ground\", \"rod\"]\n\

@@ -1,4 +1,4 @@
-//! Rotor inertia against closed forms and equations of motion derived by hand, in every formulation.
+//! Rotor inertia against closed forms and equations of motion by hand, in every formulation.
 
 mod arm;
 mod closed_forms;
@@ -30,7 +30,7 @@ fn initial(joint: &str, value: f64, rate: f64) -> String {
     format!("[[initial]]\njoint = \"{joint}\"\nvalue = {value:?}\nrate = {rate:?}\n")
 }
 
-/// A run by a formulation with its trapezoidal rule.
+/// Rows of a run by a formulation with the trapezoidal rule.
 fn run(text: &str, formulation: &'static str, step: f64, duration: f64) -> Rows {
     oracle::run(text, Way(formulation, "trapezoidal"), (step, duration))
 }

@@ -5,7 +5,7 @@ use mbs::core::scene::{
 };
 use mbs::{FORMULATIONS, INTEGRATORS, Method, PRECISIONS, ResolvedMethod, STEP_RULES};
 
-/// Words of a setting.
+/// Allowed words of a setting.
 fn words(name: &str) -> &'static [&'static str] {
     match Setting::named(name).map(|row| row.form) {
         Some(SettingForm::Word(words)) => words,
@@ -18,7 +18,7 @@ fn words_of_the_table_are_those_that_are_built() {
     assert_eq!(words("formulation"), FORMULATIONS);
     assert_eq!(words("integrator"), INTEGRATORS);
     assert_eq!(words("precision"), PRECISIONS);
-    // the last word is another name of the third
+    // the last word is an alias of the third
     assert_eq!(words("step_control"), [&STEP_RULES[..], &["energy-published"]].concat());
 }
 

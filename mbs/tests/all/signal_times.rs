@@ -1,4 +1,4 @@
-//! Jumps and corners of signals as ends of controlled steps, against closed forms.
+//! Jumps and corners of signals: controlled steps end at them. Closed forms give the motion.
 
 use crate::common::oracle::last;
 use mbs::core::scene::Scene;
@@ -19,7 +19,7 @@ fn methods() -> impl Iterator<Item = Method> {
     })
 }
 
-/// Does it control its steps by itself, within those of a row?
+/// Does the integrator control its steps itself, within the interval of a row?
 fn has_rows_of_its_own(method: &Method) -> bool {
     method.integrator.as_deref().is_some_and(|i| i != "trapezoidal")
 }
@@ -28,7 +28,7 @@ fn name(method: &Method) -> String {
     format!("{:?} {:?}", method.formulation, method.integrator)
 }
 
-/// A wheel of 2 kg m^2, with a spring or without, and a torque that follows a signal.
+/// Scene of a wheel of 2 kg m^2, with or without a spring, and a torque that follows a signal.
 fn wheel(stiffness: f64, duration: f64, signal: &str) -> Scene<f64> {
     scene(&format!(
         "[scene]\nname = \"s\"\ndimension = 2\nduration = {duration:?}\n\
@@ -56,7 +56,7 @@ fn error(outcome: &Outcome, right: [f64; 2]) -> f64 {
 
 #[test]
 fn a_jump_of_a_force_costs_no_accuracy_and_fewer_rejected_steps() {
-    // 2 x'' = 5 - 50 x from 0.3123 s on: x = 0.1 (1 - cos 5 s)
+    // 2 x'' = 5 - 50 x from 0.3123 s on, so x = 0.1 (1 - cos 5 s) with the time s since then
     let (at, duration) = (0.3123, 1.0);
     let signal = format!("kind = \"step\"\nto = 5.0\nat = {at:?}");
     let scene = wheel(50.0, duration, &signal);
@@ -74,10 +74,10 @@ fn a_jump_of_a_force_costs_no_accuracy_and_fewer_rejected_steps() {
         let rejected = [&with, &without]
             .map(|outcome| outcome.summary.control.as_ref().map_or(0, |c| c.rejected));
         println!("{}: {errors:?}, {rejected:?}", name(&method));
-        // a tolerance of 1e-7 of the scene's length a step, over some hundred steps of the trapezoidal rule
+        // a tolerance of 1e-7 of the scene's length for each of some hundred trapezoidal steps
         assert!(errors[0] < 1e-4 && errors[0] < 1.1 * errors[1] + 1e-9, "{errors:?}");
         assert!(rejected[0] <= rejected[1], "{}: {rejected:?}", name(&method));
-        // a row stands at the jump where rows are those of the controlled steps
+        // a row is at the jump if rows are at the controlled steps
         let is_there =
             has_rows_of_its_own(&method) || with.rows().iter().any(|(t, _)| (t - at).abs() < 1e-12);
         assert!(is_there, "{}", name(&method));
@@ -86,7 +86,7 @@ fn a_jump_of_a_force_costs_no_accuracy_and_fewer_rejected_steps() {
 
 #[test]
 fn a_square_wave_is_met_to_rounding_by_every_method() {
-    // 2 x'' = +-4, changing every 0.05 s: each piece is a parabola, which all methods have exactly
+    // 2 x'' = +-4, alternating every 0.05 s: each piece is a parabola, which all methods integrate exactly
     let signal = "kind = \"table\"\ninterpolation = \"hold\"\nperiodic = true\ntable = [[0.0, 4.0], [0.05, -4.0], [0.1, 4.0]]";
     let scene = wheel(0.0, 0.93, signal);
     let (mut right, h) = ([0.0, 0.0], 0.01);
@@ -97,14 +97,14 @@ fn a_square_wave_is_met_to_rounding_by_every_method() {
     for method in methods() {
         let found = error(&run(&scene, &method), right);
         println!("{}: {found:.1e}", name(&method));
-        // each of 18 jumps is passed 32 roundings of its time late, and steps are solved to 1e-10
+        // each of 18 jumps is passed with a delay of 32 roundings of its time, and steps are solved to 1e-10
         assert!(found < 1e-9, "{}: {found:e}", name(&method));
     }
 }
 
 #[test]
 fn corners_of_a_force_cost_no_accuracy() {
-    // a triangle from 0.2 s over 0.4137 s to 0.9 s: x''' is constant within each piece
+    // a triangle from 0.2 s over 0.4137 s to 0.9 s: x''' is constant in each piece
     let rows = [[0.2, 0.0], [0.4137, 6.0], [0.9, 0.0]];
     let signal = format!("kind = \"table\"\ninterpolation = \"linear\"\ntable = {rows:?}");
     let scene = wheel(0.0, 1.0, &signal);
@@ -133,7 +133,7 @@ fn corners_of_a_force_cost_no_accuracy() {
         }
         let found = error(&outcome, [right[0], right[1]]);
         println!("{}: {found:.1e}", name(&method));
-        // exact for methods of order three and more
+        // methods of order three and more are exact
         let is_low = method.integrator.as_deref().is_none_or(|i| i == "trapezoidal");
         assert!(found < if is_low { 1e-4 } else { 1e-10 }, "{}: {found:e}", name(&method));
     }

@@ -1,4 +1,4 @@
-//! Signals by name: as inline functions of time, against closed forms, and set between steps.
+//! Named signals: as inline functions of time, against closed forms, and set between steps.
 
 use crate::common;
 use mbs::core::scene::{
@@ -11,7 +11,7 @@ use mbs::{
 };
 use mbs_testkit::scene;
 
-/// Every formulation with the trapezoidal rule and fixed steps.
+/// Simulations of every formulation with the trapezoidal rule and fixed steps.
 fn simulations<'a>(
     scene: &'a Scene<f64>,
 ) -> impl Iterator<Item = (&'static str, Simulation<f64, 2>)> + 'a {
@@ -71,7 +71,7 @@ fn a_guide_by_a_signal_moves_as_the_guide_inline_to_the_last_bit() {
     }
 }
 
-/// A wheel of 2 kg m^2 at rest on a fixed axle, with a torque by a signal.
+/// Scene of a wheel of 2 kg m^2 at rest on a fixed axle, with a torque that follows a signal.
 const WHEEL: &str = r#"[scene]
 dimension = 2
 duration = 1.0
@@ -104,15 +104,15 @@ fn a_torque_by_the_sum_of_two_signals_meets_the_closed_form() {
         for _ in 0..1000 {
             simulation.step(1e-3).expect("a regular step");
         }
-        // torque 6 - 2 t on 2 kg m^2: rate 3 t - t^2/2, angle 3/2 t^2 - t^3/6; the work is that of the rate
+        // a torque of 6 - 2 t on 2 kg m^2: rate 3 t - t^2/2, angle 3/2 t^2 - t^3/6; the work is the kinetic energy
         let motion = simulation.model().motion(&scene, 0, simulation.state());
         let (rate, angle) =
             (motion.omega[2], motion.rotation[(1, 0)].atan2(motion.rotation[(0, 0)]));
-        // the rule is exact for a torque that is linear in time; natural coordinates that turn leave (h w)^2 = 6e-6
+        // the rule is exact for a torque that is linear in time; rotating natural coordinates have an error of (h w)^2 = 6e-6
         let is_exact = formulation == "recursive";
         let allowed = if is_exact { 1e-9 } else { 1e-5 };
         assert!((rate - 2.5).abs() < allowed, "{formulation}: {rate} rad/s");
-        // h^2/12 of the third derivative
+        // error h^2/12 of the third derivative
         assert!((angle - 4.0 / 3.0).abs() < allowed.max(2e-7), "{formulation}: {angle} rad");
         let [kinetic, _, work] = simulation.energies();
         let off = (kinetic - 6.25).abs().max((work - 6.25).abs());
@@ -198,7 +198,7 @@ fn a_signal_that_is_an_input_is_set_by_its_name() {
         assert_eq!(info.owner, InputOwner::Signal(SignalId::new(1)));
         simulation.advance_to(0.5).expect("a regular run");
         let axle = mechanism.find::<mbs::JointId>("axle").expect("a joint");
-        // 2 N m on 2 kg m^2, then -4 N m, from the beginning of the next step on; (h w)^2 is 3e-7
+        // 2 N m on 2 kg m^2, then -4 N m from the next step on; (h w)^2 is 3e-7
         let is_near = |rate: f64, expected: f64| {
             assert!((rate - expected).abs() < 1e-6, "{formulation}: {rate} rad/s");
         };
@@ -237,12 +237,12 @@ fn tables_for_controllers_have_signals_and_refuse_waves_by_name() {
     assert!(refused.starts_with("signal `drive` cannot be written for a controller"), "{refused}");
 }
 
-/// A wheel with a torque on its axle, and a table of it.
+/// Scene of a wheel with a torque on its axle, which follows a signal.
 fn motor(course: &str) -> String {
     format!("{WHEEL}[[effect]]\nname = \"motor\"\nkind = \"torque\"\njoint = \"axle\"\n{course}\n")
 }
 
-/// A mechanism whose inputs follow a table of CSV.
+/// Mechanism whose inputs follow a table in CSV.
 fn following(document: SceneFile, csv: &[u8], file: &str) -> Result<Mechanism, SimulationError> {
     Mechanism::of_file(document).expect("a scene").following(&InputTable::csv(csv, file))
 }

@@ -1,4 +1,4 @@
-//! Elastic ropes over points: against an equation of one's own, slack and taut, and where they lose a part, in every formulation.
+//! Elastic ropes over points, slack and taut, against independent equations, and stops where a part vanishes, in every formulation.
 
 use crate::common::oracle::{WAYS, Way, agree_in_the_limit, outputs_of, rows, run};
 use mbs::{Body, Effect, Error, FormulationKind, GROUND, Joint, Mechanism, Method, Run};
@@ -8,11 +8,11 @@ use mbs_testkit::scene;
 const MASSES: [f64; 2] = [3.0, 2.0];
 /// Stiffness [N/m] and damping [N s/m] of the rope.
 const LAW: [f64; 2] = [2000.0, 8.0];
-/// Length of the rope that is slack in the reference configuration [m].
+/// Slack of the rope in the reference configuration [m].
 const SLACK: f64 = 0.05;
 const GRAVITY: f64 = 9.81;
 
-/// Two masses on vertical slides below two points of the ground, 1 m beside each other; the second hangs `below` its point.
+/// Scene of two masses on vertical slides below two points of the ground, 1 m apart. The second mass is `below` its point [m].
 fn atwood(below: f64, rest: &str) -> String {
     let mut text = format!(
         "[scene]\nname = \"a\"\ndimension = 2\nduration = 2.0\ngravity = [0.0, -{GRAVITY:?}]\n"
@@ -29,7 +29,7 @@ fn atwood(below: f64, rest: &str) -> String {
     text + rest
 }
 
-/// The line from the first mass over both points to the second.
+/// Text of the line from the first mass over both points to the second.
 fn line(below: f64) -> String {
     format!(
         "points = [{{ body = \"b0\", at = [0.0, -1.0] }}, {{ body = \"ground\", at = [0.0, 1.0] }}, \
@@ -38,7 +38,7 @@ fn line(below: f64) -> String {
     )
 }
 
-/// Tension of the rope at a stretch and its rate: the damper fades in over a millimetre.
+/// Tension of the rope from its stretch and its rate. The damper acts gradually over the first millimetre.
 fn tension(stretch: f64, rate: f64) -> f64 {
     if stretch <= 0.0 {
         return 0.0;
@@ -47,7 +47,7 @@ fn tension(stretch: f64, rate: f64) -> f64 {
     (LAW[0] * stretch + LAW[1] * r * r * (3.0 - 2.0 * r) * rate).max(0.0)
 }
 
-/// Ways of both masses and their rates: two equations of their own, by the classical method of fourth order.
+/// Displacements and rates of both masses, from two independent equations by the classical Runge-Kutta method.
 fn ode(duration: f64, slack: f64) -> [f64; 4] {
     let slope = |[y0, y1, v0, v1]: [f64; 4]| {
         let f = tension(-y0 - y1 - slack, -v0 - v1);
@@ -66,7 +66,7 @@ fn ode(duration: f64, slack: f64) -> [f64; 4] {
     })
 }
 
-/// Error of ways of a metre at steps of 0.1 ms, by corners of the law and (w h)^2 of the oscillation at 40 rad/s.
+/// Error of displacements of a metre with steps of 0.1 ms [m]: corners of the law, and (w h)^2 of the oscillation at 40 rad/s.
 const ROUGH: f64 = 2e-5;
 
 #[test]
@@ -85,7 +85,7 @@ fn two_masses_on_an_elastic_rope_fall_slack_and_are_caught() {
         let rows = run(&text, way, (1e-4, duration));
         for (t, row) in &rows {
             let [y0, y1, v0, v1] = [row[0], row[2], row[1], row[3]];
-            // the whole length, and its rate
+            // total length of the rope, and its rate
             assert!((row[4] - (6.0 - y0 - y1)).abs() < 1e-11, "{way:?}, {t}: {row:?}");
             assert!((row[5] + v0 + v1).abs() < 1e-9, "{way:?}, {t}: {row:?}");
             let stretch = row[4] - 6.0 - SLACK;
@@ -95,7 +95,7 @@ fn two_masses_on_an_elastic_rope_fall_slack_and_are_caught() {
             assert!((row[7] - energy).abs() < 1e-6, "{way:?}, {t}: {row:?} {energy}");
             assert_eq!(row[8] > 0.5, stretch > 0.0, "{way:?}, {t}: {row:?}");
             if stretch < 0.0 && *t < 0.07 {
-                // both fall freely until the slack is gone at sqrt(0.05 / 9.81) s
+                // both masses fall freely until the rope is taut at sqrt(0.05 / 9.81) s
                 assert!((y0 + 0.5 * GRAVITY * t * t).abs() < 1e-9, "{way:?}, {t}: {row:?}");
             }
         }
@@ -112,7 +112,7 @@ fn two_masses_on_an_elastic_rope_fall_slack_and_are_caught() {
 
 #[test]
 fn a_taut_rope_over_two_points_oscillates_about_the_motion_of_a_rigid_one() {
-    // e'' = 2 g - w^2 e of the stretch e, from rest at no stretch
+    // stretch e: e'' = 2 g - w^2 e, from rest without stretch
     let mobility = MASSES.iter().map(|m| 1.0 / m).sum::<f64>();
     let omega = (LAW[0] * mobility).sqrt();
     let rope = format!(
@@ -126,7 +126,7 @@ fn a_taut_rope_over_two_points_oscillates_about_the_motion_of_a_rigid_one() {
         for (t, row) in run(&text, way, (1e-4, 0.5)).iter().step_by(100) {
             let e = 2.0 * GRAVITY / (omega * omega) * (1.0 - (omega * t).cos());
             assert!((row[4] - 6.0 - e).abs() < ROUGH, "{way:?}, {t}: {} {e}", row[4]);
-            // the first mass: -g t^2/2 + k/m of the integral of e, twice
+            // displacement of the first mass: -g t^2/2, plus k/m of the double integral of e
             let twice = 2.0 * GRAVITY / (omega * omega)
                 * (0.5 * t * t - (1.0 - (omega * t).cos()) / (omega * omega));
             let y = -0.5 * GRAVITY * t * t + LAW[0] / MASSES[0] * twice;
@@ -138,7 +138,7 @@ fn a_taut_rope_over_two_points_oscillates_about_the_motion_of_a_rigid_one() {
 #[test]
 fn a_polynomial_and_a_given_force_act_along_lines_too() {
     let duration = 0.4;
-    // 50 N along the rope lift the lighter mass
+    // 50 N along the rope raise the lighter mass
     let winch =
         format!("[[effect]]\nname = \"e\"\nkind = \"actuator\"\n{}value = -25.0\n", line(3.0));
     let spring = format!(
@@ -170,14 +170,14 @@ fn a_polynomial_and_a_given_force_act_along_lines_too() {
 
 #[test]
 fn a_part_that_is_passed_stops_a_taut_rope_by_name_and_not_a_slack_one() {
-    // the lighter mass is pulled to its point; the rate of the other rope is no matter
+    // the lighter mass is pulled to its point, whatever the rate of the other rope
     for (way, slack) in WAYS.iter().flat_map(|way| [(*way, false), (*way, true)]) {
         let rope = format!(
             "[[effect]]\nname = \"hoist\"\nkind = \"spring-damper\"\n{}stiffness = 50000.0\npulls_only = true\nfree_length = {:?}\n",
             line(0.5),
             if slack { 9.0 } else { 3.5 }
         );
-        // what the weights do on a rope without stretch, by given forces
+        // the masses move as on an inextensible rope, by given forces
         let lift =
             "[[effect]]\nkind = \"force\"\nbody = \"b1\"\nat = [1.0, 0.5]\nvalue = [0.0, 50.0]\n";
         let text = atwood(0.5, &format!("{rope}{}", if slack { lift } else { "" }));
@@ -220,7 +220,8 @@ fn the_message_names_effect_part_and_bodies() {
     }
 }
 
-/// A load on a rope over a trolley's point and a sheave, with a winch that takes it in, in space; laws that are smooth while the stay is taut.
+/// Scene of a spatial crane: a load on a rope over a trolley's point and a sheave, with a winch that pulls the rope in. Its laws are smooth
+/// while the stay is taut.
 fn crane() -> String {
     let body = |name: &str, at: [f64; 3], mass: f64| {
         format!(

@@ -1,4 +1,4 @@
-//! States that a simulation is put into: held exactly, or refused with nothing changed.
+//! States that a simulation is set to: exactly, or refused without a change.
 
 use mbs::{
     Body, Coordinates, Effect, Error, FormulationKind, GROUND, Guide, Joint, JointId, Mechanism,
@@ -23,7 +23,7 @@ fn a_state_is_held_or_refused_with_its_joint_in_every_formulation() {
         let mut sim = m.simulate(&Method::new(kind)).expect("it starts");
         let state = [(pivot, 0.3.into(), 1.0.into()), (elbow, none, (-2.0).into())];
         sim.set_state(&state).expect("an open chain allows all");
-        // rounding of the assembly
+        // error by the rounding of the assembly
         let off = [sim.value(pivot) - 0.3, sim.rate(pivot) - 1.0, sim.rate(elbow) + 2.0];
         assert!(off.iter().all(|x| x.abs() < 1e-12), "{}: {off:?}", kind.name());
         let before = sim.save().expect("a state");
@@ -42,7 +42,7 @@ fn a_state_is_held_or_refused_with_its_joint_in_every_formulation() {
 
 #[test]
 fn a_state_that_is_set_on_the_way_is_that_of_now() {
-    // a torque that grows with time, on a joint that turns fast: turns and accelerations are those of the present time
+    // a torque that grows with time, on a joint that rotates fast: angles and accelerations are those of the present time
     let (mut m, [pivot, elbow]) = two_pendulums();
     m.add(Effect::torque(pivot, Signal::Table(vec![row(0.0, 0.0), row(20.0, 40.0)])));
     for kind in [FormulationKind::Index3, FormulationKind::Index1, FormulationKind::Recursive] {
@@ -56,7 +56,7 @@ fn a_state_that_is_set_on_the_way_is_that_of_now() {
         let work = |sim: &Simulation| sim.energies().work;
         let before = work(&sim);
         sim.step(1e-3).expect("a regular step");
-        // 20 N m over a turn of about a thousandth
+        // 20 N m act over a rotation of about a thousandth of a radian
         let turned = sim.value(pivot) - 0.3;
         assert!(turned.abs() > 5e-4 && (work(&sim) - before - 20.0 * turned).abs() < 1e-2 * turned);
     }

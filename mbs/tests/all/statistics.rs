@@ -9,12 +9,12 @@ use mbs::scene_file::SceneFile;
 use mbs::typed::{Simulation, StepObserver};
 use mbs::{Method, Outcome, ResolvedMethod, StopError};
 
-/// Difference from what rows give, relative to the number's size [-]: magnitudes are summed in the same order.
+/// Relative difference from statistics of the rows [-]: magnitudes are summed in the same order.
 const SAME: f64 = 1e-12;
-/// Difference of root mean squares, relative to the number's size [-]: a sum over up to 10^4 steps.
+/// Relative difference of root mean squares [-], which are sums over up to 10^4 steps.
 const SAME_RMS: f64 = 1e-9;
 
-/// A mass of 2 kg that slides on a spring of 50 N/m, 0.1 m from rest: x = 0.1 cos 5 t.
+/// Scene of a mass of 2 kg that slides on a spring of 50 N/m, 0.1 m from equilibrium: x = 0.1 cos 5 t.
 const OSCILLATOR: &str = r#"
 [scene]
 dimension = 2
@@ -90,10 +90,10 @@ fn assert_same(found: &Statistics, expected: &Statistics, what: &str) {
     assert!((found.rms - expected.rms).abs() <= SAME_RMS * size, "{what}: {found:?} {expected:?}");
 }
 
-/// The largest value between rows, relative to what the row beside it differs from its neighbours [-]: of a parabola an eighth.
+/// Largest excess of a peak between rows, relative to the difference of its row from the neighbours [-]. For a parabola it is an eighth.
 const BETWEEN: f64 = 0.25;
 
-/// Compares statistics with those of rows. Peaks are those of rows, or go beyond the peak of three rows within these and by little.
+/// Compares statistics with those of rows. A peak is that of a row, or lies between rows and exceeds the row slightly.
 fn assert_like_rows(found: &Statistics, (times, x): (&[f64], &[f64]), what: &str) {
     let rows = of_rows(times, x);
     let size = rows.min.abs().max(rows.max.abs());
@@ -115,7 +115,7 @@ fn assert_like_rows(found: &Statistics, (times, x): (&[f64], &[f64]), what: &str
     assert_same(&Statistics { min, at_min, max, at_max, ..*found }, &rows, what);
 }
 
-/// Compares the statistics of all channels of a run whose rows are its steps; gives how many magnitudes there were.
+/// Compares the statistics of all channels of a run whose rows are its steps. Returns the number of magnitudes.
 fn magnitudes_like_rows(outcome: &Outcome, what: &str) -> usize {
     let (mut n_numbers, mut n_magnitudes) = (0, 0);
     for series in series(outcome) {
@@ -169,7 +169,7 @@ fn statistics_of_an_oscillator_are_those_of_its_closed_form_though_rows_are_thin
     let document = SceneFile::parse(OSCILLATOR, "oscillator.toml").expect("a scene");
     let scene = document.scene::<f64>().expect("a scene");
     let [a, w] = WAVE;
-    // every fourth step is a row: peaks fall between rows
+    // every fourth step is a row, so peaks are between rows
     let duration = 3.0;
     let step = duration / 30_021.0;
     let method = Method { step: Some(step), duration: Some(duration), ..Method::default() };
@@ -179,7 +179,7 @@ fn statistics_of_an_oscillator_are_those_of_its_closed_form_though_rows_are_thin
     let [x, v] = &channels[..] else { panic!("two outputs") };
     let [x, speed] = [x.stats[0].of, v.stats[2].of];
     assert_eq!((v.stats[2].label.as_str(), v.stats[2].is_magnitude), ("abs", true));
-    // error of the trapezoidal rule and of the nearest step to a peak: (w h)^2, and the phase w^3 h^2 t/12
+    // errors of the trapezoidal rule and of the step nearest to a peak: (w h)^2, and w^3 h^2 t/12 of the phase
     let small = (w * step).powi(2) * w * duration;
     let mean = (0.5 + (2.0 * w * duration).sin() / (4.0 * w * duration)).sqrt();
     let checks = [
@@ -192,7 +192,7 @@ fn statistics_of_an_oscillator_are_those_of_its_closed_form_though_rows_are_thin
     for (found, expected) in checks {
         assert!((found - expected).abs() <= small * a * w, "{found} for {expected}");
     }
-    // periods are equal up to rounding: any of them may have the largest value
+    // periods are equal except for rounding, so any of them may have the largest value
     let period = 2.0 * core::f64::consts::PI / w;
     for (t, of_period) in [(x.at_max, 0.0), (x.at_min, 0.5), (v.stats[0].of.at_min, 0.25)] {
         let periods = t / period - of_period;
@@ -205,7 +205,7 @@ fn peaks_between_long_steps_are_those_of_the_closed_form() {
     let document = SceneFile::parse(OSCILLATOR, "oscillator.toml").expect("a scene");
     let scene = document.scene::<f64>().expect("a scene");
     let [a, w] = WAVE;
-    // 25 steps in a period: the rule keeps the amplitude, and steps miss the peaks by up to 0.8 % of it
+    // 25 steps in a period: the rule conserves the amplitude, and steps miss the peaks by up to 0.8 % of it
     let step = 0.05;
     let outcome = run(&scene, &Method { step: Some(step), ..Method::default() });
     let channels = series(&outcome);
@@ -216,13 +216,13 @@ fn peaks_between_long_steps_are_those_of_the_closed_form() {
     for (found, right) in [(x.min, -a), (x.max, a)] {
         assert!((found - right).abs() < 4e-5 * a, "{found} for {right}");
     }
-    // of the rule:   tan(θ/2) = w h/2
+    // period of the rule, from tan(θ/2) = w h/2
     let period = core::f64::consts::PI * step / (w * step / 2.0).atan();
     let halves = x.at_min / period - 0.5;
     assert!((halves - halves.round()).abs() < 1e-3, "{} of {period}", x.at_min);
 }
 
-/// Distances of five instants, equal and not [s].
+/// Times of five instants, equally spaced or not [s].
 const SPACINGS: [[f64; 5]; 3] =
     [[-2.0, -1.0, 0.0, 1.0, 2.0], [-2.5, -1.2, 0.0, 0.7, 1.9], [-1.0, -0.6, 0.0, 1.3, 2.0]];
 
@@ -259,7 +259,7 @@ fn a_number_that_jumps_or_has_a_kink_has_no_peak_beyond_its_steps() {
     }
 }
 
-/// Ends a run at a time.
+/// Observer that ends a run at a time.
 struct Until(f64);
 
 impl<const D: usize> StepObserver<f64, D> for Until {

@@ -1,5 +1,5 @@
-//! Modes of steady motions: bodies that spin, that precess, and that drive in a bend, against closed forms and equations of others; and what is
-//! no steady motion.
+//! Modes of steady motions: bodies that spin, precess, or drive in a bend, against closed forms and equations of others. Other motions are
+//! refused as not steady.
 
 use crate::common::{path, run, scene};
 use mbs::core::scene::{InitialCondition, InitialTarget, JointId, Quantity, Scene, Start};
@@ -8,7 +8,7 @@ use mbs::{
 };
 use mbs_testkit::repository::{field, read, text};
 
-/// Differences of fourth order, of numbers that share no digits with others [-].
+/// Relative error of eigenvalues by differences of fourth order [-], without cancellation of digits.
 const CLOSE: f64 = 1e-8;
 
 fn modes(scene: &Scene<f64>) -> Modes {
@@ -16,7 +16,7 @@ fn modes(scene: &Scene<f64>) -> Modes {
     found.unwrap_or_else(|e| panic!("{}: {e}", scene.name))
 }
 
-/// Has these eigenvalues, and else neutral ones alone.
+/// Asserts these eigenvalues, and that all others are neutral.
 fn has(found: &Modes, right: &[[f64; 2]]) {
     has_to(CLOSE, found, right);
 }
@@ -31,7 +31,7 @@ fn has_to(close: f64, found: &Modes, right: &[[f64; 2]]) {
     }
 }
 
-/// `text` with other numbers in place of some that it has.
+/// Returns `text` with some numbers replaced.
 fn with(text: &str, changes: &[[&str; 2]]) -> String {
     changes.iter().fold(text.to_owned(), |text, [from, to]| {
         assert!(text.contains(from), "{from}");
@@ -39,7 +39,8 @@ fn with(text: &str, changes: &[[&str; 2]]) -> String {
     })
 }
 
-/// (A s² + k)(C s² + k) + (Ip Ω)² s² = 0: A = 0.045, C = 0.035, Ip = 0.05 kg m², k = 300 N m/rad.
+/// Characteristic equation (A s² + k)(C s² + k) + (Ip Ω)² s² = 0 of a rotor at the speed Ω: A = 0.045, C = 0.035, Ip = 0.05 kg m², k = 300 N
+/// m/rad.
 #[test]
 fn a_rotor_in_gimbals_whirls_by_its_speed() {
     let rotor = text("23-whirl-of-a-rotor");
@@ -54,7 +55,7 @@ fn a_rotor_in_gimbals_whirls_by_its_speed() {
     }
 }
 
-/// 0.28 s² + 50 + 0.329 · 900 = 0.
+/// Characteristic equation of a blade with a hinge spring on a hub at 30 rad/s: 0.28 s² + 50 + 0.329 · 900 = 0.
 #[test]
 fn a_blade_on_a_driven_hub_flaps_stiffer_as_it_turns() {
     let blade = field("23-hinged-blade");
@@ -64,7 +65,7 @@ fn a_blade_on_a_driven_hub_flaps_stiffer_as_it_turns() {
     has(&moving, &[[0.0, right]]);
 }
 
-/// cos α = m g l / (36 (m l² + 0.0295)): 1.061597765855 rad; its mode from the same equation.
+/// Equilibrium of a governor at 6 rad/s: cos α = m g l / (36 (m l² + 0.0295)), α = 1.061597765855 rad. The mode is from the same equation.
 #[test]
 fn a_governor_swings_about_its_rest_in_the_turning_axes() {
     let governor = with(
@@ -84,7 +85,7 @@ fn a_governor_swings_about_its_rest_in_the_turning_axes() {
     let error = Modes::new(&field("25-governor-at-speed"), Place::Initial, Search::Down);
     let Err(StopError::NotSteady(unsteady)) = error else { panic!("{error:?}") };
     let Unsteady::Accelerates { state, by, unit } = *unsteady else { panic!("{unsteady:?}") };
-    // a'' = (64 · 0.3298 cos 0.2 − 2 · 9.81 · 0.4) sin 0.2 / 0.33
+    // acceleration of the angle a: a'' = (64 · 0.3298 cos 0.2 − 2 · 9.81 · 0.4) sin 0.2 / 0.33
     let (sine, cosine) = 0.2_f64.sin_cos();
     let right = (64.0 * 0.3298 * cosine - 7.848) * sine / 0.33;
     assert!(
@@ -93,7 +94,7 @@ fn a_governor_swings_about_its_rest_in_the_turning_axes() {
     );
 }
 
-/// m g l = 0.981 N m, A = 0.024, C = 0.002 kg m² about the tip.
+/// Scene of a top with m g l = 0.981 N m. Its inertias about the tip are A = 0.024 kg m² across the axis, and C = 0.002 kg m² about the axis.
 fn top(tilt: f64, spin: f64, precession: f64) -> Scene<f64> {
     let (sine, cosine) = tilt.sin_cos();
     let (along, across) = (0.002, 0.004);
@@ -113,7 +114,7 @@ fn top(tilt: f64, spin: f64, precession: f64) -> Scene<f64> {
     read(&text, "top")
 }
 
-/// A s² − i C ω s − m g l = 0, in axes that do not spin.
+/// Characteristic equation of a sleeping top with the spin ω, in axes that do not rotate: A s² − i C ω s − m g l = 0.
 #[test]
 fn a_top_sleeps_above_its_limit_alone() {
     for spin in [100.0, 150.0, 160.0_f64] {
@@ -131,7 +132,8 @@ fn a_top_sleeps_above_its_limit_alone() {
     }
 }
 
-/// A cos θ Ω² − C ω Ω + m g l = 0;   ν² = Ω² − 2 g' cos θ + (g'/Ω)²,   g' = m g l/A.
+/// Steady precession Ω of a top with the spin ω and the tilt θ: A cos θ Ω² − C ω Ω + m g l = 0. Nutation: ν² = Ω² − 2 g' cos θ + (g'/Ω)², g'
+/// = m g l/A.
 #[test]
 fn a_top_that_precesses_nutates() {
     let (cosine, weight) = (0.5_f64.cos(), 0.981);
@@ -140,14 +142,14 @@ fn a_top_that_precesses_nutates() {
     let found = modes(&top(0.5, 150.0, precession));
     let g = weight / 0.024;
     let square = precession.powi(2) - 2.0 * g * cosine + (g / precession).powi(2);
-    // differences lose the eight digits that the centripetal acceleration of 150 rad/s has before the nutation's
+    // differences lose digits: the centripetal acceleration at 150 rad/s is much larger than that of the nutation
     has_to(3.0 * CLOSE, &found, &[[0.0, square.sqrt()]]);
     assert!(found.is_stable());
     let faster = Modes::new(&top(0.5, 150.0, 1.01 * precession), Place::Initial, Search::Down);
     assert!(matches!(faster, Err(StopError::NotSteady(_))), "{faster:?}");
 }
 
-/// Round a centre that a spring of 600 N/m pulls it to: ω² = k (r − l)/(m r) = 36, ν² = 3 ω² + k/m.
+/// Orbit around a centre to which a spring of 600 N/m pulls: ω² = k (r − l)/(m r) = 36, ν² = 3 ω² + k/m.
 #[test]
 fn a_body_on_its_orbit_swings_across_it_in_axes_that_turn() {
     let orbit = "[scene]\ndimension = 2\nduration = 1.0\n\
@@ -203,14 +205,14 @@ fn what_a_rest_leaves_out_of_a_motion_is_listed_and_a_motion_has_it() {
         let [of, name, part] = left_out;
         assert_eq!(rest.to_json()["left_out"][0], serde_json::json!({ of: name, "part": part }));
     }
-    // 18.973666 rad/s is the locked pair: the friction is in
+    // 18.973666 rad/s is the mode of the locked pair, so the friction of the clutch acts
     let clutch = field("23-closed-clutch");
     let moving = Modes::new(&clutch, Place::Moving, Search::Down).expect("it is steady");
     assert!(moving.modes.iter().any(|mode| (mode.imaginary - 18.973_666).abs() < 1e-6));
 }
 
-/// A mass of 10 kg on two slides of a driven hub: its own slider has `slider` kg, springs have 40 kN/m; it stands `x` from its drawn place, and its
-/// centre `e` further out.
+/// Scene of a mass of 10 kg on two slides of a driven hub. Its intermediate slider has `slider` kg, and the springs 40 kN/m. The mass is `x`
+/// from its drawn position, and its centre `e` further out.
 fn shaft((rate, slider): (f64, f64), [x, e]: [f64; 2], effects: &str) -> Scene<f64> {
     let slide = |name: &str, bodies: [&str; 2], axis: &str, value: f64| {
         format!(
@@ -232,7 +234,8 @@ fn shaft((rate, slider): (f64, f64), [x, e]: [f64; 2], effects: &str) -> Scene<f
     read(&text, "shaft")
 }
 
-/// m s² + (ci + ce) s + k − i ci Ω = 0 in axes that stand; s − i Ω in axes that turn. It grows beyond 189.7 rad/s.
+/// Characteristic equation m s² + (ci + ce) s + k − i ci Ω = 0 in fixed axes; ci and ce are the inner and outer damping. In rotating axes the
+/// eigenvalue is s − i Ω. The motion grows above 189.7 rad/s.
 #[test]
 fn damping_in_turning_axes_makes_a_shaft_grow_beyond_its_limit() {
     let (m, ci, ce, k) = (10.0_f64, 30.0_f64, 60.0_f64, 4e4);
@@ -245,7 +248,7 @@ fn damping_in_turning_axes_makes_a_shaft_grow_beyond_its_limit() {
     );
     for (rate, grows) in [(100.0, false), (189.0, false), (191.0, true), (200.0_f64, true)] {
         let found = modes(&shaft((rate, 0.0), [0.0; 2], &(effects.concat() + &outer)));
-        // √((ci + ce)² − 4 m (k − i ci Ω))
+        // root of the discriminant, √((ci + ce)² − 4 m (k − i ci Ω))
         let (a, b) = ((ci + ce).powi(2) - 4.0 * m * k, 4.0 * m * ci * rate);
         let size = f64::hypot(a, b);
         let root = [((size + a) / 2.0).sqrt(), ((size - a) / 2.0).sqrt()];
@@ -258,25 +261,26 @@ fn damping_in_turning_axes_makes_a_shaft_grow_beyond_its_limit() {
     }
 }
 
-/// x = m e Ω²/(k − (m + ms) Ω²) = 6.667111141e-4 m; its modes with the slider's mass in one direction.
+/// Deflection of an unbalanced shaft: x = m e Ω²/(k − (m + ms) Ω²) = 6.667111141e-4 m. In one direction its modes contain the slider's mass
+/// ms.
 #[test]
 fn unbalance_is_a_steady_motion_where_the_shaft_bends_by_it_alone() {
     let (m, ms, k, e, rate) = (10.0_f64, 0.001, 4e4, 1e-3, 40.0_f64);
     let x = m * e * rate * rate / (k - (m + ms) * rate * rate);
     assert!((x - 6.667_111_141e-4).abs() < 1e-13);
     let found = modes(&shaft((rate, ms), [x, e], ""));
-    // ((m + ms) s² + k − (m + ms) Ω²)(m s² + k − m Ω²) + 4 m² Ω² s² = 0
+    // characteristic equation: ((m + ms) s² + k − (m + ms) Ω²)(m s² + k − m Ω²) + 4 m² Ω² s² = 0
     let w = rate * rate;
     let [kx, ky] = [k - (m + ms) * w, k - m * w];
     let (a, b, c) = ((m + ms) * m, (m + ms) * ky + m * kx + 4.0 * m * m * w, kx * ky);
     let root = (b * b - 4.0 * a * c).sqrt();
     has(&found, &[(b - root) / (2.0 * a), (b + root) / (2.0 * a)].map(|s| [0.0, s.sqrt()]));
-    // elsewhere it accelerates
+    // in another position the shaft accelerates
     let off = Modes::new(&shaft((rate, ms), [0.0, e], ""), Place::Initial, Search::Down);
     assert!(matches!(off, Err(StopError::NotSteady(_))), "{off:?}");
 }
 
-/// e^(A t) by its series for t/1024, squared ten times.
+/// Matrix exponential e^(A t), by the series for t/1024 and ten squarings.
 fn exponential(a: &[Vec<f64>], t: f64) -> Vec<Vec<f64>> {
     let n = a.len();
     let times = |x: &[Vec<f64>], y: &[Vec<f64>]| -> Vec<Vec<f64>> {
@@ -296,7 +300,7 @@ fn exponential(a: &[Vec<f64>], t: f64) -> Vec<Vec<f64>> {
     (0..10).fold(sum, |sum, _| times(&sum, &sum))
 }
 
-/// The joints whose coordinates are all states of a system, without those of signals.
+/// Joints whose coordinates are all states of a system, without states of signals.
 fn joints(scene: &Scene<f64>, states: &[String]) -> Option<Vec<JointId>> {
     let joint = |state: &String| {
         let place = scene.joints.iter().position(|joint| joint.name == *state)?;
@@ -306,7 +310,7 @@ fn joints(scene: &Scene<f64>, states: &[String]) -> Option<Vec<JointId>> {
     states[..states.len() / 2].iter().map(joint).collect()
 }
 
-/// States of one freedom after a time, from others at the start.
+/// States after a time, from given states at the start.
 fn flow(scene: &Scene<f64>, joints: &[JointId], start: &[f64], t: f64) -> Vec<f64> {
     let mut scene = scene.clone();
     scene.start = Start::Initial;
@@ -335,19 +339,19 @@ fn flow(scene: &Scene<f64>, joints: &[JointId], start: &[f64], t: f64) -> Vec<f6
     outcome.rows().last().expect("a row").1.clone()
 }
 
-/// Rests and motions that are steady in joint coordinates: scenes of the repository, and of the field.
+/// Equilibria and motions that are steady in joint coordinates, of scenes of the repository and from users.
 #[test]
 fn the_flow_of_the_motion_is_the_exponential_of_a() {
     /// Time of the flow [s].
     const T: f64 = 0.05;
-    /// Change of a state, relative to its size or one: differences of fourth order leave ten digits of the flow.
+    /// Change of a state for differences, relative to its size or one [-]. Differences of fourth order then have ten digits.
     const STEP: f64 = 1e-4;
     let fields = ["23-whirl-of-a-rotor", "23-hinged-blade"].map(field);
     let files = std::fs::read_dir(path("four-bar").with_file_name("")).expect("the scenes");
     let names = files.filter_map(|file| {
         let path = file.expect("a file").path();
         let is_scene = path.extension().is_some_and(|extension| extension == "toml");
-        // the hammer rests on the edge of its stop, where the flow has a kink
+        // the hammer rests on the edge of its stop, where the motion has a kink
         let is_smooth = is_scene && !path.ends_with("hammer-blow.toml");
         is_smooth.then(|| path.file_stem().expect("a name").to_string_lossy().into_owned())
     });
@@ -359,7 +363,7 @@ fn the_flow_of_the_motion_is_the_exponential_of_a() {
             let Ok(system) = LinearSystem::steady(&scene, &options) else { continue };
             let n = system.states.len();
             let Some(joints) = joints(&scene, &system.states).filter(|_| n > 0) else { continue };
-            // forces that begin with the run drive some of these motions away
+            // forces that begin with the run move some of these scenes away from the state
             let base = flow(&scene, &joints, &system.state_values, T);
             let of = |k: usize| system.state_values[k];
             let is_steady = (0..n / 2).all(|k| {

@@ -8,7 +8,8 @@ use mbs_testkit::scene;
 /// Inertias of two shafts [kg m^2].
 const INERTIAS: [f64; 2] = [0.3, 0.05];
 
-/// Two shafts on the ground about parallel axes, in space oblique ones, with rates at the start and what else there is.
+/// Scene of two shafts on the ground about parallel axes, which are oblique in space. The shafts have rates at the start, and `rest` is
+/// further text.
 fn shafts(dimension: usize, rates: [f64; 2], rest: &str) -> String {
     let mut text = format!("[scene]\nname = \"s\"\ndimension = {dimension}\nduration = 1.0\n");
     for (i, (inertia, rate)) in INERTIAS.iter().zip(rates).enumerate() {
@@ -36,12 +37,13 @@ fn terms(factors: [f64; 2]) -> String {
     )
 }
 
-/// Angles and rates of both shafts, then the other outputs, in each way: all rows.
+/// Rows of a run by each method: angles and rates of both shafts, then the other outputs.
 fn run(text: &str, times: (f64, f64)) -> Vec<(Way, Rows)> {
     WAYS.map(|way| (way, oracle::run(text, way, times))).to_vec()
 }
 
-/// Error of angles of some radians, at 0.1 ms and 20 rad/s: (w h)^2/12 of the turn, which the trapezoidal rule in natural coordinates has.
+/// Error of angles of some radians with steps of 0.1 ms at 20 rad/s [rad]: (w h)^2/12 of the angle, by the trapezoidal rule in natural
+/// coordinates.
 const TURNED: f64 = 4e-6;
 
 #[test]
@@ -49,7 +51,7 @@ fn two_flywheels_on_a_spring_and_a_damper_turn_against_each_other_as_one_oscilla
     let [j1, j2] = INERTIAS;
     let (k, c, w) = (40.0, 0.2, 20.0);
     for (dimension, factor) in [(2, 1.0), (3, 1.0), (3, 2.5)] {
-        // m = a - n b: m'' (1/(1/J1 + n^2/J2)) = -k m - c m'
+        // sum m = a - n b: m'' (1/(1/J1 + n^2/J2)) = -k m - c m'
         let n: f64 = factor;
         let mass = 1.0 / (1.0 / j1 + n * n / j2);
         let text = shafts(
@@ -69,7 +71,7 @@ fn two_flywheels_on_a_spring_and_a_damper_turn_against_each_other_as_one_oscilla
                 let fall = (-delta * t).exp();
                 let m = w / omega * fall * sin;
                 let rate = w * fall * (cos - delta / omega * sin);
-                // the momentum J1 a' + J2 b'/n stays
+                // the momentum J1 a' + J2 b'/n is constant
                 let both = j1 * w * t;
                 let b = (both - j1 * m) / (n * j1 + j2 / n);
                 let a = m + n * b;
@@ -110,7 +112,7 @@ fn a_clutch_slips_until_its_shafts_have_the_common_rate_of_their_momentum() {
         );
         let step = 1e-4;
         for (way, rows) in run(&text, (step, 1.2 * lock)) {
-            // before: constant torques; e^2/slip^2 below 1e-8 of them
+            // before the sum locks, torques are constant, except for a part e^2/slip^2 below 1e-8
             let half = &rows[rows.len() / 2];
             let t = half.0;
             for (found, expected) in [
@@ -123,11 +125,11 @@ fn a_clutch_slips_until_its_shafts_have_the_common_rate_of_their_momentum() {
                     "{way:?}: {found} {expected}"
                 );
             }
-            // when the sum's rate is below a thousandth: within two steps of the end of the slip
+            // the sum locks when its rate is below a thousandth, within two steps of the end of the slip
             let locked =
                 rows.iter().find(|(_, row)| row[5].abs() < 1e-3 * slip).expect("it locks").0;
             assert!((locked - lock).abs() < 2e-3 * lock + 2.0 * step, "{way:?}: {locked} {lock}");
-            // after: a' = n b', and n J1 a' + J2 b' as before
+            // afterwards a' = n b', with the earlier n J1 a' + J2 b'
             let b = (n * j1 * w[0] + j2 * w[1]) / (n * n * j1 + j2);
             let end = &rows.last().expect("a row").1;
             for (found, expected) in [(end[1], n * b), (end[3], b)] {
@@ -144,7 +146,7 @@ fn a_clutch_slips_until_its_shafts_have_the_common_rate_of_their_momentum() {
 fn a_gear_with_play_hits_both_of_its_flanks() {
     let [j1, j2] = INERTIAS;
     let (n, half, k, w) = (2.0, 0.02, 2e3, 6.0);
-    // 20 and 40 teeth: a + 2 b is zero without play
+    // 20 and 40 teeth: a + 2 b is zero without backlash
     let mass: f64 = 1.0 / (1.0 / j1 + n * n / j2);
     let contact = core::f64::consts::PI * (mass / k).sqrt();
     for dimension in [2, 3] {
@@ -164,7 +166,7 @@ fn a_gear_with_play_hits_both_of_its_flanks() {
                 let gap = |row: &&(f64, Vec<f64>)| (row.0 - t).abs();
                 rows.iter().min_by(|a, b| gap(a).total_cmp(&gap(b))).expect("a row").1.clone()
             };
-            // an impact turns the rate of the sum round: impulse 2 w mass
+            // an impact reverses the rate of the sum: its impulse is 2 w mass
             let impulse = 2.0 * w * mass;
             let between = near(first + contact + half / w);
             let after = near(duration);
@@ -188,7 +190,7 @@ fn a_gear_with_play_hits_both_of_its_flanks() {
     }
 }
 
-/// Two wheels in a housing on a free hinge, with a torque on the sum of both.
+/// Scene of two wheels in a housing on a free hinge, with a torque on the sum of both angles.
 fn housing(factors: [f64; 2], torque: f64) -> String {
     let body = |name: &str, x: f64, inertia: f64| {
         format!(
@@ -222,7 +224,7 @@ fn what_carries_all_joints_of_a_sum_gets_the_opposite_of_its_torques() {
     let ([j1, j2], torque, duration) = (INERTIAS, 0.7, 5e-4);
     for factors in [[1.0, 2.0], [1.5, -1.0]] {
         let [c1, c2] = factors;
-        // 0.196 + 2 (1 kg at 0.2 m); the wheels about their own axes have c T
+        // inertia 0.196 + 2 (1 kg at 0.2 m); the torque c T acts on each wheel about its axis
         let carrier = -(c1 + c2) * torque / 0.276;
         let expected = [carrier, c1 * torque / j1 - carrier, c2 * torque / j2 - carrier];
         for (way, rows) in run(&housing(factors, torque), (duration / 16.0, duration)) {
@@ -238,7 +240,8 @@ fn what_carries_all_joints_of_a_sum_gets_the_opposite_of_its_torques() {
     }
 }
 
-/// Two wheels and a slider in a housing on a hinge, about axes of any direction, with smooth laws on sums of them, of a line and of a curve.
+/// Scene of two wheels and a slider in a housing on a hinge about oblique axes. Smooth laws act on sums of coordinates, of a line and of a
+/// curve.
 fn machine() -> String {
     let body = |name: &str, x: f64, inertia: f64| {
         format!(

@@ -1,4 +1,4 @@
-//! Tables that stay between their rows, in every formulation: a cam with dwells, a buffer, a guide.
+//! Monotone tables, whose values stay between those of their rows, in every formulation: a cam with dwells, a buffer, a guide.
 
 use crate::common::oracle::{TRAPEZOIDAL, Way, run};
 use mbs::scene_file::SceneFile;
@@ -6,10 +6,11 @@ use mbs::typed::Simulation;
 use mbs::{CheckpointError, FormulationKind, Mechanism, Method, ResolvedMethod, Run};
 use mbs_testkit::scene;
 
-/// Degrees in a turn over those of a row.
+/// Number of rows of a cam's table in a revolution [-].
 const N_ROWS: u32 = 6;
 
-/// A shaft of 0.02 kg m^2 at 10 rad/s, whose cam lifts a follower of 0.5 kg on a spring; the rows have 60 degrees and the lifts [mm].
+/// Scene of a shaft of 0.02 kg m^2 at 10 rad/s, whose cam lifts a follower of 0.5 kg on a spring. Rows are 60 degrees apart, with lifts in
+/// mm.
 fn cam(lifts: [f64; 7], way: &str) -> String {
     let row = |(i, lift): (u32, &f64)| {
         format!(
@@ -56,7 +57,7 @@ fn a_monotone_cam_lifts_within_its_rows_in_every_formulation_with_order_two() {
     for formulation in TRAPEZOIDAL {
         let way = Way(formulation, "trapezoidal");
         let [low, high] = range(&column(&text, way, 1e-3, 0));
-        // a stated violation of positions is all that is left
+        // only the allowed violation of positions remains
         assert!(low > -1e-9 && high < 0.01 + 1e-9, "{formulation}: {low:e} {high}");
         let error = |step| (column(&text, way, step, 1).last().expect("a row") - right).abs();
         let [coarse, fine] = [2e-3, 5e-4].map(error);
@@ -67,7 +68,7 @@ fn a_monotone_cam_lifts_within_its_rows_in_every_formulation_with_order_two() {
     assert!(low < -1e-3 && high > 0.0119, "a spline: {low} {high}");
 }
 
-/// A slide that is guided over the travel of a buffer, whose force is a curve of the measured travel.
+/// Scene of a slide that is guided over the travel of a buffer. The buffer's force is a curve of the measured travel.
 fn buffer(way: &str) -> String {
     format!(
         "[scene]\ndimension = 2\nduration = 1.0\ngravity = [0.0, 0.0]\n\
@@ -86,7 +87,7 @@ fn buffer(way: &str) -> String {
 #[test]
 fn a_buffer_by_a_monotone_curve_never_pulls_in_every_formulation() {
     for formulation in TRAPEZOIDAL {
-        // of the first body on the second
+        // force of the first body on the second
         let force = |way: &str| {
             let all = column(&buffer(way), Way(formulation, "trapezoidal"), 1e-3, 0);
             range(&all.iter().map(|x| -x).collect::<Vec<_>>())
@@ -100,7 +101,8 @@ fn a_buffer_by_a_monotone_curve_never_pulls_in_every_formulation() {
     }
 }
 
-/// From 0 to 0.12 m in a second at rest at both ends, two rows: the spline is 3 s^2 - 2 s^3, and no row bounds it.
+/// A guide moves from 0 to 0.12 m in a second, at rest at both ends. The table has two rows, so the spline is 3 s^2 - 2 s^3 and no row limits
+/// it.
 #[test]
 fn a_guide_by_a_monotone_table_stays_between_its_rows() {
     let stays = |table: &str, (low, high): (f64, f64)| {
@@ -126,7 +128,7 @@ fn notes(text: &str, kind: FormulationKind) -> Vec<String> {
     mbs::run(&m, &Run::new().method(method)).expect("it runs").notes().to_vec()
 }
 
-/// A shaft at 2 rad/s, whose cam holds a follower of 2 kg up or down on a vertical slide, or turns it.
+/// Scene of a shaft at 2 rad/s, whose cam lifts or lowers a follower of 2 kg on a vertical slide, or rotates it.
 fn held(curve: &str, follower: &str) -> String {
     format!(
         "[scene]\ndimension = 2\nduration = 0.5\ngravity = [0.0, -9.81]\n\
@@ -142,7 +144,7 @@ fn held(curve: &str, follower: &str) -> String {
 #[test]
 fn a_cam_that_would_have_to_pull_is_noted_with_its_time_and_force() {
     let slide = "kind = \"prismatic\"\naxis = [0.0, 1.0]";
-    // x'' = -12 m/s^2 against -9.81, with 2 kg; x'' = -8 m/s^2 leaves a push
+    // x'' = -12 m/s^2 exceeds gravity, 9.81 m/s^2, by 4.38 N on 2 kg; with x'' = -8 m/s^2 the cam pushes
     let falls = |x: f64| format!("coefficients = [0.0, 0.0, {:?}]", -0.5 * x / 4.0);
     let level = "table = [[-1.0, 0.0], [0.0, 0.0], [1.0, -0.001], [2.0, -0.001]]\ninterpolation = \"monotone\"";
     for kind in FormulationKind::listed() {
@@ -155,10 +157,10 @@ fn a_cam_that_would_have_to_pull_is_noted_with_its_time_and_force() {
             )
         };
         assert_eq!(found, [text("4.38 N")], "{}", kind.name());
-        // 3 kg m^2 about its centre
+        // the follower has 3 kg m^2 about its centre
         let found = noted(&falls(12.0), "kind = \"revolute\"");
         assert_eq!(found, [text("36 N m")], "{}", kind.name());
-        // a cam that pushes down holds the weight from above: it pulls
+        // a cam that acts from above carries the weight, so it pulls
         let found = noted(level, slide);
         assert!(found.len() == 1 && found[0].contains("pulls at t = 0 s"), "{found:?}");
     }

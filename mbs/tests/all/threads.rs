@@ -1,4 +1,4 @@
-//! Threads that share the steps of a run change no bit of it.
+//! A run with several threads gives the same bits as with one.
 
 use crate::common;
 
@@ -8,7 +8,7 @@ use mbs::scene_file::{Family, SceneFile, generate};
 use mbs::typed::Simulation;
 use mbs::{Method, ResolvedMethod};
 
-/// Scenes of the repository that are vehicles, and those with inputs of every kind.
+/// Scenes of vehicles in the repository, and scenes with inputs of every kind.
 const OTHERS: [&str; 8] = [
     "iltis-suspension",
     "iltis-suspension-stiff",
@@ -20,7 +20,7 @@ const OTHERS: [&str; 8] = [
     "n-four-bar-40",
 ];
 
-/// The bits of state, multipliers and energies at each of so many steps, as far as the run goes.
+/// Bits of state, multipliers and energies at each of `steps` steps, until the run stops.
 fn bits(scene: &Scene<f64>, formulation: &str, threads: usize, steps: usize) -> Vec<u64> {
     match scene.dimension {
         Dimension::Planar => bits_in::<2>(scene, formulation, threads, steps),

@@ -1,14 +1,14 @@
-//! Bearings of wheels in mesh at a pitch point, against the balance of each wheel by hand.
+//! Bearing forces of gears that mesh at a pitch point, against the balance of each wheel by hand.
 
 use crate::common::oracle::{TRAPEZOIDAL, Way, last, rows};
 use mbs_testkit::scene;
 
 /// Pressure angle of 20 degrees [rad].
 const ANGLE: f64 = core::f64::consts::PI / 9.0;
-/// Forces of constant accelerations are met to this, relative: what steps of 1 ms and rounding leave of angles after half a second.
+/// Relative error of forces under constant accelerations [-]: steps of 1 ms, and rounding of angles after half a second.
 const EXACT: f64 = 1e-6;
 
-/// The last values of the outputs by each formulation.
+/// Last values of the outputs by each formulation.
 fn ends(text: &str) -> impl Iterator<Item = (&'static str, Vec<f64>)> + use<> {
     let scene = scene(text);
     TRAPEZOIDAL.into_iter().map(move |formulation| {
@@ -26,7 +26,7 @@ fn is_near(found: &[f64], expected: &[f64], what: &str) {
     }
 }
 
-/// Two wheels on the ground, `[x, inertia]` of each; a torque of 5 N m on the first.
+/// Scene of two wheels on the ground, `[x, inertia]` of each, with a torque of 5 N m on the first.
 fn wheels([first, second]: [[f64; 2]; 2], coupling: &str) -> String {
     let wheel = |name: &str, [x, inertia]: [f64; 2]| {
         format!(
@@ -50,7 +50,7 @@ fn bearings_of_an_external_pair_carry_the_tangent_and_what_drives_it_apart() {
         let coupling = format!("kind = \"gear\"\nteeth = [20, 30]\n{more}");
         wheels([[0.0, 0.02], [1.0, 0.05]], &coupling)
     };
-    // (I1 + k² I2) α = T, k = 2/3; the teeth take k² I2 α at 0.4 m
+    // (I1 + k² I2) α = T with k = 2/3; the teeth transmit k² I2 α at 0.4 m
     let k = 2.0 / 3.0;
     let alpha = 5.0 / (0.02 + k * k * 0.05);
     let tangent = k * k * 0.05 * alpha / 0.4;
@@ -62,7 +62,7 @@ fn bearings_of_an_external_pair_carry_the_tangent_and_what_drives_it_apart() {
     for (formulation, found) in ends(&text("at = [0.4, 0.0]\npressure_angle = 0.0")) {
         is_near(&found, &[0.0, tangent, 0.0, 0.0, -tangent, 0.0], formulation);
     }
-    // without a pitch point couples act, and bearings carry nothing
+    // without a pitch point the coupling acts by torques only, and the bearings carry no force
     for (formulation, found) in ends(&text("")) {
         assert!(found.iter().all(|x| x.abs() < 1e-9 * tangent), "{formulation}: {found:?}");
     }
@@ -70,7 +70,7 @@ fn bearings_of_an_external_pair_carry_the_tangent_and_what_drives_it_apart() {
 
 #[test]
 fn a_pinion_in_a_ring_is_pressed_inward_whichever_comes_first() {
-    // radii 0.2 and 0.6, axes 0.4 apart: they touch 0.2 beyond the pinion's axis
+    // radii 0.2 and 0.6 m, axes 0.4 m apart: the wheels touch 0.2 m beyond the pinion's axis
     let k = 0.2 / 0.6;
     let (pinion, ring) = ([0.4, 0.02], [0.0, 0.05]);
     let coupling =
@@ -78,7 +78,7 @@ fn a_pinion_in_a_ring_is_pressed_inward_whichever_comes_first() {
     let driven_by_pinion = wheels([pinion, ring], &coupling("[0.2, 0.6]"));
     let alpha = 5.0 / (0.02 + k * k * 0.05);
     let tangent = k * k * 0.05 * alpha / 0.2;
-    // the pinion turns forward and drives the ring up: teeth press it down and towards its axis, along -x
+    // the pinion rotates forward and pushes the ring up: the teeth push the pinion down and towards its axis, along -x
     let apart = tangent * ANGLE.tan();
     for (formulation, found) in ends(&driven_by_pinion) {
         let expected = [apart, tangent, 0.0, -apart, -tangent, 0.0];
@@ -89,22 +89,22 @@ fn a_pinion_in_a_ring_is_pressed_inward_whichever_comes_first() {
     let tangent = 0.02 / k * alpha / 0.2;
     let apart = tangent * ANGLE.tan();
     for (formulation, found) in ends(&driven_by_ring) {
-        // now the ring presses the pinion up
+        // now the ring pushes the pinion up
         let expected = [-apart, tangent, 0.0, apart, -tangent, 0.0];
         is_near(&found, &expected, formulation);
     }
 }
 
-/// Axes along (1, 2, 2)/3, the wheels 0.3 m apart; teeth 0.1 m along the axes from the joints.
+/// The axes are along (1, 2, 2)/3, and the wheels 0.3 m apart. The teeth are 0.1 m from the joints along the axes.
 #[test]
 fn teeth_beside_their_bearings_bend_the_shafts_in_space() {
     let n = [1.0 / 3.0, 2.0 / 3.0, 2.0 / 3.0];
-    // across n, of length one: from the first axis to the second, and the tangent n × e
+    // unit vectors perpendicular to n: e from the first axis to the second, and the tangent n × e
     let e = [2.0 / 3.0, 1.0 / 3.0, -2.0 / 3.0];
     let t = [-2.0 / 3.0, 2.0 / 3.0, -1.0 / 3.0];
     let at = |x: f64, z: f64| [0, 1, 2].map(|i| x * e[i] + z * n[i]);
     let inertia = |about: f64| {
-        // thin discs: half of it across; J = a 1 + (about - a) n nᵀ
+        // thin discs have half of the inertia across their axis; J = a 1 + (about - a) n nᵀ
         let a = 0.5 * about;
         let entry = |i: usize, j: usize| if i == j { a } else { 0.0 } + (about - a) * n[i] * n[j];
         [entry(0, 0), entry(1, 1), entry(2, 2), entry(0, 1), entry(1, 2), entry(2, 0)]
@@ -129,8 +129,8 @@ fn teeth_beside_their_bearings_bend_the_shafts_in_space() {
     let alpha = 5.0 / (0.02 + 0.25 * 0.05);
     let tangent = 0.25 * 0.05 * alpha / 0.1;
     let apart = tangent * ANGLE.tan();
-    // on the first wheel the teeth push -tangent t - apart e at 0.1 n + 0.1 e; its bearing gives the opposite, and the moment
-    // of the force 0.1 m along the axis: -0.1 n × f
+    // the teeth push the first wheel by -tangent t - apart e at 0.1 n + 0.1 e; its bearing exerts the opposite force, and the moment -0.1 n ×
+    // f of the force 0.1 m along the axis
     let f = [0, 1, 2].map(|i| -tangent * t[i] - apart * e[i]);
     let moment = [n[1] * f[2] - n[2] * f[1], n[2] * f[0] - n[0] * f[2], n[0] * f[1] - n[1] * f[0]];
     for (formulation, found) in ends(&text) {
@@ -141,7 +141,7 @@ fn teeth_beside_their_bearings_bend_the_shafts_in_space() {
     }
 }
 
-/// A housing on a free hinge, a motor from it on the first wheel.
+/// The wheels are in a housing on a free hinge, and a motor acts from the housing on the first wheel.
 #[test]
 fn in_a_turning_housing_the_motion_and_what_its_hinge_carries_stay_the_same() {
     let text = |more: &str| {
@@ -178,13 +178,13 @@ fn in_a_turning_housing_the_motion_and_what_its_hinge_carries_stay_the_same() {
         assert_eq!(with[9].to_bits(), without[9].to_bits(), "{formulation}: the motion");
         is_near(&with[..3], &without[..3], formulation);
         let change = |i: usize| with[i] - without[i];
-        // one force at both bearings, along the line of action that turns with the housing
+        // the forces at both bearings are equal and opposite, along the line of action, which rotates with the housing
         let (sine, cosine) = with[9].sin_cos();
         let [along, across] =
             [cosine * change(3) + sine * change(4), cosine * change(4) - sine * change(3)];
         assert!(across.abs() > 0.1, "{formulation}: {across}");
         let slope = across.abs() * ANGLE.tan();
-        // the first wheel stands at +x: its bearing pulls it back towards the mesh
+        // the first wheel is at +x: its bearing pulls it towards the mesh
         assert!((along + slope).abs() < EXACT * slope, "{formulation}: {along} {slope}");
         for i in [3, 4] {
             assert!((change(i) + change(i + 3)).abs() < EXACT * slope, "{formulation}: {i}");

@@ -1,4 +1,4 @@
-//! The front door's tree: its matrices, efforts and Jacobians against closed forms, differences and natural coordinates.
+//! Tree of the main interface: its matrices, efforts and Jacobians against closed forms, differences and natural coordinates.
 
 use crate::common::settings;
 use crate::retell::{reorder, turn_by, turn_scene, turned_in_plane};
@@ -10,12 +10,12 @@ use mbs_testkit::random::{self, Random};
 use mbs_testkit::{allocations, close, dot, file, plus, scene};
 use std::iter;
 
-/// Rounding through trees of some bodies.
+/// Relative rounding error through trees of some bodies [-].
 const ROUNDING: f64 = 1e-10;
-/// Central differences of this step [s] are off by its square.
+/// Step of the central differences [s], whose error is of second order.
 const STEP: f64 = 1e-5;
 const DIFFERENCES: f64 = 1e-6;
-/// Violation of the joints that steps leave.
+/// Largest violation of the joints after steps.
 const FOLLOWED: f64 = 1e-8;
 
 pub(crate) fn tree(scene: &Scene<f64>) -> Tree {
@@ -26,14 +26,14 @@ fn times(matrix: &Matrix, x: &[f64]) -> Vec<f64> {
     (0..matrix.rows).map(|i| dot(matrix.row(i), x)).collect()
 }
 
-/// Every joint names its bodies the other way round.
+/// Returns the scene with the bodies of every joint exchanged.
 fn reversed(mut scene: Scene<f64>) -> Scene<f64> {
     scene.joints.iter_mut().for_each(|joint| joint.bodies.reverse());
     scene.name += ", reversed";
     scene
 }
 
-/// A body with a free joint off its centre, and a body on it by a joint.
+/// Scene of a body with a free joint off its centre, and a second body on a joint of it.
 pub(crate) fn floating(dimension: Dimension) -> Scene<f64> {
     let mut scene = random::tree(3, dimension, 2);
     scene.bodies[1].center = [0.8, -0.3, 0.0];
@@ -54,17 +54,17 @@ fn trees() -> impl Iterator<Item = Scene<f64>> {
     BOTH.into_iter().flat_map(|d| (1..4).map(move |seed| random::tree(seed, d, 8)))
 }
 
-/// Trees of all joints, with their bodies in both orders.
+/// Trees with all kinds of joints, with their bodies in both orders.
 pub(crate) fn mechanisms() -> Vec<Scene<f64>> {
     let mut all: Vec<_> = trees().chain(BOTH.map(floating)).collect();
-    // A body that nothing holds, which has no joint.
+    // one body has no joint
     all[7].joints.remove(0);
     all.push(floating(Dimension::Spatial));
     all.extend(all.clone().into_iter().map(reversed));
     all
 }
 
-/// A tree at a random state; quaternions need not be unit.
+/// Tree in a random state; its quaternions need not have unit length.
 pub(crate) fn wandering(scene: &Scene<f64>, seed: u64) -> Tree {
     let (mut tree, mut random) = (tree(scene), Random::new(seed));
     let [n_q, n] = [tree.coordinates().len(), tree.velocities().len()];
@@ -73,7 +73,7 @@ pub(crate) fn wandering(scene: &Scene<f64>, seed: u64) -> Tree {
     tree
 }
 
-/// q ⊕ h v by the documented rates of the coordinates.
+/// Coordinates after a step h along the velocities v, q ⊕ h v, by the documented rates of the coordinates.
 fn moved(scene: &Scene<f64>, tree: &Tree, v: &[f64], h: f64) -> Vec<f64> {
     let mut q = tree.coordinates().to_vec();
     let spatial = scene.dimension == Dimension::Spatial;
@@ -89,7 +89,7 @@ fn moved(scene: &Scene<f64>, tree: &Tree, v: &[f64], h: f64) -> Vec<f64> {
             q[at.start + k] += h * v[rates.start + k];
         }
         if linear < rates.len() {
-            // q (0, ω) / 2
+            // rate of a quaternion: q (0, ω) / 2
             let w: [f64; 3] = v[rates.end - 3..rates.end].try_into().expect("three");
             let [a, b, c, d]: [f64; 4] = q[at.end - 4..at.end].try_into().expect("four");
             let rate = [
@@ -104,7 +104,7 @@ fn moved(scene: &Scene<f64>, tree: &Tree, v: &[f64], h: f64) -> Vec<f64> {
     q
 }
 
-/// Central difference of a quantity along v, while v changes by its rates.
+/// Central difference of a quantity along the velocities, which change by their rates.
 fn difference(
     scene: &Scene<f64>,
     tree: &Tree,
@@ -142,7 +142,7 @@ fn a_double_pendulum_has_the_matrices_of_its_closed_form() {
     close("c + g", tree.bias_forces(), &bias, ROUNDING);
 }
 
-/// Positions, velocities and accelerations of the bodies, and kinetic energy, as the simulation has them after some steps.
+/// Compares positions, velocities and accelerations of the bodies, and the kinetic energy, with a simulation after some steps.
 fn follows<const D: usize>(scene: &Scene<f64>, formulation: &str) {
     let name = format!("{} {formulation}", scene.name);
     let mut sim = Simulation::<f64, D>::new(scene, &settings(scene, formulation, Some(1e-3)))
@@ -171,7 +171,7 @@ fn follows<const D: usize>(scene: &Scene<f64>, formulation: &str) {
         let acceleration = plus(&bias, 1.0, &times(tree.point_jacobian(body, at), &a));
         close(&name, &acceleration, motion.acceleration.as_slice(), 100.0 * FOLLOWED);
     }
-    // Another effort: what comes of its inverse is the same motion.
+    // forward dynamics with another effort must agree with inverse dynamics
     let effort = Random::new(3).vector(v.len(), v.len(), 1.0);
     let a = tree.forward_dynamics(&effort).expect("accelerations").to_vec();
     let least = tree.inverse_dynamics(&a).expect("efforts").to_vec();
@@ -218,7 +218,7 @@ fn points_move_as_their_jacobians_say_and_as_their_coordinates_do() {
             close(&name, &times(tree.point_jacobian(b, at), &v), &velocity, ROUNDING);
             let rate = difference(scene, &tree, &none, |t| motion_of(t, b, at)[1].clone());
             close(&name, &acceleration, &rate, 10.0 * DIFFERENCES);
-            // v(p) = v(c) + ω × (p − c)
+            // velocity of a point: v(p) = v(c) + ω × (p − c)
             let BodyId::Body(i) = b else { unreachable!() };
             let center = scene.bodies[i].center;
             let frame = times(tree.frame_jacobian(b), &v);
@@ -248,7 +248,7 @@ fn inverse_dynamics_returns_what_forward_dynamics_took_and_power_is_the_change_o
         close(&scene.name, tree.inverse_dynamics(&a).expect("efforts"), &effort, size);
         let mass = tree.mass_matrix().clone();
         close(&scene.name, &plus(&times(&mass, &a), 1.0, tree.bias_forces()), &effort, size);
-        // d/dt (½ vᵀ M v) = v·(τ − g), and g is the gradient of the potential energy.
+        // d/dt (½ vᵀ M v) = v·(τ − g), where g is the gradient of the potential energy
         let kinetic = |t: &mut Tree| {
             let v = t.velocities().to_vec();
             vec![0.5 * dot(&times(t.mass_matrix(), &v), &v)]
@@ -275,7 +275,7 @@ fn coordinates_have_the_sense_of_the_joints_whichever_body_comes_first() {
     }
 }
 
-/// The tree of a start has the values and rates that were asked for; rates of a ball were in global axes.
+/// Asserts that the tree of a start has the prescribed values and rates. Rates of ball joints are in global axes.
 fn starts<const D: usize>(mut scene: Scene<f64>) {
     let mut given = Vec::new();
     for initial in &mut scene.initials {
@@ -315,7 +315,7 @@ fn order_and_direction_of_a_mechanism_change_nothing() {
             Dimension::Planar => turn_by(&scene, turned_in_plane),
             Dimension::Spatial => turn_scene(&scene),
         };
-        // Axes of balls turn with the mechanism, and what is along them does not.
+        // axes of ball joints rotate with the mechanism, so their components change
         let has_balls = scene.joints.iter().any(|j| j.kind == JointKind::Spherical);
         for other in iter::once(reorder(&scene)).chain((!has_balls).then_some(turned)) {
             let mut second = tree(&other);

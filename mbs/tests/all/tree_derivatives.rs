@@ -1,4 +1,4 @@
-//! Derivatives of a tree's dynamics and Jacobians against differences, steps on its positions, and what resists a frame.
+//! Derivatives of a tree's dynamics and Jacobians against differences, steps on its positions, and the inertia of a frame.
 
 use crate::gravity_scale::lightened;
 use crate::tree::{floating, mechanisms, tree, wandering};
@@ -7,17 +7,17 @@ use mbs::{Error as _, FrameTarget, InverseKinematicsEnd, Matrix, Tree};
 use mbs_testkit::random::{self, Random};
 use mbs_testkit::{close, dot, file};
 
-/// Step of the differences, of order eight: truncation and rounding of what they are taken of are both below 1e-13 of it.
+/// Step of the differences of order eight. Truncation and the rounding of the quantities are both below 1e-13 of it.
 const STEP: f64 = 1e-2;
-/// The largest distance, relative to the largest derivative. Accelerations of a light body at the end of a chain lose three digits.
+/// Largest difference, relative to the largest derivative [-]. Accelerations of a light body at the end of a chain lose three digits.
 const DIFFERENCES: f64 = 1e-9;
-/// Rounding through trees of some bodies.
+/// Relative rounding error through trees of some bodies [-].
 const ROUNDING: f64 = 1e-11;
 
-/// Quantity that is asked of a tree.
+/// Quantity that is read from a tree.
 type Quantity<'a> = &'a dyn Fn(&mut Tree) -> Vec<f64>;
 
-/// The derivative of a quantity of a copy of the tree that `change` takes to a distance.
+/// Derivative of a quantity of a copied tree. `change` moves the copy by a distance.
 fn derivative(tree: &Tree, change: &dyn Fn(&mut Tree, f64), quantity: Quantity<'_>) -> Vec<f64> {
     let weights = [4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0];
     let (mut there, q, v) = (tree.clone(), tree.coordinates(), tree.velocities());
@@ -38,7 +38,7 @@ fn derivative(tree: &Tree, change: &dyn Fn(&mut Tree, f64), quantity: Quantity<'
     sum
 }
 
-/// Steps from the tree's position along one of its velocities, which stay.
+/// Moves the tree's position along one of its velocities, without a change of the velocities.
 fn along(tree: &mut Tree, k: usize, h: f64) {
     let mut step = vec![0.0; tree.velocities().len()];
     step[k] = h;
@@ -85,7 +85,7 @@ fn derivatives_of_both_dynamics_are_those_of_differences_whichever_body_comes_fi
                 let by_v = derivative(&tree, &|t, h| faster(t, k, h), quantity);
                 close(&name, &column(v, k), &by_v, size);
             }
-            // M times a column of its inverse
+            // product of M and a column of its inverse
             let unit: Vec<f64> = (0..n).map(|i| f64::from(u8::from(i == k))).collect();
             let inverse = column(&forward.effort, k);
             let product: Vec<f64> = (0..n).map(|i| dot(mass.row(i), &inverse)).collect();
@@ -140,7 +140,7 @@ fn operational_space_inertia_makes_the_accelerations_of_a_force_on_the_frame() {
         let body = BodyId::Body(scene.bodies.len() - 1);
         let at = [0.3, 0.2, 0.0];
         let n = tree.velocities().len();
-        // a force and a moment, as efforts: the accelerations of the frame that they alone make
+        // a force and a moment, converted to efforts: the accelerations of the frame that these alone cause
         let mut force = Random::new(4).vector(6, 6, 2.0);
         if scene.dimension == Dimension::Planar {
             force[2..5].fill(0.0);
@@ -157,17 +157,17 @@ fn operational_space_inertia_makes_the_accelerations_of_a_force_on_the_frame() {
         match tree.operational_space_inertia_at(body, at) {
             Ok(inertia) => {
                 let back: Vec<f64> = (0..6).map(|i| dot(inertia.row(i), &motion)).collect();
-                // as ill-conditioned as the position is near a singular one
+                // near a singular position the inertia is ill-conditioned
                 close(&scene.name, &back, &force, 1e-6);
             }
             Err(error) => assert_eq!(error.code(), "held-frame", "{}", scene.name),
         }
     }
-    // two joints do not move a rod in three ways
+    // two joints cannot move a rod in three directions
     let mut rods = tree(&file("double-pendulum"));
     let error = rods.operational_space_inertia_at(BodyId::Body(1), [2.0, 0.0, 0.0]);
     assert_eq!(error.expect_err("two joints").code(), "held-frame");
-    // six joints move the last link in every way, but where they stand in a line
+    // six joints move the last link in all directions, unless they are in a line
     let mut arm = tree(&file("six-joint-arm"));
     let (last, at) = (BodyId::Body(5), file("six-joint-arm").bodies[5].center);
     arm.set(&[0.3, 0.4, 0.5, 0.6, 0.7, 0.8], &[0.0; 6]).expect("a state");

@@ -1,4 +1,4 @@
-//! Inverse kinematics of a tree: places that its own joints have reached, ranges, loops, and places out of reach.
+//! Inverse kinematics of a tree: poses that its joints can reach, ranges, closed loops, and poses out of reach.
 
 use crate::tree::{mechanisms, tree, wandering};
 use mbs::core::scene::{BodyId, JointId, Scene};
@@ -6,7 +6,7 @@ use mbs::{Error as _, FrameTarget, InverseKinematicsEnd as End, Mechanism, Metho
 use mbs_testkit::random::Random;
 use mbs_testkit::{close, file};
 
-/// Error of a place that is reached, in parts of the scene's length and in radians.
+/// Error of a reached pose, relative to the scene's length, and in radians.
 const REACHED: f64 = 1e-11;
 
 fn pose(tree: &mut Tree, body: BodyId, at: [f64; 3]) -> FrameTarget {
@@ -33,7 +33,7 @@ fn a_place_that_the_joints_have_taken_a_body_to_is_found_again_from_nearby() {
     }
 }
 
-/// Two rods of a metre in the plane, from the origin along x.
+/// Scene of two planar rods of a metre, from the origin along x.
 fn rods(ranges: [Option<[f64; 2]>; 2]) -> Scene<f64> {
     let mut scene = file("double-pendulum");
     for (joint, range) in scene.joints.iter_mut().zip(ranges) {
@@ -46,7 +46,7 @@ fn rods(ranges: [Option<[f64; 2]>; 2]) -> Scene<f64> {
 fn joints_keep_their_range_and_are_named_where_it_keeps_the_body_from_its_place() {
     let tip = (BodyId::Body(1), [2.0, 0.0, 0.0]);
     let place = |x: f64, y: f64| FrameTarget { position: Some([x, y, 0.0]), rotation: None };
-    // the elbow stays above the line: only one of the two solutions has its angle in the range
+    // the elbow stays above the line: only one of the two solutions has an angle within the range
     let mut up = tree(&rods([None, Some([-3.0, 0.0])]));
     up.set(&[0.3, -0.1], &[0.0; 2]).expect("a state");
     let found = up.inverse_kinematics(tip.0, tip.1, &place(1.0, 1.0)).expect("open");
@@ -57,13 +57,13 @@ fn joints_keep_their_range_and_are_named_where_it_keeps_the_body_from_its_place(
         &[std::f64::consts::FRAC_PI_2, -std::f64::consts::FRAC_PI_2],
         1e-9,
     );
-    // the shoulder may not turn so far
+    // the range of the shoulder does not allow the solution
     let mut held = tree(&rods([Some([-0.5, 0.5]), Some([-0.2, 0.2])]));
     held.set(&[0.3, 0.1], &[0.0; 2]).expect("a state");
     let found = held.inverse_kinematics(tip.0, tip.1, &place(0.0, 1.9)).expect("open");
     assert_eq!(found.end, End::AtRange(vec![JointId::new(0), JointId::new(1)]));
     close("ends", held.coordinates(), &[0.5, 0.2], 1e-12);
-    // out of reach: stretched towards it, nearer than any other position
+    // out of reach: the rods point to the target, which is the nearest position
     let mut far = tree(&rods([None; 2]));
     far.set(&[0.3, 0.3], &[0.0; 2]).expect("a state");
     let found = far.inverse_kinematics(tip.0, tip.1, &place(0.0, 3.0)).expect("open");
@@ -97,7 +97,7 @@ fn a_mechanism_with_loops_is_moved_to_where_a_simulation_had_its_body() {
         let target = pose(&mut tree, body, [0.3, 0.1, 0.0]);
         tree.set(&start, &vec![0.0; tree.velocities().len()]).expect("a state");
         let found = tree.inverse_kinematics(body, [0.3, 0.1, 0.0], &target).expect("closed loops");
-        // steps leave 1e-9 of the loops open, and the place is then off by as much
+        // steps leave a violation of 1e-9 in the loops, and the pose has the same error
         assert!(found.distance < 1e-7 && found.angle < 1e-7, "{name}: {found:?}");
         close(name, tree.coordinates(), &wanted, 1e-6);
     }
@@ -107,7 +107,7 @@ fn a_mechanism_with_loops_is_moved_to_where_a_simulation_had_its_body() {
 fn a_position_that_is_far_from_closing_its_loops_is_refused_and_kept() {
     let mut bars = tree(&file("four-bar"));
     let n = bars.velocities().len();
-    // rods that point away from each other
+    // the rods point away from each other
     let apart = [2.5, -2.0, 1.9];
     bars.set(&apart, &vec![0.0; n]).expect("a state");
     let target = FrameTarget::default();

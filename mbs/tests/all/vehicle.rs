@@ -1,4 +1,4 @@
-//! The Bombardier Iltis: static equilibrium against the published one, runs in three formulations against each other, energy.
+//! The Bombardier Iltis: static equilibrium against the published one, comparison of runs in three formulations, and energy.
 
 use crate::common;
 
@@ -11,7 +11,7 @@ use mbs::core::scene::{BodyId, Output, Quantity, Scene};
 use mbs::{Method, StaticEquilibrium};
 use std::collections::BTreeMap;
 
-/// A number of the published equilibrium (Robotran model of UCLouvain), held to 1e-3 of itself.
+/// Asserts a number of the published equilibrium (Robotran model of UCLouvain) to a relative 1e-3.
 fn published(what: &str, ours: f64, theirs: f64) {
     println!("{what}: {ours:.6}, published {theirs}");
     assert!((ours / theirs - 1.0).abs() < 1e-3, "{what}: {ours}, published {theirs}");
@@ -27,7 +27,7 @@ fn static_equilibrium_is_the_published_one() {
     };
     let chassis = find(&still.outputs, "chassis");
     published("height of the chassis [m]", chassis[2], 0.562_917);
-    // The nose is a point 1 m ahead of the centre of mass.
+    // the nose is a point 1 m ahead of the centre of mass
     let nose = find(&still.outputs, "nose");
     published("pitch [deg]", (chassis[2] - nose[2]).asin().to_degrees(), 0.1465);
     for (side, force) in [("front", 1408.51), ("rear", 1335.52)] {
@@ -37,7 +37,7 @@ fn static_equilibrium_is_the_published_one() {
     }
 }
 
-/// Forces of the spring elements with a vehicle at rest in a state, tension positive, and the tires' loads [N].
+/// Forces of the spring elements [N], positive in tension, and loads of the tires [N], for a vehicle at rest.
 fn forces(
     scene: &Scene<f64>,
     state: &[f64],
@@ -78,7 +78,8 @@ fn nominal_forces_and_those_of_the_equilibrium_are_the_published_ones() {
     let scene = common::scene("iltis-equilibrium");
     let model = NaturalModel::<f64, 3>::new(&scene).expect("the scene has a model");
     let mut state = State::at_rest(&model);
-    // Nominal: Frik, Leister and Schwartz as the model of UCLouvain quotes and meets them; equilibrium: that model.
+    // nominal values are those of Frik, Leister and Schwartz, which the model of UCLouvain quotes and confirms; equilibrium values are those
+    // of that model
     let nominal =
         [("leaf", [-2728.86; 2]), ("damper-spring", [-128.03; 2]), ("tire", [3829.50, 3593.52])];
     let at_rest = [
@@ -102,8 +103,8 @@ fn nominal_forces_and_those_of_the_equilibrium_are_the_published_ones() {
     }
 }
 
-/// Two programs, which differ in where they take the slip of a tire (0.02 % of the way across) and in what camber does to its
-/// load; the reference has four to seven digits [-].
+/// Relative difference from the reference [-]. The two programs define the slip of a tire at different points (0.02 % of the lateral
+/// displacement), and the effect of camber on its load differently. The reference has four to seven digits.
 const REFERENCE: f64 = 1e-3;
 
 /// State after 5 s: x, y, yaw, roll, yaw rate, v_x, v_y of the chassis (Robotran model of UCLouvain).
@@ -143,7 +144,7 @@ fn steering_ramps_end_where_those_of_an_independent_program_do() {
             let (x, y) = (minus(nose, center), minus(flank, center));
             let (x_t, y_t) = (minus(v_nose, v), minus(v_flank, v));
             let z = common::cross(x, y);
-            // The rotation is that by pitch about y, then roll about x, then yaw about z.
+            // the rotation is by pitch about y, then roll about x, then yaw about z
             let yaw_rate = (x_t[1] * y[1] - x[1] * y_t[1]) / (x[1] * x[1] + y[1] * y[1]);
             let ours = [center[0], center[1], x[1].atan2(y[1]), -z[1].asin(), yaw_rate, v[0], v[1]];
             for (k, (ours, theirs)) in ours.iter().zip(reference).enumerate() {
@@ -160,7 +161,7 @@ fn steering_ramps_end_where_those_of_an_independent_program_do() {
     }
 }
 
-/// Chassis position and vertical acceleration over a run, and the energy error as a share of the energy turned over.
+/// Position and vertical acceleration of the chassis over a run, and the energy error relative to the exchanged energy.
 fn run(name: &str, formulation: &str, (step, duration): (f64, f64)) -> (Vec<[f64; 4]>, f64) {
     let mut scene = common::scene(name);
     let at = scene.bodies[0].center;
@@ -173,7 +174,7 @@ fn run(name: &str, formulation: &str, (step, duration): (f64, f64)) -> (Vec<[f64
         formulation: Some(formulation.to_owned()),
         step: Some(step),
         duration: Some(duration),
-        // What iterations leave adds up over thousands of steps: two digits less than the default.
+        // errors of the iterations add up over thousands of steps, so the tolerance is a hundredth of the default
         tolerance: Some(1e-12),
         ..Method::default()
     };
@@ -184,7 +185,7 @@ fn run(name: &str, formulation: &str, (step, duration): (f64, f64)) -> (Vec<[f64
     (rows, energy.max_error / energy.turned_over)
 }
 
-/// The largest difference of places [m] and of vertical accelerations [m/s^2] at common times.
+/// Largest difference of positions [m] and of vertical accelerations [m/s^2] at common times.
 fn apart(a: &[[f64; 4]], b: &[[f64; 4]]) -> [f64; 2] {
     assert_eq!(a.len(), b.len());
     a.iter().zip(b).fold([0.0_f64; 2], |[place, acceleration], (x, y)| {
@@ -193,7 +194,7 @@ fn apart(a: &[[f64; 4]], b: &[[f64; 4]]) -> [f64; 2] {
     })
 }
 
-/// A run in three formulations at two steps: they agree, and agree better at half the step.
+/// Asserts that a run in three formulations agrees at two steps, and better at the smaller one.
 fn agree(name: &str, duration: f64) {
     let differences = |step: f64| {
         let (reference, _) = run(name, "index-3", (step, duration));
@@ -205,7 +206,7 @@ fn agree(name: &str, duration: f64) {
         [("classical", coarse[0], fine[0]), ("recursive", coarse[1], fine[1])]
     {
         println!("{name} {what}: {coarse:?} at 4e-3, {fine:?} at 2e-3 (m, m/s^2)");
-        // In other coordinates the rule's own error of second order differs; in the same ones only the iteration does.
+        // in other coordinates the rule's error of second order differs; in the same coordinates only the iteration differs
         assert!(fine[0] < 1e-3, "{name} {what}: {fine:?}");
         assert!(fine[0] < 0.5 * coarse[0] || fine[0] < 1e-6, "{name} {what}: {coarse:?} {fine:?}");
         assert!(fine[1] < 0.6 * coarse[1] || fine[1] < 1e-2, "{name} {what}: {coarse:?} {fine:?}");
@@ -227,8 +228,8 @@ fn formulations_agree_on_the_ramp_of_the_stairs() {
     agree("iltis-stairs", 5.0);
 }
 
-/// The vehicle, its road and what it does are the same on both sides. Only rounding leads it off its plane, 1e-16 of the wheels' forces
-/// in each of hundreds of steps: nanometres. A projection that is not orthogonal in the mass adds what grows to centimetres.
+/// The vehicle, its road and its motion are symmetric. Only rounding, 1e-16 of the wheels' forces in each of hundreds of steps, moves it off
+/// its plane by nanometres. A projection that is not orthogonal in the mass metric would add an error that grows to centimetres.
 #[test]
 fn a_vehicle_that_is_the_same_on_both_sides_stays_in_its_plane() {
     for name in ["iltis-stairs", "iltis-jump", "iltis-stairs-stiff"] {
@@ -242,12 +243,12 @@ fn a_vehicle_that_is_the_same_on_both_sides_stays_in_its_plane() {
     }
 }
 
-/// At a step as long as the report's, a run in relative coordinates is as near to the motion as one of index-3.
+/// Asserts that with the report's step, a run in relative coordinates is as accurate as one of index-3.
 fn reaches(name: &str, (step, duration): (f64, f64)) {
     let (exact, _) = run(name, "index-3", (step / 16.0, duration));
     let [augmented, recursive] = ["index-3", "recursive"].map(|formulation| {
         let (rows, energy) = run(name, formulation, (step, duration));
-        // Long records keep one instant in so many.
+        // long runs record only one of several instants
         let common = (exact.len() - 1) / (rows.len() - 1);
         let exact: Vec<_> = exact.iter().step_by(common).copied().collect();
         (apart(&exact, &rows)[0], energy)
@@ -255,7 +256,7 @@ fn reaches(name: &str, (step, duration): (f64, f64)) {
     println!(
         "{name} at {step} s (m, share of energy): index-3 {augmented:?}, recursive {recursive:?}"
     );
-    // The same rule in other coordinates: errors of the same size, not the same.
+    // the same rule in other coordinates has errors of the same size
     assert!(recursive.0 < 2.0 * augmented.0, "{name}: {augmented:?} {recursive:?} m");
     assert!(recursive.1 < 2.0 * augmented.1, "{name}: {augmented:?} {recursive:?} of the energy");
 }
@@ -278,7 +279,7 @@ fn suspensions_that_come_to_rest_are_stepped_to_the_end() {
         let rows = outcome.rows();
         let velocity = &rows[rows.len() - 1].1[3..6];
         println!("{name}: {velocity:?}");
-        // Places of order one, rounded to 2e-16 m, in steps of 1e-3 s.
+        // positions of order one, rounded to 2e-16 m, in steps of 1e-3 s
         assert!(velocity.iter().all(|v| v.abs() < 1e-12), "{name}: {velocity:?}");
     }
 }
@@ -290,13 +291,13 @@ fn energy_is_kept_to_a_thousandth_of_what_is_turned_over_and_better_at_smaller_s
             let [coarse, fine] = [4e-3, 1e-3].map(|step| run(name, formulation, (step, 10.0)).1);
             println!("{name}, {formulation}: {coarse:.1e} at 4e-3, {fine:.1e} at 1e-3");
             assert!(fine < 1e-3, "{name}, {formulation}: {fine:e}");
-            // Order 1 or better: a quarter of the step.
+            // an order of at least 1: the step is a quarter
             assert!(fine < 0.25 * coarse, "{name}, {formulation}: {coarse:e} {fine:e}");
         }
     }
 }
 
-/// Places of the road that are searched for the nearest [m]; the least distance is then too large by a few 1e-8 m at most.
+/// Distance of the road's points in the search for the nearest [m]. The smallest distance is then too large by a few 1e-8 m at most.
 const SEARCHED: f64 = 1e-4;
 
 #[test]
@@ -309,7 +310,7 @@ fn wheels_stand_on_the_nearest_point_of_every_stair() {
         });
         let road = road.expect("the vehicle has tires");
         let law_inputs = actions.tables.law_inputs(&[]);
-        // The ramp, and the five stairs behind it; wheels pressed in, just touching and a little above.
+        // the ramp, and the five stairs behind it, with wheels that are pressed in, just in contact, or slightly above
         for i in 0..=2600 {
             let x = 5.5 + 0.01 * f64::from(i);
             let h = height(road, &law_inputs, x);

@@ -1,4 +1,4 @@
-//! No bytes do harm: a checkpoint that was changed ends in an error at worst.
+//! Changed checkpoints: any bytes give an error at worst, never a panic.
 
 use super::items::{CASE, Case, saved};
 use super::layout::{Parts, sealed};
@@ -14,7 +14,7 @@ fn a_checkpoint_of_another_version_is_refused_with_its_name() {
     let (scene, case) = (CASE.scene(), CASE);
     let settings = case.settings(&scene);
     let mut bytes = saved(&case.before::<2>(), (&scene, &settings));
-    // the version stands first, after its length
+    // the version comes first, after its length
     let version = env!("CARGO_PKG_VERSION").as_bytes();
     assert_eq!(&bytes[36..36 + version.len()], version);
     bytes[36] = b'9';
@@ -24,7 +24,7 @@ fn a_checkpoint_of_another_version_is_refused_with_its_name() {
     }
 }
 
-/// Cases that reach every part of the format, short enough to be tried many times.
+/// Cases that cover all parts of the format, with few bytes, so that many changes can be tried.
 const TRIED: [Case; 5] = [
     CASE,
     Case { formulation: "multi-index", control: "both", ..CASE },
@@ -33,7 +33,7 @@ const TRIED: [Case; 5] = [
     Case { formulation: "recursive", control: "energy", ..CASE },
 ];
 
-/// A run of 30 steps, kept; the bytes of its checkpoint in the middle.
+/// Runs 30 steps with checkpoints, and returns the bytes of the middle one.
 fn run_bytes(case: Case) -> (Scene<f64>, ResolvedMethod, Vec<u8>) {
     let scene = case.scene();
     let overrides = Method { duration: Some(0.03), ..case.overrides() };
@@ -57,7 +57,7 @@ fn no_bytes_do_harm() {
     for case in TRIED {
         let (scene, settings, bytes) = run_bytes(case);
         assert!(Checkpoint::read(&bytes[..]).is_ok());
-        // what comes before the state says whose it is
+        // the bytes before the state identify the scene and the settings
         let begin = Parts::of_run(bytes.clone(), &settings).place("simulation").start;
         let strategy = (prop::collection::vec((0..bytes.len(), any::<u8>()), 1..4), 0..bytes.len());
         let config = ProptestConfig { cases: 300, failure_persistence: None, ..Default::default() };
@@ -72,14 +72,14 @@ fn no_bytes_do_harm() {
                 changed.truncate(length);
             }
             prop_assert!(changed == bytes || Checkpoint::read(&changed[..]).is_err());
-            // with length and sum put right everything is read: a state that no run could have must end in an error at worst
+            // with correct length and checksum all bytes are read: a state that no run can have gives an error at worst
             let Ok(checkpoint) = Checkpoint::read(&sealed(&changed)[..]) else { return Ok(()) };
             let mut simulation = Simulation::<f64, 2>::new(&scene, &settings).expect("it starts");
-            // the state is tried whosever it is
+            // the state is restored whatever scene and settings the bytes had
             changed[..begin].copy_from_slice(&bytes[..begin]);
             let restored = simulation.restore((&scene, &settings), &sealed(&changed)[..]);
             if case.control != "fixed" && restored.is_ok() {
-                // to the end it may be far, in steps that suit such a state
+                // the end may be far away, as the steps suit the changed state
                 let _ = (0..20).try_for_each(|_| simulation.advance(case.rest()).map(|_| ()));
             } else if case.integrator == "trapezoidal" {
                 let from = Recording { from: Some(&checkpoint), ..Recording::default() };

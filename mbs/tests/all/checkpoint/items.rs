@@ -1,4 +1,4 @@
-//! Every item of a simulation's checkpoint matters.
+//! Every item of a simulation's checkpoint affects the following steps.
 
 use super::layout::Parts;
 use crate::common::scene;
@@ -8,7 +8,7 @@ use mbs::core::scene::{
 use mbs::typed::Simulation;
 use mbs::{Method, ResolvedMethod};
 
-/// How a simulation is made and stepped.
+/// How a simulation is made and stepped before its checkpoint and after it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Case {
     pub(super) scene: &'static str,
@@ -18,11 +18,11 @@ pub(super) struct Case {
     pub(super) step: f64,
     /// Steps before the checkpoint, and after it.
     pub(super) steps: [u32; 2],
-    /// Checkpoints that are tried: after so many steps, and after each of the next ones.
+    /// Number of checkpoints: the first is after `steps[0]` steps, then one after each further step.
     pub(super) places: u32,
 }
 
-/// Others differ from it.
+/// Base case, from which the other cases differ.
 pub(super) const CASE: Case = Case {
     scene: "double-pendulum",
     formulation: "index-3",
@@ -77,7 +77,7 @@ impl Case {
         Simulation::new(&scene, &settings).expect("it starts")
     }
 
-    /// The simulation as it is when its checkpoint is made.
+    /// Returns the simulation at the time of its checkpoint.
     pub(super) fn before<const D: usize>(&self) -> Simulation<f64, D> {
         let mut simulation = self.simulation();
         let motor = self.scene().effects.len() - 1;
@@ -88,12 +88,12 @@ impl Case {
         simulation
     }
 
-    /// Time that is left to the end of the run, where lengths are controlled; else a step [s].
+    /// Time left to the end of the run if steps are controlled, otherwise one step [s].
     pub(super) fn rest(&self) -> f64 {
         if self.control == "fixed" { self.step } else { 1e3 }
     }
 
-    /// Everything that can be seen of the steps that follow, in bits.
+    /// Bits of all results of the following steps.
     fn after<const D: usize>(&self, simulation: &mut Simulation<f64, D>) -> Vec<u64> {
         let mut seen: Vec<u64> = simulation.energies().map(f64::to_bits).to_vec();
         for _ in 0..self.steps[1] {
@@ -128,7 +128,7 @@ pub(super) fn saved<const D: usize>(
     bytes
 }
 
-/// A part of the file that is left out, and what stands there then.
+/// Part of the file that is replaced, and its replacement.
 type Item = (&'static str, Left);
 
 #[derive(Debug, Clone, Copy)]
@@ -137,12 +137,12 @@ enum Left {
     Fresh,
     /// Bytes that are given here.
     Bytes(&'static [u8]),
-    /// Bytes that a function makes of those that stand there.
+    /// Bytes that a function computes from the original ones.
     Of(fn(&[u8]) -> Vec<u8>),
 }
 
-/// Asserts that the bits after a checkpoint are those without it, wherever it is. They are not where one of the items is left out, at some of the
-/// places: not every one matters everywhere.
+/// Asserts that restoring a checkpoint does not change the following bits, at all places. If one of the items is replaced, the bits must
+/// change at some of the places at least.
 fn every_item_matters<const D: usize>(case: Case, items: &[Item]) {
     let scene = case.scene();
     let settings = case.settings(&scene);
@@ -173,14 +173,14 @@ fn every_item_matters<const D: usize>(case: Case, items: &[Item]) {
     assert!(names.is_empty(), "{case:?}: nothing is lost without {names:?}");
 }
 
-/// A list with the same number at all its places.
+/// Returns a list with all numbers replaced by `x`.
 fn all(part: &[u8], x: f64) -> Vec<u8> {
     let mut bytes = part.to_vec();
     bytes[8..].chunks_exact_mut(8).for_each(|place| place.copy_from_slice(&x.to_le_bytes()));
     bytes
 }
 
-/// Items with which every formulation in natural coordinates continues.
+/// Items that every formulation in natural coordinates needs.
 const STATE: [Item; 7] = [
     ("time", Left::Fresh),
     ("positions", Left::Fresh),
@@ -191,7 +191,7 @@ const STATE: [Item; 7] = [
     ("inputs", Left::Fresh),
 ];
 
-/// Items beside [`STATE`] of the formulations that carry rounding and multipliers.
+/// Further items of the formulations that store rounding errors and multipliers.
 const CARRIED: [Item; 6] = [
     ("length of the last step", Left::Fresh),
     ("rounding of positions", Left::Fresh),
@@ -201,9 +201,9 @@ const CARRIED: [Item; 6] = [
     ("residuals", Left::Fresh),
 ];
 
-/// An energy rule that remembers nothing, in bytes: it is there, no change, none in a row.
+/// Bytes of an energy rule without history: it is present, with no change, and none in a row.
 const NO_ENERGY: &[u8] = &[1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0];
-/// An error control that remembers nothing: it is there, no error, not rejected.
+/// Bytes of an error control without history: it is present, with no error, not rejected.
 const NO_ERROR: &[u8] = &[1, 0, 0];
 
 #[test]
@@ -213,10 +213,10 @@ fn every_item_of_the_natural_state_matters() {
     for formulation in ["classical", "index-1"] {
         every_item_matters::<2>(Case { formulation, ..CASE }, &STATE);
     }
-    // the trapezoidal rule goes on from auxiliary accelerations, which are the same
+    // the trapezoidal rule uses auxiliary accelerations, which are stored elsewhere
     let items = [("accelerations", Left::Fresh)];
     every_item_matters::<2>(Case { integrator: "hht", ..CASE }, &items);
-    // the spring at the crank has been wound by more than half a turn
+    // the spring at the crank has been wound by more than half a revolution
     let items = [&STATE[..], &[("memory", Left::Fresh), ("springs", Left::Fresh)]].concat();
     for formulation in ["index-3", "classical", "state-space"] {
         let case = Case { scene: "guided-four-bar", formulation, steps: [1500, 40], ..CASE };
@@ -250,13 +250,13 @@ fn what_the_penalty_remembers_matters() {
         steps += 1;
         assert!(steps < 5000, "no penalty is raised");
     }
-    // and where it is going to be
+    // and checkpoints on the way to the singular position
     every_item_matters::<2>(Case { steps: [steps - 8, 100], places: 60, ..case }, &items);
 }
 
 #[test]
 fn what_the_control_remembers_matters() {
-    // an error that passes through zero is remembered
+    // the rule remembers an energy error that passes zero
     let case = Case { control: "energy", places: 700, ..CASE };
     let items = [("next step", Left::Fresh), ("energy rule", Left::Bytes(NO_ENERGY))];
     every_item_matters::<2>(case, &items);
@@ -274,14 +274,14 @@ fn what_the_change_of_index_remembers_matters() {
         let changes = u32::from_le_bytes(part.try_into().expect("four bytes"));
         (changes + 1).to_le_bytes().to_vec()
     };
-    // index-1 is the flag
+    // the byte 1 means index-1
     let items = [("index", Left::Bytes(&[1])), ("changes", Left::Of(more))];
     every_item_matters::<2>(case, &items);
 }
 
 #[test]
 fn what_state_space_chose_matters() {
-    // so many steps that other coordinates were chosen
+    // after this number of steps, other independent coordinates have been chosen
     let case = Case { formulation: "state-space", steps: [2500, 400], step: 1e-2, ..CASE };
     let scene = case.scene();
     let settings = case.settings(&scene);

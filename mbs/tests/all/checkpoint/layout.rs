@@ -1,16 +1,16 @@
-//! Places of the parts of a checkpoint among its bytes: a second reader of the format, by docs/CHECKPOINT.md.
+//! Positions of the parts of a checkpoint among its bytes: an independent reader of the format in docs/CHECKPOINT.md.
 
 use core::ops::Range;
 use mbs::{FormulationKind, ResolvedMethod};
 
-/// Bytes before those that are counted and summed.
+/// Number of bytes before those that the length and the checksum cover.
 const N_HEAD: usize = 28;
-/// Numbers of the energy invariant.
+/// Number of values of the energy invariant.
 const N_INVARIANT: usize = mbs::core::control::Invariant::N_HISTORY;
-/// Numbers of a spring as last evaluated.
+/// Number of values of a spring's last evaluation.
 const N_MEASURE: u64 = 7;
 
-/// The bytes of a checkpoint in `f64`, and the parts that have a name.
+/// Bytes of a checkpoint in `f64`, and its named parts.
 #[derive(Debug, Clone)]
 pub(super) struct Parts {
     bytes: Vec<u8>,
@@ -50,17 +50,17 @@ impl Parts {
         &self.bytes[self.place(name)]
     }
 
-    /// A part that is a number.
+    /// Reads a part that is a number.
     pub(super) fn number(&self, name: &str) -> f64 {
         f64::from_le_bytes(self.part(name).try_into().expect("eight bytes"))
     }
 
-    /// A part that is a small count.
+    /// Reads a part that is a small count.
     pub(super) fn count(&self, name: &str) -> u32 {
         u32::from_le_bytes(self.part(name).try_into().expect("four bytes"))
     }
 
-    /// The file with other bytes in place of a part.
+    /// Returns the file with other bytes in place of a part.
     pub(super) fn with(&self, name: &str, part: &[u8]) -> Vec<u8> {
         let mut bytes = self.bytes.clone();
         bytes.splice(self.place(name), part.iter().copied());
@@ -68,7 +68,7 @@ impl Parts {
     }
 }
 
-/// The bytes of a checkpoint with another body, made whole again.
+/// Returns the bytes of a changed checkpoint with correct length and checksum.
 pub(super) fn sealed(bytes: &[u8]) -> Vec<u8> {
     let mut sealed = bytes.to_vec();
     if let Some((head, rest)) = sealed.split_at_mut_checked(N_HEAD) {
@@ -78,13 +78,13 @@ pub(super) fn sealed(bytes: &[u8]) -> Vec<u8> {
     sealed
 }
 
-/// FNV-1a of 64 bits.
+/// Checksum FNV-1a of 64 bits.
 fn checksum(bytes: &[u8]) -> u64 {
     let step = |sum: u64, &byte: &u8| (sum ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
     bytes.iter().fold(0xcbf2_9ce4_8422_2325, step)
 }
 
-/// Goes over the bytes; nothing where they end too early.
+/// Walk over the bytes; its functions return `None` if the bytes end too early.
 struct Walk<'a> {
     bytes: &'a [u8],
     at: usize,
@@ -101,7 +101,7 @@ impl<'a> Walk<'a> {
         Some(())
     }
 
-    /// So many numbers of eight bytes.
+    /// Passes over `n` numbers of eight bytes.
     fn numbers(&mut self, n: u64) -> Option<()> {
         self.skip(usize::try_from(n).ok()?.checked_mul(8)?)
     }
@@ -118,7 +118,7 @@ impl<'a> Walk<'a> {
         Some(self.bytes[from] == 1)
     }
 
-    /// A list after its length.
+    /// Passes over a list that follows its length.
     fn list(&mut self, mut each: impl FnMut(&mut Self) -> Option<()>) -> Option<()> {
         let n = self.word()?;
         (0..n).try_for_each(|_| each(self))
@@ -129,12 +129,12 @@ impl<'a> Walk<'a> {
         self.numbers(n)
     }
 
-    /// Something after a flag, or nothing.
+    /// Passes over an optional part that follows its flag.
     fn option(&mut self, each: impl FnOnce(&mut Self) -> Option<()>) -> Option<()> {
         if self.flag()? { each(self) } else { Some(()) }
     }
 
-    /// A part that has a name.
+    /// Passes over a part and records its name.
     fn named(
         &mut self,
         name: &'static str,
@@ -146,7 +146,7 @@ impl<'a> Walk<'a> {
         Some(())
     }
 
-    /// From the version to the inputs.
+    /// Passes over a simulation, from the version to the inputs.
     fn simulation(&mut self, settings: &ResolvedMethod) -> Option<()> {
         self.identity()?;
         self.named("simulation", |walk| {
@@ -157,7 +157,7 @@ impl<'a> Walk<'a> {
             }
             walk.named("invariant", |walk| walk.numbers(N_INVARIANT as u64))?;
             walk.named("inputs", |walk| {
-                // of effects, guides and signals
+                // inputs of effects, guides and signals
                 let input = |walk: &mut Self| walk.numbers(5);
                 walk.list(input)?;
                 walk.list(input)?;
@@ -226,7 +226,7 @@ impl<'a> Walk<'a> {
                 self.springs()
             }
             3 => self.tree(),
-            // Nothing but the laws.
+            // other formulations store the state of their laws only
             _ => self.springs(),
         }
     }
@@ -265,7 +265,7 @@ impl<'a> Walk<'a> {
         self.named("energies", |walk| walk.numbers(2))
     }
 
-    /// Passes over what controls a step inside a step.
+    /// Passes over the control of steps within a step.
     fn adaptive(&mut self) -> Option<()> {
         self.numbers(1)?;
         self.errors()?;
@@ -289,7 +289,7 @@ impl<'a> Walk<'a> {
         Some(())
     }
 
-    /// Passes over what a run has beside its simulation.
+    /// Passes over the parts of a run other than its simulation.
     fn record(&mut self) -> Option<()> {
         self.named("count of steps", |walk| walk.numbers(1))?;
         self.numbers(1)?;
@@ -326,7 +326,7 @@ impl<'a> Walk<'a> {
         self.named("CPU time", |walk| walk.numbers(1))
     }
 
-    /// Passes over what one step left behind.
+    /// Passes over the record of one step.
     fn mark(&mut self) -> Option<()> {
         self.numbers(8)?;
         self.option(|walk| walk.skip(1))?;

@@ -1,4 +1,4 @@
-//! Every item of a run's record matters.
+//! Every item of a run's record in a checkpoint affects its results.
 
 use super::layout::Parts;
 use super::{results, scratch};
@@ -8,7 +8,7 @@ use mbs::typed::{Recording, StepInputs, StepObserver, run_recorded};
 use mbs::{Checkpoint, CheckpointWriter, Method, ResolvedMethod, StopError};
 use std::path::PathBuf;
 
-/// Takes the checkpoints that stand there before the first step, and before a time.
+/// Observer that copies the checkpoints before the first step and before a time.
 struct Copies {
     near: core::ops::Range<f64>,
     path: PathBuf,
@@ -30,7 +30,7 @@ impl<const D: usize> StepObserver<f64, D> for Copies {
     }
 }
 
-/// A run that is kept after each step, and its checkpoints: of the start, and before time `at`.
+/// Runs a scene with a checkpoint after each step. Returns the checkpoints of the start and before time `at`.
 fn kept<const D: usize>(
     (scene, settings): (&Scene<f64>, &ResolvedMethod),
     at: f64,
@@ -51,8 +51,8 @@ fn kept<const D: usize>(
     (whole, [first, bytes].map(|bytes| Parts::of_run(bytes, settings)))
 }
 
-/// Asserts that a run gives the same from its checkpoint before time `at`, and something else where one of the items is left out. An item that is
-/// left out is as in a run that has made no step.
+/// Asserts that resuming from the checkpoint before time `at` gives the results of the run. If one of the items is replaced by that of a run
+/// without steps, the results must differ.
 fn every_item_matters<const D: usize>(name: &str, overrides: &Method, at: f64, items: &[&str]) {
     let scene = scene(name);
     let settings = ResolvedMethod::new(&scene, overrides).expect("good settings");
@@ -75,7 +75,7 @@ fn every_item_matters<const D: usize>(name: &str, overrides: &Method, at: f64, i
                 kept.with(item, &(done + 1).to_le_bytes())
             }
             "turns of angles" => {
-                // with its time, the last number, a rate that is even tells the turns again
+                // the rate is uniform: with the time, the last number, the revolutions could be found again
                 let (mut turns, now) = (first.part(item).to_vec(), kept.part(item));
                 let n = u64::from_le_bytes(now[..8].try_into().expect("eight bytes"));
                 let time = 8 * usize::try_from(n).expect("a small count");
@@ -103,7 +103,7 @@ fn every_item_of_the_record_matters() {
         "turns of angles",
         "simulation",
     ];
-    // the crank turns at half a turn each second
+    // the crank turns by half a revolution each second
     every_item_matters::<2>("guided-four-bar", &of(1e-2, 4.0), 3.0, &items);
 }
 
@@ -117,7 +117,7 @@ fn contacts_and_what_control_has_counted_matter() {
 
 #[test]
 fn what_the_alarm_has_heard_matters() {
-    // it rings after ten steps in a row, here at 1.99 s
+    // the alarm stops the run after ten steps in a row, here at 1.99 s
     let overrides = Method { energy_alarm: Some(1e-3), ..of(1e-2, 10.0) };
     every_item_matters::<2>("double-pendulum", &overrides, 1.95, &["alarm"]);
 }

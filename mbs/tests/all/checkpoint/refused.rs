@@ -1,4 +1,4 @@
-//! Checkpoints that a run does not go on from, and what is said then.
+//! Checkpoints from which a run cannot be resumed, and their errors.
 
 use crate::common::scene;
 use mbs::core::scene::{Inertia, Scene};

@@ -3,7 +3,7 @@
 pub(crate) use mbs_testkit::repository::path;
 use std::path::{Path, PathBuf};
 
-/// Scenes of the repository, without those of vehicles.
+/// Scenes of the repository, except those of vehicles.
 pub(crate) const SCENES: [&str; 21] = [
     "simple-pendulum",
     "double-pendulum",
@@ -36,9 +36,9 @@ pub(crate) fn scratch(name: &str) -> PathBuf {
     path
 }
 
-/// Numbers of the JSON that clocks give.
+/// Keys of the JSON object whose values are times.
 const CLOCKS: [&str; 3] = ["cpu_seconds", "real_time_factor", "worst_step_seconds"];
-/// A JSON object without what clocks say.
+/// Returns a JSON object without its times.
 pub(crate) fn without_clocks(json: &str) -> String {
     let mut json: serde_json::Value = serde_json::from_str(json).expect("JSON");
     let object = json.as_object_mut().expect("an object");

@@ -14,14 +14,14 @@ pub(crate) use mbs_testkit::{allocations, random};
 /// The augmented formulations, by name.
 pub(crate) const FORMULATIONS: [&str; 2] = ["index-3", "index-1"];
 
-/// ResolvedMethod of a scene with formulation and step; without a step, the scene's own.
+/// Settings of a scene with a formulation and a step. Default: the scene's step.
 pub(crate) fn settings(scene: &Scene<f64>, formulation: &str, step: Option<f64>) -> ResolvedMethod {
     let formulation = Some(formulation.to_owned());
     let overrides = Method { formulation, step, ..Method::default() };
     ResolvedMethod::new(scene, &overrides).expect("the settings are built")
 }
 
-/// Runs a scene by settings.
+/// Runs a scene with given settings.
 pub(crate) fn run_by(scene: &Scene<f64>, settings: &ResolvedMethod) -> Outcome {
     match scene.dimension {
         Dimension::Planar => mbs::typed::run::<f64, 2>(scene, settings, &mut ()),
@@ -29,27 +29,27 @@ pub(crate) fn run_by(scene: &Scene<f64>, settings: &ResolvedMethod) -> Outcome {
     }
 }
 
-/// Runs a scene by a method; what is left out is the scene's.
+/// Runs a scene by a method. Settings that it leaves open are the scene's.
 pub(crate) fn run(scene: &Scene<f64>, method: &Method) -> Outcome {
     run_by(scene, &ResolvedMethod::new(scene, method).expect("the settings are built"))
 }
 
-/// Runs a scene with formulation and step; without a step, the scene's own.
+/// Runs a scene with a formulation and a step. Default: the scene's step.
 pub(crate) fn run_in(scene: &Scene<f64>, formulation: &str, step: Option<f64>) -> Outcome {
     run_by(scene, &settings(scene, formulation, step))
 }
 
-/// Method of a formulation; what is left out is the scene's.
+/// Makes a method of a formulation. All other settings are the scene's.
 pub(crate) fn by(formulation: &str) -> Method {
     Method { formulation: Some(formulation.to_owned()), ..Method::default() }
 }
 
-/// Formulations whose steps are as long as asked for.
+/// Formulations whose steps have the requested length.
 pub(crate) fn with_fixed_steps() -> impl Iterator<Item = &'static str> {
     FormulationKind::ALL.map(FormulationKind::name).into_iter().filter(|f| *f != "multi-index")
 }
 
-/// A simulation that is stepped by hand.
+/// Simulation that the test steps itself.
 pub(crate) struct Bench<const D: usize> {
     pub(crate) simulation: Simulation<f64, D>,
     pub(crate) step: f64,
@@ -72,7 +72,7 @@ impl<const D: usize> Bench<D> {
         self.simulation.step(self.step)
     }
 
-    /// Steps until `duration`, calling `look` after each step; `Err` with the time at which a step failed.
+    /// Makes steps until `duration`, and calls `look` after each. `Err` has the time at which a step failed.
     pub(crate) fn run(
         &mut self,
         duration: f64,
@@ -86,7 +86,7 @@ impl<const D: usize> Bench<D> {
         Ok(())
     }
 
-    /// |Pi - Pi(0)| [J].
+    /// Error of the energy invariant Pi, |Pi - Pi(0)| [J].
     pub(crate) fn energy_error(&self) -> f64 {
         let [kinetic, potential, work] = self.simulation.energies();
         (kinetic + potential - work - self.initial).abs()

@@ -1,25 +1,25 @@
-//! The checker: every formulation that can run a scene must compute the same motion.
+//! Comparison of formulations: every formulation that can run a scene must compute the same motion.
 //!
-//! Each method runs at dt and dt/2. Its error is estimated by the largest difference of the two over the run, channel by
-//! channel; two methods agree when they differ by at most [`SHARE`] times the larger of their estimates.
+//! Each method runs at dt and dt/2. Its error in a channel is estimated by the largest difference of the two runs. Two methods agree if they
+//! differ by at most [`SHARE`] times the larger of their estimates.
 
 use mbs::core::scene::Scene;
 use mbs::{FormulationKind, Method, StopError};
 use mbs_testkit::quantities;
 
-/// Times the larger of two methods' own errors that they may differ by.
+/// Largest difference of two methods, relative to the larger of their error estimates [-].
 const SHARE: f64 = 10.0;
-/// Differences below this share of a channel's size are rounding: of a start assembled to 1e-11 of the scene's length, of
-/// positions differenced twice, and of what a second of motion makes of both.
+/// Largest difference that is rounding, relative to a channel's size [-]. Its causes are a start assembled to 1e-11 of the scene's length,
+/// second differences of positions, and a second of motion.
 const ROUNDING: f64 = 1e-7;
 
 /// A formulation with an integrator.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Way(pub(crate) &'static str, pub(crate) &'static str);
 
-/// All that are compared; the others are compared with the first.
+/// Methods that are compared; the first one is the reference.
 pub(crate) fn methods() -> Vec<Way> {
-    // Those whose index follows the step choose its length.
+    // a formulation whose index changes with the step controls the step: it is left out
     let fixed = FormulationKind::listed().filter(|f| !f.row().energy_rule);
     let mut methods: Vec<_> = fixed.map(|f| Way(f.name(), "trapezoidal")).collect();
     let explicit = ["rk4", "rk54", "rk853"];
@@ -31,7 +31,7 @@ pub(crate) fn methods() -> Vec<Way> {
 pub(crate) const TRAPEZOIDAL: [&str; 5] =
     ["index-3", "index-1", "classical", "state-space", "recursive"];
 
-/// Each of them, and the tree with an explicit method.
+/// The trapezoidal methods, and the tree with an explicit method.
 pub(crate) const WAYS: [Way; 6] = [
     Way("index-3", "trapezoidal"),
     Way("index-1", "trapezoidal"),
@@ -44,7 +44,7 @@ pub(crate) const WAYS: [Way; 6] = [
 /// Rows of a run: times and components.
 pub(crate) type Rows = Vec<(f64, Vec<f64>)>;
 
-/// Every quantity of all centres, bodies and joints but reactions, which are not unique, beside the scene's outputs.
+/// Adds outputs of all quantities of centres, bodies and joints to the scene. Reactions are left out, because they are not unique.
 pub(crate) fn everything(scene: &Scene<f64>) -> Scene<f64> {
     let asked = scene.outputs.iter().map(|output| output.quantity.clone());
     let all = asked.chain(quantities::every(scene));
@@ -53,12 +53,12 @@ pub(crate) fn everything(scene: &Scene<f64>) -> Scene<f64> {
     scene
 }
 
-/// The components at the end.
+/// Components of the last row.
 pub(crate) fn last(rows: &[(f64, Vec<f64>)]) -> &[f64] {
     &rows.last().expect("a row").1
 }
 
-/// Runs a scene to `duration` and keeps the rows at multiples of `every` steps.
+/// Runs a scene to `duration` and returns the rows at multiples of `every` steps.
 pub(crate) fn rows(
     scene: &Scene<f64>,
     Way(formulation, integrator): Way,
@@ -79,7 +79,7 @@ pub(crate) fn rows(
     }
 }
 
-/// The rows of every step of a scene that must run.
+/// Rows of every step of a scene that must run.
 pub(crate) fn run(text: &str, way: Way, times: (f64, f64)) -> Rows {
     rows(&mbs_testkit::scene(text), way, times, 1).unwrap_or_else(|e| panic!("{way:?}: {e}"))
 }
@@ -94,7 +94,7 @@ pub(crate) fn outputs_of(effect: &str) -> String {
     ["value", "rate", "force", "energy", "power"].iter().map(one).collect()
 }
 
-/// A method's rows at dt/2 with its own error in every component.
+/// Rows of a method at dt/2, with its estimated error in every component.
 pub(crate) struct RowsWithErrors {
     pub(crate) rows: Rows,
     pub(crate) errors: Vec<f64>,
@@ -112,7 +112,7 @@ pub(crate) fn rows_with_errors(
     Ok(RowsWithErrors { rows: fine, errors })
 }
 
-/// The largest difference of each component.
+/// Largest difference of each component.
 pub(crate) fn differences(a: &Rows, b: &Rows) -> Vec<f64> {
     assert_eq!(a.len(), b.len(), "the same rows");
     let mut largest = vec![0.0_f64; a[0].1.len()];
@@ -128,7 +128,7 @@ pub(crate) fn differences(a: &Rows, b: &Rows) -> Vec<f64> {
     largest
 }
 
-/// The largest absolute value of each component, at least one.
+/// Largest absolute value of each component, at least one.
 fn sizes(rows: &Rows) -> Vec<f64> {
     let mut sizes = vec![1.0_f64; rows[0].1.len()];
     for (_, x) in rows {
@@ -137,7 +137,7 @@ fn sizes(rows: &Rows) -> Vec<f64> {
     sizes
 }
 
-/// The worst ratio of difference to allowed difference over all components: at most one when two methods agree.
+/// Largest ratio of the difference to the allowed difference over all components. It is at most one if two methods agree.
 pub(crate) fn disagreement(a: &RowsWithErrors, b: &RowsWithErrors) -> (f64, usize) {
     let sizes = sizes(&a.rows);
     let mut worst = (0.0, 0);
@@ -151,8 +151,8 @@ pub(crate) fn disagreement(a: &RowsWithErrors, b: &RowsWithErrors) -> (f64, usiz
     worst
 }
 
-/// Each row of an explicit run and of one by the trapezoidal rule in the limit of small steps must be the same, to `digits` of one and
-/// of the number; `row` looks at a row of the first.
+/// Asserts that an explicit run and the limit of the trapezoidal rule for small steps have equal rows. `digits` is the tolerance, relative to
+/// one plus the number. `row` checks a row of the first run.
 pub(crate) fn agree_in_the_limit(
     scene: &Scene<f64>,
     way: Way,
@@ -170,7 +170,7 @@ pub(crate) fn agree_in_the_limit(
         row(expected);
         for (k, expected) in expected.iter().enumerate() {
             let [a, b, c] = [&one, &two, &four].map(|rows| rows[i].1[k]);
-            // errors in h^2 and h^4 taken out
+            // extrapolation that removes the errors in h^2 and h^4
             let [ab, bc] = [[a, b], [b, c]].map(|[x, y]| y + (y - x) / 3.0);
             let found = bc + (bc - ab) / 15.0;
             let error = (found - expected).abs() / (1.0 + expected.abs());
@@ -179,7 +179,7 @@ pub(crate) fn agree_in_the_limit(
     }
 }
 
-/// Energy balances over a second of steps of 0.25 ms: to 1e-9 J by an explicit method, to 1e-4 J by the trapezoidal rule.
+/// Asserts the energy balance over a second with steps of 0.25 ms: to 1e-9 J by an explicit method, to 1e-4 J by the trapezoidal rule.
 pub(crate) fn energy_balances(scene: &Scene<f64>) {
     for (way, most) in [(("recursive", "rk853"), 1e-9), (("index-3", "trapezoidal"), 1e-4)] {
         let method = Method {

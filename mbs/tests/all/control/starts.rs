@@ -1,11 +1,11 @@
-//! Hard passages with controlled steps, each from a hundred starts: singular positions, redundant constraints, blows, a wheel
-//! that leaves the road.
+//! Difficult passages with controlled steps, each from a hundred starts: singular positions, redundant constraints, impacts, a wheel that
+//! leaves the road.
 
 use super::common::scene;
 use super::*;
 use mbs::core::scene::InitialTarget;
 
-/// A hundred pseudorandom numbers between -1 and 1, always the same.
+/// A hundred pseudorandom numbers between -1 and 1, equal in every run.
 fn spread() -> impl Iterator<Item = f64> {
     let mut seed = 2_463_534_242_u32;
     std::iter::repeat_with(move || {
@@ -17,7 +17,7 @@ fn spread() -> impl Iterator<Item = f64> {
     .take(100)
 }
 
-/// Scales the first initial value (or rate) of a joint that is not zero.
+/// Scales the first initial value or rate of a joint that is not zero.
 fn scaled(scene: &Scene<f64>, factor: f64) -> Scene<f64> {
     let mut scene = scene.clone();
     let numbers = scene.initials.iter_mut().find_map(|initial| match &mut initial.target {
@@ -31,8 +31,8 @@ fn scaled(scene: &Scene<f64>, factor: f64) -> Scene<f64> {
     scene
 }
 
-/// The height of the ends of `two-four-bars` at 10 s: a pendulum, 3 theta'' = 3.5 g sin(theta) from the vertical, by the classical
-/// Runge-Kutta method.
+/// Position [x, y] of a crank's end in `two-four-bars` at 10 s, relative to its pivot [m]. The cranks move as a pendulum, 3 theta'' = 3.5 g
+/// sin(theta) with theta from the vertical, integrated by the classical Runge-Kutta method.
 fn parallel_cranks(rate: f64) -> [f64; 2] {
     let f = |[q, v]: [f64; 2]| [v, 3.5 / 3.0 * 9.81 * f64::sin(q)];
     let plus = |x: [f64; 2], h: f64, d: [f64; 2]| [x[0] + h * d[0], x[1] + h * d[1]];
@@ -56,7 +56,7 @@ fn a_hundred_starts_pass_the_singular_positions_of_two_four_bars() {
         let outcome = completed(&scaled(&base, factor), &multi_index([1e-6, 1e-8], (1e-3, 2e-2)));
         let error = largest_difference(&output(&outcome, "crank-end"), &parallel_cranks(factor));
         most = most.max(error);
-        // On another branch the ends are metres apart; the start's own motion has 3e-3 m with these tolerances.
+        // on another branch the ends are metres away; the original start has an error of 3e-3 m with these tolerances
         assert!(error < 1e-2, "{factor}: {error}");
     }
     println!("two four-bars: 100 of 100, at most {most:.1e} m");
@@ -95,7 +95,7 @@ fn a_hundred_starts_pass_the_blow_on_a_stiff_stop() {
         let multi = Method { duration: Some(7.5), ..multi_index([1e-6, 1e-8], (1e-3, 5e-2)) };
         let error = (output(&completed(&start, &multi), "angle")[0] - hammer(angle)).abs();
         most = most.max(error / angle);
-        // Steps of 0.05 s leave (w h)^2 / 12 of the phase, 5e-5 of the angle here; the blow adds less.
+        // steps of 0.05 s give a phase error of (w h)^2 / 12, here 5e-5 of the angle; the impact adds less
         assert!(error < 2e-4 * angle, "{angle}: {error}");
     }
     println!("hammer: 100 of 100, at most {most:.1e} of the angle");
@@ -121,7 +121,7 @@ fn a_hundred_starts_pass_with_a_wheel_that_leaves_the_road() {
         );
         let error = largest_difference(&output(&multi, "wheel"), &output(&exact, "wheel"));
         most = most.max(error);
-        // The start's own motion has 1e-6 m; after blows on the rubber stop errors grow some hundredfold.
+        // the original start has an error of 1e-6 m; impacts on the rubber stop multiply errors by some hundred
         assert!(error < 1e-3, "{share}: {error}");
     }
     assert_eq!(left, 100, "the wheel leaves the road in every one");

@@ -1,4 +1,4 @@
-//! Couplings mean what is drawn: neither the order of a joint's bodies nor the sense of an axis changes it.
+//! Couplings have the sense of the drawing: neither the order of a joint's bodies nor the sense of an axis changes it.
 
 use super::{by_tolerance, field, last, read, text};
 use crate::common::{run, run_in};
@@ -6,7 +6,7 @@ use mbs::FormulationKind;
 use mbs::core::scene::Scene;
 use mbs::scene_file::SceneFile;
 
-/// Asserts values of columns at the end of a run, in every formulation.
+/// Asserts the values of columns at the end of a run, in every formulation.
 fn ends_with(name: &str, scene: &Scene<f64>, values: &[(usize, f64)]) {
     let found = run(scene, &by_tolerance("rk853", None));
     for &(column, right) in values {
@@ -21,7 +21,7 @@ fn ends_with(name: &str, scene: &Scene<f64>, values: &[(usize, f64)]) {
         for &(column, right) in values {
             let coarse = last(&coarse)[column];
             let [one, half] = [&rule[0], &rule[1]].map(|run| last(run)[column]);
-            // of order 1.9 or more
+            // the rule's error with an order of at least 1.9
             let by_the_rule = 1.37 * (one - half).abs() + 1e-9 * right.abs();
             assert!(
                 (coarse - right).abs() < by_the_rule,
@@ -31,7 +31,7 @@ fn ends_with(name: &str, scene: &Scene<f64>, values: &[(usize, f64)]) {
     }
 }
 
-/// Torque over inertia that the first wheel feels: 0.7 N m over 0.4 s on 0.02 + (2/3)² 0.04 kg m².
+/// Rates of both wheels after 0.4 s with 0.7 N m on the first, whose effective inertia is 0.02 + (2/3)² 0.04 kg m² [rad/s].
 const WHEELS: [f64; 2] = [7.411_764_705_882_353, 4.941_176_470_588_235];
 
 #[test]
@@ -54,14 +54,14 @@ fn wheels_turn_as_they_are_drawn_whatever_the_order_of_bodies_and_the_sense_of_a
 
 #[test]
 fn sums_and_signals_take_the_coordinates_of_a_free_body_in_every_formulation() {
-    // y = -0.02 m per rad of turn: 0.3 g / (0.3 + 1e-4 / 0.02^2) over 0.3 s
+    // the line y moves by -0.02 m per radian: 0.3 g / (0.3 + 1e-4 / 0.02^2) over 0.3 s
     let fall = -0.5 * 9.81 * 0.3 / (0.3 + 0.25) * 0.09;
     let reel = text("26-coupling-on-a-free-body");
     ends_with("reel", &read(&reel, "reel"), &[(1, fall), (2, -fall / 0.02)]);
     // 2 x'' = -80 x
     let disc = text("26-signal-on-a-free-body");
     ends_with("disc", &read(&disc, "disc"), &[(0, 0.1 * (40.0_f64.sqrt() * 0.3).cos())]);
-    // the same as an effect on a sum of coordinates
+    // the same motion by an effect on a sum of coordinates
     let effect = disc.find("[[signal]]").zip(disc.find("[[initial]]"));
     let (from, to) = effect.expect("signals and a start");
     let spring = "[[effect]]\nkind = \"spring-damper\"\nterms = [{ joint = \"place\", coordinate = \"x\", factor = 1.0 }]\n\
@@ -70,7 +70,7 @@ fn sums_and_signals_take_the_coordinates_of_a_free_body_in_every_formulation() {
     ends_with("sum", &read(&sprung, "sum"), &[(0, 0.1 * (40.0_f64.sqrt() * 0.3).cos())]);
 }
 
-/// A body in space whose x is twice its y falls along (2, 1) by gravity's part along it.
+/// A spatial body whose x is twice its y falls along (2, 1), by the component of gravity along this line.
 #[test]
 fn a_free_body_in_space_keeps_to_a_line_whatever_the_order_of_the_bodies() {
     let scene = |bodies: &str, inertia: &str| {
@@ -87,7 +87,7 @@ fn a_free_body_in_space_keeps_to_a_line_whatever_the_order_of_the_bodies() {
     let right = [(0, 0.1 + 2.0 * along), (1, 0.2 + along), (2, 0.3 + 0.25)];
     let text = scene("[\"ground\", \"box\"]", "[0.1, 0.2, 0.25, 0.0, 0.0, 0.0]");
     ends_with("box", &read(&text, "box"), &right);
-    // a reversed joint measures the ground in axes of the box, which turns: the force passes through a point of the ground
+    // a reversed joint measures the ground in axes of the box, which rotate: the force acts through a point of the ground
     let text = scene("[\"box\", \"ground\"]", "[0.1, 0.2, 0.25, 0.0, 0.0, 0.0]");
     let scene = read(&text, "reversed");
     let found = last(&run(&scene, &by_tolerance("rk853", None))).to_vec();
@@ -95,7 +95,7 @@ fn a_free_body_in_space_keeps_to_a_line_whatever_the_order_of_the_bodies() {
     ends_with("reversed", &scene, &[(0, found[0]), (1, found[1]), (2, found[2])]);
 }
 
-/// Torque beyond what the first wheel needs for itself: 0.7 − 0.02 α, and 0.04 α 2/3 for the second.
+/// Torque of the coupling: on the first wheel 0.7 − 0.02 α, on the second 0.04 α 2/3, with the acceleration α.
 #[test]
 fn efforts_are_torques_forces_and_tensions_of_the_drawn_machine() {
     let torque = -(0.7 - 0.02 * WHEELS[0] / 0.4);
@@ -111,9 +111,9 @@ fn efforts_are_torques_forces_and_tensions_of_the_drawn_machine() {
     let power = power.replace("\"mesh\"", "\"differential\"");
     let effort = power.replace("power", "effort");
     let differential = format!("{}\n{effort}{power}", text("22-differential-axes-outward"));
-    // each half shaft is turned by 0.03 kg m² · 25 rad/s²
+    // each half shaft of 0.03 kg m² accelerates by 25 rad/s²
     ends_with("differential", &read(&differential, "d"), &[(9, 0.75), (10, 0.75 * 12.5)]);
-    // 60 (g − a) = T,   0.25 T = 0.5 a/0.25
+    // with tension T and acceleration a: 60 (g − a) = T, 0.25 T = 0.5 a/0.25
     ends_with("tension of a rope", &field("29-axle-of-a-winch"), &[(3, 69.247_058_823_529_41)]);
     ends_with("force of a thread", &field("30-lead-screw"), &[(0, 600.0)]);
     let units = |name: &str| {
@@ -129,7 +129,7 @@ fn efforts_are_torques_forces_and_tensions_of_the_drawn_machine() {
     assert_eq!(units("30-lead-screw"), ["N"]);
 }
 
-/// Bearings carry the forces of rope and thread: what the drum and the screw need beside their weight and their torque.
+/// Bearings carry the forces of rope and thread: the drum and the screw need them in addition to their weight and torque.
 #[test]
 fn bearings_carry_what_the_drawn_machine_puts_on_them() {
     let tension = 69.247_058_823_529_41;
@@ -147,8 +147,8 @@ fn bearings_carry_what_the_drawn_machine_puts_on_them() {
     reacts("guide", &read(&bearing, "screw"), &guide);
 }
 
-/// A belt with the pretension S: both strands pull by 2 S sqrt(1 - c²) between the axes, their difference F by -F c across; c = (r1 - r2)/D, crossed
-/// (r1 + r2)/D.
+/// Forces of a belt with the pretension S. Both strands pull by 2 S sqrt(1 - c²) between the axes, and their difference F by -F c across. c
+/// is (r1 - r2)/D, or (r1 + r2)/D if the belt is crossed.
 #[test]
 fn bearings_carry_the_strands_of_a_belt() {
     let torque = -(0.7 - 0.02 * WHEELS[0] / 0.4);
@@ -159,7 +159,7 @@ fn bearings_carry_the_strands_of_a_belt() {
     });
     let belt = text("22-belt-axes-opposite").replace("radii =", "pretension = 500.0\nradii =");
     let belt = format!("{belt}{}", outputs.concat());
-    // radii of the same ratio, so the same motion
+    // the radii have the same ratio, which gives the same motion
     let crossed = belt.replace("radii = [0.1, 0.15]", "crossed = true\nradii = [0.08, 0.12]");
     for (text, radius, c) in [(belt, 0.1, -0.2), (crossed, 0.08, 0.8_f64)] {
         let across = -torque / radius * c;
@@ -184,7 +184,7 @@ fn a_strand_that_would_push_is_noted_and_strands_that_nobody_knows_are_refused()
         let outcome = run_in(&read(text, "belt"), "index-3", None);
         outcome.notes().iter().filter(|note| note.contains("pushes")).cloned().collect::<Vec<_>>()
     };
-    // half of the 3.29 N that it passes on
+    // the pretension must be half of the transmitted 3.29 N at least
     assert_eq!(notes(&belt("pretension = 1.7")), [""; 0]);
     let found = notes(&belt("pretension = 1.6"));
     assert!(
@@ -206,7 +206,7 @@ fn a_strand_that_would_push_is_noted_and_strands_that_nobody_knows_are_refused()
     assert!(refused(&negative).contains("pretension"), "{}", refused(&negative));
 }
 
-/// Asserts columns of reactions at the end of a run in every formulation; of zeros what is rounding beside the largest.
+/// Asserts columns of reactions at the end of a run in every formulation. Zeros are compared with the rounding of the largest reaction.
 fn reacts(name: &str, scene: &Scene<f64>, values: &[(usize, f64)]) {
     let largest = values.iter().fold(1.0, |most: f64, (_, right)| most.max(right.abs()));
     for formulation in FormulationKind::ALL.map(FormulationKind::name) {
@@ -256,7 +256,7 @@ fn reactions_without_a_line_of_action_are_marked() {
     assert!(notes(&text("22-gear-joint-wheel-first")).is_empty());
     let winch = text("29-axle-of-a-winch");
     assert!(notes(&winch).is_empty());
-    // a line that does not begin at the rim
+    // a line that does not begin at the rim is noted
     let found = notes(&winch.replace("at = [0.25, 3.0]", "at = [0.25, 3.1]"));
     assert!(
         found.len() == 1 && found[0].contains("rope `rope`") && found[0].contains("rim"),
@@ -275,7 +275,7 @@ fn half_shafts_turn_alike_with_axes_outward_or_inward() {
     ends_with("swapped", &read(&swapped, "differential"), &all);
 }
 
-/// r1 (s − c) + r2 (p − c) = 0 by the equations of sun, arm and planet.
+/// Rates of sun s, arm c and planet p from their equations, with r1 (s − c) + r2 (p − c) = 0.
 #[test]
 fn a_planet_on_an_arm_rolls_on_the_sun_that_turns_on_the_ground() {
     let right = [2.127_659_574_468_085, 4.113_475_177_304_965, 7.092_198_581_560_283];
@@ -300,7 +300,7 @@ fn another_sense_than_that_of_version_0_1_is_noted_until_the_scene_says_that_it_
     let sum = wheel_first
         .replace("kind = \"gear\"\njoints = [\"one\", \"two\"]\nteeth = [20, 30]", linear);
     assert!(notes(&sum).is_empty());
-    // as in version 0.1
+    // the motion is that of version 0.1
     ends_with("sum", &read(&sum, "sum"), &[(0, WHEELS[0]), (1, WHEELS[1])]);
 }
 
@@ -361,7 +361,7 @@ joint = "slide"
     };
     let (way, is_noted) = slid(rack);
     assert!((way - 0.02).abs() < 1e-12 && is_noted);
-    // above the axis its teeth run against the sense of the turn, below it with it
+    // above the axis the teeth move against the sense of rotation, below it with it
     for (at, right) in [("[0.3, 0.2]", -0.02), ("[0.3, -0.2]", 0.02)] {
         let (way, is_noted) = slid(&rack.replace("[0.3, 0.0]", at));
         assert!((way - right).abs() < 1e-12, "{at}: {way}");

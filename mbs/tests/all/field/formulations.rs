@@ -1,4 +1,4 @@
-//! Scenes that stop single formulations: sizes, light pieces, friction, axes that are almost parallel.
+//! Scenes in which single formulations stopped: sizes, light bodies, friction, almost parallel axes.
 
 use super::{field, read, text, tilted};
 use crate::common::random::tree;
@@ -11,16 +11,16 @@ use mbs::{Method, ResolvedMethod, StopError};
 
 /// Formulations in natural coordinates with steps of fixed length.
 const NATURAL: [&str; 4] = ["index-3", "index-1", "classical", "state-space"];
-/// Difference of formulations that make the same step: the tolerance of their iterations, summed over a run [m or rad].
+/// Difference of formulations with the same steps [m or rad]: the tolerance of their iterations, summed over a run.
 const AGREED: f64 = 1e-9;
-/// Share that the rule's first steps from rest add to a creep of ten seconds [-].
+/// Relative error that the rule's first steps from rest cause in a creep of ten seconds [-].
 const CREEP: f64 = 1e-2;
-/// Share that the rule's first steps from rest leave in a creep of a hundred steps [-].
+/// Relative error that the rule's first steps from rest cause in a creep of a hundred steps [-].
 const RINGING: f64 = 1e-4;
-/// Tolerances of the iterations, of 1e-10 a step, over the steps of a motion from rest [lengths].
+/// Difference of motions from rest [lengths]: the tolerance of the iterations, 1e-10 a step, summed over the steps.
 const ALIKE: f64 = 1e-7;
 
-/// Centres of the bodies after `n` steps of `dt` [s].
+/// Positions of the bodies' centres after `n` steps of `dt` [s].
 fn centres<const D: usize>(
     scene: &Scene<f64>,
     formulation: &str,
@@ -191,7 +191,7 @@ fn an_axis_that_is_off_by_more_is_refused_with_the_axis_that_mends_it() {
         let error = outcome.summary.error.expect("an error in the summary");
         assert_eq!((error.code.as_str(), error.joint.as_deref()), ("almost-dependent", Some("C")));
     }
-    // What is meant, or holds nothing, is left alone.
+    // an intended angle, or an axis that constrains nothing, is not changed
     let outcome = ResolvedMethod::new(&tilted(1e-2), &Method::default())
         .map(|settings| mbs::typed::run::<f64, 3>(&tilted(1e-2), &settings, &mut ()).error);
     assert!(!matches!(outcome, Ok(Some(StopError::AlmostDependent(_)))));
@@ -200,7 +200,7 @@ fn an_axis_that_is_off_by_more_is_refused_with_the_axis_that_mends_it() {
     assert!(centres::<3>(&open, "index-3", (1e-3, 5)).is_ok());
 }
 
-/// The last axis of the arm as its file has it.
+/// Last axis of the arm in its scene file.
 const LEANING: &str = "axis = [1.0, 0.0, -7e-6]";
 
 #[test]
@@ -228,7 +228,7 @@ fn a_tilt_of_the_fifth_digit_that_takes_a_freedom_of_what_moves_runs_as_none_wit
 #[test]
 fn an_arm_of_links_without_mass_creeps_as_its_friction_lets_it() {
     let scene = field("58-held-hand");
-    // regularised friction: rate = e s / sqrt(1 - s^2) with s = m g / C and e = 1 mm/s
+    // regularised friction: the creep rate is e s / sqrt(1 - s^2) with s = m g / C and e = 1 mm/s
     let s: f64 = 0.73 * 9.81 / 10.0;
     let right = 1e-3 * s / (1.0 - s * s).sqrt();
     for formulation in ["index-3", "index-1"] {

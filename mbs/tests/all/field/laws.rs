@@ -1,11 +1,11 @@
-//! Laws outside the range in which they hold, and turns beyond one.
+//! Laws outside their valid range, and rotations beyond a revolution.
 
 use super::{field, read, text};
 use crate::common::{run, run_in};
 use mbs::core::scene::Scene;
 use mbs::{FormulationKind, Method, Names, Outcome, ResolvedMethod};
 
-/// The last value of the first output, or why the run stopped.
+/// Last value of the first output, or the reason why the run stopped.
 fn last(outcome: &Outcome) -> Result<f64, &'static str> {
     match &outcome.error {
         Some(error) => Err(error.code()),
@@ -17,13 +17,13 @@ fn formulations() -> impl Iterator<Item = &'static str> {
     FormulationKind::ALL.into_iter().map(FormulationKind::name)
 }
 
-/// The wheel in rubber, let go at an angle.
+/// Scene of a wheel in rubber, released at an angle.
 fn let_go_at(angle: &str) -> Scene<f64> {
     let text = text("03-bushing-three-radians").replace("value = 3.0", &format!("value = {angle}"));
     read(&text, "wheel in rubber")
 }
 
-/// The wheel in rubber in space, about an axis that is no axis of the bushing: 0.36 5 + 0.64 11.25 = 9 N m/rad along it.
+/// Scene of a spatial wheel in rubber, about an oblique axis of the bushing. The stiffness about it is 0.36 · 5 + 0.64 · 11.25 = 9 N m/rad.
 fn in_space(angle: &str, rate: &str) -> Scene<f64> {
     let text = format!(
         r#"
@@ -64,10 +64,10 @@ fn value<const D: usize>(scene: &Scene<f64>, formulation: &str, step: f64) -> f6
     last(&outcome).unwrap_or_else(|code| panic!("{formulation}: {code}"))
 }
 
-/// q(1 s) = q0 cos(sqrt(9/0.4)).
+/// Released angle, and the angle after 1 s [rad]: q0 cos(sqrt(9/0.4)).
 const LET_GO: [(&str, f64); 2] = [("3.0", 0.093_067_6), ("4.0", 0.124_090_1)];
 
-/// Asserts that both steps err by the rule, of second order, and by nothing else: the extrapolated value is right.
+/// Asserts that both steps have only the error of a rule of second order: the extrapolated value is right.
 fn errs_by_the_rule_alone([coarse, fine]: [f64; 2], right: f64, what: &str) {
     let extrapolated = fine + (fine - coarse) / 3.0;
     assert!((extrapolated - right).abs() < 1e-6, "{what}: {extrapolated}");
@@ -83,7 +83,7 @@ fn a_bushing_in_the_plane_springs_back_from_any_angle() {
             errs_by_the_rule_alone(found, right, formulation);
         }
     }
-    // two turns wound up: q(1 s) in proportion; steps of multi-index are not in proportion to the one that is asked for
+    // wound up by two revolutions: q(1 s) is proportional to the start; the steps of multi-index are not those requested
     let scene = let_go_at("12.0");
     for formulation in formulations().filter(|formulation| *formulation != "multi-index") {
         let found = [1e-3, 5e-4].map(|step| value::<2>(&scene, formulation, step));
@@ -110,7 +110,7 @@ fn rejected_steps_leave_the_turn_of_a_bushing_as_it_was() {
     for formulation in formulations() {
         let overrides = Method {
             formulation: Some(formulation.into()),
-            // far too long: the first trials are rejected
+            // much too long, so that the first trials are rejected
             step: Some(0.2),
             step_max: Some(0.2),
             error_tolerance: Some(1e-9),
@@ -123,7 +123,7 @@ fn rejected_steps_leave_the_turn_of_a_bushing_as_it_was() {
 
 #[test]
 fn a_bushing_in_space_stops_a_run_at_a_whole_turn_and_names_itself() {
-    // 40 rad/s against 9 N m/rad: a turn takes 0.16 s
+    // 40 rad/s against 9 N m/rad: the wheel reaches a revolution after 0.16 s
     let scene = in_space("0.0", "40.0");
     for formulation in formulations() {
         let outcome = run_in(&scene, formulation, Some(1e-3));
@@ -131,7 +131,7 @@ fn a_bushing_in_space_stops_a_run_at_a_whole_turn_and_names_itself() {
         assert_eq!(error.code(), "overturned", "{formulation}: {error}");
         let report = error.report(0.0, &Names::new(&scene));
         assert_eq!(report.body.as_deref(), Some("rubber"), "{formulation}");
-        // 40 / 4.743 sin(4.743 t) = 2 pi
+        // the angle 40 / 4.743 sin(4.743 t) reaches 2 pi at this time
         let time = outcome.rows().last().expect("the start is recorded").0;
         assert!((time - 0.1773).abs() < 3e-3, "{formulation}: {time} s");
     }
@@ -205,7 +205,7 @@ fn natural_coordinates_follow_turns_or_say_that_they_cannot() {
         for step in [0.1, 0.05, 0.03, 0.02, 0.011, 0.005, 0.001] {
             let outcome = run_in(&scene, formulation, Some(step));
             match last(&outcome) {
-                // The rule itself turns by 2 % less at half a radian a step.
+                // the rule rotates by 2 % less at half a radian a step
                 Ok(found) => {
                     assert!((found - 100.0).abs() < 2.1, "{formulation} {step}: {found}");
                 }
@@ -216,7 +216,7 @@ fn natural_coordinates_follow_turns_or_say_that_they_cannot() {
                 }
             }
         }
-        // Steps of controlled length are made as short as the turn wants them.
+        // controlled steps become as short as the rotation requires
         if formulation == "multi-index" {
             let found = value::<3>(&scene, formulation, 0.05);
             assert!((found - 100.0).abs() < 1.0, "{formulation}: {found}");
@@ -224,7 +224,7 @@ fn natural_coordinates_follow_turns_or_say_that_they_cannot() {
     }
 }
 
-/// x = 0.01 cos(50^(1/2) t) m after 0.1 s.
+/// The slide moves by x = 0.01 cos(50^(1/2) t) m, and the value is compared after 0.1 s.
 #[test]
 fn springs_and_torques_of_a_slide_act_along_its_only_coordinate() {
     let spring = text("28-spring-on-a-slide");
@@ -239,7 +239,7 @@ fn springs_and_torques_of_a_slide_act_along_its_only_coordinate() {
         assert!((found - right).abs() < 1e-8, "{formulation}: {found}, {right}");
         assert_eq!(found.to_bits(), same.to_bits(), "{formulation}");
     }
-    // a force of 2 N on 1 kg, in place of the spring
+    // a force of 2 N on 1 kg replaces the spring
     let pushed = plain
         .replace("kind = \"torsion-spring\"", "kind = \"torque\"")
         .replace("stiffness = 50.0", "value = 2.0");

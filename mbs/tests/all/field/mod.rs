@@ -1,5 +1,5 @@
-//! Situations that users met, each the smallest scene found that shows it (`mbs/tests/field`), against values from closed forms or other
-//! programs. Each stands for a kind: the tests beside it are others of the kind.
+//! Problems of users, each as the smallest scene that shows it (`mbs/tests/field`). Values are from closed forms or other programs. Each
+//! problem represents a kind, and further tests cover other members of the kind.
 
 mod analyses;
 mod couplings;

@@ -1,11 +1,11 @@
-//! Outputs that were wrong where the motion was right, and a motion that was stopped over the rounding of one.
+//! Outputs that were wrong although the motion was right, and a run that the rounding of an output stopped.
 
 use super::{by_tolerance, field, last, read, text};
 use crate::common::{run, run_in};
 use mbs::core::scene::Scene;
 use mbs::{FormulationKind, Method};
 
-/// Efforts on both angles of the cross [N m], and their power [W], at 0.5 s: the equations of mast and dish by another program.
+/// Efforts on both angles of the cross [N m] and their power [W] at 0.5 s, from the equations of mast and dish in another program.
 const CROSS: [f64; 3] = [-5.399_044_19, 1.102_128_63, 16.795_604_76];
 
 #[test]
@@ -25,11 +25,11 @@ fn efforts_of_a_cross_with_oblique_axes_are_about_its_axes() {
     }
 }
 
-/// Power through the joint at each instant: its moment times the turn of the dish against the mast [W].
+/// Power of the joint at each instant is its moment times the dish's rotation rate relative to the mast [W].
 #[test]
 fn the_power_of_a_cross_is_its_moment_times_the_turn() {
     let oblique = text("60-guided-cross");
-    // any angle of the axes, a right one and a sharp one among them, and the bodies named the other way
+    // axes at any angle, including a right and an acute one, and the bodies in both orders
     for axes in [
         "[[0.0, 1.0, 0.0], [1.0, 0.4, 0.0]]",
         "[[0.0, 1.0, 0.0], [1.0, 0.0, 0.0]]",
@@ -56,7 +56,7 @@ fn the_power_of_a_cross_is_its_moment_times_the_turn() {
     }
 }
 
-/// A disc at 4 rad/s for 2 s has turned by 8 rad, its vector too, however long the steps are.
+/// A disc turns at 4 rad/s for 2 s: its angle and its rotation vector are 8 rad with steps of any length.
 #[test]
 fn a_rotation_vector_does_not_depend_on_the_steps() {
     let scene = field("64-rotation-vector-by-steps");
@@ -75,10 +75,10 @@ fn a_rotation_vector_does_not_depend_on_the_steps() {
     }
 }
 
-/// Place of guide and slide at 2 s [m]: the equations of both slides by another program.
+/// Position of guide and slide at 2 s [m], from the equations of both slides in another program.
 const SLID: f64 = -0.322_743_35;
 
-/// A blade holds the rail: it rests, and the rates of both slides cancel. What is left of its speed is their rounding.
+/// A blade holds the rail at rest, and the rates of both slides cancel. The speed of the rail is their rounding.
 #[test]
 fn a_link_at_rest_between_joints_that_move_stops_nothing() {
     let resting = text("65-violated-by-rounding");
@@ -89,7 +89,7 @@ fn a_link_at_rest_between_joints_that_move_stops_nothing() {
     for found in last(&run_in(&scene, "recursive", Some(1e-3))) {
         assert!((found - SLID).abs() < 1e-4, "{found}");
     }
-    // Half of them stopped, at a turn of the sledge, where rounding of the rates was judged by the speeds of the rows.
+    // half of these runs stopped once, at a reversal of the sledge, because the rounding of rates was compared with the speeds of the rows
     for k in 0..48 {
         let rate = format!("rate = {}", 0.5 + 0.0137 * f64::from(k));
         let scene = read(&resting.replace("rate = 0.9", &rate), "rail at rest");
@@ -102,11 +102,11 @@ fn a_link_at_rest_between_joints_that_move_stops_nothing() {
     }
 }
 
-/// Angle and energy of a bar that falls on a stop, at 1.2 s: by an engine of its own, at 1e-12.
+/// Angle [rad] and energy [J] of a bar that falls on a stop, at 1.2 s, by an independent integrator with a tolerance of 1e-12.
 const STOPPED: [f64; 2] = [-0.961_152_555_21, 0.0];
 
-/// Forces that set in just before the end of a long step are seen: the rates at the end are in every column. Each of some hundred steps may
-/// err by its tolerance, and those over a corner of the force by some hundred times that.
+/// Forces that begin just before the end of a long step are resolved, since every column of the extrapolation has the rates at the end. Each
+/// of some hundred steps may have an error of its tolerance. Steps over a corner of the force may have some hundred times that.
 #[test]
 fn extrapolation_sees_a_stop_at_the_end_of_its_steps() {
     let scene = field("62-stop-by-gbs");

@@ -1,4 +1,4 @@
-//! Starts that were wrong, or refused.
+//! Starts that were wrong, or that were refused without a reason.
 
 use super::{field, read, text};
 use mbs::Method;
@@ -10,12 +10,12 @@ use mbs::core::start::AssemblyError;
 use mbs::scene_file::SceneFile;
 use mbs_testkit::{invariant, start, start_in};
 
-/// The reference values have so many digits.
+/// Precision of the reference values, by their number of digits [m or rad].
 const PRINTED: f64 = 1e-6;
-/// Held values are met to this [rad].
+/// Largest error of prescribed initial values [rad].
 const HELD: f64 = 1e-12;
 
-/// Turns of planar bodies against each other, and their rates.
+/// Angles and rates of planar bodies relative to each other.
 fn turns<T: Real>(scene: &Scene<T>, model: &NaturalModel<T, 2>, state: &State<T>) -> Vec<[f64; 2]> {
     let all = (0..scene.bodies.len()).map(|body| {
         let motion = model.motion(scene, body, state);
@@ -99,7 +99,7 @@ fn a_tree_with_all_values_starts_whatever_its_inertias_are() {
         let scene = read(&text, "tree");
         let (model, state) = start::<3>(&scene);
         let arm = model.motion(&scene, 2, &state);
-        // Ry(0.8) Rx(-0.9) Rz(0.3)
+        // rotation of the arm, Ry(0.8) Rx(-0.9) Rz(0.3)
         let about = |axis: usize, angle: f64| {
             let w: [f64; 3] = std::array::from_fn(|i| if i == axis { angle } else { 0.0 });
             mbs::core::algebra::rotation(&w.into())
@@ -169,7 +169,7 @@ fn knees_and_feet_of_four_loops_start_at_values_within_reach() {
 
 #[test]
 fn a_value_out_of_reach_is_named_with_the_value_that_was_reached() {
-    // Rocker of a four-bar with a crank of 0.3 and sides of 0.7, 0.76 and 0.6 m: it swings and stops.
+    // the rocker of a four-bar linkage with a crank of 0.3 m and sides of 0.7, 0.76 and 0.6 m swings within limits
     let mut scene = crate::common::scene("guided-four-bar");
     scene.guides.clear();
     scene.initials.clear();

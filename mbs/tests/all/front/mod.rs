@@ -1,4 +1,4 @@
-//! A mechanism in code and one from a file are the same; changes keep what they do not touch.
+//! Mechanisms in code equal those from files, and changes keep all other parts.
 
 mod clock;
 mod values;
@@ -12,12 +12,12 @@ fn file(name: &str) -> String {
     std::fs::read_to_string(path).expect("a scene")
 }
 
-/// The scene of a mechanism, its numbers as decimals.
+/// Scene of a mechanism, with decimal numbers.
 fn scene(m: &Mechanism) -> Scene<Number> {
     m.to_file().expect("no code").numbers().expect("a scene")
 }
 
-/// The mechanism of scenes/double-pendulum.toml, in code.
+/// Makes the mechanism of scenes/double-pendulum.toml in code.
 fn double_pendulum() -> Mechanism {
     let mut m = Mechanism::planar("double pendulum");
     m.set_gravity([0.0, -9.81]).set_duration(10.0);
@@ -85,7 +85,7 @@ fn changes_by_handle_keep_the_rest_of_a_file() {
     assert!(written.contains("[0.0, -1.62]") && written.contains("mass = 3.0"), "{written}");
     assert!(written.contains("[[effect]]\nname = \"effect-1\""), "{written}");
     assert_eq!(Mechanism::parse(&written).expect("a scene"), m);
-    // a path after a handle
+    // a change by path, after one by handle
     m.set("effect.effect-1.value", -0.5).expect("a path");
     assert_eq!((m.part(lower).mass.to_f64(), m.get("effect.effect-1.value")), (3.0, Ok(-0.5)));
 }

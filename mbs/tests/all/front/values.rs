@@ -4,7 +4,7 @@ use mbs::Pose;
 
 #[test]
 fn a_quaternion_turns_axes_as_its_rotation_does() {
-    // half turns about each axis are where a quaternion is found from another component
+    // near half a revolution about each axis, another component is used to find the quaternion
     for (x, y, z) in [(0.3, -0.2, 0.9), (3.1, 0.0, 0.0), (0.0, 3.1, 0.1), (0.1, 0.0, -3.1)] {
         let angle = f64::hypot(f64::hypot(x, y), z);
         let n = [x / angle, y / angle, z / angle];
@@ -23,7 +23,7 @@ fn a_quaternion_turns_axes_as_its_rotation_does() {
         let sign = half.cos().signum();
         let right = [half.cos(), n[0] * half.sin(), n[1] * half.sin(), n[2] * half.sin()];
         for (a, b) in q.iter().zip(right) {
-            // eight roundings of numbers of order one
+            // about eight rounding errors of numbers of order one
             assert!((a - sign * b).abs() < 1e-15, "{q:?} for {right:?}");
         }
     }

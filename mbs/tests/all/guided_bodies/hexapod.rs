@@ -1,4 +1,4 @@
-//! The scene `hexapod`: legs and energies by hand from the guided platform.
+//! Scene `hexapod`: legs and energies computed by hand from the guided platform.
 
 use super::kinematics::{
     Matrix, Motion, Sine, Vector, add, cross_of, minus, product, rate, scaled, spin_of, times,
@@ -14,14 +14,14 @@ const MOTION: Motion = Motion {
     rotation: [Sine([0.2, 0.8, 0.0]), Sine([-0.15, 1.0, 0.0]), Sine([0.4, 0.6, 0.0])],
 };
 
-/// The place that is guided [m].
+/// Guided point of the platform [m].
 const AT: Vector = [0.0, 0.0, 1.2];
 
 fn length(d: Vector) -> f64 {
     dot(d, d).sqrt()
 }
 
-/// A leg: its base and platform points and the axis of its universal joint in the ground.
+/// Leg of the hexapod: its base point, its platform point, and the axis of its universal joint in the ground.
 struct Leg {
     base: Vector,
     top: Vector,
@@ -40,12 +40,13 @@ impl Leg {
         })
     }
 
-    /// From the base to the guided platform.
+    /// Vector from the base point to the present platform point.
     fn way(&self, t: f64) -> Vector {
         minus(on_platform(self.top, t), self.base)
     }
 
-    /// The directions along the leg, along its second axis, which stays across the first and the leg, and across both.
+    /// Unit vectors of the leg: along it, along its second axis, and perpendicular to both. The second axis is perpendicular to the first
+    /// axis and to the leg.
     fn frame(&self, way: Vector) -> Matrix {
         let u = scaled(way, 1.0 / length(way));
         let b = cross_of(self.axis, u);
@@ -112,7 +113,7 @@ fn the_legs_of_a_hexapod_are_as_long_as_between_base_and_guided_platform() {
         }
         println!("{way:?}: legs within {worst:.1e} m");
         assert!(worst < 1e-12, "{way:?}: {worst:e}");
-        // natural coordinates and tree ask for the same force and moment
+        // natural coordinates and the tree give the same force and moment
         let first = efforts.get_or_insert_with(|| rows.clone());
         let all = first.iter().zip(&rows).map(|((_, a), (_, b))| off(&b[6..12], &a[6..12]));
         let differences = all.fold(0.0, common::worst);
@@ -136,7 +137,7 @@ fn the_power_of_the_guides_of_a_hexapod_is_what_its_bodies_gain_in_energy() {
             worst = common::worst(worst, (power - gained).abs() / (1.0 + gained.abs()));
         }
         println!("{way:?}: power within {worst:.1e}");
-        // the quotients of energies of 400 J leave 1e-10 W
+        // difference quotients of energies of 400 J have an error of 1e-10 W
         assert!(worst < 1e-8, "{way:?}: {worst:e}");
     }
 }

@@ -1,4 +1,4 @@
-//! A moving frame by its own rotation matrix, and its rates by difference quotients: none of the formulas of the library.
+//! Motion of a frame by a rotation matrix, with rates by difference quotients. No formula of the library is used.
 
 pub(super) use crate::common::cross as cross_of;
 use crate::common::{cross, dot};
@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 pub(super) type Vector = [f64; 3];
 pub(super) type Matrix = [Vector; 3];
 
-/// Amplitude, frequency [Hz] and phase [rad].
+/// Sine with amplitude, frequency [Hz] and phase [rad].
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Sine(pub(super) [f64; 3]);
 
@@ -18,7 +18,7 @@ impl Sine {
     }
 }
 
-/// A translation and a rotation vector.
+/// Motion by a translation and a rotation vector.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Motion {
     pub(super) translation: [Sine; 3],
@@ -50,7 +50,7 @@ pub(super) fn product(a: &Matrix, b: &Matrix) -> Matrix {
     a.map(|row| columns.map(|column| dot(row, column)))
 }
 
-/// The rotation by a unit quaternion of half the angle.
+/// Rotation matrix of a rotation vector, by a unit quaternion.
 pub(super) fn rotation(f: Vector) -> Matrix {
     let angle = dot(f, f).sqrt();
     let by = if angle > 0.0 { (0.5 * angle).sin() / angle } else { 0.5 };
@@ -62,7 +62,7 @@ pub(super) fn rotation(f: Vector) -> Matrix {
     transposed(&[of([1.0, 0.0, 0.0]), of([0.0, 1.0, 0.0]), of([0.0, 0.0, 1.0])])
 }
 
-/// Rate of a function: a difference quotient of eighth order. At rates of 60 rad/s its error is 1e-12 of the rate.
+/// Rate of a function, by a difference quotient of eighth order. At rates of 60 rad/s its relative error is 1e-12.
 pub(super) fn rate<const N: usize>(f: impl Fn(f64) -> [f64; N], t: f64) -> [f64; N] {
     let h = 5e-4;
     let mut sum = [0.0; N];
@@ -82,18 +82,18 @@ impl Motion {
         rotation(self.rotation.map(|sine| sine.at(t)))
     }
 
-    /// The place of a point that is at `x` from the frame's origin.
+    /// Position of a point that is at `x` relative to the frame's origin.
     pub(super) fn place(&self, x: Vector, t: f64) -> Vector {
         add(self.translation.map(|sine| sine.at(t)), times(&self.rotation_at(t), x))
     }
 
-    /// The angular velocity of R' Rᵀ.
+    /// Angular velocity, from the matrix R' Rᵀ.
     pub(super) fn spin(&self, t: f64) -> Vector {
         spin_of(|t| self.rotation_at(t), t)
     }
 }
 
-/// The angular velocity of a rotation over time.
+/// Angular velocity of a rotation matrix that is a function of time.
 pub(super) fn spin_of(r: impl Fn(f64) -> Matrix, t: f64) -> Vector {
     let flat = |m: Matrix| [0, 1, 2, 3, 4, 5, 6, 7, 8].map(|i| m[i / 3][i % 3]);
     let d = rate(|t| flat(r(t)), t);

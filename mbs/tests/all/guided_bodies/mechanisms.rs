@@ -1,4 +1,4 @@
-//! Guided balls and other joints in mechanisms, a hexapod, rest and modes.
+//! Mechanisms with guided ball joints and other joints, a hexapod, equilibrium and modes.
 
 use super::kinematics::{Vector, add, minus, rotation, spin_of, times, transposed};
 use super::{Rows, SIX, WAYS, Way, head, off, oracle, output, signals, turning};
@@ -6,7 +6,8 @@ use crate::common::{self, dot};
 use mbs::{Method, Modes, Place, Search};
 use mbs_testkit::scene;
 
-/// A heavy arm that swings about an askew axis, and a body on it whose joint has `n` guided coordinates; `sense` turns its bodies round.
+/// Scene of a heavy arm that swings about an oblique axis. A joint on it has `n` guided coordinates. `is_turned` exchanges the joint's
+/// bodies.
 fn on_an_arm(kind: &str, axes: &str, n: usize, is_turned: bool) -> String {
     let (sines, names) = signals(&SIX[6 - n..]);
     let bodies = if is_turned { "[\"body\", \"arm\"]" } else { "[\"arm\", \"body\"]" };
@@ -26,7 +27,7 @@ fn on_an_arm(kind: &str, axes: &str, n: usize, is_turned: bool) -> String {
     .concat()
 }
 
-/// Kinds with several coordinates, their axes and how many coordinates they have.
+/// Kinds of joints with several coordinates: kind, text of its axes, and number of coordinates.
 const KINDS: [(&str, &str, usize); 6] = [
     ("spherical", "", 3),
     ("free", "", 6),
@@ -44,7 +45,7 @@ fn every_joint_with_several_coordinates_is_guided_whole_either_way_round() {
             let exact = oracle::run(&text, Way("recursive", "rk853"), (1e-3, 0.3));
             for way in WAYS {
                 let rows = oracle::run(&text, way, (1e-3, 0.3));
-                // at the start nothing has been integrated: efforts are those of one instant
+                // at the start nothing is integrated: efforts depend on one instant only
                 let [first, start] = [&rows, &exact].map(|rows| &rows[0].1);
                 let from = format!("{kind} {is_turned} {way:?}");
                 assert!(off(first, start) < 1e-7, "{from}: {first:?} {start:?}");
@@ -52,7 +53,7 @@ fn every_joint_with_several_coordinates_is_guided_whole_either_way_round() {
                     let values: Vec<f64> = SIX[6 - n..].iter().map(|sine| sine.at(*t)).collect();
                     assert!(off(&row[..n], &values) < 1e-9, "{from} at {t}: {row:?} {values:?}");
                 }
-                // steps of a millisecond: the swing of the arm has an error of second order
+                // with steps of 1 ms the swing of the arm has an error of second order
                 let ends = [&rows, &exact].map(|rows: &Rows| oracle::last(rows)[2 * n]);
                 assert!((ends[0] - ends[1]).abs() < 5e-4, "{from}: {ends:?}");
             }
@@ -62,7 +63,7 @@ fn every_joint_with_several_coordinates_is_guided_whole_either_way_round() {
 
 #[test]
 fn efforts_of_a_guided_ball_turn_the_arm_that_carries_it() {
-    // the work of the guide is all that changes the energy of arm and body
+    // only the work of the guide changes the energy of arm and body
     for is_turned in [false, true] {
         let scene = scene(&on_an_arm("spherical", "", 3, is_turned));
         let error = |way: Way, step: f64| {
@@ -141,7 +142,7 @@ fn a_guided_mechanism_has_as_many_freedoms_as_its_free_joints() {
 
 #[test]
 fn rest_and_modes_hold_a_tilted_platform() {
-    // a hinge that the platform tilts by beta from the level: the pendulum rests below it and feels g cos beta
+    // the platform tilts a hinge by beta from the horizontal: the pendulum rests below it, and gravity in its plane is g cos beta
     let (beta, mass, arm, inertia) = (0.5_f64, 2.0, 0.4, 0.03);
     let constant = |name: char, value: f64| {
         format!("[[signal]]\nname = \"{name}\"\nkind = \"constant\"\nvalue = {value:?}\n")

@@ -1,11 +1,11 @@
-//! A guided body alone: its motion is that of the signals, its efforts are Newton's and Euler's.
+//! Guided body alone: its motion is that of the signals, its efforts are those of Newton's and Euler's equations.
 
 use super::kinematics::{
     Matrix, Motion, Sine, Vector, add, cross_of, minus, product, rate, scaled, times, transposed,
 };
 use super::{Rows, SIX, WAYS, head, off, oracle, output, signals};
 
-/// Mass [kg], centre [m], inertia about it [kg m^2], place of the guide [m] and a point [m].
+/// Mass [kg], centre [m], inertia about the centre [kg m^2], guided point [m], and another point [m].
 const MASS: f64 = 20.0;
 const CENTER: Vector = [0.02, -0.01, 1.25];
 const INERTIA: Matrix = [[1.9, 0.05, 0.02], [0.05, 2.1, -0.03], [0.02, -0.03, 3.6]];
@@ -13,9 +13,9 @@ const AT: Vector = [0.3, 0.1, 1.2];
 const POINT: Vector = [0.5, -0.2, 1.4];
 const GRAVITY: Vector = [1.0, -2.0, -9.81];
 
-/// Positions and velocities that the signals determine, relative: their projections.
+/// Relative error of positions and velocities, which the signals determine by projections [-].
 const KINEMATICS: f64 = 1e-10;
-/// Accelerations and efforts, relative: the level of the acceleration projection.
+/// Relative error of accelerations and efforts [-]: the accuracy of the acceleration projection.
 const DYNAMICS: f64 = 1e-7;
 
 fn motion() -> Motion {
@@ -45,13 +45,13 @@ fn scene() -> String {
     .concat()
 }
 
-/// Outputs of the scene, by hand.
+/// Outputs of the scene, computed by hand.
 fn expected(t: f64) -> [Vec<f64>; 7] {
     let m = motion();
     let of = |x: Vector| move |t: f64| add(AT, m.place(minus(x, AT), t));
     let second = |x: Vector| rate(|t| rate(of(x), t), t);
     let (omega, omega_t) = (m.spin(t), rate(|t| m.spin(t), t));
-    // F = m (a − g),   M = I ω' + ω × I ω + (c − p) × F about the guide's place
+    // with the guided point p and the centre c: F = m (a − g), M = I ω' + ω × I ω + (c − p) × F
     let force = scaled(minus(second(CENTER), GRAVITY), MASS);
     let r = m.rotation_at(t);
     let inertia = product(&product(&r, &INERTIA), &transposed(&r));
@@ -68,7 +68,7 @@ fn expected(t: f64) -> [Vec<f64>; 7] {
     ]
 }
 
-/// The largest errors of the seven outputs over a run.
+/// Largest error of each of the seven outputs over a run.
 fn errors(rows: &Rows) -> [f64; 7] {
     let mut errors = [0.0; 7];
     for (t, row) in rows.iter().step_by(20) {
@@ -126,15 +126,15 @@ fn a_planar_platform_follows_two_translations_and_an_angle_through_turns() {
     }
 }
 
-/// A pendulum on the platform, about an axis that stands askew in it [m, kg, kg m^2].
+/// Pendulum on the platform about an oblique axis [m, kg, kg m^2].
 const HINGE: Vector = [0.7, 0.3, 1.1];
 const AXIS: Vector = [0.48, 0.6, 0.64];
 const BOB: Vector = [0.9, 0.1, 0.8];
 const BOB_MASS: f64 = 2.0;
 const BOB_INERTIA: f64 = 0.05;
 
-/// Angular acceleration of the pendulum by the virtual power of one rate: m (a − g)·u + I ω'·n, each linear in it. The body has the same inertia
-/// about all axes, so that ω × I ω is zero.
+/// Angular acceleration of the pendulum. The virtual power of its rate, m (a − g)·u + I ω'·n, is linear in the acceleration. The body has
+/// equal inertia about all axes, so that ω × I ω is zero.
 fn swing(m: &Motion, t: f64, [angle, speed]: [f64; 2]) -> f64 {
     let residual = |second: f64| {
         let at = |s: f64| angle + speed * (s - t) + 0.5 * second * (s - t) * (s - t);
@@ -152,7 +152,7 @@ fn swing(m: &Motion, t: f64, [angle, speed]: [f64; 2]) -> f64 {
     -none / (residual(1.0) - none)
 }
 
-/// The angle after `duration` by the classical method of fourth order.
+/// Angle after `duration` [s] by the classical Runge-Kutta method.
 fn swung(duration: f64) -> f64 {
     let (m, n) = (motion(), 1000);
     let h = duration / f64::from(n);
@@ -194,12 +194,12 @@ fn a_pendulum_on_a_guided_platform_swings_by_its_equation_of_motion_with_errors_
         let errors = [1e-3, 5e-4, 2.5e-4].map(error);
         println!("{way:?}: {exact} {errors:?}");
         if way.1 == "rk853" {
-            // the reference itself: fourth order in 0.25 ms
+            // error of the reference, which is of fourth order with 0.25 ms
             assert!(errors[2].abs() < 1e-7, "{errors:?}");
         } else {
             let ratio = errors[1] / errors[2];
             assert!((3.6..4.4).contains(&ratio), "{way:?}: {errors:?}");
-            // the platform turns at up to 60 rad/s
+            // the platform rotates at up to 60 rad/s
             assert!(errors[2].abs() < 5e-4, "{way:?}: {errors:?}");
         }
     }

@@ -1,4 +1,4 @@
-//! Places, masses, settings, and runs that do not begin or stop.
+//! Hints on points, masses, settings, and runs that do not begin or that stop.
 
 use super::Row;
 use super::row;
@@ -9,7 +9,7 @@ pub(super) fn rows() -> Vec<Row> {
     parts.into_iter().flatten().collect()
 }
 
-/// Places, axes and joints.
+/// Hints on points, axes and joints.
 #[allow(clippy::too_many_lines, reason = "a table")]
 fn places() -> Vec<Row> {
     vec![
@@ -103,7 +103,7 @@ fn masses() -> Vec<Row> {
                 ("[[initial]]\njoint = \"elbow\"\nrate = 0.5\n", ""),
             ],
         ),
-        // a massless end of a branch, and a point mass on its joint
+        // a branch that ends without mass, and a point mass on its joint
         row(
             PLANAR,
             &[
@@ -131,7 +131,7 @@ fn masses() -> Vec<Row> {
     ]
 }
 
-/// Points that turn without inertia, and nodes without mass.
+/// Hints on points that rotate without inertia, and on nodes without mass.
 fn points() -> Vec<Row> {
     vec![
         row(
@@ -147,7 +147,7 @@ fn points() -> Vec<Row> {
                 ("[[initial]]\njoint = \"elbow\"\nrate = 0.5\n", ""),
             ],
         ),
-        // a node between two springs
+        // a massless node between two springs
         row(
             PLANAR,
             &[
@@ -167,7 +167,7 @@ fn points() -> Vec<Row> {
     ]
 }
 
-/// Settings that do not go together.
+/// Hints on settings that exclude each other.
 fn settings() -> Vec<Row> {
     vec![
         row(
@@ -209,7 +209,7 @@ fn settings() -> Vec<Row> {
     ]
 }
 
-/// Runs that do not begin, or stop.
+/// Hints on runs that do not begin, or that stop.
 fn stops() -> Vec<Row> {
     vec![
         row(

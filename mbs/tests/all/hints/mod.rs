@@ -1,4 +1,4 @@
-//! No hint leads nowhere: a scene that provokes it, and the same scene changed as the hint says, which then runs.
+//! Every hint helps: a scene causes it, and the same scene, changed as the hint says, runs.
 
 mod mechanisms;
 mod scenes;
@@ -9,12 +9,12 @@ use mbs::core::scene::Scene;
 use mbs::scene_file::SceneFile;
 use mbs::{Method, ResolvedMethod};
 
-/// Change that a row makes: passages of its scene, each of which stands once in it.
+/// Changes of a text: passages that occur in it once, and their replacements.
 type Change = &'static [(&'static str, &'static str)];
 
-/// A hint, with what provokes it and what mends it.
+/// Hint, with the change that causes it and the change that it proposes.
 struct Row {
-    /// The scene that is spoiled.
+    /// Text of a scene that runs.
     base: &'static str,
     /// Change that provokes the hint.
     spoil: Change,
@@ -22,7 +22,7 @@ struct Row {
     message: &'static str,
     /// A part of the hint.
     hint: &'static str,
-    /// The spoiled scene is changed so: as the hint says.
+    /// Change of the spoiled scene that the hint proposes.
     mend: Change,
 }
 
@@ -35,7 +35,7 @@ const fn row(
     Row { base, spoil, message, hint, mend }
 }
 
-/// The text with passages replaced.
+/// Returns the text with passages replaced.
 fn changed(text: &str, change: Change) -> String {
     change.iter().fold(text.to_owned(), |text, (from, to)| {
         assert_eq!(text.matches(from).count(), 1, "`{from}` stands once in\n{text}");
@@ -43,7 +43,7 @@ fn changed(text: &str, change: Change) -> String {
     })
 }
 
-/// Reads and runs a text as `mbs run` does; else what is said: the message and the hint.
+/// Reads and runs a text as `mbs run` does. An error is its message and its hint.
 fn run(text: &str) -> Result<(), [String; 2]> {
     run_with(text, &Method::default())
 }
@@ -74,7 +74,7 @@ fn every_hint_leads_to_a_scene_that_runs() {
                 if !(message.contains(row.message) && hint.contains(row.hint)) {
                     lost.push(format!("row {i}: {message} / {hint}"));
                 }
-                // what is told is written for people: no empty hints
+                // messages are for people, so no hint is empty
                 if hint.is_empty() {
                     lost.push(format!("row {i}: {message} has no hint"));
                 }
@@ -87,7 +87,7 @@ fn every_hint_leads_to_a_scene_that_runs() {
     assert!(lost.is_empty(), "{}", lost.join("\n"));
 }
 
-/// Options that are refused, a part of the hint, and what it says to write.
+/// Options that are refused, a part of the hint, and the change that it proposes.
 type Refused = (fn(&mut Method), &'static str, fn(&mut Method));
 
 const OPTIONS: [Refused; 9] = [

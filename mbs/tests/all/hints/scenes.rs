@@ -1,4 +1,4 @@
-//! Scenes that run, to be spoiled.
+//! Scenes that run, as bases for changes that cause hints.
 
 pub(super) const PLANAR: &str = r#"
 [scene]
@@ -80,7 +80,7 @@ joint = "pin"
 quantity = "value"
 "#;
 
-/// A slide that follows a table, on a slope where the run ends.
+/// Scene of a slide that follows a table whose slope is not zero at the end of the run.
 pub(super) const GUIDED: &str = r#"
 [scene]
 dimension = 2
@@ -101,7 +101,7 @@ joint = "slide"
 table = [[0.0, 0.0], [0.25, 0.1], [0.5, 0.3]]
 "#;
 
-/// A rocker-rocker whose crank is turned.
+/// Scene of a double-rocker linkage whose crank is driven.
 pub(super) const LOCKING: &str = r#"
 [scene]
 dimension = 2

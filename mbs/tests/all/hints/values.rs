@@ -1,4 +1,4 @@
-//! Values and numbers that are missing, doubled, of another type, or cannot be meant.
+//! Values that are missing, given twice or of another type, and invalid numbers.
 
 use super::Row;
 use super::row;
@@ -8,7 +8,7 @@ pub(super) fn rows() -> Vec<Row> {
     values().into_iter().chain(numbers()).collect()
 }
 
-/// Values that are missing, doubled, or of another type.
+/// Hints on values that are missing, given twice, or of another type.
 #[allow(clippy::too_many_lines, reason = "a table")]
 fn values() -> Vec<Row> {
     vec![
@@ -39,7 +39,7 @@ fn values() -> Vec<Row> {
             ["`inertia` is missing", "add `inertia`, about the centre of mass"],
             &[("center = [1.5, 0.0]", "center = [1.5, 0.0]\ninertia = 0.1")],
         ),
-        // a point mass: the hint says zeros where it is welded
+        // a point mass that is welded: the hint proposes an inertia of zeros
         row(
             SPATIAL,
             &[("inertia = [0.001, 0.001, 0.001, 0.0, 0.0, 0.0]\n", "")],
@@ -131,7 +131,7 @@ fn values() -> Vec<Row> {
     ]
 }
 
-/// Numbers with units, and numbers that cannot be meant.
+/// Hints on numbers with units, and on invalid numbers.
 #[allow(clippy::too_many_lines, reason = "a table")]
 fn numbers() -> Vec<Row> {
     vec![

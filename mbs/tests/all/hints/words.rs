@@ -1,10 +1,10 @@
-//! Words of other programs and textbooks.
+//! Hints on words of other programs and textbooks.
 
 use super::Row;
 use super::row;
 use super::scenes::{GUIDED, PLANAR, SPATIAL};
 
-/// Words of other programs.
+/// Hints on words of other programs.
 #[allow(clippy::too_many_lines, reason = "a table")]
 pub(super) fn rows() -> Vec<Row> {
     const KIND: &str = "name = \"elbow\"\nkind = \"revolute\"";

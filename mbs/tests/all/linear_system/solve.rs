@@ -3,7 +3,7 @@
 use mbs::Matrix;
 use mbs::inside::tested::{Factor, divided, product, size};
 
-/// Rounding of a product of three rows.
+/// Rounding error of a product of three rows [-].
 const ROUNDING: f64 = 1e-14;
 
 #[test]

@@ -240,7 +240,7 @@ fn a_crank_moves_a_slider_by_a_rod() {
 
 #[test]
 fn another_word_begins_from_the_nearest_outer_class_that_ends_with_it_or_with_general() {
-    // hinges of 0.1 kg m^2 at rest: ten times the control, by the gain that MuJoCo 4.0.0 has
+    // hinges of 0.1 kg m^2 at rest: the acceleration is ten times the control, with the gain of MuJoCo 4.0.0
     for (classes, actuator, gain) in [
         (r#"<position kp="10"/><default class="c"><motor gear="1"/></default>"#, "position", 10.0),
         (r#"<position kp="10"/><default class="c"><motor gear="1"/></default>"#, "motor", 1.0),

@@ -1,22 +1,22 @@
-//! MJCF: springs and dampers of balls and free joints.
+//! MJCF: springs and dampers of ball joints and free joints.
 
 use super::{agrees, turns};
 
 #[test]
 fn a_time_and_a_damping_ratio_of_a_ball_follow_from_the_mean_of_what_it_moves() {
-    // turned by (0.2, 0.1, 0), with a turn of 0.5 about z
+    // rotated by (0.2, 0.1, 0), with a rate of 0.5 rad/s about z
     let model = r#"<mujoco><worldbody><body name="b" pos="0 0 1"><joint name="ball" type="ball" springdamper="0.2 1"/><geom type="box" pos="0 0 -0.2" size="0.05 0.1 0.2" mass="2"/></body></worldbody>
 <keyframe><key name="on" qpos="QPOS" qvel="QVEL"/></keyframe></mujoco>"#;
     let model = model.replace("QPOS", KEY[0]).replace("QVEL", KEY[1]);
     turns(&model, "b", RIGHT);
 }
 
-/// State of the ball whose damping ratio is given, in the coordinates of the file.
+/// State of the ball joint with a given damping ratio, in the coordinates of the file.
 const KEY: [&str; 2] = [
     "0.9937565077045984 0.09979179683625425 0.049895898418127124 0.0",
     "-0.04958437376078141 0.09916874752156282 0.4875519966052396",
 ];
-/// Angular acceleration of the ball whose damping ratio is given [rad/s²].
+/// Angular acceleration of the ball joint with a given damping ratio [rad/s²].
 const RIGHT: [f64; 3] = [-8.95344183343061, -1.7383496680042083, -12.48438525854519];
 
 #[test]

@@ -1,4 +1,4 @@
-//! MJCF: loops that are open as the model is drawn. Values: MuJoCo's matrices with its equalities as exact rows, at rest.
+//! MJCF: loops that are open in the drawn configuration. Values are from MuJoCo's matrices at rest, with its equalities as exact rows.
 
 use super::agrees;
 

@@ -3,7 +3,7 @@
 use super::{ImportOptions, compare, of_joint, scene_text};
 use crate::common::files::scratch;
 
-/// Compares accelerations of joints of a model that attaches the other text.
+/// Compares accelerations of joints of a model that attaches another model.
 fn agrees(folder: &str, [model, part]: [&str; 2], expected: &[(&str, f64)]) {
     let folder = scratch(folder);
     std::fs::create_dir_all(&folder).expect("a folder");

@@ -4,7 +4,7 @@ use super::{agrees, turns};
 
 use mbs_import::{ImportOptions, import};
 
-/// A wheel or a wagon with a joint, what is beside the world, and a keyframe.
+/// Model of a wheel or a wagon with a joint, further elements beside the world, and a keyframe.
 fn one(joint: &str, geom: &str, extra: &str, key: &str) -> String {
     format!(
         r#"<mujoco><compiler angle="radian"/><worldbody><body name="b" pos="0 0 1"><joint name="j" {joint}/><geom {geom}/></body></worldbody>
@@ -15,22 +15,22 @@ fn one(joint: &str, geom: &str, extra: &str, key: &str) -> String {
 #[test]
 fn a_spring_of_three_numbers_pushes_by_k_x_plus_an_even_and_a_cubic_term() {
     let wagon = r#"type="box" size="0.1 0.1 0.1" mass="2""#;
-    // -(100 x + 400 x²) - (2 + 3 |v|) v by 2 kg
+    // force -(100 x + 400 x²) - (2 + 3 |v|) v on 2 kg
     let way = r#"type="slide" axis="1 0 0" stiffness="100 400" damping="2 3""#;
     agrees(&one(way, wagon, "", r#"qpos="0.1" qvel="-0.5""#), &[("j", -6.125)]);
-    // 50 · 0.2 - 20 · 0.04 + 300 · 0.008 by 2 kg
+    // force 50 · 0.2 - 20 · 0.04 + 300 · 0.008 on 2 kg
     let way = r#"type="slide" axis="1 0 0" stiffness="50 20 300""#;
     agrees(&one(way, wagon, "", r#"qpos="-0.2""#), &[("j", 5.8)]);
 }
 
 #[test]
 fn motors_of_one_joint_and_of_one_tendon_are_limited_together() {
-    // J = 6 (0.2² + 0.1²)/3 = 0.1; 2.4 + 1.6 N m are cut to 3
+    // J = 6 (0.2² + 0.1²)/3 = 0.1 kg m²; the torques of 2.4 and 1.6 N m are limited to 3 N m
     let motors = r#"<actuator><motor joint="j" gear="4"/><motor joint="j" gear="2"/></actuator>"#;
     let turret = r#"type="box" size="0.2 0.1 0.1" mass="6""#;
     let joint = r#"axis="0 0 1" actuatorfrcrange="-2 3""#;
     agrees(&one(joint, turret, motors, r#"ctrl="0.6 0.8""#), &[("j", 30.0)]);
-    // J = 25 · 0.2²/2 = 0.5; 3 N are cut to 1.5, times 4 and 0.5
+    // J = 25 · 0.2²/2 = 0.5 kg m²; the tendon's 3 N are limited to 1.5 N, times the gear 4 and the coefficient 0.5
     let winch = r#"<tendon><fixed name="rope" actuatorfrcrange="-1.5 1.5"><joint joint="j" coef="0.5"/></fixed></tendon>
 <actuator><motor tendon="rope" gear="4"/></actuator>"#;
     let drum = r#"type="cylinder" size="0.2 0.1" mass="25""#;
@@ -39,7 +39,7 @@ fn motors_of_one_joint_and_of_one_tendon_are_limited_together() {
 
 #[test]
 fn drag_of_a_geared_motor_is_in_the_rate_of_the_joint() {
-    // 4 (0.5 · 2 + 0.25 · 4 + 0.125 · 8) by J = 10 · 0.2²/2
+    // drag torque 4 (0.5 · 2 + 0.25 · 4 + 0.125 · 8) on J = 10 · 0.2²/2 kg m²
     let motor = r#"<actuator><motor joint="j" gear="2" damping="0.5 0.25 0.125"/></actuator>"#;
     let wheel = r#"type="cylinder" size="0.2 0.05" mass="10""#;
     agrees(&one(r#"axis="0 0 1""#, wheel, motor, r#"qvel="-2""#), &[("j", 60.0)]);
@@ -50,7 +50,7 @@ fn a_motor_keeps_its_range_beside_a_servo_that_inherits_one() {
     let model = r#"<mujoco><compiler angle="radian"/><default><position kp="100" inheritrange="1"/><motor ctrlrange="-20 20"/></default>
 <worldbody><body pos="0 0 1"><joint name="knee" axis="0 1 0" range="0.2 1.6"/><geom type="box" pos="0.15 0 0" size="0.15 0.02 0.02" mass="1"/></body></worldbody>
 <actuator><motor joint="knee"/></actuator><keyframe><key name="on" qpos="0.9" ctrl="5"/></keyframe></mujoco>"#;
-    // (5 + m g l cos q)/J
+    // acceleration (5 + m g l cos q)/J of the knee
     let inertia = (0.15_f64 * 0.15 + 0.02 * 0.02) / 3.0 + 0.15 * 0.15;
     let expected = (5.0 + 9.81 * 0.15 * 0.9_f64.cos()) / inertia;
     agrees(model, &[("knee", expected)]);
@@ -66,7 +66,7 @@ fn a_body_that_stands_needs_no_force_against_gravity() {
 
 #[test]
 fn a_damped_free_body_has_a_moment_against_its_turn_and_a_force_against_its_velocity() {
-    // turned by 0.9 about x, with a turn of 2 about y: Euler's equations with -w
+    // rotated by 0.9 rad about x, with a rate of 2 rad/s about y: Euler's equations with the moment -w
     let (sine, cosine) = 0.9_f64.sin_cos();
     let model = r#"<mujoco><worldbody><body name="b" pos="0 0 1"><joint type="free" damping="1"/><geom type="box" size="0.1 0.2 0.05" mass="1"/></body></worldbody>
 <keyframe><key name="on" qpos="0 0 1 HALF_COSINE HALF_SINE 0 0" qvel="0 0 0 0 Y Z"/></keyframe></mujoco>"#;
@@ -105,7 +105,7 @@ fn a_negative_moment_is_refused_where_it_is_written_and_one_of_zero_is_raised() 
         let raised = read(bound, zero).unwrap_or_else(|error| panic!("{}", error.render()));
         assert!(raised.text.contains("inertia = [0.08, 0.08, 0.01,"), "{}", raised.text);
     }
-    // what is raised breaks the inequality: the message has what is written
+    // the raised inertia violates the triangle inequality: the message shows the values of the file
     let refused = read(bound, r#"fullinertia="0.3 0.08 0 0 0 0""#).expect_err("of no body");
     let says = refused.render();
     assert!(says.contains("[0.0, 0.08, 0.3]") && says.contains("[0.01, 0.08, 0.3]"), "{says}");

@@ -1,8 +1,8 @@
-//! Quaternions of axes, and the smallest turn.
+//! Quaternions from axes, and the smallest rotation.
 
 use mbs::inside::tested::{of_axes, smallest};
 
-/// Rounding of a few operations [-].
+/// Rounding error of a few operations [-].
 const ROUNDING: f64 = 1e-14;
 
 #[test]

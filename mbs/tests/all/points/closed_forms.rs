@@ -1,4 +1,4 @@
-//! Periods, frequencies, places at rest.
+//! Point masses: periods, frequencies and equilibrium positions.
 
 use super::{GRAVITY, apart, check, distance, head, list, output, point, run};
 use crate::common::oracle::{TRAPEZOIDAL, Way};
@@ -8,7 +8,7 @@ use mbs_testkit::scene;
 /// Length of the pendulum [m] and its angle from the vertical at the start [rad].
 const PENDULUM: [f64; 2] = [0.7, 2.2];
 
-/// The pendulum in the plane, or in the plane through z and (0.8, -0.6, 0).
+/// Position of the pendulum in the plane, or in the plane through z and (0.8, -0.6, 0).
 fn place(dimension: usize, angle: f64) -> Vec<f64> {
     let (along, up) = (PENDULUM[0] * angle.sin(), -PENDULUM[0] * angle.cos());
     if dimension == 2 { vec![along, up] } else { vec![0.8 * along, -0.6 * along, up] }
@@ -42,7 +42,7 @@ fn period([length, angle]: [f64; 2]) -> f64 {
 
 #[test]
 fn a_point_on_a_distance_has_the_period_of_the_elliptic_integral() {
-    // after a quarter of it the point passes the lowest place, after five quarters once more
+    // the point passes the lowest position after a quarter of the period, and again after five quarters
     let period = period(PENDULUM);
     for dimension in [2, 3] {
         let (start, mut right) = (place(dimension, PENDULUM[1]), place(dimension, 0.0));
@@ -51,7 +51,7 @@ fn a_point_on_a_distance_has_the_period_of_the_elliptic_integral() {
     }
 }
 
-/// Two points between two places of the ground, a metre from each other on (0.6, 0.8), on three springs that pull by 30 N at rest.
+/// Scene of two points between two fixed points of the ground, at distances of a metre along (0.6, 0.8). Three springs pull by 30 N at rest.
 fn springs(dimension: usize) -> String {
     let at = |x: f64| {
         let mut at = vec![0.6 * x, 0.8 * x];
@@ -97,10 +97,10 @@ fn two_points_on_springs_oscillate_along_and_across_them() {
         found.sort_by(f64::total_cmp);
         assert_eq!(found.len(), expected.len());
         for (found, expected) in found.iter().zip(&expected) {
-            // roots of the eigenvalues' rounding
+            // error of the square root of the eigenvalues' rounding
             assert!((found - expected).abs() < 1e-7, "{found}, not {expected}");
         }
-        // nothing moves: the forces are in balance to rounding
+        // at rest the forces balance to rounding
         for formulation in TRAPEZOIDAL {
             let rows = run(&text, Way(formulation, "trapezoidal"), 1e-3, 0.1);
             assert!(apart(&rows, &[0.6, 0.8]) < 1e-12, "{formulation}");
@@ -110,7 +110,8 @@ fn two_points_on_springs_oscillate_along_and_across_them() {
 
 #[test]
 fn a_point_on_two_strings_rests_where_the_forces_balance() {
-    // a triangle of sides 0.6, 0.8 and 1: it hangs from both ends of the hypotenuse, held by a spring from the side of the plane
+    // a triangle with sides 0.6, 0.8 and 1 m: the point hangs from both ends of the hypotenuse, and a spring pulls it perpendicular to the
+    // plane
     let at = [0.36, -0.48, 0.0];
     let spring = "[[effect]]\nname = \"s\"\nkind = \"spring-damper\"\nbodies = [\"ground\", \"ball\"]\n\
                   points = [[0.36, -0.48, 0.5], [0.36, -0.48, 0.0]]\nstiffness = 50.0\nfree_length = 0.5\n";
@@ -123,7 +124,7 @@ fn a_point_on_two_strings_rests_where_the_forces_balance() {
         "[[output]]\nname = \"r\"\njoint = \"ground-ball\"\nquantity = \"reaction\"\n".into(),
     ]
     .concat();
-    // the string of 0.6 m takes the part along it
+    // the string of 0.6 m carries the component along it
     let tension = 2.0 * GRAVITY * 0.8;
     let right = [-0.6 * tension, 0.8 * tension, 0.0];
     for formulation in TRAPEZOIDAL {
@@ -131,7 +132,7 @@ fn a_point_on_two_strings_rests_where_the_forces_balance() {
         assert!(apart(&rows, &right) < 1e-9, "{formulation}: {rows:?}");
     }
     let modes = Modes::new(&scene(&text), Place::Equilibrium, Search::Down).expect("it rests");
-    // about the line of both ends at a height of 0.48 m; the spring acts across the plane
+    // the point swings about the hypotenuse, at a height of 0.48 m; the spring acts perpendicular to the plane
     let omega = (GRAVITY / 0.48 + 50.0 / 2.0_f64).sqrt();
     assert_eq!(modes.modes.len(), 1);
     assert!((modes.modes[0].imaginary - omega).abs() < 1e-8, "{modes:?}, not {omega}");

@@ -1,4 +1,4 @@
-//! Spherical pendulums, chains, and points on bodies, against equations of motion apart.
+//! Spherical pendulums, chains, and points on bodies, against independent equations of motion.
 
 use super::{check, distance, head, list, output, point, rk4, run, velocity};
 use crate::common::oracle::{TRAPEZOIDAL, Way, agree_in_the_limit, rows};
@@ -8,7 +8,7 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(x, y)| x * y).sum()
 }
 
-/// Gravity of these scenes: no axis is along it.
+/// Gravity of these scenes [m/s^2], along no axis.
 const DOWN: [f64; 3] = [2.0, -6.0, -7.0];
 
 #[test]
@@ -23,7 +23,7 @@ fn a_spherical_pendulum_of_a_point_follows_its_equation() {
         output("ball", &at, "velocity"),
     ]
     .concat();
-    // x'' = g - x (g.x + v.v) / x.x
+    // acceleration on the sphere: x'' = g - x (g.x + v.v) / x.x
     let slope = |s: &[f64; 6]| {
         let (x, v) = (&s[..3], &s[3..]);
         let pull = (dot(&DOWN, x) + dot(v, v)) / dot(x, x);
@@ -52,7 +52,7 @@ fn chain() -> String {
     text
 }
 
-/// Places and velocities of the chain: three tensions per length keep the distances.
+/// Rates of the chain's positions and velocities. Three tensions, divided by the lengths, keep the distances constant.
 fn chain_slope(s: &[f64; 18]) -> [f64; 18] {
     let link = |from: usize, i: usize| -> [f64; 3] {
         let own = |k: usize| s[from + 3 * i + k];
@@ -60,7 +60,7 @@ fn chain_slope(s: &[f64; 18]) -> [f64; 18] {
     };
     let r: [[f64; 3]; 3] = core::array::from_fn(|i| link(0, i));
     let w: [[f64; 3]; 3] = core::array::from_fn(|i| link(9, i));
-    // a_i = g + (-t_i r_i + t_(i+1) r_(i+1)) / m_i,   r_i.(a_i - a_(i-1)) + w_i.w_i = 0
+    // with tensions over lengths t and link vectors r, w: a_i = g + (-t_i r_i + t_(i+1) r_(i+1)) / m_i, r_i.(a_i - a_(i-1)) + w_i.w_i = 0
     let mut a = [[0.0; 4]; 3];
     for i in 0..3 {
         let before = if i > 0 { 1.0 / MASSES[i - 1] } else { 0.0 };
@@ -98,8 +98,8 @@ fn a_chain_of_points_follows_its_equations() {
     check(&chain(), 0.5, (1e-3, 1e-3), (&right[..9], 1e-9));
 }
 
-/// A body on a hinge about a tilted axis, or on a pin of the plane, that carries a point on a ball; another hangs on it by a distance
-/// and a spring. `welded`: the same with a rigid body of no inertia in the place of the first.
+/// Scene of a body on a hinge about an oblique axis, or a planar pin, with a point on a ball joint. Another point hangs on the first by a
+/// distance and a spring. With `welded`, the first point is a welded rigid body without inertia.
 fn carrier(dimension: usize, welded: bool) -> String {
     let cut = |x: [f64; 3]| list(&x[..dimension]);
     let (ball, far) = ([0.8, -0.3, 0.2], [1.1, -0.5, -0.3]);
@@ -139,7 +139,7 @@ fn carrier(dimension: usize, welded: bool) -> String {
     .concat()
 }
 
-/// Rounding of accelerations and forces of ten newtons, after a tenth of a second.
+/// Rounding error of accelerations, and of forces of ten newtons, after a tenth of a second.
 const SAME: f64 = 1e-8;
 
 #[test]
@@ -152,7 +152,7 @@ fn a_point_on_a_ball_moves_as_a_weight_that_is_welded_there() {
                 [&point, &welded].map(|s| rows(s, way, (1e-3, 0.1), 1).expect("it runs"));
             for ((t, a), (_, b)) in point.iter().zip(&welded) {
                 for (k, (x, y)) in a.iter().zip(b).enumerate() {
-                    // a weld carries moments too, which are zero here
+                    // a weld can transmit moments too, which are zero here
                     assert!((x - y).abs() < SAME, "{formulation}, {t}, {k}: {x} {y}");
                 }
             }
@@ -163,7 +163,7 @@ fn a_point_on_a_ball_moves_as_a_weight_that_is_welded_there() {
 #[test]
 fn natural_and_relative_coordinates_agree_to_nine_digits() {
     for dimension in [2, 3] {
-        // accelerations and forces have the rounding of places over the square of the step
+        // accelerations and forces have the rounding of positions divided by the square of the step
         let text = carrier(dimension, false).replace("acceleration", "velocity").replace(
             "joint = \"held\"\nquantity = \"reaction\"",
             "joint = \"hinge\"\nquantity = \"rate\"",
@@ -178,7 +178,7 @@ fn natural_and_relative_coordinates_agree_to_nine_digits() {
 
 #[test]
 fn coordinates_of_a_free_point_start_and_are_acted_on_by_number() {
-    // a spring of 8 N/m on y and a force along it, seen from the ground; the other two move evenly
+    // a spring of 8 N/m and a force act on y; the other two coordinates move uniformly
     for dimension in [2, 3] {
         let at = &[0.2, -0.1, 0.4][..dimension];
         let (value, rate) = (&[0.1, 0.3, -0.2][..dimension], &[0.5, -1.0, 0.25][..dimension]);
@@ -202,7 +202,7 @@ fn coordinates_of_a_free_point_start_and_are_acted_on_by_number() {
 
 #[test]
 fn a_free_joint_to_a_point_of_a_body_measures_it_and_drives_it() {
-    // a dumbbell: a body with a point on a ball, whose way is measured from the ground and held by a spring
+    // a dumbbell, which is a body with a point on a ball joint; a free joint measures the point from the ground, and a spring holds it
     for dimension in [2, 3] {
         let cut = |x: [f64; 3]| list(&x[..dimension]);
         let at = [0.8, -0.3, 0.2];
@@ -234,7 +234,7 @@ fn a_free_joint_to_a_point_of_a_body_measures_it_and_drives_it() {
 
 #[test]
 fn points_on_the_line_of_a_rod_leave_it_two_points_that_move_as_in_the_tree() {
-    // a rod on a ball of the ground, a point at its end, a second rod on a ball at the point; the point is named first
+    // a rod on a ball joint of the ground, a point at its end, and a second rod on a ball joint at the point; the point is the first body
     let (end, tip) = ([0.6, 0.3, 0.1], [1.0, 0.1, -0.2]);
     let rod = |name: &str, mass: f64, from: &[f64], to: &[f64]| {
         let (from, to) = (list(from), list(to));

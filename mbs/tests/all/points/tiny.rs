@@ -1,10 +1,10 @@
-//! Pieces of tiny or no inertia: the start closes, and every formulation moves it.
+//! Bodies with tiny or no inertia: the start can be assembled, and every formulation moves them.
 
 use crate::common::oracle::{TRAPEZOIDAL, Way, last, rows};
 use mbs_testkit::scene;
 
-/// An arm on three crossed hinges whose inner pieces have this mass [kg] and inertia [kg m^2], with these joints held; `closed`: its tip
-/// carries a bar on a ball, whose other end keeps its distance from the ground.
+/// Scene of an arm on three crossed hinges, whose inner bodies have this mass [kg] and inertia [kg m^2]. `held` joints have initial values.
+/// With `closed`, a bar on a ball joint at the tip keeps its other end at a distance from the ground.
 fn shoulder([mass, inertia]: [f64; 2], held: &[(&str, f64)], closed: bool) -> String {
     let i = format!("[{inertia:?}, {inertia:?}, {inertia:?}, 0.0, 0.0, 0.0]");
     let mut text =
@@ -41,10 +41,10 @@ fn shoulder([mass, inertia]: [f64; 2], held: &[(&str, f64)], closed: bool) -> St
     text
 }
 
-/// Masses and inertias of the pieces.
+/// Masses [kg] and inertias [kg m^2] of the inner bodies.
 const PIECES: [[f64; 2]; 3] = [[2e-3, 1e-7], [1e-6, 1e-12], [0.0, 0.0]];
 const VALUES: [(&str, f64); 3] = [("pitch", 0.8), ("roll", -0.9), ("yaw", 0.3)];
-/// Gap of a start, and of held values [m or rad].
+/// Violation of a start, and error of prescribed values [m or rad].
 const CLOSED: f64 = 1e-12;
 
 #[test]
@@ -67,7 +67,7 @@ fn crossed_hinges_with_all_values_start_and_move_whatever_their_pieces_weigh() {
                 ends.push(last(&rows).to_vec());
             }
         }
-        // a piece moves the arm by its share of the inertia, and the rules differ by (w h)^2
+        // an inner body changes the motion by its fraction of the inertia, and the rules differ by (w h)^2
         for end in &ends {
             for (x, y) in end.iter().zip(&ends[0]) {
                 assert!((x - y).abs() < 1e-4, "{closed}: {end:?}, {:?}", ends[0]);

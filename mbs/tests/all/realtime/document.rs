@@ -1,4 +1,4 @@
-//! Steps of a period.
+//! Division of a period into steps.
 
 use mbs::inside::tested::parts;
 

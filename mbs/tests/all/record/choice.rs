@@ -1,4 +1,4 @@
-//! The table of a choice by measurement.
+//! Table of a choice by measurement, as CSV.
 
 use mbs::record::{Candidate, PilotReport, TrialEntry, write_choice};
 

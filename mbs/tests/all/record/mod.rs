@@ -1,4 +1,4 @@
-//! Files read back as what was written.
+//! Files of a run, read again with the written content.
 
 mod choice;
 mod realtime;

@@ -1,4 +1,4 @@
-//! The log of overruns.
+//! Log of overruns, as CSV.
 
 use mbs::record::{Overrun, RealtimeSummary, write_overruns};
 

@@ -1,15 +1,15 @@
-//! Slides on a curve that a relation holds: one freedom, whose equation is written by hand.
+//! Slides that a relation holds on a curve: one degree of freedom, whose equation is written by hand.
 
 use super::{Ellipse, Product, initial, of_joints, run, scene, slides, solve};
 use crate::common::oracle::{WAYS, Way, agree_in_the_limit, last};
 use mbs::core::scene::Scene;
 
-/// Steps of the runs that are compared with equations [s], and how long they last [s].
+/// Step and length of the runs that are compared with equations [s].
 const TIMES: (f64, f64) = (1e-3, 0.6);
-/// Error of methods of order eight for a motion of order one in steps of 1 ms, and of its accelerations where directions are oblique.
+/// Error of methods of order eight with steps of 1 ms, for a motion of order one, and for its accelerations with oblique directions.
 const EXACT: f64 = 1e-11;
 
-/// Two bodies on oblique slides u and w with (1 + x)(1 + y) = 1, from x = 0.5 with a rate.
+/// Two bodies on oblique slides with coordinates x and y, where (1 + x)(1 + y) = 1. The start is at x = 0.5 with a rate.
 struct Hyperbola {
     dimension: usize,
     axes: [[f64; 3]; 2],
@@ -47,13 +47,13 @@ impl Hyperbola {
         })
     }
 
-    /// X = 1 + x, Y = 1/X: (m1 + m2/X^4) X'' - 2 m2 X'^2/X^5 = F1 - F2/X^2.
+    /// Acceleration with X = 1 + x and Y = 1/X: (m1 + m2/X^4) X'' - 2 m2 X'^2/X^5 = F1 - F2/X^2.
     fn acceleration(&self, [x, v]: [f64; 2]) -> f64 {
         let ([m1, m2], [f1, f2]) = (Self::MASS, self.forces());
         (f1 - f2 / (x * x) + 2.0 * m2 * v * v / x.powi(5)) / (m1 + m2 / x.powi(4))
     }
 
-    /// Values, rates, effort and value at a time: m1 X'' = F1 + Y effort.
+    /// Coordinates, rates, effort and value of the relation at a time. The effort follows from m1 X'' = F1 + Y effort.
     fn at(&self, t: f64) -> [f64; 6] {
         let [x, v] = solve(Self::START, t, |x| self.acceleration(x));
         let effort = (Self::MASS[0] * self.acceleration([x, v]) - self.forces()[0]) * x;
@@ -77,7 +77,7 @@ fn two_slides_on_a_hyperbola_move_as_its_equation_says_in_every_formulation() {
     }
 }
 
-/// A carrier on a slide and a bead on it across, on an ellipse.
+/// Scene of a carrier on a slide and a bead on it, perpendicular to the slide, on an ellipse; and its equation of motion.
 fn trammel() -> (Scene<f64>, impl Fn([f64; 2]) -> f64) {
     let (axes, mass, gravity) = ([0.7, 0.4], [2.0, 0.9], [-1.0, 4.0, -7.0]);
     let [u, w] = [[0.48, 0.64, 0.6], [0.8, -0.6, 0.0]];
@@ -87,7 +87,7 @@ fn trammel() -> (Scene<f64>, impl Fn([f64; 2]) -> f64) {
     let force = [(mass[0] + mass[1]) * along(u), mass[1] * along(w)];
     let of = of_joints(&[0, 1], Ellipse(axes)).holding(1.0);
     let equation = move |[s, v]: [f64; 2]| {
-        // x = a (cos s - 1), y = b sin s, both of the bead; the carrier has x
+        // the bead has x = a (cos s - 1) and y = b sin s; the carrier has x
         let inertia = [(mass[0] + mass[1]) * axes[0].powi(2), mass[1] * axes[1].powi(2)];
         let [sin, cos] = [s.sin(), s.cos()];
         let bent = (inertia[0] - inertia[1]) * sin * cos * v * v;
@@ -132,7 +132,7 @@ fn half_the_step_has_a_quarter_of_the_error_on_a_hyperbola() {
 
 #[test]
 fn a_product_that_follows_time_drives_two_slides() {
-    // (1 + x)(1 + y) = 1 + 0.3 sin(w t + p) - 0.3 sin(p), from rest against it, without gravity: energies balance with the drive's work
+    // (1 + x)(1 + y) = 1 + 0.3 sin(w t) without gravity, from a rate of x' = 0.2; the energy balance contains the drive's work
     let bodies = [("a", 1.3, "ground", [0.8, 0.6, 0.0]), ("b", 0.7, "ground", [-0.6, 0.8, 0.0])];
     let text = slides(2, [0.0; 3], &bodies);
     let motion = mbs::Motion::<f64>::Sine { amplitude: 0.3, frequency: 0.7, phase: 0.0 };
@@ -143,7 +143,7 @@ fn a_product_that_follows_time_drives_two_slides() {
         for (t, row) in run(&scene, way, 1e-3, 1.0, 10) {
             let needed = 1.0 + 0.3 * (core::f64::consts::TAU * 0.7 * t).sin();
             let found = (1.0 + row[0]) * (1.0 + row[2]);
-            // projections leave rounding
+            // projections are exact to rounding
             assert!((found - needed).abs() < 1e-10, "{way:?}, {t}: {found} {needed}");
             assert!((row[5] - needed).abs() < 1e-10, "{way:?}, {t}: {row:?}");
         }

@@ -1,11 +1,11 @@
-//! Relations beside the library's own elements that hold the same: sums, ropes, cams and links.
+//! Relations against equivalent elements of the library: sums, ropes, cams and links.
 
 use super::{Sum, line, of_joints, run, scene};
 use crate::common::oracle::{WAYS, Way, last};
 use mbs::core::scene::Scene;
 use mbs::{BodyId, Coupling, CouplingMeasure, CouplingTerm, Curve, JointId, Number, Relation};
 
-/// Two eccentric wheels and a third on a carrier, in the plane or about an oblique axis in space.
+/// Scene of two eccentric wheels and a third one on a carrier, in the plane or about an oblique axis in space.
 fn wheels(dimension: usize) -> String {
     let mut text = format!(
         "[scene]\nname = \"w\"\ndimension = {dimension}\nduration = 1.0\ngravity = {}\n",
@@ -68,7 +68,7 @@ fn a_relation_that_is_a_sum_is_the_linear_coupling() {
     }
 }
 
-/// f(x) + l + x y / 2 with f a polynomial.
+/// Relation f(x) + l + x y / 2, where f is a polynomial.
 #[derive(Debug)]
 struct Mixed {
     product: f64,
@@ -113,7 +113,7 @@ fn a_relation_of_angles_and_a_length_is_the_coupling_of_curves_and_a_line() {
             CouplingTerm { factor: 1.into(), of: line(), curve: None },
         ]);
         let scenes = [own, library].map(|of| scene(&wheels(dimension), [of]));
-        // rounding and the iterations' tolerance over 300 steps; state space changes its basis by what rounding says
+        // rounding and the tolerance of the iterations over 300 steps; in state space, rounding also decides when the basis changes
         let allowed = |way: Way| if way.0 == "state-space" { 1e-6 } else { 1e-8 };
         are_alike([&scenes[0], &scenes[1]], 0.3, allowed);
     }
@@ -122,7 +122,7 @@ fn a_relation_of_angles_and_a_length_is_the_coupling_of_curves_and_a_line() {
 #[test]
 fn formulations_agree_on_a_relation_of_angles_and_a_length_that_mixes_them() {
     for dimension in [2, 3] {
-        // what the iterations' tolerance leaves of rates of 20 rad/s in 800 steps
+        // effect of the iterations' tolerance on rates of 20 rad/s in 800 steps
         let measures = [0, 1].map(|joint| CouplingMeasure::from(JointId::new(joint)));
         let measures = measures.into_iter().chain([line(&points(dimension))]);
         let scene =
@@ -149,13 +149,13 @@ fn a_ratio_of_a_relation_holds_over_many_hundred_turns() {
         let rows = run(&scene, way, 5e-4, 20.0, 100);
         let end = last(&rows);
         assert!(end[0] > 250.0 * core::f64::consts::TAU, "{way:?}: {end:?}");
-        // doubles of 2,000 rad
+        // rounding of angles of 2,000 rad
         let left = 13.0 * end[0] + 17.0 * end[2];
         assert!(left.abs() < 1e-10, "{way:?}: {left:e}");
     }
 }
 
-/// |p - s|^2 of a crank pin at radius r from (0, 0) and a slider at (d + s) along the slide.
+/// Squared distance |p - s|^2 of a crank pin at radius r from (0, 0) and a slider at (d + s) along its slide.
 #[derive(Debug)]
 struct Crank {
     radius: f64,
@@ -178,7 +178,7 @@ impl Relation for Crank {
     }
 }
 
-/// A crank in the x-y plane and a slider along x, with or without a link of length 0.5 between them.
+/// Scene of a crank in the x-y plane and a slider along x, with or without a link of length 0.5 m between them.
 fn crank(dimension: usize, link: bool) -> String {
     let vector = |v: [f64; 3]| format!("{:?}", &v[..dimension]);
     let (inertia, axis) = if dimension == 2 {
@@ -237,7 +237,7 @@ fn a_relation_of_crank_and_slider_is_the_rod_between_them() {
             assert!(right[0] > 8.0, "it turns round: {right:?}");
             let errors = [1e-3, 5e-4].map(|step| {
                 let found = end(&own, step);
-                // the rod's own error is that of a fourth of the step
+                // the error of the scene with the rod is that of a quarter of the step
                 found.iter().zip(&right).fold(0.0, |most: f64, (x, y)| most.max((x - y).abs()))
             });
             if way.1 == "rk853" {

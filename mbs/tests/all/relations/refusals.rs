@@ -1,4 +1,4 @@
-//! Relations that no step can take, and where code has no place.
+//! Relations that stop a run, and uses where code is refused.
 
 use super::{Product, Sum, of_joints, slides, with};
 use mbs::core::laws::relation::{MAX_ARGUMENTS, RelationFault};
@@ -9,7 +9,7 @@ use mbs::{
     Method, Relation, StepRule,
 };
 
-/// Two slides across each other, held by a relation that is zero at the start.
+/// Mechanism of two perpendicular slides, held by a relation that is zero at the start.
 fn mechanism(relation: impl Relation + 'static, value: f64) -> (Mechanism, [JointId; 2]) {
     let mut m = Mechanism::planar("two slides");
     m.set_gravity([2.0, -9.81]).set_duration(1.0);
@@ -21,7 +21,7 @@ fn mechanism(relation: impl Relation + 'static, value: f64) -> (Mechanism, [Join
     (m, joints)
 }
 
-/// The product, not finite below a value of the second number.
+/// Product that is not finite below a value of the second number.
 #[derive(Debug)]
 struct Ending {
     below: f64,
@@ -58,7 +58,7 @@ fn a_relation_that_is_not_finite_ends_the_step_with_the_name_of_its_coupling() {
     for method in fixed.into_iter().chain(integrators).chain(controlled) {
         for what in [[nan, 0.0, 0.0], [0.0, f64::INFINITY, 0.0], [0.0, 0.0, nan]] {
             let (m, joints) = mechanism(Ending { below: -0.1, what }, 1.0);
-            // Not every formulation has every rule.
+            // not every formulation has every integrator
             let Ok(mut sim) = m.simulate(&method) else { continue };
             let error = sim.advance_to(1.0).expect_err("the relation ends");
             assert_eq!(error.code(), "relation-not-finite", "{method:?}, {what:?}: {error}");
@@ -76,7 +76,7 @@ fn a_relation_that_is_not_finite_in_the_reference_configuration_is_refused() {
     assert!(error.to_string().contains("infinite or NaN"), "{error}");
 }
 
-/// The product, with a mistake in a derivative.
+/// Product with a wrong derivative.
 #[derive(Debug)]
 struct Wrong {
     slope: f64,
@@ -110,7 +110,7 @@ fn a_wrong_derivative_is_refused_with_its_number_and_the_right_value() {
 
 #[test]
 fn a_derivative_that_is_right_in_the_reference_configuration_alone_is_refused_at_the_start() {
-    /// (1 + x)(1 + y) - 1 with the gradient of x + y.
+    /// Relation (1 + x)(1 + y) - 1 with the gradient of x + y.
     #[derive(Debug)]
     struct Late;
     impl Relation for Late {
@@ -134,7 +134,7 @@ fn a_derivative_that_is_right_in_the_reference_configuration_alone_is_refused_at
     let SceneFault::Relation(RelationFault::Gradient { argument, numbers }) = fault else {
         panic!("{fault:?}")
     };
-    // d/dx (x + y + x^3 y) at (1, -0.5)
+    // derivative d/dx (x + y + x^3 y) at (1, -0.5)
     assert_eq!((argument, numbers[0]), (0, 1.0));
     assert!((numbers[1] + 0.5).abs() < 1e-5, "{numbers:?}");
 }

@@ -1,4 +1,4 @@
-//! Relations beside everything else: statics, modes, precisions, threads, snapshots, no allocation.
+//! Relations with other features: statics, modes, precisions, threads, snapshots, no allocation.
 
 use super::{Ellipse, Product, of_joints, run, scene, slides};
 use crate::common::allocations;
@@ -10,7 +10,7 @@ use mbs::{
     Mechanism, Method, Precision, ResolvedMethod, Snapshot, equilibrium, modes,
 };
 
-/// Three slides along oblique axes in space with (1 + x)(1 + y)(1 + z) = 1.
+/// Mechanism of three slides along oblique axes in space, with (1 + x)(1 + y)(1 + z) = 1.
 fn three() -> (Mechanism, [JointId; 3]) {
     let mut m = Mechanism::spatial("three slides");
     m.set_gravity([1.0, 2.0, -9.0]).set_duration(0.3);
@@ -29,11 +29,11 @@ fn values(m: &Mechanism, sim: &mbs::Simulation) -> Vec<f64> {
 
 #[test]
 fn a_bead_rests_at_the_lowest_point_of_its_ellipse_and_swings_there_as_its_equation_says() {
-    // along y on the first slide, across it along x: x = a (cos s - 1) on the first
+    // the bead moves along y on the carrier, perpendicular to the carrier's x: x = a (cos s - 1)
     let (a, b, g) = (0.7, 0.4, 9.81);
     for axes in [[[0.6, 0.8], [-0.8, 0.6]], [[1.0, 0.0], [0.0, 1.0]]] {
         let mut m = Mechanism::planar("bead");
-        // gravity along the second slide, towards its negative end
+        // gravity acts along the second slide, in its negative direction
         m.set_gravity(axes[1].map(|x| -g * x));
         let carrier = m.add(Body::planar([0.0, 0.0], 0.5, 0.1));
         let bead = m.add(Body::planar([0.0, 0.0], 0.8, 0.1));
@@ -42,15 +42,15 @@ fn a_bead_rests_at_the_lowest_point_of_its_ellipse_and_swings_there_as_its_equat
         m.add(Coupling::relation([first, second], Ellipse([a, b])).holding(1.0));
         let rest = equilibrium(&m, &EquilibriumOptions::default()).expect("it rests");
         let joints = &rest.joints;
-        // s = -90 degrees
+        // the equilibrium is at s = -90 degrees
         assert!((joints[0].1[0] + a).abs() < 1e-9, "{joints:?}");
         assert!((joints[1].1[0] + b).abs() < 1e-9, "{joints:?}");
         assert_eq!(rest.unstable, Some(0));
         let found = modes(&m, &rest).expect("it swings");
         assert_eq!(found.modes.len(), 1);
-        // (m + M) a^2 s'' = -m g b (s + pi/2)
+        // small motion: (m + M) a^2 s'' = -m g b (s + pi/2)
         let right = (0.8 * g * b / (1.3 * a * a)).sqrt() / core::f64::consts::TAU;
-        // differences of forces give ten digits
+        // numerical derivatives of forces have ten digits
         let frequency = found.modes[0].frequency();
         assert!((frequency - right).abs() < 1e-7, "{frequency} {right}");
     }
@@ -80,7 +80,7 @@ fn runs_of_32_digits_refuse_a_relation_which_gives_16() {
     let (m, _) = three();
     let method = Method::new(FormulationKind::Recursive).precision(Precision::DoubleDouble);
     let error = m.simulate(&method).expect_err("it has 16 digits").to_string();
-    // a build without them says so
+    // the message depends on whether this precision is built
     let is_built = !error.contains("this build has no precision");
     assert!(!is_built || error.contains("gives doubles, 16 digits"), "{error}");
 }
@@ -101,7 +101,7 @@ fn a_run_from_a_snapshot_has_the_bits_of_the_run_in_one_go() {
     }
 }
 
-/// Many pairs of slides in a row, each on the one before, with a relation each.
+/// Scene of many pairs of slides in a row, each pair on the one before, with a relation each.
 fn row(n: usize) -> Scene<f64> {
     let names: Vec<[String; 2]> = (0..n).map(|i| [format!("a{i}"), format!("b{i}")]).collect();
     let mut bodies = Vec::new();
@@ -172,7 +172,7 @@ fn chains_of_relations_agree_between_the_tree_and_natural_coordinates() {
 
 #[test]
 fn coordinates_of_a_joint_with_several_are_numbers_of_a_relation() {
-    // a bead that is free in the plane, on an ellipse by x and y of its joint
+    // a bead that moves freely in the plane, on an ellipse by x and y of its joint
     let text = "[scene]\nname = \"p\"\ndimension = 2\nduration = 1.0\ngravity = [0.0, -9.81]\n[[body]]\nname = \"bead\"\nmass = 1.0\ncenter = [0.7, 0.0]\ninertia = 0.1\n[[joint]]\nname = \"x\"\nkind = \"free\"\nbodies = [\"ground\", \"bead\"]\nat = [0.7, 0.0]\n[[output]]\nname = \"p\"\nbody = \"bead\"\nat = [0.7, 0.0]\n";
     let joint = JointId::new(0);
     let of = Coupling::relation([(joint, 0), (joint, 1)], Ellipse([0.7, 0.4])).holding(1.0);

@@ -1,9 +1,9 @@
-//! A sleigh, a free disc, a disc on its steady circle, a ball on a turntable.
+//! Closed forms: a sleigh, a free disc, a disc on a steady circle, a ball on a turntable.
 
 use super::{EXPLICIT, WAYS, apart, check, end, run};
 use crate::common::oracle::Way;
 
-/// The sleigh of Chaplygin: a blade 0.4 m behind the centre of mass.
+/// Scene of Chaplygin's sleigh: a blade 0.4 m behind the centre of mass.
 fn sleigh() -> String {
     "[scene]\nname = \"sleigh\"\ndimension = 2\nduration = 2.0\n\
      [[body]]\nname = \"sleigh\"\nmass = 2.0\ncenter = [0.4, 0.0]\ninertia = 0.5\n\
@@ -17,7 +17,7 @@ fn sleigh() -> String {
 
 #[test]
 fn the_sleigh_ends_where_its_closed_form_says() {
-    // v = V tanh k (t - t0), w = V sqrt(m/J) sech k (t - t0); heading and place by the midpoint rule in 200,000 parts
+    // v = V tanh k (t - t0), w = V sqrt(m/J) sech k (t - t0); the position is integrated by the midpoint rule in 200,000 parts
     let [mass, arm, inertia] = [2.0_f64, 0.4, 0.5];
     let j = inertia + mass * arm * arm;
     let speed = (0.25 + j * 4.0 / mass).sqrt();
@@ -25,7 +25,7 @@ fn the_sleigh_ends_where_its_closed_form_says() {
     let t0 = -(-0.5 / speed).atanh() / k;
     let v = |t: f64| speed * (k * (t - t0)).tanh();
     let w = |t: f64| speed * (mass / j).sqrt() / (k * (t - t0)).cosh();
-    // the integral of w
+    // the heading is the integral of w
     let heading = |t: f64| {
         let at = |t: f64| 2.0 * (0.5 * k * (t - t0)).tanh().atan();
         speed * (mass / j).sqrt() / k * (at(t) - at(0.0))
@@ -42,7 +42,8 @@ fn the_sleigh_ends_where_its_closed_form_says() {
     check(&sleigh(), 2.0, (5e-3, 2e-5), (&right, 2e-9));
 }
 
-/// A uniform thin disc of 0.3 m with this mass, lean about x and world angular velocity, on level ground; its centre over the origin.
+/// Scene of a uniform thin disc of 0.3 m on level ground, with its centre above the origin. `lean` is about x, `turning` the angular velocity
+/// in global axes.
 fn disc(mass: f64, lean: f64, turning: [f64; 3]) -> String {
     let radius = 0.3;
     let (sin, cos) = lean.sin_cos();
@@ -63,7 +64,7 @@ fn disc(mass: f64, lean: f64, turning: [f64; 3]) -> String {
     )
 }
 
-/// Rates about x, about y = (0, sin, -cos) and about the axis (0, cos, sin), in global axes.
+/// Angular velocity in global axes, from rates about x, about y = (0, sin, -cos) and about the disc's axis (0, cos, sin).
 fn turning(lean: f64, [x, y, z]: [f64; 3]) -> [f64; 3] {
     let (sin, cos) = lean.sin_cos();
     [x, y * sin + z * cos, -y * cos + z * sin]
@@ -78,11 +79,11 @@ fn a_free_disc_rolls_as_its_equations_of_motion_say() {
 
 #[test]
 fn a_disc_leans_into_its_steady_circle() {
-    // W^2 = 4 g tan b / (6 rho + R sin b): the centre on a radius of 1 m, leaning inwards by 0.3
+    // steady circle of radius rho = 1 m with an inward lean of b = 0.3 rad: W^2 = 4 g tan b / (6 rho + R sin b)
     let (lean, rho, radius) = (0.3_f64, 1.0, 0.3);
     let w = (4.0 * 9.81 * lean.tan() / (6.0 * rho + radius * lean.sin())).sqrt();
     assert!((w - 1.411949572).abs() < 1e-9);
-    // It leans towards -y, where the circle has its centre; it turns with W about z, and by 5.123758204 back about the axis.
+    // the disc leans towards -y, where the circle's centre is; it rotates with W about z, and with -5.123758204 rad/s about its axis
     let (sin, cos) = lean.sin_cos();
     let spin = 5.123758204;
     let text = disc(1.0, lean, [0.0, -spin * cos, w - spin * sin]);
@@ -98,7 +99,7 @@ fn a_disc_leans_into_its_steady_circle() {
 fn an_upright_disc_is_stable_above_a_speed_and_not_below() {
     let least = (9.81_f64 * 0.3 / 3.0).sqrt();
     assert!((least - 0.990454441).abs() < 1e-9);
-    // a small wobble grows below that speed as exp(s t), s^2 = (4/5)(g/R)(1 - (v/v0)^2), and stays small above it
+    // below this speed a small wobble grows as exp(s t), s^2 = (4/5)(g/R)(1 - (v/v0)^2); above it the wobble stays small
     let widest = |speed: f64| {
         let text = disc(1.0, 0.0, [1e-4, speed / 0.3, 0.0]);
         let rows = run(&text, Way("recursive", "rk853"), 2e-3, 8.0);
@@ -124,7 +125,7 @@ fn a_ball_on_a_turntable_runs_a_circle() {
          [[initial]]\nbody = \"ball\"\nat = [0.2, 0.0, {radius:?}]\nvelocity = [0.0, 0.1, 0.0]\n\
          [[output]]\nname = \"p\"\nbody = \"ball\"\nat = [0.2, 0.0, {radius:?}]\nquantity = \"position\"\n"
     );
-    // the velocity turns at 2/7 of the table's rate
+    // the velocity rotates at 2/7 of the table's rate
     let n = 2.0 / 7.0 * rate;
     let (sin, cos) = (n * 2.0_f64).sin_cos();
     let right = [0.2 - 0.1 / n * (1.0 - cos), 0.1 / n * sin, radius];

@@ -1,4 +1,4 @@
-//! Rolling contacts: forces, energy, and what they are on a slope, on a moving plane and with a joint beside them.
+//! Rolling contacts: forces and energy, on a slope, on a moving plane, and with a joint in addition.
 
 use super::{WAYS, end, run};
 use crate::common::oracle::{Way, last};
@@ -7,7 +7,7 @@ const RADIUS: f64 = 0.25;
 const MASS: f64 = 3.0;
 const INERTIA: f64 = 0.12;
 
-/// A wheel on a slope of `angle` in the plane or about y in space, with the force on it.
+/// Scene of a wheel on a slope of `angle`, in the plane or about y in space, with the contact force as output.
 fn slope(dimension: usize, angle: f64, ball: bool) -> String {
     let (sin, cos) = angle.sin_cos();
     let vector = |x: f64, up: f64| {
@@ -44,7 +44,7 @@ fn wheels_and_balls_roll_down_a_slope_as_inertia_says_and_their_forces_hold_them
             let up = dimension - 1;
             let (x, z) = (found[0] + angle.sin() * RADIUS, found[up] - angle.cos() * RADIUS);
             let along = -(x * angle.cos() + z * angle.sin());
-            // A uniform acceleration is exact in the rule; the directions that turn by 8 rad are not: 2e-6 at 1 ms.
+            // the rule is exact for a uniform acceleration, but not for directions that rotate by 8 rad: 2e-6 at 1 ms
             assert!((along - way).abs() < 1e-5 * way, "{formulation} {dimension}: {along} {way}");
             let force = &found[dimension..];
             let [push, hold] = [
@@ -61,7 +61,7 @@ fn wheels_and_balls_roll_down_a_slope_as_inertia_says_and_their_forces_hold_them
 
 #[test]
 fn a_wheel_on_a_cart_that_drives_below_it_rolls_back() {
-    // The cart is guided, x = sin; the wheel's centre then moves by I / (I + m R^2) of the cart's way.
+    // the cart is guided by a sine; the wheel's centre moves by I / (I + m R^2) of the cart's displacement
     let text = format!(
         "[scene]\nname = \"cart\"\ndimension = 2\nduration = 1.0\ngravity = [0.0, -9.81]\n\
          [[body]]\nname = \"cart\"\nmass = 5.0\ncenter = [0.0, -0.1]\ninertia = 1.0\n\
@@ -74,7 +74,7 @@ fn a_wheel_on_a_cart_that_drives_below_it_rolls_back() {
          [[output]]\nname = \"cart\"\njoint = \"rail\"\nquantity = \"value\"\n"
     );
     let share = INERTIA / (INERTIA + MASS * RADIUS * RADIUS);
-    // the wheel is at rest at the start while the cart moves: its centre has the cart's acceleration times the share, from rest
+    // the wheel's centre is at rest at the start while the cart moves; then it has the cart's acceleration times this fraction
     let rate = 0.3 * core::f64::consts::TAU * 0.8;
     for formulation in WAYS {
         for (t, row) in run(&text, Way(formulation, "trapezoidal"), 1e-3, 1.0) {
@@ -88,7 +88,7 @@ fn a_wheel_on_a_cart_that_drives_below_it_rolls_back() {
 fn nothing_is_lost_or_won_where_things_roll() {
     let text = format!("{}[[output]]\nname = \"e\"\nquantity = \"energy\"\n", slope(3, 0.35, true));
     for formulation in WAYS {
-        // what the rule loses falls with the square of the step
+        // the energy error of the rule falls with the square of the step
         let lost = |step: f64| {
             let rows = run(&text, Way(formulation, "trapezoidal"), step, 1.0);
             let [first, end] = [&rows[0].1, last(&rows)].map(|row| row[6]);
@@ -99,7 +99,7 @@ fn nothing_is_lost_or_won_where_things_roll() {
     }
 }
 
-/// A wheel whose centre of mass is below its centre, on a slope in the plane.
+/// Scene of a wheel on a slope in the plane, whose centre of mass is below its centre.
 fn eccentric(angle: f64) -> String {
     let below = 0.1;
     let (sin, cos) = angle.sin_cos();
@@ -122,9 +122,9 @@ fn an_eccentric_wheel_rests_and_rocks_as_its_energy_says() {
         let m = mbs::Mechanism::parse(&eccentric(angle)).expect("a scene");
         let rest = mbs::equilibrium(&m, &mbs::EquilibriumOptions::default())
             .unwrap_or_else(|e| panic!("{angle}: {e}"));
-        // V = m g (R (t sin) - e cos t): the centre of mass hangs aside by R sin, t counted from there
+        // V = m g (R (t sin) - e cos t) with the angle t; at equilibrium the centre of mass is displaced sideways by R sin
         let turn = (RADIUS * angle.sin() / below).asin();
-        // its distance from the contact, and the curvature of V
+        // distance of the centre of mass from the contact, and curvature of V
         let up = below * turn.cos();
         let square = (RADIUS * angle.sin() - below * turn.sin()).powi(2)
             + (RADIUS * angle.cos() - up).powi(2);
@@ -161,7 +161,7 @@ fn two_wheels_of_one_axle_roll_straight_and_share_what_nothing_determines() {
         let along = -((found[0] - center[0]) * cos + (found[2] - center[2]) * sin);
         assert!((along - way).abs() < 1e-5 * way, "{formulation}: {along} {way}");
         assert!(found[1].abs() < 1e-9, "{formulation}: {}", found[1]);
-        // each carries half of the weight
+        // each wheel carries half of the weight
         for force in [&found[3..6], &found[6..9]] {
             let push = -force[0] * sin + force[2] * cos;
             let half = 0.5 * MASS * 9.81 * cos;
@@ -172,7 +172,7 @@ fn two_wheels_of_one_axle_roll_straight_and_share_what_nothing_determines() {
 
 #[test]
 fn a_contact_that_pulls_is_noted_with_its_time_and_force() {
-    // a plate under the wheel moves up and down by 0.1 m, its acceleration is beyond that of gravity
+    // a plate under the wheel oscillates by 0.1 m, with an acceleration larger than gravity
     let text = |frequency: f64| {
         format!(
             "[scene]\nname = \"plate\"\ndimension = 2\nduration = 0.5\ngravity = [0.0, -9.81]\n\
@@ -194,11 +194,11 @@ fn a_contact_that_pulls_is_noted_with_its_time_and_force() {
             let run = mbs::run(&m, &mbs::Run::new().method(method()));
             run.unwrap_or_else(|e| panic!("{formulation}: {e}")).notes().to_vec()
         };
-        // 0.1 (2 pi f)^2 = 9.81 at 1.576 Hz
+        // the acceleration 0.1 (2 pi f)^2 reaches 9.81 m/s^2 at f = 1.576 Hz
         assert_eq!(notes(1.5), [""; 0], "{formulation}");
         let noted = notes(3.0);
         let omega = core::f64::consts::TAU * 3.0;
-        // the first step behind sin(w t) = g / (A w^2)
+        // the first step after sin(w t) = g / (A w^2)
         let first = ((9.81 / (0.1 * omega * omega)).asin() / omega * 1e3).ceil() / 1e3;
         let begin = format!("`contact` pulls on its plane at t = {first} s, by up to ");
         assert_eq!(noted.len(), 1, "{formulation}: {noted:?}");

@@ -1,19 +1,19 @@
-//! Rows without slip that depend on each other: two wheels on one axle do not slip along it, and one of both says so already.
+//! Dependent no-slip rows: two wheels on one axle cannot slip along it, and one of their two rows is enough.
 
 use super::{apart, end};
 use crate::common::oracle::Way;
 use mbs_testkit::repository::text;
 use std::fmt::Write as _;
 
-/// The formulations that take dependent rows, with the trapezoidal rule.
+/// Formulations that accept dependent rows, by the trapezoidal rule.
 const WAYS: [&str; 4] = ["index-3", "index-1", "multi-index", "recursive"];
 
-/// A method of high order at its tolerance.
+/// Last row by a method of high order with its default tolerance.
 fn exact(text: &str, duration: f64) -> Vec<f64> {
     end(text, Way("recursive", "rk853"), 1e-3, duration)
 }
 
-/// Ends within 4/3 of what half the step changes, which is the error of a rule of order two, and with an order of 1.9 to 2.1.
+/// Asserts an order of 1.9 to 2.1 and an error of at most 4/3 of the change by half the step. For order two this limit is the error itself.
 fn is_of_order_two(text: &str, (duration, step): (f64, f64), right: &[f64]) {
     for formulation in WAYS {
         let by = |step| end(text, Way(formulation, "trapezoidal"), step, duration);
@@ -21,7 +21,7 @@ fn is_of_order_two(text: &str, (duration, step): (f64, f64), right: &[f64]) {
         let [error, half] = [&coarse, &fine].map(|found| apart(found, right));
         println!("{formulation}: {error:.2e}, {half:.2e}");
         let order = (error / half).log2();
-        // its step is its own
+        // multi-index controls its step
         if formulation != "multi-index" {
             assert!((1.9..2.1).contains(&order), "{formulation}: {error:e}, {half:e}");
         }
@@ -30,7 +30,7 @@ fn is_of_order_two(text: &str, (duration, step): (f64, f64), right: &[f64]) {
     }
 }
 
-/// `text` with another number in place of one that it has.
+/// Returns `text` with one number replaced.
 fn with(text: &str, from: &str, to: &str) -> String {
     assert!(text.contains(from), "{from}");
     text.replace(from, to)
@@ -39,7 +39,7 @@ fn with(text: &str, from: &str, to: &str) -> String {
 #[test]
 fn an_axle_of_two_wheels_rolls_round_its_circle() {
     let text = text("21-axle-of-two-wheels");
-    // a radius of 0.5 m at 1 m/s, wheels of 0.1 m at 0.3 m and 0.7 m from its centre
+    // a circle of 0.5 m at 1 m/s; wheels of 0.1 m run at 0.3 m and 0.7 m from its centre
     let right = |t: f64| {
         let (sine, cosine) = (2.0 * t).sin_cos();
         [0.5 * sine, 0.5 * (1.0 - cosine), 0.1, 6.0 * t, 14.0 * t]
@@ -65,7 +65,7 @@ fn axles_of_other_sizes_keep_the_order_of_the_rule() {
     }
 }
 
-/// A wagon on four wheels, whose front axle turns about its pin against a spring.
+/// Scene of a wagon on four wheels, whose front axle rotates about its pin against a spring.
 fn wagon() -> String {
     let mut text =
         "[scene]\nname = \"wagon\"\ndimension = 3\nduration = 1.0\ngravity = [0.0, 0.0, -9.81]\n"

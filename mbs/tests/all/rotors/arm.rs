@@ -5,7 +5,7 @@
 //! M22 = I2 + m2 c2² + R2                                          R: inertia ratio² of the rotors
 //! ```
 //!
-//! The second rotor turns with the elbow alone: R2 is in M22 and nowhere else.
+//! The second rotor rotates with the elbow only: R2 is in M22 and in no other entry.
 
 use super::{head, initial, output, rotor};
 use crate::common::oracle::{TRAPEZOIDAL, Way, last, rows};
@@ -13,11 +13,11 @@ use crate::common::{by, run as run_method};
 use mbs::Method;
 use mbs_testkit::scene;
 
-/// Mass, distance of the centre from the joint, inertia about the centre of both links.
+/// Mass [kg], distance of the centre from the joint [m] and inertia about the centre [kg m^2] of both links.
 const LINKS: [[f64; 3]; 2] = [[3.0, 0.45, 0.08], [1.5, 0.3, 0.03]];
 /// Length of the first link [m].
 const LENGTH: f64 = 0.9;
-/// Inertia and ratio of both rotors: 0.9 and 0.32 kg m^2 at the joints.
+/// Inertia [kg m^2] and ratio [-] of both rotors: 0.9 and 0.32 kg m^2 at the joints.
 const ROTORS: [[f64; 2]; 2] = [[1e-4, 94.868_329_805_051_38], [2e-5, -126.491_106_406_735_17]];
 /// Angles and rates at the start.
 const START: [f64; 4] = [-0.4, 0.9, 1.2, -2.0];
@@ -25,7 +25,7 @@ const GRAVITY: f64 = 9.81;
 /// End of the runs [s].
 const END: f64 = 0.5;
 
-/// In the plane, or in space in a plane that no axis lies in: the arm along (2, -1, 2)/3, up (2, 2, -1)/3, the axis (-1, 2, 2)/3.
+/// Scene of the arm in the plane, or in space in an oblique plane: the arm along (2, -1, 2)/3, up (2, 2, -1)/3, the axis (-1, 2, 2)/3.
 fn arm(dimension: usize, enabled: &str) -> String {
     let along = |[x, y, z]: [f64; 3], size: f64| {
         let size = size / 3.0;
@@ -81,7 +81,7 @@ fn arm(dimension: usize, enabled: &str) -> String {
     .concat()
 }
 
-/// Angles and rates, and their rates.
+/// Rates of the state: from angles and rates, returns rates and accelerations.
 fn motion([a, b, a1, b1]: [f64; 4], reflected: [f64; 2]) -> [f64; 4] {
     let [[m1, c1, i1], [m2, c2, i2]] = LINKS;
     let coupling = m2 * LENGTH * c2;
@@ -101,7 +101,7 @@ fn motion([a, b, a1, b1]: [f64; 4], reflected: [f64; 2]) -> [f64; 4] {
     [a1, b1, (m22 * f1 - m12 * f2) / det, (m11 * f2 - m12 * f1) / det]
 }
 
-/// The state at the end by the classical method of order four; 20,000 steps leave 1e-14.
+/// State at the end by the classical Runge-Kutta method; 20,000 steps have an error of 1e-14.
 fn right(reflected: [f64; 2]) -> [f64; 4] {
     let steps = 20_000;
     let h = END / f64::from(steps);
@@ -161,7 +161,7 @@ fn the_arm_moves_as_its_equations_say() {
             assert!(outcome.error.is_none(), "{formulation}: {:?}", outcome.error);
             let off = largest(last(outcome.rows()), &right);
             println!("{dimension} {formulation} controlled: {off:.1e}");
-            // two steps of the rule, extrapolated: what is left is of order four
+            // two steps of the rule are extrapolated, so the error is of order four
             let way = Way(formulation, "trapezoidal");
             let [coarse, fine] = [5e-4, 2.5e-4].map(|step| end(&text, way, step));
             let limit: Vec<f64> = fine
@@ -215,7 +215,7 @@ fn the_energy_is_kept_and_has_the_rotors_in_it() {
             let method = Method { step: Some(1e-3), duration: Some(2.0), ..by(formulation) };
             let outcome = run_method(&scene(&arm(dimension, "")), &method);
             let error = outcome.summary.energy.max_error;
-            // 7 J are exchanged
+            // the exchanged energy is 7 J
             println!("{dimension} {formulation}: {error:.1e} J");
             assert!(error < 1e-4, "{formulation}: {error:e}");
         }

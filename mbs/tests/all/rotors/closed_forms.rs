@@ -1,17 +1,17 @@
-//! Small oscillations, constant accelerations, efforts of guides.
+//! Closed forms: small oscillations, constant accelerations, efforts of guides.
 
 use super::{head, initial, output, rotor, run};
 use crate::common::oracle::{TRAPEZOIDAL, last};
 use mbs::{Modes, Place, Search};
 use mbs_testkit::scene;
 
-/// Accelerations from half a millisecond of a run are met to this, relative: rounding over the step leaves 1e-9.
+/// Relative error of accelerations from half a millisecond of a run [-]. Rounding divided by the step gives 1e-9.
 const EXACT: f64 = 1e-8;
 
-/// A pendulum on a hinge with ratio² inertia = 0.25 kg m^2, in the plane or in space about a tilted axis.
+/// Scene of a pendulum on a hinge whose rotor adds ratio² inertia = 0.25 kg m^2, in the plane or in space about an oblique axis.
 fn pendulum(dimension: usize, center: [f64; 2], inertia: f64, angle: f64) -> String {
     let [x, y] = center;
-    // in space the plane of the motion is turned about y, by 3-4-5
+    // in space the plane of the motion is rotated about y, with sides of 3-4-5
     let (gravity, center, axis, tensor) = if dimension == 2 {
         ("[0.0, -9.81]", format!("[{x:?}, {y:?}]"), String::new(), format!("{inertia:?}"))
     } else {
@@ -35,7 +35,7 @@ fn pendulum(dimension: usize, center: [f64; 2], inertia: f64, angle: f64) -> Str
     .concat()
 }
 
-/// Point mass and uniform rod: centre, inertia, circular frequency.
+/// Point mass and uniform rod: centre [m], inertia [kg m^2] and angular frequency [rad/s].
 const PENDULUMS: [([f64; 2], f64, f64); 2] =
     [([0.0, -1.0], 0.0, 2.801_428_207), ([0.0, -0.5], 1.0 / 12.0, 2.899_753_684)];
 
@@ -43,7 +43,7 @@ const PENDULUMS: [([f64; 2], f64, f64); 2] =
 fn modes_have_the_frequency_of_the_sum_of_inertias() {
     for (center, inertia, omega) in PENDULUMS {
         for dimension in [2, 3] {
-            // in space a body about its own axis has some inertia
+            // a spatial body needs some inertia about its own axis
             if dimension == 3 && inertia == 0.0 {
                 continue;
             }
@@ -65,13 +65,13 @@ fn small_oscillations_have_the_frequency_of_the_sum_of_inertias() {
             let rows = run(&text, formulation, 1e-3, 2.0);
             let off = rows.iter().map(|(t, row)| (row[0] - small * (omega * t).cos()).abs());
             let worst = off.fold(0.0, f64::max);
-            // the rule is late by (omega h)^2 / 12 of the phase
+            // the rule has a relative phase delay of (omega h)^2 / 12
             assert!(worst < 1e-5 * small, "{formulation}: {worst:e}");
         }
     }
 }
 
-/// A weight on a vertical slide; 1e-4 kg m^2 at 100 rad/m is 1 kg.
+/// Scene of a weight on a vertical slide; a rotor of 1e-4 kg m^2 at 100 rad/m adds 1 kg.
 fn slide(inclined: bool, rest: &str) -> String {
     let axis = if inclined { "[0.6, 0.8]" } else { "[0.0, 1.0]" };
     [
@@ -97,7 +97,7 @@ fn a_rotor_on_a_slide_falls_with_it() {
     }
 }
 
-/// Housing on a free hinge, 0.28 kg m^2 about it, a wheel of 0.02 on its shaft; the motor acts between them.
+/// Scene of a housing on a free hinge, 0.28 kg m^2 about it, with a wheel of 0.02 kg m^2 on a shaft. The motor acts between both.
 fn housing() -> String {
     [
         head(2, "[0.0, 0.0]"),
@@ -115,7 +115,7 @@ fn housing() -> String {
 
 #[test]
 fn a_housing_that_is_free_to_turn_gets_the_torque_of_the_wheel_alone() {
-    // [[0.3, J], [J, J + I]] (h, w)'' = (0, 0.8), J = 0.02, I = 0.25 kg m^2
+    // equations of motion: [[0.3, J], [J, J + I]] (h, w)'' = (0, 0.8), J = 0.02, I = 0.25 kg m^2
     let (j, i) = (0.02, 0.25);
     let det = 0.3 * (j + i) - j * j;
     let right = [-j * 0.8 / det, 0.3 * 0.8 / det];
@@ -131,7 +131,7 @@ fn a_housing_that_is_free_to_turn_gets_the_torque_of_the_wheel_alone() {
 
 #[test]
 fn a_guide_moves_the_rotor_too() {
-    // f'' = -a w^2 sin(w t)
+    // acceleration of the guide: f'' = -a w^2 sin(w t)
     let guide = "[[guide]]\njoint = \"JOINT\"\nsine = { amplitude = 0.3, frequency = 0.7 }\n";
     let effort = |joint| output(joint, "effort");
     let turn = [
@@ -165,7 +165,7 @@ fn a_guide_moves_the_rotor_too() {
 
 #[test]
 fn a_wheel_counts_its_turns_and_books_its_energy() {
-    // 1 kg m^2 and 0.25: 2.5 N m make 2 rad/s^2
+    // 1 kg m^2 and a rotor of 0.25 kg m^2: 2.5 N m give 2 rad/s^2
     let text = [
         head(2, "[0.0, 0.0]"),
         "[[body]]\nname = \"b\"\nmass = 1.0\ncenter = [0.0, 0.0]\ninertia = 1.0\n".into(),
@@ -190,7 +190,7 @@ fn a_wheel_counts_its_turns_and_books_its_energy() {
             let right =
                 [angle, energy, energy, -rate, 0.5, angle, rate, 0.125 * rate * rate, -0.5 * rate];
             for (k, (found, right)) in row.iter().zip(right).enumerate() {
-                // turning directions are late by (rate h)^2 / 12
+                // rotating directions have a relative phase delay of (rate h)^2 / 12
                 let off = (found - right).abs() / right.abs();
                 assert!(off < 5e-5, "{formulation}, {t} s, {k}: {row:?}, {right}");
             }

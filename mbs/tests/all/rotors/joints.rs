@@ -4,10 +4,10 @@ use super::head;
 use crate::common::oracle::{TRAPEZOIDAL, Way, rows};
 use mbs_testkit::scene;
 
-/// Motions of natural coordinates and the tree, extrapolated from two steps, differ by less, relative.
+/// Relative difference of motions in natural coordinates and in the tree, each extrapolated from two steps [-].
 const SAME: f64 = 1e-9;
 
-/// A body on a joint that hangs from a first body on a universal joint; every coordinate of the joint has a rotor.
+/// Scene of a body on a joint of a first body, which is on a universal joint. Every coordinate of the joint has a rotor.
 fn on(joint: &str, coordinates: &[&str], is_reversed: bool) -> String {
     let bodies = if is_reversed { ["b", "a"] } else { ["a", "b"] };
     let rotors = coordinates.iter().enumerate().map(|(i, coordinate)| {
@@ -40,7 +40,7 @@ fn on(joint: &str, coordinates: &[&str], is_reversed: bool) -> String {
     .concat()
 }
 
-/// The last row, extrapolated from two steps of the trapezoidal rule.
+/// Last row, extrapolated from two steps of the trapezoidal rule.
 fn end(text: &str, formulation: &'static str) -> Vec<f64> {
     let [coarse, fine] = [5e-4, 2.5e-4].map(|step| {
         let rows = rows(&scene(text), Way(formulation, "trapezoidal"), (step, 0.1), 1);
@@ -83,7 +83,7 @@ fn natural_coordinates_and_the_tree_agree_on_every_kind_of_joint() {
 
 #[test]
 fn a_loop_is_cut_where_no_rotor_is() {
-    // a four-bar: a rotor at any joint, with its energy kept
+    // a four-bar linkage with a rotor at any joint conserves its energy
     let joints = ["a", "b", "c", "d"];
     for driven in joints {
         let text = [

@@ -1,4 +1,4 @@
-//! Rotors beside everything else: checkpoints, statics, mass matrices, couplings, guides in a chain.
+//! Rotors with other features: checkpoints, statics, mass matrices, couplings, guides in a chain.
 
 use super::{head, initial, output, rotor, run};
 use crate::common::oracle::{TRAPEZOIDAL, last};
@@ -6,7 +6,7 @@ use crate::common::{by, run as run_method};
 use mbs::{Method, Tree};
 use mbs_testkit::scene;
 
-/// Two hinges in a row with a rotor each, the first guided if asked for.
+/// Scene of two hinges in a row with a rotor each; the first hinge may have a guide.
 fn chain(first: &str) -> String {
     [
         head(2, "[0.0, -9.81]"),
@@ -36,7 +36,7 @@ fn mass_matrix_and_inverse_dynamics_have_the_rotors() {
         found.push((mass, bias, effort));
     }
     let [(with, bias, effort), (mass, same_bias, smaller)] = &found[..] else { panic!("two") };
-    // 1e-4 * 100^2 and 2e-4 * 50^2
+    // the rotors add 1e-4 * 100^2 and 2e-4 * 50^2 kg m^2
     for (k, more) in [1.0, 0.0, 0.0, 0.5].into_iter().enumerate() {
         assert!((with[k] - mass[k] - more).abs() < 1e-12, "{with:?}, {mass:?}");
     }
@@ -57,7 +57,7 @@ fn a_guided_joint_in_a_chain_has_the_effort_of_its_rotor_in_every_formulation() 
     for formulation in TRAPEZOIDAL {
         let [with, without] = [&text, &off].map(|text| run(text, formulation, 1e-3, 0.3));
         for ((_, a), (_, b)) in with.iter().zip(&without) {
-            // the motion is the same, the effort more by 1 kg m^2 times the acceleration
+            // the motion is the same; the effort is larger by 1 kg m^2 times the acceleration
             assert!((a[2] - b[2]).abs() < 1e-9, "{formulation}: {a:?}, {b:?}");
             assert!((a[0] - b[0] - a[1]).abs() < 1e-7, "{formulation}: {a:?}, {b:?}");
         }
@@ -70,7 +70,7 @@ fn a_guided_joint_in_a_chain_has_the_effort_of_its_rotor_in_every_formulation() 
 
 #[test]
 fn a_rotor_beside_a_gear_adds_at_its_own_joint() {
-    // two wheels of 0.1 and 0.4 kg m^2, b = -a / 2, a rotor of 0.25 at b
+    // two wheels of 0.1 and 0.4 kg m^2 with b = -a / 2, and a rotor of 0.25 kg m^2 at b
     let text = [
         head(2, "[0.0, 0.0]"),
         "[[body]]\nname = \"a\"\nmass = 1.0\ncenter = [0.0, 0.0]\ninertia = 0.1\n".into(),
@@ -85,7 +85,7 @@ fn a_rotor_beside_a_gear_adds_at_its_own_joint() {
     ]
     .concat();
     let acceleration = 0.6 / (0.1 + (0.4 + 0.25) / 4.0);
-    // the effort is the torque on a
+    // the effort is the coupling's torque on a
     let effort = (0.4 + 0.25) * -acceleration / 4.0;
     for formulation in TRAPEZOIDAL {
         let rows = run(&text, formulation, 1e-3 / 32.0, 1e-3);
@@ -105,7 +105,7 @@ fn rest_and_degrees_of_freedom_do_not_depend_on_rotors() {
     let [p, q] = [0, 1].map(|joint| found.joints[joint].1[0]);
     assert!((p + core::f64::consts::FRAC_PI_2).abs() < 1e-9 && q.abs() < 1e-9, "{p}, {q}");
     assert_eq!((found.unstable, found.neutral), (Some(0), Some(0)));
-    // no row repeats another
+    // all rows are independent
     assert_eq!(found.sizes[1], found.sizes[2]);
     for formulation in TRAPEZOIDAL {
         let method = Method { step: Some(1e-3), duration: Some(0.01), ..by(formulation) };

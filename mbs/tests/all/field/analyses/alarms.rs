@@ -1,4 +1,4 @@
-//! Alarm of the energy, and limits of residuals: what they let pass and what they stop.
+//! Energy alarm and limits of residuals: motions that they allow and stop.
 
 use super::super::{field, read, text};
 use crate::common::{by, run};
@@ -7,7 +7,7 @@ use mbs::{Method, Outcome};
 const ALL: [&str; 6] =
     ["index-3", "index-1", "classical", "state-space", "multi-index", "recursive"];
 
-/// The values of an output at the end of a run that reaches it.
+/// Values of an output at the end of a run, which must complete.
 fn last(outcome: &Outcome, name: &str, what: &str) -> Vec<f64> {
     assert!(outcome.error.is_none(), "{what}: {:?} at {}", outcome.error, outcome.summary.end_time);
     let found = outcome.summary.outputs.0.iter().find(|(n, _)| n == name);
@@ -20,7 +20,7 @@ fn what_is_at_rest_without_forces_stays_there() {
         for formulation in ALL {
             let outcome = run(&field(name), &by(formulation));
             assert!(outcome.error.is_none(), "{name} {formulation}: {:?}", outcome.error);
-            // Rounding of places within the length of a run.
+            // rounding of positions over the length of a run
             let energy = outcome.summary.energy.max_error;
             assert!(energy < 1e-24, "{name} {formulation}: {energy:e} J");
         }
@@ -31,7 +31,7 @@ fn what_is_at_rest_without_forces_stays_there() {
 fn a_structure_carries_its_load_in_every_formulation() {
     for formulation in ALL {
         let outcome = run(&field("07-propped-bar"), &by(formulation));
-        // Moments about the foot: 12 kg, 9.81 m/s^2, 0.6 m over 3.2 m.
+        // balance of moments about the foot: 12 kg, 9.81 m/s^2, 0.6 m over 3.2 m
         let wall = last(&outcome, "wall", formulation);
         let force = wall[..2].iter().map(|x| x * x).sum::<f64>().sqrt();
         assert!((force - 22.0725).abs() < 1e-9, "{formulation}: {wall:?}");
@@ -50,7 +50,7 @@ fn a_loop_with_redundant_rows_runs_in_recursive_and_classical_says_why_not() {
     ];
     for (name, value) in wanted {
         let found = last(&outcome, name, "recursive")[0];
-        // The rule's own error at 0.1 ms, and the digits that are given.
+        // error of the rule at 0.1 ms, and the digits of the reference
         assert!((found - value).abs() < 1e-6, "{name}: {found} {value}");
     }
     let outcome = run(&scene, &by("classical"));
@@ -71,14 +71,14 @@ fn motion_that_creeps_is_not_stopped_for_what_its_dampers_are_booked() {
                     continue;
                 }
                 let found = last(&run(&field(name), &overrides), output, &what)[at];
-                // One in a hundred: the rule at 1 ms does not resolve how the motion comes to creep.
+                // one per cent: the rule at 1 ms does not resolve the transition to creep
                 assert!((found / wanted - 1.0).abs() < 0.01, "{what}: {found:e}");
             }
         }
     }
 }
 
-/// Two bars of 1 mm and 1 mg that swing from the horizontal.
+/// Scene of two bars of 1 mm and 1 mg that swing from the horizontal.
 const TINY: &str = r#"
 [scene]
 name = "tiny"
@@ -110,7 +110,7 @@ fn a_tiny_double_pendulum_with_too_long_a_step_is_stopped() {
     for formulation in ["index-3", "index-1", "recursive"] {
         let outcome = run(&read(TINY, "tiny"), &Method { step: Some(0.02), ..by(formulation) });
         let code = outcome.error.map(|error| error.code());
-        // Its periods are about 0.06 s: nothing of the motion is resolved, whatever is found out first.
+        // its periods are about 0.06 s: the steps do not resolve the motion, and any of these errors may come first
         let is_stopped =
             matches!(code, Some("energy-drift" | "not-converged" | "violated" | "not-finite"));
         assert!(is_stopped, "{formulation}: {code:?}");
@@ -122,7 +122,7 @@ fn a_tiny_double_pendulum_with_too_long_a_step_is_stopped() {
 #[test]
 fn energy_that_grows_is_stopped_with_dampers_as_without() {
     let damped = text("04-modes-viscous-friction").replace("duration = 2.0", "duration = 40.0");
-    // Steps of order 4 let a swing of 10 rad/s grow where they are longer than 0.28 s.
+    // the Runge-Kutta method of order 4 is unstable for 10 rad/s with steps longer than 0.28 s
     for viscous in ["0.0", "1.5", "15.0"] {
         let scene =
             read(&damped.replace("viscous = 15.0", &format!("viscous = {viscous}")), "grows");

@@ -1,4 +1,4 @@
-//! Equilibria and modes, and what an alarm takes for a fault.
+//! Equilibria, modes, and energy alarms of the scenes from users.
 
 mod alarms;
 mod modes;

@@ -4,7 +4,7 @@ use super::super::{field, read, text};
 use mbs::core::scene::Scene;
 use mbs::{Mode, Modes, Place, Search};
 
-/// Eight digits: differences of fourth order of the equations of motion.
+/// Relative difference of eigenvalues [-]: differences of fourth order of the equations of motion have eight digits.
 const CLOSE: f64 = 1e-8;
 
 fn modes(scene: &Scene<f64>, search: Search) -> Vec<Mode> {
@@ -53,7 +53,7 @@ fn near_the_start_an_unstable_place_has_a_mode_that_grows() {
     assert!(found.iter().any(|m| is_at(m, -rate, 0.0)), "{found:?}");
 }
 
-/// Masses of 12 kg and inertia of both wheels 0.16 kg m² move the axle, 8 kg hang 0.2 m below it: two masses in closed form.
+/// Cart and pendulum in closed form: 12 kg and the inertia 0.16 kg m² of both wheels move the axle, and 8 kg hang 0.2 m below it.
 #[test]
 fn a_cart_on_two_wheels_of_one_axle_rests_and_swings() {
     let cart = field("21-cart-on-two-wheels");
@@ -65,7 +65,7 @@ fn a_cart_on_two_wheels_of_one_axle_rests_and_swings() {
     assert_eq!(rest.unstable, Some(0));
 }
 
-/// g over the length of the rope; 2 · 0.05 · 3 g over 0.05 kg m² of the shaft.
+/// Squares of the frequencies: g over the length of the rope; and 2 · 0.05 · 3 g over 0.05 kg m² of the shaft.
 #[test]
 fn weights_on_ropes_and_cams_swing_about_their_rests() {
     for (name, right) in

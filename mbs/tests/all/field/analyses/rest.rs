@@ -1,17 +1,17 @@
-//! Static equilibria: where they are, how far away, and what they leave out.
+//! Static equilibria: their positions, their distance from the start, and parts that the search ignores.
 
 use super::super::{field, read, text};
 use crate::common::run_in;
 use mbs::{FormulationKind, Search, StaticEquilibrium};
 
-/// Ten digits: the search ends at rounding, and the stiffness of a pad is far above what rounding moves.
+/// Relative difference of positions [-]: the search ends at rounding, and a pad is stiff.
 const CLOSE: f64 = 1e-10;
 
 fn still(name: &str) -> StaticEquilibrium {
     StaticEquilibrium::new(&field(name), Search::Down).unwrap_or_else(|e| panic!("{name}: {e}"))
 }
 
-/// The first coordinate of the first joint.
+/// First coordinate of the first joint.
 fn joint(still: &StaticEquilibrium) -> f64 {
     still.joints[0].1[0]
 }
@@ -30,7 +30,7 @@ fn a_block_rests_on_its_pad_and_not_beyond() {
 
 #[test]
 fn pads_hold_at_any_distance_below_and_through_a_joint_limit() {
-    // A pad 0.1 m and 20 m below, and stops of the joint in place of the pad.
+    // a pad 0.1 m below, one 20 m below, and stops of the joint in place of the pad
     for clearance in [0.1, 0.3] {
         let text = text("02-pad").replace("clearance = 0.0", &format!("clearance = {clearance}"));
         let found =
@@ -58,7 +58,7 @@ fn a_slide_on_a_spring_rests_at_the_springs_length() {
     assert_eq!((found.unstable, found.neutral), (Some(0), Some(0)));
 }
 
-/// A rod of 1 m on a pivot, hanging down.
+/// Scene of a rod of 1 m that hangs down from a pivot.
 const PENDULUM: &str = r#"
 [scene]
 name = "pendulum"
@@ -90,20 +90,20 @@ fn near_its_start_a_pendulum_stands_and_otherwise_it_hangs() {
     let down = StaticEquilibrium::new(&scene, Search::Down).expect("it hangs");
     assert!(joint(&down).abs() < CLOSE && down.unstable == Some(0), "{down:?}");
     let [way, turn] = down.moved.expect("there is a body");
-    // Half a metre of centre on a turn of 3 rad: a chord of sin(1.5) metres.
+    // the centre, half a metre from the pivot, turns by 3 rad: its chord is sin(1.5) metres
     assert!((way.size - f64::sin(1.5)).abs() < CLOSE && (turn.size - 3.0).abs() < CLOSE);
 }
 
 #[test]
 fn rates_that_do_not_fit_do_not_keep_it_from_an_equilibrium() {
-    // Rates that contradict each other, of a joint and of a point of its body.
+    // contradictory rates, of a joint and of a point of its body
     let text = format!(
         "{PENDULUM}rate = 2.0\n[[initial]]\nbody = \"rod\"\nat = [0.0, -1.0]\nvelocity = [9.0, 0.0]\n"
     );
     let scene = read(&text, "pendulum");
     let found = StaticEquilibrium::new(&scene, Search::Down).expect("rates are not used");
     assert!(joint(&found).abs() < CLOSE);
-    // Rates of guides are not used either, nor accelerations that a guided mechanism could not have.
+    // the search does not use rates of guides either, nor accelerations that a guided mechanism could not have
     let guided = text.replace("[[initial]]\njoint = \"pivot\"\nvalue = 3.0\nrate = 2.0\n", "")
         + "[[guide]]\njoint = \"pivot\"\nramp = { rate = 5.0 }\n";
     StaticEquilibrium::new(&read(&guided, "guided"), Search::Down)
@@ -123,7 +123,7 @@ fn dry_friction_is_left_out_by_name_and_viscous_friction_is_not() {
     assert_eq!(found.to_json()["left_out"][0]["effect"], "rub");
 }
 
-/// A rope of 1.25^(1/2) m: the weight hangs straight below its end, whatever the size.
+/// A weight on a rope of 1.25^(1/2) m hangs straight below the end of the rope, at any size.
 #[test]
 fn a_weight_on_a_rope_rests_below_its_end_in_the_plane_and_in_space() {
     let plane = text("24-weight-on-a-rope");
@@ -163,7 +163,8 @@ fn a_weight_on_a_cam_rests_at_its_lowest_place() {
     assert!(joint(&found).abs() < 1e-7 && found.unstable == Some(0), "{found:?}");
 }
 
-/// Over two points 2 m apart 3 kg hang in the middle of a rope of 500 N/m that is 2.2 m long: 2 T cos = m g, T = 500 (2 (1 + y^2)^(1/2) - 2.2).
+/// A load of 3 kg hangs in the middle of a rope over two points 2 m apart. The rope has 500 N/m and a length of 2.2 m: 2 T cos = m g, T = 500
+/// (2 (1 + y^2)^(1/2) - 2.2).
 #[test]
 fn a_load_on_an_elastic_rope_over_three_points_rests() {
     let text = "[scene]\ndimension = 2\ngravity = [0.0, -9.81]\nduration = 1.0\n\
@@ -180,7 +181,7 @@ fn a_load_on_an_elastic_rope_over_three_points_rests() {
     assert_eq!(found.unstable, Some(0));
 }
 
-/// A quarter turn of 0.2 m: the search rolls, and a step of a fifth slips 2e-7 of it.
+/// A wheel of 0.2 m rolls by a quarter revolution. The search rolls it, and slips by 2e-7 in a step of a fifth.
 #[test]
 fn a_wheel_with_a_weight_off_its_centre_rests_where_it_rolls_to() {
     let wheel = text("24-wheel-rolls-to-rest");
@@ -198,7 +199,7 @@ fn a_wheel_with_a_weight_off_its_centre_rests_where_it_rolls_to() {
     }
 }
 
-/// 100 N m on 10 N m/rad: 10 rad, which is more than a turn.
+/// A torque of 100 N m on 10 N m/rad gives 10 rad, which is more than a revolution.
 #[test]
 fn a_rest_beyond_a_turn_keeps_its_turns() {
     let scene = |effects: &str| {

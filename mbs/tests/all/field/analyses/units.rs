@@ -1,15 +1,16 @@
-//! Equilibria and modes at any size and in any unit: a length of a millimetre to a hundred metres, other masses, other times.
+//! Equilibria and modes in any unit: lengths from a millimetre to a hundred metres, other masses, other times.
 
 use super::super::read;
 use mbs::{Modes, Place, Search, StaticEquilibrium};
 
-/// Nine digits between sizes: the differences behind the eigenvalues leave that much.
+/// Relative difference of results between units [-]: the differences behind the eigenvalues have nine digits.
 const CLOSE: f64 = 1e-9;
-/// Differences of velocities are 1e-4 of the size in a second: where times are a thousandth, rounding leaves 5e-9 of an eigenvalue.
+/// Relative difference with times of a thousandth [-]. Velocities differ by 1e-4 of the size in a second, and their rounding gives 5e-9 of an
+/// eigenvalue.
 const FAST: f64 = 2e-8;
 
-/// A tree of springs over a pad, in space: a bar on a hinge with a torsion spring, a second on a ball, held by two springs, and a slide
-/// on a pad. Lengths, masses and times count in `l`, `m` and `t`.
+/// Scene of a spatial tree with springs: a bar on a hinge with a torsion spring, a second bar on a ball joint with two springs, and a slide
+/// on a pad. Units of length, mass and time are `l`, `m` and `t`.
 fn tree([l, m, t]: [f64; 3]) -> String {
     let (g, k) = (-9.81 * l / (t * t), m / (t * t));
     let vector = |x: [f64; 3]| format!("[{:e}, {:e}, {:e}]", x[0] * l, x[1] * l, x[2] * l);
@@ -78,7 +79,7 @@ fn equilibria_and_modes_are_the_same_in_every_unit() {
     };
     let (still, modes) = analyse([1.0; 3]);
     assert_eq!((still.unstable, still.neutral), (Some(0), Some(0)));
-    // A freedom of the hinge, three of the ball, one of the block.
+    // one degree of freedom of the hinge, three of the ball joint, one of the block
     assert_eq!(modes.len(), 5);
     for l in [1e-4, 1e-3, 0.1, 100.0] {
         for [m, t] in [[1.0, 1.0], [1e-6, 1.0], [1e6, 1.0], [1.0, 1e-3], [1.0, 60.0]] {
