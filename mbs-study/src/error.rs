@@ -1,4 +1,4 @@
-//! Refusals of studies as what the front door returns.
+//! Conversion of the errors of studies into the error type of the main interface.
 
 use crate::compare::{CompareError, JournalError};
 use crate::sweep::StudyError;

@@ -1,4 +1,4 @@
-//! Studies of a mechanism that take many runs of it.
+//! Studies of a mechanism that need several runs.
 
 use crate::auto::{Processor, plan, run_plan};
 use crate::compare::results::Comparison;
@@ -13,10 +13,10 @@ use mbs_scene::{SceneFile, SweepSource};
 use std::io;
 use std::path::Path;
 
-/// Runs a mechanism as [`mbs::run`] does, and what that refuses: for a goal the method is chosen by a pilot. Without a goal an estimate of the
-/// errors follows the run, if it is asked for.
+/// Runs a mechanism, also with a goal or an estimate. For a goal, short trial runs choose the method. Without a goal, an estimate of the
+/// errors follows the run, if requested. All other options have the effect that they have in [`mbs::run`].
 ///
-/// For a goal a run that stops is made anew by the next of the ranking; the settings that ran are in
+/// With a goal, a run that stops is repeated by the next method of the ranking. The settings of the last run are in
 /// [`settings`](RunResult::settings).
 ///
 /// # Errors
@@ -39,10 +39,10 @@ pub fn run(m: &Mechanism, options: &Run) -> Result<RunResult, SimulationError> {
     run_with(m, options, &mut Watchers::default())
 }
 
-/// Runs a mechanism as [`run`] does, before watchers.
+/// Runs a mechanism as [`run`] does, with watchers.
 ///
 /// # Errors
-/// As for [`run`].
+/// Those of [`run`].
 pub fn run_with(
     m: &Mechanism,
     options: &Run,
@@ -65,14 +65,15 @@ pub fn run_with(
     Ok(result)
 }
 
-/// Compares every formulation, integrator and step on a mechanism by cost and error, against a reference that is not under test.
+/// Compares every formulation, integrator and step on a mechanism by cost and error. The reference of the errors is made by a method that is
+/// not compared.
 ///
-/// Cost: many runs. Empty lists of the options mean all there are; short lists and a short duration make it quick. The reference needs the
-/// feature `dd`, and an empty list of precisions `f32` too; both are on by default.
+/// Cost: many runs. An empty list of options means all; short lists and a short duration reduce the cost. The reference needs the feature
+/// `dd`. An empty list of precisions also needs `f32`. Both features are on by default.
 ///
 /// # Errors
-/// [`SimulationError`] for a mechanism that is refused or has a part in code, and where no method serves as the reference. Runs that fail
-/// are results.
+/// [`SimulationError`] for a mechanism that is refused, that has a part in code, or for which no reference can be made. Runs that fail are
+/// results, not errors.
 ///
 /// # Examples
 /// ```no_run
@@ -94,7 +95,7 @@ pub fn compare(m: &Mechanism, options: &Compare) -> Result<Comparison, Simulatio
     Ok(compare::compare(&document, options, None, (None, Earlier::default()), &mut ())?)
 }
 
-/// Numbers of a mechanism that are varied, and how their values are combined.
+/// Sweep: numbers of a mechanism that are varied, and the combination of their values.
 ///
 /// ```
 /// use mbs::{Body, GROUND, Joint, Mechanism};
@@ -117,13 +118,13 @@ pub struct Sweep {
 }
 
 impl Sweep {
-    /// Each value with each; the last path changes fastest.
+    /// Combines each value with each; the values of the last path change fastest.
     #[must_use]
     pub fn grid() -> Self {
         Self::of(SweepSource::grid())
     }
 
-    /// The first values together, then the second ones, and so on: all paths have as many.
+    /// Combines the first values of all paths, then the second ones, and so on. All paths need the same number of values.
     #[must_use]
     pub fn zip() -> Self {
         Self::of(SweepSource::zip())
@@ -133,15 +134,15 @@ impl Sweep {
         Self { source, method: Method::default(), threads: None }
     }
 
-    /// Reads the sweep of a file, as `mbs sweep` reads it.
+    /// Reads a sweep file as `mbs sweep` does.
     ///
     /// # Errors
-    /// Where it cannot be read. What it says is checked by [`sweep`].
+    /// [`SimulationError`] if the file cannot be read. Its content is checked by [`sweep`] only.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, SimulationError> {
         Ok(Self::of(SceneFile::read(path)?.into()))
     }
 
-    /// Varies a number by its path, as [`Mechanism::set`] names it; the path is the name of its column too.
+    /// Varies a number by its path, in the form of [`Mechanism::set`]. The path is also the name of a column.
     #[must_use]
     pub fn vary<N: Into<Number>>(
         mut self,
@@ -152,13 +153,13 @@ impl Sweep {
         self
     }
 
-    /// Runs by this method; what it leaves open is the mechanism's.
+    /// Sets the method of all runs. Settings that it leaves open are taken from the mechanism.
     #[must_use]
     pub fn method(self, method: Method) -> Self {
         Self { method, ..self }
     }
 
-    /// On this many threads, at least one. Default: all processors.
+    /// Sets the number of threads, at least one. Default: all processors.
     #[must_use]
     pub fn threads(self, n: usize) -> Self {
         Self { threads: NonZeroUsize::new(n.max(1)), ..self }
@@ -173,21 +174,21 @@ pub struct SweepResult {
 }
 
 impl SweepResult {
-    /// Names of the columns: `member`, the paths that were varied, and what became of each run. Then come of each output the last value
-    /// (`NAME`), the least (`NAME.min`) and the largest (`NAME.max`), as in the table of `mbs sweep`.
+    /// Names of the columns: `member`, the varied paths, and the status of each run. Then each output has its last value (`NAME`), its
+    /// smallest (`NAME.min`) and its largest (`NAME.max`), as in the table of `mbs sweep`.
     #[must_use]
     pub fn names(&self) -> &[String] {
         self.columns.header()
     }
 
-    /// The numbers of a column, one for each run; NaN where a run did not come to one.
+    /// Numbers of a column, one for each run; NaN if a run has no number there.
     #[must_use]
     pub fn column(&self, name: &str) -> Option<Vec<f64>> {
         let place = self.names().iter().position(|n| n == name)?;
         Some(self.rows.iter().map(|row| self.columns.numbers(row)[place]).collect())
     }
 
-    /// The runs that were not completed: member from 0, code and message.
+    /// Runs that did not complete: member from 0, error code and message.
     pub fn failures(&self) -> impl Iterator<Item = (usize, &str, &str)> {
         self.rows.iter().filter_map(|row| {
             let (code, message) = row.failure.as_ref()?;
@@ -201,28 +202,29 @@ impl SweepResult {
         self.rows.len()
     }
 
-    /// Is the result without runs?
+    /// Does the result have no runs?
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.rows.is_empty()
     }
 
-    /// Writes it as `mbs sweep` writes `table.csv`.
+    /// Writes the result as `mbs sweep` writes `table.csv`.
     ///
     /// # Errors
-    /// Those of the sink.
+    /// Errors of the sink.
     pub fn write_csv(&self, sink: impl io::Write) -> io::Result<()> {
         let rows: Vec<_> = self.rows.iter().map(|row| self.columns.cells(row)).collect();
         self.columns.write_csv(sink, rows.iter())
     }
 }
 
-/// Runs a mechanism with all values of a sweep, side by side. A run that fails is a row of its own.
+/// Runs a mechanism with all values of a sweep, on several threads. A run that fails has a row too.
 ///
 /// The rows do not depend on the number of threads.
 ///
 /// # Errors
-/// [`SimulationError`] for a path or a value that is refused, with its path in code or its place in the file; for a mechanism that has a part in code.
+/// [`SimulationError`] for a path or value that is refused, with its path in code or its place in the file. A mechanism with a part in code
+/// is refused too.
 pub fn sweep(m: &Mechanism, sweep: &Sweep) -> Result<SweepResult, SimulationError> {
     m.check()?;
     let is_finite = |values: &[Number]| values.iter().all(|value| value.to_f64().is_finite());

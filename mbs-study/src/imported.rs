@@ -1,24 +1,25 @@
-//! Elements of an imported model and what became of them, and whether its scene has a start.
+//! Report on an imported model: what became of its elements, and whether its scene has a start.
 
 use crate::doctor::{Effort, Finding, Severity, examine};
 use mbs::models::{FindingKind, Imported, ModelFinding, ModelSizes};
 use mbs::{Method, Precision, ResolvedMethod, SimulationError};
 use serde_json::{Value, json};
 
-/// Fault of the start as the doctor calls it, with its line of the scene.
+/// Fault of the start that the doctor found, with its line in the scene.
 #[derive(Debug, Clone)]
 pub struct StartFault {
     /// Finding of the doctor.
     pub finding: Finding,
-    /// Line of the finding in the scene, where it has one.
+    /// Line of the finding in the scene, if it has one.
     pub line: Option<usize>,
 }
 
-/// Joints up to which the doctor looks at a model with loops [-]: its time grows with their cube, and is a second here.
+/// Largest number of joints of a model with loops that the doctor examines [-]. The time grows with the cube of this number, and is a second
+/// here.
 const MOST_JOINTS: usize = 200;
 
-/// Has the scene of a model a start? An open tree has one where nothing beyond a joint lacks inertia. `None`: it was not looked at, since
-/// the model is large. `name` is the file that messages show.
+/// Finds faults that keep the scene of a model from starting. A model without closed loops has none if all of its branches have inertia.
+/// `None` means that a large model was not examined. `name` is the file name in messages.
 ///
 /// # Errors
 /// [`SimulationError`] for a scene that is refused.
@@ -55,8 +56,8 @@ pub fn count(model: &Imported, kind: FindingKind) -> usize {
     model.findings.iter().filter(|finding| finding.kind == kind).count()
 }
 
-/// The object of `mbs import --json`: what was read, what is not in the scene as the file has it, and the faults of the start; null where
-/// that was not looked at.
+/// Makes the object of `mbs import --json`: elements that were read, elements that the scene represents otherwise, and faults of the start.
+/// The faults are null if the start was not examined.
 #[must_use]
 pub fn to_json(name: &str, model: &Imported, faults: Option<&[StartFault]>) -> Value {
     let list = |kind| {

@@ -1,6 +1,6 @@
-//! Journal: a head line, then one line for each finished job in the order of completion.
+//! Journal of a long job: a head line, then one line for each finished part in the order of completion.
 //!
-//! A line counts once its line end is written. What a kill left of a line is cut off, and its job runs again.
+//! A line counts only if its line end is written. An incomplete line, left by a killed process, is removed, and its part runs again.
 
 use core::fmt::{self, Display, Formatter};
 use mbs::inside::fingerprint;
@@ -8,50 +8,50 @@ use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::Path;
 
-/// Kind of a journal: its file, and what it is of.
+/// Kind of a journal: its file, and the job whose results it has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Kind {
     /// Name of the file.
     pub file: &'static str,
-    /// First word of its head.
+    /// First words of the head line.
     pub title: &'static str,
-    /// Names, with their articles, of what it has the results of, and of another such thing.
+    /// Names of the job, with their articles: of this one ("a sweep") and of a different one ("another sweep").
     pub of: [&'static str; 2],
-    /// Names of what the hashes of its head are of, in order.
+    /// Names of the texts whose hashes are in the head, in order.
     pub hashes: &'static [&'static str],
 }
 
-/// Head of a journal, which says what it belongs to: version, and hashes of what its results depend on.
+/// Head of a journal, which identifies the job: version, and hashes of all texts that the results depend on.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Head {
     kind: Kind,
     cells: Vec<String>,
 }
 
-/// An open journal, locked for this process.
+/// Open journal, locked for this process.
 #[derive(Debug)]
 pub struct Journal {
     file: File,
 }
 
-/// A journal that cannot be used.
+/// Reason why a journal cannot be used.
 #[derive(Debug)]
 #[non_exhaustive]
 pub enum JournalError {
-    /// Journal of other results, of another sweep, say, as the first text calls it; the second says what has changed.
+    /// Journal of another job. The texts are the name of that job, such as "another sweep", and the input that has changed.
     Other([&'static str; 2]),
-    /// The file of the first name is no journal of what the second says.
+    /// File that is no journal: its name, and the name of the job.
     NotAJournal(String, &'static str),
-    /// Journal that another process is writing, with the name of what it has the results of.
+    /// Journal that another process is writing, with the name of the job.
     Busy(&'static str),
-    /// Journal of what was interrupted: it has what was finished before.
+    /// Journal of a job that was interrupted. It has all parts that were finished before.
     Interrupted,
     /// Journal that cannot be read or written.
     Io(io::Error),
 }
 
 impl Head {
-    /// Makes the head of results that depend on these texts.
+    /// Makes the head for results that depend on these texts.
     pub fn new(kind: Kind, texts: &[&str]) -> Self {
         let mut cells = vec![kind.title.to_owned(), env!("CARGO_PKG_VERSION").to_owned()];
         cells.extend(texts.iter().map(|text| hash(text)));
@@ -62,7 +62,7 @@ impl Head {
         self.cells.join(",") + "\n"
     }
 
-    /// Is the journal of this name, with this first line, ours?
+    /// Checks that the first line of a journal is this head. `name` is the file name in messages.
     fn check(&self, name: &str, line: &str) -> Result<(), JournalError> {
         let found: Vec<&str> = line.split(',').collect();
         if found.len() != self.cells.len() || found[0] != self.kind.title {
@@ -82,7 +82,7 @@ impl Head {
         JournalError::NotAJournal(name.to_owned(), self.kind.of[0])
     }
 
-    /// The whole lines behind a head that is ours; nothing where the head itself was torn, which is then begun again.
+    /// Returns the complete lines after the head. `None` if the head itself is incomplete; the journal is then begun again.
     fn lines(&self, name: &str, bytes: &[u8]) -> Result<Option<Lines>, JournalError> {
         let whole = bytes.iter().rposition(|&byte| byte == b'\n').map_or(0, |end| end + 1);
         let text = String::from_utf8_lossy(&bytes[..whole]);
@@ -97,24 +97,24 @@ impl Head {
     }
 }
 
-/// The whole lines of a journal.
+/// Complete lines of a journal.
 struct Lines {
     cells: Vec<Vec<String>>,
-    /// Byte at which the whole lines end.
+    /// Number of bytes up to the end of the complete lines.
     bytes: usize,
 }
 
-/// The lines that are whole in a journal that is only read.
+/// Reads the complete lines of a journal without locking it.
 pub(crate) fn read(out: &Path, name: &str, head: &Head) -> Result<Vec<Vec<String>>, JournalError> {
     let lines = head.lines(name, &std::fs::read(out.join(name))?)?;
     Ok(lines.map(|lines| lines.cells).unwrap_or_default())
 }
 
 impl Journal {
-    /// Opens the journal of a directory, or begins it, and gives the lines that are whole.
+    /// Opens the journal of a directory, or begins one, and returns its complete lines. `anew` discards an existing journal.
     ///
     /// # Errors
-    /// [`JournalError`] where it is of other results, in use, or not written.
+    /// [`JournalError`] if the journal belongs to another job, is in use, or cannot be written.
     pub fn open(
         out: &Path,
         head: &Head,
@@ -123,7 +123,7 @@ impl Journal {
         Self::open_as((out, head.kind.file), head, anew)
     }
 
-    /// Opens the journal as [`Self::open`] does, with another name.
+    /// Opens a journal as [`Self::open`] does, under another file name.
     pub(crate) fn open_as(
         (out, name): (&Path, &str),
         head: &Head,
@@ -132,7 +132,7 @@ impl Journal {
         let path = out.join(name);
         let mut options = OpenOptions::new();
         let mut file = options.read(true).write(true).create(true).truncate(false).open(path)?;
-        // a file system without locks has none to lose
+        // a file system without locks is used without one
         if let Err(TryLockError::WouldBlock) = file.try_lock() {
             return Err(JournalError::Busy(head.kind.of[0]));
         }
@@ -149,7 +149,7 @@ impl Journal {
         Ok((Self { file }, lines.map(|lines| lines.cells).unwrap_or_default()))
     }
 
-    /// Appends a line, in one write.
+    /// Appends a line to the file by a single write.
     pub(crate) fn append<S: AsRef<[u8]>>(&mut self, cells: &[S]) -> io::Result<()> {
         let mut line = csv::Writer::from_writer(Vec::new());
         line.write_record(cells)?;
@@ -158,7 +158,7 @@ impl Journal {
     }
 }
 
-/// The cells of each line.
+/// Parses the cells of each line.
 fn read_lines(text: &str) -> Vec<Vec<String>> {
     let mut reader = csv::ReaderBuilder::new();
     let lines = text.lines().filter_map(|line| {
@@ -169,7 +169,7 @@ fn read_lines(text: &str) -> Vec<Vec<String>> {
     lines.collect()
 }
 
-/// A short text by which a changed text is known.
+/// Hash of a text, which shows whether the text has changed.
 pub(crate) fn hash(text: &str) -> String {
     format!("{:016x}", fingerprint(text.as_bytes()))
 }

@@ -19,7 +19,7 @@ pub use mbs_redundancy as redundancy;
 pub use compare::Request as Compare;
 pub use front::{Sweep, SweepResult, compare, run, run_with, sweep};
 
-/// Items that the tests of this crate call; no part of its interface.
+/// Items for the tests of this crate; they are no part of its interface.
 #[doc(hidden)]
 pub mod inside {
     pub use crate::doctor::motion::refined;

@@ -1,6 +1,6 @@
-//! Remedy where a run stopped: other formulations, integrators and steps are tried, and the first that gets to the end is named.
+//! Remedy for a run that stopped: other formulations, integrators and steps are tried, and the first that completes is named.
 //!
-//! A trial may take so many iterations and steps, by their nominal times, and no clock is asked: every machine names the same.
+//! Each trial has a limit of iterations and steps, by their nominal times. No clock is read, so every machine names the same method.
 
 use crate::estimate::purse::nominal_step;
 use crate::stretches::stretches;
@@ -12,12 +12,14 @@ use mbs_core::control::Accepted;
 use mbs_core::scene::{Dimension, Scene};
 use mbs_scene::format::few;
 
-/// Nominal time of a trial [s]: all together take about a second at most, which a user whose run stopped will wait. Chosen, not tuned.
+/// Nominal time of a trial [s]. All trials together take about a second at most, which is acceptable after a run that stopped. Chosen, not
+/// tuned.
 const A_TRIAL: f64 = 0.15;
-/// The step of the last trial, relative to that of the run [-].
+/// Step of the last trial, relative to that of the run [-].
 const SHORTER: f64 = 0.1;
 
-/// Methods that are tried, in this order: the tree has no closing equations to lose, controlled steps follow what fixed ones pass over.
+/// Methods that are tried, in this order. A spanning tree avoids errors of closing equations, and controlled steps resolve events that fixed
+/// steps miss.
 const OTHERS: [(FormulationKind, IntegratorKind); 7] = [
     (FormulationKind::RELATIVE, IntegratorKind::Trapezoidal),
     (FormulationKind::MultiIndex, IntegratorKind::Trapezoidal),
@@ -28,12 +30,12 @@ const OTHERS: [(FormulationKind, IntegratorKind); 7] = [
     (FormulationKind::Classical, IntegratorKind::Trapezoidal),
 ];
 
-/// Tries other methods where a run has stopped in its motion, and puts the first that gets to the end before the hint of its error.
+/// Tries other methods after a run has stopped in its motion. The first method that completes is named before the hint of the run's error.
 ///
-/// `scene` is the scene in `f64`, `method` what was asked for beside it, and `settings` what ran. Nothing is tried for a run in another
-/// precision, nor where the start, the scene or whoever watched the run is the reason.
+/// `scene` is the scene in `f64`, `method` the requested method, and `settings` those of the run. Nothing is tried for a run in another
+/// precision. Nothing is tried either if the start, the scene or an observer is the reason of the stop.
 ///
-/// Cost: each trial takes 0.15 s of nominal time at most, and there are eight.
+/// Cost: at most 0.15 s of nominal time for each of eight trials.
 pub fn name_what_runs(
     scene: &Scene<f64>,
     (method, settings): (&Method, &ResolvedMethod),
@@ -57,7 +59,7 @@ pub fn name_what_runs(
     }
 }
 
-/// The first that gets to the end, else the one that gets furthest beyond where the run stopped.
+/// Returns the first method that completes, otherwise the one that gets furthest beyond the time of the stop.
 fn first<const D: usize>(
     scene: &Scene<f64>,
     (method, ran): (&Method, &ResolvedMethod),
@@ -82,7 +84,7 @@ fn first<const D: usize>(
     Some(format!("{name} was tried to t = {reached} s, and runs there"))
 }
 
-/// The methods with their words: those that the scene takes, without the one that ran.
+/// Methods that the scene allows, without the one that stopped, each with its name.
 fn candidates(
     scene: &Scene<f64>,
     (method, ran): (&Method, &ResolvedMethod),
@@ -120,7 +122,7 @@ fn candidates(
     others.chain(shorter).collect()
 }
 
-/// Returns the time that a method reaches [s], and whether that is no stop: it got to the end, or has had its time.
+/// Returns the time that a method reaches [s], and whether it did not stop with an error. It then reached the end or its work limit.
 fn trial<const D: usize>(scene: &Scene<f64>, settings: &ResolvedMethod) -> (f64, bool) {
     let Ok(mut simulation) = Simulation::<f64, D>::new(scene, settings) else {
         return (0.0, false);
@@ -133,10 +135,10 @@ fn trial<const D: usize>(scene: &Scene<f64>, settings: &ResolvedMethod) -> (f64,
     (simulation.state().t, end.is_ok())
 }
 
-/// Counts the work of a trial and listens to its alarm.
+/// Observer that counts the work of a trial and checks its energy alarm.
 struct Watch {
     alarm: Alarm,
-    /// Iterations and steps that are left.
+    /// Number of iterations and steps that are left.
     left: f64,
 }
 

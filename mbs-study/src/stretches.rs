@@ -1,10 +1,10 @@
-//! The stretches of a run that is looked at on its way, as a run makes them.
+//! Stretches of a run that an observer examines, as in the original run.
 
 use mbs::ResolvedMethod;
 use mbs::inside::{Stretch, step};
 use mbs_core::scene::Scene;
 
-/// The steps of a method; where it controls their lengths, the intervals between its rows.
+/// Returns the steps of a method. If the method controls their lengths, returns the intervals between its rows.
 pub(crate) fn stretches(
     scene: &Scene<f64>,
     settings: &ResolvedMethod,

@@ -1,4 +1,4 @@
-//! Trials of a scene, on a clock that is given.
+//! Trial runs of a scene, timed by a given clock.
 
 use super::trial::{Aim, Bench, Rows, Trial, TrialEnd};
 use crate::compare::course::Course;
@@ -16,37 +16,38 @@ use mbs_core::control::Accepted;
 use mbs_core::scene::Scene;
 use mbs_core::step::StepError;
 
-/// The clock is read after this number of steps, where they are not timed one by one [-]: the smallest steps take less than to read it.
+/// Number of steps between two readings of the clock, unless each step is timed [-]. The shortest steps take less time than one reading.
 const STRIDE: u64 = 8;
-/// Steps in the first interval of an integrator that controls its own [-]: nothing else ends an interval whose steps are far too many.
+/// Limit of steps in the first interval, for an integrator with its own step control [-]. The clock is not read within an interval, so only
+/// this limit ends one with far too many steps.
 const FIRST_STEPS: u32 = 1000;
 
-/// Clock that a pilot measures time by: a processor's clock, or one that counts work.
+/// Clock that a pilot measures time by: the processor's clock, or a clock that counts work.
 pub trait Clock {
-    /// Time since some beginning [s].
+    /// Time since an arbitrary start [s].
     fn seconds(&mut self) -> f64;
 
-    /// Reported work of each step [s, nominal: the same every time].
+    /// Receives the work of each step as a nominal time [s], which is the same in every run. The default does nothing.
     fn worked(&mut self, nominal: f64) {
         let _ = nominal;
     }
 }
 
-/// A scene on the bench.
+/// Test bench for trial runs of one scene.
 pub(crate) struct SceneBench<'a, T: Real, const D: usize> {
     scene: &'a Scene<T>,
     base: &'a Method,
     instants: Instants,
     channels: Vec<Channel>,
     length: f64,
-    /// Assembled scene that all trials begin from, or the error that keeps them from it.
+    /// Assembled scene that all trials begin from, or the error that stopped its assembly.
     ready: &'a Result<AssembledScene<T, D>, Box<RunError>>,
     clock: &'a mut dyn Clock,
     begun: f64,
 }
 
 impl<'a, T: Real, const D: usize> SceneBench<'a, T, D> {
-    /// A bench on which so many seconds were spent before.
+    /// Makes a bench whose time starts at `spent` seconds, which were used before.
     pub(crate) fn new(
         (scene, base): (&'a Scene<T>, &'a Method),
         ready: &'a Result<AssembledScene<T, D>, Box<RunError>>,
@@ -59,7 +60,7 @@ impl<'a, T: Real, const D: usize> SceneBench<'a, T, D> {
         Self { scene, base, instants, channels, length, ready, clock, begun }
     }
 
-    /// A simulation ready to step, with its outputs and its alarm.
+    /// Makes a simulation at its start, with its outputs and its energy alarm.
     fn start(
         &self,
         method: &MethodCase,
@@ -76,7 +77,7 @@ impl<'a, T: Real, const D: usize> SceneBench<'a, T, D> {
         both.map_err(|e| Box::new(e.report(0.0, &Names::new(self.scene))))
     }
 
-    /// Runs the span, for no longer than `limit` [s].
+    /// Runs a method over the span of the trials. The trial is given up after `limit` [s].
     fn run(&mut self, method: &MethodCase, setting: f64, aim: Aim, limit: f64) -> Trial {
         let started = self.start(method, setting);
         let (mut simulation, channels, alarm) = match started {
@@ -109,7 +110,7 @@ impl<'a, T: Real, const D: usize> SceneBench<'a, T, D> {
         let interrupt = &self.base.interrupt;
         let mut end = Ok(());
         if is_own {
-            // one step of it may be a whole interval, which nothing but the number of its own steps ends
+            // one call of the integrator may cover a whole interval; only the limit of its internal steps ends it
             simulation.formulation_mut().set_max_steps(FIRST_STEPS);
             end = drive(&mut simulation, stretches.next(), interrupt, &mut recorder);
             let steps = recorder.steps_in(limit);
@@ -169,7 +170,7 @@ fn refused(error: &SettingsError) -> RunError {
     }
 }
 
-/// ResolvedMethod of a run with a method, beside what the caller asks for.
+/// Settings of a run with a method; all other settings are the caller's.
 pub(crate) fn settings<T: Real>(
     scene: &Scene<T>,
     base: &Method,
@@ -195,7 +196,7 @@ pub(crate) fn settings<T: Real>(
     ResolvedMethod::new(scene, &overrides)
 }
 
-/// Records a trial, and gives it up when its time is over.
+/// Records a trial, and gives it up after its time limit.
 struct Recorder<'a, T: Real, const D: usize> {
     channels: Option<Channels<T, D>>,
     alarm: Alarm,
@@ -203,7 +204,7 @@ struct Recorder<'a, T: Real, const D: usize> {
     rows: Rows,
     clock: &'a mut dyn Clock,
     per_iteration: f64,
-    /// Is every step timed?
+    /// Is the clock read at every step?
     is_fine: bool,
     begun: f64,
     /// Longest time that the trial may take [s].
@@ -216,7 +217,7 @@ struct Recorder<'a, T: Real, const D: usize> {
 }
 
 impl<T: Real, const D: usize> Recorder<'_, T, D> {
-    /// Steps that are made in a time, as fast as those so far.
+    /// Number of steps that fit into a time [s] at the rate of the steps so far.
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a rough count")]
     fn steps_in(&mut self, limit: f64) -> u32 {
         (self.steps as f64 * limit / (self.clock.seconds() - self.begun)) as u32

@@ -1,4 +1,4 @@
-//! The methods that the pilot tries, in their order, and what its trials say of each.
+//! Methods that the pilot tries, their order, and the results of their trials.
 
 use super::estimate::{Basis, ERROR_RANGE, Point, PowerLaw, Prediction, SMALL, extended, predict};
 use super::goal::PilotTarget;
@@ -7,25 +7,27 @@ use super::trial::{Trial, TrialEnd};
 use crate::compare::method::{Control, MethodCase};
 use mbs::FormulationKind;
 
-/// The next trial has a step that is shorter by this factor [-]: two points of a law of order 1 to 4, and a time that may still be had.
+/// Factor by which the next trial has a shorter step [-]. Two trials then show the order of a method between 1 and 4, and the second one is
+/// still affordable.
 const FINER_STEP: f64 = 4.0;
-/// First tolerance of steps that are controlled by an estimate of the error [-]: such a run takes less time than most.
+/// First tolerance of steps that are controlled by an error estimate [-]. A run with this tolerance takes less time than most other trials.
 const FIRST_ERROR_TOLERANCE: f64 = 1e-3;
-/// No tolerance is larger [-]: rssr and iltis-stairs-stiff stop with 0.1, and steps are a third shorter only.
+/// Largest tolerance that is tried [-]. With 0.1 the scenes rssr and iltis-stairs-stiff stop, and the number of steps is only a third
+/// smaller.
 const LOOSEST: f64 = 0.01;
-/// Ratio of two settings, less one, up to which they are the same [-]: a quotient and its inverse round.
+/// Relative difference up to which two settings are equal [-]: the product of a number and its inverse is rounded.
 pub(super) const ROUNDING: f64 = 2.0 * f64::EPSILON;
 
-/// A trial, and its error where it is known.
+/// Trial of a method, with its error where it is known.
 #[derive(Debug, Clone)]
 pub(crate) struct Tried {
     pub(crate) setting: f64,
     pub(crate) trial: Trial,
-    /// Error by distances from trials that differ from this one, each a bound from above; infinite before there is one.
+    /// Upper bound of the error, from the distances to trials that differ from this one. Infinite before there is such a trial.
     pub(crate) most: f64,
-    /// Largest distance from finer trials of the same method, each a bound of the error from below.
+    /// Lower bound of the error: the largest distance from finer trials of the same method.
     pub(crate) least: f64,
-    /// Error by the distance from the best trial.
+    /// Error from the distance to the best trial of all.
     pub(crate) error: Option<f64>,
 }
 
@@ -34,45 +36,46 @@ impl Tried {
         Self { setting, trial, most: f64::INFINITY, least: 0.0, error: None }
     }
 
-    /// Error without a better trial: the larger of its bounds.
+    /// Error estimated without the best trial: the larger of its two bounds.
     ///
-    /// The larger bound counts: two rules that lose a chaotic motion along the same direction agree by chance (double-pendulum at 1e-2).
+    /// The upper bound alone may be too small: in chaotic motion two rules with similar errors agree by chance (double-pendulum at 1e-2).
     pub(crate) fn own(&self) -> f64 {
         self.most.max(self.least)
     }
 }
 
-/// A method in the pilot.
+/// Candidate method of the pilot, with its trials.
 #[derive(Debug, Clone)]
 pub struct PilotCandidate {
     /// Method that is tried.
     pub method: MethodCase,
     /// Trials of the method, from the coarsest.
     pub(crate) trials: Vec<Tried>,
-    /// Reason why the candidate is out.
+    /// Reason why the candidate is excluded, if it is.
     pub(crate) out: Option<String>,
     pub(crate) first: f64,
     pub(crate) coarsest: f64,
-    /// The finest setting that a deadline leaves it; 0 without one.
+    /// Finest setting that the deadline allows; 0 without a deadline.
     pub(crate) finest: f64,
-    /// Did a trial with a predicted setting miss the required error? Then only what was seen counts (quarter-car at 1e-4, where the results hold
-    /// the steps).
+    /// Did a trial with a predicted setting miss the required error? Predictions are then ignored, and only measured errors count. This
+    /// happens where the instants of the results limit the steps (quarter-car at 1e-4).
     pub(crate) has_missed: bool,
 }
 
-/// Next need of a candidate: another trial, none, or to be left out.
+/// Decision on a candidate: another trial, no further trial, or exclusion.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Next {
     Try(f64),
-    /// Enough is known of it.
+    /// Enough is known of the candidate.
     Settled,
     Out(String),
 }
 
-/// The candidates among the methods that the caller leaves, in the order in which they are tried.
+/// Selects the candidates among the methods that the caller allows, and sorts them in the order of their trials.
 ///
-/// With a tree: integrators that control their own steps, rk4, and error control in relative coordinates, then index-3. Without one:
-/// index-3, then error control in index-3, classical and state-space. All methods of a formulation that is asked for.
+/// With a spanning tree they are, in relative coordinates, integrators with their own step control, rk4 and error control; then index-3 with
+/// fixed steps. Without a tree they are index-3 with fixed steps, then error control in index-3, classical and state-space. If the caller
+/// asks for a formulation, all of its methods are candidates.
 pub(super) fn select(
     (is_asked, has_deadline): (bool, bool),
     methods: &[MethodCase],
@@ -102,11 +105,11 @@ fn is_own(method: &MethodCase) -> bool {
 }
 
 impl PilotCandidate {
-    /// A candidate that is tried first with steps of at most `longest` [s], if they are fixed.
+    /// Makes a candidate without trials. With fixed steps, its first trial has a step of at most `longest` [s].
     pub fn new(method: MethodCase, target: PilotTarget, longest: f64) -> Self {
         let (first, coarsest) = match method.control {
             Control::Fixed => (longest, longest),
-            // errors of controlled steps are mostly smaller than their tolerance
+            // the global error is mostly smaller than the tolerance of an integrator's own step control
             Control::Own => ((target.error / SMALL).min(LOOSEST), LOOSEST),
             Control::Error | Control::Energy => (FIRST_ERROR_TOLERANCE, LOOSEST),
         };
@@ -125,7 +128,7 @@ impl PilotCandidate {
         PowerLaw::of(&self.method)
     }
 
-    /// The setting that can be had, no coarser than the one asked for: a whole number of steps makes the longest.
+    /// Returns the nearest possible setting that is no coarser than the given one. Fixed steps must divide the longest step evenly.
     pub fn fit(&self, setting: f64) -> f64 {
         let setting = setting.max(self.finest);
         if !self.method.is_fixed() {
@@ -134,7 +137,7 @@ impl PilotCandidate {
         self.coarsest / (self.coarsest / setting * (1.0 - ROUNDING)).ceil().max(1.0)
     }
 
-    /// Takes a trial in; one that was given up before is forgotten.
+    /// Adds a trial, and removes trials of this candidate that were given up.
     pub(crate) fn take(&mut self, tried: Tried) {
         self.trials.retain(|t| t.trial.end != TrialEnd::GivenUp);
         let finer = |t: &Tried| t.setting < tried.setting;
@@ -150,8 +153,8 @@ impl PilotCandidate {
         self.trials.iter().filter(|t| t.trial.end == TrialEnd::Done)
     }
 
-    /// Completed trials whose error is known, from the coarsest. An error that is small by chance does not count: none is smaller than that
-    /// of the next finer one.
+    /// Completed trials with a known error, from the coarsest. A trial counts with at least the error of the next finer trial, since an error
+    /// may be small by chance.
     pub(crate) fn points(&self) -> Vec<Point> {
         let point = |t: &Tried| {
             let Trial { steps, seconds, .. } = t.trial;
@@ -164,23 +167,23 @@ impl PilotCandidate {
         points
     }
 
-    /// The cheapest trial that has an error.
+    /// Returns the cheapest trial whose error is at most `error`.
     pub(crate) fn seen(&self, error: f64) -> Option<Point> {
         let points = self.points().into_iter().filter(|p| p.error <= error);
         points.min_by(|a, b| a.seconds.total_cmp(&b.seconds))
     }
 
-    /// The setting for the error that is aimed at, and what is expected of it.
+    /// Predicts the setting for the target error, with its error and CPU time.
     pub(crate) fn predict(&self, target: PilotTarget) -> Option<Prediction> {
         let points = self.points();
-        // nothing coarser than the first that completes is taken where it has stopped, or would make the same steps (guided-four-bar at 1e-6)
+        // a setting coarser than that of the first completed trial would stop, or would make the same steps (guided-four-bar at 1e-6)
         let is_held = self.done().next().is_some_and(|t| self.is_held(&t.trial));
         let coarsest = match (self.trials.first(), points.first()) {
             (Some(t), Some(first)) if is_held || t.setting > first.setting => first.setting,
             _ => self.coarsest,
         };
         let p = predict(self.law(), &points, target.aim(), coarsest)?;
-        // a law is taken two trials beyond the last
+        // the power law is extrapolated by at most two trials beyond the finest one
         let furthest = SMALL * SMALL * points.last()?.setting;
         let setting = self.fit(p.setting.max(furthest));
         if setting <= p.setting || (self.finest <= 0.0 && p.setting >= furthest) {
@@ -189,19 +192,20 @@ impl PilotCandidate {
         Some(extended(points.last()?, self.law(), setting))
     }
 
-    /// The error that may be expected beyond all trials, none of which has the required one: that of the finest by the slowest law.
+    /// Error that is expected with a setting beyond all trials, none of which has the required error. The error of the finest trial is
+    /// extrapolated by the smallest exponent.
     pub(crate) fn expected(&self, setting: f64) -> f64 {
         let Some(last) = self.points().last().copied() else { return f64::INFINITY };
         last.error * (setting / last.setting).powf(ERROR_RANGE[0] * self.law().error)
     }
 
-    /// Do the instants of the results hold the steps of a trial whose steps are controlled?
+    /// Are the controlled steps of a trial limited by the instants of the results, where every step must end?
     pub(crate) fn is_held(&self, trial: &Trial) -> bool {
         let [steps, rows] = [trial.steps, trial.rows.len() as u64].map(|n| n as f64);
         !self.method.is_fixed() && steps * (1.0 - SMALL) <= rows
     }
 
-    /// CPU time of a whole run with the finest setting tried, by the fraction that was reached [s].
+    /// CPU time of a whole run with the setting of the finest trial, extrapolated from the fraction of the span that the trial reached [s].
     pub(crate) fn whole_seconds(&self) -> Option<f64> {
         let Trial { seconds, reached, .. } = self.trials.last()?.trial;
         (reached > 0.0).then(|| seconds / reached)
@@ -212,19 +216,19 @@ impl PilotCandidate {
         self.trials.iter().filter_map(|t| t.trial.slowest).reduce(f64::max)
     }
 
-    /// Is it not out, and did its finest trial complete?
+    /// Is the candidate not excluded, and did its finest trial complete?
     pub(crate) fn may_continue(&self) -> bool {
         self.out.is_none() && self.trials.last().is_some_and(|t| t.trial.end == TrialEnd::Done)
     }
 
-    /// A setting that is finer than all trials, if there is one.
+    /// Returns a setting that is finer than those of all trials, if there is one.
     pub(crate) fn finer(&self) -> Option<f64> {
         let last = self.trials.last()?.setting;
         let finer = self.fit(if self.method.is_fixed() { last / FINER_STEP } else { SMALL * last });
         (finer < last).then_some(finer)
     }
 
-    /// Returns what the candidate needs next to be known.
+    /// Decides whether the candidate gets another trial, needs none, or is excluded.
     pub(crate) fn next(&self, target: PilotTarget) -> Next {
         let Some(last) = self.trials.last() else { return Next::Try(self.fit(self.first)) };
         let finer = self.finer().unwrap_or(last.setting);
@@ -254,7 +258,7 @@ impl PilotCandidate {
         if is_known || self.has_tried(setting) { Next::Settled } else { Next::Try(setting) }
     }
 
-    /// Does a trial nearly have the error that is aimed at, or no coarser one take fewer steps?
+    /// Does a trial have an error close to the target, or would coarser settings not reduce the number of steps?
     pub(crate) fn is_settled(&self, target: PilotTarget) -> bool {
         let points = self.points();
         let is_near = |p: &Point| p.error <= target.error && p.error >= 0.5 * target.aim();

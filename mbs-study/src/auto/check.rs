@@ -1,5 +1,5 @@
-//! A check from the other coordinates: candidates in relative coordinates share one model, and cannot find a fault of it by their
-//! agreement.
+//! Check of the choice in other coordinates. Candidates in relative coordinates have the same model, so their agreement cannot show a fault
+//! of that model.
 
 use super::estimate::{SMALL, error_of_finer};
 use super::pilot::{PilotPlace, PilotSearch};
@@ -9,8 +9,8 @@ use mbs::record::SecondLook;
 use mbs::{FormulationKind, IntegratorKind, Precision};
 use mbs_scene::format::few;
 
-/// Compares the chosen candidate with the default formulation. Nothing where the choice is not in relative coordinates; an error says why
-/// nothing is known.
+/// Compares the chosen candidate with the default formulation. Returns `None` if the choice is not in relative coordinates, and an error with
+/// the reason if the comparison is not possible.
 pub fn check(
     search: &mut PilotSearch<'_>,
     places: &[PilotPlace],
@@ -25,16 +25,17 @@ pub fn check(
     let precision = chosen.method.precision;
     Some(fine(search, precision, longest).map(|(trial, own)| {
         let apart = search.bench.distance(&rows, &trial.rows);
-        // all errors are small beside a difference of models; steps that lose a chaotic motion err by more than they say (double-pendulum at
+        // models differ only if the distance is ten times all errors: in chaotic motion errors are larger than estimated (double-pendulum at
         // 1e-3)
         let differs = SMALL * apart > search.target.error.max(error).max(own);
         SecondLook { distance: apart.is_finite().then_some(apart), own_error: Some(own), differs }
     }))
 }
 
-/// A run of the default formulation in steps of half of `longest` [s], and twice its error by a run with twice the step.
+/// Runs the default formulation with steps of half of `longest` [s]. Returns the trial and twice its error, estimated by a run with steps of
+/// twice the length.
 ///
-/// Two runs and no more: of many pairs in chaotic motion, one agrees by chance (double-pendulum at 1e-3).
+/// Only two runs are compared: among many pairs of runs of a chaotic motion, one pair agrees by chance (double-pendulum at 1e-3).
 fn fine(
     search: &mut PilotSearch<'_>,
     precision: Precision,

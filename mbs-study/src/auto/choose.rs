@@ -1,4 +1,4 @@
-//! The choice for a scene: what is asked, who may run, the pilot, and its ranked settings.
+//! Choice of a method for a scene: the request, the allowed methods, the pilot and its ranked settings.
 
 use super::bench::{Clock, SceneBench};
 use super::candidates::{self, PilotCandidate};
@@ -14,16 +14,16 @@ use mbs::{Goal, IntegratorKind, Method, Names, Precision, ResolvedMethod};
 use mbs_core::Real;
 use mbs_core::scene::Scene;
 
-/// Instants at which errors are taken [-]: steps of a 200th of the run resolve most motions.
+/// Number of instants at which errors are measured [-]. Intervals of a 200th of the run resolve most motions.
 const INSTANTS: f64 = 200.0;
-/// A method and its setting, and what was expected of it.
+/// Method and setting that the pilot has chosen.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Pick {
     pub(crate) method: MethodCase,
     pub(crate) setting: f64,
 }
 
-/// Task of a choice: method as asked, its settings, the goal, and the instants of the trials.
+/// Task of a choice: the requested method, its settings, the goal, and the instants of the trials.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Task<'a> {
     pub(crate) base: &'a Method,
@@ -32,10 +32,10 @@ pub(crate) struct Task<'a> {
     pub(crate) instants: Instants,
 }
 
-/// The methods that a caller leaves to choose from, in the order that decides where times are the same.
+/// Returns the methods that the caller's options allow. The order decides between methods with equal times.
 ///
 /// # Errors
-/// [`GoalError`] where the goal and what the caller has chosen leave no method.
+/// [`GoalError`] if the goal and the caller's options allow no method.
 pub fn methods<T>(
     scene: &Scene<T>,
     base: &Method,
@@ -56,7 +56,7 @@ pub fn methods<T>(
             m.integrator == integrator
         });
     } else if settings.precision != Precision::DoubleDouble {
-        // rk853 takes less time for every error that these digits resolve: gbs is for references
+        // rk853 is faster than gbs for every error that these numbers resolve: gbs is for references in more digits
         methods.retain(|m| m.integrator != IntegratorKind::Extrapolation);
     }
     if goal.deadline.is_some() {
@@ -68,7 +68,7 @@ pub fn methods<T>(
     if methods.is_empty() { Err(GoalError::NoCandidate) } else { Ok(methods) }
 }
 
-/// Instants for a run of `duration` [s]: whole frames lie between them where there is a deadline.
+/// Makes the instants for a run of `duration` [s]. With a deadline, a whole number of frames lies between two instants.
 pub(crate) fn instants(duration: f64, goal: &Goal) -> Instants {
     let Some(frame) = goal.deadline else {
         return Instants::new(duration, &[duration / INSTANTS]);
@@ -80,7 +80,7 @@ pub(crate) fn instants(duration: f64, goal: &Goal) -> Instants {
     Instants { count, interval: between * frame }
 }
 
-/// The choice for a scene: ranked picks, the first to run, and the evidence.
+/// Choice for a scene, which gives ranked picks and the evidence for them.
 pub(crate) struct Pilot<'a> {
     pub(crate) task: &'a Task<'a>,
     pub(crate) methods: &'a [MethodCase],
@@ -108,7 +108,7 @@ fn chosen<T: Real, const D: usize>(
     let asked = (task.settings.asked != "auto", task.goal.deadline.is_some());
     let methods = candidates::select(asked, methods, &structure);
     let (target, mut instants) = (PilotTarget::of(&task.goal), task.instants);
-    // the assembly is any run's own: trials have the whole budget (iltis-links at 1e-6, whose assembly takes most of it)
+    // the assembly does not count: every run needs it, and trials get the whole budget (in iltis-links at 1e-6, it would take most of it)
     let (mut spent, mut before) = (0.0, clock.seconds() - begun);
     loop {
         let mut bench = SceneBench::new((scene, task.base), &ready, instants, (&mut *clock, spent));
@@ -119,7 +119,7 @@ fn chosen<T: Real, const D: usize>(
         let shorter = search.shorter(instants.count);
         if let Some(count) = shorter.filter(|_| places.is_empty()) {
             before += search.bench.spent();
-            // a part of the span has half of the time again
+            // trials over a part of the span get half of the budget again
             spent = 0.5 * BUDGET;
             before -= spent;
             instants.count = count;
@@ -149,7 +149,7 @@ fn chosen<T: Real, const D: usize>(
     }
 }
 
-/// A candidate, out if structure refuses it.
+/// Makes a candidate, which is excluded if the structure of the scene does not allow its method.
 fn candidate(
     method: &MethodCase,
     structure: &Structure,
@@ -159,7 +159,7 @@ fn candidate(
     PilotCandidate { out, ..PilotCandidate::new(*method, given.0, given.1) }
 }
 
-/// Ranked settings; on a part of the span, errors are taken to grow in proportion to it.
+/// Ranked settings for the whole run. If the trials covered a part of it, errors are assumed to grow in proportion to the time.
 fn picks(search: &PilotSearch<'_>, places: &[PilotPlace], times: f64) -> Vec<Pick> {
     let pick = |place: &PilotPlace| {
         let candidate = &search.candidates[place.candidate];
@@ -169,7 +169,7 @@ fn picks(search: &PilotSearch<'_>, places: &[PilotPlace], times: f64) -> Vec<Pic
     places.iter().map(pick).collect()
 }
 
-/// The candidates of a scene, and what structure alone says of them.
+/// Lists the candidates of a scene with the facts that its structure gives, without any trial.
 pub(crate) fn candidates<T: Real, const D: usize>(
     scene: &Scene<T>,
     settings: &ResolvedMethod,

@@ -1,4 +1,4 @@
-//! Error and CPU time of a method as powers of its setting, and the setting that an error needs.
+//! Error and CPU time of a method as powers of its setting, and the setting for a required error.
 //!
 //! ```text
 //! error ~ setting^a,   CPU time ~ setting^-b
@@ -7,33 +7,33 @@
 use super::trial::Trial;
 use crate::compare::method::MethodCase;
 
-/// Measured exponents of the error, relative to theory's, are taken within this range [-]: outside it the motion was lost, or an error
-/// was small by chance.
+/// Range of the measured exponent of the error, relative to the theoretical one [-]. Beyond it, the motion was not resolved, or an error was
+/// small by chance.
 pub(super) const ERROR_RANGE: [f64; 2] = [0.5, 1.25];
-/// Measured exponents of the CPU time, relative to theory's, are taken within this range [-]: steps may end at the instants of the
-/// results, whatever the tolerance.
+/// Range of the measured exponent of the CPU time, relative to the theoretical one [-]. It may be small where steps must end at the instants
+/// of the results, whatever the tolerance.
 const COST_RANGE: [f64; 2] = [0.25, 1.25];
-/// Fraction below which a number is small beside another [-]. It is for the error of a trial beside its distance from a coarser one, which may agree
-/// with it by chance, and for the steps that it has more. It is for the error of the best trial beside the required one, and for a tolerance
-/// beside that of the trial before.
+/// Fraction below which a number is negligible beside another [-]. It limits four ratios: a trial's error over its distance from a coarser
+/// trial; the additional steps of a finer trial over its steps; the best trial's error over the required error; and a tolerance over that of
+/// the trial before.
 pub(super) const SMALL: f64 = 0.1;
 
-/// Exponents of a method in its setting: the step, or the tolerance.
+/// Exponents of the error and of the CPU time in the setting of a method, which is its step or its tolerance.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PowerLaw {
     /// Exponent a of the error.
     pub error: f64,
-    /// Exponent b of the CPU time, its sign changed.
+    /// Exponent b of the CPU time, with its sign reversed.
     pub cost: f64,
 }
 
 impl PowerLaw {
-    /// Returns the exponents of theory.
+    /// Returns the theoretical exponents of a method.
     pub fn of(method: &MethodCase) -> Self {
         Self { error: method.order() * method.cost(), cost: method.cost() }
     }
 
-    /// The exponents between two trials, within their ranges.
+    /// Returns the exponents that two trials show, limited to their ranges.
     fn between(self, coarse: &Point, fine: &Point) -> Self {
         let span = (coarse.setting / fine.setting).ln();
         let within = |measured: f64, theory: f64, [least, most]: [f64; 2]| {
@@ -47,10 +47,10 @@ impl PowerLaw {
     }
 }
 
-/// A completed trial whose error is known.
+/// Completed trial with a known error.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Point {
-    /// The step [s] or the tolerance.
+    /// Setting: the step [s] or the tolerance.
     pub setting: f64,
     /// Error of the outputs.
     pub error: f64,
@@ -60,29 +60,29 @@ pub struct Point {
     pub steps: u64,
 }
 
-/// Basis that a prediction stands on.
+/// Basis of a prediction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Basis {
-    /// A trial with this setting.
+    /// Measurement by a trial with this setting.
     Tried,
-    /// Trials on both sides of the required error.
+    /// Interpolation between trials with a larger and a smaller error.
     Between,
-    /// The law beyond the trials: their nearest error over the required one.
+    /// Extrapolation beyond the trials by the power law. The number is the error of the nearest trial, divided by the required error.
     Beyond(f64),
-    /// The order of the method alone.
+    /// Theoretical order of the method, without trials close to the error.
     Theory,
 }
 
-/// A setting, and what is expected of it.
+/// Prediction of error and CPU time for a setting.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Prediction {
-    /// The step [s] or the tolerance.
+    /// Setting: the step [s] or the tolerance.
     pub setting: f64,
     /// Error of the outputs.
     pub error: f64,
     /// Predicted CPU time [s].
     pub seconds: f64,
-    /// Basis that the prediction stands on.
+    /// Basis of the prediction.
     pub basis: Basis,
 }
 
@@ -93,7 +93,7 @@ impl Prediction {
     }
 }
 
-/// The setting for an error, no coarser than `coarsest`, from trials in the order of their settings, the coarsest first.
+/// Predicts the setting for an error, which is no coarser than `coarsest`. `points` are trials sorted by setting, the coarsest first.
 pub fn predict(
     theory: PowerLaw,
     points: &[Point],
@@ -115,7 +115,7 @@ pub fn predict(
     Some(extended(from, law, setting))
 }
 
-/// Returns what the law expects of another setting than that of a trial.
+/// Extrapolates error and CPU time from a trial to another setting by the power law.
 pub(crate) fn extended(from: &Point, law: PowerLaw, setting: f64) -> Prediction {
     let ratio = setting / from.setting;
     let times = ratio.powf(law.error);
@@ -138,13 +138,13 @@ fn interpolated(coarse: &Point, fine: &Point, error: f64) -> Prediction {
     }
 }
 
-/// The error of a trial by its distance d from one of the same method that made fewer steps:
+/// Estimates the error e of a trial from its distance d to a trial of the same method with fewer steps:
 ///
 /// ```text
 /// e = d r/(1 - r),   r = (coarse steps / fine steps)^order
 /// ```
 ///
-/// Infinite where the other made hardly fewer: the instants of the results then held the steps of both.
+/// The error is infinite if the other trial made less than a tenth fewer steps. The instants of the results then limited the steps of both.
 pub(crate) fn error_of_finer(method: &MethodCase, fine: &Trial, coarse: &Trial, d: f64) -> f64 {
     let steps = coarse.steps as f64 / fine.steps as f64;
     let r = steps.powf(method.order());

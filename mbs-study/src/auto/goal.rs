@@ -1,19 +1,19 @@
-//! Requirements of a run: an error, a deadline, or both; and why they may be refused.
+//! Requirements of a run: an error, a deadline, or both, and reasons to refuse them.
 
 use core::fmt::{self, Display, Formatter};
 use mbs::{Goal, Method, Precision, SimulationError};
 
-/// Error that is aimed at, relative to the required one [-]: predictions may be off by as much.
+/// Target of the choice, relative to the required error [-]: the margin covers errors of the predictions.
 const AIM: f64 = 0.7;
-/// With a deadline alone, no smaller error is aimed at [-]: outputs are printed with so many digits.
+/// Target error with a deadline alone [-]: outputs are printed with six digits, so a smaller error is useless.
 pub(super) const ACCURATE: f64 = 1e-6;
 
-/// Target that a run is to reach.
+/// Target of a run: its error and its deadline.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PilotTarget {
     /// Error of the outputs.
     pub error: f64,
-    /// Frames of this length are to be computed each within that time [s].
+    /// Length of a frame, each of which must be computed within the same time [s].
     pub deadline: Option<f64>,
 }
 
@@ -22,35 +22,35 @@ impl PilotTarget {
         Self { error: goal.error.unwrap_or(ACCURATE), deadline: goal.deadline }
     }
 
-    /// The error that settings are chosen for.
+    /// Error that settings are chosen for, smaller than the required one.
     pub(crate) fn aim(&self) -> f64 {
         AIM * self.error
     }
 }
 
-/// A goal that cannot be meant.
+/// Reason why a goal is refused.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum GoalError {
-    /// An error that is not between 0 and 1.
+    /// Error that is not between 0 and 1.
     Error(f64),
-    /// An error that numbers of the run cannot resolve: the error, and their precision.
+    /// Error below the resolution of the run's numbers: the error, and their precision.
     TooFine(f64, Precision),
-    /// A deadline that is not a positive time.
+    /// Deadline that is not positive and finite.
     Deadline(f64),
-    /// A deadline longer than the run: deadline and duration [s].
+    /// Deadline longer than the run: deadline and duration [s].
     TooLong(f64, f64),
-    /// An option that is chosen for the goal.
+    /// Option that the choice decides and that the caller has set, by its name.
     Chosen(&'static str),
-    /// An integrator that controls its own steps has no bound for one.
+    /// Deadline for integrators with their own step control only: the time of their steps has no bound.
     OwnSteps,
-    /// Nothing is left to choose from.
+    /// Options that leave no method to choose from.
     NoCandidate,
-    /// The chosen method and one in other coordinates differ by this, beside the ranges of the outputs.
+    /// Difference of the chosen method from a method in other coordinates, relative to the ranges of the outputs.
     Differs(f64),
 }
 
-/// Options that the choice decides.
+/// Options that the choice decides, each with a test whether the caller has set it.
 type Given = (&'static str, fn(&Method) -> bool);
 const DECIDED: [Given; 6] = [
     ("--step", |o| o.step.is_some()),
@@ -61,7 +61,7 @@ const DECIDED: [Given; 6] = [
     ("--tolerance", |o| o.tolerance.is_some()),
 ];
 
-/// Refuses what cannot be meant, beside other options and a run of `duration` [s] in some precision.
+/// Checks a goal together with the other options, for a run of `duration` [s] in a precision.
 ///
 /// # Errors
 /// [`GoalError`].
@@ -90,10 +90,10 @@ pub fn check_goal(
     }
 }
 
-/// A time with or without its unit: `0.001`, `1ms`, `500us`, `2s` [s].
+/// Parses a time with or without a unit: `0.001`, `1ms`, `500us`, `2s` [s].
 ///
 /// # Errors
-/// What to write instead.
+/// Message with the accepted form of a time.
 pub fn time(text: &str) -> Result<f64, String> {
     let text = text.trim();
     let units = [("ms", 1e-3), ("us", 1e-6), ("ns", 1e-9), ("s", 1.0)];
@@ -104,7 +104,7 @@ pub fn time(text: &str) -> Result<f64, String> {
     })
 }
 
-/// The distance of neighbouring numbers: errors below it are not resolved, whatever the method.
+/// Relative distance of neighbouring numbers of a precision. No method resolves smaller errors.
 fn finest(precision: Precision) -> f64 {
     match precision {
         Precision::F32 => f64::from(f32::EPSILON),

@@ -1,7 +1,8 @@
-//! The choice of formulation, integrator and step by measurement: for a required error of the outputs, or for a deadline.
+//! Choice of formulation, integrator and step by measurement, for a required error of the outputs or for a deadline.
 //!
-//! Structure says who cannot run the scene. A short pilot runs the others over the whole span with coarse settings, takes their
-//! errors against the best of them, and predicts what the required error costs each. Time comes from a [`Clock`] that is given.
+//! Methods that the scene's structure excludes are left out. A short pilot runs the others with coarse settings over the whole span. It
+//! compares their outputs with those of the best one, and predicts the CPU time that each needs for the required error. A given [`Clock`]
+//! measures the time.
 
 mod bench;
 pub(crate) mod candidates;

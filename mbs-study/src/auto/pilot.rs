@@ -1,7 +1,7 @@
-//! Pilot: which candidate gets the next trial, and when enough is known.
+//! Pilot of a choice: it decides which candidate gets the next trial, and when enough is known.
 //!
-//! All trials go over the whole span, so that what happens late in the run is seen as well. The candidate with the smallest prediction is
-//! tried next, those without a trial first, until half of no prediction is below the cheapest that reaches the required error.
+//! All trials run over the whole span, so that late events count as well. Candidates without a trial are tried first, then the one with the
+//! smallest predicted time. The pilot ends when half of each predicted time exceeds the cheapest time that reaches the required error.
 
 use super::candidates::{Next, PilotCandidate, Tried};
 use super::estimate::{Basis, Point, Prediction, SMALL, error_of_finer};
@@ -11,23 +11,24 @@ use crate::compare::method::Control;
 use core::fmt::{self, Debug, Formatter};
 use mbs_scene::format::duration;
 
-/// CPU time of the pilot [s]: what a user does not wait for.
+/// CPU time of the pilot [s]: a user does not notice this delay.
 pub const BUDGET: f64 = 0.2;
-/// CPU time of the pilot, relative to the run that it predicts [-]: a long run may have a longer pilot.
+/// CPU time of the pilot, relative to the predicted run [-]: a long run may have a longer pilot.
 pub const BUDGET_FRACTION: f64 = 0.05;
-/// A trial is given up where it takes longer than the cheapest by this factor [-]: it cannot win, but its time may be off by half.
+/// Ratio of a trial's time to the cheapest time at which the trial is given up [-]. Such a candidate cannot win, although its time may be
+/// wrong by half.
 pub(super) const GIVE_UP: f64 = 1.5;
 
-/// A place in the ranking.
+/// Place of a candidate in the ranking.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PilotPlace {
-    /// Number of the method among the candidates.
+    /// Index of the method among the candidates.
     pub candidate: usize,
     /// Prediction of setting, error and CPU time.
     pub prediction: Prediction,
     /// Did a trial reach the required error?
     pub reaches: bool,
-    /// Whether the time is that of a run with this setting.
+    /// Whether the time was measured by a run with this setting.
     pub is_timed: bool,
 }
 
@@ -39,16 +40,16 @@ pub(crate) struct Best {
     pub(crate) own: f64,
 }
 
-/// The search for the cheapest.
+/// Search for the cheapest candidate that reaches the required error.
 pub struct PilotSearch<'a> {
     pub(crate) bench: &'a mut dyn Bench,
     /// Candidates of the search.
     pub candidates: Vec<PilotCandidate>,
     pub(crate) target: PilotTarget,
     pub(crate) best: Option<Best>,
-    /// The budget ended it.
+    /// Did the budget end the search?
     pub(crate) is_cut: bool,
-    /// CPU time that is kept for second trials [s].
+    /// CPU time that is reserved for second trials [s].
     reserve: f64,
 }
 
@@ -59,7 +60,7 @@ impl Debug for PilotSearch<'_> {
 }
 
 impl<'a> PilotSearch<'a> {
-    /// A search among candidates, none of which is tried.
+    /// Makes a search among candidates, none of which has a trial yet.
     pub fn new(
         bench: &'a mut dyn Bench,
         candidates: Vec<PilotCandidate>,
@@ -69,7 +70,8 @@ impl<'a> PilotSearch<'a> {
         Self { bench, candidates, target, best: None, is_cut: false, reserve }
     }
 
-    /// Returns the number of instants that the fastest candidate passes in half of the time, where none got to the end in it.
+    /// Returns a smaller number of instants for shorter trials, if the budget ended the search. It is half of the instants that the fastest
+    /// candidate reached.
     pub(crate) fn shorter(&self, count: usize) -> Option<usize> {
         let reached = self.candidates.iter().flat_map(|c| c.trials.iter().map(|t| t.trial.reached));
         let most = reached.fold(0.0, f64::max);
@@ -82,7 +84,7 @@ impl<'a> PilotSearch<'a> {
         (self.is_cut && part > 0).then_some(part)
     }
 
-    /// Runs the trials and returns the ranking: the cheapest of those that reach the required error first.
+    /// Runs the trials and returns the ranking. The cheapest candidate that reaches the required error comes first.
     pub fn run(&mut self) -> Vec<PilotPlace> {
         while let Some((i, setting, limit)) = self.pick().or_else(|| self.confirming()) {
             self.attempt(i, setting, limit);
@@ -91,11 +93,11 @@ impl<'a> PilotSearch<'a> {
         self.ranked(&timed)
     }
 
-    /// The next trial where errors are not known well enough for a choice.
+    /// Returns the next trial if errors are not known well enough for a choice.
     ///
-    /// The best trial has a tenth of the required error. Chaotic motion (double-pendulum at 1e-2) and steps that the results hold
-    /// (simple-pendulum at 1e-6) let trials of a method agree better than they are. Another rule agrees with it within the required error:
-    /// trials of rk853 for rssr at 1e-2 agree within a tenth of what they err by.
+    /// Two conditions must hold. The error of the best trial is at most a tenth of the required error. In chaotic motion (double-pendulum at
+    /// 1e-2), or where instants limit the steps (simple-pendulum at 1e-6), trials agree better than their errors. A trial by another
+    /// integrator also reaches the required error. Trials of rk853 for rssr at 1e-2 differ by only a tenth of their errors.
     fn confirming(&mut self) -> Option<(usize, f64, f64)> {
         let (best, left) = (self.best?, self.left());
         self.cheapest()?;
@@ -125,7 +127,7 @@ impl<'a> PilotSearch<'a> {
         pick
     }
 
-    /// Who is tried next, with what, and for how long: the one that promises most.
+    /// Returns the next trial: candidate, setting and time limit [s]. The candidate with the smallest promised time is chosen.
     fn pick(&mut self) -> Option<(usize, f64, f64)> {
         let (cheapest, left) = (self.cheapest(), self.left());
         let mut pick = None;
@@ -161,8 +163,9 @@ impl<'a> PilotSearch<'a> {
         pick
     }
 
-    /// Before any reaches the required error, each first trial has twice its share of the budget without the reserve, and twice the time of the
-    /// fastest trial, at most [s]. The reserve is for second trials, without which no error is known (iltis-jump at 1e-2).
+    /// Returns the time limit of a trial [s]. Before any candidate reaches the required error, a first trial gets at most twice its part of
+    /// the budget without the reserve. It also gets at most twice the time of the fastest trial. The reserve is for second trials, without
+    /// which no error is known (iltis-jump at 1e-2).
     fn time_limit(&self, i: usize, left: f64) -> f64 {
         let is_untried = |c: &&PilotCandidate| c.out.is_none() && c.trials.is_empty();
         if !is_untried(&&self.candidates[i]) {
@@ -174,7 +177,7 @@ impl<'a> PilotSearch<'a> {
         (2.0 / (untried + 1.0) * (left - self.reserve)).min(2.0 * fastest)
     }
 
-    /// CPU time that a candidate is expected to take for the required error, where it is known; 0 before its first trial [s].
+    /// CPU time that a candidate is expected to need for the required error, if known; 0 before its first trial [s].
     fn promise(&self, i: usize) -> f64 {
         let candidate = &self.candidates[i];
         let predicted = candidate.predict(self.target).map(|p| p.seconds);
@@ -190,9 +193,9 @@ impl<'a> PilotSearch<'a> {
         BUDGET.max(BUDGET_FRACTION * run.unwrap_or(0.0))
     }
 
-    /// Returns a place by theory where no trial came near the required error. Its tolerance is a tenth of that error.
-    /// Its integrator is the one, of those with a control of their own, that takes least by its order. A law so far beyond its trials asks for
-    /// any setting (iltis-links at 1e-6, on a machine that is busy).
+    /// Returns a place by theory if no trial came near the required error. The tolerance is a tenth of that error. The integrator is the one
+    /// with its own step control that is fastest by its theoretical order. The measured power law is not used, because it may give any
+    /// setting so far beyond the trials (iltis-links at 1e-6, on a busy machine).
     pub(crate) fn by_theory(&self, places: &[PilotPlace]) -> Option<PilotPlace> {
         let is_near = |p: &PilotPlace| p.reaches || p.prediction.error <= self.target.error / SMALL;
         if self.target.deadline.is_some() || places.first().is_some_and(is_near) {
@@ -216,7 +219,7 @@ impl<'a> PilotSearch<'a> {
         self.budget() - self.bench.spent()
     }
 
-    /// One more trial of a candidate, for `limit` [s] at most.
+    /// Runs one more trial of a candidate, for `limit` [s] at most.
     fn attempt(&mut self, i: usize, setting: f64, limit: f64) {
         let aim = if self.target.deadline.is_some() { Aim::Steps } else { Aim::Rows };
         let candidate = &mut self.candidates[i];
@@ -240,12 +243,12 @@ impl<'a> PilotSearch<'a> {
         self.compare(i, setting);
     }
 
-    /// Takes the distances of a new trial from the others, and the errors of all from the best.
+    /// Computes the distances of a new trial from the others, and the errors of all trials from the best.
     fn compare(&mut self, i: usize, setting: f64) {
         let is_new = |t: &Tried| t.setting.to_bits() == setting.to_bits();
         let Some(k) = self.candidates[i].trials.iter().position(is_new) else { return };
         if self.candidates[i].trials[k].trial.end != TrialEnd::Done {
-            // what was given up before may have been the best
+            // the list of trials has changed: errors are computed anew
             self.rate();
             return;
         }
@@ -257,9 +260,9 @@ impl<'a> PilotSearch<'a> {
             let d = self.distance(&a.rows, &b.rows);
             let method = self.candidates[i].method;
             let finer = |fine: &Trial, coarse: &Trial| error_of_finer(&method, fine, coarse, d);
-            // bounds of both, from above and from below
+            // upper and lower bounds of the errors of both trials
             let (most, least) = if i != j {
-                // two rules have different errors: where they agree, both are small
+                // two integrators have different errors: if their results agree, both errors are small
                 let is_same = method.integrator == self.candidates[j].method.integrator;
                 let of = |is_held: bool| if is_held && !is_same { d } else { f64::INFINITY };
                 let is_held = [self.candidates[i].is_held(a), self.candidates[j].is_held(b)];
@@ -279,7 +282,7 @@ impl<'a> PilotSearch<'a> {
         self.rate();
     }
 
-    /// Returns the completed trials: candidate and place among its trials.
+    /// Returns the completed trials, each by candidate and index among its trials.
     fn done(&self) -> Vec<(usize, usize)> {
         let of = |(j, c): (usize, &PilotCandidate)| {
             let is_done =
@@ -289,13 +292,13 @@ impl<'a> PilotSearch<'a> {
         self.candidates.iter().enumerate().flat_map(of).collect()
     }
 
-    /// Outputs that agree to the last digit differ by it.
+    /// Distance of the outputs of two trials. It is at least the machine precision, also for equal outputs.
     fn distance(&self, a: &super::trial::Rows, b: &super::trial::Rows) -> f64 {
         let d = self.bench.distance(a, b);
         if d.is_nan() { f64::INFINITY } else { d.max(f64::EPSILON) }
     }
 
-    /// Errors of all trials: their distance from the best, and its own error.
+    /// Sets the errors of all trials: the distance from the best trial plus the error of the best trial.
     fn rate(&mut self) {
         let done = self.done();
         let own = |&(j, l): &(usize, usize)| self.candidates[j].trials[l].own();
@@ -312,13 +315,13 @@ impl<'a> PilotSearch<'a> {
         }
     }
 
-    /// CPU time of the cheapest trial that reached the required error [s]: as measured, since a prediction may be too low.
+    /// CPU time of the cheapest trial that reached the required error [s]. It is a measured time, since a predicted one may be too low.
     fn cheapest(&self) -> Option<f64> {
         let left = self.candidates.iter().filter(|c| c.out.is_none());
         left.filter_map(|c| c.seen(self.target.error)).map(|p| p.seconds).reduce(f64::min)
     }
 
-    /// Returns the place of a candidate that is not out, by what is known of it.
+    /// Returns the place of a candidate that is not excluded, by its trials and its prediction.
     fn place(&self, i: usize) -> Option<PilotPlace> {
         let candidate = &self.candidates[i];
         let p = candidate.predict(self.target).filter(|_| candidate.out.is_none())?;
@@ -335,7 +338,8 @@ impl<'a> PilotSearch<'a> {
         Some(PilotPlace { candidate: i, prediction, reaches: seen.is_some(), is_timed: false })
     }
 
-    /// Tries those that are close to the cheapest with their own settings, and times them once more, interleaved, within the budget.
+    /// Tries the candidates whose predicted time is close to the cheapest with their predicted settings. Then it times them twice more,
+    /// interleaved, within the budget.
     fn retime(&mut self) -> Vec<(usize, f64)> {
         while let Some((i, setting, limit)) = self.untried() {
             self.attempt(i, setting, limit);
@@ -362,8 +366,8 @@ impl<'a> PilotSearch<'a> {
         timed
     }
 
-    /// A finalist that has not run with its setting, if there is time for it. The setting is the predicted one, or halfway to what was seen
-    /// to reach the required error where that was missed.
+    /// Returns a finalist that has not run with its predicted setting, if there is time for it. If a predicted setting missed the required
+    /// error before, the new one is the geometric mean of the prediction and a setting that reached it.
     fn untried(&mut self) -> Option<(usize, f64, f64)> {
         let left = self.left();
         let of = |place: &PilotPlace| {
@@ -374,7 +378,7 @@ impl<'a> PilotSearch<'a> {
                 Some(seen) if candidate.has_missed => candidate.fit((p.setting * seen).sqrt()),
                 _ => p.setting,
             };
-            // the next finer whole number of steps is that of the last trial
+            // the setting is known too if no whole number of steps lies between it and the last trial
             let is_known = candidate.has_tried(setting)
                 || candidate.is_settled(self.target) && seen.is_some() && candidate.has_missed;
             let is_new = !is_known && p.seconds < left && candidate.may_continue();
@@ -383,7 +387,7 @@ impl<'a> PilotSearch<'a> {
         self.finalists().iter().find_map(of)
     }
 
-    /// Returns the places within [`GIVE_UP`] of the cheapest.
+    /// Returns the places whose time is at most [`GIVE_UP`] times that of the cheapest.
     fn finalists(&self) -> Vec<PilotPlace> {
         let mut places = self.ranked(&[]);
         let Some(first) = places.first().copied() else { return places };
@@ -392,8 +396,8 @@ impl<'a> PilotSearch<'a> {
         places
     }
 
-    /// Returns the places in their order. Those that reach the required error come first, by their times. The others follow by their times, or by
-    /// their errors where a deadline gives the time. At last come those that are out and completed a trial.
+    /// Returns the places in the order of the ranking. Candidates that reach the required error come first, sorted by time. The others
+    /// follow, sorted by time, or by error if a deadline gives the time. Excluded candidates that completed a trial come last.
     fn ranked(&self, timed: &[(usize, f64)]) -> Vec<PilotPlace> {
         let mut places: Vec<PilotPlace> =
             (0..self.candidates.len()).filter_map(|i| self.place(i)).collect();
@@ -424,7 +428,7 @@ impl<'a> PilotSearch<'a> {
     }
 }
 
-/// CPU time that a trial is expected to take; 0 for the first [s].
+/// CPU time that a trial is expected to take; 0 for a candidate's first trial [s].
 fn takes(candidate: &PilotCandidate, setting: f64) -> f64 {
     let Some(last) = candidate.trials.last() else { return 0.0 };
     let ratio = (last.setting / setting).powf(candidate.law().cost);

@@ -1,4 +1,4 @@
-//! From a goal to a run: the ranked settings, and what happens where the first of them stops.
+//! Plan of a run for a goal: ranked settings, and the next settings if a run stops.
 
 use super::bench::{self, Clock};
 use super::choose::{Pick, Pilot, Task, instants, methods};
@@ -15,7 +15,7 @@ use std::time::Instant;
 /// Settings to run with, in the order in which they are tried.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Plan {
-    /// Settings by rank; `≥ 1`.
+    /// Settings by rank, at least one.
     pub ranked: Vec<ResolvedMethod>,
 }
 
@@ -23,24 +23,24 @@ impl Plan {
     /// Returns the settings that run first.
     ///
     /// # Panics
-    /// Never: a plan has at least one.
+    /// Never: a plan has at least one element.
     #[must_use]
     pub fn first(&self) -> &ResolvedMethod {
         &self.ranked[0]
     }
 }
 
-/// Clock of the processor: CPU time of this thread, or wall time where threads share the work.
+/// Clock of the processor: CPU time of this thread, or wall time if several threads run the model.
 #[derive(Debug)]
 pub enum Processor {
     /// CPU time of this thread.
     Thread(ThreadTime),
-    /// Time on the wall.
+    /// Wall time since an instant.
     Wall(Instant),
 }
 
 impl Processor {
-    /// For a run with this number of threads.
+    /// Makes the clock for a run with this number of threads.
     #[must_use]
     pub fn new(threads: usize) -> Self {
         if threads > 1 { Self::Wall(Instant::now()) } else { Self::Thread(ThreadTime::now()) }
@@ -56,10 +56,10 @@ impl Clock for Processor {
     }
 }
 
-/// Decides how a scene is run: as the settings say where nothing is required, else by a pilot.
+/// Decides how a scene is run: with the given settings if there is no goal, otherwise by a pilot.
 ///
 /// # Errors
-/// A goal that cannot be meant beside these options; a scene that is none in the precision asked for; an interrupt.
+/// A goal that these options do not allow, a scene that is refused in the requested precision, or an interrupt.
 pub fn plan(run: &PreparedRun<'_>, clock: &mut dyn Clock) -> Result<Plan, SimulationError> {
     let (goal, base, settings) = (run.options().goal, &run.method, &run.settings);
     if !goal.is_some() {
@@ -81,7 +81,7 @@ pub fn plan(run: &PreparedRun<'_>, clock: &mut dyn Clock) -> Result<Plan, Simula
     Ok(Plan { ranked: ranked(&run.scene, &task, (&picks, &methods), &choice) })
 }
 
-/// Settings of the picks; where there is none, those that were there, which will say why nothing runs.
+/// Settings of the picks. If there are none, the original settings are returned: their run reports why no method starts.
 fn ranked(
     scene: &Scene<f64>,
     task: &Task<'_>,
@@ -107,7 +107,7 @@ fn ranked(
     ranked
 }
 
-/// Returns picks for a pilot without a result: every method that starts, in the order of its candidates. Each has the step of the scene, or a
+/// Returns picks if the pilot had no result: every method that starts, in the order of the candidates. Each has the step of the scene, or a
 /// tolerance of a tenth of the required error.
 fn blind(task: &Task<'_>, choice: &PilotReport, methods: &[MethodCase]) -> Vec<Pick> {
     let starts = |m: &&MethodCase| {
@@ -124,11 +124,11 @@ fn blind(task: &Task<'_>, choice: &PilotReport, methods: &[MethodCase]) -> Vec<P
     left.into_iter().map(|m| Pick { method: *m, setting: setting(m) }).collect()
 }
 
-/// Runs a plan: where a run stops, the next of the ranking is tried, and the choice says so. Where none gets to the end, the one
-/// that got furthest is given.
+/// Runs the settings of a plan. If a run stops, the settings of the next rank are tried, and the report of the choice records this. If all
+/// runs stop, the one that got furthest is returned.
 ///
 /// # Errors
-/// As for [`plan`], and a run that is refused.
+/// Those of [`plan`], and a run that is refused.
 pub fn run_plan(
     run: &PreparedRun<'_>,
     plan: &Plan,
@@ -138,7 +138,7 @@ pub fn run_plan(
     run_ranked(plan, &names, |settings| run.run_by(&read, settings, watchers))
 }
 
-/// [`run_plan`] with what a run is.
+/// Runs a plan as [`run_plan`] does, with a given function for one run.
 pub(super) fn run_ranked(
     plan: &Plan,
     names: &Names,

@@ -1,4 +1,4 @@
-//! A choice as evidence, and why in words.
+//! Report of a choice: the evidence, and the reasons in words.
 
 use super::candidates::{PilotCandidate, Tried};
 use super::estimate::Basis;
@@ -9,7 +9,7 @@ use mbs::record::Candidate as Entry;
 use mbs::record::{PilotReference, PilotReport, TrialEntry};
 use mbs_scene::format::few;
 
-/// Returns the evidence of the choice: the ranked candidates first, then those that are out.
+/// Returns the evidence of the choice: ranked candidates first, then excluded ones.
 pub(super) fn evidence(
     search: &mut PilotSearch<'_>,
     places: &[PilotPlace],
@@ -59,7 +59,7 @@ pub(super) fn evidence(
     }
 }
 
-/// A candidate by itself, with its trials.
+/// Makes the entry of one candidate with its trials.
 pub(super) fn entry(candidate: &PilotCandidate) -> Entry {
     let trial = |t: &Tried| TrialEntry {
         setting: t.setting,
@@ -85,7 +85,7 @@ pub(super) fn entry(candidate: &PilotCandidate) -> Entry {
     }
 }
 
-/// Returns in words what a prediction stands on.
+/// Returns the basis of a prediction in words.
 fn basis(place: &PilotPlace) -> String {
     match (place.is_timed, place.prediction.basis) {
         (true, _) => "timed with this setting".to_owned(),
@@ -124,12 +124,12 @@ fn notes(search: &PilotSearch<'_>, places: &[PilotPlace]) -> Vec<String> {
     notes
 }
 
-/// The choice has not been confirmed from the other coordinates.
+/// Note that the method in other coordinates did not confirm the choice, with the reason.
 pub(super) fn unconfirmed(why: &str) -> String {
     format!("index-3, which shares no model with the chosen one, does not confirm it: {why}")
 }
 
-/// CPU times of the whole run from those of the pilot's span, and a word about it.
+/// Scales CPU times of a shorter pilot span to the whole run, and adds a note about it.
 pub(super) fn extend(choice: &mut PilotReport, times: f64) {
     if times <= 1.0 + f64::EPSILON {
         return;

@@ -1,4 +1,4 @@
-//! Structure of a scene, known before anything is run: which methods cannot run it, and what makes it dear.
+//! Structure of a scene, known before any run: methods that it excludes, and features that cost time.
 
 use crate::compare::method::MethodCase;
 use mbs::inside::AssembledScene;
@@ -16,17 +16,17 @@ pub(crate) struct Structure {
     pub(crate) bodies: usize,
     /// Coordinates, constraints, their rank, in natural coordinates.
     pub(crate) natural: Option<[usize; 3]>,
-    /// Cut joints of the tree, or why there is none.
+    /// Number of cut joints of the spanning tree, or the reason why there is no tree.
     pub(crate) loops: Result<usize, String>,
     pub(crate) guides: usize,
     /// Bumpers, limits and tires.
     pub(crate) contacts: usize,
-    /// The highest frequency of a spring on the masses beside it, roughly [rad/s].
+    /// Highest angular frequency of a spring between its two bodies, estimated [rad/s].
     pub(crate) frequency: f64,
     pub(crate) duration: f64,
 }
 
-/// Looks at a scene that runs for `duration` [s].
+/// Determines the structure of a scene that runs for `duration` [s].
 pub(crate) fn structure<T: Real, const D: usize>(
     scene: &Scene<T>,
     duration: f64,
@@ -49,12 +49,12 @@ pub(crate) fn structure<T: Real, const D: usize>(
     }
 }
 
-/// Cut joints of a scene's tree.
+/// Number of cut joints of a scene's spanning tree.
 fn loops<T: Real, S: Space<T>>(scene: &Scene<T>) -> Result<usize, TreeError> {
     Ok(TreeModel::<T, S>::new(scene)?.cut_joints().count())
 }
 
-/// omega = sqrt(k (1/m1 + 1/m2)) of a spring along a line [rad/s].
+/// Angular frequency of a spring along a line, omega = sqrt(k (1/m1 + 1/m2)), with stiffness k and the masses of its bodies [rad/s].
 fn frequency<T: Real>(scene: &Scene<T>, effect: &Effect<T>) -> f64 {
     let of = |body: &BodyId| match body {
         BodyId::Body(i) => scene.bodies.get(*i).map_or(0.0, |body| 1.0 / body.mass.to_f64()),
@@ -90,7 +90,7 @@ impl Structure {
         }
     }
 
-    /// Returns sentences about the structure.
+    /// Describes the structure in short sentences.
     pub(crate) fn words(&self) -> Vec<String> {
         let mut words = vec![format!(
             "{} in {} dimensions",
@@ -123,7 +123,7 @@ impl Structure {
             ));
         }
         if self.frequency > 0.0 {
-            // an explicit method makes at least two in a period, roughly
+            // a stable explicit method makes about two steps or more in a period
             let steps = 2.0 * self.frequency * self.duration / core::f64::consts::TAU;
             words.push(format!(
                 "its stiffest spring turns at about {} rad/s: explicit integrators need {} steps or more",

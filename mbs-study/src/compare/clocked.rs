@@ -1,16 +1,16 @@
-//! CPU times of single steps: their classes, and what most of them stay below.
+//! CPU times of single steps: a histogram and quantiles.
 
 use crate::compare::results::StepTimes;
 use mbs_realtime::nearest_rank;
 
-/// Classes of times in a decade. Chosen, not tuned: a class is 26 % wide.
+/// Number of histogram classes in a decade. Chosen, not tuned: a class is 26 % wide.
 const PER_DECADE: f64 = 10.0;
-/// Fraction of a class by which a time may be below its edge [-]: the logarithm is rounded.
+/// Fraction of a class by which a time may be below its lower edge [-], since the logarithm is rounded.
 const ROUNDING: f64 = 1e-9;
 
-/// Sorts times of steps [s] into classes; `reading` [s] is what reading the clock takes.
+/// Makes a histogram and quantiles of the times of steps [s]. `reading` is the time of one reading of the clock [s], which is subtracted.
 pub fn step_times(mut times: Vec<f64>, reading: f64) -> Option<StepTimes> {
-    // Least time of a step [s]: a tick of the clock.
+    // Smallest time of a step [s]: one tick of the clock.
     const TICK: f64 = 1e-9;
     for time in &mut times {
         *time = (*time - reading).max(TICK);

@@ -1,4 +1,4 @@
-//! The instants of a comparison, and the steps between them.
+//! Instants of a comparison, and the steps between them.
 
 use super::ladder::Instants;
 use mbs::inside::{Fixed, Stretch};
@@ -8,12 +8,12 @@ use mbs_core::Real;
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Course {
     pub(crate) instants: Instants,
-    /// Steps between two instants, where their length is fixed.
+    /// Number of steps between two instants, if their length is fixed.
     pub(crate) between: Option<u64>,
 }
 
 impl Course {
-    /// From instant to instant.
+    /// Intervals from instant to instant, each with its fixed steps if there are any.
     pub(crate) fn stretches<T: Real>(&self) -> impl Iterator<Item = Stretch<T>> {
         let Self { instants, between } = *self;
         (0..instants.count).map(move |k| {

@@ -1,4 +1,4 @@
-//! Choice of `mbs run --error` on the scene, compared with the measured times of all methods.
+//! Choice of the method by `mbs run --error` on the scene, compared with the measured times of all methods.
 
 use super::reference::Known;
 use super::store::ResultStore;
@@ -8,13 +8,13 @@ use crate::compare::results::{Comparison, JudgedChoice, MethodRuns, Status};
 use mbs::inside::in_space;
 use mbs::{Method, ResolvedMethod};
 
-/// Timings of a chosen run, of which the least counts. Chosen, not tuned.
+/// Number of timings of a chosen run, of which the shortest counts. Chosen, not tuned.
 const TURNS: u32 = 9;
-/// Place of the choices in the progress bar [-].
+/// Position of the choices in the progress bar, as a fraction of it [-].
 const DONE: f64 = 0.96;
 
 impl Study<'_> {
-    /// A choice for each error that is ranked: its pilot, the run it chose, and how that compares with the best of all.
+    /// Makes a choice for each error of the ranking: its pilot, the chosen run, and a comparison with the best method of all.
     pub(super) fn choices(
         &self,
         (comparison, known): (&mut Comparison, &Known),
@@ -79,7 +79,7 @@ impl Study<'_> {
         judged
     }
 
-    /// A chosen run, timed interleaved with the runs of the best of all beside the error: what slows the machine for a while slows both.
+    /// Times a chosen run, interleaved with the runs of the best method around the error. A disturbance of the machine then slows both.
     fn chosen_run(&self, pick: &Pick, known: &Known, best: Option<&Rival>) -> Result<Held, String> {
         let (settings, course) = self.course(&pick.method, pick.setting, known)?;
         let recorded = self.scenes.recorded(&settings, &course, f64::from(u16::MAX));
@@ -103,14 +103,14 @@ impl Study<'_> {
     }
 }
 
-/// True error and least CPU time of a chosen run [s], and of the best at the wanted error [s].
+/// True error and shortest CPU time of a chosen run [s], and the time of the best method at the required error [s].
 struct Held {
     true_error: Option<f64>,
     seconds: Option<f64>,
     best_seconds: Option<f64>,
 }
 
-/// The best of all methods at an error, with its runs beside that error alone, not timed yet.
+/// Best of all methods at an error, with only its runs around that error; they are not timed yet.
 #[derive(Clone)]
 struct Rival {
     method: usize,

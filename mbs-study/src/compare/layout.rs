@@ -1,16 +1,16 @@
-//! Place of stack and heap in memory, another one for each timing. Where they happen to lie decides some per cent of a time; a process that
-//! keeps them where they are measures its luck, however often it repeats.
+//! Placement of stack and heap in memory, changed for each timing. The placement changes a time by some per cent. With one fixed placement,
+//! repeated timings would all have the same bias.
 
 use std::hint::black_box;
 
-/// Least bytes of a level of the stack: no power of two, so that levels begin at all places within a page.
+/// Smallest size of a stack level, in bytes. It is no power of two, so that levels begin at all positions within a page.
 const LEVEL: usize = 208;
-/// Most levels of the stack: prime, so that seven at a time come to each. Chosen, not tuned.
+/// Number of stack levels, which is prime: steps of seven levels reach each of them. Chosen, not tuned.
 pub const LEVELS: u32 = 19;
-/// Blocks of the heap that are held, so that what comes later is elsewhere. Chosen, not tuned.
+/// Number of heap blocks that are allocated before the call, so that later blocks have other addresses. Chosen, not tuned.
 const BLOCKS: u32 = 48;
 
-/// Calls a function with stack and heap moved, by an amount that depends on the turn alone.
+/// Calls a function with stack and heap moved. The displacement depends on `turn` only.
 pub fn moved<R>(turn: u32, call: impl FnOnce() -> R) -> R {
     let size = |k: u32| (32_usize << ((k + turn) % 8)) + 16 * ((k * (turn + 3)) % 11) as usize;
     let held: Vec<Vec<u8>> = (0..BLOCKS)

@@ -1,4 +1,4 @@
-//! Maps of where index-3 and index-1 converge: short runs over step and fixed penalty.
+//! Maps of the convergence of index-3 and index-1: short runs over step and fixed penalty.
 
 use super::course::Course;
 use super::ladder::{Instants, work};
@@ -7,13 +7,13 @@ use super::reference::Known;
 use crate::compare::results::{Cell, ConvergenceMap, Status};
 use mbs::{FormulationKind, Method, Precision, ResolvedMethod};
 
-/// Penalties of a map [-]: two decades apart.
+/// Penalties of a map [-], two decades apart.
 pub(super) const PENALTIES: [f64; 7] = [1e3, 1e5, 1e7, 1e9, 1e11, 1e13, 1e15];
-/// Steps of a map, relative to the scene's [-]: half decades, to the nearest that fits.
+/// Steps of a map, relative to the scene's step [-]: about two per decade. Each is rounded to a step that divides the interval.
 const STEPS: [f64; 7] = [10.0, 3.0, 1.0, 0.3, 0.1, 0.03, 0.01];
-/// Steps of a run with the longest step. Chosen, not tuned: the map shows convergence, not accuracy.
+/// Number of steps of a run with the longest step. Chosen, not tuned: the map shows convergence, not accuracy.
 const LONGEST_STEPS: f64 = 20.0;
-/// Iterations of a step for the estimate of the work. Chosen, not tuned.
+/// Iterations of a step, assumed for the estimate of the work. Chosen, not tuned.
 const ITERATIONS: f64 = 3.0;
 
 /// Plan of the maps: instants, steps, formulations and precisions.
@@ -28,8 +28,8 @@ pub struct MapPlan {
 }
 
 impl MapPlan {
-    /// A map for each of the formulations and precisions; fewer steps, then none, where it would take more than `most` [s,
-    /// nominal] with these unknowns.
+    /// Plans a map for each formulation and precision. Steps are removed, if necessary all, until the nominal time is at most `most` [s].
+    /// `unknowns` is the number of coordinates and constraints.
     pub fn new(
         (instants, of_scene): (Instants, f64),
         (formulations, precisions): (Vec<FormulationKind>, Vec<Precision>),
@@ -61,13 +61,13 @@ impl MapPlan {
         self.between.iter().map(|n| self.instants.interval / *n as f64).collect()
     }
 
-    /// The formulations and precisions, each with a map.
+    /// Pairs of formulation and precision that have a map.
     pub(super) fn which(&self) -> impl Iterator<Item = (FormulationKind, Precision)> {
         let precisions = &self.precisions;
         self.formulations.iter().flat_map(|&f| precisions.iter().map(move |&p| (f, p)))
     }
 
-    /// One map, from its cells by steps between two instants and penalty.
+    /// Makes the map of one formulation and precision. `cell` computes a cell from the number of steps between two instants and the penalty.
     pub(super) fn map<E>(
         &self,
         (formulation, precision): (FormulationKind, Precision),
@@ -87,7 +87,7 @@ impl MapPlan {
         })
     }
 
-    /// One cell, for at most `most` seconds.
+    /// Computes one cell, in at most `most` seconds.
     pub(super) fn cell(
         &self,
         scenes: &Scenes,

@@ -1,21 +1,21 @@
-//! The methods that are compared: formulation, integrator, what chooses the steps, precision.
+//! Methods that are compared: formulation, integrator, step control and precision.
 
 use mbs::{FormulationKind, IntegratorKind, Method, Precision};
 
 /// Control of the length of the steps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Control {
-    /// No control: the setting is the step.
+    /// Fixed steps: the setting is the step [s].
     Fixed,
-    /// An estimate of the local error; the setting is its tolerance.
+    /// Control by an estimate of the local error; the setting is its tolerance.
     Error,
-    /// Control by the energy invariant; the setting is U, and L a hundredth of it.
+    /// Control by the energy invariant. The setting is the upper tolerance U; the lower tolerance L is a hundredth of it.
     Energy,
     /// Control by the integrator itself; the setting is its tolerance.
     Own,
 }
 
-/// Method that is compared.
+/// Method of a comparison.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct MethodCase {
     /// Formulation of the method.
@@ -28,18 +28,18 @@ pub struct MethodCase {
     pub precision: Precision,
 }
 
-/// Precisions that are compared; the last one only where it is asked for.
+/// Precisions of a comparison. Double-double is compared only on request.
 pub(crate) const PRECISIONS: [Precision; 3] =
     [Precision::F64, Precision::F32, Precision::DoubleDouble];
 
-/// Ways to step a formulation.
+/// Pairs of integrator and step control that a formulation allows.
 fn ways(formulation: FormulationKind) -> Vec<(IntegratorKind, Control)> {
     use Control::{Energy, Error, Fixed, Own};
     use IntegratorKind::{Extrapolation, Radau5, Rk4, Rk54, Rk853, Trapezoidal};
     let row = formulation.row();
     let mut ways = vec![(Trapezoidal, Error)];
     if row.energy_rule {
-        // its index changes with the step
+        // the index of this formulation changes with the step: steps are not fixed, but controlled
         ways.push((Trapezoidal, Energy));
     } else {
         ways.insert(0, (Trapezoidal, Fixed));
@@ -51,7 +51,7 @@ fn ways(formulation: FormulationKind) -> Vec<(IntegratorKind, Control)> {
 }
 
 impl MethodCase {
-    /// All that are wanted, by precision; none given means all of that kind.
+    /// Lists all requested methods, sorted by precision. An empty list requests all formulations, or the usual precisions.
     pub fn all(formulations: &[FormulationKind], precisions: &[Precision]) -> Vec<Self> {
         let mut methods = Vec::new();
         for precision in PRECISIONS {
@@ -75,7 +75,7 @@ impl MethodCase {
         methods
     }
 
-    /// Returns the name of the method: what is usual is left out, the precision is not.
+    /// Returns the name of the method. Usual settings are left out of it, the precision is not.
     pub fn name(&self) -> String {
         let integrator = match self.integrator {
             IntegratorKind::Trapezoidal => String::new(),
@@ -89,7 +89,7 @@ impl MethodCase {
         format!("{}{integrator}{control}, {}", self.formulation.name(), self.precision.name())
     }
 
-    /// Word for its control, in tables.
+    /// Word for the step control, in tables.
     pub(crate) fn control(&self) -> &'static str {
         match self.control {
             Control::Fixed => "fixed",
@@ -99,22 +99,21 @@ impl MethodCase {
         }
     }
 
-    /// Are its settings steps?
+    /// Are the settings of this method step lengths?
     pub fn is_fixed(&self) -> bool {
         self.control == Control::Fixed
     }
 
-    /// Returns the factor by which the next setting is more work: for a step that is shorter by `ratio`, or a tolerance smaller by that.
+    /// Returns the factor by which the work grows with the next setting: a step shorter by `ratio`, or a tolerance smaller by `ratio`.
     pub(crate) fn growth(&self, ratio: f64) -> f64 {
         ratio.powf(self.cost())
     }
 
-    /// Exponent of the CPU time in the setting, its sign changed.
+    /// Exponent of the CPU time in the setting, with its sign reversed.
     pub(crate) fn cost(&self) -> f64 {
         match (self.control, self.integrator) {
             (Control::Fixed, _) => 1.0,
-            // the local error goes with the cube of the step. In rk54 it goes with the fifth power, in rk853 with the eighth,
-            // in gbs about with the tenth, in radau5 with the fourth
+            // the local error grows with the third power of the step; with the 5th in rk54, 8th in rk853, 10th in gbs, 4th in radau5
             (Control::Error | Control::Energy, _) => 1.0 / 3.0,
             (Control::Own, IntegratorKind::Extrapolation) => 0.1,
             (Control::Own, IntegratorKind::Rk853) => 0.125,
@@ -123,18 +122,19 @@ impl MethodCase {
         }
     }
 
-    /// Order of the error in the mean step; what the tolerance stands for where the integrator controls its own steps.
+    /// Order of the error in the mean step. For an integrator with its own step control it is the order of the tolerance.
     pub(crate) fn order(&self) -> f64 {
         match (self.control, self.integrator) {
             (Control::Fixed, IntegratorKind::Rk4) => 4.0,
             (Control::Fixed, IntegratorKind::Newmark) => 1.0,
             (Control::Own, _) => 1.0 / self.cost(),
-            // the local error goes with the cube of the step, the global one with its square
+            // the local error grows with the cube of the step, the global error with its square
             (Control::Fixed | Control::Error | Control::Energy, _) => 2.0,
         }
     }
 
-    /// Returns the options of a run of this method, between instants `interval` apart, and first (or all) steps of `step` [s].
+    /// Returns the options of a run of this method. `interval` is the distance of the instants [s], and `step` the length of the first step,
+    /// or of all [s].
     pub(crate) fn overrides(&self, setting: f64, step: f64, interval: f64) -> Method {
         let control = match self.control {
             Control::Fixed | Control::Own => "fixed",

@@ -1,8 +1,8 @@
-//! Comparison of methods by their cost and error on one scene, against a reference that is not under test. It takes every formulation,
-//! integrator, control and precision over a range of steps or tolerances.
+//! Comparison of methods by their cost and error on one scene, against a reference by a method that is not compared. It covers every
+//! formulation, integrator, step control and precision over a range of steps or tolerances.
 //!
-//! Runs are recorded first, with their errors, then timed interleaved. Which runs are made follows from counts, not from a clock, so
-//! that two comparisons make the same ones. Each result is in the journal before the next run begins.
+//! Runs are recorded first, with their errors, then timed interleaved. Counts decide which runs are made, not a clock, so that two
+//! comparisons make the same runs. Each result is written to the journal before the next run begins.
 
 pub(crate) mod clocked;
 pub(crate) mod course;
@@ -41,7 +41,7 @@ use reference::Known;
 use std::path::Path;
 use store::ResultStore;
 
-/// Request of a comparison. Empty lists mean all there are, or the usual ones.
+/// Request of a comparison. An empty list means all elements, or the usual ones.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Request {
     /// Formulations to compare.
@@ -54,25 +54,25 @@ pub struct Request {
     pub tolerances: Vec<f64>,
     /// Errors at which methods are ranked.
     pub errors: Vec<f64>,
-    /// Length of the runs [s]; left out, the scene's.
+    /// Length of the runs [s]. Default: the scene's duration.
     pub duration: Option<f64>,
-    /// Least number of timings of each run. `≥ 2`.
+    /// Smallest number of timings of each run. `≥ 2`.
     pub repeats: u32,
-    /// CPU time of a run at most [s].
+    /// Largest CPU time of a run [s].
     pub time_limit: f64,
-    /// Work of all runs together, roughly [s]; it decides how far steps are refined where none are given.
+    /// Estimated work of all runs together [s]. Without given steps it limits how short steps become.
     pub budget: f64,
-    /// Are the convergence maps wanted?
+    /// Are convergence maps part of the comparison?
     pub maps: bool,
-    /// Is the choice by measurement to be made at each error, and compared with all methods?
+    /// Is the choice by measurement made at each error and compared with all methods?
     pub choices: bool,
-    /// Interrupt that ends the comparison from outside.
+    /// Interrupt by which the caller ends the comparison.
     pub interrupt: Interrupt,
 }
 
 /// Ratio of the budget of all runs to that of the convergence maps [-]. Chosen, not tuned.
 const MAP_BUDGETS: f64 = 10.0;
-/// Place of the convergence maps in the progress bar [-].
+/// Position of the convergence maps in the progress bar, as a fraction of it [-].
 const MAPS_DONE: f64 = 0.95;
 
 impl Default for Request {
@@ -95,7 +95,8 @@ impl Default for Request {
 }
 
 impl Request {
-    /// Precisions that the comparison runs in: those of its methods, and pairs of doubles where runs are the reference.
+    /// Precisions that the comparison needs: those of its methods and that of the reference. Reference runs are in double-double unless a
+    /// table is the reference.
     #[must_use]
     pub fn needed_precisions(&self, has_table: bool) -> Vec<Precision> {
         let mut needed: Vec<_> = MethodCase::all(&self.formulations, &self.precisions)
@@ -109,36 +110,36 @@ impl Request {
     }
 }
 
-/// A comparison that cannot be made.
+/// Reason why a comparison cannot be made.
 #[derive(Debug)]
 #[non_exhaustive]
 pub enum CompareError {
-    /// The scene is refused, with its place in the file, or cannot be had in one of the precisions.
+    /// Scene that is refused, with the place in its file, or that cannot be read in one of the precisions.
     Read(PrecisionError),
-    /// The journal cannot be used.
+    /// Journal that cannot be used.
     Journal(JournalError),
-    /// The directory has runs of an earlier start, which must not be lost.
+    /// Directory with runs of an earlier comparison, which must not be lost.
     Unfinished,
-    /// The reference table cannot be used.
+    /// Reference table that cannot be used.
     Table(TableError),
-    /// No method that could serve as a reference runs the scene to its end; why the last one stopped.
+    /// No reference method runs the scene to its end. The text says why the last one stopped.
     NoReference(String),
-    /// A number that must be positive and finite.
+    /// Number that is not positive and finite, by its name.
     NotPositive(&'static str),
-    /// A step that is longer than the run: both [s].
+    /// Step that is longer than the run: step and duration [s].
     StepTooLong(f64, f64),
-    /// Runs are to be timed this often, which says nothing of how far times differ.
+    /// Number of timings that is too small to show how far times differ.
     Repeats(u32),
 }
 
-/// Called as results come; does nothing by default.
+/// Observer of the progress of a comparison; its functions do nothing by default.
 pub trait Watch {
-    /// Called once, before the first run, with what will be done.
+    /// Receives a description of the planned work once, before the first run.
     fn plan(&mut self, text: &str) {
         let _ = text;
     }
 
-    /// This fraction of the work is done, from 0 to 1; `doing` says what is next.
+    /// Receives the fraction of the work that is done, from 0 to 1, and the next job in `doing`.
     fn doing(&mut self, share: f64, doing: &str) {
         let _ = (share, doing);
     }
@@ -161,21 +162,21 @@ struct Study<'a> {
     methods: Vec<MethodCase>,
     steps: Vec<f64>,
     tolerances: Vec<f64>,
-    /// The scene's own step [s].
+    /// Step of the scene [s].
     of_scene: f64,
     duration: f64,
     instants: Instants,
-    /// Work of one run at most, where settings are not given [s, nominal].
+    /// Largest nominal time of one run if settings are not given [s].
     most_work: f64,
 }
 
-/// Compares the methods on a scene. Runs are kept in the journal of `out`; without a directory they are lost with the process.
-/// `table` is the name and text of a reference table.
+/// Compares the methods on a scene. Runs are stored in the journal of the directory `out`; without a directory they are lost when the process
+/// ends. `table` is the name and text of a reference table.
 ///
-/// Provenance is left to the caller, but for the hash of the scene.
+/// The caller sets the provenance of the results, except the hash of the scene.
 ///
 /// # Errors
-/// A scene, table or journal that cannot be used; a scene without a reference. Runs that fail are results.
+/// A scene, table or journal that cannot be used, or a scene without a reference. Runs that fail are results, not errors.
 pub fn compare(
     document: &SceneFile,
     request: &Request,
@@ -215,7 +216,7 @@ pub fn compare(
     };
     comparison.provenance.scene_hash = hash(&document.whole_text());
     if known.is_refuted {
-        // nothing is ranked by a table that no method comes near
+        // methods are not ranked by a table that independent formulations refute
         comparison.digest(&[]);
         return Ok(comparison);
     }
@@ -228,10 +229,10 @@ pub fn compare(
     Ok(comparison)
 }
 
-/// Reads the text of a reference table for a scene, at the instants of a comparison as usual.
+/// Checks the text of a reference table for a scene, at the default instants of a comparison.
 ///
 /// # Errors
-/// [`TableError`] where it cannot be used.
+/// [`TableError`] if the table cannot be used.
 pub fn check_table(scene: &Scene<f64>, text: &str) -> Result<(), TableError> {
     let of_scene = scene.solver.step.unwrap_or(DEFAULT_STEP).min(scene.duration);
     let steps = ladder::steps(&[], of_scene, scene.duration);
@@ -263,8 +264,8 @@ impl<'a> Study<'a> {
         let methods = MethodCase::all(&request.formulations, &request.precisions);
         let steps = ladder::steps(&request.steps, of_scene, duration);
         let instants = Instants::new(duration, &steps);
-        // a recorded run, the repeats, and about as many where the ranking is decided; the settings before the last take about as
-        // much as it does
+        // each run is recorded once, timed `repeats` times, and about as often again if it decides the ranking; all coarser settings of a
+        // method take about as much as its last one
         let passes = 2.0 * f64::from(request.repeats) + 1.0;
         let most_work = request.budget / (methods.len().max(1) as f64 * passes * 2.0);
         Self {
@@ -281,7 +282,7 @@ impl<'a> Study<'a> {
         }
     }
 
-    /// Returns in words what the comparison is going to do.
+    /// Describes in words the runs of the comparison.
     fn plan(&self, resumed: usize) -> String {
         let list = |numbers: &[f64]| {
             let ends = [numbers.first(), numbers.last()].map(|x| x.copied().unwrap_or_default());
@@ -303,7 +304,7 @@ impl<'a> Study<'a> {
         text
     }
 
-    /// Coordinates and constraints in natural coordinates, roughly: before a model is built.
+    /// Estimated number of coordinates and constraints in natural coordinates, before a model is built.
     fn unknowns(&self) -> usize {
         let of_body = if self.scenes.double.dimension.count() == 2 { 6 } else { 24 };
         of_body * self.scenes.double.bodies.len()

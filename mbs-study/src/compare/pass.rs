@@ -1,4 +1,4 @@
-//! One run of a scene: recorded, with its steps timed one by one, or timed as a whole.
+//! One run of a scene: either recorded, with its steps timed one by one, or timed as a whole.
 
 use super::clocked::step_times;
 use super::course::Course;
@@ -18,41 +18,41 @@ use mbs_core::scene::Scene;
 use mbs_scene::SceneFile;
 use std::borrow::Cow;
 
-/// Time from which one run is a timing [s]; shorter runs are repeated, and the least time counts. Chosen, not tuned.
+/// Time from which a single run is a timing [s]. Shorter runs are repeated, and the shortest time counts. Chosen, not tuned.
 const SHORT: f64 = 0.01;
-/// Most repetitions within one timing. Chosen, not tuned.
+/// Largest number of repetitions within one timing. Chosen, not tuned.
 const MOST_FRESH: u32 = 10;
-/// Most steps that an integrator with its own step control tries between two instants. No clock is read within, and one that finds no
-/// way past a kink of a force in 32 digits would take hours.
+/// Largest number of steps that an integrator with its own step control tries between two instants. No clock is read between them. In
+/// double-double, an integrator that fails at a kink of a force would otherwise take hours.
 const MOST_OWN_STEPS: u32 = 2000;
 
-/// A scene in the precisions that run.
+/// Scene in each of the precisions that runs need.
 #[derive(Debug)]
 pub(super) struct Scenes {
     pub(super) double: Scene<f64>,
     read: Vec<(Precision, ReadScene<'static>)>,
     n_columns: usize,
-    /// Interrupt that ends all runs from outside.
+    /// Interrupt by which the caller ends all runs.
     pub(super) interrupt: Interrupt,
 }
 
-/// Record that a run leaves behind.
+/// Recorded results of a run.
 #[derive(Debug, Default)]
 pub(super) struct Recorded {
-    /// All components of all channels at the instants reached.
+    /// All components of all channels at the instants that the run reached.
     pub(super) rows: Vec<Vec<f64>>,
-    /// Everything but errors and times of the whole.
+    /// Entry of the run, without its errors and without timings of the whole run.
     pub(super) entry: RunEntry,
-    /// Work of the run, the same every time [s, nominal].
+    /// Nominal time of the run, the same in every repetition [s].
     pub(super) work: f64,
-    /// Whether the run was given up: it took longer than allowed.
+    /// Whether the run was given up because it exceeded its time limit.
     pub(super) is_given_up: bool,
     /// Whether the run did not even start.
     pub(super) is_not_started: bool,
 }
 
 impl Scenes {
-    /// Reads the scene in `f64` and in each precision that is named; runs are of these.
+    /// Reads the scene in `f64` and in each precision that is named. Runs use the scenes in these precisions.
     pub(super) fn new(
         document: &SceneFile,
         precisions: &[Precision],
@@ -73,12 +73,12 @@ impl Scenes {
         self.read.iter().find(|(of, _)| *of == precision).map(|(_, scene)| scene)
     }
 
-    /// ResolvedMethod of a run that ends with all the others.
+    /// Settings of a run that the common interrupt can end.
     fn interruptible(&self, settings: &ResolvedMethod) -> ResolvedMethod {
         ResolvedMethod { interrupt: self.interrupt.clone(), ..settings.clone() }
     }
 
-    /// Runs and records, for at most `most` seconds of CPU time.
+    /// Runs and records the scene, for at most `most` seconds of CPU time.
     pub(super) fn recorded(
         &self,
         settings: &ResolvedMethod,
@@ -92,8 +92,8 @@ impl Scenes {
         scene.work(ToRecord { settings, course, n_columns: self.n_columns, most })
     }
 
-    /// CPU time of the steps from a fresh start [s]; the least of several where they take little. Each turn finds other places in
-    /// memory.
+    /// CPU time of all steps from a new start [s]. If it is short, it is the shortest of several runs. Each value of `turn` places stack and
+    /// heap elsewhere in memory.
     pub(super) fn timed(
         &self,
         settings: &ResolvedMethod,
@@ -210,7 +210,7 @@ struct Recorder<T: Real, const D: usize> {
     reached: f64,
     times: Vec<f64>,
     is_given_up: bool,
-    /// When the step began that is made next.
+    /// Time at which the next step begins.
     last: Duration,
     start: ThreadTime,
 }
@@ -285,7 +285,7 @@ impl<T: Real, const D: usize> Recorder<T, D> {
     }
 }
 
-/// CPU time of reading the clock: the middle of many.
+/// CPU time of one reading of the clock: the median of many.
 fn reading() -> f64 {
     let clock = ThreadTime::now();
     let mut times: Vec<Duration> = (0..101)

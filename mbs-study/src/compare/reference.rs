@@ -1,4 +1,4 @@
-//! Reference that errors are taken against: a run that is not under test, in two accuracies, beside another formulation.
+//! Reference of the errors: a run by a method that is not compared, in two accuracies, checked by another formulation.
 
 use super::ladder::Instants;
 use super::table::ReferenceTable;
@@ -6,21 +6,21 @@ use crate::compare::results::{CrossCheck, OutputScale, Reference, output_scales,
 use mbs::record::Channel;
 use mbs_scene::format::significant;
 
-/// Ratio of the least error ranked to the uncertainty of the reference, from which an instant is well known [-]. Chosen, not tuned.
+/// Ratio of the smallest ranked error to the uncertainty of the reference, from which an instant is well known [-]. Chosen, not tuned.
 const KNOWN: f64 = 3.0;
-/// Least fraction of the instants that is compared, however well they are known [-]. Chosen, not tuned.
+/// Smallest fraction of the instants that is compared, even if they are not well known [-]. Chosen, not tuned.
 const LEAST_SHARE: f64 = 0.1;
-/// Largest difference of a formulation that agrees, in units of the uncertainty of both [-]. Chosen, not tuned.
+/// Largest difference at which a formulation agrees with the reference, in units of their uncertainty [-]. Chosen, not tuned.
 const AGREES: f64 = 3.0;
-/// Difference of a table and formulations that refutes the table, in units of the uncertainty of both [-]. Chosen, not tuned.
+/// Difference from two formulations that refutes a table, in units of the uncertainty of all [-]. Chosen, not tuned.
 const REFUTED: f64 = 10.0;
-/// Largest uncertainty of a check, relative to the outputs' ranges [-]: more checks nothing. Chosen, not tuned.
+/// Largest uncertainty of a check, relative to the outputs' ranges [-]. A less certain check shows nothing. Chosen, not tuned.
 const MAX_CHECK_UNCERTAINTY: f64 = 1e-2;
 
 /// Rows at the instants after the start.
 pub(super) type Rows = Vec<Vec<f64>>;
 
-/// A solution with an estimate of its own accuracy: rows, and less accurate ones by the same means.
+/// Solution with an estimate of its accuracy: rows, and less accurate rows by the same method.
 #[derive(Debug, Clone)]
 pub struct RunPair {
     /// Name of the method.
@@ -32,7 +32,7 @@ pub struct RunPair {
 }
 
 impl RunPair {
-    /// Extrapolates a method of second order from three runs, each with half the step of the one before.
+    /// Extrapolates a method of second order from three runs, each with half the step of the run before. With step h and result y(h):
     ///
     /// ```text
     /// y = (4 y(h/2) − y(h)) / 3
@@ -51,19 +51,19 @@ impl RunPair {
 /// The reference as the comparison uses it.
 #[derive(Debug, Clone)]
 pub struct Known {
-    /// Rows at the instants, where they are known.
+    /// Rows at the instants, if they are known.
     pub(super) rows: Vec<Option<Vec<f64>>>,
     pub(super) scales: Vec<OutputScale>,
     /// Report on the reference in the results.
     pub report: Reference,
     /// Notes on what is doubtful in the reference.
     pub notes: Vec<String>,
-    /// A table that formulations which agree are far from.
+    /// Is the reference a table that two agreeing formulations refute?
     pub is_refuted: bool,
 }
 
 impl Known {
-    /// Makes the reference from a table. Columns that the table has not are not compared.
+    /// Makes the reference from a table. Columns that the table does not have are not compared.
     pub fn of_table(
         table: ReferenceTable,
         name: &str,
@@ -96,8 +96,8 @@ impl Known {
         Self { rows: table.rows, scales, report, notes, is_refuted: false }
     }
 
-    /// Compares a table with two solutions by different formulations. It is verified where both agree with it, within the uncertainty of
-    /// all three. It is refuted where they agree with each other and miss it by [`REFUTED`].
+    /// Compares a table with two solutions by different formulations. The table is verified if both agree with it, within the uncertainty of
+    /// all three. It is refuted if both agree with each other and differ from it by more than [`REFUTED`].
     pub fn verify(&mut self, name: &str, pairs: &[RunPair], instants: &Instants) {
         let [a, b, ..] = pairs else {
             let note = "the reference is NOT verified: it is taken as given, since no two formulations run the scene to the end";
@@ -115,7 +115,7 @@ impl Known {
             for (x, y) in [(&best, &coarse), (&other, &rough), (&best, &other)] {
                 apart = apart.max(distance(x, y));
             }
-            // beyond that the motion is not known, chaotic ones for instance
+            // after this instant the motion is not known well enough, for instance because it is chaotic
             if !(apart <= MAX_CHECK_UNCERTAINTY) {
                 break;
             }
@@ -146,7 +146,7 @@ impl Known {
         }
     }
 
-    /// The largest distance of a row from what the table says, as a number with its unit and output.
+    /// Returns the largest distance of a row from the table, as text with its unit and output.
     fn largest_miss(&self, k: usize, row: &[f64]) -> String {
         let Some(known) = &self.rows[k] else { return String::new() };
         let each = self.scales.iter().flat_map(|scale| {
@@ -160,7 +160,7 @@ impl Known {
         format!("{far} {} of `{}`", scale.unit, scale.output)
     }
 
-    /// Makes the reference from runs; `check` is the other formulation. `least` is the least error that is to be ranked.
+    /// Makes the reference from runs. `check` is a solution by another formulation, and `least` the smallest error of the ranking.
     pub fn of_runs(
         best: &RunPair,
         check: Option<&RunPair>,
@@ -171,14 +171,14 @@ impl Known {
         let scales = output_scales(channels, &best.rows, length);
         let parted = distances(&scales, &best.rows, &best.coarse);
         let n = known(&parted, least / KNOWN);
-        // ranges of what is compared, not of what follows
+        // output scales are ranges over the compared instants only
         let scales =
             if n < all { output_scales(channels, &best.rows[..n], length) } else { scales };
         let rows = &best.rows[..n];
         let largest = |other: &Rows| {
             distances(&scales, rows, &other[..n.min(other.len())]).last().copied().unwrap_or(0.0)
         };
-        // rows are in `f64`, however many digits the run has
+        // rows are stored in `f64`, even if the run has more digits
         let uncertainty = largest(&best.coarse).max(f64::EPSILON);
         let mut notes = Vec::new();
         let cross_check = check.map(|check| {
@@ -214,8 +214,7 @@ impl Known {
         Self { rows, scales, report, notes, is_refuted: false }
     }
 
-    /// Largest error, and root of the mean square, of rows at the same instants; nothing where they are not all there or not
-    /// finite.
+    /// Largest error and root mean square of the errors of rows at the same instants. `None` if rows are missing or not finite.
     pub fn errors(&self, rows: &[Vec<f64>]) -> Option<[f64; 2]> {
         if rows.len() < self.rows.len() {
             return None;
@@ -250,7 +249,7 @@ fn doubt(check: Option<&CrossCheck>) -> String {
     }
 }
 
-/// Largest distance so far at each instant.
+/// Largest distance up to each instant.
 fn distances(scales: &[OutputScale], a: &[Vec<f64>], b: &[Vec<f64>]) -> Vec<f64> {
     let mut largest = 0.0_f64;
     let distances = a.iter().zip(b).map(|(a, b)| {
@@ -261,8 +260,8 @@ fn distances(scales: &[OutputScale], a: &[Vec<f64>], b: &[Vec<f64>]) -> Vec<f64>
     distances.collect()
 }
 
-/// Returns the number of instants that are compared: those before the two runs part, but not less than a share. For that share a larger
-/// distance is put up with.
+/// Returns the number of instants that are compared: those before the distance of the two runs exceeds `bound`. At least a tenth of all
+/// instants is compared; the bound is raised for them if necessary.
 fn known(parted: &[f64], bound: f64) -> usize {
     let all = parted.len();
     let within = |bound: f64| parted.iter().take_while(|d| **d <= bound).count();

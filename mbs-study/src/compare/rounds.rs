@@ -1,20 +1,20 @@
-//! Times of whole runs, interleaved, until they are known well enough.
+//! Timing of whole runs, interleaved, until the times are known well enough.
 
 use super::reference::Known;
 use super::store::ResultStore;
 use super::{CompareError, Study, Watch};
 use crate::compare::results::{Comparison, RunEntry, Status};
 
-/// Largest relative difference of the three least times of a run that is known well enough [-]. Chosen, not tuned.
+/// Largest relative difference of the three shortest times of a run at which its time is known well enough [-]. Chosen, not tuned.
 const SETTLED: f64 = 0.005;
-/// Least and most rounds of the runs that decide the ranking, in units of the requested repeats [-]. Chosen, not tuned.
+/// Smallest and largest number of rounds for runs that decide the ranking, in units of the requested repeats [-]. Chosen, not tuned.
 const ROUNDS: [u32; 2] = [3, 8];
 /// Start and length of the rounds in the progress bar, as fractions of it [-].
 const PROGRESS: [f64; 2] = [0.35, 0.6];
 
 impl Study<'_> {
-    /// Times every completed run in rounds over all, forth and back, so that a disturbance meets all alike. Then it times again those that
-    /// decide the ranking, until their three least times agree.
+    /// Times all completed runs in rounds. The order is reversed in every second round, so that a disturbance affects all runs equally. Then
+    /// the runs that decide the ranking are timed again, until their three shortest times agree.
     pub(super) fn time(
         &self,
         comparison: &mut Comparison,
@@ -57,7 +57,7 @@ impl Study<'_> {
     }
 }
 
-/// The completed runs, by method and run.
+/// Completed runs, each by method and run.
 pub fn completed(comparison: &Comparison) -> Vec<(usize, usize)> {
     let methods = comparison.methods.iter().enumerate();
     let runs = methods.flat_map(|(m, method)| {
@@ -67,7 +67,7 @@ pub fn completed(comparison: &Comparison) -> Vec<(usize, usize)> {
     runs.collect()
 }
 
-/// The runs that decide the ranking at some errors, and are not known well enough.
+/// Runs that decide the ranking at some errors, and whose times are not known well enough.
 pub fn unsettled(comparison: &Comparison, errors: &[f64]) -> Vec<(usize, usize)> {
     let is_apart = |run: &RunEntry| {
         let mut times = run.cpu_seconds.clone();

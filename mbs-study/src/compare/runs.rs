@@ -1,4 +1,4 @@
-//! The recorded runs of every method, from the coarsest setting on.
+//! Recorded runs of every method, from the coarsest setting to the finest.
 
 use super::course::Course;
 use super::ladder::Instants;
@@ -9,29 +9,29 @@ use super::{CompareError, Study, Watch};
 use crate::compare::results::{MethodRuns, RunEntry, Status};
 use serde::{Deserialize, Serialize};
 
-/// Error below which a finer setting can be no better for rounding, relative to the outputs' ranges [-]. Chosen, not tuned.
+/// Error below which a finer setting may bring no improvement because of rounding, relative to the outputs' ranges [-]. Chosen, not tuned.
 const GOOD: f64 = 1e-2;
-/// Finer settings without a smaller error that end the refinement. Chosen, not tuned.
+/// Number of finer settings in a row without a smaller error, after which the refinement ends. Chosen, not tuned.
 const NO_BETTER: u32 = 2;
 /// Start and length of recording in the progress bar, as fractions of it [-].
 const RECORDING: [f64; 2] = [0.05, 0.3];
 
-/// Knowledge of a method while its settings are refined.
+/// Facts about a method while its settings are refined.
 #[derive(Debug, Default)]
 pub struct Refinement {
-    /// Work and CPU time of the last run that was completed, with its setting.
+    /// Nominal time, CPU time and setting of the last completed run.
     last: Option<(f64, f64, f64)>,
     best: Option<f64>,
-    /// Settings in a row, finer than the best, without a smaller error.
+    /// Number of settings in a row that are finer than the best and have no smaller error.
     pub no_better: u32,
-    /// Steps, iterations and errors, to the bit, of the last run that was completed. A setting that changes none of them is held by the
-    /// instants of the results, and says nothing of finer ones.
+    /// Steps, iterations and bits of the errors of the last completed run. If a setting changes none of them, the instants of the results
+    /// limit its steps. Such a setting does not count as one without improvement.
     same: Option<[u64; 4]>,
-    /// Nothing finer is run; why.
+    /// Reason why no finer setting is run.
     over: Option<String>,
 }
 
-/// A run as the journal keeps it.
+/// Run as it is stored in the journal.
 #[derive(Debug, Default, Serialize, Deserialize)]
 #[serde(default)]
 struct Made {
@@ -70,7 +70,7 @@ impl Study<'_> {
         Ok(all)
     }
 
-    /// A run, or why it is not made.
+    /// Makes one run, or returns the reason why it is not made.
     fn one(
         &self,
         method: &MethodCase,
@@ -97,7 +97,8 @@ impl Study<'_> {
         Ok(entry)
     }
 
-    /// Returns the reason why a setting is not run: by the work of the one before, and in the last resort by its CPU time.
+    /// Returns the reason why a setting is not run. It is predicted from the nominal time of the run before, and as a last resort from its
+    /// CPU time.
     fn too_long(&self, method: &MethodCase, setting: f64, refined: &Refinement) -> Option<String> {
         if refined.no_better >= NO_BETTER {
             return Some(format!("{NO_BETTER} finer settings in a row were no better"));
@@ -139,7 +140,7 @@ impl Study<'_> {
         Made { entry, work: recorded.work, is_not_started: recorded.is_not_started }
     }
 
-    /// ResolvedMethod and course of a run over what is compared.
+    /// Settings and schedule of a run over the compared time.
     pub(super) fn course(
         &self,
         method: &MethodCase,
@@ -155,7 +156,7 @@ impl Study<'_> {
 }
 
 impl Refinement {
-    /// Takes a run and its work.
+    /// Takes a run and its nominal time into account.
     pub fn take(&mut self, entry: &RunEntry, work: f64) {
         if entry.status != Status::Completed {
             return;

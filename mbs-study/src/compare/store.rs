@@ -1,4 +1,4 @@
-//! Results that outlive a kill: each is in the journal before the next is begun.
+//! Results that are not lost if the process is killed: each is in the journal before the next job begins.
 
 use crate::journal::{Head, Journal, JournalError};
 use mbs::Interrupt;
@@ -7,32 +7,32 @@ use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// Treatment of the runs that an earlier start of the comparison left in the directory.
+/// Treatment of runs that an earlier, unfinished comparison left in the directory.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Earlier {
-    /// Refuses to begin the comparison.
+    /// Refuses to begin a comparison.
     #[default]
     Refuse,
     /// Resumes from the earlier runs.
     Resume,
-    /// Throws the earlier runs away.
+    /// Deletes the earlier runs.
     Restart,
 }
 
-/// Results by key, in memory and in a journal where there is a directory.
+/// Results by key, in memory and, if there is a directory, in a journal.
 #[derive(Debug, Default)]
 pub struct ResultStore {
     journal: Option<Journal>,
     done: BTreeMap<String, Value>,
-    /// Results of an earlier start.
+    /// Number of results of an earlier start.
     pub resumed: usize,
-    /// Interrupt that ends the comparison from outside.
+    /// Interrupt by which the caller ends the comparison.
     pub interrupt: Interrupt,
 }
 
 impl ResultStore {
-    /// Opens the journal of a directory; without one, results are kept in memory only. Says with `None` that there are results
-    /// of an earlier start which must not be lost.
+    /// Opens the journal of a directory. Without a directory, results are in memory only. `None` means that the journal has results of an
+    /// earlier start, which must not be lost.
     ///
     /// # Errors
     /// [`JournalError`] where the journal cannot be used.
@@ -56,10 +56,10 @@ impl ResultStore {
         Ok(Some(Self { journal: Some(journal), done, resumed, interrupt: Interrupt::default() }))
     }
 
-    /// The result of an earlier start, or that of `job`, kept; as the journal has it.
+    /// Returns the result of an earlier start, or runs `job` and stores its result in the journal.
     ///
     /// # Errors
-    /// [`JournalError`] where the result is not kept, or the comparison is interrupted.
+    /// [`JournalError`] if the result cannot be stored, or the comparison is interrupted.
     pub fn get<R: Serialize + DeserializeOwned + Default>(
         &mut self,
         key: &str,
@@ -70,7 +70,7 @@ impl ResultStore {
             return Ok(known(value));
         }
         let value = serde_json::to_value(job()).unwrap_or_default();
-        // what was cut short is no result
+        // an interrupted job has no result
         if self.interrupt.is_set() {
             return Err(JournalError::Interrupted);
         }

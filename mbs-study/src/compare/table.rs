@@ -1,48 +1,48 @@
-//! A reference from a table: a CSV file with the times and outputs of `run.csv`, of a closed form, say.
+//! Reference from a table, for instance of a closed-form solution: a CSV file with times and outputs, like `run.csv`.
 
 use super::ladder::Instants;
 use core::fmt::{self, Display, Formatter};
 use mbs::record::Channel;
 
-/// Largest difference of a row and its instant, relative to the run [-]: decimals are rounded. Chosen, not tuned.
+/// Largest difference between the time of a row and its instant, relative to the run [-]: decimal numbers are rounded. Chosen, not tuned.
 const SAME_TIME: f64 = 1e-9;
 
-/// A table that cannot be used.
+/// Reason why a reference table cannot be used.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum TableError {
-    /// Text that is no CSV, or cannot be read.
+    /// Text that cannot be read or is not CSV.
     Unreadable(String),
-    /// First column that is not `t`.
+    /// First column whose name is not `t`.
     NoTime,
-    /// None of its columns is an output of the scene.
+    /// Table without a column that is an output of the scene.
     NoOutput,
     /// Table without rows.
     Empty,
-    /// A column that is no output of the scene, and those that are.
+    /// Column that is no output of the scene, and the names of all outputs.
     UnknownColumn(String, Vec<String>),
-    /// A cell that is no finite number: line and column name.
+    /// Cell that is no finite number: line and column name.
     NotANumber(u64, String),
-    /// A time that is not later than the one before: line.
+    /// Time that is not later than that of the row before: line.
     Order(u64),
-    /// A time before the start or after the end of the run: line, the time, and the duration, as texts.
+    /// Time before the start or after the end of the run: line, time and duration, as texts.
     Beyond(u64, String, String),
-    /// None of its times is one of the instants; their distance, as text.
+    /// Table without a time that is one of the instants: the distance of the instants, as text.
     NoInstant(String),
 }
 
-/// Table of a reference: its values at the instants, and its digits.
+/// Reference table: its values at the instants, and the precision of its numbers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ReferenceTable {
-    /// Values of all columns at each instant that it has; NaN where it has not the column.
+    /// Values of all columns at each instant that the table has; NaN in columns that it does not have.
     pub rows: Vec<Option<Vec<f64>>>,
-    /// Half a unit of the last digit of each column, in the root of the mean square.
+    /// Half a unit of the last digit of each column, as root mean square over the rows.
     pub digits: Vec<f64>,
-    /// Whether the table has each of the columns.
+    /// Column by column, whether the table has it.
     pub has: Vec<bool>,
 }
 
-/// Reads a table for the outputs of a scene at some instants, with times up to the end of the scene's own run [s].
+/// Reads a table for the outputs of a scene at some instants. Its times may extend to the end of the scene's run [s].
 ///
 /// # Errors
 /// [`TableError`] with the line or column that cannot be used.
@@ -113,7 +113,7 @@ pub fn read(
     Ok(table)
 }
 
-/// The instant at time `t` [s], from 0 for the first after the start.
+/// Index of the instant at time `t` [s]; 0 is the first instant after the start.
 #[allow(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,

@@ -1,4 +1,4 @@
-//! Makes the reference: by candidates, the best first.
+//! Computation of the reference by several methods, the best first.
 
 use super::method::{Control, MethodCase};
 use super::reference::{Known, Rows, RunPair};
@@ -8,23 +8,23 @@ use crate::compare::results::Status;
 use mbs::{FormulationKind, IntegratorKind, Precision, ResolvedMethod};
 use serde::{Deserialize, Serialize};
 
-/// Time limit of a run of the reference, relative to that of others [-]. Chosen, not tuned.
+/// Time limit of a reference run, relative to that of other runs [-]. Chosen, not tuned.
 const TIME_LIMIT: f64 = 10.0;
-/// Time limit of a run of the most expensive kind, relative to that of others [-].
+/// Time limit of a reference run of the most expensive kind, relative to that of other runs [-].
 const SHORT_TIME_LIMIT: f64 = 1.0;
-/// Tolerances of the reference's two runs, the best pair first [-]: their difference is the uncertainty.
+/// Tolerances of the reference's two runs, the best pair first [-]. The difference of the two runs is the uncertainty.
 const TOLERANCES: [[f64; 2]; 3] = [[1e-13, 1e-12], [1e-11, 1e-10], [1e-9, 1e-8]];
 /// Tolerances of the reference's two runs in double-double [-].
 const PAIR_TOLERANCES: [[f64; 2]; 1] = [[1e-20, 1e-18]];
-/// Steps of the check, relative to the scene's [-], from the finest that [`CHECK_BUDGETS`] allows: each is halved twice.
+/// Steps of the check, relative to the scene's step [-]. The finest that [`CHECK_BUDGETS`] allows is used, and halved twice.
 const STEPS: [f64; 4] = [0.125, 0.25, 0.5, 1.0];
-/// Ratio of the budget of all runs to the most work of a run of the check [-]. Chosen, not tuned.
+/// Ratio of the budget of all runs to the largest work of a run of the check [-]. Chosen, not tuned.
 const CHECK_BUDGETS: f64 = 20.0;
-/// An integrator that controls its error, in a precision; the tolerances of its two runs, and how long they may take.
+/// Integrator with error control in a precision, the tolerances of its two runs, and their time limit relative to other runs.
 type Way<'a> = ((IntegratorKind, Precision), (&'a [[f64; 2]], f64));
 const ORDINARY: (IntegratorKind, Precision) = (IntegratorKind::Rk54, Precision::F64);
 
-/// A run of the reference as the journal keeps it: its rows, or why there are none.
+/// Reference run as it is stored in the journal: its rows, or the reason why there are none.
 #[derive(Debug, Default, Serialize, Deserialize)]
 struct Made {
     rows: Option<Rows>,
@@ -32,7 +32,7 @@ struct Made {
 }
 
 impl Study<'_> {
-    /// Returns the reference: from a table where one is given, else from runs.
+    /// Returns the reference: the table if there is one, otherwise runs.
     pub(super) fn known(
         &self,
         table: Option<(&str, &str)>,
@@ -43,7 +43,7 @@ impl Study<'_> {
             let duration = self.scenes.double.duration;
             let table = table::read(text, &self.channels, (&self.instants, duration));
             let mut known = Known::of_table(table.map_err(CompareError::Table)?, name, of);
-            // a table is compared with runs before runs are compared with it
+            // the table is checked by two solutions before the methods are compared with it
             let (pairs, _) =
                 self.pairs(&[(ORDINARY, (&TOLERANCES[1..], SHORT_TIME_LIMIT))], store)?;
             known.verify(name, &pairs, &self.instants);
@@ -60,8 +60,8 @@ impl Study<'_> {
         Ok(Known::of_runs(best, pairs.get(1), of, (&self.instants, least)))
     }
 
-    /// Up to two solutions by different formulations: relative coordinates by the first method that comes to the end, then natural ones.
-    /// Also why the last one that failed did.
+    /// Makes up to two solutions by different formulations. The first is in relative coordinates, by the first method that runs to the end.
+    /// The second is in natural coordinates. Also returns why the last failed method failed.
     fn pairs(
         &self,
         kinds: &[Way<'_>],
@@ -87,7 +87,7 @@ impl Study<'_> {
         Ok((pairs, why))
     }
 
-    /// Relative coordinates with an explicit integrator that controls its error, at two tight tolerances.
+    /// Solution in relative coordinates with an integrator that controls its error, at two tight tolerances.
     fn own_control(
         &self,
         (integrator, precision): (IntegratorKind, Precision),
@@ -102,7 +102,7 @@ impl Study<'_> {
             precision,
         };
         for &[fine, coarse] in tolerances {
-            // The cheaper run first: where it fails, the other is spared.
+            // the cheaper run is made first: if it fails, the other one is not made
             let coarse_rows = self.reference_run(&method, (coarse, times), store, why)?;
             let Some(coarse_rows) = coarse_rows else { continue };
             if let Some(rows) = self.reference_run(&method, (fine, times), store, why)? {
@@ -114,7 +114,7 @@ impl Study<'_> {
         Ok(None)
     }
 
-    /// A formulation with the trapezoidal rule at three steps, extrapolated.
+    /// Solution by a formulation with the trapezoidal rule at three steps, extrapolated.
     fn extrapolated(
         &self,
         formulation: FormulationKind,
@@ -152,7 +152,7 @@ impl Study<'_> {
         Ok(Some(RunPair::richardson(name, [a, b, c])))
     }
 
-    /// The rows of a run that goes to the end.
+    /// Rows of a run that reaches the end.
     fn reference_run(
         &self,
         method: &MethodCase,
@@ -171,7 +171,7 @@ impl Study<'_> {
         Ok(made.rows)
     }
 
-    /// The rows, or why there are none.
+    /// Rows of a run, or the reason why there are none.
     fn reference_rows(
         &self,
         method: &MethodCase,
@@ -190,7 +190,7 @@ impl Study<'_> {
         }
     }
 
-    /// The settings of a run, over the whole duration.
+    /// Settings of a run over the whole duration.
     pub(super) fn settings(
         &self,
         method: &MethodCase,

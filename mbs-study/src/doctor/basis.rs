@@ -1,4 +1,4 @@
-//! Shared basis of the examinations: how much may be looked at, the start, and why a run stopped.
+//! Common parts of the examinations: limits of the effort, the start of the scene, and reasons of a stop.
 
 use mbs::inside::AssembledScene;
 use mbs::inside::poses;
@@ -9,12 +9,12 @@ use mbs_core::rigid::RigidMotion;
 use mbs_core::scene::Scene;
 use mbs_core::start::Assembled;
 
-/// Limits of what is looked at along the motion.
+/// Limits of the examination along the motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Effort {
-    /// Positions along the motion. `0`: the motion is left out.
+    /// Number of positions along the motion. With `0` the motion is not examined.
     pub positions: u64,
-    /// Time for the motion [s]; what lies beyond it is said to be not looked at. `> 0`.
+    /// Time limit for the motion [s]. A longer motion is reported as not examined to its end. `> 0`.
     pub seconds: f64,
 }
 
@@ -24,14 +24,14 @@ impl Default for Effort {
     }
 }
 
-/// Start of a scene: the model, its assembled state, and where the bodies are.
+/// Start of a scene: the model, its assembled state, and the poses of the bodies.
 pub(super) struct Begun<const D: usize> {
     pub(super) model: NaturalModel<f64, D>,
     pub(super) start: Assembled<f64>,
     pub(super) poses: Vec<RigidMotion<f64>>,
 }
 
-/// A failed start or run as words.
+/// Message and hint for a start or run that failed.
 pub(super) fn stopped(scene: &Scene<f64>, error: &StopError, time: f64) -> (String, &'static str) {
     let report = error.report(time, &Names::new(scene));
     let whose = match (&report.joint, &report.body) {
@@ -51,7 +51,7 @@ pub(super) fn places<const D: usize>(
     poses(scene, model, state)
 }
 
-/// Assembles, and settles where the scene asks for it.
+/// Assembles the scene, and finds its equilibrium if the scene starts there.
 pub(super) fn begin<const D: usize>(scene: &Scene<f64>) -> Result<Begun<D>, StopError> {
     let AssembledScene { model, start, .. } = AssembledScene::new(scene)?;
     let poses = places(scene, &model, &start.state);

@@ -1,4 +1,4 @@
-//! Rank and freedoms as findings: an uncertain rank, counts that differ, nothing that moves.
+//! Findings about rank and degrees of freedom: an uncertain rank, counts that differ, a scene that cannot move.
 
 use super::finding::{Finding, Severity, Topic, body_names};
 use crate::redundancy::{Diagnosis, Massless, UNCERTAIN};
@@ -53,7 +53,8 @@ pub(super) fn findings(
     }
 }
 
-/// Reports freedoms that differ between natural coordinates and the joint level, idle spins aside.
+/// Reports degrees of freedom that differ between natural coordinates and the joint level. Rotations of thin rods about their own axis do not
+/// count.
 fn differs(
     diagnosis: &Diagnosis,
     dof: usize,
@@ -64,7 +65,7 @@ fn differs(
     let (Some(massless), true) = (massless, diagnosis.too_large.is_empty()) else { return };
     let idle = massless.iter().filter(|m| m.is_idle_spin).count();
     let joint_level = columns - rank;
-    // A rod's idle spin is a coordinate where other joints ask for its axes.
+    // a thin rod's rotation about its own axis is a natural coordinate if joints need axes of the rod
     if (joint_level - idle.min(joint_level)..=joint_level).contains(&dof) {
         return;
     }

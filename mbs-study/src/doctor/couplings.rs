@@ -1,10 +1,10 @@
-//! Couplings, and contacts that roll, that follow from others, or almost do.
+//! Couplings, and rolling contacts, that depend on others exactly or almost.
 //!
 //! ```text
 //! N: motions that the joints leave, an orthonormal basis;   h_k = N^T g_k of each coupling's gradient g_k
 //! ```
 //!
-//! A row whose h lies in the span of those before it takes no freedom. Those that it is made of are named with it.
+//! A row whose h lies in the span of the rows before it removes no degree of freedom. The rows that it is a combination of are named with it.
 
 use super::finding::{Finding, Severity, Topic};
 use crate::redundancy::Rank;
@@ -14,16 +14,17 @@ use mbs_core::model::{Model, Owner, State};
 use mbs_core::natural::NaturalModel;
 use mbs_core::scene::{Entry, Scene};
 
-/// Part of a gradient that others do not give, relative to it, below which it follows from them [-]: rounding of the rank's basis. Chosen,
-/// not tuned.
+/// Component of a gradient outside the span of others, relative to the gradient, below which the gradient depends on them [-]. The limit is
+/// the rounding of the rank's basis. Chosen, not tuned.
 const FOLLOWS: f64 = 1e-9;
-/// Part of a gradient that others do not give, relative to it, below which it almost follows from them [-]. Ratios are written with six digits
-/// or more.
+/// Component of a gradient outside the span of others, relative to the gradient, below which the gradient almost depends on them [-]. Ratios
+/// in a file have six digits or more.
 const ALMOST: f64 = 1e-6;
-/// Most numbers of the rows that are looked at [-]: a second of work. Chosen, not tuned.
+/// Largest number of elements of the examined rows [-]: about a second of work. Chosen, not tuned.
 const LARGEST: usize = 250_000;
 
-/// Returns the number of freedoms that couplings and rolling take at a state; nothing where the scene is too large for it.
+/// Returns the number of degrees of freedom that couplings and rolling contacts remove in a state. `None` if the scene is too large for this
+/// examination.
 pub(super) fn findings<const D: usize>(
     scene: &Scene<f64>,
     model: &NaturalModel<f64, D>,

@@ -1,15 +1,15 @@
-//! One thing that was found.
+//! Finding of the doctor, with its severity and topic.
 
 use mbs_core::scene::{Entry, Scene};
 
 mbs_core::named! {
     /// Severity of a finding.
     pub enum Severity {
-        /// Worth knowing: nothing is wrong with it.
+        /// Information: nothing is wrong.
         Note = "note",
-        /// Perhaps not what was meant, or a matter of rounding; the scene runs.
+        /// Possible mistake, or an effect of rounding; the scene runs.
         Doubt = "doubt",
-        /// The scene has no start, or its run stops.
+        /// Fault: the scene has no start, or its run stops.
         Fault = "fault",
     }
 }
@@ -36,18 +36,18 @@ mbs_core::named! {
     }
 }
 
-/// One thing that was found, with all joints and bodies it is about.
+/// Finding with all joints and bodies that it concerns.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Finding {
     /// Severity of the finding.
     pub severity: Severity,
-    /// A short fixed word for programs.
+    /// Code of the finding: a short word for programs, which does not change.
     pub code: &'static str,
     /// Topic of the finding.
     pub topic: Topic,
-    /// Message: what was found, in one or two sentences.
+    /// Message about the finding, in one or two sentences.
     pub message: String,
-    /// Remedy that would mend it; may be empty for a note.
+    /// Remedy for the finding; may be empty for a note.
     pub remedy: String,
     /// Joints, by their indices.
     pub joints: Vec<usize>,
@@ -58,7 +58,7 @@ pub struct Finding {
 }
 
 impl Finding {
-    /// A finding without joints, bodies and place.
+    /// Makes a finding without joints, bodies and place.
     pub(super) fn new(
         severity: Severity,
         (topic, code): (Topic, &'static str),
@@ -77,14 +77,14 @@ impl Finding {
         }
     }
 
-    /// Sets the joints that the finding is about; its place is the first of them.
+    /// Sets the joints that the finding concerns. The first of them is its place, unless it has one.
     pub(super) fn joints(mut self, joints: Vec<usize>) -> Self {
         self.place = self.place.or(joints.first().map(|&j| (Entry::Joint(j), "name")));
         self.joints = joints;
         self
     }
 
-    /// Sets the bodies that the finding is about; its place is the first of them.
+    /// Sets the bodies that the finding concerns. The first of them is its place, unless it has one.
     pub(super) fn bodies(mut self, bodies: Vec<usize>) -> Self {
         self.place = self.place.or(bodies.first().map(|&b| (Entry::Body(b), "name")));
         self.bodies = bodies;
@@ -98,12 +98,12 @@ impl Finding {
     }
 }
 
-/// Names of joints in quotes: all of them.
+/// Names of all given joints, in quotes.
 pub(super) fn joint_names(scene: &Scene<f64>, joints: &[usize]) -> String {
     quoted(joints.iter().map(|&j| scene.joints[j].name.as_str()))
 }
 
-/// Names of bodies in quotes: all of them.
+/// Names of all given bodies, in quotes.
 pub(super) fn body_names(scene: &Scene<f64>, bodies: &[usize]) -> String {
     quoted(bodies.iter().map(|&b| scene.bodies[b].name.as_str()))
 }

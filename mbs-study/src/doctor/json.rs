@@ -1,11 +1,11 @@
-//! A checkup as one JSON object. Fields are only ever added.
+//! Examination result as one JSON object. Keys are never removed.
 
 use super::{Checkup, Finding, Motion, Moved};
 use crate::redundancy::{JointChange, Loop, Remedy, Set};
 use mbs_core::scene::Entry;
 use serde_json::{Value, json};
 
-/// Place of an entry's key: the file where the scene's own includes it, and the line.
+/// Function that finds the place of an entry's key: the line, and the file if it is included by the scene's file.
 pub type Written<'a> = &'a dyn Fn(Entry, &str) -> Option<(Option<String>, usize)>;
 
 /// Returns the JSON object of a checkup; `line` gives the place of an entry's key.
@@ -54,7 +54,7 @@ pub fn to_json(checkup: &Checkup, line: Written<'_>) -> Value {
     })
 }
 
-/// JSON has no infinity.
+/// Returns `None` for an infinite number, which JSON does not have.
 fn finite(x: f64) -> Option<f64> {
     x.is_finite().then_some(x)
 }

@@ -7,9 +7,10 @@ use mbs_core::scene::{Dimension, Entry, Scene, SceneFault};
 use mbs_linear::{Matrix, singular_values};
 use mbs_scene::format::few;
 
-/// Excess of two principal moments over the third, relative to it [-], below which a body is a plate. Chosen, not tuned.
+/// Excess of the sum of two principal moments over the third, relative to the third, below which a body is flat like a plate [-]. Chosen, not
+/// tuned.
 const FLAT: f64 = 1e-3;
-/// Ratio of masses from which rounding of the heavy body is a force on the light one [-]. Chosen, not tuned.
+/// Ratio of masses from which rounding errors of the heavy body are considerable forces on the light one [-]. Chosen, not tuned.
 const RATIO: f64 = 1e6;
 
 pub(super) fn findings(
@@ -26,7 +27,7 @@ pub(super) fn findings(
         }
     }
     odd_parts(scene, findings);
-    // what is welded together is one body, and what is welded to the ground is none
+    // bodies that are welded together count as one body; bodies welded to the ground do not count
     let lumps = Clusters::new(scene).clusters;
     let without = lumps.iter().filter(|lump| !(lump.mass > 0.0));
     let empty: Vec<usize> = without.flat_map(|lump| lump.bodies.iter().copied()).collect();
@@ -66,7 +67,7 @@ pub(super) fn findings(
     }
 }
 
-/// Bodies with an inertia that counts only in the sum of what they are welded to.
+/// Notes bodies whose inertia is valid only in the sum of the bodies welded together.
 fn odd_parts(scene: &Scene<f64>, findings: &mut Vec<Finding>) {
     for (body, fault) in scene.odd_parts() {
         let what = if fault == SceneFault::InertiaWithoutMass {
@@ -99,7 +100,7 @@ fn direction(scene: &Scene<f64>, motion: &Massless) -> Finding {
         .bodies(bodies)
 }
 
-/// Is the largest principal moment nearly the sum of the others?
+/// Is the largest principal moment of inertia nearly the sum of the others?
 fn is_flat(scene: &Scene<f64>, lump: &Cluster<f64>) -> bool {
     if scene.dimension == Dimension::Planar || lump.rod.is_some() {
         return false;

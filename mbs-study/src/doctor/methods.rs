@@ -1,20 +1,20 @@
-//! Formulations that take a step of a scene with dependent equations: tried, not predicted.
+//! Formulations that can step a scene with dependent equations. Each makes one step.
 
 use super::finding::{Finding, Severity, Topic};
 use mbs::typed::Simulation;
 use mbs::{FormulationKind, IntegratorKind, ResolvedMethod, StepRule, StopError};
 use mbs_core::scene::Scene;
 
-/// A first step by one formulation.
+/// First step by one formulation.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Attempt {
     /// Name of the formulation.
     pub formulation: &'static str,
-    /// Reason why the formulation took no step: code and message.
+    /// Reason why the formulation could not make the step: code and message.
     pub error: Option<(&'static str, String)>,
 }
 
-/// Most bodies of a scene whose methods are tried, for the time that it takes. Chosen, not tuned.
+/// Largest number of bodies of a scene for which methods are tried; larger ones take too long. Chosen, not tuned.
 const LARGEST: usize = 300;
 
 pub(super) fn try_all<const D: usize>(
@@ -49,7 +49,7 @@ fn first_step<const D: usize>(
     step.map(drop).map_err(|error| simulation.explain(error))
 }
 
-/// Says that it is run anyway, and by what.
+/// Notes the formulations that run the scene in spite of dependent equations.
 pub(super) fn findings(attempts: &[Attempt], findings: &mut Vec<Finding>) {
     let named = |is_refused: bool| {
         let of = attempts.iter().filter(|a| a.error.is_some() == is_refused);

@@ -1,7 +1,7 @@
-//! Doctor of a scene: what is wrong or doubtful, by names, with what would mend it.
+//! Doctor of a scene: it reports faults and doubts by the names of parts, each with a remedy.
 //!
-//! Rank, dependent sets, reactions and loops are looked at on the joint level ([`redundancy`](crate::redundancy)), at the assembled start and at
-//! positions of a run. What natural coordinates make of it, and which formulations take a step, is tried.
+//! Rank, dependent sets, reactions and loops are examined on the joint level ([`redundancy`](crate::redundancy)), at the assembled start and
+//! at positions of a run. The rank in natural coordinates is computed, and each formulation tries a step.
 
 mod basis;
 mod consistency;
@@ -35,51 +35,51 @@ use mbs_core::model::Model;
 use mbs_core::rigid::RigidMotion;
 use mbs_core::scene::{Dimension, Scene};
 
-/// Everything the doctor found.
+/// Result of the examination of a scene.
 #[derive(Debug, Clone)]
 pub struct Checkup {
     /// Name of the scene.
     pub scene: String,
     /// Dimension of the scene: 2 or 3.
     pub dimension: usize,
-    /// Names of the joints and bodies, for what follows.
+    /// Names of the joints, which indices of other fields refer to.
     pub joints: Vec<String>,
-    /// Names of the bodies.
+    /// Names of the bodies, which indices of other fields refer to.
     pub bodies: Vec<String>,
-    /// Findings, the worst first, then in the order of the topics.
+    /// Findings, sorted by severity, then by topic. The most severe comes first.
     pub findings: Vec<Finding>,
-    /// Coordinates, constraints and their rank in natural coordinates; nothing without a start.
+    /// Coordinates, constraints and their rank in natural coordinates. `None` if the scene has no start.
     pub natural: Option<[usize; 3]>,
-    /// On the joint level: bodies whole, joints by their equations.
+    /// Diagnosis on the joint level: one set of velocities for each body, and the equations of each joint.
     pub joint_level: Diagnosis,
-    /// Does it stand at the assembled start? Else at the reference configuration.
+    /// Is the joint level examined at the assembled start, and not in the reference configuration?
     pub is_at_start: bool,
-    /// Whether each component of a joint's reaction is determined, joint by joint: [Fx, Fy, Mz] or all six, in global axes.
+    /// Whether each component of each joint's reaction is uniquely determined: [Fx, Fy, Mz] or all six, in global axes.
     pub unique: Vec<Vec<bool>>,
-    /// Joints whose reactions lack the force of a coupling, with its name.
+    /// Joints whose reactions do not contain the force of a coupling, with the name of the coupling.
     pub lacking: Vec<(usize, String)>,
-    /// The loops with their corners.
+    /// Closed loops with their corners.
     pub loops: Vec<Loop>,
-    /// Joints of parts with one freedom, with their share of the motion.
+    /// Joints of parts with one degree of freedom, each with its fraction of the motion.
     pub drives: Vec<Drive>,
-    /// Motions without mass; nothing where the scene is too large.
+    /// Motions of the scene without mass. `None` if the scene is too large.
     pub massless: Option<Vec<Massless>>,
-    /// Attempts of the formulations at a step, where something is dependent.
+    /// Steps that formulations tried, if equations are dependent.
     pub methods: Vec<Attempt>,
     /// Observations along the motion.
     pub motion: Option<Motion>,
-    /// Residual of what was written before assembly, and how far it moved each body.
+    /// Residual of the scene before assembly, and the displacement of each body by assembly.
     pub start: Option<Moved>,
 }
 
 impl Checkup {
-    /// The worst that was found.
+    /// Highest severity among the findings.
     #[must_use]
     pub fn worst(&self) -> Option<Severity> {
         self.findings.iter().map(|f| f.severity).max()
     }
 
-    /// Notes the parameters of the file that nothing needs.
+    /// Adds notes about parameters of the file that are not used.
     #[must_use]
     pub fn with_unused_parameters(mut self, names: &[String]) -> Self {
         let notes = names.iter().map(|name| {
@@ -91,7 +91,8 @@ impl Checkup {
         self
     }
 
-    /// Returns the number of freedoms of the natural model, which has none for the idle spin of a rod. Without a start it is that of the joint level.
+    /// Returns the degrees of freedom in natural coordinates, without rotations of thin rods about their own axis. Without a start it is the
+    /// number on the joint level.
     #[must_use]
     pub fn dof(&self) -> usize {
         match self.natural {
@@ -108,8 +109,8 @@ fn lacking(scene: &Scene<f64>) -> Vec<(usize, String)> {
 
 /// Examines a checked scene.
 ///
-/// Cost: two assemblies, and the run itself. For each part with loops some singular value decompositions of its m equations in n
-/// velocities, 20 m n² operations each, as many as positions along the motion.
+/// Cost: two assemblies, and the run itself. Each part with loops also takes a singular value decomposition of its m equations in n
+/// velocities at each position along the motion. A decomposition has about 20 m n² operations.
 #[must_use]
 pub fn examine(scene: &Scene<f64>, settings: &ResolvedMethod, effort: &Effort) -> Checkup {
     match scene.dimension {
@@ -164,7 +165,7 @@ fn in_space<const D: usize>(
                 motion::findings((scene, &linkage), &seen, &mut findings);
                 motion = Some(seen);
             } else if let Err(error) = Simulation::<f64, D>::new(scene, settings) {
-                // the formulation may refuse what natural coordinates start
+                // the formulation of the settings may refuse a scene that starts in natural coordinates
                 start::no_start(scene, &error, &mut findings);
             }
         }
@@ -190,7 +191,7 @@ fn in_space<const D: usize>(
     }
 }
 
-/// Components of the joints' reactions that are determined: all, but for what stands in a dependent set.
+/// Finds the components of the joints' reactions that are determined: all except those of dependent sets.
 fn unique(linkage: &Linkage, diagnosis: &Diagnosis) -> Vec<Vec<bool>> {
     let n = linkage.freedoms();
     let n_joints = linkage.parts.iter().flat_map(|p| &p.joints).max().map_or(0, |j| j + 1);
@@ -204,7 +205,7 @@ fn unique(linkage: &Linkage, diagnosis: &Diagnosis) -> Vec<Vec<bool>> {
 }
 
 fn shares(linkage: &Linkage, poses: &[RigidMotion<f64>]) -> Vec<Drive> {
-    /// Most joints of a part whose drives are compared: each takes a decomposition. Chosen, not tuned.
+    /// Largest number of joints of a part whose drives are compared: each joint takes a decomposition. Chosen, not tuned.
     const SMALL: usize = 60;
     let parts = linkage.parts.iter().filter(|p| p.has_loop() && p.joints.len() <= SMALL);
     let of = |part| {

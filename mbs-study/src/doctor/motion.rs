@@ -1,12 +1,12 @@
-//! Examination along the motion: how near it comes to a singular position, and which corners of its loops straighten.
+//! Examination along the motion: its distance from singular positions, and corners of loops that become straight.
 //!
 //! ```text
 //! κ(t) = σ_r / σ₁,   r: the largest rank met on the way
 //! ```
 //!
-//! Where κ passes zero it is a smooth function with its sign taken off. So behind each smallest sample the sign is put back. If the
-//! cubic through two samples before and two behind, these negated, meets the sample between them, κ passes zero, and the cubic
-//! says where. Else the least is that of the parabola through κ².
+//! At a zero, κ is the absolute value of a smooth function. Near the smallest sample, the sign of later samples is therefore reversed. A
+//! cubic is put through two samples before and two after it. If the cubic fits the sample between them, κ passes through zero at the cubic's
+//! root. Otherwise the minimum is that of the parabola through three values of κ².
 
 use super::basis::{Effort, places, stopped};
 use super::finding::{Finding, Severity, Topic, joint_names};
@@ -21,18 +21,18 @@ use mbs_core::scene::{Entry, Scene};
 use mbs_scene::format::few;
 use std::time::Instant;
 
-/// Observations along the motion: the time reached, singular positions, corners of loops, and why it stopped.
+/// Observations along the motion: the time reached, singular positions, corners of loops, and the reason of a stop.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Motion {
     /// Formulation of the run.
     pub formulation: &'static str,
-    /// Number of positions looked at.
+    /// Number of examined positions.
     pub positions: u64,
     /// Time that was reached [s].
     pub reached: f64,
-    /// Duration that was asked for [s].
+    /// Duration of the run that was requested [s].
     pub duration: f64,
-    /// Was the time of the examination up before the duration?
+    /// Did the examination reach its time limit before the end of the run?
     pub is_cut_short: bool,
     /// The nearest singular position of each part with loops.
     pub nearest: Vec<Nearest>,
@@ -40,7 +40,7 @@ pub struct Motion {
     pub corners: Vec<LinearMotion>,
     /// Reason why the run stopped: code, message and hint.
     pub error: Option<(&'static str, String, &'static str)>,
-    /// Entry of the scene that the error is about.
+    /// Entry of the scene that the error concerns.
     pub entry: Option<Entry>,
 }
 
@@ -49,15 +49,15 @@ pub struct Motion {
 pub struct Nearest {
     /// Time of the singular position [s].
     pub time: f64,
-    /// Smallest singular value over the largest, there [-]: zero where it is singular.
+    /// Ratio κ of the smallest to the largest singular value at this time [-]; zero in a singular position.
     pub sigma: f64,
-    /// Smallest singular value over the largest, at the start [-].
+    /// Ratio κ of the smallest to the largest singular value at the start [-].
     pub sigma_at_start: f64,
-    /// Rank, and the rank at the start.
+    /// Rank of the equations in this position, and at the start.
     pub rank: [usize; 2],
-    /// Joints whose equations nearly depend on each other there.
+    /// Joints whose equations nearly depend on each other in this position.
     pub joints: Vec<usize>,
-    /// Times of all passages through a singular position [s].
+    /// Times at which the part passes a singular position [s].
     pub passages: Vec<f64>,
 }
 
@@ -66,25 +66,25 @@ pub struct Nearest {
 pub struct LinearMotion {
     /// Number of the loop.
     pub lap: usize,
-    /// The joint in the corner.
+    /// Joint in the corner of the loop.
     pub joint: usize,
-    /// Turn at the start [rad].
+    /// Angle of the corner at the start [rad].
     pub turn: f64,
-    /// Smallest angle to a straight line [rad], and its time [s].
+    /// Smallest angle between the corner and a straight line [rad], and its time [s].
     pub least: [f64; 2],
-    /// First time at which the corner was on its other side [s].
+    /// First time at which the corner was bent to the other side [s].
     pub changed: Option<f64>,
 }
 
-/// Value of κ below which a position counts as passed through [-]. Chosen, not tuned.
+/// Value of κ below which the motion passes a singular position [-]. Chosen, not tuned.
 const SINGULAR: f64 = 1e-3;
-/// Most joints of a part that is watched: decompositions of larger ones take minutes.
+/// Largest number of joints of a part that is examined along the motion: decompositions of larger parts take minutes.
 const LARGEST: usize = 200;
-/// Most operations of all decompositions [-]: fewer positions of large parts are decomposed. Chosen, not tuned.
+/// Largest number of operations of all decompositions [-]. It limits the number of positions for large parts. Chosen, not tuned.
 const WORK: f64 = 2e10;
-/// Operations of a decomposition, relative to the cube of its columns [-]: that of singular values and vectors.
+/// Operations of a decomposition into singular values and vectors, relative to the cube of its columns [-].
 const SVD_WORK: f64 = 20.0;
-/// Part of a unit combination above which a joint belongs to it [-]. Chosen, not tuned.
+/// Component of a unit null vector above which its joint is named [-]. Chosen, not tuned.
 const MEMBER_PART: f64 = 0.05;
 
 struct Watch<'a> {
@@ -94,17 +94,17 @@ struct Watch<'a> {
     corners: Vec<LinearMotion>,
 }
 
-/// Track of one part along the motion.
+/// Samples of one part along the motion.
 struct Track<'a> {
     part: &'a Part,
     rank: [usize; 2],
-    /// Time and κ of each position since the rank was last raised.
+    /// Time and κ of each position since the last increase of the rank.
     kappa: Vec<[f64; 2]>,
     at_start: f64,
     joints: Vec<usize>,
 }
 
-/// Runs the scene and looks at positions on the way.
+/// Runs the scene and examines positions along the run.
 pub(super) fn watch<const D: usize>(
     scene: &Scene<f64>,
     settings: &ResolvedMethod,
@@ -147,11 +147,11 @@ pub(super) fn watch<const D: usize>(
     motion
 }
 
-/// Looks at positions along a run, for as long as there is time.
+/// Examines positions along a run, until its time limit.
 struct Look<'a, 'b> {
     watch: &'a mut Watch<'b>,
     motion: &'a mut Motion,
-    /// Time between two positions, and that of the next [s].
+    /// Time between two examined positions [s].
     every: f64,
     next: f64,
     has_time: &'a dyn Fn() -> bool,
@@ -227,7 +227,7 @@ impl<'a> Watch<'a> {
             self.corners = corners().map(straight).collect();
         }
         for (lap, corner) in corners() {
-            // A corner may vanish where two places meet.
+            // a corner vanishes if two points of its loop coincide
             let Some(of) =
                 self.corners.iter_mut().find(|s| s.lap == lap && s.joint == corner.joint)
             else {
@@ -253,7 +253,7 @@ impl Track<'_> {
             self.rank = [here, here];
             self.at_start = rank.least();
         } else if here > self.rank[0] {
-            // What came before had a lower rank: it was singular.
+            // earlier positions had a lower rank, so they were singular
             self.rank[0] = here;
             self.kappa.iter_mut().for_each(|sample| sample[1] = 0.0);
             if self.kappa.iter().any(|sample| sample[0] <= 0.0) {
@@ -293,17 +293,17 @@ impl Track<'_> {
     }
 }
 
-/// Time and value of the least of κ near sample `i`, which is the smallest of its neighbours.
+/// Time and value of the minimum of κ near sample `i`, which is smaller than its neighbours.
 pub fn refined(kappa: &[[f64; 2]], i: usize) -> [f64; 2] {
     let low = touched(kappa, i);
     match crossed(kappa, i) {
-        // What the samples contradict is no passage, and its value none of κ.
+        // the zero counts only if the cubic fits the samples better than the parabola's minimum
         Some(crossing) if crossing[1] < low[1].min(SINGULAR) => crossing,
         _ => low,
     }
 }
 
-/// Returns the time at which κ passes zero, and by how much the samples contradict that.
+/// Returns the time at which κ passes zero, and the deviation of the samples from the cubic.
 fn crossed(kappa: &[[f64; 2]], i: usize) -> Option<[f64; 2]> {
     if i < 2 || i + 2 >= kappa.len() {
         return None;
@@ -315,7 +315,7 @@ fn crossed(kappa: &[[f64; 2]], i: usize) -> Option<[f64; 2]> {
         .chain(behind.iter().map(|&k| [kappa[k][0], -kappa[k][1]]))
         .collect();
     let [t, value] = kappa[i];
-    // Lagrange's polynomial at t.
+    // weights of Lagrange's interpolation at t
     let weight = |a: usize| {
         let others = (0..4).filter(|&b| b != a);
         others.map(|b| (t - points[b][0]) / (points[a][0] - points[b][0])).product::<f64>()
@@ -325,7 +325,7 @@ fn crossed(kappa: &[[f64; 2]], i: usize) -> Option<[f64; 2]> {
     Some([t - here / slope, (here.abs() - value).abs()])
 }
 
-/// The least of the parabola through κ² of three samples.
+/// Minimum of the parabola through κ² of three samples.
 fn touched(kappa: &[[f64; 2]], i: usize) -> [f64; 2] {
     if i == 0 || i + 1 >= kappa.len() {
         return kappa[i];
@@ -340,7 +340,7 @@ fn touched(kappa: &[[f64; 2]], i: usize) -> [f64; 2] {
     let slope = first + curvature * (t1 - t0);
     let t = t1 - slope / (2.0 * curvature);
     let least = b - slope * slope / (4.0 * curvature);
-    // Below zero the parabola is no picture of a square.
+    // a parabola with a negative minimum cannot be a square
     if t < t0 || t > t2 || least < 0.0 { kappa[i] } else { [t, least.sqrt()] }
 }
 
@@ -390,7 +390,7 @@ pub(super) fn findings(
     }
 }
 
-/// A part that passes singular positions.
+/// Makes the finding of a part that passes singular positions.
 fn passes(scene: &Scene<f64>, near: &Nearest) -> Option<Finding> {
     let first = few(*near.passages.first()?);
     let times = match near.passages.len() {

@@ -1,4 +1,4 @@
-//! Places that belong together and are not quite the same, and places that look like those of another frame.
+//! Points that probably belong together without coinciding, and points that were probably given in another frame.
 
 use super::finding::{Finding, Severity, Topic};
 use mbs_core::algebra::Vector;
@@ -7,25 +7,26 @@ use mbs_core::effects::Value;
 use mbs_core::scene::{BodyId, Dimension, Entry, Inertia, JointKind, Scene};
 use mbs_scene::format::few;
 
-/// Distance between an end of an effect and another place of its body that is reported, relative to the scene's length [-]. Chosen, not tuned.
+/// Distance below which a separate end of an effect and another point of its body are reported, relative to the scene's length [-]. Chosen,
+/// not tuned.
 const NEAR_ON_SCENE: f64 = 0.02;
-/// Distance that is reported between a place and a rod's end to which nothing is attached, relative to the rod's length [-]. The other end is
-/// no candidate.
+/// Distance below which a point near a rod's unattached end is reported, relative to the rod's length [-]. The rod's other end is not
+/// compared with it.
 const NEAR_ON_ROD: f64 = 0.15;
-/// Distance from the centre of mass from which a place is not on a body, in sizes of the body [-]. Within one size it would be on it
-/// if it were measured from the centre.
+/// Distance from the centre of mass beyond which a point is not on the body, in sizes of the body [-]. The same numbers measured from the
+/// centre would be on the body if they are within one size.
 const FAR_FROM_CENTER: f64 = 3.0;
 
-/// Owner of a place on a body.
+/// Owner of a point on a body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Owner {
-    /// An end of the body's rod.
+    /// End of the body's rod, if the body is one.
     Rod,
     Joint(usize),
     Effect(usize, &'static str),
 }
 
-/// A place of a body.
+/// Point of a body with its owner.
 #[derive(Debug, Clone, Copy)]
 struct Place {
     owner: Owner,
@@ -33,7 +34,7 @@ struct Place {
     point: Vector<f64, 3>,
 }
 
-/// Names what is near another place of its body without being there, and effects that are far from their body.
+/// Reports points that are near another point of their body, and effects that are far from their body.
 pub(super) fn findings(scene: &Scene<f64>, findings: &mut Vec<Finding>) {
     let near = NEAR_ON_SCENE * scene_length(scene);
     for here in places(scene) {
@@ -44,7 +45,7 @@ pub(super) fn findings(scene: &Scene<f64>, findings: &mut Vec<Finding>) {
     }
 }
 
-/// All places that the file writes for each body, in the order: rods, joints, effects.
+/// All points that the file gives for each body, in the order: rods, joints, effects.
 fn places(scene: &Scene<f64>) -> Vec<Vec<Place>> {
     let mut places = vec![Vec::new(); scene.bodies.len()];
     let mut add = |owner, body, point: [f64; 3]| {
@@ -58,7 +59,7 @@ fn places(scene: &Scene<f64>) -> Vec<Vec<Place>> {
             add(Owner::Rod, BodyId::Body(b), to);
         }
     }
-    // welds and free joints hold at any place
+    // welds and free joints have the same effect at any point
     let is_placed = |kind: JointKind| !kind.is_rigid() && !kind.is_free();
     for (j, joint) in scene.joints.iter().enumerate().filter(|(_, j)| is_placed(j.kind)) {
         joint.bodies.into_iter().zip(joint.points).for_each(|(b, p)| add(Owner::Joint(j), b, p));
@@ -71,9 +72,9 @@ fn places(scene: &Scene<f64>) -> Vec<Vec<Place>> {
     places
 }
 
-/// Pairs of places of one body that are near each other: each place that meets no joint, with the nearest other one.
+/// Pairs of points of one body that are near each other: each point that coincides with no joint, with the nearest other one.
 ///
-/// An end of a rod or of an effect that meets a joint belongs to it, wherever the next joint is.
+/// An end of a rod or of an effect that coincides with a joint belongs to it, even if another joint is near.
 fn apart<'a>(scene: &Scene<f64>, here: &'a [Place], near: f64) -> Vec<(&'a Place, &'a Place)> {
     let distance = |a: &Place, b: &Place| (a.point - b.point).norm();
     let is_joint = |place: &Place| matches!(place.owner, Owner::Joint(_));
@@ -85,10 +86,10 @@ fn apart<'a>(scene: &Scene<f64>, here: &'a [Place], near: f64) -> Vec<(&'a Place
         if others().any(|other| is_there(other) && is_joint(other)) {
             continue;
         }
-        // the end of a rod to which an effect is attached is meant as an end
+        // an effect at the end of a rod shows that both points are correct
         let is_shared = others().any(|other| is_there(other) && is_rod(other) != is_rod(place));
         let limit = limit(scene, place, (near, is_shared));
-        // two effects are compared where they act between the same bodies
+        // points of two effects are compared only if both effects act between the same bodies
         let may_belong = |other: &&Place| {
             !is_there(other)
                 && (is_joint(other)
@@ -105,7 +106,8 @@ fn apart<'a>(scene: &Scene<f64>, here: &'a [Place], near: f64) -> Vec<(&'a Place
     pairs
 }
 
-/// Returns the largest distance at which the place that is meant may be [m]. On a short rod both ends are near.
+/// Returns the largest distance from the point to another one that it may have been meant to coincide with [m]. It is at most half of a rod,
+/// whose ends may be near each other.
 fn limit(scene: &Scene<f64>, place: &Place, (near, is_shared): (f64, bool)) -> f64 {
     let Inertia::Rod { from, to } = scene.bodies[place.body].inertia else { return near };
     let length = (Vector::from(to) - Vector::from(from)).norm();
@@ -143,7 +145,7 @@ fn near_miss(scene: &Scene<f64>, place: &Place, other: &Place) -> Finding {
     Finding::new(Severity::Doubt, code, message, remedy).bodies(vec![place.body]).at(entry, key)
 }
 
-/// An effect that is far from its body, and would be on it if its place were counted from the centre of mass.
+/// Reports an effect whose point is far from its body, and would be on it if its coordinates were relative to the centre of mass.
 fn stray(scene: &Scene<f64>, place: &Place, here: &[Place]) -> Option<Finding> {
     let Owner::Effect(..) = place.owner else { return None };
     let (mass, center, inertia) = mass_properties(scene, place.body);
@@ -191,7 +193,7 @@ fn whose(scene: &Scene<f64>, place: &Place) -> String {
     }
 }
 
-/// A place as the file writes it.
+/// Coordinates of a point as the file has them.
 fn written(scene: &Scene<f64>, point: Vector<f64, 3>) -> String {
     let n = if scene.dimension == Dimension::Planar { 2 } else { 3 };
     let numbers: Vec<String> =
@@ -199,7 +201,7 @@ fn written(scene: &Scene<f64>, point: Vector<f64, 3>) -> String {
     format!("[{}]", numbers.join(", "))
 }
 
-/// A length in the unit that reads best.
+/// Formats a length in millimetres or metres.
 fn length(x: f64) -> String {
     if x < 1.0 { format!("{} mm", few(1e3 * x)) } else { format!("{} m", few(x)) }
 }

@@ -1,4 +1,4 @@
-//! Dependent sets as findings, and the words for their remedy.
+//! Findings about dependent sets of constraints, and their remedies in words.
 
 use super::finding::{Finding, Severity, Topic, body_names, joint_names};
 use crate::redundancy::{Diagnosis, JointChange, Linkage, Nature, Remedy, Set, diagnose};
@@ -6,7 +6,7 @@ use mbs_core::rigid::RigidMotion;
 use mbs_core::scene::{InitialTarget, Scene};
 use mbs_scene::format::{counted, few};
 
-/// One finding per set.
+/// Adds one finding for each dependent set.
 pub(super) fn findings(
     scene: &Scene<f64>,
     diagnosis: &Diagnosis,
@@ -43,8 +43,9 @@ pub(super) fn findings(
     }
 }
 
-/// Sets that depend in the reference configuration alone, where less than two of their joints are held: held values lead away from there on
-/// one of the branches that meet, and nothing in the file says on which.
+/// Reports sets that are dependent only in the reference configuration, if less than two of their joints have a prescribed value. Several
+/// branches of the motion meet there. Prescribed values lead away from this configuration along one of the branches, which the file does not
+/// determine.
 pub(super) fn left_behind(
     scene: &Scene<f64>,
     (linkage, rest): (&Linkage, &[RigidMotion<f64>]),
@@ -139,7 +140,7 @@ fn of_one_pair(scene: &Scene<f64>, set: &Set) -> bool {
     set.members.iter().all(|m| pair(m) == pair(&set.members[0]))
 }
 
-/// Returns in one sentence what a remedy would change.
+/// Describes the changes of a remedy in one sentence.
 pub(super) fn words(scene: &Scene<f64>, remedy: &Remedy) -> String {
     let joint = |change: &JointChange| {
         let name = &scene.joints[change.joint].name;

@@ -1,4 +1,4 @@
-//! Examination of the start: what did not fit before assembly, and how far it moved each body.
+//! Examination of the start: residuals before assembly, and the displacement of each body by assembly.
 
 use super::basis::{Begun, stopped};
 use super::finding::{Finding, Severity, Topic};
@@ -10,20 +10,20 @@ use mbs_core::algebra::rotation_vector;
 use mbs_core::scene::{BodyId, Entry, InitialTarget, Motion, Scene, TableNote};
 use mbs_scene::format::{counted, few};
 
-/// Changes by assembly: residuals before and after, and the way and speed of each body.
+/// Changes by assembly: residuals before and after it, and the displacement and speed of each body.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Moved {
-    /// Largest residual of joints, guides and held values in the reference configuration [m or rad].
+    /// Largest residual of joints, guides and prescribed initial values in the reference configuration [m or rad].
     pub residual_before: f64,
-    /// Largest residuals after assembly: position, velocity, acceleration.
+    /// Largest residuals of position, velocity and acceleration equations after assembly.
     pub residual: [f64; 3],
-    /// Way of the centre [m] and turn [rad] of each body from the reference configuration.
+    /// Displacement of the centre [m] and rotation [rad] of each body from the reference configuration.
     pub bodies: Vec<[f64; 2]>,
     /// Speed of the centre [m/s] and angular speed [rad/s] of each body.
     pub speeds: Vec<[f64; 2]>,
 }
 
-/// A scene that cannot start.
+/// Adds the finding for a scene that cannot start.
 pub(super) fn no_start(scene: &Scene<f64>, error: &StopError, findings: &mut Vec<Finding>) {
     let (message, hint) = stopped(scene, error, 0.0);
     let mut finding = Finding::new(Severity::Fault, (Topic::Start, error.code()), message, hint);
@@ -38,8 +38,8 @@ pub(super) fn no_start(scene: &Scene<f64>, error: &StopError, findings: &mut Vec
     findings.push(finding);
 }
 
-/// Axes that are taken as parallel, or as across each other, though they are off by a little; and couplings whose sense is not that of
-/// version 0.1, or is not drawn, or whose wheels do not touch; and splines that leave the range of their rows.
+/// Adds notes about axes, couplings and splines. Axes that are taken as parallel or perpendicular deviate a little from it. A coupling has
+/// another sense than in version 0.1, an unclear sense, or wheels that do not touch. A spline leaves the range of the values in its table.
 pub(super) fn axes(scene: &Scene<f64>, findings: &mut Vec<Finding>) {
     for (joint, message) in mbs::inside::notes(scene) {
         let finding = Finding::new(Severity::Note, (Topic::Start, "axis-off"), message, "");
@@ -59,7 +59,8 @@ pub(super) fn axes(scene: &Scene<f64>, findings: &mut Vec<Finding>) {
     }
 }
 
-/// Largest displacement that is rounding of the file's numbers, relative to the scene's length [-]: they have six digits or more.
+/// Largest displacement that the rounding of the file's numbers explains, relative to the scene's length [-]. The numbers have six digits or
+/// more.
 const ROUNDING: f64 = 1e-6;
 
 pub(super) fn findings<const D: usize>(
@@ -106,7 +107,7 @@ pub(super) fn findings<const D: usize>(
     }
 }
 
-/// Does something ask for positions other than those of the reference configuration?
+/// Does the scene prescribe positions other than those of the reference configuration?
 fn asks(scene: &Scene<f64>) -> bool {
     let holds = |i: &mbs_core::scene::InitialCondition<f64>| matches!(&i.target, InitialTarget::Joint { value: Some(v), .. } if v.iter().any(|x| x.abs() > 0.0));
     let drives = |guide: &mbs_core::scene::Guide<f64>| !matches!(guide.law, Motion::Ramp { .. });
@@ -115,7 +116,8 @@ fn asks(scene: &Scene<f64>) -> bool {
         || scene.guides.iter().any(drives)
 }
 
-/// Bodies that move at the start though no velocity of theirs is written, and less is written than there are freedoms.
+/// Reports bodies that move at the start although the file gives no velocity for them. This happens if fewer velocities are given than there
+/// are degrees of freedom.
 fn follow<const D: usize>(
     scene: &Scene<f64>,
     (begun, speeds): (&Begun<D>, &[[f64; 2]]),

@@ -1,4 +1,4 @@
-//! Numbers that look like another unit: reported only where the evidence is strong, as warnings that always come are not read.
+//! Numbers that are probably in another unit. They are reported only with strong evidence, because frequent warnings are not read.
 
 use super::finding::{Finding, Severity, Topic, body_names};
 use mbs_core::cluster::{mass_properties, scene_length};
@@ -6,13 +6,13 @@ use mbs_core::effects::UnitHint;
 use mbs_core::scene::{BodyId, Effect, Entry, Freedom, InitialTarget, JointId, Motion, Scene};
 use mbs_scene::format::few;
 
-/// Bounds of mass over the cube of the size [kg/m^3]: a slender rod of a metre and a kilogram has 1, a block of steel 8000.
+/// Bounds of the mass divided by the cube of the size [kg/m^3]. A slender rod of 1 m and 1 kg has 1, a block of steel 8000.
 const DENSITIES: [f64; 2] = [1e-6, 1e8];
-/// Ratio of radius of gyration to size from which an inertia is in another unit [-]: a rod has 0.29.
+/// Ratio of radius of gyration to size from which an inertia is probably in another unit [-]: a rod has 0.29.
 const GYRATION: f64 = 30.0;
-/// Ratio of a spring's free length to its length in place, from which it is in another unit [-]. Chosen, not tuned.
+/// Ratio of a spring's free length to its present length from which it is probably in another unit [-]. Chosen, not tuned.
 const LENGTHS: f64 = 100.0;
-/// Angular frequency from which a unit is doubtful [rad/s]: a steel rod of 1.6 mm vibrates along itself so fast.
+/// Angular frequency from which a unit is doubtful [rad/s]: that of the longitudinal vibration of a steel rod of 1.6 mm.
 const FASTEST: f64 = 1e7;
 
 pub(super) fn findings(scene: &Scene<f64>, findings: &mut Vec<Finding>) {
@@ -43,7 +43,7 @@ fn gravity(scene: &Scene<f64>, findings: &mut Vec<Finding>) {
     findings.push(doubt("gravity-unit", message, remedy).at(Entry::Scene, "gravity"));
 }
 
-/// Largest distance of a joint's place or a rod's end from the centre.
+/// Size of a body [m]: the largest distance of a joint's point or a rod's end from the centre of mass.
 fn size(scene: &Scene<f64>, body: usize) -> f64 {
     let (_, center, _) = mass_properties(scene, body);
     let me = BodyId::Body(body);
@@ -102,9 +102,10 @@ fn bodies(scene: &Scene<f64>, findings: &mut Vec<Finding>) {
     findings.push(doubt("size-or-mass-unit", message, remedy).at(Entry::Scene, "name"));
 }
 
-/// More than a turn in radians, up to two in degrees, and a multiple of five.
+/// Does a number look like an angle in degrees? It exceeds a revolution in radians, is at most two revolutions in degrees, and is a multiple
+/// of five.
 fn like_degrees(x: f64) -> bool {
-    /// Rounding of a quotient of two decimals [-]. Chosen, not tuned.
+    /// Rounding of a quotient of two decimal numbers [-]. Chosen, not tuned.
     const ROUNDING: f64 = 1e-9;
     let steps = x / 5.0;
     x.abs() > core::f64::consts::TAU && x.abs() <= 720.0 && (steps - steps.round()).abs() < ROUNDING
@@ -150,7 +151,7 @@ fn angles(scene: &Scene<f64>, findings: &mut Vec<Finding>) {
     }
 }
 
-/// A spring whose length at rest is far from its length in place, or whose frequency no machine has.
+/// Reports a spring whose free length is far from its present length, or whose frequency is higher than that of any machine.
 fn spring(
     scene: &Scene<f64>,
     (index, effect): (usize, &Effect<f64>),

@@ -1,20 +1,21 @@
-//! Errors from the rows of a run alone: what its rule errs by in each step, added up. Said only where no comparison run ends.
+//! Error estimate from the rows of a run alone: the sum of the local errors of its rule. It is used only if no comparison run is affordable
+//! or completes. With step h, solution y and numerical solution y_h:
 //!
 //! ```text
 //! trapezoidal rule:   y(t + h) - y_h(t + h) = -h³ y'''/12 + ...,   y''' ~ 3! y[t₀, t₁, t₂, t₃]
 //! error <= sum |h³ y'''| / 12
 //! ```
 //!
-//! What the motion makes of errors on the way is not in it: a mechanism that damps has less, one that is sensitive has more.
+//! The sum does not contain the growth or decay of earlier errors. A damped mechanism has smaller errors, a sensitive one larger errors.
 
-/// Errors may grow on the way by this factor [-]. Over scenes with long steps, the sum is between 0.1 and 4 times below the error in nine
-/// components of ten. Rates of natural coordinates may err by more, which rows do not show.
+/// Safety factor for the growth of errors during the run [-]. Over scenes with long steps, the sum is 0.1 to 4 times smaller than the error
+/// in nine components of ten. Rates of natural coordinates may have larger errors, which rows do not show.
 pub const GROWTH: f64 = 3.0;
 
-/// Least error that a comparison run shows, in units of rounding of an output [-]. Chosen, not tuned.
+/// Smallest error that a comparison run shows, in units of the rounding of an output [-]. Chosen, not tuned.
 pub(super) const ROUNDINGS: f64 = 8.0;
 
-/// The error of each component of the rows (time, components), of which every step has one.
+/// Estimates the error of each component. `rows` are (time, components), one row for each step.
 pub fn errors(rows: &[(f64, Vec<f64>)]) -> Vec<f64> {
     let n = rows.first().map_or(0, |(_, row)| row.len());
     (0..n).map(|c| GROWTH * sum(rows, c).min(range(rows, c))).collect()
@@ -32,7 +33,7 @@ fn sum(rows: &[(f64, Vec<f64>)], c: usize) -> f64 {
     rows.windows(4).map(|w| third(w).abs()).filter(|x| x.is_finite()).sum()
 }
 
-/// Largest less least value of a component.
+/// Range of a component: its largest minus its smallest value.
 pub(super) fn range(rows: &[(f64, Vec<f64>)], c: usize) -> f64 {
     let values = || rows.iter().map(|(_, row)| row[c]);
     values().fold(f64::NEG_INFINITY, f64::max) - values().fold(f64::INFINITY, f64::min)

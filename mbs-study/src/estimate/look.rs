@@ -1,4 +1,4 @@
-//! A second look at the motion of a run: the same scene by another method, compared at some of the run's rows.
+//! Comparison run: the same scene by another method, compared at some of the original run's rows.
 
 use core::ops::ControlFlow;
 use mbs::inside::{
@@ -11,49 +11,53 @@ use mbs_core::scene::Scene;
 use mbs_core::step::{StepError, StepReport};
 use mbs_sparse::Multifrontal;
 
-/// Fraction of its most work after which a run for comparison may stop for being behind [-]: its first steps search for their length.
+/// Fraction of the largest work of a comparison run after which it may end because it would take too much [-]. Its first steps still search
+/// for their length.
 const PROBE: f64 = 0.1;
-/// Factor by which a run for comparison may be behind at first [-]; it falls to one at its most work. Chosen, not tuned.
+/// Factor by which the predicted work of a comparison run may exceed the limit at first [-]. The factor falls to one when the limit is
+/// reached. Chosen, not tuned.
 const BEHIND: f64 = 1.8;
-/// Measurements whose work is taken for that of those to come [-]: what swings out at the start takes more. Chosen, not tuned.
+/// Number of last measurements from which the remaining work is predicted [-]. Vibration that decays after the start takes more work. Chosen,
+/// not tuned.
 const RECENT: usize = 8;
-/// Fraction of its most work that a run for comparison may do between two measurements [-], beside [`FEW_STEPS`]. Chosen, not tuned.
+/// Fraction of the largest work that a comparison run may do between two measurements [-]. It may always make [`FEW_STEPS`]. Chosen, not
+/// tuned.
 const AT_ONCE: f64 = 0.1;
-/// States at which the stiffest force is searched. Chosen, not tuned.
+/// Number of states at which the stiffest force is searched. Chosen, not tuned.
 const STATES: usize = 5;
-/// Largest turn between two measurements [rad]: measured angles are known within half a turn.
+/// Largest rotation between two measurements [rad], since measured angles are known within half a revolution only.
 const TURN: f64 = 1.5;
-/// Steps between two measurements that a comparison run with controlled steps always has [-]. Chosen, not tuned.
+/// Number of steps between two measurements that a comparison run with controlled steps may always make [-]. Chosen, not tuned.
 const FEW_STEPS: f64 = 64.0;
-/// Evaluations in a step of a comparison run with controlled steps [-]: those of order 8, of which the last is the next one's first.
+/// Evaluations in a step of a comparison run with controlled steps [-]: those of order 8. The last one is also the first of the next step.
 const EVALUATIONS: f64 = 12.0;
-/// Most steps between two measurements: those that an integrator may try by default.
+/// Largest number of steps between two measurements [-]: the default limit of an integrator.
 const MOST_STEPS: f64 = 1e6;
 
-/// End of a look.
+/// End of a comparison run.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum End {
-    /// Look that saw the whole run.
+    /// Comparison run over the whole run.
     Whole,
-    /// Look that would take too much work.
+    /// Comparison run that would take too much work.
     Late,
-    /// Look that stopped; when [s] and why.
+    /// Comparison run that stopped: time [s] and reason.
     Stopped(f64, String),
-    /// Look that did not start; why.
+    /// Comparison run that did not start: reason.
     NotStarted(String),
 }
 
-/// Speed of the motion, relative to the steps of the run.
+/// Speed of the motion, relative to the step of the original run.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Pace {
-    /// The largest turn of a body in a step [rad], and the body.
+    /// Largest rotation of a body in a step [rad], and the index of this body.
     pub(super) turn: (f64, usize),
-    /// The least number of steps in a period of the stiffest force.
+    /// Smallest number of steps in a period of the stiffest force.
     pub(super) steps_per_period: Option<f64>,
 }
 
 impl Pace {
-    /// Takes what another look saw.
+    /// Takes the maxima of another comparison run into account.
     pub(super) fn take(&mut self, other: &Self) {
         if other.turn.0 > self.turn.0 {
             self.turn = other.turn;
@@ -63,35 +67,35 @@ impl Pace {
     }
 }
 
-/// Result of a look.
+/// Result of a comparison run.
 #[derive(Debug)]
 pub(super) struct Seen {
-    /// Components at the instants that it reached.
+    /// Components at the instants that the run reached.
     pub(super) values: Vec<Vec<f64>>,
-    /// Speed of the motion, relative to the steps of the run.
+    /// Speed of the motion, relative to the step of the original run.
     pub(super) pace: Pace,
-    /// Number of iterations and steps of the look.
+    /// Number of iterations and steps made.
     work: f64,
     /// Nominal time of these iterations and steps [s].
     pub(super) seconds: f64,
     pub(super) end: End,
 }
 
-/// Run that is looked at.
+/// Original run, for which comparison runs are made.
 pub(super) struct Look<'a, const D: usize> {
     pub(super) scene: &'a Scene<f64>,
     pub(super) ready: &'a AssembledScene<f64, D>,
     /// Time and components of each row of the run.
     pub(super) rows: &'a [(f64, Vec<f64>)],
-    /// Steps of the run.
+    /// Number of steps of the run.
     pub(super) n_steps: f64,
-    /// The run's step at a time [s]; zero where its integrator controls it.
+    /// Function of the run's step at a time [s]; zero if its integrator controls the step itself.
     pub(super) step_at: &'a dyn Fn(f64) -> f64,
 }
 
 impl<const D: usize> Look<'_, D> {
-    /// Looks with these settings at these rows, in steps of about `step` [s] where their length is fixed, for no longer than `most`
-    /// [s, nominal] where `of_one` says what an iteration or a step takes in a model of these sizes.
+    /// Makes a comparison run with these settings, compared at the rows `instants`. Fixed steps have a length of about `step` [s]. The
+    /// nominal time is limited to `most` [s]. `of_one` is the nominal time of an iteration or step in a model of given sizes [s].
     pub(super) fn at(
         &self,
         settings: &ResolvedMethod,
@@ -138,7 +142,7 @@ impl<const D: usize> Look<'_, D> {
     }
 }
 
-/// A look on its way.
+/// State of a comparison run.
 struct Eye<'a, const D: usize> {
     look: &'a Look<'a, D>,
     simulation: Simulation<f64, D>,
@@ -149,25 +153,25 @@ struct Eye<'a, const D: usize> {
     limit: Limit<'a>,
 }
 
-/// Limit that ends a look.
+/// Limit of the work of a comparison run.
 #[derive(Clone, Copy)]
 struct Limit<'a> {
-    /// Most iterations and steps.
+    /// Largest number of iterations and steps.
     most: f64,
     interrupt: &'a Interrupt,
 }
 
 impl Limit<'_> {
-    /// Has so much work been done that the look ends?
+    /// Does the work, or an interrupt, end the comparison run?
     fn is_reached(&self, work: f64) -> bool {
         work > self.most || self.interrupt.is_set()
     }
 
-    /// Is too much work left? `work` was done at the last measurements, which have seen these fractions of the run.
+    /// Does the run need too much work? `seen` has, for each measurement, the completed fraction of the run and the work up to it.
     fn is_behind(&self, seen: &[(f64, f64)]) -> bool {
         let Some(&(share, work)) = seen.last() else { return false };
         let (before, done) = seen[seen.len().saturating_sub(RECENT + 1)];
-        // neither a burst nor a start that swings out says what the rest takes
+        // the smaller of the mean and the recent rate counts: single fast phases and the start may take more work than the rest
         let rate = (work / share).min((work - done) / (share - before));
         let left = (1.0 - share) * rate;
         let taken = work / self.most;
@@ -200,7 +204,7 @@ impl<const D: usize> Eye<'_, D> {
         Ok(())
     }
 
-    /// Steps to a time [s]; bodies turn at a rate [rad/s].
+    /// Steps to a time `to` [s]. `rate` is the largest angular velocity of a body [rad/s].
     fn reach(&mut self, (to, rate): (f64, f64), is_last: bool, work: &mut f64) -> Result<(), End> {
         let from = self.simulation.state().t;
         let rest = to - from;
@@ -233,7 +237,7 @@ impl<const D: usize> Eye<'_, D> {
         }
     }
 
-    /// The largest angular velocity of a body [rad/s]; keeps the largest turn in a step of the run.
+    /// Returns the largest angular velocity of a body [rad/s], and updates the largest rotation in a step of the original run.
     fn turning(&self, t: f64, most: &mut Pace) -> f64 {
         let (model, state) = (self.simulation.model(), self.simulation.state());
         let step = (self.look.step_at)(t);
@@ -248,7 +252,7 @@ impl<const D: usize> Eye<'_, D> {
         largest
     }
 
-    /// Keeps the least number of steps in a period of the stiffest force.
+    /// Updates the smallest number of steps in a period of the stiffest force.
     fn stiffness(&mut self, most: &mut Pace) {
         let (model, state) = (self.simulation.model(), self.simulation.state());
         let step = (self.look.step_at)(state.t);
@@ -258,12 +262,12 @@ impl<const D: usize> Eye<'_, D> {
     }
 }
 
-/// The work of a step: its iterations, or evaluations, and itself.
+/// Work of a step: its iterations or evaluations, plus the steps themselves.
 fn counted(report: &StepReport<f64>) -> f64 {
     f64::from(report.iterations) + f64::from(report.steps)
 }
 
-/// Returns the end of a look that stops.
+/// Makes the end of a comparison run that stops.
 fn stopped<const D: usize>(
     scene: &Scene<f64>,
     simulation: &Simulation<f64, D>,
@@ -273,14 +277,14 @@ fn stopped<const D: usize>(
     End::Stopped(t, error.report(t, &Names::new(scene)).message)
 }
 
-/// Sees the pieces of a look up to a row.
+/// Observer of the steps of a comparison run up to a row.
 struct Glance<'a, const D: usize> {
     channels: &'a mut Channels<f64, D>,
     alarm: &'a mut Alarm,
     limit: Limit<'a>,
-    /// Iterations and steps so far.
+    /// Number of iterations and steps so far.
     work: &'a mut f64,
-    /// Time of the row [s]; does the look end with it?
+    /// Time of the row [s], and whether the comparison run ends there.
     to: (f64, bool),
     late: bool,
 }

@@ -1,4 +1,4 @@
-//! Comparison runs that are made, their order, and what they say.
+//! Sequence of comparison runs, and the estimate from them.
 
 use super::differences;
 use super::look::{End, Look, Pace, Seen};
@@ -7,17 +7,19 @@ use mbs::{FormulationKind, IntegratorKind, Precision, ResolvedMethod, StepRule};
 use mbs_scene::format::few;
 use std::collections::BTreeSet;
 
-/// Most rows beside them at which an output is steepest [-]. Chosen, not tuned.
+/// Largest number of rows, besides the equally spaced ones, at which an output is steepest [-]. Chosen, not tuned.
 const STEEP: usize = 48;
-/// Most rows at which the same method with other steps is compared. Chosen, not tuned.
+/// Largest number of rows that are compared with the same method in other steps. Chosen, not tuned.
 const MANY: usize = 400;
-/// Ratios of the steps of the same method to the run's, the first that is affordable is taken [-].
+/// Ratios of the comparison run's step to the original step, with the same method [-]. The first affordable one is used.
 const RATIOS: [f64; 5] = [0.5, 2.0, 3.0, 5.0, 7.0];
-/// Iterations of a step that is longer, relative to the run's [-]: up to half as many more are needed.
+/// Ratio of the iterations of a longer step to those of the original step [-]: up to half as many more are needed.
 const MORE_ITERATIONS: f64 = 1.2;
-/// Looks in relative coordinates: integrator, tolerance [-], and most evaluations relative to the look before [-], over all scenes.
+/// Comparison runs in relative coordinates: integrator, tolerance [-], and largest number of evaluations relative to the run before, over all
+/// scenes [-].
 type Sequence = [(IntegratorKind, f64, f64)];
-/// A cheap look first: it is right within a third where the run errs by much, and says what a finer one takes.
+/// Comparison runs by explicit integrators. The first one is cheap. It is right within a third if the original run has large errors, and
+/// predicts the work of the next.
 const EXPLICIT: &Sequence = &[
     (IntegratorKind::Rk54, 1e-4, 0.0),
     (IntegratorKind::Rk853, 1e-8, 4.0),
@@ -25,51 +27,53 @@ const EXPLICIT: &Sequence = &[
     (IntegratorKind::Rk853, 1e-12, 1.8),
     (IntegratorKind::Rk853, FINEST, 1.3),
 ];
-/// Looks that follow the first explicit one where the second is not affordable.
+/// Comparison runs that follow the first explicit one if the second is not affordable.
 const CHEAP: &Sequence = &[(IntegratorKind::Rk54, 1e-5, 1.4), (IntegratorKind::Rk54, 1e-6, 1.6)];
-/// Looks for stiff forces.
+/// Comparison runs for scenes with stiff forces.
 const IMPLICIT: &Sequence = &[
     (IntegratorKind::Radau5, 1e-6, 0.0),
     (IntegratorKind::Radau5, 1e-7, 1.6),
     (IntegratorKind::Radau5, 1e-8, 1.6),
 ];
-/// Ratio of the tolerance of a finer comparison run to that of a run that controls its own steps [-]. Chosen, not tuned.
+/// Ratio of the tolerance of a comparison run to that of the original run, if the original integrator controls its steps itself [-]. Chosen,
+/// not tuned.
 const FINER: f64 = 0.01;
-/// Least tolerance of a comparison run [-]: rounding is near.
+/// Smallest tolerance of a comparison run [-], which is close to the rounding of numbers.
 const FINEST: f64 = 1e-13;
-/// Tolerance of an integrator that controls its own steps where none is given [-]: the default of its options.
+/// Tolerance of an integrator with its own step control if none is given [-]: the default of its options.
 const OWN_TOLERANCE: f64 = 1e-8;
-/// Order of the error of a step with which a tolerance grows with the ratio of steps [-]: that of order 5, the least that controls its own.
+/// Exponent with which the tolerance is scaled by the ratio of steps [-]: order 5, the smallest of the integrators with their own step
+/// control.
 const OWN_ORDER: i32 = 5;
-/// Difference of an output, relative to its range, from which it is no small error and follows no order [-]. Chosen, not tuned.
+/// Difference of an output, relative to its range, from which it no longer decreases with the order of the method [-]. Chosen, not tuned.
 const LOST: f64 = 0.1;
 
-/// Estimate that was found: its basis, and the errors.
+/// Estimate: its basis, and the errors of the components.
 pub(super) struct Found {
     pub(super) basis: String,
     pub(super) errors: Vec<f64>,
-    /// Does what iterations leave come on top?
+    /// Are the errors of the run's iterations added?
     pub(super) floor: bool,
 }
 
-/// The comparison runs of a run.
+/// Comparison runs of an original run.
 pub(super) struct Looks<'a, const D: usize> {
     pub(super) look: Look<'a, D>,
     pub(super) settings: &'a ResolvedMethod,
     pub(super) purse: Purse,
-    /// Speed of the motion, relative to the steps of the run.
+    /// Speed of the motion, relative to the step of the original run.
     pub(super) pace: Pace,
-    /// Reasons why looks gave no estimate.
+    /// Reasons why comparison runs gave no estimate.
     why: Vec<String>,
 }
 
 impl<'a, const D: usize> Looks<'a, D> {
-    /// Makes looks of which none is done yet.
+    /// Makes the sequence of comparison runs, none of which is done yet.
     pub(super) fn new(look: Look<'a, D>, settings: &'a ResolvedMethod, purse: Purse) -> Self {
         Self { look, settings, purse, pace: Pace::default(), why: Vec::new() }
     }
 
-    /// Returns what the best look says that is affordable; else why none says anything.
+    /// Returns the estimate of the best affordable comparison run, or the reasons why there is none.
     pub(super) fn find(&mut self) -> Result<Found, String> {
         let instants = instants(self.look.rows, self.purse.rows(self.look.scene));
         for sequences in [&[EXPLICIT, CHEAP][..], &[IMPLICIT]] {
@@ -90,7 +94,7 @@ impl<'a, const D: usize> Looks<'a, D> {
         self.rest(part).ok_or_else(|| self.why.join("; "))
     }
 
-    /// Looks, and pays for it.
+    /// Makes a comparison run, and adds its nominal time to the time spent.
     fn see(
         &mut self,
         settings: &ResolvedMethod,
@@ -106,7 +110,8 @@ impl<'a, const D: usize> Looks<'a, D> {
         seen
     }
 
-    /// In relative coordinates, by finer and finer runs while these are affordable and differ by more than the run does.
+    /// Compares with runs in relative coordinates. Finer runs follow while they are affordable and differ from each other by more than the
+    /// original run does.
     fn relative(&mut self, sequences: &[&Sequence], instants: &[usize]) -> Result<Found, End> {
         let mut best: Option<(Seen, String)> = None;
         let mut n_whole = 0;
@@ -146,7 +151,7 @@ impl<'a, const D: usize> Looks<'a, D> {
         Ok(Found { basis, errors: self.differences(&seen, instants), floor: false })
     }
 
-    /// Does a look differ from the next by less than the run does, in each component?
+    /// Do two successive comparison runs differ by less than the original run does, in each component?
     fn is_finer(&self, (look, next): (&Seen, &Seen), instants: &[usize]) -> bool {
         let of_run = self.differences(next, instants);
         let both = || look.values.iter().zip(&next.values);
@@ -158,7 +163,7 @@ impl<'a, const D: usize> Looks<'a, D> {
         of_run.iter().enumerate().all(is_fine)
     }
 
-    /// The largest difference of each component from the rows of the run.
+    /// Largest difference of each component between a comparison run and the original run.
     fn differences(&self, seen: &Seen, instants: &[usize]) -> Vec<f64> {
         let rows = self.look.rows;
         let both = || seen.values.iter().zip(instants.iter().map(|&i| &rows[i].1));
@@ -166,7 +171,8 @@ impl<'a, const D: usize> Looks<'a, D> {
         (0..n).map(|c| both().map(|(a, b)| (a[c] - b[c]).abs()).fold(0.0, f64::max)).collect()
     }
 
-    /// Returns the errors by the same method with a ratio of its steps, where that is affordable, and whether the look saw the whole run.
+    /// Estimates errors by the same method with `ratio` times the step, if this is affordable. Also returns whether the comparison run
+    /// reached the end.
     fn same(&mut self, ratio: f64, instants: &[usize]) -> Option<(Found, bool)> {
         let more = if ratio > 1.0 { MORE_ITERATIONS } else { 1.0 };
         if !self.purse.has(more * self.purse.of_ratio(ratio)) {
@@ -179,7 +185,7 @@ impl<'a, const D: usize> Looks<'a, D> {
         };
         let seen = self.see(&settings, (&instants, step), |purse, _| purse.same());
         let divisor = ((ratio - 1.0) * (ratio * ratio - 1.0)).sqrt();
-        // where longer steps have lost the motion, they say no more than that
+        // if longer steps do not resolve the motion, the difference itself is the error
         let rows = self.look.rows;
         let is_lost = |c: usize, d: f64| ratio > 1.0 && d > LOST * differences::range(rows, c);
         let of = |(c, d): (usize, f64)| if is_lost(c, d) { d } else { d / divisor };
@@ -196,7 +202,7 @@ impl<'a, const D: usize> Looks<'a, D> {
         Some((Found { basis, errors, floor: true }, false))
     }
 
-    /// Returns what rows alone say, and a look that stopped.
+    /// Returns the estimate from the rows alone, combined with that of a comparison run that stopped.
     fn rest(&self, part: Option<Found>) -> Option<Found> {
         let rows = self.look.rows;
         let has_all_rows = self.look.n_steps + 1.0 <= rows.len() as f64;
@@ -215,7 +221,7 @@ impl<'a, const D: usize> Looks<'a, D> {
         }
     }
 
-    /// The run in relative coordinates by an integrator that controls its own step.
+    /// Settings of the original run, in relative coordinates with an integrator that controls its steps itself.
     fn of_relative(&self, integrator: IntegratorKind, tolerance: f64) -> ResolvedMethod {
         let settings = self.settings;
         let of_run = settings.tolerance.filter(|_| settings.integrator.controls_its_step());
@@ -235,10 +241,10 @@ impl<'a, const D: usize> Looks<'a, D> {
         }
     }
 
-    /// The run with other steps, and their length where it is fixed [s].
+    /// Settings of the original run with `ratio` times the step. Also returns the step, if it is fixed [s].
     fn of_same(&self, ratio: f64) -> (ResolvedMethod, Option<f64>) {
         let settings = self.settings;
-        // the local error of second order grows with the cube
+        // the local error of a method of second order grows with the cube of the step
         let grown = ratio.powi(3);
         let is_fixed = settings.rule == StepRule::Fixed && !settings.integrator.controls_its_step();
         let own = ratio.powi(OWN_ORDER) * settings.tolerance.unwrap_or(OWN_TOLERANCE);
@@ -259,7 +265,7 @@ impl<'a, const D: usize> Looks<'a, D> {
         (other, is_fixed.then_some(ratio * settings.step))
     }
 
-    /// Rows that are whole steps of a comparison run apart, where the rows allow it.
+    /// Rows whose distance is a multiple of the comparison run's step, if the rows allow it.
     fn spaced(&self, ratio: f64) -> Vec<usize> {
         let n_rows = self.look.rows.len();
         let a_row = self.settings.duration / (n_rows.max(2) - 1) as f64;
@@ -276,7 +282,7 @@ impl<'a, const D: usize> Looks<'a, D> {
     }
 }
 
-/// Returns the reason why a look gives no estimate.
+/// Returns the reason why a comparison run gives no estimate.
 fn reason(what: &str, end: &End) -> String {
     match end {
         End::Whole | End::Late => {
@@ -288,7 +294,7 @@ fn reason(what: &str, end: &End) -> String {
     }
 }
 
-/// Rows to compare at, the last among them: at equal distances in time, and where an output is steepest.
+/// Rows at which runs are compared, including the last one: equally spaced in time, and where an output is steepest.
 fn instants(rows: &[(f64, Vec<f64>)], evenly: usize) -> Vec<usize> {
     let Some(last) = rows.len().checked_sub(1).filter(|last| *last > 0) else { return Vec::new() };
     let end = rows[last].0;

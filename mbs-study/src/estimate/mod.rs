@@ -1,6 +1,6 @@
-//! Accuracy of a run: the errors of its outputs, by comparison runs beside it, and what made its steps too long.
+//! Accuracy of a run: errors of its outputs by comparison runs, and reasons why its steps are too long.
 //!
-//! The first of these looks that sees the whole run gives the estimate:
+//! The first of these comparisons that covers the whole run gives the estimate. y is an output of the run, y₂ that of the comparison run:
 //!
 //! ```text
 //! 1. relative coordinates, finer and finer:          error = |y - y₂|
@@ -9,12 +9,13 @@
 //! 4. the rows of the run alone (`differences`)
 //! ```
 //!
-//! A look is affordable by its counts: iterations, evaluations and steps, each with a nominal time (`purse`). A clock decides nothing,
-//! so every machine states the same errors. A run of less than a third of a second has time for looks of a tenth of a second.
+//! Counts decide whether a comparison run is affordable: iterations, evaluations and steps, each with a nominal time (`purse`). No clock is
+//! read, so every machine gives the same errors. Comparison runs may always take a tenth of a second, also for runs of less than a third of a
+//! second.
 //!
-//! In relative coordinates a look is followed by a finer one, until two of them differ by less than the run does. In the third the true
-//! divisor is r - 1 for order 1 and r² - 1 for order 2: the mean of both is off by at most 2.9 either way. The results of the run are
-//! read, never changed.
+//! In relative coordinates a finer comparison run follows, until two of them differ by less than the original run does. In the third
+//! comparison the exact divisor is r - 1 for order 1 and r² - 1 for order 2. The geometric mean of both is wrong by a factor of at most 2.9.
+//! The results of the run are read, never changed.
 
 pub(crate) mod differences;
 mod look;
@@ -34,20 +35,21 @@ use mbs_core::scene::{Dimension, Scene};
 use mbs_scene::format::few;
 use purse::Purse;
 
-/// Turn of a body in a step above which the rule errs by much [rad]: a hundredth of the turn of each revolution with second order.
+/// Rotation of a body in a step above which the trapezoidal rule has large errors [rad]. The angle is then wrong by about a hundredth of each
+/// revolution.
 const MOST_TURN: f64 = 0.3;
-/// Least steps in a period of the stiffest force [-]: with fewer its swing has a wrong period.
+/// Smallest number of steps in a period of the stiffest force [-]. With fewer steps its vibration has a wrong period.
 const FEWEST_STEPS: f64 = 20.0;
-/// Error of an output, relative to its range, from which it shows the swing of a force that the step does not follow [-]. A stated error is
-/// off by a factor of two at times, and one of a hundredth is worth a note.
+/// Error of an output, relative to its range, from which the unresolved vibration of a stiff force is reported [-]. An estimate may be wrong
+/// by a factor of two, and an error of a hundredth is worth a note.
 const SWINGS: f64 = 0.02;
-/// Error of an output by the iterations of a run, relative to the largest range of its unit [-]: Newton's tolerance.
+/// Error of an output because iterations end, relative to the largest range of its unit [-]: Newton's tolerance.
 const ITERATION: f64 = 1e-10;
 
-/// Estimates the errors of a run that was made with these settings, and puts them into its outcome. What is compared depends on counts of
-/// the run alone: every machine makes the same comparison. The clock says what it took.
+/// Estimates the errors of a run with these settings, and adds them to its outcome. Only counts of the run decide which comparison runs are
+/// made, so every machine makes the same ones. The clock only measures the time of the estimate.
 ///
-/// `scene` is the scene in `f64`, whatever the precision of the run.
+/// `scene` is in `f64`, whatever the precision of the run.
 pub fn estimate(
     scene: &Scene<f64>,
     settings: &ResolvedMethod,
@@ -69,7 +71,7 @@ pub fn estimate(
     outcome.take_estimate(estimate);
 }
 
-/// Judge of a run: its scene, settings and outcome.
+/// Data of the estimate: scene, settings and outcome of the run.
 struct Judge<'a> {
     scene: &'a Scene<f64>,
     settings: &'a ResolvedMethod,
@@ -80,7 +82,7 @@ impl Judge<'_> {
     fn estimate<const D: usize>(&self) -> ErrorEstimate {
         let mut estimate = ErrorEstimate::default();
         let Ok(ready) = AssembledScene::<f64, D>::new(self.scene) else {
-            // the run has started in another precision
+            // the run itself has started, but in another precision
             estimate.missing = Some("the scene does not start in f64".to_owned());
             return estimate;
         };
@@ -107,7 +109,7 @@ impl Judge<'_> {
         estimate
     }
 
-    /// The run's step at a time [s]; zero where its integrator controls it.
+    /// Step of the run at a time [s]; zero if its integrator controls the step itself.
     fn step_at(&self, t: f64) -> f64 {
         if self.settings.integrator.controls_its_step() {
             return 0.0;
@@ -152,7 +154,7 @@ impl Judge<'_> {
         (estimate.outputs, estimate.basis) = (Some(Outputs(outputs)), Some(found.basis));
     }
 
-    /// The largest error in the scale of its output [-], and the output.
+    /// Largest error relative to the scale of its output [-], and the name of this output.
     fn largest(&self, errors: &[f64]) -> Option<(f64, String)> {
         let values: Vec<Vec<f64>> =
             self.outcome.rows().iter().map(|(_, row)| row.clone()).collect();
@@ -165,7 +167,8 @@ impl Judge<'_> {
         shares.max_by(|a, b| a.0.total_cmp(&b.0))
     }
 
-    /// Warns of what makes the steps too long. A stiff force says nothing where no output shows it: its swing is mentioned where outputs err by much.
+    /// Adds warnings about steps that are too long for a rotation or a stiff force. A stiff force is mentioned only if outputs have large
+    /// errors: without them its vibration does not matter.
     fn warn(&self, estimate: &mut ErrorEstimate, most: &Pace) {
         let (turn, body) = most.turn;
         estimate.turn_per_step = (turn > 0.0).then_some(turn);

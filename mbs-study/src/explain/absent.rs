@@ -1,11 +1,11 @@
-//! Missing things: what a scene could have and has not; and what no scene has.
+//! Effects that a scene could have and does not have, and effects that no scene can have.
 
 use super::explanation::MissingEffect;
 use mbs_core::Real;
 use mbs_core::effects::EFFECTS;
 use mbs_core::scene::{Dimension, EffectKind, Scene};
 
-/// One line for each thing that is not simulated.
+/// Lists the effects that are not simulated, one line each.
 pub(super) fn absent<T: Real>(scene: &Scene<T>) -> Vec<MissingEffect> {
     let any = |is: &dyn Fn(&EffectKind<T>) -> bool| {
         scene.effects.iter().any(|effect| effect.enabled && is(&effect.kind))

@@ -3,17 +3,17 @@
 use mbs::record::{MethodChoice, OutputChange, PilotReport, RunError, alias};
 use serde::Serialize;
 
-/// Explanation of a scene: what is simulated, what is not, and the cost of each effect. Numbers that are not finite are written as `null`.
+/// Explanation of a scene: simulated parts, missing effects, and the cost of each effect. Numbers that are not finite are written as `null`.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct Explanation {
     /// Name of the scene.
     pub scene: String,
-    /// Formulation as asked, `auto` included.
+    /// Requested formulation, which may be `auto`.
     pub formulation: String,
     /// Choice of `auto` and its reason.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub chosen: Option<MethodChoice>,
-    /// The candidates of a choice by measurement: by structure, or with what a pilot measured.
+    /// Candidates of a choice by measurement: with facts of the scene's structure, or also with trials of a pilot.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub choice: Option<PilotReport>,
     /// Name of the integrator.
@@ -26,20 +26,20 @@ pub struct Explanation {
     pub step: f64,
     /// Length of the run [s].
     pub duration: f64,
-    /// Reason why the scene does not start, or why the run that was measured stopped.
+    /// Reason why the scene does not start, or why the measured run stopped.
     pub error: Option<RunError>,
     /// Parts of the scene that are simulated.
     pub simulated: Simulated,
     /// Every effect of the scene.
     pub effects: Vec<EffectEntry>,
-    /// Missing things that the scene could have.
+    /// Effects that the scene could have and does not have.
     pub absent: Vec<MissingEffect>,
-    /// Costs of the effects; `None` where the scene does not start.
+    /// Costs of the effects; `None` if the scene does not start.
     #[serde(flatten, serialize_with = "alias::prices")]
     pub prices: Option<EffectCosts>,
 }
 
-/// Bodies, joints, guides, and the sizes of the model.
+/// Simulated parts: bodies, joints, guides, and the sizes of the model.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct Simulated {
     /// Names of the bodies.
@@ -48,19 +48,19 @@ pub struct Simulated {
     pub joints: Vec<JointsByKind>,
     /// Guided joints of the scene.
     pub guides: Vec<GuideEntry>,
-    /// Names of the couplings; the key is left out where there are none.
+    /// Names of the couplings. The key is left out if there are none.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub couplings: Vec<String>,
-    /// Names of the bodies' contacts that roll, and of blades; the key is left out where there are none.
+    /// Names of rolling contacts and of blades. The key is left out if there are none.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub rollings: Vec<String>,
-    /// Acceleration of gravity [m/s^2], where it acts.
+    /// Acceleration of gravity [m/s^2], if there is gravity.
     pub gravity: Option<Vec<f64>>,
-    /// Coordinates minus rank in natural coordinates, at the start.
+    /// Degrees of freedom at the start: natural coordinates minus the rank of their constraints.
     pub dof: Option<usize>,
-    /// The model in natural coordinates.
+    /// Sizes of the model in natural coordinates.
     pub natural: Option<Sizes>,
-    /// The model in relative coordinates.
+    /// Model in relative coordinates.
     pub relative: Option<Relative>,
     /// Reason why there is no model in relative coordinates.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -75,7 +75,7 @@ pub struct Simulated {
 pub struct JointsByKind {
     /// Kind, as in scene files.
     pub kind: String,
-    /// Names, in the order of the file.
+    /// Names of the joints, in the order of the file.
     pub names: Vec<String>,
 }
 
@@ -84,7 +84,7 @@ pub struct JointsByKind {
 pub struct GuideEntry {
     /// Name of the joint.
     pub joint: String,
-    /// `table`, `sine`, `ramp`, `input`.
+    /// Law of the guide: `table`, `sine`, `ramp` or `input`.
     pub law: String,
 }
 
@@ -97,14 +97,14 @@ pub struct Sizes {
     pub constraints: usize,
     /// Rank of the constraint rows.
     pub constraint_rank: usize,
-    /// Rows beyond the rank.
+    /// Number of rows minus their rank.
     pub redundant: usize,
     /// Degrees of freedom: coordinates minus rank.
     pub dof: usize,
 }
 
 impl Sizes {
-    /// From coordinates, constraints and rank.
+    /// Makes sizes from coordinates, constraints and rank.
     #[must_use]
     pub fn new([coordinates, constraints, constraint_rank]: [usize; 3]) -> Self {
         let redundant = constraints.saturating_sub(constraint_rank);
@@ -113,21 +113,21 @@ impl Sizes {
     }
 }
 
-/// The model in relative coordinates.
+/// Model in relative coordinates.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize)]
 pub struct Relative {
-    /// Joint freedoms of the tree, equations of the loops, their rank.
+    /// Degrees of freedom of the tree's joints, equations of the closed loops, and their rank.
     #[serde(flatten)]
     pub sizes: Sizes,
-    /// Number of closed loops: as many as joints are cut.
+    /// Number of closed loops, which is the number of cut joints.
     pub loops: usize,
-    /// Names of the joints that are cut.
+    /// Names of the cut joints.
     pub cut_joints: Vec<String>,
-    /// One step on a controller; `None` where the scene has a signal that no controller's tables have.
+    /// Cost of one step on a controller. `None` if the scene has a signal that a controller's tables cannot represent.
     pub controller: Option<ControllerStep>,
 }
 
-/// The bound of one step of bounded work: operations, by a closed formula in the structure of the model.
+/// Upper bound of the operations of one step with bounded work. A closed formula in the structure of the model gives it.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
 pub struct ControllerStep {
     /// Number of products.
@@ -138,18 +138,18 @@ pub struct ControllerStep {
     pub quotients: u64,
     /// Number of square roots.
     pub roots: u64,
-    /// Sines with cosines, and arc tangents.
+    /// Number of pairs of sine and cosine, and of arc tangents.
     pub turns: u64,
-    /// Instructions in single and in double precision, at most.
+    /// Largest number of instructions in single and in double precision.
     pub instructions: [u64; 2],
 }
 
-/// A thin rod in space, which has no inertia about itself.
+/// Thin rod in space, without moment of inertia about its axis.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize)]
 pub struct ThinRod {
     /// Name of the body.
     pub body: String,
-    /// Is its spin about itself a coordinate in natural coordinates? It is where a joint holds more than points of its line.
+    /// Is the rotation about the rod's axis part of the natural coordinates? This is so if a joint holds more than points of its axis.
     pub idle_spin_carried: bool,
 }
 
@@ -164,71 +164,72 @@ pub struct EffectEntry {
     pub enabled: bool,
 }
 
-/// Something that the scene has not.
+/// Effect that the scene does not have.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize)]
 pub struct MissingEffect {
-    /// A short fixed word for programs.
+    /// Key of the effect: a short word for programs, which does not change.
     #[serde(flatten, serialize_with = "alias::what")]
     pub what: String,
-    /// Description of what is missing, in one line.
+    /// Description of the missing effect, in one line.
     pub text: String,
 }
 
-/// Costs and changes of each effect, measured by leaving it out.
+/// Costs and changes of each effect, measured by runs without it.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct EffectCosts {
     /// Steps of each timed run.
     pub timed_steps: u64,
     /// Number of timings of each run.
     pub repeats: u32,
-    /// CPU time per step with all effects, the least of the repeats [s].
+    /// CPU time per step with all effects, the shortest of the repeats [s].
     pub seconds_per_step: Option<f64>,
-    /// CPU time per step of watching the energy invariant, part of the above in every run and every formulation [s].
+    /// CPU time per step for the energy invariant [s]. It is part of the time above, in every run and every formulation.
     pub monitor_seconds_per_step: Option<f64>,
-    /// Length of the runs that are compared, from the start [s].
+    /// Length of the compared runs, from the start [s].
     pub compared_duration: f64,
-    /// The run with all effects reached that.
+    /// Did the run with all effects reach this length?
     pub completed: bool,
-    /// Newton iterations (or evaluations) per step in that run.
+    /// Newton iterations (or evaluations) per step in the run with all effects.
     pub iterations_per_step: f64,
-    /// The largest step with all effects.
+    /// Largest step with which the run with all effects completes.
     pub largest_step: LargestStep,
-    /// Each enabled effect alone left out.
+    /// Costs of each enabled effect, left out alone.
     pub effects: Vec<EffectCost>,
-    /// All effects of a kind left out together, for kinds with more than one.
+    /// Costs of all effects of a kind, left out together, for kinds with more than one effect.
     pub kinds: Vec<EffectCost>,
 }
 
-/// Cost of effects: what leaving them out saves and changes.
+/// Cost of effects: time saved and outputs changed by leaving them out.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct EffectCost {
-    /// Names of what is left out.
+    /// Names of the effects that are left out.
     pub names: Vec<String>,
     /// Kind of the effects.
     pub kind: String,
-    /// CPU time per step without them [s].
+    /// CPU time per step without these effects [s].
     pub seconds_per_step: Option<f64>,
-    /// 1 - (CPU time per step without) / (with all); negative where it becomes slower.
+    /// Fraction of the time that the effects cost: 1 - (CPU time per step without them) / (with all) [-]. It is negative if the run is slower
+    /// without them.
     pub share: Option<f64>,
-    /// Distance of the second best repeat from the best, as a share; the worse of the two runs.
+    /// Noise of the times: relative difference of the second shortest from the shortest, the larger one of both runs [-].
     pub noise: Option<f64>,
-    /// The share is not larger than the noise.
+    /// Is the fraction at most as large as the noise?
     pub below_noise: Option<bool>,
-    /// The run without them reached the end.
+    /// Did the run without these effects reach the end?
     pub completed: bool,
-    /// Newton iterations (or evaluations) per step in it.
+    /// Newton iterations (or evaluations) per step in the run without these effects.
     pub iterations_per_step: f64,
-    /// Reason why the run without them did not reach the end.
+    /// Reason why the run without these effects did not reach the end.
     pub error: Option<RunError>,
-    /// The largest step without them.
+    /// Largest step with which the run without these effects completes.
     pub largest_step: LargestStep,
-    /// Changes in the outputs.
+    /// Changes of the outputs.
     #[serde(flatten, serialize_with = "alias::changes")]
     pub changes: Vec<OutputChange>,
 }
 
 impl EffectCost {
-    /// The change that is largest beside its range, if there is more than rounding.
+    /// Change that is largest relative to the range of its output, if a change exceeds rounding.
     #[must_use]
     pub fn largest_change(&self) -> Option<&OutputChange> {
         let size = |change: &OutputChange| (change.relative.unwrap_or(0.0), change.largest);
@@ -239,12 +240,12 @@ impl EffectCost {
     }
 }
 
-/// The largest step with which the run completes, found by doubling.
+/// Largest step with which a run completes, found by doubling the step.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct LargestStep {
-    /// Largest step [s]; `None` when the run does not even complete with the given one.
+    /// Largest step [s]; `None` if the run does not complete with the step of the scene.
     pub step: Option<f64>,
-    /// End of the doubling.
+    /// Reason why the doubling ended.
     pub end: SearchEnd,
 }
 
@@ -252,20 +253,20 @@ pub struct LargestStep {
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum SearchEnd {
-    /// The time allowed for measuring was used up.
+    /// Search that was not made or completed, because the time for measurements was used up.
     #[default]
     NotMeasured,
-    /// A step twice as long stops.
+    /// Search that ended because a run with twice the step stops.
     Stops,
-    /// Longer steps were not tried: 64 times the given one, or a tenth of the run.
+    /// Search that ended at its limit: 64 times the scene's step, or a tenth of the run.
     Limit,
 }
 
 impl Explanation {
-    /// One JSON object in indented form, without a line end.
+    /// Formats the explanation as an indented JSON object, without a line end.
     #[must_use]
     pub fn to_json(&self) -> String {
-        // all keys are texts and the sink is memory: serialisation has nothing to fail on
+        // serialisation cannot fail: all keys are texts, and the sink is memory
         serde_json::to_string_pretty(self).unwrap_or_default()
     }
 }

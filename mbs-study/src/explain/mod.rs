@@ -1,4 +1,4 @@
-//! Explanation of a scene: what it simulates, what it does not, and the price of each effect, measured by leaving it out.
+//! Explanation of a scene: simulated parts, missing effects, and the cost of each effect, measured by runs without it.
 //!
 //! ```text
 //! share = 1 − (CPU time per step without it) / (CPU time per step with all effects)
@@ -25,10 +25,10 @@ use mbs::{Mechanism, Names, ResolvedMethod, Run, SimulationError, StepRule, Stop
 use mbs_core::Real;
 use mbs_core::scene::Scene;
 
-/// Explains what a run of a mechanism simulates. A goal adds what its pilot measured. Nothing in pairs of doubles: prices are those of
-/// numbers of the hardware.
+/// Explains the run of a mechanism. With a goal, the results of the pilot's trials are added. Returns `None` in double-double, because costs
+/// are measured in numbers of the hardware only.
 ///
-/// Cost: the sizes take two assemblies; the prices about `effort.seconds`, less for small scenes.
+/// Cost: two assemblies for the sizes, and about `effort.seconds` for the costs of effects, less for small scenes.
 ///
 /// # Errors
 /// [`SimulationError`] for a mechanism or options that are refused.
@@ -48,7 +48,7 @@ pub fn explain_run(
     }))
 }
 
-/// Work that explains a scene.
+/// Explanation as work on a scene of any precision and dimension.
 struct Explained<'a> {
     settings: &'a ResolvedMethod,
     effort: &'a Effort,
@@ -64,7 +64,7 @@ impl SceneWork for Explained<'_> {
 
 /// Explains a checked scene.
 ///
-/// Cost: the sizes take two assemblies; the prices about `effort.seconds`, less for small scenes.
+/// Cost: two assemblies for the sizes, and about `effort.seconds` for the costs of effects, less for small scenes.
 pub fn explain<T: Real, const D: usize>(
     scene: &Scene<T>,
     settings: &ResolvedMethod,
@@ -85,12 +85,12 @@ pub fn explain<T: Real, const D: usize>(
         absent: absent::absent(scene),
         ..Explanation::default()
     };
-    // A scene without a start has no prices.
+    // costs cannot be measured for a scene without a start
     if let Err(error) = start::<T, D>(scene, settings) {
         let error = Some(error.report(0.0, &Names::new(scene)));
         return Explanation { error, ..explanation };
     }
-    // Runs are compared row by row: their steps are fixed.
+    // runs with fixed steps are used, since runs are compared row by row
     let fixed =
         ResolvedMethod { rule: StepRule::Fixed, step_max: settings.step, ..settings.clone() };
     let settings = if settings.rule == StepRule::Fixed { settings } else { &fixed };
@@ -98,7 +98,7 @@ pub fn explain<T: Real, const D: usize>(
     Explanation { prices: Some(prices), error, ..explanation }
 }
 
-/// Can the run start, outputs and all?
+/// Checks that the run starts, including its outputs.
 fn start<T: Real, const D: usize>(
     scene: &Scene<T>,
     settings: &ResolvedMethod,

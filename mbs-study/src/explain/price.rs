@@ -1,4 +1,4 @@
-//! Prices of effects by leave-one-out: the same run with and without an effect.
+//! Costs of effects, measured by the same run with and without an effect.
 
 use super::explanation::{EffectCost, EffectCosts};
 use super::reach::largest_step;
@@ -11,9 +11,9 @@ use mbs_core::Real;
 use mbs_core::scene::Scene;
 use std::time::Instant;
 
-/// Ratio of the time of a recorded step to that of one that is only made [-]. Chosen, not tuned.
+/// Ratio of the time of a recorded step to that of a step without recording [-]. Chosen, not tuned.
 const RECORDED: f64 = 2.0;
-/// Least steps of a run that is shortened. Chosen, not tuned.
+/// Smallest number of steps of a shortened run. Chosen, not tuned.
 const FEWEST_STEPS: u64 = 50;
 
 /// Effects that are left out together.
@@ -23,7 +23,7 @@ struct Leave {
     is_kind: bool,
 }
 
-/// All prices, and why the run with all effects stopped, if it did.
+/// Measures the costs of all effects. Also returns the reason if the run with all effects stopped.
 pub(super) fn prices<T: Real, const D: usize>(
     scene: &Scene<T>,
     settings: &ResolvedMethod,
@@ -73,7 +73,7 @@ pub(super) fn prices<T: Real, const D: usize>(
     (prices, with_all.summary.error)
 }
 
-/// Each enabled effect alone, then each kind that has several.
+/// Lists each enabled effect alone, then each kind that has several effects.
 fn leaves<T: Real>(scene: &Scene<T>) -> Vec<Leave> {
     let enabled = || scene.effects.iter().enumerate().filter(|(_, effect)| effect.enabled);
     let alone = |(i, effect): (usize, &mbs_core::scene::Effect<T>)| Leave {
@@ -95,14 +95,14 @@ fn leaves<T: Real>(scene: &Scene<T>) -> Vec<Leave> {
     leaves
 }
 
-/// Lengths that the runs may have.
+/// Lengths of the runs: steps of a timed run, and duration of a compared run [s].
 struct Plan {
     timed_steps: u64,
     duration: f64,
 }
 
 impl Plan {
-    /// A third of the time for the clock, a third for the comparison, a third for longer steps.
+    /// Divides the time into thirds: one for timing, one for the comparison, and one for longer steps.
     fn new<T: Real, const D: usize>(
         scene: &Scene<T>,
         settings: &ResolvedMethod,
@@ -111,7 +111,7 @@ impl Plan {
         let n_steps = settings.n_steps();
         let [start, step] = trial::<T, D>(scene, settings).unwrap_or([0.0; 2]);
         let each = effort.seconds / 3.0 / n_scenes as f64;
-        // The wanted number of steps is halved until it fits; halves keep the lengths the same from run to run.
+        // the requested number of steps is halved until it fits; halving usually gives the same number on every machine
         let fit = |mut n: u64, takes: &dyn Fn(u64) -> f64| {
             while n > FEWEST_STEPS && takes(n) > each {
                 n = n.div_ceil(2);
@@ -130,7 +130,7 @@ impl Plan {
     }
 }
 
-/// share = 1 − without / with; the noise is the worse of the two.
+/// Computes the fraction 1 − without / with, and the larger noise of both times.
 fn share(with_all: &TrialTimes, without: &TrialTimes) -> EffectCost {
     let share = with_all.best().zip(without.best()).map(|(with, without)| 1.0 - without / with);
     let noise = with_all.noise().zip(without.noise()).map(|(a, b)| a.max(b));
@@ -143,7 +143,7 @@ fn share(with_all: &TrialTimes, without: &TrialTimes) -> EffectCost {
     }
 }
 
-/// Returns the iterations per step.
+/// Returns the mean iterations per step.
 fn iterations(outcome: &Outcome) -> f64 {
     outcome.summary.iterations as f64 / outcome.summary.steps.max(1) as f64
 }

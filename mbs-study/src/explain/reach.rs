@@ -1,4 +1,4 @@
-//! The largest step with which a run completes, by doubling.
+//! Largest step with which a run completes, found by doubling.
 
 use super::explanation::{LargestStep, SearchEnd};
 use super::trials::outcome;
@@ -7,12 +7,12 @@ use mbs::inside::SAME_LENGTH;
 use mbs_core::Real;
 use mbs_core::scene::Scene;
 
-/// Most doublings of the step [-]: to 64 times its length.
+/// Largest number of doublings of the step [-]: up to 64 times its length.
 const MOST_DOUBLINGS: i32 = 6;
-/// Least steps of a run. Chosen, not tuned.
+/// Smallest number of steps of a run. Chosen, not tuned.
 const FEWEST_STEPS: f64 = 10.0;
 
-/// Doubles the step until the run over `duration` stops. `completes` says whether it does with the given step.
+/// Doubles the step until the run over `duration` [s] stops. `completes` is whether the run with the original step completes.
 pub(super) fn largest_step<T: Real, const D: usize>(
     scene: &Scene<T>,
     settings: &ResolvedMethod,

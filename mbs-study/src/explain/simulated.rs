@@ -11,7 +11,7 @@ use mbs_core::scene::{BodyId, Dimension, Inertia, JointKind, Motion, Scene};
 use mbs_recursive::space::Space;
 use mbs_recursive::{Planar, Spatial, TreeModel};
 
-/// Takes stock of a scene.
+/// Lists the simulated parts of a scene and the sizes of its models.
 pub(super) fn simulated<T: Real, const D: usize>(
     scene: &Scene<T>,
     settings: &ResolvedMethod,
@@ -71,7 +71,7 @@ fn joints<T>(scene: &Scene<T>) -> Vec<JointsByKind> {
     JointKind::ALL.map(group).into_iter().filter(|group| !group.names.is_empty()).collect()
 }
 
-/// The guided joints, each with its laws.
+/// Guided joints, each with the law of its guide.
 fn guides<T>(scene: &Scene<T>) -> Vec<GuideEntry> {
     let mut entries = Vec::<GuideEntry>::new();
     for guide in &scene.guides {
@@ -94,7 +94,7 @@ fn guides<T>(scene: &Scene<T>) -> Vec<GuideEntry> {
     entries
 }
 
-/// Thin rods in space; in the plane there is no rotation about a rod.
+/// Thin rods of a spatial scene; a planar scene has no rotation about a rod's axis.
 fn rods<T: Real, const D: usize>(scene: &Scene<T>) -> Vec<ThinRod> {
     let is_rod = |inertia: &Inertia<T>| matches!(inertia, Inertia::Rod { .. });
     if scene.dimension == Dimension::Planar || !scene.bodies.iter().any(|b| is_rod(&b.inertia)) {

@@ -1,4 +1,4 @@
-//! CPU time per step, the least of several interleaved repeats.
+//! CPU time per step, the shortest of several interleaved repeats.
 
 use cpu_time::ThreadTime;
 use mbs::ResolvedMethod;
@@ -6,22 +6,22 @@ use mbs::typed::Simulation;
 use mbs_core::Real;
 use mbs_core::scene::Scene;
 
-/// Least steps of a timing. Chosen, not tuned.
+/// Smallest number of steps of a timing. Chosen, not tuned.
 const FEWEST_STEPS: u64 = 10;
-/// Most steps of a trial run [-], and its longest time [s]. Chosen, not tuned.
+/// Largest number of steps of a trial run [-], and its longest time [s]. Chosen, not tuned.
 const TRIAL: (u64, f64) = (200, 0.05);
 
-/// TrialTimes of one scene over the repeats.
+/// CPU times per step of one scene, one for each repeat [s].
 #[derive(Debug, Clone, Default)]
 pub struct TrialTimes(pub Vec<f64>);
 
 impl TrialTimes {
-    /// The least [s per step].
+    /// Shortest time of a step [s].
     pub fn best(&self) -> Option<f64> {
         self.0.iter().copied().min_by(f64::total_cmp)
     }
 
-    /// Returns the distance of the second best time from the best, as a share of it.
+    /// Returns the relative difference of the second shortest time from the shortest [-].
     pub fn noise(&self) -> Option<f64> {
         let mut sorted = self.0.clone();
         sorted.sort_by(f64::total_cmp);
@@ -30,7 +30,8 @@ impl TrialTimes {
     }
 }
 
-/// TrialTimes every scene for `n` steps from its start, `repeats` rounds in turn, so that what disturbs a while meets all alike.
+/// Times every scene for `n` steps from its start, in `repeats` rounds over all scenes. A temporary disturbance then affects all scenes
+/// equally.
 pub(super) fn interleaved<T: Real, const D: usize>(
     scenes: &[Scene<T>],
     settings: &ResolvedMethod,
@@ -45,7 +46,7 @@ pub(super) fn interleaved<T: Real, const D: usize>(
     times
 }
 
-/// CPU time per step; nothing where there is no start or the run stops at once.
+/// CPU time per step [s]; `None` if the scene does not start or stops at once.
 fn once<T: Real, const D: usize>(
     scene: &Scene<T>,
     settings: &ResolvedMethod,
@@ -58,8 +59,7 @@ fn once<T: Real, const D: usize>(
     (done >= FEWEST_STEPS.min(n)).then(|| seconds / done as f64)
 }
 
-/// CPU time per step of watching the energy invariant, the least of the repeats: the energies of one state, taken again and
-/// again.
+/// CPU time per step for the energy invariant, the shortest of the repeats [s]. The energies of one state are computed repeatedly.
 pub(super) fn monitor<T: Real, const D: usize>(
     scene: &Scene<T>,
     settings: &ResolvedMethod,
@@ -80,7 +80,7 @@ pub(super) fn monitor<T: Real, const D: usize>(
     (0..repeats).map(once).min_by(f64::total_cmp)
 }
 
-/// CPU time that the start takes, and that of a step, roughly [s].
+/// Estimated CPU time of the start and of a step [s].
 pub(super) fn trial<T: Real, const D: usize>(
     scene: &Scene<T>,
     settings: &ResolvedMethod,
@@ -95,7 +95,7 @@ pub(super) fn trial<T: Real, const D: usize>(
     Some([start, clock.elapsed().as_secs_f64() / done.max(1) as f64])
 }
 
-/// Steps until `n`, a failure or a word; gives the number of those made.
+/// Makes at most `n` steps, until a step fails or `has_time` is false. Returns the number of steps made.
 fn steps<T: Real, const D: usize>(
     simulation: &mut Simulation<T, D>,
     h: f64,

@@ -1,17 +1,17 @@
-//! Runs of a scene for its prices: how much may be measured, and what a run without some effects gives.
+//! Runs of a scene for the costs of its effects: limits of the effort, and runs without some effects.
 
 use mbs::ResolvedMethod;
 use mbs_core::Real;
 use mbs_core::scene::Scene;
 
-/// Limits of what is measured. A scene that asks for more is measured over a shorter part of its run.
+/// Limits of the measurements. If a scene would take more, a shorter part of its run is measured.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Effort {
-    /// Steps of a timed run at most. `≥ 1`.
+    /// Largest number of steps of a timed run. `≥ 1`.
     pub timed_steps: u64,
-    /// Number of timings of each run, one after the other in turn. `≥ 2`, so that there is a spread.
+    /// Number of timings of each run, interleaved with those of the others. `≥ 2`, so that there is a noise.
     pub repeats: u32,
-    /// Time for everything [s]; what no time is left for is said to be not measured. `> 0`.
+    /// Time limit of all measurements [s]. Results without time left are reported as not measured. `> 0`.
     pub seconds: f64,
 }
 
@@ -21,7 +21,7 @@ impl Default for Effort {
     }
 }
 
-/// The scene with some effects switched off.
+/// Returns the scene with some effects switched off.
 pub(super) fn without<T: Real>(scene: &Scene<T>, effects: &[usize]) -> Scene<T> {
     let mut scene = scene.clone();
     for &i in effects {
@@ -30,7 +30,7 @@ pub(super) fn without<T: Real>(scene: &Scene<T>, effects: &[usize]) -> Scene<T> 
     scene
 }
 
-/// The run of a scene as `mbs run` makes it, over another duration or with another step.
+/// Runs a scene as `mbs run` does, with another duration or step.
 pub(super) fn outcome<T: Real, const D: usize>(
     scene: &Scene<T>,
     settings: &ResolvedMethod,

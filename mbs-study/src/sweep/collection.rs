@@ -1,4 +1,4 @@
-//! Rows of a sweep as they come, from threads or from other machines, each in the journal at once.
+//! Collection of the rows of a sweep, from threads or other machines. Each row is written to the journal at once.
 
 use super::{KIND, Report, Rows, Study, SweepError, SweepPart, whole_rows};
 use crate::journal::Journal;
@@ -8,10 +8,10 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-/// The rows of a sweep that are there: those of an earlier start, and those taken since.
+/// Rows of a sweep that are available: those of an earlier start, and those added since.
 #[derive(Debug)]
 pub struct Collection {
-    /// The directory, the name of the journal in it, and the journal; without a directory rows are lost with the process.
+    /// Directory, name of the journal in it, and the journal. Without a directory, rows are lost when the process ends.
     kept: Option<(PathBuf, String, Journal)>,
     pub(super) rows: Rows,
     pub(super) resumed: usize,
@@ -20,11 +20,11 @@ pub struct Collection {
 }
 
 impl Study {
-    /// Rows in a directory, that an earlier start may have left unfinished: its journal is locked until the collection is dropped. Without a
-    /// directory they are in memory alone. `anew` throws an earlier journal away.
+    /// Collects rows in a directory, including those of an earlier, unfinished start. The journal is locked until the collection is dropped.
+    /// Without a directory, rows are in memory only. `anew` discards an earlier journal.
     ///
     /// # Errors
-    /// A journal of another scene, sweep or version, or in use; a directory that cannot be written.
+    /// A journal of another scene, sweep or version; a journal in use; a directory that cannot be written.
     pub fn collect(&self, out: Option<&Path>, anew: bool) -> Result<Collection, SweepError> {
         match out {
             Some(out) => self.collect_part(out, anew, None),
@@ -38,7 +38,7 @@ impl Study {
         }
     }
 
-    /// Collects the rows of a part in a directory; see [`Self::collect`].
+    /// Collects the rows of a part of the sweep in a directory; see [`Self::collect`].
     pub(super) fn collect_part(
         &self,
         out: &Path,
@@ -58,7 +58,7 @@ impl Study {
         Ok(Collection { kept, rows, resumed, begun, cpu_seconds: 0.0 })
     }
 
-    /// Takes a row of cells, as [`Columns::cells`](super::Columns::cells) gives them; it is in the journal then.
+    /// Adds a row of cells, in the form of [`Columns::cells`](super::Columns::cells), and writes it to the journal.
     ///
     /// # Errors
     /// A row of another sweep; a journal that cannot be written.
@@ -81,7 +81,7 @@ impl Study {
         Ok(())
     }
 
-    /// Returns how the sweep went; with `has_table` and a directory the table is written.
+    /// Returns the report of the sweep. With `has_table` and a directory, the table is written.
     #[must_use]
     pub fn report_of(&self, from: Collection, threads: NonZeroUsize, has_table: bool) -> Report {
         let tables = match &from.kept {
@@ -94,7 +94,7 @@ impl Study {
 }
 
 impl Collection {
-    /// Members of so many that have no row, from 0.
+    /// Members without a row, from 0, of `n` in all.
     #[must_use]
     pub fn missing(&self, n: usize) -> Vec<usize> {
         (0..n).filter(|member| !self.rows.contains_key(member)).collect()

@@ -1,4 +1,4 @@
-//! The table of a sweep whose parts have run apart.
+//! Table of a sweep whose parts have run separately.
 
 use super::parts::{PartsError, SweepPart};
 use super::{Report, Rows, Study, SweepError, whole_rows};
@@ -9,7 +9,7 @@ use std::path::Path;
 use std::time::Instant;
 
 impl Study {
-    /// Writes the table of the parts in a directory: that of the sweep in one run, but for the CPU times.
+    /// Writes the table of all parts in a directory. Except for CPU times, it is the table of the sweep in one run.
     ///
     /// # Errors
     /// [`SweepError::Parts`]; a journal of another scene, sweep, option or version; a directory that cannot be read.
@@ -27,7 +27,7 @@ impl Study {
             return Err(PartsError::Counts(first, other).into());
         }
         let (mut rows, mut unfinished) = (Rows::new(), Vec::new());
-        // parts beyond the members have none, and need not have run
+        // parts with a number beyond that of the members are empty, and need not have run
         for number in 1..=first.of.min(self.n_members()) {
             let part = SweepPart { number, ..first };
             let n = part.members(self.n_members()).len();
@@ -45,7 +45,7 @@ impl Study {
         Ok(self.report((rows, resumed), (1, clock, 0.0), tables))
     }
 
-    /// The finished members of a part; none where it has no journal.
+    /// Finished members of a part; none if the part has no journal.
     fn rows_of(&self, out: &Path, part: SweepPart) -> Result<Rows, SweepError> {
         let lines = match read(out, &part.file(), &self.head) {
             Err(JournalError::Io(error)) if error.kind() == std::io::ErrorKind::NotFound => {

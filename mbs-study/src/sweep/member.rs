@@ -1,4 +1,4 @@
-//! One member of a sweep: from the varied scene to its row.
+//! Run of one member of a sweep: from the varied scene to its row.
 
 use core::time::Duration;
 use cpu_time::ThreadTime;
@@ -7,18 +7,18 @@ use mbs::results::ResultTable;
 use mbs::{Error as _, Mechanism, Method, Outcome, Precision, Run, SimulationError, Watchers};
 use mbs_scene::{SceneFile, SceneSweep};
 
-/// Row that a member leaves behind.
+/// Row of the results of a member.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Row {
-    /// The member, from 0.
+    /// Index of the member, from 0.
     pub member: usize,
     /// Decimal texts of the varied numbers.
     pub values: Vec<String>,
     /// Code and message of a run that was not completed.
     pub failure: Option<(String, String)>,
-    /// Values that were measured; nothing where the run did not start.
+    /// Measured values; `None` if the run did not start.
     pub measured: Option<MemberValues>,
-    /// CPU time of the whole member, reading to the last step [s].
+    /// CPU time of the member, from reading the scene to the last step [s].
     pub cpu_seconds: f64,
 }
 
@@ -33,7 +33,7 @@ pub struct MemberValues {
     pub energy: f64,
     /// Largest violation of the constraints: positions, velocities, accelerations.
     pub violation: [f64; 3],
-    /// Each component of each channel at the end, and its least and largest value over the rows of the run.
+    /// Last, smallest and largest value of each component of each channel, over the rows of the run.
     pub outputs: Vec<[f64; 3]>,
 }
 
@@ -57,7 +57,7 @@ pub(super) fn run(scene: &SceneFile, sweep: &SceneSweep, overrides: &Method, mem
     Row { cpu_seconds: cpu.as_secs_f64(), ..row }
 }
 
-/// Runs a member anew for its rows; nothing where it does not start.
+/// Runs a member again and returns its rows; `None` if it does not start.
 pub(super) fn rows(
     scene: &SceneFile,
     sweep: &SceneSweep,
@@ -68,7 +68,7 @@ pub(super) fn rows(
     ResultTable::of_outcome(&outcome).ok()
 }
 
-/// The run of a member; else code and message.
+/// Returns the outcome of a member's run, or code and message of its error.
 fn outcome(
     document: SceneFile,
     method: &Method,

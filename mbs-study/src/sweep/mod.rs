@@ -1,7 +1,7 @@
-//! Sweeps: many runs of one scene with varied numbers, over threads, with one table that outlives a kill.
+//! Sweeps: many runs of one scene with varied numbers, on several threads. Finished runs are not lost if the process is killed.
 //!
-//! A [`Study`] is a scene with its sweep, checked; [`Study::run`] runs the members that the journal of a directory lacks, and
-//! writes the table when all are there.
+//! A [`Study`] is a checked scene with its sweep. [`Study::run`] runs the members that the journal of a directory lacks, and writes the table
+//! when all are finished.
 
 mod collection;
 mod join;
@@ -33,7 +33,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-/// The journal of a sweep.
+/// Kind of the journal of a sweep.
 const KIND: Kind = Kind {
     file: "sweep.journal",
     title: "mbs sweep journal",
@@ -41,7 +41,7 @@ const KIND: Kind = Kind {
     hashes: &["the scene", "the sweep", "an option"],
 };
 
-/// A scene with its sweep, checked and ready to run.
+/// Scene with its sweep, checked and ready to run.
 #[derive(Debug)]
 pub struct Study {
     scene: SceneFile,
@@ -53,87 +53,87 @@ pub struct Study {
     pub head: Head,
 }
 
-/// A study that is refused.
+/// Reason why a study is refused.
 #[derive(Debug)]
 #[non_exhaustive]
 pub enum StudyError {
-    /// Refusal by the scene or the file of the sweep, with the place in the file.
+    /// Refused scene or sweep file, with the place in the file.
     Read(ReadError),
-    /// Refusal of what code varies.
+    /// Refused path or number that a program varies.
     Path {
-        /// Path of the numbers; empty where there are none.
+        /// Path of the numbers; empty if there are none.
         path: String,
         /// Fault of the path or of a number.
         fault: SweepFault,
     },
-    /// Refusal by the settings.
+    /// Refused settings of the runs.
     Settings(SettingsError),
-    /// An override of a number that the sweep varies; the path of the number.
+    /// Option that sets a number that the sweep varies; the path of this number.
     Varied(&'static str),
-    /// Refusal by the precision: members run in numbers of the hardware.
+    /// Refused precision: members run in numbers of the hardware, not in double-double.
     Pairs,
 }
 
-/// Reason why the members could not be run, or their table not be written.
+/// Reason why members could not be run, or their table could not be written.
 #[derive(Debug)]
 #[non_exhaustive]
 pub enum SweepError {
-    /// Threads that cannot be had.
+    /// Threads that the system does not provide.
     Threads(EnsembleError),
-    /// The journal cannot be used.
+    /// Journal that cannot be used.
     Journal(JournalError),
-    /// A file cannot be written.
+    /// File that cannot be written.
     Write(WriteError),
     /// Parts that cannot be joined.
     Parts(PartsError),
-    /// Sweep that was interrupted: number of the members that are in the journal, and of all.
+    /// Sweep that was interrupted: number of members in the journal, and of all members.
     Interrupted([usize; 2]),
 }
 
 /// Outcome of a sweep.
 #[derive(Debug)]
 pub struct Report {
-    /// Members of the sweep.
+    /// Number of members of the sweep.
     pub members: usize,
-    /// Members whose run was completed.
+    /// Number of members whose run completed.
     pub completed: usize,
-    /// Members that an earlier start of the same sweep had finished.
+    /// Number of members that an earlier start of the same sweep had finished.
     pub resumed: usize,
-    /// The others, by code.
+    /// Members whose run failed, by error code.
     pub failures: Failures,
-    /// Threads that ran members.
+    /// Number of threads that ran members.
     pub threads: usize,
     /// Time from the first member to the table [s].
     pub wall_seconds: f64,
     /// CPU time of the members that ran now [s].
     pub cpu_seconds: f64,
-    /// The rows of the table, as texts.
+    /// Rows of the table, as texts.
     pub rows: Vec<Vec<String>>,
     /// Paths of the tables written.
     pub tables: Vec<PathBuf>,
-    /// Reason why a table could not be written; the journal has all members.
+    /// Reason why a table could not be written, if so. The journal has all members.
     pub lost: Option<WriteError>,
 }
 
-/// The rows of members, from 0, as texts.
+/// Rows by member, from 0, as texts.
 type Rows = BTreeMap<usize, Vec<String>>;
 
-/// Members of a sweep that run, where and how.
+/// Task of a sweep: the members to run, the directory, and the threads.
 #[derive(Debug, Clone, Copy)]
 pub struct SweepTask<'a> {
-    /// The directory of journal and table.
+    /// Directory of journal and table.
     pub out: &'a Path,
-    /// Number of threads; left out: all processors.
+    /// Number of threads of the sweep. Default: all processors.
     pub threads: Option<NonZeroUsize>,
-    /// Is an earlier journal thrown away, whatever its sweep?
+    /// Is an earlier journal discarded, even one of another sweep?
     pub anew: bool,
-    /// The members of this part alone, without a table; left out: all.
+    /// Part of the sweep to run, without a table. Default: all members.
     pub part: Option<SweepPart>,
 }
 
-/// Called as members finish; does nothing by default.
+/// Observer of the progress of a sweep; its function does nothing by default.
 pub trait Watch {
-    /// `done` of `members` are finished, `failed` of them failed.
+    /// Receives the number of finished members, of failed ones among them, and of all.
     fn finished(&mut self, done: usize, failed: usize, members: usize) {
         let _ = (done, failed, members);
     }
@@ -142,12 +142,12 @@ pub trait Watch {
 impl Watch for () {}
 
 impl Study {
-    /// Lays a sweep out over a scene and tries its values.
+    /// Applies a sweep to a scene and checks its values.
     ///
     /// Cost: the scene is read once for each value of a list, and a few times for each range.
     ///
     /// # Errors
-    /// What the scene, the sweep or the settings refuse. What shows only when values meet is left to the members.
+    /// Errors of the scene, the sweep or the settings. Errors that depend on a combination of values are found when the member runs.
     pub fn new(
         scene: SceneFile,
         sweep: &SweepSource,
@@ -184,46 +184,47 @@ impl Study {
         self.sweep.n_members()
     }
 
-    /// The columns of the table.
+    /// Columns of the table.
     #[must_use]
     pub fn columns(&self) -> &Columns {
         &self.columns
     }
 
-    /// The settings of the scene as it is written.
+    /// Settings of the scene before its numbers are varied.
     #[must_use]
     pub fn settings(&self) -> &ResolvedMethod {
         &self.settings
     }
 
-    /// Runs one member, from 0, on this thread.
+    /// Runs one member on this thread; `index` is from 0.
     #[must_use]
     pub fn member(&self, index: usize) -> Row {
         member::run(&self.scene, &self.sweep, &self.overrides, index)
     }
 
-    /// The rows of one member, from 0, which runs anew on this thread; nothing where it does not start.
+    /// Runs one member again on this thread and returns its rows; `index` is from 0. `None` if the member does not start.
     #[must_use]
     pub fn member_rows(&self, index: usize) -> Option<ResultTable> {
         member::rows(&self.scene, &self.sweep, &self.overrides, index)
     }
 
-    /// Runs the members that are not in the journal of the directory over threads, and writes the table; of a part no table.
+    /// Runs the members that are not in the journal of the directory, on several threads, and writes the table. For a part no table is
+    /// written.
     ///
-    /// Rows do not depend on the number of threads, but for their CPU time. A finished member is in the journal before the
-    /// next result is looked at: killing the process loses the members under way.
+    /// Except for CPU times, rows do not depend on the number of threads. A finished member is written to the journal before the next result
+    /// is processed. Killing the process loses only members that are running.
     ///
     /// # Errors
-    /// No threads; a journal of another scene, sweep or version, or in use; a directory that cannot be written; an interruption.
+    /// No threads; a journal of another scene, sweep or version, or in use; a directory that cannot be written; an interrupt.
     pub fn run(&self, task: &SweepTask<'_>, watch: &mut impl Watch) -> Result<Report, SweepError> {
         self.run_jobs(task, watch, |i| self.member(i))
     }
 
-    /// Runs all members over threads (left out: all processors), without files; rows in the order of the members. Where it is interrupted, rows
-    /// are missing.
+    /// Runs all members on several threads (default: all processors), without files. Rows are in the order of the members. After an
+    /// interrupt, rows are missing.
     ///
     /// # Errors
-    /// The system gives no threads.
+    /// Threads that the system does not provide.
     pub fn rows(
         &self,
         threads: Option<NonZeroUsize>,
@@ -248,16 +249,16 @@ impl Study {
         Ok(rows.into_values().collect())
     }
 
-    /// Threads for this many members.
+    /// Makes threads for `n` members.
     fn ensemble(&self, threads: Option<NonZeroUsize>, n: usize) -> Result<Ensemble, EnsembleError> {
         let most = NonZeroUsize::new(n.min(most_threads())).unwrap_or(NonZeroUsize::MIN);
         Ensemble::new(Some(threads.unwrap_or_else(available).min(most)))
     }
 
-    /// [`Self::run`] with what a member is.
+    /// Runs the members as [`Self::run`] does, with a given function for one member.
     ///
     /// # Errors
-    /// As [`Self::run`].
+    /// Those of [`Self::run`].
     #[doc(hidden)]
     pub fn run_jobs(
         &self,
@@ -276,7 +277,7 @@ impl Study {
         let mut taken = Ok(());
         watch.finished(collection.rows.len(), failed, n_members);
         ensemble.run(&todo, job, |i, row: Result<Row, Panicked>| {
-            // what was cut short is no result
+            // an interrupted run has no result
             if self.overrides.interrupt.is_set() {
                 return ControlFlow::Break(());
             }
@@ -297,7 +298,7 @@ impl Study {
         Ok(self.report_of(collection, ensemble.threads(), task.part.is_none()))
     }
 
-    /// The row of a member that no machine brought back: it ended the process of whoever ran it.
+    /// Makes the row of a member without a result: its run ended every process that tried it.
     #[must_use]
     pub fn lost(&self, index: usize) -> Row {
         let values = self.sweep.values(index).map(str::to_owned).collect();
@@ -330,13 +331,13 @@ impl Study {
         }
     }
 
-    /// The row of a member that panicked.
+    /// Makes the row of a member that panicked.
     fn panicked(&self, index: usize, panic: &Panicked) -> Row {
         let values = self.sweep.values(index).map(str::to_owned).collect();
         Row::failed(index, values, "panicked", &panic.to_string())
     }
 
-    /// Writes the tables: what stands in their place is always whole.
+    /// Writes the tables of the sweep. A table file is complete at every time.
     fn write(&self, out: &Path, rows: &Rows) -> Result<Vec<PathBuf>, WriteError> {
         let put = |name: &str, bytes: std::io::Result<Vec<u8>>| {
             let path = out.join(name);
@@ -359,7 +360,7 @@ impl Study {
     }
 }
 
-/// Returns the rows by member: those that have all their cells; others are of members that run again.
+/// Returns the complete rows by member. Members with an incomplete row run again.
 pub fn whole_rows(lines: Vec<Vec<String>>, n_cells: usize, n_members: usize) -> Rows {
     let rows = lines.into_iter().filter_map(|cells| {
         let member = cells.first()?.parse::<usize>().ok()?.checked_sub(1)?;

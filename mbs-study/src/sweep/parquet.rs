@@ -1,4 +1,4 @@
-//! The table of a sweep as Parquet: one row group, plain encoding, what was not measured is null.
+//! Table of a sweep in Parquet: one row group, plain encoding, null for values without a measurement.
 
 use super::table::{Columns, Kind};
 use parquet::basic::{LogicalType, Repetition, Type as Physical};
@@ -12,7 +12,7 @@ use std::collections::BTreeMap;
 use std::io::{self, Write};
 use std::sync::Arc;
 
-/// Writes rows of texts in the types of their columns.
+/// Writes rows of texts in the data types of their columns.
 pub(super) fn write(
     sink: impl Write + Send,
     columns: &Columns,
@@ -32,7 +32,7 @@ fn write_rows(
     let mut index = 0;
     while let Some(mut column) = group.next_column()? {
         let cells: Vec<&str> = rows.values().map(|row| row[index].as_str()).collect();
-        // a text may be empty, anything else is then not there
+        // an empty cell is a missing value, except in a column of texts
         let is_there = |cell: &str| !cell.is_empty() || columns.kind(index) == Kind::Text;
         let levels: Vec<i16> = cells.iter().map(|cell| i16::from(is_there(cell))).collect();
         let levels = Some(&levels[..]);
@@ -53,7 +53,7 @@ fn write_rows(
     writer.close().map(drop)
 }
 
-/// The values that are there.
+/// Parses the values of cells that are not empty.
 fn parsed<T: core::str::FromStr>(cells: &[&str]) -> Vec<T> {
     cells.iter().filter(|cell| !cell.is_empty()).filter_map(|cell| cell.parse().ok()).collect()
 }

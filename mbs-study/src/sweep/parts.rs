@@ -1,4 +1,4 @@
-//! Parts of a sweep: members that run apart, on other machines say, each part with a journal of its own, and the table of all of them.
+//! Parts of a sweep, which run separately, for instance on other machines. Each part has its own journal; the parts are joined to one table.
 //!
 //! ```text
 //! part K of N     members K, K + N, K + 2 N, ..., counted from 1: neighbours, which cost alike, are in different parts
@@ -7,7 +7,7 @@
 use core::fmt::{self, Display, Formatter};
 use core::str::FromStr;
 
-/// A part of a sweep, written `K/N`.
+/// Part of a sweep, written `K/N`.
 ///
 /// ```
 /// use mbs_study::sweep::SweepPart;
@@ -28,12 +28,12 @@ impl SweepPart {
     /// Part that has all members.
     pub(super) const WHOLE: Self = Self { of: 1, number: 1 };
 
-    /// Returns the members of the part, from 0, of `n` in all.
+    /// Returns the members of the part, from 0; `n` is the number of all members.
     pub fn members(self, n: usize) -> impl ExactSizeIterator<Item = usize> {
         (self.number - 1..n).step_by(self.of)
     }
 
-    /// Refuses members of other parts.
+    /// Checks that all members belong to this part.
     pub(super) fn check<'a>(
         self,
         mut members: impl Iterator<Item = &'a usize>,
@@ -44,12 +44,12 @@ impl SweepPart {
         }
     }
 
-    /// The name of its journal.
+    /// Name of the part's journal.
     pub(super) fn file(self) -> String {
         format!("part-{}-of-{}.journal", self.number, self.of)
     }
 
-    /// The part of a journal's name.
+    /// Parses the part from a journal's name.
     pub(super) fn of_file(name: &str) -> Option<Self> {
         let (number, of) =
             name.strip_prefix("part-")?.strip_suffix(".journal")?.split_once("-of-")?;
@@ -76,17 +76,17 @@ impl Display for SweepPart {
     }
 }
 
-/// Parts that cannot be joined.
+/// Reason why parts cannot be joined.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum PartsError {
-    /// The directory has none.
+    /// Directory without a journal of a part.
     None,
-    /// Two of them are of a sweep in different numbers of parts.
+    /// Two parts of sweeps that were divided into different numbers of parts.
     Counts(SweepPart, SweepPart),
-    /// The journal of a part has a member, from 1, of another one.
+    /// Journal of a part with a member, from 1, of another part.
     Foreign(SweepPart, usize),
-    /// Parts that lack members: how many of how many.
+    /// Parts that lack members: for each, the number of missing members and of all.
     Unfinished(Vec<(SweepPart, [usize; 2])>),
 }
 

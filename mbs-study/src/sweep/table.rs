@@ -1,4 +1,4 @@
-//! The table of a sweep: its columns, and rows as texts.
+//! Table of a sweep: its columns, and rows as texts.
 
 use super::member::Row;
 use mbs::record::Channel;
@@ -6,10 +6,10 @@ use mbs_scene::format::shortest;
 use std::collections::BTreeMap;
 use std::io;
 
-/// Members that failed, by code: how many, and the first of them with its message; members count from 1.
+/// Failed members by error code: their number, and the first of them with its message. Members count from 1.
 pub type Failures = BTreeMap<String, (usize, usize, String)>;
 
-/// The columns of a table: `member`, the varied numbers, what became of the run, the channels, `cpu_seconds`.
+/// Columns of a table: `member`, the varied numbers, the status of the run, the channels, and `cpu_seconds`.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Columns {
     header: Vec<String>,
@@ -28,7 +28,7 @@ pub(super) enum Kind {
 
 const MEMBER: &str = "member";
 const LAST: &str = "cpu_seconds";
-/// Between the varied numbers and the channels.
+/// Columns between the varied numbers and the channels.
 const RUN: [(&str, Kind); 9] = [
     ("completed", Kind::Flag),
     ("error", Kind::Text),
@@ -41,16 +41,16 @@ const RUN: [(&str, Kind); 9] = [
     ("violation_acceleration", Kind::Number),
 ];
 
-/// Cell of a row, before it is a text or a number.
+/// Cell of a row with its type.
 #[derive(Debug, Clone, Copy)]
 enum Cell<'a> {
     Count(u64),
     Number(f64),
-    /// The decimal text of a varied number.
+    /// Decimal text of a varied number.
     Decimal(&'a str),
     Flag(bool),
     Text(&'a str),
-    /// No value, since nothing was measured.
+    /// Cell without a value, because nothing was measured.
     Empty,
 }
 
@@ -77,7 +77,7 @@ impl Cell<'_> {
 }
 
 impl Columns {
-    /// Makes the columns of a scene's channels, without parameters.
+    /// Makes the columns of a scene's channels, without varied numbers.
     pub(super) fn new(channels: &[Channel]) -> Self {
         let mut header = vec![MEMBER.to_owned()];
         header.extend(RUN.map(|(name, _)| name.to_owned()));
@@ -89,7 +89,7 @@ impl Columns {
         Self { header, n_parameters: 0 }
     }
 
-    /// Names that are taken.
+    /// Names that columns already have.
     pub(super) fn taken(&self) -> &[String] {
         &self.header
     }
@@ -107,18 +107,19 @@ impl Columns {
         &self.header
     }
 
-    /// Returns the columns of the channels: number of the first of each three, which are the end, the least and the largest.
+    /// Returns the indices of the channels' columns. Each channel has three columns, for its last, smallest and largest value; the index is
+    /// that of the first.
     pub fn channels(&self) -> impl Iterator<Item = usize> + '_ {
         (1 + self.n_parameters + RUN.len()..self.header.len() - 1).step_by(3)
     }
 
-    /// The columns of the varied numbers.
+    /// Indices of the columns of varied numbers.
     #[must_use]
     pub fn parameters(&self) -> core::ops::Range<usize> {
         1..1 + self.n_parameters
     }
 
-    /// Number of the column with the code of a failure.
+    /// Index of the column with the error code.
     #[must_use]
     pub fn code(&self) -> usize {
         self.n_parameters + 2
@@ -138,13 +139,13 @@ impl Columns {
         }
     }
 
-    /// A row as it stands in journal and table; what was not measured is empty. Members count from 1.
+    /// Returns the texts of a row for journal and table. Cells without a measurement are empty. Members count from 1.
     #[must_use]
     pub fn cells(&self, row: &Row) -> Vec<String> {
         self.cells_of(row).iter().map(Cell::text).collect()
     }
 
-    /// The numbers of a row, one for each column; NaN for words, and for what was not measured.
+    /// Returns the numbers of a row, one for each column; NaN for texts and missing values.
     pub(crate) fn numbers(&self, row: &Row) -> Vec<f64> {
         self.cells_of(row).iter().map(Cell::number).collect()
     }
@@ -172,7 +173,7 @@ impl Columns {
         cells.get(self.n_parameters + 1).is_some_and(|cell| cell == "true")
     }
 
-    /// The rows that failed, by code.
+    /// Returns the failed rows by error code.
     pub(super) fn failures<'a>(&self, rows: impl Iterator<Item = &'a Vec<String>>) -> Failures {
         let mut failures = Failures::new();
         for row in rows.filter(|row| !self.is_completed(row)) {

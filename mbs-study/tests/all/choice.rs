@@ -1,4 +1,4 @@
-//! The choice by measurement on real scenes. What is timed is not asserted: whatever is chosen must keep what was wanted.
+//! Choice by measurement on real scenes. Measured times are not asserted: any chosen method must reach the required error.
 
 use crate::clock::CountedClock;
 use mbs::inside::PreparedRun;
@@ -13,7 +13,7 @@ fn read(name: &str) -> Mechanism {
     Mechanism::read(file(name)).expect("it is a scene")
 }
 
-/// Plans a run, and does something with both.
+/// Plans a run, and calls a function with the run and its plan.
 fn with_plan<R>(
     (mechanism, base): (&Mechanism, &Method),
     goal: Goal,
@@ -25,7 +25,7 @@ fn with_plan<R>(
     work(&run, plan)
 }
 
-/// Outcome of a plan, and the method that ran.
+/// Returns the outcome of a plan, and the method that ran.
 fn outcome(run: &PreparedRun<'_>, plan: &Plan) -> (Outcome, ResolvedMethod) {
     run_plan(run, plan, &mut Watchers::default()).expect("a run")
 }
@@ -60,7 +60,7 @@ fn the_required_error_is_kept_on_the_pendulum_against_its_closed_form() {
         let (outcome, settings) = with_plan(both, error(wanted), |run, plan| outcome(run, &plan));
         let (t, row) = outcome.rows().last().unwrap();
         assert!((t - last[0]).abs() < 1e-9 && outcome.error.is_none());
-        // the error of each coordinate beside its own range, as it is wanted
+        // the required error is relative to the range of each coordinate
         let share = |k: usize| {
             let column = || outcome.rows().iter().map(|(_, row)| row[k]);
             let range = column().fold(f64::MIN, f64::max) - column().fold(f64::MAX, f64::min);
@@ -97,7 +97,7 @@ fn a_formulation_that_is_asked_for_is_kept_and_the_rest_is_chosen() {
 
 #[test]
 fn where_the_first_stops_the_next_runs_and_the_choice_says_so() {
-    // relative coordinates at small steps stop at the four-bar's singular position, index-3 passes it
+    // relative coordinates with small steps stop at the four-bar's singular position, while index-3 passes through it
     let (mechanism, base) = (read("four-bar"), Method::default());
     let scene = mechanism.resolve().expect("a scene");
     with_plan((&mechanism, &base), error(1e-2), |run, plan| {
@@ -114,7 +114,7 @@ fn where_the_first_stops_the_next_runs_and_the_choice_says_so() {
         assert_eq!(settings.formulation, mbs::FormulationKind::Index3);
         let lost = &first.summary.chosen.unwrap().evidence.unwrap().fallbacks;
         assert_eq!((lost.len(), lost[0].code.as_str()), (1, "violated"));
-        // none gets to the end: the one that got furthest is told
+        // both stop before the end: the result is the run that got furthest
         let plan = Plan { ranked: vec![of("recursive"), of("state-space")] };
         let (furthest, _) = outcome(run, &plan);
         assert!(!furthest.summary.completed && furthest.summary.end_time > 3.0);

@@ -2,7 +2,7 @@
 
 use mbs_study::auto::Clock;
 
-/// A clock that counts work: the same on every machine, so that a choice and an estimate are too.
+/// Clock that counts work. It gives the same times on every machine, so that choices and estimates are the same too.
 #[derive(Default)]
 pub(crate) struct CountedClock(f64);
 

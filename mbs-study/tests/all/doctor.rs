@@ -1,4 +1,4 @@
-//! The doctor: what it finds in scenes, sound and not. No time is asserted.
+//! Findings of the doctor in scenes with and without faults. No time is asserted.
 
 mod motion;
 
@@ -9,7 +9,7 @@ use mbs::{Method, ResolvedMethod};
 use mbs_study::doctor::{Checkup, Effort, Severity, examine};
 use mbs_testkit::{random, retell};
 
-/// Few positions along the motion.
+/// Effort with few positions along the motion.
 const LITTLE: Effort = Effort { positions: 20, seconds: 60.0 };
 
 fn checkup(scene: &Scene<f64>, effort: &Effort) -> Checkup {
@@ -26,7 +26,7 @@ fn finding<'a>(checkup: &'a Checkup, code: &str) -> &'a mbs_study::doctor::Findi
     found.unwrap_or_else(|| panic!("no {code} in {:?}", codes(checkup)))
 }
 
-/// A pendulum in the plane with some numbers of your own.
+/// Planar pendulum with given gravity, length and inertia, and further text.
 fn pendulum(gravity: &str, length: f64, inertia: &str, more: &str) -> Scene<f64> {
     mbs_testkit::scene(&format!(
         "[scene]\nname = \"pendulum\"\ndimension = 2\nduration = 0.1\ngravity = {gravity}\n\
@@ -122,7 +122,7 @@ fn a_flat_parallelogram_that_one_held_value_leads_away_may_fold() {
     let told = finding(&c, "singular-reference");
     assert_eq!((told.severity, &told.joints[..]), (Severity::Doubt, &[0, 1, 2, 3][..]));
     let held = "[[initial]]\njoint = \"B\"\nvalue = 0.5\n".to_owned();
-    // a guide holds its joint, too
+    // a guide prescribes the value of its joint, too
     let guided = "[[guide]]\njoint = \"B\"\ntable = [[0.0, 0.5], [1.0, 0.6]]\n".to_owned();
     for second in [held, guided] {
         let c = checkup(&mbs_testkit::scene(&(flat.clone() + &second)), &still);
@@ -147,7 +147,7 @@ fn the_spatial_four_bar_is_reported_with_all_its_joints_its_remedy_and_who_runs_
     assert!(finding(&c, "hidden-by-sharing").message.contains("2 redundant equations of 3"));
     let refused = c.methods.iter().filter(|m| m.error.is_some()).map(|m| m.formulation);
     assert_eq!(refused.collect::<Vec<_>>(), ["classical"]);
-    // What the cure says, made in the scene: no finding is left.
+    // the remedy is applied to the scene: no finding remains
     let mut mended = scene.clone();
     let cure = c.joint_level.sets[0].remedy.as_ref().expect("there is one");
     for change in &cure.changes {
@@ -176,7 +176,7 @@ fn a_checkup_does_not_depend_on_axes_or_the_order_of_bodies() {
         assert_eq!(codes(&o), codes(&c));
         let joints = |c: &Checkup| c.findings.iter().map(|f| f.joints.clone()).collect::<Vec<_>>();
         assert_eq!(joints(&o), joints(&c));
-        // Roundings of decompositions.
+        // decompositions differ by rounding
         assert!((o.joint_level.least - c.joint_level.least).abs() < 1e-9);
         let turns = |c: &Checkup| -> Vec<f64> {
             c.loops.iter().flat_map(|l| &l.corners).map(|x| x.turn).collect()
@@ -187,7 +187,7 @@ fn a_checkup_does_not_depend_on_axes_or_the_order_of_bodies() {
 
 #[test]
 fn four_bars_in_a_chain_pass_their_singular_position_where_it_is() {
-    // Two four-bars of equal bars are a pendulum; they stand singular where all bars lie in a line.
+    // two four-bar linkages of equal bars move like a pendulum, and are singular when all bars are in a line
     let scene = mbs_testkit::file("two-four-bars");
     let c = checkup(&scene, &Effort { positions: 400, seconds: 60.0 });
     let told = finding(&c, "passes-singular-position");
@@ -195,7 +195,7 @@ fn four_bars_in_a_chain_pass_their_singular_position_where_it_is() {
     assert_eq!(near.passages.len(), 10, "as the scene says: {near:?}");
     assert!(near.sigma < 1e-3 && told.message.contains("10 times"), "{}", told.message);
     assert_eq!(told.joints, near.joints);
-    // There the state says the same: cranks that stood up in the reference configuration lie down.
+    // a simulation confirms the time: the cranks, vertical in the reference configuration, are then horizontal
     let settings = ResolvedMethod::new(&scene, &Method::default()).expect("the defaults are built");
     let mut simulation = Simulation::<f64, 2>::new(&scene, &settings).expect("it starts");
     while simulation.state().t < near.passages[0] {
@@ -203,7 +203,7 @@ fn four_bars_in_a_chain_pass_their_singular_position_where_it_is() {
     }
     let crank = simulation.model().motion(&scene, 0, simulation.state());
     let upright = crank.rotation[(0, 0)].abs();
-    // Two steps at the crank's speed: one to the end of the step, one for the cubic between positions 25 steps apart.
+    // the crank turns by two steps' motion at most: one to the end of the step, and one for the cubic's error between samples 25 steps apart
     let off = 2.0 * settings.step * crank.omega[2].abs();
     assert!(off > 0.0 && upright < off, "{upright} {off}");
 }

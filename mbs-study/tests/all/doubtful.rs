@@ -1,4 +1,4 @@
-//! Input that is doubtful: it is reported, or refused, with what mends it.
+//! Doubtful input: it is reported or refused, with a remedy.
 
 use mbs::core::scene::{Inertia, Scene};
 use mbs::scene_file::SceneFile;
@@ -6,9 +6,10 @@ use mbs::{Method, ResolvedMethod, SettingsError};
 use mbs_study::doctor::{Checkup, Effort, Severity, examine};
 use mbs_testkit::repository::{field, read, text, tilted};
 
-/// Effort without a run: what is asked is seen at the start.
+/// Effort without a run: all findings of these tests concern the start.
 const STILL: Effort = Effort { positions: 0, seconds: 60.0 };
-/// The second derivation of a motion, and a rule of second order at 0.1 ms.
+/// Difference of two independent computations of a motion [m or rad]: the reference has these digits, and the rule of second order steps by
+/// 0.1 ms.
 const CLOSE: f64 = 1e-5;
 
 fn checkup(scene: &Scene<f64>) -> Checkup {
@@ -41,7 +42,7 @@ fn ends_that_meet_their_place_or_are_intended_elsewhere_are_not_named() {
     assert_eq!(changed(end, "to = [0.05, 0.0866]"), [""; 0], "to the last digit");
     assert_eq!(changed(end, "to = [0.0625, 0.10825]"), [""; 0], "a fifth longer: it overhangs");
     assert_eq!(changed(end, "to = [0.05, 0.08660001]").len(), 1, "a slip of a digit");
-    // a crank of 5 mm in a mechanism of 0.4 m: both its ends are near both its joints, and belong to them
+    // a crank of 5 mm in a mechanism of 0.4 m: both of its ends are near both of its joints, and coincide with them
     let tiny = rod.replace(end, "to = [0.003, 0.004]").replace("[0.05, 0.0866]", "[0.003, 0.004]");
     assert_eq!(places(&read(&tiny, "tiny")), [""; 0]);
     let spring = text("12-spring-end-off-its-point");
@@ -62,12 +63,12 @@ fn effects_that_share_a_place_are_named_where_one_of_them_was_moved() {
         told,
         ["the end of `spring` is 6 mm from the end of `damper`: intended as one point?"]
     );
-    // a rod that ends where its spring does, 6 mm from the joint of both
+    // a rod whose end coincides with the end of its spring, 6 mm from the joint of both
     let attached = text("12-rod-end-off-its-joint").replace("0.0966", "0.0926")
         + "[[effect]]\nname = \"strut\"\nkind = \"spring-damper\"\nbodies = [\"crank\", \"ground\"]\n\
            points = [[0.05, 0.0926], [0.5, 0.0]]\ndamping = 5.0\n";
     assert_eq!(places(&read(&attached, "attached")).len(), 2, "the rod and the strut");
-    // both forgotten: each is off the eye
+    // spring and damper both miss the rod's eye
     let both = spring.clone() + &damper.replace("[0.3, 0.0]", "[0.4, 0.0]");
     assert_eq!(places(&read(&both, "both")).len(), 2);
 }
@@ -93,7 +94,7 @@ fn places_that_are_counted_from_the_body_are_reported() {
 
 #[test]
 fn no_scene_has_a_place_that_is_doubtful() {
-    // all of them, without an exception
+    // all scenes of the repository, without an exception
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes");
     let mut n = 0;
     for entry in std::fs::read_dir(folder).expect("the scenes") {
@@ -119,7 +120,7 @@ fn a_part_that_no_body_can_have_is_a_note_where_what_it_is_welded_to_can() {
     let notes: Vec<_> = found.findings.iter().map(|f| (f.severity, f.code)).collect();
     assert!(notes.contains(&(Severity::Note, "part-inertia")), "{notes:?}");
     assert_eq!(found.worst(), Some(Severity::Note));
-    // the weld is one body: its free fall is that of the scene without the frame
+    // welded bodies are one body: its free fall is that of the scene without the frame
     let outcome = mbs::typed::run::<f64, 3>(
         &scene,
         &ResolvedMethod::new(&scene, &Method::default()).unwrap(),
@@ -152,7 +153,7 @@ fn a_table_that_ends_on_a_slope_within_the_run_is_refused_at_its_row_and_runs_wi
         "{told}"
     );
     assert!(told.hint().contains("ends = \"level\""));
-    // up to its end it runs, and so it does with what the hint says
+    // a run up to the end of the table is accepted, and so is a run with the hint's remedy
     let short = Method { duration: Some(0.5), ..Method::default() };
     assert!(ResolvedMethod::new(&scene, &short).is_ok());
     let level = text.replace("[0.5, 0.3]]", "[0.5, 0.3]]\nends = \"level\"");
@@ -169,7 +170,7 @@ fn a_table_that_ends_on_a_slope_within_the_run_is_refused_at_its_row_and_runs_wi
     };
     let [value, rate, r] = run("index-3", 1e-4);
     assert!((value - 0.3).abs() < 1e-12 && rate.abs() < 1e-9, "{value} {rate}");
-    // the same motion by Runge-Kutta steps of order 8 in relative coordinates
+    // reference: the same motion by an integrator of order 8 in relative coordinates
     assert!((r + 0.349_771_266).abs() < CLOSE, "{r}");
 }
 
@@ -190,7 +191,7 @@ fn the_doctor_names_the_axis_that_is_off() {
 
 #[test]
 fn point_masses_are_no_doubt() {
-    // one hangs on a string, one is part of a body in space
+    // one point mass hangs on a string, another one is part of a spatial body
     let text = "[scene]\nname = \"p\"\ndimension = 3\nduration = 0.1\ngravity = [0.0, 0.0, -9.81]\n\
                 [[body]]\nname = \"far\"\nmass = 1.0\npoint = [1.0, 0.2, -0.5]\n\
                 [[body]]\nname = \"ball\"\nmass = 0.5\npoint = [0.5, 0.2, 0.1]\n\
@@ -199,7 +200,7 @@ fn point_masses_are_no_doubt() {
                 [[joint]]\nname = \"held\"\nkind = \"spherical\"\nbodies = [\"arm\", \"ball\"]\nat = [0.5, 0.2, 0.1]\n\
                 [[joint]]\nname = \"string\"\nkind = \"distance\"\nbodies = [\"ball\", \"far\"]\npoints = [[0.5, 0.2, 0.1], [1.0, 0.2, -0.5]]\n";
     let found = checkup(&mbs_testkit::scene(text));
-    // a body on a ball, and a point on a string
+    // degrees of freedom: three of the ball joint, and two of the point on a string
     let [_, columns, rank] = found.joint_level.sizes;
     let [coordinates, _, natural_rank] = found.natural.expect("it starts");
     assert_eq!((columns - rank, coordinates - natural_rank), (5, 5));

@@ -11,11 +11,11 @@ use mbs_study::auto::{plan, run_plan};
 use mbs_study::estimate::estimate;
 use mbs_testkit::repository::{field, read, text};
 
-/// An error is stated if it is no more than so many times the estimate; estimates are of the size of the errors if the median of the
-/// quotients lies between its inverse and the second.
+/// An estimate is right if the true error is at most `STATED` times larger. Estimates have the size of the errors if the median of the ratios
+/// is between 1/`MEDIAN` and `MEDIAN`.
 const STATED: f64 = 3.0;
 const MEDIAN: f64 = 10.0;
-/// Rounding of a result in an error-controlled run, relative.
+/// Rounding of a result in an error-controlled run, relative to the result.
 const CONTROLLED: f64 = 1e-6;
 
 fn run(scene: &Scene<f64>, overrides: &Method) -> (ResolvedMethod, Outcome) {
@@ -33,7 +33,7 @@ fn by(formulation: &str, integrator: &str, tolerance: Option<f64>) -> Method {
     Method { formulation, integrator, tolerance, ..Method::default() }
 }
 
-/// A default run with its estimate.
+/// Runs a scene with the default method, and estimates its errors.
 fn estimated(scene: &Scene<f64>) -> (Outcome, ErrorEstimate) {
     let (settings, mut outcome) = run(scene, &Method::default());
     let before = outcome.rows().to_vec();
@@ -48,7 +48,7 @@ fn errors(estimate: &ErrorEstimate) -> Vec<f64> {
     outputs.0.iter().flat_map(|(_, errors)| errors.iter().copied()).collect()
 }
 
-/// True errors over the estimates, of all components.
+/// Ratios of true errors to estimates, for all components.
 fn ratios(scene: &Scene<f64>) -> Vec<f64> {
     let (outcome, estimate) = estimated(scene);
     let (_, reference) = run(scene, &by("recursive", "rk853", Some(1e-12)));
@@ -105,7 +105,7 @@ fn twenty_arms_with_light_wrists_state_errors_of_the_size_that_they_have() {
     assert!((1.0 / MEDIAN..MEDIAN).contains(&median), "{median}");
 }
 
-/// A mass of 1 kg on a spring of 1 MN/m, 1 mm from rest.
+/// Scene of a mass of 1 kg on a spring of 1 MN/m, deflected by 1 mm.
 const STIFF: &str = "[scene]\nname = \"stiff\"\ndimension = 2\nduration = 0.5\n\n\
         [[body]]\nname = \"a\"\nmass = 1.0\ncenter = [0.1, 0.0]\ninertia = 0.01\n\n\
         [[joint]]\nname = \"s\"\nkind = \"prismatic\"\nbodies = [\"ground\", \"a\"]\nat = [0.0, 0.0]\naxis = [1.0, 0.0]\n\n\
@@ -116,7 +116,7 @@ const STIFF: &str = "[scene]\nname = \"stiff\"\ndimension = 2\nduration = 0.5\n\
 #[test]
 fn a_spring_too_stiff_for_the_step_is_said() {
     let (outcome, estimate) = estimated(&read(STIFF, "stiff"));
-    // 2 pi / sqrt(k / m) = 6.28 ms
+    // the period is 2 pi / sqrt(k / m) = 6.28 ms, and the step 1 ms
     let steps = estimate.steps_per_period.expect("a period");
     assert!((steps - core::f64::consts::TAU).abs() < 0.1, "{steps}");
     assert!(outcome.notes().iter().any(|note| note.contains("stiffest force")));
@@ -148,11 +148,11 @@ fn outputs_of_the_run_alone_have_no_estimate_and_it_is_said() {
     assert!(estimate.outputs.is_none() && estimate.basis.is_none());
 }
 
-/// The light wrist with other masses of its last links, and let go from another state.
+/// The scene of the light wrist, with other masses of its last links and another initial state.
 fn arm(seed: u32) -> Scene<f64> {
     let mut state = u64::from(seed);
     let mut random = |low: f64, high: f64| {
-        // Knuth's multiplier: the high bits are random enough for masses
+        // a linear congruential generator with Knuth's multiplier; its high bits are random enough
         state =
             state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         low + (high - low) * f64::from((state >> 33) as u32) / f64::from(u32::MAX >> 1)
@@ -196,12 +196,12 @@ fn a_run_of_milliseconds_states_the_error_that_it_has_in_every_formulation() {
         let error = rows.map(|(t, row)| (row[0] - 50.0 * t * t).abs()).fold(0.0, f64::max);
         let stated = errors(&estimate)[0];
         assert!(3.0 * stated >= error, "{formulation}: {stated} for {error}");
-        // rounding of an angle of 2 rad is no error that can be stated
+        // the rounding of an angle of 2 rad, 1e-12, is too small for an estimate
         assert!(stated <= 3.0 * error + 1e-12, "{formulation}: {stated} for {error}");
     }
 }
 
-/// Two gears: the rate of the first is 0.7 N m · t over 0.02 + (2/3)² 0.04 kg m², of the second two thirds of it.
+/// Rates of two gears: the first has 0.7 N m · t over the reduced inertia 0.02 + (2/3)² 0.04 kg m², the second two thirds of it.
 #[test]
 fn a_short_run_of_a_gear_pair_states_the_error_that_it_has_in_every_formulation() {
     let scene = field("22-gear-joint-wheel-first");
@@ -220,7 +220,7 @@ fn a_short_run_of_a_gear_pair_states_the_error_that_it_has_in_every_formulation(
     }
 }
 
-/// A clock of a machine that is busy with something else.
+/// Clock of a machine that is busy with other work.
 #[derive(Default)]
 struct Busy(f64);
 
@@ -246,7 +246,7 @@ fn an_idle_and_a_loaded_machine_state_the_same_errors() {
     }
 }
 
-/// A stiff spring whose swing no output shows: the mass stands where it is at rest.
+/// A stiff spring whose vibration no output shows: the mass starts at rest in its equilibrium.
 #[test]
 fn a_stiff_force_that_does_not_swing_is_not_mentioned() {
     let at_rest = STIFF.replace("value = 0.001", "value = 0.0");
@@ -258,10 +258,10 @@ fn a_stiff_force_that_does_not_swing_is_not_mentioned() {
 /// Names of all formulations.
 const FORMULATIONS: [&str; 6] =
     ["index-3", "index-1", "multi-index", "classical", "state-space", "recursive"];
-/// Ten times what the trapezoidal rule errs by in directions that turn at 8.4 rad/s, (w h)²/12 at 1 ms, relative.
+/// Ten times the relative error of the trapezoidal rule for directions that turn at w = 8.4 rad/s with steps of h = 1 ms: (w h)²/12 [-].
 const AT_A_MILLISECOND: f64 = 6e-5;
 
-/// The last value of an output's components.
+/// Returns the last values of an output's components.
 fn last(outcome: &Outcome, name: &str) -> Vec<f64> {
     let found = outcome.summary.outputs.0.iter().find(|(n, _)| n == name);
     found.unwrap_or_else(|| panic!("no output {name}")).1.clone()
@@ -329,7 +329,7 @@ fn a_choice_for_a_vehicle_that_jumps_sees_its_landing_and_keeps_its_error() {
         let Some((_, right)) = same else { continue };
         compared += 1;
         for (a, b) in chassis(row).into_iter().zip(chassis(right)) {
-            // the chassis goes 50 m far, and its channel has one range
+            // the chassis travels 50 m, and all components of its channel have one range
             assert!((a - b).abs() < 2.0 * 1e-2 * 50.0, "{t} s: {a} for {b} by {settings:?}");
         }
     }

@@ -1,4 +1,4 @@
-//! An explanation: what it says of scenes, and what leaving an effect out changes. No time is asserted.
+//! Explanations of scenes, and the changes by leaving an effect out. No time is asserted.
 
 mod timing;
 
@@ -10,10 +10,10 @@ use mbs_study::explain::{EffectCost, Explanation, SearchEnd};
 use mbs_study::explain::{Effort, explain};
 use mbs_testkit::repository::path;
 
-/// Effort that times few steps; everything else is measured in full.
+/// Effort with few timed steps; all other measurements are made in full.
 const LITTLE: Effort = Effort { timed_steps: 20, repeats: 2, seconds: 60.0 };
 
-/// A pendulum of 1 kg and 1 m that hangs at rest 60 degrees off, with effects.
+/// Pendulum of 1 kg and 1 m with effects, which starts at rest at 60 degrees.
 fn pendulum(effects: &str) -> Scene<f64> {
     mbs_testkit::scene(&format!(
         r#"
@@ -99,7 +99,7 @@ axis = [0.0, 1.0, 0.0]
     let rods: Vec<_> =
         simulated.rods.iter().map(|rod| (rod.body.as_str(), rod.idle_spin_carried)).collect();
     assert_eq!(rods, [("on-ball", false), ("on-hinge", true)]);
-    // Two swings of the ball and one turn of the hinge; relative coordinates carry the spin too.
+    // two swings of the ball and one rotation of the hinge; relative coordinates also have the rod's spin
     assert_eq!((simulated.dof, simulated.relative.map(|r| r.sizes.dof)), (Some(3), Some(4)));
     let planar = explained(&mbs_testkit::file("guided-four-bar")).0;
     assert!(planar.simulated.rods.is_empty(), "the plane has no such spin");
@@ -137,7 +137,7 @@ fn leaving_a_damper_out_changes_what_two_runs_differ_by_and_an_idle_effect_chang
     assert!((changes[0].relative.expect("it moves") * changes[0].range - by_hand).abs() < 1e-12);
 
     let idle = price(&explanation, "idle");
-    /// Sums in another order [rad].
+    /// Difference of sums in another order [rad].
     const ROUNDING: f64 = 1e-12;
     assert!(idle.completed && idle.changes[0].largest < ROUNDING, "{:?}", idle.changes);
     assert!(idle.changes[0].is_rounding && !changes[0].is_rounding);
@@ -146,7 +146,7 @@ fn leaving_a_damper_out_changes_what_two_runs_differ_by_and_an_idle_effect_chang
 
 #[test]
 fn what_is_rounding_beside_the_scene_is_no_change() {
-    // The guided joint follows its guide whatever acts elsewhere.
+    // a guided joint follows its guide, whatever effects act on other joints
     let text = std::fs::read_to_string(path("guided-four-bar")).expect("it is there");
     let effect = DAMPER.replace("pivot", "rocker-pivot");
     let (explanation, _) = explained(&mbs_testkit::scene(&format!("{text}\n{effect}")));
@@ -156,7 +156,7 @@ fn what_is_rounding_beside_the_scene_is_no_change() {
         found.next().expect("it is an output")
     };
     assert!(of("crank-angle", "rad").is_rounding && of("rocker-angle", "rad").is_rounding);
-    // The driving moment carries what the damper takes: a channel has an entry for each of its units.
+    // the damper changes the driving moment; a channel has an entry for each of its units
     assert!(!of("crank-reaction", "N m").is_rounding && !of("crank-reaction", "N").is_rounding);
 }
 

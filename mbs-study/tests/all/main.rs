@@ -1,4 +1,4 @@
-//! The tests of the studies, in one program. `cargo test -p mbs-study -- doctor::` runs one of them.
+//! Tests of the studies, in one program. `cargo test -p mbs-study -- doctor::` runs one module.
 #![allow(clippy::print_stdout, reason = "what is measured is shown with --nocapture")]
 
 mod auto;

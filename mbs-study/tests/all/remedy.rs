@@ -1,4 +1,4 @@
-//! Formulations that run where a run stopped.
+//! Formulations that complete a run that stopped with another one.
 
 use crate::clock::CountedClock;
 use mbs::core::scene::Scene;
@@ -19,7 +19,7 @@ fn by(formulation: &str) -> Method {
     Method { formulation: Some(formulation.to_owned()), ..Method::default() }
 }
 
-/// The run by `method` stops with this code and names this formulation, by which it ends.
+/// Asserts that the run by `method` stops with this code, and that its error names this formulation, which completes.
 fn names(scene: &Scene<f64>, (method, code): (&Method, &str), formulation: &str) -> Outcome {
     let error = run(scene, method).summary.error.expect("it stops");
     assert_eq!(error.code, code);
@@ -35,7 +35,8 @@ fn where_a_penalty_that_is_too_small_stops_index_3_the_tree_is_named_and_creeps_
     let scene = field("58-held-hand");
     let method = Method { penalty: Some(1e5), ..Method::default() };
     let outcome = names(&scene, (&method, "not-converged"), "recursive");
-    // regularised friction: rate = s v / sqrt(1 - s^2), s the weight over the friction, v = 1 mm/s; the tilt by 7e-6 rad lets it creep a little faster
+    // regularised friction: the creep rate is s v / sqrt(1 - s^2), where s is weight over friction and v = 1 mm/s; a tilt of 7e-6 rad adds a
+    // little
     let creep = outcome.rows().last().expect("rows").1[0];
     assert!((creep + 1.02603e-3).abs() < 3e-6, "{creep}");
 }

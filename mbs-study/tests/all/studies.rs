@@ -1,4 +1,4 @@
-//! Studies of a mechanism in code are those of its file.
+//! Studies of a mechanism in code give the results of those of its file.
 
 use mbs::{Body, Error, FormulationKind, GROUND, Joint, Mechanism, Method, Precision, Run, run};
 use mbs_study::{Compare, Sweep, compare, sweep};
@@ -42,7 +42,7 @@ fn a_sweep_says_what_it_refuses_and_which_runs_fail() {
     let error = refused(Sweep::grid().vary("body.bob.mass", [-1.0]));
     assert_eq!((error.code(), error.place()), ("scene-refused", None), "{error}");
     assert!(error.to_string().starts_with("`body.bob.mass`: the scene refuses -1.0"), "{error}");
-    // neither mass nor inertia: that run alone has no motion
+    // the first member has neither mass nor inertia: only this run fails
     let of = Sweep::zip().vary("body.bob.mass", [0.0, 1.0]).vary("body.bob.inertia", [0.0, 0.1]);
     let runs = sweep(&m, &of).expect("it runs");
     let failures: Vec<_> = runs.failures().map(|(member, code, _)| (member, code)).collect();
@@ -52,7 +52,7 @@ fn a_sweep_says_what_it_refuses_and_which_runs_fail() {
     let mut table = Vec::new();
     runs.write_csv(&mut table).expect("memory");
     assert!(table.starts_with(b"member,body.bob.mass,body.bob.inertia,completed"));
-    // columns of numbers are those of the table; words and what was not measured are no numbers
+    // numbers of the result are those of the table; texts and missing values are NaN
     let table = String::from_utf8(table).expect("text");
     let mut lines = table.lines().map(|line| line.split(',').collect::<Vec<_>>());
     let (header, rows) = (lines.next().expect("a header"), lines.collect::<Vec<_>>());
@@ -86,7 +86,7 @@ fn a_sweep_of_a_file_shows_the_place_of_its_fault_there() {
 
 #[test]
 fn the_duration_of_a_run_outlives_its_method() {
-    // rows of steps of 1 ms
+    // the table has a row for each step of 1 ms
     let m = pendulum();
     let rows = |options: &Run| run(&m, options).expect("it runs").table().len();
     assert_eq!(rows(&Run::new().duration(0.1).method(Method::default())), 101);
@@ -107,7 +107,7 @@ fn numbers_that_are_none_are_refused_by_their_path() {
         assert_eq!((error.code(), error.place()), ("not-finite", None));
         assert!(error.to_string().contains("body.bob.mass"), "{error}");
     }
-    // a file is named once
+    // the message names the file only once
     let error =
         Mechanism::parse("[scene]\nname = \"p\"\ndimension = 2\ngravty = 1").expect_err("no key");
     let text = mbs::SimulationError::from(error).to_string();

@@ -1,4 +1,4 @@
-//! The sweeps of the repository.
+//! Sweeps of the repository's files.
 
 mod members;
 

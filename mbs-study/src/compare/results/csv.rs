@@ -1,4 +1,4 @@
-//! The runs of a comparison as a table.
+//! Runs of a comparison as a table in CSV.
 
 use super::data::{Comparison, RunEntry, Status};
 use mbs_scene::format::shortest;
@@ -33,10 +33,10 @@ const HEADER: [&str; 26] = [
     "step_seconds_max",
 ];
 
-/// Writes a row for each run: what became of it, its error, its CPU time. What was not measured is empty.
+/// Writes a row for each run with its status, its error and its CPU time. Cells without a measurement are empty.
 ///
 /// # Errors
-/// Those of the sink.
+/// Errors of the sink.
 pub fn write_comparison(sink: impl io::Write, comparison: &Comparison) -> io::Result<()> {
     let mut out = csv::Writer::from_writer(sink);
     out.write_record(HEADER)?;

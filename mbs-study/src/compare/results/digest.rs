@@ -1,23 +1,23 @@
-//! Digest of the runs: orders, times at an error, ranks.
+//! Evaluation of the runs: orders, times at an error, and ranks.
 
 use super::data::{Comparison, MethodRuns, Rank, RankLevel, RunEntry, Status};
 use super::{fit, front, rank};
 
-/// Error below which an entry is marked, in units of the reference's uncertainty [-]. Chosen, not tuned.
+/// Error below which a run is marked as not resolved, in units of the reference's uncertainty [-]. Chosen, not tuned.
 const MIN_RESOLVED: f64 = 3.0;
-/// Ratio of times up to which a method may be the fastest of its formulation [-]. Chosen, not tuned.
+/// Ratio to the fastest time of a formulation up to which a method may be the fastest after more timings [-]. Chosen, not tuned.
 const NEARLY: f64 = 1.15;
-/// Inverse of the relative difference of counts of steps that are the same: a fiftieth. Chosen, not tuned.
+/// Inverse of the relative difference up to which two numbers of steps are equal: a fiftieth. Chosen, not tuned.
 const SAME_COUNT: u64 = 50;
 
 impl Comparison {
-    /// The least error that the reference resolves.
+    /// Smallest error that the reference resolves.
     #[must_use]
     pub fn floor(&self) -> f64 {
         MIN_RESOLVED * self.reference.uncertainty
     }
 
-    /// Fills in what follows from the runs: least times, marks, orders, and the ranking at the errors given.
+    /// Computes all results that follow from the runs: shortest times, marks, orders, and the ranking at the given errors.
     pub fn digest(&mut self, levels: &[f64]) {
         let (floor, instants) = (self.floor(), self.instants as u64);
         for method in &mut self.methods {
@@ -34,8 +34,8 @@ impl Comparison {
         self.ranking = levels.iter().map(|level| self.ranked(*level)).collect();
     }
 
-    /// The runs whose times decide the ranking at these errors, by method and run. They are those beside an error, of methods that are, or
-    /// may well be, the fastest of their formulation and integrator.
+    /// Runs whose times decide the ranking at these errors, each by method and run. They are the runs around an error, of methods that are
+    /// the fastest of their formulation and integrator, or nearly so.
     #[must_use]
     pub fn decisive(&self, levels: &[f64]) -> Vec<(usize, usize)> {
         let mut runs = Vec::new();
@@ -89,7 +89,7 @@ impl Comparison {
 }
 
 impl MethodRuns {
-    /// Formulation, and the integrator where it is not the trapezoidal rule.
+    /// Name of the formulation, and of the integrator unless it is the trapezoidal rule.
     #[must_use]
     pub fn family(&self) -> String {
         match self.integrator.as_str() {
@@ -109,7 +109,7 @@ impl MethodRuns {
         points.filter(|(h, e)| *h > 0.0 && *e > 0.0).collect()
     }
 
-    /// Least and second CPU time at an error, of runs whose results have this many instants.
+    /// Shortest and second shortest CPU time at an error. `instants` is the number of instants of the results.
     fn at_error(&self, level: f64, instants: u64) -> Option<[f64; 2]> {
         let (places, points): (Vec<usize>, Vec<front::Point<2>>) = self.timed().unzip();
         let has_between = |coarse: usize, fine: usize| {
@@ -118,14 +118,14 @@ impl MethodRuns {
         front::at_error(&points, level, has_between)
     }
 
-    /// Least CPU time at an error [s], of runs whose results have this number of instants; nothing where no timed run reaches it.
+    /// Shortest CPU time at an error [s]. `instants` is the number of instants of the results. `None` if no timed run reaches the error.
     #[must_use]
     pub fn seconds_at(&self, level: f64, instants: u64) -> Option<f64> {
         Some(self.at_error(level, instants)?[0])
     }
 
-    /// Returns the method with its timed runs beside an error alone. Each run has the error that it counts with, but no times: it is to be timed
-    /// again.
+    /// Returns the method with only its timed runs around an error, to be timed again. Each run has the error that it is credited with, and
+    /// no times.
     #[must_use]
     pub fn beside_alone(&self, level: f64) -> Self {
         let untimed = |(i, error): (usize, f64)| RunEntry {
@@ -136,8 +136,8 @@ impl MethodRuns {
         Self { runs: self.beside(level).into_iter().map(untimed).collect(), ..self.clone() }
     }
 
-    /// Is there a run with more steps than the coarse one of two and fewer than the fine one? Fixed steps are whole parts of the
-    /// intervals of the results; where these hold an integrator's own steps, its tolerance changes the order, by stairs.
+    /// Can there be a run with more steps than the coarse run and fewer than the fine run? Fixed steps must divide the intervals of the
+    /// results. If the intervals limit an integrator's own steps, the number of steps changes in jumps with the tolerance.
     #[doc(hidden)]
     #[must_use]
     pub fn has_between(&self, [coarse, fine]: [u64; 2], instants: u64) -> bool {
@@ -148,7 +148,7 @@ impl MethodRuns {
         }
     }
 
-    /// Indices of the runs beside an error, each with the error that it counts with.
+    /// Indices of the runs around an error, each with the error that it is credited with.
     fn beside(&self, level: f64) -> Vec<(usize, f64)> {
         let (places, errors): (Vec<usize>, Vec<f64>) =
             self.timed().map(|(i, (error, _))| (i, error)).unzip();
@@ -166,7 +166,7 @@ impl MethodRuns {
 }
 
 impl RunEntry {
-    /// The least and the second CPU time; the same where there is one.
+    /// Shortest and second shortest CPU time; the same number twice if there is only one.
     #[must_use]
     pub fn two_least(&self) -> Option<[f64; 2]> {
         let mut times = self.cpu_seconds.clone();

@@ -1,29 +1,28 @@
-//! The order of a method: the slope of its error against the step, and where rounding takes over.
+//! Order of a method: the slope of its error over the step, and the step at which rounding dominates.
 
 use super::data::Fit;
 
-/// Largest difference of slopes between neighbours that belong to one line [-]. Chosen, not tuned.
+/// Largest difference of the slopes between neighbouring points on one line [-]. Chosen, not tuned.
 const SAME_SLOPE: f64 = 0.4;
-/// Error from which a motion is lost and shows no order, relative to the outputs' ranges [-]. Chosen, not tuned.
+/// Error from which the motion is not resolved and shows no order, relative to the outputs' ranges [-]. Chosen, not tuned.
 const LOST: f64 = 0.2;
-/// Least ratio of the longest to the shortest step of a line [-], of which it has three or more. Chosen, not tuned.
+/// Smallest ratio of the longest to the shortest step of a line, which has at least three points [-]. Chosen, not tuned.
 const SPAN: f64 = 4.0;
-/// Largest root of the mean square of a line's misfits [decades]. Chosen, not tuned.
+/// Largest root mean square of the deviations from a line, in decades of the error [-]. Chosen, not tuned.
 const RESIDUAL: f64 = 0.15;
 /// Largest order that a method can have [-].
 const MOST_ORDER: f64 = 20.0;
-/// Relative difference below which steps are the same [-]: they end at the instants of the results. Chosen, not tuned.
+/// Relative difference below which two steps are equal [-], since steps are adapted to the instants of the results. Chosen, not tuned.
 const SAME_STEP: f64 = 1e-6;
-/// Ratio of an error at shorter steps to the least one, from which it is rounding [-]. Chosen, not tuned.
+/// Ratio of an error at a shorter step to the smallest error, from which it is caused by rounding [-]. Chosen, not tuned.
 const GROWN: f64 = 2.0;
 
-/// Fits the order to points (step, error), from the longest step to the shortest. Errors below `floor` are what the reference
-/// cannot resolve.
+/// Fits the order to points (step, error), from the longest step to the shortest. The reference does not resolve errors below `floor`.
 pub fn fit(points: &[(f64, f64)], floor: f64) -> Option<Fit> {
     let least = points.iter().enumerate().min_by(|a, b| a.1.1.total_cmp(&b.1.1))?.0;
     let is_rounding = points[least..].iter().any(|&(_, e)| e > GROWN * points[least].1.max(floor));
     let rounding_below = is_rounding.then_some(points[least].0);
-    // the least error itself is bent by what makes the others grow
+    // rounding changes the smallest error too, so it is left out
     let end = if is_rounding { least } else { points.len() };
     let mut resolved: Vec<(f64, f64)> =
         points[..end].iter().copied().filter(|&(_, e)| e > floor && e < LOST).collect();
@@ -38,7 +37,7 @@ pub fn fit(points: &[(f64, f64)], floor: f64) -> Option<Fit> {
     })
 }
 
-/// Does a stretch show an order?
+/// Do neighbouring points show an order?
 fn is_line(points: &[(f64, f64)]) -> bool {
     let [first, _, .., last] = points else { return false };
     let order = slope(points);
@@ -52,7 +51,7 @@ fn is_line(points: &[(f64, f64)]) -> bool {
     points.len() >= 3 && libm::sqrt(squares / n) <= RESIDUAL
 }
 
-/// The longest stretch of neighbours with one slope; of equally long ones that at the shortest steps.
+/// Returns the longest sequence of neighbouring points with one slope. Among equally long ones, it is the one with the shortest steps.
 fn straight(points: &[(f64, f64)]) -> &[(f64, f64)] {
     let mut best = &points[..0];
     for first in 0..points.len() {
@@ -60,7 +59,7 @@ fn straight(points: &[(f64, f64)]) -> &[(f64, f64)] {
         for last in first + 1..points.len() {
             let s = slope(&points[last - 1..=last]);
             (low, high) = (low.min(s), high.max(s));
-            // a line that falls the wrong way is scatter
+            // errors that grow with shorter steps are scatter
             if !(high - low <= SAME_SLOPE && low > 0.0) {
                 break;
             }
@@ -72,7 +71,7 @@ fn straight(points: &[(f64, f64)]) -> &[(f64, f64)] {
     best
 }
 
-/// Slope of the straight line through the logarithms, by least squares.
+/// Slope of the straight line through the logarithms of step and error, by least squares.
 fn slope(points: &[(f64, f64)]) -> f64 {
     let n = points.len() as f64;
     let logs = || points.iter().map(|&(h, e)| (libm::log(h), libm::log(e)));

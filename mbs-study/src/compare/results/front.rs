@@ -1,24 +1,24 @@
-//! CPU time at an error, between the runs of one method.
+//! CPU time at an error, interpolated between runs of one method.
 
-/// Point of a completed run: its error, and CPU times that are to be interpolated [s].
+/// Completed run: its error, and its CPU times for interpolation [s].
 pub(super) type Point<const N: usize> = (f64, [f64; N]);
 
-/// The runs beside an error: the last that misses it, the first that reaches it, by their indices, and where between them it lies.
+/// Runs around an error, by their indices, and the position of the error between them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Beside {
-    /// The last run that misses it.
+    /// Last run whose error is too large, if there is one.
     pub misses: Option<usize>,
-    /// The first run that reaches it.
+    /// First run that reaches the error.
     pub reaches: usize,
-    /// 1 at the run that reaches it.
+    /// Position of the error on the logarithmic line between the two runs [-]: 1 at the run that reaches it.
     share: f64,
 }
 
-/// The runs beside an error on the front of runs with these errors, which go from the coarsest to the finest. Where no run misses
-/// it, the coarsest one reaches it. Nothing where none does.
+/// Finds the runs around an error. `errors` are those of runs from the coarsest to the finest. If no run misses the error, the coarsest one
+/// reaches it. `None` if no run reaches it.
 ///
-/// An error that is smaller by luck counts for nothing: a run is credited with that of the next finer one if that is larger. The
-/// front is chosen by the errors and by that order alone: times have noise, and would choose another one each time.
+/// An error that is small by chance does not count: a run is credited with at least the error of the next finer run. The selection depends on
+/// errors and order only. With times it would depend on their noise.
 pub fn beside(errors: &[f64], level: f64) -> Option<Beside> {
     let credited = |i: usize| credited(errors, i);
     let mut front: Vec<usize> = Vec::new();
@@ -32,19 +32,19 @@ pub fn beside(errors: &[f64], level: f64) -> Option<Beside> {
     let misses = place.checked_sub(1).map(|before| front[before]);
     let share = misses.map_or(1.0, |coarse| {
         let (coarse, fine) = (credited(coarse), credited(reaches));
-        // an error of zero lies at the end of every line
+        // an error of zero is infinitely far on a logarithmic line: the time is that of the run that reaches it
         if fine > 0.0 { libm::log(coarse / level) / libm::log(coarse / fine) } else { 1.0 }
     });
     Some(Beside { misses, reaches, share })
 }
 
-/// The error that a run counts with.
+/// Error that a run is credited with: at least that of the next finer run.
 pub(super) fn credited(errors: &[f64], i: usize) -> f64 {
     errors[i].max(errors.get(i + 1).copied().unwrap_or(0.0))
 }
 
-/// CPU times at an error, by interpolation of logarithms between the runs beside it, where there are others between these two
-/// (`has_between`, of their indices). Else they are those of the run that reaches it.
+/// CPU times at an error. They are interpolated logarithmically between the two runs around the error, if further runs are possible between
+/// these (`has_between`, by their indices). Otherwise they are those of the run that reaches the error.
 pub fn at_error<const N: usize>(
     points: &[Point<N>],
     level: f64,

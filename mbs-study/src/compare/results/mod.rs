@@ -1,4 +1,4 @@
-//! Results of a comparison of methods: orders, times at an error, ranks; as data, JSON and CSV.
+//! Results of a comparison of methods as data, JSON and CSV: orders, times at an error, and ranks.
 
 mod csv;
 mod data;

@@ -1,20 +1,20 @@
-//! Ranks that noise does not change: who is faster than whom by more than it can be.
+//! Ranks of methods that the noise of the times does not change.
 
 use super::data::Rank;
 
-/// Ratio up to which times share the rank of the fastest [-]. The place of a computation in memory, and other work, change the least of
-/// many times by one or two per cent. Of the factors that distinguish methods this one leaves few at its edge.
+/// Ratio to the fastest time up to which methods have the same rank [-]. The placement in memory and other processes change the shortest of
+/// many times by one or two per cent. With this factor, few methods are so close to the limit of a rank that noise decides.
 pub const APART: f64 = 1.5;
 
-/// Gives ranks to methods with their least times. A rank ends where a time is more than `APART` times that of its fastest, and more
-/// than what lies between the two least times of the fastest.
+/// Ranks methods by their shortest times. The fastest method of a rank sets its limit: `APART` times its shortest time, or its second
+/// shortest time if that is longer. A method with a longer time begins the next rank.
 ///
-/// Noise that makes each time longer by a share of at most e moves every quotient of two times by a factor of at most 1 + e. So the
-/// ranks are those without noise wherever no quotient of a time to the fastest of the rank before lies so near the factor.
+/// Noise may make each time longer by a fraction of at most e. A quotient of two times then changes by a factor of at most 1 + e. The ranks
+/// then are those without noise, unless a quotient is within this factor of `APART`.
 pub fn rank(mut methods: Vec<Rank>) -> Vec<Rank> {
     let order: Vec<String> = methods.iter().map(|m| m.name.clone()).collect();
     methods.sort_by(|a, b| a.seconds.total_cmp(&b.seconds));
-    // up to here reaches the rank
+    // largest time that has this rank
     let mut reach = 0.0_f64;
     let mut rank = 1;
     for i in 0..methods.len() {

@@ -4,12 +4,12 @@ use super::data::OutputScale;
 use mbs::record::Channel;
 use mbs_core::outputs::in_radians;
 
-/// Least scale of an output, relative to the largest range of its unit [-]. Chosen, not tuned.
+/// Smallest scale of an output, relative to the largest range of its unit [-]. Chosen, not tuned.
 pub const FLOOR: f64 = 1e-3;
 
-/// The scales of all channels. The components of one unit of a channel share the largest of their ranges over the reference. It is
-/// at least a thousandth of the largest range of an output of that unit. In lengths it is at least a thousandth of the scene's
-/// length [m], in angles of a radian. What is of the run itself, as its energy error, has none and judges nothing.
+/// Computes the scales of all channels. Components of a channel with the same unit have one scale: their largest range over the reference. It
+/// is at least a thousandth of the largest range of all outputs of that unit. For lengths it is also at least a thousandth of the scene's
+/// length [m], for angles of a radian. Outputs of the run itself, such as its energy error, have no scale and are not compared.
 #[must_use]
 pub fn output_scales(channels: &[Channel], rows: &[Vec<f64>], length: f64) -> Vec<OutputScale> {
     let mut scales: Vec<OutputScale> = Vec::new();
@@ -38,7 +38,7 @@ pub fn output_scales(channels: &[Channel], rows: &[Vec<f64>], length: f64) -> Ve
         channels.iter().any(|channel| channel.name == scale.output && channel.is_of_run())
     };
     let judged = scales.iter().filter(|scale| !is_of_run(scale));
-    // degrees count among radians
+    // degrees are converted to radians
     let of_unit = |scale: &OutputScale| {
         let (unit, n) = in_radians(&scale.unit);
         (unit.to_owned(), scale.range / n)
@@ -66,7 +66,7 @@ fn range(rows: &[Vec<f64>], column: usize) -> f64 {
     if low <= high { high - low } else { 0.0 }
 }
 
-/// Largest distance and root of the mean square of two rows of components, in their scales; NaN if one is.
+/// Largest distance and root mean square distance of two rows, relative to the scales. NaN if a component is NaN.
 #[must_use]
 pub fn row_distance(scales: &[OutputScale], a: &[f64], b: &[f64]) -> [f64; 2] {
     let (mut largest, mut squares, mut n) = (0.0_f64, 0.0, 0.0);

@@ -34,7 +34,7 @@ fn no_setting_is_coarser_than_the_coarsest() {
 fn exponents_are_taken_near_those_of_theory() {
     let mut lost = points(&[0.1, 0.05]);
     lost[1].error = lost[0].error;
-    // an error that does not fall is taken to fall with half of the order
+    // an error that does not decrease is extrapolated with half of the order
     let found = predict(SECOND, &lost, 1e-4, 1.0).unwrap();
     assert!((found.setting / (0.05 * 1e-2) - 1.0).abs() < 1e-9, "{found:?}");
 }

@@ -1,4 +1,4 @@
-//! Goals and times as they are written.
+//! Goals, and times as texts.
 
 use mbs::{Method, Precision};
 use mbs_study::auto::{Goal, GoalError, time};

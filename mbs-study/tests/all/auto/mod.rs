@@ -1,4 +1,4 @@
-//! Choices on a bench whose costs and errors are given: no clock, no scene.
+//! Choices on a test bench with given costs and errors, without a clock or a scene.
 
 mod estimate;
 mod goal;
@@ -27,19 +27,19 @@ struct Nature {
     seconds: f64,
     stops_above: f64,
     stops_below: f64,
-    /// CPU time of one step to each row [s], below which no setting comes.
+    /// CPU time of a run with one step between two rows [s]. No setting makes fewer steps.
     held: f64,
 }
 
 const TAME: Nature =
     Nature { error: 1.0, seconds: 1.0, stops_above: f64::INFINITY, stops_below: 0.0, held: 0.0 };
 
-/// Bench that runs nothing: it gives what the natures say, and counts.
+/// Bench without runs: it returns trials that the given natures determine, and counts them.
 struct Fake<F: Fn(&MethodCase) -> Nature> {
     nature: F,
     spent: f64,
     trials: Vec<(String, f64)>,
-    /// index-3 is off by this: another model.
+    /// Constant error of index-3, as if its model were another one.
     apart: f64,
 }
 
@@ -57,7 +57,7 @@ impl<F: Fn(&MethodCase) -> Nature> Fake<F> {
         (self.nature)(method).error * (setting / 0.01).powf(PowerLaw::of(method).error)
     }
 
-    /// CPU time that a method takes for an error [s]: with a setting that can be had, none coarser than the coarsest.
+    /// CPU time that a method needs for an error [s], with a possible setting that is no coarser than the coarsest.
     fn needs(&self, method: &MethodCase, error: f64) -> f64 {
         let ratio = error / (self.nature)(method).error;
         let setting = 0.01 * ratio.powf(1.0 / PowerLaw::of(method).error);
@@ -83,14 +83,14 @@ impl<F: Fn(&MethodCase) -> Nature> Bench for Fake<F> {
         let error = self.error(method, setting);
         let is_apart = method.formulation == FormulationKind::Index3;
         let apart = if is_apart { self.apart } else { 0.0 };
-        // the same motion for all, and an error that grows
+        // all methods compute the same motion, with an error that grows in time
         let row = |k: usize| vec![(0.01 * k as f64).sin() + error * k as f64 / 200.0 + apart];
         let rows: Rows = (1..=200).map(row).collect();
         let error = RunError { code: "violated".into(), ..RunError::default() };
         Trial {
             rows,
             seconds: whole * reached,
-            // as many as the CPU time's law says
+            // the number of steps follows the law of the CPU time
             steps: match nature.held > 0.0 {
                 true => (200.0 * whole / nature.held) as u64,
                 false => (1e6 * (0.01 / setting).powf(PowerLaw::of(method).cost)) as u64,
@@ -140,7 +140,7 @@ fn all() -> Vec<MethodCase> {
     MethodCase::all(&[], &[Precision::F64])
 }
 
-/// Methods that a pilot tries where there is a tree.
+/// Methods that a pilot tries for a scene with a tree.
 fn few(mut methods: Vec<MethodCase>) -> Vec<MethodCase> {
     let is_relative = |m: &MethodCase| m.formulation.row().relative;
     let is_one = |m: &MethodCase| match is_relative(m) {
@@ -152,7 +152,7 @@ fn few(mut methods: Vec<MethodCase>) -> Vec<MethodCase> {
     methods
 }
 
-/// The name that is chosen first, its setting, and the bench.
+/// Returns the method that is chosen first, its setting, and the bench.
 fn chosen<F: Fn(&MethodCase) -> Nature>(
     nature: F,
     error: f64,
@@ -174,7 +174,7 @@ fn chosen<F: Fn(&MethodCase) -> Nature>(
     (first, fake)
 }
 
-/// A nature for each method, spread over some decades.
+/// Natures of all methods, spread over some decades by a pseudorandom number.
 fn spread(seed: usize) -> impl Fn(&MethodCase) -> Nature {
     move |m: &MethodCase| {
         let place = all().iter().position(|other| other == m).unwrap_or(0);
@@ -240,7 +240,7 @@ fn what_is_dearer_in_any_case_gets_two_trials_at_most() {
 
 #[test]
 fn where_the_rows_hold_all_steps_two_rules_that_agree_give_the_error() {
-    // whatever the tolerance, both make one step to each row: no neighbour has fewer
+    // both integrators make one step for each row at every tolerance, so no coarser trial has fewer steps
     let nature = |m: &MethodCase| match m.integrator.name() {
         "rk54" => Nature { seconds: 1e-6, error: 1e-6, held: 1e-2, ..TAME },
         "rk853" => Nature { seconds: 1e-6, error: 1e-7, held: 1.2e-2, ..TAME },
@@ -256,7 +256,7 @@ fn the_pilot_keeps_to_its_budget() {
     for seconds in [1e-3, 1e-2, 0.1, 1.0] {
         let (_, fake) = chosen(|_: &MethodCase| Nature { seconds, ..TAME }, 1e-6, None);
         let best = few(all()).iter().map(|m| fake.needs(m, 1e-6)).fold(f64::INFINITY, f64::min);
-        // what the run takes is expected from the trials so far
+        // the pilot predicts the time of the run from the trials so far
         let most = BUDGET.max(1.5 * BUDGET_FRACTION * best) * 1.5;
         assert!(fake.spent <= most, "{seconds}: {} of {most}", fake.spent);
     }
@@ -264,7 +264,7 @@ fn the_pilot_keeps_to_its_budget() {
 
 #[test]
 fn a_deadline_gives_the_most_accurate_method_whose_slowest_step_leaves_time() {
-    // frames of 10 ms: index-3 fits in with many steps, rk4 with 1, the others not at all
+    // in a frame of 10 ms, index-3 can make many steps, rk4 only one, and the others none
     let nature = |m: &MethodCase| match m.name().as_str() {
         "index-3, f64" => Nature { seconds: 1e-2, error: 1e-2, ..TAME },
         "recursive rk4, f64" => Nature { seconds: 4e-1, error: 1e-1, ..TAME },
@@ -273,7 +273,7 @@ fn a_deadline_gives_the_most_accurate_method_whose_slowest_step_leaves_time() {
     let (first, fake) = chosen(nature, 1e-6, Some(0.01));
     let (method, setting, _) = first.unwrap();
     assert_eq!(method.name(), "index-3, f64");
-    // a step takes 1e-4 s whatever its length, so at most 50 of them are half a frame
+    // a step takes 1e-4 s at any length, so at most 50 steps take half a frame
     let slowest = fake.cost(&method, setting) * setting;
     assert!(0.01 / setting * slowest <= 0.5 * 0.01 * (1.0 + 1e-9), "{setting}");
     assert!(setting < 0.001, "{setting}");

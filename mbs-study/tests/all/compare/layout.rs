@@ -1,4 +1,4 @@
-//! Places of the stack.
+//! Displacement of the stack between timings.
 
 use mbs_study::inside::compare::{LEVELS, moved};
 use std::hint::black_box;

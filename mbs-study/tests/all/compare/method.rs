@@ -1,4 +1,4 @@
-//! The methods that are compared.
+//! Methods of a comparison, by their names.
 
 use mbs::{FormulationKind, Precision};
 use mbs_study::inside::compare::MethodCase;

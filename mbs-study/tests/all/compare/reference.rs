@@ -1,4 +1,4 @@
-//! References: by extrapolation, by runs, by a table.
+//! References by extrapolation, by runs, and by a table.
 
 use mbs::record::Channel;
 use mbs_scene::Component;
@@ -12,7 +12,7 @@ fn channels() -> Vec<Channel> {
     vec![Channel { name: "a".into(), quantity: "", components: vec![component] }]
 }
 
-/// sin t at instants, wrong by `error`.
+/// Rows of sin t at `n` instants, with a given error.
 fn rows(n: usize, error: impl Fn(f64) -> f64) -> Rows {
     (1..=n).map(|k| 0.1 * k as f64).map(|t| vec![t.sin() + error(t)]).collect()
 }
@@ -42,7 +42,7 @@ fn extrapolation_removes_the_error_of_second_order() {
 fn the_reference_is_cut_where_its_two_runs_part_and_says_so() {
     let chaos = |t: f64| 1e-12 * f64::exp(3.0 * t);
     let known = of(&pair(|_| 0.0, chaos), Some(&pair(|_| 1e-9, |_| 2e-9)));
-    // 1e-12 e^(3 t) over a range of about two is 3.3e-7 at t = 4.5
+    // the error 1e-12 e^(3 t), divided by the range of about two, is a third of 1e-6 at t = 4.5
     let until = known.report.known_until.unwrap();
     assert!((4.2..4.8).contains(&until), "{until}");
     assert!(known.report.is_verified && known.report.uncertainty <= 1e-6 / 3.0);
@@ -71,7 +71,7 @@ fn a_table_is_verified_or_refuted_by_formulations_that_agree() {
     let note = &invented.notes[0];
     assert!(note.contains("NOT verified: x and x agree to 5.0e-10"), "{note}");
     assert!(note.contains("differ from ref.csv by 0.3 rad of `a` at"), "{note}");
-    // formulations that do not agree refute nothing, and verify nothing
+    // formulations that disagree can neither refute nor verify a table
     let apart = held(0.3, &[pair(|_| 0.0, |_| 1e-9), pair(|_| 0.1, |_| 0.1)]);
     assert!(!apart.report.is_verified && !apart.is_refuted && apart.notes.len() == 1);
     assert!(!held(0.0, &pairs[..1]).report.is_verified, "one alone verifies nothing");

@@ -1,4 +1,4 @@
-//! The end of a refinement.
+//! End of a refinement of settings.
 
 use mbs_study::compare::results::{RunEntry, Status};
 use mbs_study::inside::compare::Refinement;

@@ -25,7 +25,7 @@ fn a_result_is_kept_to_the_last_bit_and_made_once() {
     assert_eq!(store.resumed, 1);
     let value: Vec<f64> = store.get("run 1", || panic!("it is there")).unwrap();
     assert_eq!(value, numbers);
-    // what is cut short is no result
+    // an interrupted job has no result
     let flag = Arc::new(AtomicBool::new(false));
     store.interrupt = Interrupt::new(flag.clone());
     let cut = store.get("run 2", || {

@@ -12,7 +12,7 @@ fn least(kappa: impl Fn(f64) -> f64) -> [f64; 2] {
 fn a_passage_between_samples_is_found_where_it_is() {
     for at in [0.737, 0.75, 0.8, 0.799, 1.03] {
         let [t, value] = least(|t| (t - at).sin().abs());
-        // Cubics through samples 0.1 apart are off by (2 0.1)^4 / 24, a chord's slope by (0.1)^2 / 6 of half a sample.
+        // a cubic through samples 0.1 apart deviates by (2 0.1)^4 / 24, a chord's slope by (0.1)^2 / 6 of half a sample
         assert!((t - at).abs() < 2e-3 && value < 1e-4, "{t} {value}");
     }
 }
@@ -20,6 +20,6 @@ fn a_passage_between_samples_is_found_where_it_is() {
 #[test]
 fn a_near_miss_is_no_passage() {
     let [t, value] = least(|t| (t - 0.737).hypot(0.05));
-    // The parabola through squares is exact here.
+    // κ² is a parabola here, so its minimum is exact
     assert!((t - 0.737).abs() < 1e-12 && (value - 0.05).abs() < 1e-12, "{t} {value}");
 }

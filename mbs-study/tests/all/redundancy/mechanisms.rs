@@ -1,4 +1,4 @@
-//! Mechanisms whose redundancy is known from books: dependent sets, their nature, and what mends them.
+//! Mechanisms with a redundancy known from textbooks: dependent sets, their nature, and remedies.
 
 use super::support::{Build, GROUND, Point, diagnosis, dof, four_bar, sets};
 use mbs_core::scene::{Dimension, JointId, JointKind};
@@ -24,7 +24,7 @@ fn a_spatial_four_bar_has_three_redundancies_across_its_plane() {
     assert_eq!((d.sizes, dof(&d)), ([20, 18, 17], 1));
     assert_eq!(sets(&d), [(vec![0, 1, 2, 3], 3, Nature::Structural)]);
     for member in &d.sets[0].members {
-        // One force across the plane, two moments in it; what acts in the plane is determined.
+        // components are open for one force normal to the plane and two moments in it; loads in the plane are determined
         assert_eq!(member.open, [1, 2, 3]);
         assert_eq!(member.is_unique, [true, true, false, false, false, true]);
     }
@@ -88,11 +88,11 @@ fn scott_russell_with_both_slides_has_one_redundancy_in_all_joints() {
     let d = diagnosis(&b.0);
     assert_eq!((d.sizes, dof(&d)), ([12, 12, 11], 1));
     assert_eq!(sets(&d), [((0..6).collect(), 1, Nature::Structural)]);
-    // The slides' moments hold nothing: what is open at a slide is the force across it.
+    // the moments of the slides are determined; at a slide only the force across it is open
     assert_eq!(d.sets[0].members[3].is_unique, [true, false, true]);
 }
 
-/// The places and axes of a Bennett linkage with twists α, β and lengths sin α, sin β.
+/// Points and axes of a Bennett linkage with twists α, β and lengths sin α, sin β.
 fn bennett(alpha: f64, beta: f64, theta: f64) -> ([Point; 4], [Point; 4], Point) {
     let other = ((0.5 * (beta + alpha)).sin() / (0.5 * (beta - alpha)).sin() / (0.5 * theta).tan())
         .atan()
@@ -145,7 +145,7 @@ fn a_linkage_of_four_skew_hinges_is_a_structure_and_one_digit_off_is_reported_so
     };
     let far = build(0.1);
     assert_eq!((dof(&far), far.sets[0].redundant, far.sets[0].nature), (0, 2, Nature::Rigid));
-    // A seventh digit: two redundancies to the last digit, a third almost.
+    // an error in the seventh digit: two exact redundancies, and a third almost exact one
     let near = build(3e-7);
     assert_eq!((dof(&near), near.sets.len()), (0, 2));
     let almost = &near.sets[1];
@@ -180,7 +180,7 @@ fn the_same_joint_twice_is_named_and_one_of_them_may_go() {
 
 #[test]
 fn a_dead_point_is_a_position_and_not_a_redundancy() {
-    // A parallelogram laid flat: all four pins in a line, where its two branches meet.
+    // a flat parallelogram: all four pins are in a line, where its two branches meet
     let mut b = Build::planar();
     let [o, a, c, d] = [0.0, 0.5, 1.7, 1.2].map(|x| [x, 0.0, 0.0]);
     let [crank, coupler, rocker] = [b.bar(o, a), b.bar(a, c), b.bar(c, d)];
@@ -195,7 +195,7 @@ fn a_dead_point_is_a_position_and_not_a_redundancy() {
 
 #[test]
 fn a_bar_in_line_is_a_singular_position_of_a_structure() {
-    // Two bars between fixed pins, in a line: no motion, though the rows allow one.
+    // two bars in a line between fixed pins: they cannot move, though the rows of the Jacobian allow a motion
     let mut b = Build::planar();
     let [o, a, c] = [0.0, 0.5, 1.0].map(|x| [x, 0.0, 0.0]);
     let [first, second] = [b.bar(o, a), b.bar(a, c)];
@@ -264,7 +264,7 @@ fn loops_have_corners_with_the_sign_of_their_branch() {
     let loops = mbs_study::redundancy::loops(&linkage, &reference(&b.0));
     assert_eq!((loops.len(), &loops[0].joints), (1, &vec![0, 1, 2, 3]));
     let turn = |i: usize| loops[0].corners[i].turn;
-    // Once round a convex loop is a full turn, by hand: |sum| = 2 π.
+    // the angles around a convex loop add up to a full revolution, |sum| = 2 π
     let sum: f64 = (0..4).map(turn).sum();
     assert!((sum.abs() - core::f64::consts::TAU).abs() < 1e-12, "{sum}");
     let mut other = b.0.clone();
@@ -278,7 +278,7 @@ fn loops_have_corners_with_the_sign_of_their_branch() {
 
 #[test]
 fn a_joint_at_its_dead_point_has_no_share_in_the_motion() {
-    // Crank and coupler in line: the rocker stands at the end of its way.
+    // crank and coupler are in line: the rocker is at the end of its motion
     let mut b = Build::planar();
     let [o, a, c] = [[0.0; 3], [0.3, 0.0, 0.0], [0.9, 0.0, 0.0]];
     let d = [0.7, -0.5, 0.0];

@@ -1,4 +1,4 @@
-//! Random mechanisms: nothing is found in sound ones, and all that is doubled is found in others.
+//! Random mechanisms: none of the regular ones has a finding, and every duplicated part of the others is found.
 
 use super::support::{Build, GROUND, diagnosis, four_bar, sets};
 use mbs_core::scene::{Dimension, Scene};
@@ -71,7 +71,7 @@ fn a_doubled_coupler_names_its_four_pins_and_not_the_cranks() {
     b.pin(crank, twin, from);
     b.pin(twin, rocker, to);
     b.pin(GROUND, twin, from);
-    // The last pin holds the crank's end to the ground: that makes a structure; without it the set is the two couplers.
+    // the last pin holds the crank's end to the ground, which gives a structure; without it the set consists of the two couplers
     let pinned = sets(&diagnosis(&b.0));
     b.0.joints.pop();
     assert_eq!(sets(&diagnosis(&b.0)), [(vec![1, 2, 4, 5], 1, Nature::Structural)]);

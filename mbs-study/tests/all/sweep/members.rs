@@ -1,4 +1,4 @@
-//! Members that fail in ways no scene can ask for, and what becomes of them. Members are given here, and not run.
+//! Members that fail for reasons outside the scene, and their rows. The rows are given here; nothing is run.
 
 use mbs::Method;
 use mbs::scene_file::{SceneFile, SceneSweep};
@@ -37,7 +37,7 @@ fn study() -> Study {
     Study::new(scene, &sweep.into(), &Method::default()).expect("a good sweep")
 }
 
-/// A member that was completed.
+/// Row of a member that completed.
 fn completed(member: usize) -> Row {
     let [scene, sweep] = files();
     let sweep = SceneSweep::new(&sweep.into(), &scene, &[]).expect("a good sweep");
@@ -47,7 +47,7 @@ fn completed(member: usize) -> Row {
     Row { member, values, failure: None, measured: Some(measured), cpu_seconds: 1e-4 }
 }
 
-/// All members in a directory.
+/// Task of all members, in a directory.
 fn all(out: &Path) -> SweepTask<'_> {
     SweepTask { out, threads: None, anew: false, part: None }
 }
@@ -116,7 +116,7 @@ fn parts_are_joined_to_the_table_of_one_run_and_what_lacks_is_named() {
     let job = completed;
     let report = study.run_jobs(&all(&whole), &mut (), job).expect("the directory is ours");
     let table = |out: &Path| std::fs::read_to_string(out.join("table.csv")).expect("a table");
-    // more parts than members, too
+    // including more parts than members
     for of in [1, 2, 4, 7] {
         let out = scratch("parts");
         let run = |number: usize, job: &(dyn Fn(usize) -> Row + Sync)| {
@@ -132,7 +132,7 @@ fn parts_are_joined_to_the_table_of_one_run_and_what_lacks_is_named() {
         }
         let joined = study.join(&out).expect("all parts are there");
         assert_eq!((joined.rows, table(&out)), (report.rows.clone(), table(&whole)));
-        // a torn line is of a member that lacks
+        // an incomplete line counts as a missing member
         let last = out.join(format!("part-1-of-{of}.journal"));
         let bytes = std::fs::read(&last).expect("a journal");
         std::fs::write(&last, &bytes[..bytes.len() - 3]).expect("the directory is ours");

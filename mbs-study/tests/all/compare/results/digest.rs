@@ -3,7 +3,7 @@
 use mbs_study::compare::results::Reference;
 use mbs_study::compare::results::{Comparison, MethodRuns, RunEntry, Status};
 
-/// Second order at 1 us a step of 10 s, times `cost`.
+/// Runs of a method of second order. A step takes 1 us times `cost`, and the runs cover 10 s.
 fn method(formulation: &str, control: &str, cost: f64) -> MethodRuns {
     let run = |k: i32| {
         let h = 0.01 * f64::powi(0.5, k);
@@ -56,17 +56,17 @@ fn a_formulation_is_ranked_by_its_fastest_control() {
     assert_eq!(ranks(1), ranks(0));
     assert_eq!(comparison.ranking[2].not_reached, ["index-3", "slow"]);
     assert!((comparison.methods[0].fit.as_ref().unwrap().order.unwrap() - 2.0).abs() < 1e-9);
-    // 1e-3 lies at the first run; beside 1e-5, at h = 1e-3, are the fourth and the fifth
+    // an error of 1e-3 is that of the first run; the fourth and the fifth run are around 1e-5, at h = 1e-3
     assert_eq!(
         comparison.decisive(&[1e-3, 1e-5]),
         [(1, 0), (1, 3), (1, 4), (2, 0), (2, 3), (2, 4)]
     );
     let mut alone = comparison.methods[1].beside_alone(1e-5);
     assert_eq!((alone.runs.len(), alone.seconds_at(1e-5, 0)), (2, None));
-    // all take twice as long as they did
+    // all runs take twice their earlier time
     alone.runs.iter_mut().for_each(|run| run.cpu_seconds.push(2e-5 / run.setting));
     assert!((alone.seconds_at(1e-5, 0).unwrap() - 0.02).abs() < 1e-9);
-    // h = 1e-3 at an error of 1e-5
+    // an error of 1e-5 needs a step of 1e-3 s
     assert!((comparison.methods[0].at_error[1].unwrap() - 0.02).abs() < 1e-9);
 }
 

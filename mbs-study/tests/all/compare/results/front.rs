@@ -1,10 +1,10 @@
-//! Times at an error.
+//! CPU times at an error, between two runs.
 
 use mbs_study::inside::results::{at_error, beside};
 
 #[test]
 fn times_are_interpolated_between_the_runs_beside_the_error() {
-    // error h^2, time 1/h
+    // an error of h^2 and a time of 1/h
     let points: Vec<(f64, [f64; 1])> = [1e-1, 1e-2, 1e-3].map(|h| (h * h, [1.0 / h])).to_vec();
     let [t] = at_error(&points, 1e-5, |_, _| true).unwrap();
     assert!((t - 10.0 * f64::sqrt(10.0) * 10.0).abs() < 1e-9 * t, "{t}");
@@ -17,7 +17,7 @@ fn times_are_interpolated_between_the_runs_beside_the_error() {
 
 #[test]
 fn an_error_that_is_small_by_luck_counts_for_nothing() {
-    // the second run is better than its neighbours, the last two are on the way to rounding
+    // the second run has a smaller error than its neighbours by chance; rounding begins to dominate in the last two
     let errors = [1e-1, 1e-5, 2e-2, 1e-3, 1e-4, 2e-4];
     let of = |level| beside(&errors, level).map(|b| (b.misses, b.reaches));
     assert_eq!(of(1e-2), Some((Some(1), 3)));

@@ -13,7 +13,7 @@ fn channel(name: &str, units: &[&str]) -> Channel {
 
 #[test]
 fn components_of_a_unit_share_the_largest_range_and_what_stands_still_has_a_floor() {
-    // an energy error is no output of the motion
+    // an energy error is an output of the run, not of the motion
     let error = Channel { quantity: "invariant-error", ..channel("error", &["m"]) };
     let [tip, post, f] =
         [("tip", &["m", "m"][..]), ("post", &["m"]), ("f", &["N"])].map(|(a, b)| channel(a, b));
@@ -37,7 +37,7 @@ fn degrees_have_the_scales_of_radians() {
         output_scales(&channels, &[vec![0.0; 3], vec![4.0 * n, 0.0, 3.0]], 0.5)
     };
     let radians = both(["rad", "rad", "rad/s"], 1.0);
-    // one of two angles, or both
+    // one of two angles in degrees, or both
     for (units, of_still) in [(["deg", "rad", "rad/s"], 1.0), (["deg", "deg", "rad/s"], n)] {
         let degrees = both(units, n);
         for (i, factor) in [n, of_still, 1.0].into_iter().enumerate() {

@@ -1,4 +1,4 @@
-//! Mechanisms in code: bodies by name, joints between them, the same in plane and space.
+//! Helpers that build planar and spatial mechanisms in code from bodies and joints.
 
 use mbs_core::scene::{Body, BodyId, Dimension, Inertia, Joint, JointKind, JointLimits, Scene};
 use mbs_study::redundancy::{Diagnosis, Linkage, Nature, diagnose, reference};
@@ -7,7 +7,7 @@ use mbs_testkit::scenes::empty;
 pub(crate) type Point = [f64; 3];
 pub(crate) const GROUND: BodyId = BodyId::Ground;
 
-/// A scene that grows.
+/// Scene to which parts are added.
 pub(crate) struct Build(pub(crate) Scene<f64>);
 
 impl Build {
@@ -23,7 +23,7 @@ impl Build {
         Self::new(Dimension::Spatial)
     }
 
-    /// A body of 1 kg between two places.
+    /// Adds a body of 1 kg between two points.
     pub(crate) fn bar(&mut self, from: Point, to: Point) -> BodyId {
         let center = [0, 1, 2].map(|i| 0.5 * (from[i] + to[i]));
         let inertia = match self.0.dimension {
@@ -63,24 +63,24 @@ impl Build {
     }
 }
 
-/// The diagnosis in the reference configuration.
+/// Diagnosis of a scene in the reference configuration.
 pub(crate) fn diagnosis(scene: &Scene<f64>) -> Diagnosis {
     scene.check().expect("a scene that can be meant");
     diagnose(&Linkage::new(scene), &reference(scene))
 }
 
-/// Joints, redundancies and nature of each set.
+/// Returns joints, number of redundancies and nature of each set.
 pub(crate) fn sets(d: &Diagnosis) -> Vec<(Vec<usize>, usize, Nature)> {
     let joints = |s: &mbs_study::redundancy::Set| s.members.iter().map(|m| m.joint).collect();
     d.sets.iter().map(|s| (joints(s), s.redundant, s.nature)).collect()
 }
 
-/// Number of freedoms by a diagnosis.
+/// Number of degrees of freedom of a diagnosis.
 pub(crate) fn dof(d: &Diagnosis) -> usize {
     d.sizes[1] - d.sizes[2]
 }
 
-/// Crank, coupler, rocker and four pins, with the first pin at `x`.
+/// Adds a four-bar linkage: crank, coupler, rocker and four pins, with the first pin at `x` [m].
 pub(crate) fn four_bar(b: &mut Build, x: f64) -> [usize; 4] {
     let [o, a, c, d] =
         [[x, 0.0, 0.0], [x + 0.1, 0.3, 0.0], [x + 0.8, 0.6, 0.0], [x + 0.7, 0.0, 0.0]];
