@@ -3,19 +3,19 @@
 use crate::motion::{Mechanism, State};
 use crate::vector::{compose, scale};
 
-/// Parts of the step in each row of the table.
+/// Numbers of parts of the step in the rows of the extrapolation table.
 const PARTS: [usize; 4] = [2, 4, 6, 8];
-/// Ratio of a longer step to one [-]: no row evaluates the last eighth of a step, and the longer one meets a kink there.
+/// Ratio of a longer step to a step [-]. No row evaluates the last eighth of a step, so a kink there is seen only by a step of 8/7.
 const BEYOND: f64 = 8.0 / 7.0;
-/// Most steps of controlled length in one call. Chosen, not tuned.
+/// Largest number of steps in one call. Chosen, not tuned.
 const MOST_TRIALS: usize = 1_000;
 
-/// A run that stops.
+/// Reason why a run stops.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Stop {
-    /// Steps became too small at this time.
+    /// Steps become too small at this time.
     Steps(f64),
-    /// Numbers that are none at this time.
+    /// State that is not finite at this time.
     NotFinite(f64),
 }
 
@@ -67,7 +67,7 @@ impl Mechanism {
         for (j, joint) in self.scene.joints.iter().enumerate() {
             let turning = joint.turning(self.scene.planar);
             let mut of = [0.0; 3];
-            // a rotation vector is followed by its nearness alone
+            // a rotation vector is followed only by choosing the nearest of its equivalents
             if (1..3).contains(&turning.len()) {
                 let rows = now.coordinates(j);
                 rows[turning].iter().zip(&mut of).for_each(|(row, x)| *x = row.rate(&places));
@@ -82,7 +82,7 @@ impl Mechanism {
         rates
     }
 
-    /// One step without projection; also the difference of the two best values, relative to `sizes` of the state.
+    /// One step without projection. Returns also the difference of the two best values, relative to the sizes of the state.
     fn extrapolate(
         &self,
         (y, first): (&[f64], &[f64]),
@@ -101,7 +101,7 @@ impl Mechanism {
                 let next = before.iter().zip(&rates).map(|(y, f)| y + 2.0 * part * f).collect();
                 before = std::mem::replace(&mut at, next);
             }
-            // Gragg's sequence at even n has an expansion in h² without the last average
+            // Gragg's sequence with even n has an expansion in h² without the final smoothing
             let mut row = vec![at];
             for j in 1..=k {
                 let ratio = (n as f64 / PARTS[k - j] as f64).powi(2);
@@ -121,7 +121,7 @@ impl Mechanism {
         (best, error)
     }
 
-    /// One step of order 8, brought back onto the constraints.
+    /// One step of order 8, followed by the projection onto the constraints.
     #[must_use]
     pub fn step(&self, state: &State, h: f64) -> State {
         let y = Self::pack(state);
@@ -133,7 +133,7 @@ impl Mechanism {
         next
     }
 
-    /// Continues to a time by steps of controlled length, from `h` that is changed for the next call.
+    /// Integrates up to a time by steps of controlled length. `h` is the first step, and is set to the step for the next call.
     ///
     /// # Errors
     /// [`Stop`] where steps become too small.
@@ -148,7 +148,7 @@ impl Mechanism {
         let mut trials = 0;
         let corners = self.corners();
         while state.t < end - 1e-12 * span {
-            // steps end where a signal jumps or bends
+            // steps end where a signal jumps or has a corner
             let next = corners.iter().find(|t| **t > state.t && **t < end);
             let limit = next.copied().unwrap_or(end);
             let length = h.min(limit - state.t);
@@ -175,7 +175,7 @@ impl Mechanism {
                 let t = if lands { limit } else { state.t + length };
                 *state = self.unpack(&next, t);
                 self.project(state, &among);
-                // a step cut short by the end says nothing of longer ones
+                // an accepted step that the end cut short does not shorten later steps
                 *h = if length < *h { h.max(length * factor) } else { length * factor };
             } else {
                 *h = length * factor;
@@ -189,7 +189,8 @@ impl Mechanism {
         Ok(())
     }
 
-    /// The largest error beside what is allowed: the tolerance of the mechanism's length, of a turn, and of what both are in a time.
+    /// The largest error relative to the allowed one. Places are relative to the mechanism's length, and quaternions to one. Velocities are
+    /// relative to the largest one, or to 0.01 lengths or radians per `span` where this is larger.
     fn error_ratio(
         &self,
         y: &[f64],
@@ -222,7 +223,7 @@ impl Mechanism {
             }
             worst = worst.max(ratio);
         }
-        // states of signals, beside what they come to or change by
+        // states of signals: relative to their value or their change
         let n = self.scene.signals.len();
         let first = error.len() - 1 - n;
         for i in first..first + n {
@@ -232,7 +233,7 @@ impl Mechanism {
         worst.max(1e-10)
     }
 
-    /// Times at which signals jump or bend, in their order.
+    /// Times at which signals jump or have a corner, in increasing order.
     fn corners(&self) -> Vec<f64> {
         let mut times = Vec::new();
         self.scene.signals.iter().for_each(|signal| signal.source.corners(&mut times));
@@ -240,7 +241,7 @@ impl Mechanism {
         times
     }
 
-    /// A length of the mechanism: the largest distance of its points from each other's mean.
+    /// A length of the mechanism: the largest distance of its points from their mean.
     #[must_use]
     pub fn length(&self) -> f64 {
         let points = self

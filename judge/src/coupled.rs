@@ -1,4 +1,4 @@
-//! Rows of couplings, with what their multipliers do to bodies.
+//! Rows of couplings, with the forces of their multipliers on bodies.
 
 use crate::loads::Now;
 use crate::rows::{Row, add_part, six};
@@ -8,7 +8,8 @@ use crate::vector::{Vector, ZERO, add, cross, dot, norm, scale, sub, unit};
 /// A part for each body: force and torque about its centre of mass.
 type Parts = Vec<(Option<usize>, [f64; 6])>;
 
-/// A strand of a belt: wheels, where it touches them, its direction, and the sense in which it turns the first about the axis.
+/// A strand of a belt: its two wheels, the points where it touches them, its direction, and the sense in which it turns the first wheel
+/// about the axis.
 struct Strand {
     bodies: [Option<usize>; 2],
     ends: [Vector; 2],
@@ -17,7 +18,7 @@ struct Strand {
 }
 
 impl Now<'_> {
-    /// The row of a coupling: its sum, less what that is at a fraction of the given value.
+    /// The row of a coupling: its sum less the given value.
     pub(crate) fn coupling(&self, coupling: &Coupling) -> Row {
         let mut row = self.sum(&coupling.terms);
         row.value -= coupling.value;
@@ -30,8 +31,8 @@ impl Now<'_> {
         row
     }
 
-    /// Returns what a multiplier of a sign does to bodies where the scene says where the coupling acts. In all motions that joints allow, its
-    /// power is that of the row.
+    /// Returns the forces of a unit multiplier on bodies, where the scene gives the attachment points of the coupling. `sign` is that of
+    /// the effort. In all motions that joints allow, the power of these forces is that of the row.
     pub(crate) fn seated(&self, coupling: &Coupling, row: &Row, sign: f64) -> Option<Parts> {
         match &coupling.seat {
             Seat::Nowhere => None,
@@ -43,7 +44,7 @@ impl Now<'_> {
                     sub(off, scale(dot(off, n), n))
                 });
                 let f = scale(coupling.terms.first()?.factor / dot(r1, r1), cross(n, r1));
-                // towards the axis of the smaller wheel
+                // the force that pushes teeth apart acts on the smaller wheel towards its axis
                 let inward = if *is_first { scale(-1.0, unit(r1)) } else { unit(r2) };
                 let f = add(f, scale(sign * tangent * norm(f), inward));
                 let mut parts = Parts::new();
@@ -54,7 +55,7 @@ impl Now<'_> {
             Seat::Strands(..) => {
                 let mut parts = Parts::new();
                 for strand in self.strands(coupling) {
-                    // half of the difference, where it turns the first wheel with the sum
+                    // each strand has half of the effort, positive where the strand turns the first wheel as the sum does
                     let half = 0.5 * strand.turns;
                     self.pull(&mut parts, &strand, half);
                 }
@@ -74,7 +75,7 @@ impl Now<'_> {
                 let n = points.len();
                 let (end, next) = if *is_last { (n - 1, n - 2) } else { (0, 1) };
                 let [p, q] = [points[end], points[next]].map(|(b, at)| self.places.seat(b, at).p);
-                // the force of a longer line on its end, without what turns the drum
+                // the force of the rope on its end, without the part that turns the drum
                 let off = sub(p, q);
                 let force = scale(1.0 / dot(off, off).sqrt(), off);
                 let hub = self.places.seat(*carrier, *center).p;
@@ -89,7 +90,7 @@ impl Now<'_> {
         }
     }
 
-    /// The strands of a belt with a pretension: common tangents of its wheels.
+    /// The strands of a belt with a pretension: common tangents of the two wheels.
     fn strands(&self, coupling: &Coupling) -> Vec<Strand> {
         let Seat::Strands([carrier, one, two], axis, places, [r1, r2], _) = &coupling.seat else {
             return Vec::new();
@@ -98,7 +99,7 @@ impl Now<'_> {
         let [c1, c2] = places.map(|q| self.places.seat(*carrier, q).p);
         let off = sub(c2, c1);
         let e = unit(off);
-        // a tangent touches at c₁ + r₁ u and c₂ - r₂ u, r₂ below zero of an open belt: u·(c₂ - c₁) = r₁ + r₂
+        // a tangent touches at c₁ + r₁ u and c₂ - r₂ u, where r₂ < 0 for an open belt: u·(c₂ - c₁) = r₁ + r₂
         let cosine = (r1 + r2) / norm(off);
         let side = |s: f64| {
             let u = add(scale(cosine, e), scale(s * (1.0 - cosine * cosine).sqrt(), cross(n, e)));
@@ -109,14 +110,14 @@ impl Now<'_> {
         vec![side(1.0), side(-1.0)]
     }
 
-    /// A strand pulls both of its ends.
+    /// Adds the force of a strand, which pulls both of its ends.
     fn pull(&self, parts: &mut Parts, strand: &Strand, force: f64) {
         let [one, two] = strand.bodies;
         self.wrench(parts, one, strand.ends[0], scale(force, strand.along), ZERO);
         self.wrench(parts, two, strand.ends[1], scale(-force, strand.along), ZERO);
     }
 
-    /// Returns what couplings do to bodies whatever their efforts are: pretensions.
+    /// Returns the forces of couplings that do not depend on their efforts: pretensions of belts.
     pub(crate) fn pretensions(&self) -> Parts {
         let mut parts = Parts::new();
         for coupling in &self.scene.couplings {
@@ -129,7 +130,7 @@ impl Now<'_> {
         parts
     }
 
-    /// Adds a force at a place and a moment about it.
+    /// Adds a force at a place and a moment about this place.
     fn wrench(&self, parts: &mut Parts, body: Option<usize>, at: Vector, force: Vector, m: Vector) {
         let arm = body.map_or(ZERO, |_| sub(at, self.places.of(body).r));
         add_part(parts, body, &six(force, add(m, cross(arm, force))));

@@ -1,20 +1,20 @@
-//! Curvature along what rows leave free: a stationary point is a least one where it is nowhere negative.
+//! Curvature of the change at the start, along the motions that rows allow. A stationary point is a minimum where no curvature is negative.
 
 use crate::dense::Square;
 use crate::motion::Mechanism;
 use crate::rows::Row;
 
-/// Most sweeps of Jacobi's rotations; they converge quadratically.
+/// Largest number of sweeps of Jacobi's rotations, which converge quadratically.
 const SWEEPS: usize = 30;
 
-/// The least curvature along motions that rows allow, with its motion of unit length; all as scaled.
+/// The least curvature along motions that rows allow, and that motion as a vector of length one, in scaled velocities.
 pub(crate) struct Curvature {
     pub(crate) least: f64,
     pub(crate) along: Vec<f64>,
 }
 
 impl Mechanism {
-    /// The least curvature of a matrix of the bodies, as scaled; `None` where rows leave nothing free.
+    /// The least curvature of a scaled matrix along motions that rows allow; `None` where rows allow no motion.
     pub(crate) fn curvature(&self, matrix: &Square, rows: &[Row]) -> Option<Curvature> {
         let n = self.n_velocities();
         let basis = self.free_motions(rows);
@@ -40,7 +40,7 @@ impl Mechanism {
         Some(Curvature { least: a[at][at], along })
     }
 
-    /// Orthogonal motions that rows allow, as scaled.
+    /// Orthonormal motions that rows allow, in scaled velocities.
     fn free_motions(&self, rows: &[Row]) -> Vec<Vec<f64>> {
         let n = self.n_velocities();
         let mut matrix = Square::zero(n.max(rows.len()));
@@ -53,7 +53,7 @@ impl Mechanism {
         }
         let mut basis: Vec<Vec<f64>> = Vec::new();
         for mut v in matrix.factor().kernel() {
-            // columns beyond the velocities are none
+            // null vectors in the columns beyond the velocities are no motions
             if v[n..].iter().any(|x| *x != 0.0) {
                 continue;
             }
@@ -70,7 +70,7 @@ impl Mechanism {
     }
 }
 
-/// Makes a symmetric matrix diagonal by rotations; returns what they are together, vectors in columns.
+/// Makes a symmetric matrix diagonal by rotations. Returns the product of the rotations: its columns are the eigenvectors.
 fn diagonalise(a: &mut [Vec<f64>]) -> Vec<Vec<f64>> {
     let k = a.len();
     let mut vectors: Vec<Vec<f64>> =

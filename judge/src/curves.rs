@@ -1,4 +1,4 @@
-//! Values over time and roads over x.
+//! Curves over one number, and the height of roads over x.
 
 use crate::scene::{Curve, Feature, Spline};
 use core::f64::consts::PI;
@@ -9,7 +9,7 @@ impl Spline {
     pub fn natural(points: &[[f64; 2]]) -> Self {
         let n = points.len();
         let mut second = vec![0.0; n];
-        // tridiagonal equations of the second derivatives, forward and back
+        // the second derivatives solve a tridiagonal system: forward elimination, then back substitution
         let (mut slope, mut known) = (vec![0.0; n], vec![0.0; n]);
         for i in 1..n.saturating_sub(1) {
             let [[t0, x0], [t1, x1], [t2, x2]] = [points[i - 1], points[i], points[i + 1]];
@@ -24,8 +24,8 @@ impl Spline {
         Self { knots: points.iter().zip(second).map(|(p, s)| [p[0], p[1], s]).collect() }
     }
 
-    /// The cubic spline through points of increasing abscissae that is level at both ends. It is a sum of the natural one of the points and
-    /// two with values zero and a curvature of one at an end. They are weighed so that both end slopes vanish.
+    /// The cubic spline through points of increasing abscissae, with zero slopes at both ends. It is the sum of the natural spline of the
+    /// points and two splines with zero values and a curvature of one at one end. The factors of these two make both end slopes zero.
     #[must_use]
     pub fn level(points: &[[f64; 2]]) -> Self {
         let n = points.len();
@@ -45,7 +45,8 @@ impl Spline {
         Self { knots }
     }
 
-    /// The cubic spline through points of increasing abscissae that repeats: value, slope and curvature are those of the first at the last.
+    /// The periodic cubic spline through points of increasing abscissae: value, slope and curvature are equal at the first and the last
+    /// point.
     #[must_use]
     pub fn periodic(points: &[[f64; 2]]) -> Self {
         let n = points.len();
@@ -58,7 +59,7 @@ impl Spline {
             (points[i + 1][1] - points[i][1]) / width(i)
         };
         let mut second = vec![0.0; n];
-        // Gauss-Seidel, as at an end that is bent
+        // Gauss-Seidel iteration, as in `bent`
         for _ in 0..200 {
             for i in 0..n - 1 {
                 let before = i + n - 2;
@@ -72,12 +73,12 @@ impl Spline {
         Self { knots: points.iter().zip(second).map(|(p, s)| [p[0], p[1], s]).collect() }
     }
 
-    /// Values zero, a second derivative of one at one end, and none at the other.
+    /// The spline of zero values with a second derivative of one at one end and of zero at the other.
     fn bent(points: &[[f64; 2]], end: usize) -> Self {
         let n = points.len();
         let mut second = vec![0.0; n];
         second[end] = 1.0;
-        // Gauss-Seidel: the rows are dominated by their diagonals, so that each sweep leaves half of the error at most
+        // Gauss-Seidel iteration: the matrix is diagonally dominant, so that each sweep at least halves the error
         for _ in 0..200 {
             for i in 1..n.saturating_sub(1) {
                 let [h0, h1] = [points[i][0] - points[i - 1][0], points[i + 1][0] - points[i][0]];
@@ -87,7 +88,7 @@ impl Spline {
         Self { knots: points.iter().zip(second).map(|(p, s)| [p[0], 0.0, s]).collect() }
     }
 
-    /// Slope at a knot, from the side that lies within.
+    /// Slope at a knot, of the interval within the table.
     pub(crate) fn slope_at(&self, k: usize) -> f64 {
         let i = k.max(1);
         let ([t0, x0, s0], [t1, x1, s1]) = (self.knots[i - 1], self.knots[i]);
@@ -96,7 +97,7 @@ impl Spline {
         if k == 0 { rise - h * (2.0 * s0 + s1) / 6.0 } else { rise + h * (s0 + 2.0 * s1) / 6.0 }
     }
 
-    /// Value and two derivatives; level outside.
+    /// Value and two derivatives; constant outside the table.
     #[must_use]
     pub fn at(&self, t: f64) -> [f64; 3] {
         let (Some(first), Some(last)) = (self.knots.first(), self.knots.last()) else {
@@ -118,13 +119,13 @@ impl Spline {
     }
 }
 
-/// Returns the same abscissa within the first period of rows.
+/// Returns the abscissa shifted by whole periods into the first one.
 fn within(first: f64, last: f64, x: f64) -> f64 {
     first + (x - first).rem_euclid(last - first)
 }
 
 impl Curve {
-    /// Value and two derivatives.
+    /// Value and two derivatives at an abscissa.
     #[must_use]
     pub fn at(&self, x: f64) -> [f64; 3] {
         match self {
@@ -160,7 +161,7 @@ impl Curve {
     }
 }
 
-/// Height and two derivatives of a road.
+/// Height of a road at x, with its first and second derivative.
 pub(crate) fn height(features: &[Feature], x: f64) -> [f64; 3] {
     let mut sum = [0.0; 3];
     for feature in features {
@@ -183,7 +184,7 @@ pub(crate) fn height(features: &[Feature], x: f64) -> [f64; 3] {
     sum
 }
 
-/// A constant slope with parabolas of length r at both ends: the slope grows to height / (length - r).
+/// A ramp of constant slope, height / (length - r), with parabolas of length r at both ends.
 fn ramp(&[start, length, height, r]: &[f64; 4], x: f64) -> [f64; 3] {
     let (u, slope) = (x - start, height / (length - r));
     let bend = slope / r;

@@ -1,6 +1,6 @@
-//! Dense systems of any rank, by elimination with full pivoting. Entries are to be of about one.
+//! Dense systems of any rank, by elimination with full pivoting. Entries must be scaled to the order of one.
 
-/// Largest pivot that is zero [-]. Chosen, not tuned.
+/// Largest pivot that counts as zero [-]. Chosen, not tuned.
 const NO_PIVOT: f64 = 1e-11;
 
 /// A square matrix, by rows.
@@ -37,7 +37,7 @@ impl Square {
         self.entries[i * self.n + j]
     }
 
-    /// Factors the matrix by elimination: each pivot is the largest entry that is left.
+    /// Factors the matrix by elimination. Each pivot is the largest entry of the remaining rows and columns.
     pub(crate) fn factor(mut self) -> Factors {
         let n = self.n;
         let (mut rows, mut columns): (Vec<_>, Vec<_>) = ((0..n).collect(), (0..n).collect());
@@ -88,7 +88,7 @@ impl Square {
 }
 
 impl Factors {
-    /// A solution, with zeros where the rank leaves it open; and the largest share of the right-hand side that no solution meets.
+    /// A solution, with zeros for the unknowns that the rank leaves undetermined, and the largest residual relative to the right-hand side.
     pub(crate) fn solve(&self, b: &[f64]) -> (Vec<f64>, f64) {
         let (n, m) = (self.matrix.n, &self.matrix.entries);
         let mut y: Vec<f64> = self.rows.iter().map(|&i| b[i]).collect();
@@ -104,7 +104,7 @@ impl Factors {
         (self.ordered(&y), if size > 0.0 { unmet / size } else { 0.0 })
     }
 
-    /// Vectors that the matrix sends to zero, one for each lost rank.
+    /// Null vectors of the matrix, one for each missing rank.
     pub(crate) fn kernel(&self) -> Vec<Vec<f64>> {
         let (n, m) = (self.matrix.n, &self.matrix.entries);
         (self.rank..n)

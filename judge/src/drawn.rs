@@ -1,21 +1,21 @@
-//! Drawn bodies of a mesh: the body that carries two axes, and the bodies that turn or slide against it.
+//! Bodies of a mesh: the carrier, in which the axes of both parts are fixed, and the bodies that rotate or slide against it.
 //!
-//! Where the parts of a mesh touch, both have the same velocity along their teeth, seen from the body in which both axes stand. So every
-//! mesh is a sum of turns and ways against that body, whatever joints lead there.
+//! At the contact point the two parts of a mesh have equal velocities along their teeth, seen from the carrier. So every mesh is a sum of
+//! rotations and displacements against the carrier, whatever joints connect the parts with it.
 
 use crate::scene::{Carrier, Joint, Kind};
 use crate::vector::{Vector, cross, dot, norm, scale, sub};
 
-/// Largest sine of parallel axes, and largest distance of one axis from itself relative to that of joints [-]. Chosen, not tuned.
+/// Largest sine of the angle of parallel axes, and largest distance of equal axes relative to that of the joints [-]. Chosen, not tuned.
 const PARALLEL: f64 = 1e-6;
 
-/// Line of a joint: a point and a unit direction. In the plane that of a turn is square to it.
+/// Line of a joint: a point and a unit direction. In the plane the line of a rotation is normal to the plane.
 fn line(joint: &Joint, planar: bool) -> (Vector, Vector) {
     let axis = if planar && joint.kind == Kind::Revolute { [0.0, 0.0, 1.0] } else { joint.axes[0] };
     (joint.points[0], axis)
 }
 
-/// The unit axis of a joint that turns.
+/// The unit axis of a joint.
 pub(crate) fn axis(joint: &Joint, planar: bool) -> Vector {
     line(joint, planar).1
 }
@@ -24,7 +24,7 @@ fn are_parallel(a: Vector, b: Vector) -> bool {
     norm(cross(a, b)) < PARALLEL
 }
 
-/// Does the line of one joint stand in both bodies of another?
+/// Is the line of one joint fixed in both bodies of another joint?
 fn stands(of: &Joint, in_both: &Joint, planar: bool) -> bool {
     let ((p, a), (q, b)) = (line(of, planar), line(in_both, planar));
     let off = sub(q, p);
@@ -39,7 +39,7 @@ fn stands(of: &Joint, in_both: &Joint, planar: bool) -> bool {
     }
 }
 
-/// Bodies in which the line of a joint stands, from one of its bodies on, without the other.
+/// Bodies in which the line of a joint is fixed: those that are reached from one of its bodies, without the other body.
 fn bodies(
     joints: &[Joint],
     [one, other]: [usize; 2],
@@ -66,7 +66,7 @@ fn bodies(
     found
 }
 
-/// The body that carries the lines of two joints, and what each of them moves against it.
+/// The carrier, in which the lines of two joints are fixed, and the body that each joint moves against it.
 pub(crate) fn carrier(
     joints: &[Joint],
     pair: [usize; 2],
@@ -95,13 +95,13 @@ pub(crate) fn carrier(
     None
 }
 
-/// The sense of a joint's coordinate beside that of its moved body against the other along a direction.
+/// Sign with which a joint's coordinate changes when its body `moved` moves along a direction against the joint's other body.
 pub(crate) fn sense(joint: &Joint, moved: Carrier, along: Vector, planar: bool) -> f64 {
     let order = if joint.bodies[1] == moved { 1.0 } else { -1.0 };
     order * dot(axis(joint, planar), along).signum()
 }
 
-/// The body of a joint that stands farther from the ground, by joints in between.
+/// The body of a joint that is farther from the ground, counted in joints.
 pub(crate) fn farther(joints: &[Joint], joint: usize) -> Carrier {
     let mut far: Vec<(Carrier, usize)> = vec![(None, 0)];
     let mut at = 0;
@@ -122,10 +122,10 @@ pub(crate) fn farther(joints: &[Joint], joint: usize) -> Carrier {
     if steps(a) > steps(b) { a } else { b }
 }
 
-/// The way in which the teeth of a pinion go along a rack: r (a × n)·d for one radian.
+/// Displacement of a rack per radian of its pinion: r (a × n)·d, with the radius r, the axis a, the normal n and the rack's direction d.
 pub(crate) fn rack_sense(pinion: &Joint, rack: &Joint, planar: bool) -> Option<f64> {
     let ((p, a), (q, d)) = (line(pinion, planar), line(rack, planar));
-    // from the pinion's axis to the line of the rack, across both
+    // from the pinion's axis to the line of the rack, perpendicular to both
     let off = sub(q, p);
     let n = sub(off, scale(dot(off, d), d));
     let n = sub(n, scale(dot(n, a), a));

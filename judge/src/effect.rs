@@ -3,18 +3,18 @@
 use crate::parts::{Carrier, Given, Term, reference_length};
 use crate::vector::{Vector, norm, sub};
 
-/// Two points, one a body.
+/// Two points, each of one body.
 #[derive(Debug, Clone)]
 pub struct Line {
     /// First and second body.
     pub bodies: [Carrier; 2],
     /// Points of the line on the two bodies.
     pub points: [Vector; 2],
-    /// Measured along this direction of the first body.
+    /// Direction of the first body along which the line is measured; otherwise the distance is measured.
     pub direction: Option<Vector>,
 }
 
-/// Path of an effect: what it measures, and along which it acts.
+/// Path of an effect: the number that the effect measures and along which its force acts.
 #[derive(Debug, Clone)]
 pub enum Path {
     /// The distance of two points.
@@ -26,7 +26,7 @@ pub enum Path {
 }
 
 impl Path {
-    /// The length of a line in the reference configuration; zero of a sum.
+    /// The length of a line in the reference configuration; zero for a sum.
     pub(crate) fn reference(&self) -> f64 {
         match self {
             Self::Ends(line) => norm(sub(line.points[1], line.points[0])),
@@ -54,7 +54,7 @@ pub struct Calspan {
 /// A wheel on the road.
 #[derive(Debug, Clone)]
 pub struct Tire {
-    /// Body that the tire acts on: the wheel where a joint is named about which it turns, else its carrier.
+    /// Body that the tire acts on: the wheel, where the scene names the joint of its rotation; otherwise the carrier.
     pub body: usize,
     /// Centre of the wheel.
     pub center: Vector,
@@ -64,7 +64,7 @@ pub struct Tire {
     pub numbers: [f64; 4],
     /// Side force of the tire.
     pub side: Option<Calspan>,
-    /// Force by slip: stiffness, and friction as a share of the load.
+    /// Longitudinal force by slip: stiffness, and friction relative to the load.
     pub slip: Option<[f64; 2]>,
 }
 
@@ -73,7 +73,7 @@ pub struct Tire {
 pub enum Effect {
     /// Spring and damper: stiffness, damping, free value; does it only pull?
     Spring(Path, [f64; 3], bool),
-    /// Pieces [lower, upper, c0, ...] of what is measured, or of its rate.
+    /// Polynomial pieces [lower, upper, c0, ...] of the measured number, or of its rate.
     Polynomial(Path, Vec<Vec<f64>>, bool),
     /// Bumper: stiffness, damping, clearance.
     Bumper(Line, [f64; 3]),
@@ -85,22 +85,22 @@ pub enum Effect {
     BodyTorque(usize, Given),
     /// Limit of a sum: lower, upper, stiffness, damping.
     Limit(Vec<Term>, [f64; 4]),
-    /// Friction along a sum: coulomb, static, stribeck, viscous, regularisation; the factor of the first two.
+    /// Friction along a sum: coulomb, static, stribeck, viscous, regularisation; and a factor over time of the first two.
     Friction(Vec<Term>, [f64; 5], Given),
     /// Force on a body: body, point, force; does it turn with the body?
     Force(usize, Vector, Given, bool),
     /// Drag on a body: body, point; area times coefficient, density.
     Drag(usize, Vector, [f64; 2]),
-    /// Force that holds a body's speed: body, direction; speed, gain, limit.
+    /// Force that controls a body's speed: body, direction; speed, gain, limit.
     SpeedHold(usize, Vector, [f64; 3]),
     /// Wheel on the road.
     Tire(Tire),
-    /// Rotor on a coordinate of a joint: joint, number; the rotor's inertia times the square of its ratio.
+    /// Rotor on a coordinate of a joint: joint, number; moment of inertia of the rotor times the square of its ratio.
     Rotor(usize, usize, f64),
 }
 
 impl Effect {
-    /// Returns the kind of the effect in scene files, with where it acts.
+    /// Returns the kind of the effect in scene files, with the kind of its path.
     #[must_use]
     pub fn name(&self) -> &'static str {
         match self {

@@ -1,10 +1,10 @@
-//! Rows of guides: each coordinate that a guide gives, and rotation vectors that are given whole.
+//! Rows of guides: coordinates and rotation vectors that are prescribed over time.
 //!
 //! ```text
 //! R = exp(f)     ω = f' + a f × f' + b f × (f × f')     a = (1 - cos θ)/θ²,  b = (θ - sin θ)/θ³,  θ = |f|
 //! ```
 //!
-//! ω is that of the second body against the first, in the axes of the first.
+//! f is the prescribed rotation vector and ω the angular velocity of the second body against the first, in axes of the first.
 
 use crate::loads::Now;
 use crate::motion::Owner;
@@ -14,11 +14,11 @@ use crate::vector::{
     Vector, add, compose, conjugate, cross, dot, exponential, logarithm, norm, scale,
 };
 
-/// Angle below which a and b are series [rad]: what they leave out is below 1e-16.
+/// Angle below which a and b are computed by series [rad]: the omitted terms are below 1e-16.
 const SMALL: f64 = 1e-2;
 
 impl Now<'_> {
-    /// The rows of guides, with a share of the rotation vectors that they give.
+    /// The rows of guides, with a fraction of the rotation vectors that guides prescribe.
     pub(crate) fn guided(&self, share: f64) -> Vec<(Owner, Row)> {
         let mut rows = Vec::new();
         for guide in &self.scene.guides {
@@ -34,7 +34,7 @@ impl Now<'_> {
         rows
     }
 
-    /// The rows of a rotation vector that is given: what turns the second body on, along axes of the first.
+    /// The rows of a prescribed rotation vector: rotations of the second body along axes of the first.
     fn guided_turn(&self, guide: &GuidedTurn, share: f64) -> [(Owner, Row); 3] {
         let bodies = self.scene.joints[guide.joint].bodies;
         let jets = guide.laws.each_ref().map(|law| law.at(self.t));
@@ -54,11 +54,11 @@ impl Now<'_> {
     }
 }
 
-/// Angular velocity and acceleration of a rotation vector with two rates.
+/// Angular velocity and angular acceleration of a rotation vector with its first and second derivative.
 fn turning(f: Vector, f1: Vector, f2: Vector) -> [Vector; 2] {
     let t = norm(f);
     let s = t * t;
-    // a, b and their derivatives over θ
+    // a, b and their derivatives divided by θ
     let (a, b, a1, b1) = if t < SMALL {
         let a = 0.5 - s / 24.0 + s * s / 720.0;
         let b = 1.0 / 6.0 - s / 120.0 + s * s / 5040.0;

@@ -1,4 +1,4 @@
-//! Rows of each kind of joint: what it forbids, and its coordinates.
+//! Rows of each kind of joint: its constraints and its coordinates.
 
 use crate::rows::{Places, Row, Seat};
 use crate::scene::{Carrier, Joint, Kind};
@@ -22,26 +22,26 @@ impl Joint {
         axes.iter().map(|&e| places.along(self.bodies, &seats, e, false)).collect()
     }
 
-    /// u · (p2 - p1) with u fixed in the first body.
+    /// Row of u · (p2 - p1), the displacement along u, which is fixed in the first body.
     fn slide(&self, places: &Places, u: Vector) -> Row {
         let u = places.direction(self.bodies[0], u);
         places.along(self.bodies, &self.seats(places), u, true)
     }
 
-    /// Rows that hold the points on a line of the first body along the axis.
+    /// Rows that keep the second body's point on a line of the first body along the axis.
     fn sides(&self, places: &Places, planar: bool) -> Vec<Row> {
         let a = self.axes[0];
         let sides = if planar { vec![cross(EZ, a)] } else { across(a).to_vec() };
         sides.into_iter().map(|u| self.slide(places, u)).collect()
     }
 
-    /// u · w, u fixed in the first body and w in the second.
+    /// Row of u · w, the cosine between u of the first body and w of the second.
     fn cosine(&self, places: &Places, u: Vector, w: Vector) -> Row {
         let (u, w) = (places.direction(self.bodies[0], u), places.direction(self.bodies[1], w));
         places.cosine(self.bodies, u, w)
     }
 
-    /// Rows that hold the direction `a` common to both bodies.
+    /// Rows that keep the direction `a` parallel in both bodies.
     fn parallel(&self, places: &Places, a: Vector) -> Vec<Row> {
         across(a).map(|x| self.cosine(places, x, a)).to_vec()
     }
@@ -59,7 +59,7 @@ impl Joint {
         let [a, b] = self.axes;
         match self.kind {
             Kind::Free | Kind::FreePoint => Vec::new(),
-            // the pin stays on the line of the slot, and turns as it likes
+            // the pin stays on the line of the slot and rotates freely
             Kind::PinInSlot => self.sides(places, planar),
             Kind::Revolute if planar => self.coincidence(places, true),
             Kind::Revolute => [self.coincidence(places, false), self.parallel(places, a)].concat(),
@@ -94,12 +94,12 @@ impl Joint {
         let [a, b] = self.axes;
         let (a1, b1) = (places.direction(self.bodies[0], a), places.direction(self.bodies[0], b));
         let (a2, b2) = (places.direction(self.bodies[1], a), places.direction(self.bodies[1], b));
-        // about a1 from where b is without turns to where the second body has it; about b2 from a1 to where the second body has a
+        // first: about a1, from b without rotation to b in the second body; second: about b2, from a1 to a in the second body
         let first = angle_about(a1, b1, b2);
         let second = angle_about(b2, a1, a2);
         let cosine = dot(a, b);
         let share = 1.0 / (1.0 - cosine * cosine);
-        // ω = a q̇0 + b q̇1, with axes that need not be square to each other
+        // ω = a q̇0 + b q̇1, where the axes a and b need not be perpendicular
         let row = |u: Vector, w: Vector, [i, j]: [usize; 2]| {
             let mut row = places.about(self.bodies, scale(share, u), self.bodies[i]);
             let other = places.about(self.bodies, scale(-share * cosine, w), self.bodies[j]);
@@ -115,15 +115,15 @@ impl Joint {
         ]
     }
 
-    /// The three rows of the relative angular velocity in global axes, with the rotation vector of the second body in axes of the
-    /// first as values.
+    /// The three rows of the relative angular velocity in global axes. Their values are the components of the rotation vector of the second
+    /// body, in axes of the first.
     fn ball(&self, places: &Places, turns: [[f64; 4]; 2], near: [f64; 3]) -> Vec<Row> {
         let relative = nearest_vector(logarithm(compose(conjugate(turns[0]), turns[1])), near);
         let axes = [EX, EY, EZ].into_iter().zip(relative);
         axes.map(|(e, value)| places.about(self.bodies, e, None).with_value(value)).collect()
     }
 
-    /// The joint's coordinates in the order of the contract; `near` are the turns that its angles are near to.
+    /// The joint's coordinates in the order of the contract. Its angles are followed over whole turns: they are those nearest to `near`.
     pub(crate) fn coordinates(
         &self,
         places: &Places,
@@ -167,24 +167,24 @@ impl Joint {
         }
     }
 
-    /// Numbers of the coordinates that are turns, in the order of `near`; those before are translations.
+    /// Numbers of the coordinates that are angles, in the order of `near`. Translations have smaller numbers.
     pub(crate) fn turning(&self, planar: bool) -> Range<usize> {
         let [slides, turns] = self.kind.coordinates(planar);
         slides..slides + turns
     }
 
-    /// The first of three coordinates that are a rotation vector.
+    /// The number of the first component of a rotation vector, for joints that have one.
     pub(crate) fn first_of_ball(&self, planar: bool) -> Option<usize> {
         Some(self.turning(planar)).filter(|turns| turns.len() == 3).map(|turns| turns.start)
     }
 
-    /// Returns the place where the reaction of the joint acts: its point in the second body.
+    /// Returns the place where the reaction of the joint acts: the joint's point in the second body.
     pub(crate) fn place(&self, places: &Places) -> Vector {
         places.seat(self.bodies[1], self.points[1]).p
     }
 }
 
-/// The angle about an axis of two bodies, and its row; nearest to `near`.
+/// The angle of the second body about an axis of both, as a row. Of the angles that differ by whole turns it is nearest to `near`.
 pub(crate) fn turn_about(places: &Places, bodies: [Carrier; 2], a: Vector, near: f64) -> Row {
     let x = across(a)[0];
     let (axis, x1) = (places.direction(bodies[0], a), places.direction(bodies[0], x));
@@ -199,17 +199,17 @@ fn angle_about(axis: Vector, x: Vector, y: Vector) -> f64 {
     dot(axis, cross(x, y)).atan2(dot(x, y))
 }
 
-/// Returns the same angle, by whole turns nearest to another.
+/// Returns the angle plus whole turns, so that it is nearest to `near`.
 pub(crate) fn nearest(angle: f64, near: f64) -> f64 {
     let turn = 2.0 * core::f64::consts::PI;
     angle + turn * ((near - angle) / turn).round()
 }
 
-/// Returns the same rotation, by whole turns about its axis nearest to another rotation vector.
+/// Returns the rotation vector with whole turns added about its axis, so that it is nearest to `near`.
 fn nearest_vector(v: Vector, near: Vector) -> Vector {
     let angle = norm(v);
     if angle < 1e-6 {
-        // close to a whole turn the axis is that of before
+        // close to a whole turn the axis is undetermined: that of `near` is used
         let whole = nearest(0.0, norm(near));
         return if whole > 0.0 { add(v, scale(whole, unit(near))) } else { v };
     }

@@ -1,4 +1,4 @@
-//! Laws of forces: gravity, the bodies' own turning, and every effect of the contract.
+//! Laws of forces: gravity, gyroscopic moments of the bodies, and every effect of the contract.
 
 use crate::loads::{Exerted, Loads, Now, contact};
 use crate::polynomial;
@@ -92,7 +92,7 @@ impl Now<'_> {
                 Exerted::along(loads, self.path(path), self.given(force)[0])
             }
             Effect::Bushing(bodies, at, [k, c]) => self.bushing(loads, *bodies, *at, k, c),
-            // an inertia, no force
+            // a rotor has inertia and exerts no force
             Effect::Rotor(joint, number, _) => {
                 Exerted::along(loads, self.coordinates(*joint).swap_remove(*number), 0.0)
             }
@@ -158,7 +158,8 @@ impl Now<'_> {
         }
     }
 
-    /// A spring with a damper along a row: stiffness, damping, free value; where it only pulls its damper fades in.
+    /// A spring with a damper along a row: stiffness, damping, free value. With `pulls` the force is never a push, and the damper fades in
+    /// with the elongation.
     fn spring(&self, loads: &mut Loads, row: Row, [k, c, free]: [f64; 3], pulls: bool) -> Exerted {
         let (x, rate) = (row.value - free, row.rate(self.places));
         if pulls {
@@ -171,7 +172,7 @@ impl Now<'_> {
         Exerted { deflection: x, stored, stored_rate, ..exerted }
     }
 
-    /// Springs and dampers along axes of the first body, and about them by the rotation vector.
+    /// Springs and dampers along axes of the first body, and about these axes by the rotation vector.
     fn bushing(
         &self,
         loads: &mut Loads,
@@ -202,7 +203,7 @@ impl Now<'_> {
             ([0.0, 0.0, angle], crate::vector::UNIT)
         } else {
             let [q1, q2] = self.quaternions(bodies);
-            // the quaternions have followed their bodies, beyond half a turn too
+            // the quaternions have followed their bodies continuously, so that rotations beyond half a turn are right too
             let phi = followed(compose(conjugate(q1), q2));
             (phi, inverse_tangent(phi))
         };
@@ -219,14 +220,14 @@ impl Now<'_> {
         Exerted { wrench, stored, stored_rate, ..Exerted::default() }
     }
 
-    /// Turns of all joints, nearest to those of before.
+    /// Angles of all joints, followed over whole turns: nearest to their values in the state.
     pub(crate) fn measured_turns(&self) -> Vec<[f64; 3]> {
         let of = |j: usize| {
             let mut turns = self.turns[j];
             let turning = self.scene.joints[j].turning(self.scene.planar);
             if !turning.is_empty() {
                 let rows = self.coordinates(j);
-                // the coordinates are nearest to those of before already
+                // the coordinates are followed already
                 rows[turning].iter().zip(&mut turns).for_each(|(row, t)| *t = row.value);
             }
             turns
@@ -237,7 +238,8 @@ impl Now<'_> {
     }
 }
 
-/// φ̇ = J⁻¹ ω, J⁻¹ = 1 - ½ [φ] + (1 - (θ/2) cot(θ/2))/θ² [φ]²; ω in axes of the first body, of the second against it.
+/// φ̇ = J⁻¹ ω, J⁻¹ = 1 - ½ [φ] + (1 - (θ/2) cot(θ/2))/θ² [φ]². Here φ is the rotation vector, θ its length, and ω the angular velocity of
+/// the second body against the first, in axes of the first.
 fn inverse_tangent(phi: Vector) -> [[f64; 3]; 3] {
     let angle = norm(phi);
     let factor = if angle < 1e-2 {

@@ -1,9 +1,10 @@
-//! A second derivation of what a scene means: it judges the crates, and shares no code with them.
+//! An independent simulator of scene files, against which the crates are checked: it shares no code with them.
 //!
-//! Written from the contract of scene files alone: an own reader, own laws and an own start. Bodies have absolute coordinates, the place of
-//! the centre of mass and a quaternion. The equations are those of Newton and Euler with constraints at the level of accelerations, solved
-//! as one dense saddle system with full pivoting. Steps are of order 8, and each is brought back onto the constraints by the least
-//! mass-weighted change. It is made to be right and plain, not fast. `trial` alone knows the crates: it runs what is judged.
+//! The judge is written from the contract of scene files alone, with a reader, laws of force and a start of its own. Each body has absolute
+//! coordinates: the place of its centre of mass and a quaternion. The equations are those of Newton and Euler with constraints at the level
+//! of accelerations. They are solved as one dense saddle system with full pivoting. Steps have order 8. After each step the state is
+//! projected onto the constraints by the least mass-weighted change. The judge is made to be right and simple, not fast. Only the module
+//! `trial` uses the crates: it runs them beside the judge.
 
 mod advance;
 mod coupled;

@@ -1,10 +1,10 @@
-//! Loads: the sums of forces on each body, and the state from which they follow, bodies in their places at a time.
+//! Loads: the sums of forces on each body. They follow from the places and velocities of bodies at a time.
 
 use crate::rows::{Frame, Places, Row};
 use crate::scene::{Carrier, Scene};
 use crate::vector::{Vector, cross};
 
-/// Depth over which the damper of a bumper fades in [m or rad].
+/// Depth over which the damper of a bumper fades in [m or rad]: given by the contract.
 const FADE: f64 = 1e-3;
 
 /// Forces on all bodies.
@@ -14,24 +14,24 @@ pub(crate) struct Loads {
     pub(crate) on: Vec<[f64; 6]>,
     /// Stored energy of gravity and springs [J].
     pub(crate) potential: f64,
-    /// Power of all that is not stored [W].
+    /// Power of all forces that have no potential [W].
     pub(crate) power: f64,
 }
 
-/// Numbers of an effect at an instant, beside its forces on bodies.
+/// Numbers of an effect at a time, besides its forces on bodies.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Exerted {
-    /// Row that it measures, with the force along growth of that.
+    /// Row of the measured number, with the force along its growth.
     pub(crate) along: Option<(Row, f64)>,
-    /// Force on its body, of two on the second, and moment about its point there.
+    /// Force on the effect's body and moment about its point there. Of two bodies it is the second.
     pub(crate) wrench: Option<[Vector; 2]>,
-    /// Measured number less its free value, or the depth of its contact.
+    /// Measured number less its free value, or the depth of the effect's contact.
     pub(crate) deflection: f64,
-    /// Energy that it stores [J].
+    /// Energy that the effect stores [J].
     pub(crate) stored: f64,
-    /// Rate of that energy [W].
+    /// Rate of the stored energy [W].
     pub(crate) stored_rate: f64,
-    /// Is it in contact?
+    /// Is the effect in contact?
     pub(crate) touches: bool,
 }
 
@@ -42,7 +42,7 @@ impl Exerted {
         Self { along: Some((row, force)), ..Self::default() }
     }
 
-    /// A force and a moment on a body at a point, given by its arm from the centre of mass.
+    /// A force and a moment on a body at a point, which is given by its arm from the centre of mass.
     pub(crate) fn on(loads: &mut Loads, body: Carrier, arm: Vector, wrench: [Vector; 2]) -> Self {
         let [force, moment] = wrench;
         loads.at_point(body, arm, force);
@@ -50,7 +50,7 @@ impl Exerted {
         Self { wrench: Some(wrench), ..Self::default() }
     }
 
-    /// Adds what a contact stores at a depth with a rate.
+    /// Adds the energy that a contact stores, and its rate, at a depth with a rate.
     pub(crate) fn touching(self, stiffness: f64, depth: f64, rate: f64) -> Self {
         let x = depth.max(0.0);
         let (stored, stored_rate) = (0.5 * stiffness * x * x, stiffness * x * rate);
@@ -59,12 +59,12 @@ impl Exerted {
 }
 
 impl Loads {
-    /// No forces on any of these bodies.
+    /// Zero forces on this number of bodies.
     pub(crate) fn none(n_bodies: usize) -> Self {
         Self { on: vec![[0.0; 6]; n_bodies], potential: 0.0, power: 0.0 }
     }
 
-    /// Adds the forces of others.
+    /// Adds the forces, energy and power of other loads.
     pub(crate) fn add(&mut self, other: &Self) {
         for (to, more) in self.on.iter_mut().zip(&other.on) {
             to.iter_mut().zip(more).for_each(|(x, y)| *x += y);
@@ -79,7 +79,7 @@ impl Loads {
         self.on.iter().zip(frames).map(of).sum()
     }
 
-    /// A force along a row that stores energy in part.
+    /// Adds a force along a row: equal to force times gradient on each body.
     pub(crate) fn along(&mut self, row: &Row, force: f64) {
         for (body, part) in &row.parts {
             if let Some(b) = body {
@@ -102,7 +102,7 @@ impl Loads {
     }
 }
 
-/// State that bodies are in: scene, places, frames, turns of joints, time.
+/// State of the bodies: scene, places, frames, angles of joints, time.
 #[derive(Debug)]
 pub(crate) struct Now<'a> {
     pub(crate) scene: &'a Scene,
@@ -114,7 +114,7 @@ pub(crate) struct Now<'a> {
     pub(crate) memory: &'a [f64],
 }
 
-/// max(0, k x + c ẋ s), s = 3 r² - 2 r³, r = min(1, x / 1 mm).
+/// Contact force max(0, k x + c ẋ s) at a depth x, with s = 3 r² - 2 r³ and r = min(1, x / 1 mm).
 pub(crate) fn contact(k: f64, c: f64, x: f64, rate: f64) -> f64 {
     if x <= 0.0 {
         return 0.0;

@@ -1,5 +1,6 @@
-//! `judge --seeds A..B [--formulation F]`: random scenes by seed through the crates, compared with the judge; `--cases [STRIDE]`: the
-//! enumerated ones. `--scene` prints the scene of a seed or a case, `--look` what is off in it.
+//! The command `judge` runs scenes. With `--seeds A..B [--formulation F]` it runs random scenes by their seeds through the crates and
+//! compares them with the judge. With `--cases [STRIDE]` it does so for the enumerated scenes. `--scene` prints the scene of a seed or a
+//! case. `--look` prints the channels of such a scene that differ.
 
 use judge::random;
 use judge::trial::{self, Way};
@@ -38,7 +39,7 @@ fn main() -> ExitCode {
         let _ = write!(out, "{text}");
         return ExitCode::SUCCESS;
     }
-    // a panic of a run is a verdict
+    // a panic of a run is a verdict, and its message is not printed
     std::panic::set_hook(Box::new(|_| {}));
     if arguments.iter().any(|a| a == "--cases") {
         return cases(value("--cases").and_then(|s| s.parse().ok()).unwrap_or(1));
@@ -61,7 +62,7 @@ fn main() -> ExitCode {
     ExitCode::from(u8::from(tally.differences > 0))
 }
 
-/// One of this many cases, in every method.
+/// Runs every `stride`-th case in every method.
 fn cases(stride: usize) -> ExitCode {
     let cases: Vec<_> = random::cases().into_iter().step_by(stride.max(1)).collect();
     let tally = trial::oracle::all(&cases);
@@ -79,7 +80,7 @@ fn cases(stride: usize) -> ExitCode {
     ExitCode::from(u8::from(!tally.wrong.is_empty()))
 }
 
-/// The scene of a seed or of a case.
+/// The scene of a seed, or of a case by its name.
 fn drawn(name: &str) -> Option<random::Drawn> {
     if let Ok(seed) = name.parse() {
         return Some(random::scene(seed));
@@ -88,7 +89,8 @@ fn drawn(name: &str) -> Option<random::Drawn> {
     Some(random::Drawn { text: case.text, step: case.step, steps: random::STEPS })
 }
 
-/// Channels of a scene that are off by more than `1e-7` of their size, by steps over `share`: as the crates and the judge have them.
+/// Channels of a scene that differ by more than `1e-7` of their size, with the values of the crates and of the judge. The crates take steps
+/// of the scene's step over `share`.
 fn look(drawn: &random::Drawn, method: Way, share: u32) -> String {
     let mut out = random::kinds(&drawn.text).join(", ");
     let (judged, product) =

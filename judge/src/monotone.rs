@@ -1,8 +1,8 @@
-//! Tables that stay between their rows: `interpolation = "monotone"`, by the rule of docs/EFFECTS.md.
+//! Tables without overshoot between their rows: `interpolation = "monotone"`, by the rule of docs/EFFECTS.md.
 
 use crate::scene::Spline;
 
-/// One side of a row: the way to its neighbour, and the slope of the chord.
+/// The interval on one side of a row: its length, and the slope of its chord.
 #[derive(Clone, Copy)]
 struct Side {
     h: f64,
@@ -10,8 +10,8 @@ struct Side {
 }
 
 impl Spline {
-    /// The table of these rows that has the slopes and curvatures of `spline`, within their bounds; of a table that repeats the last row is
-    /// the first one again.
+    /// The monotone table of the rows of `spline`: its slopes and curvatures are limited to their bounds. With `repeats` the last row
+    /// equals the first.
     #[must_use]
     pub fn monotone(spline: &Self, repeats: bool) -> Self {
         let rows = &spline.knots;
@@ -51,7 +51,7 @@ impl Spline {
     }
 }
 
-/// Slope and curvature of a row within the bounds of its sides.
+/// Slope and curvature of a row, limited to the bounds of the intervals on both sides.
 fn cut([slope, curvature]: [f64; 2], [left, right]: [Option<Side>; 2]) -> [f64; 2] {
     let rises = || [left, right].into_iter().flatten().map(|side| side.rise);
     if rises().any(|rise| rise.abs() < f64::MIN_POSITIVE) {
@@ -59,7 +59,7 @@ fn cut([slope, curvature]: [f64; 2], [left, right]: [Option<Side>; 2]) -> [f64; 
     }
     let m = if rises().all(|rise| rise * slope > 0.0) { slope } else { 0.0 };
     let mut c = curvature;
-    // a coefficient of another sign than the chord becomes zero
+    // a coefficient whose sign differs from that of the chord becomes zero
     if let Some(side) = right
         && (m + c * side.h / 8.0) * side.rise < 0.0
     {
@@ -78,12 +78,13 @@ fn mirrored([slope, curvature]: [f64; 2]) -> [f64; 2] {
     [slope, -curvature]
 }
 
-/// e of a row at the beginning of an interval.
+/// The coefficient e next to a row at the beginning of an interval of length h.
 fn inner([slope, curvature]: [f64; 2], h: f64) -> f64 {
     slope + 3.0 * curvature * h / 32.0
 }
 
-/// The two knots within an interval: f'' there is the difference of two coefficients of f' over their distance, and straight between knots.
+/// The two knots within an interval. At a knot f'' is the difference of two coefficients of f' over their distance. Between knots f'' is
+/// linear.
 fn between([x, f, _]: [f64; 3], side: Side, [first, last]: [[f64; 2]; 2]) -> [[f64; 3]; 2] {
     let Side { h, rise } = side;
     let middle = 3.0 * rise - inner(first, h) - inner(mirrored(last), h);

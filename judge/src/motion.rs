@@ -4,7 +4,8 @@
 //! M a - Jᵀ λ = Q - ω × I ω,    J a = given - bias
 //! ```
 //!
-//! Unknowns are scaled by the roots of masses and inertias, and rows to length one, so that pivots show dependence.
+//! Unknowns are scaled by the square roots of masses and moments of inertia, and rows to length one. So pivots have the order of one, and a
+//! small pivot shows that rows depend on each other.
 
 use crate::dense::{Factors, Square};
 use crate::loads::{Loads, Now};
@@ -19,20 +20,20 @@ pub struct State {
     pub t: f64,
     /// Frames of the bodies.
     pub frames: Vec<Frame>,
-    /// Single turns of each joint, or its rotation vector, with all turns; then those that couplings count.
+    /// Angles of each joint, or its rotation vector, followed over whole turns; then the angles that couplings measure.
     pub turns: Vec<[f64; 3]>,
     /// States of the signals.
     pub memory: Vec<f64>,
-    /// Work of all that is not stored [J].
+    /// Work of all forces that have no potential [J].
     pub work: f64,
 }
 
-/// Accelerations and what goes with them.
+/// Accelerations of a state, with reactions, energies and their uniqueness.
 #[derive(Debug, Clone)]
 pub struct Moved {
     /// Acceleration and angular acceleration of each body.
     pub accelerations: Vec<[f64; 6]>,
-    /// Reaction of each joint: what its first body does to its second, at the joint's place, guide included.
+    /// Reaction of each joint: force and moment of its first body on its second, about the joint's place, with the guide's effort.
     pub reactions: Vec<[f64; 6]>,
     /// Efforts of guides on the coordinates of each joint.
     pub efforts: Vec<[f64; 6]>,
@@ -42,25 +43,25 @@ pub struct Moved {
     pub unique_couplings: Vec<bool>,
     /// The force on each body that rolls, at its contact.
     pub contacts: Vec<Vector>,
-    /// Is that force unique?
+    /// Is the force of each contact unique?
     pub unique_contacts: Vec<bool>,
-    /// Do rows depend on each other?
+    /// Do constraint rows depend on each other?
     pub is_redundant: bool,
     /// Is the reaction of each joint unique?
     pub unique: Vec<bool>,
-    /// Does a body turn freely without inertia, as a thin rod about itself?
+    /// Can a body turn without inertia, as a thin rod about its own line?
     pub idle: Vec<bool>,
     /// Kinetic and stored energy [J].
     pub energy: [f64; 2],
-    /// Power of all that is not stored [W].
+    /// Power of all forces that have no potential [W].
     pub power: f64,
-    /// Smallest pivot of the factors: how far the position is from a singular one.
+    /// Smallest pivot of the factors: a measure of the distance to a singular position.
     pub least_pivot: f64,
-    /// Share of the loads that nothing balances.
+    /// Largest part of the loads that no inertia or reaction balances, relative to the largest load.
     pub unmet: f64,
 }
 
-/// Mechanism: a scene that is ready to be moved.
+/// Mechanism: a scene with the indices and scales of its velocities.
 #[derive(Debug, Clone)]
 pub struct Mechanism {
     /// Scene of the mechanism.
@@ -68,7 +69,7 @@ pub struct Mechanism {
     /// Indices of the velocities of each body.
     columns: Vec<[Option<usize>; 6]>,
     n: usize,
-    /// Scale of each velocity: one over the root of its inertia.
+    /// Scale of each velocity: 1/√(mass or moment of inertia).
     scales: Vec<f64>,
 }
 
@@ -87,7 +88,7 @@ pub(crate) enum Owner {
     Turn(usize, Vector),
 }
 
-/// A saddle system as factored.
+/// A factored saddle system with the scales of its rows.
 #[derive(Debug)]
 pub(crate) struct Saddle {
     pub(crate) factors: Factors,
@@ -96,7 +97,7 @@ pub(crate) struct Saddle {
 }
 
 impl Mechanism {
-    /// A scene, ready to be moved.
+    /// Makes the mechanism of a scene.
     #[must_use]
     pub fn new(scene: Scene) -> Self {
         let mut n = 0;
@@ -128,7 +129,7 @@ impl Mechanism {
         mechanism
     }
 
-    /// The reference configuration at rest.
+    /// The reference configuration without velocities.
     #[must_use]
     pub fn reference(&self) -> State {
         let still = |b: &crate::scene::Body| Frame {
@@ -165,12 +166,12 @@ impl Mechanism {
         Now { scene: &self.scene, places, frames, turns, t: *t, memory }
     }
 
-    /// All constraints, each with what it belongs to.
+    /// All constraint rows, each with its owner.
     pub(crate) fn rows(&self, now: &Now<'_>) -> Vec<(Owner, Row)> {
         self.rows_at(now, 1.0)
     }
 
-    /// All constraints, with a share of the rotation vectors that guides give.
+    /// All constraint rows, with a fraction of the rotation vectors that guides prescribe.
     pub(crate) fn rows_at(&self, now: &Now<'_>, share: f64) -> Vec<(Owner, Row)> {
         let mut rows = Vec::new();
         for (j, joint) in self.scene.joints.iter().enumerate() {
@@ -188,7 +189,7 @@ impl Mechanism {
         rows
     }
 
-    /// The inertias of rotors, each with the coordinate that it turns with.
+    /// The inertias of rotors, each with the row of its coordinate.
     pub(crate) fn rotors(&self, now: &Now<'_>) -> Vec<(f64, Row)> {
         let effects = self.scene.effects.iter();
         let rotors = effects.filter_map(|effect| match effect {
@@ -213,7 +214,7 @@ impl Mechanism {
         0.5 * (mass * dot(frame.v, frame.v) + dot(frame.w, momentum))
     }
 
-    /// The gradient of a row, as scaled.
+    /// The gradient of a row in scaled velocities.
     pub(crate) fn dense_row(&self, row: &Row) -> Vec<(usize, f64)> {
         self.dense_parts(&row.parts)
     }
@@ -233,7 +234,7 @@ impl Mechanism {
         entries
     }
 
-    /// M = bodies + Σ I g gᵀ of rotors, as scaled, with room for rows.
+    /// M = bodies + Σ I g gᵀ of rotors in scaled velocities. The matrix has room for the constraint rows.
     fn masses(&self, places: &Places, n_rows: usize, rotors: &[(f64, Row)]) -> Square {
         let mut matrix = Square::zero(self.n + n_rows);
         for (b, of) in self.columns.iter().enumerate() {
@@ -261,12 +262,13 @@ impl Mechanism {
         matrix
     }
 
-    /// Factors [[M, -Jᵀ], [J, 0]] as scaled.
+    /// Factors [[M, -Jᵀ], [J, 0]] in scaled velocities.
     pub(crate) fn saddle(&self, places: &Places, rows: &[Row], rotors: &[(f64, Row)]) -> Saddle {
         self.factor_with(self.masses(places, rows.len(), rotors), rows, false)
     }
 
-    /// Adds rows to a matrix of the bodies, as scaled, and factors it; do multipliers act where the machine says?
+    /// Adds rows to a scaled mass matrix and factors it. With `seated` the multipliers act where the attachment points of the machine are,
+    /// rather than along the gradients.
     pub(crate) fn factor_with(&self, mut matrix: Square, rows: &[Row], seated: bool) -> Saddle {
         let mut row_scales = Vec::with_capacity(rows.len());
         for (k, row) in rows.iter().enumerate() {
@@ -285,7 +287,8 @@ impl Mechanism {
         Saddle { factors: matrix.factor(), row_scales, n: self.n }
     }
 
-    /// Solves a saddle system for loads on bodies and right sides of rows: changes of bodies, multipliers, what is unmet.
+    /// Solves a saddle system for loads on bodies and right-hand sides of rows. Returns changes of bodies, multipliers and the residual
+    /// that remains.
     pub(crate) fn solve(
         &self,
         saddle: &Saddle,
@@ -308,7 +311,7 @@ impl Mechanism {
         (self.of_bodies(&x), multipliers, unmet)
     }
 
-    /// Changes of bodies from scaled ones.
+    /// Changes of bodies from scaled changes.
     pub(crate) fn of_bodies(&self, x: &[f64]) -> Vec<[f64; 6]> {
         let of_body =
             |of: &[Option<usize>; 6]| of.map(|c| c.map_or(0.0, |c| x[c] * self.scales[c]));
@@ -321,7 +324,7 @@ impl Mechanism {
         self.evaluate_among(state, None)
     }
 
-    /// Returns accelerations, reactions, energies and power by some of the rows, from which the others follow.
+    /// Returns accelerations, reactions, energies and power, computed with the given rows alone. The other rows follow from these.
     pub(crate) fn evaluate_among(&self, state: &State, among: Option<&[bool]>) -> Moved {
         let places = self.places(state);
         let now = self.now(state, &places);
@@ -329,7 +332,7 @@ impl Mechanism {
         let rotors = self.rotors(&now);
         let mut kinetic = 0.0;
         for (inertia, row) in &rotors {
-            // g · I (g · a + bias)
+            // a rotor's load is g · I (g · a + bias) for its gradient g; here the part of the bias
             loads.along(row, -inertia * row.bias);
             kinetic += 0.5 * inertia * row.rate(&places).powi(2);
         }
@@ -370,7 +373,7 @@ impl Mechanism {
         Moved { accelerations, energy: [kinetic, potential], power, least_pivot, unmet, ..moved }
     }
 
-    /// Gives a multiplier to what it belongs to; returns the joint that carries it.
+    /// Adds a multiplier to the reaction or effort of its owner. Returns the joint that carries the multiplier.
     fn give(&self, owner: Owner, lambda: f64, moved: &mut Moved) -> Option<usize> {
         match owner {
             Owner::Coupling(k) => {
@@ -395,7 +398,8 @@ impl Mechanism {
         }
     }
 
-    /// Teeth are driven apart whatever the sense of their effort: rows whose multipliers are below zero; are there any?
+    /// Corrects the forces of teeth whose multiplier is negative, since teeth are pushed apart for both signs of the effort. Is there such
+    /// a row?
     fn turn_teeth(
         &self,
         now: &Now<'_>,
@@ -415,7 +419,7 @@ impl Mechanism {
         any
     }
 
-    /// Nothing moves or acts, all unique.
+    /// Motion with zero accelerations, loads and energies, in which every reaction is unique.
     fn blank(&self) -> Moved {
         let (n_bodies, n_joints) = (self.scene.bodies.len(), self.scene.joints.len());
         let (n_couplings, n_rollings) = (self.scene.couplings.len(), self.scene.rollings.len());
@@ -437,7 +441,7 @@ impl Mechanism {
         }
     }
 
-    /// Marks what a vector of the kernel leaves open.
+    /// Marks reactions that a null vector of the matrix leaves undetermined.
     fn open(&self, vector: &[f64], owners: &[Owner], moved: &mut Moved) {
         for (x, &owner) in vector[self.n..].iter().zip(owners) {
             let is_open = x.abs() >= 1e-6;
@@ -467,7 +471,7 @@ impl Mechanism {
         crate::rows::six(force, about)
     }
 
-    /// The largest violation of positions, and that of velocities.
+    /// The largest residual of position rows, and that of velocity rows.
     #[must_use]
     pub fn violation(&self, state: &State) -> [f64; 2] {
         let places = self.places(state);

@@ -1,10 +1,10 @@
-//! TOML as plain values, and tables whose keys are taken one by one.
+//! Reader of TOML: plain values, and tables whose keys are removed as they are read.
 
 use crate::vector::{Vector, ZERO};
 use std::collections::BTreeMap;
 use toml::de::{DeTable, DeValue};
 
-/// Reason why a scene is not read.
+/// Reason why a scene cannot be read.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Fault(pub String);
 
@@ -21,7 +21,7 @@ pub(crate) enum Node {
     Table(Table),
 }
 
-/// Table of a scene file; a key that is taken is gone.
+/// Table of a scene file. A key that is read is removed, so that unknown keys remain.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Table {
     entries: BTreeMap<String, Node>,
@@ -165,7 +165,7 @@ impl Table {
         Ok(self.tables(key)?.pop())
     }
 
-    /// `value`, a number or a vector, or `table` with rows of a time and either.
+    /// Reads `value`, a number or a vector, or `table`, whose rows have a time and a number or vector.
     pub(crate) fn signal(&mut self, vectors: bool) -> Read<Vec<(f64, Vector)>> {
         let planar = self.planar;
         let read = |numbers: &[f64]| match (vectors, numbers) {
@@ -188,7 +188,7 @@ impl Table {
         if rows.is_empty() { Ok(vec![(0.0, ZERO)]) } else { Ok(rows) }
     }
 
-    /// Refuses what was not taken.
+    /// Refuses a table in which keys remain: they are unknown.
     pub(crate) fn done(self, of: &str) -> Read<()> {
         match self.entries.keys().next() {
             None => Ok(()),

@@ -1,4 +1,4 @@
-//! Outputs that channels show.
+//! Values of output channels.
 
 use crate::motion::{Mechanism, State};
 use crate::scene::{Coupled, Measure, Output, Quantity};
@@ -90,7 +90,7 @@ impl Mechanism {
         }
     }
 
-    /// A number of a coupling.
+    /// Value of a quantity of a coupling.
     fn coupled(&self, state: &State, number: usize, what: Coupled) -> f64 {
         let places = self.places(state);
         let now = self.now(state, &places);
@@ -119,7 +119,7 @@ impl Mechanism {
         }
     }
 
-    /// Kinetic and stored energy, less the work of what is not stored: constant [J].
+    /// Kinetic and potential energy, less the work of forces without potential: constant along the motion [J].
     #[must_use]
     pub fn invariant(&self, state: &State) -> f64 {
         let [kinetic, stored] = self.evaluate(state).energy;

@@ -15,13 +15,13 @@ pub struct Spline {
 /// A function of one number.
 #[derive(Debug, Clone)]
 pub enum Curve {
-    /// A cubic spline, its ends held.
+    /// A cubic spline, constant beyond its ends.
     Spline(Spline),
-    /// A cubic spline that repeats.
+    /// A cubic spline that is periodic.
     Periodic(Spline),
-    /// Straight between its rows, the ends held; does it repeat?
+    /// Linear interpolation between rows, constant beyond the ends; is it periodic?
     Linear(Vec<[f64; 2]>, bool),
-    /// The value of the row before, the ends held; does it repeat?
+    /// The value of the row before, constant beyond the ends; is it periodic?
     Hold(Vec<[f64; 2]>, bool),
     /// Polynomial with the coefficients c0, c1, ... of increasing power.
     Polynomial(Vec<f64>),
@@ -30,13 +30,13 @@ pub enum Curve {
 /// A value over time.
 #[derive(Debug, Clone)]
 pub enum Law {
-    /// Through the rows of a table.
+    /// A curve through the rows of a table, over time.
     Curve(Curve),
-    /// amplitude sin(2π f t + phase).
+    /// Sine over time: amplitude sin(2π f t + phase).
     Sine([f64; 3]),
     /// Ramp: rate t.
     Ramp(f64),
-    /// A signal that follows time alone.
+    /// A signal that depends on time alone.
     Signal(Box<Source>),
 }
 
@@ -47,11 +47,11 @@ pub enum Measure {
     Coordinate(usize, usize),
     /// The length of a line over points of bodies, less that in the reference configuration.
     Length(Vec<(Carrier, Vector)>),
-    /// A turn of a body against another, by its number in the scene.
+    /// An angle of a body against another, by its number among the scene's wheels.
     Wheel(usize),
-    /// The way of a point of the second body along an axis of the first.
+    /// The displacement of a point of the second body along an axis of the first.
     Way([Carrier; 2], Vector, Vector),
-    /// The swing about an axis of a ball, or its twist.
+    /// The angle of a ball joint: its swing about an axis, or its twist.
     Ball(usize, Vector, bool),
 }
 
@@ -62,11 +62,11 @@ pub struct Term {
     pub measure: Measure,
     /// Factor of the term.
     pub factor: f64,
-    /// A function of what is measured.
+    /// A function of the measured number, which then is the term.
     pub curve: Option<Curve>,
 }
 
-/// A turn of a body against another about an axis that stands in both.
+/// A rotation of a body against another, about an axis that is fixed in both.
 #[derive(Debug, Clone)]
 pub struct Wheel {
     /// The carrier, and the body that turns.
@@ -75,23 +75,24 @@ pub struct Wheel {
     pub axis: Vector,
 }
 
-/// Seat of a coupling: where its force acts, if the scene says so.
+/// Attachment of a coupling: where its force acts, if the scene says so.
 #[derive(Debug, Clone)]
 pub enum Seat {
-    /// No seat: the torques of its coordinates alone.
+    /// No attachment points: the effort acts on the coordinates alone.
     Nowhere,
     /// A thread between two bodies, along an axis of the carrier through a point: carrier, screw, nut.
     Thread([Carrier; 3], Vector, Vector),
-    /// Teeth that touch at a point of the carrier: carrier and wheels, axis, places of the axes, pitch point, tangent of the pressure
-    /// angle, and whether the first wheel is the smaller one.
+    /// Teeth in mesh at a point of the carrier: carrier and wheels, axis, points on the axes of the wheels, pitch point, tangent of the
+    /// pressure angle, and whether the first wheel is the smaller one.
     Teeth([Carrier; 3], Vector, [Vector; 2], Vector, f64, bool),
-    /// Strands between two wheels: carrier and wheels, axis, places of the axes, radii with their signs, pretension.
+    /// Strands between two wheels: carrier and wheels, axis, points on the axes of the wheels, signed radii, pretension.
     Strands([Carrier; 3], Vector, [Vector; 2], [f64; 2], f64),
-    /// The end of a rope on the carrier of a drum, whose axis is about a joint: the joint's carrier, the drum, a point of the axis.
+    /// Drum on which a rope ends: the drum's carrier and the drum, a point of the axis, the unit axis, and whether the drum is at the
+    /// rope's last point.
     Drum([Carrier; 2], Vector, Vector, bool),
 }
 
-/// A sum that is zero.
+/// A constraint: a sum of terms that equals a given value.
 #[derive(Debug, Clone)]
 pub struct Coupling {
     /// Name of the coupling.
@@ -100,15 +101,15 @@ pub struct Coupling {
     pub kind: String,
     /// The terms of the sum.
     pub terms: Vec<Term>,
-    /// Value of the sum, beside the law.
+    /// Constant part of the sum's given value.
     pub value: f64,
-    /// Law that is added to the value over time.
+    /// Law over time that is added to the constant value.
     pub law: Option<Law>,
-    /// Ratio of the effort that is shown to the multiplier.
+    /// Ratio of the displayed effort to the multiplier.
     pub gain: f64,
-    /// The coordinate that the effort is given to: joint, number, and its ratio to the way of the effort.
+    /// The coordinate on which the effort is measured: joint, number, and the ratio of this coordinate to the displacement of the effort.
     pub passed: Option<(usize, usize, f64)>,
-    /// Seat of the coupling's force.
+    /// Attachment of the coupling's force.
     pub seat: Seat,
 }
 
@@ -123,12 +124,12 @@ pub enum Shape {
     Blade(Vector),
 }
 
-/// Contact of a body that rolls on a plane, or of a blade that cuts it.
+/// Contact of a body that rolls on a plane, or of a blade that slides on it along one direction.
 #[derive(Debug, Clone)]
 pub struct Rolling {
     /// Name of the contact.
     pub name: String,
-    /// The body, and the one that the plane is fixed in.
+    /// The rolling body, and the body in which the plane is fixed.
     pub bodies: [Carrier; 2],
     /// Shape that touches the plane.
     pub shape: Shape,
@@ -140,7 +141,7 @@ pub struct Rolling {
     pub normal: Vector,
 }
 
-/// A number over time and of the motion.
+/// A number that depends on time or on the motion.
 #[derive(Debug, Clone)]
 pub enum Source {
     /// Number that is the same at all times.
@@ -153,7 +154,7 @@ pub enum Source {
     Chirp([f64; 6]),
     /// Ramp: rate, start, end, rounding.
     Ramp([f64; 4]),
-    /// Step: from, to, when it begins, how long it takes.
+    /// Step: first value, last value, time of the beginning, duration.
     Step([f64; 4]),
     /// Sum of factors times numbers.
     Sum(Vec<(f64, Self)>),
@@ -163,19 +164,20 @@ pub enum Source {
     Of(Curve, Box<Self>),
     /// Number within limits.
     Clamp(Box<Self>, [f64; 2]),
-    /// Within limits, by itself; one where that is zero.
+    /// The number limited to a range, divided by the number itself; one where the number is zero.
     LimitRatio(Box<Self>, [f64; 2]),
     /// A measure, or its rate.
     Measure(Measure, bool),
-    /// The state of a signal, which follows another one with a time constant.
+    /// Lag of first order: number of its state, the signal that it follows, and the time constant.
     Lag(usize, Box<Self>, f64),
-    /// The state of a signal, the integral of another one within limits.
+    /// Integral of a signal, limited to a range: number of its state, the signal, the range.
     Integral(usize, Box<Self>, [f64; 2]),
-    /// The state of a signal, target and measured, gains of difference, integral and rate, and the limit.
+    /// PID controller: number of its state, target and measured signal, gains of difference, integral and rate, and the limit of its
+    /// output.
     Pid(usize, [Box<Self>; 2], [f64; 3], f64),
 }
 
-/// Signal: its name, what it is, and its state at the start.
+/// Signal: its name, its source, and its state at the start.
 #[derive(Debug, Clone)]
 pub struct Signal {
     /// Name of the signal.
@@ -191,7 +193,7 @@ pub struct Signal {
 pub enum Given {
     /// Vector that is the same at all times.
     Constant(Vector),
-    /// Rows of time and vector, linear between them, held outside; one row is a constant.
+    /// Rows of time and vector, linear between rows and constant outside. One row is a constant.
     Rows(Vec<(f64, Vector)>),
     /// A signal for each component.
     Named([Option<Box<Source>>; 3]),

@@ -1,4 +1,4 @@
-//! Polynomials in pieces [lower, upper, c0, c1, ...], with their tangents beyond the first and the last.
+//! Polynomials in pieces [lower, upper, c0, c1, ...]. Beyond the first and the last piece the polynomial continues along its tangent.
 
 /// Value and slope of a piece.
 fn of_piece(piece: &[f64], x: f64) -> [f64; 2] {
@@ -10,7 +10,7 @@ fn of_piece(piece: &[f64], x: f64) -> [f64; 2] {
     [sum, slope]
 }
 
-/// The piece that holds, or its tangent where none does.
+/// The value of the piece that contains x, or of a tangent outside all pieces.
 pub(crate) fn value(pieces: &[Vec<f64>], x: f64) -> f64 {
     let (Some(first), Some(last)) = (pieces.first(), pieces.last()) else { return 0.0 };
     let tangent = |piece: &[f64], at: f64| {

@@ -1,11 +1,11 @@
-//! Positions and velocities brought onto the constraints by the least mass-weighted change.
+//! Projection of positions and velocities onto the constraints by the least mass-weighted change.
 
 use crate::motion::{Mechanism, State};
 use crate::rows::{Frame, Row};
 use crate::vector::{add, compose, exponential, normalised};
 
 impl Frame {
-    /// Moves by a displacement and a rotation vector.
+    /// Moves the body by a displacement and a rotation vector.
     pub(crate) fn moved(&mut self, by: &[f64; 6]) {
         self.r = add(self.r, [by[0], by[1], by[2]]);
         self.q = normalised(compose(exponential([by[3], by[4], by[5]]), self.q));
@@ -14,7 +14,8 @@ impl Frame {
 }
 
 impl Mechanism {
-    /// Brings a state onto its constraints by some of the rows, from which the others follow; turns of joints are counted on.
+    /// Projects a state onto its constraints by the given rows. The other rows follow from these. Angles of joints are then followed to
+    /// their new values.
     pub(crate) fn project(&self, state: &mut State, among: &[bool]) {
         for _ in 0..2 {
             let places = self.places(state);
@@ -31,7 +32,7 @@ impl Mechanism {
         self.project_velocities(state, Some(among), &[]);
     }
 
-    /// Brings velocities onto the constraints, and on more rows that are to have rates.
+    /// Projects velocities onto the constraints, and onto further rows that must have given rates.
     pub(crate) fn project_velocities(
         &self,
         state: &mut State,
@@ -55,7 +56,7 @@ impl Mechanism {
         unmet
     }
 
-    /// Measures the turns of all joints, each by whole turns nearest to what it was.
+    /// Updates the angles of all joints: each is followed over whole turns from its value before.
     pub(crate) fn count_turns(&self, state: &mut State) {
         let places = self.places(state);
         state.turns = self.now(state, &places).measured_turns();

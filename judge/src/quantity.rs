@@ -10,24 +10,24 @@ pub struct Output {
     pub name: String,
     /// Quantity that the channel shows.
     pub quantity: Quantity,
-    /// Is the channel in degrees? All of its components are angles then.
+    /// Is the channel in degrees? If so, all of its components are angles.
     pub degrees: bool,
 }
 
 /// A point of a body, seen from another one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Relative {
-    /// The body whose point it is.
+    /// The body that has the point.
     pub body: usize,
     /// The point of the body.
     pub at: Vector,
-    /// The body that it is seen from.
+    /// The body from which the point is seen.
     pub other: Carrier,
-    /// The point of that body from which it counts.
+    /// The point of that body from which positions and distances are measured.
     pub origin: Vector,
 }
 
-/// Quantities of a point that are seen from another body.
+/// Quantities of a point, seen from another body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Seen {
     /// Position of the point.
@@ -47,11 +47,11 @@ pub struct Leaning {
     pub body: usize,
     /// The vehicle body, or the ground.
     pub vehicle: Carrier,
-    /// Axes of the vehicle body: forward, inward, up.
+    /// Axes of the vehicle body: forwards, inwards, upwards.
     pub axes: [Vector; 3],
     /// Direction of the carrier: the axis of the wheel, or the steering axis.
     pub direction: Vector,
-    /// Number of the angle: camber, toe, caster.
+    /// Number of the angle: 0 for camber, 1 for toe, 2 for caster.
     pub angle: usize,
 }
 
@@ -66,17 +66,17 @@ pub enum Exerts {
     Rate,
     /// Measured number less its free value, or the depth of a contact.
     Deflection,
-    /// Energy that is stored.
+    /// Energy that the effect stores.
     Energy,
-    /// Power that bodies get.
+    /// Power that the effect gives to bodies.
     Power,
-    /// One in contact, else zero.
+    /// One during contact, otherwise zero.
     Contact,
-    /// Load of a tire.
+    /// Normal load of a tire.
     Load,
     /// Side force of a tire.
     SideForce,
-    /// Force of a tire along its plane.
+    /// Force of a tire along the wheel's plane and the road.
     LongitudinalForce,
     /// Slip angle of a tire.
     SlipAngle,
@@ -101,14 +101,14 @@ pub enum Whole {
     Momentum,
     /// Angular momentum of all bodies about their centre of mass.
     AngularMomentum,
-    /// Energy less the work since the start, less the energy at the start.
+    /// Error of the energy balance: the change of energy since the start, less the work done since then.
     InvariantError,
 }
 
 /// Quantity of a coupling that a channel shows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Coupled {
-    /// Effort on the coupling's drawn part.
+    /// Effort on the part after which the coupling is named.
     Effort,
     /// Value of the coupling's sum.
     Value,
@@ -116,7 +116,7 @@ pub enum Coupled {
     Length,
     /// Rate of the coupling's sum.
     Rate,
-    /// Power that the coupling gives or passes on.
+    /// Power that the coupling gives or transmits.
     Power,
 }
 
@@ -174,15 +174,15 @@ pub enum Quantity {
 }
 
 impl Quantity {
-    /// Names of those of a body's point.
+    /// Names of the quantities of a body's point.
     pub const OF_POINTS: &[&str] = &["position", "velocity", "acceleration", "proper-acceleration"];
-    /// Names of those of a body's point, seen from another body.
+    /// Names of the quantities of a body's point, seen from another body.
     pub const OF_SEEN_POINTS: &[&str] = &["position", "velocity", "acceleration", "distance"];
-    /// Names of those of a body, seen from another body.
+    /// Names of the quantities of a body, seen from another body.
     pub const OF_SEEN_BODIES: &[&str] = &["angular-velocity"];
-    /// Names of those of the carrier of a wheel.
+    /// Names of the quantities of a wheel carrier.
     pub const OF_CARRIERS: &[&str] = &["camber", "toe", "caster"];
-    /// Names of those of a body.
+    /// Names of the quantities of a body.
     pub const OF_BODIES: &[&str] = &[
         "angular-velocity",
         "angular-acceleration",
@@ -191,16 +191,16 @@ impl Quantity {
         "rotation-matrix",
         "kinetic-energy",
     ];
-    /// Names of those of a joint.
+    /// Names of the quantities of a joint.
     pub const OF_JOINTS: &[&str] =
         &["value", "rate", "acceleration", "effort", "power", "reaction"];
-    /// Names of those of a signal.
+    /// Names of the quantities of a signal.
     pub const OF_SIGNALS: &[&str] = &["value", "rate"];
-    /// Names of those of what rolls.
+    /// Names of the quantities of a rolling contact.
     pub const OF_ROLLINGS: &[&str] = &["force"];
-    /// Names of those of a coupling.
+    /// Names of the quantities of a coupling.
     pub const OF_COUPLINGS: &[&str] = &["effort", "value", "length", "rate", "power"];
-    /// Names of those of an effect.
+    /// Names of the quantities of an effect.
     pub const OF_EFFECTS: &[&str] = &[
         "force",
         "value",
@@ -216,7 +216,7 @@ impl Quantity {
         "aligning-torque",
         "contact-point",
     ];
-    /// Names of those of the whole scene.
+    /// Names of the quantities of the whole scene.
     pub const OF_SCENES: &[&str] = &[
         "kinetic-energy",
         "potential-energy",

@@ -1,14 +1,16 @@
-//! Rows that follow from others, and the number of freedoms that are left.
+//! Rows that depend on other rows, and the number of freedoms that remain.
 
 use crate::dense::Square;
 use crate::motion::{Mechanism, State};
 use crate::rows::Row;
 
-/// Largest part of a row of length one across all others that is none [-]: projected states leave less. Chosen, not tuned.
+/// Largest rest of a row of length one, orthogonal to all other rows, that counts as zero [-]. Projected states leave smaller rests.
+/// Chosen, not tuned.
 const DEPENDENT: f64 = 1e-8;
 
 impl Mechanism {
-    /// Rows that do not follow from others, at a state that meets them all: within a step what follows would only nearly do so.
+    /// Marks the rows that are independent. The state must satisfy all constraints, since dependent rows within a step are dependent only
+    /// approximately.
     pub(crate) fn independent(&self, state: &State) -> Vec<bool> {
         let places = self.places(state);
         let rows = self.rows(&self.now(state, &places));

@@ -15,7 +15,7 @@ use crate::vector::{ZERO, across, add, dot, norm, scale, sub, unit};
 /// Reads the text of a scene.
 ///
 /// # Errors
-/// What is not understood.
+/// A fault with the key or value that is not valid.
 pub fn read(text: &str) -> Read<Scene> {
     let mut root = parse(text)?;
     let mut head = root.table("scene")?.unwrap_or_default();
@@ -72,7 +72,7 @@ pub fn read(text: &str) -> Read<Scene> {
     Ok(scene)
 }
 
-/// The channels of a scene; where there are none, the coordinates of all joints.
+/// The channels of a scene. A scene without channels gets those of all joint coordinates.
 fn channels(tables: Vec<Table>, names: &Names, scene: &Scene) -> Read<Vec<Output>> {
     if !tables.is_empty() {
         return tables.into_iter().map(|t| output(t, names, scene)).collect();
@@ -137,7 +137,7 @@ fn joint(mut table: Table, name: String, names: &Names, all: &[Body]) -> Read<Jo
     if kind == Kind::Universal {
         axes = table.two_vectors("axes")?;
     }
-    // what a joint is meant to keep to does not act on its motion
+    // limits of effort and velocity are for programs that read the scene; they do not act on the motion
     let range = if table.has("range") { Some(table.exactly("range")?) } else { None };
     for key in ["effort_limit", "velocity_limit"] {
         let _ = table.take(key);

@@ -1,4 +1,4 @@
-//! Reads couplings, each as a sum with the part that its effort is named for.
+//! Reads couplings of a scene. Each becomes a sum, with the coordinate on which its effort is measured.
 
 use crate::drawn::{self, sense};
 use crate::names::Names;
@@ -12,10 +12,10 @@ use core::f64::consts::PI;
 /// Largest distance of a rope's end from the rim of its drum, relative to the radius [-]. Chosen, not tuned.
 const AT_RIM: f64 = 1e-6;
 
-/// Largest cosine of a screw's axis and the slide of its nut that is none [-]. Chosen, not tuned.
+/// Largest cosine between a screw's axis and the slide of its nut at which the two count as perpendicular [-]. Chosen, not tuned.
 const ACROSS: f64 = 1e-9;
 
-/// Reader of couplings: the parts of the scene that they are read with.
+/// Reader of couplings, with the parts of the scene to which couplings refer.
 pub(crate) struct Reader<'a> {
     pub(crate) names: &'a Names,
     pub(crate) joints: &'a [Joint],
@@ -24,7 +24,7 @@ pub(crate) struct Reader<'a> {
     pub(crate) planar: bool,
 }
 
-/// A sum, the ratio of the effort to the multiplier, and what the effort is passed to.
+/// A sum, its value, the ratio of the effort to the multiplier, the coordinate on which the effort is measured, and the attachment.
 struct Sum {
     terms: Vec<Term>,
     value: f64,
@@ -81,13 +81,13 @@ impl Reader<'_> {
         <[usize; N]>::try_from(list).map_or_else(|_| fault(format!("{N} joints")), Ok)
     }
 
-    /// The turn of a body against a carrier, which the coupling counts.
+    /// The term of a rotation of one body against another, which is added to the measured rotations of the scene.
     fn wheel(&mut self, bodies: [Option<usize>; 2], axis: Vector, factor: f64) -> Term {
         self.wheels.push(Wheel { bodies, axis });
         Term { measure: Measure::Wheel(self.wheels.len() - 1), factor, curve: None }
     }
 
-    /// Two wheels on one carrier: factors times their turns about the first axis.
+    /// Two wheels on one carrier: the terms are factors times their rotations about the first axis.
     fn mesh(
         &mut self,
         [one, two]: [usize; 2],
@@ -141,7 +141,7 @@ impl Reader<'_> {
         let joints = self.joints_of(t)?;
         let radii = [a, if crossed { b } else { -b }];
         let (mut sum, bodies) = self.mesh(joints, radii)?;
-        // the torque on the first wheel over its radius, and the speed of its rim
+        // the effort becomes the torque on the first wheel over its radius, and its rate the speed of the rim
         sum.gain /= a;
         sum.passed = sum.passed.map(|(joint, number, _)| (joint, number, a));
         if let Some(pull) = t.take("pretension") {
@@ -189,7 +189,7 @@ impl Reader<'_> {
         let [turns, slides] = pair.map(|j| &self.joints[j]);
         let axis = drawn::axis(turns, self.planar);
         if dot(axis, slides.axes[0]).abs() < ACROSS {
-            // nothing is drawn of a thread across its nut: the coordinates are taken as they are written
+            // a nut that slides across the screw's axis has no geometry of a thread: the coordinates are used as they are
             let number = only(turns, self.planar)?;
             let terms = vec![Term::of(slide, 0, 1.0), Term::of(turn, number, -lead)];
             return Ok(Sum { passed: Some((slide, 0, 1.0)), ..Sum::plain(terms, 0.0) });
@@ -215,7 +215,7 @@ impl Reader<'_> {
         Ok(Sum { gain, passed: Some((slide, 0, 1.0)), seat, ..Sum::plain(terms, 0.0) })
     }
 
-    /// A gear of two wheels against the cage.
+    /// Reads a differential: a gear of two wheels, whose rotations are measured against the cage.
     fn differential(&mut self, t: &mut Table) -> Read<Sum> {
         let [a, b, cage] = self.joints_of(t)?;
         let teeth: [f64; 2] = if t.has("teeth") { t.exactly("teeth")? } else { [1.0, 1.0] };
@@ -237,7 +237,7 @@ impl Reader<'_> {
             if held.is_some() || self.turns_beside(joint, moved, axis) {
                 terms.push(self.wheel([body, moved], axis, teeth));
             } else {
-                // a shaft that leads to a knuckle: its turn in there
+                // a shaft that leads to a steering knuckle: its rotation in the knuckle, and that of the knuckle's body against the housing
                 terms.push(Term::of(joint, only(data, self.planar)?, teeth * sign));
                 terms.push(self.wheel([housing, body], axis, -teeth));
             }
@@ -246,7 +246,7 @@ impl Reader<'_> {
         Ok(Sum { gain, passed, ..Sum::plain(terms, 0.0) })
     }
 
-    /// Does the body that a wheel stands in turn about the axis by a joint of its own? A knuckle does not.
+    /// Does the body that carries a wheel rotate about the axis by another joint? A steering knuckle does not.
     fn turns_beside(&self, wheel: usize, moved: Option<usize>, axis: Vector) -> bool {
         let stand = self.joints[wheel].bodies.into_iter().find(|b| *b != moved).flatten();
         let turns = |(j, joint): (usize, &Joint)| {

@@ -5,7 +5,7 @@ use crate::node::{Node, Read, Table, fault};
 use crate::scene::{Carrier, Curve, Joint, Kind, Law, Measure, Signal, Source, Spline, Term};
 use crate::vector::{Vector, unit};
 
-/// Rows of two numbers.
+/// Reads rows of two numbers.
 pub(crate) fn rows(node: &Node) -> Read<Vec<[f64; 2]>> {
     node.list()?
         .iter()
@@ -24,7 +24,7 @@ fn flag(table: &mut Table, key: &str) -> bool {
     matches!(table.take(key), Some(Node::Flag(true)))
 }
 
-/// The rows of `table`, by `interpolation`, `ends` and `periodic`.
+/// The curve through the rows of `table`, by `interpolation`, `ends` and `periodic`.
 fn tabled(table: &mut Table, rows: &[[f64; 2]]) -> Read<Curve> {
     let (how, ends) = (word(table, "interpolation", "spline")?, word(table, "ends", "natural")?);
     let repeats = flag(table, "periodic");
@@ -47,7 +47,7 @@ fn tabled(table: &mut Table, rows: &[[f64; 2]]) -> Read<Curve> {
     })
 }
 
-/// A curve by `table` or `coefficients`, if there is one.
+/// A curve by `table` or `coefficients`, if one of these keys exists.
 pub(crate) fn curve(table: &mut Table) -> Read<Option<Curve>> {
     if let Some(node) = table.take("coefficients") {
         return Ok(Some(Curve::Polynomial(node.numbers()?)));
@@ -58,7 +58,7 @@ pub(crate) fn curve(table: &mut Table) -> Read<Option<Curve>> {
     }
 }
 
-/// A law over time, if there is one.
+/// A law over time, if the table has the keys of a law.
 pub(crate) fn law(table: &mut Table, signals: &[Signal]) -> Read<Option<Law>> {
     if let Some(source) = signal(table, signals)? {
         return Ok(Some(Law::Signal(Box::new(source))));
@@ -91,7 +91,7 @@ fn coordinate_names(kind: Kind, planar: bool) -> &'static [&'static str] {
     }
 }
 
-/// The number of `coordinate`, if it is written.
+/// The number of `coordinate`, if the key exists.
 pub(crate) fn coordinate(table: &mut Table, kind: Kind) -> Read<Option<usize>> {
     let names = coordinate_names(kind, table.planar);
     let Some(node) = table.take("coordinate") else { return Ok(None) };
@@ -105,7 +105,7 @@ pub(crate) fn coordinate(table: &mut Table, kind: Kind) -> Read<Option<usize>> {
     known.map_or_else(|| fault(format!("no coordinate {node:?}")), |i| Ok(Some(i)))
 }
 
-/// The only coordinate of a joint, or its only turn.
+/// The number of the only coordinate of a joint, or of its only rotation.
 pub(crate) fn only(joint: &Joint, planar: bool) -> Read<usize> {
     match joint.kind.coordinates(planar) {
         [1, 0] => Ok(0),
@@ -114,7 +114,7 @@ pub(crate) fn only(joint: &Joint, planar: bool) -> Read<usize> {
     }
 }
 
-/// `points` of a line.
+/// Reads `points` of a line.
 pub(crate) fn points(table: &mut Table, names: &Names) -> Read<Vec<(Carrier, Vector)>> {
     let one = |mut point: Table| Ok((names.carrier(&point.text("body")?)?, point.vector("at")?));
     table.tables("points")?.into_iter().map(one).collect()
@@ -157,7 +157,7 @@ pub(crate) fn effect_sum(table: &mut Table, names: &Names, joints: &[Joint]) -> 
     Ok(vec![Term { measure: measure(table, names, joints)?, factor: 1.0, curve: None }])
 }
 
-/// `signal` by its name, if there is one.
+/// The signal that `signal` names, if the key exists.
 fn signal(table: &mut Table, signals: &[Signal]) -> Read<Option<Source>> {
     let Some(node) = table.take("signal") else { return Ok(None) };
     by_name(&node, signals).map(Some)

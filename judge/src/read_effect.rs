@@ -14,7 +14,7 @@ pub(crate) struct Reader<'a> {
 }
 
 impl Reader<'_> {
-    /// Reads an effect; adds it where it is enabled.
+    /// Reads an effect, and adds it to the scene if it is enabled.
     pub(crate) fn effect(&mut self, mut table: Table, number: usize) -> Read<()> {
         let name = match table.take("name") {
             Some(Node::Text(name)) => name,
@@ -54,7 +54,7 @@ impl Reader<'_> {
         Ok(Path::Points(points(t, self.names)?))
     }
 
-    /// Reads an effect that measures one number and acts along it.
+    /// Reads an effect that measures one number and whose force acts along the gradient of that number.
     fn on_path(&self, kind: &str, t: &mut Table) -> Read<Option<Effect>> {
         Ok(Some(match kind {
             "spring-damper" | "torsion-spring" => {
@@ -116,7 +116,7 @@ impl Reader<'_> {
         }))
     }
 
-    /// Reads stops of a sum, or of a coordinate of a joint with its own range.
+    /// Reads stops of a sum, or of a joint's coordinate. With `range = true` the stops are at the ends of the joint's range.
     fn limit(&self, t: &mut Table) -> Read<Effect> {
         let sum = self.sum(t)?;
         let is_range = matches!(t.take("range"), Some(Node::Flag(true)));
@@ -127,7 +127,7 @@ impl Reader<'_> {
                     None => return fault("a joint without a range"),
                 }
             }
-            // a swing needs no lower end
+            // a swing is positive and needs no lower end
             Some(Measure::Ball(_, _, false)) => {
                 [t.number_or("lower", f64::MIN)?, t.number("upper")?]
             }
@@ -185,7 +185,7 @@ fn line(t: &mut Table, names: &Names) -> Read<Line> {
     Ok(Line { bodies: names.pair(t)?, points: t.two_vectors("points")?, direction })
 }
 
-/// Reads six numbers; in the plane three: along x, along y, about z.
+/// Reads six numbers of a key. In the plane reads three: along x, along y, about z.
 fn six(t: &mut Table, key: &str) -> Read<[f64; 6]> {
     if t.planar {
         let [x, y, about] = t.exactly(key)?;
@@ -222,7 +222,7 @@ fn tire(t: &mut Table, names: &Names, joints: &[Joint]) -> Read<Tire> {
     let mut axis = t.vector_or_none("axis")?.map(unit);
     let (mut body, center) = (names.body(&t.text("body")?)?, t.vector("center")?);
     if t.has("spin") {
-        // the tire acts on the wheel, the other body of the joint
+        // the tire acts on the wheel: the other body of the joint `spin`
         let joint = &joints[names.joint(&t.text("spin")?)?];
         let wheel = joint.bodies.into_iter().flatten().find(|b| *b != body);
         body = wheel.map_or_else(|| fault("no wheel on the carrier"), Ok)?;

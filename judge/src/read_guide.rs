@@ -1,4 +1,4 @@
-//! Reads guides: of a coordinate, of all coordinates of a joint, and of a body against the ground.
+//! Reads guides of a coordinate, of all coordinates of a joint, and of a body against the ground.
 
 use crate::names::Names;
 use crate::node::{Node, Read, Table, fault};
@@ -6,7 +6,7 @@ use crate::read_curve::{by_name, coordinate, law};
 use crate::scene::{Guide, GuidedTurn, Joint, Kind, Law, Scene};
 use crate::vector::ZERO;
 
-/// Reads a guide; a guided body hangs on a free joint of its name.
+/// Reads a guide of a scene. A guided body gets a free joint to the ground with the body's name.
 pub(crate) fn guide(mut table: Table, names: &mut Names, scene: &mut Scene) -> Read<()> {
     let joint = match table.take("body") {
         Some(Node::Text(body)) => {
@@ -42,7 +42,7 @@ pub(crate) fn guide(mut table: Table, names: &mut Names, scene: &mut Scene) -> R
     Ok(())
 }
 
-/// Guides of all coordinates of a joint.
+/// Adds guides of all coordinates of a joint.
 fn whole(joint: usize, laws: Vec<Law>, scene: &mut Scene) -> Read<()> {
     let [slides, turns] = scene.joints[joint].kind.coordinates(scene.planar);
     if laws.len() != slides + turns {

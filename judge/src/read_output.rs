@@ -5,13 +5,13 @@ use crate::node::{Node, Read, Table, fault};
 use crate::scene::{Body, Leaning, Output, Quantity, Relative, Scene};
 use crate::vector::{Vector, ZERO, cross, dot, scale, sub, unit};
 
-/// `at`, or the centre of mass of a quantity of a point.
+/// Reads `at`; without the key, the centre of mass for a quantity of a point.
 fn place(table: &mut Table, kind: &str, body: usize, all: &[Body]) -> Read<Option<Vector>> {
     let at = table.vector_or_none("at")?;
     Ok(at.or_else(|| Quantity::OF_POINTS.contains(&kind).then(|| all[body].center)))
 }
 
-/// The number of a name among others.
+/// The number of a name in a list.
 fn number<'a>(name: &str, mut all: impl Iterator<Item = &'a String>) -> Option<usize> {
     all.position(|known| known == name)
 }
@@ -61,7 +61,7 @@ pub(crate) fn output(mut table: Table, names: &Names, scene: &Scene) -> Read<Out
     Ok(Output { name, quantity, degrees })
 }
 
-/// Reads a quantity of a body that is seen from another one.
+/// Reads a quantity of a body that is seen from another body.
 fn seen(
     t: &mut Table,
     kind: &str,
@@ -82,7 +82,8 @@ fn seen(
     Ok(Quantity::of_seen(kind, Relative { body, at, other, origin }))
 }
 
-/// Camber, toe or caster: the axes forward, inward and up of the vehicle, and the direction of the carrier in the sense of the drawing.
+/// Reads camber, toe or caster: the vehicle's axes forwards, inwards and upwards, and the carrier's direction with the sign of the
+/// contract.
 fn leaning(t: &mut Table, (body, vehicle): (usize, Option<usize>), angle: usize) -> Read<Leaning> {
     if t.planar {
         return fault("camber, toe and caster of the plane");
@@ -92,7 +93,7 @@ fn leaning(t: &mut Table, (body, vehicle): (usize, Option<usize>), angle: usize)
     let forward = t.vector_or_none("forward")?.unwrap_or([1.0, 0.0, 0.0]);
     let forward = unit(sub(forward, scale(dot(forward, up), up)));
     let inward = if is_left { cross(forward, up) } else { cross(up, forward) };
-    // the steering axis is drawn upwards, that of the wheel inwards
+    // the steering axis points upwards, the axis of the wheel inwards
     let drawn = if angle == 2 { up } else { inward };
     let direction = t.vector_or_none("axis")?.map_or(drawn, |axis| {
         let axis = unit(axis);

@@ -1,11 +1,11 @@
-//! Reads signals, each as a tree of what it is made of.
+//! Reads signals of a scene. Each is read as a tree of sources.
 
 use crate::names::Names;
 use crate::node::{Node, Read, Table, fault};
 use crate::read_curve::{by_name, curve, measure};
 use crate::scene::{Given, Joint, Signal, Source};
 
-/// All signals of a scene, by the names that they have.
+/// Reader of all signals of a scene, which may refer to each other by name.
 pub(crate) struct Reader<'a> {
     names: &'a Names,
     joints: &'a [Joint],
@@ -18,7 +18,7 @@ impl<'a> Reader<'a> {
         Ok(Self { names, joints, tables: named.collect::<Read<_>>()? })
     }
 
-    /// The signals in the order of the file.
+    /// Returns the signals in the order of the file.
     pub(crate) fn all(&self) -> Read<Vec<Signal>> {
         let one = |k: usize| {
             let (name, mut table) = self.tables[k].clone();
@@ -103,7 +103,7 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// Reads a source that follows time alone, if the kind is one of these.
+/// Reads a source that depends on time alone; `None` for other kinds.
 fn of_time(kind: &str, t: &mut Table) -> Read<Option<Source>> {
     let wave = |t: &mut Table| -> Read<[f64; 4]> {
         let (phase, offset) = (t.number_or("phase", 0.0)?, t.number_or("offset", 0.0)?);

@@ -1,18 +1,19 @@
-//! Rows of what rolls: the lowest point is on the plane, and has the velocity that the plane has there.
+//! Rows of rolling contacts: the lowest point of the body is on the plane and has the velocity of the plane there.
 //!
 //! ```text
 //! w = n - a (a·n)      ρ = -R w/|w|      c' + ω₁ × ρ - (velocity of the plane's body there) = s,     u·s = 0
 //! ```
 //!
-//! u is the normal, whose row is the derivative of the height, or lies in the plane and is fixed in its body. A blade has ρ = 0 and
-//! u = n × d. Velocities and their derivatives are taken of each body for itself.
+//! Here a is the axis of the disc, n the plane's normal, R the radius, ρ the arm from the centre c to the lowest point, and s the slip
+//! velocity. The direction u is the normal, or it is in the plane and fixed in its body. The row of the normal is the derivative of the
+//! height. A blade along d has ρ = 0 and u = n × d.
 
 use crate::loads::Now;
 use crate::rows::{Row, Seat, six};
 use crate::scene::{Rolling, Shape};
 use crate::vector::{Vector, ZERO, across, add, cross, dot, norm, scale, sub};
 
-/// Lowest point of what rolls: from the centre, and the rate of that.
+/// Lowest point of a rolling body: its arm from the centre, and the rate of the arm.
 struct Lowest {
     arm: Vector,
     rate: Vector,
@@ -22,7 +23,7 @@ struct Lowest {
 type Moving = (Vector, Vector);
 
 impl Rolling {
-    /// The lowest point of a normal and an axis, each with its rate.
+    /// The lowest point for a normal of the plane and an axis of the body, each with its rate.
     fn lowest(&self, (n, n_rate): Moving, axis: impl Fn(Vector) -> Moving) -> Lowest {
         let (radius, (a, a_rate)) = match self.shape {
             Shape::Disc(radius, a) => (radius, axis(a)),
@@ -38,14 +39,14 @@ impl Rolling {
         Lowest { arm: scale(-radius / length, w), rate }
     }
 
-    /// The point that touches in the reference configuration.
+    /// The contact point in the reference configuration.
     pub(crate) fn contact(&self) -> Vector {
         add(self.center, self.lowest((self.normal, ZERO), |a| (a, ZERO)).arm)
     }
 }
 
 impl Now<'_> {
-    /// The rows of what rolls, with their directions on the first body; the height comes first.
+    /// The rows of a rolling contact, each with the direction of its force on the first body. The height is the first row.
     pub(crate) fn rolling(&self, rolling: &Rolling) -> Vec<(Vector, Row)> {
         let [w1, w2] = rolling.bodies.map(|b| self.places.of(b).w);
         let of = |i: usize, w: Vector, v: Vector| {
@@ -78,14 +79,14 @@ impl Now<'_> {
         rows
     }
 
-    /// u · s with its gradient and the part of its derivative without accelerations.
+    /// Row of u · s, with its gradient and its bias: the derivative without accelerations.
     fn slip(&self, rolling: &Rolling, center: &Seat, lowest: &Lowest, (u, u_rate): Moving) -> Row {
         let [one, two] = rolling.bodies.map(|b| *self.places.of(b));
         let arm = add(center.arm, lowest.arm);
         let place = add(center.p, lowest.arm);
         let other_arm = sub(place, two.r);
         let slip = sub(add(one.v, cross(one.w, arm)), add(two.v, cross(two.w, other_arm)));
-        // ω × d/dt of each arm
+        // the rates of both arms, crossed with the angular velocities
         let place_rate = add(center.v, lowest.rate);
         let first = add(center.bias, cross(one.w, lowest.rate));
         let second = cross(two.w, sub(place_rate, two.v));
@@ -98,7 +99,7 @@ impl Now<'_> {
     }
 }
 
-/// A row that holds rates alone.
+/// Marks a row that constrains rates alone.
 fn rated(row: Row) -> Row {
     Row { of_rates: true, ..row }
 }

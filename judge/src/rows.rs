@@ -1,5 +1,5 @@
-//! Rows: a scalar of the places of two bodies with its gradient by their velocities and what its second derivative has without
-//! accelerations. Constraints, guides, joint coordinates and forces along them are all made of these.
+//! Rows: scalar functions of the places of two bodies. A row has a value, a gradient by the velocities of the bodies, and a bias, which is
+//! its second derivative without accelerations. Constraints, guides, joint coordinates and the forces along them are made of rows.
 //!
 //! ```text
 //! d²/dt² value = Σ part · (a, α) + bias
@@ -17,7 +17,7 @@ pub struct Frame {
     pub r: Vector,
     /// Rotation from the reference configuration.
     pub q: Quaternion,
-    /// Angle of the body in a planar scene, with all turns [rad].
+    /// Angle of the body in a planar scene, followed over whole turns [rad].
     pub angle: f64,
     /// Velocity of the centre of mass [m/s].
     pub v: Vector,
@@ -25,7 +25,7 @@ pub struct Frame {
     pub w: Vector,
 }
 
-/// Place and velocities of a body, as equations need them.
+/// Place and velocities of a body, with its rotation matrix.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Placed {
     pub(crate) center: Vector,
@@ -35,7 +35,7 @@ pub(crate) struct Placed {
     pub(crate) w: Vector,
 }
 
-/// A point of a body: its place, its velocity, from the centre of mass, and its acceleration without accelerations.
+/// A point of a body: its place, its velocity, its arm from the centre of mass, and its acceleration without accelerations of the body.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Seat {
     pub(crate) p: Vector,
@@ -47,23 +47,23 @@ pub(crate) struct Seat {
 /// Row: a scalar with its derivatives.
 #[derive(Debug, Clone)]
 pub(crate) struct Row {
-    /// Gradient by velocity and angular velocity of bodies; of a joint, of its two bodies in their order.
+    /// Gradient by velocity and angular velocity of bodies. Rows of a joint have its two bodies in their order.
     pub(crate) parts: Vec<(Carrier, [f64; 6])>,
     /// Value of the scalar.
     pub(crate) value: f64,
     /// Second derivative of the scalar without accelerations.
     pub(crate) bias: f64,
-    /// Rate and acceleration that the row is to have.
+    /// Rate and acceleration that the row must have.
     pub(crate) given: [f64; 2],
-    /// Does it hold rates alone?
+    /// Does the row constrain rates alone?
     pub(crate) of_rates: bool,
-    /// Forces and moments of a multiplier on bodies, where that is not the gradient.
+    /// Forces and moments of a unit multiplier on bodies, where they differ from the gradient.
     pub(crate) acts: Option<Vec<(Carrier, [f64; 6])>>,
 }
 
 const GROUND: Placed = Placed { center: ZERO, r: ZERO, turn: UNIT, v: ZERO, w: ZERO };
 
-/// All bodies as placed, and the ground.
+/// Places of all bodies, and of the ground.
 #[derive(Debug, Clone)]
 pub(crate) struct Places {
     bodies: Vec<Placed>,
@@ -91,7 +91,7 @@ impl Places {
         body.map_or(0.0, |b| self.angles[b])
     }
 
-    /// A point of the reference configuration.
+    /// A point of a body, given in the reference configuration.
     pub(crate) fn seat(&self, body: Carrier, point: Vector) -> Seat {
         let b = self.of(body);
         let arm = times(&b.turn, sub(point, b.center));
@@ -99,12 +99,12 @@ impl Places {
         Seat { p: add(b.r, arm), v: add(b.v, turning), arm, bias: cross(b.w, turning) }
     }
 
-    /// A direction of the reference configuration.
+    /// A direction of a body, given in the reference configuration.
     pub(crate) fn direction(&self, body: Carrier, direction: Vector) -> Vector {
         times(&self.of(body).turn, direction)
     }
 
-    /// u · (p2 - p1), with u fixed in the first body, or in space.
+    /// Row of u · (p2 - p1), where u is fixed in the first body or in space.
     pub(crate) fn along(
         &self,
         bodies: [Carrier; 2],
@@ -127,7 +127,7 @@ impl Places {
         Row::new(parts.to_vec(), dot(u, d), bias)
     }
 
-    /// Distance of two points, (d·d - L²)/(2 L).
+    /// Row of a constant distance between two points, (d·d - L²)/(2 L).
     pub(crate) fn distance(&self, bodies: [Carrier; 2], seats: &[Seat; 2], length: f64) -> Row {
         let (d, rate) = (sub(seats[1].p, seats[0].p), sub(seats[1].v, seats[0].v));
         let mut row = self.along(bodies, seats, scale(1.0 / length, d), false);
@@ -136,7 +136,7 @@ impl Places {
         row
     }
 
-    /// The length between two points.
+    /// Row of the length between two points.
     pub(crate) fn length(&self, bodies: [Carrier; 2], seats: &[Seat; 2]) -> Row {
         let d = sub(seats[1].p, seats[0].p);
         let (length, rate) = (norm(d), sub(seats[1].v, seats[0].v));
@@ -147,7 +147,7 @@ impl Places {
         row
     }
 
-    /// u · w of directions as placed, u of the first body and w of the second.
+    /// Row of u · w, for global directions u of the first body and w of the second.
     pub(crate) fn cosine(&self, bodies: [Carrier; 2], u: Vector, w: Vector) -> Row {
         let [w1, w2] = bodies.map(|b| self.of(b).w);
         let normal = cross(u, w);
@@ -156,7 +156,7 @@ impl Places {
         Row::new(parts.to_vec(), dot(u, w), dot(change, sub(w1, w2)))
     }
 
-    /// The angle whose rate is a · (ω2 - ω1), with a fixed in one of the bodies, or in space; the value is not known here.
+    /// Row of the angle with the rate a · (ω2 - ω1), where a is fixed in one of the bodies or in space. The caller sets its value.
     pub(crate) fn about(&self, bodies: [Carrier; 2], a: Vector, owner: Carrier) -> Row {
         let [w1, w2] = bodies.map(|b| self.of(b).w);
         let parts = [(bodies[0], six(ZERO, scale(-1.0, a))), (bodies[1], six(ZERO, a))];
@@ -170,7 +170,7 @@ impl Row {
         Self { parts, value, bias, given: [0.0; 2], of_rates: false, acts: None }
     }
 
-    /// A sum of rows with factors; each body has one part.
+    /// Sum of rows times factors, in which each body has one part.
     pub(crate) fn sum(rows: impl IntoIterator<Item = (f64, Self)>) -> Self {
         let mut sum = Self::new(Vec::new(), 0.0, 0.0);
         for (factor, row) in rows {
@@ -198,7 +198,7 @@ impl Row {
     }
 }
 
-/// Adds to the part of a body.
+/// Adds to the part of a body, which is made if there is none.
 pub(crate) fn add_part(parts: &mut Vec<(Carrier, [f64; 6])>, body: Carrier, more: &[f64; 6]) {
     match parts.iter_mut().find(|(b, _)| *b == body) {
         Some((_, part)) => part.iter_mut().zip(more).for_each(|(x, y)| *x += y),

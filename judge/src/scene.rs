@@ -1,4 +1,4 @@
-//! Scene as the judge reads it. A planar scene lies in the plane z = 0 of space.
+//! Scene as the judge reads it. A planar scene is treated as one in space, in the plane z = 0.
 
 pub use crate::effect::{Calspan, Effect, Line, Path, Tire};
 pub use crate::parts::{
@@ -19,7 +19,7 @@ pub struct Scene {
     pub gravity: Vector,
     /// Duration of the run [s].
     pub duration: f64,
-    /// Step that the scene asks for [s].
+    /// Step that the scene gives [s].
     pub step: Option<f64>,
     /// Bodies of the scene.
     pub bodies: Vec<Body>,
@@ -27,9 +27,9 @@ pub struct Scene {
     pub joints: Vec<Joint>,
     /// Couplings of the scene.
     pub couplings: Vec<Coupling>,
-    /// Turns that couplings count, beside those of joints.
+    /// Relative rotations that couplings measure, besides the coordinates of joints.
     pub wheels: Vec<Wheel>,
-    /// Contacts that roll, and blades.
+    /// Contacts of bodies that roll, and of blades.
     pub rollings: Vec<Rolling>,
     /// Guides of coordinates of joints.
     pub guides: Vec<Guide>,
@@ -43,7 +43,8 @@ pub struct Scene {
     pub effects: Vec<Effect>,
     /// Names of these effects.
     pub effect_names: Vec<String>,
-    /// Limits by their number that leave stiffness or damping to the mass that their coordinate moves.
+    /// Limits whose stiffness or damping follows from the mass that their coordinate moves: index of the effect, and whether stiffness and
+    /// damping are open.
     pub open_limits: Vec<(usize, [bool; 2])>,
     /// Features of the road: left and right.
     pub road: [Vec<Feature>; 2],
@@ -81,17 +82,17 @@ pub enum Kind {
     Prismatic,
     /// Joint with a translation and a rotation along one axis.
     Cylindrical,
-    /// Joint with two translations and a rotation across them.
+    /// Joint with two translations and a rotation about their common normal.
     Planar,
-    /// Joint with a translation and three rotations; in the plane with one of each.
+    /// Joint with a translation and three rotations; in the plane with one translation and one rotation.
     PinInSlot,
-    /// Joint in which nothing moves.
+    /// Joint without any freedom.
     Weld,
-    /// Joint in which everything moves.
+    /// Joint with all freedoms.
     Free,
-    /// Joint in which everything moves, of a body that is a point and does not turn.
+    /// Joint with all translations, for a body that is a point and has no orientation.
     FreePoint,
-    /// Joint in which two points keep their distance.
+    /// Joint that keeps two points at a constant distance.
     Distance,
 }
 
@@ -106,11 +107,11 @@ pub struct Joint {
     pub bodies: [Carrier; 2],
     /// Point of the joint in both bodies [m].
     pub points: [Vector; 2],
-    /// Unit vectors: axis, and direction or second axis.
+    /// Unit vectors: the axis of the joint; its direction or second axis.
     pub axes: [Vector; 2],
-    /// A link of constant distance with a hinge at its first end.
+    /// Is it a link of constant distance with a hinge at its first end?
     pub hinged: bool,
-    /// Ends of the coordinate, of kinds with one.
+    /// Least and largest value of the coordinate, for kinds with one coordinate.
     pub range: Option<[f64; 2]>,
 }
 
@@ -129,7 +130,7 @@ impl Kind {
         (Self::Distance, "distance"),
     ];
 
-    /// Number of translations among the joint's coordinates, which come first, and number of rotations.
+    /// Numbers of translations and of rotations among the joint's coordinates. The translations come first.
     #[must_use]
     pub fn coordinates(self, planar: bool) -> [usize; 2] {
         match self {
@@ -155,7 +156,7 @@ impl Kind {
 pub struct Guide {
     /// Index of the joint.
     pub joint: usize,
-    /// The number of its coordinate.
+    /// The number of the guided coordinate.
     pub coordinate: usize,
     /// Coordinate over time.
     pub law: Law,

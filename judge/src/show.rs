@@ -1,4 +1,4 @@
-//! Outputs of what is seen from other bodies, of effects and of the whole scene.
+//! Values of outputs that are seen from other bodies, of effects, and of the whole scene.
 
 use crate::loads::Loads;
 use crate::motion::{Mechanism, State};
@@ -8,17 +8,17 @@ use crate::vector::{Vector, ZERO, add, cross, dot, norm, scale, sub, times, tran
 use crate::wheel::{self, Tread};
 
 impl Mechanism {
-    /// The components of a vector that there are.
+    /// The components of a vector that exist in the scene: two in the plane, three in space.
     pub(crate) fn components(&self, v: Vector) -> Vec<f64> {
         v[..if self.scene.planar { 2 } else { 3 }].to_vec()
     }
 
-    /// The components of a turn that there are.
+    /// The components of an angular vector that exist in the scene: one in the plane, three in space.
     pub(crate) fn turning(&self, w: Vector) -> Vec<f64> {
         w[if self.scene.planar { 2 } else { 0 }..].to_vec()
     }
 
-    /// Components of a point as seen from another body, in the axes of that body.
+    /// Components of a point's quantity as seen from another body, in the axes of that body.
     pub(crate) fn seen(&self, state: &State, point: &Relative, what: Seen) -> Vec<f64> {
         let places = self.places(state);
         let other = *places.of(point.other);
@@ -77,7 +77,7 @@ impl Mechanism {
             _ => None,
         };
         let force = |row: &Row| match rotor {
-            // J q''
+            // the torque J q'' of the rotor
             Some(inertia) => inertia * self.accelerated(state, row),
             None => -exerted.along.as_ref().map_or(0.0, |(_, force)| *force),
         };
@@ -116,7 +116,7 @@ impl Mechanism {
         row.parts.iter().map(of).sum::<f64>() + row.bias
     }
 
-    /// A force and a moment as components.
+    /// A force and a moment as one list of components.
     fn wrenched(&self, [force, moment]: [Vector; 2]) -> Vec<f64> {
         [self.components(force), self.turning(moment)].concat()
     }

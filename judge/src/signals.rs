@@ -1,19 +1,19 @@
-//! Values of signals with their rates, the rates of their states, and the times at which they jump or bend.
+//! Values and rates of signals, rates of their states, and the times at which signals jump or have a corner.
 
 use crate::loads::Now;
 use crate::scene::{Curve, Given, Law, Source};
 use crate::vector::{Vector, add, scale};
 use core::f64::consts::PI;
 
-/// A value and two derivatives by time.
+/// A value with its first and second derivative by time.
 type Jet = [f64; 3];
 
-/// g(f) of a value over time.
+/// The composition g(f): derivatives by time, from g with its derivatives by f, and f as a function of time.
 fn chain([value, slope, bend]: Jet, inner: Jet) -> Jet {
     [value, slope * inner[1], bend * inner[1] * inner[1] + slope * inner[2]]
 }
 
-/// sin of an angle over time, by an amplitude.
+/// amplitude times sin(angle) plus offset, as a function of time.
 fn wave(amplitude: f64, offset: f64, angle: Jet) -> Jet {
     let (s, c) = angle[0].sin_cos();
     let [x, rate, bend] = chain([s, c, -s], angle).map(|x| amplitude * x);
@@ -30,12 +30,12 @@ fn corner(x: f64, rounding: f64) -> Jet {
         return [0.0; 3];
     }
     let u = (x + half) / rounding;
-    // the integral of u² (3 - 2 u)
+    // the integral of u² (3 - 2 u), times the rounding
     let value = rounding * (u.powi(3) - 0.5 * u.powi(4));
     [value, u * u * (3.0 - 2.0 * u), 6.0 * u * (1.0 - u) / rounding]
 }
 
-/// Returns the ratio of what limits leave of a number: L/x beyond them.
+/// Returns the ratio L/x of the limited number L to the number x: one within the limits.
 fn limit_ratio([x, dx, ddx]: Jet, [lower, upper]: [f64; 2]) -> Jet {
     if (lower..=upper).contains(&x) {
         return [1.0, 0.0, 0.0];
@@ -46,7 +46,7 @@ fn limit_ratio([x, dx, ddx]: Jet, [lower, upper]: [f64; 2]) -> Jet {
 }
 
 impl Source {
-    /// Value and rates at a time; `follows` has what the motion decides.
+    /// Value and derivatives at a time. The closure `follows` evaluates sources that depend on the motion.
     fn jet(&self, t: f64, follows: &dyn Fn(&Self) -> Jet) -> Jet {
         match self {
             Self::Constant(x) => [*x, 0.0, 0.0],
@@ -108,7 +108,7 @@ impl Source {
         }
     }
 
-    /// Adds the times at which it jumps or has a corner.
+    /// Adds the times at which the source jumps or has a corner.
     pub(crate) fn corners(&self, times: &mut Vec<f64>) {
         match self {
             Self::Table(Curve::Linear(rows, repeats) | Curve::Hold(rows, repeats)) => {
@@ -140,11 +140,11 @@ impl Source {
     }
 }
 
-/// Periods of a table, before and after the first, whose rows end steps. Chosen, not tuned.
+/// Number of periods of a table, before and after the first, at whose rows steps end. Chosen, not tuned.
 const PERIODS: i32 = 50;
 
 impl Law {
-    /// Value and two derivatives.
+    /// Value and two derivatives at a time.
     #[must_use]
     pub fn at(&self, t: f64) -> [f64; 3] {
         match self {
@@ -160,7 +160,8 @@ impl Law {
 }
 
 impl Now<'_> {
-    /// A signal's value and rates; the rate of what a controller asks for is none, nor is that of a rate.
+    /// A signal's value and derivatives by time. The derivatives of a controller's output are given as zero, and so are those of a measured
+    /// rate.
     pub(crate) fn source(&self, source: &Source) -> Jet {
         source.jet(self.t, &|source| self.followed(source))
     }
@@ -180,14 +181,14 @@ impl Now<'_> {
         }
     }
 
-    /// Returns what a controller asks for, without its limit.
+    /// Returns the output of a controller before it is limited.
     fn asked(&self, source: &Source) -> f64 {
         let Source::Pid(slot, both, [p, i, d], _) = source else { return 0.0 };
         let [e, rate] = self.difference(both);
         p * e + i * self.memory[*slot] + d * rate
     }
 
-    /// Target less measured, and the rate of that.
+    /// Difference of target and measured value, and the rate of the difference.
     fn difference(&self, both: &[Box<Source>; 2]) -> [f64; 2] {
         let [target, measured] = [0, 1].map(|k| self.source(&both[k]));
         [target[0] - measured[0], target[1] - measured[1]]
@@ -211,7 +212,7 @@ impl Now<'_> {
         }
     }
 
-    /// A vector over time.
+    /// Value of a vector at the current time.
     pub(crate) fn given(&self, given: &Given) -> Vector {
         match given {
             Given::Constant(value) => *value,
@@ -223,7 +224,7 @@ impl Now<'_> {
     }
 }
 
-/// Linear between the rows, held outside.
+/// Linear interpolation between the rows, constant outside.
 fn linear(rows: &[(f64, Vector)], t: f64) -> Vector {
     let i = rows.partition_point(|row| row.0 <= t);
     if i == 0 {

@@ -1,12 +1,13 @@
-//! State at the start: what is written holds, the rest follows by the least mass-weighted change from the reference configuration and from rest.
+//! State at the start. Values that the scene gives hold. All others follow by the least mass-weighted change from the reference
+//! configuration and from zero velocities.
 //!
 //! ```text
 //! least  Σ ½ ∫ |displacement of each particle|² dm = Σ ½ m |r - r₀|² + tr S - tr R S + Σ ½ I θ² of rotors,   S = ½ tr(I) E - I
 //! ```
 //!
-//! Newton's method on the conditions of the least change, with second derivatives by differences; held values grow from zero in stages,
-//! and each stage measures from the reference configuration. Where the curvature along what is free is negative it is made positive, so
-//! that no step climbs, and no saddle is taken for the least change.
+//! Newton's method solves the conditions of the minimum, with second derivatives by differences. Given values grow from zero in stages.
+//! Each stage measures the change from the reference configuration. A negative curvature along allowed motions is made positive. So no step
+//! increases the change, and no saddle point is accepted as a minimum.
 
 use crate::dense::Square;
 use crate::motion::{Mechanism, Owner, State};
@@ -17,27 +18,27 @@ use crate::vector::{
     scale, sub,
 };
 
-/// Largest growth of held values in a stage, in radians or in lengths of the mechanism. Chosen, not tuned.
+/// Largest growth of given values in a stage, in radians or in lengths of the mechanism. Chosen, not tuned.
 const STAGE: f64 = 0.15;
-/// Least fraction of a stage before the start fails [-]. Chosen, not tuned.
+/// Smallest fraction of a stage before the start fails [-]. Chosen, not tuned.
 const LEAST_STAGE: f64 = 1e-3;
-/// Most iterations of a stage. Chosen, not tuned: Newton's method takes few.
+/// Largest number of iterations of a stage. Chosen, not tuned: Newton's method needs few.
 const MOST_ITERATIONS: usize = 40;
 /// Least curvature that is added where the least one is negative [-]. Chosen, not tuned.
 const CURVED: f64 = 0.1;
-/// Displacement from a saddle point in the direction of its fall, in radians or lengths. Chosen, not tuned.
+/// Displacement from a saddle point along the direction of negative curvature, in radians or lengths of the mechanism. Chosen, not tuned.
 const ASIDE: f64 = 0.03;
-/// Largest curvature whose sign is not known [-]: second differences are rounded. Chosen, not tuned.
+/// Largest curvature that may be an error of second differences, so that its sign is unknown [-]. Chosen, not tuned.
 const FLAT: f64 = 1e-6;
-/// Differences for second derivatives, in radians or lengths. Chosen, not tuned.
+/// Increments of the differences for second derivatives, in radians or lengths of the mechanism. Chosen, not tuned.
 const DIFFERENCE: f64 = 1e-5;
 
 /// Reason why there is no start.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum NoStart {
-    /// Held values cannot be met: reached this share of them.
+    /// Given values that cannot be met: the largest fraction of them that was reached.
     Values(f64),
-    /// Held rates contradict each other or the constraints.
+    /// Given rates that contradict each other or the constraints.
     Rates,
 }
 
@@ -61,7 +62,7 @@ impl Mechanism {
     /// The state at t = 0.
     ///
     /// # Errors
-    /// [`NoStart`] where what is held cannot be met.
+    /// [`NoStart`] where given values or rates cannot be met.
     pub fn start(&self) -> Result<State, NoStart> {
         let mut trial = Trial { state: self.reference(), multipliers: Vec::new() };
         let largest = self.largest_value();
@@ -91,12 +92,12 @@ impl Mechanism {
         if self.project_velocities(&mut state, None, &held) > 1e-8 {
             return Err(NoStart::Rates);
         }
-        // once more for what elimination left
+        // a second projection removes the error that elimination left
         self.project_velocities(&mut state, None, &held);
         Ok(state)
     }
 
-    /// Meets all rows to rounding: beside a singular position rates have what is left of them many times over.
+    /// Corrects all rows to machine precision. Near a singular position, an error of positions enters rates many times enlarged.
     fn meet(&self, state: &mut State) {
         for _ in 0..2 {
             let places = self.places(state);
@@ -110,7 +111,8 @@ impl Mechanism {
         }
     }
 
-    /// Returns the values from which turns of joints are counted: what is held or guided, those of couplings as they came to be, else zero.
+    /// Returns the values from which angles of joints are followed: given or guided values; for joints of couplings the values found;
+    /// otherwise zero.
     fn given_turns(&self, found: &[[f64; 3]]) -> Vec<[f64; 3]> {
         let n = self.scene.joints.len();
         let mut turns = vec![[0.0; 3]; n];
@@ -172,7 +174,7 @@ impl Mechanism {
         largest
     }
 
-    /// Constraints, guides and held values at a share of what is written.
+    /// Rows of constraints, guides and given values, at a fraction of the given values.
     fn start_rows(&self, state: &State, places: &Places, share: f64) -> Vec<Row> {
         let now = self.now(state, places);
         let (mut rows, mut guides) = (Vec::new(), self.scene.guides.iter());
@@ -216,7 +218,7 @@ impl Mechanism {
         rows
     }
 
-    /// Gradient of the change, less what the multipliers take.
+    /// Gradient of the change less Jᵀ times the multipliers.
     fn balance(&self, state: &State, rows: &[Row], multipliers: &[f64]) -> Vec<[f64; 6]> {
         let gradient = |(f, b): (&crate::rows::Frame, &crate::scene::Body)| {
             let half = 0.5 * (0..3).map(|i| b.inertia[i][i]).sum::<f64>();
@@ -242,7 +244,7 @@ impl Mechanism {
         sum
     }
 
-    /// Newton's method from a trial.
+    /// Newton's method from a trial, at a fraction of the given values.
     fn least_change(&self, from: &Trial, share: f64) -> Option<Trial> {
         let mut trial = Trial { state: from.state.clone(), multipliers: from.multipliers.clone() };
         let length = self.length();
@@ -305,7 +307,7 @@ impl Mechanism {
         Correction { moves, multipliers, falls }
     }
 
-    /// Second derivatives of the change, less what the multipliers take, by differences, as scaled.
+    /// Second derivatives of the change less those of the rows times their multipliers, by differences, in scaled velocities.
     fn second(&self, trial: &Trial, rows: &[Row], share: f64) -> Square {
         let n = self.n_velocities();
         let mut matrix = Square::zero(n + rows.len());
@@ -335,7 +337,7 @@ impl Mechanism {
         matrix
     }
 
-    /// Rows of held rates.
+    /// Rows of given rates.
     fn held_rates(&self, state: &State, places: &Places) -> Vec<Row> {
         let now = self.now(state, places);
         let mut rows = Vec::new();
@@ -371,7 +373,7 @@ impl Mechanism {
     }
 }
 
-/// Returns what the sum of a coupling is at the start.
+/// Returns the value of a coupling's sum at the start.
 fn given(coupling: &Coupling) -> f64 {
     coupling.value + coupling.law.as_ref().map_or(0.0, |law| law.at(0.0)[0])
 }

@@ -1,4 +1,4 @@
-//! Stops that leave stiffness or damping to the mass that their coordinate moves.
+//! Stops whose stiffness or damping follows from the mass that their coordinate moves.
 //!
 //! ```text
 //! k = m/τ²,   c = 2 m/τ        m: twice the kinetic energy of the reference configuration where the coordinate has the rate 1
@@ -7,11 +7,11 @@
 use crate::motion::Mechanism;
 use crate::scene::{Effect, Term};
 
-/// Time τ in which a stop takes up a motion [s]: the contract's own number.
+/// Time τ in which a stop brings a motion to rest [s]: given by the contract.
 const STOPPING_TIME: f64 = 0.02;
 
 impl Mechanism {
-    /// Gives numbers to the limits that leave them open.
+    /// Computes stiffness and damping of the limits that leave them open.
     pub(crate) fn fill_limits(&mut self) {
         for (number, [open_stiffness, open_damping]) in self.scene.open_limits.clone() {
             let Effect::Limit(sum, _) = &self.scene.effects[number] else { continue };
@@ -26,7 +26,8 @@ impl Mechanism {
         }
     }
 
-    /// The mass that a sum moves where guides stand still and all else follows freely: M a = g λ + Jᵀ μ with g a = 1 has λ for it.
+    /// The mass that a sum moves while guides are fixed and all other coordinates are free. It is λ of M a = g λ + Jᵀ μ with g a = 1, where
+    /// g is the gradient of the sum.
     fn moved_mass(&self, sum: &[Term]) -> f64 {
         let state = self.reference();
         let places = self.places(&state);

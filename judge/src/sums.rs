@@ -8,7 +8,7 @@ use crate::scene::{Carrier, Measure, Term};
 use crate::vector::{Vector, add, compose, conjugate, cross, dot, norm, scale, unit};
 
 impl Now<'_> {
-    /// Returns what is measured, with its gradient.
+    /// Returns the row of a measure.
     pub(crate) fn measure(&self, measure: &Measure) -> Row {
         match measure {
             Measure::Coordinate(joint, number) => self.coordinates(*joint).swap_remove(*number),
@@ -37,7 +37,7 @@ impl Now<'_> {
         Row::sum(points.windows(2).map(part))
     }
 
-    /// A turn that a coupling counts, near to that of before.
+    /// The row of an angle that a coupling measures, nearest to the angle in the state.
     pub(crate) fn wheel(&self, number: usize) -> Row {
         let wheel = &self.scene.wheels[number];
         if self.scene.planar {
@@ -49,7 +49,7 @@ impl Now<'_> {
         turn_about(self.places, wheel.bodies, wheel.axis, near)
     }
 
-    /// The angle of a ball about an axis; without the part of its second derivative that has no accelerations.
+    /// Row of the angle of a ball joint about an axis, with a bias of zero.
     fn ball_angle(&self, joint: usize, axis: Vector, twists: bool) -> Row {
         let bodies = self.scene.joints[joint].bodies;
         let [a, b] = bodies.map(|body| self.places.direction(body, axis));
@@ -85,14 +85,14 @@ impl Now<'_> {
     }
 }
 
-/// An angle within half a turn.
+/// The angle plus whole turns, between -π and π.
 fn principal(angle: f64) -> f64 {
     let turn = 2.0 * core::f64::consts::PI;
     angle - turn * (angle / turn).round()
 }
 
 impl Term {
-    /// A coordinate with a factor.
+    /// The term of a joint's coordinate with a factor.
     pub(crate) fn of(joint: usize, number: usize, factor: f64) -> Self {
         Self { measure: Measure::Coordinate(joint, number), factor, curve: None }
     }

@@ -88,7 +88,7 @@ pub fn transpose(a: &Matrix) -> Matrix {
     [0, 1, 2].map(|i| [a[0][i], a[1][i], a[2][i]])
 }
 
-/// p q of quaternions.
+/// Product p q of two quaternions.
 #[must_use]
 pub fn compose(p: Quaternion, q: Quaternion) -> Quaternion {
     [
@@ -99,14 +99,14 @@ pub fn compose(p: Quaternion, q: Quaternion) -> Quaternion {
     ]
 }
 
-/// The quaternion of unit length.
+/// The quaternion scaled to length one.
 #[must_use]
 pub fn normalised(q: Quaternion) -> Quaternion {
     let n = q.iter().map(|x| x * x).sum::<f64>().sqrt();
     q.map(|x| x / n)
 }
 
-/// The rotation of a quaternion of any length.
+/// The rotation matrix of a quaternion of any length.
 #[must_use]
 pub fn rotation(q: Quaternion) -> Matrix {
     let [w, x, y, z] = normalised(q);
@@ -125,7 +125,7 @@ pub fn exponential(v: Vector) -> Quaternion {
     [(0.5 * angle).cos(), s * v[0], s * v[1], s * v[2]]
 }
 
-/// The rotation vector of a quaternion, at most half a turn.
+/// The rotation vector of a quaternion, with an angle of π at most.
 #[must_use]
 pub fn logarithm(q: Quaternion) -> Vector {
     let mut q = normalised(q);
@@ -137,16 +137,16 @@ pub fn logarithm(q: Quaternion) -> Vector {
     if s < 1e-9 { scale(2.0, v) } else { scale(2.0 * s.atan2(q[0]) / s, v) }
 }
 
-/// The rotation vector of a quaternion that has followed a turn, below a whole one.
+/// The rotation vector of a quaternion that has followed a rotation continuously, with an angle below 2π.
 #[must_use]
 pub fn followed([w, v @ ..]: Quaternion) -> Vector {
     let sine = norm(v);
-    // at no turn 2 v
+    // for a zero rotation the vector is 2 v
     let share = if sine > 0.0 { 2.0 * sine.atan2(w) / sine } else { 2.0 };
     v.map(|x| share * x)
 }
 
-/// The conjugate, which turns back.
+/// The conjugate quaternion, which is the inverse rotation.
 #[must_use]
 pub fn conjugate(q: Quaternion) -> Quaternion {
     [q[0], -q[1], -q[2], -q[3]]

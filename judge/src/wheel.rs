@@ -1,17 +1,17 @@
-//! A wheel on its road.
+//! Forces of the road on the tire of a wheel.
 
 use crate::curves::height;
 use crate::loads::Now;
 use crate::scene::{Calspan, Feature, Tire};
 use crate::vector::{Vector, ZERO, add, cross, dot, scale, sub, unit};
 
-/// Speed below which slip is regularised [m/s]: the law's own number.
+/// Speed below which slip is regularised [m/s]: given by the law of the contract.
 const STANDING: f64 = 0.1;
 
-/// Least cosine of the camber [-]: the law's own number.
+/// Least cosine of the camber [-]: given by the law of the contract.
 const LEAST_COSINE: f64 = 0.1;
 
-/// The point of a road nearest to a place: its x.
+/// The x of the road's point nearest to the place (x, y).
 fn foot(features: &[Feature], x: f64, y: f64) -> f64 {
     let mut at = x;
     for _ in 0..100 {
@@ -29,17 +29,17 @@ fn foot(features: &[Feature], x: f64, y: f64) -> f64 {
 /// Forces of the road on a tire, with its depth and its lowest point.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Tread {
-    /// Depth of the contact; below zero above the road.
+    /// Depth of the contact; negative while the tire is above the road.
     pub(crate) depth: f64,
     /// Rate of the depth.
     pub(crate) rate: f64,
-    /// Force along the normal, on the side of the wheel that touches.
+    /// Load: force along the road's normal; the tire only pushes.
     pub(crate) load: f64,
-    /// Force along the axis.
+    /// Side force of the tire.
     pub(crate) side: f64,
-    /// Force along the wheel's plane.
+    /// Force along the wheel's plane and the road.
     pub(crate) longitudinal: f64,
-    /// Slip angle of a tire with a side force.
+    /// Slip angle, of tires with a side force.
     pub(crate) slip_angle: f64,
     /// Moment about the normal.
     pub(crate) aligning: f64,
@@ -49,7 +49,8 @@ pub(crate) struct Tread {
     pub(crate) wrench: [Vector; 2],
 }
 
-/// The road at the point nearest to the centre of a wheel: normal, tangent, distance, and what the normal turns by for a way of the centre.
+/// The road at its point nearest to the centre of a wheel: normal, tangent, distance of the centre, and rotation of the normal per
+/// displacement of the centre.
 struct Ground {
     n: Vector,
     t: Vector,
@@ -70,7 +71,7 @@ fn ground(now: &Now<'_>, tire: &Tire, center: Vector) -> Ground {
     let mut t = ZERO;
     (t[0], t[up]) = (n[up], -n[0]);
     let d = (x - at) * n[0] + (center[up] - h) * n[up];
-    // dn/ds = -κ t, by the foot's own way over 1 - κ d
+    // dn/ds = -κ t along the road; the foot moves by 1/(1 - κ d) of the centre's displacement
     let curvature = bend / (1.0 + slope * slope).powf(1.5);
     Ground { n, t, d, turning: -curvature / (1.0 - curvature * d) }
 }
@@ -86,7 +87,7 @@ pub(crate) fn tread(now: &Now<'_>, tire: &Tire) -> Tread {
     let axis = tire.axis.map(|a| now.places.direction(body, a));
     let sine = axis.map_or(0.0, |a| dot(a, n));
     let cosine = (1.0 - sine * sine).max(0.0).sqrt();
-    // beyond 84 degrees the camber is held: then it does not change either
+    // beyond 84 degrees the cosine of the camber is constant, and its rate is zero
     let counts = cosine > LEAST_COSINE;
     let held = cosine.max(LEAST_COSINE);
     let n_rate = scale(turning * dot(t, velocity), t);
@@ -98,10 +99,10 @@ pub(crate) fn tread(now: &Now<'_>, tire: &Tire) -> Tread {
     let rate = -dot(n, velocity) / held - leaning * sine_rate;
     let radial = crate::loads::contact(k, c, depth, rate);
     let load = radial / held;
-    // from the centre to the contact point
+    // arm from the centre to the contact point
     let down = axis.map_or(scale(-1.0, n), |a| unit(sub(scale(sine, a), n)));
     let arm = scale(d / held, down);
-    // what turns the normal as the centre moves
+    // the force that belongs to the rotation of the normal as the centre moves
     let along = axis.map_or(0.0, |a| dot(a, t));
     let bent = radial * leaning * along * turning;
     let force = add(scale(load, n), scale(bent, t));
@@ -118,7 +119,7 @@ pub(crate) fn tread(now: &Now<'_>, tire: &Tire) -> Tread {
         wrench: [force, moment],
     };
     if radial > 0.0 {
-        // in the plane a wheel turns about z
+        // in the plane the wheel's axis is z
         let of_plane = now.scene.planar.then_some([0.0, 0.0, 1.0]);
         if let Some(axis) = axis.or(of_plane) {
             let sliding = Sliding { axis, n, down, arm, velocity, w, sine };
@@ -128,8 +129,8 @@ pub(crate) fn tread(now: &Now<'_>, tire: &Tire) -> Tread {
     tread
 }
 
-/// Motion of a tire over the road: axis, normal, down in its plane, its contact point from the centre, velocity of the centre over the road,
-/// angular velocity, and sine of the camber.
+/// Motion of a tire over the road: axis, normal, direction down in the wheel's plane, arm from the centre to the contact point, velocity of
+/// the centre against the road, angular velocity, and sine of the camber.
 struct Sliding {
     axis: Vector,
     n: Vector,
@@ -141,10 +142,10 @@ struct Sliding {
 }
 
 impl Sliding {
-    /// Adds the forces across and along the wheel's plane.
+    /// Adds the side force and the force along the wheel's plane.
     fn load(&self, tire: &Tire, tread: &mut Tread) {
         let [radius, _, _, resistance] = tire.numbers;
-        // forward: along the wheel's plane and the road
+        // forward is parallel to the wheel's plane and to the road
         let forward = unit(cross(self.axis, self.n));
         let left = cross(self.n, forward);
         let vx = dot(forward, self.velocity);
@@ -177,13 +178,13 @@ impl Sliding {
     }
 }
 
-/// s(r) of what slides: 1 - r/3 + r²/27, and 1/r where the whole patch slides.
+/// The ratio s(r) of forces when a part of the contact patch slides: 1 - r/3 + r²/27, and 1/r where the whole patch slides.
 fn slides(r: f64) -> f64 {
     if r < 3.0 { 1.0 - r / 3.0 + r * r / 27.0 } else { 1.0 / r }
 }
 
 impl Calspan {
-    /// Side force by a small slip angle at a load.
+    /// Cornering stiffness at a load: side force per slip angle, for small angles.
     fn cornering(&self, load: f64) -> f64 {
         let [a0, a1, a2, ..] = self.a;
         if load <= self.omega * a2 { a0 - a1 * load * (load - a2) / a2 } else { a0 }

@@ -1,5 +1,6 @@
-//! Every kind of joint x both orders of its bodies x its first body x every effect that can act on it x plane and space. The first body is the
-//! ground, a body welded to it or a moving one. Guides are tried likewise. All coordinates are given at the start, in numbers by chance.
+//! Enumeration of scenes of one joint. It combines every kind of joint, both orders of its bodies, three kinds of first body, every effect
+//! that can act on the joint or body, plane and space. The first body is the ground, a body welded to it, or a moving one. Guides are
+//! enumerated likewise. Initial values of all coordinates are given, as random numbers.
 
 use super::dice::Dice;
 use super::draft::{Draft, GRAVITY};
@@ -13,22 +14,23 @@ use crate::vector::{cross, dot, norm, scale, sub, unit};
 /// A scene of the enumeration.
 #[derive(Debug, Clone)]
 pub struct Case {
-    /// Name of what is enumerated, in words.
+    /// Name of the case: the combination in words.
     pub name: String,
     /// Text of the scene file.
     pub text: String,
-    /// A step that resolves it [s].
+    /// A step that resolves the motion [s].
     pub step: f64,
 }
 
-/// Steps of a case.
+/// Number of steps of a case.
 pub const STEPS: u32 = 10;
 /// Longest step of a case [s]. Chosen, not tuned.
 const LONGEST: f64 = 5e-4;
-/// Longest step, relative to the time in which a body turns a radian or its motion changes by the mechanism's size [-]. Chosen, not tuned.
+/// Longest step relative to the case's time scale [-]: the time in which a body rotates by a radian or moves by the mechanism's size.
+/// Chosen, not tuned.
 const TIME_FRACTION: f64 = 0.01;
 
-/// Loads beside the effects that are drawn: nothing, laws of guides, and a rotor.
+/// Loads besides the drawn effects: none, laws of guides, and a rotor.
 const OTHERS: [&str; 6] = ["nothing", "sine", "ramp", "table", "level-table", "rotor"];
 
 /// Returns all cases of the enumeration.
@@ -65,7 +67,7 @@ pub fn cases() -> Vec<Case> {
     list
 }
 
-/// Kind of a joint's first body: the ground, a body welded to it, or a moving one.
+/// Kinds of a joint's first body: the ground, a body welded to the ground, or a moving body.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Place {
     Ground,
@@ -84,7 +86,7 @@ impl Place {
         }
     }
 
-    /// The joint that it hangs on itself.
+    /// The kind of the joint that carries the first body; `None` for the ground.
     fn carried_by(self, planar: bool) -> Option<Kind> {
         match self {
             Self::Ground => None,
@@ -135,7 +137,7 @@ fn case(
         let kind = draft.links[i].kind;
         let (value, rate) =
             (draft.numbers(&mut dice, kind, 1.0, 0.3), draft.numbers(&mut dice, kind, 2.0, 1.0));
-        // a distance has no coordinates: its body begins where it is drawn, and so does what it hangs on
+        // a distance joint has no coordinates: its body and the body that carries it start in the reference configuration
         let given = !value.is_empty() && draft.links[joint].kind != Kind::Distance;
         draft.links[i].value = given.then_some(value);
         draft.links[i].rate = given.then_some(rate);
@@ -159,7 +161,7 @@ fn case(
     Some((draft.text(), step))
 }
 
-/// Seed of a name (FNV-1a), so that more cases change none.
+/// Seed of a case from its name (FNV-1a hash). So a new case leaves the numbers of all others unchanged.
 fn seed(name: &str) -> u64 {
     let step = |sum: u64, byte| (sum ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
     name.bytes().fold(0xcbf2_9ce4_8422_2325, step)
@@ -185,7 +187,7 @@ fn guide(draft: &mut Draft, joint: usize, what: &str) -> Option<()> {
     Some(())
 }
 
-/// Makes what pushes push at the start: the road is raised to the wheel, the clearance and the limits are taken from the state.
+/// Makes contacts touch at the start: raises the road to the wheel, and sets clearance and limits by the state at the start.
 fn touch(draft: &mut Draft) {
     let Some(mechanism) = mechanism_of(draft) else { return };
     let Ok(start) = mechanism.start() else { return };

@@ -1,4 +1,4 @@
-//! Couplings of a draft: trains of wheels, racks and threads with bodies of their own, and sums of coordinates that there are.
+//! Couplings of a random scene: gear trains, racks and screws with bodies of their own, and sums of coordinates of existing bodies.
 
 use super::dice::Dice;
 use super::draft::Draft;
@@ -6,9 +6,9 @@ use super::write::{name, starts, vector};
 use crate::scene::{Carrier, Kind};
 use crate::vector::{Vector, across, add, cross, dot, norm, scale, sub, unit};
 
-/// Couplings of a train, with those of three wheels last.
+/// Couplings that get bodies of their own. Those of three wheels are last.
 const TRAINS: [&str; 6] = ["gear", "belt", "gear on an arm", "rack", "differential", "screw"];
-/// Couplings of coordinates, and how often each is tried: a cam or a screw fits few joints.
+/// Couplings of existing coordinates, with the probability of each trial. A cam or a screw fits few joints.
 const SUMS: [(&str, f64); 6] = [
     ("ratio", 0.12),
     ("mimic", 0.15),
@@ -17,11 +17,11 @@ const SUMS: [(&str, f64); 6] = [
     ("rope", 0.13),
     ("cylindrical screw", 0.2),
 ];
-/// Trials of a coupling before it is left out.
+/// Number of trials of a coupling before it is left out.
 const TRIALS: usize = 6;
 
 impl Draft {
-    /// Now and then a train: bodies on one carrier with a coupling.
+    /// Adds a gear train with a probability of 0.3: bodies on one carrier with a coupling.
     pub(crate) fn train(&mut self, dice: &mut Dice) {
         if !dice.chance(0.3) {
             return;
@@ -48,7 +48,7 @@ impl Draft {
         }
     }
 
-    /// Hangs a body that turns about an axis, in any sense.
+    /// Adds a body that rotates about an axis or its opposite.
     pub(super) fn turning(
         &mut self,
         dice: &mut Dice,
@@ -60,7 +60,7 @@ impl Draft {
         self.along(dice, axis, at)
     }
 
-    /// Gives the last joint an axis in any sense, and a place.
+    /// Sets the axis of the last joint, with either sign, and its place.
     fn along(&mut self, dice: &mut Dice, axis: Vector, at: Vector) -> usize {
         let size = if dice.chance(0.5) { 1.0 } else { -1.0 } * dice.between(0.5, 2.0);
         let last = self.links.len() - 1;
@@ -69,7 +69,7 @@ impl Draft {
         last
     }
 
-    /// A place beside another, across an axis.
+    /// A random place next to another, displaced perpendicular to an axis.
     fn beside(&self, dice: &mut Dice, axis: Vector, at: Vector) -> Vector {
         let [x, y] = across(axis);
         let (sine, cosine) = dice.between(-3.0, 3.0).sin_cos();
@@ -117,7 +117,7 @@ impl Draft {
         let mesh = if dice.chance(0.3) { "internal" } else { "external" };
         let mut text = format!("kind = \"gear\"\n{joints}\n{size}\nmesh = \"{mesh}\"");
         if kind == "gear" && size.starts_with("teeth") && teeth[0] != teeth[1] {
-            // the pitch point divides the distance of the axes
+            // the pitch point divides the distance between the axes in the ratio of the teeth
             let [c1, c2] = pair.map(|j| self.links[j].points[0]);
             let [a, b] = teeth.map(|n| n as f64);
             let part = a / if mesh == "internal" { a - b } else { a + b };
@@ -127,7 +127,7 @@ impl Draft {
         text
     }
 
-    /// Now and then a pretension of wheels that stand apart.
+    /// Text of a random pretension; empty where the wheels are too close, and for some draws.
     fn pretension(&self, dice: &mut Dice, pair: [usize; 2], radii: [f64; 2]) -> String {
         let unit = self.mass * self.length / (self.time * self.time);
         let [c1, c2] = pair.map(|j| self.links[j].points[0]);
@@ -142,7 +142,7 @@ impl Draft {
         let pinion = self.turning(dice, base, axis, at);
         let place = self.beside(dice, axis, at);
         let off = [0, 1, 2].map(|i| place[i] - at[i]);
-        // neither through the axis nor quite across the way to it
+        // the rack's line does not meet the axis, and is not quite perpendicular to the line from the axis
         let along = unit(add(unit(cross(axis, off)), scale(0.5 / self.length, off)));
         self.hang(dice, base, Kind::Prismatic, false);
         let rack = self.along(dice, along, place);
@@ -160,7 +160,7 @@ impl Draft {
         format!("kind = \"screw\"\njoints = [\"j{turn}\", \"j{slide}\"]\nlead = {lead:?}")
     }
 
-    /// Two wheels and a cage; the second wheel stands in the cage or beside it.
+    /// Adds two wheels and a cage. The carrier of the second wheel is the cage or another body.
     fn differential(&mut self, dice: &mut Dice, base: Carrier, axis: Vector, at: Vector) -> String {
         let cage = self.turning(dice, base, axis, at);
         let body = Some(self.bodies.len() - 1);
@@ -178,7 +178,7 @@ impl Draft {
         )
     }
 
-    /// Now and then a coupling of coordinates or points.
+    /// Adds a coupling of coordinates or points with a probability of 0.35.
     pub(crate) fn couple(&mut self, dice: &mut Dice) {
         if !dice.chance(0.35) {
             return;
@@ -192,7 +192,7 @@ impl Draft {
                 other => other,
             };
             self.couplings.push((word.to_owned(), text));
-            // a lift or an offset is not met in the reference configuration
+            // a coupling with a lift or an offset may have no start near the reference configuration
             let begins = !matches!(kind, "cam" | "mimic" | "linear") || starts(self);
             if begins && self.moves() {
                 joints.into_iter().for_each(|j| self.links[j].coupled = true);
@@ -202,13 +202,13 @@ impl Draft {
         }
     }
 
-    /// Coordinates with their units: joint, number, a turn or the length.
+    /// Coordinates that a coupling may use: joint, number, and unit, which is one radian or the mechanism's length.
     pub(super) fn coordinates(&self, kinds: &[Kind]) -> Vec<(usize, usize, f64)> {
         let mut list = Vec::new();
         for (j, link) in self.links.iter().enumerate() {
             let [slides, turns] = link.kind.coordinates(self.planar);
             let spins = turns == 3;
-            // a loop needs a joint that can be cut
+            // a closed loop needs a joint that can be cut
             if link.looped || (!kinds.is_empty() && !kinds.contains(&link.kind)) {
                 continue;
             }
@@ -218,7 +218,7 @@ impl Draft {
         list
     }
 
-    /// Two coordinates of different joints.
+    /// Draws two coordinates of different joints.
     fn two(&self, dice: &mut Dice, kinds: &[Kind]) -> Option<[(usize, usize, f64); 2]> {
         let list = self.coordinates(kinds);
         if list.is_empty() {
@@ -228,7 +228,7 @@ impl Draft {
         (pair[0].0 != pair[1].0).then_some(pair)
     }
 
-    /// A coupling with the joints that it holds.
+    /// Draws a coupling, with the joints that it constrains.
     fn sum(&mut self, dice: &mut Dice, kind: &str) -> Option<(Vec<usize>, String)> {
         let sign = if dice.chance(0.5) { 1.0 } else { -1.0 };
         let factor = sign * dice.between(0.4, 2.0);
@@ -286,7 +286,7 @@ impl Draft {
         }
     }
 
-    /// A lift in units of the follower: a polynomial, or a table that repeats.
+    /// Text of a cam's lift in units of the follower: a polynomial, or a periodic table.
     fn lift(&self, dice: &mut Dice, unit: f64) -> String {
         let mut size = |most: f64| unit * dice.between(-most, most);
         if size(1.0) > 0.0 {
@@ -294,7 +294,7 @@ impl Draft {
             return format!("coefficients = {numbers:?}");
         }
         let turn = 2.0 * core::f64::consts::PI;
-        // from a third of a turn before the reference configuration, where there is no lift
+        // the table begins a third of a turn before the reference configuration, at which the lift is zero
         let first = size(0.2);
         let mut row = |i: i32| {
             let x = turn * (f64::from(i) / 6.0 - 1.0 / 3.0);
@@ -309,12 +309,12 @@ impl Draft {
         format!("table = {rows:?}\ninterpolation = \"{how}\"\nperiodic = true")
     }
 
-    /// A line over two or three points on different bodies, now and then with a drum.
+    /// Text of a rope over two or three points on different bodies, for some draws with a drum.
     fn rope(&mut self, dice: &mut Dice) -> Option<String> {
         let mut points: Vec<(Carrier, Vector)> = Vec::new();
         for _ in 0..2 + dice.below(2) {
             let body = Some(dice.below(self.bodies.len())).filter(|_| dice.chance(0.7));
-            // a rod has no inertia about itself, and an end beside its line would turn it
+            // a thin rod has no inertia about its own line: a rope's point off that line would rotate it
             let is_rod = body.is_some_and(|b| self.bodies[b].rod.is_some());
             if is_rod || points.last().is_some_and(|(last, _)| *last == body) {
                 return None;
@@ -349,7 +349,7 @@ impl Draft {
         Some(text)
     }
 
-    /// Lets a line begin where it leaves the rim of a drum: the joint, and the radius with its sign.
+    /// Moves the first point of a line to the rim of a drum, where the line is a tangent. Returns the drum's joint and its signed radius.
     fn winch(&self, dice: &mut Dice, points: &mut [(Carrier, Vector)]) -> Option<(usize, f64)> {
         let drums = self.coordinates(&[Kind::Revolute]);
         let joint = drums.get(dice.below(drums.len().max(1)))?.0;
@@ -373,7 +373,7 @@ impl Draft {
         let sine = (1.0 - cosine * cosine).sqrt() * if dice.chance(0.5) { 1.0 } else { -1.0 };
         let arm = scale(radius, add(scale(cosine, e), scale(sine, cross(axis, e))));
         points[0] = (carrier, add(center, arm));
-        // the pull on the rim turns the drum against its taking in
+        // the sign of the radius: winding shortens the rope against the torque of its pull
         let pull = unit(sub(next.1, points[0].1));
         let turn = dot(cross(arm, pull), axis);
         let order = if side == 0 { 1.0 } else { -1.0 };

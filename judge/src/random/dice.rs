@@ -1,4 +1,4 @@
-//! Random numbers by seed, the same on every machine for ever.
+//! Random numbers by seed. Every machine draws the same numbers.
 
 use crate::vector::{Vector, norm, scale};
 
@@ -21,15 +21,15 @@ impl Dice {
         z ^ (z >> 31)
     }
 
-    /// Evenly between two numbers.
+    /// Draws a number from the uniform distribution between two numbers.
     pub(crate) fn between(&mut self, low: f64, high: f64) -> f64 {
-        // 53 bits are a double's own
+        // a double has 53 bits
         #[allow(clippy::cast_precision_loss, reason = "53 bits")]
         let share = (self.next() >> 11) as f64 / (1_u64 << 53) as f64;
         low + (high - low) * share
     }
 
-    /// Evenly in the logarithm.
+    /// Draws a positive number whose logarithm is uniformly distributed.
     pub(crate) fn logarithmic(&mut self, low: f64, high: f64) -> f64 {
         self.between(low.ln(), high.ln()).exp()
     }
@@ -45,7 +45,7 @@ impl Dice {
         self.between(0.0, 1.0) < share
     }
 
-    /// One of a list by weights.
+    /// Draws an element of a list by weights.
     pub(crate) fn weighted<T: Copy>(&mut self, list: &[(T, f64)]) -> T {
         let mut left = self.between(0.0, list.iter().map(|x| x.1).sum());
         for (x, weight) in list {
@@ -57,7 +57,7 @@ impl Dice {
         list[list.len() - 1].0
     }
 
-    /// A direction, in the plane or in space.
+    /// Draws a unit vector, in the plane or in space.
     pub(crate) fn direction(&mut self, planar: bool) -> Vector {
         loop {
             let z = if planar { 0.0 } else { self.between(-1.0, 1.0) };

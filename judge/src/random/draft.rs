@@ -1,12 +1,12 @@
-//! A scene in the making.
+//! A random scene while its parts are drawn.
 
 use crate::scene::{Carrier, Kind};
 use crate::vector::Vector;
 
-/// Standard gravity, which makes times of lengths [m/s²].
+/// Standard gravity, from which the time scale of a length follows [m/s²].
 pub(crate) const GRAVITY: f64 = 9.81;
 
-/// A scene in the making.
+/// A random scene while its parts are drawn.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Draft {
     pub(crate) planar: bool,
@@ -19,13 +19,13 @@ pub(crate) struct Draft {
     pub(crate) links: Vec<Link>,
     /// Kinds of couplings, with their text.
     pub(crate) couplings: Vec<(String, String)>,
-    /// Signals as text, each with whether its rate is shown.
+    /// Signals of the scene as text. The Boolean says whether the signal's rate is an output.
     pub(crate) signals: Vec<(String, bool)>,
-    /// Contacts that roll, and blades, as text.
+    /// Contacts of rolling bodies and of blades, as text.
     pub(crate) rollings: Vec<String>,
     /// Effects, roads and velocities of bodies, as text.
     pub(crate) blocks: Vec<String>,
-    /// The largest of the drawn frequencies, in radians in T.
+    /// The largest of the drawn frequencies, in radians per time scale.
     pub(crate) stiffest: f64,
 }
 
@@ -35,9 +35,9 @@ pub(crate) struct Part {
     pub(crate) center: Vector,
     pub(crate) inertia: [f64; 6],
     pub(crate) rod: Option<[Vector; 2]>,
-    /// A point whose motion is looked at.
+    /// A point of the body whose motion is an output.
     pub(crate) mark: Vector,
-    /// The body before it in the tree, with its joint.
+    /// The parent of the body in the tree.
     pub(crate) parent: Carrier,
 }
 
@@ -51,8 +51,8 @@ pub(crate) struct Link {
     pub(crate) guide: Option<String>,
     pub(crate) value: Option<Vec<f64>>,
     pub(crate) rate: Option<Vec<f64>>,
-    /// Does it take part in a loop?
+    /// Is the joint in a closed loop?
     pub(crate) looped: bool,
-    /// Does a coupling or what rolls hold it?
+    /// Does a coupling or a rolling contact constrain the joint?
     pub(crate) coupled: bool,
 }

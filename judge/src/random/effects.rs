@@ -1,4 +1,4 @@
-//! Effects in the units of a mechanism, as text.
+//! Random effects as text, in units of the mechanism's mass, length and time.
 
 use super::dice::Dice;
 use super::draft::{Draft, GRAVITY};
@@ -32,7 +32,7 @@ pub(crate) const KINDS: [&str; 22] = [
     "tire-slip",
 ];
 
-/// Draws up to five effects, each on what it can act on.
+/// Draws up to five effects, each on bodies or joints on which it can act.
 pub(crate) fn draw(dice: &mut Dice, draft: &mut Draft) {
     let n = dice.below(6);
     let mut wheels = 0;
@@ -71,7 +71,7 @@ fn road(dice: &mut Dice, draft: &Draft) -> String {
     format!("[road]\nspeed = {speed:?}\nfeatures = [{{ {feature} }}]")
 }
 
-/// Draws effects for a draft; on a body and a joint, if these are named.
+/// Source of random effects for a draft. `focus` may name the body and the joint on which they act.
 pub(crate) struct Effects<'a> {
     pub(crate) dice: &'a mut Dice,
     pub(crate) draft: &'a mut Draft,
@@ -105,7 +105,8 @@ impl Effects<'_> {
         (format!("bodies = {}\npoints = [{p}, {q}]\n", pair(ends.map(|e| e.0))), length)
     }
 
-    /// A line over three points of two bodies, and its length; none of thin rods, which it would turn about themselves.
+    /// A line over three points of two bodies, and its length. Thin rods are left out: the line's force would rotate them about their own
+    /// lines.
     fn points(&mut self) -> Option<(String, f64)> {
         let a = self.body();
         let b = self.other(a);
@@ -122,7 +123,7 @@ impl Effects<'_> {
         Some((format!("points = [{}]\n", points.join(", ")), length))
     }
 
-    /// A rope that pulls from about its first length on.
+    /// A rope that pulls when it is longer than roughly its length in the reference configuration.
     fn elastic_rope(&mut self) -> Option<String> {
         let (points, length) = self.points()?;
         let [k, c] = self.spring();
@@ -132,7 +133,7 @@ impl Effects<'_> {
         ))
     }
 
-    /// A stiffness by a frequency, and a damping by a share of the critical one.
+    /// A stiffness by a random frequency, and a damping by a random damping ratio.
     fn spring(&mut self) -> [f64; 2] {
         let frequency = self.dice.logarithmic(0.5, 8.0);
         self.draft.stiffest = self.draft.stiffest.max(frequency);
@@ -140,7 +141,7 @@ impl Effects<'_> {
         [self.draft.mass * w * w, 2.0 * self.dice.between(0.0, 0.3) * self.draft.mass * w]
     }
 
-    /// A force of the size of weights.
+    /// A force of the order of the mechanism's weight.
     fn force(&mut self, low: f64) -> f64 {
         let unit = self.draft.mass * self.draft.length / (self.draft.time * self.draft.time);
         unit * self.dice.between(low, 1.0)
@@ -161,7 +162,7 @@ impl Effects<'_> {
         if list.is_empty() { None } else { Some(list[self.dice.below(list.len())]) }
     }
 
-    /// A value, or a table over the run's time.
+    /// A constant value, or a table over the run's time.
     fn signal(&mut self, mut one: impl FnMut(&mut Self) -> String) -> String {
         if self.dice.chance(0.6) {
             let value = one(self);
@@ -262,7 +263,7 @@ impl Effects<'_> {
         }
     }
 
-    /// Returns a rotor as heavy at the joint as a body, on joints with one turn or slide.
+    /// Returns a rotor whose inertia at the joint is of the order of a body's, on joints with one rotation or translation.
     fn rotor(&mut self) -> Option<String> {
         let j = self.joint(&[Kind::Revolute, Kind::Prismatic])?;
         let ratio = self.dice.logarithmic(5.0, 200.0);
@@ -398,7 +399,7 @@ impl Effects<'_> {
         Some(text)
     }
 
-    /// A wheel that stands on the level road with a tenth of its radius, or is near to it.
+    /// A wheel on the level road, with a depth of a tenth of its radius, or near the road.
     fn tire(&mut self, kind: &str) -> String {
         let slips = kind == "tire-slip";
         let side = kind == "tire-side" || (slips && self.dice.chance(0.5));
@@ -433,7 +434,7 @@ impl Effects<'_> {
             );
         }
         if side {
-            // the Iltis' numbers, for loads of this size in place of 5 kN
+            // coefficients of the Iltis, scaled from loads of 5 kN to those of this wheel
             let s = self.draft.mass * 9.81 / 5000.0;
             text += &format!(
                 "\nside = \"calspan\"\ncoefficients = {{ a = [{:?}, 14.47, {:?}, 2.29, {:?}], omega = 1.0, b = [{:?}, 1.216, {:?}], skid = 1.0274, trail = [{:?}, {:?}] }}",

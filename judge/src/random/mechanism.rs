@@ -1,4 +1,4 @@
-//! Bodies, joints, loops, guides and what is held at the start.
+//! Random bodies, joints, closed loops, guides and initial conditions.
 
 use super::dice::Dice;
 use super::draft::{Draft, GRAVITY, Link, Part};
@@ -9,7 +9,8 @@ use crate::vector::{
     transpose, unit,
 };
 
-/// Least pivot of the scaled saddle matrix with which a mechanism begins [-]: with a smaller one it is nearly locked. Chosen, not tuned.
+/// Least pivot of the scaled saddle matrix in the reference configuration [-]. With a smaller pivot the mechanism is nearly locked. Chosen,
+/// not tuned.
 const NEAR_LOCKED: f64 = 3e-3;
 
 pub(crate) const PLANE: [(Kind, f64); 6] = [
@@ -77,7 +78,7 @@ impl Draft {
         scale(self.length * dice.between(low, high), dice.direction(self.planar))
     }
 
-    /// A point near a body, or near the ground.
+    /// A random point near a body, or near the ground.
     pub(crate) fn point(&self, dice: &mut Dice, body: Carrier) -> Vector {
         add(body.map_or(ZERO, |b| self.bodies[b].center), self.away(dice, 0.1, 0.6))
     }
@@ -89,7 +90,7 @@ impl Draft {
         self.hang(dice, parent, kind, thin);
     }
 
-    /// Adds a body on a joint.
+    /// Adds a body with a joint to its parent.
     pub(crate) fn hang(&mut self, dice: &mut Dice, parent: Carrier, kind: Kind, thin: bool) {
         let at = self.point(dice, parent);
         let center = add(at, self.away(dice, 0.2, 0.6));
@@ -98,7 +99,7 @@ impl Draft {
         let rod = thin.then(|| [at, add(at, self.away(dice, 0.5, 1.0))]);
         let center = rod.map_or(center, |[a, b]| scale(0.5, add(a, b)));
         let inertia = self.inertia(dice, mass);
-        // of a rod a point on its line, since its turn about itself is no one's
+        // the output point of a thin rod is on the rod's line, since rotation about this line is undetermined
         let off = self.away(dice, 0.1, 0.3);
         let mark = add(center, rod.map_or(off, |[a, b]| scale(0.2, sub(b, a))));
         self.bodies.push(Part { mass, center, inertia, rod, mark, parent });
@@ -119,7 +120,7 @@ impl Draft {
         [all - s[0][0], all - s[1][1], all - s[2][2], -s[0][1], -s[1][2], -s[2][0]]
     }
 
-    /// A joint between two bodies at a place, named in either order.
+    /// A joint between two bodies at a place. The order of its bodies is random.
     fn link(&self, dice: &mut Dice, kind: Kind, bodies: [Carrier; 2], at: Vector) -> Link {
         let axis = dice.direction(self.planar);
         let second = if self.planar { axis } else { scale(1.0, across(axis)[0]) };
@@ -131,7 +132,7 @@ impl Draft {
         let mut bodies = bodies;
         let mut axes = [scale(dice.between(0.5, 2.0), axis), second];
         if hinged {
-            // across the link, or nearly
+            // the hinge's axis is nearly perpendicular to the link
             let d = unit(sub(points[1], points[0]));
             axes[0] = unit(add(cross(d, axis), scale(0.2 * dot(axis, d), axis)));
         }
@@ -153,10 +154,10 @@ impl Draft {
         }
     }
 
-    /// Up to two loops, each left out where it would lock the mechanism or come near to it.
+    /// Adds up to two closed loops. A loop is left out if it would lock or nearly lock the mechanism.
     pub(crate) fn close(&mut self, dice: &mut Dice) {
         let n = dice.weighted(&[(0, 0.5), (1, 0.3), (2, 0.2)]);
-        // a loop through what rolls soon locks
+        // a closed loop with a rolling contact is likely to lock
         let n = if self.rollings.is_empty() { n } else { 0 };
         for _ in 0..n {
             for _ in 0..8 {
@@ -180,7 +181,7 @@ impl Draft {
         }
     }
 
-    /// Has the mechanism freedoms beside those that loops take, and is it far from a locked position?
+    /// Does the mechanism have a freedom, and is its reference configuration far from a locked one?
     pub(crate) fn moves(&self) -> bool {
         let Some(mechanism) = mechanism_of(self) else { return false };
         let reference = mechanism.reference();
@@ -203,7 +204,7 @@ impl Draft {
             list
         };
         let (one, other) = (path(Some(a)), path(b));
-        // the joint of body i in the tree is link i
+        // in the tree, link i is the joint of body i
         for i in 0..self.bodies.len() {
             if one.contains(&i) != other.contains(&i) {
                 self.links[i].looped = true;
@@ -211,7 +212,7 @@ impl Draft {
         }
     }
 
-    /// Guides of all coordinates of joints that are not in loops, and now and then of one that is.
+    /// Draws guides of all coordinates of joints outside closed loops, and for some draws of a joint in a loop.
     pub(crate) fn guide(&mut self, dice: &mut Dice) {
         for i in 0..self.links.len() {
             let slide = 0.5 * self.length;
@@ -230,13 +231,13 @@ impl Draft {
                 let law = self.law(dice, *size, i % 2 == 0);
                 format!("coordinate = {k}\n{law}")
             });
-            // the first one follows the heading of the guide
+            // the first law belongs to the guide's header, which is already written
             let first = laws.next().unwrap_or_default();
             let rest = laws.map(|law| format!("\n\n[[guide]]\njoint = \"j{i}\"\n{law}"));
             let guide = first + &rest.collect::<String>();
             let before = self.freedoms();
             self.links[i].guide = Some(guide);
-            // a coordinate that a loop locks cannot be guided
+            // a coordinate that a closed loop locks cannot be guided
             let takes = self.freedoms() + sizes.len() == before;
             if held && !(takes && self.moves() && starts(self)) {
                 self.links[i].guide = None;
@@ -244,7 +245,7 @@ impl Draft {
         }
     }
 
-    /// The motion of a guide.
+    /// Text of a random motion of a guide.
     fn law(&mut self, dice: &mut Dice, size: f64, is_level: bool) -> String {
         match dice.below(4) {
             0 => {
@@ -270,7 +271,7 @@ impl Draft {
         }
     }
 
-    /// Draws as many numbers as the kind has coordinates: turns, and slides in lengths of the mechanism.
+    /// Draws one number for each coordinate of the kind: angles, and displacements in lengths of the mechanism.
     pub(crate) fn numbers(&self, dice: &mut Dice, kind: Kind, turn: f64, slide: f64) -> Vec<f64> {
         let [slides, turns] = kind.coordinates(self.planar);
         let slide = slide * self.length;
@@ -280,7 +281,7 @@ impl Draft {
         [some(slides, slide), some(turns, turn)].concat()
     }
 
-    /// Values and rates of some joints, and now and then velocities of a body; what cannot be met is left out.
+    /// Draws initial values and rates of some joints, and for some draws velocities of a body. Conditions that cannot be met are left out.
     pub(crate) fn start(&mut self, dice: &mut Dice) {
         for i in 0..self.links.len() {
             let (planar, kind) = (self.planar, self.links[i].kind);
@@ -288,7 +289,7 @@ impl Draft {
             if self.links[i].guide.is_some() {
                 continue;
             }
-            // beside couplings large values leave several least changes
+            // with couplings, large values have several local minima of the change, so values are small
             let apart = self.couplings.is_empty() && self.rollings.is_empty();
             let size = if looped {
                 0.2
@@ -324,7 +325,7 @@ impl Draft {
         }
     }
 
-    /// Now and then velocities of a body.
+    /// Draws initial velocities of a body, with a probability of 0.15.
     fn throw(&mut self, dice: &mut Dice) {
         if dice.chance(0.15) {
             let b = dice.below(self.bodies.len());

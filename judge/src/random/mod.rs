@@ -1,8 +1,8 @@
-//! Random scenes by seed, as the text of a scene file: trees, one and two loops, in the plane and in space. They have every kind of joint
-//! and of effect, guides, starts partly given, and sizes from a millimetre to a hundred metres.
+//! Random scenes by seed, as text of a scene file. They have no, one or two closed loops, in the plane and in space. They have every kind
+//! of joint and effect, guides, partly given initial conditions, and sizes from a millimetre to a hundred metres.
 //!
-//! A mechanism of the length L is made with the time T = sqrt(L/g) as its own: stiffnesses, rates and forces are drawn in these units.
-//! No seed is drawn again: where a loop would lock the mechanism, or a start cannot be met, that part is left out.
+//! A mechanism of length L has the time scale T = sqrt(L/g). Stiffnesses, rates and forces are drawn in units of the mechanism's mass, L
+//! and T. Every seed gives a scene: a part that would lock the mechanism, or that has no start, is left out.
 
 mod cases;
 mod couplings;
@@ -21,12 +21,12 @@ use write::mechanism_of;
 
 pub use cases::{Case, STEPS, cases};
 
-/// A scene with how it is to be run.
+/// A scene with its step and its number of steps.
 #[derive(Debug, Clone)]
 pub struct Drawn {
     /// Text of the scene file.
     pub text: String,
-    /// Step by the motion's own time [s].
+    /// Step by the time scale of the motion [s].
     pub step: f64,
     /// Number of steps.
     pub steps: u32,
@@ -45,7 +45,7 @@ pub fn scene(seed: u64) -> Drawn {
     draft.start(&mut dice);
     effects::draw(&mut dice, &mut draft);
     draft.steer(&mut dice);
-    // what turns a thin rod about itself meets no inertia
+    // drops effects whose forces would rotate a thin rod about its own line, where it has no inertia
     while !draft.blocks.is_empty() && loads_unmet(&draft) {
         draft.blocks.pop();
     }
@@ -57,13 +57,14 @@ pub fn scene(seed: u64) -> Drawn {
     Drawn { text: draft.text(), step, steps }
 }
 
-/// Is there a force that meets no inertia?
+/// Is there a force that no inertia balances?
 fn loads_unmet(draft: &Draft) -> bool {
     let Some(mechanism) = mechanism_of(draft) else { return true };
     mechanism.start().map_or(true, |start| mechanism.evaluate(&start).unmet > 1e-9)
 }
 
-/// The shortest of the times in which a body turns a radian, or its motion changes by the mechanism's own size, at the start.
+/// The shortest time scale at the start: times in which a body rotates by a radian or moves by the mechanism's size, and that of the
+/// largest frequency.
 fn time_scale(draft: &Draft) -> f64 {
     let own = draft.time;
     let Some(mechanism) = mechanism_of(draft) else { return own };
@@ -78,7 +79,7 @@ fn time_scale(draft: &Draft) -> f64 {
     1.0 / fastest.max(draft.stiffest / own)
 }
 
-/// Returns the kinds of what a scene has, each once: of joints, of effects, guides, loops, starts.
+/// Returns the kinds of the scene's parts, each once: joints, effects, guides, closed loops, initial conditions.
 #[must_use]
 pub fn kinds(text: &str) -> Vec<String> {
     let Ok(scene) = read(text) else { return Vec::new() };

@@ -1,4 +1,4 @@
-//! Contacts that roll in a draft: a disc or a ball on a plane, an axle of two wheels, a blade.
+//! Random rolling contacts: a disc or a ball on a plane, an axle with two wheels, a blade.
 
 use super::dice::Dice;
 use super::draft::Draft;
@@ -6,13 +6,13 @@ use super::write::{name, vector};
 use crate::scene::{Carrier, Kind};
 use crate::vector::{Vector, across, add, dot, scale, sub, unit};
 
-/// Kinds that are drawn, those of space last.
+/// Kinds of contacts that are drawn. Those that need space are last.
 const KINDS: [&str; 4] = ["wheel", "blade", "ball", "axle"];
 /// Direction of the height of a level plane in space.
 const UP: Vector = [0.0, 0.0, 1.0];
 
 impl Draft {
-    /// Now and then a free body that rolls or slides, with all that touches the plane.
+    /// Adds a free body with its contact, with a probability of 0.25.
     pub(crate) fn roll(&mut self, dice: &mut Dice) {
         if !dice.chance(0.25) {
             return;
@@ -34,14 +34,14 @@ impl Draft {
         }
     }
 
-    /// The last body with a point near its centre of mass.
+    /// The last body, with a point near its centre of mass.
     fn last(&self, dice: &mut Dice) -> (usize, Vector) {
         let body = self.bodies.len() - 1;
         let off = scale(0.1 * self.length, dice.direction(self.planar));
         (body, add(self.bodies[body].center, off))
     }
 
-    /// A blade on the ground: on a plane that turns it may come to stand upright.
+    /// Adds a blade on the ground. The plane is fixed, since a blade on a rotating plane might become normal to it.
     fn blade(&mut self, dice: &mut Dice) {
         let (body, at) = self.last(dice);
         let p = self.planar;
@@ -55,7 +55,7 @@ impl Draft {
         self.rollings.push(text);
     }
 
-    /// A disc or a ball, on a level plane or on any.
+    /// Adds a disc or a ball, on a level plane or on a random one.
     fn round(&mut self, dice: &mut Dice, is_ball: bool, on: Carrier) {
         let (body, center) = self.last(dice);
         let p = self.planar;
@@ -63,7 +63,7 @@ impl Draft {
         let level = dice.chance(0.5);
         let up = if p { [0.0, 1.0, 0.0] } else { UP };
         let normal = if level { up } else { dice.direction(p) };
-        // a disc leans a little
+        // the axis of a disc is inclined a little
         let [x, _] = across(normal);
         let lean = dice.between(-0.4, 0.4);
         let axis = if p { UP } else { unit(add(x, scale(lean, normal))) };
@@ -87,7 +87,7 @@ impl Draft {
         self.rollings.push(text);
     }
 
-    /// Two wheels on the last body, whose rows depend on each other.
+    /// Adds two wheels to the last body. Their rows depend on each other.
     fn axle(&mut self, dice: &mut Dice) {
         let (body, center) = self.last(dice);
         let axis = dice.direction(true);
@@ -96,7 +96,7 @@ impl Draft {
         for side in [half, -half] {
             let place = add(center, scale(side, axis));
             let wheel = self.turning(dice, Some(body), axis, place);
-            // the body of a link of the tree has its number
+            // in the tree, a body and its joint have the same number
             let text = format!(
                 "kind = \"wheel\"\nbody = \"b{wheel}\"\ncenter = {}\naxis = {}\nradius = {radius:?}",
                 vector(place, false),

@@ -1,16 +1,16 @@
-//! Signals of a draft: a servo on a coordinate, an engine that lags behind its curve, a force by waves and tables.
+//! Random signals: a servo on a coordinate, an engine that lags behind its characteristic, a force by waves and tables.
 
 use super::dice::Dice;
 use super::draft::Draft;
 
-/// Machines that are drawn.
+/// Kinds of signal-driven effects that are drawn.
 const MACHINES: [&str; 4] = ["servo", "engine", "force", "sum"];
-/// Kinds of signals that follow time. The ramp stands twice: no other machine has one.
+/// Kinds of signals that depend on time. The ramp is listed twice, since it occurs nowhere else.
 const WAVES: [&str; 9] =
     ["sine", "chirp", "spline", "linear", "hold", "step", "ramp", "ramp", "product"];
 
 impl Draft {
-    /// Now and then a machine that follows signals.
+    /// Adds an effect that is driven by signals, with a probability of 0.3.
     pub(crate) fn steer(&mut self, dice: &mut Dice) {
         if !dice.chance(0.3) {
             return;
@@ -26,17 +26,17 @@ impl Draft {
         }
     }
 
-    /// Adds a signal and returns its name. `has_rate`: is its rate shown?
+    /// Adds a signal and returns its name. `has_rate`: is the signal's rate an output?
     fn signal(&mut self, text: String, has_rate: bool) -> String {
         let name = format!("s{}", self.signals.len());
         self.signals.push((text, has_rate));
         name
     }
 
-    /// A coordinate that no guide moves: as keys, its unit, its inertia and whether it turns.
+    /// Draws a coordinate without a guide: its keys as text, its unit, its inertia and whether it is an angle.
     fn free_coordinate(&self, dice: &mut Dice) -> Option<(String, f64, f64)> {
         let list = self.coordinates(&[]);
-        // a force beside the line of a rod meets no inertia
+        // a thin rod has no inertia about its own line, on which a force might act
         let has_rod =
             |j: usize| self.links[j].bodies.iter().flatten().any(|&b| self.bodies[b].rod.is_some());
         let is_free = |j: usize| self.links[j].guide.is_none() && !has_rod(j);
@@ -75,7 +75,7 @@ impl Draft {
         Some(format!("kind = \"torque\"\n{of}\nsignal = \"{servo}\""))
     }
 
-    /// A torque by a falling curve of a rate, which it follows with a delay.
+    /// Draws a torque that falls with a rate, and follows it with a delay.
     fn engine(&mut self, dice: &mut Dice) -> Option<String> {
         let (of, unit, inertia) = self.free_coordinate(dice)?;
         let (rate, torque) = (unit / self.time, inertia * unit / (self.time * self.time));
@@ -103,7 +103,7 @@ impl Draft {
         Some(format!("kind = \"torque\"\n{of}\nsignal = \"{sum}\""))
     }
 
-    /// A law on a sum of two coordinates, or of a coordinate and a length.
+    /// Draws an effect on a sum of two coordinates, or of a coordinate and a length.
     fn on_sum(&mut self, dice: &mut Dice) -> Option<String> {
         let (one, unit, inertia) = self.free_coordinate(dice)?;
         let (two, other, _) = self.free_coordinate(dice)?;
@@ -142,7 +142,7 @@ impl Draft {
         Some(format!("{law}\n{terms}"))
     }
 
-    /// A force on a body, a signal for each component.
+    /// Draws a force on a body, with a signal for each component.
     fn pushed(&mut self, dice: &mut Dice) -> String {
         let body = dice.below(self.bodies.len());
         let at = self.point(dice, Some(body));
@@ -155,7 +155,7 @@ impl Draft {
         )
     }
 
-    /// A signal that is twice differentiable.
+    /// Draws a signal that is twice differentiable.
     pub(super) fn smooth(&mut self, dice: &mut Dice, size: f64) -> String {
         let (amplitude, time) = (size * dice.between(0.2, 1.0), self.time);
         let text = if dice.chance(0.5) {
@@ -203,7 +203,7 @@ impl Draft {
             }
             how => {
                 let repeats = how != "spline" && dice.chance(0.4);
-                // a table that repeats ends with its first value
+                // the last value of a periodic table is its first one
                 let size = |i: usize| if repeats && i == 3 { sizes[0] } else { sizes[i] };
                 let row = |i: usize| format!("[{:?}, {:?}]", 0.7 * i as f64 * time, size(i));
                 let rows: Vec<String> = (0..4).map(row).collect();

@@ -1,4 +1,4 @@
-//! The text of a draft, and the mechanism that it means.
+//! Text of a random scene, and the mechanism of that text.
 
 use super::draft::{Draft, Link};
 use crate::scene::{Kind, Quantity};
@@ -6,10 +6,10 @@ use crate::vector::Vector;
 use crate::{Mechanism, read};
 use std::fmt::Write;
 
-/// Every how many bodies one has a quarter of its weight.
+/// Interval of bodies with reduced gravity: one in three has a quarter of its weight.
 const LIGHTENED: usize = 3;
 
-/// A vector of the plane or of space.
+/// Text of a vector of the plane or of space.
 pub(crate) fn vector(v: Vector, planar: bool) -> String {
     if planar {
         format!("[{:?}, {:?}]", v[0], v[1])
@@ -18,7 +18,7 @@ pub(crate) fn vector(v: Vector, planar: bool) -> String {
     }
 }
 
-/// One number, or a list.
+/// Text of one number, or of a list.
 pub(crate) fn numbers(list: &[f64]) -> String {
     match list {
         [one] => format!("{one:?}"),
@@ -43,7 +43,7 @@ impl Draft {
     pub(crate) fn text(&self) -> String {
         let mut out = String::new();
         let p = self.planar;
-        // writing to a text does not fail
+        // writing to a string cannot fail
         let _ = writeln!(
             out,
             "[scene]\nname = \"drawn\"\ndimension = {}\nduration = {:?}",
@@ -103,7 +103,7 @@ impl Draft {
         out
     }
 
-    /// Couplings, then effects and what else is text.
+    /// Writes signals and couplings, then effects and all other parts that are text.
     fn relations(&self, out: &mut String) {
         for (i, (signal, _)) in self.signals.iter().enumerate() {
             let _ = writeln!(out, "\n[[signal]]\nname = \"s{i}\"\n{signal}");
@@ -166,7 +166,7 @@ impl Draft {
                 output(&format!("signal = \"s{i}\""), &format!("s{i}"), quantity);
             }
         }
-        // all but the error of a run itself
+        // all quantities but the error of the energy balance, which is an error of each run
         let of_scenes = Quantity::OF_SCENES.iter().filter(|name| **name != "invariant-error");
         of_scenes.for_each(|quantity| output("", "scene", quantity));
         for block in &self.blocks {
@@ -194,7 +194,7 @@ impl Draft {
     }
 }
 
-/// Does the judge start from what is drawn so far?
+/// Does the judge find a start for the draft?
 pub(crate) fn starts(draft: &Draft) -> bool {
     mechanism_of(draft).is_some_and(|m| m.start().is_ok())
 }

@@ -1,12 +1,12 @@
-//! Rows of channels beside the judge's: parts with one unit, their sizes, and what is off most.
+//! Comparison of channels with those of the judge: parts of equal units, their sizes, and the part with the largest difference.
 
 use super::product::{ERROR_FACTOR, Judged, ROUNDING, Rows, Verdict};
 use crate::scene::{Coupled, Exerts, Quantity, Seen, Whole};
 
-/// Least size of a channel, relative to the largest of its kind [-]. Chosen, not tuned.
+/// Least size of a channel, relative to the largest channel of its kind [-]. Chosen, not tuned.
 const SMALLEST: f64 = 1e-2;
 
-/// The kind of a channel, whose sizes are compared.
+/// Number of a quantity's kind. Sizes are compared among channels of one kind.
 fn kind(quantity: Quantity) -> usize {
     match quantity {
         Quantity::Position(..) | Quantity::Seen(_, Seen::Position | Seen::Distance) => 0,
@@ -45,7 +45,7 @@ fn kind(quantity: Quantity) -> usize {
     }
 }
 
-/// Part of a channel: its output and its components, parted where these have different units.
+/// Part of a channel whose components have one unit.
 #[derive(Debug)]
 pub struct Part {
     /// Index of the output.
@@ -62,7 +62,7 @@ pub fn parts(judged: &Judged) -> Vec<Part> {
     let scene = &judged.mechanism.scene;
     for (output, &(n, unique)) in judged.channels.iter().enumerate() {
         let quantity = scene.outputs[output].quantity;
-        // forces and moments, translations and rotations
+        // splits forces from moments, and translations from rotations
         let cut = match (quantity, n) {
             (Quantity::Reaction(_), n) | (Quantity::Effect(_, Exerts::Force), n @ (3 | 6)) => {
                 if scene.planar {
@@ -127,14 +127,14 @@ fn difference(a: &Rows, b: &Rows, range: &std::ops::Range<usize>) -> f64 {
     worst
 }
 
-/// The least size of channels of each kind: from the mechanism's length and weight, and the time in which it moves.
+/// The least size of channels of each kind, from the mechanism's length and weight and the time scale of its motion.
 fn least_sizes(judged: &Judged) -> [f64; 18] {
     let mechanism = &judged.mechanism;
     let (l, t) = (mechanism.length(), judged.time);
     let m = mechanism.scene.bodies.iter().map(|b| b.mass).fold(0.0, f64::max);
     let force = m * l / (t * t);
     let energy = force * l;
-    // two for each kind: lengths and angles, forces and moments
+    // two sizes for each kind: lengths and angles, or forces and moments
     let pairs = [
         [l, l],
         [l / t, l / t],
@@ -150,7 +150,8 @@ fn least_sizes(judged: &Judged) -> [f64; 18] {
     least.map(|x| SMALLEST * x)
 }
 
-/// The part of a channel that is off most beside its size, with what both say; `None` where all are within a share of it.
+/// The part of a channel with the largest difference relative to its size, with both values; `None` where all differences are below
+/// `share`.
 #[must_use]
 pub fn worst(judged: &Judged, rows: &Rows, share: f64) -> Option<String> {
     let right = &judged.rows;
@@ -184,7 +185,7 @@ fn sized(judged: &Judged, right: &Rows) -> (Vec<Part>, [f64; 18]) {
     (parts, group)
 }
 
-/// Holds rows by two steps against the judge's.
+/// Compares rows of two steps with those of the judge.
 pub(super) fn compare(judged: &Judged, right: &Rows, coarse: &Rows, fine: &Rows) -> Verdict {
     if fine.first().map(Vec::len) != right.first().map(Vec::len) {
         return Verdict::Differs {
@@ -196,7 +197,7 @@ pub(super) fn compare(judged: &Judged, right: &Rows, coarse: &Rows, fine: &Rows)
         };
     }
     let (parts, group) = sized(judged, right);
-    // what begins wrong is said as such
+    // a difference at the start is reported as such, and first
     let first = [right, fine].map(|rows| rows[..1].to_vec());
     let mut worst = (1.0, Verdict::Agrees);
     for start in [true, false] {

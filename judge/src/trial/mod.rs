@@ -1,4 +1,4 @@
-//! A scene through the crates, beside the judge: this folder alone knows them.
+//! Comparison of the crates with the judge on a scene. Only this folder uses the crates.
 
 pub mod compare;
 pub mod oracle;
@@ -12,15 +12,17 @@ pub use product::{
     ERROR_FACTOR, Judged, ROUNDING, Rows, Verdict, Way, document, judge, product, rows,
 };
 
-/// Divisor of the step with which a run that stops is tried again. Chosen, not tuned.
+/// Divisor of the step for a run that stopped and is tried again. Chosen, not tuned.
 const QUARTER: u32 = 4;
-/// Divisor of the given step for short ones. Chosen, not tuned.
+/// Divisor of the given step for the run with short steps. Chosen, not tuned.
 const SHORT: u32 = 16;
-/// Ratio of an error with short steps to that with the given ones, up to which it is the rule's [-]: 1/16 by order 1, 1/4 after a stop.
+/// Largest ratio of the error with short steps to that with given steps at which the error is one of the integrator [-]. An integrator of
+/// order 1 reduces it to 1/16, and to 1/4 after a stop.
 const GONE: f64 = 0.4;
 
-/// Holds a method against the judge. A run that stops on its way is tried by quarter steps. What is off is looked at once more with short
-/// steps. Two steps may hide the error of a rule across a kink of a law, which goes with the step. What is wrong stays.
+/// Compares a method with the judge. A run that stops on its way is tried again with quarter steps. A run that differs is tried again with
+/// short steps, since two steps may hide an integrator's error across a kink of a law. This error decreases with the step; an error of the
+/// equations remains.
 #[must_use]
 pub fn trial(
     judged: &Judged,
@@ -46,7 +48,7 @@ pub fn trial(
     }
 }
 
-/// Verdict by steps over `share` and half of them.
+/// Verdict by runs with the step over `share` and with half of that.
 fn by_two(
     judged: &Judged,
     product: &mbs::Mechanism,

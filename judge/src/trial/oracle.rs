@@ -1,4 +1,4 @@
-//! Oracle by enumeration: every case of joints and effects, by every formulation with every integrator.
+//! Test by enumeration: every case of joints and effects, by every formulation with every integrator.
 
 use super::{Judged, Verdict, Way, compare, judge, product, rows, trial};
 use crate::random::{Case, STEPS};
@@ -7,14 +7,14 @@ use std::num::NonZero;
 use std::panic::resume_unwind;
 use std::thread;
 
-/// Tally of what came of the enumeration.
+/// Results of the enumeration, counted.
 #[derive(Debug, Default)]
 pub struct Tally {
-    /// Combinations that ran and agree.
+    /// Combinations of case and method that run and agree.
     pub agree: usize,
     /// Combinations left out, by the reason that the command gives.
     pub left_out: BTreeMap<String, usize>,
-    /// Combinations that are wrong.
+    /// Combinations whose results are wrong.
     pub wrong: Vec<String>,
 }
 
@@ -28,13 +28,13 @@ impl Tally {
     }
 }
 
-/// Formulations with the integrators that they can have; the others are refused as settings, whatever the scene.
+/// Formulations with their integrators. Other pairs are refused as settings for every scene.
 pub fn methods() -> Vec<[&'static str; 2]> {
     let formulations = mbs::FORMULATIONS.iter().filter(|f| **f != "auto");
     formulations.flat_map(|f| mbs::INTEGRATORS.map(|i| [*f, i])).collect()
 }
 
-/// Tries all cases, on all cores; what came of them, in their order.
+/// Runs all cases on all cores. Returns the results in the order of the cases.
 #[must_use]
 pub fn all(cases: &[Case]) -> Tally {
     let threads = thread::available_parallelism().map_or(1, NonZero::get);
@@ -75,7 +75,7 @@ fn case(case: &Case, tally: &mut Tally) {
     }
 }
 
-/// Verdict by steps of h alone where these agree with the judge to rounding.
+/// Verdict by one run with step h if it agrees with the judge to machine precision. Otherwise the verdict of the full trial.
 fn briefly(
     judged: &Judged,
     product: &mbs::Mechanism,
@@ -97,7 +97,7 @@ fn briefly(
     trial(judged, product, method, step, steps)
 }
 
-/// The kind of a refusal: its message without what is quoted.
+/// The kind of a refusal: its message without quoted names.
 fn reason(message: &str) -> String {
     message.split('`').step_by(2).collect::<Vec<_>>().join("..")
 }

@@ -1,4 +1,4 @@
-//! A scene by the judge and by the product: rows of channels, and verdicts.
+//! Runs of a scene by the judge and by the product, which is the crates: rows of channels, and verdicts.
 
 use crate::scene::{Coupled, Output, Quantity};
 use crate::{Mechanism, State};
@@ -7,19 +7,19 @@ use mbs::scene_file::SceneFile;
 use mbs::{FormulationKind, Method, Run};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-/// Largest error of a rule, relative to its own error by steps of h and h/2 [-]. Chosen, not tuned.
+/// Largest allowed error of an integrator, relative to the difference of its runs with h and h/2 [-]. Chosen, not tuned.
 pub const ERROR_FACTOR: f64 = 10.0;
-/// Difference that is rounding, relative to a channel's size [-]. Chosen, not tuned.
+/// Largest difference that counts as machine precision, relative to a channel's size [-]. Chosen, not tuned.
 pub const ROUNDING: f64 = 1e-7;
 /// Tolerance of the judge's steps [-]. Chosen, not tuned.
 const TOLERANCE: f64 = 1e-11;
 
-/// Are its steps steered by the energy?
+/// Does the formulation control its steps by the energy?
 pub(super) fn is_steered(formulation: &str) -> bool {
     FormulationKind::of_name(formulation).is_some_and(|f| f.row().energy_rule)
 }
 
-/// A formulation with an integrator.
+/// A method: a formulation with an integrator.
 pub type Way = [&'static str; 2];
 
 /// Verdict on a run.
@@ -27,17 +27,17 @@ pub type Way = [&'static str; 2];
 pub enum Verdict {
     /// Run that agrees with the judge.
     Agrees,
-    /// Ends well, and is off.
+    /// Run that ends well and differs from the judge.
     Differs {
-        /// The output that is off most, beside what is allowed.
+        /// The output with the largest difference, relative to the allowed one.
         channel: String,
-        /// Largest difference of the output from what the judge says.
+        /// Largest difference of the output from the judge's.
         off: f64,
         /// Largest difference that is allowed.
         allowed: f64,
         /// Largest value of the output.
         size: f64,
-        /// Is it off at the start already?
+        /// Does it differ at the start already?
         start: bool,
     },
     /// Run that stops.
@@ -56,18 +56,18 @@ pub enum Verdict {
 /// Rows of all channels at multiples of a step.
 pub type Rows = Vec<Vec<f64>>;
 
-/// Judgement of a scene: what the judge says of it.
+/// Results of the judge for a scene.
 #[derive(Debug)]
 pub struct Judged {
     /// Mechanism of the scene.
     pub mechanism: Mechanism,
     /// Outputs of the mechanism at the ends of the steps.
     pub rows: Rows,
-    /// A time in which the motion changes [s].
+    /// A time scale of the motion [s].
     pub time: f64,
-    /// Number of components, and whether the channel is unique, of each output.
+    /// Number of components of each output, and whether its value is unique.
     pub channels: Vec<(usize, bool)>,
-    /// The smallest pivot along the motion.
+    /// The smallest pivot during the motion.
     pub least_pivot: f64,
     /// Do rows of joints depend on each other, so that reactions are not unique?
     pub is_redundant: bool,
@@ -76,7 +76,7 @@ pub struct Judged {
 /// Runs the judge on a scene.
 ///
 /// # Errors
-/// Why it does not run, in words.
+/// A message with the reason why the judge does not run.
 pub fn judge(text: &str, step: f64, steps: u32) -> Result<Judged, String> {
     let mechanism = Mechanism::new(crate::read(text).map_err(|e| e.0)?);
     let mut state = mechanism.start().map_err(|e| format!("judge: {e:?}"))?;
@@ -89,7 +89,7 @@ pub fn judge(text: &str, step: f64, steps: u32) -> Result<Judged, String> {
         outputs.iter().map(|o| mechanism.channel(state, o)).collect()
     };
     let first = show(&state);
-    // the turn of a thin rod about itself is no one's
+    // rotation of a thin rod about its own line is undetermined
     let turns_idle = |j: usize| {
         let joint = &mechanism.scene.joints[j];
         joint.bodies.iter().flatten().any(|&b| begun.idle[b])
@@ -98,7 +98,7 @@ pub fn judge(text: &str, step: f64, steps: u32) -> Result<Judged, String> {
         Quantity::Reaction(j) | Quantity::Effort(j) | Quantity::Power(j) => begun.unique[j],
         Quantity::Coupling(k, Coupled::Effort | Coupled::Power) => begun.unique_couplings[k],
         Quantity::Contact(k) => begun.unique_contacts[k],
-        // zero but for what its terms are rounded by
+        // without a law or a value these are zero up to the rounding of their terms, so that they are not compared
         Quantity::Coupling(k, Coupled::Rate) => mechanism.scene.couplings[k].law.is_some(),
         Quantity::Coupling(k, Coupled::Value) => {
             let coupling = &mechanism.scene.couplings[k];
@@ -106,7 +106,7 @@ pub fn judge(text: &str, step: f64, steps: u32) -> Result<Judged, String> {
         }
         Quantity::Value(j) | Quantity::Rate(j) | Quantity::JointAcceleration(j) => !turns_idle(j),
         Quantity::AngularVelocity(b) | Quantity::AngularAcceleration(b) => !begun.idle[b],
-        // the crates count from the nearest angle or quaternion
+        // the crates choose the nearest angle or quaternion, which differs after whole turns
         Quantity::RotationMatrix(b) => !begun.idle[b],
         Quantity::Orientation(b) | Quantity::RotationVector(b) => {
             let frame = &state.frames[b];
@@ -135,7 +135,7 @@ pub fn judge(text: &str, step: f64, steps: u32) -> Result<Judged, String> {
     Ok(Judged { mechanism, rows, time: 20.0 * step, channels, least_pivot, is_redundant })
 }
 
-/// Channels without the vectors of bodies that have turned a whole turn, which count as who follows them does.
+/// Marks rotation vectors that jump by a whole turn as not unique: their values depend on how a program follows them.
 fn followed(
     mut channels: Vec<(usize, bool)>,
     outputs: &[Output],
@@ -154,10 +154,10 @@ fn followed(
     channels
 }
 
-/// Reads a mechanism, as the crates read it.
+/// Makes the mechanism of the crates from a text.
 ///
 /// # Errors
-/// Its refusal.
+/// The message of the crates' refusal.
 pub fn product(text: &str) -> Result<mbs::Mechanism, String> {
     let document = SceneFile::parse(text, "drawn.toml").map_err(|e| e.render())?;
     let mechanism = mbs::Mechanism::of_file(document).map_err(|e| e.render())?;
@@ -165,19 +165,19 @@ pub fn product(text: &str) -> Result<mbs::Mechanism, String> {
     Ok(mechanism)
 }
 
-/// A scene as the crates read it.
+/// Makes the scene of the crates from a text.
 ///
 /// # Errors
-/// Its refusal.
+/// The message of the crates' refusal.
 pub fn document(text: &str) -> Result<Scene<f64>, String> {
     let document = SceneFile::parse(text, "drawn.toml").map_err(|e| e.render())?;
     document.scene().map_err(|e| e.render())
 }
 
-/// Runs the crates by steps over `share`, and keeps the rows of whole steps.
+/// Runs the crates with the step over `share`. Returns the rows at multiples of the step.
 ///
 /// # Errors
-/// What became of a run that does not end well.
+/// The verdict on a run that does not end well.
 pub fn rows(
     product: &mbs::Mechanism,
     [formulation, integrator]: Way,
@@ -188,12 +188,12 @@ pub fn rows(
         formulation: Some(formulation.to_owned()),
         integrator: Some(integrator.to_owned()),
         step: Some(step / f64::from(share)),
-        // a step that the energy steers is halved by a tolerance of an eighth
+        // steps that the energy controls are halved by an eighth of the tolerance
         energy_tolerance: (is_steered(formulation) && share > 1).then(|| {
             let n = f64::from(share);
             [1e-5, 1e-7].map(|x| x / (n * n * n))
         }),
-        // these hold their error to a tolerance, whatever the step
+        // these integrators control their error by a tolerance, whatever the step is
         error_tolerance: ["gbs", "radau5"].contains(&integrator).then_some(1e-11),
         ..Method::default()
     };
@@ -210,7 +210,7 @@ pub fn rows(
     if let Some(error) = &result.summary().error {
         return Err(stops(&error.code, error.time, error.message.clone()));
     }
-    // steps that are steered end at the grid's end alone
+    // controlled steps coincide with the multiples of the step only at the start and the end
     let wanted = (0..=steps).filter(|i| !is_steered(formulation) || *i == 0 || *i == steps);
     let wanted = wanted.map(|i| f64::from(i) * step);
     let mut rows = Vec::new();

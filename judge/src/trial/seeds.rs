@@ -1,4 +1,4 @@
-//! Random scenes by seed, by every formulation with its usual rule; what became of them, counted.
+//! Test by random scenes: scenes by seed, run by every formulation with its usual integrator, and their verdicts counted.
 
 use super::{Verdict, Way};
 use crate::{random, trial};
@@ -6,14 +6,14 @@ use mbs::FormulationKind;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
-/// The formulations, those that steer their steps last.
+/// The formulations, each with an integrator. Those that control their steps are last.
 pub fn methods() -> Vec<Way> {
     let (steered, fixed): (Vec<_>, Vec<_>) =
         FormulationKind::listed().partition(|f| f.row().energy_rule);
     fixed.into_iter().chain(steered).map(|f| [f.name(), "trapezoidal"]).collect()
 }
 
-/// Tally of what became of scenes.
+/// Counted results of random scenes.
 #[derive(Debug, Default)]
 pub struct Tally {
     /// Number of scenes.
@@ -24,14 +24,14 @@ pub struct Tally {
     pub differences: usize,
     /// Runs of each formulation by verdict.
     pub verdicts: BTreeMap<(String, String), usize>,
-    /// Seeds that stop, by formulation and code; without redundant rows in what cannot have them.
+    /// Seeds whose runs stop, by formulation and code. Stops are left out where the formulation does not support the scene's rows.
     pub refused: BTreeMap<(String, String), Vec<u64>>,
     /// Scenes that have each kind of joint, of effect, and so on.
     pub kinds: BTreeMap<String, usize>,
 }
 
 impl Tally {
-    /// Tries a scene in every formulation, or in one; says what does not agree.
+    /// Runs a scene in every formulation, or in one. Returns lines on runs that do not agree.
     pub fn add(&mut self, seed: u64, only: Option<&str>) -> String {
         let mut out = String::new();
         let drawn = random::scene(seed);
@@ -67,7 +67,7 @@ impl Tally {
         out
     }
 
-    /// Returns what a verdict counts as, and what is said of it.
+    /// Returns the key under which a verdict is counted, and its line.
     fn judge(
         &mut self,
         (seed, drawn, judged): (u64, &random::Drawn, &trial::Judged),
@@ -91,7 +91,7 @@ impl Tally {
             }
             Verdict::Stops { code, time, message } => {
                 let place = if *time > 0.0 { "run" } else { "start" };
-                // where the judge sees redundant rows too the refusal is right, and that of rows on rates alone
+                // a refusal is right where rows are redundant, and where state-space coordinates would need rows that constrain rates alone
                 let rolls = !judged.mechanism.scene.rollings.is_empty();
                 let is_right = (code == "rank-lost" && judged.is_redundant)
                     || (code == "velocity-rows" && rolls && method[0] == "state-space");

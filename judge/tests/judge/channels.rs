@@ -1,4 +1,4 @@
-//! Channels of every quantity that a scene can have, as text.
+//! Output channels of every quantity of a scene, as text.
 
 use mbs::core::outputs::{Quantity, Target};
 use mbs::core::scene::{BodyId, Dimension, Inertia, Scene};
@@ -16,7 +16,7 @@ pub(crate) fn of(scene: &Scene<f64>) -> String {
     text + "[[output]]\nname = \"invariant\"\nquantity = \"invariant-error\"\n"
 }
 
-/// Does a quantity ask for the turn of a point, which has none?
+/// Is the quantity a rotation of a point, which has no orientation?
 fn turns_point(quantity: &Quantity<f64>, scene: &Scene<f64>) -> bool {
     let is_point = |id: BodyId| match id {
         BodyId::Ground => false,
@@ -31,7 +31,7 @@ fn turns_point(quantity: &Quantity<f64>, scene: &Scene<f64>) -> bool {
     }
 }
 
-/// The keys that say of what a quantity is.
+/// The keys of an output that name the object of a quantity.
 fn keys(quantity: &Quantity<f64>, scene: &Scene<f64>) -> String {
     let body = |id: BodyId| match id {
         BodyId::Ground => "ground".to_owned(),

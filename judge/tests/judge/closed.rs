@@ -3,7 +3,7 @@
 use crate::{channel, mechanism, run, scene};
 use judge::vector::norm;
 
-/// Error that some thousand steps leave, each to 1e-12 [-].
+/// Error after roughly a thousand steps, each with a tolerance of 1e-12 [-].
 const CLOSE: f64 = 1e-9;
 
 fn near(found: f64, right: f64, tolerance: f64) {
@@ -28,7 +28,7 @@ fn pendulum_has_the_period_of_the_elliptic_integral() {
              at = {at}\n{axis}\n"
         )
     };
-    // let go level, 90 degrees from the lowest position: k = sin 45 degrees; uniform rod of 1 m: w0² = 3 g / 2 l
+    // released level, 90 degrees from the lowest position: k = sin 45 degrees; uniform rod of 1 m: w0² = 3 g / 2 l
     let period = 4.0 * quarter_period(0.5_f64.sqrt()) / (1.5 * 9.81_f64).sqrt();
     for text in [
         text("2", "[0.0, -9.81]", "[0.0, 0.0]", "[1.0, 0.0]", ""),
@@ -50,11 +50,11 @@ fn pendulum_has_the_period_of_the_elliptic_integral() {
 
 #[test]
 fn a_start_partly_given_is_the_least_change() {
-    // values by an independent program: the other person's pendulum and the tree of the field
+    // reference values by two independent programs
     let m = scene("mbs/tests/field/18-start-of-a-millimetre-pendulum.toml");
     let start = m.start().expect("it starts");
     near(channel(&m, &start, "p_rate")[0], -2.678571, 1e-6);
-    // with q held, p is by an independent program -0.1417805 and -0.4361786, whatever the size
+    // with q given, p is -0.1417805 and -0.4361786 by an independent program, for every size
     for (q, p) in [(0.5, -0.1417805), (1.5, -0.4361786)] {
         for size in [1e-3, 1.0, 100.0] {
             let at = |x: f64| x * size;
@@ -196,7 +196,7 @@ fn a_guided_crank_slider_follows_its_crank() {
 
 #[test]
 fn a_level_table_goes_from_rest_to_rest() {
-    // two rows: 3 s² − 2 s³ of the way; four rows: through each of them, with the end rates zero
+    // two rows: 3 s² − 2 s³ of the difference; four rows: through each row, with end rates of zero
     let two = judge::scene::Spline::level(&[[1.0, 0.0], [3.0, 0.6]]);
     for i in 0..10 {
         let s = 0.1 * f64::from(i);

@@ -1,5 +1,5 @@
-//! Enumeration of the judge's cases on the solver of fixed capacity, which controllers run: the bits of the recursion that the judge is held
-//! against.
+//! Enumerated cases on the solver of fixed capacity, which controllers run. Its results equal those of the recursive formulation bit by
+//! bit, and the judge checks that formulation.
 
 use judge::random;
 use judge::trial::document;
@@ -9,9 +9,9 @@ use mbs_nostd::{Bounds, Checked, Solver, Unwatched};
 use mbs_recursive::space::Space;
 use mbs_recursive::{Options, Planar, Spatial, TreeError, TreeModel, Workspace};
 
-/// Room for two bodies: links, coordinates, freedoms, rows, blocks, gains, guides, courses.
+/// Solver with room for two bodies: links, coordinates, freedoms, rows, blocks, gains, guides, signals.
 type Room<S> = Solver<f64, S, 12, 16, 12, 8, 64, 256, 2, 8>;
-/// Ten steps of a controller and of the recursion; false where the scene has no tree.
+/// Compares ten steps of a controller with the recursive formulation. False where the scene has no tree.
 fn is_followed<S: Space<f64>, const D: usize>(scene: &Scene<f64>, name: &str, step: f64) -> bool {
     let tree: TreeModel<f64, S> = match TreeModel::new(scene) {
         Ok(tree) => tree,
@@ -39,7 +39,7 @@ fn is_followed<S: Space<f64>, const D: usize>(scene: &Scene<f64>, name: &str, st
 #[test]
 fn a_controller_moves_every_joint_with_every_effect_as_the_recursion_does() {
     let (mut followed, mut without) = (0, 0);
-    // an export takes lines between two points
+    // exports support lines between two points only
     for case in random::cases().into_iter().filter(|case| !case.name.ends_with("-points")) {
         let scene = document(&case.text).unwrap_or_else(|e| panic!("{}: {e}", case.name));
         let is_followed = match scene.dimension {

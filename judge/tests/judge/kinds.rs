@@ -1,6 +1,6 @@
-//! Kinds of the product, each in a small scene that moves: every quantity of it is as the judge says.
+//! Kinds of the product, each in a small scene that moves. Every quantity of the scene must agree with the judge.
 //!
-//! The tables of the product say which kinds there are. The scenes are the examples of its manual, and those of `kinds.toml`.
+//! The tables of the product list the kinds. The scenes are the examples of the manual, and those of `kinds.toml`.
 
 use crate::channels;
 use judge::trial::{self, compare};
@@ -11,41 +11,41 @@ use mbs::scene_file::keys::{Base, tables};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 
-/// Kinds that the judge does not derive. The list may only shrink.
+/// Kinds that the judge does not support. The list may only get shorter.
 const NOT_DERIVED: &[&str] = &[];
 
-/// Headers of the manual whose kinds are listed here by their name alone; joints, effects and quantities are by their tables.
+/// Headers of the manual whose kinds are listed here by name. Joints, effects and quantities are listed by their tables.
 const BY_NAME: [&str; 4] = ["coupling", "rolling", "signal", "road"];
 
-/// Largest difference of a channel, relative to its size [-]: both sides integrate to less.
+/// Largest difference of a channel, relative to its size [-]: the integration errors of both sides are smaller.
 const CLOSE: f64 = 1e-9;
 
-/// Method of the product: of order 8, by fixed steps.
+/// Method of the product: order 8 with fixed steps.
 const METHOD: trial::Way = ["recursive", "rk853"];
-/// Number of the product's steps in one of a scene.
+/// Number of the product's steps per step of a scene.
 const SHARE: u32 = 20;
 /// Number of steps of a scene.
 const STEPS: u32 = 5;
-/// Step of a scene [s]: short, since fixed steps pass over kinks.
+/// Step of a scene [s]. It is short, since fixed steps may cross kinks.
 const STEP: f64 = 4e-4;
-/// Step of the scene of a signal [s]: those of the manual change within 0.6 s, at ends of the product's steps.
+/// Step of a scene with a signal [s]. Signals of the manual change within 0.6 s, at ends of the product's steps.
 const SIGNAL_STEP: f64 = 0.125;
 
-/// Examples of the manual that are left out, since their parts do not touch as such machines do. The second wheel of the differential
-/// stands on the first, and the product's effort is then that on both. The nut of the screw slides across its axis.
+/// Examples of the manual that are left out, since their geometry is not that of the machine. The second wheel of the differential is
+/// carried by the first, and the product's effort is that on both wheels. The nut of the screw slides across the screw's axis.
 const LEFT_OUT: [&str; 2] = ["coupling differential", "coupling screw"];
 
-/// A scene of a kind.
+/// A small scene for one kind.
 struct Small {
     /// Kind that the scene is made for.
     of: String,
-    /// Scene of the manual, with what is added.
+    /// Text of the example of the manual, with its start and channels.
     text: String,
     /// Step of the scene [s].
     step: f64,
 }
 
-/// The title of a quantity, by what it is of.
+/// The title of a quantity: its object and its name.
 fn title(row: &QuantityRow) -> String {
     format!("quantity {:?} {}", row.target, row.name)
 }
@@ -63,7 +63,7 @@ fn kinds() -> BTreeSet<String> {
     all
 }
 
-/// The base of a name in `kinds.toml`.
+/// The base scene by its name in `kinds.toml`.
 fn base(name: &str) -> Base {
     match name {
         "planar" => Base::Planar,
@@ -94,7 +94,7 @@ fn scenes() -> Vec<Result<Small, String>> {
     list.into_iter().map(|(of, base, text)| small(of, base, &text)).collect()
 }
 
-/// A scene with its start and all its channels.
+/// A scene with its start and the channels of all quantities.
 fn small(of: String, base: Base, example: &str) -> Result<Small, String> {
     let step = if of.starts_with("signal") { SIGNAL_STEP } else { STEP };
     let duration = format!("duration = {:?}", step * f64::from(STEPS));
@@ -106,7 +106,8 @@ fn small(of: String, base: Base, example: &str) -> Result<Small, String> {
     Ok(Small { of, text, step })
 }
 
-/// The start of a scene: values and rates of joints, of the first one alone beside a coupling; and turns of bodies without a joint.
+/// The start of a scene: values and rates of joints, or of the first joint alone if there is a coupling, and rotations of bodies without a
+/// joint.
 fn start(scene: &Scene<f64>, example: &str) -> String {
     let mut text = String::new();
     if example.contains("[[initial]]") {
@@ -165,7 +166,7 @@ fn kinds_in(text: &str) -> BTreeSet<String> {
     found
 }
 
-/// Runs a scene on both sides; the channel that is off most.
+/// Runs a scene on both sides. Returns the channel with the largest difference.
 fn run(small: &Small) -> Result<Option<String>, String> {
     let judged = trial::judge(&small.text, small.step, STEPS)?;
     let product = trial::product(&small.text)?;

@@ -1,10 +1,11 @@
-//! Machines and vehicles of the field, 21 to 30 and 60 to 65: the right values that stand beside them, each by a closed form or another program.
+//! Machines and vehicles of `mbs/tests/field`, inputs 21 to 30 and 60 to 65. Each file has reference values by a closed form or another
+//! program.
 
 use crate::{channel, mechanism, run, scene};
 
 /// Tolerance of values with a closed form, by steps to 1e-12 [-].
 const CLOSE: f64 = 1e-9;
-/// Tolerance of values that are given to nine digits, or to seven [-].
+/// Tolerances of values that are given with nine digits, and with seven [-].
 const DIGITS: [f64; 2] = [1e-8, 1e-6];
 
 fn near(what: &str, found: f64, right: f64, tolerance: f64) {
@@ -12,13 +13,13 @@ fn near(what: &str, found: f64, right: f64, tolerance: f64) {
     assert!(off <= tolerance * (1.0 + right.abs()), "{what}: {found}, but {right}");
 }
 
-/// The text of a small input of the field.
+/// The text of an input of `mbs/tests/field`.
 fn text(name: &str) -> String {
     let path = format!("{}/../mbs/tests/field/{name}.toml", env!("CARGO_MANIFEST_DIR"));
     std::fs::read_to_string(path).expect("the scene is there")
 }
 
-/// Channels of a scene at the end of a run: a name, a component, its right value.
+/// Compares channels at the end of a run: name, component, reference value.
 fn ends(name: &str, text: &str, duration: f64, right: &[(&str, usize, f64)], tolerance: f64) {
     let m = mechanism(text);
     let end = run(&m, duration);
@@ -30,7 +31,7 @@ fn ends(name: &str, text: &str, duration: f64, right: &[(&str, usize, f64)], tol
 
 #[test]
 fn wheels_in_mesh_turn_as_they_are_drawn() {
-    // 0.7 N m over 0.4 s on 0.02 + (2/3)² 0.04 kg m²
+    // 0.7 N m during 0.4 s on an inertia of 0.02 + (2/3)² 0.04 kg m²
     let (one, two) = (7.411_764_705_882_353, 4.941_176_470_588_235);
     let effort = -(0.7 - 0.02 * one / 0.4);
     let gear = text("22-gear-joint-wheel-first");
@@ -69,7 +70,7 @@ fn bearings_carry_the_rope_and_the_thread() {
 
 #[test]
 fn bearings_carry_teeth_and_strands() {
-    // 0.329 N m on a radius of 0.1 m; the teeth are driven apart by tan 20 degrees of that
+    // 0.329 N m on a radius of 0.1 m; the force that pushes the teeth apart is the tangential force times tan 20 degrees
     let torque = 0.7 - 0.02 * 7.411_764_705_882_353 / 0.4;
     let (across, apart) = (torque / 0.1, torque / 0.1 * 20.0_f64.to_radians().tan());
     let outputs = "\n[[output]]\nname = \"first\"\njoint = \"one\"\nquantity = \"reaction\"\n\
@@ -79,12 +80,13 @@ fn bearings_carry_teeth_and_strands() {
     let right = [
         ("first", 0, apart),
         ("first", 1, across),
-        // the second joint names its wheel first
+        // the wheel is the first body of the second joint
         ("second", 0, apart),
         ("second", 1, across),
     ];
     ends("teeth", &gear, 0.4, &right, CLOSE);
-    // strands at the cosine (0.1 - 0.15)/0.25 to the line of the axes: 2 S sin along it, the effort times the cosine across
+    // angle of the strands to the line of the axes: cosine (0.1 - 0.15)/0.25; the pretension acts along that line by 2 S sin, the effort
+    // across it
     let (cosine, effort) = (-0.2_f64, -torque / 0.1);
     let along = 2.0 * 10.0 * (1.0 - cosine * cosine).sqrt();
     let belt =
@@ -123,7 +125,7 @@ fn a_rope_keeps_its_length() {
 #[test]
 fn a_bar_comes_back_from_its_stop_with_its_energy() {
     let right = [("pivot", 0, -0.961_152_555_21), ("energy", 0, 0.0)];
-    // the corner of the stop's force lies within a step
+    // the corner of the stop's force is within a step
     ends("stop", &text("62-stop-by-gbs"), 1.2, &right, DIGITS[1]);
 }
 

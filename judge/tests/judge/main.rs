@@ -1,4 +1,4 @@
-//! The judge judged: closed forms, conserved quantities, order, differences, invariance.
+//! Tests of the judge: closed forms, conserved quantities, order, differences, invariance.
 
 mod channels;
 mod closed;
@@ -13,10 +13,10 @@ mod trial;
 
 use judge::{Mechanism, State};
 
-/// Tolerance of controlled steps in these tests.
+/// Tolerance of controlled steps in these tests [-].
 const TOLERANCE: f64 = 1e-12;
 
-/// Says a count to whoever runs the tests, as `println` does not where they hold.
+/// Prints a count on the console. `println` would be captured for tests that pass.
 fn say(text: &str) {
     use std::io::Write;
     let _ = writeln!(std::io::stdout(), "{text}");
@@ -26,11 +26,11 @@ fn mechanism(text: &str) -> Mechanism {
     Mechanism::new(judge::read(text).expect("the scene is read"))
 }
 
-/// The state at the end of `duration`.
+/// The state after the time `duration`.
 fn run(mechanism: &Mechanism, duration: f64) -> State {
     let mut state = mechanism.start().expect("it starts");
     let mut h = 1e-3 * duration;
-    // One call may try a thousand steps.
+    // one call may take a thousand steps at most
     for part in 1..=8 {
         let until = duration * f64::from(part) / 8.0;
         mechanism.advance(&mut state, until, &mut h, TOLERANCE).expect("it runs");

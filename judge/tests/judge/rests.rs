@@ -1,11 +1,11 @@
-//! Rests and frequencies of the field, 21 to 28, from accelerations: at a rest there are none, beside it they are minus the square of the
-//! frequency times the displacement.
+//! Equilibria and frequencies of the inputs 21 to 28 of `mbs/tests/field`, from accelerations. At an equilibrium accelerations are zero. At
+//! a small displacement they are minus the square of the frequency times the displacement.
 
 use crate::{channel, mechanism, run};
 
-/// Displacement beside a rest [rad or m]: its square is far below the digits that are given.
+/// Displacement from the equilibrium [rad or m]. Its square is smaller than the given digits.
 const ASIDE: f64 = 1e-6;
-/// Tolerance of frequencies and rests, which are given to eight digits or more [-].
+/// Tolerance of frequencies and equilibria, which are given with eight digits or more [-].
 const DIGITS: f64 = 1e-7;
 
 fn near(what: &str, found: f64, right: f64) {
@@ -13,13 +13,13 @@ fn near(what: &str, found: f64, right: f64) {
     assert!(off <= DIGITS * (1.0 + right.abs()), "{what}: {found}, but {right}");
 }
 
-/// The text of a small input of the field.
+/// The text of an input of `mbs/tests/field`.
 fn text(name: &str) -> String {
     let path = format!("{}/../mbs/tests/field/{name}.toml", env!("CARGO_MANIFEST_DIR"));
     std::fs::read_to_string(path).expect("the scene is there")
 }
 
-/// A start of a joint.
+/// The text of a joint's initial condition.
 fn held(joint: &str, value: f64, rate: f64) -> String {
     format!("[[initial]]\njoint = \"{joint}\"\nvalue = {value:?}\nrate = {rate:?}\n")
 }
@@ -37,7 +37,7 @@ fn accelerations(text: &str, joints: &[&str]) -> Vec<f64> {
     joints.iter().map(|joint| channel(&m, &start, &format!("a {joint}"))[0]).collect()
 }
 
-/// The frequency of a coordinate about a rest.
+/// The frequency of a coordinate about an equilibrium.
 fn frequency(text: &str, joint: &str, rest: f64) -> f64 {
     let [a, b] = [ASIDE, -ASIDE].map(|x| {
         let text = format!("{text}\n{}", held(joint, rest + x, 0.0));
@@ -111,7 +111,7 @@ fn a_blade_and_a_governor_swing_in_the_turning_frame() {
 #[test]
 fn a_rotor_whirls_with_two_frequencies() {
     let scene = text("23-whirl-of-a-rotor");
-    // accelerations of both gimbals by one of their coordinates or rates
+    // accelerations of both gimbals per unit of one of their coordinates or rates
     let by = |of: usize, is_rate: bool| {
         let at = |x: f64| {
             let start = ["outer", "inner"].iter().enumerate().map(|(i, joint)| {
@@ -125,7 +125,7 @@ fn a_rotor_whirls_with_two_frequencies() {
         [0, 1].map(|i| (b[i] - a[i]) / (2.0 * ASIDE))
     };
     let (k, g) = ([by(0, false), by(1, false)], [by(0, true), by(1, true)]);
-    // (k₀₀ - w²)(k₁₁ - w²) + g₀₁ g₁₀ w² = 0 where the rest is zero
+    // (k₀₀ - w²)(k₁₁ - w²) + g₀₁ g₁₀ w² = 0; the loop checks that all other terms are zero
     let gyroscopic = g[0][1] * g[1][0];
     for (name, zero) in [("k", k[0][1]), ("k", k[1][0]), ("g", g[0][0]), ("g", g[1][1])] {
         assert!(zero.abs() < 1e-4, "{name}: {zero}");
@@ -138,7 +138,7 @@ fn a_rotor_whirls_with_two_frequencies() {
 
 #[test]
 fn sums_act_on_each_of_their_coordinates() {
-    // the first wheel slides on the second: 40 N m between 0.5 and 2 kg m², less 40 (1 - 1/√(1 + 1e-6))
+    // the first wheel slides on the second with 40/√(1 + 1e-6) N m of regularised friction; inertias are 0.5 and 2 kg m²
     let clutch =
         format!("{}\n{}", text("23-closed-clutch"), held("one", 0.0, 1.0) + &held("two", 0.0, 0.0));
     let torque = 40.0 / (1.0 + 1e-6_f64).sqrt();
@@ -155,7 +155,7 @@ fn a_wheel_is_driven_up_by_two_radians() {
     near("axle", channel(&m, &run(&m, 0.2), "axle")[0], 2.0);
 }
 
-/// A thin rod has no inertia about itself: where a force and a rope act beside its line their moments balance, T 0.1 = 3 0.2.
+/// A thin rod has no inertia about its own line. So the moments of a force and a rope that act beside this line are equal: T 0.1 = 3 0.2.
 #[test]
 fn a_rope_beside_the_line_of_a_thin_rod_balances_a_force() {
     let text = "[scene]\ndimension = 3\nduration = 0.1\n\

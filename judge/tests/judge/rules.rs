@@ -13,7 +13,7 @@ fn steps_are_of_order_eight() {
     };
     let (coarse, fine) = (error(16), error(32));
     let order = (coarse / fine).log2();
-    // a wrong coefficient would leave six or less
+    // a wrong coefficient would give an order of six or less
     assert!(order > 7.7 && order < 8.5, "order {order}: {coarse:e} {fine:e}");
 }
 

@@ -10,7 +10,7 @@ fn near(what: &str, found: f64, right: f64) {
     assert!(off <= CLOSE * (1.0 + right.abs()), "{what}: {found}, but {right}");
 }
 
-/// A slide of 2 kg along x without gravity, with more of a scene.
+/// A body of 2 kg that slides along x without gravity, with further text of a scene.
 fn slide(more: &str) -> String {
     format!(
         "[scene]\ndimension = 2\nduration = 1.0\n[[body]]\nname = \"block\"\nmass = 2.0\ncenter = [0.0, 0.0]\ninertia = 0.1\n\
@@ -39,7 +39,7 @@ fn a_controller_moves_a_block_as_its_poles_say() {
     );
     let m = mechanism(&text);
     let end = run(&m, 1.0);
-    // x'' + 2 x' + 9 x = 0: e^-t (cos w t + (x'(0) + x(0))/w sin w t), w = sqrt 8
+    // solution of x'' + 2 x' + 9 x = 0: e^-t (cos w t + (x'(0) + x(0))/w sin w t), w = sqrt 8
     let w = 8.0_f64.sqrt();
     near("block", channel(&m, &end, "x")[0], (-1.0_f64).exp() * w.cos());
 }
@@ -65,7 +65,7 @@ fn lags_integrals_and_limits_follow_time() {
     near("lag", channel(&m, &end, "behind")[0], lag(1.0));
     let way = 0.5 - 0.125 * (1.0 - (-2.0_f64).exp());
     near("integral", channel(&m, &half, "way")[0], way);
-    // a limit within a step is met to the step
+    // the time at which a limit is reached is known to the length of a step
     assert!((channel(&m, &end, "way")[0] - 0.4).abs() < 1e-3);
     near("clamp", channel(&m, &end, "held")[0], 0.9);
     near("sum", channel(&m, &end, "twice")[0], 2.0 * lag(1.0) - 1.0);
@@ -93,7 +93,7 @@ fn tables_go_through_their_rows_as_their_interpolation_says() {
         state.t = t;
         ["linear", "hold", "spline", "again"].map(|name| channel(&m, &state, name)[0])
     };
-    // the natural spline of three rows: M₁ = 3 (s₁ - s₀)/(h₀ + h₁) with slopes 2 and -1, M₁ = -4.5
+    // natural spline of three rows: M₁ = 3 (s₁ - s₀)/(h₀ + h₁) with chord slopes 2 and -1, M₁ = -4.5
     let spline = 2.0 - 4.5 * (0.125 - 0.5) / 6.0;
     let right = [2.0, 1.0, spline, 1.0];
     at(0.5).into_iter().zip(right).for_each(|(found, right)| near("at half", found, right));
@@ -118,7 +118,7 @@ fn a_jump_of_a_force_ends_a_step() {
 
 #[test]
 fn a_twist_of_a_ball_is_a_signal() {
-    // the small input 63 of the field; the arm turns about its own axis at 2 rad/s
+    // input 63 of `mbs/tests/field`; the arm rotates about its own axis at 2 rad/s
     let text = "[scene]\ndimension = 3\ngravity = [0.0, 0.0, -9.81]\nduration = 0.2\n\
         [[body]]\nname = \"arm\"\nmass = 1.0\ncenter = [0.0, 0.0, -0.4]\ninertia = [0.05, 0.06, 0.01, 0.0, 0.0, 0.0]\n\
         [[joint]]\nname = \"shoulder\"\nkind = \"spherical\"\nbodies = [\"ground\", \"arm\"]\nat = [0.0, 0.0, 0.0]\n\

@@ -1,4 +1,4 @@
-//! Tables that stay between their rows.
+//! Tables without overshoot between their rows.
 
 use judge::scene::Spline;
 
@@ -6,7 +6,7 @@ use judge::scene::Spline;
 fn from_rest_to_rest_the_third_derivative_has_one_size_throughout() {
     let rows = [[0.0, 0.0], [1.0, 0.0], [2.0, 10.0], [3.0, 10.0]];
     let table = Spline::monotone(&Spline::natural(&rows), false);
-    // 32 D/h² = 320 over a quarter, then as much the other way over a half
+    // f''' is 32 D/h³ = 320 over a quarter of the interval, then -320 over a half, with D = 10 and h = 1
     for (x, right) in [
         (0.5, [0.0, 0.0, 0.0]),
         (1.25, [320.0 / 384.0, 10.0, 80.0]),

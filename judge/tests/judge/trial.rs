@@ -1,4 +1,4 @@
-//! The crates before the judge: what is enumerated, and the first hundred of the random scenes.
+//! The crates compared with the judge: enumerated cases, and the first hundred random scenes.
 
 use judge::random;
 use judge::scene::Quantity;
@@ -6,7 +6,7 @@ use judge::trial::{oracle, seeds};
 use mbs::core::outputs::{QUANTITIES, TargetKind};
 use std::collections::BTreeMap;
 
-/// The only reason to leave a combination out: it is refused as a setting, whatever the scene.
+/// The only allowed reason to leave a combination out: the settings are refused for every scene.
 const NO_SUCH_RULE: &str = "formulation .. has no ..";
 
 #[test]
@@ -37,7 +37,7 @@ fn every_joint_with_every_effect_moves_as_the_judge_says_in_every_formulation() 
     crate::say(&format!("{n} cases, {agree} combinations agree, {left_out} are left out"));
     assert!(tally.wrong.is_empty(), "{}", tally.wrong.join("\n"));
     assert_eq!(tally.left_out.keys().collect::<Vec<_>>(), [NO_SUCH_RULE]);
-    // Half of all pairs of a formulation and an integrator exist.
+    // at least half of all pairs of a formulation and an integrator exist
     assert!(tally.agree >= left_out);
 }
 
@@ -68,14 +68,14 @@ fn every_kind_is_in_a_twentieth_or_a_hundredth_of_the_random_scenes_at_least() {
         }
     }
     crate::say(&format!("scenes of 400 by kind: {counts:?}"));
-    // Ten kinds of couplings and thirteen of signals share half of the scenes.
+    // ten kinds of couplings and thirteen of signals are spread over half of the scenes
     let least = |kind: &str| match kind.split(' ').next() {
         Some("coupling" | "signal" | "rolling") => 4,
         _ => 20,
     };
     let rare: Vec<_> = counts.iter().filter(|(kind, n)| **n < least(kind)).collect();
     assert!(rare.is_empty(), "{rare:?}");
-    // Ten kinds of joints and nineteen of effects, plane and space, three numbers of loops, guides, starts.
+    // ten kinds of joints and nineteen of effects, plane and space, three numbers of loops, guides, starts
     assert!(counts.len() >= 59, "{}", counts.len());
 }
 
