@@ -1,6 +1,6 @@
 //! Time of one evaluation of accelerations: chains of 10 to 1000 bodies, in the plane and in space, and rows of four-bars.
 //!
-//! `cargo bench -p lab --features benches --bench chain`; the throughput line gives bodies (or loops) per second.
+//! Run it by `cargo bench -p lab --features benches --bench chain`. The throughput line gives bodies (or loops) per second.
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use mbs_core::Real;
@@ -26,7 +26,7 @@ fn revolute<T: Real>(bodies: [BodyId; 2], at: [f64; 3], axis: Option<[f64; 3]>) 
     }
 }
 
-/// `n` bodies one behind the other, axes turning from joint to joint.
+/// A chain of `n` bodies. The joint axes change their direction along the chain.
 fn chain<T: Real>(n: usize, dimension: Dimension) -> Scene<T> {
     let mut scene = scene(dimension);
     let mut last = BodyId::Ground;
@@ -56,7 +56,7 @@ fn chain<T: Real>(n: usize, dimension: Dimension) -> Scene<T> {
     scene
 }
 
-/// `n` four-bars side by side: cranks from the ground, couplers between their ends.
+/// A row of `n` four-bars: cranks on the ground, with couplers between the ends of neighbouring cranks.
 fn four_bars(n: usize) -> Scene<f64> {
     let mut scene = scene(Dimension::Planar);
     let rod = |from: [f64; 3], to: [f64; 3]| Body {
@@ -113,7 +113,7 @@ fn evaluations<S: Space<f64>>(
     group.finish();
 }
 
-/// As many states as lanes, one after the other and at once.
+/// Evaluation of as many states as there are lanes, first one after the other, then all in one call.
 fn lanes<S: Space<f64> + Space<Lanes<N>>, const N: usize>(
     criterion: &mut Criterion,
     name: &str,

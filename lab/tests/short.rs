@@ -1,11 +1,11 @@
-//! Short forms of jobs: texts that once broke something, and the first hard cases.
+//! Short forms of jobs: texts that caused faults in the past, and the first difficult cases.
 
 use runner::fuzz::trial::{self, trial};
 use runner::gauntlet::judge::{Verdict, judge};
 use runner::gauntlet::run::keep_panics;
 use runner::gauntlet::schedule::cases;
 
-/// Two rounds of the families, but for those of which a case takes minutes in all formulations.
+/// Number of cases: two rounds of the families, without those whose cases take minutes in all formulations.
 const CASES: usize = 62;
 
 #[test]

@@ -1,4 +1,4 @@
-//! Counts first, then times: one assembled factorisation and solution, ours and faer's sparse Cholesky.
+//! Benchmark of one factorisation with assembly and solution, by our solver and by faer's sparse Cholesky. Counts are printed before times.
 //!
 //! ```text
 //! ours:    residual f = sum f_e,  T = sum T_e = L D L^T,  x = T^-1 f

@@ -7,7 +7,7 @@ use mbs_core::natural::NaturalModel;
 use mbs_core::{Cliques, SpdSolver};
 use mbs_sparse::Multifrontal;
 
-/// Penalty in effective masses.
+/// Penalty factor of the constraints, relative to their effective masses [-].
 const PENALTY: f64 = 1e6;
 
 pub(crate) struct Iteration<'a, const D: usize> {
@@ -28,7 +28,7 @@ pub(crate) struct Iteration<'a, const D: usize> {
 }
 
 impl<'a, const D: usize> Iteration<'a, D> {
-    /// The iteration at the predicted end of a step from `state`.
+    /// Builds the iteration at the predicted end of a step from `state`.
     pub(crate) fn new(
         model: &'a NaturalModel<f64, D>,
         state: &'a State<f64>,
@@ -52,7 +52,7 @@ impl<'a, const D: usize> Iteration<'a, D> {
         Self { model, solver, rule, terms, state, dq, q, v, a, f, scratch, lambda, mu, penalty }
     }
 
-    /// One whole iteration; returns the size of the correction.
+    /// Makes one complete iteration. Returns the size of the correction.
     #[inline(always)]
     pub(crate) fn newton(&mut self) -> f64 {
         self.advance();
@@ -103,7 +103,7 @@ impl<'a, const D: usize> Iteration<'a, D> {
         self.solver.solve(&mut self.f, &mut self.scratch);
     }
 
-    /// q, v, a and the multipliers follow the correction.
+    /// Adds the correction to q, v, a and the multipliers. Returns its size.
     pub(crate) fn update(&mut self) -> f64 {
         for i in 0..self.f.len() {
             let d = self.f[i];

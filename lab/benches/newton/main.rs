@@ -1,4 +1,5 @@
-//! Counts first, then times: one Newton iteration of index-3 and its parts, faer on the same tangent, whole steps.
+//! Benchmark of one Newton iteration of index-3 and its parts, of faer on the same tangent, and of complete steps. Counts are printed
+//! before times.
 //!
 //! ```text
 //! newton:   phi, J by increments (advance),   T = sum T_e = L D L^T (factor, assembly included),
@@ -36,9 +37,9 @@ const SCENES: [(&str, &str); 3] = [
 ];
 /// Length of the steps [s].
 const DT: f64 = 1e-3;
-/// Steps over which the counts are averaged: one second.
+/// Number of steps over which counts are averaged: one second of motion.
 const N_COUNTED: u32 = 1000;
-/// Steps from the start of the scene to where the benchmarks stand, away from its special first configuration.
+/// Number of steps before the benchmarks begin, so that they are not at the special configuration of the start.
 const N_BEFORE: u32 = 200;
 
 type OneStep<const D: usize> = fn(
@@ -124,7 +125,7 @@ fn scene<const D: usize>(c: &mut Criterion, name: &str, document: &SceneFile) {
     faer(&mut group, &model, &state, rival);
     for (index, step) in [("step/index3", step3::<D> as OneStep<D>), ("step/index1", step1::<D>)] {
         let (mut s, mut w) = (state.clone(), workspace(&model));
-        // A step from the same state again and again, with all that a running simulation carries along.
+        // Every timed step begins at the same state, with a workspace that other steps have used.
         step(&model, &mut s, &mut w);
         let from = s.clone();
         group.bench_function(index, |b| {

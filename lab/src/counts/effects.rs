@@ -1,4 +1,4 @@
-//! One effect of each kind: chosen ones, and examples of kinds that have none here.
+//! One effect of each kind: selected effects, and the manual's examples for kinds that are not selected here.
 
 use mbs_core::effects::{EFFECTS, Places, Row};
 use mbs_core::laws::body::{BodyMotion, UnitWrench};
@@ -41,7 +41,7 @@ pub(crate) fn all(dimension: Dimension) -> Vec<(String, EffectKind<f64>)> {
     all.into_iter().map(|(name, kind)| (name.to_owned(), kind)).chain(examples).collect()
 }
 
-/// Effects that every build has: springs and forces.
+/// Effects that every build contains: springs and forces.
 fn springs_and_forces(points: [[f64; 3]; 2], at: [f64; 3]) -> Vec<(&'static str, EffectKind<f64>)> {
     let (bodies, body) = (BODIES, COUPLER);
     let course = Signal::Input([3.0, 0.0, 0.0]);
@@ -84,7 +84,7 @@ fn springs_and_forces(points: [[f64; 3]; 2], at: [f64; 3]) -> Vec<(&'static str,
     ]
 }
 
-/// Laws of a length, an angle or a place between bodies.
+/// Laws of a length, an angle or a relative displacement between bodies.
 fn between(points: [[f64; 3]; 2], six: [f64; 6]) -> Vec<(&'static str, EffectKind<f64>)> {
     let (bodies, joint) = (BODIES, CRANK);
     let (stiffness, damping) = (100.0, 1.0);
@@ -142,7 +142,7 @@ fn between(points: [[f64; 3]; 2], six: [f64; 6]) -> Vec<(&'static str, EffectKin
     ]
 }
 
-/// Laws of a length or an angle in code.
+/// User-defined laws of a length or an angle.
 fn between_in_code(points: [[f64; 3]; 2]) -> Vec<(&'static str, EffectKind<f64>)> {
     let (bodies, joint) = (BODIES, CRANK);
     vec![
@@ -227,7 +227,7 @@ fn on_a_body(at: [f64; 3], dimension: Dimension) -> Vec<(&'static str, EffectKin
     ]
 }
 
-/// A law of a user's own: as much as its input says.
+/// A user-defined law whose force is its input.
 #[derive(Debug)]
 struct Steady;
 

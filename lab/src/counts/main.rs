@@ -1,7 +1,8 @@
-//! Steps of small scenes, for a counter of instructions: `cargo xtask counts` runs this under callgrind.
+//! Steps of small scenes for an instruction counter: `cargo xtask counts` runs this program under callgrind.
 //!
-//! Arguments: the number of steps, then effects. Each is left out, switched off and switched on; a guide is only there. `train-N` is a
-//! train of N wheels without and with its gears, by steps of a Runge-Kutta method in the recursion.
+//! The arguments are the number of steps, then effects. Each effect is counted three times: left out, switched off and switched on. A guide
+//! is counted only once. `train-N` is a train of N wheels, without and with its gears, in the recursive formulation with a Runge-Kutta
+//! method.
 
 mod effects;
 mod scenes;
@@ -17,7 +18,7 @@ use mbs_recursive::{Planar, Spatial, TreeMethod, TreeModel, space::Space};
 use std::error::Error;
 use std::process::ExitCode;
 
-/// Steps made before counting [-].
+/// Number of steps before the counted ones [-].
 const WARM_UP: usize = 3;
 /// Length of a step [s].
 const STEP: f64 = 1e-3;
@@ -46,7 +47,7 @@ fn main() -> ExitCode {
     ExitCode::SUCCESS
 }
 
-/// Counts an effect in the plane and in space.
+/// Counts the steps with an effect, in the plane and in space.
 fn run(effect: &str, switch: &str, steps: usize) -> Result<(), Box<dyn Error>> {
     for dimension in [Dimension::Planar, Dimension::Spatial] {
         let scene = scenes::with(dimension, effect, switch);
@@ -63,7 +64,7 @@ fn run(effect: &str, switch: &str, steps: usize) -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Counts a scene in every formulation.
+/// Counts the steps of a scene in every formulation.
 fn formulations<const D: usize, S: Space<f64>>(
     scene: &Scene<f64>,
     name: &str,
@@ -78,7 +79,7 @@ fn formulations<const D: usize, S: Space<f64>>(
     )
 }
 
-/// Steps of index-3 augmented Lagrangian.
+/// Counts steps of the index-3 augmented Lagrangian formulation.
 fn index_3<const D: usize>(
     scene: &Scene<f64>,
     model: &NaturalModel<f64, D>,
@@ -94,7 +95,7 @@ fn index_3<const D: usize>(
     })
 }
 
-/// Steps of the recursive formulation.
+/// Counts steps of the recursive formulation.
 fn recursive<const D: usize, S: Space<f64>>(
     (scene, model): (&Scene<f64>, &NaturalModel<f64, D>),
     name: &str,
@@ -108,7 +109,7 @@ fn recursive<const D: usize, S: Space<f64>>(
     count(name, steps, || tree.step(method, STEP, &options, &mut state, &mut workspace))
 }
 
-/// Counts a train of wheels without gears or with them.
+/// Counts the steps of a train of wheels, without gears or with them.
 fn train(n: usize, has_gears: bool, steps: usize) -> Result<(), Box<dyn Error>> {
     let scene = trains::train(n, has_gears);
     scene.check()?;
@@ -118,7 +119,7 @@ fn train(n: usize, has_gears: bool, steps: usize) -> Result<(), Box<dyn Error>> 
     recursive::<2, Planar>((&scene, &model), &name, (steps, TreeMethod::Rk4))
 }
 
-/// Warms up, prints the name and counts.
+/// Makes the uncounted steps, prints the name, and makes the counted steps.
 #[allow(clippy::print_stdout, reason = "the names of the cases are what this program says")]
 fn count<R, E: Error + 'static>(
     name: &str,
@@ -132,7 +133,7 @@ fn count<R, E: Error + 'static>(
     Ok(measured(steps, &mut step)?)
 }
 
-/// The steps that are counted.
+/// The counted steps: callgrind counts inside this function.
 #[inline(never)]
 fn measured<R, E>(steps: usize, step: &mut impl FnMut() -> Result<R, E>) -> Result<(), E> {
     for _ in 0..steps {

@@ -1,4 +1,4 @@
-//! A four-bar mechanism in the plane and one in space, and what can be added to them.
+//! A four-bar mechanism in the plane and one in space, and parts that can be added to them.
 
 use crate::effects;
 use mbs_core::scene::{
@@ -6,7 +6,7 @@ use mbs_core::scene::{
     JointId, JointKind, Motion, Scene,
 };
 
-/// The four-bar with an effect of that name, `out`, `off` or `on`; or with a guide of its crank.
+/// The four-bar with the named effect: `out` (without the effect), `off` or `on`. With the name of a guide it has a guide of its crank.
 pub(crate) fn with(dimension: Dimension, effect: &str, switch: &str) -> Scene<f64> {
     let mut scene = four_bar(dimension);
     let enabled = switch == "on";
@@ -21,7 +21,7 @@ pub(crate) fn with(dimension: Dimension, effect: &str, switch: &str) -> Scene<f6
     scene
 }
 
-/// Crank, coupler and rocker; in space with a ball at one end of the coupler and a universal joint at the other.
+/// Crank, coupler and rocker. In space the coupler has a spherical joint at one end and a universal joint at the other.
 fn four_bar(dimension: Dimension) -> Scene<f64> {
     let is_planar = dimension == Dimension::Planar;
     let depth = if is_planar { 0.0 } else { 0.5 };

@@ -1,11 +1,11 @@
-//! Gear trains: wheels on hinges in a row on one carrier, each in mesh with the next.
+//! Gear trains: a row of wheels on one carrier, each on a revolute joint and in mesh with the next.
 
 use mbs_core::scene::{
     Body, BodyId, Coupling, CouplingMeasure, CouplingTerm, Dimension, Inertia, InitialCondition,
     InitialTarget, Joint, JointId, JointKind, Scene,
 };
 
-/// Radii of the wheels [m], again from the first behind the last: a chain of teeth that is not all of one size.
+/// Radii of the wheels [m], repeated along the train, so that its wheels have different sizes.
 const RADII: [f64; 3] = [0.1, 0.15, 0.2];
 
 /// `n` wheels with a gear between neighbours, or without any.

@@ -1,4 +1,5 @@
-//! `cargo xtask choice`: does `mbs run --error` choose well? Every scene, at three errors, against the best of all methods.
+//! The job `cargo xtask choice`: checks the choice of a method by `mbs run --error`. For every scene and three errors, the chosen method is
+//! compared with the best of all methods.
 
 use crate::format;
 use serde_json::Value;
@@ -9,15 +10,15 @@ use xtask::child::watched;
 use xtask::command::built;
 use xtask::process;
 
-/// Largest ratio of a good choice's time to the best time [-].
+/// Largest ratio of the chosen method's time to the best time at which the choice is good [-].
 const GOOD: f64 = 1.3;
-/// Least fraction of the cases that are good [-]: what is promised.
+/// Least fraction of good choices [-]: a requirement.
 const GOOD_SHARE: f64 = 0.9;
-/// No choice takes longer than the best by more than this factor [-]: what is promised.
+/// Largest ratio of any choice's time to the best time [-]: a requirement.
 const WORST: f64 = 3.0;
-/// Runs longer than this have the pilot counted in [s].
+/// Duration of a run above which the time of the pilot counts too [s].
 const LONG: f64 = 1.0;
-/// Work of all runs of a comparison, and CPU time of one at most [s].
+/// Time limits of the comparison: for all its runs, and CPU time of one run [s].
 const EFFORT: [&str; 4] = ["--budget", "12", "--time-limit", "4"];
 const ERRORS: &str = "1e-2,1e-4,1e-6";
 
@@ -28,7 +29,7 @@ struct Row {
     error: f64,
     method: String,
     true_error: Option<f64>,
-    /// The error that the pilot expects: more than the required one where it says that it may not be reached.
+    /// The error that the pilot expects. It exceeds the required error if the pilot reports that this one may not be reached.
     expected: Option<f64>,
     seconds: Option<f64>,
     pilot: f64,
@@ -37,31 +38,31 @@ struct Row {
 }
 
 impl Row {
-    /// Time of the choice over that of the best; the pilot counts in long runs.
+    /// Ratio of the choice's time to the best time. The pilot counts for long runs.
     fn over_best(&self) -> Option<f64> {
         let (seconds, (_, best)) = (self.seconds?, self.best.as_ref()?);
         let pilot = if *best > LONG { self.pilot } else { 0.0 };
         Some((seconds + pilot) / best)
     }
 
-    /// Is the error larger than the required one, and nothing said?
+    /// Is the error larger than the required one, without a warning by the pilot?
     fn is_missed(&self) -> bool {
         let is_larger = |e: Option<f64>| e.is_some_and(|e| e > self.error);
         is_larger(self.true_error) && !is_larger(self.expected)
     }
 
-    /// Within the factor, and without a choice that stopped.
+    /// Is the choice good: within the factor `GOOD`, and not stopped? `None` without a best method.
     fn is_good(&self) -> Option<bool> {
         self.best.as_ref()?;
         Some(self.stopped == 0 && self.over_best().is_some_and(|q| q <= GOOD))
     }
 }
 
-/// Measures all scenes, or those named; says whether nine in ten are good and no choice stopped.
+/// Measures all scenes, or the named ones. Returns whether nine in ten choices are good and no choice stopped.
 ///
 /// # Errors
 ///
-/// Why nothing can be measured.
+/// The reason why nothing can be measured.
 #[allow(clippy::print_stdout, reason = "the table is what is asked for")]
 pub(crate) fn choice(names: &[String]) -> Result<bool, String> {
     let mbs = built()?;
@@ -74,7 +75,7 @@ pub(crate) fn choice(names: &[String]) -> Result<bool, String> {
             Ok(found) => rows.extend(found),
             Err(why) => failed.push(format!("{name} was not measured: {why}")),
         }
-        // after each, so that a job that is cut off leaves what it has
+        // results are written after each scene, so that an interrupted job leaves them
         text = table(&rows) + &failed.join("\n");
         process::write(&folder.join("choice.txt"), text.as_bytes())?;
         process::write(&folder.join("choice.csv"), &csv(&rows)?)?;
@@ -193,7 +194,7 @@ fn levels(rows: &[Row]) -> Vec<f64> {
     levels
 }
 
-/// Nine in ten of all that can be judged, none that takes far longer, and none that stopped.
+/// Is a large enough fraction of choices good, does none take much longer than the best, and did none stop?
 fn verdict(rows: &[Row]) -> bool {
     let judged: Vec<bool> = rows.iter().filter_map(Row::is_good).collect();
     let good = judged.iter().filter(|is| **is).count();

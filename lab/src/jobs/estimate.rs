@@ -1,5 +1,5 @@
-//! `cargo xtask estimate`: are the errors that `mbs run` states those that it has? Every scene, and a short run of each, against a run of order 8
-//! with a tolerance near rounding.
+//! The job `cargo xtask estimate`: compares the errors that `mbs run` states with true errors. For every scene a complete and a short run
+//! are compared with a run of order 8 with a tolerance near machine precision.
 
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -10,43 +10,43 @@ use xtask::child::watched;
 use xtask::command::built;
 use xtask::process;
 
-/// Largest ratio of a stated error to the true one, and of the true one to it [-]: what is promised for most components.
+/// Largest ratio of a stated error to the true one, or its inverse, for a good estimate [-]: a requirement for most components.
 const STATED: f64 = 3.0;
-/// Least fraction of the components that are good [-]: what is promised.
+/// Least fraction of components with a good estimate [-]: a requirement.
 const GOOD_SHARE: f64 = 0.95;
-/// Largest ratio of a true error to the stated one [-]: what is promised for all.
+/// Largest ratio of any true error to the stated one [-]: a requirement for all components.
 const NONE_ABOVE: f64 = 10.0;
-/// Durations of short runs in turn [s]: they take milliseconds.
+/// Durations of short runs, used alternately [s]: they take milliseconds.
 const SHORT: [&str; 2] = ["0.05", "0.2"];
-/// Formulations of short runs in turn.
+/// Formulations of short runs, used in turn.
 const FORMULATIONS: [&str; 6] =
     ["index-3", "state-space", "index-1", "classical", "multi-index", "recursive"];
-/// Time of looks that is always taken [s].
+/// Time that an estimate may always take [s].
 const ALWAYS: f64 = 0.1;
-/// Time of all looks relative to that of their steps [-]: what is promised where it is more than [`ALWAYS`].
+/// Largest time of an estimate relative to that of the steps [-], if this is more than [`ALWAYS`].
 const LOOKS_SHARE: f64 = 0.3;
-/// A finer reference is better only if its energy error is less than this fraction of the coarser one's [-].
+/// Largest ratio of a finer reference's energy error to that of the coarser one at which the finer one is used [-].
 const BETTER: f64 = 0.1;
-/// Tolerances of the reference, the coarser one where the finer one does not run or keeps the energy worse: it may pass a singular position.
+/// Tolerances of the reference. The coarser one is used if the finer run stops or has a larger energy error, as at a singular position.
 const TOLERANCES: [&str; 2] = ["1e-12", "1e-10"];
-/// Errors below this share of what an output is are rounding of the reference.
+/// Errors below this, relative to the size of an output, are rounding errors of the reference [-].
 const ROUNDING: f64 = 1e-11;
 
-/// Findings on a scene.
+/// Results for a scene.
 struct Row {
     scene: String,
-    /// True errors over the estimates.
+    /// Ratios of true errors to stated errors.
     ratios: Vec<f64>,
-    /// CPU time of the steps and of the looks [s].
+    /// CPU time of the steps and of the estimate [s].
     seconds: [f64; 2],
     basis: Result<String, String>,
 }
 
-/// Measures all scenes, or those named; says whether the estimates are of the size of the errors.
+/// Measures all scenes, or the named ones. Returns whether the estimates satisfy the requirements.
 ///
 /// # Errors
 ///
-/// Why nothing can be measured.
+/// The reason why nothing can be measured.
 #[allow(clippy::print_stdout, reason = "the table is what is asked for")]
 pub(crate) fn estimate(names: &[String]) -> Result<bool, String> {
     let mbs = built()?;
@@ -72,7 +72,7 @@ pub(crate) fn estimate(names: &[String]) -> Result<bool, String> {
     Ok(is_good)
 }
 
-/// A run with options; nothing where it does not end.
+/// Makes a run with options and compares its estimate; `None` if the run stops.
 fn measure(
     mbs: &Path,
     scene: &Path,
@@ -121,7 +121,7 @@ fn measure(
     Ok(Some(row))
 }
 
-/// The folder of the best reference that runs.
+/// The folder of the best reference whose run is completed.
 fn reference(
     mbs: &Path,
     scene: &Path,
@@ -146,14 +146,14 @@ fn reference(
     Ok(best.map(|(_, folder)| folder))
 }
 
-/// Runs the command; says whether the run was completed.
+/// Runs the command on a scene. Returns whether the run was completed.
 fn command(mbs: &Path, scene: &Path, out: &Path, options: &[&str]) -> Result<bool, String> {
     let mut command = Command::new(mbs);
     command.arg("run").arg(scene).arg("--json").arg("--out").arg(out).args(options);
     Ok(watched(&mut command, None)?.is_some_and(|output| output.status.success()))
 }
 
-/// Names of the columns after the time, and the rows by their times in nanoseconds.
+/// Names of the columns after the time, and rows by their times in nanoseconds.
 type Table = (Vec<String>, BTreeMap<u64, Vec<f64>>);
 
 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "times of a run")]
@@ -173,7 +173,7 @@ fn csv(folder: &Path) -> Result<Table, String> {
     Ok((names, rows))
 }
 
-/// True errors over the stated ones, at the instants that both have.
+/// Ratios of true errors to stated errors, at the times that both tables contain.
 fn ratios(
     of_run: &Path,
     of_reference: &Path,

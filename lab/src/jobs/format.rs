@@ -1,4 +1,4 @@
-//! Numbers and sentences as a terminal and a page show them.
+//! Formats of numbers and sentences for a terminal and for a page.
 
 use std::fmt::Write;
 
@@ -7,7 +7,7 @@ pub(crate) fn error(x: f64) -> String {
     format!("{x:.1e}")
 }
 
-/// A step, as short as it can be written.
+/// A step in the shortest exponential form.
 pub(crate) fn step(x: f64) -> String {
     format!("{x:e}")
 }
@@ -49,7 +49,7 @@ pub(crate) fn ratio(x: f64) -> String {
     }
 }
 
-/// The ends of a span of ratios; one that is formatted alike at both, once.
+/// Two ends of a range of ratios; only one if both have the same text.
 pub(crate) fn ratios([low, high]: [f64; 2]) -> String {
     let ends = [low, high].map(ratio);
     if ends[0] == ends[1] {
@@ -59,7 +59,7 @@ pub(crate) fn ratios([low, high]: [f64; 2]) -> String {
     }
 }
 
-/// The least and the largest of numbers; `None` where there are none.
+/// The least and the largest of numbers; `None` without numbers.
 pub(crate) fn span(numbers: impl IntoIterator<Item = f64>) -> Option<[f64; 2]> {
     let ends = [f64::INFINITY, f64::NEG_INFINITY];
     let ends = numbers.into_iter().fold(ends, |[low, high], x| [low.min(x), high.max(x)]);
@@ -74,17 +74,17 @@ pub(crate) fn markdown(
     let head: Vec<&str> = head.iter().map(AsRef::as_ref).collect();
     let mut text = format!("| {} |\n|{}\n", head.join(" | "), "---|".repeat(head.len()));
     for row in rows {
-        // Writing to a string cannot fail.
+        // writing to a string cannot fail
         let _ = writeln!(text, "| {} |", row.join(" | "));
     }
     text
 }
 
-/// A table as CSV: its head, and its records.
+/// A table as CSV: its head and its records.
 ///
 /// # Errors
 ///
-/// What the writer says.
+/// The message of the writer.
 pub(crate) fn csv(
     head: &str,
     records: impl IntoIterator<Item = Vec<String>>,
@@ -97,10 +97,10 @@ pub(crate) fn csv(
     out.into_inner().map_err(|e| e.to_string())
 }
 
-/// Width of a page of text.
+/// Width of a page of text, in characters.
 pub(crate) const PAGE: usize = 100;
 
-/// Words in lines that fit the page, with a margin on their left.
+/// Adds words in lines that fit the page, with a margin at their left.
 pub(crate) fn paragraph(text: &mut String, margin: usize, words: &str) {
     let mut line = String::new();
     for word in words.split_whitespace() {

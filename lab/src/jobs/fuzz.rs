@@ -1,4 +1,5 @@
-//! `cargo xtask fuzz`: malformed scenes, tried in a process of their own; what breaks it, or takes too long, is kept.
+//! The job `cargo xtask fuzz`: trials of malformed scenes in a process of their own. A text that breaks the process, or takes too long, is
+//! saved.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -7,18 +8,18 @@ use std::thread::sleep;
 use std::time::{Duration, Instant, SystemTime};
 use xtask::process;
 
-/// Longest time of a text: one that takes longer hangs. Chosen, not tuned.
+/// Largest time of a text: a trial that takes longer hangs. Chosen, not tuned.
 const TEXT_TIME: Duration = Duration::from_secs(60);
-/// Most memory of a text [KiB]: what is read is smaller. Chosen, not tuned.
+/// Largest memory of a text [KiB]: readers refuse larger ones. Chosen, not tuned.
 const MEMORY: u64 = 1 << 20;
-/// Time between two looks at the run.
+/// Time between two checks of the process.
 const PAUSE: Duration = Duration::from_millis(100);
 
-/// Tries texts for so long [s], so many from a seed on.
+/// Tries texts during `seconds` [s], at most `count` of them, from the first seed.
 ///
 /// # Errors
 ///
-/// What broke, and where it is kept.
+/// The fault, and the file in which the text is saved.
 #[allow(clippy::print_stdout, reason = "the counts are what is asked for")]
 pub(crate) fn fuzz(seconds: u64, seed: u64, count: u64) -> Result<(), String> {
     let program = process::tested("runner", "short")?;
@@ -45,7 +46,7 @@ pub(crate) fn fuzz(seconds: u64, seed: u64, count: u64) -> Result<(), String> {
     ))
 }
 
-/// A program that gets so much memory [KiB] and no more, where there is a shell that can say so.
+/// A program with a limit of memory [KiB], on systems whose shell can set one.
 fn limited(program: &Path, memory: u64) -> Command {
     if !cfg!(target_os = "linux") {
         return Command::new(program);
@@ -55,7 +56,7 @@ fn limited(program: &Path, memory: u64) -> Command {
     command
 }
 
-/// Waits for the program; kills it, and says so, where it is about one text for too long.
+/// Waits for the program. Ends it, and returns true, if it takes too long for one text.
 fn watch(child: &mut Child, current: &Path, limit: Duration) -> Result<bool, String> {
     let start = SystemTime::now();
     let since = Instant::now();
@@ -63,11 +64,11 @@ fn watch(child: &mut Child, current: &Path, limit: Duration) -> Result<bool, Str
         if child.try_wait().map_err(|e| e.to_string())?.is_some() {
             return Ok(false);
         }
-        // A text of an earlier start is none of this one's.
+        // a file of an earlier program does not count
         let written = fs::metadata(current).and_then(|m| m.modified()).unwrap_or(start).max(start);
         let is_late = SystemTime::now().duration_since(written).is_ok_and(|d| d > limit);
         if is_late && since.elapsed() > limit {
-            // It may have ended by itself meanwhile.
+            // an error is ignored: the program may have ended by itself
             let _ = child.kill();
             return Ok(true);
         }
@@ -75,7 +76,7 @@ fn watch(child: &mut Child, current: &Path, limit: Duration) -> Result<bool, Str
     }
 }
 
-/// Moves the text to a name of its own.
+/// Moves the text to a file with a free name.
 fn keep(current: &Path, folder: &Path) -> Result<PathBuf, String> {
     let free = (1..).map(|k| folder.join(format!("kept-{k}.toml"))).find(|path| !path.exists());
     let kept = free.unwrap_or_else(|| folder.join("kept.toml"));
@@ -112,7 +113,7 @@ mod tests {
     #[cfg(target_os = "linux")]
     #[test]
     fn a_program_that_takes_too_much_memory_ends() {
-        // a word of 64 MiB, which is doubled
+        // the script makes a word of 64 MiB and doubles it
         let script = "x=$(head -c 67108864 /dev/zero | tr '\\0' x); y=$x$x; echo ${#y}";
         let takes = |memory: u64| {
             let mut command = limited(Path::new("bash"), memory);

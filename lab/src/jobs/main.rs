@@ -1,4 +1,4 @@
-//! Jobs of this repository that measure: tables, experiments, times, charts and pages; `cargo xtask NAME` runs them.
+//! Jobs of this repository that measure: tables, experiments, times, charts and pages. `cargo xtask NAME` runs them.
 
 mod bench;
 mod chart;
@@ -144,7 +144,7 @@ fn main() -> ExitCode {
     }
 }
 
-/// Does a job; whether what it found is as it should be.
+/// Runs one of the jobs. Returns whether its results are as expected.
 fn run(job: Job) -> Result<bool, String> {
     match job {
         Job::Tables { quick, names } => tables::tables(quick, &names)?,

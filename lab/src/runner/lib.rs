@@ -1,4 +1,4 @@
-//! Steps of mechanisms in a process that a job can watch: timed, tried on malformed scenes, or judged on hard cases.
+//! Runs of mechanisms in a process that a job starts and supervises: benchmarks, trials of malformed scenes, difficult cases.
 #![cfg(feature = "runner")]
 
 pub mod bench;

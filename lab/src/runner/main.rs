@@ -1,4 +1,4 @@
-//! `runner bench | fuzz | gauntlet WORDS`: what jobs start in a process that they watch.
+//! The program `runner bench | fuzz | gauntlet WORDS`, which jobs start as a process of their own and supervise.
 
 use std::process::ExitCode;
 

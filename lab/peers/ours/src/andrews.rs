@@ -1,4 +1,4 @@
-//! Andrews' squeezing mechanism to 0.03 s by explicit methods with error control, from coarse to fine.
+//! Andrews' squeezing mechanism up to 0.03 s by explicit methods with error control, for large to small tolerances.
 
 use crate::clock::time_of;
 use crate::line::{Failure, print_line};
@@ -17,7 +17,7 @@ const END: f64 = 0.03;
 /// First step tried [s], the same as in the peers' programs.
 const FIRST: f64 = 1e-7;
 
-/// Joints of the seven angles in the scene, their starts and their ends [rad].
+/// Joints of the seven angles in the scene, with the angles at the start and at the end [rad].
 const ANGLES: [(&str, f64, f64); 7] = [
     ("crank-pivot", -0.061_713_890_014_276_5, 15.810_771_195_153_707),
     ("crank-pin", 0.0, -15.756_371_058_411_84),
@@ -28,14 +28,14 @@ const ANGLES: [(&str, f64, f64); 7] = [
     ("lower-arm-pivot", 1.230_547_444_549_821_2, 1.048_080_741_041_938),
 ];
 
-/// Methods that go to the end in as many steps as their error asks for.
+/// Methods that control their steps by an error tolerance.
 const METHODS: [(&str, TreeMethod); 3] = [
     ("rk54", TreeMethod::Rk54),
     ("rk853", TreeMethod::Rk853),
     ("extrapolation", TreeMethod::Extrapolation),
 ];
 
-/// Three methods in the plane and in space, each at its errors; the value is the number of right digits.
+/// Times three methods in the plane and in space, each at its tolerances. The printed value is the number of correct digits.
 pub(crate) fn andrews(seconds: f64) -> Result<(), Failure> {
     let scene = SceneFile::parse(SCENE, "andrews.toml").and_then(|document| document.scene());
     let scene: Scene<f64> = scene.map_err(|e| e.render())?;
@@ -55,7 +55,7 @@ fn runs<S: Space<f64>>(space: &str, scene: &Scene<f64>, seconds: f64) -> Result<
             let mut state = start.clone();
             let mut run = || {
                 state.copy_from(&start);
-                // As fresh as the peers' solvers.
+                // the workspace is new for each run, as the solvers of the peers are
                 model.step(method, END, &options, &mut state, &mut Workspace::new(&model))
             };
             if let Err(why) = run() {
@@ -72,7 +72,7 @@ fn runs<S: Space<f64>>(space: &str, scene: &Scene<f64>, seconds: f64) -> Result<
     Ok(())
 }
 
-/// Where the seven angles are among the coordinates.
+/// Places of the seven angles among the coordinates.
 fn seats<S: Space<f64>>(
     scene: &Scene<f64>,
     model: &TreeModel<f64, S>,
@@ -89,7 +89,7 @@ fn seats<S: Space<f64>>(
     Ok(seats)
 }
 
-/// Right digits: -log10 of the largest relative error of the seven angles.
+/// Number of correct digits: -log10 of the largest relative error of the seven angles.
 fn digits(seats: &[usize; 7], state: &TreeState<f64>) -> f64 {
     let error = |(&seat, (_, start, end)): (&usize, (&str, f64, f64))| {
         ((start + state.z[seat] - end) / end).abs()

@@ -1,13 +1,13 @@
-//! The clock: CPU time, and the median of batches, alike in all programs.
+//! The clock of the measurements: the median CPU time of batches, the same in all programs.
 
 use cpu_time::ProcessTime;
 
-/// States, which the calls take in turn.
+/// Number of states, which the timed calls use in turn.
 pub(crate) const STATES: usize = 8;
-/// Batches of which the middle one counts.
+/// Number of batches, of which the median counts.
 const BATCHES: usize = 7;
 
-/// Seconds for one call, in batches that `batch` makes of so many calls and that fill `seconds` together.
+/// Median time of one call [s]. `batch` makes a number of calls and returns the seconds of one. All batches together fill `seconds`.
 fn median(seconds: f64, mut batch: impl FnMut(usize) -> f64) -> f64 {
     let mut n = 1;
     while batch(n) < seconds / (2 * BATCHES) as f64 {
@@ -18,7 +18,7 @@ fn median(seconds: f64, mut batch: impl FnMut(usize) -> f64) -> f64 {
     times[BATCHES / 2]
 }
 
-/// Seconds for one call, which gets the number of its state.
+/// Time of one call [s]. The call gets the number of its state.
 pub(crate) fn time_of(seconds: f64, mut call: impl FnMut(usize)) -> f64 {
     median(seconds, |n| {
         let start = ProcessTime::now();
@@ -27,7 +27,7 @@ pub(crate) fn time_of(seconds: f64, mut call: impl FnMut(usize)) -> f64 {
     })
 }
 
-/// Seconds for one step, where each batch begins anew.
+/// Time of one step [s], where each batch starts from the initial state.
 pub(crate) fn time_of_steps(seconds: f64, mut steps: impl FnMut(usize)) -> f64 {
     median(seconds, |n| {
         let start = ProcessTime::now();

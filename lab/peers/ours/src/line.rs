@@ -1,11 +1,11 @@
-//! A line of the output, the numbers in it, and the failure that takes its place.
+//! Lines of output, their numbers, and the error that replaces a line.
 
 use std::error::Error;
 
 /// Reason for which a problem cannot be run.
 pub(crate) type Failure = Box<dyn Error>;
 
-/// Number that is the same in any precision.
+/// Converts a number that every precision represents exactly.
 pub(crate) fn exactly<T: mbs_core::Real>(x: f64) -> T {
     T::from_f64(x)
 }

@@ -1,8 +1,10 @@
-//! Accelerations of N planar four-bars in a row, which have one freedom and a closed form.
+//! Accelerations of N planar four-bars in a row. The mechanism has one freedom and a closed form.
 //!
 //! ```text
 //! a'' = −g cos a ((N + 1) / 2 + N) / ((N + 1) / 3 + N)
 //! ```
+//!
+//! The angle a is that of the cranks.
 
 use crate::clock::time_of;
 use crate::line::{Failure, print_line};
@@ -17,7 +19,8 @@ use std::hint::black_box;
 const ANGLE: f64 = 1.2;
 const RATE: f64 = -1.0;
 
-/// A scene and the rates of its joints. In space the couplers' ends are closed by balls: as many equations as the peers have.
+/// A scene with the rates of its joints. In space, spherical joints close the couplers, so that there are as many equations as in the
+/// peers.
 fn scene(n: usize, dimension: Dimension) -> (Scene<f64>, Vec<f64>) {
     let (s, c) = ANGLE.sin_cos();
     let closing = match dimension {

@@ -1,7 +1,7 @@
-//! mbs on the problems that its peers are timed on: ours PROBLEM N (SECONDS | STEP)
+//! Times of mbs on the problems on which its peers are timed: ours PROBLEM N (SECONDS | STEP)
 //!
-//! A line has an algorithm, seconds for one call or run, a value, and what that is compared with. Lines whose algorithm is
-//! `reference` have the exact value: in closed form, or by the same equations in 32 digits.
+//! A line has an algorithm, the seconds of one call or run, a value, and the name of the reference for the value. Lines of the algorithm
+//! `reference` have the exact value, by a closed form or by the same equations with 32 digits.
 
 mod andrews;
 mod clock;

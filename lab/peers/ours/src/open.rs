@@ -1,4 +1,4 @@
-//! Open mechanisms: accelerations of chains and trees, efforts of chains.
+//! Open mechanisms: accelerations of chains and trees, and efforts of chains.
 
 use crate::clock::time_of;
 use crate::line::{Failure, exactly, print_line};
@@ -11,12 +11,12 @@ use mbs_recursive::space::Space;
 use mbs_recursive::{EffortTerms, Options, Planar, Spatial, TreeModel, TreeState, Workspace};
 use std::hint::black_box;
 
-/// A tree in the states that every program starts from.
+/// A tree model with the states from which every program starts.
 pub(crate) struct Open<T: Real, S: Space<T>> {
     pub(crate) model: TreeModel<T, S>,
     pub(crate) states: Vec<TreeState<T>>,
     pub(crate) workspace: Workspace<T, S>,
-    /// The freedom of the first joint.
+    /// The coordinate of the first joint.
     pub(crate) first: usize,
 }
 
@@ -34,7 +34,7 @@ impl<T: Real, S: Space<T>> Open<T, S> {
                 state.z[freedom] = exactly(q[joint]);
                 state.v[freedom] = exactly(v[joint]);
             }
-            // Inverse dynamics is asked at accelerations that equal the rates.
+            // inverse dynamics is evaluated with accelerations equal to the rates
             state.a.copy_from_slice(&state.v);
             state
         };
@@ -58,14 +58,14 @@ impl<T: Real, S: Space<T>> Open<T, S> {
     }
 }
 
-/// Accelerations in the plane and in space.
+/// Times accelerations in the plane and in space.
 pub(crate) fn forward(shape: Shape, n: usize, seconds: f64) -> Result<(), Failure> {
     let exact = |gravity| {
         let scene = shape.scene(n, Dimension::Spatial, gravity);
         Open::<DoubleDouble, Spatial>::new(&scene)?.accelerate(0).map(Real::to_f64)
     };
     print_line("reference", 0.0, exact(GRAVITY)?, "exact");
-    // Gravity along the axes moves nothing.
+    // gravity along the joint axes causes no motion
     print_line("reference", 0.0, exact(0.0)?, "weightless");
     let scene = |dimension| shape.scene(n, dimension, GRAVITY);
     timed_forward::<Planar>("planar", &scene(Dimension::Planar), seconds)?;
@@ -86,7 +86,7 @@ fn timed_forward<S: Space<f64>>(
     Ok(())
 }
 
-/// Efforts of a chain in the plane and in space.
+/// Times efforts of a chain in the plane and in space.
 pub(crate) fn inverse(n: usize, seconds: f64) -> Result<(), Failure> {
     let scene = Shape::Chain.scene(n, Dimension::Spatial, GRAVITY);
     let mut exact = Open::<DoubleDouble, Spatial>::new(&scene)?;

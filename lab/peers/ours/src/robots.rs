@@ -1,4 +1,4 @@
-//! Robots of published models: what is asked of them, by the front door's tree.
+//! Robots of published models, evaluated by the tree of the public interface.
 
 use crate::clock::{STATES, time_of};
 use crate::line::{Failure, print_line};
@@ -11,15 +11,15 @@ use mbs_recursive::{EffortTerms, Spatial, TreeModel, TreeState, Workspace};
 use std::hint::black_box;
 use std::path::PathBuf;
 
-/// Rate and acceleration of every joint [rad/s, m/s; per second].
+/// Rate and acceleration of every joint, with the same number [rad/s or m/s, and per second].
 const RATE: f64 = 0.5;
 
-/// Angle or slide of every joint in a state.
+/// Angle or displacement of every joint in state `k` [rad or m].
 fn angle(k: usize) -> f64 {
     0.2 + 0.1 * k as f64
 }
 
-/// A robot that the script of the robots has made, and the joint whose body's Jacobian is asked.
+/// A robot file that the script of the robots has made, and the joint whose body's Jacobian is evaluated.
 struct Robot {
     file: mbs_scene::SceneFile,
     last: String,
@@ -34,7 +34,7 @@ impl Robot {
         Ok(Self { file: mbs::models::read(folder.join(format!("{n}.urdf")))?, last })
     }
 
-    /// Its scene without what acts but gravity, and the place of the last joint on its body.
+    /// Reads the robot's scene without effects, so that gravity alone acts. Also returns the last joint's body and the joint's place on it.
     fn scene<T: Real>(&self) -> Result<(Scene<T>, BodyId, [T; 3]), Failure> {
         let mut scene = self.file.scene::<T>()?;
         scene.effects.clear();
@@ -45,7 +45,7 @@ impl Robot {
     }
 }
 
-/// Times a problem, and gives its value in 32 digits.
+/// Times a problem, and prints its value with 32 digits as reference.
 pub(crate) fn robot(problem: &str, n: usize, seconds: f64) -> Result<(), Failure> {
     let robot = Robot::read(n)?;
     print_line("reference", 0.0, reference(&robot, problem)?, "exact");
@@ -81,7 +81,7 @@ struct Asked<'a> {
     problem: &'a str,
     none: Vec<f64>,
     rates: Vec<f64>,
-    /// The point of the Jacobian.
+    /// The point whose Jacobian is evaluated.
     at: (BodyId, [f64; 3]),
 }
 
@@ -97,7 +97,7 @@ impl Asked<'_> {
     }
 }
 
-/// A sum over the joints, so that their order is of no account.
+/// A sum over the joints, which does not depend on their order.
 fn value(problem: &str, answer: &[f64], (n, joints): (usize, &[usize])) -> f64 {
     let of = |j: usize| match problem {
         "robot-mass" => answer[j * (n + 1)],
@@ -108,7 +108,7 @@ fn value(problem: &str, answer: &[f64], (n, joints): (usize, &[usize])) -> f64 {
     joints.iter().map(|&j| of(j)).sum()
 }
 
-/// The value of the first state by the same equations in 32 digits.
+/// The value of the first state, by the same equations with 32 digits.
 fn reference(robot: &Robot, problem: &str) -> Result<f64, Failure> {
     let (scene, body, at) = robot.scene::<Pair>()?;
     let model = TreeModel::<Pair, Spatial>::new(&scene)?;

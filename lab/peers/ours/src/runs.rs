@@ -1,4 +1,4 @@
-//! Whole runs of the repository's scenes with a fixed step, each method in turn; seconds are CPU time of the steps alone.
+//! Complete runs of the repository's scenes with a fixed step, by each method. Seconds are CPU time of the steps alone.
 
 use crate::line::{Failure, print_line};
 use crate::space::in_space;
@@ -11,7 +11,7 @@ use mbs_recursive::{Options, Planar, Spatial, TreeMethod, TreeModel, Workspace};
 use mbs_scene::SceneFile;
 use std::f64::consts::FRAC_PI_2;
 
-/// Formulation and integrator of the runs that are made as `mbs run` makes them.
+/// Formulation and integrator of the runs that are made in the same way as by `mbs run`.
 const METHODS: [[&str; 2]; 4] = [
     ["recursive", "trapezoidal"],
     ["recursive", "rk4"],
@@ -19,19 +19,19 @@ const METHODS: [[&str; 2]; 4] = [
     ["state-space", "trapezoidal"],
 ];
 
-/// The scenes, and where the first crank's end is after 10 s, in x [m].
+/// The scenes of four-bars, with the x of the first crank's end after 10 s [m].
 const DOUBLE_PENDULUM: &str = include_str!("../../../../scenes/double-pendulum.toml");
 const TWO: (&str, f64) =
     (include_str!("../../../../scenes/two-four-bars.toml"), 0.328_458_111_540_815_4);
 const FORTY: (&str, f64) =
     (include_str!("../../../../scenes/n-four-bar-40.toml"), 0.180_512_226_686_728_4);
 
-/// How a run is judged.
+/// Quantity by which a run is evaluated.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Judge {
     /// Largest error of the energy [J].
     Energy,
-    /// End of the first crank in x [m].
+    /// Position of the first crank's end in x [m].
     CrankEnd,
 }
 
@@ -41,12 +41,12 @@ impl Judge {
     }
 }
 
-/// The double pendulum; the value is the largest error of the energy [J].
+/// Runs the double pendulum. The value is the largest error of the energy [J].
 pub(crate) fn double_pendulum(dt: f64) -> Result<(), Failure> {
     runs(DOUBLE_PENDULUM, dt, Judge::Energy)
 }
 
-/// Two or forty four-bars; the value is where the first crank ends.
+/// Runs two or forty four-bars. The value is the position of the first crank's end in x [m].
 pub(crate) fn four_bars(n: usize, dt: f64) -> Result<(), Failure> {
     let (text, exact) = match n {
         2 => TWO,
@@ -57,7 +57,7 @@ pub(crate) fn four_bars(n: usize, dt: f64) -> Result<(), Failure> {
     runs(text, dt, Judge::CrankEnd)
 }
 
-/// Runs a scene by every method; one that stops is reported and left out.
+/// Runs a scene by every method. A method that stops is reported and has no line.
 fn runs(text: &str, dt: f64, judge: Judge) -> Result<(), Failure> {
     let scene = SceneFile::parse(text, "scene").and_then(|document| document.scene());
     let scene: Scene<f64> = scene.map_err(|e| e.render())?;
@@ -81,7 +81,7 @@ fn runs(text: &str, dt: f64, judge: Judge) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Times a run without looking at it, then judges another.
+/// Times a run without evaluating its motion, then evaluates the motion of a second run.
 fn print_run(name: &str, judge: Judge, run: impl Fn(bool) -> Result<[f64; 2], Failure>) {
     let timed = run(false).and_then(|[seconds, value]| match judge {
         Judge::Energy => Ok((seconds, run(true)?[1])),
@@ -93,7 +93,7 @@ fn print_run(name: &str, judge: Judge, run: impl Fn(bool) -> Result<[f64; 2], Fa
     }
 }
 
-/// A run by the steps of mbs-recursive alone: seconds and value.
+/// A run by the steps of mbs-recursive alone: its seconds and its value.
 fn kernel<S: Space<f64>, const D: usize>(
     scene: &Scene<f64>,
     (dt, n): (f64, usize),
@@ -115,12 +115,12 @@ fn kernel<S: Space<f64>, const D: usize>(
         }
     }
     let seconds = clock.elapsed().as_secs_f64();
-    // The first freedom is the first crank's; its reference stands upright.
+    // the first coordinate is the angle of the first crank, which is zero when the crank points upwards
     let value = if judge == Judge::Energy { worst } else { (FRAC_PI_2 + state.z[0]).cos() };
     Ok([seconds, value])
 }
 
-/// A scene assembled, with the options of a run.
+/// A simulation at its assembled start, with the options of a run.
 fn assembled<const D: usize>(
     scene: &Scene<f64>,
     dt: f64,
@@ -135,7 +135,7 @@ fn assembled<const D: usize>(
     Ok(Simulation::new(scene, &ResolvedMethod::new(scene, &asked)?)?)
 }
 
-/// A run as `mbs run` makes it: seconds and value.
+/// A run in the same way as by `mbs run`: its seconds and its value.
 fn simulated<const D: usize>(
     scene: &Scene<f64>,
     (dt, n): (f64, usize),
@@ -153,7 +153,7 @@ fn simulated<const D: usize>(
         }
     }
     let seconds = clock.elapsed().as_secs_f64();
-    // The first body is a crank on the origin; its centre is in the middle.
+    // the first body is a crank with one end at the origin, so that its end is at twice its centre
     let center = simulation.model().motion(scene, 0, simulation.state());
     let value = if judge == Judge::Energy { worst } else { 2.0 * center.position[0] };
     Ok([seconds, value])

@@ -1,11 +1,11 @@
-//! The mechanisms: uniform rods of 1 m and 1 kg on revolute joints about z, and the states that they are in.
+//! Mechanisms of uniform rods of 1 m and 1 kg on revolute joints about z, and the states in which they are evaluated.
 
 use crate::clock::STATES;
 use crate::line::exactly;
 use mbs_core::Real;
 use mbs_core::scene::{Body, BodyId, Dimension, Inertia, Joint, JointKind, Scene};
 
-/// Gravity in the plane, or none [m/s^2].
+/// Gravity in the plane of motion [m/s^2].
 pub(crate) const GRAVITY: f64 = 9.81;
 
 /// A scene without bodies.
@@ -14,7 +14,7 @@ pub(crate) fn empty<T: Real>(dimension: Dimension, gravity: f64) -> Scene<T> {
     Scene { gravity, ..Scene::empty("", dimension, T::ONE) }
 }
 
-/// Adds a rod from `from` along (c, s), 0.001 kg m² about its own axis; returns the body.
+/// Adds a rod from `from` along (c, s), with a moment of inertia of 0.001 kg m² about its own line. Returns the body.
 pub(crate) fn add_rod<T: Real>(scene: &mut Scene<T>, from: [T; 2], [c, s]: [T; 2]) -> BodyId {
     let (thin, thick) = (exactly::<T>(1e-3), exactly::<T>(1.0 / 12.0));
     let inertia = match scene.dimension {
@@ -60,7 +60,7 @@ pub(crate) fn add_joint<T: Real>(
     });
 }
 
-/// Adds a rod along x with its joint, 1 m from its parent's; returns the body.
+/// Adds a rod along x with its joint at 1 m from the parent's joint. Returns the body.
 fn hang<T: Real>(scene: &mut Scene<T>, parent: BodyId, x: f64) -> BodyId {
     let at = [exactly(x), T::ZERO];
     let body = add_rod(scene, at, [T::ONE, T::ZERO]);
@@ -71,7 +71,7 @@ fn hang<T: Real>(scene: &mut Scene<T>, parent: BodyId, x: f64) -> BodyId {
 /// An open mechanism.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Shape {
-    /// Rods one behind the other.
+    /// Rods in a chain, each on the end of the one before.
     Chain,
     /// A binary tree.
     Tree,
@@ -87,7 +87,7 @@ impl Shape {
     }
 }
 
-/// `n` rods one behind the other.
+/// A chain of `n` rods.
 fn chain<T: Real>(n: usize, dimension: Dimension, gravity: f64) -> Scene<T> {
     let mut scene = empty(dimension, gravity);
     let mut last = BodyId::Ground;
@@ -97,7 +97,7 @@ fn chain<T: Real>(n: usize, dimension: Dimension, gravity: f64) -> Scene<T> {
     scene
 }
 
-/// A binary tree of `n` rods, depth first.
+/// A binary tree of `n` rods, numbered depth first.
 fn tree<T: Real>(n: usize, dimension: Dimension, gravity: f64) -> Scene<T> {
     fn grow<T: Real>(scene: &mut Scene<T>, (i, n): (usize, usize), parent: BodyId, x: f64) {
         let body = hang(scene, parent, x);
@@ -110,7 +110,7 @@ fn tree<T: Real>(n: usize, dimension: Dimension, gravity: f64) -> Scene<T> {
     scene
 }
 
-/// Angles and rates of `n` joints, the same numbers in every program: a linear congruential generator.
+/// Angles and rates of `n` joints by a linear congruential generator. Every program uses the same numbers.
 pub(crate) fn states(n: usize) -> Vec<[Vec<f64>; 2]> {
     let mut seed: u32 = 1;
     let mut next = || {

@@ -1,18 +1,18 @@
-//! A planar scene as a spatial one, which moves in the same way: what mbs takes where it does not know that a scene is planar.
+//! Conversion of a planar scene to a spatial one with the same motion. It shows the cost of mbs where a scene is not declared as planar.
 
 use crate::line::Failure;
 use mbs_core::scene::{Dimension, Inertia, JointKind, Scene};
 use mbs_recursive::{Planar, TreeModel};
 
-/// The scene in space. Joints that a tree would cut become balls: as many equations as there must be and one more, as in the
-/// peers' closures.
+/// Converts the scene to space. Cut joints of the tree become spherical joints. These have as many equations as are necessary and one more,
+/// as the closures of the peers do.
 pub(crate) fn in_space(scene: &Scene<f64>) -> Result<Scene<f64>, Failure> {
     let mut scene = scene.clone();
     let cuts: Vec<usize> = TreeModel::<f64, Planar>::new(&scene)?.cut_joints().collect();
     scene.dimension = Dimension::Spatial;
     for body in &mut scene.bodies {
         if let Inertia::Planar(i) = body.inertia {
-            // What turns about z alone feels Izz alone.
+            // for rotation about z only Izz matters
             body.inertia = Inertia::Spatial([i, i, i, 0.0, 0.0, 0.0]);
         }
     }
@@ -23,7 +23,7 @@ pub(crate) fn in_space(scene: &Scene<f64>) -> Result<Scene<f64>, Failure> {
             joint.axes = [Some([0.0, 0.0, 1.0]), None];
         }
     }
-    // Channels of what is now a ball have no meaning.
+    // output channels of a joint that is now spherical have no meaning
     scene.outputs.clear();
     Ok(scene)
 }

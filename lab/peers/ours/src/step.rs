@@ -1,4 +1,4 @@
-//! One step of Runge-Kutta's method of order 4, of 1 ms.
+//! One step of 1 ms of the Runge-Kutta method of order 4.
 
 use crate::clock::time_of_steps;
 use crate::line::{Failure, exactly, print_line};
@@ -13,10 +13,10 @@ use std::hint::black_box;
 
 /// Length of the step [s].
 const STEP: f64 = 1e-3;
-/// Error of the reference.
+/// Error tolerance of the reference.
 const FINE: f64 = 1e-25;
 
-/// Times a step of a chain in the plane and in space; the value is the angle of the first joint after one step.
+/// Times a step of a chain in the plane and in space. The value is the angle of the first joint after one step [rad].
 pub(crate) fn step(n: usize, seconds: f64) -> Result<(), Failure> {
     let mut exact =
         Open::<DoubleDouble, Spatial>::new(&Shape::Chain.scene(n, Dimension::Spatial, GRAVITY))?;

@@ -6,7 +6,7 @@
 
 use nalgebra::{SMatrix, SVector};
 
-/// Start of the test set for initial value problems.
+/// State at the start, from the test set for initial value problems: angles [rad].
 pub const START: [f64; 7] = [
     -0.061_713_890_014_276_45,
     0.0,
@@ -16,7 +16,7 @@ pub const START: [f64; 7] = [
     -0.222_668_390_165_885_9,
     1.230_547_444_549_821_2,
 ];
-/// The angles at 0.03 s, by extrapolation with 30 digits.
+/// The angles at 0.03 s, by extrapolation with 30 digits [rad].
 const END: [f64; 7] = [
     15.810_771_195_153_707,
     -15.756_371_058_411_84,
@@ -27,7 +27,7 @@ const END: [f64; 7] = [
     1.048_080_741_041_937_9,
 ];
 
-// Masses [kg], moments of inertia [kg m2], lengths [m], spring [N/m, m], torque [N m], by the names of the test set.
+// Masses [kg], moments of inertia [kg m2], lengths [m], spring [N/m, m], torque [N m], with the names of the test set.
 const M: [f64; 7] = [0.04325, 0.00365, 0.02373, 0.00706, 0.07050, 0.00706, 0.05498];
 const I: [f64; 7] = [2.194e-6, 4.410e-7, 5.255e-6, 5.667e-7, 1.169e-5, 5.667e-7, 1.912e-5];
 const B: [f64; 2] = [-0.03635, 0.03273];
@@ -55,7 +55,7 @@ const ZF: f64 = 0.02;
 const ZT: f64 = 0.04;
 const FA: f64 = 0.01421;
 
-/// Right digits: -log10 of the largest relative error of the seven angles.
+/// Number of correct digits: -log10 of the largest relative error of the seven angles.
 #[must_use]
 pub fn digits(q: &[f64]) -> f64 {
     let errors = q.iter().zip(END).map(|(q, end)| ((q - end) / end).abs());
@@ -134,7 +134,7 @@ fn loops(q: &[f64], v: &[f64]) -> (SMatrix<f64, 6, 7>, SVector<f64, 6>) {
     (g, bias)
 }
 
-/// (q'', λ) of a state (q, q'); not a number where the equations are singular.
+/// Accelerations and multipliers (q'', λ) of a state (q, q'); NaN where the equations are singular.
 #[must_use]
 pub fn accelerations(x: &[f64]) -> SVector<f64, 13> {
     let (q, v) = (&x[..7], &x[7..14]);
@@ -149,7 +149,7 @@ pub fn accelerations(x: &[f64]) -> SVector<f64, 13> {
     matrix.lu().solve(&rhs).unwrap_or_else(|| SVector::from_element(f64::NAN))
 }
 
-/// The rate of (q, q').
+/// The rate of change of the state (q, q').
 pub fn rate(x: &[f64], y: &mut [f64]) {
     y[..7].copy_from_slice(&x[7..14]);
     y[7..14].copy_from_slice(&accelerations(x).as_slice()[..7]);

@@ -1,15 +1,15 @@
-//! What the programs share: the states that every program starts from, the clock, and the line that is printed.
+//! Common parts of the programs: the states from which every program starts, the clock, and the lines of output.
 
 pub mod andrews;
 
 use cpu_time::ProcessTime;
 
-/// States, which the calls take in turn.
+/// Number of states, which the timed calls use in turn.
 pub const STATES: usize = 8;
-/// Batches of which the middle one counts.
+/// Number of batches, of which the median counts.
 const BATCHES: usize = 7;
 
-/// Angles and rates of `n` joints, the same numbers in every program: a linear congruential generator.
+/// Angles and rates of `n` joints by a linear congruential generator. Every program uses the same numbers.
 #[must_use]
 pub fn states(n: usize) -> Vec<[Vec<f64>; 2]> {
     let mut seed: u32 = 1;
@@ -21,7 +21,7 @@ pub fn states(n: usize) -> Vec<[Vec<f64>; 2]> {
     (0..STATES).map(|_| [numbers(3.0), numbers(1.0)]).collect()
 }
 
-/// CPU seconds for one call: the median of batches that fill `seconds` together.
+/// CPU time of one call [s]: the median of batches that fill `seconds` together.
 pub fn time_of(seconds: f64, mut call: impl FnMut(usize)) -> f64 {
     let mut batch = |n: usize| {
         let start = ProcessTime::now();
@@ -37,16 +37,16 @@ pub fn time_of(seconds: f64, mut call: impl FnMut(usize)) -> f64 {
     times[BATCHES / 2]
 }
 
-/// One line: algorithm, seconds for one call, the value, what that is compared with.
+/// Prints one line: algorithm, seconds of one call, the value, the name of its reference.
 pub fn print_line(algorithm: &str, seconds: f64, value: f64, reference: &str) {
     println!("{algorithm},{seconds:.6e},{value:.17e},{reference}");
 }
 
-/// What was asked for: problem, size, seconds.
+/// Arguments of the program: problem, size, seconds.
 ///
 /// # Errors
 ///
-/// How it is to be asked.
+/// The usage of the program.
 pub fn asked(usage: &str) -> Result<(String, usize, f64), String> {
     let words: Vec<String> = std::env::args().skip(1).collect();
     let read =

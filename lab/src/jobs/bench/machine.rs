@@ -1,33 +1,33 @@
-//! The machine that was measured on, and how busy it was.
+//! The machine of the measurements, and its load by other programs.
 
 use serde_json::{Value, json};
 use std::thread::available_parallelism;
 
-/// Cores, processor and load.
+/// Cores, processor and load of the machine.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Machine {
     pub(crate) cores: usize,
-    /// The processor's name, where the system reports it.
+    /// The processor's name, if the system reports it.
     pub(crate) processor: String,
-    /// Processes that ran or waited, over the last minute: before and after; where the system reports it.
+    /// Average number of processes that ran or waited during the last minute, before and after the measurements, if the system reports it.
     pub(crate) load: [Option<f64>; 2],
 }
 
-/// Load per core above which others are at work.
+/// Load per core above which other programs disturb the measurements [-].
 const BUSY: f64 = 0.2;
 
 impl Machine {
-    /// The machine before measuring.
+    /// The machine with its load before the measurements.
     pub(crate) fn now() -> Self {
         Self { cores: cores(), processor: processor(), load: [load(), None] }
     }
 
-    /// Takes the load after measuring.
+    /// Stores the load after the measurements.
     pub(crate) fn end(&mut self) {
         self.load[1] = load();
     }
 
-    /// Was it busy before the measurements?
+    /// Was the machine busy before the measurements? `None` if its load is unknown.
     pub(crate) fn is_busy(&self) -> Option<bool> {
         #[allow(clippy::cast_precision_loss, reason = "a number of cores")]
         let cores = self.cores as f64;

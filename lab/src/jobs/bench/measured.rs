@@ -1,17 +1,17 @@
-//! Measurements of the program, read from its lines.
+//! Measurements of the runner, read from the lines that it prints.
 
 use super::machine::Machine;
 use serde_json::Value;
 
-/// Everything of one run.
+/// All measurements of one run of the job.
 #[derive(Debug, Clone)]
 pub(crate) struct Measured {
     pub(crate) machine: Machine,
-    /// Sizes of teams, one among them.
+    /// Sizes of thread teams; size one is always among them.
     pub(crate) threads: Vec<usize>,
-    /// All formulations, in the order in which they are shown.
+    /// All formulations, in the order of the tables.
     pub(crate) formulations: Vec<String>,
-    /// Empty forks, as printed.
+    /// Lines on empty forks.
     pub(crate) forks: Vec<Value>,
     pub(crate) scenes: Vec<Scene>,
 }
@@ -20,33 +20,33 @@ pub(crate) struct Measured {
 #[derive(Debug, Clone)]
 pub(crate) struct Scene {
     pub(crate) name: String,
-    /// Sizes of the scene, as printed.
+    /// Line with the sizes of the scene.
     pub(crate) sizes: Value,
-    /// Orders of elimination with their counts, as printed.
+    /// Lines on orders of elimination, with their counts.
     pub(crate) orders: Vec<Value>,
-    /// faer beside ours at the start and after some steps, as printed.
+    /// Lines that compare faer with our solver, at the start and after some steps.
     pub(crate) faer: Vec<Value>,
     pub(crate) lanes: Vec<Lane>,
 }
 
-/// A way to step a scene, measured.
+/// Measurement of a scene by one combination of formulation, team and order of elimination.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Lane {
     pub(crate) formulation: String,
-    /// `alone`, `crew` or `pool`.
+    /// Name of the team: `alone`, `crew` or `pool`.
     pub(crate) team: String,
     pub(crate) threads: usize,
     pub(crate) order: String,
-    /// Were its phases timed?
+    /// Were the phases of the lane's steps timed?
     pub(crate) clocked: bool,
-    /// Median of a step [s]; nothing where there is a reason.
+    /// Median time of a step [s]; `None` if there is a reason.
     pub(crate) seconds: Option<f64>,
     pub(crate) reason: Option<String>,
-    /// Line of the lane, as printed.
+    /// Line of the lane.
     pub(crate) line: Value,
 }
 
-/// A number of a line.
+/// A number of a line, by its key.
 pub(crate) fn number(line: &Value, key: &str) -> Option<f64> {
     line[key].as_f64()
 }
@@ -62,11 +62,11 @@ impl Scene {
         }
     }
 
-    /// Takes over the lines of a scene.
+    /// Adds the lines of a scene.
     ///
     /// # Errors
     ///
-    /// The line that cannot be meant.
+    /// A line with an unknown kind or without its keys.
     pub(crate) fn read(&mut self, lines: &[Value]) -> Result<(), String> {
         for line in lines {
             match line["kind"].as_str() {
@@ -80,7 +80,7 @@ impl Scene {
         Ok(())
     }
 
-    /// A formulation that has not been measured, with its reason.
+    /// Adds a formulation that was not measured, with the reason.
     pub(crate) fn refuse(&mut self, formulation: &str, why: &str) {
         self.lanes.push(Lane {
             formulation: formulation.to_owned(),
@@ -94,18 +94,18 @@ impl Scene {
         });
     }
 
-    /// The lane of a team.
+    /// The lane of a team without a clock.
     pub(crate) fn lane(&self, formulation: &str, team: &str, threads: usize) -> Option<&Lane> {
         let mut lanes = self.lanes.iter().filter(|lane| !lane.clocked);
         lanes.find(|l| l.formulation == formulation && l.team == team && l.threads == threads)
     }
 
-    /// The best serial lane of a formulation: the first, which is eliminated in the order of minimum degree.
+    /// The best serial lane of a formulation: the first one, with the order of minimum degree.
     pub(crate) fn serial(&self, formulation: &str) -> Option<&Lane> {
         self.lane(formulation, "alone", 1)
     }
 
-    /// The lane with a clock: of the crew, or alone.
+    /// The lane whose phases were timed, with the given number of threads.
     pub(crate) fn clocked(&self, formulation: &str, threads: usize) -> Option<&Lane> {
         let is_it = |lane: &&Lane| lane.formulation == formulation && lane.threads == threads;
         self.lanes.iter().filter(|lane| lane.clocked).find(is_it)
@@ -116,17 +116,17 @@ impl Scene {
         self.orders.iter().find(|order| order["order"] == name)
     }
 
-    /// Ours over the faster of faer's two ways, from blocks that are given: after some steps, else at the start.
+    /// Ratio of our time to that of faer's faster method, with given blocks: after some steps, or at the start.
     pub(crate) fn ratio_to_faer(&self) -> Option<f64> {
         self.faer.iter().rev().find_map(|line| ratio(&line["given"]))
     }
 
-    /// Ratio to faer's time where the writing of the blocks counts for both.
+    /// Ratio of our time to that of faer's faster method, if both evaluate the blocks.
     pub(crate) fn ratio_with_blocks(&self) -> Option<f64> {
         self.faer.iter().rev().find_map(ratio)
     }
 
-    /// A number of its sizes.
+    /// A number of the scene's sizes.
     pub(crate) fn size(&self, key: &str) -> Option<f64> {
         number(&self.sizes, key)
     }
@@ -148,19 +148,19 @@ impl Lane {
         (lane.seconds.is_some() || lane.reason.is_some()).then_some(lane)
     }
 
-    /// Work in one step: `iterations`, `factorizations`, `solves`.
+    /// Work in one step, by the keys `iterations`, `factorizations`, `solves`.
     pub(crate) fn work(&self, key: &str) -> Option<f64> {
         self.line["work"][key].as_f64()
     }
 }
 
-/// Times of ours, faer entry by entry, and faer by supernodes [s].
+/// Times of our solver, of faer entry by entry, and of faer by supernodes [s].
 pub(crate) fn times(faer: &Value) -> Option<[f64; 3]> {
     let time = |way: &str| number(&faer[way], "seconds");
     Some([time("ours")?, time("simplicial")?, time("supernodal")?])
 }
 
-/// Ours over the faster of faer's two ways.
+/// Ratio of our time to that of faer's faster method.
 pub(crate) fn ratio(faer: &Value) -> Option<f64> {
     times(faer).map(|[ours, simplicial, supernodal]| ours / simplicial.min(supernodal))
 }
@@ -170,7 +170,7 @@ pub(crate) fn speed_up(serial: f64, seconds: f64) -> f64 {
     serial / seconds
 }
 
-/// The share of its threads that a team makes use of.
+/// Parallel efficiency: speedup divided by the number of threads [-].
 pub(crate) fn efficiency(speed_up: f64, threads: usize) -> f64 {
     #[allow(clippy::cast_precision_loss, reason = "a number of threads")]
     let threads = threads.max(1) as f64;
@@ -214,7 +214,7 @@ pub(super) mod tests {
         })
     }
 
-    /// A small run with everything in it.
+    /// A small run with all kinds of lines.
     pub(crate) fn sample() -> Measured {
         let time = |seconds: f64| json!({ "seconds": seconds });
         let lines = [

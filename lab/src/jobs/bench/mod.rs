@@ -1,4 +1,4 @@
-//! `cargo xtask bench`: what a step costs in each formulation and scene, and what threads gain.
+//! The job `cargo xtask bench`: measures the cost of a step in each formulation and scene, and the speedup by threads.
 
 mod machine;
 mod measured;
@@ -18,7 +18,7 @@ use std::time::Duration;
 pub(crate) use threads::Threads;
 use xtask::process;
 
-/// The scenes that are measured: those of this repository, then larger and larger ones made by rule.
+/// The scenes that are measured by default: those of this repository, then generated ones of increasing size.
 const SCENES: [&str; 14] = [
     "double-pendulum",
     "andrews",
@@ -35,28 +35,28 @@ const SCENES: [&str; 14] = [
     "tree-4095",
     "chain-10000",
 ];
-/// Arguments of cargo that build the measuring program alone.
+/// Arguments of cargo that build only the measuring program.
 pub(crate) const RUNNER: [&str; 7] =
     ["--package", "lab", "--bin", "runner", "--no-default-features", "--features", "faer"];
-/// The largest ones, which `--quick` leaves out.
+/// The largest scenes, which `--quick` leaves out.
 const LARGEST: [&str; 4] = ["net-1000", "convoy-100", "tree-4095", "chain-10000"];
 
 /// Options of the job.
 #[derive(Debug, Clone)]
 pub(crate) struct Asked {
-    /// Sizes of teams; left out, one to as many as there are cores.
+    /// Sizes of thread teams. Default: from one to the number of cores.
     pub(crate) threads: Option<Threads>,
-    /// Whether the largest scenes are left out, and each scene gets less time.
+    /// Are the largest scenes left out, and do all others get less time?
     pub(crate) quick: bool,
-    /// Scenes that are measured, and no others; empty: the usual ones.
+    /// Names of the scenes to measure; if the list is empty, the default ones.
     pub(crate) scenes: Vec<String>,
 }
 
-/// Builds the program, measures the scenes, or those named, one after the other, and writes text, JSON and HTML under `target/bench`.
+/// Builds the program, measures the scenes one after the other, and writes text, JSON and HTML under `target/bench`.
 ///
 /// # Errors
 ///
-/// Why something cannot be run at all.
+/// The reason why something cannot be run.
 #[allow(clippy::print_stdout, reason = "the tables are what is asked for")]
 pub(crate) fn run(asked: &Asked) -> Result<String, String> {
     let measured = measure(asked)?;
@@ -72,19 +72,19 @@ pub(crate) fn run(asked: &Asked) -> Result<String, String> {
     Ok(page)
 }
 
-/// The report's tables on processors, T6 and T7, from the vehicle alone.
+/// The report's tables on processors, T6 and T7, measured on the vehicle only.
 ///
 /// # Errors
 ///
-/// Why something cannot be run at all.
+/// The reason why something cannot be run.
 pub(crate) fn processors(quick: bool) -> Result<Section, String> {
     let scenes = papers::TIMES.iter().map(|(_, scene, _)| (*scene).to_owned()).collect();
     Ok(tables::processors(&measure(&Asked { threads: None, quick, scenes })?))
 }
 
-/// Builds the program and measures one scene after the other.
+/// Builds the program and measures the scenes one after the other.
 fn measure(asked: &Asked) -> Result<Measured, String> {
-    // The load before anything of this job runs is that of others.
+    // the load is read before this job loads the machine itself
     let machine = Machine::now();
     let threads = asked.threads.clone().unwrap_or_else(|| Threads::up_to(machine.cores));
     let program = built(&threads, asked.quick)?;
@@ -93,7 +93,7 @@ fn measure(asked: &Asked) -> Result<Measured, String> {
     let forks = program.run(&["forks"], Duration::from_secs(60))?;
     let name = |line: &Value| line["name"].as_str().unwrap_or_default().to_owned();
     let formulations = listed.iter().map(name).collect();
-    // Those whose solver and clocks are the bench's own, and those that are stepped as `mbs run` does.
+    // formulations whose solver and phases the bench measures, and those with the steps of `mbs run`
     let (own, others): (Vec<_>, Vec<_>) = listed.iter().partition(|line| line["own"] == true);
     let [own, others] = [own, others].map(|lines| lines.into_iter().map(name).collect::<Vec<_>>());
     let threads = threads.sizes().to_vec();
@@ -106,11 +106,11 @@ fn measure(asked: &Asked) -> Result<Measured, String> {
     Ok(measured)
 }
 
-/// Builds the program that measures.
+/// Builds the measuring program.
 ///
 /// # Errors
 ///
-/// What cargo says.
+/// The message of cargo.
 pub(crate) fn built(threads: &Threads, quick: bool) -> Result<Program, String> {
     let mut build = process::cargo();
     build.args(["build", "--quiet", "--profile", "dist"]).args(RUNNER);
@@ -122,7 +122,7 @@ pub(crate) fn built(threads: &Threads, quick: bool) -> Result<Program, String> {
     })
 }
 
-/// The scenes that are asked for; a name that is not in the list is the program's to judge.
+/// The scenes that are requested. Unknown names are refused by the program later.
 fn selected(asked: &Asked) -> Vec<String> {
     if !asked.scenes.is_empty() {
         return asked.scenes.clone();
@@ -131,7 +131,7 @@ fn selected(asked: &Asked) -> Vec<String> {
     SCENES.into_iter().filter(is_wanted).map(str::to_owned).collect()
 }
 
-/// Measures one scene in all formulations, each in a process of its own where it may take too long.
+/// Measures one scene in all formulations. A formulation that may take too long has a process of its own.
 fn scene(program: &Program, name: &str, (own, others): (&str, &[String])) -> Result<Scene, String> {
     process::progress(&format!("{name} {own}"));
     let mut scene = Scene::new(name);

@@ -1,8 +1,8 @@
-//! Numbers of the report on processors, beside ours.
+//! Numbers of the report on processors, for comparison with ours.
 //!
-//! Table IV of the report is Table II of publication 3; Table V is in the report alone.
+//! Table IV of the report is Table II of publication 3. Table V is in the report only.
 
-/// A formulation of the report, and ours.
+/// A formulation of the report with its name in mbs.
 pub(crate) struct Method {
     /// Name of the formulation in the report.
     pub(crate) printed: &'static str,
@@ -12,7 +12,7 @@ pub(crate) struct Method {
     pub(crate) reductions: [f64; 4],
 }
 
-/// The vehicle over ramp and stairs (Simul1) on a SUN SPARCstation 20 with four HyperSPARC of 100 MHz [P3 II].
+/// Results for the vehicle over ramp and stairs (Simul1) on a SUN SPARCstation 20 with four HyperSPARC processors of 100 MHz [P3 II].
 pub(crate) const REDUCTIONS: [Method; 3] = [
     Method {
         printed: "Augmented Lagrangian",
@@ -23,7 +23,7 @@ pub(crate) const REDUCTIONS: [Method; 3] = [
     Method { printed: "Fully-Recursive", ours: "recursive", reductions: [0.0; 4] },
 ];
 
-/// CPU time of ten seconds of motion in the augmented Lagrangian on an ALPHA AXP 4000 with two processors of 466 MHz
-/// [R V]. Each row has the report's name, our scene, and seconds.
+/// CPU time of ten seconds of motion with the augmented Lagrangian on an ALPHA AXP 4000 with two processors of 466 MHz [R V]. Each row has
+/// the report's name, our scene, and seconds.
 pub(crate) const TIMES: [(&str, &str, f64); 2] =
     [("SIMUL1", "iltis-stairs", 12.0), ("SIMUL2", "iltis-jump", 9.0)];

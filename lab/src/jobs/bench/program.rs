@@ -7,7 +7,7 @@ use std::time::Duration;
 use xtask::child::printed;
 use xtask::process;
 
-/// The program, and the arguments of every run of it.
+/// The program, with the arguments that every run of it has.
 #[derive(Debug)]
 pub(crate) struct Program {
     pub(crate) path: PathBuf,
@@ -16,11 +16,11 @@ pub(crate) struct Program {
 }
 
 impl Program {
-    /// The lines that it prints.
+    /// Runs the measuring program. Returns its lines.
     ///
     /// # Errors
     ///
-    /// What it refuses, or that it has taken longer than `limit`.
+    /// The program's message, or that it took longer than `limit`.
     pub(crate) fn run(&self, places: &[&str], limit: Duration) -> Result<Vec<Value>, String> {
         let mut command = Command::new(&self.path);
         command.arg("bench").args(places).args([

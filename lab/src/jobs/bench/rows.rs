@@ -28,7 +28,7 @@ fn with_scene(scene: &Scene, line: &Value) -> Value {
     line
 }
 
-/// The rows of a scene: all lanes without a clock, which has its phases beside the lane that is stepped alike.
+/// The rows of a scene: one for each lane without a clock. The phases come from the lane with a clock that makes the same steps.
 fn rows(scene: &Scene) -> Vec<Value> {
     scene.lanes.iter().filter(|lane| !lane.clocked).map(|lane| row(scene, lane)).collect()
 }
@@ -53,7 +53,7 @@ fn row(scene: &Scene, lane: &Lane) -> Value {
     })
 }
 
-/// Sizes and work of one step.
+/// Sizes of the scene, and work of one step.
 fn counts(scene: &Scene, lane: &Lane) -> Value {
     let mut counts = Map::new();
     let is_own = lane.line["own"] != false;
@@ -69,7 +69,7 @@ fn counts(scene: &Scene, lane: &Lane) -> Value {
     Value::Object(counts)
 }
 
-/// Seconds of each phase in one step, on the mean, with the whole step and what comes after the iteration's last evaluation.
+/// Average seconds of each phase per step, with the complete step and the part after the last evaluation of the iteration.
 fn phases(lane: &Lane) -> Value {
     let mut phases = lane.line["phases"].clone();
     for key in ["step", "after_evaluation"] {

@@ -2,20 +2,20 @@
 
 use std::str::FromStr;
 
-/// Most threads of a team [-]: more are a slip of the pen.
+/// Largest number of threads in a team [-]: a larger one is probably a typing error.
 const MAX_TEAM: usize = 1024;
 
-/// Sizes of teams, ascending; one is always among them.
+/// Sizes of thread teams in increasing order; size one is always among them.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Threads(Vec<usize>);
 
 impl Threads {
-    /// All sizes up to `n`; of many, those that double, and `n`.
+    /// All sizes up to `n`; for large `n` only powers of two and `n`.
     pub(crate) fn up_to(n: usize) -> Self {
         Self::span(1, n.max(1))
     }
 
-    /// One, and the sizes from `low` to `high`; of more than eight those that double, and the last.
+    /// One, and the sizes from `low` to `high`. If these are more than eight, only powers of two and the last one.
     fn span(low: usize, high: usize) -> Self {
         let is_kept = |n: &usize| high - low < 8 || n.is_power_of_two() || *n == high;
         let sizes = (low.max(2)..=high).filter(is_kept);
@@ -27,7 +27,7 @@ impl Threads {
         &self.0
     }
 
-    /// Lists the sizes with commas between.
+    /// Writes the sizes, separated by commas.
     pub(crate) fn listed(&self) -> String {
         self.0.iter().map(ToString::to_string).collect::<Vec<_>>().join(",")
     }

@@ -13,17 +13,17 @@ use style::{CURRENT, Style};
 /// A drawing: its axes and series.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Chart {
-    /// The axis to the right.
+    /// Horizontal axis of the drawing.
     pub(crate) x: Axis,
     /// Axis that points upwards.
     pub(crate) y: Axis,
-    /// Series that are drawn, the first below the others.
+    /// Series of the drawing; the first is drawn below the others.
     pub(crate) series: Vec<Series>,
-    /// A span of x that is shaded.
+    /// A range of x that is shaded.
     pub(crate) shade: Option<[f64; 2]>,
 }
 
-/// An axis: what it shows, with its unit.
+/// An axis with its label and its spacing.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Axis {
     /// Label of the axis.
@@ -35,7 +35,7 @@ pub(crate) struct Axis {
 /// Points that belong together.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Series {
-    /// Name of the series in the legend; none where it is empty.
+    /// Name of the series in the legend. A series with an empty name is not in the legend.
     pub(crate) name: String,
     /// Number of its style: colour, dashes and mark.
     pub(crate) style: usize,
@@ -46,7 +46,7 @@ pub(crate) struct Series {
 }
 
 impl Series {
-    /// Points with a name, in a style and a look.
+    /// Makes a series of points with a name, a style and a look.
     pub(crate) fn new(
         name: impl Into<String>,
         style: usize,
@@ -56,7 +56,7 @@ impl Series {
         Self { name: name.into(), style, look, points }
     }
 
-    /// A piece of it for a legend: its line, its mark, or both.
+    /// A sample of the series for a legend: its line, its mark, or both.
     pub(crate) fn sample(&self) -> String {
         let has_line = matches!(self.look, Look::Line | Look::Both);
         Style::of(self.style).sample(has_line, self.look != Look::Line)
@@ -72,11 +72,11 @@ pub(crate) enum Look {
     Marks,
     /// Series as a line with a mark at each point.
     Both,
-    /// Series as marks of the size in `Both`, without a line.
+    /// Series as marks of the same size as in `Both`, without a line.
     Dots,
 }
 
-/// Width and height in the drawing's own units.
+/// Width and height of a drawing, in pixels.
 const SIZE: (u32, u32) = (960, 340);
 
 impl Axis {
@@ -90,14 +90,14 @@ impl Axis {
         Self::new("t [s]", Kind::Linear)
     }
 
-    /// Can this number be shown?
+    /// Can the axis show this number?
     fn shows(&self, x: f64) -> bool {
         x.is_finite() && (self.kind != Kind::Log || x > 0.0)
     }
 }
 
 impl Series {
-    /// The points that the axes show, in slices of time or in cells, so that there are no more than can be seen.
+    /// The points that the axes show, reduced to as many as can be distinguished: by slices of time for lines, by cells for marks.
     fn visible(&self, chart: &Chart, scales: (&Scale, &Scale)) -> Vec<(f64, f64)> {
         let points = self.points.iter().copied();
         let shown: Vec<_> =
@@ -121,7 +121,7 @@ impl Chart {
         Self::new(Axis::new(x, Kind::Log), Axis::new(y, Kind::Log), series)
     }
 
-    /// The series that a legend names.
+    /// The series that are in the legend.
     pub(crate) fn named(&self) -> impl Iterator<Item = &Series> {
         self.series.iter().filter(|s| !s.name.is_empty() && !s.points.is_empty())
     }
@@ -130,7 +130,7 @@ impl Chart {
     ///
     /// # Errors
     ///
-    /// That there is nothing to draw, or what the drawing library says.
+    /// There is nothing to draw, or the drawing library fails.
     pub(crate) fn svg(&self) -> Result<String, String> {
         let shown = |[x, y]: &&[f64; 2]| self.x.shows(*x) && self.y.shows(*y);
         let points = || self.series.iter().flat_map(|s| &s.points).filter(shown);

@@ -1,19 +1,19 @@
-//! A drawing with its legend as one SVG file, for documents; its ink is readable on light and on dark paper.
+//! A drawing with its legend as one SVG file, for documents. Its colours are readable on a light and on a dark background.
 
 use super::{Chart, SIZE};
 use crate::format::escape;
 use std::fmt::Write;
 
-/// Ink of text and axes: grey of the same contrast on both papers.
+/// Colour of text and axes: a grey with the same contrast on both backgrounds.
 const INK: &str = "#7D8590";
-/// Height of a line of the legend, and width of an entry; four stand beside each other.
+/// Height of a line of the legend, and width of an entry, in pixels; four entries fit beside each other.
 const ENTRY: [usize; 2] = [22, 230];
 
 /// Draws the chart with its legend as an SVG file.
 ///
 /// # Errors
 ///
-/// That there is nothing to draw, or what the drawing library says.
+/// There is nothing to draw, or the drawing library fails.
 pub(crate) fn picture(chart: &Chart) -> Result<String, String> {
     let drawing = chart.svg()?;
     let [line, width] = ENTRY;
@@ -22,7 +22,7 @@ pub(crate) fn picture(chart: &Chart) -> Result<String, String> {
     for (i, series) in named.iter().enumerate() {
         let (x, y) = (i % 4 * width + 40, i / 4 * line + 4);
         let sample = series.sample();
-        // Writing to a string cannot fail.
+        // writing to a string cannot fail
         let _ = writeln!(
             legend,
             "<g transform=\"translate({x},{y})\">{sample}<text x=\"46\" y=\"12\" font-family=\"sans-serif\" font-size=\"14\" \

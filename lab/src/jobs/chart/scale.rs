@@ -1,32 +1,32 @@
-//! Scale of an axis: where numbers lie on it, and which of them are written.
+//! Scale of an axis: positions of numbers along the axis, and the numbers that are written.
 
 use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
 use std::ops::Range;
 
-/// Room beyond the outermost numbers, as a share of the span.
+/// Margin beyond the outermost numbers, relative to the range [-].
 const MARGIN: f64 = 0.04;
 
 /// Spacing of numbers on an axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Kind {
-    /// Evenly, over the span of the numbers.
+    /// Linear spacing over the range of the numbers.
     Linear,
-    /// Evenly, and zero is there.
+    /// Linear spacing over a range that includes zero.
     FromZero,
-    /// Spacing by the logarithm of the numbers; what is not positive is left out.
+    /// Logarithmic spacing; numbers that are not positive are left out.
     Log,
 }
 
-/// An axis over a span of numbers.
+/// An axis over a range of numbers.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Scale {
     is_log: bool,
-    /// Ends, of logarithms in a logarithmic scale.
+    /// Ends of the range; for a logarithmic scale, logarithms of these.
     ends: [f64; 2],
 }
 
 impl Scale {
-    /// The scale that shows all these numbers; `None` where there are none.
+    /// The scale that shows all these numbers; `None` without numbers.
     pub(crate) fn over(kind: Kind, numbers: impl Iterator<Item = f64>) -> Option<Self> {
         let is_log = kind == Kind::Log;
         let zero = (kind == Kind::FromZero).then_some(0.0);
@@ -36,7 +36,7 @@ impl Scale {
         if low > high {
             return None;
         }
-        // One number alone stands in the middle.
+        // a single number is in the middle
         let least = if is_log { 0.3 } else { 1e-12_f64.max(1e-6 * low.abs()) };
         let span = (high - low).max(least);
         let middle = 0.5 * (low + high);
@@ -44,7 +44,7 @@ impl Scale {
         Some(Self { is_log, ends: [middle - half, middle + half] })
     }
 
-    /// Share of the axis that lies below a number.
+    /// Position of a number as a fraction of the axis.
     pub(crate) fn share(&self, x: f64) -> f64 {
         let x = if self.is_log { x.log10() } else { x };
         (x - self.ends[0]) / (self.ends[1] - self.ends[0])
@@ -64,11 +64,11 @@ impl Scale {
         if self.is_log { 10_f64.powf(x) } else { x }
     }
 
-    /// Numbers that are written at the axis, at most `n`.
+    /// Numbers that are written at the axis, `n` at most.
     fn ticks(&self, n: usize) -> Vec<f64> {
         let [low, high] = self.ends;
         let n = count(n.max(2));
-        // Within a decade or two, logarithms of 1, 2 and 5.
+        // over a decade or two, 1, 2 and 5 times the powers of ten are written
         if self.is_log && 3.0 * (high - low) <= n {
             let decades = multiples(low - 1.0, high, 1.0).into_iter();
             let ticks = decades.flat_map(|k| [1.0, 2.0, 5.0].map(|m| m * 10_f64.powf(k)));
@@ -83,12 +83,12 @@ impl Scale {
     }
 }
 
-/// A count as a number.
+/// Converts a count to a floating-point number.
 fn count(n: usize) -> f64 {
     f64::from(u32::try_from(n).unwrap_or(u32::MAX))
 }
 
-/// The multiples of a step within a span.
+/// The multiples of a step within a range.
 fn multiples(low: f64, high: f64, step: f64) -> Vec<f64> {
     let first = (low / step).ceil();
     (0..).map(|i| (first + f64::from(i)) * step).take_while(|x| *x <= high + 1e-9 * step).collect()
@@ -100,7 +100,7 @@ impl Ranged for Scale {
 
     fn map(&self, value: &f64, limit: (i32, i32)) -> i32 {
         let place = f64::from(limit.1 - limit.0) * self.share(*value);
-        // Drawings are some hundred units wide.
+        // the conversion is safe: drawings are only some hundred pixels wide
         #[allow(clippy::cast_possible_truncation, reason = "a place within the drawing")]
         let place = place.round() as i32;
         limit.0 + place
@@ -120,7 +120,7 @@ impl ValueFormatter<f64> for Scale {
     fn format_ext(&self, value: &f64) -> String {
         let most = if self.is_log { *value } else { self.ends[0].abs().max(self.ends[1].abs()) };
         if !(1e-2..1e4).contains(&most) {
-            // Zero, and what rounding leaves of it.
+            // a number that differs from zero only by rounding is written as zero
             let x = if value.abs() < 1e-9 * most { 0.0 } else { *value };
             let text = format!("{x:.2e}");
             let (digits, exponent) = text.split_once('e').unwrap_or((&text, "0"));

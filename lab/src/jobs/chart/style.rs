@@ -1,8 +1,8 @@
-//! Colour, dashes and mark of each series: any two differ without their colour too, on light and on dark paper.
+//! Colour, dashes and mark of each series. Any two series differ without colours too. Colours are readable on light and dark backgrounds.
 
 use plotters::style::RGBColor;
 
-/// Colour of text and axes; the page gives its own ink.
+/// Placeholder colour of text and axes, which is replaced by the text colour of the page.
 pub(crate) const CURRENT: RGBColor = RGBColor(125, 133, 144);
 
 /// Style of a series: colour, dashes and mark.
@@ -10,9 +10,9 @@ pub(crate) const CURRENT: RGBColor = RGBColor(125, 133, 144);
 pub(crate) struct Style {
     /// Colour of the line and its marks.
     pub(crate) color: RGBColor,
-    /// Lengths of dashes and gaps; empty for a whole line.
+    /// Lengths of dashes and gaps; empty for a solid line.
     dashes: &'static str,
-    /// Corners of its mark, in thirds of its radius.
+    /// Corners of the mark, in thirds of its radius.
     corners: &'static [(i32, i32)],
 }
 
@@ -67,12 +67,12 @@ const STYLES: [Style; 9] = [
 ];
 
 impl Style {
-    /// The style of that number; they repeat.
+    /// The style of a number. Styles repeat for larger numbers.
     pub(crate) const fn of(number: usize) -> Self {
         STYLES[number % STYLES.len()]
     }
 
-    /// The corners of its mark, about the point.
+    /// The corners of the mark, relative to the point.
     pub(crate) fn mark(self, radius: i32) -> Vec<(i32, i32)> {
         let round = |x: i32| (x * radius + x.signum()) / 3;
         self.corners.iter().map(|&(x, y)| (round(x), round(y))).collect()
@@ -83,7 +83,7 @@ impl Style {
         code(self.color)
     }
 
-    /// A short piece of it for a legend, as SVG.
+    /// A short sample of the style for a legend, as SVG.
     pub(crate) fn sample(self, has_line: bool, has_mark: bool) -> String {
         let color = self.code();
         let line = format!(
@@ -105,13 +105,13 @@ fn code(RGBColor(r, g, b): RGBColor) -> String {
     format!("#{r:02X}{g:02X}{b:02X}")
 }
 
-/// Adds what the drawing library cannot say: dashes, and the ink of the page.
+/// Adds features that the drawing library lacks: dashes, and the text colour of the page.
 pub(crate) fn finish(svg: &str, styles: impl Iterator<Item = Style>) -> String {
     let mut text = svg.replace(&format!("\"{}\"", code(CURRENT)), "\"currentColor\"");
     for style in styles.filter(|style| !style.dashes.is_empty()) {
         let line = format!("<polyline fill=\"none\" opacity=\"1\" stroke=\"{}\"", style.code());
         let dashed = format!("{line} stroke-dasharray=\"{}\"", style.dashes);
-        // A style that is used twice is dashed once.
+        // a style of two series is replaced only once
         if !text.contains(&dashed) {
             text = text.replace(&line, &dashed);
         }
@@ -134,7 +134,7 @@ mod tests {
 
     #[test]
     fn colours_stand_out_on_light_and_on_dark_paper() {
-        // Contrast that graphical objects need for those who see little.
+        // Least contrast of graphics for readers with weak sight [-].
         const LEAST: f64 = 3.0;
         let dark = luminance(RGBColor(0x1d, 0x21, 0x26));
         for style in STYLES {

@@ -1,11 +1,11 @@
-//! No more points than can be seen.
+//! Reduction of points to as many as can be distinguished in a drawing.
 
 use super::scale::Scale;
 use std::collections::BTreeSet;
 
-/// Slices of a line of which the least and the largest value are kept.
+/// Number of slices of a line. The least and the largest value of each slice are drawn.
 const SLICES: usize = 700;
-/// Cells of a drawing, to the right and upwards, that hold one mark each.
+/// Numbers of cells of a drawing, horizontally and vertically. Each cell has one mark at most.
 const CELLS: [f64; 2] = [320.0, 120.0];
 
 /// The least and the largest value of each slice of points, in their order.
@@ -32,7 +32,7 @@ pub(crate) fn extremes(points: &[[f64; 2]]) -> Vec<(f64, f64)> {
 pub(crate) fn cells(points: &[[f64; 2]], (x, y): (&Scale, &Scale)) -> Vec<(f64, f64)> {
     let mut taken = BTreeSet::new();
     let mut is_new = |p: &&[f64; 2]| {
-        // A few hundred cells, and within the drawing.
+        // the conversion is safe: there are only a few hundred cells
         #[allow(clippy::cast_possible_truncation, reason = "the number of a cell")]
         let cell = [x.share(p[0]) * CELLS[0], y.share(p[1]) * CELLS[1]].map(|c| c as i32);
         taken.insert(cell)

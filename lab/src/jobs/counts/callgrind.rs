@@ -1,4 +1,4 @@
-//! Running `counts` under callgrind: one dump for each call of its `measured`, read function by function.
+//! Runs of `counts` under callgrind. Each call of the function `measured` gives a dump, which is read function by function.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -13,25 +13,25 @@ use xtask::summary::LeftOut;
 pub(crate) struct Case {
     /// Formulation, dimension, effect, switch.
     pub(crate) name: String,
-    /// Instructions of all functions but libc's that copy and fill memory: those take a few more or less depending on where
-    /// the allocator put a buffer.
+    /// Instructions of all functions, except those of libc that copy and fill memory. The counts of these depend slightly on the addresses
+    /// of buffers.
     pub(crate) instructions: u64,
     /// Names of the functions.
     pub(crate) functions: BTreeSet<String>,
 }
 
-/// Returns the remedy where there is no valgrind, which a job needs; `None`: there is one.
+/// Returns the remedy if valgrind is missing; `None` if a job can use it.
 pub(crate) fn missing(job: &str) -> Option<LeftOut> {
     let left_out = debian::find("valgrind", "valgrind").err()?;
     let remedy = format!("{}\nThen run `cargo xtask {job}`.", left_out.remedy);
     Some(LeftOut { remedy, ..left_out })
 }
 
-/// Runs the program; its dumps go to `folder`, which is emptied before.
+/// Runs the program under callgrind. Its dumps are written to `folder`, which is emptied before.
 ///
 /// # Errors
 ///
-/// What could not run, or a dump that does not fit to the printed names.
+/// The command that fails, or a dump that does not match the printed names.
 pub(crate) fn run(program: &Path, args: &[String], folder: &Path) -> Result<Vec<Case>, String> {
     let io = |e: std::io::Error| format!("{}: {e}", folder.display());
     if folder.exists() {
@@ -40,7 +40,7 @@ pub(crate) fn run(program: &Path, args: &[String], folder: &Path) -> Result<Vec<
     fs::create_dir_all(folder).map_err(io)?;
     let mut command = Command::new("valgrind");
     command.args(["--quiet", "--tool=callgrind", "--compress-strings=no"]);
-    // In this order: the other way round callgrind forgets one of the two.
+    // with the opposite order callgrind ignores one of the two options
     command.args(["--dump-after=*counts::measured*", "--toggle-collect=counts::measured*"]);
     command.arg(format!("--callgrind-out-file={}", folder.join("dump").display()));
     command.arg(program).args(args).stdin(Stdio::null());
@@ -68,7 +68,7 @@ fn case(name: &str, dump: &str) -> Case {
         } else if line.starts_with("calls=") {
             is_call = true;
         } else if line.starts_with(|c: char| c.is_ascii_digit() || "+-*".contains(c)) {
-            // The line after `calls=` is what the callee took, which is counted there.
+            // the line after `calls=` has the cost of the callee, which is counted there
             if !std::mem::take(&mut is_call) {
                 if !is_copy(function) {
                     case.instructions += number(line.split(' ').nth(1));
@@ -80,7 +80,7 @@ fn case(name: &str, dump: &str) -> Case {
     case
 }
 
-/// Is this one of libc's functions that copy, fill or compare memory?
+/// Is the function one of libc's that copy, fill or compare memory?
 fn is_copy(function: &str) -> bool {
     let name = function.trim_start_matches('_');
     ["memcpy", "memmove", "memset", "memcmp", "bcmp"].iter().any(|f| name.starts_with(f))

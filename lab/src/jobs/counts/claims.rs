@@ -1,27 +1,28 @@
-//! Claims on the counts, each with what would contradict it.
+//! Claims on the counts, each with the comparisons that contradict it.
 
 use super::callgrind::Case;
 
-/// Largest excess of a build with all effects over one without any, relative to it, in a scene without effects [-].
+/// Largest excess of instructions in a build with all effects, relative to a build without any, in a scene without effects [-].
 const MAX_OVERHEAD: f64 = 0.01;
 
-/// Most that five hinged wheels with four gears cost, by the five without [-]: a little above what was counted, 3.2; twice is wanted.
+/// Largest ratio of the instructions of five wheels with four gears to those of the wheels without gears [-]. It is slightly above the
+/// counted 3.2; the aim is 2.
 const MAX_GEARS: f64 = 3.4;
 
-/// Most that a train of 40 wheels costs, by one of 20 [-]: twice, and a part that may grow with the depth of its chain.
+/// Largest ratio of the instructions of a train of 40 wheels to those of 20 wheels [-]: two, and an allowance for the depth of the chain.
 const MAX_GROWTH: f64 = 2.3;
 
-/// Module of the tables that laws read: a step passes them on where there is no law, too.
+/// Module of the tables that laws read. A step passes them on even if it has no law.
 const TABLES: &str = "mbs_core::effects::action::tables";
 
-/// A claim, and how often it was looked at and contradicted.
+/// A claim, with the number of its comparisons and those that contradict it.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Claim {
     /// Sentence that states the claim.
     pub(crate) text: &'static str,
     /// Number of comparisons.
     pub(crate) n_checked: usize,
-    /// Each comparison that fails, in words.
+    /// Each comparison that contradicts the claim, in words.
     pub(crate) against: Vec<String>,
 }
 
@@ -37,13 +38,13 @@ impl Claim {
         }
     }
 
-    /// Did every comparison hold, and was there one?
+    /// Did every comparison agree, and was there at least one?
     pub(crate) fn holds(&self) -> bool {
         self.n_checked > 0 && self.against.is_empty()
     }
 }
 
-/// Runs in which the claims are looked at: all effects compiled, none compiled, trains of gears, and all without inlining.
+/// Runs on which the claims are checked: all effects compiled, none compiled, trains of gears, and all effects compiled without inlining.
 #[derive(Debug)]
 pub(crate) struct Runs {
     pub(crate) full: Vec<Case>,
@@ -57,23 +58,23 @@ pub(crate) struct Runs {
 #[derive(Debug)]
 pub(crate) struct Lean {
     pub(crate) cases: Vec<Case>,
-    /// Answers to effects: effect, feature, message.
+    /// Refusals of effects: effect, feature, message.
     pub(crate) refusals: Vec<[String; 3]>,
 }
 
-/// Cases by the words of their names: formulation, dimension, effect, switch.
+/// The words in a case's name: formulation, dimension, effect, switch.
 pub(crate) fn words(case: &Case) -> [&str; 4] {
     let mut words = case.name.split(' ');
     [0; 4].map(|_| words.next().unwrap_or(""))
 }
 
-/// Finds the same case with another switch.
+/// Finds the case that differs only in the switch.
 pub(crate) fn other<'a>(cases: &'a [Case], case: &Case, switch: &str) -> Option<&'a Case> {
     let [formulation, dimension, effect, _] = words(case);
     cases.iter().find(|other| words(other) == [formulation, dimension, effect, switch])
 }
 
-/// Returns all claims, each looked at; those on the build without effects first, where there is one.
+/// Returns all claims with their comparisons. Those on the build without effects come first, if that build is counted.
 pub(crate) fn all(runs: &Runs) -> Vec<Claim> {
     let of_lean =
         runs.lean.iter().flat_map(|lean| [left_out(&runs.full, &lean.cases), refused(lean)]);
@@ -174,8 +175,8 @@ fn absent(runs: &Runs) -> Claim {
     claim
 }
 
-/// Claim that three-dimensional functions and those of effects and guides are seen where they are asked for. Without it the two claims before
-/// it could hold because names are not seen.
+/// Claim that spatial functions, and those of effects and guides, are found in cases that use them. Otherwise the two claims before would
+/// hold merely because names are not found.
 fn present(runs: &Runs) -> Claim {
     let mut claim = Claim::new("where they are asked for, those functions are seen");
     for case in &runs.plain {
@@ -196,7 +197,7 @@ fn present(runs: &Runs) -> Claim {
     claim
 }
 
-/// Functions by what they serve.
+/// Functions by their purpose.
 #[derive(Debug, Clone, Copy)]
 enum Kind {
     Effect,
@@ -204,7 +205,8 @@ enum Kind {
 }
 
 impl Kind {
-    /// Is the function one of this kind? `<mbs_core::effects::...>::f` belongs to effects, `<Vec<mbs_core::effects::...>>::len` does not.
+    /// Does the function belong to this kind? `<mbs_core::effects::...>::f` belongs to effects, `<Vec<mbs_core::effects::...>>::len` does
+    /// not.
     fn has(self, function: &str) -> bool {
         let (places, names): (&[&str], &[&str]) = match self {
             Self::Effect => (
@@ -229,8 +231,8 @@ impl Kind {
     }
 }
 
-/// Is the function of a formulation an instance for three dimensions? Planar motions of the recursive formulation have three
-/// numbers, spatial ones six.
+/// Is the function of a formulation compiled for three dimensions? Planar motions of the recursive formulation have three components,
+/// spatial ones six.
 fn is_spatial(formulation: &str, function: &str) -> bool {
     let marks: &[&str] = match formulation {
         "recursive" => &["spatial::Spatial", "Const<6>"],

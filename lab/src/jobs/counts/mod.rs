@@ -1,8 +1,8 @@
-//! `cargo xtask counts`: what a step executes, by callgrind, and that what is absent costs nothing.
+//! The job `cargo xtask counts`: counts the instructions of a step by callgrind, and checks that absent parts cost nothing.
 //!
-//! The program `counts` is built three times: with all effects, without any, and with all but nothing inlined, so that
-//! functions can be looked for by name. Callgrind is driven directly: its counts need no agreement of versions with a
-//! library and its runner, and the function lists come with them.
+//! The program `counts` is built three times: with all effects, without any, and with all effects but nearly without inlining, so that
+//! functions can be found by name. Callgrind is run directly rather than through a library. So no versions have to match, and lists of
+//! functions are available.
 
 mod callgrind;
 mod claims;
@@ -17,23 +17,23 @@ use std::process::Command;
 use xtask::effects::{self, Listed};
 use xtask::process::{self, cargo};
 
-/// Steps counted in each case.
+/// Number of steps that are counted in each case.
 const STEPS: u64 = 10;
-/// Cases of a guide, which is there or not.
+/// Name of the cases with a guide, which is present or absent.
 const GUIDE: &str = "guide";
-/// Trains of gears: the one whose gears may cost as much as its wheels, and two by which the growth is seen.
+/// Trains of gears: one for the ratio of gears to wheels, and two for the growth.
 const TRAINS: [&str; 3] = ["train-5", "train-20", "train-40"];
 
-/// The effects, and a guide.
+/// The names of all effects, and the guide.
 fn cases() -> Vec<String> {
     effects::all().flat_map(Listed::cases).chain([GUIDE.to_owned()]).collect()
 }
 
-/// Counts, prints the table and writes it as JSON; says whether every claim holds. The short form has no build without effects.
+/// Counts, prints the table and writes it as JSON. Returns whether every claim holds. The short form has no build without effects.
 ///
 /// # Errors
 ///
-/// What could not be built or run.
+/// The program that could not be built or run.
 #[allow(clippy::print_stdout, reason = "the table is what this job is for")]
 pub(crate) fn counts(is_short: bool) -> Result<bool, String> {
     if let Some(left_out) = callgrind::missing("counts") {
@@ -48,7 +48,7 @@ pub(crate) fn counts(is_short: bool) -> Result<bool, String> {
     Ok(claims.iter().all(Claim::holds))
 }
 
-/// Builds and runs the programs, and looks at the claims.
+/// Builds and runs the programs, and checks the claims.
 fn count(is_short: bool) -> Result<(Runs, Vec<Claim>), String> {
     let counted = |profile, with_effects, steps: u64, effects: &[String]| {
         let args: Vec<_> = [steps.to_string()].into_iter().chain(effects.to_vec()).collect();
@@ -68,7 +68,7 @@ fn count(is_short: bool) -> Result<(Runs, Vec<Claim>), String> {
     Ok((runs, claims))
 }
 
-/// Answers of the build without effects to each effect that has a feature: effect, feature, message.
+/// Refusals by the build without effects, for each effect that has a feature: effect, feature, message.
 fn refusals() -> Result<Vec<[String; 3]>, String> {
     let program = build("dist", false)?;
     let refusal = |(effect, feature): (String, &str)| {
@@ -82,15 +82,15 @@ fn refusals() -> Result<Vec<[String; 3]>, String> {
     cases.map(refusal).collect()
 }
 
-/// Builds the program; each build takes the place of the one before it.
+/// Builds the program for counts. Each build replaces the one before.
 fn build(profile: &str, with_effects: bool) -> Result<PathBuf, String> {
     let mut command = cargo();
     command.args(["build", "--quiet", "--package", "lab", "--bin", "counts", "--profile", profile]);
     command.args(["--no-default-features", "--features"]);
     command.arg(if with_effects { "effects" } else { "counts" });
     command.arg("--target-dir").arg(folder());
-    // Names with their generic arguments; and loops without vectors. Vectorised ones ask at run time which of two buffers
-    // comes first in memory, which the allocator decides.
+    // names contain generic arguments; loops are not vectorised, since vectorised ones compare the addresses of two buffers at run time,
+    // which depend on the allocator
     command.env("RUSTFLAGS", "-C symbol-mangling-version=v0 -C no-vectorize-loops");
     process::run(command.current_dir(process::root()))?;
     Ok(folder().join(profile).join("counts"))
@@ -111,7 +111,8 @@ fn json(runs: &Runs, claims: &[Claim]) -> Value {
     json!({ "all_effects": cases(&runs.full), "claims": claims, "no_effects": lean, "steps": STEPS, "trains": cases(&runs.trains) })
 }
 
-/// Instructions of a step: one row for each effect, one column for each formulation and dimension; left out / switched off / on.
+/// Table of the instructions per step: a row for each effect, a column for each formulation and dimension. A cell has three numbers: left
+/// out, switched off, switched on.
 fn table(runs: &Runs) -> String {
     let mut columns: Vec<[&str; 2]> = Vec::new();
     for case in &runs.full {
@@ -143,7 +144,7 @@ fn table(runs: &Runs) -> String {
     format!("{effects}\n{}", of_trains(&runs.trains))
 }
 
-/// Instructions of a step of a Runge-Kutta method in the recursion: wheels without gears and with them.
+/// Table of the instructions per step of a Runge-Kutta method in the recursive formulation: wheels without gears and with them.
 fn of_trains(trains: &[Case]) -> String {
     let head = ["wheels", "without gears", "with gears"].map(str::to_owned);
     let count = |name: &str, switch| {
@@ -156,7 +157,7 @@ fn of_trains(trains: &[Case]) -> String {
     )
 }
 
-/// One line for each claim, then what contradicts it.
+/// One line for each claim, followed by the comparisons that contradict it.
 fn verdict(claims: &[Claim]) -> String {
     let mut text = String::new();
     for claim in claims {

@@ -1,4 +1,4 @@
-//! Runs of the table: scenes, ladders of penalties and ways, and their runs in full.
+//! Runs of the table D1: scenes, choices of the penalty, and forms with their digits; and the rows of all runs.
 
 use super::outcome::{Figures, Run};
 use crate::format::{self, error, step};
@@ -15,23 +15,24 @@ pub(super) const SCENES: [Scene; 2] = [
     Scene { file: "two-four-bars", what: "Two four-bars: through a singular position" },
 ];
 
-/// Choice of the penalty for a step of 10^-k s.
+/// Choice of the penalty factor alpha for a step of 10^-k s.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Ladder {
     pub(super) name: &'static str,
-    /// The exponent of alpha.
+    /// Exponent of alpha for a step with exponent k.
     pub(super) exponent: fn(i32) -> i32,
 }
 
-/// The report's fixed alpha. The report raises it where it does not converge, to 1e9 at 1e-4 s and 1e11 at 1e-5 s. Or it is raised so fast
-/// that multipliers from zero converge at the singular position.
+/// Choices of alpha by the step. The first is the report's fixed value. The report increases it where it does not converge, to 1e9 at 1e-4
+/// s and 1e11 at 1e-5 s, as the second choice does. The last one increases so fast that multipliers from zero converge at the singular
+/// position.
 pub(super) const LADDERS: [Ladder; 3] = [
     Ladder { name: "1e7", exponent: |_| 7 },
     Ladder { name: "10/dt², 1e7 at least", exponent: |k| (2 * k + 1).max(7) },
     Ladder { name: "10/dt⁴", exponent: |k| 4 * k + 1 },
 ];
 
-/// Way in which a run is made: its form and its digits.
+/// Form and digits of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Way {
     pub(super) name: &'static str,
@@ -39,7 +40,7 @@ pub(super) struct Way {
     pub(super) digits: &'static str,
 }
 
-/// The printed form with 16 digits, with 32, and with the factor of the one and the residuals of the other; then ours.
+/// Forms and digits: the published form with 16 digits, with 32 digits, and with a factor of 16 digits and residuals of 32; then our forms.
 pub(super) const WAYS: [Way; 6] = [
     Way { name: "printed, f64", form: "printed", digits: "f64" },
     Way { name: "printed, once", form: "printed", digits: "once" },
@@ -48,24 +49,24 @@ pub(super) const WAYS: [Way; 6] = [
     Way { name: "correction, f64", form: "correction", digits: "f64" },
     DEFAULT,
 ];
-/// Place of the printed forms in doubles [-].
+/// Index of the published form in doubles [-].
 pub(super) const PRINTED: usize = 0;
-/// Place of the printed forms with refined solutions [-].
+/// Index of the published form with refined solutions [-].
 pub(super) const REFINED: usize = 2;
-/// Place of the printed forms in pairs of doubles [-].
+/// Index of the published form in pairs of doubles [-].
 pub(super) const PAIRS: usize = 3;
-/// Place of our projections in doubles [-].
+/// Index of our projections in doubles [-].
 pub(super) const CORRECTION: usize = 4;
-/// Our default needs no alpha; it is run once for each step.
+/// Our default form, which has no alpha. It is run once for each step.
 pub(super) const DEFAULT: Way = Way { name: "default, f64", form: "default", digits: "f64" };
-/// Place of our default in doubles [-].
+/// Index of our default form in doubles [-].
 pub(super) const OURS: usize = 5;
 
-/// A step with one penalty, in every way, in the order of [`WAYS`].
+/// Runs with one step and one penalty, in all forms in the order of [`WAYS`].
 #[derive(Debug, Clone)]
 pub(super) struct Cell {
     pub(super) scene: Scene,
-    /// The step is 10^-k s, alpha 10^exponent.
+    /// Exponent of the step, 10^-k s; alpha is 10^exponent.
     pub(super) k: i32,
     pub(super) exponent: i32,
     pub(super) runs: Vec<Run>,
@@ -76,18 +77,18 @@ impl Cell {
         10_f64.powi(-self.k)
     }
 
-    /// Is its penalty the one that this ladder chooses for its step?
+    /// Does this choice of the penalty give the cell's alpha for its step?
     pub(super) fn is_on(&self, ladder: &Ladder) -> bool {
         (ladder.exponent)(self.k) == self.exponent
     }
 }
 
-/// The runs of a cell, each with its way.
+/// The runs of a cell, each with its form.
 fn each(cell: &Cell) -> impl Iterator<Item = (&Cell, &Run, Way)> {
     cell.runs.iter().zip(WAYS).map(move |(run, way)| (cell, run, way))
 }
 
-/// The head of all runs.
+/// Headings of the table of all runs.
 pub(super) const HEAD: [&str; 10] = [
     "step [s], alpha, way",
     "energy error [J]",
@@ -101,7 +102,7 @@ pub(super) const HEAD: [&str; 10] = [
     "reason",
 ];
 
-/// Every run of some cells, in full.
+/// A row for every run of some cells.
 pub(super) fn rows<'a>(cells: impl Iterator<Item = &'a Cell>) -> Vec<Vec<String>> {
     cells
         .flat_map(each)
@@ -129,11 +130,11 @@ pub(super) fn rows<'a>(cells: impl Iterator<Item = &'a Cell>) -> Vec<Vec<String>
         .collect()
 }
 
-/// Every run as CSV.
+/// A record for every run, as CSV.
 ///
 /// # Errors
 ///
-/// What the writer says.
+/// The message of the writer.
 pub(super) fn csv(cells: &[Cell]) -> Result<Vec<u8>, String> {
     let head = "scene,step_s,alpha,way,energy_error_j,turned_over_j,\
         phi,phi_d,phi_dd,steps,iterations_per_step,corrections_per_solution,seconds_per_step,stopped_at_s,reason";

@@ -1,7 +1,7 @@
-//! Table D1: the ill-conditioned corner of index-3, small steps with the printed form, with 16 and with 32 digits.
+//! Table D1: index-3 with small steps, where it is ill-conditioned, in the published form with 16 and with 32 digits.
 //!
-//! The report guesses that words of 128 bits could cure it. Each run is one of the program `runner`, which has the printed form
-//! over every arithmetic; here is which runs there are, and what is made of them.
+//! The report supposes that words of 128 bits would be a remedy. Each run is made by the program `runner`, which has the published form in
+//! all precisions. This module lists the runs and evaluates them.
 
 mod cell;
 mod outcome;
@@ -16,20 +16,20 @@ use std::collections::BTreeSet;
 use std::time::Duration;
 use xtask::process;
 
-/// Longest time of a run. Chosen, not tuned.
+/// Largest wall-clock time of a run. Chosen, not tuned.
 const RUN_TIME: Duration = Duration::from_secs(300);
-/// Simulated time [s]: one swing of the double pendulum, one singular position of the four-bars, at 0.71 s.
+/// Simulated time [s]: one swing of the double pendulum, or one singular position of the four-bars, at 0.71 s.
 const SPAN: &str = "1";
 /// Exponents k of the steps 10^-k s [-].
 const STEPS: [i32; 5] = [2, 3, 4, 5, 6];
 /// Largest exponent of a step with `--quick` [-]: smaller steps take minutes.
 const QUICK: i32 = 4;
 
-/// Runs everything one after the other.
+/// Makes all runs, one after the other.
 ///
 /// # Errors
 ///
-/// Why something cannot be run at all.
+/// The reason why something cannot be run.
 pub(crate) fn d1(lab: &Lab<'_>) -> Result<Section, String> {
     let program = bench::built(&bench::Threads::up_to(1), lab.quick)?;
     let run = |words: &[&str]| {
@@ -41,7 +41,7 @@ pub(crate) fn d1(lab: &Lab<'_>) -> Result<Section, String> {
     Ok(report::section(&cells))
 }
 
-/// All cells, by what `run` makes of the words for the program.
+/// Makes the runs of all cells. `run` calls the program with the given arguments.
 fn cells(quick: bool, mut run: impl FnMut(&[&str]) -> Run) -> Vec<Cell> {
     let mut cells = Vec::new();
     for scene in SCENES {
@@ -82,7 +82,7 @@ mod tests {
             asked.push(words.join(" "));
             Run::read(Err("not run".to_owned()))
         });
-        // At 1e-2 and 1e-3 s two ladders meet.
+        // at 1e-2 and 1e-3 s two choices give the same penalty
         assert_eq!(cells.len(), 2 * (2 + 2 + 3));
         assert!(cells.iter().all(|cell| cell.runs.len() == WAYS.len()));
         assert_eq!(asked.len(), 2 * ((2 + 2 + 3) * 5 + 3));

@@ -1,12 +1,12 @@
-//! Outcome of a run, as the program reports it.
+//! Outcome of a run, from the line of the program.
 
 use crate::format::error;
 use serde_json::Value;
 
-/// A run: its figures, or why there are none.
+/// A run: its figures, or the reason why there are none.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Run {
-    /// Figures of a run that reached its end, or stopped on the way: of the steps it made.
+    /// Figures of a run that was completed, or that stopped: figures of the steps that it made.
     Made(Figures),
     /// Reason why a run could not be made, or took too long.
     None(String),
@@ -18,27 +18,27 @@ pub(super) struct Figures {
     /// Largest energy error, and largest kinetic energy [J].
     pub(super) energy_error: f64,
     pub(super) turned_over: f64,
-    /// Largest violation of positions, velocities and accelerations.
+    /// Largest residual of positions, velocities and accelerations.
     pub(super) violation: [f64; 3],
     pub(super) steps: f64,
-    /// Iterations of a step, and its time by the wall clock [s].
+    /// Iterations per step, and wall-clock time per step [s].
     pub(super) iterations: f64,
     pub(super) seconds: f64,
-    /// Corrections of a refined solution.
+    /// Number of corrections per refined solution.
     pub(super) corrections: Option<f64>,
-    /// When [s] and why it stopped.
+    /// Time [s] and reason of a stop.
     pub(super) stopped: Option<(f64, String)>,
 }
 
 impl Run {
-    /// From the lines of the program.
+    /// Reads the outcome from the lines of the program.
     pub(super) fn read(lines: Result<Vec<Value>, String>) -> Self {
         let line = match lines.as_deref() {
             Ok([line]) => line,
             Ok(lines) => return Self::None(format!("{} lines came back", lines.len())),
             Err(why) => return Self::None(why.clone()),
         };
-        // What is not a number came from one that is none.
+        // JSON has no NaN: a missing number stands for it
         let number = |value: &Value| value.as_f64().unwrap_or(f64::NAN);
         let stopped =
             line["reason"].as_str().map(|why| (number(&line["stopped_at"]), why.to_owned()));
@@ -54,7 +54,7 @@ impl Run {
         })
     }
 
-    /// Figures of a run that reached its end.
+    /// Figures of a completed run.
     pub(super) fn completed(&self) -> Option<&Figures> {
         match self {
             Self::Made(figures) if figures.stopped.is_none() => Some(figures),
@@ -62,7 +62,7 @@ impl Run {
         }
     }
 
-    /// Writes the error of the run [J], or when it stopped.
+    /// Writes the energy error of the run [J], or the time at which it stopped.
     pub(super) fn text(&self) -> String {
         match self {
             Self::Made(Figures { steps, .. }) if self.completed().is_none() && *steps < 1.0 => {

@@ -1,4 +1,4 @@
-//! Section of the table: errors and prices side by side, a drawing for each scene, and what the runs say.
+//! Section of the table D1: errors and times of all forms, a drawing for each scene, and claims on the runs.
 
 use super::cell::{self, CORRECTION, Cell, LADDERS, OURS, PAIRS, PRINTED, REFINED, SCENES, WAYS};
 use super::outcome::Run;
@@ -6,10 +6,10 @@ use crate::chart::{Chart, Look, Series};
 use crate::format::{ratio, ratios, step};
 use crate::lab::section::Section;
 
-/// Ratio of two errors within which they are the same [-]: the tables show two digits.
+/// Largest ratio of two errors that count as equal [-]: the tables show two digits.
 const SAME_ERROR: f64 = 1.1;
 
-/// Words that stand at the head of the section.
+/// Introduction of the section.
 const WORDS: &str = "The report finds index-3 ill-conditioned at small steps, and guesses that \"a precision environment of \
     32 digits\" could be the cure. Printed: fixed alpha, multipliers from zero, projections that solve for the vector itself \
     (publication 1, (13) and (19)). dd computes in pairs of doubles, 32 digits; refined takes the factor in doubles and refines \
@@ -55,7 +55,7 @@ fn errors(cells: &[&Cell]) -> Vec<Vec<String>> {
     cells.iter().map(row).collect()
 }
 
-/// Times in microseconds, and what they are beside the first one.
+/// Times per step in microseconds, and their ratios to the first one.
 fn prices(cells: &[&Cell]) -> Vec<Vec<String>> {
     let row = |cell: &&Cell| {
         let first = seconds(&cell.runs[PRINTED]);
@@ -69,7 +69,7 @@ fn prices(cells: &[&Cell]) -> Vec<Vec<String>> {
     cells.iter().map(row).collect()
 }
 
-/// Time of a step, where there were some.
+/// Time per step, if the run made steps.
 fn seconds(run: &Run) -> Option<f64> {
     match run {
         Run::Made(figures) if figures.steps > 0.0 => Some(figures.seconds),
@@ -77,7 +77,7 @@ fn seconds(run: &Run) -> Option<f64> {
     }
 }
 
-/// Error over step, in the ladder in which most runs of 32 digits reach the end, and in the first of several.
+/// Error over step, for the choice of the penalty with which most runs of 32 digits are completed. Among equal choices it is the first one.
 fn drawing(cells: &[&Cell]) -> Option<(usize, Chart)> {
     let of = |ladder: usize| cells.iter().filter(move |cell| cell.is_on(&LADDERS[ladder]));
     let ends =
@@ -94,7 +94,7 @@ fn drawing(cells: &[&Cell]) -> Option<(usize, Chart)> {
     (n > 1).then(|| (ladder, Chart::log_log("step [s]", "largest energy error [J]", series)))
 }
 
-/// Adds the claims on a scene, as its runs judge them.
+/// Adds the claims on a scene, with the verdict of its runs.
 fn judge(section: &mut Section, what: &str, cells: &[&Cell]) {
     let scene = what.split(':').next().unwrap_or(what);
     for (way, claim) in [
@@ -148,7 +148,7 @@ fn judge(section: &mut Section, what: &str, cells: &[&Cell]) {
     }
 }
 
-/// Did this way reach the end with the error of our default?
+/// Was the run of this form completed, with at most the error of our default form?
 fn is_same(cell: &Cell, way: usize) -> bool {
     let error = |way: usize| cell.runs[way].completed().map(|f| f.energy_error);
     matches!((error(way), error(OURS)), (Some(a), Some(b)) if a <= SAME_ERROR * b)
@@ -160,7 +160,8 @@ mod tests {
     use super::*;
     use serde_json::json;
 
-    /// Second order where digits are enough; in f64 the printed form loses alpha, and no way passes the four-bars with it.
+    /// Made-up runs of second order. In f64 the published form has an additional error proportional to alpha. The published form stops in
+    /// the four-bars.
     fn made() -> Vec<Cell> {
         cells(false, |words| {
             let [_, scene, form, digits, step, _, alpha] = words else { panic!("{words:?}") };

@@ -1,5 +1,5 @@
-//! `cargo xtask gauntlet`: thousands of hard cases by seed, run by every formulation in processes that are watched; the table of
-//! methods by properties.
+//! The job `cargo xtask gauntlet`: thousands of difficult cases by seed, in every formulation, in supervised processes. The result is a
+//! table of methods by properties.
 
 mod tally;
 mod workers;
@@ -11,14 +11,14 @@ use tally::Tallies;
 use workers::Share;
 use xtask::process::{self, write};
 
-/// Longest time of a run: one that takes longer hangs. Chosen, not tuned.
+/// Largest time of a run: a run that takes longer hangs. Chosen, not tuned.
 const RUN_TIME: Duration = Duration::from_secs(120);
 
-/// Runs cases on so many cores, all of them where left out, and says whether none is wrong.
+/// Runs cases on `jobs` cores; by default on all. Returns whether no result is wrong.
 ///
 /// # Errors
 ///
-/// Why the cases cannot be run.
+/// The reason why the cases cannot be run.
 #[allow(clippy::print_stdout, reason = "the table is what is asked for")]
 pub(crate) fn gauntlet(count: usize, jobs: Option<usize>) -> Result<bool, String> {
     let (section, is_sound) = run(count, jobs)?;
@@ -64,7 +64,7 @@ fn run(count: usize, jobs: Option<usize>) -> Result<(Section, bool), String> {
     Ok((section, tallies.wrong.is_empty() && tallies.faults.is_empty()))
 }
 
-/// Makes the page: methods by properties, then by families, and all that is wrong.
+/// Makes the page: methods by properties, then by families, and all wrong results.
 fn section(tallies: &Tallies, (count, jobs): (usize, usize), time: Duration) -> Section {
     let mut section = Section::new("gauntlet", "Hard cases in every formulation");
     let sum = tallies.sum();

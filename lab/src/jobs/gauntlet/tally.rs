@@ -6,22 +6,22 @@ use std::collections::BTreeMap;
 /// Counts of a method's verdicts.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct Tally {
-    /// Runs as near as the rule, with its energy.
+    /// Runs with an error like that of the rule, and with constant energy.
     pub(super) right: usize,
-    /// Runs as near as the rule, which is far off at the step.
+    /// Runs with an error like that of the rule, which itself has a large error at the step.
     pub(super) coarse: usize,
-    /// Further off than the others, by an error of second order.
+    /// Runs with a larger error, which decreases with the square of the step.
     pub(super) apart: usize,
-    /// Completed with nothing to compare with.
+    /// Completed runs without a reference.
     pub(super) unjudged: usize,
     pub(super) wrong: usize,
-    /// Typed errors by code.
+    /// Runs that stopped with a typed error, by its code.
     pub(super) stopped: BTreeMap<String, usize>,
-    /// Runs and typed errors by step, in 1e-9 s.
+    /// Numbers of runs and of typed errors by step, in 1e-9 s.
     pub(super) steps: BTreeMap<u64, [usize; 2]>,
 }
 
-/// A run that was wrong, with the reason.
+/// A run with a wrong result, and the reason.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Wrong {
     pub(super) family: String,
@@ -36,7 +36,7 @@ pub(super) struct Wrong {
 pub(super) struct Tallies {
     /// Methods in the order of the columns.
     pub(super) methods: Vec<String>,
-    /// Property, family, then a tally for each method.
+    /// Rows of the table: property, family, and a tally for each method.
     pub(super) families: Vec<(String, String, Vec<Tally>)>,
     pub(super) wrong: Vec<Wrong>,
     /// Cases that ended their process.
@@ -45,7 +45,7 @@ pub(super) struct Tallies {
 }
 
 impl Tally {
-    /// Takes a verdict of a run with a step [s].
+    /// Adds a verdict on a run with a step [s].
     fn take(&mut self, verdict: &Value, step: f64) {
         #[allow(
             clippy::cast_possible_truncation,
@@ -89,19 +89,19 @@ impl Tally {
         self.right + self.coarse + self.apart + self.unjudged + self.wrong + self.stops()
     }
 
-    /// Typed errors in all.
+    /// Number of runs with a typed error.
     pub(super) fn stops(&self) -> usize {
         self.stopped.values().sum()
     }
 
-    /// The largest step up to which none stopped [s]; nothing if some did at the smallest.
+    /// The largest step up to which no run stopped [s]; `None` if some stopped at the smallest step.
     pub(super) fn largest_step(&self) -> Option<f64> {
         let sound = self.steps.iter().take_while(|(_, [_, stops])| *stops == 0).last();
         #[allow(clippy::cast_precision_loss, reason = "up to 1e9")]
         sound.map(|(step, _)| *step as f64 / 1e9)
     }
 
-    /// Writes a cell: pass, the largest step, the share of typed errors with their most frequent code, what is wrong.
+    /// Writes a cell: pass, the largest step, the fraction of typed errors with their most frequent code, wrong results.
     pub(super) fn cell(&self) -> String {
         if self.runs() == 0 {
             return String::new();

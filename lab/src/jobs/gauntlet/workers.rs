@@ -1,4 +1,4 @@
-//! Processes that run cases, each watched: one that is about a run for too long is ended, and another continues after it.
+//! Supervised processes that run cases. A process that takes too long for a run is ended, and another one continues with the next case.
 
 use serde_json::{Value, json};
 use std::io::{BufRead, BufReader};
@@ -11,23 +11,23 @@ use xtask::process;
 /// Outcomes of the cases of one worker, by their lines.
 pub(super) type Lines = Vec<Value>;
 
-/// Share of a worker in the cases, and the limit of a run.
+/// Cases of a worker, and the time limit of a run.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Share {
     /// Number of all cases.
     pub(super) count: usize,
-    /// The first of this worker, and the distance to its next.
+    /// Index of the worker's first case, and the step to its next one.
     pub(super) first: usize,
     pub(super) stride: usize,
-    /// For so long a single run may last.
+    /// Time limit of a single run.
     pub(super) limit: Duration,
 }
 
-/// Runs a share of the cases; `done` is called for each line.
+/// Runs a worker's cases; `done` is called for each line.
 ///
 /// # Errors
 ///
-/// Why the program cannot be started.
+/// The reason why the program cannot be started.
 pub(super) fn run(
     program: &Path,
     share: Share,
@@ -55,7 +55,7 @@ pub(super) fn run(
                     words.next().unwrap_or_default().clone_into(&mut about);
                 }
                 Err(RecvTimeoutError::Timeout) => {
-                    // It may have ended by itself meanwhile.
+                    // an error is ignored: the program may have ended by itself
                     let _ = child.kill();
                     break Some(format!("hung for {} s", share.limit.as_secs()));
                 }

@@ -1,18 +1,18 @@
-//! One run of an experiment: scene, formulation, and what chooses its steps.
+//! One run of an experiment: scene, formulation, and rule of the steps.
 
 use crate::format::step;
 
 /// Rule that chooses the steps of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Rule {
-    /// All steps are the same.
+    /// All steps have the same length.
     Fixed,
-    /// The change of the energy invariant within a step, relative to the exchanged energy. A step with more is refused, and a step
+    /// The change of the energy balance within a step, relative to the exchanged energy. A step with a larger change is rejected. A step
     /// with less than a hundredth of it is followed by a longer one.
     Energy(f64),
-    /// The energy rule as the report's second publication prints it.
+    /// The energy rule as published in the report's second publication.
     Printed(f64),
-    /// The error of a step as its estimate has it, as a share of the scene's length.
+    /// The estimated error of a step, relative to the scene's length.
     Error(f64),
     /// The energy and the error of a step, with the same tolerance.
     Both(f64),
@@ -31,7 +31,7 @@ pub(crate) struct Case {
     pub(crate) step: f64,
     /// The largest step [s].
     pub(crate) largest: f64,
-    /// Simulated time of the run [s]; else the scene's.
+    /// Simulated time of the run [s]; `None` for that of the scene.
     pub(crate) duration: Option<f64>,
     /// Do steps end at contacts and kinks?
     pub(crate) events: Option<bool>,
@@ -57,7 +57,7 @@ impl Case {
         }
     }
 
-    /// A run with steps of its own, from the first to at most the largest [s].
+    /// A run with controlled steps: the first and the largest step [s].
     pub(crate) fn variable(
         scene: &'static str,
         formulation: &'static str,
@@ -67,7 +67,7 @@ impl Case {
         Self { rule, largest, ..Self::fixed(scene, formulation, first) }
     }
 
-    /// Returns the run with this simulated time [s]; `None` is the scene's own time.
+    /// Returns the run with this simulated time [s]; `None` for that of the scene.
     pub(crate) fn lasting(self, duration: Option<f64>) -> Self {
         Self { duration, ..self }
     }
@@ -77,7 +77,7 @@ impl Case {
         Self { events: Some(events), ..self }
     }
 
-    /// The tolerance, where there is one.
+    /// The tolerance, if the steps are controlled.
     pub(crate) fn tolerance(&self) -> Option<f64> {
         match self.rule {
             Rule::Fixed => None,
@@ -88,7 +88,7 @@ impl Case {
         }
     }
 
-    /// The name of what chooses the steps, as `--step-control` has it.
+    /// The rule as a word of `--step-control`.
     pub(crate) fn control(&self) -> &'static str {
         match self.rule {
             Rule::Fixed => "fixed",
@@ -99,7 +99,7 @@ impl Case {
         }
     }
 
-    /// The rule in words.
+    /// The rule in words, for tables.
     pub(crate) fn rule(&self) -> &'static str {
         if let Rule::Printed(_) = self.rule { "energy as printed" } else { self.control() }
     }
@@ -144,7 +144,7 @@ impl Case {
     }
 }
 
-/// A step or a tolerance, with three digits at most.
+/// Text of a step or a tolerance, with three digits at most.
 pub(crate) fn size(x: f64) -> String {
     let text = format!("{x:.2e}");
     let (digits, exponent) = text.split_once('e').unwrap_or((&text, "0"));

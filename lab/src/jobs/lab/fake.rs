@@ -1,4 +1,4 @@
-//! Made-up runs: errors and times that follow simple laws, for the tests of the experiments.
+//! Made-up runs for the tests of the experiments: their errors and times follow simple formulas.
 
 use super::Lab;
 use super::case::{Case, Rule};
@@ -8,19 +8,19 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Energy turned over in every run [J].
+/// Exchanged energy of every run [J].
 const TURNED_OVER: f64 = 100.0;
 /// CPU time of a step [s].
 const PRICE: f64 = 1e-5;
-/// Rows that a run leaves.
+/// Number of rows of a run.
 const ROWS: usize = 600;
 
-/// Calls with a lab of made-up runs.
+/// Calls a function with a lab of made-up runs.
 pub(crate) fn with_lab(call: impl FnOnce(&Lab<'_>)) {
     lab(&|case, out| Ok(run(case, out)), call);
 }
 
-/// Calls with a lab whose runs know fixed steps only.
+/// Calls a function with a lab whose runs support fixed steps only.
 pub(crate) fn with_old_lab(call: impl FnOnce(&Lab<'_>)) {
     let runner = |case: &Case, out: Option<&Path>| {
         let is_fixed = case.rule == Rule::Fixed;
@@ -35,11 +35,11 @@ fn lab(runner: &super::Runner<'_>, call: impl FnOnce(&Lab<'_>)) {
     let number = CALLS.fetch_add(1, Ordering::Relaxed);
     let folder = std::env::temp_dir().join(format!("mbs-steps-{}-{number}", std::process::id()));
     call(&Lab { runner, quick: true, folder: folder.clone() });
-    // There is none where no files were asked for.
+    // an error is ignored: the folder exists only if files were requested
     let _ = std::fs::remove_dir_all(folder);
 }
 
-/// Leaves a page and a text where the environment says.
+/// Writes a page and a text to the folder that the environment names.
 pub(crate) fn keep(page: &str, text: &str) {
     if let Some(folder) = std::env::var_os("MBS_FAKE_STEPS").map(PathBuf::from) {
         std::fs::create_dir_all(&folder).unwrap();
@@ -48,7 +48,7 @@ pub(crate) fn keep(page: &str, text: &str) {
     }
 }
 
-/// A made-up run: error of second order in the usual step.
+/// A made-up run, whose error is of second order in the usual step.
 fn run(case: &Case, out: Option<&Path>) -> Outcome {
     let duration = case.duration.unwrap_or(6.0);
     let is_explicit = case.arguments.contains(&"rk54");
@@ -121,7 +121,7 @@ fn outputs(error: f64, duration: f64) -> BTreeMap<String, Vec<f64>> {
     .into()
 }
 
-/// The files of a made-up run: short steps in index 1 about three seconds.
+/// Writes the files of a made-up run. It has short steps in index 1 at roughly three seconds.
 fn write(out: &Path, case: &Case, usual: f64, duration: f64) {
     let mut steps = String::from(
         "t,step,index,iterations,rejected,energy_error,energy_change,penalty_energy,error_estimate,limit\n",

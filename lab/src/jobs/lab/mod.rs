@@ -1,4 +1,4 @@
-//! Runs of experiments: cases one after the other, the least of their times, and the files of a run.
+//! Runs of experiments: cases one after the other, the least time of several runs, and the files of a run.
 
 pub(crate) mod case;
 #[cfg(test)]
@@ -15,24 +15,24 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 use xtask::process;
 
-/// Longest time of a run. Chosen, not tuned.
+/// Largest wall-clock time of a run. Chosen, not tuned.
 const RUN_TIME: Duration = Duration::from_secs(300);
-/// A run that takes longer is not repeated for its time [s].
+/// Time above which a run is not repeated for its time [s].
 const LONG: f64 = 30.0;
 
-/// A case and what came of it, with the least of its times.
+/// A case and its outcome, with the least of its times.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Run {
     /// Case that was run.
     pub(crate) case: Case,
     /// Outcome of the run.
     pub(crate) outcome: Outcome,
-    /// Distance of the watched channel from its reference at the end, where one is watched.
+    /// Distance of the watched channel from its reference at the end, if there is one.
     pub(crate) true_error: Option<f64>,
 }
 
 impl Run {
-    /// Figures of the run, where it reached its end.
+    /// Figures of the run, if it was completed.
     pub(crate) fn figures(&self) -> Option<&Figures> {
         self.outcome.figures()
     }
@@ -48,10 +48,10 @@ impl Run {
     }
 }
 
-/// Function that runs a case; with a folder, its files are left there.
+/// Function that runs a case. With a folder, the files of the run are written to it.
 pub(crate) type Runner<'a> = dyn Fn(&Case, Option<&Path>) -> Result<Outcome, String> + 'a;
 
-/// Place where experiments run: the runner of their cases, and the folder for files.
+/// Environment of experiments: the runner of their cases, and the folder for files.
 pub(crate) struct Lab<'a> {
     /// Function that runs a case.
     pub(crate) runner: &'a Runner<'a>,
@@ -62,11 +62,11 @@ pub(crate) struct Lab<'a> {
 }
 
 impl Lab<'_> {
-    /// Runs the cases in turn, as often as is said; each keeps its least time.
+    /// Runs the cases one after the other, and repeats this `repeats` times. Each case gets its least time.
     ///
     /// # Errors
     ///
-    /// Why a case cannot be run at all.
+    /// The reason why a case cannot be run.
     pub(crate) fn measure(&self, cases: &[Case], repeats: u32) -> Result<Vec<Run>, String> {
         let mut runs: Vec<Run> = Vec::new();
         for (i, case) in cases.iter().enumerate() {
@@ -99,22 +99,22 @@ impl Lab<'_> {
         Ok(runs)
     }
 
-    /// Runs a case once and reads its steps and some channels from its files; nothing where it makes no steps.
+    /// Runs a case once and reads its steps and some channels from its files; `None` if it makes no steps.
     ///
     /// # Errors
     ///
-    /// Why it cannot be run at all, or what its files lack.
+    /// The reason why the case cannot be run, or the part that is missing in its files.
     pub(crate) fn record(&self, case: &Case, channels: &[&str]) -> Result<Option<Record>, String> {
         process::progress(&format!("{} {}, with its files", case.scene, case.name()));
         let folder = self.folder.join("runs");
-        // What an earlier run left there is none of this one's; at first there is nothing.
+        // removes files of an earlier run; an error is ignored, since the folder may not exist
         let _ = fs::remove_dir_all(&folder);
         let outcome = (self.runner)(case, Some(&folder))?;
         outcome.has_run().then(|| Record::read(&folder, channels)).transpose()
     }
 }
 
-/// Runs cases with `mbs`; scenes with something appended are written under the folder first.
+/// Runs cases with `mbs`. A scene with appended text is first written to the folder.
 pub(crate) fn runner<'a>(
     mbs: &'a Mbs,
     folder: &'a Path,

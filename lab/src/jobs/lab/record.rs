@@ -1,4 +1,4 @@
-//! The files that a run leaves: its steps, and channels over time.
+//! The files of a run: its steps, and channels over time.
 
 use crate::mbs::columns;
 use std::path::Path;
@@ -14,22 +14,22 @@ pub(crate) struct Step {
     pub(crate) t: f64,
     /// Length of the step [s].
     pub(crate) step: f64,
-    /// Was it made in index 1?
+    /// Was the step made in index 1?
     pub(crate) is_index_1: bool,
-    /// Error of the energy invariant at its end [J].
+    /// Error of the energy balance at the end of the step [J].
     pub(crate) energy_error: f64,
-    /// Change of the energy invariant within it [J].
+    /// Change of the energy balance within the step [J].
     pub(crate) energy_change: f64,
     /// Energy of the penalty system [J].
     pub(crate) penalty_energy: f64,
 }
 
-/// Record that a run left: its steps and channels.
+/// Record of a run: its steps and channels.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct Record {
     /// Steps of the run, as recorded.
     pub(crate) steps: Vec<Step>,
-    /// The channels that were asked for: points (time, value).
+    /// The requested channels, as points (time, value).
     pub(crate) channels: Vec<Vec<[f64; 2]>>,
 }
 
@@ -38,23 +38,23 @@ impl Record {
     ///
     /// # Errors
     ///
-    /// What its files lack.
+    /// The missing file or column.
     pub(crate) fn read(folder: &Path, channels: &[&str]) -> Result<Self, String> {
         let (file, run) = (folder.join("steps.csv"), folder.join("run.csv"));
-        // There is no such file where no steps were recorded.
+        // the file exists only if steps were recorded
         let rows = if file.is_file() { columns::read(&file, COLUMNS)? } else { Vec::new() };
         let steps = rows.into_iter().filter_map(step).collect();
         let channels = channels.iter().map(|column| columns::history(&run, column));
         Ok(Self { steps, channels: channels.collect::<Result<_, _>>()? })
     }
 
-    /// Points (end of the step, a number of it).
+    /// Points (end of the step, number of the step).
     pub(crate) fn points(&self, number: impl Fn(&Step) -> f64) -> Vec<[f64; 2]> {
         self.steps.iter().map(|step| [step.t, number(step)]).collect()
     }
 }
 
-/// Reads a row; a start, which has no step, is none.
+/// Reads a row; `None` for the row of a start, which has no step.
 fn step([t, step, index, error, change, penalty]: [Option<f64>; 6]) -> Option<Step> {
     Some(Step {
         t: t?,

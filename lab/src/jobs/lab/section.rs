@@ -7,17 +7,17 @@ use crate::format::paragraph;
 use crate::page::{figure, words};
 use std::fmt::Write;
 
-/// Letters of a cell that is never broken.
+/// Number of letters up to which a cell is not broken into lines.
 const LONG: usize = 16;
 
-/// A claim and what the runs say of it.
+/// A claim, with its measurement and its verdict.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Claim {
     /// Statement that is claimed.
     pub(crate) what: String,
-    /// Measurement that the claim rests on.
+    /// Measurement on which the claim is based.
     pub(crate) measured: String,
-    /// Does the claim hold? `None` where the runs do not say.
+    /// Does the claim hold? `None` if the runs do not show it.
     pub(crate) holds: Option<bool>,
 }
 
@@ -45,14 +45,14 @@ impl Claim {
 enum Block {
     Heading(String),
     Words(String),
-    /// A table; with a title it is on the page alone, behind it.
+    /// A table of a section. With a title it is only on the page, where it opens on request.
     Table(Option<String>, Vec<String>, Vec<Vec<String>>),
     Claim(Claim),
     /// A drawing, and its caption.
     Figure(String, String),
 }
 
-/// An experiment with what it found.
+/// An experiment with its results.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Section {
     /// Name of the experiment on the command line.
@@ -80,13 +80,13 @@ impl Section {
         self.blocks.push(Block::Words(text.into()));
     }
 
-    /// Adds a table; its first column has names. On the page a cell leads to the first row of the next table behind a title that is named
-    /// after its row and its column.
+    /// Adds a table, whose first column has names. On the page a cell is a link to a row of the next table with a title: the first row that
+    /// is named after the cell's row and column.
     pub(crate) fn table(&mut self, head: &[&str], rows: Vec<Vec<String>>) {
         self.blocks.push(Block::Table(None, owned(head), rows));
     }
 
-    /// Adds a long table that opens on the page at a touch, and is not on a terminal.
+    /// Adds a long table that opens on the page on request, and is not shown on a terminal.
     pub(crate) fn behind(&mut self, title: &str, head: &[&str], rows: Vec<Vec<String>>) {
         self.blocks.push(Block::Table(Some(title.to_owned()), owned(head), rows));
     }
@@ -96,7 +96,7 @@ impl Section {
         self.blocks.push(Block::Claim(Claim { what: what.into(), measured, holds }));
     }
 
-    /// Adds a drawing with its caption; where there is nothing to draw, that is said.
+    /// Adds a drawing with its caption; if there is nothing to draw, a sentence.
     pub(crate) fn figure(&mut self, chart: &Chart, caption: &str) {
         self.blocks.push(match figure(chart, caption) {
             Ok(html) => Block::Figure(html, caption.to_owned()),
@@ -156,7 +156,7 @@ impl Section {
         html + "</section>\n"
     }
 
-    /// A table on the page; a row that is shorter than the head has a sentence instead of numbers.
+    /// A table on the page. A row that is shorter than the head has a sentence instead of numbers.
     fn table_at(&self, at: usize, head: &[String], rows: &[Vec<String>]) -> String {
         let (before, from) = self.blocks.split_at(at);
         let behind = |block: &Block| matches!(block, Block::Table(Some(_), ..));
@@ -191,9 +191,9 @@ impl Section {
     }
 }
 
-/// Writes a cell; its label is shown where the columns do not fit, and it may lead to a row.
+/// Writes a cell of a table. Its label is shown if the page is too narrow for the columns. The cell may be a link to a row.
 fn cell(label: &str, value: &str, to: Option<String>) -> String {
-    // Words may be broken where the columns do not fit, numbers not.
+    // on a narrow page words may be broken, numbers not
     let class = match value {
         "" => "none",
         _ if value.len() > LONG && value.contains(' ') => "said",
@@ -206,13 +206,13 @@ fn cell(label: &str, value: &str, to: Option<String>) -> String {
     format!("<td data-label=\"{}\" class=\"{class}\">{text}</td>", escape(label))
 }
 
-/// The page of sections.
+/// Makes a page of sections.
 pub(crate) fn page(title: &str, remark: &str, sections: &[Section]) -> String {
     let parts: String = sections.iter().map(Section::html).collect();
     crate::page::page(title, remark, &parts)
 }
 
-/// Sections on a terminal.
+/// Writes sections for a terminal.
 pub(crate) fn text(sections: &[Section]) -> String {
     sections.iter().map(|section| section.text() + "\n").collect()
 }
@@ -233,7 +233,7 @@ fn item(claim: &Claim) -> String {
     )
 }
 
-/// A table on a terminal; a row that is shorter than the head has a sentence instead of numbers.
+/// A table on a terminal. A row that is shorter than the head has a sentence instead of numbers.
 fn grid(text: &mut String, head: &[String], rows: &[Vec<String>]) {
     let full = || rows.iter().filter(|row| row.len() == head.len());
     let wide = |i: usize| full().map(|row| row[i].len()).chain([head[i].len()]).max().unwrap_or(0);
@@ -246,7 +246,7 @@ fn grid(text: &mut String, head: &[String], rows: &[Vec<String>]) {
         cells.enumerate().map(cell).collect::<String>()
     };
     text.push('\n');
-    // Writing to a string cannot fail.
+    // writing to a string cannot fail
     let _ = writeln!(text, "{}", line(&mut head.iter().map(String::as_str)).trim_end());
     for row in rows {
         if row.len() < head.len() {

@@ -1,12 +1,12 @@
-//! Columns of the CSV files that a run leaves.
+//! Columns of the CSV files of a run.
 
 use std::path::Path;
 
-/// Reads columns by their names; an empty cell is no number.
+/// Reads columns by their names. An empty cell gives no number.
 ///
 /// # Errors
 ///
-/// What is missing.
+/// The missing column or number.
 pub(crate) fn read<const N: usize>(
     file: &Path,
     names: [&str; N],
@@ -33,11 +33,11 @@ pub(crate) fn read<const N: usize>(
     Ok(rows)
 }
 
-/// The history of one column: points (time, value).
+/// The history of one column, as points (time, value).
 ///
 /// # Errors
 ///
-/// What is missing.
+/// The missing column or number.
 pub(crate) fn history(file: &Path, column: &str) -> Result<Vec<[f64; 2]>, String> {
     let rows = read(file, ["t", column])?;
     let point = |(i, [t, x]): (usize, [Option<f64>; 2])| {

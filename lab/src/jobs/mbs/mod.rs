@@ -1,4 +1,4 @@
-//! `mbs` with all precisions: built once, run on scenes, its results read back.
+//! The command `mbs` with all precisions: it is built once and run on scenes, and its results are read.
 
 pub(crate) mod columns;
 pub(crate) mod outcome;
@@ -22,16 +22,16 @@ impl Mbs {
     ///
     /// # Errors
     ///
-    /// What cargo came to.
+    /// The message of cargo.
     pub(crate) fn build() -> Result<Self, String> {
         Ok(Self { path: built()? })
     }
 
-    /// Runs a scene; with a folder, the run's files are left there; after `limit` it is ended.
+    /// Runs a scene by `mbs`. With a folder, the files of the run are written to it. The run is ended after `limit`.
     ///
     /// # Errors
     ///
-    /// The command, and why nothing can be read from it.
+    /// The command, and the reason why its output cannot be read.
     pub(crate) fn run(
         &self,
         scene: &Path,
@@ -51,11 +51,12 @@ impl Mbs {
             .map_err(|why| format!("`{}`: {why}", process::line(&command)))
     }
 
-    /// Compares the methods on a scene, with about so much work [s] or the usual, and leaves the files in a folder.
+    /// Compares the methods on a scene, with approximately the given time of all runs [s] or the default one. The files are written to a
+    /// folder.
     ///
     /// # Errors
     ///
-    /// The command, and what it came to.
+    /// The command and its exit status, if it fails.
     pub(crate) fn compare(
         &self,
         scene: &Path,

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 /// Outcome of a run.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Outcome {
-    /// The run reached the end.
+    /// The run was completed.
     Completed(Figures),
     /// The run stopped with a typed error.
     Stopped {
@@ -17,26 +17,26 @@ pub(crate) enum Outcome {
         /// Time of the stop [s].
         time: f64,
     },
-    /// The run was refused: the formulation cannot run this scene, or there is no such option, and the reason is said.
+    /// The run was refused, since the formulation cannot run this scene or an option does not exist; with the reason.
     Refused(String),
-    /// The formulation is not built.
+    /// The build lacks the formulation.
     NotBuilt,
     /// The run was ended after this many seconds.
     TooLong(f64),
 }
 
 impl Outcome {
-    /// Did it make steps, so that there are rows of it?
+    /// Did the run make steps, so that it has rows?
     pub(crate) fn has_run(&self) -> bool {
         matches!(self, Self::Completed(_) | Self::Stopped { .. })
     }
 
-    /// The figures of a run that reached its end.
+    /// The figures of a completed run.
     pub(crate) fn figures(&self) -> Option<&Figures> {
         if let Self::Completed(figures) = self { Some(figures) } else { None }
     }
 
-    /// Reason why there are no figures; empty where there are.
+    /// Reason why there are no figures; empty for a completed run.
     pub(crate) fn reason(&self) -> String {
         match self {
             Self::Completed(_) => String::new(),
@@ -50,10 +50,10 @@ impl Outcome {
     }
 }
 
-/// The figures of a run that reached its end.
+/// The figures of a completed run.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct Figures {
-    /// Largest error of the energy invariant [J].
+    /// Largest error of the energy balance [J].
     pub(crate) energy_error: f64,
     /// Largest kinetic energy plus gross work [J].
     pub(crate) turned_over: f64,
@@ -63,38 +63,38 @@ pub(crate) struct Figures {
     pub(crate) sizes: [u64; 3],
     /// Steps, iterations and factorisations.
     pub(crate) work: [u64; 3],
-    /// Work of the control of the step, where there was one.
+    /// Work of step control, if the steps were controlled.
     pub(crate) control: Option<Control>,
-    /// The channels at the end.
+    /// Values of the channels at the end.
     pub(crate) outputs: BTreeMap<String, Vec<f64>>,
 }
 
-/// Work of the control of the step.
+/// Work of step control.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(crate) struct Control {
-    /// Trials that were taken back.
+    /// Number of rejected steps.
     pub(crate) rejected: u64,
     /// Smallest and largest step [s].
     pub(crate) steps: [f64; 2],
-    /// Changes of the index.
+    /// Number of changes of the index.
     pub(crate) index_changes: u64,
-    /// Steps in index 1.
+    /// Number of steps in index 1.
     pub(crate) index_1_steps: u64,
-    /// Steps that ended at an event.
+    /// Number of steps that ended at an event.
     pub(crate) events: u64,
 }
 
 impl Figures {
-    /// The energy error as a share of the energy turned over.
+    /// The energy error relative to the exchanged energy.
     pub(crate) fn share(&self) -> f64 {
         self.energy_error / self.turned_over
     }
 
-    /// Distance of a channel from its reference at the end.
+    /// Distance of a channel's value at the end from its reference.
     ///
     /// # Errors
     ///
-    /// That there is no such channel, or that it has another number of components.
+    /// The channel does not exist, or has another number of components.
     pub(crate) fn distance(&self, channel: &str, reference: &[f64]) -> Result<f64, String> {
         let value = self.outputs.get(channel).filter(|value| value.len() == reference.len());
         let value = value.ok_or_else(|| format!("no channel `{channel}`"))?;
@@ -107,7 +107,7 @@ impl Figures {
 ///
 /// # Errors
 ///
-/// What is missing, where the output is not that of `mbs run --json`.
+/// The missing value, if the output is not that of `mbs run --json`.
 pub(crate) fn read(status: Option<i32>, stdout: &[u8], stderr: &[u8]) -> Result<Outcome, String> {
     if status == Some(1) || (status == Some(2) && stdout.is_empty()) {
         let text = String::from_utf8_lossy(stderr);
@@ -126,18 +126,18 @@ pub(crate) fn read(status: Option<i32>, stdout: &[u8], stderr: &[u8]) -> Result<
     }
 }
 
-/// The number at a place in the output.
+/// The number at a path in the output.
 fn number(json: &Value, place: &str) -> Result<f64, String> {
     let value = json.pointer(place).and_then(Value::as_f64);
     value.ok_or_else(|| format!("the output has no number at {place}"))
 }
 
-/// The count of that name in the output.
+/// The count with a name in the output.
 fn count(json: &Value, name: &str) -> Result<u64, String> {
     json[name].as_u64().ok_or_else(|| format!("the output has no count {name}"))
 }
 
-/// The text at a place in the output.
+/// The text with a name in the output.
 fn text(json: &Value, name: &str) -> Result<String, String> {
     let value = json[name].as_str().map(str::to_owned);
     value.ok_or_else(|| format!("the error has no {name}"))
@@ -166,7 +166,7 @@ fn controlled(json: &Value) -> Result<Control, String> {
     })
 }
 
-/// Channels with their components; one component is a number, several are a list.
+/// Channels with their components. One component is a number, several are a list.
 fn channels(outputs: &Map<String, Value>) -> BTreeMap<String, Vec<f64>> {
     let components = |channel: &Value| {
         let one = std::slice::from_ref(channel);
@@ -188,7 +188,7 @@ fn stopped(error: &Value) -> Result<Outcome, String> {
 mod tests {
     use super::*;
 
-    /// An object of a run that completed.
+    /// The JSON object of a completed run.
     const DONE: &[u8] = br#"{"completed": true, "error": null, "cpu_seconds": 0.25,
         "coordinates": 4, "constraints": 2, "dof": 2, "steps": 7, "iterations": 21, "factorizations": 14,
         "energy": {"initial": 1.0, "max_error": 2e-3, "final_error": 1e-3, "turned_over": 4.0},

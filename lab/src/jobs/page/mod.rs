@@ -1,4 +1,4 @@
-//! HTML pages that need nothing else: their frame and style, drawings with their legends.
+//! Self-contained HTML pages: their frame and style, drawings with their legends.
 
 use crate::chart::{Chart, Series};
 use crate::format::escape;
@@ -6,7 +6,7 @@ use crate::format::escape;
 /// The frame of all pages, and its style.
 const FRAME: &str = include_str!("../../../../mbs-report/src/page/web/frame.html");
 const STYLE: &str = include_str!("../../../../mbs-report/src/page/web/style.css");
-/// Style of pages of measurements beside that of all pages.
+/// Style that pages of measurements add to that of all pages.
 const OWN_STYLE: &str = include_str!("page.css");
 
 /// Makes a page of a title, a remark and its sections.
@@ -21,7 +21,7 @@ pub(crate) fn page(title: &str, remark: &str, content: &str) -> String {
 ///
 /// # Errors
 ///
-/// That there is nothing to draw, or what the drawing library says.
+/// There is nothing to draw, or the drawing library fails.
 pub(crate) fn figure(chart: &Chart, caption: &str) -> Result<String, String> {
     Ok(format!(
         "<figure>\n{}<div class=\"wide\">{}</div>\n<figcaption class=\"soft\">{}</figcaption>\n</figure>\n",
@@ -31,16 +31,16 @@ pub(crate) fn figure(chart: &Chart, caption: &str) -> Result<String, String> {
     ))
 }
 
-/// The names of the series, each behind a piece of it.
+/// The names of the series, each after a sample of its style.
 fn legend(chart: &Chart) -> String {
     let entry = |s: &Series| format!("<li>{} {}</li>", s.sample(), words(&s.name));
     format!("<ul class=\"legend\">{}</ul>\n", chart.named().map(entry).collect::<String>())
 }
 
-/// Units that stay beside their number.
+/// Units that are kept on one line with their number.
 const UNITS: [&str; 6] = ["s", "J", "m", "rad", "%", "m/s²"];
 
-/// A sentence that is not broken within a number or a name such as index-3, nor between a number and its unit.
+/// A sentence as HTML. It is not broken within a number or a name such as index-3, nor between a number and its unit.
 pub(crate) fn words(sentence: &str) -> String {
     let (mut html, mut last) = (String::new(), "");
     for word in sentence.split(' ') {
@@ -55,7 +55,7 @@ pub(crate) fn words(sentence: &str) -> String {
         });
         last = word;
     }
-    // before the first word there is a space
+    // removes the space before the first word
     html.split_off(1)
 }
 

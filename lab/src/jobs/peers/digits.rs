@@ -1,9 +1,10 @@
-//! Times at equal digits: a solver's runs from coarse to fine give a curve, read at whole digits.
+//! Times at equal numbers of digits. The runs of a solver with large to small tolerances give a curve, which is read at whole numbers of
+//! digits.
 
 use super::lanes::{Lane, Measured, median, ratio};
 use super::problems::DIGITS;
 
-/// A solver, and its time at each number of digits in each turn; nothing where its runs do not reach.
+/// A solver, with its time at each number of digits in each turn; `None` beyond the digits of its runs.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Solver {
     pub(super) name: String,
@@ -23,7 +24,7 @@ impl Solver {
     }
 }
 
-/// The solvers of a problem whose runs report digits: their algorithms without the last word, which is the tolerance.
+/// The solvers of a problem whose runs report digits. A solver's name is that of its algorithm without the last word, the tolerance.
 pub(super) fn solvers(measured: &Measured) -> Vec<Solver> {
     let mut solvers: Vec<(String, Vec<&Lane>)> = Vec::new();
     for lane in &measured.lanes {
@@ -43,15 +44,15 @@ pub(super) fn solvers(measured: &Measured) -> Vec<Solver> {
     solvers.into_iter().map(solver).collect()
 }
 
-/// The times of one solver's runs at so many digits, turn by turn.
+/// The times of one solver's runs at a number of digits, turn by turn.
 fn turns(lanes: &[&Lane], digits: f64) -> Option<Vec<f64>> {
     let n = lanes.iter().map(|lane| lane.seconds.len()).min()?;
     let points = |turn: usize| lanes.iter().filter_map(move |l| Some([l.digits?, l.seconds[turn]]));
     (0..n).map(|turn| read(points(turn).collect(), digits)).collect()
 }
 
-/// The time at so many digits on the curve through the runs that no other beats in both; between two of them digits are linear
-/// in the logarithm of time. `None` beyond the finest run.
+/// The time at a number of digits, on the curve through the runs for which no other run is both faster and more exact. Between two of these
+/// runs, digits are linear in the logarithm of time. `None` beyond the most exact run.
 fn read(mut points: Vec<[f64; 2]>, digits: f64) -> Option<f64> {
     points.retain(|[digits, _]| digits.is_finite());
     points.sort_by(|a, b| a[1].total_cmp(&b[1]));
@@ -70,8 +71,8 @@ fn read(mut points: Vec<[f64; 2]>, digits: f64) -> Option<f64> {
     None
 }
 
-/// The fastest of ours in the plane or in space and the fastest of the peers with `name` in their names, to that number of digits. The third
-/// is the median of the turns' ratios.
+/// Our fastest solver, planar or spatial, and the fastest peer with `name` in its name, at a number of digits. The third value is the
+/// median of the ratios of their times in each turn.
 pub(super) fn against<'a>(
     solvers: &'a [Solver],
     digits: u8,

@@ -1,13 +1,13 @@
-//! Measurements of a problem: a lane for each algorithm of each program, with its time in every turn.
+//! Measurements of a problem. A lane is an algorithm of a program, with its time in every turn.
 
 use super::problems::{Kind, Problem};
 use super::programs::{Line, Who};
 
-/// Ours is right within this of an exact value, relative to it.
+/// Largest error of our value, relative to an exact value [-].
 const OURS: f64 = 1e-9;
-/// A peer's evaluation counts within this; iterations that stop early and soft constraints may be farther off.
+/// Largest relative error of a peer's evaluation that counts [-]. Iterations that stop early and soft constraints have larger errors.
 const PEERS: f64 = 1e-5;
-/// Ratio and distance of two errors within which they are the same [-]: the tables show two digits.
+/// Ratio and difference of two errors up to which they count as equal [-]: the tables show two digits.
 const SAME_ERROR: [f64; 2] = [1.1, 1e-12];
 
 /// An algorithm of a program on a problem.
@@ -17,14 +17,14 @@ pub(super) struct Lane {
     pub(super) algorithm: String,
     /// CPU time in each turn [s].
     pub(super) seconds: Vec<f64>,
-    /// Right digits, where it reports them.
+    /// Number of correct digits, if the algorithm reports it.
     pub(super) digits: Option<f64>,
-    /// Distance from the exact value, in its unit, and relative to it where it is not zero.
+    /// Error of the value, in its unit, and relative to the exact value if that is not zero.
     pub(super) error: Option<[f64; 2]>,
 }
 
 impl Lane {
-    /// The program and the algorithm.
+    /// Label of the program and the algorithm.
     pub(super) fn label(&self) -> String {
         match self.who {
             Who::RustChains | Who::RustAndrews | Who::Radau | Who::Ida => self.algorithm.clone(),
@@ -32,12 +32,12 @@ impl Lane {
         }
     }
 
-    /// The median of its times [s].
+    /// The median of the lane's times [s].
     pub(super) fn time(&self) -> f64 {
         median(self.seconds.clone())
     }
 
-    /// Is it ours, and does it know that the scene is planar?
+    /// Is the lane one of ours that treats the scene as spatial?
     pub(super) fn is_spatial(&self) -> bool {
         self.algorithm.starts_with("spatial")
     }
@@ -57,7 +57,7 @@ pub(super) struct Measured {
     pub(super) lanes: Vec<Lane>,
     /// Exact values by their names.
     exact: Vec<(String, f64)>,
-    /// Programs that are here and gave nothing, with the reason.
+    /// Programs that can run here and had no result, with the reason.
     pub(super) failed: Vec<(Who, String)>,
 }
 
@@ -67,7 +67,7 @@ impl Measured {
         Self { problem, lanes: Vec::new(), exact: Vec::new(), failed: Vec::new() }
     }
 
-    /// Takes what a program printed in a turn; ours comes first, with the exact values.
+    /// Adds the lines that a program printed in a turn. Our program runs first, and prints the exact values.
     pub(super) fn take(&mut self, who: Who, lines: Vec<Line>) {
         for line in lines {
             if line.algorithm == "reference" {
@@ -99,12 +99,12 @@ impl Measured {
         }
     }
 
-    /// The lanes of ours or of the peers.
+    /// Our lanes, or those of the peers.
     pub(super) fn of(&self, is_ours: bool) -> impl Iterator<Item = &Lane> {
         self.lanes.iter().filter(move |lane| (lane.who == Who::Ours) == is_ours)
     }
 
-    /// Ours that are farther from the exact value than rounding explains.
+    /// Our lanes with errors that are larger than rounding errors.
     pub(super) fn wrong(&self) -> Vec<&Lane> {
         let is_wrong = |lane: &&Lane| !(lane.error_of(Kind::Evaluation) <= OURS);
         match self.problem.kind {
@@ -113,7 +113,7 @@ impl Measured {
         }
     }
 
-    /// The fastest peer whose value counts.
+    /// The fastest peer whose value is exact enough.
     pub(super) fn peer(&self) -> Option<&Lane> {
         let counts = |lane: &&Lane| match self.problem.kind {
             Kind::Evaluation => lane.error_of(Kind::Evaluation) <= PEERS,
@@ -122,7 +122,7 @@ impl Measured {
         fastest(self.of(false).filter(counts))
     }
 
-    /// The fastest of ours, in the plane or in space, that errs no more than the peer (or than rounding).
+    /// Our fastest lane, planar or spatial, whose error is no larger than that of the fastest peer, or than rounding errors.
     pub(super) fn ours(&self, is_spatial: bool) -> Option<&Lane> {
         let kind = self.problem.kind;
         let most = match (kind, self.peer()) {
@@ -134,18 +134,18 @@ impl Measured {
         fastest(self.of(true).filter(counts))
     }
 
-    /// The median over the turns of ours over the fastest peer, in the plane or in space.
+    /// Median over the turns of the ratio of our fastest time to that of the fastest peer.
     pub(super) fn ratio(&self, is_spatial: bool) -> Option<f64> {
         Some(ratio(&self.ours(is_spatial)?.seconds, &self.peer()?.seconds))
     }
 }
 
-/// The median of the turns' ratios.
+/// The median of the ratios of two lists of times, turn by turn.
 pub(super) fn ratio(ours: &[f64], peer: &[f64]) -> f64 {
     median(ours.iter().zip(peer).map(|(ours, peer)| ours / peer).collect())
 }
 
-/// Median of numbers; not a number where there is nothing.
+/// Median of numbers; NaN for an empty list.
 pub(super) fn median(mut x: Vec<f64>) -> f64 {
     x.sort_by(f64::total_cmp);
     let n = x.len();

@@ -1,4 +1,4 @@
-//! `cargo xtask peers`: mbs and its peers on the same problems, interleaved, in one run (docs/PEERS.md).
+//! The job `cargo xtask peers`: times mbs and its peers on the same problems, interleaved, in one run (docs/PEERS.md).
 
 mod digits;
 mod lanes;
@@ -13,25 +13,25 @@ use problems::{Kind, Problem, selected};
 use programs::{Asked, Who};
 use xtask::process;
 
-/// Effort of a measurement: how long and how often is measured.
+/// Effort of a measurement: number of turns, and times of its runs.
 #[derive(Debug, Clone, Copy)]
 struct Effort {
-    /// Turns: each program once.
+    /// Number of the turns. In a turn each program runs once.
     turns: usize,
-    /// For each algorithm in a turn [s].
+    /// Time of each algorithm in a turn [s].
     seconds: f64,
-    /// For each tolerance of a curve in a turn [s].
+    /// Time of each tolerance of a curve in a turn [s].
     point: f64,
 }
 
 const FULL: Effort = Effort { turns: 7, seconds: 0.2, point: 0.03 };
 const QUICK: Effort = Effort { turns: 3, seconds: 0.05, point: 0.01 };
 
-/// Measures the problems, or those named, and writes what was found; says whether ours is right.
+/// Measures the problems, or the named ones, and writes the results. Returns whether our values are right.
 ///
 /// # Errors
 ///
-/// Why nothing can be measured.
+/// The reason why nothing can be measured.
 #[allow(clippy::print_stdout, reason = "the tables are what is asked for")]
 pub(crate) fn peers(quick: bool, names: &[String]) -> Result<bool, String> {
     let effort = if quick { QUICK } else { FULL };
@@ -49,7 +49,7 @@ pub(crate) fn peers(quick: bool, names: &[String]) -> Result<bool, String> {
     Ok(measured.iter().all(|m| m.wrong().is_empty()))
 }
 
-/// Measures one problem: in every turn each program that is here, ours first.
+/// Measures one of the problems. In every turn each available program runs once, ours first.
 fn measure(problem: Problem, effort: Effort) -> Result<Measured, String> {
     let mut measured = Measured::new(problem);
     let seconds = if problem.kind == Kind::Digits { effort.point } else { effort.seconds };
@@ -71,7 +71,7 @@ fn measure(problem: Problem, effort: Effort) -> Result<Measured, String> {
     Ok(measured)
 }
 
-/// Returns the remark on what the numbers are.
+/// Returns the remark on the meaning of the numbers.
 fn remark(machine: &Machine, effort: Effort) -> String {
     format!(
         "CPU time of one thread; the median of {} turns, in each of which every program ran once, ours first. A ratio is the \
@@ -83,7 +83,7 @@ fn remark(machine: &Machine, effort: Effort) -> String {
     )
 }
 
-/// Writes what there is so far, so that a job that is cut off leaves it.
+/// Writes the results so far, so that an interrupted job leaves them.
 fn write(measured: &[Measured], machine: &Machine, effort: Effort) -> Result<(), String> {
     let folder = programs::folder();
     let remark = remark(machine, effort);

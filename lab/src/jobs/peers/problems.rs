@@ -1,15 +1,15 @@
-//! The problems, who is asked to solve them, and what part of the fastest peer's time is required.
+//! The problems, the programs that solve them, and the required ratios of our time to that of the fastest peer.
 
 use super::programs::Who;
 
-/// Kind of a problem, by which its values are judged.
+/// Kind of a problem, which determines how its values are checked.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Kind {
-    /// One evaluation: all are exact but for rounding.
+    /// One evaluation: all values are exact up to rounding.
     Evaluation,
-    /// One step or a whole run with a fixed step: ours may err no more than the peer it is held against.
+    /// One step or a complete run with a fixed step: our error may not exceed that of the compared peer.
     Run,
-    /// Runs from coarse to fine: times at equal digits.
+    /// Runs with large to small tolerances: times are compared at equal numbers of digits.
     Digits,
 }
 
@@ -22,13 +22,13 @@ pub(super) struct Problem {
     pub(super) title: &'static str,
     /// Size of the problem.
     pub(super) n: usize,
-    /// Kind by which the problem is judged.
+    /// Kind of the problem, for the check of its values.
     pub(super) kind: Kind,
-    /// Step of a whole run [s]; evaluations get the time to measure for.
+    /// Step of a complete run [s]; evaluations have a measuring time instead.
     pub(super) step: Option<f64>,
-    /// Ours over the fastest peer, at most, and what is aimed at.
+    /// Largest allowed ratio of our time to that of the fastest peer, and the ratio that is the aim.
     pub(super) limit: [f64; 2],
-    /// The peers that are asked.
+    /// The peers that solve the problem.
     pub(super) peers: &'static [Who],
 }
 
@@ -42,24 +42,24 @@ impl Problem {
     }
 }
 
-/// Right digits at which times are compared.
+/// Numbers of correct digits at which times are compared.
 pub(super) const DIGITS: std::ops::RangeInclusive<u8> = 3..=9;
 
-/// Solvers of differential-algebraic equations, which mbs is to leave further behind.
+/// Solvers of differential-algebraic equations, for which a smaller ratio is required.
 pub(super) const ALGEBRAIC: [&str; 2] = ["RADAU5", "IDA"];
-/// Largest ratio of our time to theirs [-]: half.
+/// Largest ratio of our time to that of these solvers [-]: half.
 pub(super) const LIMIT_ALGEBRAIC: f64 = 0.5;
 
-/// The limit at so many digits: high order pays from six on.
+/// Largest ratio at a number of digits. It is smaller from six digits on, where methods of high order are faster.
 pub(super) fn limit_at(digits: u8) -> f64 {
     if digits < 6 { 1.3 } else { 1.0 }
 }
 
-/// The problems that are asked for, or all of them; `robot` asks for every `robot-...`.
+/// The requested problems, or all of them. `robot` selects every `robot-...`.
 ///
 /// # Errors
 ///
-/// A name that no problem has, with those that there are.
+/// A name that no problem has, with the list of names.
 pub(super) fn selected(names: &[String]) -> Result<Vec<Problem>, String> {
     let is_asked = |name: &String, p: &Problem| {
         p.name
@@ -78,7 +78,7 @@ pub(super) fn selected(names: &[String]) -> Result<Vec<Problem>, String> {
 
 const CHAINS: &[Who] =
     &[Who::PinocchioOpen, Who::MuJoCo, Who::RustChains, Who::Simbody, Who::Drake];
-/// Freedoms of the robots of lab/peers/robots.py: UR5, Panda, Solo12, Baxter, G1, Talos; the third and the last two on a free base.
+/// Freedoms of the robots of lab/peers/robots.py: UR5, Panda, Solo12, Baxter, G1, Talos. Solo12, G1 and Talos have a free base.
 const ROBOTS: [usize; 6] = [6, 9, 18, 19, 35, 50];
 const TREES: &[Who] = &[Who::PinocchioOpen, Who::MuJoCo, Who::Simbody, Who::Drake];
 

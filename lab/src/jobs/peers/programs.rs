@@ -1,4 +1,4 @@
-//! The programs under lab/peers: where they are, what they are asked, what they say.
+//! The programs under lab/peers: their paths, their arguments and their output.
 
 use std::path::PathBuf;
 use std::process::Command;
@@ -57,7 +57,7 @@ impl Who {
         }
     }
 
-    /// Command or words by which the program is installed.
+    /// Command by which the program is installed, or a sentence on it.
     pub(super) fn remedy(self) -> &'static str {
         match self {
             Self::Ours => "cargo builds it",
@@ -73,7 +73,7 @@ impl Who {
         }
     }
 
-    /// The file without which it does not run.
+    /// The file without which the program does not run.
     fn needed(self) -> PathBuf {
         let folder = folder();
         match self {
@@ -93,12 +93,12 @@ impl Who {
         }
     }
 
-    /// Can it run here?
+    /// Can the program run here?
     pub(super) fn is_here(self) -> bool {
         self.needed().exists()
     }
 
-    /// The program without its arguments.
+    /// The command of the program without its arguments.
     fn command(self) -> Command {
         let script = |program: PathBuf, path: &str| {
             let mut command = Command::new(program);
@@ -117,7 +117,7 @@ impl Who {
     /// Returns the version of the program, as it reports it.
     pub(super) fn version(self) -> String {
         let text = match self {
-            // what Cargo.toml pins
+            // the versions that Cargo.toml requires
             Self::RustChains => Some("dynibo 0.5.3, phyz-rigid 0.4.0".to_owned()),
             Self::RustAndrews => Some("0.18.0".to_owned()),
             Self::Ours => process::commit(),
@@ -129,18 +129,18 @@ impl Who {
         text.lines().last().unwrap_or_default().to_owned()
     }
 
-    /// The lines that it prints on a problem.
+    /// Runs the program on a problem. Returns its lines.
     ///
     /// # Errors
     ///
-    /// What it says where it fails, or that it took too long.
+    /// The program's message if it fails, or that it took too long.
     pub(super) fn run(self, asked: &Asked) -> Result<Vec<Line>, String> {
         let mut command = self.command();
         match self {
             Self::Radau => command.arg(self.needed()).arg(asked.number.to_string()),
             _ => command.args([asked.problem, &asked.n.to_string(), &asked.number.to_string()]),
         };
-        // where the robots are
+        // the folder with the robots
         command.env("PEERS_DIR", folder());
         let text = printed(&mut command, Duration::from_secs(300))?;
         let lines: Vec<Line> = text.lines().filter_map(Line::read).collect();
@@ -153,11 +153,11 @@ impl Who {
 pub(super) struct Asked {
     pub(super) problem: &'static str,
     pub(super) n: usize,
-    /// Seconds to measure, or the step of a run [s].
+    /// Measuring time, or the step of a run [s].
     pub(super) number: f64,
 }
 
-/// A line of a program: algorithm, seconds, value, what the value is compared with.
+/// A line of a program: algorithm, seconds, value, name of the reference of the value.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Line {
     pub(super) algorithm: String,
@@ -167,7 +167,7 @@ pub(super) struct Line {
 }
 
 impl Line {
-    /// Reads a line; what packages print besides is passed over.
+    /// Reads a line; `None` for other output of the program's packages.
     fn read(text: &str) -> Option<Self> {
         let parts: Vec<&str> = text.split(',').collect();
         let [algorithm, seconds, value, reference] = parts[..] else { return None };
@@ -190,7 +190,7 @@ pub(super) fn folder() -> PathBuf {
     process::target_dir().join("peers")
 }
 
-/// A package of Python, if it is installed.
+/// Folder of a Python package, if it is installed.
 fn package(name: &str) -> PathBuf {
     let lib = folder().join("venv/lib");
     let versions = std::fs::read_dir(&lib).into_iter().flatten().flatten();
@@ -198,11 +198,11 @@ fn package(name: &str) -> PathBuf {
     paths.find(|path| path.exists()).unwrap_or(lib.join(name))
 }
 
-/// Builds ours, and the peers that can be built here.
+/// Builds our program, and the peers that can be built here.
 ///
 /// # Errors
 ///
-/// That ours cannot be built.
+/// Our program cannot be built.
 pub(super) fn build() -> Result<(), String> {
     let package = |name: &str| {
         let mut command = process::cargo();
@@ -211,13 +211,13 @@ pub(super) fn build() -> Result<(), String> {
         command.env("CARGO_TARGET_DIR", folder().join(name)).current_dir(process::root());
         command
     };
-    // Ours runs on every x86-64, whatever the environment asks for; peers are built for this processor.
+    // our program is built for any x86-64, without the flags of the environment; peers are built for this processor
     process::run(package("ours").env_remove("RUSTFLAGS"))?;
     for peers in [
         package("rust").env("RUSTFLAGS", "-C target-cpu=native"),
         Command::new(sources().join("build.sh")).env("PEERS_DIR", folder()),
     ] {
-        // A peer that cannot be built is reported as one that is not there.
+        // a peer that cannot be built counts as missing
         if let Err(why) = process::run(peers) {
             eprintln!("{why}");
         }

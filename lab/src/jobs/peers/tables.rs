@@ -1,4 +1,4 @@
-//! Measurements as tables: ours beside the fastest peer, digits, peers, and every algorithm.
+//! Tables of the measurements: our times beside the fastest peer, times at equal digits, peers, and every algorithm.
 
 use super::digits::{against, solvers};
 use super::lanes::{Lane, Measured};
@@ -44,7 +44,7 @@ fn ratio_cell(x: Option<f64>) -> String {
     x.map_or_else(|| "-".to_owned(), ratio)
 }
 
-/// Ours in the plane beside the fastest peer, for every problem but those that report digits.
+/// Table of our planar times beside the fastest peer, for every problem whose runs do not report digits.
 fn beside(measured: &[Measured]) -> Table {
     let row = |m: &Measured| {
         let problem = m.problem.label();
@@ -64,7 +64,7 @@ fn beside(measured: &[Measured]) -> Table {
     (HEAD.to_vec(), rows)
 }
 
-/// Table of ours beside the fastest peer at equal digits.
+/// Table of our times beside the fastest peer at equal digits.
 fn at_digits(measured: &Measured) -> Table {
     let solvers = solvers(measured);
     let row = |digits: u8| {
@@ -92,7 +92,7 @@ fn at_digits(measured: &Measured) -> Table {
     (DIGITS_HEAD.to_vec(), DIGITS.map(row).collect())
 }
 
-/// Versions, and how what is missing is installed.
+/// Versions of the peers, and the commands that install missing ones.
 fn peers(measured: &[Measured]) -> Table {
     let row = |&who: &Who| {
         let failed = measured.iter().flat_map(|m| &m.failed).find(|(failed, _)| *failed == who);
@@ -109,7 +109,7 @@ fn peers(measured: &[Measured]) -> Table {
     (vec!["peer", "version"], rows)
 }
 
-/// Every algorithm of every program.
+/// Table of every algorithm of every program.
 fn all(measured: &[Measured]) -> Table {
     let mut rows = Vec::new();
     for m in measured {
@@ -150,7 +150,7 @@ pub(super) fn sections(measured: &[Measured]) -> Vec<Section> {
     sections
 }
 
-/// Adds the claims on each problem, and whether they hold.
+/// Adds a claim on each problem, with its verdict.
 fn claims(section: &mut Section, measured: &[Measured]) {
     for m in measured.iter().filter(|m| m.problem.kind != Kind::Digits) {
         let [limit, aim] = m.problem.limit;
@@ -164,7 +164,7 @@ fn claims(section: &mut Section, measured: &[Measured]) {
     }
 }
 
-/// Adds the claims at equal digits, and whether they hold where both reach them.
+/// Adds the claims at equal digits. They have a verdict if both solvers reach the digits.
 fn claims_at_digits(section: &mut Section, measured: &Measured) {
     let solvers = solvers(measured);
     let mut claim = |digits: u8, name: &str, limit: f64| {
@@ -200,7 +200,7 @@ pub(super) fn markdown(measured: &[Measured], remark: &str) -> String {
     text
 }
 
-/// Every turn of every algorithm.
+/// The times of every algorithm in every turn, as CSV.
 pub(super) fn csv(measured: &[Measured]) -> Result<Vec<u8>, String> {
     let number = |x: Option<f64>| x.map(|x| format!("{x:e}")).unwrap_or_default();
     let mut records = Vec::new();

@@ -1,4 +1,4 @@
-//! Counts of callgrind, instruction by instruction, and what one run has more than another.
+//! Counts of callgrind by instruction, and the difference of two runs.
 
 use std::collections::BTreeMap;
 
@@ -7,20 +7,20 @@ use std::collections::BTreeMap;
 pub(crate) struct Place {
     /// Path of the program or library.
     pub(crate) object: String,
-    /// The function that is called, into which others may be inlined.
+    /// The function that is called. Other functions may be inlined in it.
     pub(crate) function: String,
-    /// Address in the object.
+    /// Address within the program or library.
     pub(crate) address: String,
 }
 
-/// Instructions executed at each place.
+/// Number of executed instructions at each place.
 pub(crate) type Costs = BTreeMap<Place, u64>;
 
-/// Reads a file of `--dump-instr=yes --compress-strings=no --compress-pos=no`. What callees take is counted there alone.
+/// Reads a file of `--dump-instr=yes --compress-strings=no --compress-pos=no`. The cost of a callee is counted only there.
 ///
 /// # Errors
 ///
-/// A line that is none of these, or sums that are not the file's own.
+/// A line of an unknown form, or a sum that differs from the total in the file.
 pub(crate) fn costs(dump: &str) -> Result<Costs, String> {
     let (mut object, mut function, mut is_call) = ("", "", false);
     let (mut costs, mut total, mut all) = (Costs::new(), None, 0);
@@ -50,8 +50,8 @@ pub(crate) fn costs(dump: &str) -> Result<Costs, String> {
     }
 }
 
-/// Instructions that the longer run executed beyond the shorter one. A place that it passed less often counts as passed as often. The order
-/// of a hash map may send either run another way before the steps.
+/// Instructions that the longer run executed beyond the shorter one. A place with fewer in the longer run counts as zero: the order of a
+/// hash map may change the instructions before the steps.
 pub(crate) fn more(longer: &Costs, shorter: &Costs) -> Costs {
     let more = longer.iter().map(|(place, &count)| {
         let before = shorter.get(place).copied().unwrap_or(0);
@@ -64,7 +64,7 @@ pub(crate) fn more(longer: &Costs, shorter: &Costs) -> Costs {
 pub(crate) mod tests {
     use super::*;
 
-    /// Two functions of a program, of which the first calls the second and a library.
+    /// Dump of two functions of a program. The first calls the second, and a library.
     pub(crate) const SAMPLE: &str = "# callgrind format\npositions: instr line\nevents: Ir\nsummary: 62\n\n\
         ob=/p/bench\nfl=step.rs\nfn=index3::step\n0x10 5 3\nfi=arith.rs\n0x14 9 4\nfe=step.rs\n\
         cfi=kernel.rs\ncfn=kernel::eliminate\ncalls=3 0x80 \n0x18 7 30\n0x18 7 5\n\

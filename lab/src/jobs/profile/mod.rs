@@ -1,8 +1,9 @@
-//! `cargo xtask profile`: where the instructions of a step go, and how far its time is from the floor (docs/PROFILES.md).
+//! The job `cargo xtask profile`: counts the instructions of a step by parts, and compares its time with the least time for its operations
+//! (docs/PROFILES.md).
 //!
-//! The program `runner` is built for any x86-64 with the names of functions in it. Callgrind counts two runs of different length, so
-//! that start-up falls out; `addr2line` finds which functions are inlined at an instruction; time, operations and rates are
-//! measured without callgrind.
+//! The program `runner` is built for any x86-64 with the names of functions. Callgrind counts two runs of different length, whose
+//! difference does not contain the start-up. `addr2line` lists the functions that are inlined at an instruction. Time, operations and rates
+//! are measured without callgrind.
 
 mod callgrind;
 mod parts;
@@ -20,22 +21,22 @@ use table::Profile;
 use xtask::child::printed;
 use xtask::process::{self, cargo, line, output};
 
-/// The five scenes of `scenes/` whose steps in index-3 take most time; the vehicle's steering ramps take as long as the last one, which
-/// has no effects.
+/// The five scenes of `scenes/` with the longest index-3 steps. The vehicle on steering ramps takes as long as the last scene, and is left
+/// out since that one has no effects.
 const SCENES: [&str; 5] = ["iltis-links", "iltis-slalom", "iltis-jump", "iltis-stairs", "tree-30"];
-/// Steps that are looked at: from this one to that one of the scene's run.
+/// First and last step of the scene's run that are profiled.
 const WINDOW: [u32; 2] = [20, 320];
-/// Memory is copied and filled by loops: the processor's instructions that repeat themselves would be counted byte by byte.
+/// Setting of glibc that copies and fills memory by loops. Callgrind would count the processor's repeating instructions once per byte.
 const LOOPS: &str =
     "glibc.cpu.x86_rep_movsb_threshold=1073741824:glibc.cpu.x86_rep_stosb_threshold=1073741824";
-/// Longest run of the program [s].
+/// Largest time of a run of the program.
 const RUN_TIME: Duration = Duration::from_secs(900);
 
-/// Profiles the scenes, or those named, and writes text and Markdown; `keep` puts the tables into docs/PROFILES.md.
+/// Profiles the scenes, or the named ones, and writes text and Markdown. With `keep` it writes the tables into docs/PROFILES.md.
 ///
 /// # Errors
 ///
-/// Why nothing can be measured.
+/// The reason why nothing can be measured.
 #[allow(clippy::print_stdout, reason = "the tables are what is asked for")]
 pub(crate) fn profile(keep: bool, names: &[String]) -> Result<(), String> {
     if let Some(left_out) = missing_valgrind("profile") {
@@ -71,7 +72,7 @@ fn folder() -> PathBuf {
     process::target_dir().join("profile")
 }
 
-/// Builds the program: as it is released, and with lines and names of what is inlined.
+/// Builds the program with the optimisation of a release, and with the lines and names of inlined functions.
 fn build() -> Result<PathBuf, String> {
     let mut command = cargo();
     command.args(["build", "--quiet", "--profile", "bench"]).args(RUNNER);
@@ -79,7 +80,7 @@ fn build() -> Result<PathBuf, String> {
     Ok(folder().join("release").join("runner"))
 }
 
-/// One line of the program.
+/// Runs the measuring program. Returns its only line.
 fn read_line(program: &Path, words: &[&str]) -> Result<Value, String> {
     let mut command = Command::new(program);
     command.args(["bench", "profile"]).args(words).current_dir(process::root());
@@ -105,7 +106,7 @@ fn scene(program: &Path, name: &str) -> Result<Profile, String> {
     Ok(Profile { line, shares })
 }
 
-/// Counts a run of so many steps.
+/// Counts the instructions of a run with a number of steps.
 fn counted(program: &Path, name: &str, steps: &str) -> Result<callgrind::Costs, String> {
     let path = folder().join("callgrind.out");
     let mut command = Command::new("valgrind");
@@ -122,7 +123,7 @@ fn counted(program: &Path, name: &str, steps: &str) -> Result<callgrind::Costs, 
     callgrind::costs(&String::from_utf8_lossy(&bytes))
 }
 
-/// Output of `addr2line` for addresses.
+/// Output of `addr2line` for a list of addresses.
 fn functions(program: &Path, addresses: Vec<&str>) -> Result<String, String> {
     let mut command = Command::new("addr2line");
     command.args(["-a", "-f", "-i", "-C", "-e"]).arg(program);
@@ -130,7 +131,7 @@ fn functions(program: &Path, addresses: Vec<&str>) -> Result<String, String> {
     let failed = |e: std::io::Error| format!("`{words}`: {e}");
     let mut child = command.stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().map_err(failed)?;
     let (stdin, text) = (child.stdin.take(), addresses.join("\n"));
-    // It answers while it is asked.
+    // addresses are written by another thread, since `addr2line` answers while it reads
     let asking = std::thread::spawn(move || stdin.map(|mut to| to.write_all(text.as_bytes())));
     let out = child.wait_with_output().map_err(failed)?;
     match asking.join() {
@@ -157,7 +158,7 @@ fn remark(machine: &Machine) -> String {
     )
 }
 
-/// Puts the tables between the marks of a document.
+/// Writes the tables between the marks of a document.
 fn put(path: &Path, markdown: &str) -> Result<(), String> {
     let text = fs::read_to_string(path).map_err(|e| format!("{}: {e}", path.display()))?;
     let text = between(&text, markdown)
@@ -165,10 +166,10 @@ fn put(path: &Path, markdown: &str) -> Result<(), String> {
     process::write(path, text.as_bytes())
 }
 
-/// Around what is measured.
+/// Marks before and after the tables.
 const MARKS: [&str; 2] = ["<!-- profile:begin -->", "<!-- profile:end -->"];
 
-/// A text with other lines between its marks; `None` where it has none.
+/// A text with other lines between its marks; `None` if it has no marks.
 fn between(text: &str, lines: &str) -> Option<String> {
     let (head, rest) = text.split_once(MARKS[0])?;
     let (_, tail) = rest.split_once(MARKS[1])?;

@@ -1,7 +1,8 @@
-//! The parts of a step, and which part an instruction belongs to.
+//! The parts of a step, and the part to which an instruction belongs.
 //!
-//! A release build inlines most of a step, and a product of two numbers stands in a line of the standard library. An instruction is known by
-//! the whole chain of functions that are inlined there, from the innermost outwards. The first that has a part decides.
+//! A release build inlines most of a step, and the product of two numbers is a line of the standard library. So an instruction is
+//! classified by the chain of functions that are inlined at it, from the innermost outwards. The first function that belongs to a part
+//! decides.
 
 use super::callgrind::{Costs, Place};
 use std::collections::BTreeMap;
@@ -49,7 +50,7 @@ impl Part {
     }
 }
 
-/// A function that is inlined at an instruction, or that holds it, with its file.
+/// A function that is inlined at an instruction, or that contains it, with its file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Frame<'a> {
     pub(crate) function: &'a str,
@@ -57,13 +58,13 @@ pub(crate) struct Frame<'a> {
 }
 
 impl Frame<'_> {
-    /// Is one of these the function's name, or that of what it is a closure of?
+    /// Is one of these the function's name, or the name of the function whose closure it is?
     fn is(&self, names: &[&str]) -> bool {
         let words = self.function.split(|c: char| !(c.is_ascii_alphanumeric() || c == '_'));
         names.iter().any(|name| words.clone().any(|word| word == *name))
     }
 
-    /// The part that it belongs to; `None`: that of the function around it.
+    /// The part to which the function belongs; `None` if the surrounding function decides.
     fn part(&self) -> Option<Part> {
         let (_, path) = self.file.rsplit_once("mbs-")?;
         let is = |names: &[&str]| self.is(names);
@@ -99,7 +100,7 @@ impl Frame<'_> {
         match path {
             "natural/incidence.rs" => Some(Part::Products),
             "natural/coordinate_sets.rs" => Some(Part::Blocks),
-            // Who walks over groups does so for the function around it.
+            // functions that loop over groups work for the surrounding function
             "natural/element_ranges.rs" => None,
             "model.rs" | "natural/evaluate.rs" | "natural/element.rs" | "natural/group.rs"
                 if is(&BLOCKS) =>
@@ -122,7 +123,7 @@ impl Frame<'_> {
     }
 }
 
-/// Functions of what their files share.
+/// Functions that write blocks, in files that belong to several parts.
 const BLOCKS: [&str; 11] = [
     "write_block",
     "write_sized_block",
@@ -165,29 +166,29 @@ pub(crate) fn chains(printed: &str) -> BTreeMap<u64, Vec<Frame<'_>>> {
     chains
 }
 
-/// 0x4a4be0, with or without zeros in front.
+/// Reads an address such as 0x4a4be0, with or without leading zeros.
 pub(crate) fn address(text: &str) -> Option<u64> {
     u64::from_str_radix(text.strip_prefix("0x")?, 16).ok()
 }
 
-/// The part of a place with the chain of functions there.
+/// The part of a place, from the chain of functions there.
 fn part(place: &Place, chain: &[Frame<'_>]) -> Part {
     let name = place.function.trim_start_matches('_');
     if ["memcpy", "memmove", "memset", "memcmp", "bcmp"].iter().any(|f| name.starts_with(f)) {
         return Part::Memory;
     }
     let found = chain.iter().find_map(Frame::part);
-    // Sines and angles are asked for by effects and guides alone, roots by lengths.
+    // only effects and guides use sines and angles, and lengths use roots
     let is_libm = || name.starts_with("libm::") || chain.iter().any(|f| f.file.contains("/libm"));
     found.unwrap_or_else(|| match name {
-        // A function that the sweeps and the factorisation share: where it is not inlined, the sweeps call it.
+        // the sweeps and the factorisation use this function; only the sweeps call it without inlining
         _ if name.contains("panel::subtract") => Part::Sweeps,
         _ if is_libm() => Part::Evaluation,
         _ => Part::Rest,
     })
 }
 
-/// The innermost function of this repository at a place, with the one around it where it is inlined; else the function that is called.
+/// The innermost function of this repository at a place, with the function in which it is inlined. If there is none, the called function.
 fn name(place: &Place, chain: &[Frame<'_>]) -> String {
     let own = chain.iter().filter(|frame| frame.file.contains("/mbs-"));
     let mut names: Vec<_> = own.map(|frame| short(frame.function)).collect();
@@ -199,7 +200,7 @@ fn name(place: &Place, chain: &[Frame<'_>]) -> String {
     }
 }
 
-/// The last name of a function's path, of a closure the function that it stands in.
+/// The last name of a function's path; for a closure, the name of the function that contains it.
 fn short(function: &str) -> &str {
     let words = function.rsplit("::").map(|word| word.trim_end_matches("'2"));
     let mut names = words.filter(|word| {
@@ -208,14 +209,14 @@ fn short(function: &str) -> &str {
     names.next().unwrap_or(function)
 }
 
-/// Instructions of each part, and of each function with its part.
+/// Number of instructions of each part, and of each function with its part.
 #[derive(Debug, Default)]
 pub(crate) struct Shares {
     pub(crate) parts: BTreeMap<Part, u64>,
     pub(crate) functions: BTreeMap<(Part, String), u64>,
 }
 
-/// Adds the costs up.
+/// Sums the costs by parts and functions.
 pub(crate) fn shares(costs: &Costs, program: &str, printed: &str) -> Shares {
     let chains = chains(printed);
     let mut shares = Shares::default();

@@ -1,4 +1,4 @@
-//! The tables of a profile: a step beside its floor, its instructions by parts, and the functions that take most of them.
+//! The tables of a profile: time of a step beside its least time, instructions by parts, and the functions with most instructions.
 
 use super::parts::{Part, Shares};
 use crate::format;
@@ -10,7 +10,7 @@ use std::fmt::Write;
 pub(crate) struct Profile {
     /// The line of `runner bench profile step`.
     pub(crate) line: Value,
-    /// Instructions of all its steps.
+    /// Instructions of all profiled steps, by parts and functions.
     pub(crate) shares: Shares,
 }
 
@@ -19,45 +19,45 @@ impl Profile {
         self.line["scene"].as_str().unwrap_or_default()
     }
 
-    /// A number of the line; not a number where there is none.
+    /// A number of the line; NaN if it is missing.
     pub(crate) fn number(&self, key: &str) -> f64 {
         self.line[key].as_f64().unwrap_or(f64::NAN)
     }
 
-    /// A count of work in a step.
+    /// A count of work per step.
     pub(crate) fn work(&self, key: &str) -> f64 {
         self.line["work"][key].as_f64().unwrap_or(f64::NAN)
     }
 
-    /// Number of steps that were looked at.
+    /// Number of profiled steps.
     fn steps(&self) -> f64 {
         self.number("to") - self.number("from")
     }
 
-    /// Instructions of a part in a step.
+    /// Instructions of a part per step.
     pub(crate) fn instructions(&self, part: Part) -> f64 {
         self.each(self.shares.parts.get(&part).copied().unwrap_or(0))
     }
 
-    /// Returns instructions as an average of each step.
+    /// Returns the average number of instructions per step.
     #[allow(clippy::cast_precision_loss, reason = "counts far below 2^53")]
     pub(crate) fn each(&self, instructions: u64) -> f64 {
         instructions as f64 / self.steps()
     }
 }
 
-/// Functions listed of each scene.
+/// Number of functions listed for each scene.
 const FUNCTIONS: usize = 12;
 
-/// Rates of the machine at best.
+/// Best rates of the machine.
 struct Rates {
-    /// Operations in a second, one and two at a time.
+    /// Operations per second, one and two per instruction.
     scalar: f64,
     packed: f64,
-    /// Bytes in a second, of an array that fits the second cache and of one that fits none; their sizes.
+    /// Bytes per second, for an array that fits into the second cache and for one that fits into no cache; sizes of the arrays.
     bytes: [f64; 2],
     sizes: [f64; 2],
-    /// Size of the second cache.
+    /// Size of the second cache, in bytes.
     cache: f64,
 }
 
@@ -86,19 +86,19 @@ impl Rates {
         )
     }
 
-    /// The least time of a step by its operations and by its bytes [s].
+    /// The least time of a step, by its operations and by its bytes [s].
     fn floors(&self, profile: &Profile) -> [f64; 2] {
         let bytes = if profile.number("set") <= self.cache { self.bytes[0] } else { self.bytes[1] };
         [operations(profile) / self.packed, profile.number("moved") / bytes]
     }
 }
 
-/// All operations of a step, each counted as one.
+/// Number of operations of a step, each counted as one.
 fn operations(profile: &Profile) -> f64 {
     ["products", "sums", "quotients", "roots", "turns"].map(|key| profile.number(key)).iter().sum()
 }
 
-/// Operations of a step in a part; `None` where they are not counted apart.
+/// Operations of a part per step; `None` if they are not counted separately.
 fn operations_of(profile: &Profile, part: Part) -> Option<f64> {
     let of = |phase: &str| profile.line["operations"][phase].as_f64().unwrap_or(f64::NAN);
     let eliminated = profile.work("factorizations") * profile.number("factor_flops");
@@ -113,12 +113,12 @@ fn operations_of(profile: &Profile, part: Part) -> Option<f64> {
     })
 }
 
-/// Instructions of a step.
+/// Number of instructions of a step.
 fn instructions(profile: &Profile) -> f64 {
     Part::ALL.iter().map(|&part| profile.instructions(part)).sum()
 }
 
-/// All tables with the remark.
+/// All tables, with the remark.
 pub(crate) fn markdown(profiles: &[Profile], rates: &Value, remark: &str) -> String {
     let rates = Rates::of(rates);
     let mut text = format!("{remark} {}\n\n", rates.sentence());
@@ -177,7 +177,7 @@ pub(crate) fn markdown(profiles: &[Profile], rates: &Value, remark: &str) -> Str
     text
 }
 
-/// A scene's name, then cells.
+/// A row with a scene's name and cells.
 fn row(profile: &Profile, cells: impl IntoIterator<Item = String>) -> Vec<String> {
     std::iter::once(format!("`{}`", profile.name())).chain(cells).collect()
 }
@@ -218,7 +218,7 @@ fn floor(profile: &Profile, rates: &Rates) -> Vec<String> {
     )
 }
 
-/// The functions of a scene that take most instructions, each with the one that it is inlined into, and their part.
+/// The functions of a scene with most instructions, each with its part and the function into which it is inlined.
 fn functions(profile: &Profile) -> String {
     let all = instructions(profile);
     let mut list: Vec<_> = profile.shares.functions.iter().collect();
@@ -233,7 +233,7 @@ fn functions(profile: &Profile) -> String {
     text
 }
 
-/// One scene as text.
+/// The profile of one scene as text.
 pub(crate) fn text(profile: &Profile, rates: &Value) -> String {
     let rates = Rates::of(rates);
     let mut text = format!("{}\n\n", rates.sentence());
@@ -281,7 +281,7 @@ pub(crate) fn text(profile: &Profile, rates: &Value) -> String {
     text
 }
 
-/// 3 of 6, 20 of 12
+/// Sizes of elements as text, such as "3 of 6, 20 of 12".
 fn cliques(profile: &Profile) -> String {
     let mut sizes: Vec<(u64, u64)> = Vec::new();
     for (size, n) in profile.line["cliques"].as_object().into_iter().flatten() {

@@ -1,12 +1,12 @@
-//! Methods whose runs are known to stop, by scene: everything else that stops is a surprise.
+//! Methods with runs that are known to stop, by scene. Other stops are reported as surprises.
 
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// Methods with runs that stop before their end. Controlled steps at a tolerance of 1e-3 lose the pendulum's energy. Explicit integrators do
-/// not hold the nearly singular leaf springs of the vehicle on their constraints. Runs in f32 end where a tolerance is finer than their rounding.
-/// Long steps are the first of every method's range.
+/// Methods with runs that stop before their end. Controlled steps with a tolerance of 1e-3 change the pendulum's energy too much. Explicit
+/// integrators do not keep the nearly singular leaf springs of the vehicle on their constraints. Runs in f32 stop if a tolerance is smaller
+/// than their rounding errors. Long steps are the first of every method's range.
 const STOPPED: [(&str, &[&str]); 4] = [
     (
         "double-pendulum",
@@ -30,27 +30,27 @@ const STOPPED: [(&str, &[&str]); 4] = [
     ),
 ];
 
-/// Runs that were completed, runs that stopped, and what of it is not as listed.
+/// Numbers of completed and of stopped runs, and differences from the list.
 #[derive(Debug, PartialEq)]
 pub(super) struct Judged {
     /// Number of completed runs, and number of runs that stopped.
     pub(super) counts: [usize; 2],
-    /// Methods that stop and are not listed, and listed ones that do not.
+    /// Methods that stop and are not listed, and listed methods that do not stop.
     pub(super) surprises: Vec<String>,
 }
 
-/// Reads what the comparison of a scene left.
+/// Reads the results of a scene's comparison.
 ///
 /// # Errors
 ///
-/// What cannot be read.
+/// The file that cannot be read.
 pub(super) fn read(folder: &Path) -> Result<Value, String> {
     let path = folder.join("compare.json");
     let text = std::fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))?;
     serde_json::from_str(&text).map_err(|e| format!("{}: {e}", path.display()))
 }
 
-/// Judges the comparison of a scene.
+/// Compares the results of a scene with the list.
 pub(super) fn judge(scene: &str, comparison: &Value) -> Judged {
     let listed = STOPPED.iter().find(|(name, _)| *name == scene).map_or(&[][..], |(_, l)| l);
     judged(scene, comparison, listed)

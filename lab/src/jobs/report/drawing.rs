@@ -1,4 +1,4 @@
-//! Work and precision of a comparison as one picture: for each formulation the runs that no other of its runs beats.
+//! Work-precision diagram of a comparison: for each formulation, the runs for which no other of its runs is both faster and more exact.
 
 use crate::chart::{Chart, Look, Series};
 use serde_json::Value;
@@ -37,7 +37,7 @@ pub(super) fn chart(comparison: &Value) -> Chart {
     Chart::log_log("true error, in the scale of each output [-]", "CPU [s]", series)
 }
 
-/// The points with both a smaller time and a smaller error than no other, from the largest error.
+/// The points for which no other point has both a smaller time and a smaller error, from the largest error on.
 fn unbeaten(mut points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     points.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
     let mut least = f64::INFINITY;

@@ -1,4 +1,4 @@
-//! Index of all pages: what each of the others shows, the command that makes it, and what was not as listed.
+//! Index of all pages: the contents of each, the command that makes it, and its surprises.
 
 use crate::bench;
 use crate::format::escape;
@@ -8,16 +8,16 @@ use std::process::Command;
 use std::time::Instant;
 use xtask::process;
 
-/// A page: its file, what it shows, and the command that makes it alone.
+/// A page: its file, its contents, and the command that makes only this page.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Page {
     /// File of the page in the folder.
     pub(super) file: &'static str,
     title: &'static str,
     shows: &'static str,
-    /// The command that makes it alone.
+    /// The command that makes only this page.
     pub(super) command: &'static str,
-    /// The scene it is about, where it is about one.
+    /// The scene of the page; empty if it has none.
     pub(super) scene: &'static str,
 }
 
@@ -89,12 +89,12 @@ pub(super) struct Entry {
     remark: String,
     seconds: f64,
     surprises: Vec<String>,
-    /// Figure of what the page shows; empty without one.
+    /// Figure of the page; empty without one.
     picture: String,
 }
 
 impl Entry {
-    /// A page that was begun at `clock` and is made now.
+    /// An entry of a page whose work began at `clock`.
     pub(super) fn new(page: &Page, remark: String, clock: Instant, surprises: Vec<String>) -> Self {
         let (seconds, picture) = (clock.elapsed().as_secs_f64(), String::new());
         Self { page: *page, remark, seconds, surprises, picture }
@@ -128,7 +128,7 @@ impl Entry {
 #[derive(Debug)]
 pub(super) struct Index {
     quick: bool,
-    /// Provenance of the pages.
+    /// Provenance of the pages: commit, processor and compiler.
     provenance: String,
     /// The pages so far.
     pub(super) entries: Vec<Entry>,
@@ -140,7 +140,7 @@ impl Index {
         Self { quick, provenance: provenance(), entries: Vec::new() }
     }
 
-    /// Writes a page, and adds it with the first picture that it has.
+    /// Writes a page, and adds it to the index with its first figure.
     pub(super) fn add_page(
         &mut self,
         folder: &Path,
@@ -151,7 +151,7 @@ impl Index {
         self.add(folder, entry.with_picture(first_picture(html).to_owned()))
     }
 
-    /// Adds a page that was written, and writes this one.
+    /// Adds a page that is written already, and writes the index.
     pub(super) fn add(&mut self, folder: &Path, entry: Entry) -> Result<(), String> {
         self.entries.push(entry);
         process::write(&folder.join("index.html"), self.html().as_bytes())
@@ -162,7 +162,7 @@ impl Index {
         std::iter::once("index.html").chain(self.entries.iter().map(|entry| entry.page.file))
     }
 
-    /// Everything that was not as listed.
+    /// The surprises of all pages.
     pub(super) fn surprises(&self) -> Vec<String> {
         self.entries.iter().flat_map(|entry| entry.surprises.iter().cloned()).collect()
     }
@@ -179,7 +179,7 @@ impl Index {
     }
 }
 
-/// Commit, processor and compiler; what cannot be asked for is left out.
+/// Commit, processor and compiler; an unknown one is left out.
 fn provenance() -> String {
     let said = |program: &str, arguments: &[&str]| {
         let mut command = Command::new(program);

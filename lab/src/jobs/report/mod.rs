@@ -1,4 +1,4 @@
-//! `cargo xtask report`: every page of measurements in one folder, with an index that says how each is made.
+//! The job `cargo xtask report`: makes every page of measurements in one folder, with an index of the commands that make each page.
 
 mod compared;
 mod drawing;
@@ -13,11 +13,11 @@ use std::path::Path;
 use std::time::Instant;
 use xtask::{pages, process};
 
-/// Makes all pages under `target/report` one after the other, and the index last.
+/// Makes all pages under `target/report`, one after the other.
 ///
 /// # Errors
 ///
-/// Why something cannot be run, or what did not come to what is listed.
+/// The reason why something cannot be run, or outcomes that differ from the lists.
 pub(crate) fn report(quick: bool) -> Result<(), String> {
     let folder = process::target_dir().join("report");
     let mut index = Index::new(quick);
@@ -58,7 +58,7 @@ pub(crate) fn report(quick: bool) -> Result<(), String> {
     tables::listed(&surprises)
 }
 
-/// Compares all methods on a scene: its page, and its picture.
+/// Compares all methods on a scene, and makes its page and its figure.
 fn compare(
     mbs: &Mbs,
     page: &index::Page,
@@ -77,7 +77,7 @@ fn compare(
     let judged = compared::judge(page.scene, &comparison);
     let [completed, stopped] = judged.counts;
     let remark = format!("{completed} runs were completed, {stopped} stopped; the page says why.");
-    // With less work the ranges of steps are shorter: what is listed may not be reached.
+    // with less work the ranges of steps are shorter, so listed stops may not occur
     let surprises = if quick { Vec::new() } else { judged.surprises };
     let figure = figure(&chart, "CPU time over error.")?;
     index.add(folder, Entry::new(page, remark, clock, surprises).with_picture(figure))

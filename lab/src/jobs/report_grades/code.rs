@@ -1,4 +1,4 @@
-//! Counts in sources that no run shows: lines of code of a formulation, and whether it searches a graph.
+//! Counts in sources: lines of code of a formulation, and whether it searches a graph.
 
 use std::fs;
 use std::path::Path;
@@ -13,11 +13,11 @@ pub(crate) struct Counted {
     pub(crate) graph: Option<String>,
 }
 
-/// Counts a crate of this workspace.
+/// Counts the sources of a crate of this workspace.
 ///
 /// # Errors
 ///
-/// What cannot be read.
+/// The file that cannot be read.
 pub(crate) fn count(package: &str) -> Result<Counted, String> {
     let mut counted = Counted { lines: 0, graph: None };
     folder(&process::root().join(package).join("src"), &mut counted)?;
@@ -47,13 +47,13 @@ fn folder(path: &Path, counted: &mut Counted) -> Result<(), String> {
     Ok(())
 }
 
-/// Lines of code before the tests of a file, which stand at its end.
+/// Number of lines of code before the tests, which are at the end of a file.
 fn lines(text: &str) -> usize {
     let mut lines = text.lines().map(str::trim);
     let mut count = 0;
     while let Some(line) = lines.next() {
         if line == "#[cfg(test)]" {
-            // A module in a file of its own, which is passed over; else what follows are the tests.
+            // a module of tests in a file of its own is skipped; otherwise the tests follow
             match lines.next() {
                 Some(line) if line.ends_with(';') => continue,
                 _ => break,

@@ -1,19 +1,19 @@
-//! One column of the grades: for each method a letter, the number it rests on, and the runs behind it.
+//! One column of the grades. Each method has a letter, the number on which it is based, and the runs of that number.
 
 use super::ladder::{self, Ladder};
 use super::letter::{Letter, mean, over_best, worst};
 use super::printed::{METHODS, Method};
 use crate::lab::{Lab, Run};
 
-/// A letter with what it rests on.
+/// A letter with its basis.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Cell {
     pub(crate) letter: Letter,
-    /// Ratio to what the best method needs, or what the letter rests on; nothing where the method fails.
+    /// Ratio to the number of the best method, or the number on which the letter is based; `None` if the method fails.
     pub(crate) ratio: Option<f64>,
-    /// Words on what was counted, where nothing is run.
+    /// Words on the count, for columns without runs.
     pub(crate) counted: String,
-    /// Runs that the letter rests on.
+    /// Runs on which the letter is based.
     pub(crate) runs: Vec<Run>,
 }
 
@@ -25,13 +25,13 @@ pub(crate) struct Column {
     pub(crate) cells: Vec<Cell>,
 }
 
-/// Rule that makes one ratio of those of several scenes.
+/// Rule that combines the ratios of several scenes into one.
 pub(crate) type Joined = fn(&[Option<f64>]) -> Option<f64>;
 
-/// Numbers that each method gave in each scene, and the runs; a number is better the smaller it is.
+/// Numbers of each method in each scene, and the runs; smaller numbers are better.
 type Given = Vec<(Vec<Option<f64>>, Vec<Run>)>;
 
-/// Cells from what the methods gave: each number beside the best in its scene, then over all scenes.
+/// Cells from the numbers of the methods. Each number is divided by the best one in its scene, then the ratios of all scenes are combined.
 fn graded(given: Given, floor: f64, joined: Joined, limits: [f64; 3]) -> Vec<Cell> {
     let scenes = given.first().map_or(0, |(numbers, _)| numbers.len());
     let beside: Vec<Vec<Option<f64>>> = (0..scenes)
@@ -61,20 +61,20 @@ fn over_ladders(
     METHODS.iter().map(of).collect()
 }
 
-/// Limits of the letters A, B and C for times and lines: each grade is twice as much.
+/// Limits of the letters A, B and C for times and lines [-]: each is twice the one before.
 const TIMES: [f64; 3] = [2.0, 4.0, 8.0];
-/// Limits for errors at one step: each grade is ten times as much.
+/// Limits of the letters for errors at one step [-]: each is ten times the one before.
 const ERRORS: [f64; 3] = [10.0, 100.0, 1000.0];
-/// Limits for runs that are of no use where those of another method are.
+/// Limits of the letters for numbers of runs that are useless while those of another method are useful.
 const FEWER: [f64; 3] = [1.0, 2.0, 3.0];
-/// Accuracy whose price is compared: share of the energy turned over.
+/// Energy error at which times are compared, relative to the exchanged energy [-].
 const LEVEL: f64 = 1e-4;
-/// A run with a larger share of the energy wrong is of no use.
+/// Largest energy error of a useful run, relative to the exchanged energy [-].
 const USEFUL: f64 = 1e-2;
-/// Shares below are rounding, and equal.
+/// Relative energy errors below this count as equal, since they are rounding errors [-].
 const ROUNDING: f64 = 1e-10;
 
-/// CPU time at a wanted accuracy, over scenes.
+/// Column of the CPU time at a required accuracy, over scenes.
 pub(crate) fn speed(
     lab: &Lab<'_>,
     name: &'static str,
@@ -96,7 +96,7 @@ pub(crate) fn speed(
     })
 }
 
-/// Energy error at given steps.
+/// Column of the energy error at given steps.
 pub(crate) fn accuracy(
     lab: &Lab<'_>,
     name: &'static str,
@@ -123,7 +123,7 @@ pub(crate) fn accuracy(
     })
 }
 
-/// At how many steps of a ladder a run is of use.
+/// Column of the number of steps of a ladder at which a run is useful.
 pub(crate) fn condition(
     lab: &Lab<'_>,
     name: &'static str,
@@ -149,7 +149,7 @@ pub(crate) fn condition(
     })
 }
 
-/// Cells from numbers of useful runs: how many the best method of a scene has more.
+/// Cells from numbers of useful runs: the best number of a scene less the method's own.
 fn missing(given: Given) -> Vec<Cell> {
     let scenes = given.first().map_or(0, |(useful, _)| useful.len());
     let best: Vec<f64> = (0..scenes)
@@ -166,12 +166,12 @@ fn missing(given: Given) -> Vec<Cell> {
     given.into_iter().map(cell).collect()
 }
 
-/// Is a run of use: did it end, with little of the energy wrong?
+/// Is a run useful: was it completed, with a small energy error?
 fn is_useful(run: &Run) -> bool {
     ladder::share(run).is_some_and(|share| share <= USEFUL)
 }
 
-/// Numbers that are counted: `(number, text)` for each method.
+/// Column of counted numbers: `(number, text)` for each method.
 pub(crate) fn easiness(counts: &[(usize, String)]) -> Column {
     #[allow(clippy::cast_precision_loss, reason = "some thousand lines")]
     let numbers: Vec<_> = counts.iter().map(|(n, _)| Some(*n as f64)).collect();
@@ -189,7 +189,7 @@ pub(crate) fn easiness(counts: &[(usize, String)]) -> Column {
     }
 }
 
-/// Whether a graph is searched: the file that does, for each method.
+/// Column on searches of a graph, from the file of each method that has one.
 pub(crate) fn graphs(files: &[Option<String>]) -> Column {
     let cell = |file: &Option<String>| Cell {
         letter: if file.is_some() { Letter::D } else { Letter::A },

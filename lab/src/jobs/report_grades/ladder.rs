@@ -1,27 +1,27 @@
-//! Runs down a ladder of steps: the first that is good enough, and what a wanted accuracy costs.
+//! Runs with decreasing steps: the first run that is accurate enough, and the CPU time of a required accuracy.
 
 use super::printed::Method;
 use crate::lab::case::Case;
 use crate::lab::{Lab, Run};
 
-/// Runs that take less are repeated, and the least time counts [s].
+/// Time below which a run is repeated, so that its least time counts [s].
 const SHORT: f64 = 1.0;
 
-/// A scene with the steps that are tried, falling [s].
+/// A scene with the steps to try, in decreasing order [s].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Ladder {
     /// The scene, by its file.
     pub(crate) scene: &'static str,
     /// Steps that are tried [s].
     pub(crate) steps: &'static [f64],
-    /// Simulated time of each run [s]; else the scene's.
+    /// Simulated time of each run [s]; `None` for that of the scene.
     pub(crate) duration: Option<f64>,
     /// Text that is appended to the scene.
     pub(crate) appended: &'static str,
 }
 
 impl Ladder {
-    /// A scene as it is.
+    /// Makes a ladder of a scene without changes.
     pub(crate) const fn new(scene: &'static str, steps: &'static [f64]) -> Self {
         Self { scene, steps, duration: None, appended: "" }
     }
@@ -37,16 +37,16 @@ impl Ladder {
     }
 }
 
-/// Energy error as a share of the energy turned over, where a run reached its end.
+/// Energy error relative to the exchanged energy, if the run was completed.
 pub(crate) fn share(run: &Run) -> Option<f64> {
     run.figures().map(crate::mbs::outcome::Figures::share).filter(|share| share.is_finite())
 }
 
-/// Runs one case; takes its least time of some where it is short.
+/// Runs one case of a ladder. With `is_timed` a short run is repeated for its least time.
 ///
 /// # Errors
 ///
-/// Why it cannot be run at all.
+/// The reason why the case cannot be run.
 pub(crate) fn run(lab: &Lab<'_>, case: &Case, is_timed: bool) -> Result<Run, String> {
     let mut run = first(lab.measure(std::slice::from_ref(case), 1)?)?;
     if is_timed && run.seconds().is_some_and(|s| s < SHORT) {
@@ -62,11 +62,11 @@ fn first(runs: Vec<Run>) -> Result<Run, String> {
     runs.into_iter().next().ok_or_else(|| "a case was not run".to_owned())
 }
 
-/// Steps down until a run's share of the energy is at most `level`; all runs that were made.
+/// Decreases the step until the relative energy error is at most `level`. Returns all runs.
 ///
 /// # Errors
 ///
-/// Why a case cannot be run at all.
+/// The reason why a case cannot be run.
 pub(crate) fn descend(
     lab: &Lab<'_>,
     ladder: &Ladder,
@@ -86,14 +86,14 @@ pub(crate) fn descend(
     Ok(runs)
 }
 
-/// The step of the last run, where it is good enough [s].
+/// The step of the last run, if that is accurate enough [s].
 pub(crate) fn reached(runs: &[Run], level: f64) -> Option<f64> {
     let last = runs.last()?;
     share(last).filter(|&share| share <= level).map(|_| last.case.step)
 }
 
-/// CPU time at which the error is `level` [s]: between the last two runs by powers, or that of the last where the one before
-/// did not reach its end.
+/// CPU time at which the error is `level` [s]: interpolated by a power law between the last two runs. If the one before the last was not
+/// completed, it is the time of the last run.
 pub(crate) fn price(runs: &[Run], level: f64) -> Option<f64> {
     reached(runs, level)?;
     let last = runs.last()?;
@@ -129,7 +129,7 @@ mod tests {
 
     #[test]
     fn an_accuracy_between_two_runs_costs_what_the_order_says() {
-        // Second order: a hundredth of the error at a tenth of the step.
+        // second order: a tenth of the step gives a hundredth of the error
         let runs = [made(1e-2, Some(1e-2)), made(1e-3, Some(1e-4))];
         let price = price(&runs, 1e-3).unwrap();
         assert!((price - 10f64.sqrt()).abs() < 1e-9, "{price}");

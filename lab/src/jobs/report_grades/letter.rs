@@ -1,4 +1,4 @@
-//! Letters by rule, for how much more a method needs than the best one in the same row of runs.
+//! Letters by rule, from the ratio of a method's number to the best one.
 
 /// A grade. "A means outstanding, B good, C fair, D poor and F signifies a failure" (the report).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -22,7 +22,8 @@ impl Letter {
         }
     }
 
-    /// Letter of a number over the best one, where smaller is better: A up to the first limit, and so on; none is a failure.
+    /// Letter of a ratio to the best number, where smaller is better. A is up to the first limit, B up to the second, and so on. No ratio
+    /// is a failure.
     pub(crate) fn of_ratio(ratio: Option<f64>, limits: [f64; 3]) -> Self {
         let Some(ratio) = ratio.filter(|ratio| ratio.is_finite()) else { return Self::F };
         let [a, b, c] = limits;
@@ -38,14 +39,14 @@ impl Letter {
     }
 }
 
-/// The number beside the smallest of all, each at least `floor`; nothing where a method has none.
+/// Ratios of the numbers to the smallest of all, where each number counts as at least `floor`; `None` for a method without a number.
 pub(crate) fn over_best(numbers: &[Option<f64>], floor: f64) -> Vec<Option<f64>> {
     let lifted = |x: &Option<f64>| x.filter(|x| x.is_finite()).map(|x| x.max(floor));
     let best = numbers.iter().filter_map(lifted).fold(f64::INFINITY, f64::min);
     numbers.iter().map(|x| lifted(x).map(|x| x / best)).collect()
 }
 
-/// Geometric mean of the ratios; nothing where a number is missing.
+/// Geometric mean of the ratios; `None` if a number is missing.
 pub(crate) fn mean(ratios: &[Option<f64>]) -> Option<f64> {
     let logs = ratios.iter().map(|x| x.map(f64::ln)).collect::<Option<Vec<_>>>()?;
     #[allow(clippy::cast_precision_loss, reason = "some scenes")]
@@ -53,7 +54,7 @@ pub(crate) fn mean(ratios: &[Option<f64>]) -> Option<f64> {
     (n > 0.0).then(|| (logs.iter().sum::<f64>() / n).exp())
 }
 
-/// Largest of the ratios; nothing where a number is missing.
+/// Largest of the ratios; `None` if a number is missing.
 pub(crate) fn worst(ratios: &[Option<f64>]) -> Option<f64> {
     ratios.iter().copied().collect::<Option<Vec<_>>>()?.into_iter().reduce(f64::max)
 }

@@ -1,4 +1,4 @@
-//! The report's grades, G1 and G2: letters by stated rules from runs, beside the printed ones.
+//! The report's grades, G1 and G2: letters by stated rules from our runs, beside the published ones.
 
 mod code;
 mod column;
@@ -13,13 +13,13 @@ use column::{Cell, Column};
 use ladder::Ladder;
 use printed::{METHODS, Method};
 
-/// Steps that are tried for a wanted accuracy, and under a hard condition: half decades [s].
+/// Steps for a required accuracy and for difficult conditions, two per decade [s].
 const STEPS: &[f64] = &[3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 3e-5];
-/// Steps that are tried under a hard condition, for small mechanisms [s].
+/// Steps for difficult conditions of small mechanisms [s].
 const FINE: &[f64] = &[3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5];
-/// Steps that are tried under a hard condition, for vehicles [s].
+/// Steps for difficult conditions of vehicles [s].
 const COARSE: &[f64] = &[3e-2, 1e-2, 3e-3, 1e-3];
-/// Steps that are tried for Andrews' mechanism, which is a hundred times as fast [s].
+/// Steps for Andrews' mechanism, whose motion is a hundred times as fast [s].
 const FAST: &[f64] = &[1e-4, 3e-5, 1e-5, 3e-6, 1e-6, 3e-7];
 
 /// Problems of two to eight unknowns.
@@ -28,7 +28,7 @@ const SMALL: [Ladder; 3] = [
     Ladder::new("two-four-bars", STEPS),
     Ladder::new("andrews", FAST),
 ];
-/// Problems of some ten to some hundred unknowns.
+/// Problems of roughly ten to some hundred unknowns.
 const LARGE: [Ladder; 4] = [
     Ladder::new("iltis-suspension", STEPS),
     Ladder::new("spatial-chain-20", STEPS),
@@ -36,7 +36,7 @@ const LARGE: [Ladder; 4] = [
     Ladder::new("iltis-stairs", STEPS),
 ];
 
-/// One step, and a short time where that is a small one.
+/// A ladder with one step, and a short duration if the step is small.
 const fn at(scene: &'static str, steps: &'static [f64], duration: Option<f64>) -> Ladder {
     Ladder { duration, ..Ladder::new(scene, steps) }
 }
@@ -60,7 +60,7 @@ const WIDE: [Ladder; 3] = [
     at("iltis-slalom", &[2e-2], None),
 ];
 
-/// The last joint of the four-bar once more.
+/// A second copy of the four-bar's last joint.
 const TWICE: &str = "
 [[joint]]
 name = \"end-0-again\"
@@ -69,7 +69,7 @@ bodies = [\"coupler-0\", \"crank-1\"]
 at = [1.0, 1.0]
 ";
 
-/// Hard conditions, each with its scenes.
+/// Difficult conditions, each with its scenes.
 const CONDITIONS: [(&str, &[Ladder]); 5] = [
     ("changing topologies", &[Ladder::new("iltis-jump", COARSE)]),
     (
@@ -93,11 +93,11 @@ const CONDITIONS: [(&str, &[Ladder]); 5] = [
     ),
 ];
 
-/// Grades of speed and accuracy.
+/// Table of grades for speed and accuracy.
 ///
 /// # Errors
 ///
-/// Why a case cannot be run at all, or what cannot be counted.
+/// The reason why a case cannot be run, or why the sources cannot be counted.
 pub(crate) fn g1(lab: &Lab<'_>) -> Result<Section, String> {
     let counted = METHODS.map(|method| code::count(method.package));
     let counted = counted.into_iter().collect::<Result<Vec<_>, _>>()?;
@@ -120,11 +120,11 @@ pub(crate) fn g1(lab: &Lab<'_>) -> Result<Section, String> {
     Ok(section("G1", "Results in speed and accuracy, graded", &columns, printed))
 }
 
-/// Performance under different conditions.
+/// Table of grades under difficult conditions.
 ///
 /// # Errors
 ///
-/// Why a case cannot be run at all.
+/// The reason why a case cannot be run.
 pub(crate) fn g2(lab: &Lab<'_>) -> Result<Section, String> {
     let columns = CONDITIONS.iter().map(|(name, ladders)| column::condition(lab, name, ladders));
     let columns = columns.collect::<Result<Vec<_>, _>>()?;
@@ -132,7 +132,7 @@ pub(crate) fn g2(lab: &Lab<'_>) -> Result<Section, String> {
     Ok(section("G2", "Performance under different conditions, graded", &columns, printed))
 }
 
-/// The letters of all methods with the printed ones below, the rules, and every run.
+/// The letters of all methods with the published ones below, the rules, and every run.
 fn section(
     name: &'static str,
     title: &'static str,
@@ -170,7 +170,7 @@ fn section(
     section
 }
 
-/// A letter and what it rests on.
+/// Text of a letter and its basis.
 fn cell_text(cell: &Cell) -> String {
     let rests = match cell.ratio {
         Some(x) if cell.counted.is_empty() => ratio(x),
@@ -179,7 +179,7 @@ fn cell_text(cell: &Cell) -> String {
     format!("{} {rests}", cell.letter.symbol()).trim_end().to_owned()
 }
 
-/// The rows behind the letters, named after their method and their column.
+/// Rows of the runs on which the letters are based, named after their method and their column.
 fn behind(columns: &[Column]) -> Vec<Vec<String>> {
     let mut rows = Vec::new();
     for column in columns {

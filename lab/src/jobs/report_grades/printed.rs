@@ -1,6 +1,6 @@
-//! The grades as they are printed: in the report, and in publication 1, which differ in the recursive formulation.
+//! The grades as published: in the report, and in publication 1. They differ for the recursive formulation.
 
-/// A method of the grades: ours, and the letters of the report and of publication 1.
+/// A method of the grades, with its options and the letters of the report and of publication 1.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Method {
     /// Name of the method in our tables.
@@ -9,15 +9,15 @@ pub(crate) struct Method {
     pub(crate) formulation: &'static str,
     /// Further arguments of `mbs run`.
     pub(crate) arguments: &'static [&'static str],
-    /// The crate that holds it.
+    /// The crate of the formulation.
     pub(crate) package: &'static str,
-    /// Letters of Table I: seven in the report, seven in publication 1; none for methods without a row.
+    /// Letters of Table I, seven of the report and seven of publication 1; `None` for methods without a row.
     pub(crate) speed_and_accuracy: Option<[&'static str; 2]>,
     /// Letters of Table II: five in the report, five in publication 1.
     pub(crate) conditions: Option<[&'static str; 2]>,
 }
 
-/// A method without a row in the report.
+/// Makes a method without a row in the report.
 const fn ours(
     name: &'static str,
     formulation: &'static str,

@@ -1,18 +1,18 @@
-//! Drawings that several experiments have: histories of runs, and errors over tolerances and times.
+//! Drawings of several experiments: histories of runs, and errors over tolerances and times.
 
 use crate::chart::{Axis, Chart, Kind, Look, Series};
 use crate::lab::Run;
 use crate::lab::record::Record;
 
-/// Styles, the same for the same thing in every drawing. Index 3.
+/// Style of index 3. Styles have the same meaning in every drawing.
 pub(crate) const INDEX_3: usize = 2;
 /// Style of index 1.
 pub(crate) const INDEX_1: usize = 1;
-/// Style of both indices in turn.
+/// Style of runs that change between both indices.
 pub(crate) const MULTI: usize = 0;
-/// Style of another formulation.
+/// Style of any other formulation.
 const OTHER: usize = 3;
-/// A line that is alone.
+/// Style of a single line.
 pub(crate) const ALONE: usize = 0;
 
 /// The style of a formulation.
@@ -30,13 +30,13 @@ pub(crate) fn line(name: impl Into<String>, style: usize, points: Vec<[f64; 2]>)
     Series::new(name, style, Look::Line, points)
 }
 
-/// A line with marks, its points in the order of x.
+/// A line with marks, with its points in increasing order of x.
 pub(crate) fn curve(name: impl Into<String>, style: usize, mut points: Vec<[f64; 2]>) -> Series {
     points.sort_by(|a, b| a[0].total_cmp(&b[0]));
     Series::new(name, style, Look::Both, points)
 }
 
-/// The steps of a run over time; those in index 1 have marks of their own.
+/// The steps of a run over time. Steps in index 1 have marks of their own.
 pub(crate) fn steps(record: &Record, name: &str, style: usize) -> Vec<Series> {
     let is_index_1 = |t: &[f64; 2]| {
         let i = record.steps.partition_point(|step| step.t < t[0]);
@@ -62,7 +62,7 @@ pub(crate) fn points<'a>(
     runs.into_iter().filter_map(|run| Some([x(run)?, y(run)?])).collect()
 }
 
-/// Error over CPU time: a curve for each formulation under each rule.
+/// Error over CPU time, with a curve for each formulation under each rule.
 pub(crate) fn work_precision(
     runs: &[Run],
     label: &str,
@@ -77,7 +77,7 @@ pub(crate) fn work_precision(
     }
     let series = kinds.iter().map(|&(formulation, rule)| {
         let these = runs.iter().filter(|run| kind(run) == (formulation, rule));
-        // Two rules of one formulation must not look alike.
+        // two rules of one formulation get different styles
         let like = kinds.iter().filter(|other| other.0 == formulation);
         let place = like.take_while(|other| other.1 != rule).count();
         let style = if place == 0 { style(formulation) } else { OTHER + place - 1 };

@@ -1,4 +1,4 @@
-//! Experiment on steps that end at contacts and at kinks of the road: what it buys.
+//! Experiment on the benefit of steps that end at contacts and at kinks of the road.
 
 use super::draw::{INDEX_1, INDEX_3, curve, points};
 use super::fit::{between, median, span};
@@ -10,7 +10,7 @@ use crate::lab::case::{Case, Rule};
 use crate::lab::section::Section;
 use crate::lab::{Lab, Run};
 
-/// Channels that are watched: the wheel behind the bump, the nose of the vehicle on the stairs, and every channel after the blow.
+/// Scenes with their watched channels: the wheel after the bump, the nose of the vehicle on the stairs, and every channel after the blow.
 pub(crate) const SCENES: [Watched; 3] = [
     Watched {
         scene: "iltis-suspension-stiff",
@@ -24,7 +24,7 @@ pub(crate) const SCENES: [Watched; 3] = [
 ];
 /// First and largest step [s].
 const STEPS: [f64; 2] = [1e-3, 2e-2];
-/// Number of runs of each case for its time.
+/// Number of runs of each case, for its least time.
 const REPEATS: u32 = 3;
 
 /// Runs the experiment on steps that end at events.
@@ -60,7 +60,7 @@ fn scene(watched: &Watched, runs: &[Run], section: &mut Section) {
     let row = |run: &Run| {
         let events = run.figures().and_then(|f| f.control).map(|c| c.events.to_string());
         let mut cells = row_with(run, [events.unwrap_or_default(), cell(run.true_error, error)]);
-        // Smallest step and steps in index 1 say nothing here.
+        // the smallest step and the steps in index 1 are left out here
         if cells.len() > head.len() {
             cells.drain(6..8);
         }
@@ -94,7 +94,7 @@ fn scene(watched: &Watched, runs: &[Run], section: &mut Section) {
     draw(section, "Largest energy error", "largest energy error [J]", &Run::energy_error);
 }
 
-/// Sentence on how many steps ended at events.
+/// Sentence with the numbers of steps that ended at events.
 fn reached(runs: &[Run]) -> String {
     let on = runs.iter().filter(|run| run.case.events == Some(true));
     let counts = on.filter_map(|run| run.figures()?.control).map(|control| control.events);

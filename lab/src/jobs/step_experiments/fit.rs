@@ -1,4 +1,4 @@
-//! Findings from points: slopes, numbers between points, ranks, and whether errors fall.
+//! Evaluation of points: slopes, interpolated numbers, ranks, and checks whether errors decrease.
 
 pub(crate) use crate::format::span;
 
@@ -7,12 +7,12 @@ pub(crate) fn slope(points: &[[f64; 2]]) -> Option<f64> {
     power(points).map(|power| power[0])
 }
 
-/// y at x by the power of x that fits the points best.
+/// Value of y at x by the power law that fits the points best.
 pub(crate) fn continued(points: &[[f64; 2]], x: f64) -> Option<f64> {
     power(points).map(|[slope, one]| (one + slope * x.ln()).exp())
 }
 
-/// Slope of log y over log x by least squares, and log y at one; `None` for fewer than two points.
+/// Slope of log y over log x by least squares, and log y at x = 1; `None` for fewer than two points.
 fn power(points: &[[f64; 2]]) -> Option<[f64; 2]> {
     let logs: Vec<_> = points.iter().filter(is_positive).map(|p| p.map(f64::ln)).collect();
     let n = count(logs.len());
@@ -25,7 +25,7 @@ fn power(points: &[[f64; 2]]) -> Option<[f64; 2]> {
     (below > 0.0).then_some([slope, y - slope * x])
 }
 
-/// y at x between the two points about it, by logarithms; `None` outside them. The points have their x in any order.
+/// Value of y at x, interpolated between the two nearest points by logarithms; `None` outside the points. They may be in any order.
 pub(crate) fn between(points: &[[f64; 2]], x: f64) -> Option<f64> {
     let mut sorted: Vec<_> = points.iter().filter(is_positive).copied().collect();
     sorted.sort_by(|a, b| a[0].total_cmp(&b[0]));
@@ -35,13 +35,13 @@ pub(crate) fn between(points: &[[f64; 2]], x: f64) -> Option<f64> {
     Some((y0 + share * (y1 - y0)).exp())
 }
 
-/// The middle of numbers; `None` where there are none.
+/// The median of numbers, the upper one of an even number; `None` without numbers.
 pub(crate) fn median(mut numbers: Vec<f64>) -> Option<f64> {
     numbers.sort_by(f64::total_cmp);
     numbers.get(numbers.len() / 2).copied()
 }
 
-/// Correlation of the ranks of pairs: 1 where both rise together, -1 where one falls as the other rises.
+/// Rank correlation of pairs: 1 if both always increase together, -1 if one always decreases while the other increases.
 pub(crate) fn rank_correlation(pairs: &[[f64; 2]]) -> Option<f64> {
     let ranks = [0, 1].map(|i| ranks(&pairs.iter().map(|p| p[i]).collect::<Vec<_>>()));
     let middle = 0.5 * (count(pairs.len()) - 1.0);
@@ -52,7 +52,7 @@ pub(crate) fn rank_correlation(pairs: &[[f64; 2]]) -> Option<f64> {
     (scale > 0.0).then(|| sum(&ranks[0], &ranks[1]) / scale)
 }
 
-/// The rank of each number; equal ones share theirs.
+/// The rank of each number. Equal numbers get the mean of their ranks.
 fn ranks(numbers: &[f64]) -> Vec<f64> {
     let mut order: Vec<usize> = (0..numbers.len()).collect();
     order.sort_by(|&a, &b| numbers[a].total_cmp(&numbers[b]));
@@ -66,8 +66,8 @@ fn ranks(numbers: &[f64]) -> Vec<f64> {
     ranks
 }
 
-/// Tolerances at which the error is more than twice that of the next looser tolerance; points (tolerance, error) from loose to
-/// tight. Below the floor errors are rounding and are not judged.
+/// Tolerances at which the error is more than twice that at the next larger tolerance. The points (tolerance, error) begin with the largest
+/// tolerance. Errors below the floor are rounding errors, and are not evaluated.
 pub(crate) fn rises(points: &[[f64; 2]], floor: f64) -> Vec<f64> {
     let is_rise = |pair: &&[[f64; 2]]| pair[1][1] > floor && pair[1][1] > 2.0 * pair[0][1];
     points.windows(2).filter(is_rise).map(|pair| pair[1][0]).collect()
@@ -77,7 +77,7 @@ fn is_positive(point: &&[f64; 2]) -> bool {
     point.iter().all(|x| x.is_finite() && *x > 0.0)
 }
 
-/// A count as a number.
+/// Converts a count to a floating-point number.
 fn count(n: usize) -> f64 {
     f64::from(u32::try_from(n).unwrap_or(u32::MAX))
 }
@@ -86,7 +86,7 @@ fn count(n: usize) -> f64 {
 mod tests {
     use super::*;
 
-    /// Largest error of a fit of exact numbers [-]: some hundred roundings.
+    /// Largest error of a fit to exact numbers [-]: some hundred rounding errors.
     const CLOSE: f64 = 1e-12;
 
     fn is_close(x: Option<f64>, y: f64) -> bool {

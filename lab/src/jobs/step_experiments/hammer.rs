@@ -1,4 +1,4 @@
-//! A short blow in a long run: steps of its own against the fixed step that is small enough everywhere.
+//! Experiment on a short blow in a long run: controlled steps, compared with the fixed step that is small enough for the blow.
 
 use super::draw::work_precision;
 use super::reference::{Reference, Watched};
@@ -10,7 +10,7 @@ use crate::lab::{Lab, Run};
 
 /// Channel that is watched, with its exact value.
 ///
-/// Half way back from the blow, by the closed form in the scene's file.
+/// The time is halfway back after the blow. The value follows from the closed form in the scene's file.
 pub(crate) const WATCHED: Watched = Watched {
     scene: "hammer-blow",
     channel: "angle",
@@ -24,11 +24,11 @@ const STEPS: [f64; 2] = [1e-3, 5e-2];
 const COARSEST: f64 = 1e-2;
 /// Largest number of halvings of the fixed step.
 const HALVINGS: i32 = 16;
-/// A fixed step whose run takes longer is the last one [s].
+/// Time of a run after which no smaller fixed step is tried [s].
 const LONG: f64 = 60.0;
-/// Least ratio of the fixed step's CPU time to the variable run's that the claim asks for [-].
+/// Claimed least ratio of the CPU time of the fixed step to that of controlled steps [-].
 const CLAIM: f64 = 10.0;
-/// Number of runs of each case for its time.
+/// Number of runs of each case, for its least time.
 const REPEATS: u32 = 3;
 
 /// Runs the experiment on the blow of a hammer.
@@ -69,7 +69,8 @@ pub(crate) fn run(lab: &Lab<'_>) -> Result<Section, String> {
     Ok(section)
 }
 
-/// Fixed steps, halved until two in a row have an error as small as every variable run, or take long.
+/// Runs with fixed steps. The step is halved until two runs in succession have an error as small as every controlled run, or until a run
+/// takes long.
 fn fixed(lab: &Lab<'_>, reference: &Reference, variable: &[Run]) -> Result<Vec<Run>, String> {
     let least = variable.iter().filter_map(|run| run.true_error).fold(f64::INFINITY, f64::min);
     let mut runs: Vec<Run> = Vec::new();
@@ -86,7 +87,7 @@ fn fixed(lab: &Lab<'_>, reference: &Reference, variable: &[Run]) -> Result<Vec<R
     Ok(runs)
 }
 
-/// The largest fixed step that has at most this error, as all smaller ones have.
+/// The run with the largest fixed step at which, as at all smaller ones, the error is at most this.
 fn largest(fixed: &[Run], at_most: f64) -> Option<&Run> {
     fixed.iter().rev().take_while(|run| run.true_error.is_some_and(|e| e <= at_most)).last()
 }
@@ -100,7 +101,7 @@ fn claim(run: &Run, fixed: &[Run], section: &mut Section) {
         return section.claim(what, format!("the variable run: {}", run.outcome.reason()), None);
     };
     let Some(best) = largest(fixed, true_error) else {
-        // The finest one is too coarse still: it bounds the ratio from below.
+        // even the smallest step is too large: its time gives a lower bound of the ratio
         let bound = fixed.iter().filter_map(Run::seconds).fold(0.0, f64::max) / ours;
         let measured = format!(
             "no fixed step of the sweep reaches {}; the ratio is above {}",

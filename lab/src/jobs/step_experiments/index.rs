@@ -1,4 +1,4 @@
-//! Is the change of index needed? The same rule with steps far below a ten-thousandth of a second, in both indices and in each
+//! Experiment on the need for a change of index: the same rule with steps much smaller than 1e-4 s, in both indices and in each of them
 //! alone.
 
 use super::draw::work_precision;
@@ -15,15 +15,15 @@ const SCENES: [(&str, [f64; 2]); 3] = [
     ("two-four-bars", [1e-4, 1e-2]),
     ("iltis-suspension-halved", [1e-4, 1e-2]),
 ];
-/// The formulations, both indices first.
+/// The formulations; the one that changes between both indices is first.
 const FORMULATIONS: [&str; 3] = ["multi-index", "index-3", "index-1"];
 /// Exponents of the tolerances.
 const TIGHT: [i32; 4] = [9, 10, 11, 12];
 /// The step below which the publication changes to index 1 [s].
 const THRESHOLD: f64 = 1e-4;
-/// An error that is so much larger is worse.
+/// Ratio of two errors above which the larger one is reported as worse [-].
 const WORSE: f64 = 2.0;
-/// Number of runs of each case for its time.
+/// Number of runs of each case, for its least time.
 const REPEATS: u32 = 3;
 
 /// Runs the experiment on the change of index.
@@ -55,7 +55,7 @@ fn cases(scene: &'static str, steps: [f64; 2], quick: bool) -> Vec<Case> {
     rules.flat_map(each).collect()
 }
 
-/// Says what the runs show: triples with the same tolerance, in the order of the formulations.
+/// Sentence on the results, from triples of runs with the same tolerance in the order of the formulations.
 fn needed(runs: &[Run]) -> String {
     let smallest = runs.iter().filter_map(|r| r.figures()?.control).map(|c| c.steps[0]);
     let reached = span(smallest).map_or("No run came to its end.".to_owned(), |[least, _]| {

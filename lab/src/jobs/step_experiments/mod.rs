@@ -1,4 +1,4 @@
-//! `cargo xtask steps`: experiments on steps of variable length, beside fixed ones, with their drawings and their claims.
+//! The job `cargo xtask steps`: experiments on controlled steps compared with fixed ones, with drawings and claims.
 
 mod draw;
 mod events;
@@ -36,21 +36,21 @@ const TITLE: &str = "Variable steps beside fixed ones";
 const REMARK: &str = "Energy error: largest error of the energy invariant over every step; its share is that of the energy turned \
     over, the largest kinetic energy plus the work done. CPU: of the stepping, the least of several runs in turn.";
 
-/// Figures 6 and 7 of the report, and the runs behind them.
+/// Figures 6 and 7 of the report, with the runs for them.
 ///
 /// # Errors
 ///
-/// Why a case cannot be run at all.
+/// The reason why a case cannot be run.
 pub(crate) fn figures(lab: &Lab<'_>) -> Result<Section, String> {
     suspension::run(lab)
 }
 
-/// Page of the experiments, and what they came to.
+/// Page of the experiments, with the numbers of its claims.
 #[derive(Debug)]
 pub(crate) struct Steps {
     /// Page as HTML.
     pub(crate) html: String,
-    /// Claims, and how many of them hold.
+    /// Number of claims, and number of claims that hold.
     pub(crate) claims: [usize; 2],
 }
 
@@ -58,7 +58,7 @@ pub(crate) struct Steps {
 ///
 /// # Errors
 ///
-/// An unknown name, or why something cannot be run at all.
+/// An unknown name, or the reason why something cannot be run.
 #[allow(clippy::print_stdout, reason = "the experiments are what is asked for")]
 pub(crate) fn run(quick: bool, names: &[String]) -> Result<Steps, String> {
     let known = EXPERIMENTS.map(|(name, _)| name);
@@ -80,7 +80,7 @@ pub(crate) fn run(quick: bool, names: &[String]) -> Result<Steps, String> {
     Ok(Steps { html: page, claims: [claims().count(), hold] })
 }
 
-/// Performs the experiments, or those named.
+/// Runs the experiments, or the named ones.
 fn perform(lab: &Lab<'_>, names: &[String]) -> Result<Vec<Section>, String> {
     let is_wanted = |name: &str| names.is_empty() || names.iter().any(|n| n == name);
     let wanted = EXPERIMENTS.iter().filter(|(name, _)| is_wanted(name));

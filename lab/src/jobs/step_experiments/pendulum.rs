@@ -1,4 +1,5 @@
-//! The double pendulum of the report's second publication: its Figures 2 to 5, 7 and 8, and what each way of choosing steps costs.
+//! Experiment on the double pendulum of the report's second publication: its Figures 2 to 5, 7 and 8, and the cost of each rule of the
+//! steps.
 
 use super::draw::{ALONE, INDEX_3, MULTI, line, over_time, steps, work_precision};
 use super::fit::{between, median, rank_correlation, span};
@@ -13,17 +14,17 @@ use std::collections::BTreeMap;
 
 /// Scene of the experiment.
 const SCENE: &str = "double-pendulum";
-/// The acceleration of the tip, which the scene does not ask for.
+/// Output of the acceleration of the tip, which the scene does not have.
 const ACCELERATION: &str = "\n[[output]]\nname = \"tip-acceleration\"\nbody = \"lower\"\nat = [2.0, 0.0]\nquantity = \"acceleration\"\n";
 /// Column of the vertical component of that acceleration.
 const COLUMN: &str = "tip-acceleration.y";
-/// The fixed step that the variable run is set beside [s].
+/// The fixed step with which the controlled run is compared [s].
 const FIXED: f64 = 1e-3;
-/// First and largest step of variable runs [s].
+/// First and largest step of controlled runs [s].
 const STEPS: [f64; 2] = [1e-3, 1e-2];
-/// Tolerances that the histories are drawn for: the publication's usual one, and one that needs short steps.
+/// Tolerances of the drawn histories: the publication's usual one, and one with short steps.
 const TOLERANCES: [f64; 2] = [1e-5, 1e-8];
-/// Number of runs of each case for its time.
+/// Number of runs of each case, for its least time.
 const REPEATS: u32 = 3;
 
 /// Runs the experiment on the double pendulum.
@@ -49,7 +50,7 @@ pub(crate) fn run(lab: &Lab<'_>) -> Result<Section, String> {
     Ok(section)
 }
 
-/// A drawing of the fixed step: label, how numbers lie, what each step gives, and what it is called.
+/// A drawing of the fixed step: label, spacing of the axis, value of each step, and caption.
 type Measure = (&'static str, Kind, fn(&Step) -> f64, &'static str);
 
 /// Figures 3 to 5.
@@ -69,7 +70,7 @@ const MEASURES: [Measure; 3] = [
     ),
 ];
 
-/// Figures 2 to 5, of the fixed step.
+/// Draws Figures 2 to 5, with the fixed step.
 fn measures(record: &Record, section: &mut Section) {
     section.heading(format!("Index 3 at a fixed step of {FIXED:e} s"));
     let acceleration = record.channels.first().cloned().unwrap_or_default();
@@ -99,12 +100,12 @@ fn measures(record: &Record, section: &mut Section) {
     }
 }
 
-/// The largest amount of the acceleration and its time, in words.
+/// Sentence with the largest magnitude of the acceleration and its time.
 fn peak_sentence(most: Option<[f64; 2]>) -> String {
     most.map_or(String::new(), |[a, t]| format!(" Its largest amount is {a:.0} m/s² at {t:.2} s."))
 }
 
-/// Figures 7 and 8: the variable runs, beside the fixed step.
+/// Draws Figures 7 and 8: the controlled runs, and the fixed step.
 fn beside(fixed: &Record, variable: &[Record; 2], section: &mut Section) {
     section.heading("Steps and index of its own");
     for (record, tolerance) in variable.iter().zip(TOLERANCES) {
@@ -143,7 +144,7 @@ fn beside(fixed: &Record, variable: &[Record; 2], section: &mut Section) {
     );
 }
 
-/// Largest energy error against CPU time.
+/// Measures the largest energy error and CPU time of all rules.
 fn work(lab: &Lab<'_>, section: &mut Section) -> Result<(), String> {
     section.heading("What it costs");
     let finest = if lab.quick { 6 } else { 9 };

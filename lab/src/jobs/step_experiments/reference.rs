@@ -1,50 +1,50 @@
-//! A channel at the end of a run, as it is known from elsewhere.
+//! References for the value of a channel at the end of a run.
 
 use crate::format::error;
 use crate::lab::case::{Case, Rule};
 use crate::lab::{Lab, Run};
 use crate::mbs::outcome::Figures;
 
-/// A channel that is watched at the end of a run.
+/// A channel whose value at the end of a run is compared.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Watched {
-    /// Scene by its file.
+    /// Scene of the channel, by its file.
     pub(crate) scene: &'static str,
-    /// Channel that is watched; all of them where it is empty.
+    /// Name of the channel; all channels if it is empty.
     pub(crate) channel: &'static str,
     /// Unit of the channel.
     pub(crate) unit: &'static str,
-    /// Time at which the channel is watched [s]; else the scene's end.
+    /// Time at which the value is compared [s]; `None` for the scene's end.
     pub(crate) time: Option<f64>,
-    /// Value of the channel, where it is printed elsewhere with all digits.
+    /// Value of the channel with all digits, if it is published.
     pub(crate) digits: &'static [f64],
 }
 
-/// Value of a watched channel, with where it comes from and how far off it may be.
+/// Reference value of a channel, with its source and its uncertainty.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Reference {
     /// Value at the watched time.
     pub(crate) value: Vec<f64>,
-    /// Doubt of the value: how far off it may be.
+    /// Uncertainty of the value.
     pub(crate) doubt: f64,
     /// Source of the value, in words.
     pub(crate) source: String,
 }
 
-/// Tolerances of two runs of the explicit method, the second one for the value.
+/// Tolerances of two runs of the explicit method; the second gives the value.
 const EXPLICIT: [[&str; 4]; 2] = [
     ["--integrator", "rk54", "--tolerance", "1e-12"],
     ["--integrator", "rk54", "--tolerance", "1e-13"],
 ];
-/// The longest step of the explicit method, and its first one [s].
+/// First and largest step of the explicit method [s].
 const LONGEST: f64 = 1e-3;
-/// Two fixed steps of index 3, the second one half of the first [s].
+/// Two fixed steps of index 3; the second is half of the first [s].
 const FINEST: [f64; 2] = [1e-4, 5e-5];
-/// Rounding of a number of this size.
+/// Relative rounding error of a number [-].
 const ROUNDING: f64 = 1e-15;
 
 impl Watched {
-    /// The channel in a run that reached its end.
+    /// Value of the channel in a completed run.
     fn value(&self, figures: &Figures) -> Option<Vec<f64>> {
         if self.channel.is_empty() {
             return Some(figures.outputs.values().flatten().copied().collect());
@@ -52,17 +52,17 @@ impl Watched {
         figures.outputs.get(self.channel).cloned()
     }
 
-    /// Returns what is measured, in words.
+    /// Returns the label of the error.
     pub(crate) fn label(&self) -> String {
         let channel = if self.channel.is_empty() { "all channels" } else { self.channel };
         format!("error of {channel} [{}]", self.unit)
     }
 
-    /// Finds the reference: printed digits, else an independent formulation and integrator, else extrapolation of fixed steps.
+    /// Finds the reference: published digits, an independent formulation and integrator, or extrapolation of fixed steps, in this order.
     ///
     /// # Errors
     ///
-    /// Why the runs cannot be made.
+    /// The reason why the runs cannot be made.
     pub(crate) fn reference(&self, lab: &Lab<'_>) -> Result<Option<Reference>, String> {
         if !self.digits.is_empty() {
             let (value, source) = (self.digits.to_vec(), "printed with all digits".to_owned());
@@ -86,18 +86,18 @@ impl Watched {
         Ok(Some(Reference { value, doubt, source }))
     }
 
-    /// The values of two runs, where both reach their end.
+    /// The values of two runs, if both are completed.
     fn pair(&self, lab: &Lab<'_>, cases: &[Case; 2]) -> Result<Option<[Vec<f64>; 2]>, String> {
         let runs = lab.measure(cases, 1)?;
         let value = |run: &Run| run.figures().and_then(|figures| self.value(figures));
         Ok(value(&runs[0]).zip(value(&runs[1])).map(<[_; 2]>::from))
     }
 
-    /// Measures cases, with their true errors.
+    /// Runs cases, and computes their true errors.
     ///
     /// # Errors
     ///
-    /// Why a case cannot be run at all.
+    /// The reason why a case cannot be run.
     pub(crate) fn measure(
         &self,
         lab: &Lab<'_>,
@@ -113,14 +113,14 @@ impl Watched {
         Ok(runs)
     }
 
-    /// A run of index 3 until the watched time.
+    /// A run in index 3 until the time of comparison.
     pub(crate) fn case(&self, rule: Rule, steps: [f64; 2]) -> Case {
         Case::variable(self.scene, "index-3", rule, steps).lasting(self.time)
     }
 }
 
 impl Reference {
-    /// Says in a sentence where the value comes from and how far off it may be.
+    /// Sentence on the source of the value and its uncertainty.
     pub(crate) fn sentence(&self, watched: &Watched) -> String {
         let when = watched.time.map_or("the end".to_owned(), |t| format!("{t} s"));
         let channel = if watched.channel.is_empty() { "all channels" } else { watched.channel };
@@ -137,7 +137,7 @@ fn norm(x: &[f64]) -> f64 {
     x.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
-/// Distance of two values; of different lengths, none that is known.
+/// Distance of two values; NaN if their lengths differ.
 fn distance(a: &[f64], b: &[f64]) -> f64 {
     let apart: Vec<_> = a.iter().zip(b).map(|(a, b)| a - b).collect();
     if a.len() == b.len() { norm(&apart) } else { f64::NAN }
@@ -166,7 +166,7 @@ mod tests {
             );
             let run = Watched { digits: &[], ..TIP }.reference(lab).unwrap().unwrap();
             assert!(run.source.contains("Runge-Kutta") && run.doubt < 1e-10, "{run:?}");
-            // The made-up vehicle has no tree.
+            // the made-up vehicle cannot run in relative coordinates
             let stairs = Watched { scene: "iltis-stairs", channel: "nose", digits: &[], ..TIP };
             let extrapolated = stairs.reference(lab).unwrap().unwrap();
             assert!(extrapolated.source.contains("extrapolated"));

@@ -17,7 +17,7 @@ pub(crate) const HEAD: [&str; 8] = [
     "in index 1",
 ];
 
-/// A row of a table with those columns; a run that did not reach its end has its reason instead.
+/// A row of a table with those columns. A run that was not completed has its reason instead.
 pub(crate) fn row(run: &Run) -> Vec<String> {
     let Some(figures) = run.figures() else {
         return vec![run.case.name(), run.outcome.reason()];
@@ -36,7 +36,7 @@ pub(crate) fn row(run: &Run) -> Vec<String> {
     cells
 }
 
-/// A row with further cells; a reason stays alone.
+/// A row with further cells. A reason gets no further cells.
 pub(crate) fn row_with(run: &Run, further: impl IntoIterator<Item = String>) -> Vec<String> {
     let mut cells = row(run);
     if run.figures().is_some() {
@@ -45,16 +45,16 @@ pub(crate) fn row_with(run: &Run, further: impl IntoIterator<Item = String>) -> 
     cells
 }
 
-/// A number as a cell; empty where there is none.
+/// A number as a cell; empty without a number.
 pub(crate) fn cell(number: Option<f64>, format: impl Fn(f64) -> String) -> String {
     number.map(format).unwrap_or_default()
 }
 
-/// Every run as CSV.
+/// A record for every run, as CSV.
 ///
 /// # Errors
 ///
-/// What the writer says.
+/// The message of the writer.
 pub(crate) fn csv(sections: &[Section]) -> Result<Vec<u8>, String> {
     let head = "experiment,scene,formulation,control,step_s,largest_step_s,tolerance,events,duration_s,energy_error_j,\
         energy_error_share,true_error,cpu_s,steps,iterations,factorizations,rejected,smallest_step_used_s,\
@@ -65,7 +65,7 @@ pub(crate) fn csv(sections: &[Section]) -> Result<Vec<u8>, String> {
     format::csv(head, sections.iter().flat_map(records))
 }
 
-/// One run, in the order of the header.
+/// The record of one run, in the order of the header.
 fn record(experiment: &str, run: &Run) -> Vec<String> {
     let (case, figures) = (&run.case, run.figures());
     let control = figures.and_then(|f| f.control);

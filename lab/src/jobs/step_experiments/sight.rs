@@ -1,32 +1,32 @@
-//! Does a rule see the error? How the true error follows the tolerance, and what it is at equal time.
+//! Evaluation of rules of step control: how the true error follows the tolerance, and the true error at equal CPU time.
 
 use super::fit::{between, continued, median, rises, slope};
 use crate::format::ratio;
 use crate::lab::case::size;
 use crate::lab::section::Section;
 
-/// Ratio of an error to that of the estimate at equal time, above which a rule is said not to see the error [-].
+/// Ratio of an error to that of the estimate at equal time above which a rule is reported as blind to the error [-].
 const BLIND: f64 = 10.0;
-/// The least power of the tolerance that the error of a rule follows that sees it.
+/// Least exponent in the power law of error over tolerance at which a rule counts as sensitive to the error [-].
 const FLAT: f64 = 0.15;
-/// Least ratio of an error to the doubt of the reference for it to be judged [-].
+/// Least ratio of an error to the uncertainty of the reference at which the error is evaluated [-].
 const ABOVE_DOUBT: f64 = 10.0;
 
-/// Sight of a rule: what it sees of the error in a scene.
+/// Relation of a rule's tolerance to the true error in a scene.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Sight {
     scene: &'static str,
     rule: &'static str,
-    /// The power of the tolerance that the error follows; none where runs came to no end.
+    /// Exponent of error over tolerance; `None` if too few runs were completed.
     power: Option<f64>,
-    /// Tolerances at which the error is more than twice that of the next looser one.
+    /// Tolerances at which the error is more than twice that at the next larger tolerance.
     rises: Vec<f64>,
-    /// The error at equal time, by that of the estimate.
+    /// Ratio of the error to that of the estimate at equal time.
     excess: Option<f64>,
 }
 
 impl Sight {
-    /// From points (tolerance, error) in order from loose to tight, and how far off the reference may be.
+    /// Evaluates points (tolerance, error), which begin with the largest tolerance, with the uncertainty of the reference.
     pub(crate) fn new(
         scene: &'static str,
         rule: &'static str,
@@ -37,8 +37,8 @@ impl Sight {
         Self { scene, rule, power: slope(points), rises, excess: None }
     }
 
-    /// Sets the error beside the estimate's, by points (time, error) of both. Where their times do not meet, the line of the estimate is
-    /// continued.
+    /// Compares the error with that of the estimate, by points (time, error) of both. If their times do not overlap, the estimate's line is
+    /// extrapolated.
     pub(crate) fn beside(self, points: &[[f64; 2]], estimate: &[[f64; 2]]) -> Self {
         type Line = fn(&[[f64; 2]], f64) -> Option<f64>;
         let excess = |line: Line| {
@@ -47,7 +47,7 @@ impl Sight {
         Self { excess: excess(between).or_else(|| excess(continued)), ..self }
     }
 
-    /// Sentence on how the error follows the tolerance.
+    /// Sentence on the dependence of the error on the tolerance.
     pub(crate) fn behaviour(&self) -> String {
         let Some(power) = self.power else {
             return format!("With {} too few runs came to their end.", self.named());
@@ -63,7 +63,7 @@ impl Sight {
         format!("With {} it follows the tolerance to the power {power:.2}; {rises}.", self.named())
     }
 
-    /// Says in a sentence what the error is at equal time; empty where it is not known.
+    /// Sentence on the error at equal time; empty if it is unknown.
     pub(crate) fn at_equal_time(&self) -> String {
         self.excess.map_or(String::new(), |excess| {
             let named = self.named();
@@ -74,7 +74,7 @@ impl Sight {
         })
     }
 
-    /// Reason why the rule does not see the error; `None` where it does.
+    /// Reason why the rule does not detect the error; `None` if it does.
     fn blindness(&self) -> Option<String> {
         let Some(power) = self.power else { return Some("too few runs came to their end".into()) };
         if power < FLAT {
@@ -93,7 +93,7 @@ impl Sight {
     }
 }
 
-/// All scenes and rules in one table, whether errors fall, and which scenes the energy does not see.
+/// Table of all scenes and rules, whether errors decrease, and the scenes in which the energy rule does not detect the error.
 pub(crate) fn report(sights: &[Sight], section: &mut Section) {
     section.heading("All scenes");
     let row = |sight: &Sight| {
@@ -146,7 +146,7 @@ fn called(rule: &str) -> &str {
 mod tests {
     use super::*;
 
-    /// Tolerances with errors of ten times each [-].
+    /// Points (tolerance, error) with errors of ten times the tolerance [-].
     const FALLING: [[f64; 2]; 3] = [[1e-3, 1e-2], [1e-4, 1e-3], [1e-5, 1e-4]];
 
     #[test]

@@ -1,4 +1,5 @@
-//! Experiment on what a tolerance buys: true error over tolerance, for the estimate of the error of a step, for the energy, and for both.
+//! Experiment on the effect of a tolerance: true error over tolerance, for the estimate of the error of a step, for the energy, and for
+//! both.
 
 use super::draw::{INDEX_1, INDEX_3, MULTI, curve, points};
 use super::reference::{Reference, Watched};
@@ -11,7 +12,7 @@ use crate::lab::case::{Case, Rule};
 use crate::lab::section::Section;
 use crate::lab::{Lab, Run};
 
-/// Channels that are watched, with the first and the largest step [s].
+/// Scenes with their watched channels, and the first and the largest step [s].
 const SCENES: [(Watched, [f64; 2]); 6] = [
     (
         Watched {
@@ -54,7 +55,7 @@ const SCENES: [(Watched, [f64; 2]); 6] = [
         [1e-3, 0.04],
     ),
     (
-        // On the bump: at the scene's end the wheel rests, whatever the steps were.
+        // the time is on the bump: at the scene's end the wheel is at rest for all steps
         Watched {
             scene: "iltis-suspension",
             channel: "wheel",
@@ -65,7 +66,7 @@ const SCENES: [(Watched, [f64; 2]); 6] = [
         [1e-3, 0.062],
     ),
     (
-        // Before the blow: a spring alone, whose energy every step keeps.
+        // the time is before the blow, when only a spring acts, whose energy every step conserves
         Watched {
             scene: "hammer-blow",
             channel: "angle",
@@ -76,15 +77,15 @@ const SCENES: [(Watched, [f64; 2]); 6] = [
         [1e-3, 0.08],
     ),
 ];
-/// A rule for each tolerance, with its name on the command line, its name here, and its style.
+/// A rule for each tolerance: its name on the command line, its name here, and its style.
 type Choice = (fn(f64) -> Rule, &'static str, &'static str, usize);
-/// The rules, the estimate first.
+/// The rules; the estimate is first.
 const RULES: [Choice; 3] = [
     (Rule::Error, "error", "estimate", INDEX_3),
     (Rule::Both, "both", "both", MULTI),
     (Rule::Energy, "energy", "energy", INDEX_1),
 ];
-/// Number of runs of each case for its time.
+/// Number of runs of each case, for its least time.
 const REPEATS: u32 = 3;
 
 /// Runs the experiment on tolerances.
@@ -116,7 +117,7 @@ pub(crate) fn run(lab: &Lab<'_>) -> Result<Section, String> {
     Ok(section)
 }
 
-/// Tolerances from loose to tight, for each rule.
+/// Cases for each rule, with tolerances in decreasing order.
 fn cases(watched: &Watched, steps: [f64; 2], quick: bool) -> Vec<Case> {
     let halves = if quick { (6..=14).step_by(2) } else { (6..=18).step_by(1) };
     let tolerances: Vec<_> = halves.map(|half| 10_f64.powf(-0.5 * f64::from(half))).collect();
@@ -129,7 +130,7 @@ fn cases(watched: &Watched, steps: [f64; 2], quick: bool) -> Vec<Case> {
     RULES.into_iter().flat_map(each).collect()
 }
 
-/// Drawings and all runs; what each rule sees of the error.
+/// Adds the drawings and all runs of a scene. Returns the evaluation of each rule.
 fn scene(
     watched: &Watched,
     reference: &Reference,

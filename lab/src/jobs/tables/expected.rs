@@ -1,5 +1,4 @@
-//! Entries of the tables that do not reach their end, and are known not to. Everything else that stops is a surprise, and so is
-//! one of these that comes to an end.
+//! Entries of the tables that are known to stop before their end. Other stops are surprises, and so are listed entries that are completed.
 
 use super::rows::Row;
 use crate::mbs::outcome::Outcome;
@@ -7,8 +6,8 @@ use crate::mbs::outcome::Outcome;
 /// An entry that stops: table, method, step [s], and the code of its error.
 type Entry = (&'static str, &'static str, f64, &'static str);
 
-/// The entries that stop. With the printed penalty the report found that, or its pivoting helped. Others are singular positions at steps
-/// that are too large for index-1, or so small that a state is close to one.
+/// The entries that stop. With the published penalty the report found stops too, or needed its pivoting. Others have singular positions, at
+/// steps that are too large for index-1, or so small that a state is close to the singular position.
 const STOPPED: &[Entry] = &[
     ("T1", "index-3, alpha = 1e7", 1e-4, "not-converged"),
     ("T1", "index-3, alpha = 1e7", 1e-5, "not-converged"),
@@ -28,7 +27,7 @@ const STOPPED: &[Entry] = &[
     ("T8", "index-3, alpha = 1e9", 1e-3, "not-converged"),
 ];
 
-/// Says in words which rows differ from the list.
+/// Sentences on rows that differ from the list.
 pub(crate) fn surprises(rows: &[Row]) -> Vec<String> {
     rows.iter().filter_map(|row| surprise(row, STOPPED)).collect()
 }

@@ -1,19 +1,19 @@
-//! Histories of one channel in the runs of a table, drawn over each other.
+//! Histories of one channel in the runs of a table, drawn in one chart.
 
 use super::report::History;
 use crate::chart::{Axis, Chart, Kind, Look, Series};
 
-/// Caption that stands below the drawing.
+/// Caption of the drawing.
 pub(crate) const CAPTION: &str =
     "Each method at its first step, and the first method at its last one.";
 
-/// The history of the first method at its last step.
+/// Style of the history of the first method at its last step.
 const FINEST: usize = 4;
 
-/// One line: its name in the legend, and its points (time, value) as the CSV of a run has them.
+/// One line: its name in the legend, and its points (time, value) from the CSV of a run.
 pub(crate) type Line = (String, Vec<[f64; 2]>);
 
-/// The drawing of all lines, the first one, the finest, below the others.
+/// The drawing of all lines. The first line, which has the finest step, is below the others.
 pub(crate) fn chart(history: &History, lines: Vec<Line>) -> Chart {
     let scaled = |[t, x]: [f64; 2]| [t, x * history.scale];
     let series = |(i, (name, points)): (usize, Line)| {

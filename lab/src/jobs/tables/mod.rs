@@ -1,4 +1,4 @@
-//! `cargo xtask tables`: the report's tables, run anew and set beside the printed numbers.
+//! The job `cargo xtask tables`: makes the report's tables again, and compares them with the published numbers.
 
 mod expected;
 mod history;
@@ -18,21 +18,21 @@ use rows::Row;
 use std::path::Path;
 use xtask::process;
 
-/// Runs with more steps than this are left out by `--quick`.
+/// Largest number of steps of a run with `--quick`.
 const QUICK: f64 = 1e6;
 
-/// A table that is made of sections: grades, and what the experiments on steps draw.
+/// Function that makes a table as a section: grades, and results of experiments on steps.
 type Made = fn(&Lab<'_>) -> Result<Section, String>;
-/// Tables made of sections, by their names; F6 shows the report's Figures 6 and 7, D1 answers what it asks about 32 digits.
+/// Tables made of sections, by their names. F6 has the report's Figures 6 and 7, and D1 answers the report's question on 32 digits.
 const MADE: [(&str, Made); 4] = [
     ("G1", report_grades::g1),
     ("G2", report_grades::g2),
     (STEPS, step_experiments::figures),
     ("D1", digits::d1),
 ];
-/// The one of them that is also an experiment on steps.
+/// Name of the table that is also an experiment on steps.
 const STEPS: &str = "F6";
-/// Tables IV and V of the report, on processors, by their names; the bench measures both.
+/// Names of Tables IV and V of the report, on processors, which the bench measures.
 const PROCESSORS: [&str; 2] = ["T6", "T7"];
 
 /// The names of all tables.
@@ -41,37 +41,37 @@ pub(crate) fn names() -> Vec<&'static str> {
     tables.chain(PROCESSORS).chain(MADE.map(|(name, _)| name)).collect()
 }
 
-/// The names of the tables that no other job measures: the report's pages show each run once.
+/// The names of the tables that no other job measures. The report's pages contain each run only once.
 pub(crate) fn own() -> Vec<String> {
     let is_own = |name: &&str| *name != STEPS && !PROCESSORS.contains(name);
     names().into_iter().filter(is_own).map(str::to_owned).collect()
 }
 
-/// Page of the tables, and what they came to.
+/// Page of the tables, with its surprises.
 #[derive(Debug)]
 pub(crate) struct Tables {
     /// Page as HTML.
     pub(crate) html: String,
-    /// Outcomes that are not the listed ones.
+    /// Outcomes that differ from the list.
     pub(crate) surprises: Vec<String>,
-    /// Entries that were run.
+    /// Number of entries that were run.
     pub(crate) entries: usize,
 }
 
-/// Runs every entry of the tables, or of those named, and writes them as text, CSV and HTML.
+/// Runs every entry of the tables, or of the named ones, and writes them as text, CSV and HTML.
 ///
 /// # Errors
 ///
-/// Why something cannot be run, or what did not come to what is listed.
+/// The reason why something cannot be run, or outcomes that differ from the list.
 pub(crate) fn tables(quick: bool, names: &[String]) -> Result<(), String> {
     listed(&run(quick, names)?.surprises)
 }
 
-/// Fails with what is not as it is listed.
+/// Fails if outcomes differ from the list.
 ///
 /// # Errors
 ///
-/// The surprises, where there are any.
+/// The differences, if there are any.
 pub(crate) fn listed(surprises: &[String]) -> Result<(), String> {
     if surprises.is_empty() {
         Ok(())
@@ -84,7 +84,7 @@ pub(crate) fn listed(surprises: &[String]) -> Result<(), String> {
 ///
 /// # Errors
 ///
-/// An unknown name, or why something cannot be run at all.
+/// An unknown name, or the reason why something cannot be run.
 #[allow(clippy::print_stdout, reason = "the tables are what is asked for")]
 pub(crate) fn run(quick: bool, wanted: &[String]) -> Result<Tables, String> {
     let known = names();
@@ -110,12 +110,12 @@ pub(crate) fn run(quick: bool, wanted: &[String]) -> Result<Tables, String> {
     Ok(Tables { html, surprises: expected::surprises(&rows), entries: rows.len() })
 }
 
-/// The tables on accuracy and time.
+/// Results of the tables on accuracy and time.
 #[derive(Default)]
 struct Entries {
     rows: Vec<Row>,
     sections: Vec<Section>,
-    /// Drawings that stand alone, by the names of their tables.
+    /// Drawings as separate files, by the names of their tables.
     pictures: Vec<(&'static str, String)>,
 }
 
@@ -138,7 +138,7 @@ fn entries(
             let outcome = entry(mbs, table, method, step, drawn.map(|_| &*runs))?;
             if let Some(history) = drawn.filter(|_| outcome.has_run()) {
                 let points = columns::history(&runs.join("run.csv"), history.column)?;
-                // The finest run lies below the others.
+                // the run with the finest step is drawn below the others
                 let at = if table.is_finest(method, step) { 0 } else { lines.len() };
                 lines.insert(at, (format!("{}, {step:e} s", method.name), points));
             }
@@ -178,7 +178,7 @@ fn made(
     Ok(sections)
 }
 
-/// Runs one entry; with a folder, its files are left there. A reference that its table has must be there.
+/// Runs one entry of a table. With a folder, the files of the run are written to it. If the table has a reference, its channel must exist.
 fn entry(
     mbs: &Mbs,
     table: &report::Table,

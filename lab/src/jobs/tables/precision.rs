@@ -1,14 +1,14 @@
-//! Error over time of every method of a table: what accuracy costs.
+//! Diagram of error over time for every method of a table.
 
 use super::report::Table;
 use super::rows::Row;
 use crate::chart::{Chart, Look, Series};
 
-/// Caption that stands below the drawing.
+/// Caption of the drawing.
 pub(crate) const CAPTION: &str = "Ours, from the rows above: CPU time of the stepping over the largest energy error, a mark for each step; \
     further to the lower left is better. What stopped has no mark: its reason stands in the table.";
 
-/// The drawing of a table, where it has two errors at least that can be shown.
+/// The drawing of a table; `None` if fewer than two errors can be shown.
 pub(crate) fn chart(table: &Table, rows: &[Row]) -> Option<Chart> {
     let points = |name: &str| -> Vec<[f64; 2]> {
         let these = rows.iter().filter(|row| row.method.name == name);

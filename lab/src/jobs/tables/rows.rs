@@ -1,10 +1,10 @@
-//! One row for each method and step: ours beside the report's, as words and as CSV.
+//! Rows for each method and step: our numbers beside the published ones, as words and as CSV.
 
 use super::report::{Method, Printed, Table};
 use crate::format::{self, error, seconds, step};
 use crate::mbs::outcome::{Figures, Outcome};
 
-/// One entry of a table: what was run, and what came of it.
+/// One entry of a table, with the outcome of its run.
 #[derive(Debug, Clone)]
 pub(crate) struct Row {
     /// Table of the entry.
@@ -20,7 +20,7 @@ pub(crate) struct Row {
 }
 
 impl Row {
-    /// A row of a table with what came of it.
+    /// Makes a row from an entry and its outcome.
     pub(crate) fn new(
         table: &'static Table,
         method: &'static Method,
@@ -30,13 +30,13 @@ impl Row {
         Self { table, method, step, outcome, printed: table.printed(method, step) }
     }
 
-    /// Distance from the reference at the end, where there is one.
+    /// Distance from the reference at the end, if the table has a reference.
     fn distance(&self) -> Option<f64> {
         let reference = self.table.reference?;
         self.outcome.figures()?.distance(reference.channel, reference.value).ok()
     }
 
-    /// Our error [J], its share of the energy turned over, the distance from the reference, the time [s].
+    /// Our numbers: error [J], error relative to the exchanged energy, distance from the reference, time [s].
     pub(crate) fn ours(&self) -> [String; 4] {
         match &self.outcome {
             Outcome::Completed(f) => {
@@ -47,7 +47,7 @@ impl Row {
         }
     }
 
-    /// The report's error, or its words, and its time [s].
+    /// The published error, or the words in its place, and the published time [s].
     pub(crate) fn report(&self) -> [String; 2] {
         let words = |text: &str| [text.to_owned(), String::new()];
         match self.printed {
@@ -61,7 +61,7 @@ impl Row {
     }
 }
 
-/// The sizes of the models of a table, ours and the report's; methods with the same ones are in one line.
+/// The sizes of the models of a table, ours and the published ones. Methods with equal sizes are in one line.
 pub(crate) fn sizes(table: &Table, rows: &[Row]) -> Vec<String> {
     let mut groups: Vec<(Vec<&str>, String)> = Vec::new();
     for row in rows {
@@ -87,22 +87,22 @@ pub(crate) fn sizes(table: &Table, rows: &[Row]) -> Vec<String> {
     groups.into_iter().map(|(names, text)| format!("{}: {text}.", names.join(", "))).collect()
 }
 
-/// A printed error with two digits, or all it has.
+/// A published error with two digits, or with all digits if there are more.
 fn digits(x: f64) -> String {
     let (two, all) = (error(x), format!("{x:e}"));
     if all.len() > two.len() { all } else { two }
 }
 
-/// A printed time [s].
+/// A published time [s].
 fn time(x: f64) -> String {
     if x < 10.0 && x.fract() == 0.0 { format!("{x:.1}") } else { x.to_string() }
 }
 
-/// Every row as CSV.
+/// A record for every row, as CSV.
 ///
 /// # Errors
 ///
-/// What the writer says.
+/// The message of the writer.
 pub(crate) fn csv(rows: &[Row]) -> Result<Vec<u8>, String> {
     let head = "table,scene,method,step_s,energy_error_j,energy_error_share,\
         reference_channel,reference_distance,cpu_s,coordinates,constraints,freedoms,reason,report_row,report_error,report_cpu_s";
@@ -150,7 +150,7 @@ pub(crate) mod tests {
     use super::super::report::TABLES;
     use super::*;
 
-    /// One row of each kind.
+    /// A row of each kind.
     pub(crate) fn samples() -> Vec<Row> {
         let [t1, _, t2, ..] = &TABLES;
         let reference = t1.reference.unwrap().value;

@@ -1,4 +1,4 @@
-//! A table as a section: what was measured beside what is printed, sizes, and why runs stopped.
+//! A table as a section: measured numbers beside the published ones, sizes, and reasons why runs stopped.
 
 use super::report::Table;
 use super::rows::{Row, sizes};

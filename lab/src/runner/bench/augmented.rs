@@ -1,4 +1,4 @@
-//! The augmented Lagrangian formulations: counts, orders of elimination, phases of a step, and what teams gain.
+//! Measurements of the augmented Lagrangian formulations: counts, orders of elimination, phases of a step, and speedup by thread teams.
 
 use crate::bench::clocked::Clock;
 #[cfg(feature = "faer")]
@@ -11,12 +11,12 @@ use mbs_parallel::{Pool, ThreadTeam};
 use mbs_sparse::{Counters, Multifrontal, Options, Ordering};
 use serde_json::{Value, json};
 
-/// Least elements of a chain whose cuts are tried one by one. Chosen, not tuned.
+/// Least number of elements of a chain for which different levels of cuts are measured. Chosen, not tuned.
 const MANY: usize = 5000;
-/// Levels of cuts that are tried there.
+/// Levels of cuts that are measured for such a chain.
 const LEVELS: [u32; 4] = [1, 2, 4, 8];
 
-/// Measures one of the formulations; with index-3 come the counts and faer.
+/// Measures one of the formulations. For index-3 it also measures counts and faer.
 pub(crate) fn measure<const D: usize>(
     prepared: &Prepared<D>,
     formulation: &str,
@@ -72,12 +72,12 @@ pub(crate) fn measure<const D: usize>(
     Ok(())
 }
 
-/// Teams of those sizes.
+/// Thread teams of the given sizes.
 fn teams<W>(sizes: &[usize], new: impl Fn(usize) -> std::io::Result<W>) -> Result<Vec<W>, String> {
     sizes.iter().map(|&n| new(n).map_err(|e| format!("no {n} threads: {e}"))).collect()
 }
 
-/// Times the lanes interleaved and reports each.
+/// Times the lanes interleaved, and prints a line for each.
 fn run(formulation: &str, lanes: &mut [Lane<'_>], seconds: f64) {
     let mut runners: Vec<&mut dyn Runner> =
         lanes.iter_mut().map(|lane| lane as &mut dyn Runner).collect();

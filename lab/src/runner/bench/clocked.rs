@@ -1,4 +1,5 @@
-//! A model and a solver that delegate and read a clock, or another meter: the very step is timed, and the library has no clock.
+//! A model and a solver that call another one and read a clock or another meter. So the real step is timed, and the library contains no
+//! clock.
 
 use mbs_core::model::{Model, Terms};
 use mbs_core::team::Team;
@@ -25,11 +26,11 @@ pub(crate) const NAMES: [&str; 7] =
 
 /// Meter that is read before and after each phase.
 pub(crate) trait Meter: Sync {
-    /// Does the work of a phase, and takes what it cost.
+    /// Does the work of a phase, and records its cost.
     fn read<R>(&self, phase: Phase, work: impl FnOnce() -> R) -> R;
 }
 
-/// Time of each phase, of whole steps, and of what comes after the iteration's last evaluation, in nanoseconds.
+/// Time of each phase, of complete steps, and of the part after the last evaluation of the iteration, in nanoseconds.
 #[derive(Debug)]
 pub(crate) struct Clock {
     origin: Instant,
@@ -39,7 +40,7 @@ pub(crate) struct Clock {
     readings: AtomicU64,
     began: AtomicU64,
     evaluated: AtomicU64,
-    /// The bias has not been asked for in this step: it may yet iterate.
+    /// Is the step possibly still iterating? The bias is evaluated after the iterations, and ends them.
     is_iterating: AtomicBool,
 }
 
@@ -57,7 +58,7 @@ impl Clock {
         }
     }
 
-    /// Forgets what it has read.
+    /// Sets all sums to zero.
     pub(crate) fn reset(&self) {
         let sums = [&self.step, &self.after, &self.readings];
         self.phases.iter().chain(sums).for_each(|sum| sum.store(0, Relaxed));
@@ -80,7 +81,7 @@ impl Clock {
         self.after.fetch_add(now - self.evaluated.load(Relaxed), Relaxed);
     }
 
-    /// Seconds of each phase in one of `steps` steps, with what is left of the step, and what comes after the last evaluation.
+    /// Seconds per step of each phase, of the rest of the step, and of the part after the last evaluation, averaged over `steps` steps.
     pub(crate) fn json(&self, steps: u64) -> Value {
         #[allow(clippy::cast_precision_loss, reason = "nanoseconds of minutes")]
         let each = |sum: &AtomicU64| sum.load(Relaxed) as f64 / steps.max(1) as f64;
@@ -144,7 +145,7 @@ impl<T: Real, S: SpdSolver<T>, C: Meter> SpdSolver<T> for ClockedSolver<'_, S, C
     }
 }
 
-/// A model whose evaluations and products are timed; blocks and residuals of elements are in the solver's time.
+/// A model whose evaluations and products are timed. Blocks and residuals of elements are part of the solver's time.
 #[derive(Debug)]
 pub(crate) struct ClockedModel<'a, M, C = Clock> {
     pub(crate) model: M,
@@ -183,7 +184,7 @@ impl<T: Real, M: Model<T>, C: Meter> Model<T> for ClockedModel<'_, M, C> {
     }
 }
 
-/// A step between two readings of a clock, where there is one.
+/// Makes a step between two readings of the clock, if there is a clock.
 pub(crate) fn watched<R>(clock: Option<&Clock>, step: impl FnOnce() -> R) -> R {
     let Some(clock) = clock else { return step() };
     clock.begin();

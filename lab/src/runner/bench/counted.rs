@@ -1,4 +1,4 @@
-//! A double that counts what is done with it.
+//! A double that counts its arithmetic operations.
 
 use core::cell::Cell;
 use core::fmt;
@@ -119,7 +119,7 @@ impl Real for Counted {
         note(|done| done.turns += 1);
         Self(Real::atan2(self.0, x.0))
     }
-    // A test for finite numbers is no operation of the mechanics.
+    // a test for finite numbers is not counted: the mechanics does not need it
     fn is_finite(self) -> bool {
         self.0.is_finite()
     }

@@ -1,6 +1,8 @@
-//! The index-3 form as printed, and ours, with 16 and with 32 digits, and with a factor of 16 that is refined to 32: one run.
+//! One run of the index-3 formulation, as published or in our form. Numbers have 16 or 32 digits, or the factor has 16 digits and its
+//! solutions are refined to 32.
 //!
-//! Printed: fixed alpha, multipliers from zero, projections that solve for the vector itself [P1 (13), (19)], plain arithmetic.
+//! The published form has a fixed alpha, multipliers that start from zero, projections that solve for the vector itself [P1 (13), (19)],
+//! and no compensated arithmetic.
 
 use crate::bench::request::say;
 use crate::bench::scenes;
@@ -18,7 +20,7 @@ use mbs_sparse::Multifrontal;
 use serde_json::{Value, json};
 use std::time::Instant;
 
-/// Run that is asked for: `SCENE FORM DIGITS STEP SPAN ALPHA`.
+/// The requested run: `SCENE FORM DIGITS STEP SPAN ALPHA`.
 struct Asked<'a> {
     scene: &'a str,
     form: &'a str,
@@ -27,7 +29,7 @@ struct Asked<'a> {
     alpha: &'a str,
 }
 
-/// Runs what is asked for, and reports it in one line.
+/// Makes the requested run, and prints its report as one line.
 pub(crate) fn measure(words: &[String]) -> Result<(), String> {
     let [scene, form, digits, step, span, alpha] = words else {
         return Err(
@@ -50,7 +52,7 @@ pub(crate) fn measure(words: &[String]) -> Result<(), String> {
     Ok(())
 }
 
-/// A number as it is written.
+/// Reads a number in decimal notation.
 fn number<T: Real>(text: &str) -> Result<T, String> {
     T::from_decimal(text).ok_or_else(|| format!("`{text}` is no number"))
 }
@@ -62,10 +64,10 @@ enum Form<T> {
     Ours(Options<T>),
 }
 
-/// The form that is asked for.
+/// The form that the words request.
 fn form<T: Real>(asked: &Asked<'_>) -> Result<Form<T>, String> {
     let alpha = number(asked.alpha)?;
-    // Each of them iterates to double precision: more digits make nothing else different.
+    // the tolerance is that of double precision in all cases, so that the number of digits is the only difference
     let tolerance = T::from_f64(1e-10);
     let ours = Options { tolerance, ..Options::index3() };
     match asked.form {
@@ -91,12 +93,12 @@ struct Outcome {
     turned_over: f64,
     violation: [f64; 3],
     tally: Tally,
-    /// When and why it stopped.
+    /// Time and reason of a stop.
     stopped: Option<(f64, String)>,
 }
 
 impl Outcome {
-    /// Takes what a step to or from `t` [s] came to.
+    /// Adds the report of a step that ends or fails at time `t` [s].
     fn take<T: Real>(&mut self, t: f64, report: Result<StepReport<T>, StepError>, tally: Tally) {
         match report {
             Ok(report) => {
@@ -110,7 +112,7 @@ impl Outcome {
         }
         self.tally.solutions += tally.solutions - tally.failed;
         self.tally.corrections += tally.corrections;
-        // A solution that was not refined is what lets a step fail.
+        // a step also fails where the refinement of a solution failed
         if let Some(error) = tally.failure {
             self.stopped = Some((t, error.to_string()));
         }
@@ -135,7 +137,7 @@ impl Outcome {
     }
 }
 
-/// Steps from the scene's start over the span.
+/// Makes the steps from the scene's start to the end of the span.
 fn run<T: Real, S: SpdSolver<T>>(
     asked: &Asked<'_>,
     analyse: impl Fn(&NaturalModel<T, 2>) -> S,
@@ -179,20 +181,20 @@ fn run<T: Real, S: SpdSolver<T>>(
     Ok(outcome.json())
 }
 
-/// A factor in the precision of the model.
+/// A solver with the factor in the precision of the model.
 fn plain<T: Real, C: Cliques>(cliques: &C) -> Multifrontal<T> {
     Multifrontal::analyse(cliques, mbs_sparse::Options::default())
 }
 
-/// Returns the larger number; what is not a number is larger than all.
+/// Returns the larger number; NaN counts as larger than all.
 fn worse(a: f64, b: f64) -> f64 {
     if b <= a { a } else { b }
 }
 
-/// The energy of a conservative scene, over every step.
+/// Energy of a conservative scene, checked after every step.
 struct Energy<T> {
     initial: T,
-    /// Largest error, and largest kinetic energy [J].
+    /// Largest error of the energy, and largest kinetic energy [J].
     error: f64,
     kinetic: f64,
 }
@@ -212,13 +214,13 @@ impl<T: Real> Energy<T> {
     }
 }
 
-/// Measures the time that reading the clock takes [s].
+/// Measures the time of one reading of the clock [s].
 fn reading() -> f64 {
-    /// Readings that are timed together [-], as one alone is too short for the clock.
+    /// Number of readings that are timed together [-], since the clock cannot resolve a single one.
     const TIMES: u32 = 10_000;
     let clock = Instant::now();
     let sum: f64 = (0..TIMES).map(|_| Instant::now().elapsed().as_secs_f64()).sum();
-    // The sum is used, so that it is not left out.
+    // the sum is used, so that the compiler does not remove the readings
     if sum < 0.0 { 0.0 } else { clock.elapsed().as_secs_f64() / f64::from(2 * TIMES) }
 }
 

@@ -1,6 +1,6 @@
-//! Distance of two solutions.
+//! Relative distance of two solutions.
 
-/// Largest difference of two vectors over the largest number of the first.
+/// Largest difference of two vectors, relative to the largest component of the first.
 pub(crate) fn distance(a: &[f64], b: &[f64]) -> f64 {
     let size = a.iter().fold(0.0, |most, x| x.abs().max(most));
     let apart = a.iter().zip(b).fold(0.0, |most, (x, y)| (x - y).abs().max(most));

@@ -1,5 +1,5 @@
-//! One linear system of the scene, ours and faer's: assemble, factor, solve, interleaved in one run. Blocks are given, or written each time,
-//! which costs both the same.
+//! One linear system of the scene by our solver and by faer: assembly, factorisation, solution, interleaved in one run. The blocks are
+//! given, or they are evaluated each time, which adds the same cost to both.
 //!
 //! ```text
 //! T = M + (v'/a') C + (1/a') K + J^T s J,   s = 1e6 effective masses        as the index-3 step has it
@@ -22,10 +22,10 @@ use serde_json::{Value, json};
 use std::cell::RefCell;
 use std::hint::black_box;
 
-/// Steps between two measurements. Chosen, not tuned.
+/// Number of steps between the two measurements. Chosen, not tuned.
 const STEPS: u32 = 20;
 
-/// Measures at the start and after some steps, and writes a line of each.
+/// Measures at the start and after some steps, and prints a line for each.
 pub(crate) fn measure<const D: usize>(
     prepared: &Prepared<D>,
     solver: &Multifrontal<f64>,
@@ -91,7 +91,7 @@ fn beside<const D: usize>(
     say(&line);
 }
 
-/// Times of the three ways with blocks from `source`, and how far their solutions are apart.
+/// Times of the three solvers with blocks from `source`, and the distances of their solutions.
 fn interleaved(
     cliques: &impl Cliques,
     ours: &mut Multifrontal<f64>,
@@ -104,7 +104,7 @@ fn interleaved(
     let mut own = Work(|| {
         let x = &mut *found[0].borrow_mut();
         x.copy_from_slice(b);
-        // It has been factored before.
+        // the result is ignored: the same blocks have been factored before without an error
         let _ = black_box(ours.factor(black_box(source)));
         ours.solve(x, &mut scratch);
     });
@@ -123,7 +123,7 @@ fn interleaved(
     let timings = race(&mut [&mut own, &mut simplicial, &mut supernodal], seconds);
     let mut times = json!({});
     for (name, timing) in ["ours", "simplicial", "supernodal"].into_iter().zip(timings) {
-        // None of them can fail.
+        // none of the three runners can fail
         let timing = timing.map(|timing| timing.json()).unwrap_or_default();
         merge(&mut times, [json!({ name: timing })]);
     }
@@ -131,7 +131,7 @@ fn interleaved(
     (times, difference(1).max(difference(2)))
 }
 
-/// Blocks that are written once.
+/// Blocks that are evaluated once.
 struct Given {
     blocks: Vec<f64>,
     starts: Vec<usize>,
@@ -154,7 +154,7 @@ impl BlockSource<f64> for Given {
     fn write_block(&self, element: usize, block: &mut [f64]) {
         block.copy_from_slice(&self.blocks[self.starts[element]..][..block.len()]);
     }
-    /// Right-hand sides are not assembled here.
+    /// right-hand sides are given as vectors, so that no residual is assembled
     fn write_residual(&self, _: usize, residual: &mut [f64]) {
         residual.fill(0.0);
     }

@@ -1,4 +1,4 @@
-//! faer's sparse Cholesky on the same sum of blocks: the measured rival, entry by entry or by supernodes.
+//! faer's sparse Cholesky on the same sum of blocks, for comparison. It works entry by entry (simplicial) or by supernodes.
 //!
 //! ```text
 //! upper triangle in compressed columns; slot[t] = place of packed entry t of all blocks in turn
@@ -25,7 +25,7 @@ pub(crate) struct Rival {
 }
 
 impl Rival {
-    /// Analyses entry by entry: the faster way for the small fronts of mechanisms.
+    /// Analyses for factorisation entry by entry, which is faster for the small fronts of mechanisms.
     #[allow(dead_code, reason = "one of the programs names the way itself")]
     pub(crate) fn analyse(sum: &impl Cliques) -> Self {
         Self::analyse_by(sum, SupernodalThreshold::FORCE_SIMPLICIAL)

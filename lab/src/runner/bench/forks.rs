@@ -1,4 +1,4 @@
-//! The time of a fork: two pieces of no work, joined.
+//! The time of a fork: a thread team joins two empty pieces of work.
 
 use crate::bench::race::{Runner, Timing, Work, race, timed};
 use crate::bench::request::{Request, merge, say};
@@ -6,7 +6,7 @@ use mbs_core::team::{Alone, Team};
 use mbs_parallel::{Pool, ThreadTeam};
 use serde_json::json;
 
-/// A fork inside a pool: all of a measurement is made there.
+/// A team inside a pool, where the whole measurement is made.
 struct Inside<'a>(&'a Pool);
 
 impl Runner for Inside<'_> {
@@ -19,13 +19,13 @@ impl Runner for Inside<'_> {
     }
 }
 
-/// Joins two pieces of no work.
+/// Joins two empty pieces of work.
 fn fork(team: &impl Team) {
     let both = team.join(|| std::hint::black_box(1), || std::hint::black_box(2));
     std::hint::black_box(both);
 }
 
-/// Measures alone, and both teams of each size.
+/// Measures a fork without a team, and with both kinds of team of each size.
 pub(crate) fn measure(request: &Request) -> Result<(), String> {
     let mut sizes = request.threads.clone();
     sizes.retain(|&n| n > 1);

@@ -1,4 +1,4 @@
-//! Steps of one scene in one way: formulation, solver, team, with or without a clock.
+//! Steps of a scene by one combination of formulation, solver and team, with or without a clock.
 
 use crate::bench::clocked::{Clock, ClockedModel, ClockedSolver, watched};
 use crate::bench::race::{Runner, timed};
@@ -12,7 +12,7 @@ use mbs_parallel::Pool;
 use mbs_sparse::Multifrontal;
 use serde_json::{Value, json};
 
-/// Augmented Lagrangian formulation that is stepped, at a fixed length.
+/// Augmented Lagrangian formulation whose steps of fixed length are measured.
 #[derive(Debug, Clone, Copy)]
 #[allow(clippy::large_enum_variant, reason = "there is one in each lane")]
 pub(crate) enum Method {
@@ -22,7 +22,7 @@ pub(crate) enum Method {
 }
 
 impl Method {
-    /// Finds the method of a name; nothing for formulations that are stepped as `mbs run` does.
+    /// Finds the method of a name. `None` for other formulations, which are measured by the steps of `mbs run`.
     pub(crate) fn named(name: &str) -> Option<Self> {
         Some(match name {
             "index-1" => Self::One,
@@ -54,7 +54,7 @@ impl Method {
     }
 }
 
-/// Work counted over steps.
+/// Counted work, summed over steps.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Sums {
     pub(crate) steps: u64,
@@ -82,7 +82,7 @@ impl Sums {
     }
 }
 
-/// Name of what works: its team with the number of threads, and its order.
+/// Name of a lane: its team, number of threads, and order of elimination.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Name {
     pub(crate) team: &'static str,
@@ -91,21 +91,21 @@ pub(crate) struct Name {
     pub(crate) order: String,
 }
 
-/// Makes this many steps, and counts.
+/// Function that makes a number of steps and adds to the counts.
 type Steps<'a> = Box<dyn FnMut(u32, &mut Sums) -> Result<(), String> + Send + 'a>;
 
-/// A way to step a scene, ready to run.
+/// A lane: one combination by which a scene is stepped, with its name and clock.
 pub(crate) struct Lane<'a> {
     pub(crate) name: Name,
     pub(crate) clock: Option<&'a Clock>,
     pub(crate) sums: Sums,
     steps: Steps<'a>,
-    /// Pool where the steps are made, if not on the caller's thread.
+    /// Pool in which the steps are made; `None` for the caller's thread.
     pool: Option<&'a Pool>,
 }
 
 impl<'a> Lane<'a> {
-    /// A lane on the caller's thread.
+    /// Makes a lane on the caller's thread.
     pub(crate) fn alone<const D: usize>(
         prepared: &'a Prepared<D>,
         method: Method,
@@ -117,7 +117,7 @@ impl<'a> Lane<'a> {
         Self { name, clock, sums: Sums::default(), steps, pool: None }
     }
 
-    /// A lane of a team.
+    /// Makes a lane of a thread team.
     pub(crate) fn shared<const D: usize, W: Named>(
         prepared: &'a Prepared<D>,
         method: Method,
@@ -136,7 +136,7 @@ impl Runner for Lane<'_> {
         let (steps, sums) = (&mut self.steps, &mut self.sums);
         let mut run = || timed(|| steps(n, sums));
         match self.pool {
-            // What it takes to enter the pool is not the step's.
+            // the time of entering the pool is not part of the step
             Some(pool) => pool.enter(run),
             None => run(),
         }
@@ -154,7 +154,7 @@ impl Runner for Lane<'_> {
 pub(crate) trait Named: Team + Send {
     /// Name of the team in the lines.
     fn word(&self) -> &'static str;
-    /// Pool where the team's steps are to be made.
+    /// Pool in which the team's steps must be made, if there is one.
     fn pool(&self) -> Option<&Pool> {
         None
     }
@@ -181,7 +181,7 @@ impl Named for Pool {
     }
 }
 
-/// Steps with or without a clock.
+/// Makes the steps, with a clock or without.
 fn steps<'a, const D: usize, M: Model<f64> + Send + 'a, S: SpdSolver<f64> + Send + 'a>(
     model: M,
     solver: S,
@@ -198,7 +198,7 @@ fn steps<'a, const D: usize, M: Model<f64> + Send + 'a, S: SpdSolver<f64> + Send
     }
 }
 
-/// The steps themselves, round and round the scene's run.
+/// Steps through the scene's run, from its start again when it ends.
 fn stepping<'a, const D: usize, M: Model<f64> + Send + 'a, S: SpdSolver<f64> + Send + 'a>(
     model: M,
     solver: S,

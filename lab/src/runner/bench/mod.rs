@@ -1,4 +1,5 @@
-//! Measurements of what a step costs and what threads gain: in one process, printed as lines of JSON that `cargo xtask bench` reads.
+//! Measurements of the cost of a step and of the speedup by threads. They are made in one process and printed as lines of JSON, which
+//! `cargo xtask bench` reads.
 //!
 //! ```text
 //! runner bench formulations
@@ -8,7 +9,7 @@
 //! runner bench profile rates | step SCENE FROM TO | bare SCENE N
 //! ```
 //!
-//! Clocks live here alone: what is timed is the step of the library, through a model and a solver that delegate to its own.
+//! Only this module has clocks. It times the steps of the library through a model and a solver that call those of the library.
 
 mod augmented;
 mod clocked;
@@ -35,11 +36,11 @@ use request::{Job, Request, say};
 use scenes::Prepared;
 use serde_json::json;
 
-/// Does what the words ask for.
+/// Makes the measurement that the words name.
 ///
 /// # Errors
 ///
-/// What they should be, or what cannot be measured.
+/// The usage, or the reason why something cannot be measured.
 pub fn run(words: &[String]) -> Result<(), String> {
     let (job, request) = request::parse(words)?;
     match job {
@@ -60,14 +61,14 @@ pub fn run(words: &[String]) -> Result<(), String> {
     }
 }
 
-/// The formulations, and whether solver and clocks of their steps are the bench's own.
+/// Prints the formulations, and whether the bench times the solver and phases of their steps.
 fn formulations() {
     for name in mbs::FormulationKind::listed().map(mbs::FormulationKind::name) {
         say(&json!({ "name": name, "own": lane::Method::named(name).is_some() }));
     }
 }
 
-/// Measures a scene in the formulations named.
+/// Measures a scene in the named formulations.
 fn measure<const D: usize>(
     scene: mbs_core::scene::Scene<f64>,
     formulations: &str,

@@ -1,4 +1,5 @@
-//! Formulations as `mbs run` steps them: classical alone and with a thread team, interleaved; those without teams in one row each.
+//! Measurements of formulations with the steps of `mbs run`. The classical formulation is measured alone and with a thread team,
+//! interleaved. Formulations without teams have one row each.
 
 use crate::bench::lane::Sums;
 use crate::bench::race::{Runner, Timing, race, timed};
@@ -9,7 +10,7 @@ use mbs::{FormulationKind, Method, ResolvedMethod};
 use mbs_core::scene::Scene;
 use serde_json::{Value, json};
 
-/// Longest step that is measured more than once [s]. Chosen, not tuned.
+/// Duration of the longest step that is measured more than once [s]. Chosen, not tuned.
 const LONGEST: f64 = 2.0;
 
 /// A simulation that is stepped, and its counts.
@@ -36,7 +37,7 @@ impl<const D: usize> Runner for Steps<D> {
     }
 }
 
-/// Measures a scene in one formulation, or says why not.
+/// Measures a scene in one formulation, or prints why this is not possible.
 pub(crate) fn measure<const D: usize>(
     scene: &Scene<f64>,
     formulation: &str,

@@ -1,4 +1,4 @@
-//! Costs and operations of one step of index-3, for `cargo xtask profile`; and bare steps, for callgrind.
+//! Cost and operations of one step of index-3, for `cargo xtask profile`; and steps without any measurement, for callgrind.
 //!
 //! ```text
 //! bench profile rates                    operations and bytes that this machine does in a second
@@ -24,14 +24,14 @@ use mbs_sparse::{Counters, Multifrontal};
 use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
 
-/// Steps that are timed together: a few milliseconds, which other processes seldom interrupt.
+/// Number of steps that are timed together. They take a few milliseconds, in which interruptions by other processes are rare.
 const TOGETHER: u32 = 25;
-/// Least timings of each stretch [-]. Chosen, not tuned.
+/// Least number of timings of each stretch of steps [-]. Chosen, not tuned.
 const LEAST: u32 = 10;
 /// Time of all timings of a stretch [s]. Chosen, not tuned.
 const SECONDS: f64 = 2.0;
 
-/// Does what the words ask for.
+/// Makes the measurement that the words name.
 pub(crate) fn measure(words: &[String]) -> Result<(), String> {
     let number = |word: &String| word.parse::<u32>().map_err(|e| format!("`{word}`: {e}"));
     match words {
@@ -65,7 +65,7 @@ struct Walk<T, M, S> {
     workspace: Workspace<T, S>,
 }
 
-/// The walk that is timed.
+/// The walk whose steps are timed, with plain doubles.
 type Plain<const D: usize> = Walk<f64, NaturalModel<f64, D>, Multifrontal<f64>>;
 
 impl<T: Real, M: Model<T>, S: SpdSolver<T>> Walk<T, M, S> {
@@ -75,7 +75,7 @@ impl<T: Real, M: Model<T>, S: SpdSolver<T>> Walk<T, M, S> {
         Self { model, step, state: prepared.start.clone(), workspace }
     }
 
-    /// Makes this many steps, and counts.
+    /// Makes a number of steps, and adds to the counts.
     fn go(&mut self, n: u32, sums: &mut Sums) -> Result<(), String> {
         let (options, Self { model, step, state, workspace }) = (Options::index3(), self);
         for _ in 0..n {
@@ -99,7 +99,7 @@ fn bare<const D: usize>(scene: &str, n: u32) -> Result<(), String> {
     plain(&prepared).go(n, &mut Sums::default())
 }
 
-/// The line of one scene.
+/// The result of one scene as a line.
 fn step_line<const D: usize>(scene: &str, [from, to]: [u32; 2]) -> Result<Value, String> {
     let prepared = Prepared::<D>::new(scenes::read(scene)?)?;
     let to = to.min(prepared.n_steps).max(from + 1);
@@ -127,7 +127,7 @@ fn step_line<const D: usize>(scene: &str, [from, to]: [u32; 2]) -> Result<Value,
     }))
 }
 
-/// Count of the elements for each number of unknowns.
+/// Number of elements, by their number of unknowns.
 fn cliques(model: &impl Cliques) -> BTreeMap<usize, usize> {
     let mut sizes = BTreeMap::new();
     for e in 0..model.n_elements() {
@@ -141,7 +141,7 @@ fn share(x: u64, steps: u64) -> f64 {
     x as f64 / steps.max(1) as f64
 }
 
-/// CPU time of `n` steps of a walk: of each stretch the least of many [s]; and what they did.
+/// CPU time of `n` steps of a walk [s], and their counts. The time is the sum over stretches of the least of many timings.
 fn timed<const D: usize>(walk: &Plain<D>, n: u32) -> Result<(f64, Sums), String> {
     let (mut least, mut all, mut turns) = (Vec::new(), 0.0, 0);
     loop {
@@ -165,7 +165,7 @@ fn timed<const D: usize>(walk: &Plain<D>, n: u32) -> Result<(f64, Sums), String>
     }
 }
 
-/// Makes the same steps by numbers that count their operations.
+/// Makes the same steps with numbers that count their operations.
 fn counted<const D: usize>(scene: &str, [from, to]: [u32; 2]) -> Result<(Tally, Sums), String> {
     let prepared = Prepared::<D, Counted>::new(scenes::read(scene)?)?;
     let (tally, mut sums) = (Tally::default(), Sums::default());
@@ -179,13 +179,13 @@ fn counted<const D: usize>(scene: &str, [from, to]: [u32; 2]) -> Result<(Tally, 
     Ok((tally, sums))
 }
 
-/// Sizes of what a step reads and writes, in numbers of eight bytes.
+/// Amount of data that a step reads and writes, in numbers of eight bytes.
 struct Sizes {
     counters: Counters,
     /// Numbers of the Jacobian, and of all terms.
     jacobian: usize,
     terms: usize,
-    /// Numbers of state and scratch.
+    /// Numbers of the state and of scratch vectors.
     vectors: usize,
 }
 
@@ -201,19 +201,19 @@ impl Sizes {
             counters: walk.workspace.solver().counters(),
             jacobian: jacobian.len(),
             terms: rows + jacobian.len() + force.len() + measures,
-            // q, q_low, v, a, a_aux; dq, q, v, a, change: extended. lambda, the one before, reaction, phi; lambda, sigma, mu,
-            // rates, penalty, masses, probe: of the rows. f, the pivots, and what the sweeps need.
+            // all coordinates: q, q_low, v, a, a_aux; dq, q, v, a, change. Rows: lambda, the lambda before, reaction, phi; lambda, sigma,
+            // mu, rates, penalty, masses, probe. Unknowns: f and the pivots. The rest is scratch of the sweeps.
             vectors: 10 * e + 11 * m + 2 * n + scratch,
         }
     }
 
-    /// Bytes of fronts, terms, the Jacobian of the factor and vectors; the model's own tables are left out.
+    /// Bytes of fronts, terms, vectors and the factor's Jacobian. The model's own tables are left out.
     fn set(&self) -> usize {
         8 * (self.counters.stored + self.terms + self.jacobian + self.vectors)
     }
 
-    /// Bytes that go to the core and back at least: a factorisation reads the Jacobian, writes all fronts and reads them again. A
-    /// solution reads the Jacobian for its right-hand side, and the factor twice; an iteration writes the Jacobian.
+    /// Least number of bytes that a step moves between memory and processor. A factorisation reads the Jacobian, writes all fronts and
+    /// reads them again. A solution reads the Jacobian for its right-hand side, and the factor twice. An iteration writes the Jacobian.
     fn moved(&self, sums: &Sums) -> u64 {
         let Counters { stored, nonzeros, .. } = self.counters;
         let numbers = sums.factorizations * (self.jacobian + 2 * stored) as u64
@@ -240,19 +240,19 @@ mod tests {
         walk.clone().go(3, &mut sums).unwrap();
         let (tally, counted) = counted::<3>("chain-12", [2, 5]).unwrap();
         assert_eq!(counted, sums);
-        // A product and a sum for each entry of L in each sweep, and a product for each pivot; and some rows are summed apart.
+        // each sweep has a product and a sum for each entry of L, and each pivot a product; a few more operations sum separate rows
         let Counters { n, nonzeros, flops, .. } = walk.workspace.solver().counters();
         let of = |phase: Phase| tally.phases().nth(phase as usize).unwrap().1.total();
         let sweeps = sums.solves * (4 * nonzeros - 3 * n) as u64;
         assert!((sweeps..sweeps * 11 / 10).contains(&of(Phase::Solves)), "{sweeps}");
-        // What factors beside the elimination writes and adds blocks.
+        // besides elimination, a factorisation evaluates and adds blocks
         let blocks = of(Phase::Factorisation) - sums.factorizations * flops;
         assert!(blocks > 0 && blocks < sums.factorizations * flops, "{blocks}");
         let all: u64 = tally.phases().map(|(_, done)| done.total()).sum();
         assert_eq!(tally.all().total(), all);
     }
 
-    /// Blocks that are given: nothing is computed to write them.
+    /// Blocks of constants, whose evaluation has no operations.
     struct Given<'a, M>(&'a M);
 
     impl<M: Cliques + Sync> BlockSource<Counted> for Given<'_, M> {
@@ -278,7 +278,7 @@ mod tests {
         let Counters { flops, extend_adds, .. } = solver.counters();
         let triangle = |e| model.clique(e).len() * (model.clique(e).len() + 1) / 2;
         let adds: usize = (0..model.n_elements()).map(triangle).sum();
-        // The sums that bring blocks together are separate, at most one for each of their entries.
+        // the sums that assemble blocks are counted separately: at most one for each of their entries
         let least = counted - extend_adds - adds as u64;
         assert!(least < flops && flops < counted, "{counted} {flops} {extend_adds} {adds}");
     }

@@ -1,16 +1,17 @@
-//! Repeated measurements, interleaved: what is compared is measured in the same seconds of a machine that others may use too.
+//! Repeated measurements of several subjects, interleaved. The compared subjects are measured within the same seconds, since other programs
+//! may load the machine.
 
 use serde_json::{Value, json};
 use std::time::Instant;
 
-/// Subject of a measurement: it does its work this many times.
+/// Subject of a measurement, which repeats its work a given number of times.
 pub(crate) trait Runner {
-    /// Works `n` times, and says how long that took [s].
+    /// Does the work `n` times, and returns the elapsed time [s].
     ///
     /// # Errors
-    /// Why it cannot continue.
+    /// The reason why the work cannot continue.
     fn run(&mut self, n: u32) -> Result<f64, String>;
-    /// Called when what was done before is to count no more.
+    /// Forgets the counts so far; called after the warm-up.
     fn reset(&mut self) {}
 }
 
@@ -19,7 +20,7 @@ pub(crate) trait Runner {
 pub(crate) struct Timing {
     pub(crate) median: f64,
     pub(crate) quartiles: [f64; 2],
-    /// Measurements, and pieces in each.
+    /// Number of measurements, and of pieces of work in each.
     pub(crate) rounds: usize,
     pub(crate) batch: u32,
 }
@@ -37,7 +38,7 @@ impl Timing {
     }
 }
 
-/// The quantile of ascending numbers, between the two that are nearest; not a number where there are none.
+/// The quantile of ascending numbers, interpolated between the two nearest; NaN for an empty list.
 pub(crate) fn quantile(sorted: &[f64], share: f64) -> f64 {
     let Some(last) = sorted.len().checked_sub(1) else { return f64::NAN };
     #[allow(clippy::cast_precision_loss, reason = "some tens of numbers")]
@@ -48,18 +49,18 @@ pub(crate) fn quantile(sorted: &[f64], share: f64) -> f64 {
     sorted[below] + (place - place.floor()) * (sorted[above] - sorted[below])
 }
 
-/// Shortest measurement [s], unless one piece of work is longer. It is much shorter than what a busy system gives a process at a
-/// time, so that most measurements are not interrupted and the median is one of them.
+/// Shortest duration of a measurement [s], unless one piece of work takes longer. The scheduler of a busy system gives a process much
+/// longer slices of time. So most measurements are not interrupted, and the median is one of these.
 const SHORTEST: f64 = 2e-4;
-/// Least and most measurements of each. Chosen, not tuned.
+/// Least and largest number of measurements of each runner. Chosen, not tuned.
 const ROUNDS: [f64; 2] = [7.0, 301.0];
 
-/// Measures all runners interleaved for about `seconds`, after they have warmed up. One that fails has its reason.
+/// Warms up all runners, then measures them interleaved for roughly `seconds`. A runner that fails has its reason as result.
 pub(crate) fn race(runners: &mut [&mut dyn Runner], seconds: f64) -> Vec<Result<Timing, String>> {
     let mut pilot = |runner: &mut &mut dyn Runner| -> Result<f64, String> {
         runner.run(2)?;
         let once = runner.run(1)?;
-        // Short work is repeated, so that a reading of the clock is small beside it.
+        // short work is repeated, so that the time of reading the clock is negligible
         if once < SHORTEST { Ok(runner.run(20)? / 20.0) } else { Ok(once) }
     };
     let pilots: Vec<_> = runners.iter_mut().map(&mut pilot).collect();
@@ -75,7 +76,7 @@ pub(crate) fn race(runners: &mut [&mut dyn Runner], seconds: f64) -> Vec<Result<
     runners.iter_mut().for_each(|runner| runner.reset());
     let n = runners.len();
     for round in 0..rounds {
-        // Another one begins each time.
+        // each round begins with another runner
         for i in (0..n).map(|i| (i + round) % n) {
             let Ok(list) = &mut samples[i] else { continue };
             match runners[i].run(batch) {
@@ -94,7 +95,7 @@ pub(crate) fn timed<R>(work: impl FnOnce() -> Result<R, String>) -> Result<f64, 
     Ok(clock.elapsed().as_secs_f64())
 }
 
-/// A closure that cannot fail.
+/// A runner made of a closure that cannot fail.
 pub(crate) struct Work<F>(pub(crate) F);
 
 impl<F: FnMut()> Runner for Work<F> {

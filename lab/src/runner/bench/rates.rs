@@ -1,4 +1,4 @@
-//! Rates of this machine at best, as this program is compiled: products and sums, and bytes read in a second.
+//! Best rates of this machine for this program as it is compiled: products and sums per second, and bytes read per second.
 //!
 //! ```text
 //! packed:   x <- x p + s for 28 numbers in registers, none waiting for another
@@ -11,21 +11,21 @@ use std::fs::read_to_string;
 use std::hint::black_box;
 use std::time::Instant;
 
-/// Numbers in registers: two in each of fourteen.
+/// Number of values in registers: two in each of fourteen registers.
 const NUMBERS: usize = 28;
-/// Products with their sums for a number that is read and written.
+/// Number of products with sums per value that is read and written.
 const DEPTH: usize = 3;
-/// Rounds in a measurement [-]. Chosen, not tuned.
+/// Number of rounds in a measurement [-]. Chosen, not tuned.
 const ROUNDS: u32 = 50_000;
-/// Measurements, of which the least time counts [-]. Chosen, not tuned.
+/// Number of measurements, of which the shortest time counts [-]. Chosen, not tuned.
 const TURNS: usize = 300;
 
 /// Sizes of the second and the last cache where the system does not report them [bytes].
 const CACHES: [usize; 2] = [1 << 20, 32 << 20];
-/// Most that is read beyond the last cache [bytes]. Chosen, not tuned.
+/// Largest number of bytes that is read beyond the last cache [bytes]. Chosen, not tuned.
 const MAX_BYTES: usize = 256 << 20;
 
-/// The line of rates.
+/// The rates as a line.
 pub(crate) fn measure() -> Value {
     let [second, last] = caches();
     let [near, far] = [second / 2, (4 * last).min(MAX_BYTES)];
@@ -46,7 +46,7 @@ fn least(mut work: impl FnMut()) -> f64 {
     (0..TURNS).map(|_| turn()).fold(f64::INFINITY, f64::min)
 }
 
-/// Products and sums in a second, two at a time.
+/// Products and sums per second, two in one instruction.
 fn packed() -> f64 {
     let seconds = least(|| _ = black_box(in_registers(ROUNDS, black_box([0.5, 1.0]))));
     #[allow(clippy::cast_precision_loss, reason = "a small count")]
@@ -64,7 +64,7 @@ fn in_registers(rounds: u32, [p, s]: [f64; 2]) -> [f64; NUMBERS] {
     x
 }
 
-/// Products and sums in a second, one at a time.
+/// Products and sums per second, one in one instruction.
 fn scalar() -> f64 {
     let mut x = [1.0; 64];
     let places: Vec<u8> = (0..ROUNDS).map(|i| (i % 64) as u8).collect();
@@ -87,7 +87,7 @@ fn by_place(x: &mut [f64; 64], places: &[u8], [p, s]: [f64; 2]) {
     }
 }
 
-/// Bytes in a second of reading an array of this many.
+/// Bytes per second when an array of `size` bytes is read.
 fn bytes(size: usize) -> f64 {
     let array = vec![1.0; size / size_of::<f64>()];
     let times = (MAX_BYTES / 16 / size).max(1);
@@ -125,7 +125,7 @@ fn caches() -> [usize; 2] {
     found
 }
 
-/// 1024K or 32M, in bytes.
+/// Size in bytes of a text such as 1024K or 32M.
 fn size(text: &str) -> Option<usize> {
     let (number, unit) = text.split_at(text.len().checked_sub(1)?);
     let unit = match unit {

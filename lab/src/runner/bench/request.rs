@@ -1,30 +1,30 @@
-//! Requests on the command line, and the lines that answer them.
+//! Requests on the command line, and the printed lines.
 //!
-//! Its test reaches no measurement, so that a test of this crate compiles no solver.
+//! The tests of this module do not use a measurement, so that they need no solver to be compiled.
 
 use serde_json::Value;
 
 /// Subject of the measurement.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Job {
-    /// The formulations there are.
+    /// The list of formulations.
     Formulations,
     /// The cost of a fork of a team.
     Forks,
-    /// A printed form in 16 or 32 digits.
+    /// A run of index-3 as published or in our form, with 16 or 32 digits.
     Digits(Vec<String>),
     /// Operations, bytes and the rates of the machine.
     Profile(Vec<String>),
-    /// The steps of a scene in formulations whose names commas separate.
+    /// The steps of a scene in formulations, whose names are separated by commas.
     Scene { scene: String, formulations: String },
 }
 
 /// Options of a job's measurements.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Request {
-    /// Sizes of teams; one is always measured.
+    /// Sizes of thread teams; size one is always measured.
     pub(crate) threads: Vec<usize>,
-    /// Time of one race of steps, about [s].
+    /// Approximate time of each interleaved measurement [s].
     pub(crate) seconds: f64,
 }
 
@@ -66,13 +66,13 @@ fn job(places: &[String]) -> Result<Job, String> {
     }
 }
 
-/// One line of output.
+/// Prints one line of output.
 #[allow(clippy::print_stdout, reason = "the lines are what is asked for")]
 pub(crate) fn say(line: &Value) {
     println!("{line}");
 }
 
-/// Adds keys to a line; one that is there already keeps its value.
+/// Adds keys to a line. An existing key keeps its value.
 pub(crate) fn merge<const N: usize>(line: &mut Value, more: [Value; N]) {
     for more in more {
         let (Value::Object(line), Value::Object(more)) = (&mut *line, more) else { continue };

@@ -1,4 +1,4 @@
-//! Scenes by name: those in `scenes/`, and large ones made by rule.
+//! Scenes by name: files of `scenes/`, and large generated scenes.
 
 use mbs_core::model::{Model, State};
 use mbs_core::natural::NaturalModel;
@@ -12,9 +12,9 @@ use std::time::Instant;
 
 /// Distance between the vehicles of a convoy [m].
 const SPACING: f64 = 8.0;
-/// The vehicle of a convoy.
+/// Name of the scene whose vehicle a convoy has.
 const VEHICLE: &str = "iltis-stairs";
-/// Step of a scene that names none [s].
+/// Step of a scene without a step of its own [s].
 const STEP: f64 = 1e-3;
 
 /// A scene by its name: a file in `scenes/`, or FAMILY-N.
@@ -29,14 +29,14 @@ pub(crate) fn read<T: Real>(name: &str) -> Result<Scene<T>, String> {
     document.scene().map_err(|e| e.render())
 }
 
-/// A family of scenes with its size.
+/// The family and the size in the name of a generated scene.
 fn family(name: &str) -> Option<(&str, usize)> {
     let (family, n) = name.rsplit_once('-')?;
     let known = ["chain", "tree", "n-four-bar", "net", "convoy"];
     Some((known.into_iter().find(|known| *known == family)?, n.parse().ok()?))
 }
 
-/// The text of a scene made by rule.
+/// The text of a generated scene.
 fn made(family: &str, n: usize) -> Result<String, String> {
     let vehicle = file(VEHICLE);
     let family = match family {
@@ -49,28 +49,28 @@ fn made(family: &str, n: usize) -> Result<String, String> {
     generate(&family, "cargo xtask bench").map_err(|e| e.to_string())
 }
 
-/// A file in `scenes/`.
+/// Reads a file of `scenes/`.
 fn file(name: &str) -> Result<SceneFile, String> {
     let path = format!("scenes/{name}.toml");
     let bytes = std::fs::read(&path).map_err(|e| format!("no scene `{name}`: {path}: {e}"))?;
     SceneFile::from_bytes(&bytes, &path).map_err(|e| e.render())
 }
 
-/// A scene's model at its assembled start.
+/// A scene's model and its assembled initial state.
 #[derive(Debug)]
 pub(crate) struct Prepared<const D: usize, T: Real = f64> {
     pub(crate) scene: Scene<T>,
     pub(crate) model: NaturalModel<T, D>,
     pub(crate) start: State<T>,
-    /// Step of the scene [s], and how many make its run.
+    /// Step of the scene [s], and number of steps of its run.
     pub(crate) dt: f64,
     pub(crate) n_steps: u32,
-    /// Time that model and start took [s].
+    /// Time of building the model and assembling the start [s].
     seconds: f64,
 }
 
 impl<const D: usize, T: Real> Prepared<D, T> {
-    /// Builds the model and assembles it.
+    /// Builds the model and assembles the start.
     pub(crate) fn new(scene: Scene<T>) -> Result<Self, String> {
         let clock = Instant::now();
         let model = NaturalModel::<T, D>::new(&scene).map_err(|e| e.to_string())?;
@@ -90,7 +90,7 @@ impl<const D: usize, T: Real> Prepared<D, T> {
 }
 
 impl<const D: usize> Prepared<D> {
-    /// Sizes as a line.
+    /// Sizes of the model as a line.
     pub(crate) fn json(&self) -> Value {
         let scene = &self.scene;
         json!({
@@ -102,7 +102,7 @@ impl<const D: usize> Prepared<D> {
     }
 }
 
-/// Step of a scene [s], and how many make its run.
+/// Step of a scene [s], and number of steps of its run.
 pub(crate) fn steps<T: Real>(scene: &Scene<T>) -> (f64, u32) {
     let dt = scene.solver.step.map_or(STEP, T::to_f64);
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count of steps")]

@@ -1,11 +1,11 @@
-//! Operations by phases of a step: a meter for numbers that count what is done with them.
+//! Operations by phases of a step: a meter for numbers that count their operations.
 
 use crate::bench::clocked::{Meter, NAMES, Phase};
 use crate::bench::counted::done;
 use mbs_nostd::operation_bound::Operations;
 use std::sync::Mutex;
 
-/// Operations of each phase, and of what is beside them.
+/// Operations of each phase, and of the rest of the step.
 pub(crate) struct Tally(Mutex<[Operations; NAMES.len() + 1]>);
 
 impl Default for Tally {
@@ -15,7 +15,7 @@ impl Default for Tally {
 }
 
 impl Tally {
-    /// Begins the counts anew.
+    /// Sets all counts to zero.
     pub(crate) fn forget(&self) {
         done();
         if let Ok(mut sums) = self.0.lock() {
@@ -23,19 +23,19 @@ impl Tally {
         }
     }
 
-    /// Adds what was done since the last time to one of the sums.
+    /// Adds the operations since the last call to one of the sums.
     fn take(&self, of: usize) {
         if let Ok(mut sums) = self.0.lock() {
             add(&mut sums[of], &done());
         }
     }
 
-    /// Takes what was done since the last phase.
+    /// Adds the operations since the last phase to the rest of the step.
     pub(crate) fn end(&self) {
         self.take(NAMES.len());
     }
 
-    /// Sums with their names.
+    /// Sums of all phases, with their names.
     pub(crate) fn phases(&self) -> impl Iterator<Item = (&'static str, Operations)> {
         let sums = self.0.lock().map_or([Operations::NONE; _], |sums| *sums);
         NAMES.into_iter().chain(["rest"]).zip(sums)

@@ -1,5 +1,6 @@
-//! `runner fuzz SECONDS SEED COUNT CORPUS.. CURRENT`: trials of scenes by seed, up to a number or a time. Each is written to the file `CURRENT`
-//! before it begins. Then a caller knows which trial it was when this program stops or hangs. Exit status 1 where one is wrong.
+//! The command `runner fuzz SECONDS SEED COUNT CORPUS.. CURRENT`: trials of malformed scenes by seed, up to a number or a time. Each scene
+//! is written to the file `CURRENT` before its trial. So a caller knows the scene if this program stops or hangs. The exit status is 1 if a
+//! trial is wrong.
 
 use super::mechanism::mechanism;
 use super::mutate::mutated;
@@ -9,14 +10,14 @@ use std::io::Write;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-/// Tries the scenes that the words name.
+/// Runs the trials that the words name.
 ///
 /// # Errors
 ///
-/// What the words should be, or what is wrong with a scene.
+/// The usage, or the fault of a trial.
 pub fn run(words: &[String]) -> Result<(), String> {
     let report = try_scenes(words)?;
-    // A reader that has gone away is no error.
+    // an error of writing is ignored: the reader may have closed its end
     let _ = writeln!(std::io::stdout(), "{report}");
     Ok(())
 }
@@ -67,7 +68,7 @@ fn texts(folder: &Path, corpus: &mut Vec<String>) -> std::io::Result<()> {
     Ok(())
 }
 
-/// The scene of a seed: a random mechanism, or one of these with its text mutated.
+/// The scene of a seed: a random mechanism, or a mutated text of the corpus.
 fn scene(seed: u64, corpus: &[String]) -> String {
     let mut dice = Dice::new(seed);
     match dice.below(4) {

@@ -1,4 +1,4 @@
-//! Random mechanisms: any joint between any two bodies, as if at random by someone who knows the format and no mechanics.
+//! Random mechanisms with any joint between any two bodies. Their text is valid, and their mechanics is arbitrary.
 
 use mbs::FORMULATIONS;
 use mbs::core::scene::{Dimension, JointKind, Scene, SolverTable, TableEnds};
@@ -8,7 +8,7 @@ use mbs::{
     Body, BodyId, Effect, GROUND, Guide, InitialCondition, Joint, JointId, Motion, Number, Vector3,
 };
 
-/// Numbers of a mechanism of a dimension and a size [m].
+/// Source of random places for a mechanism of a dimension and a size [m].
 #[derive(Clone, Copy)]
 struct Space {
     dimension: Dimension,
@@ -17,7 +17,7 @@ struct Space {
 
 impl Space {
     fn vector(self, dice: &mut Dice, size: f64) -> Vector3 {
-        // half of the coordinates lie on a grid, where axes are parallel and places coincide
+        // half of the coordinates are on a grid, so that axes are parallel and points coincide
         let mut one = || {
             if dice.once_in(2) {
                 size * (0.5 * (dice.between(-2.0, 3.0)).floor())
@@ -36,14 +36,14 @@ impl Space {
     }
 }
 
-/// The text of a scene.
+/// The text of a random scene.
 #[must_use]
 pub(crate) fn mechanism(dice: &mut Dice) -> String {
-    // there is no code in it
+    // the scene contains no user-defined function, so that it has a text
     to_toml(&scene(dice)).unwrap_or_default()
 }
 
-/// Makes a mechanism: one to six bodies, about as many joints as make a tree or some loops, a few effects.
+/// Makes a mechanism: one to six bodies, joints for a tree and some closed loops, a few effects.
 fn scene(dice: &mut Dice) -> Scene<Number> {
     let dimension = [Dimension::Planar, Dimension::Spatial][dice.below(2)];
     let bodies = 1 + dice.below(6);
@@ -61,7 +61,7 @@ fn scene(dice: &mut Dice) -> Scene<Number> {
     let joints = bodies + dice.below(3);
     let mut simple = Vec::new();
     for k in 0..joints {
-        // a tree first, then loops
+        // the first joints make a tree, the others close loops
         let second = if k < bodies { k } else { dice.below(bodies) };
         let first = if k < bodies { dice.below(k + 1) } else { dice.below(bodies + 1) };
         let joint = joint([id(first), id(second + 1)], space, dice).named(&format!("j{k}"));
@@ -73,7 +73,7 @@ fn scene(dice: &mut Dice) -> Scene<Number> {
     for k in 0..dice.below(3) {
         scene.effects.push(effect(bodies, space, dice).named(&format!("e{k}")));
     }
-    // sometimes several, or all of a chain
+    // some scenes have guides of several joints, or of all joints of a chain
     if dice.once_in(3) {
         let share = 1 + dice.below(3);
         for joint in simple {
@@ -89,7 +89,7 @@ fn scene(dice: &mut Dice) -> Scene<Number> {
     scene
 }
 
-/// The ground is 0, bodies count from 1.
+/// Body of a number: 0 is the ground, bodies count from 1.
 fn id(k: usize) -> BodyId {
     k.checked_sub(1).map_or(GROUND, BodyId::Body)
 }
@@ -108,7 +108,7 @@ fn body(space: Space, dice: &mut Dice) -> Body {
 }
 
 fn joint(bodies: [BodyId; 2], space: Space, dice: &mut Dice) -> Joint {
-    // a link has two places
+    // links are left out, since they need two points
     let kinds: Vec<JointKind> = JointKind::ALL.into_iter().filter(|k| !k.is_link()).collect();
     let &kind = dice.one_of(&kinds);
     let mut joint = Joint { kind, ..Joint::weld(bodies, space.place(dice)) };
@@ -134,7 +134,7 @@ fn motion(size: f64, dice: &mut Dice) -> Motion<f64> {
     match dice.below(3) {
         0 => Motion::Ramp { rate: dice.between(-5.0, 5.0) },
         1 => {
-            // a natural one that ends within the run is refused
+            // a natural spline whose table ends within the run is refused, so it is not used here
             let middle = dice.between(-1.0, 1.0);
             let (last, ends) = match middle {
                 x if x < -0.5 => (0.75, TableEnds::Level),

@@ -1,4 +1,4 @@
-//! Malformed scenes: mutated text and random mechanisms, through reading, building and stepping.
+//! Trials of malformed scenes: mutated texts and random mechanisms are read, built and stepped.
 
 pub mod command;
 mod mechanism;

@@ -1,8 +1,8 @@
-//! Text that is nearly a scene: numbers, words and lines of one replaced, moved, doubled or taken from another.
+//! Mutated texts of scenes: numbers, words and lines are replaced, moved, doubled or copied from another text.
 
 use mbs::scene_file::Dice;
 
-/// Numbers that are hard to bear.
+/// Numbers that programs often handle wrongly.
 const NUMBERS: [&str; 24] = [
     "0.0",
     "-0.0",
@@ -29,10 +29,10 @@ const NUMBERS: [&str; 24] = [
     "3.141592653589793",
     "0x10",
 ];
-/// Most mutations of a text. Chosen, not tuned.
+/// Largest number of mutations of a text. Chosen, not tuned.
 const MAX_MUTATIONS: usize = 4;
 
-/// A text with a few mutations; lines may come from the corpus.
+/// Applies a few mutations to a text. Lines may come from the corpus.
 #[must_use]
 pub(crate) fn mutated(text: &str, corpus: &[String], dice: &mut Dice) -> String {
     let mut text = text.to_owned();
@@ -48,7 +48,7 @@ pub(crate) fn mutated(text: &str, corpus: &[String], dice: &mut Dice) -> String 
     text
 }
 
-/// Places of the pieces of a text that a test accepts, as ranges of bytes.
+/// Positions of the pieces of a text whose characters pass a test, as ranges of bytes.
 fn pieces(text: &str, is_part: impl Fn(char) -> bool) -> Vec<(usize, usize)> {
     let mut found = Vec::new();
     let mut begin = None;
@@ -69,7 +69,7 @@ fn replaced(text: &str, (from, to): (usize, usize), by: &str) -> String {
     [&text[..from], by, &text[to..]].concat()
 }
 
-/// One number is another: a hard one, or this one scaled, turned about, or moved a little.
+/// Replaces one number by a difficult one, or by the same number scaled, negated or changed slightly.
 fn number(text: &str, dice: &mut Dice) -> String {
     let is_part = |c: char| c.is_ascii_digit() || "+-.eE".contains(c);
     let mut places = pieces(text, is_part);
@@ -92,7 +92,7 @@ fn number(text: &str, dice: &mut Dice) -> String {
     replaced(text, place, &by)
 }
 
-/// One word is another of the text.
+/// Replaces one word by another word of the text.
 fn word(text: &str, dice: &mut Dice) -> String {
     let places = pieces(text, |c| c.is_ascii_alphabetic() || c == '-' || c == '_');
     if places.is_empty() {
@@ -102,7 +102,7 @@ fn word(text: &str, dice: &mut Dice) -> String {
     replaced(text, place, &text[other.0..other.1])
 }
 
-/// One character is left out, doubled, or another.
+/// Removes, doubles or replaces one character.
 fn character(text: &str, dice: &mut Dice) -> String {
     let places: Vec<(usize, char)> = text.char_indices().collect();
     if places.is_empty() {
@@ -119,7 +119,7 @@ fn character(text: &str, dice: &mut Dice) -> String {
     replaced(text, (at, at + c.len_utf8()), &by)
 }
 
-/// One line is left out, doubled, or changes places with another.
+/// Removes or doubles one line, or exchanges it with another.
 fn lines(text: &str, dice: &mut Dice) -> String {
     let mut lines: Vec<&str> = text.lines().collect();
     if lines.is_empty() {
@@ -134,7 +134,7 @@ fn lines(text: &str, dice: &mut Dice) -> String {
     lines.join("\n") + "\n"
 }
 
-/// A table of another text is put at the end.
+/// Appends a table of another text.
 fn borrowed(text: &str, corpus: &[String], dice: &mut Dice) -> String {
     if corpus.is_empty() {
         return text.to_owned();
@@ -164,7 +164,7 @@ mod tests {
 
     #[test]
     fn mutations_leave_no_text_that_is_none() {
-        // what has several bytes for a character must not be cut
+        // characters of several bytes must not be cut
         let corpus = vec!["name = \"é ü ∂\"\nx = [1.0, -2e3]\n".to_owned(), String::new()];
         for seed in 0..2000 {
             let mut dice = Dice::new(seed);

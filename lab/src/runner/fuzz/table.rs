@@ -1,5 +1,5 @@
-//! Files that are read beside a scene, with bytes and numbers changed: tables of references, sweeps, price lists. Each is refused with
-//! words, or read.
+//! Trials of files that are read with a scene: tables of references, sweeps, price lists. Their bytes and numbers are changed. A reader
+//! must accept such a file or refuse it with a message.
 
 use crate::fuzz::mutate::mutated;
 use crate::fuzz::torn::damage;
@@ -11,13 +11,13 @@ use mbs::scene_file::{Dice, SceneFile};
 use mbs_study::compare::check_table;
 use mbs_study::sweep::{Study, StudyError};
 
-/// Rows of a table of references.
+/// Largest number of columns of a table of references.
 const ROWS: usize = 12;
 
-/// Damages one of each and has it read; what was wrong.
+/// Damages one file of each kind and reads it.
 ///
 /// # Errors
-/// What must not be: a refusal without words, or without its place.
+/// The fault of a reader: a refusal without a message or without its place.
 pub(crate) fn tables(
     document: &SceneFile,
     scene: &Scene<f64>,
@@ -49,7 +49,7 @@ fn words(of: &str, message: &str, hint: &str) -> Result<(), String> {
     has_words.then_some(()).ok_or_else(|| format!("{of}: a refusal without words"))
 }
 
-/// Numbers, words and lines changed; and sometimes bytes, where they are text.
+/// A text with mutated numbers, words and lines. In half of the cases bytes are changed too.
 fn damaged(text: &str, dice: &mut Dice) -> String {
     let mut bytes = mutated(text, &[], dice).into_bytes();
     if !bytes.is_empty() && dice.below(2) == 0 {
@@ -58,7 +58,7 @@ fn damaged(text: &str, dice: &mut Dice) -> String {
     String::from_utf8_lossy(&bytes).into_owned()
 }
 
-/// The outputs of a scene at a few times, as a run would write them.
+/// The outputs of a scene at a few times, in the form that a run writes.
 fn reference(scene: &Scene<f64>) -> String {
     let columns: Vec<String> =
         Channel::of_scene(scene).iter().flat_map(Channel::columns).take(ROWS).collect();
@@ -80,7 +80,7 @@ fn sweep(scene: &Scene<f64>) -> String {
     )
 }
 
-/// Writes a price list of effects, as `mbs explain` has it.
+/// A price list of effects, in the form that `mbs explain` writes.
 fn prices(scene: &Scene<f64>) -> String {
     let effect = scene.effects.first().map_or("none", |effect| &effect.name);
     format!(

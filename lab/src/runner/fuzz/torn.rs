@@ -1,20 +1,20 @@
-//! A checkpoint with bytes changed, cut off or added, and alternately with a checksum that holds: it is refused, or what resumes from it runs or stops with a reason.
+//! Trials of damaged checkpoints: bytes are changed, cut off or added, in half of the trials with a valid checksum. A damaged checkpoint
+//! must be refused, or a run must resume from it and end or stop with a reason.
 
 use mbs::core::scene::{Dimension, Scene};
 use mbs::scene_file::Dice;
 use mbs::typed::Simulation;
 use mbs::{Method, ResolvedMethod};
 
-/// Steps before a state is saved, and after it is restored.
+/// Numbers of steps before a state is saved and after it is restored.
 const STEPS: [usize; 2] = [3, 3];
 /// Length of a step [s].
 const STEP: f64 = 1e-3;
 
-/// Keeps a scene after some steps, damages what was kept, and resumes from it; what was wrong. Nothing where the scene does not get
-/// that far.
+/// Saves a scene's state after some steps, damages the checkpoint, and resumes from it. Does nothing if the scene stops in the first steps.
 ///
 /// # Errors
-/// What must not be: a restored state that is not finite, or a refusal without words.
+/// The fault: a restored state that is not finite, or a refusal without a message.
 pub(crate) fn torn(
     scene: &Scene<f64>,
     formulation: &str,
@@ -63,9 +63,9 @@ fn go<const D: usize>(
     is_finite.then_some(Some(true)).ok_or_else(|| "a state that is not finite".to_owned())
 }
 
-/// Puts length and checksum of a checkpoint right, so that what comes after them is read: lengths of lists among it.
+/// Corrects length and checksum of a checkpoint, so that the reader reaches the damaged contents, such as lengths of lists.
 fn seal(bytes: &mut [u8]) {
-    /// Bytes before those that are counted and summed: magic, format, length, checksum.
+    /// Number of bytes before the counted contents: magic, format, length, checksum.
     const HEAD: usize = 28;
     let Some((head, rest)) = bytes.split_at_mut_checked(HEAD) else { return };
     let step = |sum: u64, byte: &u8| (sum ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3);
@@ -74,7 +74,7 @@ fn seal(bytes: &mut [u8]) {
     head[20..].copy_from_slice(&sum.to_le_bytes());
 }
 
-/// Some bytes changed, the end cut off, something added, or nothing.
+/// Changes some bytes, cuts off the end, appends bytes, or does nothing.
 pub(crate) fn damage(bytes: &mut Vec<u8>, dice: &mut Dice) {
     match dice.below(4) {
         0 => bytes.truncate(dice.below(bytes.len())),

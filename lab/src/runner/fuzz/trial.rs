@@ -1,4 +1,4 @@
-//! A text through everything that a user's text goes through: reading, building, a few steps in every formulation and precision.
+//! Trial of a text: it is read, built, and run for a few steps in every formulation and precision.
 
 use crate::fuzz::table::tables;
 use crate::fuzz::torn::torn;
@@ -7,16 +7,17 @@ use mbs::scene_file::Dice;
 use mbs::scene_file::SceneFile;
 use mbs::{FormulationKind, Mechanism, Method, Run, SettingsError};
 
-/// Steps of a run.
+/// Number of steps of a run.
 const STEPS: f64 = 6.0;
-/// Steps where a scene names none [s].
+/// Step of a scene without a step of its own [s].
 const STEP: f64 = 1e-3;
-/// Texts of which one is run in f32 and one in double-double. Chosen, not tuned.
+/// Number of texts of which one is run in f32 and one in double-double. Chosen, not tuned.
 const OTHER_PRECISIONS: usize = 5;
-/// Most bodies of a mechanism that is run in double-double, for the time that it takes. Chosen, not tuned.
+/// Largest number of bodies of a mechanism that is run in double-double, which takes long. Chosen, not tuned.
 const SMALL: usize = 8;
-/// Methods that control their steps; those whose index follows the step come before them. One of these is tried with every second text
-/// that is not in double-double: where a motion is hopeless, control takes a hundred thousand trials to say so.
+/// Methods that control their steps. The list begins with those whose index follows the step. Every second text that is not run in
+/// double-double is tried with one of these methods. They are tried less often, since step control may need a hundred thousand steps before
+/// it stops.
 const CONTROLLED: [[&str; 3]; 6] = [
     ["state-space", "trapezoidal", "both"],
     ["recursive", "trapezoidal", "error"],
@@ -26,7 +27,8 @@ const CONTROLLED: [[&str; 3]; 6] = [
     ["recursive", "radau5", "fixed"],
 ];
 
-/// Formulation, integrator and control of the step of all that are tried, and how many of the first are tried with every text.
+/// All methods under trial: formulation, integrator and control of the step. The number is that of the first methods, which every text is
+/// tried with.
 fn tried() -> (Vec<[&'static str; 3]>, usize) {
     let (steered, fixed): (Vec<_>, Vec<_>) =
         FormulationKind::ALL.into_iter().partition(|f| f.row().energy_rule);
@@ -36,14 +38,14 @@ fn tried() -> (Vec<[&'static str; 3]>, usize) {
     (all, fixed.len())
 }
 
-/// Time of a run with controlled steps, relative to that with fixed ones [-]: controlled steps may be short. With springs of
-/// 1e20 N/m, the stiffest of the texts so far, `rk853` then takes three seconds; of 1e-2 it took ten minutes.
+/// Duration of a run with controlled steps, relative to one with fixed steps [-]: controlled steps may be short. With springs of 1e20 N/m,
+/// the stiffest of the texts so far, `rk853` then takes three seconds. With a ratio of 1e-2 it took ten minutes.
 const SHORTER: f64 = 1e-4;
 
 /// Verdict on a text.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Verdict {
-    /// The text is no scene, and was refused with words.
+    /// The text is no valid scene, and was refused with a message.
     Refused,
     /// The scene was run.
     Ran {
@@ -52,11 +54,11 @@ pub enum Verdict {
         /// Number of runs that stopped.
         stopped: usize,
     },
-    /// Something that must not be; what.
+    /// A fault of the program, in words.
     Wrong(String),
 }
 
-/// Puts a text to the trial; a panic is the caller's to see. `turn` chooses the precision.
+/// Makes the trial of a text. A panic is left to the caller. `turn` chooses the precision.
 #[must_use]
 pub fn trial(text: &[u8], turn: usize) -> Verdict {
     let document = match SceneFile::from_bytes(text, "fuzzed.toml") {
@@ -95,7 +97,7 @@ pub fn trial(text: &[u8], turn: usize) -> Verdict {
             }
         }
     }
-    // and what is read beside it, and what is kept of its state, damaged
+    // the trial also damages files that are read with the scene, and a saved state
     let mut dice = Dice::new(turn as u64);
     if let Err(why) = tables(&document, &scene, &mut dice) {
         return Verdict::Wrong(why);
@@ -107,7 +109,7 @@ pub fn trial(text: &[u8], turn: usize) -> Verdict {
     }
 }
 
-/// A refusal must name its place.
+/// Verdict on a refusal, which must name its place.
 fn refusal(words: &str) -> Verdict {
     match words.contains("fuzzed.toml") {
         true => Verdict::Refused,
@@ -115,7 +117,7 @@ fn refusal(words: &str) -> Verdict {
     }
 }
 
-/// Runs a scene for some steps, of a share of its own step: was it completed? Nothing where it is refused.
+/// Runs a scene for some steps of a fraction of the scene's step. Was the run completed? `None` if the method refuses the scene.
 fn run(
     (mechanism, scene): (&Mechanism, &Scene<f64>),
     [formulation, integrator, control]: [&str; 3],
@@ -166,7 +168,7 @@ mod tests {
             other => panic!("{turn}: {other:?}"),
         };
         let sums: Vec<usize> = (0..50).map(count).collect();
-        // half of those that are not in double-double
+        // half of the texts that are not run in double-double
         assert_eq!((sums.iter().sum::<usize>(), sums[0], sums[1]), (5 * 50 + 20, 6, 5));
     }
 }

@@ -1,19 +1,19 @@
-//! A case: a scene with a difficulty, the step it is run with, and what its outputs are judged by.
+//! A case: a difficult scene, its step, and the truth with which its outputs are compared.
 
 use crate::gauntlet::vector::{Point, Turn};
 
-/// A hard case, with its step and its truth.
+/// A difficult case, with its step and its truth.
 #[derive(Debug)]
 pub struct Case {
     /// Text of the scene.
     pub scene: String,
-    /// Step, the largest where lengths are controlled [s].
+    /// Step of the run; the largest one where steps are controlled [s].
     pub step: f64,
     /// Length by which errors are measured [m]; 1 where outputs are angles.
     pub size: f64,
-    /// Options of the run, beside formulation and step.
+    /// Options of the run besides formulation and step.
     pub options: Options,
-    /// Truth that the outputs are judged by.
+    /// Truth with which the outputs are compared.
     pub truth: Truth,
 }
 
@@ -22,7 +22,7 @@ pub struct Case {
 pub struct Options {
     /// Is the run in single precision?
     pub is_single: bool,
-    /// Fixed penalty of the augmented formulations.
+    /// Fixed penalty factor of the augmented formulations.
     pub penalty: Option<f64>,
 }
 
@@ -30,13 +30,13 @@ pub struct Options {
 pub enum Truth {
     /// A closed form: all outputs at a time [s], in the order of the scene.
     Closed(Box<dyn Fn(f64) -> Vec<f64>>),
-    /// The motion of a twin without the difficulty: its scene, and the image that carries its outputs to those of the case.
+    /// The motion of an equivalent mechanism without the difficulty: its scene, and the map of its outputs to those of the case.
     Twin(String, Image),
-    /// The case itself, in another formulation at a tenth of the step.
+    /// Runs of the case in other formulations with a tenth of the step.
     Others,
-    /// The case itself in relative coordinates by extrapolation to rounding.
+    /// A run of the case in relative coordinates by extrapolation, to machine precision.
     Extrapolated,
-    /// Nothing but the energy invariant and the constraints: the motion is longer than it can be known.
+    /// The energy balance and the constraints alone: the motion is too long for its positions to be predictable.
     Invariants,
 }
 
@@ -52,26 +52,26 @@ impl std::fmt::Debug for Truth {
     }
 }
 
-/// Image of a point of the twin in the case: a turn, then a change of units.
+/// Map of a point of the equivalent mechanism to the case: a rotation, then a change of units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Image {
-    /// Turn from the twin to the case.
+    /// Rotation from the equivalent mechanism to the case.
     pub turn: Turn,
-    /// Units of length of the case in one of the twin.
+    /// Number of the case's units of length in a unit of the equivalent mechanism.
     pub scale: f64,
-    /// Numbers of a point in the twin and in the case: 2 or 3.
+    /// Numbers of coordinates of a point in the equivalent mechanism and in the case: 2 or 3.
     pub dimensions: [usize; 2],
 }
 
 impl Image {
-    /// Makes the image that changes nothing.
+    /// Makes the identity map.
     #[must_use]
     pub fn same(dimension: usize) -> Self {
         let turn = Turn([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);
         Self { turn, scale: 1.0, dimensions: [dimension; 2] }
     }
 
-    /// All points of a row.
+    /// Maps all points of a row.
     #[must_use]
     pub fn of(&self, row: &[f64]) -> Vec<f64> {
         let [from, to] = self.dimensions;

@@ -1,6 +1,6 @@
-//! `runner gauntlet run COUNT FIRST STRIDE`: the cases of these numbers, a line of JSON for each; before each run a line says what begins, so
-//! that who watches knows what hangs. `show FAMILY SEED`: the scene of a case, and how it is run. `one FAMILY SEED`:
-//! its verdicts.
+//! The command `runner gauntlet`. `run COUNT FIRST STRIDE` runs the cases of these numbers, and prints a line of JSON for each. Before each
+//! run it prints a line, so that the caller knows which run hangs. `show FAMILY SEED` prints the scene of a case and its settings. `one
+//! FAMILY SEED` prints the verdicts on a case.
 
 use super::families::Family;
 use super::judge::{Verdict, judge};
@@ -9,11 +9,11 @@ use super::schedule::{cases, family};
 use serde_json::{Value, json};
 use std::io::Write;
 
-/// Does what the words ask for.
+/// Runs the job that the words name.
 ///
 /// # Errors
 ///
-/// What they should be.
+/// The usage of the command.
 pub fn run(words: &[String]) -> Result<(), String> {
     let words: Vec<&str> = words.iter().map(String::as_str).collect();
     match words.as_slice() {
@@ -39,7 +39,7 @@ fn number(text: &str) -> Result<u64, String> {
     text.parse().map_err(|e| format!("`{text}`: {e}"))
 }
 
-/// Prints a line; a reader that has gone away is no error.
+/// Prints a line of output. An error is ignored, since the reader may have closed its end.
 fn print_line(line: &str) {
     let mut out = std::io::stdout().lock();
     let _ = writeln!(out, "{line}").and_then(|()| out.flush());
@@ -66,7 +66,7 @@ fn cases_of(numbers: &[&str]) -> Result<(), String> {
     Ok(())
 }
 
-/// Judges a case; returns the verdicts on all methods.
+/// Runs a case with all methods. Returns the verdicts.
 fn verdicts_of((family, seed): (&Family, u64), about: &mut dyn FnMut(&str)) -> Value {
     let case = family.case(seed);
     let verdicts: serde_json::Map<String, Value> = judge(&case, about)

@@ -1,10 +1,10 @@
-//! Mechanisms as plain numbers, which can be turned, scaled and written as scene text.
+//! Mechanisms as plain numbers, which can be rotated, scaled and written as text of a scene.
 
 use crate::gauntlet::vector::{Point, Turn, distance, plus};
 use mbs::core::effects::Value;
 use mbs::{BodyId, Effect, GROUND as FIXED, Vector3};
 
-/// The ground as a body; bodies count from 1.
+/// Number of the ground; bodies count from 1.
 pub const GROUND: usize = 0;
 
 /// Mass and shape of a body.
@@ -21,7 +21,7 @@ pub struct Body {
 pub enum Shape {
     /// Mass on a line between two points.
     Rod([Point; 2]),
-    /// Mass about a centre: [xx, yy, zz, xy, yz, zx] about it [kg m^2]; of a planar body only zz counts.
+    /// Mass about a centre, with moments of inertia [xx, yy, zz, xy, yz, zx] about it [kg m^2]; for a planar body only zz is used.
     Solid(Point, [f64; 6]),
 }
 
@@ -32,9 +32,9 @@ pub struct Joint {
     pub kind: &'static str,
     /// Numbers of the first and the second body.
     pub bodies: [usize; 2],
-    /// Place of the joint; of a distance joint one on each body.
+    /// Place of the joint; for a distance joint a point on each body.
     pub at: Vec<Point>,
-    /// None, one or two.
+    /// Axes of the joint: none, one or two.
     pub axes: Vec<Point>,
 }
 
@@ -49,16 +49,16 @@ pub struct Draft {
     pub bodies: Vec<Body>,
     /// Joints of the mechanism.
     pub joints: Vec<Joint>,
-    /// Joint, rate at the start.
+    /// Joints with their rates at the start [rad/s or m/s].
     pub rates: Vec<(usize, f64)>,
     /// Effects on the bodies.
     pub effects: Vec<Effect>,
-    /// Points of bodies whose motion is looked at.
+    /// Points of bodies whose positions are outputs.
     pub outputs: Vec<(usize, Point)>,
 }
 
 impl Draft {
-    /// Nothing yet, in the plane; gravity along -y.
+    /// An empty mechanism in the plane, with gravity along -y.
     #[must_use]
     pub fn planar() -> Self {
         Self {
@@ -72,20 +72,20 @@ impl Draft {
         }
     }
 
-    /// Nothing yet, in space; gravity along -z.
+    /// An empty mechanism in space, with gravity along -z.
     #[must_use]
     pub fn spatial() -> Self {
         Self { dimension: 3, gravity: [0.0, 0.0, -9.81], ..Self::planar() }
     }
 
-    /// Adds a thin rod; in space with a thickness of a twentieth of its length.
+    /// Adds a thin rod. In space its thickness is a twentieth of its length.
     pub fn rod(&mut self, from: Point, to: Point, mass: f64) -> usize {
         let shape = if self.dimension == 2 { Shape::Rod([from, to]) } else { bar(from, to, mass) };
         self.bodies.push(Body { mass, shape });
         self.bodies.len()
     }
 
-    /// A body with moments of inertia about its centre.
+    /// Adds a body with moments of inertia about its centre.
     pub fn solid(&mut self, center: Point, mass: f64, moments: [f64; 3]) -> usize {
         let [a, b, c] = moments;
         self.bodies.push(Body { mass, shape: Shape::Solid(center, [a, b, c, 0.0, 0.0, 0.0]) });
@@ -104,30 +104,30 @@ impl Draft {
         self.joints.len() - 1
     }
 
-    /// A revolute joint about z, in plane or space.
+    /// Adds a revolute joint about z, in plane or space.
     pub fn pin(&mut self, bodies: [usize; 2], at: Point) -> usize {
         let axes: &[Point] = if self.dimension == 2 { &[] } else { &[[0.0, 0.0, 1.0]] };
         self.joint("revolute", bodies, at, axes)
     }
 
-    /// A joint starts at rest relative to nothing but this: with a rate [rad/s or m/s].
+    /// Sets the rate of a joint at the start [rad/s or m/s]. Other joints start with rate zero.
     pub fn rate(&mut self, joint: usize, rate: f64) {
         self.rates.push((joint, rate));
     }
 
-    /// A point for a scene of its dimension.
+    /// A point with as many coordinates as the scene has dimensions.
     #[must_use]
     pub fn vector(&self, x: Point) -> Vector3 {
         if self.dimension == 2 { [x[0], x[1]].into() } else { x.into() }
     }
 
-    /// Two ends of an effect.
+    /// The two attachment points of an effect.
     #[must_use]
     pub fn ends(&self, bodies: [usize; 2], points: [Point; 2]) -> [(BodyId, Vector3); 2] {
         [0, 1].map(|i| (id(bodies[i]), self.vector(points[i])))
     }
 
-    /// The motion of this point of a body is looked at.
+    /// Adds the position of a body's point to the outputs.
     pub fn watch(&mut self, body: usize, at: Point) {
         self.outputs.push((body, at));
     }
@@ -155,7 +155,7 @@ impl Draft {
         places.iter().map(apart).fold(0.0, f64::max)
     }
 
-    /// Returns the mechanism in space, its plane the x-y plane, with an axis for each joint.
+    /// Returns the planar mechanism as one in space: its plane is the x-y plane, and each joint has an axis.
     #[must_use]
     pub fn raised(&self) -> Self {
         let mut draft = self.clone();
@@ -174,7 +174,7 @@ impl Draft {
         draft
     }
 
-    /// All of it turned about the origin; there are no effects.
+    /// Returns the mechanism rotated about the origin, without effects.
     #[must_use]
     pub fn turned(&self, turn: &Turn) -> Self {
         let mut draft = self.clone();
@@ -192,7 +192,8 @@ impl Draft {
         draft
     }
 
-    /// Returns the mechanism in other units of length and mass (1 m is `length` of them); the second stays. There are no effects.
+    /// Returns the mechanism in other units of length and mass, without effects. 1 m is `length` units and 1 kg is `mass` units. The unit
+    /// of time is the second.
     #[must_use]
     pub fn in_units(&self, length: f64, mass: f64) -> Self {
         let mut draft = self.clone();
@@ -213,12 +214,12 @@ impl Draft {
     }
 }
 
-/// The ground is 0, bodies count from 1.
+/// Body of a number: 0 is the ground, bodies count from 1.
 pub(super) fn id(k: usize) -> BodyId {
     k.checked_sub(1).map_or(FIXED, BodyId::Body)
 }
 
-/// A bar between two places, a twentieth as thick as long.
+/// A bar between two points, whose thickness is a twentieth of its length.
 fn bar(from: Point, to: Point, mass: f64) -> Shape {
     let (length, d) = (distance(from, to), plus(to, -1.0, from));
     let (across, along) = (mass * length * length / 12.0, mass * length * length / 3200.0);

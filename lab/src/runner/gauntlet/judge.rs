@@ -1,37 +1,41 @@
-//! Judgement of each method: against a reference that is not its own, by the error of the trapezoidal rule at that step.
+//! Evaluation of each method: its outputs are compared with a reference that another method gave. The unit is the error of the trapezoidal
+//! rule at that step.
 //!
-//! A method is *wrong* where its outputs differ from the reference by more than ten times the rule's own error at that step and more than
-//! rounding. It is not where it has a typed error, or where the difference falls with the square of the step. The rule's own error is the
-//! lower median of what the other formulations, or those on the twin, are off by. What the others are off by at steps down to half of it
-//! counts where it is more. Or where its energy invariant is off by more than a tenth of the energy turned over.
+//! The error of the rule is the lower median of the errors of the other formulations, or of those on the equivalent mechanism. Their errors
+//! at steps down to half of the step count too, if they are larger. A result is *wrong* if its error is more than ten times the error of
+//! the rule and more than machine precision. It is also wrong if the error of its energy balance at the end exceeds a tenth of the
+//! exchanged energy. It is not wrong if the run stops with a typed error, or if the error decreases with the square of the step.
 
 use crate::gauntlet::case::{Case, Image, Options, Truth};
 use crate::gauntlet::run::{EXTRAPOLATED, Ran, methods, run};
 use mbs::FormulationKind;
 
-/// Ratio of an error to that of the rule, from which it is wrong [-]. Chosen, not tuned.
+/// Ratio of an error to that of the rule above which the result is wrong [-]. Chosen, not tuned.
 const TIMES: f64 = 10.0;
-/// Error that is rounding in double and in single precision, in sizes of the case [-]. Chosen, not tuned.
+/// Error that counts as machine precision in double and in single precision, relative to the size of the case [-]. Chosen, not tuned.
 const ROUNDING: [f64; 2] = [1e-7, 2e-3];
-/// Error that is reported as coarse, relative to the size, or to the energy for a moment [-], where the rule itself is not better. Chosen, not tuned.
+/// Error above which a correct result is reported as coarse [-]: relative to the size of the case, or of the energy relative to the
+/// exchanged one. Chosen, not tuned.
 const COARSE: f64 = 0.1;
-/// Largest difference of two references that agree, in sizes of the case [-]: no third is run then. Chosen, not tuned.
+/// Largest difference of two references that agree, relative to the size of the case [-]. If they agree, no third one is run. Chosen, not
+/// tuned.
 const AGREEMENT: f64 = 1e-3;
-/// Largest openness of joints where the invariants alone are checked, in sizes of the case [-]. Chosen, not tuned.
+/// Largest residual of joints where only invariants are checked, relative to the size of the case [-]. Chosen, not tuned.
 const MOST_VIOLATION: f64 = 1e-6;
-/// Largest ratio of a quotient of errors to the square of that of the steps [-], either way. Chosen, not tuned.
+/// Largest ratio of a quotient of errors to the square of the quotient of steps, or its inverse [-]. Chosen, not tuned.
 const ORDER: f64 = 3.0;
-/// Steps of a reference in one of the case. Chosen, not tuned.
+/// Number of steps of a reference in one step of the case. Chosen, not tuned.
 const FINER: f64 = 10.0;
-/// Steps of a second run in one of the case, to see how an error falls. Chosen, not tuned.
+/// Number of steps of a second run in one step of the case. It shows how an error decreases with the step. Chosen, not tuned.
 const THIRD: f64 = 3.0;
-/// Fractions of the step at which chance shows in the error of the others at the whole [-]. They are tenths, so that a reference at a tenth
-/// of the step has rows of the same times. Other references are met at some times and at the end.
+/// Fractions of the step at which the error of the rule is evaluated again [-], since it may be small by chance at the full step. They are
+/// tenths, so that a reference with a tenth of the step has rows at the same times. Other references have rows at some of the times and at
+/// the end.
 const SMALLER: [f64; 5] = [0.9, 0.8, 0.7, 0.6, 0.5];
-/// Most formulations that references are taken from. Chosen, not tuned.
+/// Largest number of formulations from which references are taken. Chosen, not tuned.
 const N_REFERENCES: usize = 4;
 
-/// Formulations that references are taken from, in this order.
+/// Formulations from which references are taken, in this order.
 fn reference_methods() -> Vec<&'static str> {
     FormulationKind::references().into_iter().take(N_REFERENCES).map(|f| f.name()).collect()
 }
@@ -39,32 +43,32 @@ fn reference_methods() -> Vec<&'static str> {
 /// Verdict on a method in a case.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Verdict {
-    /// Outputs as near as the rule: the error, in sizes of the case.
+    /// Correct outputs: the error relative to the size of the case.
     Right(f64),
-    /// Outputs as near as the rule, which is far off at this step.
+    /// Correct outputs, compared with the rule, which itself has a large error at this step.
     Coarse(f64),
-    /// Further off than the others allow, by an error that falls with the square of the step: the rule's own in these coordinates.
+    /// Error larger than those of the others, but decreasing with the square of the step: it is the rule's error in these coordinates.
     Apart(f64),
-    /// Code of a typed error, and when [s].
+    /// Code of a typed error, and the time of the stop [s].
     Stopped(String, f64),
-    /// Completed with its energy and closed joints, which is all that can be known of a long motion.
+    /// Completed run with constant energy and closed joints. More cannot be known of a long motion.
     Kept,
-    /// Completed, finite, with its energy, and nothing to compare it with.
+    /// Completed run without a reference, with finite outputs and an exact energy balance.
     Unjudged,
-    /// Reason of a result that must not be.
+    /// Reason why a result is wrong.
     Wrong(String),
 }
 
 type Row = (f64, Vec<f64>);
 type Rows = Vec<Row>;
 
-/// True rows, and the formulation that gave them, if one did.
+/// True rows, and the formulation that gave them, if there is one.
 struct Reference {
     method: Option<&'static str>,
     rows: Rows,
 }
 
-/// Runs a case with all methods; `about` receives what is run before it begins.
+/// Runs a case with all methods. `about` is called with each run's name before the run begins.
 pub fn judge(case: &Case, about: &mut dyn FnMut(&str)) -> Vec<(&'static str, Verdict)> {
     let ran: Vec<(&'static str, Ran)> = methods()
         .map(|method| {
@@ -108,7 +112,7 @@ fn verdict(
     };
     let Some(reference) = of_another(references, method) else { return Verdict::Unjudged };
     let is_twin = matches!(case.truth, Truth::Twin(..));
-    // multi-index takes shorter steps than that
+    // a formulation that controls its steps takes shorter ones, so its error is not that of the rule at this step
     let is_steered = |f: &str| FormulationKind::of_name(f).is_some_and(|f| f.row().energy_rule);
     let is_other = |other: &str| !is_steered(other) && (is_twin || other != method);
     let others = rule.iter().filter(|(other, _)| is_other(other)).map(|(_, e)| *e);
@@ -127,8 +131,8 @@ fn verdict(
     }
 }
 
-/// Largest error of the others at somewhat smaller steps: where that is more, their errors at the step were small by luck. A contact or a
-/// break is met at another part of a step there, and the error of the rule goes with that part.
+/// Largest error of the others at slightly smaller steps. Where it is larger, their errors at the step were small by chance. At another
+/// step a contact or a break occurs at another part of the step, on which the error of the rule depends.
 fn at_smaller(case: &Case, method: &str, references: &[Reference]) -> f64 {
     let others: Vec<&'static str> =
         reference_methods().into_iter().filter(|m| *m != method).collect();
@@ -140,8 +144,8 @@ fn at_smaller(case: &Case, method: &str, references: &[Reference]) -> f64 {
     SMALLER.into_iter().map(off).filter(|e| e.is_finite()).fold(0.0, f64::max)
 }
 
-/// Is an error that of a rule of second order: does it fall with the square of the step? A motion that went another way, or an
-/// iteration that ended early, is off by anything else.
+/// Is an error that of a rule of second order? If so, it decreases with the square of the step. An error of a motion on another branch, or
+/// of an iteration that ended early, does not.
 fn is_of_the_rule(case: &Case, method: &str, error: f64, reference: &[Row]) -> bool {
     if error >= COARSE {
         return is_of_the_rule_later(case, method, error, reference);
@@ -150,13 +154,13 @@ fn is_of_the_rule(case: &Case, method: &str, error: f64, reference: &[Row]) -> b
         let fine = at_part(case, method, finer)?;
         Some((finer, self::error(&fine, reference, case.size)))
     };
-    // a run with steps of a tenth may stop where this one came through
+    // a run with a tenth of the step may stop where the run with the full step did not; then a third of the step is used
     let fine = [FINER, THIRD].into_iter().find_map(at);
     fine.is_some_and(|(finer, fine)| is_square(error / fine, finer))
 }
 
-/// Is an error of the size of the motion that of a rule of second order? No law holds for it yet, but from a tenth of the step on it falls
-/// like that. Its limit is the reference, as exact as that can be with its own steps of a tenth.
+/// Is an error of the size of the motion that of a rule of second order? Such an error decreases by no law at this step, but with the
+/// square of the step from a tenth of it on. Its limit must be the reference, up to the reference's error with steps of a tenth.
 fn is_of_the_rule_later(case: &Case, method: &str, error: f64, reference: &[Row]) -> bool {
     let finer = [FINER, FINER * THIRD, FINER * THIRD * THIRD];
     let [Some(tenth), Some(finer), Some(finest)] = finer.map(|f| at_part(case, method, f)) else {
@@ -169,7 +173,7 @@ fn is_of_the_rule_later(case: &Case, method: &str, error: f64, reference: &[Row]
         && off(&finest, reference) < ORDER * coarse
 }
 
-/// Rows of a method with steps of a part.
+/// Rows of a method with the step divided by `finer`.
 fn at_part(case: &Case, method: &str, finer: f64) -> Option<Rows> {
     match run(&case.scene, method, case.step / finer, case.options) {
         Ran::Completed { rows, .. } => Some(rows),
@@ -177,18 +181,18 @@ fn at_part(case: &Case, method: &str, finer: f64) -> Option<Rows> {
     }
 }
 
-/// Is a quotient of errors the square of that of the steps, to a factor?
+/// Is a quotient of errors the square of the quotient of steps, up to a factor?
 fn is_square(errors: f64, steps: f64) -> bool {
     let square = steps * steps;
     errors > square / ORDER && errors < square * ORDER
 }
 
-/// The first reference that is not the method's own.
+/// The first reference that another method gave.
 fn of_another<'a>(references: &'a [Reference], method: &str) -> Option<&'a Reference> {
     references.iter().find(|reference| reference.method != Some(method))
 }
 
-/// Finds the references, two where formulations give them, so that each method has another's.
+/// Finds the references of a case. Formulations give two, so that each method has a reference from another one.
 fn references(
     case: &Case,
     ran: &[(&'static str, Ran)],
@@ -220,8 +224,8 @@ fn references(
     }
 }
 
-/// Rows of two formulations that agree: the first two, or the two that are nearest to each other of all; of the only one, if there
-/// is only one.
+/// Rows of two formulations that agree: the first two, or the two of all whose difference is smallest. If only one run was completed, its
+/// rows.
 fn agreeing(
     scene: &str,
     step: f64,
@@ -246,12 +250,12 @@ fn agreeing(
     if found.len() == 1 { found } else { Vec::new() }
 }
 
-/// All pairs i < j below n.
+/// All pairs (i, j) with i < j < n.
 fn pairs(n: usize) -> impl Iterator<Item = (usize, usize)> {
     (0..n).flat_map(move |j| (0..j).map(move |i| (i, j)))
 }
 
-/// Rows of the methods that come to the end with these options.
+/// Rows of the methods whose runs with these options are completed.
 fn runs_with(
     scene: &str,
     methods: &[&'static str],
@@ -265,7 +269,7 @@ fn runs_with(
     methods.iter().filter_map(one).collect()
 }
 
-/// Rows of the methods that come to the end.
+/// Rows of the methods whose runs are completed.
 fn runs(
     scene: &str,
     methods: &[&'static str],
@@ -279,7 +283,7 @@ fn runs(
     methods.iter().filter_map(one).collect()
 }
 
-/// Error of each method against the reference of another.
+/// Error of each method against the first reference of another method.
 fn errors<'a>(
     ran: impl Iterator<Item = (&'static str, &'a [Row])>,
     references: &[Reference],
@@ -291,11 +295,11 @@ fn errors<'a>(
     ran.filter_map(one).collect()
 }
 
-/// The largest difference of a point in rows of the same time, in sizes; rows that the other has not are passed over, but not the
-/// last.
+/// The largest difference of a point in rows of the same time, relative to the size. Rows without a reference are skipped, but the last row
+/// needs one.
 fn error(rows: &[Row], reference: &[Row], size: f64) -> f64 {
     let end = rows.last().map_or(0.0, |(t, _)| *t);
-    // a clock of single precision has seven digits
+    // times in single precision have seven digits
     let near = 3e-7 * end;
     let (mut k, mut most) = (0, f64::INFINITY);
     for (t, row) in rows {
@@ -319,7 +323,7 @@ fn image_of(rows: &[Row], image: &Image) -> Rows {
     rows.iter().map(|(t, row)| (*t, image.of(row))).collect()
 }
 
-/// Median of numbers; of an even number of them the lower of the two in the middle.
+/// Median of numbers; of an even number of them the lower of the middle two.
 fn lower_median(mut numbers: Vec<f64>) -> Option<f64> {
     numbers.sort_by(f64::total_cmp);
     (!numbers.is_empty()).then(|| numbers[(numbers.len() - 1) / 2])

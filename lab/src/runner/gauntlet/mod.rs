@@ -1,4 +1,4 @@
-//! Families of hard cases by seed, run by every formulation and judged against references.
+//! Families of difficult cases by seed, which are run in every formulation and compared with references.
 
 pub mod case;
 pub mod command;

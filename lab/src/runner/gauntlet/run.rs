@@ -1,4 +1,4 @@
-//! One run of a case's scene: to its end, to its typed error, or to what must not be.
+//! One run of a case's scene. It is completed, stops with a typed error, or shows a fault.
 
 use crate::gauntlet::case::Options;
 use mbs::scene_file::SceneFile;
@@ -6,39 +6,39 @@ use mbs::{FormulationKind, Mechanism, Method, Run};
 use std::cell::RefCell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-/// Formulations under test, with the trapezoidal rule; multi-index with its own control of the step.
+/// Names of the formulations under test. They run with the trapezoidal rule; those that control their steps keep that control.
 pub fn methods() -> impl Iterator<Item = &'static str> {
     FormulationKind::listed().map(FormulationKind::name)
 }
 
-/// Largest error of an invariant, relative to the exchanged energy [-]. Chosen, not tuned.
+/// Largest error of the energy balance at the end of a run, relative to the exchanged energy [-]. Chosen, not tuned.
 const MOST_ENERGY: f64 = 0.1;
 
 /// Outcome of a run.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Ran {
-    /// The run came to its end.
+    /// Run that is completed.
     Completed {
         /// Rows of time and outputs.
         rows: Vec<(f64, Vec<f64>)>,
-        /// Largest opening of joints [m, rad].
+        /// Largest residual of joints [m, rad].
         violation: f64,
-        /// The largest share of the energy turned over that the invariant was off by, for however short a time.
+        /// Largest error of the energy balance at any time, relative to the exchanged energy [-].
         energy: f64,
     },
-    /// To a typed error.
+    /// Run that stops with a typed error.
     Stopped {
         /// Code of the error.
         code: String,
         /// Time of the stop [s].
         time: f64,
     },
-    /// To what must not be: a panic, a number that is none, energy out of nothing, an error without its words.
+    /// Run with a fault: a panic, a number that is not finite, energy from nothing, an error without a message.
     Broken(String),
 }
 
 impl Ran {
-    /// The rows of a run that was completed.
+    /// The rows of a completed run.
     #[must_use]
     pub fn rows(&self) -> Option<&[(f64, Vec<f64>)]> {
         match self {
@@ -49,11 +49,11 @@ impl Ran {
 }
 
 thread_local! {
-    /// Words of the last panic of this thread.
+    /// Message of the last panic of this thread.
     static LAST_PANIC: RefCell<String> = const { RefCell::new(String::new()) };
 }
 
-/// Panics are kept in place of being printed, for the whole program.
+/// Stores messages of panics instead of printing them, for the whole program.
 pub fn keep_panics() {
     std::panic::set_hook(Box::new(|info| {
         LAST_PANIC.with(|last| *last.borrow_mut() = info.to_string().replace('\n', " "));
@@ -84,7 +84,7 @@ pub fn run(scene: &str, method: &str, step: f64, options: Options) -> Ran {
     }
 }
 
-/// The method of extrapolated reference runs.
+/// Name of the method of extrapolated reference runs.
 pub const EXTRAPOLATED: &str = "extrapolated";
 
 fn go(scene: &str, overrides: &Method) -> Ran {

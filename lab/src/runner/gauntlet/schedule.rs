@@ -1,8 +1,8 @@
-//! Schedule of the cases by number: all families in turn, those that take long in some rounds only.
+//! Schedule of the cases by number: every round has all families; those that take long are only in some rounds.
 
 use crate::gauntlet::families::{FAMILIES, Family, LONG_FAMILIES};
 
-/// Families in the order of their turn.
+/// Families in the order in which a round has them.
 pub fn all() -> impl Iterator<Item = &'static Family> {
     FAMILIES.iter().chain(&LONG_FAMILIES)
 }

@@ -1,11 +1,11 @@
-//! A draft as scene text.
+//! Text of a scene for a draft.
 
 use crate::gauntlet::draft::{Body, Draft, Joint, Shape, id};
 use mbs::core::scene::{Dimension, JointKind, Scene};
 use mbs::scene_file::to_toml;
 use mbs::{InitialCondition, JointId, Output};
 
-/// Writes the scene: outputs are the positions of the points that are watched.
+/// Writes the scene of a draft. Its outputs are the positions of the draft's output points.
 #[must_use]
 pub fn text(draft: &Draft, name: &str, duration: f64) -> String {
     let initial = |(joint, rate): &(usize, f64)| {
@@ -29,7 +29,7 @@ pub fn text(draft: &Draft, name: &str, duration: f64) -> String {
     scene.joints.iter_mut().enumerate().for_each(|(k, j)| j.name = format!("j{k}"));
     scene.effects.iter_mut().enumerate().for_each(|(k, e)| e.name = format!("e{k}"));
     scene.outputs.iter_mut().enumerate().for_each(|(k, p)| p.name = format!("p{k}"));
-    // there is no code in it
+    // the scene contains no user-defined function, so that it has a text
     to_toml(&scene).unwrap_or_default()
 }
 

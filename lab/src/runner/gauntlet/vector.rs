@@ -3,7 +3,7 @@
 /// A point or a direction.
 pub type Point = [f64; 3];
 
-/// a + s b.
+/// Sum a + s b of vectors.
 #[must_use]
 pub fn plus(a: Point, s: f64, b: Point) -> Point {
     [0, 1, 2].map(|i| a[i] + s * b[i])
@@ -33,14 +33,14 @@ pub fn distance(a: Point, b: Point) -> f64 {
 pub struct Turn(pub [Point; 3]);
 
 impl Turn {
-    /// About an axis (of any length) by an angle [rad], by Rodrigues' formula.
+    /// Makes the rotation about an axis (of any length) by an angle [rad], by Rodrigues' formula.
     #[must_use]
     pub fn about(axis: Point, angle: f64) -> Self {
         let length = dot(axis, axis).sqrt();
         let n = axis.map(|x| x / length);
         let (s, c) = angle.sin_cos();
         let e = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-        // column i is where e_i goes
+        // column i is the image of the unit vector e_i
         let columns = e.map(|e| {
             let along = (1.0 - c) * dot(n, e);
             plus(plus(e.map(|x| c * x), s, cross(n, e)), along, n)
@@ -48,13 +48,13 @@ impl Turn {
         Self([0, 1, 2].map(|i| [0, 1, 2].map(|j| columns[j][i])))
     }
 
-    /// Returns the turned vector R x.
+    /// Returns the rotated vector R x.
     #[must_use]
     pub fn of(&self, x: Point) -> Point {
         self.0.map(|row| dot(row, x))
     }
 
-    /// R J R^T of an inertia [xx, yy, zz, xy, yz, zx].
+    /// Returns R J R^T for an inertia J = [xx, yy, zz, xy, yz, zx].
     #[must_use]
     pub fn of_inertia(&self, [xx, yy, zz, xy, yz, zx]: [f64; 6]) -> [f64; 6] {
         let j = [[xx, xy, zx], [xy, yy, yz], [zx, yz, zz]];

@@ -1,7 +1,7 @@
-//! diffsol on Andrews' squeezing mechanism as an ordinary equation in 14 unknowns: andrews andrews 7 SECONDS
+//! diffsol on Andrews' squeezing mechanism as an ordinary differential equation in 14 unknowns: andrews andrews 7 SECONDS
 //!
-//! Each evaluation solves the 13 equations of accelerations and multipliers. A line for each tolerance; its value is the
-//! number of right digits at 0.03 s. The pair TSIT45 is the fastest of diffsol's methods here at every number of digits.
+//! Each evaluation solves the 13 equations of accelerations and multipliers. The program prints a line for each tolerance. Its value is the
+//! number of correct digits at 0.03 s. The method TSIT45 is the fastest of diffsol's methods here at every number of digits.
 
 use diffsol::{NalgebraMat, OdeBuilder, OdeSolverMethod, OdeSolverStopReason, Vector};
 use rust_peers::andrews::{START, digits, rate};
@@ -10,12 +10,12 @@ use std::error::Error;
 
 const END: f64 = 0.03;
 
-/// Tolerances: five in two decades.
+/// Tolerances of the runs: five per two decades.
 fn tolerances() -> impl Iterator<Item = f64> {
     (0..=18).map(|i| 10_f64.powf(-3.0 - 0.4 * f64::from(i)))
 }
 
-/// Digits and seconds of one tolerance.
+/// Digits and seconds at one tolerance.
 fn measure(tolerance: f64, seconds: f64) -> Result<[f64; 2], Box<dyn Error>> {
     let problem = OdeBuilder::<NalgebraMat<f64>>::new()
         .rtol(tolerance)

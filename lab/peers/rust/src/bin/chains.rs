@@ -7,7 +7,7 @@ use std::error::Error;
 use std::fmt::Write;
 use std::hint::black_box;
 
-/// The chain as URDF, which is what dynibo reads.
+/// The chain as URDF text, the format that dynibo reads.
 fn urdf(n: usize) -> Result<String, std::fmt::Error> {
     let mut text = String::from("<robot name=\"chain\"><link name=\"base\"/>");
     for i in 0..n {
@@ -24,7 +24,7 @@ fn urdf(n: usize) -> Result<String, std::fmt::Error> {
     Ok(text + "</robot>")
 }
 
-/// dynibo's gravity is along -z, whatever one asks: the chain about z moves as if there were none.
+/// Times dynibo on a chain. Its gravity always points along -z, so that a chain about z moves without gravity.
 fn dynibo(n: usize, seconds: f64) -> Result<(), Box<dyn Error>> {
     let path = std::env::temp_dir().join(format!("peers-chain-{n}-{}.urdf", std::process::id()));
     std::fs::write(&path, urdf(n)?)?;

@@ -1,4 +1,4 @@
-//! Comparison with others: faer's sparse Cholesky, other orders of elimination, the report's processors.
+//! Comparison with faer's sparse Cholesky, other orders of elimination, and the report's processors.
 
 use super::super::measured::{Measured, number, ratio, speed_up, times};
 use super::super::papers;
@@ -7,7 +7,7 @@ use super::numbers::{average, by_size, count, span, time};
 use crate::lab::section::Section;
 use serde_json::Value;
 
-/// Assemble, factor and solve: ours and faer's.
+/// Section on assembly, factorisation and solution by our solver and by faer.
 pub(super) fn faer(measured: &Measured) -> Section {
     let mut section = Section::new("F", "Assemble, factor and solve once: ours and faer's");
     let head = [
@@ -58,7 +58,7 @@ pub(super) fn faer(measured: &Measured) -> Section {
     section
 }
 
-/// The price of orders of elimination, with one thread.
+/// Section on the cost of orders of elimination with one thread.
 pub(super) fn orders(measured: &Measured) -> Section {
     let mut section = Section::new("O", "Price of an order of elimination, one thread, index-3");
     let head = ["scene, order", "flops", "tasks", "parallelism", "step", "over the best serial"];
@@ -102,7 +102,7 @@ pub(super) fn orders(measured: &Measured) -> Section {
     section
 }
 
-/// The report's tables on processors.
+/// Section with the report's tables on processors.
 pub(super) fn report(measured: &Measured) -> Section {
     let mut section = Section::new("R", "The report's processors, and ours");
     section.heading("T6: reduction of CPU time, vehicle over ramp and stairs [%] (report, Table IV; publication 3, Table II)");
@@ -112,7 +112,7 @@ pub(super) fn report(measured: &Measured) -> Section {
         let serial = scene.serial(formulation)?.seconds?;
         match threads {
             1 => Some(0.0),
-            // It has no teams.
+            // the recursive formulation has no thread teams
             _ if formulation == "recursive" => Some(0.0),
             n => Some(
                 100.0

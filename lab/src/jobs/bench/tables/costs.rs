@@ -1,11 +1,11 @@
-//! Costs of a step: in all, by its parts, and where its time goes.
+//! Costs of a step: its total time, its work, and the times of its phases.
 
 use super::super::measured::{Lane, Measured, Scene, number};
 use super::numbers::{average, by_size, count, percent, ratio, span, time};
 use crate::chart::{Chart, Look, Series};
 use crate::lab::section::Section;
 
-/// Seconds per step with one thread, in each formulation.
+/// Section with the seconds per step with one thread, in each formulation.
 pub(super) fn steps(measured: &Measured) -> Section {
     let mut section = Section::new("S", "Time of a step, one thread");
     let mut head = vec!["scene"];
@@ -55,7 +55,7 @@ pub(super) fn steps(measured: &Measured) -> Section {
     section
 }
 
-/// Median, quartiles and work; or a reason.
+/// Median, quartiles and work of a lane, or the reason why there are none.
 fn details(scene: &Scene, lane: &Lane) -> Vec<String> {
     let name = format!("{}, {}", scene.name, lane.formulation);
     let (Some(seconds), quartiles) = (lane.seconds, &lane.line["quartiles"]) else {
@@ -77,7 +77,7 @@ fn details(scene: &Scene, lane: &Lane) -> Vec<String> {
     ]
 }
 
-/// Sentence on how many scenes each formulation steps fastest.
+/// Sentence with the number of scenes in which each formulation is fastest.
 fn fastest(measured: &Measured) -> String {
     let mut wins = vec![0; measured.formulations.len()];
     for scene in &measured.scenes {
@@ -108,7 +108,7 @@ fn chart(measured: &Measured) -> Chart {
     Chart::log_log("unknowns", "time of a step [s]", series.collect())
 }
 
-/// Sizes, and exact counts of a factorisation.
+/// Section with the sizes of scenes, and exact counts of a factorisation.
 pub(super) fn counts(measured: &Measured) -> Section {
     let mut section = Section::new("C", "Counts of a scene and of one factorisation, index-3");
     let head = [
@@ -153,7 +153,7 @@ pub(super) fn counts(measured: &Measured) -> Section {
     section
 }
 
-/// Phases by their keys, with their headings.
+/// Phases: keys in the lines, and headings in the table.
 const PHASES: [(&str, &str); 8] = [
     ("evaluation", "evaluate"),
     ("forces", "forces"),
@@ -165,7 +165,7 @@ const PHASES: [(&str, &str); 8] = [
     ("rest", "vectors, rest"),
 ];
 
-/// Shares of a whole index-3 step, for each number of threads.
+/// Section with the fraction of each phase in an index-3 step, for each number of threads.
 pub(super) fn phases(measured: &Measured) -> Section {
     let mut section = Section::new("P", "Phases of an index-3 step");
     let names = PHASES.map(|(_, name)| name);
@@ -177,7 +177,7 @@ pub(super) fn phases(measured: &Measured) -> Section {
             let Some(lane) = scene.clocked("index-3", threads) else { continue };
             let Some(step) = number(&lane.line, "step").filter(|x| *x > 0.0) else { continue };
             let share = |key: &str| lane.line["phases"][key].as_f64().unwrap_or(0.0) / step;
-            // Of a team it drowns in what a team scatters by.
+            // with a team, the time of the clock is smaller than the scatter of the measurements
             let overhead = overhead(scene, lane).filter(|_| threads == 1);
             let late = number(&lane.line, "after_evaluation").unwrap_or(0.0) / step;
             if threads == 1 {
@@ -209,7 +209,7 @@ pub(super) fn phases(measured: &Measured) -> Section {
     section
 }
 
-/// Time that the clock adds to a step, as a share of the step.
+/// Time that the clock adds to a step, relative to the step.
 fn overhead(scene: &Scene, lane: &Lane) -> Option<f64> {
     let plain = scene.lane(&lane.formulation, &lane.team, lane.threads)?.seconds?;
     Some(lane.seconds? / plain - 1.0)

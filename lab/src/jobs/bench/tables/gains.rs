@@ -1,23 +1,23 @@
-//! Gains of a step by threads.
+//! Speedup of a step by threads.
 
 use super::super::measured::{Measured, Scene, efficiency, number, speed_up};
 use super::numbers::{by_size, percent, ratio, time};
 use crate::chart::{Axis, Chart, Kind, Look, Series};
 use crate::lab::section::Section;
 
-/// A gain below this is none.
+/// Least speedup that is reported as one [-].
 const SEEN: f64 = 1.05;
-/// The whole vehicle, of 168 coordinates in the report.
+/// Scene of the complete vehicle, which has 168 coordinates in the report.
 const VEHICLE: &str = "iltis-stairs";
 
-/// Median of a team [s], with its gain over the best serial one.
+/// Median time of a team [s], and its speedup against the best serial lane.
 fn gain(scene: &Scene, formulation: &str, team: &str, threads: usize) -> Option<(f64, f64)> {
     let serial = scene.serial(formulation)?.seconds?;
     let seconds = scene.lane(formulation, team, threads)?.seconds?;
     Some((seconds, speed_up(serial, seconds)))
 }
 
-/// Seconds per step, speed-up and efficiency of both teams.
+/// Section with seconds per step, speedup and efficiency of both teams.
 pub(super) fn threads(measured: &Measured) -> Section {
     let mut section = Section::new("T", "What threads gain");
     let several: Vec<usize> = measured.threads.iter().copied().filter(|&n| n > 1).collect();
@@ -69,7 +69,7 @@ pub(super) fn threads(measured: &Measured) -> Section {
     section
 }
 
-/// Says what a table of gains shows.
+/// Sentence on the speedups of a table.
 fn verdict(measured: &Measured, formulation: &str, several: &[usize]) -> String {
     let mut best: Option<(f64, String)> = None;
     let (mut n_scenes, mut n_without) = (0, 0);

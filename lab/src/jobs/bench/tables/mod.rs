@@ -1,4 +1,4 @@
-//! The tables and drawings, for a terminal and for a page; under each a sentence that says what it shows.
+//! The tables and drawings, for a terminal and for a page. Each has a sentence on its result.
 
 mod compared;
 mod costs;
@@ -31,7 +31,7 @@ pub(crate) fn sections(measured: &Measured) -> Vec<Section> {
     ]
 }
 
-/// The report's tables on processors alone.
+/// Section with the report's tables on processors only.
 pub(crate) fn processors(measured: &Measured) -> Section {
     compared::report(measured)
 }

@@ -3,7 +3,7 @@
 use super::super::measured::{Measured, Scene};
 pub(super) use crate::format::{span, time};
 
-/// A count with its thousands apart.
+/// A count, with spaces between thousands.
 pub(super) fn count(x: Option<f64>) -> String {
     let Some(x) = x else { return String::new() };
     let digits = format!("{x:.0}");
@@ -17,23 +17,23 @@ pub(super) fn count(x: Option<f64>) -> String {
     text
 }
 
-/// A number with one digit behind the point, as counts of one step are; empty where there is none.
+/// A number with one decimal, such as an average count per step; empty without a number.
 pub(super) fn average(x: Option<f64>) -> String {
     x.map(|x| format!("{x:.1}")).unwrap_or_default()
 }
 
-/// Writes a ratio; empty where there is none.
+/// Writes a ratio; empty without a number.
 pub(super) fn ratio(x: Option<f64>) -> String {
     x.map(|x| format!("{x:.2}")).unwrap_or_default()
 }
 
-/// Writes a share in percent.
+/// Writes a fraction in percent.
 pub(super) fn percent(x: f64) -> String {
-    // Without a minus on zero.
+    // adding zero removes the sign of a negative zero
     format!("{:.0} %", (x * 100.0).round() + 0.0)
 }
 
-/// Scenes in the order of their unknowns.
+/// Scenes in increasing order of their unknowns.
 pub(super) fn by_size(measured: &Measured) -> Vec<&Scene> {
     let mut scenes: Vec<_> = measured.scenes.iter().collect();
     let size = |scene: &Scene| scene.size("unknowns").unwrap_or(0.0);

@@ -1,4 +1,4 @@
-//! Steps, energy errors and the height of the wheel over time: Figures 6 and 7 of the report, and what the wheel does.
+//! Steps, energy errors and the height of the wheel over time: Figures 6 and 7 of the report.
 
 use super::super::draw::{INDEX_1, INDEX_3, MULTI, line, over_time, steps};
 use super::super::fit::span;
@@ -14,10 +14,10 @@ pub(super) const FINE: f64 = 5e-4;
 /// Step of the report's run in index 3, and the largest one of the variable run [s].
 pub(super) const COARSE: f64 = 1e-2;
 
-/// When the wheel is on the bump [s].
+/// Time interval in which the wheel is on the bump [s].
 const BUMP: [f64; 2] = [3.0, 3.2];
 
-/// Steps, energy errors and the height of the wheel over time.
+/// Draws steps, energy errors and the height of the wheel over time.
 pub(super) fn draw(records: [Option<Record>; 3], section: &mut Section) {
     let [coarse, variable, fine] = records.map(Option::unwrap_or_default);
     let end = [&coarse, &variable, &fine]
@@ -59,7 +59,7 @@ fn is_on_bump(t: f64) -> bool {
     BUMP[0] < t && t <= BUMP[1]
 }
 
-/// Says where the steps of the variable run are short.
+/// Sentence on the times at which the steps of the controlled run are short.
 fn shortest(record: &Record) -> String {
     let steps = |on: bool| record.steps.iter().filter(move |s| is_on_bump(s.t) == on);
     let spans = [true, false].map(|on| span(steps(on).map(|s| s.step)));
@@ -78,7 +78,7 @@ fn shortest(record: &Record) -> String {
     )
 }
 
-/// Caption with the share of the variable run's energy changes that are made on the bump.
+/// Caption with the fraction of the controlled run's energy changes that occur on the bump.
 fn largest_change(record: &Record) -> String {
     let sum = |steps: &mut dyn Iterator<Item = f64>| steps.sum::<f64>();
     let all = sum(&mut record.steps.iter().map(|s| s.energy_change.abs()));
@@ -99,7 +99,7 @@ fn percent(share: f64) -> String {
     format!("{:.0} %", 100.0 * share)
 }
 
-/// Caption with the largest distance of the heights of two runs [m].
+/// Caption with the largest difference of the heights of two runs [m].
 fn apart(a: &Record, b: &Record) -> String {
     let (Some(a), Some(b)) = (a.channels.first(), b.channels.first()) else {
         return "Height of the wheel.".into();
@@ -119,7 +119,7 @@ mod tests {
     use super::*;
     use crate::lab::record::Step;
 
-    /// Steps that are short, and in index 1, at 3.1 s alone.
+    /// A record whose steps are short, and in index 1, only at 3.1 s.
     fn record() -> Record {
         let step = |t: f64| {
             let is_index_1 = (t - 3.1).abs() < 1e-9;

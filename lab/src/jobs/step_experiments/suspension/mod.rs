@@ -1,5 +1,5 @@
-//! The report's own experiment: the front suspension over its bump, with fixed steps and with steps and index of its own. It has
-//! Figures 6 and 7 of the report, Figures 10 to 12 of its second publication.
+//! Experiment of the report on the front suspension over its bump: fixed steps, and controlled steps with changes of index. It corresponds
+//! to Figures 6 and 7 of the report, and Figures 10 to 12 of its second publication.
 
 mod histories;
 
@@ -12,22 +12,22 @@ use crate::lab::section::Section;
 use crate::lab::{Lab, Run};
 use histories::{COARSE, FINE};
 
-/// Scenes of the experiment: the damper as printed there, and the suspension whose rubber stop the bump hits.
+/// Scenes of the experiment: the damper as published there, and a suspension whose rubber stop the bump reaches.
 const SCENES: [&str; 2] = ["iltis-suspension-halved", "iltis-suspension-stiff"];
-/// First step of the variable run [s].
+/// First step of the controlled run [s].
 const FIRST_STEP: f64 = 1e-3;
 /// Tolerance of the report [-].
 const TOLERANCE: f64 = 1e-6;
-/// Tolerances that are tried.
+/// Tolerances of the controlled runs [-].
 const TOLERANCES: [f64; 3] = [1e-5, TOLERANCE, 1e-7];
-/// Number of runs of each case for its time.
+/// Number of runs of each case, for its least time.
 const REPEATS: u32 = 5;
-/// CPU times that the report prints, in the order of its runs [s].
+/// Published CPU times, in the order of the report's runs [s].
 const PRINTED: [f64; 3] = [8.41, 36.07, 155.0];
 
-/// Largest share of the time of index 1 that the claim allows.
+/// Claimed largest ratio of CPU time to that of index 1 [-].
 const QUARTER: f64 = 0.25;
-/// Largest share of the time of the cheapest fixed step that the claim allows.
+/// Claimed largest ratio of CPU time to that of the cheapest fixed step [-].
 const CHEAPEST: f64 = 0.7;
 
 /// Runs the experiment on the front suspension.
@@ -61,7 +61,7 @@ fn printed(scene: &'static str) -> [Case; 3] {
     ]
 }
 
-/// Every case of a scene: the report's three, other tolerances, and the sweep of fixed steps about that of index 1.
+/// Every case of a scene: the report's three, other tolerances, and a sweep of fixed steps around that of index 1.
 fn cases(scene: &'static str, quick: bool) -> Vec<Case> {
     let mut cases = printed(scene).to_vec();
     let tolerances = TOLERANCES.into_iter().filter(|t| !quick || *t >= TOLERANCE);
@@ -96,7 +96,8 @@ fn experiment(lab: &Lab<'_>, scene: &'static str, section: &mut Section) -> Resu
     Ok(())
 }
 
-/// Fixed steps are halved until one formulation has an error as small as that of every variable run, so that each is judged.
+/// Adds runs with halved fixed steps, until one formulation has an error as small as that of every controlled run. So every controlled run
+/// can be compared.
 fn extend(lab: &Lab<'_>, scene: &'static str, runs: &mut Vec<Run>) -> Result<(), String> {
     let most = if lab.quick { 1 } else { 4 };
     let is_variable = |run: &&Run| run.case.rule != Rule::Fixed;
@@ -126,7 +127,7 @@ fn cheapest(runs: &[Run], at_most: f64) -> Option<&Run> {
     })
 }
 
-/// The report's three runs beside its figures.
+/// Table of the report's three runs with its published figures.
 fn report(runs: &[Run], section: &mut Section) {
     let head = [&HEAD[..], &["CPU / index 1", "report's CPU [s]", "report's ratio"]].concat();
     let slowest = runs.last().and_then(Run::seconds);
@@ -178,7 +179,7 @@ fn claims(multi: &Run, index_1: &Run, runs: &[Run], section: &mut Section) {
     section.claim(what, measured, Some(share <= CHEAPEST && reaches));
 }
 
-/// Each variable run beside the cheapest fixed step whose error is no larger than its own.
+/// Compares each controlled run with the cheapest fixed step whose error is no larger.
 fn at_equal_error(runs: &[Run], section: &mut Section) {
     let variable: Vec<_> = runs.iter().filter(|run| run.case.rule != Rule::Fixed).collect();
     let mut ratios = Vec::new();

@@ -3,16 +3,16 @@
 use super::table::Printed::{DoesNotWork, NoConvergence, Wrong};
 use super::table::{CLASSICAL, Printed, Reference, Table, fixed, method, n};
 
-/// P1, Table I, index-3: the two smaller steps needed alpha = 1e9 and 1e11.
+/// Published entries of P1, Table I, index-3: the two smaller steps needed alpha = 1e9 and 1e11.
 const T1_INDEX3: &[Printed] = &[n(2.1e-1, 0.4), n(4.6e-3, 1.9), n(2.0e-5, 17.2), Wrong];
-/// P1, Table II, index-3.
+/// Published entries of P1, Table II, index-3.
 const T2_INDEX3: &[Printed] = &[n(7.6e-2, 0.3), n(5.0e-3, 0.6), n(7.7e-2, 4.0), Wrong];
-/// P1, Table III, index-3.
+/// Published entries of P1, Table III, index-3.
 const T3_INDEX3: &[Printed] = &[Wrong, NoConvergence, NoConvergence];
-/// P1, Table II, state-space and fully recursive.
+/// Published entries of P1, Table II, state-space and fully recursive.
 const T2_FAILS: &[Printed] = &[DoesNotWork, DoesNotWork, DoesNotWork, DoesNotWork];
 
-/// Place of the double pendulum's tip after 10 s.
+/// Position of the double pendulum's tip after 10 s [m].
 const TIP: Reference = Reference {
     channel: "tip",
     label: "tip off by [m]",

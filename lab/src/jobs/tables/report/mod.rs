@@ -1,7 +1,7 @@
-//! The report's tables: publication 1, Tables I to IV, publication 2, Table 1, and publication 3, Tables I and III, as printed.
+//! The report's tables as published: publication 1, Tables I to IV; publication 2, Table 1; publication 3, Tables I and III.
 //!
-//! The times are CPU seconds on the machines of the authors, which these tables do not name. The norm of the errors is joules in
-//! the first example; the others do not state it.
+//! The times are CPU seconds on the authors' machines, which these tables do not name. The norm of the errors is in joules in the first
+//! example. For the others its unit is not stated.
 
 mod mechanisms;
 mod table;

@@ -1,23 +1,23 @@
-//! Tables of the report: their methods with their steps, and what is printed for each.
+//! Tables of the report: their methods with their steps, and the published entries.
 
-/// Entry that the report prints for one method and one step.
+/// Published entry for one method and one step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Printed {
-    /// Error, and CPU time [s] where there is one.
+    /// Error, and CPU time [s] if it is published.
     Numbers(f64, Option<f64>),
-    /// CPU time [s] alone.
+    /// Entry with a CPU time [s] alone.
     Time(f64),
-    /// "No convergent." in place of numbers.
+    /// Entry "No convergent." in place of numbers.
     NoConvergence,
-    /// "Wrong results" in place of numbers.
+    /// Entry "Wrong results" in place of numbers.
     Wrong,
-    /// "Does not work" in place of numbers.
+    /// Entry "Does not work" in place of numbers.
     DoesNotWork,
     /// The table has no such entry.
     Nothing,
 }
 
-/// A method of a table: how we run it, and the report's row for it.
+/// A method of a table: the options of our runs, and the report's row.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Method {
     /// Name of the method in our tables.
@@ -26,11 +26,11 @@ pub(crate) struct Method {
     pub(crate) formulation: &'static str,
     /// Further arguments of `mbs run`.
     pub(crate) arguments: &'static [&'static str],
-    /// Name of the report's row, or empty.
+    /// Name of the report's row; empty if there is none.
     pub(crate) printed_name: &'static str,
-    /// Step sizes [s] where they are not those of the table; else empty.
+    /// Steps [s], if they differ from those of the table; otherwise empty.
     pub(crate) dt: &'static [f64],
-    /// The report's entries, one for each of its steps; further steps are ours alone.
+    /// The report's entries, one for each of its steps. Further steps are run without a published entry.
     pub(crate) printed: &'static [Printed],
 }
 
@@ -42,7 +42,7 @@ impl Method {
     }
 }
 
-/// A channel whose value at the end is known from elsewhere.
+/// A channel whose value at the end is known from another source.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Reference {
     /// Name of the channel.
@@ -53,14 +53,14 @@ pub(crate) struct Reference {
     pub(crate) value: &'static [f64],
 }
 
-/// A channel whose history is drawn: of each method at its first step, and of the first method at its last one.
+/// A channel whose history is drawn: for each method with its first step, and for the first method with its last step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct History {
     /// Column of the channel in the CSV of a run.
     pub(crate) column: &'static str,
     /// Label of the history, with its unit.
     pub(crate) label: &'static str,
-    /// Factor that a number of the column is multiplied by.
+    /// Factor by which a number of the column is multiplied.
     pub(crate) scale: f64,
 }
 
@@ -87,7 +87,7 @@ pub(crate) struct Table {
     pub(crate) history: Option<History>,
     /// Sizes of the report's models, by the formulation.
     pub(crate) sizes: &'static [(&'static str, &'static str)],
-    /// Note that a reader must know.
+    /// Note for the reader of the table.
     pub(crate) note: &'static str,
 }
 
@@ -107,7 +107,7 @@ impl Table {
         last.is_some_and(|(m, dt)| m.name == method.name && dt.to_bits() == step.to_bits())
     }
 
-    /// Is the history of this entry drawn? The finest one is, and every method of the report at its first step.
+    /// Is the history of this entry drawn? Drawn are the finest entry, and every method of the report with its first step.
     pub(crate) fn draws(&self, method: &Method, step: f64) -> bool {
         let is_first = method.dt.first().is_some_and(|dt| dt.to_bits() == step.to_bits());
         let is_printed = !method.printed.is_empty() && method.arguments.is_empty();
@@ -119,7 +119,7 @@ impl Table {
         (self.duration / step).ceil()
     }
 
-    /// Returns what the report prints for a method and a step of this table.
+    /// Returns the published entry for a method and a step of this table.
     pub(crate) fn printed(&self, method: &Method, step: f64) -> Printed {
         let dt = if method.dt.is_empty() { self.dt } else { method.dt };
         let place = dt.iter().position(|dt| dt.to_bits() == step.to_bits());
@@ -127,15 +127,15 @@ impl Table {
     }
 }
 
-/// Error and time as the tables print them.
+/// Makes an entry of an error and a time, as published.
 pub(super) const fn n(error: f64, seconds: f64) -> Printed {
     Printed::Numbers(error, Some(seconds))
 }
 
-/// Our methods without a printed row.
+/// Method of ours without a published row.
 pub(super) const CLASSICAL: Method = method("classical", "", &[]);
 
-/// A method by our name of the formulation.
+/// Makes a method from the name of its formulation.
 pub(super) const fn method(
     formulation: &'static str,
     printed_name: &'static str,
@@ -144,7 +144,7 @@ pub(super) const fn method(
     Method { name: formulation, formulation, arguments: &[], printed_name, dt: &[], printed }
 }
 
-/// Index-3 with the report's fixed penalty.
+/// Makes an index-3 method with the report's fixed penalty.
 pub(super) const fn fixed(printed_name: &'static str, printed: &'static [Printed]) -> Method {
     let arguments = &["--penalty", "1e7"];
     Method { name: "index-3, alpha = 1e7", arguments, ..method("index-3", printed_name, printed) }

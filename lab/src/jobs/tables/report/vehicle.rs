@@ -3,7 +3,7 @@
 use super::table::Printed::{NoConvergence, Wrong};
 use super::table::{CLASSICAL, History, Method, Printed, Table, method, n};
 
-/// A method with steps of its own, of which the report prints the time of the first.
+/// Makes a method with its own steps, for the first of which the report prints a time.
 const fn timed(
     formulation: &'static str,
     printed_name: &'static str,
@@ -13,7 +13,7 @@ const fn timed(
     Method { dt, ..method(formulation, printed_name, printed) }
 }
 
-/// Index-3 with a fixed penalty, at steps of its own.
+/// Makes an index-3 method with a fixed penalty and its own steps.
 const fn penalised(
     name: &'static str,
     arguments: &'static [&'static str],
@@ -22,34 +22,34 @@ const fn penalised(
     Method { name, arguments, ..timed("index-3", LAGRANGIAN, STIFF, printed) }
 }
 
-/// P3's models of the vehicle; the natural one is that of both Lagrangian methods.
+/// Sizes of P3's models of the vehicle; both Lagrangian methods have the model in natural coordinates.
 const VEHICLE_SIZES: &[(&str, &str)] = &[
     ("index-3", NATURAL),
     ("classical", NATURAL),
     ("recursive", "43 variables of which 42 are integrated, 36 constraints of rank 32"),
 ];
-/// P3, Modeling for natural coordinates.
+/// Size of the model in natural coordinates, from P3, Modeling.
 const NATURAL: &str = "168 variables, 157 constraints and 1 guide, 11 freedoms with the guided one";
 /// Sizes of P1's fourth example, by the formulation.
 const SUSPENSION_SIZES: &[(&str, &str)] =
     &[("index-1", SUSPENSION), ("index-3", SUSPENSION), ("state-space", SUSPENSION)];
-/// P1, fourth example, for all methods but the recursive one.
+/// Size of the model in P1, fourth example, for all methods but the recursive one.
 const SUSPENSION: &str = "23 variables, 22 constraints, 1 freedom";
-/// Vertical acceleration at the centre of mass, as publication 3 draws it in Figures 4 to 6.
+/// Vertical acceleration at the centre of mass, which publication 3 draws in Figures 4 to 6.
 const ACCELERATION: History = History {
     column: "acceleration.z",
     label: "vertical acceleration of the chassis [g]",
     scale: 1.0 / 9.81,
 };
-/// The report's row of the augmented Lagrangian.
+/// Name of the report's row of the augmented Lagrangian.
 const LAGRANGIAN: &str = "Augmented Lagr.";
-/// Steps of the vehicle with rubber stops.
+/// Steps for the vehicle with rubber stops [s].
 const STIFF: &[f64] = &[5e-3, 1e-3];
-/// Note that every table of the vehicle must have.
+/// Note of every table of the vehicle.
 const VEHICLE: &str = "The dimensions of the report's roads are lost: those of the scenes are chosen anew. The first step of a \
     method is the largest that the report found workable; it gives no errors.";
 
-/// Fields that the tables of the vehicle share.
+/// Common fields of the tables of the vehicle.
 const ON_A_ROAD: Table = Table {
     name: "",
     title: "",

@@ -1,10 +1,10 @@
-//! Mechanisms without a difficulty, from which hard ones are made.
+//! Mechanisms without a difficulty, from which difficult cases are made.
 
 use crate::gauntlet::draft::{Draft, GROUND};
 use crate::gauntlet::vector::{Point, cross, dot, plus};
 use mbs::scene_file::Dice;
 
-/// A direction at random.
+/// A random unit vector in space.
 pub(super) fn direction(dice: &mut Dice) -> Point {
     loop {
         let x: Point = std::array::from_fn(|_| dice.between(-1.0, 1.0));
@@ -15,7 +15,7 @@ pub(super) fn direction(dice: &mut Dice) -> Point {
     }
 }
 
-/// A planar chain of rods that hang from the ground, the first ones at angles; the tip is watched.
+/// A planar chain of rods that hangs from the ground. The first rods are inclined. The output is the position of the tip.
 pub(super) fn chain(dice: &mut Dice, n: usize) -> Draft {
     let mut draft = Draft::planar();
     let (mut at, mut before) = ([0.0; 3], GROUND);
@@ -32,7 +32,7 @@ pub(super) fn chain(dice: &mut Dice, n: usize) -> Draft {
     draft
 }
 
-/// A chain in space, its axes at random.
+/// A chain in space with random joint axes.
 pub(super) fn spatial_chain(dice: &mut Dice, n: usize) -> Draft {
     let mut draft = Draft::spatial();
     let (mut at, mut before) = ([0.0; 3], GROUND);
@@ -40,7 +40,7 @@ pub(super) fn spatial_chain(dice: &mut Dice, n: usize) -> Draft {
         let along = direction(dice);
         let end = plus(at, dice.between(0.3, 0.8), along);
         let mass = dice.between(0.3, 2.0);
-        // a body with three different moments
+        // the body has three different moments of inertia
         let moment = mass * dice.between(0.01, 0.03);
         let body = draft.solid(
             plus(at, 0.5, plus(end, -1.0, at)),
@@ -56,7 +56,7 @@ pub(super) fn spatial_chain(dice: &mut Dice, n: usize) -> Draft {
     draft
 }
 
-/// A direction nearly across another.
+/// A random direction nearly perpendicular to another.
 fn across(along: Point, dice: &mut Dice) -> Point {
     loop {
         let axis = cross(along, direction(dice));
@@ -67,7 +67,8 @@ fn across(along: Point, dice: &mut Dice) -> Point {
     }
 }
 
-/// The place at distances `a` from `p` and `b` from `q` in the plane, on the left of the way from p to q (`side` 1) or on the right.
+/// The point at distances `a` from `p` and `b` from `q` in the plane: to the left of the line from p to q with `side` 1, otherwise to the
+/// right.
 pub(super) fn knee(p: Point, q: Point, [a, b]: [f64; 2], side: f64) -> Option<Point> {
     let d = plus(q, -1.0, p);
     let l = dot(d, d).sqrt();
@@ -79,7 +80,8 @@ pub(super) fn knee(p: Point, q: Point, [a, b]: [f64; 2], side: f64) -> Option<Po
     })
 }
 
-/// A four-bar between two places of bodies: crank, coupler and rocker with lengths, the crank at an angle. Nothing where it does not close.
+/// Adds a four-bar between two points of bodies: crank, coupler and rocker of given lengths, and the angle of the crank. `None` if it
+/// cannot be closed.
 pub(super) fn loop_on(
     draft: &mut Draft,
     base: usize,
@@ -103,7 +105,7 @@ pub(super) fn loop_on(
     Some(joints)
 }
 
-/// A four-bar far from its singular positions: a Grashof linkage whose crank turns.
+/// A four-bar far from its singular positions: a Grashof linkage whose crank can make full turns.
 pub(super) fn four_bar(dice: &mut Dice) -> Draft {
     loop {
         let mut draft = Draft::planar();
@@ -124,7 +126,7 @@ pub(super) fn four_bar(dice: &mut Dice) -> Draft {
     }
 }
 
-/// One of the three.
+/// A random mechanism of the three kinds above.
 pub(super) fn any(dice: &mut Dice) -> Draft {
     let n = 1 + dice.below(3);
     match dice.below(3) {

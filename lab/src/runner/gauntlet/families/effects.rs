@@ -1,4 +1,4 @@
-//! Contacts, ends, latches, friction and stiffness.
+//! Cases with contacts, stops, latches, friction and stiff springs.
 
 use super::bases::{chain, four_bar};
 use super::common::{case, decades, others, time, twin};
@@ -8,18 +8,18 @@ use crate::gauntlet::vector::plus;
 use mbs::scene_file::Dice;
 use mbs::{BodyId, Effect, JointId, Number, PolynomialPiece, Vector3};
 
-/// Steps of the runs, from long to short [s]: half decades.
+/// Steps of the runs, from long to short, two per decade [s].
 const STEPS: [f64; 4] = [3e-3, 1e-3, 3e-4, 1e-4];
 /// Acceleration of gravity [m/s²].
 const GRAVITY: f64 = 9.81;
 
-/// A mass on a vertical slide that falls on a spring which only pushes: parabolas and pieces of sines alternately.
+/// A mass on a vertical slide that falls on a spring which only pushes. Its motion alternates between parabolas and pieces of sines.
 pub(super) fn bouncing(dice: &mut Dice) -> Case {
     let (mass, height) = (dice.between(0.5, 2.0), dice.between(0.05, 0.5));
     let stiffness = decades(dice, 3.0, 7.0);
     let mut draft = Draft::planar();
     let body = slider(&mut draft, [0.0, 1.0 + height, 0.0], mass);
-    // the spring's length in the reference position is 1 + height, it begins to push at 1
+    // the spring's length in the reference configuration is 1 + height, and it begins to push at length 1
     let points = [[0.0; 3], [0.0, 1.0 + height, 0.0]];
     let ends = draft.ends([GROUND, body], points);
     draft.effects.push(Effect::bumper(ends, stiffness, 0.0, height));
@@ -29,18 +29,18 @@ pub(super) fn bouncing(dice: &mut Dice) -> Case {
     case(&draft, "bouncing mass", time(dice, &STEPS, 1.0), truth)
 }
 
-/// Height of the mass over the spring's end.
+/// Height of the mass over the spring's end at time t.
 fn bounce(height: f64, square: f64, t: f64) -> f64 {
     let fall = (2.0 * height / GRAVITY).sqrt();
     let speed = GRAVITY * fall;
     let omega = square.sqrt();
-    // pressed in: x = A cos(wt + p) - g/w^2 from x = 0 down to it again
+    // contact: x = A cos(wt + p) - g/w^2, from x = 0 until x = 0 again
     let rest = GRAVITY / square;
     let amplitude = (rest * rest + speed * speed / square).sqrt();
     let phase = (speed / omega).atan2(rest);
     let contact = 2.0 * (std::f64::consts::PI - phase) / omega;
     let period = 2.0 * fall + contact;
-    // from the highest position on
+    // time since the highest position
     let t = t % period;
     if t < fall {
         height - 0.5 * GRAVITY * t * t
@@ -52,25 +52,25 @@ fn bounce(height: f64, square: f64, t: f64) -> f64 {
     }
 }
 
-/// A body on a vertical slide of its own.
+/// Adds a body on a vertical slide. Returns its number.
 fn slider(draft: &mut Draft, at: [f64; 3], mass: f64) -> usize {
     let body = draft.solid(at, mass, [0.01 * mass; 3]);
     draft.joint("prismatic", [GROUND, body], at, &[[0.0, 1.0, 0.0]]);
     body
 }
 
-/// A spring of a stiffness, with a damping and a free length.
+/// A spring with a stiffness, a damping and a free length.
 fn spring(ends: [(BodyId, Vector3); 2], [stiffness, damping, free]: [f64; 3]) -> Effect {
     Effect::spring_damper(ends, stiffness, damping, free)
 }
 
-/// A piece of a tension by length.
+/// A polynomial piece of a tension as a function of length.
 fn piece(lower: f64, upper: f64, coefficients: &[f64]) -> PolynomialPiece<Number> {
     let coefficients = coefficients.iter().map(|x| Number::from(*x)).collect();
     PolynomialPiece { lower: lower.into(), upper: upper.into(), coefficients }
 }
 
-/// A quarter of a car that jumps: its wheel leaves the ground and comes down again.
+/// A quarter of a car that jumps: its wheel leaves the ground and returns.
 pub(super) fn wheel(dice: &mut Dice) -> Case {
     let mut draft = Draft::planar();
     let wheel = slider(&mut draft, [0.0, 0.3, 0.0], dice.between(20.0, 40.0));
@@ -88,7 +88,7 @@ pub(super) fn wheel(dice: &mut Dice) -> Case {
     others(&draft, "wheel", time(dice, &STEPS, 1.0))
 }
 
-/// A mass that falls into a catch, which holds it while its load is small and lets it go when it is not.
+/// A mass that falls into a catch. The catch holds the mass while the load is small, and releases it under a large load.
 pub(super) fn latch(dice: &mut Dice) -> Case {
     let mut draft = Draft::planar();
     let mass = dice.between(0.5, 2.0);
@@ -96,7 +96,7 @@ pub(super) fn latch(dice: &mut Dice) -> Case {
     let driver = decades(dice, 1.5, 2.5);
     let ends = draft.ends([GROUND, body], [[0.0, 4.0, 0.0], [0.0, 2.0, 0.0]]);
     draft.effects.push(spring(ends, [driver, dice.between(0.0, 2.0), 2.5]));
-    // tension by length: nothing, a pull to the middle of the catch, nothing; continuous
+    // tension by length: zero, then a pull to the middle of the catch, then zero; continuous
     let (at, half, stiffness) = (1.5, 0.05, decades(dice, 2.0, 4.5));
     let line = |slope: f64, zero: f64| [-slope * zero, slope];
     let pieces = vec![
@@ -113,7 +113,7 @@ pub(super) fn latch(dice: &mut Dice) -> Case {
     others(&draft, "latch", time(dice, &STEPS, 1.5))
 }
 
-/// Two pendulums held together by a stiff link that breaks at a load.
+/// Two pendulums connected by a stiff link that breaks at a given load.
 pub(super) fn breaking(dice: &mut Dice) -> Case {
     let mut draft = chain(dice, 1);
     let end = draft.outputs[0].1;
@@ -139,7 +139,7 @@ pub(super) fn breaking(dice: &mut Dice) -> Case {
     others(&draft, "link", time(dice, &STEPS, 0.5))
 }
 
-/// A chain whose joints have stiff ends.
+/// A chain whose joints have stiff stops.
 pub(super) fn limits(dice: &mut Dice) -> Case {
     let n = 1 + dice.below(3);
     let mut draft = chain(dice, n);
@@ -163,7 +163,7 @@ pub(super) fn friction(dice: &mut Dice) -> Case {
     others(&draft, "friction", time(dice, &STEPS, 0.8))
 }
 
-/// Two pendulums side by side that hit each other.
+/// Two pendulums beside each other that collide.
 pub(super) fn contact(dice: &mut Dice) -> Case {
     let mut draft = Draft::planar();
     let apart = dice.between(0.2, 0.4);
@@ -183,7 +183,8 @@ pub(super) fn contact(dice: &mut Dice) -> Case {
     others(&draft, "pendulums that meet", time(dice, &STEPS, 0.6))
 }
 
-/// A chain or a four-bar with a rod cut in two, which a stiff torsion spring holds: stiff enough, and it is the rod.
+/// A chain or a four-bar with a rod cut in two. A stiff torsion spring connects the parts. For a large stiffness the motion is that of the
+/// whole rod.
 pub(super) fn stiff_hinge(dice: &mut Dice) -> Case {
     let mut draft = if dice.once_in(2) { chain(dice, 2) } else { four_bar(dice) };
     let last = draft.bodies.len();
@@ -195,11 +196,11 @@ pub(super) fn stiff_hinge(dice: &mut Dice) -> Case {
     let hinge = draft.pin([body, beam], end);
     let stiffness = decades(dice, 3.0, 10.0);
     draft.effects.push(Effect::torsion_spring(JointId::new(hinge), stiffness, 0.0, 0.0));
-    // else the beam would start with a motion of its own
+    // without this condition the beam would start with a motion against its other part
     draft.rate(hinge, 0.0);
     draft.watch(beam, tip);
     let span = time(dice, &STEPS, 0.4);
-    // the beam bends by some 10 N m / k
+    // the beam bends by roughly 10 N m / k
     if stiffness < 3e8 {
         return others(&draft, "stiff hinge", span);
     }
@@ -208,7 +209,7 @@ pub(super) fn stiff_hinge(dice: &mut Dice) -> Case {
     twin(&draft, &plain, "stiff hinge", span)
 }
 
-/// Masses on a line with springs between, stiff beside soft.
+/// Masses on a line, connected by stiff and soft springs.
 pub(super) fn stiff_chain(dice: &mut Dice) -> Case {
     let n = 2 + dice.below(4);
     let mut draft = Draft::planar();

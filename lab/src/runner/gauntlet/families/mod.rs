@@ -1,4 +1,4 @@
-//! The families of hard cases: each makes a case of any seed.
+//! The families of difficult cases. Each family makes a case from any seed.
 
 mod bases;
 mod common;
@@ -11,14 +11,14 @@ mod steps;
 use crate::gauntlet::case::Case;
 use mbs::scene_file::Dice;
 
-/// A property that makes cases hard, and the generator of such cases.
+/// A family of cases with the same difficulty, and the generator of its cases.
 #[derive(Debug, Clone, Copy)]
 pub struct Family {
     /// Name of the family.
     pub name: &'static str,
-    /// Property that is hard about it: a column of the table.
+    /// Difficulty of the family: a column of the table.
     pub property: &'static str,
-    /// Rounds of all families in which it has one case.
+    /// Number of rounds of all families in which this family has one case.
     pub every: u64,
     make: fn(&mut Dice) -> Case,
 }
@@ -31,7 +31,7 @@ impl Family {
     /// The case of a seed.
     #[must_use]
     pub fn case(&self, seed: u64) -> Case {
-        // Families with the same seed are to differ.
+        // cases of different families with the same seed must differ
         let name =
             self.name.bytes().fold(0, |sum: u64, b| sum.wrapping_mul(31).wrapping_add(b.into()));
         (self.make)(&mut Dice::new(name.wrapping_add(seed.wrapping_mul(1_000_003))))
@@ -55,7 +55,7 @@ const PENALTIES: &str = "ill-scaled penalties";
 const LOOPS: &str = "many loops";
 const SINGLE: &str = "single precision";
 
-/// Families of hard cases, all of them.
+/// All families of difficult cases whose runs are short.
 pub const FAMILIES: [Family; 29] = [
     Family::new("parallelogram chain through the horizontal", SINGULAR, singular::parallelograms),
     Family::new("four-bar with a change point", SINGULAR, singular::change_point),
@@ -88,7 +88,7 @@ pub const FAMILIES: [Family; 29] = [
     Family::new("penalties from 1e3 to 1e13", PENALTIES, steps::penalties),
 ];
 
-/// Two families that take longer.
+/// Two families whose runs take longer.
 pub const LONG_FAMILIES: [Family; 2] = [
     Family { every: 3, ..Family::new("walker with twelve legs", LOOPS, scales::walker) },
     Family::new("32 bits", SINGLE, steps::single),

@@ -1,4 +1,4 @@
-//! Constraints that say the same more than once.
+//! Cases with redundant constraints.
 
 use super::bases::{any, four_bar};
 use super::common::{others, time, twin};
@@ -8,16 +8,16 @@ use crate::gauntlet::draft::{Draft, GROUND};
 use crate::gauntlet::vector::{Point, Turn, dot, plus};
 use mbs::scene_file::Dice;
 
-/// Steps of the runs, from long to short [s]: half decades.
+/// Steps of the runs, from long to short, two per decade [s].
 const STEPS: [f64; 4] = [1e-2, 3e-3, 1e-3, 3e-4];
 
-/// A four-bar with hinges of space: three of each loop's equations are redundant. The twin is planar.
+/// A four-bar with revolute joints in space: three equations of each loop are redundant. The equivalent mechanism is planar.
 pub(super) fn planar_in_space(dice: &mut Dice) -> Case {
     let plain = four_bar(dice);
     twin(&plain.raised(), &plain, "spatial four-bar", time(dice, &STEPS, 1.0))
 }
 
-/// A coupler on three to six parallel cranks of which two would do: a pendulum, and so is the twin.
+/// A coupler on three to six parallel cranks, of which two are sufficient. It moves as a pendulum, which is the equivalent mechanism.
 pub(super) fn more_cranks(dice: &mut Dice) -> Case {
     let n = 2 + dice.below(4);
     let (length, crank, coupler) =
@@ -31,19 +31,19 @@ pub(super) fn more_cranks(dice: &mut Dice) -> Case {
         draft.pin([GROUND, body], foot(k));
         draft.pin([body, plate], head(k));
     }
-    // fast enough to come around, slow enough not to reach the horizontal in the time
+    // the rate is too small to reach the horizontal within the run
     let rate = dice.between(0.2, 0.8);
     draft.rate(0, rate);
     draft.watch(plate, head(0));
     draft.watch(plate, head(n));
-    // of the n couplers of the pendulum all mass is this one's
+    // the pendulum is defined with n couplers; the plate has the mass of all of them
     let shares = [crank, coupler / f64::from(u32::try_from(n).unwrap_or(1))];
     let plain = pendulum((n, length), shares, [head(0), head(n)], rate);
     let (draft, plain) = if dice.once_in(2) { (draft.raised(), plain) } else { (draft, plain) };
     twin(&draft, &plain, "parallelogram", time(dice, &STEPS, 0.5))
 }
 
-/// A mechanism of any kind with one or two of its joints given twice; the twin has them once.
+/// A random mechanism in which one or two joints are given twice. In the equivalent mechanism they are given once.
 pub(super) fn doubled(dice: &mut Dice) -> Case {
     let plain = any(dice);
     let mut draft = plain.clone();
@@ -54,7 +54,8 @@ pub(super) fn doubled(dice: &mut Dice) -> Case {
     twin(&draft, &plain, "doubled joint", time(dice, &STEPS, 0.5))
 }
 
-/// Four hinges in space that are neither parallel nor meet: a structure by count, which moves.
+/// A Bennett linkage: four revolute joints in space whose axes are not parallel and have no common point. By the count of equations it is
+/// rigid, but it moves.
 pub(super) fn bennett(dice: &mut Dice) -> Case {
     let (alpha, beta) = (dice.between(0.3, 0.8), dice.between(1.0, 1.5));
     let theta = dice.between(0.6, 2.4);
@@ -71,7 +72,7 @@ pub(super) fn bennett(dice: &mut Dice) -> Case {
     others(&draft, "Bennett", time(dice, &STEPS, 0.6))
 }
 
-/// Places and axes of a Bennett linkage with twists alpha, beta and lengths sin alpha, sin beta.
+/// Points and axes of a Bennett linkage with twists alpha, beta and lengths sin alpha, sin beta.
 fn bennett_places(alpha: f64, beta: f64, theta: f64) -> ([Point; 4], [Point; 4]) {
     let other = ((0.5 * (beta + alpha)).sin() / (0.5 * (beta - alpha)).sin() / (0.5 * theta).tan())
         .atan()
@@ -93,14 +94,14 @@ fn bennett_places(alpha: f64, beta: f64, theta: f64) -> ([Point; 4], [Point; 4])
     (places, axes)
 }
 
-/// Six hinges along the edges of a box, each across both of its edges (Bricard's trihedral linkage): its lengths and angles fit, so
-/// that it moves.
+/// Bricard's trihedral linkage: six revolute joints along the edges of a box. Each axis is perpendicular to both of its edges. The linkage
+/// moves because of these lengths and angles.
 pub(super) fn bricard(dice: &mut Dice) -> Case {
     let size: Point =
         if dice.once_in(2) { [1.0; 3] } else { std::array::from_fn(|_| dice.between(0.6, 1.4)) };
     let corners = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [1, 1, 1], [0, 1, 1], [0, 0, 1]];
     let places = corners.map(|c: [i32; 3]| std::array::from_fn(|i| f64::from(c[i]) * size[i]));
-    // the hinge at a corner is across the edges that meet there
+    // the axis at a corner is perpendicular to the two edges of the linkage that meet there
     let axes = [[0, 1, 0], [0, 0, 1], [1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 0, 0]];
     let axes = axes.map(|a: [i32; 3]| a.map(f64::from));
     let mut draft = Draft::spatial();

@@ -1,4 +1,4 @@
-//! Small beside large: masses, units, frequencies, numbers of loops; and other axes.
+//! Cases with very different scales: masses, units, frequencies, numbers of loops; and cases in rotated axes.
 
 use super::bases::{any, chain, direction, four_bar, loop_on, spatial_chain};
 use super::common::{case, decades, others, time, twin};
@@ -8,10 +8,10 @@ use crate::gauntlet::text::text;
 use crate::gauntlet::vector::{Turn, plus};
 use mbs::scene_file::Dice;
 
-/// Steps of the runs, from long to short [s]: half decades.
+/// Steps of the runs, from long to short, two per decade [s].
 const STEPS: [f64; 4] = [1e-2, 3e-3, 1e-3, 3e-4];
 
-/// Seven bodies that turn at some ten thousand revolutions a minute; its drive at random.
+/// Andrews' squeezing mechanism: seven bodies with some ten thousand revolutions per minute. Its driving torque is random.
 pub(super) fn andrews(dice: &mut Dice) -> Case {
     let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/andrews.toml");
     let scene = std::fs::read_to_string(scene).expect("the scene is in the repository");
@@ -22,7 +22,7 @@ pub(super) fn andrews(dice: &mut Dice) -> Case {
     Case { scene, step, size: 1.0, options: Options::default(), truth: Truth::Others }
 }
 
-/// A chain or a four-bar whose masses are up to a million times each other's.
+/// A chain or a four-bar with ratios of masses up to a million.
 pub(super) fn masses(dice: &mut Dice) -> Case {
     let n = 2 + dice.below(4);
     let mut draft = match dice.below(3) {
@@ -41,7 +41,7 @@ pub(super) fn masses(dice: &mut Dice) -> Case {
     others(&draft, "light and heavy", time(dice, &STEPS, 0.5))
 }
 
-/// Two cranks and a link without mass, or nearly: in the twin it is a constant distance.
+/// Two cranks and a link with no or nearly no mass. In the equivalent mechanism the link is a constant distance.
 pub(super) fn massless(dice: &mut Dice) -> Case {
     let mut plain = Draft::planar();
     let ends = [[0.1, 0.5, 0.0], [0.9, 0.6, 0.0]];
@@ -66,7 +66,7 @@ pub(super) fn massless(dice: &mut Dice) -> Case {
     twin(&draft, &plain, "massless link", time(dice, &STEPS, 0.6))
 }
 
-/// A mechanism in millimetres and tonnes, or in stranger units; the twin is in metres and kilograms.
+/// A mechanism in millimetres and tonnes, or in other units. The equivalent mechanism is in metres and kilograms.
 pub(super) fn units(dice: &mut Dice) -> Case {
     let plain = any(dice);
     let (length, mass) = match dice.below(3) {
@@ -81,7 +81,7 @@ pub(super) fn units(dice: &mut Dice) -> Case {
     case(&draft, "other units", (step, duration), truth)
 }
 
-/// A mechanism turned as a whole, gravity with it, about any axis (in the plane: about its normal).
+/// A mechanism rotated together with gravity, about a random axis (in the plane: about its normal).
 pub(super) fn rotated(dice: &mut Dice) -> Case {
     let mut plain = any(dice);
     if plain.dimension == 2 && dice.once_in(2) {
@@ -95,7 +95,7 @@ pub(super) fn rotated(dice: &mut Dice) -> Case {
     case(&plain.turned(&turn), "turned", (step, duration), truth)
 }
 
-/// A frame on a slide with twelve legs, each a four-bar: twelve loops and thirteen freedoms.
+/// A frame on a slide with twelve legs. Each leg is a four-bar, so that there are twelve loops and thirteen freedoms.
 pub(super) fn walker(dice: &mut Dice) -> Case {
     let mut draft = Draft::planar();
     let frame = draft.rod([-3.0, 0.0, 0.0], [3.0, 0.0, 0.0], 20.0);

@@ -1,4 +1,4 @@
-//! Positions in which constraints lose rank, and those next to them.
+//! Cases at or near positions in which constraints lose rank.
 
 use super::bases::loop_on;
 use super::common::{decades, others, time, twin};
@@ -7,10 +7,10 @@ use crate::gauntlet::draft::{Draft, GROUND};
 use crate::gauntlet::vector::{Point, plus};
 use mbs::scene_file::Dice;
 
-/// Steps of the runs, from long to short [s]: half decades.
+/// Steps of the runs, from long to short, two per decade [s].
 const STEPS: [f64; 4] = [1e-2, 3e-3, 1e-3, 3e-4];
 
-/// Parallelograms side by side, whose cranks pass the horizontal together: a pendulum, and so is the twin.
+/// Parallelograms beside each other, whose cranks pass the horizontal together. They move as a pendulum, which is the equivalent mechanism.
 pub(super) fn parallelograms(dice: &mut Dice) -> Case {
     let n = 1 + dice.below(3);
     let (length, distance) = (dice.between(0.5, 1.5), dice.between(0.5, 1.5));
@@ -35,7 +35,7 @@ pub(super) fn parallelograms(dice: &mut Dice) -> Case {
     twin(&draft, &plain, "parallelograms", time(dice, &STEPS, 1.5))
 }
 
-/// The pendulum that parallel cranks (n + 1, of a length) with couplers (n) are: cranks and couplers have these masses.
+/// The pendulum that is equivalent to n + 1 parallel cranks of a length with n couplers, of given masses.
 pub(super) fn pendulum(
     (n, length): (usize, f64),
     [crank, coupler]: [f64; 2],
@@ -48,7 +48,7 @@ pub(super) fn pendulum(
     let about_pivot = ((n + 1.0) * crank / 3.0 + n * coupler) * length * length;
     let moment = about_pivot - mass * center * center;
     let mut plain = Draft::planar();
-    // each crank's end on a pendulum of its own, the same motion in two places
+    // each crank's end has a pendulum of its own: the same motion in two places
     for head in heads {
         let foot = plus(head, -length, [0.0, 1.0, 0.0]);
         let body = plain.solid(plus(foot, center, [0.0, 1.0, 0.0]), mass, [moment; 3]);
@@ -59,13 +59,14 @@ pub(super) fn pendulum(
     plain
 }
 
-/// Shortest and longest side as long as the two others: all lie in one line once a turn, and two branches meet there.
+/// A four-bar at its change point: the shortest and the longest side together are as long as the two others. Once per revolution all sides
+/// are in one line, where two branches of the motion meet.
 pub(super) fn change_point(dice: &mut Dice) -> Case {
     loop {
         let mut draft = Draft::planar();
         let (a, b) = (dice.between(0.3, 0.6), dice.between(0.7, 1.2));
         let c = dice.between(0.7, 1.2);
-        // a + ground = b + c
+        // the condition of the change point: a + ground = b + c
         let ground = b + c - a;
         let masses = std::array::from_fn(|_| dice.between(0.5, 2.0));
         let angle = dice.between(1.0, 2.5);
@@ -78,7 +79,7 @@ pub(super) fn change_point(dice: &mut Dice) -> Case {
     }
 }
 
-/// Crank, rod and slider; in half of them the rod is as long as the crank, so that the slider passes the pivot.
+/// Crank, rod and slider. In half of the cases the rod is as long as the crank, so that the slider passes the crank's pivot.
 pub(super) fn slider_crank(dice: &mut Dice) -> Case {
     let crank_length = dice.between(0.2, 0.6);
     let rod_length = if dice.once_in(2) { crank_length } else { dice.between(0.7, 1.2) };
@@ -99,7 +100,7 @@ pub(super) fn slider_crank(dice: &mut Dice) -> Case {
     others(&draft, "slider-crank", time(dice, &STEPS, 1.0))
 }
 
-/// A chain between two fixed places, only just longer than they are apart.
+/// A chain between two fixed points, slightly longer than their distance.
 pub(super) fn straight_chain(dice: &mut Dice) -> Case {
     let n = 3 + dice.below(3);
     let slack = decades(dice, -2.5, -0.3);
@@ -107,7 +108,7 @@ pub(super) fn straight_chain(dice: &mut Dice) -> Case {
     let (mut at, mut before) = ([0.0; 3], GROUND);
     let half = f64::from(u32::try_from(n - 1).unwrap_or(1)) / 2.0;
     for k in 0..n {
-        // antisymmetric angles, so that both ends are at one height
+        // the angles are antisymmetric, so that both ends have the same height
         let share = (f64::from(u32::try_from(k).unwrap_or(0)) - half) / half;
         let end = plus(at, 0.4, [(slack * share).cos(), (slack * share).sin(), 0.0]);
         let body = draft.rod(at, end, 1.0);
@@ -122,7 +123,7 @@ pub(super) fn straight_chain(dice: &mut Dice) -> Case {
     others(&draft, "chain", time(dice, &STEPS, 0.5))
 }
 
-/// A rotor in two rings: when the middle axis is a quarter turn from its start, the outer and the inner one are in line.
+/// A rotor in two gimbals. After a quarter turn of the middle axis, the outer and the inner axis are in line.
 pub(super) fn gimbals(dice: &mut Dice) -> Case {
     let mut draft = Draft::spatial();
     draft.gravity = [0.0; 3];
@@ -136,7 +137,7 @@ pub(super) fn gimbals(dice: &mut Dice) -> Case {
         draft.joint("revolute", bodies, [0.0; 3], &[axis]);
     }
     let speed = dice.between(1.0, 3.0);
-    // the nearer to nothing about the first axis, the nearer to the lock
+    // the smaller the rate about the first axis, the closer the motion comes to the lock
     draft.rate(0, speed * decades(dice, -2.0, 0.0));
     draft.rate(1, speed);
     draft.rate(2, dice.between(-1.0, 1.0));
@@ -145,7 +146,7 @@ pub(super) fn gimbals(dice: &mut Dice) -> Case {
     others(&draft, "gimbals", time(dice, &STEPS, 1.5))
 }
 
-/// Two shafts with a universal joint between, up to a degree from a right angle.
+/// Two shafts with a universal joint between them, at an angle of up to 89 degrees.
 pub(super) fn cardan(dice: &mut Dice) -> Case {
     let angle: f64 =
         if dice.once_in(2) { dice.between(0.2, 1.2) } else { dice.between(1.2, 1.553) };
@@ -160,7 +161,7 @@ pub(super) fn cardan(dice: &mut Dice) -> Case {
     let shaft = draft.solid([-0.5, 0.0, 0.0], 1.0, j);
     let driven = draft.solid(second.map(|x| 0.5 * x), 1.0, k);
     let pivot = draft.joint("revolute", [GROUND, shaft], [-0.5, 0.0, 0.0], &[first]);
-    // both arms of the cross are across their shafts and each other
+    // both arms of the cross are perpendicular to their shafts and to each other
     let across = [-second[1], second[0], 0.0];
     draft.joint("universal", [shaft, driven], [0.0; 3], &[[0.0, 0.0, 1.0], across]);
     draft.joint("cylindrical", [GROUND, driven], second, &[second]);

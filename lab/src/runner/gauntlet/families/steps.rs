@@ -1,4 +1,4 @@
-//! Steps that are very small, very large or very many, numbers of few digits, and penalties of any size.
+//! Cases with very small, very large or very many steps, with single precision, and with any penalty factor.
 
 use super::bases::{any, chain, four_bar};
 use super::common::{case, decades, time};
@@ -11,20 +11,20 @@ pub(super) fn long(dice: &mut Dice) -> Case {
     case(&draft, "a million steps", (1e-3, 1e3), Truth::Invariants)
 }
 
-/// Steps of 1e-7 s.
+/// Any mechanism with steps of 1e-7 s.
 pub(super) fn tiny(dice: &mut Dice) -> Case {
     let draft = any(dice);
     case(&draft, "tiny steps", time(dice, &[1e-7], 1e-4), Truth::Extrapolated)
 }
 
-/// Steps of up to a fifth of a second: some ten of them are a swing.
+/// Any mechanism with steps of up to a fifth of a second: roughly ten steps per oscillation.
 pub(super) fn large(dice: &mut Dice) -> Case {
     let draft = any(dice);
     let time = time(dice, &[2e-1, 1e-1, 5e-2, 2e-2], 2.0);
     case(&draft, "large steps", time, Truth::Others)
 }
 
-/// A fixed penalty of any size, in the formulations that have one.
+/// Any mechanism with a random fixed penalty factor, in the formulations that have one.
 pub(super) fn penalties(dice: &mut Dice) -> Case {
     let draft = any(dice);
     let penalty = decades(dice, 3.0, 13.0);
@@ -33,7 +33,7 @@ pub(super) fn penalties(dice: &mut Dice) -> Case {
     Case { options: Options { penalty: Some(penalty), ..Options::default() }, ..case }
 }
 
-/// Case in single precision; the reference is in double.
+/// A case in single precision. Its reference is in double precision.
 pub(super) fn single(dice: &mut Dice) -> Case {
     let draft = any(dice);
     let time = time(dice, &[1e-2, 3e-3, 1e-3], 0.5);
