@@ -99,7 +99,7 @@ pub(crate) fn modes(arguments: &Modes) -> ExitCode {
     command(&arguments.common, "modes.json", analyse)
 }
 
-/// Reads, analyses, and writes JSON or text.
+/// Reads a scene, analyses it, and writes the result as JSON or text.
 fn command(
     common: &Common,
     file: &str,
@@ -131,7 +131,7 @@ fn command(
     status
 }
 
-/// Replaces the file of the object; gives the object as it is there.
+/// Replaces the file with the object in the folder. Returns the object with the id that the file has.
 fn write(
     folder: &Folder,
     (file, object): (&str, &str),
@@ -184,7 +184,7 @@ fn still(s: &StaticEquilibrium) -> String {
         ("search", format!("{} steps, {} factorisations", found.iterations, found.factorizations)),
         ("potential energy", format!("{} J", fixed(s.potential))),
     ];
-    // Writing into a String has nothing to fail on.
+    // writing into a String cannot fail
     for (label, value) in rows {
         let _ = writeln!(text, "  {label:<24} {value}");
     }
@@ -205,7 +205,7 @@ fn still(s: &StaticEquilibrium) -> String {
     text
 }
 
-/// How far it went.
+/// Largest displacement and rotation of a body between the start and the equilibrium, as text.
 fn moved(s: &StaticEquilibrium) -> String {
     let Some([way, turn]) = &s.moved else { return "no body".to_owned() };
     let part = |size: f64, unit: &str, body: &str| {
@@ -218,17 +218,17 @@ fn moved(s: &StaticEquilibrium) -> String {
     format!("{}, {}", part(way.size, "m", &way.body), part(turn.size, "rad", &turn.body))
 }
 
-/// A note for what is left out.
+/// Appends a note on the effects that the analysis leaves out.
 fn leave_out(from: &str, left_out: &[LeftOut], text: &mut String) {
     if left_out.is_empty() {
         return;
     }
     let parts: Vec<_> = left_out.iter().map(|l| format!("{} of `{}`", l.part, l.name)).collect();
-    // Writing into a String has nothing to fail on.
+    // writing into a String cannot fail
     let _ = writeln!(text, "note: left out of {from}: {}", parts.join(", "));
 }
 
-/// Values with their units.
+/// Values of a channel with their units, as text.
 fn values_text(channel: &Channel, values: &[f64]) -> String {
     let parts = channel.components.iter().zip(values).map(|(component, x)| {
         let label = if component.label.parse::<u32>().is_ok() { "" } else { &component.label };
@@ -255,7 +255,7 @@ fn spectrum(m: &mbs::Modes) -> String {
             Place::Moving => "equilibrium in motion",
         }
     );
-    // Writing into a String has nothing to fail on.
+    // writing into a String cannot fail
     let _ = writeln!(
         text,
         "{:>16} {:>16} {:>14} {:>14} {:>10}",
@@ -272,7 +272,7 @@ fn spectrum(m: &mbs::Modes) -> String {
             mode.undamped_frequency(),
         );
     }
-    // the motion itself is linearised with all that the scene has
+    // a moving state is linearised with all effects; only the search of its equilibrium leaves some out
     let is_moving = m.place == Place::Moving;
     let from = if is_moving { "the search of the equilibrium alone" } else { "this analysis" };
     leave_out(from, &m.left_out, &mut text);
@@ -282,7 +282,7 @@ fn spectrum(m: &mbs::Modes) -> String {
     text
 }
 
-/// A damping ratio, without a minus before a zero.
+/// A damping ratio as text. A negative zero has no minus sign.
 fn damped(ratio: f64) -> String {
     let text = format!("{ratio:.6}");
     if text == "-0.000000" { "0.000000".to_owned() } else { text }

@@ -1,9 +1,9 @@
-//! Progress on a terminal.
+//! Progress bars on a terminal.
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::{IsTerminal, stderr};
 
-/// A bar of `ticks`, on a terminal; elsewhere, or where nothing is to be shown, it is not seen.
+/// A progress bar with `ticks` steps. It is hidden if standard error is no terminal, or if the command is quiet.
 pub(crate) fn bar(ticks: u64, is_quiet: bool, template: &str) -> ProgressBar {
     let target = if is_quiet || !stderr().is_terminal() {
         ProgressDrawTarget::hidden()
@@ -15,7 +15,7 @@ pub(crate) fn bar(ticks: u64, is_quiet: bool, template: &str) -> ProgressBar {
     style.map_or(bar.clone(), |style| bar.with_style(style))
 }
 
-/// A share of the whole, from 0 to 1, in ticks.
+/// Converts a fraction from 0 to 1 to a number of ticks.
 #[allow(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,

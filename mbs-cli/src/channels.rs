@@ -2,24 +2,24 @@
 
 use mbs::record::ChannelSummary;
 
-/// Rows that are shown without `--all`: what a screen has beside the rest of the summary. Chosen, not tuned.
+/// Largest number of rows without `--all`: the summary with these fits on a screen. Chosen, not tuned.
 const MAX_ROWS: usize = 20;
-/// Most characters of a name: the table then fits into a hundred columns.
+/// Largest number of characters of a name. With it the table fits into a hundred columns.
 const NAME_WIDTH: usize = 24;
-/// Characters of a unit that a name of full width leaves room for.
+/// Number of characters of a unit beside a name of full width.
 const UNIT_WIDTH: usize = 6;
-/// Characters of a component's label: `Fx`, `|F|`, `abs`.
+/// Number of characters of a component's label: `Fx`, `|F|`, `abs`.
 const LABEL_WIDTH: usize = 3;
-/// Characters of a number with the blank before it: six digits and an exponent.
+/// Number of characters of a number with the blank before it: six digits and an exponent.
 const NUMBER_WIDTH: usize = 11;
-/// Characters of a time with the blank before it: five digits.
+/// Number of characters of a time with the blank before it: five digits.
 const TIME_WIDTH: usize = 9;
 /// Least magnitude that is written without an exponent. Chosen, not tuned.
 const MIN_PLAIN: f64 = 1e-3;
-/// Magnitude from which on numbers are written with an exponent. Chosen, not tuned.
+/// Least magnitude that is written with an exponent. Chosen, not tuned.
 const MAX_PLAIN: f64 = 1e5;
 
-/// The lines of the table; none where there are no channels.
+/// The lines of the table; an empty list if there are no channels.
 pub(crate) fn lines(channels: &[ChannelSummary], is_all: bool) -> Vec<String> {
     let rows: Vec<_> = channels.iter().flat_map(of_channel).collect();
     let shown = &rows[..if is_all { rows.len() } else { rows.len().min(MAX_ROWS) }];
@@ -44,7 +44,7 @@ pub(crate) fn lines(channels: &[ChannelSummary], is_all: bool) -> Vec<String> {
     lines
 }
 
-/// Row of the table of statistics: texts as they are shown.
+/// Row of the table of statistics, as texts.
 struct Row<'a> {
     name: &'a str,
     label: String,
@@ -85,7 +85,7 @@ fn line(
     line
 }
 
-/// A name of at most so many characters.
+/// A name shortened to `most` characters.
 fn shortened(name: &str, most: usize) -> String {
     if name.chars().count() <= most {
         return name.to_owned();
@@ -93,7 +93,7 @@ fn shortened(name: &str, most: usize) -> String {
     name.chars().take(most.saturating_sub(1)).chain(['…']).collect()
 }
 
-/// Six digits, without a minus before a zero.
+/// A number with six digits. A negative zero has no minus sign.
 pub(crate) fn number(x: f64) -> String {
     let size = x.abs();
     if size == 0.0 {
@@ -101,7 +101,7 @@ pub(crate) fn number(x: f64) -> String {
     }
     if !(MIN_PLAIN..MAX_PLAIN).contains(&size) {
         let text = format!("{x:.3e}");
-        // an exponent of three digits takes the place of a decimal
+        // an exponent of three digits leaves room for one decimal fewer
         return if text.len() < NUMBER_WIDTH { text } else { format!("{x:.2e}") };
     }
     #[allow(clippy::cast_possible_truncation, reason = "between -3 and 4")]
@@ -110,7 +110,7 @@ pub(crate) fn number(x: f64) -> String {
     format!("{x:.decimals$}")
 }
 
-/// A time to a tenth of a millisecond, where it is not longer than hours.
+/// A time with four decimals, or in exponential form if it is at least 10,000 s.
 pub(crate) fn time(t: f64) -> String {
     if t < MAX_PLAIN / 10.0 { format!("{t:.4}") } else { format!("{t:.2e}") }
 }
@@ -119,7 +119,7 @@ pub(crate) fn time(t: f64) -> String {
 mod tests {
     use super::*;
 
-    /// Columns of a terminal that the table fits into.
+    /// Width of a terminal into which the table must fit, in columns.
     const MAX_COLUMNS: usize = 100;
 
     fn channel(name: &str, unit: &str, x: f64) -> ChannelSummary {

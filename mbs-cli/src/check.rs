@@ -31,10 +31,10 @@ pub(crate) struct Arguments {
     json: bool,
 }
 
-/// Sizes of a scene that passes (coordinates, constraints, rank), and notes on it.
+/// Sizes of a valid scene (coordinates, constraints, rank), and notes on it.
 type Sizes = ([usize; 3], Vec<String>);
 
-/// Why a scene does not pass: an object for programs, and the text.
+/// Reason why a scene is refused: an object for programs, and a text.
 type Failure = (Value, String);
 
 /// Runs the command `mbs check`.

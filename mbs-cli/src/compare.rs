@@ -17,9 +17,9 @@ use mbs_study::compare::{CompareError, Earlier, JournalError, Request, Watch, co
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-/// Timings of each run of a first look [-]. Chosen, not tuned.
+/// Number of timings of each run with `--quick` [-]. Chosen, not tuned.
 const QUICK_REPEATS: u32 = 2;
-/// CPU time of all its runs together [s].
+/// CPU time of all runs together with `--quick` [s].
 const QUICK_BUDGET: f64 = 5.0;
 
 /// Arguments of `mbs compare`.
@@ -86,7 +86,7 @@ pub(crate) struct Arguments {
 impl Arguments {
     fn request(&self) -> Result<Request, Refusal> {
         let plain = Request::default();
-        // `auto` stands before the formulations
+        // the first of FORMULATIONS is `auto`, which is not compared
         let formulation =
             |name: &String| named("formulation", name, &FORMULATIONS[1..], &FormulationKind::ALL);
         let precision = |name: &String| named("precision", name, &PRECISIONS, &Precision::ALL);
@@ -111,13 +111,13 @@ impl Arguments {
         })
     }
 
-    /// Precisions that will be needed; none where the arguments are refused.
+    /// Precisions that the comparison needs; none if its arguments will be refused.
     pub(crate) fn precisions(&self) -> Vec<Precision> {
         let has_table = self.table().is_ok_and(|table| table.is_some());
         self.request().map_or(Vec::new(), |request| request.needed_precisions(has_table))
     }
 
-    /// Returns the name and the text of the reference table: the one given, or the one beside the scene.
+    /// Returns the name and the text of the reference table: the given one, or the one beside the scene.
     fn table(&self) -> Result<Option<(String, String)>, Refusal> {
         let name = self.scene.with_extension("csv");
         let folder = self.scene.parent().unwrap_or(Path::new("")).join("references");
@@ -143,7 +143,7 @@ impl Arguments {
         }
     }
 
-    /// The command line that makes the same comparison.
+    /// The command line that repeats the comparison.
     fn command(&self) -> String {
         let plain = Request::default();
         let join =
@@ -194,7 +194,7 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
 /// Files of a comparison.
 const FILES: [&str; 4] = ["compare.csv", "compare.json", "compare.html", "compare.journal"];
 
-/// The comparison, and where its results go, with their id.
+/// Makes the comparison of the arguments. Returns it with the folder for its results and their id.
 fn run(arguments: &Arguments) -> Result<(Comparison, Option<(Folder, String)>), Refusal> {
     let request = Request { interrupt: signals::heeded(), ..arguments.request()? };
     if let Some(path) = arguments.figure.as_ref().filter(|path| !is_picture(ending(path))) {
@@ -221,7 +221,7 @@ fn run(arguments: &Arguments) -> Result<(Comparison, Option<(Folder, String)>), 
     Ok((comparison, written))
 }
 
-/// A refusal, or what is left of a comparison that was interrupted: with a directory, a journal.
+/// The refusal of a comparison, or the message of an interrupted one. With a directory, finished runs are in the journal.
 fn refusal(error: &CompareError, has_journal: bool) -> Refusal {
     let hint = error.hint();
     match error {
@@ -244,12 +244,12 @@ fn refusal(error: &CompareError, has_journal: bool) -> Refusal {
     }
 }
 
-/// The ending of a file's name.
+/// The extension of a file's name.
 fn ending(path: &Path) -> &str {
     path.extension().and_then(|ending| ending.to_str()).unwrap_or_default()
 }
 
-/// The commit, as the build or the environment of the command has it.
+/// The commit, from the environment variable at build time or at run time.
 fn commit() -> String {
     let built = option_env!("MBS_COMMIT").map(str::to_owned);
     built.or_else(|| std::env::var("MBS_COMMIT").ok()).unwrap_or_default()
@@ -266,7 +266,8 @@ fn build() -> String {
     format!("{profile}; {}; {wide}", std::env::consts::ARCH)
 }
 
-/// Files, then JSON or tables. Runs that fail are results; the exit status is that of a run that stopped if no run was completed.
+/// Writes the files, then prints JSON or tables. A run that stops is a result. The exit status is that of a stopped run if no run was
+/// completed.
 fn write_results(
     comparison: &Comparison,
     written: Option<(Folder, String)>,
@@ -312,13 +313,13 @@ fn write_files(
     part.finish("compare.json", object)
 }
 
-/// A progress bar on a terminal; elsewhere the plan only, and with JSON nothing.
+/// A progress bar on a terminal. Without a terminal only the plan is printed, and with JSON nothing.
 struct Bar {
     bar: ProgressBar,
     is_quiet: bool,
 }
 
-/// Ticks of the whole progress bar.
+/// Number of steps of the progress bar.
 const TICKS: u64 = 1000;
 
 impl Bar {

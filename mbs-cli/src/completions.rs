@@ -1,4 +1,4 @@
-//! Commands `mbs completions SHELL` and `mbs man DIR`: what an installation puts beside the command.
+//! Commands `mbs completions SHELL` and `mbs man DIR`: files for an installation of the command.
 
 use crate::refusal::Refusal;
 use crate::say::{plain, say};

@@ -15,7 +15,7 @@ use serde_json::json;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-/// Most characters of a column's name in the table: it then fits into a hundred columns.
+/// Largest number of characters of a column's name in the table. With it the table fits into a hundred columns.
 const NAME_WIDTH: usize = 26;
 
 /// Arguments of `mbs diff`.
@@ -92,14 +92,14 @@ pub(crate) fn label(run: &Path) -> String {
     run.file_stem().unwrap_or(run.as_os_str()).to_string_lossy().into_owned()
 }
 
-/// The refusal of a channel that is not there.
+/// The refusal of a channel that no run has.
 pub(crate) fn unknown(name: &str, mut known: Vec<&str>) -> Refusal {
     known.dedup();
     let hint = format!("name one of: {}", known.join(", "));
     Refusal::new("unknown-channel", format!("there is no channel `{name}`"), hint)
 }
 
-/// The results in a directory, or those of a scene that is run, with those values set; else the refusal.
+/// The results in a directory, or those of a scene file, which is run with the values of `set`. Otherwise the refusal.
 pub(crate) fn results(path: &Path, set: &[String]) -> Result<ResultTable, Refusal> {
     let unreadable = |error: &dyn core::fmt::Display| {
         let hint = "give a directory that `mbs run SCENE --out DIR` has written, or a scene";
@@ -180,7 +180,7 @@ fn line(column: &ColumnDifference) -> String {
     let ([a, b], [c, d]) = (column.peaks, column.rms);
     let numbers = [a, b, c, d, column.difference].map(|x| format!("{:>11}", number(x))).concat();
     let n = column.name.chars().count().saturating_sub(NAME_WIDTH);
-    // the end of a name says which component it is
+    // a shortened name keeps its end, which names the component
     let name = match n {
         0 => column.name.clone(),
         _ => ['…'].into_iter().chain(column.name.chars().skip(n + 1)).collect(),

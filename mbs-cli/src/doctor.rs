@@ -66,7 +66,7 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     write_results(&begun, (&checkup, motion), arguments)
 }
 
-/// The scene at its start, for a page: a run of one step.
+/// The scene at its start, for the page: a run of one step. `None` if no page is written.
 fn at_start(begun: &files::Begun, given: Method) -> Option<RecordedMotion> {
     begun.folder.as_ref()?;
     let duration = Some(begun.settings.step);
@@ -74,7 +74,7 @@ fn at_start(begun: &files::Begun, given: Method) -> Option<RecordedMotion> {
     result.ok()?.outcome().record(Provenance::default()).motion
 }
 
-/// Files, then JSON or text; the exit status says whether there is a fault.
+/// Writes the files, then prints JSON or text. The exit status says whether there is a fault.
 fn write_results(
     begun: &files::Begun,
     (checkup, motion): (&Checkup, Option<RecordedMotion>),

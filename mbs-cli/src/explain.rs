@@ -60,7 +60,7 @@ fn explain(arguments: &Arguments) -> Result<(files::Begun, Explanation), Refusal
     Ok((begun, explanation))
 }
 
-/// Files, then JSON or tables; the exit status says whether the run with all effects was completed.
+/// Writes the files, then prints JSON or tables. The exit status says whether the run with all effects was completed.
 fn write_results(
     begun: &files::Begun,
     explanation: &Explanation,

@@ -1,4 +1,4 @@
-//! Scenes in, result files out, and what to say when that fails.
+//! Reading of scenes, writing of result files, and the messages when these fail.
 
 use crate::input::read;
 use crate::refusal::Refusal;
@@ -16,19 +16,19 @@ use mbs::{
 use std::path::Path;
 use std::process::ExitCode;
 
-/// Scene, settings and folder of results with which a command that runs a scene begins.
+/// Scene, settings and result folder of a command that runs a scene.
 pub(crate) struct Begun {
     pub(crate) mechanism: Mechanism,
     /// Scene file of the mechanism.
     pub(crate) document: SceneFile,
     pub(crate) scene: Scene<f64>,
     pub(crate) settings: ResolvedMethod,
-    /// Folder of the results; `None`: no files are written.
+    /// Folder of the results; `None` if no files are written.
     pub(crate) folder: Option<Folder>,
 }
 
-/// Reads a scene, settles how it is run, and takes the place of its results, since what cannot be written should not be computed; else the
-/// refusal.
+/// Reads a scene, determines the settings of the run, and opens the folder of the results. The folder is opened before the run, so that no
+/// run is lost because its results cannot be written. Otherwise returns the refusal.
 pub(crate) fn begin(
     scene: &SceneArgument,
     overrides: &Method,
@@ -45,12 +45,12 @@ pub(crate) fn begin(
     Ok(Begun { mechanism, document, scene, settings, folder })
 }
 
-/// The table of a file that inputs follow; else the refusal.
+/// The table of inputs in a file; otherwise the refusal.
 pub(crate) fn input_table(file: &Path) -> Result<InputTable, Refusal> {
     Ok(InputTable::csv(&read(file, "table of inputs")?, &file.display().to_string()))
 }
 
-/// The refusal of a run, with its place where it has one.
+/// The refusal of a run, with its place in the scene file if it has one.
 pub(crate) fn refused(error: &SimulationError, document: &SceneFile) -> Refusal {
     if let Some(error) = error.cause::<ReadError>() {
         return Refusal::read("scene-refused", error);
@@ -66,14 +66,14 @@ pub(crate) fn refused(error: &SimulationError, document: &SceneFile) -> Refusal 
     }
 }
 
-/// Takes a directory for results in these files; else the refusal.
+/// Opens a directory for result files with these names; otherwise returns the refusal.
 pub(crate) fn folder(out: &Path, files: &[&str]) -> Result<Folder, Refusal> {
     let folder = Folder::open(out, files).map_err(|error| Refusal::folder(out, &error))?;
     warn_of_mixed(out);
     Ok(folder)
 }
 
-/// Warns of files in a directory that do not belong to its results.
+/// Warns of files in a directory that belong to other results.
 pub(crate) fn warn_of_mixed(folder: &Path) {
     if let Some([file, object]) = Folder::mixed(folder) {
         warn(&format!(
@@ -84,7 +84,7 @@ pub(crate) fn warn_of_mixed(folder: &Path) {
     }
 }
 
-/// Writes a file that is named alone, unless it is the one that was read; else the refusal.
+/// Writes a file that is named on the command line, unless it is the file that was read. Otherwise returns the refusal.
 pub(crate) fn write(path: &Path, bytes: &[u8], input: Option<&Path>) -> Result<(), Refusal> {
     let place = |path: &Path| path.canonicalize().ok();
     if input.is_some_and(|input| place(input).is_some() && place(input) == place(path)) {
@@ -94,7 +94,7 @@ pub(crate) fn write(path: &Path, bytes: &[u8], input: Option<&Path>) -> Result<(
     write_file(path, bytes).map_err(|error| Refusal::unwritable(&error))
 }
 
-/// A refusal of settings, with its place when the scene asks for them.
+/// A refusal of settings, with its place if the scene contains the setting.
 pub(crate) fn refusal(error: &SettingsError, document: &SceneFile) -> Refusal {
     let refusal = Refusal::settings(error);
     match error {
@@ -107,14 +107,14 @@ pub(crate) fn refusal(error: &SettingsError, document: &SceneFile) -> Refusal {
     }
 }
 
-/// The id of results of a scene that was run with these settings.
+/// The id of the results of a scene with these settings.
 pub(crate) fn results_id(document: &SceneFile, settings: &ResolvedMethod) -> String {
-    // what a pilot measured differs from time to time, and threads change no bit
+    // measurements of a pilot differ each time, and the number of threads does not change results
     let same = ResolvedMethod { choice: None, threads: 1, ..settings.clone() };
     id(&[&document.whole_text(), &format!("{same:?}")])
 }
 
-/// Replaces an object and its page in the directory, where there is one; gives the object as it is there, and what to say of it.
+/// Replaces a JSON object and its page in the directory, if there is one. Returns the object with the id in its file, and a message.
 pub(crate) fn write_report(
     begun: &Begun,
     name: &str,
@@ -143,7 +143,7 @@ pub(crate) fn command_line(begin: &str, options: &[(&str, Option<String>)]) -> S
     })
 }
 
-/// How a result was made: the command with the options that were given.
+/// Provenance of a result: the command with the given options.
 pub(crate) fn provenance(
     (command, scene): (&str, &SceneArgument),
     options: &[(&str, Option<String>)],
@@ -160,14 +160,14 @@ pub(crate) fn provenance(
     }
 }
 
-/// The processor's name, where the system reports it.
+/// The processor's name, if the system reports it.
 pub(crate) fn processor() -> String {
     let info = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
     let line = info.lines().find(|l| l.starts_with("model name"));
     line.and_then(|l| l.split_once(':')).map(|(_, name)| name.trim().to_owned()).unwrap_or_default()
 }
 
-/// The evidence of a choice, as an object and as a table.
+/// Writes the measurements behind a choice of method, as an object and as a table.
 pub(crate) fn write_choice(
     part: &mut mbs::folder::Part<'_>,
     choice: &PilotReport,

@@ -34,7 +34,7 @@ pub(crate) struct Arguments {
     output: Option<PathBuf>,
 }
 
-/// The families by name.
+/// Names of the families on the command line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Word {
     /// Spatial chain hung at one end.
@@ -49,7 +49,7 @@ enum Word {
     Convoy,
 }
 
-/// Distance between vehicles that is not given [m]: twice the length of a car.
+/// Default distance between vehicles [m]: twice the length of a car.
 const SPACING: f64 = 8.0;
 
 /// Runs the command `mbs generate`.
@@ -73,7 +73,7 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     }
 }
 
-/// The scene, or the refusal.
+/// The text of the scene, or the refusal.
 fn text(arguments: &Arguments) -> Result<String, Refusal> {
     let command = arguments.command();
     let make = |family: Family<'_>| generate(&family, &command).map_err(|error| refusal(&error));
@@ -111,7 +111,7 @@ impl Arguments {
         self.family.to_possible_value().map_or_else(String::new, |v| v.get_name().to_owned())
     }
 
-    /// The first option given that the family has no use for.
+    /// The first given option that the family does not use.
     fn stranger(&self) -> Option<&'static str> {
         let (is_net, is_convoy) = (self.family == Word::Net, self.family == Word::Convoy);
         let options = [

@@ -1,4 +1,4 @@
-//! Command `mbs import FILE`, and models where a scene is wanted.
+//! Command `mbs import FILE`, and models in place of scene files.
 
 use crate::files;
 use crate::input;
@@ -64,7 +64,7 @@ fn imported(arguments: &Arguments) -> Result<ExitCode, Refusal> {
     let home = arguments.file.parent().unwrap_or(Path::new(""));
     let folder = arguments.out.as_deref().and_then(Path::parent);
     let options = ImportOptions {
-        // on standard output it is taken for a file of the working directory
+        // text on standard output counts as a file of the working directory, so that relative paths are valid there
         scene_folder: Some(folder.unwrap_or(Path::new("")).to_owned()),
         ..model::options(&arguments.model, home)?
     };
@@ -96,7 +96,7 @@ fn imported(arguments: &Arguments) -> Result<ExitCode, Refusal> {
     Ok(say(&said, ExitCode::SUCCESS))
 }
 
-/// Faults of the scene's start; `None` where it was not looked at.
+/// Faults of the scene's start; `None` if the start was not checked.
 type Faults = Option<Vec<StartFault>>;
 
 fn faults(name: &str, model: &Imported) -> Result<Faults, Refusal> {
@@ -107,7 +107,7 @@ fn faults(name: &str, model: &Imported) -> Result<Faults, Refusal> {
     start_faults(name, model).map_err(refused)
 }
 
-/// Lines of the report on faults: `place` is the scene's, and the doctor takes `file`.
+/// Lines of the report on faults. `place` names the scene in them, and `file` is the argument for the doctor.
 fn fault_lines(faults: &Faults, place: &str, file: &Path) -> String {
     let text = |StartFault { finding, line }: &StartFault| {
         let Finding { code, message, remedy, .. } = finding;
@@ -123,7 +123,7 @@ fn fault_lines(faults: &Faults, place: &str, file: &Path) -> String {
     }
 }
 
-/// Could it act, and not as the file has it?
+/// Does a finding concern a part that may act on the motion, and is it approximated or ignored?
 fn acts(finding: &ModelFinding) -> bool {
     matches!(finding.kind, FindingKind::Approximated | FindingKind::Ignored)
 }
@@ -146,7 +146,7 @@ fn report(name: &str, model: &Imported) -> String {
     text
 }
 
-/// Returns the texts of the findings that are for the eye alone, each with its number of elements.
+/// Returns the texts of findings that concern only the appearance, each with its number of elements.
 fn for_the_eye(model: &Imported) -> Vec<(&str, usize)> {
     let mut list: Vec<(&str, usize)> = Vec::new();
     let found = model.findings.iter().filter(|finding| is_for_the_eye(finding));

@@ -1,4 +1,4 @@
-//! Files in, and what to say when they cannot be read.
+//! Reading of files, and the messages when they cannot be read.
 
 use crate::model;
 use crate::refusal::Refusal;
@@ -10,31 +10,31 @@ use std::io::{self, Read};
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Most bytes of a file that is read, unless larger ones are asked for. Chosen, not tuned.
+/// Largest size of a file that is read without `--big`, in bytes. Chosen, not tuned.
 const MOST_BYTES: u64 = 64 << 20;
-/// Most values of a file that is read: each takes 150 bytes, however short its text is.
+/// Largest number of values in a file that is read without `--big`: each takes 150 bytes of memory, even if its text is short.
 const MOST_VALUES: usize = 8_000_000;
-/// Whether files of any size are read, as the command line says once.
+/// True if files of any size are read. The command line sets it once.
 static IS_BIG: AtomicBool = AtomicBool::new(false);
 
-/// From here on files of any size are read.
+/// Allows files of any size from now on.
 pub(crate) fn read_big() {
     IS_BIG.store(true, Ordering::Relaxed);
 }
 
-/// Does a path stand for standard input?
+/// Does a path mean standard input?
 pub(crate) fn is_standard(path: &Path) -> bool {
     path == Path::new("-")
 }
 
-/// Reads a file of a kind that is called `what`, and where it is a model as the options say; else the refusal.
+/// Reads a file of the kind `what`. A model is converted with the given options. Otherwise returns the refusal.
 pub(crate) fn document(
     path: &Path,
     what: &str,
     (options, geometry_alone): (Option<ImportOptions>, bool),
 ) -> Result<SceneFile, Refusal> {
     let bytes = read(path, what)?;
-    // no value stands without one of these
+    // each value has a comma or an equals sign next to it, so their number bounds that of the values
     let values = bytes.iter().filter(|byte| matches!(byte, b',' | b'=')).count();
     if values > MOST_VALUES && !IS_BIG.load(Ordering::Relaxed) {
         return Err(too_large(
@@ -65,12 +65,12 @@ pub(crate) fn document(
     Ok(document)
 }
 
-/// How messages call a file.
+/// The name of a file in messages.
 pub(crate) fn name(path: &Path) -> String {
     if is_standard(path) { "standard input".to_owned() } else { path.display().to_string() }
 }
 
-/// The bytes of a file of a kind that is called `what`; else the refusal.
+/// The bytes of a file of the kind `what`; otherwise the refusal.
 pub(crate) fn read(path: &Path, what: &str) -> Result<Vec<u8>, Refusal> {
     let bytes = bytes(path).map_err(|error| unreadable(path, what, &error))?;
     bytes.ok_or_else(|| too_large(path, &format!("is larger than {} MiB", MOST_BYTES >> 20)))
@@ -81,7 +81,7 @@ fn too_large(path: &Path, why: &str) -> Refusal {
     Refusal::new("too-large", format!("`{}` {why}", path.display()), hint)
 }
 
-/// The bytes of a file; nothing where it is too large.
+/// The bytes of a file; `None` if it is too large.
 fn bytes(path: &Path) -> io::Result<Option<Vec<u8>>> {
     let mut bytes = Vec::new();
     let is_big = IS_BIG.load(Ordering::Relaxed);
@@ -97,12 +97,12 @@ fn bytes(path: &Path) -> io::Result<Option<Vec<u8>>> {
     if is_big {
         return source.read_to_end(&mut bytes).map(|_| Some(bytes));
     }
-    // a device has no size and may have no end
+    // a device reports no size and may be endless
     source.take(MOST_BYTES + 1).read_to_end(&mut bytes)?;
     Ok((bytes.len() as u64 <= MOST_BYTES).then_some(bytes))
 }
 
-/// The names of the files beside a path that have its ending.
+/// The names of files in the folder of a path that have the same extension.
 fn files_like(path: &Path) -> Vec<String> {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
     let Ok(entries) = std::fs::read_dir(folder.unwrap_or(Path::new("."))) else {
@@ -122,7 +122,7 @@ fn name_of(path: &Path) -> String {
 
 /// The refusal of a file that cannot be read.
 fn unreadable(path: &Path, what: &str, error: &io::Error) -> Refusal {
-    // a sweep, too, is a file with one of the endings of scenes
+    // a sweep file has one of the extensions of scene files too
     let is_scene = ["scene file", "sweep file"].contains(&what);
     let with_ending = Some(path.with_extension("toml")).filter(|file| is_scene && file.is_file());
     let hint = if path.is_dir() {

@@ -20,7 +20,7 @@ Exit status:
   0  computed
   1  the scene, the state or the usage was refused";
 
-/// Quantities that can be asked for.
+/// Quantities that can be requested.
 const QUANTITIES: [&str; 11] = [
     "accelerations",
     "efforts",
@@ -34,10 +34,10 @@ const QUANTITIES: [&str; 11] = [
     "jacobians",
     "derivatives",
 ];
-/// Quantities that need no mass.
+/// Quantities that do not need masses.
 const GEOMETRY: [&str; 2] = ["frames", "jacobians"];
-/// Number of quantities that are computed where nothing is asked for: the next one is known by frames, the others are large, and the last is of
-/// open trees alone.
+/// Number of quantities that are computed by default. The others are left out: the next is available from frames, two are large, and the
+/// last exists for open trees only.
 const DEFAULT: usize = 8;
 
 /// Arguments of `mbs inspect`.
@@ -81,7 +81,7 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     }
 }
 
-/// Value, rate and effort that are given for a joint.
+/// Given value, rate and effort of a joint.
 struct Given {
     name: String,
     value: Option<Vec<f64>>,
@@ -104,7 +104,7 @@ fn inspected(arguments: &Arguments) -> Result<Value, Refusal> {
     let mut mechanism = Mechanism::of_file(file).map_err(unread)?;
     let given = given(arguments, &mechanism)?;
     if !given.is_empty() {
-        // a state is whole: a value of the scene's own start could be in the way of it
+        // the given state replaces the start of the scene completely, since single values of that start might contradict it
         mechanism.clear_initial_conditions();
         begin(&mut mechanism, &given)?;
     }
@@ -136,13 +136,13 @@ fn inspected(arguments: &Arguments) -> Result<Value, Refusal> {
     Ok(Value::Object(object))
 }
 
-/// Puts a tree where a mechanism starts.
+/// Sets a tree to the start of a mechanism.
 fn start(mechanism: &Mechanism, tree: &mut Tree) -> Result<(), Refusal> {
     let simulation = mechanism.simulate(&Method::default()).map_err(|error| refused(&error))?;
     tree.follow(&simulation).map_err(|error| refused(&error))
 }
 
-/// A quantity that there is not.
+/// The refusal of a quantity that cannot be computed.
 fn uncomputed(word: &str, error: &TreeError) -> Refusal {
     let hint = error.hint().unwrap_or_default();
     let hint = match error.kind {
@@ -203,7 +203,7 @@ fn matrix(matrix: &Matrix) -> Value {
     json!((0..matrix.rows).map(|i| matrix.row(i)).collect::<Vec<_>>())
 }
 
-/// Reads the given state of joints: that of the state file, then that of the command line, which counts before it.
+/// Reads the given state of joints. Values of the command line take precedence over those of the state file.
 fn given(arguments: &Arguments, mechanism: &Mechanism) -> Result<Vec<Given>, Refusal> {
     let mut all = match &arguments.state {
         Some(path) => of_file(path, mechanism)?,
@@ -229,7 +229,7 @@ fn given(arguments: &Arguments, mechanism: &Mechanism) -> Result<Vec<Given>, Ref
                 "write --joint NAME=VALUE or --joint NAME=VALUE,RATE",
             ));
         };
-        // what the command line says of a joint counts before the file
+        // values of the command line take precedence over those of the file
         let value = Some(vec![value]);
         match all.iter_mut().find(|given: &&mut Given| given.name == name) {
             Some(given) => (given.value, given.rate) = (value, rate.or(given.rate.take())),
@@ -299,7 +299,7 @@ fn base_joint(mechanism: &Mechanism) -> Result<String, String> {
     }
 }
 
-/// A number, or a list of them.
+/// A number or a list of numbers, as a list.
 fn numbers(value: Option<&Value>) -> Result<Option<Vec<f64>>, ()> {
     match value {
         None | Some(Value::Null) => Ok(None),
@@ -311,8 +311,8 @@ fn numbers(value: Option<&Value>) -> Result<Option<Vec<f64>>, ()> {
     }
 }
 
-/// Puts the joints where the state has them. A joint that no row ties to others stands as the model is drawn, at rest, where the state says
-/// nothing: else all bodies would share in the motion of those that it names. Of the others the rest follows.
+/// Sets the joints to the given state. A joint without a given value that no constraint connects to others is held at its drawn position
+/// without velocity. Otherwise it would take part in the motion of the given joints. Joints in closed loops follow from the given ones.
 fn begin(mechanism: &mut Mechanism, given: &[Given]) -> Result<(), Refusal> {
     for given in given {
         mechanism.find::<JointId>(&given.name).map_err(|error| {
@@ -350,9 +350,10 @@ fn begin(mechanism: &mut Mechanism, given: &[Given]) -> Result<(), Refusal> {
     Ok(())
 }
 
-/// The rows of loops beside the drawn position, where a mechanism that is drawn folded does not hide what they tie.
+/// The rows of closed loops at a position beside the drawn one. A mechanism may be drawn in a singular position, where rows do not show all
+/// the joints that they connect.
 fn rows_aside(tree: &mut Tree) -> Result<Matrix, TreeError> {
-    // different turns, so that no two joints stand in line
+    // different steps for all joints, so that the new position is not singular
     let step: Vec<f64> =
         (1..).take(tree.velocities().len()).map(|i: u32| f64::from(i).sin()).collect();
     let mut aside = tree.coordinates().to_vec();
@@ -361,7 +362,7 @@ fn rows_aside(tree: &mut Tree) -> Result<Matrix, TreeError> {
     Ok(tree.loop_jacobian().clone())
 }
 
-/// Has JSON no place where a number was not finite?
+/// Are all numbers of a JSON value finite? A number that is not finite is written as null.
 fn is_finite(value: &Value) -> bool {
     match value {
         Value::Null => false,
@@ -397,15 +398,15 @@ fn rows(
     Ok((rows, efforts))
 }
 
-/// A state that there is not, or at which nothing can be computed.
+/// The refusal of a state that does not exist, or at which nothing can be computed.
 fn refused(error: &impl Error) -> Refusal {
-    // the text of some errors ends with their hint
+    // the text of some errors contains their hint at the end
     let text = error.to_string();
     let message = text.split("\nhint: ").next().unwrap_or_default();
     Refusal::new("state-refused", message, error.hint().unwrap_or_default())
 }
 
-/// A matrix with its name; nothing of one without rows.
+/// A matrix with its name as text; empty for a matrix without rows.
 fn matrix_text(name: &str, rows: &Value) -> String {
     let rows = rows.as_array().map(Vec::as_slice).unwrap_or_default();
     let mut out = if rows.is_empty() { String::new() } else { format!("\n{name}\n") };
@@ -415,16 +416,16 @@ fn matrix_text(name: &str, rows: &Value) -> String {
     out
 }
 
-/// The numbers of a list.
+/// The numbers of a list as text.
 fn numbers_text(list: &Value) -> String {
     let numbers = list.as_array().into_iter().flatten();
     numbers.map(|x| format!("{:>13.6}", x.as_f64().unwrap_or(f64::NAN))).collect()
 }
 
-/// Returns the results as text for people: a line for each row, then what else was asked for.
+/// Returns the results as text for people: a line for each row, then the other requested quantities.
 fn text(object: &Value) -> String {
     let list = |key: &str| object[key].as_array().cloned().unwrap_or_default();
-    // a rotation has more numbers in q than rows
+    // quaternions have more coordinates in q than rows
     let columns = ["q", "v", "accelerations", "efforts", "gravity", "bias"];
     let n = list("rows").len();
     let there: Vec<&str> =

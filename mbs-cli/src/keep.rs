@@ -1,4 +1,4 @@
-//! How `mbs run` keeps a run, and resumes one.
+//! Checkpoints of `mbs run`, and runs that are resumed from them.
 
 use crate::refusal::Refusal;
 use crate::say::warn;
@@ -23,7 +23,7 @@ pub(crate) struct Arguments {
     restart: bool,
 }
 
-/// Checkpoint that a run resumes from, and the time between its own.
+/// Checkpoint from which a run resumes, and the times of its own checkpoints.
 #[derive(Debug, Default)]
 pub(crate) struct RunCheckpoints {
     pub(crate) from: Option<Checkpoint>,
@@ -34,7 +34,7 @@ pub(crate) struct RunCheckpoints {
 }
 
 impl Arguments {
-    /// Reads the checkpoint to resume from, where there is one; else the refusal.
+    /// Reads the checkpoint from which to resume, if there is one; otherwise returns the refusal.
     pub(crate) fn begin(&self, out: Option<&Path>) -> Result<RunCheckpoints, Refusal> {
         let interval = self.checkpoint.map_or(Ok(()), RunConflict::check_interval);
         interval.map_err(|error| Refusal::new("settings-refused", error, error.hint()))?;
@@ -46,7 +46,7 @@ impl Arguments {
         Ok(RunCheckpoints { from: Some(from), into: None, checkpoint })
     }
 
-    /// The file to resume from.
+    /// The file from which to resume.
     fn resumed(&self, out: Option<&Path>) -> Result<Option<PathBuf>, Refusal> {
         match (&self.resume, out) {
             (None, _) => Ok(None),
@@ -60,7 +60,8 @@ impl Arguments {
         }
     }
 
-    /// Keeps the run in its directory, which no other writes, unless an earlier start left something there; else the refusal.
+    /// Sets the folder and the interval of the run's checkpoints, if there are any. No other process writes to the folder meanwhile.
+    /// Refuses a folder with the checkpoint of another unfinished run.
     pub(crate) fn keep(
         &self,
         out: Option<&Path>,
@@ -91,12 +92,12 @@ impl Arguments {
     }
 }
 
-/// Is there a file, and not under the other name?
+/// Does the file exist, and is it a different file from the other path?
 fn is_another(file: &Path, other: &Path) -> bool {
     file.exists() && file.canonicalize().ok() != other.canonicalize().ok()
 }
 
-/// The refusal of a directory where a run has not ended.
+/// The refusal of a directory in which a run is unfinished.
 fn unfinished(out: &Path, hint: &str) -> Refusal {
     let at = Checkpoint::open(&out.join(CHECKPOINT));
     let at = at.map(|c| format!(", at t = {} s", words::time(c.time()))).unwrap_or_default();
@@ -105,14 +106,14 @@ fn unfinished(out: &Path, hint: &str) -> Refusal {
 }
 
 impl RunCheckpoints {
-    /// Returns the settings that are given, and those of the checkpoint where nothing is given; else the refusal.
+    /// Returns the given settings, with those of the checkpoint where none is given; otherwise the refusal.
     pub(crate) fn overrides(&self, given: Method) -> Result<Method, Refusal> {
         let Some(from) = &self.from else { return Ok(given) };
         from.overrides(&given).map_err(|error| Refusal::checkpoint(&error))
     }
 
-    /// The run has ended and its results are written: there is nothing to resume, unless it was interrupted. Reports what could not be
-    /// written on the way.
+    /// Removes the checkpoint after the results are written, unless the run was interrupted. Reports an error that occurred while
+    /// checkpoints were written.
     pub(crate) fn end(&self, writer: Option<&CheckpointWriter>, is_interrupted: bool) {
         if let Some(writer) = writer
             && let Some(error) = writer.failure()
@@ -127,7 +128,7 @@ impl RunCheckpoints {
             return;
         }
         if let Some(checkpoint) = &self.checkpoint {
-            // What is not there need not go.
+            // an error is ignored: the file may not exist
             let _ = std::fs::remove_file(checkpoint);
         }
     }

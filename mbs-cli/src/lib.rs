@@ -1,6 +1,6 @@
-//! The command `mbs` as a library, for programs that have it within: arguments, refusals, and the commands. Exit status: 0 done, 1 refused (scene or usage), 2 the run
-//! stopped or its results could not be written, 3 the build lacks the precision. The library computes: nothing here is compiled for a
-//! scalar or a dimension.
+//! The command `mbs` as a library, for programs that contain it: arguments, refusals, and the commands. Exit status: 0 done, 1 refused
+//! (scene or usage), 2 the run stopped or its results could not be written, 3 the build lacks the precision. Computations are in other
+//! crates, so that no code here is compiled once per scalar type or dimension.
 
 #![deny(clippy::print_stderr, reason = "it panics where standard error is full")]
 
@@ -73,7 +73,7 @@ Exit status:
   2  a run stopped early (its data are kept), there is no equilibrium, or the doctor found a fault
   3  this build lacks the precision";
 
-/// The commands as the help lists them, by what they are for.
+/// The commands in the groups in which the help lists them.
 const GROUPS: [(&str, &[&str]); 5] = [
     ("Write a scene", &["new", "import", "kinds", "check", "schema", "generate"]),
     ("Run it", &["run", "plot", "diff"]),
@@ -82,7 +82,7 @@ const GROUPS: [(&str, &[&str]); 5] = [
     ("Elsewhere", &["export", "completions", "man", "help"]),
 ];
 
-/// Words of other programs for commands of this one.
+/// Names in other programs of commands of this one.
 const OTHER_WORDS: [(&str, &str); 7] = [
     ("simulate", "run"),
     ("init", "new"),
@@ -135,10 +135,10 @@ enum Command {
     Man(completions::Man),
 }
 
-/// The command line, with its commands in groups.
+/// The command line, with its commands in groups for the help.
 fn command_line() -> clap::Command {
     let mut command = Cli::command();
-    // adds `help`, and what options are given to all
+    // `build` adds the command `help` and the global options
     command.build();
     let about = |name: &str| {
         let about = command.find_subcommand(name).and_then(clap::Command::get_about);
@@ -154,15 +154,15 @@ fn command_line() -> clap::Command {
     ))
 }
 
-/// Runs the command of a command line. `program` is how it was started: a file, or an interpreter with what it was given. The exit status: 0
-/// done, 1 refused, 2 stopped early or not written, 3 not in this build.
+/// Runs the command of a command line. `program` is the command that started this process: a file, or an interpreter with its arguments.
+/// The exit status is 0 for done, 1 for refused, 2 for stopped early or not written, 3 for a precision that is not in this build.
 pub fn run(
     program: impl IntoIterator<Item = OsString>,
     words: impl IntoIterator<Item = OsString>,
 ) -> u8 {
     line::note(program.into_iter().collect(), words.into_iter().collect());
     let code = go();
-    // an exit code shows its number in no other way
+    // an ExitCode does not give its number, so it is compared with all numbers
     (0..=u8::MAX).find(|number| ExitCode::from(*number) == code).unwrap_or(status::STOPPED)
 }
 
@@ -213,8 +213,8 @@ fn go() -> ExitCode {
 }
 
 impl Command {
-    /// Precisions that it will need, by its arguments; none where it will be refused for its names or its scene. Or the refusal
-    /// of one that it never has.
+    /// Precisions that the command will need, from its arguments. The list is empty if its names or its scene will be refused. Returns a
+    /// refusal if the command never supports the precision.
     fn precisions(&self) -> Result<Vec<Precision>, [&'static str; 2]> {
         let (name, scene) = match self {
             Self::Run(arguments) => (&arguments.method.given.precision, &arguments.scene),
@@ -233,13 +233,13 @@ impl Command {
     }
 }
 
-/// Help and version, which are no refusals, or what is wrong with the arguments.
+/// Prints the help or the version, which are no refusals, or refuses the arguments.
 fn unparsed(error: &clap::Error) -> ExitCode {
     let text = error.render();
     if !error.use_stderr() {
         return say::say(&text.to_string(), ExitCode::SUCCESS);
     }
-    // with colours on a terminal; where it is closed nothing can be reported
+    // prints with colours on a terminal; an error cannot be reported if standard error is closed
     let _ = error.print();
     let hint = hint(error).unwrap_or_default();
     if !hint.is_empty() {
@@ -250,7 +250,7 @@ fn unparsed(error: &clap::Error) -> ExitCode {
     usage(message.join(" ").trim_start_matches("error: "), &hint)
 }
 
-/// Returns the hint on a command that is none: a scene, another program's word, or the nearest name where clap has none.
+/// Returns the hint for an unknown command: a scene file, the word of another program, or the nearest name if clap suggests none.
 fn hint(error: &clap::Error) -> Option<String> {
     let word = match (error.kind(), error.get(ContextKind::InvalidSubcommand)) {
         (ErrorKind::InvalidSubcommand, Some(ContextValue::String(word))) => word,

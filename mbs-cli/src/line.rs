@@ -1,28 +1,28 @@
-//! The command line: how the program was started, and its words.
+//! The command line of this process: the program and its arguments.
 
 use std::ffi::OsString;
 use std::process::Command;
 use std::sync::{PoisonError, RwLock};
 
-/// How the program was started, and its words.
+/// The command that started the program, and the arguments.
 static LINE: RwLock<[Vec<OsString>; 2]> = RwLock::new([Vec::new(), Vec::new()]);
 
 fn line() -> [Vec<OsString>; 2] {
     LINE.read().unwrap_or_else(PoisonError::into_inner).clone()
 }
 
-/// Notes the command line.
+/// Stores the command line.
 pub(crate) fn note(program: Vec<OsString>, words: Vec<OsString>) {
     *LINE.write().unwrap_or_else(PoisonError::into_inner) = [program, words];
 }
 
-/// The words behind the program.
+/// The arguments without the program.
 pub(crate) fn words() -> impl Iterator<Item = OsString> {
     let [_, words] = line();
     words.into_iter()
 }
 
-/// The program again, without words: this file, or the interpreter that it runs in.
+/// A command that starts this program again without arguments: this file, or the interpreter in which it runs.
 pub(crate) fn again() -> Command {
     let [program, _] = line();
     match &program[..] {

@@ -1,4 +1,4 @@
-//! Commands `mbs kinds` and `mbs schema`: what a scene file may say.
+//! Commands `mbs kinds` and `mbs schema`: descriptions of the scene format.
 
 use crate::refusal::Refusal;
 use crate::say::say;

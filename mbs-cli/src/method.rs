@@ -1,4 +1,4 @@
-//! Options of a method, one for each setting that the command takes, by the table of settings of mbs-core.
+//! Options of the method. Each setting of mbs-core's table that a command accepts has an option.
 
 use clap::{Arg, ArgMatches, Args, Command, Error, FromArgMatches};
 use core::fmt::Debug;
@@ -6,19 +6,19 @@ use core::marker::PhantomData;
 use mbs::Method;
 use mbs::core::scene::{SETTINGS, Setting, SettingForm, SettingValue};
 
-/// Setting that no command line of a record has: results are the same for any number of threads.
+/// Setting that recorded command lines leave out: results are the same for any number of threads.
 const UNRECORDED: &str = "threads";
 
-/// Set of settings that a command takes.
+/// Set of settings that a command accepts.
 pub(crate) trait SettingSet: Debug + Clone + Send + Sync + 'static {
-    /// Is the setting one of the set?
+    /// Does the set contain the setting?
     fn has(row: &Setting) -> bool;
 
-    /// Whether help says all on a setting, or the first paragraph alone.
+    /// Does the help contain the complete text of a setting, or only its first paragraph?
     const IS_WHOLE: bool = false;
-    /// Words that the settings of the set do not take.
+    /// Words that the command does not accept as values of settings.
     const WITHOUT: &[&str] = &[];
-    /// Names of settings with what the command does where nothing gives them, if that is not the default of the table.
+    /// Names of settings whose default in this command differs from the table, each with a text of this default.
     const OWN_DEFAULTS: &[(&str, &str)] = &[];
 }
 
@@ -64,7 +64,7 @@ sets! {
     OfDoctor = ["formulation", "step", "duration"] without [];
 }
 
-/// Method that the options of a set give.
+/// Method from the options of a set of settings.
 #[derive(Debug, Clone)]
 pub(crate) struct MethodArguments<S> {
     pub(crate) given: Method,
@@ -86,7 +86,7 @@ impl<S: SettingSet> FromArgMatches for MethodArguments<S> {
         let mut given = Method::default();
         for row in rows::<S>() {
             if let Some(value) = matches.get_one::<SettingValue<f64>>(row.name) {
-                // the value was read in the form of the row
+                // the text was parsed already by the form of the setting, so this cannot fail
                 let _ = given.set(row.name, value.clone());
             }
         }
@@ -99,14 +99,14 @@ impl<S: SettingSet> FromArgMatches for MethodArguments<S> {
     }
 }
 
-/// The options of a method as they are written, for the command line of a record.
+/// The options of a method as text, for recorded command lines.
 pub(crate) fn written(method: &Method) -> Vec<(&'static str, Option<String>)> {
     let recorded = SETTINGS.iter().filter(|row| row.name != UNRECORDED);
     let text = |row: &Setting| method.value(row.name).map(|value| value.text(f64::to_string));
     recorded.map(|row| (row.option(), text(row))).collect()
 }
 
-/// The rows of a set.
+/// The settings of a set.
 fn rows<S: SettingSet>() -> impl Iterator<Item = &'static Setting> {
     SETTINGS.iter().filter(|row| S::has(row))
 }
@@ -131,7 +131,7 @@ fn option<S: SettingSet>(row: &'static Setting) -> Arg {
     option.long_help([vec![first], further].concat().join("\n\n"))
 }
 
-/// Meaning of a setting with the words that it takes.
+/// Text of a setting with the words that it accepts.
 fn meaning(row: &Setting, without: &[&str]) -> String {
     let words: &[&str] = match row.form {
         SettingForm::Word(words) => words,
@@ -148,7 +148,7 @@ fn meaning(row: &Setting, without: &[&str]) -> String {
     }
 }
 
-/// Text for the default of a setting. `own` lists names and texts of the defaults that this command replaces.
+/// Text of the default of a setting. `own` lists names and texts of the defaults that this command replaces.
 fn default(row: &Setting, own: &[(&str, &str)]) -> String {
     let own = own.iter().find(|(name, _)| *name == row.name);
     let of_table = || match row.form {
@@ -164,14 +164,14 @@ fn default(row: &Setting, own: &[(&str, &str)]) -> String {
     }
 }
 
-/// A text with the options of the settings that it names.
+/// A text in which names of settings are replaced by their options.
 fn of_options(text: &str) -> String {
     SETTINGS.iter().fold(text.to_owned(), |text, row| {
         text.replace(&format!("`{}`", row.name), &format!("--{}", row.option()))
     })
 }
 
-/// Hint at what to write as a value of a form, where a text is none.
+/// Hint on the form of a value, for a text that does not have it.
 fn wanted(form: SettingForm, text: &str) -> &'static str {
     let is_whole = text.bytes().all(|byte| byte.is_ascii_digit());
     match form {

@@ -1,4 +1,4 @@
-//! A model of another program: how it is read, and what it is, in a line.
+//! A model of another program: options of its conversion, and a one-line description.
 
 use crate::refusal::Refusal;
 use clap::{Args, Parser, ValueEnum};
@@ -56,7 +56,7 @@ struct OptionLine {
     model: ModelOptions,
 }
 
-/// The options that words say, `base=free` for `--base=free`; nothing where there are none.
+/// The options in the words of `--import`, such as `base=free` for `--base=free`; `None` without words.
 pub(crate) fn of_words(words: &[String]) -> Result<Option<ImportOptions>, Refusal> {
     if words.is_empty() {
         return Ok(None);
@@ -71,7 +71,7 @@ pub(crate) fn of_words(words: &[String]) -> Result<Option<ImportOptions>, Refusa
     options(&line.model, Path::new("")).map(Some)
 }
 
-/// The options of a command line, for a model that lies in a folder; else the refusal.
+/// The options of a command line, for a model in a folder; otherwise the refusal.
 pub(crate) fn options(model: &ModelOptions, folder: &Path) -> Result<ImportOptions, Refusal> {
     let limits = match model.limits.as_deref() {
         None => None,
@@ -112,7 +112,7 @@ pub(crate) fn options(model: &ModelOptions, folder: &Path) -> Result<ImportOptio
     })
 }
 
-/// Reads the name and the folder of `NAME=FOLDER`; else the refusal.
+/// Reads the name and the folder of `NAME=FOLDER`; otherwise returns the refusal.
 fn package(text: &str) -> Result<(String, PathBuf), Refusal> {
     let refused = |what: &str| {
         let message = format!("`--package {text}`: {what}");
@@ -125,7 +125,7 @@ fn package(text: &str) -> Result<(String, PathBuf), Refusal> {
     Ok((name.to_owned(), PathBuf::from(folder)))
 }
 
-/// A line of a model that stands where a scene is wanted.
+/// A note on a model that is used in place of a scene file.
 pub(crate) fn note(name: &str, model: &Imported) -> String {
     let [approximated, ignored] =
         [FindingKind::Approximated, FindingKind::Ignored].map(|kind| count(model, kind));
@@ -135,7 +135,7 @@ pub(crate) fn note(name: &str, model: &Imported) -> String {
     )
 }
 
-/// Returns a line on the scene of a model: its format, and the numbers of its parts.
+/// Returns a line on the scene of a model: its format, and the numbers of its bodies, joints and other parts.
 pub(crate) fn first_line(name: &str, model: &Imported) -> String {
     let ModelSizes { links, bodies, joints, couplings, inputs } = model.sizes;
     let bodies = if bodies == 1 { "1 body".to_owned() } else { format!("{bodies} bodies") };

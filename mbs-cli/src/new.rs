@@ -1,4 +1,4 @@
-//! Command `mbs new TEMPLATE [FILE]`: a small scene to begin from.
+//! Command `mbs new TEMPLATE [FILE]`: writes a small scene as a beginning.
 
 use crate::files;
 use crate::refusal::Refusal;

@@ -18,7 +18,7 @@ use picture::{Line, Panel, drawn};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-/// Most panels of a picture: of more, names are to be given. Chosen, not tuned.
+/// Largest number of panels of a picture. For more, the user must name channels. Chosen, not tuned.
 const MAX_PANELS: usize = 60;
 
 /// Arguments of `mbs plot`.
@@ -88,7 +88,7 @@ fn plotted(arguments: &Arguments) -> Result<String, Refusal> {
     Ok(format!("wrote {}\n", path.display()))
 }
 
-/// The columns that are asked for, in the order of the runs; of no names, all. Else the refusal of a name that no run has.
+/// The requested columns, in the order of the runs; without names, all columns. Otherwise the refusal of a name that no run has.
 fn names(runs: &[(String, ResultTable)], asked: &[String]) -> Result<Vec<String>, Refusal> {
     let all = || runs.iter().flat_map(|(_, run)| &run.columns);
     let is_of = |name: &str| all().any(|column| column.name == name || column.channel == name);
@@ -106,7 +106,7 @@ fn names(runs: &[(String, ResultTable)], asked: &[String]) -> Result<Vec<String>
     Ok(names)
 }
 
-/// Refuses names of which a run has no pair of columns: a vector is none.
+/// Refuses two names if no run has both as columns. The name of a vector is not a column.
 fn columns(runs: &[(String, ResultTable)], xy: &[String]) -> Result<(), Refusal> {
     let has = |run: &ResultTable, name: &String| run.column(name).is_some();
     if let Some(name) = xy.iter().find(|name| !runs.iter().any(|(_, run)| has(run, name))) {
@@ -156,7 +156,7 @@ fn titled(name: &str, unit: &str) -> String {
     if unit.is_empty() || unit == "-" { name.to_owned() } else { format!("{name} [{unit}]") }
 }
 
-/// The rows of all runs, one run after the other; a column that a run lacks is empty.
+/// The rows of all runs, one run after the other. A column that a run lacks is empty.
 fn table(runs: &[(String, ResultTable)], names: &[String]) -> String {
     let quoted = |text: &str| match text.contains([',', '"', '\n']) {
         true => format!("\"{}\"", text.replace('"', "\"\"")),

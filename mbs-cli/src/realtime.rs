@@ -38,7 +38,7 @@ pub(crate) struct Arguments {
 }
 
 impl Arguments {
-    /// Returns the pacing that is asked for; nothing where the run is not paced; else the refusal.
+    /// Returns the requested pacing; `None` if the run is not paced. Otherwise the refusal.
     pub(crate) fn pacing(&self) -> Result<Option<Pacing>, Refusal> {
         let other = Pacing::default();
         let is_laddered = self.degrade.is_some() || self.quiet.is_some();
@@ -58,7 +58,7 @@ impl Arguments {
         }))
     }
 
-    /// The options that were given, for a page.
+    /// The given options, for the page.
     pub(crate) fn options(&self) -> [(&'static str, Option<String>); 6] {
         let policy = self.overrun.and_then(|overrun| {
             OVERRUNS.iter().find(|(_, other)| *other == overrun).map(|(name, _)| (*name).to_owned())
@@ -74,7 +74,7 @@ impl Arguments {
     }
 }
 
-/// `finish`, `hold` or `degrade`.
+/// Reads `finish`, `hold` or `degrade`.
 fn policy(text: &str) -> Result<Overrun, String> {
     let found = OVERRUNS.iter().find(|(name, _)| *name == text).map(|(_, overrun)| *overrun);
     found.ok_or_else(|| "write finish, hold or degrade".to_owned())

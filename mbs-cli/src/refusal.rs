@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 use std::path::Path;
 use std::process::ExitCode;
 
-/// Why a command does nothing, or gives no result. Codes are fixed words, listed in docs/CONTRACT.md.
+/// Reason why a command does nothing, or gives no result. Codes are fixed words, listed in docs/CONTRACT.md.
 #[derive(Debug)]
 pub(crate) struct Refusal {
     code: &'static str,
@@ -18,7 +18,7 @@ pub(crate) struct Refusal {
     status: u8,
     message: String,
     hint: String,
-    /// File and place in it.
+    /// File and place in it, if there is one.
     place: Option<Box<(String, Place)>>,
 }
 
@@ -28,7 +28,7 @@ impl Refusal {
         Self { code, status: REFUSED, message, hint, place: None }
     }
 
-    /// Puts the refusal at a place in a file.
+    /// Adds a place in a file to the refusal.
     pub(crate) fn at(self, file: &str, place: Place) -> Self {
         Self { place: Some(Box::new((file.to_owned(), place))), ..self }
     }
@@ -46,7 +46,7 @@ impl Refusal {
         }
     }
 
-    /// Refusal of settings that no place in the scene asks for.
+    /// Refusal of settings without a place in the scene.
     pub(crate) fn settings(error: &SettingsError) -> Self {
         Self::new("settings-refused", error, error.hint())
     }
@@ -79,7 +79,7 @@ impl Refusal {
         Self::unwritable(error).stopped()
     }
 
-    /// Returns what was written; where writing failed, says so, and the status becomes that of a run that stopped.
+    /// Returns the result of writing. If writing failed, reports this, and sets the status to that of a run that stopped.
     pub(crate) fn unless_lost<W>(
         written: Result<W, WriteError>,
         status: &mut ExitCode,
@@ -98,23 +98,23 @@ impl Refusal {
         Self::new("out-unwritable", error, hint)
     }
 
-    /// Makes the refusal one of what had begun: its status is that of a run that stopped.
+    /// Marks the refusal as one of a command that had begun: its exit status is that of a run that stopped.
     pub(crate) fn stopped(self) -> Self {
         Self { status: STOPPED, ..self }
     }
 
-    /// Refusal that says what was interrupted, and what there is of it.
+    /// Refusal that names the interrupted command, and the results so far.
     pub(crate) fn interrupted(message: impl Display, hint: &str) -> Self {
         Self::new(INTERRUPTED, message, hint).stopped()
     }
 
-    /// Says the refusal on standard error, and with `--json` as an object on standard output.
+    /// Prints the refusal on standard error, and with `--json` as an object on standard output.
     pub(crate) fn report(&self) -> ExitCode {
         self.warn();
         self.object()
     }
 
-    /// Says the refusal on standard error.
+    /// Prints the refusal on standard error.
     pub(crate) fn warn(&self) {
         warn(&self.text());
     }
@@ -142,7 +142,7 @@ impl Refusal {
         })
     }
 
-    /// Writes the object where JSON is asked for; gives the exit status.
+    /// Prints the object if JSON is requested. Returns the exit status.
     fn object(&self) -> ExitCode {
         let status = ExitCode::from(self.status);
         if !wants_json() {
@@ -152,7 +152,7 @@ impl Refusal {
     }
 }
 
-/// Is one JSON object asked for? Where arguments are refused they are known as words alone.
+/// Is one JSON object requested? If arguments are refused they are not parsed, so the words themselves are searched.
 fn wants_json() -> bool {
     crate::line::words().take_while(|word| word != "--").any(|word| word == "--json")
 }
@@ -163,7 +163,7 @@ impl From<&PrecisionError> for Refusal {
     }
 }
 
-/// Says a refusal of the arguments: its text is on standard error.
+/// Reports a refusal of the arguments, whose text is on standard error already.
 pub(crate) fn usage(message: &str, hint: &str) -> ExitCode {
     Refusal::new("usage", message, hint).object()
 }

@@ -100,10 +100,10 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     }
 }
 
-/// Why a run does not begin.
+/// Reason why a run does not begin.
 enum Stop {
     Refused(Box<Refusal>),
-    /// Precision of the checkpoint to resume from, which this build lacks.
+    /// Precision of the checkpoint to resume from, if this build lacks it.
     Unbuilt(Precision),
 }
 
@@ -113,7 +113,7 @@ impl From<Refusal> for Stop {
     }
 }
 
-/// A run that may begin.
+/// Prepared run, with the settings of the command.
 struct Begun {
     begun: files::Begun,
     options: Run,
@@ -132,14 +132,14 @@ const FILES: [&str; 8] = [
     CHECKPOINT,
 ];
 
-/// Reads what is run, and what it resumes from; else the refusal.
+/// Reads the scene and the checkpoint to resume from; otherwise returns the refusal.
 fn begin(arguments: &Arguments) -> Result<Begun, Stop> {
     let out = arguments.show.out(arguments.out.as_deref());
     let pacing = arguments.realtime.pacing()?;
     let mut kept = arguments.keep.begin(out)?;
     let mut overrides = kept.overrides(arguments.method.given.clone())?;
     overrides.interrupt = signals::heeded();
-    // Of a scene that is not there that is said.
+    // a missing scene is reported before a missing precision
     if let Some(missing) = named(&overrides.precision).filter(|p| !p.is_built())
         && arguments.scene.is_there()
     {
@@ -161,7 +161,7 @@ fn begin(arguments: &Arguments) -> Result<Begun, Stop> {
     Ok(Begun { begun, options, kept })
 }
 
-/// Runs it before a progress bar, and reports; else the refusal.
+/// Makes the run with a progress bar, and reports it; otherwise returns the refusal.
 fn go(arguments: &Arguments, run: Begun) -> Result<ExitCode, Stop> {
     let Begun { begun, options, .. } = &run;
     let is_quiet = arguments.json || options.pacing.is_some();
@@ -174,7 +174,7 @@ fn go(arguments: &Arguments, run: Begun) -> Result<ExitCode, Stop> {
     Ok(report(&result, arguments, (&run, driven.as_ref().unwrap_or(&begun.document))))
 }
 
-/// Files, then JSON or table; the exit status says whether the run was completed, and whether its results are where they should be.
+/// Writes the files, then prints JSON or a table. The exit status says whether the run was completed and its results were written.
 fn report(
     result: &RunResult,
     arguments: &Arguments,
@@ -215,7 +215,7 @@ fn report(
     status
 }
 
-/// The error of a run that stopped, with the place in the scene that it is about.
+/// The error of a run that stopped, with its place in the scene file.
 pub(crate) fn stopped(
     what: &str,
     report: &RunError,
@@ -226,14 +226,14 @@ pub(crate) fn stopped(
     let Some(entry) = error.entry() else {
         return format!("{}: {message}\nhint: {}\n", document.file(), report.hint);
     };
-    // A key that is not written has the place of its entry's header.
+    // a key that the file does not contain gets the place of its entry's header
     let header = document.place(entry, "");
     let places = error.fields().iter().map(|field| document.place(entry, field));
     let (file, place) = places.into_iter().find(|place| *place != header).unwrap_or(header);
     place.render(file, &message, &report.hint)
 }
 
-/// Replaces the files of the directory; gives the JSON object as it is there.
+/// Replaces the files of the directory. Returns the JSON object with the id in its file.
 fn write_files(
     outcome: &Outcome,
     folder: &Folder,
@@ -260,13 +260,13 @@ fn write_files(
     part.finish("run.json", &outcome.summary.to_json())
 }
 
-/// A progress bar on a terminal, nothing elsewhere.
+/// A progress bar on a terminal; hidden without a terminal.
 struct Bar {
     bar: ProgressBar,
     duration: f64,
 }
 
-/// Ticks of the whole progress bar.
+/// Number of steps of the progress bar.
 const TICKS: u64 = 1000;
 
 impl Bar {

@@ -1,4 +1,4 @@
-//! The scene of a command line: its file, or standard input, with values that are set.
+//! The scene of a command line: a file or standard input, with replaced values.
 
 use crate::input;
 use crate::model::of_words;
@@ -38,17 +38,17 @@ impl Deref for SceneArgument {
 }
 
 impl SceneArgument {
-    /// A file, with those values.
+    /// The argument for a file with replaced values.
     pub(crate) fn new(path: &Path, set: &[String]) -> Self {
         Self { scene: path.to_owned(), set: set.to_vec(), import: Vec::new() }
     }
 
-    /// Is there something to read?
+    /// Is there a file or standard input to read?
     pub(crate) fn is_there(&self) -> bool {
         input::is_standard(&self.scene) || self.scene.is_file()
     }
 
-    /// Reads the tree of the file and the scene; else returns the refusal.
+    /// Reads the scene file and the scene in `f64`; otherwise returns the refusal.
     pub(crate) fn read(&self) -> Result<CheckedScene, Refusal> {
         let document = self.document()?;
         let scene = document.scene::<f64>();
@@ -56,13 +56,13 @@ impl SceneArgument {
         Ok(CheckedScene { document, scene })
     }
 
-    /// Reads the tree of the file, with the values that are set; else returns the refusal.
+    /// Reads the scene file with replaced values; otherwise returns the refusal.
     pub(crate) fn document(&self) -> Result<SceneFile, Refusal> {
         self.document_for(false)
     }
 
-    /// Reads the tree of the file, with the values that are set; else returns the refusal. With `geometry_alone` the tree is for places:
-    /// inertias that no body has are left out.
+    /// Reads the scene file with replaced values; otherwise returns the refusal. With `geometry_alone` only positions are needed, and
+    /// impossible inertias of a model are left out.
     pub(crate) fn document_for(&self, geometry_alone: bool) -> Result<SceneFile, Refusal> {
         let options = (of_words(&self.import)?, geometry_alone);
         let mut document = input::document(&self.scene, "scene file", options)?;
@@ -73,7 +73,7 @@ impl SceneArgument {
         Ok(document)
     }
 
-    /// Returns the argument as a command line has it.
+    /// Returns the argument as text of a command line.
     pub(crate) fn line(&self) -> String {
         let set = self.set.iter().map(|assignment| format!(" --set '{assignment}'"));
         let import = self.import.iter().map(|option| format!(" --import '{option}'"));

@@ -11,7 +11,7 @@ use std::process::{Command, ExitCode, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, SystemTime};
 
-/// Directory of the results of a run whose page is looked at, unless another is given.
+/// Default directory of the results of a run with `--open` or `--watch`.
 const OUT: &str = "out";
 
 /// Arguments of a run whose page is looked at.
@@ -28,13 +28,13 @@ pub(crate) struct Arguments {
 }
 
 impl Arguments {
-    /// The directory of the results: the one that is given, or a default where there must be one.
+    /// The directory of the results: the given one, or the default if the run needs one.
     pub(crate) fn out<'a>(&self, given: Option<&'a Path>) -> Option<&'a Path> {
         given.or_else(|| (self.open || self.watch).then(|| Path::new(OUT)))
     }
 }
 
-/// Opens a page with the opener of the system. Where there is no screen or no opener its path is printed.
+/// Opens a page with the program of the system for this. Prints the path if there is no screen or no such program.
 pub(crate) fn open(page: &Path) {
     let page = page.canonicalize().unwrap_or_else(|_| page.to_path_buf());
     if !(has_screen() && is_opened(&page)) {
@@ -42,14 +42,14 @@ pub(crate) fn open(page: &Path) {
     }
 }
 
-/// Is there a screen? Where that is not known there is one.
+/// Is there a screen? On systems where this is unknown the answer is yes.
 fn has_screen() -> bool {
     let is_known = cfg!(all(unix, not(target_os = "macos")));
     let is_set = |name| std::env::var_os(name).is_some_and(|value| !value.is_empty());
     !is_known || ["DISPLAY", "WAYLAND_DISPLAY"].into_iter().any(is_set)
 }
 
-/// Hands a page to the system; has it begun?
+/// Lets the system open a page. Did that program start?
 fn is_opened(page: &Path) -> bool {
     let program = match std::env::consts::OS {
         "macos" => "open",
@@ -61,10 +61,10 @@ fn is_opened(page: &Path) -> bool {
     opener.spawn().is_ok()
 }
 
-/// Time between two looks at the files [s]: shorter than a hand needs to change windows.
+/// Time between two checks of the files [s]: shorter than a change of windows by hand.
 const LOOK: Duration = Duration::from_millis(300);
 
-/// Runs this command line again and again without `--watch`, each time that a file has changed. Ctrl-C ends it.
+/// Runs this command line without `--watch`, and again each time a file has changed. Ctrl-C ends it.
 pub(crate) fn watch(scene: &Path, others: &[&Path], out: Option<&Path>) -> ExitCode {
     if !scene.is_file() {
         let message = format!("`{}` cannot be watched: it is no file", scene.display());
@@ -88,7 +88,7 @@ pub(crate) fn watch(scene: &Path, others: &[&Path], out: Option<&Path>) -> ExitC
         loop {
             sleep(LOOK);
             let next = times(scene, others);
-            // an editor may write in parts: a change counts once it has ended
+            // an editor may write a file in parts: a change counts when it has ended
             if next == now && now != seen {
                 break;
             }
@@ -97,7 +97,8 @@ pub(crate) fn watch(scene: &Path, others: &[&Path], out: Option<&Path>) -> ExitC
     }
 }
 
-/// The files of a scene with the time of their last change and their size: it, the files that it names in quotes, those that they name.
+/// The files of a scene with their size and the time of their last change: the scene, files that it names in quotes, and files that those
+/// name.
 fn times(scene: &Path, others: &[&Path]) -> BTreeMap<PathBuf, Option<(SystemTime, u64)>> {
     let mut found = BTreeMap::new();
     let mut open: Vec<PathBuf> = [scene].iter().chain(others).map(|path| path.into()).collect();
@@ -121,5 +122,5 @@ fn times(scene: &Path, others: &[&Path]) -> BTreeMap<PathBuf, Option<(SystemTime
     found
 }
 
-/// Longest file that is searched for names of others [bytes]: above it a scene is generated, and has none.
+/// Longest file that is searched for names of other files [bytes]. Longer scenes are generated, and name no files.
 const MAX_READ: u64 = 1 << 20;

@@ -1,4 +1,4 @@
-//! Ctrl-C and a request to terminate: the first lets a command end after its step, the second ends it at once.
+//! Handling of Ctrl-C and of requests to terminate: the first signal ends a command after its step, the second ends it at once.
 
 use mbs::Interrupt;
 use signal_hook::consts::{SIGINT, SIGTERM};
@@ -6,17 +6,17 @@ use signal_hook::flag;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-/// From here on a file at the limit of its size is an error of its writing, by which no process ends.
+/// Turns the signal of a file at the limit of its size into an error of writing, so that it does not end the process.
 pub(crate) fn outlive_limits() {
     #[cfg(unix)]
     let _ = flag::register(signal_hook::consts::SIGXFSZ, Arc::default());
 }
 
-/// From here on signals are heeded by those who look at this. A system that gives no signals sets it never.
+/// Begins to catch signals. Returns a flag that the first signal sets. On a system without signals the flag is never set.
 pub(crate) fn heeded() -> Interrupt {
     let is_set = Arc::new(AtomicBool::new(false));
     for signal in [SIGINT, SIGTERM] {
-        // looked at before it is set: the second signal finds it
+        // this handler is registered first: it ends the process only if an earlier signal has set the flag
         let _ = flag::register_conditional_default(signal, is_set.clone());
         let _ = flag::register(signal, is_set.clone());
     }

@@ -1,6 +1,6 @@
-//! Exit statuses of the commands; 0 is that of what was done.
+//! Exit statuses of the commands; the status of success is 0.
 
-/// Exit status of a build that lacks the precision asked for.
+/// Exit status of a build that lacks the requested precision.
 pub(crate) const UNBUILT: u8 = 3;
 
 /// Exit status of a refusal.

@@ -58,7 +58,7 @@ pub(crate) struct Arguments {
 }
 
 impl Arguments {
-    /// Returns the directory of the results: the one that is given, or one with the name of the sweep file.
+    /// Returns the directory of the results: the given one, or one with the name of the sweep file.
     fn out(&self) -> PathBuf {
         let of_sweep = || PathBuf::from(self.sweep.file_stem().unwrap_or("sweep".as_ref()));
         self.out.clone().unwrap_or_else(of_sweep)
@@ -82,7 +82,7 @@ fn run(arguments: &Arguments) -> Result<(Report, PathBuf), Refusal> {
     let out = arguments.out();
     let &Arguments { part, threads, restart: anew, .. } = arguments;
     let files = ["table.csv", "table.parquet", PAGE, "sweep.journal"];
-    // parts run in one directory at the same time, each in its own journal
+    // parts run in one directory at the same time, each with a journal of its own
     let _folder = part.is_none().then(|| files::folder(&out, &files)).transpose()?;
     let n_members = part.map_or(study.n_members(), |part| part.members(study.n_members()).len());
     let mut bar = Bar::new(n_members, arguments.json);
@@ -136,7 +136,7 @@ fn not_run(error: &SweepError, out: &Path) -> Refusal {
         SweepError::Parts(error) => {
             let refusal =
                 Refusal::new("parts-refused", format!("`{place}`: {error}"), error.hint());
-            // what is finished is kept
+            // finished members are in the journal
             if matches!(error, PartsError::Unfinished(_)) { refusal.stopped() } else { refusal }
         }
         SweepError::Interrupted(_) => {
@@ -149,7 +149,7 @@ fn not_run(error: &SweepError, out: &Path) -> Refusal {
     }
 }
 
-/// Writes JSON or text; the exit status says whether all members were completed.
+/// Prints JSON or text. The exit status says whether all members were completed.
 fn write_results(report: &Report, out: &Path, arguments: &Arguments) -> ExitCode {
     let text = match arguments.json {
         true => json(report, arguments),
@@ -224,7 +224,7 @@ fn text(report: &Report, out: &Path, arguments: &Arguments) -> String {
     text
 }
 
-/// A progress bar on a terminal, nothing elsewhere.
+/// A progress bar on a terminal; hidden without a terminal.
 struct Bar(ProgressBar);
 
 impl Bar {

@@ -1,4 +1,4 @@
-//! The short table at the end of a run.
+//! Summary at the end of a run.
 
 use crate::channels;
 use mbs::record::RunSummary;
@@ -7,12 +7,12 @@ use mbs::{Outcome, words};
 use std::fmt::Write;
 use std::path::Path;
 
-/// Summary, statistics and notes as text; of the statistics all rows, or the first ones.
+/// Summary, statistics and notes as text. The statistics have all rows with `is_all`, otherwise the first ones.
 pub(crate) fn text(outcome: &Outcome, out: Option<&Path>, is_all: bool) -> String {
     let s = &outcome.summary;
     let mut text = String::new();
     let mut line = |line: String| {
-        // Writing into a String has nothing to fail on.
+        // writing into a String cannot fail
         let _ = writeln!(text, "{line}");
     };
     if s.coordinates > 0 || s.completed {
@@ -87,7 +87,7 @@ fn rows(s: &RunSummary) -> Vec<(&str, String)> {
     rows
 }
 
-/// Nine decimals, without a minus before a zero.
+/// A number with nine decimals. A negative zero has no minus sign.
 pub(crate) fn fixed(x: f64) -> String {
     let text = format!("{x:.9}");
     if text.trim_start_matches('-').chars().all(|c| matches!(c, '0' | '.')) {

@@ -1,10 +1,11 @@
-//! Dashed lines. Those of plotters measure lengths by the system's `hypotf`, which older systems lack in the version that a new one links.
+//! Dashed lines. The dashed lines of the crate plotters use the system's `hypotf`. A new linker binds a version of it that older systems
+//! lack.
 
 use plotters::element::{Drawable, PointCollection};
 use plotters::prelude::{DrawingBackend, ShapeStyle};
 use plotters_backend::{BackendCoord, DrawingErrorKind};
 
-/// A line of strokes and gaps through points.
+/// A dashed line through points.
 pub(super) struct Dashed<C> {
     points: Vec<C>,
     lengths: [u32; 2],
@@ -12,7 +13,7 @@ pub(super) struct Dashed<C> {
 }
 
 impl<C> Dashed<C> {
-    /// Through these points, with these lengths of a stroke and of a gap [px], neither zero.
+    /// A dashed line through these points, with the lengths of a stroke and of a gap [px], neither zero.
     pub(super) fn new(points: Vec<C>, lengths: [u32; 2], style: ShapeStyle) -> Self {
         Self { points, lengths, style }
     }
@@ -41,14 +42,14 @@ impl<C, B: DrawingBackend> Drawable<B> for Dashed<C> {
     }
 }
 
-/// The strokes of a line through points: the first begins at the first point, and goes round corners.
+/// The strokes of a dashed line through points. The first stroke begins at the first point. A stroke may continue around corners.
 fn strokes(
     mut points: impl Iterator<Item = BackendCoord>,
     lengths: [u32; 2],
 ) -> Vec<Vec<BackendCoord>> {
     let Some(mut from) = points.next() else { return Vec::new() };
     let (mut strokes, mut stroke) = (Vec::new(), vec![from]);
-    // an empty stroke stands for a gap
+    // an empty stroke marks a gap
     let mut left = f64::from(lengths[0]);
     for to in points {
         let way = [f64::from(to.0 - from.0), f64::from(to.1 - from.1)];
@@ -76,7 +77,7 @@ fn strokes(
     strokes
 }
 
-/// The pixel that is this far from another one.
+/// The pixel at a displacement from another pixel.
 #[allow(clippy::cast_possible_truncation, reason = "pixels of a picture")]
 fn pixel(from: BackendCoord, way: [f64; 2]) -> BackendCoord {
     (from.0 + way[0].round() as i32, from.1 + way[1].round() as i32)

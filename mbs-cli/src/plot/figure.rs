@@ -7,15 +7,15 @@ use mbs_study::compare::results::{Comparison, MethodRuns};
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
-/// Size of the picture, and of the names of the lines at its right [px]. Chosen, not tuned.
+/// Size of the picture with the names at its right [px]. Chosen, not tuned.
 const SIZE: (u32, u32) = (1080, 620);
-/// Width of the names of the lines [px]: the longest name.
+/// Width of the names of the lines [px], by the longest name.
 const NAMES: u32 = 250;
-/// Height of a line of names [px]. Chosen, not tuned.
+/// Height of a line in the list of names [px]. Chosen, not tuned.
 const ROW: i32 = 18;
 /// Height of texts, and room for the numbers of the axes [px]. Chosen, not tuned.
 const TEXT: [u32; 2] = [13, 56];
-/// Marks of the integrators: corners about a point [px].
+/// Marks of the integrators, as corners relative to a point [px].
 const MARKS: [&[(i32, i32)]; 6] = [
     &[(-4, 0), (-3, -3), (0, -4), (3, -3), (4, 0), (3, 3), (0, 4), (-3, 3)],
     &[(-4, -4), (4, -4), (4, 4), (-4, 4)],
@@ -24,10 +24,10 @@ const MARKS: [&[(i32, i32)]; 6] = [
     &[(0, 5), (5, -4), (-5, -4)],
     &[(-5, -5), (5, -5), (-5, 5), (5, 5)],
 ];
-/// Dashes of the formulations: strokes and gaps [px]; the first is solid.
+/// Dashes of the formulations, as lengths of strokes and gaps [px]; the first is solid.
 const DASHES: [[u32; 2]; 6] = [[1, 0], [8, 4], [2, 3], [12, 3], [5, 5], [1, 4]];
 
-/// How a line looks: numbers of its integrator and its formulation, and whether steps are fixed.
+/// Style of a line: numbers of its integrator and its formulation, and whether steps are fixed.
 #[derive(Debug, Clone, Copy)]
 struct Look {
     integrator: usize,
@@ -35,7 +35,7 @@ struct Look {
     is_fixed: bool,
 }
 
-/// A method, and error and CPU time of its runs.
+/// Line of a method: the errors and CPU times of its runs.
 struct Line<'a> {
     name: &'a str,
     look: Look,
@@ -58,7 +58,7 @@ impl Picture for Diagram<'_> {
     }
 }
 
-/// The diagram as a file, of double precision where there is double; else the refusal of one that cannot be drawn.
+/// The diagram as a file. It shows double precision if the comparison has it. Otherwise the refusal of a picture that cannot be drawn.
 pub(crate) fn work_precision(comparison: &Comparison, ending: &str) -> Result<Vec<u8>, Refusal> {
     drawn(&Diagram { scene: &comparison.scene, lines: lines(comparison) }, ending)
 }
@@ -79,7 +79,7 @@ fn lines(comparison: &Comparison) -> Vec<Line<'_>> {
     let line = |m| {
         let look = Look {
             integrator: place(|m: &MethodRuns| &m.integrator, m)[0] % COLOURS.len(),
-            // the last one, recursive, has most lines: they are solid
+            // the last formulation, recursive, has the most lines, and gets solid ones
             formulation: place(|m: &MethodRuns| &m.formulation, m)[1] % DASHES.len(),
             is_fixed: m.control == "fixed",
         };
@@ -148,7 +148,7 @@ fn draw<B: DrawingBackend>(
 
 type Corner = (i32, i32);
 
-/// The mark of a line at a place: what fills it, and its edge.
+/// The mark of a line at a place: a filled polygon, and its edge.
 fn mark(look: Look, (x, y): Corner) -> (Polygon<Corner>, PathElement<Corner>) {
     let colour = COLOURS[look.integrator];
     let corners = MARKS[look.integrator].iter().map(|(dx, dy)| (x + dx, y + dy));

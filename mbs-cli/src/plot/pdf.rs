@@ -1,6 +1,6 @@
-//! Pictures as PDF: one page, in the font Helvetica that every reader has.
+//! Pictures as PDF: one page, in the font Helvetica, which every PDF reader contains.
 //!
-//! Pixels of plotters become points of PDF, whose y axis goes up: X = k x, Y = k (height - y).
+//! Pixels of plotters become points of PDF, whose y axis points upwards: X = k x, Y = k (height - y).
 
 use core::convert::Infallible;
 use pdf_writer::types::{LineCapStyle, LineJoinStyle};
@@ -13,9 +13,9 @@ use plotters_backend::{
 
 /// Size of a pixel [pt]: 96 of them are an inch, as in SVG.
 const PIXEL: f32 = 0.75;
-/// Height of the letters M of the texts of plotters, relative to its font size [-]: that of its pictures in SVG.
+/// Height of the letter M relative to the font size of plotters [-]: the same as in its SVG pictures.
 const SIZE: f32 = 1.0 / 1.24;
-/// From the top and from the middle of a line of text down to the foot of its letters, relative to the font size [-]: as in SVG.
+/// Distances to the foot of the letters, from the top and from the middle of a line of text, relative to the font size [-]: as in SVG.
 const FOOT: [f32; 2] = [0.76, 0.26];
 /// Widths of the letters of Helvetica from the blank to the tilde, in thousandths of the font size [-].
 #[rustfmt::skip]
@@ -27,24 +27,24 @@ const WIDTHS: [u16; 95] = [
     333, 556, 556, 500, 556, 556, 278, 556, 556, 222, 222, 500, 222, 833, 556, 556,
     556, 556, 333, 500, 278, 556, 500, 722, 500, 500, 500, 334, 260, 334, 584,
 ];
-/// Width of a letter beyond those, in thousandths of the font size [-]: that of most letters.
+/// Width of all other letters, in thousandths of the font size [-]: that of most letters.
 const WIDTH: u16 = 556;
 /// The name of the font in the file.
 const FONT: Name<'static> = Name(b"F");
 
-/// A picture of one page, which is there once it is presented.
+/// A picture of one page. The file is complete when the picture is presented.
 pub(super) struct PdfBackend<'a> {
     bytes: &'a mut Vec<u8>,
     size: (u32, u32),
     content: Content,
-    /// The opacities below one that were used.
+    /// The used opacities below one.
     opacities: Vec<f32>,
 }
 
 type Drawn = Result<(), DrawingErrorKind<Infallible>>;
 
 impl<'a> PdfBackend<'a> {
-    /// Of a size [px]; the file goes to `bytes`.
+    /// A backend of a size [px], which writes the file to `bytes`.
     pub(super) fn new(bytes: &'a mut Vec<u8>, size: (u32, u32)) -> Self {
         Self { bytes, size, content: Content::new(), opacities: Vec::new() }
     }
@@ -53,7 +53,7 @@ impl<'a> PdfBackend<'a> {
         [PIXEL * x as f32, PIXEL * (self.size.1 as f32 - y as f32)]
     }
 
-    /// Draws in a colour; what is not seen is left out.
+    /// Draws in a colour; a transparent colour draws nothing.
     fn paint(&mut self, color: BackendColor, draw: impl FnOnce(&mut Content)) -> Drawn {
         if color.alpha <= 0.0 {
             return Ok(());
@@ -75,7 +75,7 @@ impl<'a> PdfBackend<'a> {
         Ok(())
     }
 
-    /// Draws a line through points: with a width the line itself, else the area that it surrounds.
+    /// Draws a line through points. Without a width it fills the enclosed area.
     fn trace(
         &mut self,
         color: BackendColor,
@@ -110,7 +110,7 @@ impl DrawingBackend for PdfBackend<'_> {
 
     fn ensure_prepared(&mut self) -> Drawn {
         if self.content.len() == 0 {
-            // corners of lines with many points are round
+            // lines with many points get round corners
             self.content
                 .set_line_cap(LineCapStyle::ButtCap)
                 .set_line_join(LineJoinStyle::RoundJoin);
@@ -208,7 +208,7 @@ impl DrawingBackend for PdfBackend<'_> {
             VPos::Center => FOOT[1],
             VPos::Bottom => -FOOT[1],
         } * size;
-        // cosine and sine of the turn, against the clock
+        // cosine and sine of the rotation, anticlockwise
         let [c, s] = match style.transform() {
             FontTransform::None => [1.0, 0.0],
             FontTransform::Rotate90 => [0.0, -1.0],
@@ -225,7 +225,7 @@ impl DrawingBackend for PdfBackend<'_> {
     }
 }
 
-/// A text in the encoding of the file; what it does not have is a question mark.
+/// A text in the encoding of the file. Characters that the encoding lacks become question marks.
 fn letters(text: &str) -> Vec<u8> {
     let letter = |c: char| match c {
         ' '..='~' => c as u8,

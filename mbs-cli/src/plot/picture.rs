@@ -1,4 +1,4 @@
-//! The picture: panels below each other, with a line for each run; and how pictures become files.
+//! Pictures of runs: panels below each other, with a line for each run; and the conversion of pictures to files.
 
 use super::pdf::PdfBackend;
 use crate::refusal::Refusal;
@@ -8,17 +8,18 @@ use plotters::prelude::*;
 
 /// Width of a picture, and height of each panel in it [px]. Chosen, not tuned.
 const PANEL: (u32, u32) = (900, 300);
-/// Parts of a line along its panel: each gives the least and the largest of its points, so that no peak is lost.
+/// Number of parts into which a line is divided along its panel. The least and the largest point of each part are drawn, so that no peak is
+/// lost.
 const PARTS: usize = 900;
-/// Room beyond the values, relative to their range [-]. Chosen, not tuned.
+/// Margin beyond the values, relative to their range [-]. Chosen, not tuned.
 const MARGIN: f64 = 0.05;
-/// Range of an axis whose values are all the same, relative to them [-]. Chosen, not tuned.
+/// Range of an axis for values that are all equal, relative to the value [-]. Chosen, not tuned.
 const LEAST_RANGE: f64 = 1e-6;
 /// Height of texts, and room for the numbers of the axes [px]. Chosen, not tuned.
 const TEXT: [u32; 3] = [13, 70, 38];
 /// Digits of the numbers of an axis [-]. Chosen, not tuned.
 const AXIS_DIGITS: usize = 6;
-/// Colours of the runs, one after the other: apart for those who see few colours (Okabe and Ito).
+/// Colours of the runs, in their order. People with colour blindness can distinguish them (Okabe and Ito).
 pub(super) const COLOURS: [RGBColor; 6] = [
     RGBColor(0, 114, 178),
     RGBColor(213, 94, 0),
@@ -28,7 +29,7 @@ pub(super) const COLOURS: [RGBColor; 6] = [
     RGBColor(0, 0, 0),
 ];
 
-/// A number of an axis, without zeros at its end.
+/// A number of an axis without trailing zeros.
 pub(super) fn number(x: f64) -> String {
     significant(rounded(x, AXIS_DIGITS))
 }
@@ -37,7 +38,7 @@ pub(super) fn number(x: f64) -> String {
 #[derive(Debug)]
 pub(super) struct Line {
     pub(super) label: String,
-    /// Number of the run, which has a colour.
+    /// Number of the run, which determines the colour.
     pub(super) run: usize,
     pub(super) points: Vec<(f64, f64)>,
 }
@@ -45,7 +46,7 @@ pub(super) struct Line {
 /// Lines over the same axes.
 #[derive(Debug)]
 pub(super) struct Panel {
-    /// Titles of the axes, across and up.
+    /// Titles of the horizontal and of the vertical axis.
     pub(super) titles: [String; 2],
     pub(super) lines: Vec<Line>,
     /// Are magnitudes shown by their logarithm?
@@ -64,12 +65,12 @@ pub(super) trait Picture {
     fn draw<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>) -> Result<(), Fault<B>>;
 }
 
-/// Is this an ending of files with pictures?
+/// Is this an extension of picture files?
 pub(crate) fn is_picture(ending: &str) -> bool {
     matches!(ending, "svg" | "pdf")
 }
 
-/// A picture as PDF where its file ends so, else as SVG; else the refusal of one that cannot be drawn.
+/// A picture as PDF or SVG, by the extension of its file; otherwise the refusal of a picture that cannot be drawn.
 pub(super) fn drawn(picture: &(impl Picture + ?Sized), ending: &str) -> Result<Vec<u8>, Refusal> {
     let (mut bytes, mut text) = (Vec::new(), String::new());
     if ending == "pdf" {
@@ -145,7 +146,7 @@ fn draw<B: DrawingBackend>(panel: &Panel, place: &DrawingArea<B, Shift>) -> Resu
     Ok(())
 }
 
-/// The points that are drawn: of each part of the line the least and the largest, in their order; zeros have no logarithm.
+/// The drawn points: the least and the largest of each part of the line, in their order. Zeros are left out on a logarithmic axis.
 fn shown(points: &[(f64, f64)], is_log: bool) -> Vec<(f64, f64)> {
     let mapped = points.iter().map(|&(x, y)| (x, if is_log { y.abs().log10() } else { y }));
     let points: Vec<(f64, f64)> = mapped.filter(|point| point.1.is_finite()).collect();
@@ -164,7 +165,7 @@ fn shown(points: &[(f64, f64)], is_log: bool) -> Vec<(f64, f64)> {
     points.chunks(points.len().div_ceil(PARTS)).flat_map(part).collect()
 }
 
-/// The range of an axis over these values.
+/// The range of an axis for these values.
 pub(super) fn range(values: impl Iterator<Item = f64>) -> core::ops::Range<f64> {
     let ends = [f64::INFINITY, f64::NEG_INFINITY];
     let [low, high] = values.fold(ends, |[low, high], x| [low.min(x), high.max(x)]);

@@ -1,11 +1,11 @@
-//! `mbs equilibrium` and `mbs modes` as their users meet them.
+//! Tests of `mbs equilibrium` and `mbs modes` as commands.
 
 use crate::{done, files, json, run, run_line, scene, written};
 use serde_json::Value;
 
 #[test]
 fn every_scene_has_an_equilibrium_that_is_reported_in_one_object() {
-    // A constant torque or force drives the first two for ever, and a disc has no rest but flat on the ground.
+    // the first two have a constant driving torque or force; a disc has no equilibrium but lying flat on the ground
     const RESTLESS: [&str; 3] = ["planetary-gear", "crane", "rolling-disc"];
     for name in RESTLESS {
         assert_eq!(run("equilibrium", &[&scene(name), "--json"]).status.code(), Some(2), "{name}");
@@ -13,7 +13,7 @@ fn every_scene_has_an_equilibrium_that_is_reported_in_one_object() {
     for name in files::SCENES.into_iter().filter(|name| !RESTLESS.contains(name)) {
         let value = done(&run("equilibrium", &[&scene(name), "--json"]));
         assert!(value["stable"].is_boolean(), "{name}: {value}");
-        // Rounding of some ten parts of each force.
+        // the bound is the rounding of some ten parts of each force
         assert!(value["relative_residual"].as_f64().is_some_and(|r| r < 1e-13), "{name}: {value}");
         assert!(value["joints"].is_object() && value["reactions"].is_object(), "{name}");
     }

@@ -1,4 +1,4 @@
-//! Runs that are kept, and go on.
+//! Tests of runs with checkpoints, and of resumed runs.
 
 mod killed;
 mod refused;

@@ -1,4 +1,4 @@
-//! The choice by measurement, as the command tells it.
+//! Tests of the choice of a method by measurement, through the command.
 
 use crate::files::scratch;
 use crate::{json, run, scene, text};
@@ -22,7 +22,7 @@ fn the_evidence_stands_in_the_json_in_files_and_on_the_page() {
     }
     assert_eq!(candidates[0]["rank"], 1);
     for candidate in candidates {
-        // a rank with its price, or a reason
+        // a candidate has a rank and a cost, or a reason why it is out
         let (is_ranked, is_out) = (candidate["rank"].is_u64(), candidate["out"].is_string());
         assert!(is_ranked != is_out && is_ranked == candidate["seconds"].is_f64(), "{candidate}");
     }

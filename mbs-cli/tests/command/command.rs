@@ -1,4 +1,4 @@
-//! The `mbs` command as its users meet it: files, JSON, exit status, refusals.
+//! Tests of the `mbs` command from outside: files, JSON, exit status, refusals.
 
 use crate::{files, json, scene, status, text};
 use serde_json::Value;
@@ -10,12 +10,12 @@ fn scratch(name: &str) -> PathBuf {
     files::scratch(&format!("command-{name}"))
 }
 
-/// `mbs run` with arguments.
+/// Runs `mbs run` with arguments.
 fn run(arguments: &[&str]) -> Output {
     crate::run("run", arguments)
 }
 
-/// The keys of the contract.
+/// Keys of the JSON object of a run, as the contract lists them.
 const KEYS: &str = "scene formulation integrator precision dimension coordinates constraints constraint_rank dof step steps completed \
     error end_time cpu_seconds real_time_factor worst_step_seconds iterations factorizations energy violation outputs chosen";
 
@@ -117,7 +117,7 @@ fn pendulum(replace: &[(&str, &str)]) -> String {
     text
 }
 
-/// Fault of a scene: what is wrong, how the pendulum is changed for it, and the text to point at.
+/// Fault of a scene: its name, the replacements that change the pendulum, and the text that the message must point at.
 type Case<'a> = (&'a str, Vec<(&'a str, &'a str)>, &'a str);
 
 /// Writes a scene file and runs it.
@@ -188,7 +188,7 @@ fn malformed_scenes_are_refused_with_place_and_hint() {
 
 #[test]
 fn outputs_that_are_not_finite_end_a_run_with_their_place() {
-    // 14.7 rad/s^2 times 1e308 m; at the start, and once the bar has turned fast enough
+    // 14.7 rad/s^2 times 1e308 m overflows: at the start, and when the bar rotates fast enough
     let output = |quantity: &str| {
         let plain = pendulum(&[]);
         format!(
@@ -250,7 +250,7 @@ fn what_is_not_built_is_refused_with_the_list_of_what_is() {
 fn error_control_begins_with_the_step_and_never_exceeds_the_largest() {
     let solver = "duration = 0.1\n\n[solver]\nintegrator = \"rk54\"\nstep_max = 0.1";
     let scene = pendulum(&[("duration = 1.0", solver)]);
-    // Every step passes, and the next one is five times as long: 0.001, 0.005, 0.025, 0.069; 0.01, 0.05, 0.04; 0.1; 0.1.
+    // every step is accepted, and the next one is five times as long: 0.001, 0.005, 0.025, 0.069; 0.01, 0.05, 0.04; 0.1; 0.1
     for (step, steps) in [("0.001", 4), ("0.01", 3), ("0.1", 1), ("0.7", 1)] {
         let arguments = ["--json", "--tolerance", "1e6", "--step", step];
         let (output, _) = run_text("first-step", &scene, &arguments);
@@ -279,7 +279,7 @@ fn wrong_usage_and_missing_files_are_refused() {
 #[test]
 fn a_run_that_cannot_continue_names_time_and_joint_and_keeps_its_rows() {
     let out = scratch("stops");
-    // A guide that turns the crank of a rocker-rocker on through where the linkage can no longer close.
+    // a guide rotates the crank of a rocker-rocker beyond the position where the linkage can no longer close
     let scene = "[scene]\nname = \"locks\"\ndimension = 2\nduration = 2.0\n\n\
         [[body]]\nname = \"crank\"\nrod = { from = [0.0, 0.0], to = [0.0, 1.0] }\nmass = 1.0\n\n\
         [[body]]\nname = \"coupler\"\nrod = { from = [0.0, 1.0], to = [1.0, 1.0] }\nmass = 1.0\n\n\

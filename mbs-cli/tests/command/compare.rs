@@ -1,5 +1,5 @@
-//! Comparisons as their users meet them: true errors with their orders, failures beside the others, the same runs every time, and
-//! a journal that outlives a kill. Times are never asserted.
+//! Tests of comparisons through the command: true errors with their orders, failures among results, the same runs every time, and a journal
+//! that survives a kill. Times are never asserted.
 
 use crate::{done as json, files, mbs, scene, text};
 use serde_json::Value;
@@ -12,7 +12,7 @@ fn scratch(name: &str) -> PathBuf {
     files::scratch(&format!("compare-{name}"))
 }
 
-/// `mbs compare` on a scene, timing as little as it may.
+/// Runs `mbs compare` on a scene with the least number of timings.
 fn compare(name: &str, arguments: &[&str]) -> Output {
     let mut command = mbs("compare");
     command.arg(scene(name)).args(["--repeats", "2"]).args(arguments);
@@ -41,7 +41,7 @@ fn orders_against_the_closed_form_are_those_of_the_integrators() {
     let found = json(&compare("simple-pendulum", &[&arguments[..], &["--json"]].concat()));
     assert_eq!(found["reference"]["kind"], "table");
     assert!(found["reference"]["uncertainty"].as_f64().unwrap() < 1e-17);
-    // orders of convergence: the trapezoidal rule's two, to what the longer steps bend
+    // the trapezoidal rule has order two; the tolerance is for the longer steps, which deviate from it
     for name in
         ["index-3, f64", "index-1, f64", "classical, f64", "state-space, f64", "recursive, f64"]
     {
@@ -50,7 +50,7 @@ fn orders_against_the_closed_form_are_those_of_the_integrators() {
     }
     let order = method(&found, "recursive rk4, f64")["fit"]["order"].as_f64().expect("a line");
     assert!((order - 4.0).abs() < 0.1, "rk4: {order}");
-    // in steps of 0.625 ms it lags by about (w h)^2 / 12 of 10 s, at up to 4.4 m/s, over a range of 2 m: 5e-6
+    // with steps of 0.625 ms the phase lags by (w h)^2 / 12 of 10 s, at up to 4.4 m/s, over a range of 2 m: 5e-6
     let least = *errors(method(&found, "recursive, f64")).last().expect("completed");
     assert!((2.5e-6..1e-5).contains(&least), "{least}");
 }
@@ -68,12 +68,12 @@ fn the_reference_is_not_under_test_and_another_formulation_agrees_with_it() {
         check["difference"].as_f64().unwrap() <= 3.0 * check["own_uncertainty"].as_f64().unwrap()
     );
     assert!(reference["uncertainty"].as_f64().unwrap() < 1e-10);
-    // none of the tolerances under test is one of the reference's
+    // the tolerance of the reference is not one of those under test
     let own = method(&found, "recursive rk54, f64");
     assert!(
         own["runs"].as_array().unwrap().iter().all(|run| run["setting"].as_f64() > Some(1e-12))
     );
-    // the trapezoidal rule in one coordinate set is one method, by whatever elimination
+    // the trapezoidal rule in one coordinate set gives the same errors for every elimination
     let [a, b] = ["index-3, f64", "classical, f64"].map(|name| errors(method(&found, name)));
     assert!((a[0] - b[0]).abs() < 1e-3 * a[0], "{a:?} {b:?}");
 }
@@ -134,14 +134,14 @@ fn a_quick_comparison_is_of_f64_alone_and_has_no_maps() {
     assert_eq!(crate::status(&refused), 1, "{refused:?}");
 }
 
-/// A short comparison in a directory, with a map: its JSON.
+/// Runs a short comparison in a directory, with a map. Returns its JSON.
 fn short(out: &Path, more: &[&str]) -> Output {
     let arguments = ["--formulation", "index-3", "--duration", "0.4", "--steps", "1e-2,5e-3"];
     let rest = ["--tolerances", "1e-4", "--json", "--out", out.to_str().expect("UTF-8")];
     compare("double-pendulum", &[&arguments[..], &rest, more].concat())
 }
 
-/// The lines of a journal that are not times: how many of those are taken depends on how they fall out.
+/// The lines of a journal that are not times. The number of timings depends on the measured times.
 fn results(journal: &str) -> std::collections::BTreeSet<&str> {
     let keys = journal.lines().map(|line| line.split(',').next().unwrap_or(line));
     keys.filter(|key| !key.trim_start_matches('"').starts_with("time ")).collect()
@@ -152,7 +152,7 @@ fn a_comparison_that_was_killed_resumes_to_the_same_result() {
     let out = scratch("resume");
     let whole = json(&short(&out, &[]));
     let journal = std::fs::read(out.join("compare.journal")).expect("the journal is there");
-    // all that was finished is taken over: the same times too
+    // all finished runs are restored, with the same times
     assert_eq!(json(&short(&out, &["--resume"])), whole);
     let ends: Vec<usize> = (0..journal.len()).filter(|&i| journal[i] == b'\n').collect();
     assert!(ends.len() > 20, "reference, runs, times and cells: {}", ends.len());
@@ -201,7 +201,7 @@ fn keys_of_the_json_are_stable() {
     assert_eq!(keys(&found["methods"][0]["runs"][0]), run.split_whitespace().collect());
     let origin = "build command commit cpu scene_hash version";
     assert_eq!(keys(&found["provenance"]), origin.split(' ').collect());
-    // seven penalties, steps from the longest, and cells that say what became of each
+    // seven penalties, steps from the longest, and cells with the outcome of each run
     let map = &found["maps"][0];
     assert_eq!(map["cells"].as_array().unwrap().len(), 7);
     let cells = map["cells"][0].as_array().unwrap();

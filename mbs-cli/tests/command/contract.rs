@@ -1,4 +1,4 @@
-//! The keys of JSON objects and tables, against the lists in docs/CONTRACT.md.
+//! The keys of JSON objects and tables, compared with the lists in docs/CONTRACT.md.
 
 use super::{json, run, scene};
 use serde_json::Value;
@@ -6,7 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 const CONTRACT: &str = include_str!("../../../docs/CONTRACT.md");
 
-/// The lists between the marks: a line `name:`, then its keys.
+/// The lists between the marks: a line `name:`, followed by its keys.
 fn lists() -> BTreeMap<&'static str, BTreeSet<&'static str>> {
     let inner = CONTRACT.split("<!-- keys:begin -->").nth(1).expect("the mark is there");
     let inner = inner.split("<!-- keys:end -->").next().unwrap_or_default();
@@ -21,7 +21,8 @@ fn lists() -> BTreeMap<&'static str, BTreeSet<&'static str>> {
     lists
 }
 
-/// The keys of an object at any depth. Those under `outputs` and `frames`, and of lists by joint or body, are names of the scene.
+/// The keys of an object at any depth. Keys under `outputs` and `frames`, and those of lists by joint or body, are left out: they are names
+/// of the scene.
 fn keys<'a>(value: &'a Value, found: &mut BTreeSet<&'a str>) {
     match value {
         Value::Object(map) => {

@@ -1,9 +1,9 @@
-//! `mbs diff`: folders and scenes, exit status, names of what one run alone has.
+//! Tests of `mbs diff`: folders and scenes, exit status, names of columns that only one run has.
 
 use super::{done, json, plain, run, scene, status, text, written};
 use std::path::Path;
 
-/// A folder of results of the slider-crank with this step.
+/// Makes a folder of results of the slider-crank with this step.
 fn folder(name: &str, step: &str) -> String {
     let out = plain(Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("diff-{name}")));
     let scene = scene("slider-crank");
@@ -19,7 +19,7 @@ fn a_run_is_within_nothing_of_itself_and_a_coarser_one_is_not() {
     assert_eq!(status(&same), 0, "{}", text(&same.stderr));
     let other = run("diff", &[&fine, &coarse, "--within", "1e-9"]);
     assert_eq!(status(&other), 2);
-    // without a limit nothing is judged
+    // without a limit the exit status is always 0
     assert_eq!(status(&run("diff", &[&fine, &coarse])), 0);
     let shown = text(&other.stdout);
     assert!(shown.lines().all(|line| line.chars().count() <= 100), "{shown}");
@@ -27,7 +27,7 @@ fn a_run_is_within_nothing_of_itself_and_a_coarser_one_is_not() {
     assert_eq!(object["is_within"], false);
     let columns = object["columns"].as_array().expect("a list");
     let largest = columns.iter().filter_map(|x| x["relative"].as_f64()).fold(0.0, f64::max);
-    // the step is 2 ms of a crank that turns at 25 rad/s: a few per cent of a phase
+    // the step is 2 ms, and the crank rotates at 25 rad/s: the difference is a few per cent
     assert!(largest > 1e-9 && largest < 0.1, "{object}");
     let wide = (largest * 1.001).to_string();
     assert_eq!(status(&run("diff", &[&fine, &coarse, "--within", &wide])), 0);

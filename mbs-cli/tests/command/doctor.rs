@@ -1,4 +1,4 @@
-//! `mbs doctor`: what the command says. No time is asserted.
+//! Tests of the messages of `mbs doctor`. No time is asserted.
 
 use crate::{done, files, run, run_line, scene, text, written};
 use serde_json::Value;
@@ -7,7 +7,7 @@ use serde_json::Value;
 fn the_command_gives_one_object_a_page_and_a_status() {
     let out = files::scratch("doctor-out");
     let scene = scene("spatial-four-bar");
-    // Doubts are no faults.
+    // doubts do not count as faults
     let line = format!("doctor {scene} --json --duration 0.2 --out {}", out.display());
     let value = done(&run_line(&line));
     let keys = "scene dimension dof worst findings position natural joint_level dependent_sets reactions loops shares_of_the_motion massless \
@@ -22,7 +22,7 @@ fn the_command_gives_one_object_a_page_and_a_status() {
         (&3.into(), &1.into())
     );
     assert_eq!(value["worst"], "doubt");
-    // The line of the first joint of the set.
+    // the place of a finding is the line of the first joint of the set
     let file = std::fs::read_to_string(&scene).expect("a scene");
     let line = file.lines().position(|l| l.contains("\"crank-pivot\"")).expect("it is there") + 1;
     assert_eq!(value["findings"][0]["line"], line);

@@ -1,5 +1,5 @@
-//! The commands of the documents: each runs, in the order of its document, in a folder with the files that the document writes; numbers of
-//! outputs that are shown are those of the command. CONTRIBUTING.md says how a document marks them.
+//! Test of the commands in documents. Each command runs, in the order of its document, in a folder with the files that the document writes.
+//! Outputs that are shown must have the numbers of the command. CONTRIBUTING.md describes the marks.
 
 mod compare;
 mod steps;
@@ -14,7 +14,7 @@ fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }
 
-/// The documents in which a reader finds commands.
+/// The documents that contain commands for readers.
 fn documents() -> Vec<PathBuf> {
     let mut found = vec![root().join("README.md")];
     for folder in [root().join("docs"), root()] {
@@ -30,7 +30,7 @@ fn documents() -> Vec<PathBuf> {
     found
 }
 
-/// Makes the folder in which a document's commands run: one of its own with the scenes of the repository.
+/// Makes the folder in which a document's commands run. It is new, and contains the scenes of the repository.
 fn folder(document: &Path) -> PathBuf {
     let name: String =
         document.strip_prefix(root()).expect("of the repository").display().to_string();
@@ -43,18 +43,18 @@ fn folder(document: &Path) -> PathBuf {
     folder
 }
 
-/// Runs a line in a shell whose `mbs` is that of the test; gives its text, or what is wrong with its status.
+/// Runs a line in a shell that finds the `mbs` of the test. Returns its output, or a message if its status is wrong.
 fn ran(line: &str, status: i32, folder: &Path) -> Result<String, String> {
     let ours = Path::new(env!("CARGO_BIN_EXE_mbs")).parent().expect("a directory");
     let others = std::env::var("PATH").unwrap_or_default();
     let mut command = Command::new("sh");
     command.args(["-c", line]).current_dir(folder);
-    // no browser opens
+    // without a display no browser opens
     command.env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY");
     command.env("PATH", format!("{}:{others}", ours.display()));
     let output = command.output().expect("there is a shell");
     let said = format!("{}{}", super::text(&output.stdout), super::text(&output.stderr));
-    // this build lacks a precision, which the whole one has
+    // status 3: this build lacks a precision, which a complete build has
     let is_lean = cfg!(not(all(feature = "f32", feature = "dd"))) && super::status(&output) == 3;
     if super::status(&output) == status || is_lean {
         Ok(said)
@@ -63,7 +63,7 @@ fn ran(line: &str, status: i32, folder: &Path) -> Result<String, String> {
     }
 }
 
-/// Follows a document; gives what does not hold, with its line, and the number of commands.
+/// Follows the steps of a document. Returns faults with their lines, and the number of commands.
 fn followed(document: &Path) -> (Vec<String>, usize) {
     let text = fs::read_to_string(document).expect("it is there");
     let place = folder(document);

@@ -1,4 +1,4 @@
-//! `mbs run --precision dd`: digits in, digits out.
+//! Tests of `mbs run --precision dd`: numbers with 32 digits in its input and output.
 
 use crate::{done as json, run, scene, text, written};
 use mbs::core::Real;
@@ -15,8 +15,8 @@ fn digits(run: &Value, channel: &str) -> Pair {
     pair(run["digits"][channel].as_str().expect("digits"))
 }
 
-/// Name and joint of an angle; what the table of the scene gives at start and end, and its rate at the end [rad/s]: an extrapolation
-/// of 30 digits, of which two settings agree.
+/// Name and joint of each angle; its values at the start and at the end [rad] and its rate at the end [rad/s]. They were computed by an
+/// extrapolation with 30 digits, with the same result for two settings.
 const ANDREWS: [(&str, &str, [&str; 3]); 7] = [
     (
         "beta",
@@ -53,7 +53,7 @@ const ANDREWS: [(&str, &str, [&str; 3]); 7] = [
 /// Second derivative of beta at the end [rad/s²], and the length of the crank [m].
 const CRANK: [&str; 2] = ["-24631.7631228746345", "0.007"];
 
-/// The scene with rates of its angles, and the acceleration of the crank's end.
+/// The scene with the rates of its angles and the acceleration of the crank's end as outputs.
 fn andrews() -> String {
     let mut text = std::fs::read_to_string(scene("andrews")).expect("the scene is there");
     for (name, joint, _) in ANDREWS {
@@ -82,13 +82,13 @@ fn the_command_finds_all_digits_of_andrews_mechanism() {
     assert_eq!(run["precision"], "dd");
     for (name, _, [start, end, rate]) in ANDREWS {
         let off = (pair(start) + digits(&run, name) - pair(end)).abs();
-        // The last two digits of each.
+        // the values agree up to the last two digits
         assert!(off <= pair("1e-17"), "{name} is off by {off:.1e}");
         let off = (digits(&run, &format!("{name}-rate")) - pair(rate)).abs();
         println!("rate of {name}: off by {off:.1e}");
         assert!(off <= pair(rate).abs() * pair("1e-18"), "rate of {name} is off by {off:.1e}");
     }
-    // The end of the crank turns about the origin: a = l (beta'' e' - beta'^2 e).
+    // the end of the crank moves on a circle about the origin: a = l (beta'' e' - beta'^2 e)
     let [_, beta, rate] = ANDREWS[0].2.map(pair);
     let [second, length] = CRANK.map(pair);
     let (sin, cos) = beta.sin_cos();
@@ -97,7 +97,7 @@ fn the_command_finds_all_digits_of_andrews_mechanism() {
     for (told, expected) in told.iter().zip(expected) {
         let off = (pair(told.as_str().expect("digits")) - length * expected).abs();
         println!("acceleration: off by {off:.1e}");
-        // rate² is known to 1e-16 * 2 * 1140, the second derivative to 1e-13.
+        // the error of rate² is 1e-16 * 2 * 1140, and that of the second derivative 1e-13
         assert!(off <= pair("1e-15"), "the acceleration is off by {off:.1e}");
     }
 }
@@ -117,7 +117,7 @@ fn rows_have_32_digits_and_the_same_first_ones_as_in_f64() {
     };
     let (short, long) = (rows("f64"), rows("dd"));
     for (short, long) in short.iter().zip(&long).skip(1) {
-        // A hundred steps of a method that both solve to rounding: some digits of f64 are lost, the first ones agree.
+        // a hundred steps of a method that both precisions solve to machine precision: f64 loses some digits, the first digits agree
         let off = (pair(short) - pair(long)).abs();
         assert!(long.len() > 30 && off < pair("1e-13"), "{short} {long}");
     }

@@ -1,9 +1,9 @@
-//! `mbs explain`: what it says of scenes. No time is asserted.
+//! Tests of the report of `mbs explain` on scenes. No time is asserted.
 
 use crate::{files, run, scene, text, written};
 use serde_json::Value;
 
-/// The JSON object of a scene of the repository, by the command.
+/// The JSON object that the command prints for a scene of the repository.
 fn json(name: &str, more: &[&str]) -> Value {
     crate::done(&run("explain", &[&[scene(name).as_str(), "--json"], more].concat()))
 }
@@ -65,7 +65,7 @@ fn loops_are_cut_at_named_joints_and_redundant_equations_are_counted() {
     assert!(cut.len() == 2 && cut.iter().all(|joint| names.contains(joint)));
     assert_eq!((&relative["constraints"], &relative["redundant"]), (&4.into(), &0.into()));
 
-    // One spatial revolute joint is cut: five equations, two of which the planar motion needs.
+    // one spatial revolute joint is cut: it has five equations, of which the planar motion needs two
     let value = json("spatial-four-bar", &["--duration", "0.05"]);
     let relative = &value["simulated"]["relative"];
     let sizes = ["coordinates", "constraints", "constraint_rank", "redundant", "dof", "loops"];
@@ -114,7 +114,7 @@ fn refusals_and_scenes_without_a_start_have_their_status() {
     assert_eq!(output.status.code(), Some(1));
 
     let far = std::fs::read_to_string(scene("guided-four-bar")).expect("it is there");
-    // The crank is told to run away from where it is held.
+    // the linkage cannot be assembled with this start of the rocker
     let start = "[[initial]]\njoint = \"rocker-pivot\"\nvalue = 2.0\n\n[solver]";
     let bad = written("explain-open-loop.toml", &far.replace("[solver]", start));
     let output = run("explain", &[&bad, "--json"]);

@@ -1,4 +1,4 @@
-//! A scene in other forms: JSON, standard input, included files, and values that a command line sets.
+//! Scenes in other forms: JSON, standard input, included files, and values set by the command line.
 
 use crate::{mbs, run, scene, status, text, written};
 use mbs::Precision;
@@ -6,7 +6,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Output, Stdio};
 
-/// A pendulum in two files, of which one includes the other.
+/// A pendulum in two files: this one includes the other.
 const MAIN: &str = "\
 include = [{ file = \"forms-rod.toml\", set = { length = \"2*half\" } }]
 
@@ -63,12 +63,12 @@ const JSON: &str = r#"{
   "joint": [{ "name": "pivot", "kind": "revolute", "bodies": ["ground", "rod"], "at": [0.0, 0.0] }]
 }"#;
 
-/// A command that reads a text.
+/// Runs a command with a text on standard input.
 fn piped(arguments: &[&str], input: &str) -> Output {
     let mut command = mbs(arguments[0]);
     command.args(&arguments[1..]).stdin(Stdio::piped()).stdout(Stdio::piped());
     let mut child = command.stderr(Stdio::piped()).spawn().expect("the command is built");
-    // a command that refuses may not read all of it
+    // an error is ignored: a command that refuses may not read all of the text
     let _ = child.stdin.take().expect("a pipe").write_all(input.as_bytes());
     child.wait_with_output().expect("it ends")
 }
@@ -77,7 +77,7 @@ fn folder(name: &str) -> PathBuf {
     Path::new(env!("CARGO_TARGET_TMPDIR")).join(name)
 }
 
-/// run.csv of a scene, from a file or from standard input.
+/// The file run.csv of a scene, which is read from a file or from standard input.
 fn table(scene: &str, input: Option<&str>, (name, precision): (&str, &str)) -> Vec<u8> {
     let out = folder(&format!("forms-{name}"));
     let arguments = ["run", scene, "--precision", precision, "--out", out.to_str().expect("plain")];
@@ -127,7 +127,7 @@ fn values_are_set_in_every_command_that_reads_a_scene() {
         let modes = crate::done(&run("modes", &arguments));
         modes["modes"][0]["frequency"].as_f64().expect("a frequency")
     };
-    // a uniform rod on its end: sqrt(3 g / (2 l)) / (2 pi)
+    // a uniform rod on its end has the frequency sqrt(3 g / (2 l)) / (2 pi)
     let closed = |l: f64| (1.5 * 9.81 / l).sqrt() / std::f64::consts::TAU;
     assert!((frequency(&[]) / closed(1.0) - 1.0).abs() < 1e-9);
     let longer = ["--set", "body.rod.rod.to=[4, 0]"];

@@ -3,7 +3,7 @@
 use crate::{run, scene, status, text};
 use mbs::scene_file::{Family, generate};
 
-/// `mbs generate` with arguments: exit status, standard output, standard error.
+/// Runs `mbs generate` with arguments. Returns exit status, standard output, standard error.
 fn command(arguments: &[&str]) -> (i32, String, String) {
     let output = run("generate", arguments);
     (status(&output), text(&output.stdout), text(&output.stderr))

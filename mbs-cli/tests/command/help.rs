@@ -1,4 +1,5 @@
-//! The help of the command and of its subcommands, against `help.txt`: short lines, and a default for each option with a value.
+//! The help of the command and of its subcommands, compared with `help.txt`. Its lines are short, and each option with a value has a
+//! default.
 
 use super::{json, run, scene, text};
 use std::path::Path;
@@ -25,10 +26,10 @@ pub(super) const COMMANDS: [&str; 19] = [
     "man",
 ];
 
-/// Most words of a line: rule 1 of the language in docs/NOTATION.md.
+/// Largest number of words in a line: rule 1 of the language in docs/NOTATION.md.
 const MAX_WORDS: usize = 25;
 
-/// Options with a value that have no default: the command asks for one of them, or they choose the size of a family.
+/// Options with a value and without a default: the command needs one of them, or they are sizes of a family.
 const NO_DEFAULT: [&str; 8] =
     ["--out <FILE>", "--rust", "--binary", "--count", "--rows", "--columns", "--of", "--resume"];
 

@@ -1,5 +1,5 @@
-//! Hostile conditions that the command meets in the field: bad paths, torn texts, full disks, signals, other processes, kills. Nothing panics,
-//! nothing hangs, and nothing that was there is lost.
+//! Tests of adverse conditions for the command: bad paths, damaged texts, full disks, signals, other processes, kills. The command must not
+//! panic or hang, and no existing file may be lost.
 
 mod folders;
 mod killed;
@@ -11,10 +11,10 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
-/// Longer than any of these commands takes on a loaded machine.
+/// Time limit of a command: longer than any of them takes on a busy machine.
 const PATIENCE: Duration = Duration::from_secs(60);
 
-/// A pendulum, which runs for a tenth of a second of its time.
+/// A pendulum with a duration of a tenth of a second.
 const SCENE: &str = r#"[scene]
 name = "one"
 dimension = 2
@@ -40,7 +40,7 @@ at = [1.0, 0.0]
 quantity = "position"
 "#;
 
-/// A directory of a test, with a scene in it.
+/// The directory of a test, with a scene in it.
 struct Place(PathBuf);
 
 impl Place {
@@ -58,7 +58,7 @@ impl Place {
         std::fs::read(self.0.join(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
     }
 
-    /// The names in a directory of it, in order.
+    /// The names in one of its subdirectories, in order.
     fn names(&self, name: &str) -> Vec<String> {
         let name_of = |entry: std::io::Result<std::fs::DirEntry>| {
             entry.expect("an entry").file_name().to_string_lossy().into_owned()
@@ -69,7 +69,7 @@ impl Place {
         names
     }
 
-    /// Runs of the pendulum without an estimate, whose base depends on the time of the run.
+    /// A run of the pendulum without an estimate, since the basis of an estimate depends on the time of the run.
     fn run(&self, arguments: &str) -> Command {
         self.mbs(&format!("run p.toml --no-estimate {arguments}"))
     }
@@ -81,15 +81,15 @@ impl Place {
     }
 }
 
-/// Runs a command, which must end in time; returns its output.
+/// Runs a command, which must end within the time limit. Returns its output.
 fn ended(command: &mut Command) -> Output {
     let command = command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
     output(command.spawn().expect("the command is built"), "")
 }
 
-/// Returns the output of a process, which must end in time.
+/// Returns the output of a process, which must end within the time limit.
 fn output(mut child: Child, what: &str) -> Output {
-    // pipes hold more than these say
+    // the outputs are small enough for the buffers of the pipes
     let begun = Instant::now();
     while child.try_wait().expect("our child").is_none() {
         if begun.elapsed() > PATIENCE {
@@ -101,7 +101,7 @@ fn output(mut child: Child, what: &str) -> Output {
     child.wait_with_output().expect("our child")
 }
 
-/// Waits until something is so.
+/// Waits until a condition holds.
 fn wait_for(what: &str, mut is_so: impl FnMut() -> bool) {
     let begun = Instant::now();
     while !is_so() {
@@ -110,7 +110,7 @@ fn wait_for(what: &str, mut is_so: impl FnMut() -> bool) {
     }
 }
 
-/// All files of a directory with their bytes, those of the checkpoint and of processes left out.
+/// The result files of a directory with their bytes, without checkpoints and files of processes.
 fn results(folder: &Path) -> Vec<(String, Vec<u8>)> {
     let names = ["run.csv", "steps.csv", "run.json", "run.html"];
     let read = |name: &str| std::fs::read(folder.join(name)).ok().map(|b| (name.to_owned(), b));

@@ -2,7 +2,7 @@
 
 use crate::{run, status, text, written};
 
-/// A wheel with a motor, whose torque is written in a way of its own.
+/// A wheel with a motor, whose torque is given by the text `course`.
 fn wheel(course: &str) -> String {
     format!(
         "[scene]\nname = \"wheel\"\ndimension = 2\nduration = 0.3\n\

@@ -1,13 +1,13 @@
-//! A build with `f64` alone, as the repository's first command has it. The variable `MBS_LEAN` names it: `cargo xtask check` builds it, and runs
-//! these tests with `--ignored`.
+//! Tests of a build with `f64` alone, which the first command of the README makes. The variable `MBS_LEAN` contains its path. `cargo xtask
+//! check` builds it, and runs these tests with `--ignored`.
 
 use crate::{json, scene, status, text};
 use std::process::{Command, Output};
 
-/// Exit status of a command that asks for a precision which is not built.
+/// Exit status of a command that requests a precision which is not built.
 const UNBUILT: i32 = 3;
 
-/// The command, with the first of its arguments.
+/// The lean command, with its subcommand.
 fn mbs(subcommand: &str) -> Command {
     let lean = std::env::var_os("MBS_LEAN").expect("MBS_LEAN names a command in f64 alone");
     let mut command = Command::new(lean);
@@ -15,7 +15,7 @@ fn mbs(subcommand: &str) -> Command {
     command
 }
 
-/// The command, run with arguments.
+/// Runs the lean command with arguments.
 fn run(subcommand: &str, arguments: &[&str]) -> Output {
     mbs(subcommand).args(arguments).output().expect("the command is built")
 }

@@ -1,10 +1,10 @@
-//! Frames of links by the names of these, with masses and without, and gravity that does not act on all of them: `mbs inspect`.
+//! Frames of links by their names, for models with and without masses, and gravity that acts on some links only: `mbs inspect`.
 
 use super::models::file;
 use super::{run, status, text};
 use serde_json::Value;
 
-/// Digits of the other programs, to what their rounding leaves.
+/// Largest difference from the values of other programs [-]: they agree up to rounding.
 const TOLERANCE: f64 = 1e-9;
 
 fn inspected(name: &str, model: &str, options: &[&str]) -> Value {
@@ -32,7 +32,7 @@ fn close(what: &str, found: &Value, expected: &[f64]) {
     }
 }
 
-/// An arm of three joints with a hand that is fixed to it; `inertia` stands in each moving link.
+/// A model of an arm with three joints and a hand that is fixed to it. Each moving link contains the text `inertia`.
 fn arm(inertia: &str) -> String {
     let link = |name: &str| format!("<link name=\"{name}\">{inertia}</link>");
     let joint = |name: &str, [parent, child]: [&str; 2], origin: &str, axis: &str| {
@@ -55,13 +55,13 @@ fn arm(inertia: &str) -> String {
     .concat()
 }
 
-/// Off the link's origin, and turned against its axes.
+/// Inertia whose centre is off the link's origin and whose axes are rotated against the link's.
 const INERTIA: &str = "<inertial><origin xyz=\"0.05 0.02 0.1\" rpy=\"0.1 0.2 0\"/><mass value=\"2\"/>\
     <inertia ixx=\"0.05\" iyy=\"0.06\" izz=\"0.03\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial>";
 const STATE: [&str; 5] =
     ["--joint=j1=0.4", "--joint=j2=0.6", "--joint=j3=-0.8", "--what", "frames,jacobians"];
 
-/// Place and rows of the rotation of each link, of Pinocchio 4.1.0.
+/// Place and rotation matrix of each link, by Pinocchio 4.1.0.
 #[rustfmt::skip]
 const PLACES: [(&str, [f64; 12]); 5] = [
     ("root", [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]),
@@ -81,7 +81,7 @@ const PLACES: [(&str, [f64; 12]); 5] = [
         0.48152993616138007, 0.5385827182557865, -0.6914170783084737, 0.6456041486657275, 0.31555583554503575, 0.6954277804913145,
     ]),
 ];
-/// Of the gripper, of Pinocchio 4.1.0, in axes of the world.
+/// Jacobian of the gripper, by Pinocchio 4.1.0, in axes of the world.
 #[rustfmt::skip]
 const JACOBIAN: [f64; 18] = [
     -0.3827637450186179, 0.0695081557790283, 0.09690838121011702, 0.642902624061846, 0.03797247856653321, 0.08542066241562363,
@@ -122,7 +122,7 @@ fn places_need_no_inertia_that_a_body_can_have() {
             r#"<inertial><origin xyz="0.05 0.02 0.1"/><mass value="{mass}"/><inertia ixx="{xx}" iyy="0.1" izz="0.1" ixy="0" ixz="0" iyz="0"/></inertial>"#
         )
     };
-    // moments against the triangle inequality, below zero, and without a mass
+    // moments that violate the triangle inequality, a negative moment, and moments without a mass
     for (xx, mass) in [("0.3", "1"), ("-0.1", "1"), ("0.1", "0")] {
         let model = arm(&moments(xx, mass));
         let object = inspected("impossible.urdf", &model, &STATE);
@@ -181,7 +181,7 @@ fn gravcomp_of_parts_that_are_fixed_to_each_other_and_armature_without_weight_ac
         <geom type="box" pos="0.1 0 0.05" size="0.1 0.05 0.02" mass="2"/></body></worldbody></mujoco>"#;
     let options = ["--joint=pivot=0.3,0.5", "--joint=bend=-0.4,-1.1"];
     let object = inspected("carried.xml", model, &options);
-    // of MuJoCo 4.0.0
+    // reference values by MuJoCo 4.0.0
     #[rustfmt::skip]
     let expected = [
         8.398896145853247, 79.07122758709191, -0.03586996133487117, 0.0, -8.458694859938955, 0.0, 0.8250091107020374, 0.0,

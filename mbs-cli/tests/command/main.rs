@@ -1,4 +1,4 @@
-//! The tests of the command, in one program: what its users meet.
+//! The tests of the command from outside, in one program.
 #![allow(clippy::print_stdout, reason = "what is measured is shown with --nocapture")]
 
 #[path = "../../../mbs/tests/all/common/files.rs"]
@@ -38,31 +38,31 @@ use serde_json::Value;
 use std::path::PathBuf;
 use std::process::{Command, Output};
 
-/// The command, with the first of its arguments.
+/// The command, with its subcommand.
 fn mbs(subcommand: &str) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_mbs"));
     command.arg(subcommand);
     command
 }
 
-/// The command, run with arguments.
+/// Runs the command with arguments.
 fn run(subcommand: &str, arguments: &[&str]) -> Output {
     mbs(subcommand).args(arguments).output().expect("the command is built")
 }
 
-/// The command line after `mbs`, run; no word of it has a space.
+/// Runs the command with the words of a line, which are separated by spaces.
 fn run_line(line: &str) -> Output {
     let words: Vec<&str> = line.split_whitespace().collect();
     run(words[0], &words[1..])
 }
 
-/// The object of a command that has done what it was asked for.
+/// The JSON object of a command, which must have exit status 0.
 fn done(output: &Output) -> Value {
     assert_eq!(status(output), 0, "{}", text(&output.stderr));
     json(output)
 }
 
-/// A text of its own as a file of a test.
+/// Writes a text to a file of the tests. Returns the path.
 fn written(name: &str, text: &str) -> String {
     let file = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     std::fs::write(&file, text).expect("the directory is ours");

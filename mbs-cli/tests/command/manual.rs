@@ -74,7 +74,7 @@ fn the_manual_names_the_methods_that_run() {
     };
     assert_eq!(words("formulation"), sorted(&mbs::FORMULATIONS));
     assert_eq!(words("integrator"), sorted(&mbs::INTEGRATORS));
-    // one rule has a second name
+    // the list of rules includes the second name of one rule
     let rules = [&mbs::STEP_RULES[..], &["energy-published"]].concat();
     assert_eq!(words("step_control"), sorted(&rules));
 }

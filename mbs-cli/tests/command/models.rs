@@ -1,4 +1,4 @@
-//! `mbs import`, and models where a scene is wanted.
+//! Tests of `mbs import`, and of models in place of scene files.
 
 use super::{done, run, status, text};
 use serde_json::Value;
@@ -15,7 +15,7 @@ pub(crate) fn file(name: &str) -> PathBuf {
     folder.join(name)
 }
 
-/// Runs a scene; returns what the run says of the motion: all but its own time and the name of the file.
+/// Runs a scene by the command. Returns all results on the motion, without times and the name of the file.
 fn motion(scene: &str) -> Vec<Value> {
     let object = done(&run("run", &[scene, "--json", "--step", "1e-2"]));
     ["outputs", "energy", "violation", "iterations", "channels"]
@@ -43,7 +43,7 @@ fn a_model_runs_to_the_bits_of_the_scene_that_is_imported_from_it() {
         "{report}"
     );
     assert_eq!(motion(&arm()), motion(scene));
-    // the fixed tool is a frame of the lower arm
+    // the fixed tool of the model becomes a frame of the lower arm
     let output = "\n[[output]]\nname = \"tool\"\nbody = \"tool\"\nquantity = \"position\"\n";
     let with_tool = file("with-tool.toml");
     let whole = std::fs::read_to_string(scene).expect("it was written") + output;
@@ -85,7 +85,7 @@ fn a_model_that_cannot_be_meant_is_refused_at_its_place_by_every_command() {
 fn options_of_import_reach_every_command_and_faults_of_the_start_are_told() {
     let imported = file("free.toml");
     let imported = imported.to_str().expect("UTF-8");
-    // its base has no mass: a free one does not start
+    // the base has no mass, so that a free base has no start
     let report = run("import", &[&arm(), "--base", "free", "-o", imported]);
     assert_eq!(status(&report), 0);
     let report = text(&report.stdout);
@@ -135,7 +135,7 @@ fn inspect_computes_what_pinocchio_does_at_a_state() {
         let object = done(&run("inspect", &[&path, "--state", &state, "--json"]));
         let name = |i: usize| object["rows"][i]["joint"].as_str().expect("a joint").to_owned();
         let close = |what: &str, found: f64, expected: f64| {
-            // the reference is printed with 16 digits, and the solve loses one
+            // the reference has 16 digits, and the solution loses one
             assert!(
                 (found - expected).abs() < 1.0e-12 * expected.abs().max(1.0),
                 "{model}: {what}: {found} {expected}"
@@ -173,7 +173,7 @@ fn states_that_no_joint_can_have_are_refused_with_the_nearest_name() {
         assert_eq!(status(&refused), 1, "{option}");
         assert!(text(&refused.stderr).contains(message), "{option}: {}", text(&refused.stderr));
     }
-    // derivatives and Jacobians are computed where they are asked for
+    // derivatives and Jacobians are computed only on request
     let asked = ["--joint=pivot=0.3,0.2", "--what=derivatives,jacobians,mass-matrix", "--json"];
     let object = done(&run("inspect", &[&[scene.as_str()][..], &asked].concat()));
     let (mass, inverse) = (flat(&object["mass_matrix"]), flat(&object["derivatives"]["effort"]));
@@ -186,7 +186,7 @@ fn states_that_no_joint_can_have_are_refused_with_the_nearest_name() {
         text(&refused.stderr).contains("`end-0`: derivatives of accelerations are of open trees"),
         "{refused:?}"
     );
-    // joints that are not named stay as they are drawn
+    // joints that are not named keep their drawn positions
     let asked = ["--joint=pivot=0.4", "--what=accelerations", "--json"];
     let object = done(&run("inspect", &[&[scene.as_str()][..], &asked].concat()));
     assert_eq!(flat(&object["q"]), [0.4, 0.0]);
@@ -207,7 +207,7 @@ fn states_that_no_joint_can_have_are_refused_with_the_nearest_name() {
         let refused = run("inspect", &[&scene, "--state", file.to_str().expect("UTF-8")]);
         assert!(text(&refused.stderr).contains(message), "{entry}: {refused:?}");
     }
-    // what the command line says of a joint leaves the effort that the file gives it
+    // a joint that the command line sets keeps the effort that the file gives
     let state = file("effort.json");
     let entry = "{\"joints\": {\"pivot\": {\"value\": 0.1, \"effort\": 7}}}";
     std::fs::write(&state, entry).expect("a folder");
@@ -216,7 +216,7 @@ fn states_that_no_joint_can_have_are_refused_with_the_nearest_name() {
     let both =
         done(&run("inspect", &[&[scene.as_str(), "--joint=pivot=0.1"][..], &state].concat()));
     assert_eq!(by_file["accelerations"], both["accelerations"]);
-    // with a loop the rest follows
+    // in a closed loop the other coordinates follow
     let object =
         done(&run("inspect", &[&super::scene("four-bar"), "--joint", "start-0=0.3", "--json"]));
     let [rows, columns] =
@@ -226,13 +226,13 @@ fn states_that_no_joint_can_have_are_refused_with_the_nearest_name() {
 
 #[test]
 fn a_folded_four_bar_follows_the_joint_that_is_given_and_a_base_is_said_once() {
-    // the coupler's end lies on the crank's pivot
+    // the coupler's end is at the crank's pivot
     let folded = mbs_testkit::scenes::flat_four_bar("", [0.5, 0.5, 0.3], [0.0, 1.0, 0.0, 0.6]);
     let scene = file("folded.toml");
     std::fs::write(&scene, folded).expect("a folder");
     let scene = scene.to_str().expect("UTF-8");
     let object = done(&run("inspect", &[scene, "--joint=B=0.3", "--json"]));
-    // crank and coupler have length 1: the crank stands at acos(|C| / 2) from the way to C
+    // crank and coupler have length 1: the crank has the angle acos(|C| / 2) to the line to C
     let end = [0.6 - 0.6 * 0.3_f64.cos(), -0.6 * 0.3_f64.sin()];
     let crank = end[1].atan2(end[0]) + (end[0].hypot(end[1]) / 2.0).acos();
     assert!((flat(&object["q"])[0] - crank).abs() < 1e-9, "{crank}: {object}");

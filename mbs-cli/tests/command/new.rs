@@ -1,10 +1,10 @@
-//! `mbs new`: templates that run, and the right values of one.
+//! Tests of `mbs new`: all templates run, and one has known correct values.
 
 use super::{done, plain, run, status, text};
 use serde_json::Value;
 use std::path::Path;
 
-/// A template as a new file of that name.
+/// Writes a template to a new file with the given name.
 fn template(name: &str, file: &str) -> String {
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(file);
     let _ = std::fs::remove_file(&path);
@@ -35,7 +35,7 @@ fn a_template_that_is_none_is_met_with_the_nearest() {
     assert!(text(&output.stderr).contains("did you mean `crank-rocker`?"));
 }
 
-/// Right values: the swing in closed form, forces by the positions in closed form with Newton's and Euler's equations of each bar.
+/// Expected values: the swing in closed form; forces from positions in closed form, by the Newton-Euler equations of each bar.
 #[test]
 fn the_crank_rocker_has_its_angles_forces_and_moment() {
     let file = template("crank-rocker", "new-right-values.toml");
@@ -48,12 +48,12 @@ fn the_crank_rocker_has_its_angles_forces_and_moment() {
         let found = found.as_f64().expect("a number");
         assert!((found - right).abs() <= digit, "{found} is not {right}");
     };
-    // half a unit of the last digit, and what an angle moves beside its turning point in half a step
+    // half a unit of the last digit; near the turning point an angle changes by less than this in half a step
     let angle = channel("rocker angle");
     is_near(&angle["min"][0], -0.102_680, 1e-6);
     is_near(&angle["max"][0], 0.710_075, 1e-6);
     is_near(&angle["at_max"][0], 0.6062, 1.1e-4);
-    // components first, then the magnitude of the force
+    // the columns are first the components, then the magnitude of the force
     let force = channel("force at O");
     is_near(&force["max"][3], 20.2206, 1e-4);
     is_near(&force["rms"][3], 14.8723, 1e-4);

@@ -1,4 +1,4 @@
-//! One run behind every door: `mbs run` and `mbs_study::run` make the same of every scene, and refuse the same.
+//! Tests that `mbs run` and `mbs_study::run` give the same results for every scene, and the same refusals.
 
 use crate::files::scratch;
 use crate::{json, plain, run, scene, status, text, written};
@@ -10,10 +10,10 @@ use mbs::{
 use serde_json::Value;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Steps of each scene: enough for a row of every channel, and few enough for all scenes.
+/// Number of steps of each scene: every channel has rows, and all scenes together run in a short time.
 const STEPS: f64 = 20.0;
 
-/// Rows and summary of a run by the command.
+/// Rows and summary of a run through the command.
 fn by_command(scene: &str, arguments: &[&str]) -> (String, Value) {
     static CALLS: AtomicUsize = AtomicUsize::new(0);
     let out = scratch(&format!("one-run-{}", CALLS.fetch_add(1, Ordering::Relaxed)));
@@ -26,7 +26,7 @@ fn by_command(scene: &str, arguments: &[&str]) -> (String, Value) {
     (rows, untimed(json(&output)))
 }
 
-/// Rows and summary of a run in Rust.
+/// Rows and summary of a run through the library.
 fn by_rust(result: &RunResult) -> (String, Value) {
     let mut rows = Vec::new();
     result.outcome().write_csv(&mut rows).expect("memory");
@@ -34,7 +34,7 @@ fn by_rust(result: &RunResult) -> (String, Value) {
     (String::from_utf8(rows).expect("text"), untimed(summary))
 }
 
-/// The object without what clocks say and what files alone have.
+/// The object without times and without keys that only files have.
 fn untimed(mut value: Value) -> Value {
     for key in ["cpu_seconds", "real_time_factor", "worst_step_seconds", "id", "checksums", "files"]
     {
@@ -122,7 +122,7 @@ fn the_settings_that_a_goal_chose_give_its_rows() {
     assert_eq!(result.outcome().rows(), again.outcome().rows());
 }
 
-/// Code, message and hint of a refusal by the command.
+/// Code, message and hint of a refusal through the command.
 fn refused_by_command(arguments: &[&str]) -> [String; 3] {
     let output = run("run", &[arguments, &["--json"]].concat());
     assert_eq!(status(&output), 1, "{arguments:?}: {}", text(&output.stderr));
@@ -177,7 +177,7 @@ fn contradictions_are_refused_alike_by_command_and_rust() {
 
 #[test]
 fn a_scene_that_is_none_in_single_precision_is_refused_at_its_place() {
-    // both times are 1 in f32
+    // in f32 both times are rounded to 1
     let tabled = "table = [[0, 0], [1, 1], [1.00000001, 2]]";
     let text = WHEEL.replace("value = 2\ninput = true", tabled);
     let file = written("one-run-f32.toml", &text);

@@ -1,14 +1,14 @@
-//! `mbs plot`: pictures and tables of runs, and what is refused.
+//! Tests of `mbs plot`: pictures and tables of runs, and refusals.
 
 use super::{plain, run, scene, status, text};
 use std::path::Path;
 
-/// Draws the slider-crank into a file of that name; gives its text.
+/// Draws the slider-crank into a file with this name. Returns its text.
 fn plotted(name: &str, arguments: &[&str]) -> String {
     String::from_utf8(drawn(name, arguments)).expect("text")
 }
 
-/// Draws the slider-crank into a file of that name; gives its bytes.
+/// Draws the slider-crank into a file with this name. Returns its bytes.
 fn drawn(name: &str, arguments: &[&str]) -> Vec<u8> {
     let out = plain(Path::new(env!("CARGO_TARGET_TMPDIR")).join(name));
     let scene = scene("slider-crank");
@@ -34,7 +34,7 @@ fn a_pdf_has_its_texts_as_text_and_a_table_of_its_objects() {
     for text in ["(t [s]) Tj", "(crank-angle [rad]) Tj", "/Helvetica"] {
         assert!(pdf.contains(text), "{text}");
     }
-    // each object is where the table says
+    // each object of the PDF is at the offset that its table contains
     let at = |from: usize| core::str::from_utf8(&bytes[from..]).unwrap_or_default();
     let line = |text: &str| text.lines().next().unwrap_or_default().to_owned();
     let start = pdf.rsplit("startxref\n").next().and_then(|x| line(x).parse::<usize>().ok());

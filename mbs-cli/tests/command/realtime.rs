@@ -1,4 +1,4 @@
-//! `mbs run --realtime`: files, JSON, exit status, refusals. On the system's clock measures are only looked for.
+//! Tests of `mbs run --realtime`: files, JSON, exit status, refusals. Measures of the system's clock are checked for presence only.
 
 use crate::{done, files, run, run_line, scene, status, text};
 

@@ -1,8 +1,8 @@
-//! Numbers and tables that cannot be meant are refused with the true reason, and a hint that works.
+//! Tests that malformed numbers and tables are refused with the true reason, and a hint that works.
 
 use crate::{run, run_line, scene, status, text, written};
 
-/// Runs the double pendulum with some options, which are refused; its message.
+/// Runs the double pendulum with options that are refused. Returns the message.
 fn refused(arguments: &[&str]) -> String {
     let output = run("run", &[&[&scene("double-pendulum")[..]], arguments].concat());
     let told = text(&output.stderr);
@@ -37,7 +37,7 @@ fn malformed_steps_and_errors_are_refused_with_the_true_reason() {
         let told = refused(&arguments);
         assert!(told.contains(reason) && told.contains(hint), "{arguments:?}: {told}");
     }
-    // up to the length of the run a step is one
+    // a step may be as long as the run
     let output = run("run", &[&scene("double-pendulum"), "--step", "0.01", "--duration", "0.01"]);
     assert_eq!(status(&output), 0, "{}", text(&output.stderr));
 }
@@ -53,7 +53,7 @@ fn a_choice_reports_the_method_and_the_step_that_ran() {
     let integrator = value["integrator"].as_str().expect("a text");
     assert!(integrator == "trapezoidal" || ran.contains(integrator), "{ran} {integrator}");
     assert!(ran.contains("steps of") || ran.contains("tolerance of"), "{ran}");
-    // steps of its own are not called by the longest one
+    // for a method that controls its steps, the headline has the average step and not the largest one
     let arguments = ["--formulation", "recursive", "--integrator", "rk853", "--step", "0.1"];
     let output = run("run", &[&[&scene("double-pendulum")[..]], &arguments[..]].concat());
     let headline = text(&output.stdout).lines().next().unwrap_or_default().to_owned();
@@ -81,7 +81,7 @@ fn the_help_says_what_the_options_of_radau5_mean() {
     );
 }
 
-/// A table for a pendulum, and what `mbs compare` makes of it.
+/// Writes a table for a pendulum, and runs `mbs compare` with it.
 fn compared(name: &str, table: &str) -> (i32, String) {
     let (scene, file) = (scene("simple-pendulum"), written(&format!("{name}-ref.csv"), table));
     let output = run_line(&format!(

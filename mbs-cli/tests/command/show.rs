@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::Stdio;
 use std::time::{Duration, Instant, SystemTime};
 
-/// A folder of its own with a pendulum in it.
+/// A new folder with a pendulum in it.
 fn folder(name: &str) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     let _ = std::fs::remove_dir_all(&folder);
@@ -26,13 +26,13 @@ fn without_a_screen_open_prints_the_path_of_the_page_and_writes_to_out() {
     let page = folder.canonicalize().expect("it is there").join("out/run.html");
     assert!(page.is_file());
     let said = text(&output.stderr);
-    // elsewhere the page is open now
+    // on other systems the page is open now, and its path is not printed
     if cfg!(all(unix, not(target_os = "macos"))) {
         assert!(said.contains(&plain(page)), "{said}");
     }
 }
 
-/// Waits until a claim holds.
+/// Waits until a condition holds.
 fn until(what: &str, mut holds: impl FnMut() -> bool) {
     let begin = Instant::now();
     while !holds() {

@@ -1,5 +1,5 @@
-//! Sweeps as their users meet them: the same table whatever the threads, failures beside the others, and a journal that outlives
-//! a kill.
+//! Tests of sweeps through the command: the same table for any number of threads, failures among results, and a journal that survives a
+//! kill.
 
 use crate::{files, json, plain, run_line, scene, status};
 use serde_json::Value;
@@ -12,12 +12,12 @@ fn scratch(name: &str) -> PathBuf {
     files::scratch(&format!("sweep-{name}"))
 }
 
-/// `mbs sweep` with arguments.
+/// Runs `mbs sweep` with arguments.
 fn sweep(arguments: &[&str]) -> Output {
     crate::run("sweep", arguments)
 }
 
-/// Sweeps the double pendulum, a second of it, by a text; the table without its last column, CPU time.
+/// Sweeps one second of the double pendulum by the text of a sweep. Returns the JSON and the table without its last column, CPU time.
 fn table(out: &Path, text: &str, more: &[&str]) -> (Value, Vec<String>) {
     let file = out.join("sweep.toml");
     std::fs::write(&file, text).expect("the scratch directory is ours");
@@ -35,7 +35,7 @@ fn rows(out: &Path) -> Vec<String> {
     table.lines().filter_map(cut).collect()
 }
 
-/// Sweep of twelve members, whose masses may be varied without changing other places.
+/// Sweep of twelve members. It varies masses, which changes no places.
 const MASSES: &str = "[sweep]\ncombine = 'latin-hypercube'\nsamples = 12\nseed = 3\n\
     [[vary]]\npath = 'body.upper.mass'\nfrom = 0.5\nto = 2\n\
     [[vary]]\npath = 'body.lower.mass'\nfrom = 0.01\nto = 100\nscale = 'log'\n";
@@ -60,15 +60,15 @@ fn the_page_of_a_sweep_has_a_diagram_for_each_result_and_parameter() {
     let out = scratch("page");
     let (_, rows) = table(&out, MASSES, &["--page", "--traces", "3"]);
     let html = std::fs::read_to_string(out.join("sweep.html")).expect("the page is there");
-    // three columns for each output: the end, the least, the largest
+    // each output has three columns: its end, its least and its largest value
     let outputs = rows[0].split(',').filter(|name| name.ends_with(".min")).count();
     assert!(outputs > 0);
     assert_eq!(html.matches("data-diagram=").count(), 2 * outputs);
     assert_eq!(html.matches("data-panel=").count(), outputs);
     assert!(html.contains("Traces of 3 members") && html.contains("<summary>Members"));
-    // in its caption, and as the words for its picture
+    // the sentence occurs in the caption, and as the text of the picture
     assert_eq!(html.matches("The band is the least").count(), 2 * outputs);
-    // the numbers of a member without scripts: each output in its table
+    // the page shows the numbers of a member without scripts: each output in its table
     assert_eq!(html.matches("<details><summary class=\"row\">").count(), 12);
     assert_eq!(html.matches("<td>energy_max_error</td>").count(), 12);
     let refused = sweep(&[&scene("double-pendulum"), "sweep.toml", "--traces", "3"]);
@@ -109,7 +109,7 @@ fn a_member_is_the_run_of_the_scene_with_its_numbers() {
 
 #[test]
 fn members_that_fail_keep_their_rows_and_leave_the_others() {
-    // 1 kg hung to itself: a rod without length in member 2; in member 4 a step at which the energy alarm rings
+    // member 2 has a rod without length; member 4 has a step at which the check of the energy stops the run
     let text = "[sweep]\ncombine = 'zip'\n\
         [[vary]]\npath = 'body.lower.rod.to[0]'\nvalues = [2.0, 1.0, 2.5, 2.0]\n\
         [[vary]]\npath = 'solver.step'\nvalues = [1e-3, 1e-3, 1e-3, 0.25]\n";
@@ -147,7 +147,7 @@ fn a_killed_sweep_resumes_where_it_was() {
     let ends: Vec<usize> =
         (0..journal.len()).filter(|&i| journal[i] == b'\n').map(|i| i + 1).collect();
     assert_eq!(ends.len(), 13, "a head and twelve members");
-    // cut within the head, after it, within a member, before and after a line end
+    // the journal is cut within the head, after it, within a member, before and after a line end
     for (cut, resumed) in [(5, 0), (ends[0], 0), (ends[4] + 7, 4), (ends[9] - 1, 8), (ends[9], 9)] {
         std::fs::write(out.join("sweep.journal"), &journal[..cut]).unwrap();
         std::fs::remove_file(out.join("table.csv")).expect("the table is there");
@@ -188,7 +188,7 @@ fn a_process_that_is_killed_loses_no_finished_member() {
 fn parts_make_the_table_of_one_run_and_those_that_lack_are_named() {
     let out = scratch("parts");
     let (_, whole) = table(&out, MASSES, &[]);
-    // seven parts of twelve members
+    // with seven parts of twelve members, parts have different numbers of members
     for of in [1, 2, 7] {
         let parts = out.join(format!("of-{of}"));
         let part = |k: usize| format!("{k}/{of}");
@@ -202,7 +202,7 @@ fn parts_make_the_table_of_one_run_and_those_that_lack_are_named() {
             &place,
         ];
         let run = |more: &[&str]| sweep(&[&base, more].concat());
-        // all but the first at the same time, as schedulers start them
+        // all parts but the first run at the same time, as a scheduler starts them
         std::thread::scope(|scope| {
             let all: Vec<_> =
                 (2..=of).map(|k| scope.spawn(move || (k, run(&["--part", &part(k)])))).collect();
@@ -246,7 +246,7 @@ fn the_recipes_for_parts_run_as_they_are_written() {
     shell(line("seq 4 | xargs"));
     shell(line("mbs sweep scene.toml sweep.toml --join"));
     assert_eq!(rows(&out.join("out")).len(), 13);
-    // an array of jobs has the same line with its own number
+    // an array of jobs uses the same line with its own number
     let array = line("mbs sweep scene.toml sweep.toml --part $SLURM");
     std::fs::remove_dir_all(out.join("out")).expect("it is there");
     shell(&format!("for SLURM_ARRAY_TASK_ID in 1 2 3 4; do {}; done", array.replace("/40", "/4")));
@@ -281,7 +281,7 @@ fn another_sweep_in_the_same_directory_is_refused_until_restart() {
     assert_eq!(std::fs::read_to_string(out.join("sweep.journal")).unwrap(), "my diary\n");
 }
 
-/// Standard error of a refusal, in a folder of its own: tests run beside each other.
+/// Standard error of a refusal, in a folder of its own, since tests run in parallel.
 fn refusal(text: &str, more: &[&str]) -> String {
     static N_REFUSALS: AtomicUsize = AtomicUsize::new(0);
     let out = scratch(&format!("refusal-{}", N_REFUSALS.fetch_add(1, Ordering::Relaxed)));

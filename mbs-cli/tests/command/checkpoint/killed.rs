@@ -1,4 +1,4 @@
-//! A process that is killed, and the one that goes on with its run.
+//! Processes that are killed, and new processes that resume their runs.
 
 use crate::files::{path, scratch, without_clocks};
 use mbs::{CHECKPOINT, Checkpoint};
@@ -6,18 +6,18 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-/// A run that is killed is killed in this time, or the test has failed.
+/// Time limit for a run to be killed; after it the test fails.
 const PATIENCE: Duration = Duration::from_secs(120);
 
 fn mbs(scene: &str, out: &Path, options: &[&str]) -> Command {
     let mut command = crate::mbs("run");
-    // what an estimate is based on depends on the time of the run
+    // the basis of an estimate depends on the time of the run, so it is left out
     command.arg(path(scene)).arg("--no-estimate").arg("--out").arg(out).args(options);
     command.stdout(Stdio::null()).stderr(Stdio::null());
     command
 }
 
-/// Starts a run and kills it once its checkpoint has come to `t` [s]; gives the time that the checkpoint has then.
+/// Starts a run and kills it when its checkpoint has reached `t` [s]. Returns the time of the checkpoint.
 fn kill_at(t: f64, out: &Path, mut command: Command) -> f64 {
     let mut child = command.spawn().expect("the command is built");
     let begun = Instant::now();
@@ -37,7 +37,7 @@ fn read(out: &Path, file: &str) -> String {
     std::fs::read_to_string(out.join(file)).unwrap_or_else(|e| panic!("{file}: {e}"))
 }
 
-/// Kills a run twice, goes on each time, and compares with one that nobody killed.
+/// Kills a run twice, resumes it each time, and compares it with an uninterrupted run.
 fn survives(name: &str, scene: &str, options: &[&str], [first, second]: [f64; 2]) {
     let [whole, parts] =
         ["whole", "parts"].map(|part| scratch(&format!("checkpoint-{name}-{part}")));

@@ -1,4 +1,4 @@
-//! Checkpoints that the command does not go on from, and what it says then.
+//! Checkpoints from which the command does not resume, and its messages.
 
 use crate::files::{path, scratch};
 use crate::{json, run};
@@ -6,7 +6,7 @@ use mbs::scene_file::SceneFile;
 use mbs::{CHECKPOINT, Mechanism, Run};
 use std::path::{Path, PathBuf};
 
-/// The command is refused with exit status 1, and says all of these words.
+/// Checks that the command is refused with exit status 1, and that its message contains all of these words.
 fn refused(arguments: &[&str], words: &[&str]) {
     let output = run("run", arguments);
     let said = crate::text(&output.stderr);
@@ -17,7 +17,7 @@ fn refused(arguments: &[&str], words: &[&str]) {
     }
 }
 
-/// A directory with the checkpoint that a run has left, and the text of its scene there.
+/// A directory with the checkpoint of a run, and the file of its scene.
 fn left(name: &str) -> (PathBuf, PathBuf) {
     let out = scratch(&format!("checkpoint-{name}"));
     let file = out.join("scene.toml");

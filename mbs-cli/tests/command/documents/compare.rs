@@ -1,15 +1,15 @@
-//! Outputs that are shown, beside those of the command: the same words, and numbers that agree to the digits shown.
+//! Comparison of outputs in documents with those of the command: words must be equal, and numbers must agree to the digits shown.
 
-/// Words of a line that are quantities of the machine: CPU times, and what is derived of them.
+/// Words in a line whose numbers depend on the machine: CPU times and ratios of them.
 const OF_THE_MACHINE: [&str; 2] = ["CPU time", "real time"];
 
-/// Largest difference of two numbers in units of the last digit shown: both were rounded.
+/// Largest difference of two numbers in units of the last digit shown, since both were rounded.
 const LAST_DIGIT: f64 = 1.01;
 
-/// Below this a number is rounding of zero, and only its size is compared [times the number shown].
+/// Numbers smaller than this count as rounding errors of zero; only their size is compared.
 const ROUNDING: f64 = 1e-9;
 
-/// Finds each line that is shown in what was printed, in order; a line `...` stands for any others.
+/// Finds each line of a document in the output, in order. A line `...` stands for any number of lines.
 pub(super) fn shown(shown: &str, printed: &str) -> Result<(), String> {
     let mut rest = printed.lines();
     for line in shown.lines().filter(|line| !line.trim().is_empty() && line.trim() != "...") {
@@ -33,7 +33,7 @@ fn agree(shown: &str, found: &str) -> bool {
     shown.len() == found.len() && shown.iter().zip(&found).all(|(a, b)| a == b || near(a, b))
 }
 
-/// Do two words hold the same number, to the digits of the first?
+/// Are two words the same number, to the digits of the first?
 fn near(shown: &str, found: &str) -> bool {
     let plain = |word: &str| word.trim_matches(['(', ')', ',', ';', ':', '%', '.']).to_owned();
     let [a, b] = [shown, found].map(plain);

@@ -1,24 +1,24 @@
-//! Steps that a document asks of its reader, in order: files, changes of files, commands, outputs to look at.
+//! Steps that a document asks of its reader, in order: files, changes of files, commands, outputs.
 
 use std::path::Path;
 
 /// A fence of a document, or a line of it.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) enum Step {
-    /// A line of a fence `sh` that calls `mbs`, `cp`, `cmp` or `cut`; `cargo mbs` and `cargo xtask simulate` are `mbs`. Its status: 0, or
-    /// `# status N`.
+    /// A line of a fence `sh` that calls `mbs`, `cp`, `cmp` or `cut`. `cargo mbs` and `cargo xtask simulate` count as `mbs`. The expected
+    /// status is 0, or that of `# status N`.
     Command { text: String, status: i32 },
     /// A fence `toml NAME`: the file's text.
     File { name: String, text: String },
     /// A fence `diff NAME`: lines that are replaced in the file.
     Change { name: String, lines: Vec<String> },
-    /// A fence `text shown`: the output of the command before it.
+    /// A fence `text shown`: the output of the preceding command.
     Shown(String),
-    /// A mark that the fence must not have.
+    /// A mark that a fence may not have.
     Fault(String),
 }
 
-/// The steps of a document with the numbers of their lines. A fence with `skip: REASON` is none.
+/// The steps of a document with their line numbers. A fence with `skip: REASON` is not a step.
 pub(super) fn of(document: &str) -> Vec<(usize, Step)> {
     let mut steps = Vec::new();
     let mut lines = document.lines().enumerate();
@@ -74,7 +74,8 @@ fn commands(lines: &[(usize, &str)], steps: &mut Vec<(usize, Step)>) {
     }
 }
 
-/// Replaces lines of a file: lines with `-` are there, those with `+` behind them take their place, those with a blank are there and stay.
+/// Replaces lines of a file. Lines with `-` must exist and are replaced by the lines with `+` that follow. Lines with a blank must exist
+/// and stay.
 pub(super) fn change(file: &Path, lines: &[String]) -> Result<(), String> {
     let text = std::fs::read_to_string(file).map_err(|e| e.to_string())?;
     let of = |skipped: char| {

@@ -1,4 +1,5 @@
-//! Directories of results: of one process at a time, old until the new are whole, and a warning where they are mixed.
+//! Directories of results: one process at a time may use them, old results stay until the new ones are complete, and mixed results give a
+//! warning.
 
 use super::{Place, ended, output, results, wait_for};
 use crate::{json, text};
@@ -24,7 +25,7 @@ fn two_commands_into_one_directory_are_one_too_many() {
     }
     first.kill().expect("it runs");
     first.wait().expect("our child");
-    // its lock has died with it
+    // the lock of a killed process is free again
     assert_eq!(ended(&mut place.run("--out out")).status.code(), Some(0));
     assert_eq!(place.names("out"), ["run.csv", "run.html", "run.json", "steps.csv"]);
 }
@@ -53,7 +54,7 @@ fn a_full_disk_keeps_the_results_before_and_the_summary() {
     let old = results(&place.0.join("out"));
     for (options, left) in [("", false), ("--checkpoint 0.02", true)] {
         let mut shell = Command::new("bash");
-        // 300 kB; rows of this step take more
+        // the limit of a file is 300 kB, and the rows of this step need more
         let line = "ulimit -f 300; exec $M run p.toml --no-estimate --step 1e-5 --out out --json";
         shell.args(["-c", &format!("{line} {options}")]).current_dir(&place.0);
         let said = ended(shell.env("M", env!("CARGO_BIN_EXE_mbs")));
@@ -125,7 +126,7 @@ fn a_sweep_on_a_full_disk_says_what_it_knows() {
     let line = "sweep p.toml s.toml --duration 0.01 --out out --json";
     assert_eq!(ended(&mut place.mbs(line)).status.code(), Some(0));
     let (table, journal) = (place.read("out/table.csv"), place.read("out/sweep.journal"));
-    // the journal is there, the table has no room
+    // the journal exists already, and the table exceeds the limit of a file
     let mut shell = Command::new("bash");
     shell.args(["-c", &format!("ulimit -f 1; exec $M {line}")]).current_dir(&place.0);
     let said = ended(shell.env("M", env!("CARGO_BIN_EXE_mbs")));

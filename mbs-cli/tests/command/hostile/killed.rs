@@ -1,4 +1,4 @@
-//! Processes that are killed at any time: the directory has the old results or the new ones, and who goes on comes to the same bits.
+//! Processes that are killed at random times: the directory has either the old or the new results, and a resumed run gives the same bits.
 
 use super::{Place, ended, results, wait_for};
 use crate::text;
@@ -7,10 +7,10 @@ use mbs::scene_file::Dice;
 use std::process::Stdio;
 use std::time::Duration;
 
-/// Kills, and how many of them wait for the end, when files are put into their places.
+/// Number of kills, and how many of them are late, while the files are put into place.
 const KILLS: usize = 20;
 const LATE: usize = 8;
-/// A run of a tenth of a second or more, with a checkpoint each tenth of it.
+/// Options of a run of a tenth of a second or more of CPU time, with a checkpoint at each tenth of it.
 const LONG: &str = "--step 1e-4 --duration 10 --checkpoint 1";
 
 #[test]
@@ -52,7 +52,7 @@ fn a_run_killed_at_any_time_leaves_the_old_or_the_new_and_resumes_to_the_same_bi
         let is_mixed = Folder::mixed(&out).is_some();
         let is_whole = tables(&now) == tables(&old) || tables(&now) == tables(&whole);
         assert!(is_mixed || (now.len() == 4 && is_whole), "kill {k}: {:?}", place.names(&name));
-        // from a checkpoint where there is one; else it was not begun, or has ended
+        // without a checkpoint the run had not begun, or it had ended
         let is_kept = out.join(mbs::CHECKPOINT).exists();
         let again =
             if is_kept { format!("--out {name} --resume") } else { format!("--out {name} {LONG}") };

@@ -1,10 +1,10 @@
-//! A table of command lines that nobody should write, and what comes of them.
+//! A table of wrong command lines, with the expected results.
 
 use super::{Place, output};
 use crate::{json, text};
 use std::process::{Command, Stdio};
 
-/// Words of a shell, where `$M` is the command; the exit status; and what is said on standard error.
+/// A line of a shell, in which `$M` is the command; its exit status; and a part of its standard error.
 type Line = (&'static str, i32, &'static str);
 
 const PATHS: &[Line] = &[
@@ -169,7 +169,7 @@ const OUTPUTS: &[Line] = &[
     ("$M run p.toml --no-estimate <&-", 0, ""),
 ];
 
-/// Makes the files and folders that the lines name.
+/// Makes the files and folders that the lines use.
 fn hostile(name: &str) -> Place {
     let place = Place::new(name);
     let scene = place.read("p.toml");
@@ -193,7 +193,7 @@ fn hostile(name: &str) -> Place {
     let make = |name: &str| std::fs::create_dir_all(place.0.join(name)).expect("it is ours");
     ["dir.toml", "taken/run.csv", "left/.part"].into_iter().for_each(make);
     place.put("left/.part/run.csv", "t\n");
-    // without bytes on the disk
+    // a sparse file, which needs no space on the disk
     let big = std::fs::File::create(place.0.join("big.toml")).expect("it is ours");
     big.set_len(65 << 20).expect("a file of any size");
     place.put("values.toml", format!("x = [{}]\n", "1,".repeat(8_000_001)));
@@ -205,14 +205,14 @@ fn hostile(name: &str) -> Place {
     place
 }
 
-/// Runs the lines of a table one by one; the results in `old` stay as they are.
+/// Runs the lines of a table one by one. The results in the folder `old` must not change.
 fn all(name: &str, lines: &[Line]) {
     let place = hostile(name);
     let old = super::results(&place.0.join("old"));
     assert_eq!(old.len(), 4);
     for (line, status, says) in lines {
         let mut shell = Command::new("bash");
-        // a process that never ends is ended by the system
+        // the system ends a process after 50 s of CPU time
         shell.args(["-c", &format!("ulimit -t 50; {line}")]).current_dir(&place.0);
         shell.env("M", env!("CARGO_BIN_EXE_mbs")).stdin(Stdio::null());
         let child = shell.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn();

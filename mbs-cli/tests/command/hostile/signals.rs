@@ -1,11 +1,11 @@
-//! The first signal ends a command after its step, with what there is; the second ends it at once.
+//! Tests of signals: the first ends a command after its step, and its results so far are written; the second ends it at once.
 
 use super::{Place, ended, output, results, wait_for};
 use crate::{json, text};
 use std::os::unix::process::ExitStatusExt;
 use std::process::{Child, Command, Output, Stdio};
 
-/// Longer than anybody waits.
+/// Options of a run that takes longer than any test.
 const ENDLESS: &str = "--step 1e-4 --duration 1e5";
 
 fn signal(name: &str, child: &Child) {
@@ -13,7 +13,7 @@ fn signal(name: &str, child: &Child) {
     assert!(sent.expect("there is a kill").success());
 }
 
-/// Starts a command, sends signals once a file is there, and gives what it says in the end.
+/// Starts a command, sends signals when a file exists, and returns the output of the command.
 fn interrupted(place: &Place, command: &mut Command, file: &str, signals: &[&str]) -> Output {
     let command = command.stdout(Stdio::piped()).stderr(Stdio::piped());
     let child = command.spawn().expect("the command is built");
@@ -57,7 +57,7 @@ fn a_run_that_was_interrupted_resumes_to_the_bits_of_one_in_one_go() {
     let long = "--step 1e-4 --duration 40";
     let mut command = place.run(&format!("{long} --out parts --checkpoint 3 --json"));
     let said = interrupted(&place, &mut command, "parts/checkpoint.mbs", &["-INT"]);
-    // on a fast machine it may have ended before
+    // on a fast machine the sweep may end before the signal
     if json(&said)["completed"] == false {
         assert_eq!(ended(&mut place.run("--out parts --resume")).status.code(), Some(0));
     }
@@ -74,7 +74,7 @@ fn a_second_signal_ends_a_run_at_once_and_loses_nothing_older() {
     assert_eq!(ended(&mut place.run("--out out")).status.code(), Some(0));
     let old = results(&place.0.join("out"));
     let mut command = place.run(&format!("{ENDLESS} --out out"));
-    // stopped, it makes no step between the two
+    // the process is stopped, so that it makes no step between the two signals
     let signals = ["-STOP", "-INT", "-TERM", "-CONT"];
     let said = interrupted(&place, &mut command, "out/.lock", &signals);
     assert!(said.status.signal().is_some(), "{:?}", said.status);
@@ -113,7 +113,7 @@ fn a_comparison_that_is_interrupted_keeps_the_runs_that_are_finished() {
     let place = Place::new("compared");
     let made = ended(&mut place.run("--duration 10 --out ref"));
     assert_eq!(made.status.code(), Some(0), "{}", text(&made.stderr));
-    // the last of its steps takes longer than anybody waits
+    // the last of its steps would take longer than any test
     let line = "compare p.toml --reference ref/run.csv --duration 10 --formulation index-3 --precision f64 \
                 --steps 1e-2,1e-3,1e-8 --tolerances 1e-4 --time-limit 1e6 --no-maps --out out --json";
     let mut command = place.mbs(line);
