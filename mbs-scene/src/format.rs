@@ -1,15 +1,15 @@
-//! Decimal text of numbers: in full, the shortest that reads back, or nine significant digits for people.
+//! Decimal text of numbers, for three purposes: the shortest text that reads back equal, up to 32 digits, or nine digits for messages.
 
 use mbs_core::real::DoubleDouble;
 
-/// Significant digits that a message or a table shows. Chosen, not tuned.
+/// Number of significant digits in a message or a table. Chosen, not tuned.
 const DIGITS: usize = 9;
-/// Sizes of numbers that are shown without an exponent: from the first, below the second.
+/// Absolute values that are shown without an exponent.
 const PLAIN: core::ops::Range<f64> = 1e-4..1e9;
-/// Sizes of numbers that are written without an exponent: below the second every double has a digit after the point.
+/// Absolute values that are written without an exponent. Below the upper bound every double has a digit after the point.
 const PLAIN_IN_FULL: core::ops::Range<f64> = 1e-4..1e15;
 
-/// A number with at most nine significant digits and no zeros at its end; powers of ten where it is very large or small.
+/// Text of a number with at most nine significant digits and no zeros at its end. Very large or small numbers have an exponent.
 ///
 /// # Examples
 /// ```
@@ -27,7 +27,7 @@ pub fn significant(x: f64) -> String {
     if PLAIN.contains(&size) { format!("{rounded}") } else { format!("{rounded:e}") }
 }
 
-/// Text of a number with at most 32 digits; exponents where [`shortest()`] has them.
+/// Text of a number with at most 32 digits. It has an exponent where the text of [`shortest()`] has one.
 #[must_use]
 pub fn full(x: DoubleDouble) -> String {
     let size = x.hi().abs();
@@ -35,7 +35,7 @@ pub fn full(x: DoubleDouble) -> String {
     if is_plain { format!("{x}") } else { format!("{x:e}") }
 }
 
-/// The shortest decimal text that reads back as the same number; exponents where they are shorter.
+/// The shortest decimal text that reads back as the same number, with an exponent for very large and very small numbers.
 #[must_use]
 pub fn shortest(x: f64) -> String {
     let size = x.abs();
@@ -46,7 +46,7 @@ pub fn shortest(x: f64) -> String {
     }
 }
 
-/// Rounds to so many significant digits, which shortens the decimal text.
+/// Rounds a number to this number of significant digits, which shortens its decimal text.
 #[must_use]
 pub fn rounded(x: f64, digits: usize) -> f64 {
     if !x.is_finite() {
@@ -55,19 +55,19 @@ pub fn rounded(x: f64, digits: usize) -> f64 {
     format!("{x:.*e}", digits.saturating_sub(1)).parse().unwrap_or(x)
 }
 
-/// Three significant digits, for messages.
+/// Text of a number with three significant digits, for messages.
 #[must_use]
 pub fn few(x: f64) -> String {
     significant(rounded(x, 3))
 }
 
-/// A size for a table: four digits, and a plain zero.
+/// Text of a size for a table: an exponent with four significant digits, and `0` for zero.
 #[must_use]
 pub fn size(x: f64) -> String {
     if x == 0.0 { "0".to_owned() } else { format!("{x:.3e}") }
 }
 
-/// A time span for a table.
+/// Text of a time span for a table, with its unit.
 #[must_use]
 pub fn duration(seconds: f64) -> String {
     match seconds {
@@ -77,7 +77,7 @@ pub fn duration(seconds: f64) -> String {
     }
 }
 
-/// A count with its noun, of which there may be many.
+/// Text of a count with its noun, which is in the plural unless the count is one.
 #[must_use]
 pub fn counted(n: usize, noun: &str) -> String {
     if n == 1 {

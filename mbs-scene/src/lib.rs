@@ -19,7 +19,7 @@ pub use read::{
 };
 pub use write::{WriteError, quoted, to_toml};
 
-/// Items that the tests of this crate call; no part of its interface.
+/// Items for the tests of this crate; they are not part of its interface.
 #[doc(hidden)]
 pub mod inside {
     pub use crate::generate::text::number;

@@ -1,11 +1,12 @@
-//! The spatial chain: `scenes/spatial-chain-20.toml` of any length, coiled, with universal and spherical joints in it.
+//! The spatial chain: `scenes/spatial-chain-20.toml` with any number of links. The links form a coil with revolute, universal and spherical
+//! joints.
 
 use super::text::{self, bar, vector};
 use mbs_core::scene::{Body, BodyId, Dimension, GROUND, InitialCondition, Joint, JointId, Number};
 
 /// Mass of a link [kg].
 const MASS: f64 = 1.0;
-/// Links in their order, from joint to joint [m]: four make a turn of the coil.
+/// Vectors of four consecutive links, from joint to joint [m]. Four links make a turn of the coil.
 const LINKS: [[f64; 3]; 4] =
     [[0.12, 0.0, 0.16], [0.12, 0.16, 0.0], [0.12, 0.0, -0.16], [0.12, -0.16, 0.0]];
 
@@ -49,7 +50,7 @@ pub(super) fn text(bodies: usize, command: &str) -> String {
     text::text(COMMENT, command, &scene)
 }
 
-/// End of a link [m]; the chain begins at the origin.
+/// Position of joint k [m]; the chain begins at the origin.
 fn place(k: usize) -> [f64; 3] {
     let part = LINKS[..k % LINKS.len()].iter();
     let offset = part.fold([0.0; 2], |at, link| [at[0] + link[1], at[1] + link[2]]);

@@ -1,4 +1,4 @@
-//! Copies of a vehicle behind each other on one road.
+//! Copies of a vehicle, one behind the other, on one road.
 
 use super::GenerateError;
 use super::text::{headed, number};
@@ -14,11 +14,11 @@ Names of the vehicle with the number k begin with `vk-`; the first drives ahead 
 other one stands that distance further back and meets the road that much later. They know nothing of each other. Outputs
 are those of the first and of the last vehicle.";
 
-/// Keys whose values are places: they move with the vehicle.
+/// Keys whose values are places in the scene: each copy moves them along x.
 const PLACES: [&str; 6] = ["center", "at", "points", "from", "to", "rod"];
-/// Keys whose values are names.
+/// Keys whose values are names: each copy gets a prefix before them.
 const NAMES: [&str; 4] = ["name", "body", "joint", "bodies"];
-/// Tables that each vehicle has.
+/// Tables that are copied for each vehicle.
 const LISTS: [&str; 5] = ["body", "joint", "guide", "initial", "effect"];
 
 pub(super) fn text(
@@ -52,7 +52,7 @@ pub(super) fn text(
     Ok(headed(COMMENT, command, &out))
 }
 
-/// Writes what the vehicles share: the scene's own keys, the road, the solver.
+/// Writes the parts that all vehicles have in common: the keys of `[scene]`, the road and the solver.
 fn header(out: &mut String, vehicle: &SceneFile, name: &str) {
     for table in ["scene", "road", "solver"] {
         let Some(Item { node: Node::Table(members), .. }) = vehicle.top(table) else { continue };
@@ -73,7 +73,7 @@ fn item(node: Node) -> Item {
     Item { span: 0..0, node }
 }
 
-/// One of the vehicles.
+/// One copy of the vehicle, with its prefix of names and its shift along x [m].
 struct Copy {
     prefix: String,
     shift: f64,
@@ -98,7 +98,7 @@ impl Copy {
         }
     }
 
-    /// The centre of the first body, where the vehicle's scene has no outputs.
+    /// Writes an output of the centre of the first body, for a vehicle whose scene has no outputs.
     fn center(&self, out: &mut String, scene: &Scene<f64>) {
         let Some(body) = scene.bodies.first() else { return };
         let name = Node::Text(format!("{}{}", self.prefix, body.name));
@@ -109,7 +109,7 @@ impl Copy {
         toml::table(out, "[[output]]", &members.map(|(key, node)| member(key, node)));
     }
 
-    /// A name, or a list of names, of this vehicle; the ground has no number.
+    /// Adds the prefix of this vehicle to a name or a list of names; `ground` gets no prefix.
     fn named(&self, node: &Node) -> Node {
         match node {
             Node::Text(name) if name != "ground" => Node::Text(format!("{}{name}", self.prefix)),
@@ -120,7 +120,7 @@ impl Copy {
         }
     }
 
-    /// A place, a list of places, or a table of places, moved along x; a place not moved keeps its text.
+    /// Moves a place, a list of places or a table of places along x. A place with a shift of zero keeps its text.
     fn moved(&self, node: &Node) -> Node {
         match node {
             Node::List(items) => match items.as_slice() {

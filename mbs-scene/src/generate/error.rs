@@ -1,26 +1,26 @@
-//! Faults of a scene that is asked for.
+//! Errors of a request for a generated scene.
 
 /// A scene that cannot be generated.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum GenerateError {
-    /// Nothing to make, or not enough of it to move.
+    /// The size is too small for the family of scenes.
     TooFew {
-        /// Number that was asked for.
+        /// Size that was requested.
         given: usize,
-        /// Least number that there must be.
+        /// Least size that the family allows.
         least: usize,
     },
-    /// More bodies than a memory holds.
+    /// The scene would have more bodies than the limit.
     TooMany {
-        /// Bodies of the scene asked for.
+        /// Number of bodies that were requested.
         bodies: usize,
-        /// Bodies there may be.
+        /// Largest number of bodies.
         most: usize,
     },
-    /// The distance between vehicles is no positive number [m].
+    /// The distance between vehicles [m] is not a positive number.
     Spacing(f64),
-    /// The vehicle is no scene that can be read; reading it says why.
+    /// The vehicle's file is not a valid scene; reading it gives the reason.
     NoScene,
     /// The vehicle has no tire.
     NoTires,

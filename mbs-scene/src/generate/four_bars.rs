@@ -1,4 +1,4 @@
-//! Four-bar linkages side by side.
+//! A row of planar four-bar linkages, side by side.
 
 use super::text::{self, vector};
 use mbs_core::scene::{Body, BodyId, Dimension, GROUND, InitialCondition, Joint, JointId, Number};
@@ -13,7 +13,7 @@ I = ((N + 1) / 3 + N) 1 kg m^2, a from +x, a(0) = pi / 2, |a'(0)| = 1 rad/s.";
 pub(super) fn text(loops: usize, command: &str) -> String {
     let mut scene = text::scene(&format!("n-four-bar {loops}"), Dimension::Planar, 10.0);
     let place = |k: usize, up: f64| vector([k as f64, up]);
-    // a crank and a coupler alternately
+    // A crank and a coupler alternate in the list of bodies.
     let (crank, coupler) = (|k: usize| BodyId::Body(2 * k), |k: usize| BodyId::Body(2 * k + 1));
     for k in 0..=loops {
         let rod = Body::rod(place(k, 0.0), place(k, 1.0), 1.0);

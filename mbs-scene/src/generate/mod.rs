@@ -1,7 +1,7 @@
-//! Large scenes by rule: text of scene files, as long as wanted.
+//! Generated scenes of any size, as text of scene files.
 //!
-//! What is generated is read, checked and run as any other scene; a comment at its head says what it is and which command made
-//! it. Outputs are few whatever the size, so that rows stay short.
+//! A generated scene is read, checked and run like any other scene. A comment at its head names the family and the command that made it.
+//! The number of outputs does not grow with the scene, so that rows of results stay short.
 
 mod chain;
 mod convoy;
@@ -15,50 +15,50 @@ pub use error::GenerateError;
 
 use crate::read::SceneFile;
 
-/// Most bodies of a generated scene. Chosen, not tuned: a slip of a count ends in a message.
+/// Largest number of bodies of a generated scene. It turns a mistyped count into a message. Chosen, not tuned.
 pub const MOST_BODIES: usize = 10_000_000;
 
 /// A family of scenes, with its size.
 #[derive(Debug, Clone, Copy)]
 pub enum Family<'a> {
-    /// A spatial chain of links hung at one end and let go from the horizontal: revolute, universal and spherical joints in this order.
+    /// A spatial chain of links, hung at one end and released from the horizontal, with revolute, universal and spherical joints in turn.
     Chain {
         /// Number of links; at least 1.
         bodies: usize,
     },
-    /// A binary tree of bars with spatial revolute joints, each generation lighter and shorter.
+    /// A binary tree of bars with spatial revolute joints. The bars of each generation are lighter and shorter.
     Tree {
-        /// Number of bars; at least 1. One less than a power of two fills its generations.
+        /// Number of bars; at least 1. One less than a power of two completes the last generation.
         bodies: usize,
     },
     /// Planar four-bar linkages side by side, as in `scenes/n-four-bar-40.toml`.
     FourBars {
-        /// Number of linkages; at least 1. There is one body more than twice as many.
+        /// Number of linkages, n; at least 1. The scene has 2 n + 1 bodies.
         loops: usize,
     },
-    /// A rope net of rods joined by balls, hung at its four corners.
+    /// A rope net of rods with ball joints, hung at its four corners.
     Net {
         /// Meshes from front to back; at least 2.
         rows: usize,
         /// Meshes from left to right; at least 2.
         columns: usize,
     },
-    /// Copies of a vehicle behind each other on one road, driving in x.
+    /// Copies of a vehicle, one behind the other on one road, driving in the direction of x.
     Convoy {
         /// The scene of one vehicle; it must have a tire.
         vehicle: &'a SceneFile,
         /// Number of vehicles; at least 1.
         count: usize,
-        /// Distance from one to the next [m].
+        /// Distance between consecutive vehicles [m].
         spacing: f64,
     },
 }
 
 impl Family<'_> {
-    /// The square net whose number of rods is nearest to `bodies`: 2 n (n + 1) for n meshes each way, n at least 2.
+    /// The square net whose number of rods is nearest to `bodies`. A net of n x n meshes has 2 n (n + 1) rods, with n at least 2.
     #[must_use]
     pub fn net_of(bodies: usize) -> Self {
-        // 2 (n - 1) n .. 2 n (n + 1): halfway lies 2 n^2.
+        // Nets of n - 1 and n meshes have 2 (n - 1) n and 2 n (n + 1) rods, so 2 n^2 is halfway between them.
         let mut n = (bodies / 2).isqrt().max(2);
         if bodies > 2 * (n + 1) * (n + 1) {
             n += 1;
@@ -66,7 +66,7 @@ impl Family<'_> {
         Self::Net { rows: n, columns: n }
     }
 
-    /// Bodies of the scene.
+    /// Number of bodies of the scene.
     fn n_bodies(&self) -> usize {
         match *self {
             Self::Chain { bodies } | Self::Tree { bodies } => bodies,
@@ -80,12 +80,12 @@ impl Family<'_> {
     }
 }
 
-/// The text of a scene of a family; `command` is what the comment at its head names as its maker.
+/// The text of a scene of a family. The comment at its head names `command` as the command that made it.
 ///
-/// Cost: proportional to the length of the text, some 250 bytes for each body of a chain.
+/// Cost: proportional to the length of the text, about 250 bytes for each body of a chain.
 ///
 /// # Errors
-/// [`GenerateError`] when the size is none, too large, or the vehicle is none.
+/// [`GenerateError`] when the size is too small or too large, or the vehicle is not usable.
 ///
 /// # Examples
 /// ```

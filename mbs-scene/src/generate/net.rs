@@ -1,10 +1,10 @@
-//! The rope net: rods between knots, in a shape that leaves every rope slack.
+//! The rope net: rods between knots, in an initial shape in which every rope sags.
 //!
 //! ```text
 //! knot (i, j) at (x_i, y_j, f_i + g_j),   (x, f) and (y, g) points of an arc with equal chords
 //! ```
 //!
-//! A sum of two arcs has rods of equal length everywhere, and no rope is taut between two corners, as it would be in a flat net.
+//! In a sum of two arcs all rods have equal length. No rope is straight between two corners, as it would be in a flat net.
 
 use super::text::{self, vector};
 use mbs_core::scene::{Body, BodyId, Dimension, GROUND, Joint, Number, Scene};
@@ -44,7 +44,7 @@ pub(super) fn text([rows, columns]: [usize; 2], command: &str) -> String {
     text::text(COMMENT, command, &scene)
 }
 
-/// Places of an arc of equal chords: along it, and down.
+/// Points of an arc of n chords of equal length: distance along its base, and height relative to its first point [m].
 fn arc(n: usize) -> Vec<[f64; 2]> {
     let mut points = vec![[0.0; 2]];
     let mut at = [0.0; 2];
@@ -57,7 +57,7 @@ fn arc(n: usize) -> Vec<[f64; 2]> {
 }
 
 struct Net {
-    /// Places of the knots in x, and in y.
+    /// Positions of the knots in x, and in y, each with a height [m].
     across: Vec<[f64; 2]>,
     along: Vec<[f64; 2]>,
 }
@@ -68,7 +68,7 @@ impl Net {
         [x, y, f + g]
     }
 
-    /// The rods in x, rope by rope, then those in y.
+    /// All rods as pairs of knots: first the rods in x, rope by rope, then the rods in y.
     fn rods(&self) -> impl Iterator<Item = [[usize; 2]; 2]> {
         let (m, n) = (self.along.len(), self.across.len());
         let across = (0..m).flat_map(move |j| (1..n).map(move |i| [[i - 1, j], [i, j]]));
@@ -76,13 +76,13 @@ impl Net {
         across.chain(along)
     }
 
-    /// Place of a rod among the bodies, in the order of [`Self::rods`].
+    /// Index of a rod among the bodies, in the order of [`Self::rods`].
     fn index(&self, [[i, j], to]: [[usize; 2]; 2]) -> usize {
         let (m, n) = (self.along.len(), self.across.len());
         if to[0] > i { j * (n - 1) + i } else { m * (n - 1) + i * (m - 1) + j }
     }
 
-    /// The joints of a knot: every rod on the first one, and a corner on the ground.
+    /// Adds the joints of a knot: every other rod is joined to the first one, and a corner to the ground.
     fn tie(&self, scene: &mut Scene<Number>, knot: [usize; 2]) {
         let [i, j] = knot;
         let (last_i, last_j) = (self.across.len() - 1, self.along.len() - 1);
@@ -107,7 +107,7 @@ impl Net {
     }
 }
 
-/// A rod by the knot where it begins, and its direction.
+/// Name of a rod: its direction, and the knot where it begins.
 fn rod([[i, j], to]: [[usize; 2]; 2]) -> String {
     if to[0] > i { format!("across-{i}-{j}") } else { format!("along-{i}-{j}") }
 }

@@ -1,8 +1,8 @@
-//! Parts that the families of scenes share: a scene that grows, its numbers, and the comment at the head of its text.
+//! Functions that several families of scenes use: an empty scene, numbers and vectors, and the comment at the head of a text.
 
 use mbs_core::scene::{Dimension, Number, Output, Scene, SolverTable, Vector3};
 
-/// An empty scene with gravity down; duration [s], steps of 1 ms.
+/// An empty scene with gravity downwards, this duration [s] and steps of 1 ms.
 pub(super) fn scene(name: &str, dimension: Dimension, duration: f64) -> Scene<Number> {
     let gravity: Vector3 = match dimension {
         Dimension::Planar => [0.0, -9.81].into(),
@@ -15,12 +15,12 @@ pub(super) fn scene(name: &str, dimension: Dimension, duration: f64) -> Scene<Nu
     }
 }
 
-/// The position of a body's point, as an output.
+/// An output of the position of a point of a body.
 pub(super) fn position(name: &str, body: usize, at: impl Into<Vector3>) -> Output<Number> {
     Output::position(mbs_core::scene::BodyId::Body(body), at).named(name)
 }
 
-/// The comment that says what the scene is and which command made it, then its tables.
+/// Joins the comment, a line that names the command, and the tables.
 pub(super) fn headed(comment: &str, command: &str, tables: &str) -> String {
     let mut text = String::new();
     let mut line = |line: &str| {
@@ -29,35 +29,35 @@ pub(super) fn headed(comment: &str, command: &str, tables: &str) -> String {
     };
     comment.lines().for_each(&mut line);
     line("");
-    // A name of a file may hold anything; a comment ends with its line.
+    // A file name in the command may have control characters, but a comment must stay on its line.
     let command: String = command.chars().map(|c| if c.is_control() { '?' } else { c }).collect();
     line(&format!("Made by `{command}`."));
     format!("{text}\n{tables}")
 }
 
-/// A scene as text under its comment.
+/// The text of a scene, below its comment.
 pub(super) fn text(comment: &str, command: &str, scene: &Scene<Number>) -> String {
-    // What is generated has neither code nor references to nothing.
+    // A generated scene has neither code nor unknown references, so writing it does not fail.
     headed(comment, command, &crate::to_toml(scene).unwrap_or_default())
 }
 
-/// A number of 15 digits: multiples of decimal numbers stay as short as they are meant.
+/// A number rounded to 15 digits, so that multiples of short decimals stay short.
 pub fn number(x: f64) -> Number {
     let rounded: f64 = format!("{x:.14e}").parse().unwrap_or(x);
-    // No minus before a zero.
+    // The sum turns minus zero into zero.
     (rounded + 0.0).into()
 }
 
-/// Vector of numbers of 15 digits.
+/// A vector of numbers rounded to 15 digits.
 pub(super) fn vector<const N: usize>(x: [f64; N]) -> [Number; N] {
     x.map(number)
 }
 
-/// Width of a bar, relative to its length [-].
+/// Width of a bar relative to its length [-].
 const SLENDER: f64 = 0.2;
 
-/// Inertia of a uniform square bar of mass m [kg] from end to end [m], about its centre, as scene files have it. It is
-/// It 1 + (Ia - It) u u^T, u along it.
+/// Inertia of a uniform bar of square section about its centre [kg m²], in the order of scene files. The mass is m [kg], `d` goes from end
+/// to end [m]. The matrix is It 1 + (Ia - It) u u^T, where u is the unit vector along the bar.
 pub(super) fn bar(mass: f64, d: [f64; 3]) -> [Number; 6] {
     let square: f64 = d.iter().map(|x| x * x).sum();
     let width = SLENDER * SLENDER * square;

@@ -1,13 +1,13 @@
-//! The binary tree of bars.
+//! The binary tree of bars, hung at its trunk.
 
 use super::text::{self, bar, number, vector};
 use mbs_core::scene::{Body, BodyId, Dimension, GROUND, InitialCondition, Joint, JointId};
 
-/// Mass of the trunk [kg], and the factor of each generation's [-].
+/// Mass of the trunk [kg], and the ratio of the masses of consecutive generations [-].
 const MASS: [f64; 2] = [2.0, 0.7];
-/// Length of the trunk [m], and the factor of each generation's [-].
+/// Length of the trunk [m], and the ratio of the lengths of consecutive generations [-].
 const LENGTH: [f64; 2] = [0.6, 0.8];
-/// Sideways and downward parts of a branch's unit length [-].
+/// Sideways and downward components of the unit vector along a branch [-].
 const SLOPE: [f64; 2] = [0.6, 0.8];
 
 const COMMENT: &str = "\
@@ -19,7 +19,7 @@ trunk is a square bar of 2 kg and 0.6 m; each generation is lighter by the facto
 starts with 0.5 rad/s; the rest follows with the least kinetic energy. No loops, one freedom for each bar; the energy is
 kept.";
 
-/// Bar of the tree: where it hangs, where it ends, and the direction of its joint's axis.
+/// A bar of the tree: its upper end, its lower end, and the axis of its joint.
 struct Bar {
     from: [f64; 3],
     to: [f64; 3],
@@ -48,7 +48,7 @@ pub(super) fn text(bodies: usize, command: &str) -> String {
     text::text(COMMENT, command, &scene)
 }
 
-/// All bars, the trunk first.
+/// All bars of the tree, with the trunk first.
 fn bars(n: usize) -> Vec<Bar> {
     let mut bars: Vec<Bar> = Vec::with_capacity(n);
     for k in 1..=n {

@@ -1,8 +1,8 @@
-//! Tables in the order of the manual.
+//! Key tables, in the order of the manual.
 
 use crate::keys::{KeyTable, tables};
 
-/// The tables that stand in files, apart from the files themselves, each header's together.
+/// The key tables of entries, without those of whole files. The tables of one header form a group.
 pub fn groups() -> Vec<&'static [KeyTable]> {
     let mut groups = Vec::new();
     let mut rest = tables();
@@ -17,7 +17,7 @@ pub fn groups() -> Vec<&'static [KeyTable]> {
     groups
 }
 
-/// Returns the tables of a group, those of one kind together.
+/// Returns the tables of a group, with the tables of one kind together.
 pub fn entries(group: &'static [KeyTable]) -> Vec<&'static [KeyTable]> {
     let mut entries: Vec<&'static [KeyTable]> = Vec::new();
     let mut rest = group;
@@ -33,7 +33,7 @@ pub fn entries(group: &'static [KeyTable]) -> Vec<&'static [KeyTable]> {
     entries
 }
 
-/// The first sentence of a text.
+/// The first sentence of a text, with its full stop.
 pub(super) fn first_sentence(text: &str) -> &str {
     text.find(". ").map_or(text, |end| &text[..=end])
 }

@@ -1,4 +1,4 @@
-//! docs/SCENES.md: the tables as Markdown.
+//! Writes docs/SCENES.md: the key tables as Markdown.
 
 use super::groups::{entries, groups};
 use crate::keys::{Base, Key, KeyTable, Standing};

@@ -1,4 +1,4 @@
-//! The manual of scene files, written from the tables of their keys: lists and pages for a terminal, Markdown, and a schema.
+//! The manual of scene files, generated from the key tables: lists and pages for a terminal, Markdown, and a JSON Schema.
 
 pub(crate) mod groups;
 mod markdown;

@@ -1,4 +1,4 @@
-//! Pages that `mbs kinds` prints: the list of tables and kinds, and the page of one.
+//! Pages of the command `mbs kinds`: the list of tables and kinds, and the page of one.
 
 use super::groups::{entries, first_sentence, groups};
 use crate::keys::{Key, KeyTable};
@@ -8,10 +8,10 @@ use std::fmt::Write;
 
 /// Width of a terminal [characters].
 const WIDTH: usize = 100;
-/// Width of the column with the names of keys [characters]: the longest has 19.
+/// Width of the column with the names of keys [characters]; the longest name has 19.
 const NAMES: usize = 20;
 
-/// All tables and kinds, a line each.
+/// A list of all tables and kinds, one line each.
 #[must_use]
 pub fn list() -> String {
     let mut text = String::new();
@@ -27,10 +27,10 @@ pub fn list() -> String {
     text
 }
 
-/// The pages of a table or of a kind, by its name as `joint`, `[[joint]]`, `revolute`, or `effect torque`.
+/// The pages of a table or of a kind. Its name is `joint`, `[[joint]]`, `revolute`, or `effect torque`.
 ///
 /// # Errors
-/// The nearest name, where there is none of that.
+/// A message with the nearest name, when no table or kind has this name.
 pub fn page(name: &str) -> Result<String, String> {
     let asked = name.trim().trim_matches(['[', ']']).trim();
     let mut text = String::new();
@@ -57,21 +57,21 @@ pub fn page(name: &str) -> Result<String, String> {
     }
 }
 
-/// A line for each kind.
+/// Adds a line for each kind of a group.
 fn kinds(text: &mut String, group: &'static [KeyTable]) {
     for entry in entries(group) {
         line(text, &format!("  {}", entry[0].kind.unwrap_or("several features")), &entry[0]);
     }
 }
 
-/// A name, and the first sentence of what it is.
+/// Adds a line with a name and the first sentence of its meaning.
 fn line(text: &mut String, name: &str, table: &KeyTable) {
     let column = NAMES + 2;
     let what = if table.law.is_empty() { first_sentence(&table.meaning) } else { table.law };
     wrapped(text, (&format!("{name:<column$}"), column), what);
 }
 
-/// The kinds of a table.
+/// A list of the kinds of a table.
 fn overview(group: &'static [KeyTable]) -> String {
     let mut text = format!("{}: its kinds\n\n", group[0].title());
     kinds(&mut text, group);
@@ -119,7 +119,7 @@ fn of_key(text: &mut String, key: &Key) {
     wrapped(text, (&" ".repeat(NAMES + 2), NAMES + 2), &key.meaning.replace('`', ""));
 }
 
-/// Appends a text in lines that fit a terminal.
+/// Adds a text, broken into lines that fit a terminal.
 fn wrapped(text: &mut String, (first, others): (&str, usize), words: &str) {
     let mut line = first.to_owned();
     for word in words.split_whitespace() {

@@ -1,9 +1,9 @@
-//! A JSON Schema of scene files, for editors and other programs: the subset of draft 4 that TOML editors read.
+//! A JSON Schema of scene files, for editors and other programs. It uses the subset of draft 4 that TOML editors support.
 
 use crate::keys::{self, FILE, Key, KeyTable, KeyValue, Referent, tables};
 use serde_json::{Map, Value as Json, json};
 
-/// The schema of a scene file. Objects are closed: a key that is not in it is none.
+/// The schema of a scene file. Objects are closed: keys that are not in the schema are errors.
 ///
 /// ```
 /// let schema: serde_json::Value = serde_json::from_str(&mbs_scene::manual::schema()).unwrap();
@@ -24,7 +24,7 @@ pub fn schema() -> String {
     serde_json::to_string_pretty(&schema).unwrap_or_default() + "\n"
 }
 
-/// Any of the tables of a header.
+/// The schema of a header: any of its key tables.
 fn of_header(header: &str) -> Json {
     let tables: Vec<Json> = keys::of(header).iter().map(of_table).collect();
     match <[Json; 1]>::try_from(tables) {
@@ -39,7 +39,7 @@ fn of_table(table: &KeyTable) -> Json {
     for key in &table.keys {
         let others = || table.keys.iter().filter(|other| other.name == key.name);
         let forms: Vec<Json> = others().map(of_key).collect();
-        // a key of planar and one of spatial scenes: the file says which it is, the schema does not know
+        // A key that differs between planar and spatial scenes: the schema allows both, since it does not know the dimension.
         let form = match <[Json; 1]>::try_from(forms) {
             Ok([form]) => form,
             Err(forms) => json!({ "anyOf": forms }),
@@ -69,7 +69,7 @@ fn of_key(key: &Key) -> Json {
     let description = format!("{}{unit}", key.meaning);
     if let Json::Object(form) = &mut form {
         form.insert("description".into(), description.into());
-        // what is a value, not an explanation
+        // Only a default that is a value, not an explanation.
         if let Ok(default @ (Json::Number(_) | Json::Bool(_))) = serde_json::from_str(&key.default)
         {
             form.insert("default".into(), default);
@@ -84,7 +84,7 @@ fn of_value(value: &KeyValue) -> Json {
         None => json!({ "type": "array", "items": of }),
     };
     let text = || json!({ "type": "string" });
-    // a text is an expression
+    // A text may be an expression.
     let number = || json!({ "type": ["number", "string"] });
     let count = || json!({ "type": "integer", "minimum": 1 });
     let any_of = |forms: Vec<Json>| json!({ "anyOf": forms });

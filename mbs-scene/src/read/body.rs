@@ -23,7 +23,7 @@ pub(crate) fn read(fields: &Fields<'_>) -> Read<Body<Number>> {
         let inertia = Inertia::Rod { from, to };
         return Ok(Body { name, mass, center, inertia, gravity_scale });
     }
-    // a body without mass has neither a centre of mass nor inertia to speak of
+    // A body without mass needs neither a centre of mass nor an inertia.
     let center = match fields.get("center") {
         None if mass.is_zero() => [const { Number::ZERO }; 3],
         _ => fields.vector("center")?,

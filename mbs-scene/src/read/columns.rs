@@ -1,7 +1,7 @@
-//! Tables that are columns of a CSV file: `table = { file = "force.csv", columns = ["time", "force"] }`.
+//! Tables in a scene that are columns of a CSV file: `table = { file = "force.csv", columns = ["time", "force"] }`.
 //!
-//! The first row of the file has the names of its columns, each with a unit in brackets or without: `time [ms]`. Every other row has a cell
-//! for each column. A row becomes a row of the scene, and each number keeps its place in the file: what is wrong with it is said there.
+//! The first row of the file has the names of the columns, each with an optional unit in brackets: `time [ms]`. Every other row has a cell
+//! for each column, and becomes a row of the table. Each number keeps its place in the file, so that error messages refer to it.
 
 use super::ReadFault;
 use super::error::{ExpressionFault, Read};
@@ -17,13 +17,13 @@ use crate::keys::TABLE_FILE;
 use core::ops::Range;
 use mbs_core::scene::Number;
 
-/// The keys at which a table may stand.
+/// The keys whose value may be a table in a file.
 const TABLES: [&str; 2] = ["table", "points"];
-/// Most bytes of the files of a scene. Chosen, not tuned: those of its texts.
+/// Largest total length of the CSV files of a scene [bytes], as for its texts. Chosen, not tuned.
 const MAX_BYTES: usize = 64 << 20;
 const FORM: &str = "a list of rows, or { file = \"force.csv\", columns = [\"time\", \"force\"] }";
 
-/// Puts rows of files in place of the tables that name them.
+/// Replaces the tables that name a file by the rows of that file.
 pub(super) fn resolve(texts: &mut Texts, members: &mut [Member]) -> Read<()> {
     members.iter_mut().try_for_each(|member| {
         let is_table = TABLES.contains(&member.key.as_str());
@@ -42,7 +42,7 @@ fn inner(texts: &mut Texts, item: &mut Item) -> Read<()> {
     }
 }
 
-/// Table in a file, as a scene names it.
+/// Table in a file, with the keys that the scene has for it.
 struct TableFile {
     file: (String, Span),
     columns: Vec<(String, Span)>,
@@ -60,7 +60,7 @@ fn replace(texts: &mut Texts, item: &mut Item) -> Read<()> {
     Ok(())
 }
 
-/// The keys of a table.
+/// Reads the keys of a table in a file.
 fn written(texts: &Texts, item: &Item) -> Read<TableFile> {
     let values = Values::none(texts);
     let names = Names::default();
@@ -82,7 +82,7 @@ fn written(texts: &Texts, item: &Item) -> Read<TableFile> {
     Ok(TableFile { file: text(fields.need("file")?)?, columns, units })
 }
 
-/// The byte at which the text of a file begins, which is read once.
+/// Adds the text of a file, once for each file, and returns the byte at which it begins.
 fn load(texts: &mut Texts, (file, span): &(String, Span), by: &Span) -> Read<usize> {
     let of = texts.of(span);
     let Some(folder) = &of.folder else {
@@ -118,13 +118,13 @@ fn load(texts: &mut Texts, (file, span): &(String, Span), by: &Span) -> Read<usi
     Ok(texts.add(Text { name, text, prefix, by, is_file: true, is_table: true, folder, start: 0 }))
 }
 
-/// A column that is needed: where its cells stand in a row, and their unit; empty: they have none.
+/// A column of the table: index of its cell in a row, and its unit, which is empty when there is none.
 struct Column {
     place: usize,
     unit: String,
 }
 
-/// The rows of a file that begins at a byte.
+/// The rows of the file whose text begins at byte `start`.
 fn rows(texts: &Texts, table: &TableFile, start: usize) -> Read<Vec<Item>> {
     let text = &texts.of(&(start..start)).text;
     let body = text.strip_prefix('\u{feff}').unwrap_or(text);
@@ -168,7 +168,7 @@ fn separator(head: &str) -> char {
     [';', '\t'].into_iter().find(|&c| head.contains(c)).unwrap_or(',')
 }
 
-/// The cells of a line, without blanks and quotes around them.
+/// The byte ranges of the cells of a line, without blanks and quotes around them.
 fn cells(line: &str, separator: char) -> Vec<Range<usize>> {
     let (mut cells, mut start, mut is_quoted) = (Vec::new(), 0, false);
     for (i, c) in line.char_indices() {
@@ -189,7 +189,7 @@ fn cells(line: &str, separator: char) -> Vec<Range<usize>> {
     cells.into_iter().map(bare).collect()
 }
 
-/// The columns of a table among those of its first row, which begins at a byte.
+/// Finds the columns of a table in the first row of a file, which begins at byte `at`.
 fn head_of(
     texts: &Texts,
     table: &TableFile,
@@ -220,13 +220,13 @@ fn head_of(
     Ok(columns)
 }
 
-/// The name of a column, and its unit in brackets; empty: none is written.
+/// The name of a column, and its unit in brackets; the unit is empty when none is written.
 fn name_and_unit(cell: &str) -> (&str, &str) {
     let unit = cell.strip_suffix(']').and_then(|cell| cell.rsplit_once('['));
     unit.map_or((cell, ""), |(name, unit)| (name.trim_end(), unit.trim()))
 }
 
-/// The unit of a column as expressions write it, of its head or of the scene.
+/// The unit of a column as expressions write it, from the first row of the file or from the scene.
 fn unit(
     texts: &Texts,
     (of_head, span): (&str, Span),
@@ -256,7 +256,7 @@ fn unit(
     Ok(unit)
 }
 
-/// The number in a cell of a line that begins at a byte.
+/// The number in a cell of a line that begins at byte `at`.
 fn cell(texts: &Texts, (line, at): (&str, usize), cell: &Range<usize>, unit: &str) -> Read<Item> {
     let (text, span) = (&line[cell.clone()], at + cell.start..at + cell.end.max(cell.start + 1));
     if Number::from_decimal(text).is_none_or(|number| !number.to_f64().is_finite()) {

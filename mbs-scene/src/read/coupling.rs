@@ -1,4 +1,4 @@
-//! `[[coupling]]`: every kind becomes a sum of joint coordinates and lengths.
+//! Reads `[[coupling]]`: couplings of every kind become a sum of joint coordinates and lengths.
 //!
 //! ```text
 //! gear          N1 a1 + N2 a2 = 0   external about axes of the same sense; internal: N1 a1 - N2 a2 = 0
@@ -8,7 +8,7 @@
 //! cam           x - f(y) = 0                rope          length + radius a = value
 //! ```
 //!
-//! `at` and `pressure_angle` say where the teeth of two wheels touch.
+//! The keys `at` and `pressure_angle` give the point of contact of two wheels and the direction of the contact force.
 
 mod carrier;
 mod named;
@@ -25,13 +25,13 @@ use mbs_core::scene::{
     DrawnKind, Freedom, Joint, JointId, Mesh, Motion, Number,
 };
 
-/// Most teeth of a wheel [-]. Chosen, not tuned: more is no count.
+/// Largest number of teeth of a wheel [-]. A larger one is taken for a mistake. Chosen, not tuned.
 const MAX_TEETH: u32 = 1_000_000;
 
-/// Sum that a kind becomes: its terms, its value, and the motion that drives it.
+/// Sum that a coupling becomes: its terms, its value, and the motion that drives it.
 type Sum = (Vec<CouplingTerm<Number>>, Number, Option<Motion<Number>>);
 
-/// Reads a coupling; without a name it is called `coupling-N`, counted from 1.
+/// Reads a coupling; one without a name is called `coupling-N`, counted from 1.
 pub(crate) fn read<'a>(
     index: usize,
     fields: &Fields<'a>,
@@ -91,7 +91,8 @@ pub(crate) fn read<'a>(
     Ok(Coupling { name, terms, relation: None, value, motion, kind, drawn })
 }
 
-/// Whether the sum follows from places and axes, and whether the file says so; `None`: it is what the file says.
+/// Finds whether the signs of the sum follow from the places and axes of the joints, and whether the file requests it. `None`: the file
+/// gives the sum.
 fn read_drawn(kind: &str, fields: &Fields<'_>) -> Read<Option<Drawn>> {
     let kind = match kind {
         "gear" if fields.get("ratio").is_some() => {
@@ -116,7 +117,7 @@ fn read_drawn(kind: &str, fields: &Fields<'_>) -> Read<Option<Drawn>> {
     Ok(Some(Drawn { is_stated, ..kind.drawn() }))
 }
 
-/// Does one wheel stand inside the other?
+/// Is one wheel inside the other (`mesh = "internal"`)?
 fn is_internal(fields: &Fields<'_>) -> Read<bool> {
     match fields.get("mesh").map(|_| fields.word("mesh")).transpose()? {
         None | Some(("external", _)) => Ok(false),
@@ -125,10 +126,10 @@ fn is_internal(fields: &Fields<'_>) -> Read<bool> {
     }
 }
 
-/// The pressure angle of teeth that name none [rad]: 20 degrees, that of standard teeth (ISO 53).
+/// Default pressure angle of teeth [rad]: 20 degrees, that of standard teeth (ISO 53).
 const PRESSURE_ANGLE: &str = "0.34906585039886591538473815369772254270";
 
-/// Reads where teeth touch; `None`: nothing is said of it.
+/// Reads the point of contact and the pressure angle of teeth; `None` when neither is written.
 fn read_mesh(fields: &Fields<'_>) -> Read<Option<Mesh<Number>>> {
     if fields.get("at").is_none() && fields.get("pressure_angle").is_none() {
         return Ok(None);
@@ -144,7 +145,7 @@ pub(crate) fn one() -> Number {
     Number::from(1.0)
 }
 
-/// Number with the same digits and the other sign.
+/// The number with the same digits and the opposite sign.
 fn minus(x: Number) -> Number {
     let text = x.text();
     let text = text.strip_prefix('-').map_or_else(|| format!("-{text}"), str::to_owned);
@@ -170,7 +171,7 @@ fn positive(fields: &Fields<'_>, item: &Item, numbers: &[Number]) -> Read<()> {
     }
 }
 
-/// Two whole numbers from 1.
+/// Reads the teeth of two wheels, whole numbers from 1.
 fn teeth<'a>(context: &Context<'a>, item: &'a Item) -> Read<[Number; 2]> {
     let mut teeth = [const { Number::ZERO }; 2];
     for (to, item) in teeth.iter_mut().zip(context.exactly::<2>(item, "a list of two counts")?) {
@@ -188,7 +189,7 @@ fn teeth<'a>(context: &Context<'a>, item: &'a Item) -> Read<[Number; 2]> {
     Ok(teeth)
 }
 
-/// Terms of wheels in mesh: by teeth or radii with the sense of the mesh, or by a ratio.
+/// Terms of wheels in mesh: by their teeth or radii with the sense of the mesh, or by a ratio.
 fn gear<'a>(fields: &Fields<'a>, joints: &'a [Joint<Number>]) -> Read<Vec<CouplingTerm<Number>>> {
     for [one, other] in
         [["teeth", "radii"], ["teeth", "ratio"], ["radii", "ratio"], ["mesh", "ratio"]]
@@ -217,10 +218,10 @@ fn gear<'a>(fields: &Fields<'a>, joints: &'a [Joint<Number>]) -> Read<Vec<Coupli
     Ok(vec![first.turn(fields, n1)?, second.turn(fields, n2)?])
 }
 
-/// Largest sine of the angle of axes that are parallel [-]. Chosen, not tuned: digits of a file.
+/// Largest sine of the angle between two axes that count as parallel [-]. It allows for rounded digits in a file. Chosen, not tuned.
 const PARALLEL: f64 = 1e-6;
 
-/// The sign of the product of two axes that are parallel; of joints without an axis one, as the check refuses them.
+/// The sign of the product of two parallel axes. For joints without an axis it is one, since the check of the scene refuses them.
 fn sense(fields: &Fields<'_>, joints: [Named<'_>; 2]) -> Read<Option<f64>> {
     let dimension = fields.context.dimension;
     if fields.context.is_planar() {
@@ -247,10 +248,10 @@ fn sense(fields: &Fields<'_>, joints: [Named<'_>; 2]) -> Read<Option<f64>> {
     Ok((cross.sqrt() <= PARALLEL * dot.abs()).then_some(dot.signum()))
 }
 
-/// 2 pi to more digits than any precision has.
+/// The number 2 pi, with more digits than any scalar has.
 const TWO_PI: &str = "6.28318530717958647692528676655900576839433879875021";
 
-/// One cylindrical joint, or a turn and a slide.
+/// Terms of a screw: the coordinates of one cylindrical joint, or those of a revolute and a prismatic joint.
 fn screw<'a>(fields: &Fields<'a>, joints: &'a [Joint<Number>]) -> Read<Vec<CouplingTerm<Number>>> {
     fields.exclusive("joint", "joints")?;
     let item = fields.need("lead")?;
@@ -258,7 +259,7 @@ fn screw<'a>(fields: &Fields<'a>, joints: &'a [Joint<Number>]) -> Read<Vec<Coupl
     if lead.is_zero() {
         return fields.context.fault(&item.span, ReadFault::NoLead);
     }
-    // The slide is lead / (2 pi) times the angle; written with one on the angle it has no division.
+    // The slide is lead / (2 pi) times the angle. The sum is multiplied by 2 pi, so that its coefficients need no division.
     let per_turn = Number::from_decimal(TWO_PI).unwrap_or(Number::ZERO);
     let (slide, turn) = match fields.get("joint") {
         Some(joint) => {
@@ -277,7 +278,7 @@ fn screw<'a>(fields: &Fields<'a>, joints: &'a [Joint<Number>]) -> Read<Vec<Coupl
     Ok(vec![slide.term(fields, Needed::Slide, per_turn)?, turn.turn(fields, minus(lead))?])
 }
 
-/// Two wheels and the carrier of what runs between them.
+/// Terms of a differential: two wheels, and the carrier of the gears between them.
 fn differential<'a>(
     fields: &Fields<'a>,
     joints: &'a [Joint<Number>],
@@ -294,7 +295,7 @@ fn differential<'a>(
     Ok(vec![turn(a, of_a)?, turn(b, of_b)?, turn(cage, of_cage)?])
 }
 
-/// A line of constant length over points, or one that a drum takes in.
+/// The sum of a rope: a line of constant length over points, or one that is wound on a drum.
 fn rope<'a>(fields: &Fields<'a>, joints: &'a [Joint<Number>]) -> Read<Sum> {
     let context = fields.context;
     if let Some(item) = fields.get("terms") {
@@ -346,7 +347,7 @@ pub(crate) fn read_points<'a>(
     points.iter().map(point).collect()
 }
 
-/// The angle of a ball that `coordinate` names, of a joint that has one; `None`: it is another coordinate.
+/// The angle of a ball joint that `coordinate` names. `None`: `coordinate` is another coordinate.
 pub(crate) fn ball_angle<'a>(
     fields: &Fields<'a>,
     joints: &'a [Joint<Number>],
@@ -361,7 +362,7 @@ pub(crate) fn ball_angle<'a>(
     Ok(BallAngle::ALL.into_iter().find(|angle| has_ball && angle.name() == word))
 }
 
-/// Term of the angle of a ball, with its joint and its axis; `None`: `coordinate` names no such angle.
+/// Term of an angle of a ball joint, with its axis; `None`: `coordinate` names no such angle.
 pub(crate) fn ball_term<'a>(
     fields: &Fields<'a>,
     joints: &'a [Joint<Number>],
@@ -373,7 +374,7 @@ pub(crate) fn ball_term<'a>(
     Ok(Some(CouplingTerm { factor, of, curve: None }))
 }
 
-/// The terms of a sum.
+/// Reads the list of the terms of a sum.
 pub(crate) fn read_terms<'a>(
     fields: &Fields<'a>,
     item: &'a Item,
@@ -383,7 +384,7 @@ pub(crate) fn read_terms<'a>(
     list.iter().map(|item| read_term(fields, item, joints)).collect()
 }
 
-/// Reads a term of a sum: a coordinate of a joint, or the length over points; a curve of it.
+/// Reads a term of a sum: a coordinate of a joint or the length over points, with an optional curve.
 fn read_term<'a>(
     fields: &Fields<'a>,
     item: &'a Item,
@@ -398,7 +399,7 @@ fn read_term<'a>(
     Ok(CouplingTerm { factor: term.number_or("factor", "1")?, of, curve: table::of_curve(&term)? })
 }
 
-/// Reads the measure that `points`, or `joint` with `coordinate`, give.
+/// Reads the measure that `points` defines, or `joint` with `coordinate`.
 pub(crate) fn read_measure<'a>(
     fields: &Fields<'a>,
     joints: &'a [Joint<Number>],
@@ -414,7 +415,7 @@ pub(crate) fn read_measure<'a>(
     Ok(CouplingMeasure::Coordinate { joint, number })
 }
 
-/// A joint and a coordinate of it, which need not be named where there is only one.
+/// A joint and one of its coordinates. The coordinate of a joint with only one need not be named.
 fn measured_coordinate<'a>(
     fields: &Fields<'a>,
     joints: &'a [Joint<Number>],

@@ -1,4 +1,4 @@
-//! A scene file as read, before the precision of the run is known.
+//! A scene file as read, before the scalar of the run is known.
 
 use super::columns;
 use super::include;
@@ -8,30 +8,30 @@ use super::tree::{self, Item, Member, Node, Span};
 use super::{Place, ReadError, ReadFault};
 use std::path::{Path, PathBuf};
 
-/// A scene file: syntax tree, texts and name. Numbers are decimal text. What it includes is in its tree.
+/// A scene file: syntax tree, texts and name. Numbers are decimal text. The tree also has the parts of included files.
 #[derive(Debug, Clone, Default)]
 pub struct SceneFile {
     pub(crate) texts: Texts,
     pub(super) root: Vec<Member>,
-    /// Folder of the files that the scene may include; `None`: it may include none.
+    /// Folder of the files that the scene may include; `None`: includes are not allowed.
     pub(super) folder: Option<PathBuf>,
 }
 
 impl SceneFile {
-    /// Reads the text of a scene file; `file` is the name that messages show. A text that begins with `{`, and that of a file whose
-    /// name ends with `.json`, is JSON, else TOML.
+    /// Reads the text of a scene file; `file` is the name in messages. The text is JSON when it begins with `{` or when the file's name
+    /// ends with `.json`. Otherwise it is TOML.
     ///
     /// # Errors
-    /// [`ReadFault::Syntax`] when the text is neither, and [`ReadFault::Include`] where it includes a file: a text alone lies in no
-    /// folder. What the text means is read by [`Self::scene`].
+    /// [`ReadFault::Syntax`] when the text is not valid, and [`ReadFault::Include`] when it includes a file: a text alone has no folder.
+    /// The entries of the text are checked later, by [`Self::scene`].
     pub fn parse(text: &str, file: &str) -> Result<Self, ReadError> {
         Self::parsed(text, file, None)
     }
 
-    /// Reads the text of a scene file that lies in a folder, with the files that it includes; see [`Self::parse`].
+    /// Reads the text of a scene file in a folder, with the files that it includes; see [`Self::parse`].
     ///
     /// # Errors
-    /// As [`Self::parse`], and those of the included files.
+    /// The errors of [`Self::parse`], and those of the included files.
     pub fn parse_in(text: &str, file: &str, folder: &Path) -> Result<Self, ReadError> {
         Self::parsed(text, file, Some(folder.to_owned()))
     }
@@ -51,39 +51,39 @@ impl SceneFile {
     /// Reads the bytes of a scene file.
     ///
     /// # Errors
-    /// [`ReadFault::NotUtf8`] with the place of the first bad byte, and those of [`Self::parse`].
+    /// [`ReadFault::NotUtf8`] with the place of the first invalid byte, and the errors of [`Self::parse`].
     pub fn from_bytes(bytes: &[u8], file: &str) -> Result<Self, ReadError> {
         Self::parse(utf8(bytes, file)?, file)
     }
 
-    /// Reads the bytes of a scene file that lies in a folder.
+    /// Reads the bytes of a scene file in a folder, with the files that it includes.
     ///
     /// # Errors
-    /// As [`Self::from_bytes`] and [`Self::parse_in`].
+    /// The errors of [`Self::from_bytes`] and [`Self::parse_in`].
     pub fn from_bytes_in(bytes: &[u8], file: &str, folder: &Path) -> Result<Self, ReadError> {
         Self::parse_in(utf8(bytes, file)?, file, folder)
     }
 
-    /// The file as it was named to [`Self::parse`].
+    /// Name of the file that the caller gave to [`Self::parse`].
     #[must_use]
     pub fn file(&self) -> &str {
         &self.texts.main().name
     }
 
-    /// The text of the file. What it includes, and what a command line sets, is not in it: see [`Self::whole_text`].
+    /// The text of the file, without included files and without values of a command line: see [`Self::whole_text`].
     #[must_use]
     pub fn text(&self) -> &str {
         &self.texts.main().text
     }
 
-    /// All texts of which the scene is made, one behind the other: the same scene has the same.
+    /// All texts of the scene, one after the other. Equal scenes have equal texts.
     #[must_use]
     pub fn whole_text(&self) -> String {
         let texts = self.texts.list().iter().map(|text| text.text.as_str());
         texts.collect::<Vec<_>>().join("\n")
     }
 
-    /// The files of which it is made, as messages name them: itself, then those that it includes.
+    /// Names of the files of the scene, as in messages: the scene file, then the files that it includes.
     pub fn files(&self) -> impl Iterator<Item = &str> {
         self.texts.list().iter().filter(|text| text.is_file).map(|text| text.name.as_str())
     }
@@ -92,7 +92,7 @@ impl SceneFile {
         self.texts.error(span, fault)
     }
 
-    /// Entries of a list of tables.
+    /// Number of entries of a list of tables.
     pub(crate) fn count(&self, key: &str) -> usize {
         match self.top(key) {
             Some(Item { node: Node::List(items), .. }) => items.len(),
@@ -100,7 +100,7 @@ impl SceneFile {
         }
     }
 
-    /// The tree, for paths into it.
+    /// The tree of the file, for paths into it.
     pub(crate) fn root(&self) -> &[Member] {
         &self.root
     }

@@ -1,4 +1,4 @@
-//! Numbers of a scene file by their paths: read one, replace one and keep the rest of the text.
+//! Reading and replacing numbers of a scene file by their paths. A replacement keeps the rest of the text.
 
 use super::sweep::path;
 use super::tree::{Node, Span};
@@ -11,7 +11,7 @@ impl SceneFile {
     /// Reads a scene file.
     ///
     /// # Errors
-    /// [`ReadFault::Unreadable`], and those of [`Self::from_bytes`].
+    /// [`ReadFault::Unreadable`], and the errors of [`Self::from_bytes`].
     pub fn read(path: impl AsRef<Path>) -> Result<Self, ReadError> {
         let (path, file) = (path.as_ref(), path.as_ref().display().to_string());
         match std::fs::read(path) {
@@ -23,16 +23,16 @@ impl SceneFile {
         }
     }
 
-    /// The number that a path names, as sweeps write it: `body.upper.mass`, `joint."tie rod".points[0][2]` or `...points.0.2`.
+    /// The number at a path. Paths are those of sweeps: `body.upper.mass`, `joint."tie rod".points[0][2]` or `...points.0.2`.
     ///
     /// # Errors
-    /// [`SweepFault`] for a path to nothing, or to something that is no number.
+    /// [`SweepFault`] for a path that leads to no value, or to a value that is not a number.
     pub fn number(&self, path: &str) -> Result<Number, SweepFault> {
         let address = path::address(self, path)?;
         self.number_at(&address).ok_or(SweepFault::PathSyntax("it names no finite number"))
     }
 
-    /// The number at an address, or the value of the expression there.
+    /// The number at an address; the value, if an expression is written there.
     pub(super) fn number_at(&self, address: &[usize]) -> Option<Number> {
         let item = path::item(self.root(), address)?;
         match &item.node {
@@ -44,13 +44,13 @@ impl SceneFile {
         }
     }
 
-    /// The file with another number at a path; all else keeps its text, comments too. Where it includes others, none of the texts is
-    /// changed.
+    /// The file with another number at a path. The rest of its text remains, with its comments. When the file includes others, only the
+    /// tree changes, and the texts do not.
     ///
-    /// Cost: a copy of text and tree; nothing is parsed again.
+    /// Cost: a copy of the text and the tree; nothing is parsed again.
     ///
     /// # Errors
-    /// As [`Self::number`], and a number that is not finite.
+    /// The errors of [`Self::number`], and an error for a number that is not finite.
     pub fn with_number(&self, path: &str, number: &Number) -> Result<Self, SweepFault> {
         if !number.to_f64().is_finite() {
             return Err(SweepFault::PathSyntax("the number is not finite"));
@@ -67,7 +67,7 @@ impl SceneFile {
         Ok(self.respelled(&address, &span, literal(&number.text())))
     }
 
-    /// Returns the file with another number at an address, whose text stands at `old` in the only text.
+    /// Returns the file with another number at an address. `old` has the bytes of its text in the only text.
     fn respelled(&self, address: &[usize], old: &Span, new: String) -> Self {
         let mut file = self.clone();
         file.texts.replace(old.clone(), &new);
@@ -79,7 +79,7 @@ impl SceneFile {
     }
 }
 
-/// Text of a finite number as TOML and JSON have it: without a plus sign and leading zeros.
+/// Text of a finite number as TOML and JSON require it: without a plus sign and leading zeros.
 fn literal(text: &str) -> String {
     let (sign, digits) = match text.strip_prefix('-') {
         Some(digits) => ("-", digits),
@@ -90,12 +90,12 @@ fn literal(text: &str) -> String {
     format!("{sign}{}{plain}", if is_whole { "" } else { "0" })
 }
 
-/// The folder in which a file lies.
+/// The folder of a file, empty for a file in the working directory.
 fn folder_of(path: &Path) -> &Path {
     path.parent().unwrap_or(Path::new(""))
 }
 
-/// A text with some of its parts replaced.
+/// The text with the given parts replaced.
 pub(crate) fn spliced(text: &str, mut edits: Vec<(Span, String)>) -> String {
     edits.sort_by_key(|(span, _)| span.start);
     let mut text = text.to_owned();

@@ -1,4 +1,4 @@
-//! `[[effect]]`: any kind, by the table of mbs-core.
+//! Reads `[[effect]]`: effects of any kind, by the table of mbs-core.
 
 mod value;
 
@@ -9,7 +9,7 @@ use crate::read::tree::{Item, Node};
 use mbs_core::effects::{Default, EFFECTS, Field, Form, Value};
 use mbs_core::scene::{AxisFrame, BallAngle, Effect, EffectKind, Joint, Number, Signal};
 
-/// Reads an effect; without a name it is called `effect-N`, counted from 1.
+/// Reads an effect; one without a name is called `effect-N`, counted from 1.
 pub(crate) fn read(
     index: usize,
     fields: &Fields<'_>,
@@ -42,7 +42,7 @@ pub(crate) fn read(
             }
             Ok(value.clone())
         }
-        // a swing is never below zero
+        // The swing angle is never below zero, so its lower limit is not needed.
         None if is_swing && all[i].key == "lower" => {
             Ok(Value::Number(Number::from(-core::f64::consts::PI)))
         }
@@ -55,7 +55,7 @@ pub(crate) fn read(
     }
 }
 
-/// The fields of an effect on a coordinate of a joint: one that is named, or the only one.
+/// The fields of an effect on a coordinate of a joint: the coordinate that is named, or the only one.
 fn on_coordinate<'a>(fields: &Fields<'a>, joints: &[Joint<Number>]) -> Read<Fields<'a>> {
     let Some(joint) = fields.get("joint") else { return Ok(*fields) };
     let joint = &joints[fields.context.joint(joint)?.index()];
@@ -70,7 +70,8 @@ fn on_coordinate<'a>(fields: &Fields<'a>, joints: &[Joint<Number>]) -> Read<Fiel
     })
 }
 
-/// The kind on a sum, where a kind with a joint is on an angle of a ball, and which angle.
+/// Finds the kind on a sum that replaces a kind with a joint, and the angle. `None` when the joint coordinate is not an angle of a ball
+/// joint.
 fn on_ball(
     fields: &Fields<'_>,
     named: &[usize],
@@ -89,7 +90,7 @@ fn on_ball(
     Ok(angle.map(|angle| (row, angle)))
 }
 
-/// Kinds that share a name differ by their first key. One on a sum or a line has no key of the others.
+/// Chooses among kinds of the same name by their first key. A kind on a sum or on a line excludes the keys of the others.
 fn choose(fields: &Fields<'_>, named: &[usize]) -> Read<usize> {
     let first = |row: usize| EFFECTS[row].fields.first().map_or("", |field| field.key);
     let is_line = |row: usize| first_form(row) == Some(Form::Line);
@@ -110,7 +111,7 @@ fn choose(fields: &Fields<'_>, named: &[usize]) -> Read<usize> {
         }
         return Ok(row);
     }
-    // without a sum it is of the others
+    // An effect without a sum or a line is of one of the other kinds.
     let mut others = usual().filter(|&row| !is_extra(row));
     match (others.next(), others.next()) {
         (Some(row), None) => Ok(row),
@@ -118,7 +119,7 @@ fn choose(fields: &Fields<'_>, named: &[usize]) -> Read<usize> {
     }
 }
 
-/// Is it on a line of points with bodies, or between two with a key that only the kind on a line has?
+/// Is the effect on a line of points with bodies, or between two bodies with a key that only the kind on a line has?
 fn has_line(fields: &Fields<'_>, row: usize) -> bool {
     let is_flagged = EFFECTS[row]
         .fields
@@ -128,7 +129,7 @@ fn has_line(fields: &Fields<'_>, row: usize) -> bool {
     has_tables(fields, "points") || (is_flagged && is_between)
 }
 
-/// Does a list of tables stand at a key, which are no places from points?
+/// Is the value at a key a list of tables that are not places relative to points?
 fn has_tables(fields: &Fields<'_>, key: &str) -> bool {
     match fields.get(key).map(|item| &item.node) {
         Some(Node::List(items)) => items
@@ -138,7 +139,7 @@ fn has_tables(fields: &Fields<'_>, key: &str) -> bool {
     }
 }
 
-/// Refuses the keys that only other kinds of the same name have, but for some: they exclude the `key`.
+/// Refuses the keys that only other kinds of the same name have, except those in `but`. The error says that `key` excludes them.
 fn refuse_others(
     fields: &Fields<'_>,
     (row, named): (usize, &[usize]),
@@ -152,12 +153,12 @@ fn refuse_others(
     foreign.try_for_each(|other| fields.exclusive(key, other))
 }
 
-/// The form of a kind's first field.
+/// The form of the first field of a kind.
 fn first_form(row: usize) -> Option<Form> {
     EFFECTS[row].fields.first().map(|field| field.form)
 }
 
-/// Value of field `i` where its key is left out.
+/// Value of field `i` when its key is not written.
 fn default(
     fields: &Fields<'_>,
     (all, written): (&'static [Field], &[Option<Value<Number>>]),

@@ -6,10 +6,10 @@ use crate::read::{Place, SweepFault, units};
 use core::fmt::{self, Display, Formatter};
 use mbs_core::scene::{Entry, SceneError, SceneFault, SignalBreak};
 
-/// Result of a reader: the value, or the error.
+/// Result of a reader: the value that was read, or the error.
 pub(crate) type Read<T> = Result<T, ReadError>;
 
-/// A refused scene file: the fault, its place, and what to do.
+/// Error of a scene file that cannot be read or is not valid: the fault, its place, and a hint.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ReadError(Box<Parts>);
 
@@ -18,26 +18,26 @@ struct Parts {
     file: String,
     place: Place,
     fault: ReadFault,
-    /// A line for each file that includes this one.
+    /// One line for each file that includes this one, with the place of the `include`.
     included: Vec<String>,
 }
 
-/// Fault of an expression or an included file: what is wrong, and what to do.
+/// Fault of an expression, an included file or a model, as a message and a hint.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ExpressionFault {
-    /// Message that says what is wrong.
+    /// Message that says what is wrong, as a clause.
     pub message: String,
-    /// Hint that says what to do.
+    /// Hint that says what to do about the fault.
     pub hint: String,
 }
 
-/// The faults of a scene file.
+/// All faults that a scene file can have.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum ReadFault {
     /// The file cannot be read.
     Unreadable {
-        /// Message of the system.
+        /// Error message of the operating system.
         problem: String,
     },
     /// The file is not UTF-8 text.
@@ -48,136 +48,136 @@ pub enum ReadFault {
         format: &'static str,
         /// Message of the parser.
         message: String,
-        /// The line it speaks about.
+        /// Line to which the message refers.
         line: String,
     },
     /// A key or table that the format does not have.
     UnknownKey {
         /// The key as written.
         key: String,
-        /// The keys that may stand there.
+        /// Keys that are allowed at this place.
         known: Vec<&'static str>,
     },
-    /// A key that exists, but not for this kind or dimension.
+    /// A key of the format that this kind or dimension does not use.
     UnusedKey {
         /// The key as written.
         key: String,
-        /// The keys that may stand there.
+        /// Keys that are allowed at this place.
         known: Vec<&'static str>,
     },
-    /// A word outside a fixed list (kind, quantity, frame, dimension).
+    /// A word that is not in the fixed list of its key, such as a kind, quantity, frame or dimension.
     UnknownWord {
-        /// The key whose value it is.
+        /// Key with the unknown word.
         key: &'static str,
         /// The word as written.
         found: String,
-        /// The words that may stand there.
+        /// Words that the key allows.
         known: Vec<&'static str>,
     },
-    /// A body of that name is not in the file.
+    /// A name of a body that the file does not have.
     UnknownBody {
         /// The name as written.
         name: String,
-        /// The names that are there.
+        /// Names of the bodies in the file.
         known: Vec<String>,
     },
-    /// A joint of that name is not in the file.
+    /// A name of a joint that the file does not have.
     UnknownJoint {
         /// The name as written.
         name: String,
-        /// The names that are there.
+        /// Names of the joints in the file.
         known: Vec<String>,
     },
-    /// A coupling, a rolling or an effect of that name is not in the file.
+    /// A name of a coupling, a rolling, an effect or a point that the file does not have.
     UnknownPart {
-        /// `couplings`, `rollings` or `effects`.
+        /// Kind of the part: `couplings`, `rollings`, `effects` or `points`.
         list: &'static str,
         /// The name as written.
         name: String,
-        /// The names that are there.
+        /// Names of the parts of this kind in the file.
         known: Vec<String>,
     },
-    /// A signal of that name is not in the file.
+    /// A name of a signal that the file does not have.
     UnknownSignal {
         /// The name as written.
         name: String,
-        /// The names that are there.
+        /// Names of the signals in the file.
         known: Vec<String>,
     },
-    /// Signals that are made of one another in a circle, by their names.
+    /// A cycle of signals: each is computed from the next one.
     SignalCircle {
-        /// Names of the signals; each needs the next, the last the first.
+        /// Names of the signals in the cycle. Each depends on the next, and the last depends on the first.
         names: Vec<String>,
     },
-    /// A signal that is not smooth, where a guide or a coupling needs it.
+    /// A signal that is not smooth, in a guide or a coupling, where a smooth one is required.
     SignalNotSmooth {
         /// Name of the signal.
         name: String,
-        /// Break of the signal: where it is not smooth.
+        /// Discontinuity of the signal or of its derivative.
         broken: SignalBreak,
-        /// Advice on what makes the signal smooth.
+        /// Advice on how to make the signal smooth.
         remedy: &'static str,
     },
-    /// A point mass that is given an orientation, or a place that it is not at.
+    /// An orientation of a point mass, or a place on a point mass other than its centre.
     OfPoint {
         /// Name of the point mass.
         name: String,
         /// Fault of the scene: [`SceneFault::PointTurns`] or [`SceneFault::OffPoint`].
         fault: SceneFault,
     },
-    /// No body carries both parts of a drawn coupling.
+    /// A coupling drawn between two parts (gears, for example) that no common body carries.
     NoCarrier {
-        /// The bodies that carry one each.
+        /// Bodies that carry the two parts.
         bodies: [String; 2],
-        /// The joint about whose axis one would have to turn on the other.
+        /// Joint whose axis the missing joint between the two carriers would have.
         joint: String,
     },
-    /// The ground where a moving body is needed.
+    /// The ground where the key requires a moving body.
     GroundDoesNotMove,
-    /// `frame = "body"` in an output that is of no body.
+    /// The value `frame = "body"` in an output that belongs to no body.
     NoOwnBody,
-    /// A value of another type.
+    /// A value whose type the key does not allow.
     WrongType {
-        /// Description of the value that is needed.
+        /// Description of the type that the key requires.
         expected: &'static str,
-        /// Description of the value that is there.
+        /// Description of the value in the file.
         found: &'static str,
     },
-    /// An expression that has no value.
+    /// An expression that cannot be evaluated.
     Expression(ExpressionFault),
-    /// A file that cannot be included, or has no such table; what is wrong, and what to do.
+    /// A file that cannot be included, or that does not have the table of the `include`.
     Include(ExpressionFault),
-    /// A model of another format that cannot be a scene; what is wrong, and what to do.
+    /// A model of another format that cannot be converted to a scene.
     Model(ExpressionFault),
-    /// A number with a unit of other dimensions than the key's.
+    /// A number with a unit whose dimensions differ from those of the key.
     OtherUnit {
-        /// Key at which the number stands.
+        /// Key with the number.
         key: &'static str,
-        /// Unit of the key; empty: none.
+        /// Unit of the key; empty for a number without dimension.
         unit: &'static str,
         /// The text as written.
         text: String,
-        /// Description of the quantity that is written.
+        /// Description of the quantity in the file.
         found: String,
     },
-    /// A place has neither two nor three numbers.
+    /// A place that has neither two nor three numbers.
     NoPlace {
-        /// Count of the numbers that are there.
+        /// Number of coordinates in the file.
         found: usize,
     },
-    /// A guided body that is a joint.
+    /// A guide whose `body` is the name of a joint.
     GuidedJoint {
         /// Name of the joint.
         name: String,
     },
-    /// The count of numbers or entries in a list is wrong.
+    /// A list with the wrong number of values or entries.
     WrongCount {
-        /// Count that is needed.
+        /// Number of values that the key requires.
         needed: usize,
-        /// Count that is there.
+        /// Number of values in the file.
         found: usize,
     },
-    /// A number that is infinite, not a number, or beyond the precision of the run.
+    /// A number that is infinite, NaN, or outside the range of the scalar of the run.
     NotFinite {
         /// The number as written.
         text: String,
@@ -187,44 +187,44 @@ pub enum ReadFault {
         /// Number that is not larger than zero.
         number: f64,
     },
-    /// A point with the name of another.
+    /// A point with the name of an earlier point.
     SamePoint {
         /// Name that both points have.
         name: String,
-        /// The first of that name, from 0.
+        /// Index of the first point of that name, from 0.
         first: usize,
     },
-    /// A screw without lead.
+    /// A screw coupling with a lead of zero.
     NoLead,
     /// Wheels in mesh whose axes are not parallel in the reference configuration.
     AxesNotParallel,
-    /// A joint that has not one coordinate of the kind that a coupling takes.
+    /// A joint that does not have exactly one coordinate of the kind that a coupling uses.
     NotOneOf {
-        /// Description of the coordinate that is needed.
+        /// Description of the coordinate that the coupling needs.
         needed: &'static str,
-        /// The names of the coordinates of the joint.
+        /// Names of the coordinates of the joint.
         known: Vec<&'static str>,
     },
-    /// A number that does not count anything.
+    /// A number that is not a valid count.
     NotACount {
         /// The number as written.
         text: String,
-        /// The largest that may stand there.
+        /// Largest count that the key allows.
         most: u32,
     },
-    /// A key or table that must be there.
+    /// A required key or table that is missing.
     Missing {
         /// Key that is missing.
         key: &'static str,
     },
-    /// Two keys that exclude each other.
+    /// Two keys of which only one is allowed.
     Both {
-        /// Keys of which one may stand.
+        /// The two keys that exclude each other.
         keys: [&'static str; 2],
     },
-    /// The scene is read, but cannot be meant.
+    /// A scene that can be read, but is not valid.
     Scene(SceneError),
-    /// A sweep that does not fit its scene, or cannot be meant.
+    /// A sweep that does not fit its scene, or is not valid.
     Sweep(SweepFault),
 }
 
@@ -233,14 +233,14 @@ impl ReadError {
         Self(Box::new(Parts { file: file.to_owned(), place, fault, included: Vec::new() }))
     }
 
-    /// Adds the lines for the files that include this one.
+    /// Adds the lines that name the files that include this one.
     pub(crate) fn included(mut self, by: Vec<String>) -> Self {
         self.0.included = by;
         self
     }
 
-    /// A refused model of another format, whose reader is another crate's: file and place, what is wrong and what to do, and a line for each
-    /// file that includes this one.
+    /// The error of a model of another format, which another crate reads. The arguments are the file, the place, the message with its hint,
+    /// and a line for each file that includes this one.
     #[must_use]
     pub fn of_model(
         file: &str,
@@ -253,25 +253,25 @@ impl ReadError {
         Self::new(file, place, fault).included(included)
     }
 
-    /// The file as it was named to the reader.
+    /// Name of the file, as the caller gave it.
     #[must_use]
     pub fn file(&self) -> &str {
         &self.0.file
     }
 
-    /// Line, column and the offending line.
+    /// Line and column of the fault, with the text of the line.
     #[must_use]
     pub fn place(&self) -> &Place {
         &self.0.place
     }
 
-    /// Fault of the file.
+    /// Fault in the file.
     #[must_use]
     pub fn fault(&self) -> &ReadFault {
         &self.0.fault
     }
 
-    /// Hint that says what to do about the fault, and where the file is included, where it is.
+    /// Hint that says what to do about the fault, and which files include this one, if any.
     #[must_use]
     pub fn hint(&self) -> String {
         let included = self.0.included.iter().map(String::as_str);
@@ -280,7 +280,7 @@ impl ReadError {
         lines.join("\n")
     }
 
-    /// Renders the error as `file:line:column: message`, the line with a caret, and `hint: ...`; ends with a line end.
+    /// Formats the error as `file:line:column: message`, the line with a caret, and `hint: ...`. The text ends with a line feed.
     #[must_use]
     pub fn render(&self) -> String {
         self.0.place.render(&self.0.file, &self.0.fault.to_string(), &self.hint())
@@ -359,7 +359,7 @@ impl Display for ReadFault {
     }
 }
 
-/// Writes the fault of a scene that is read but cannot be meant.
+/// Writes the fault of a scene that can be read but is not valid.
 fn of_scene(error: &SceneError, f: &mut Formatter<'_>) -> fmt::Result {
     let SceneError { entry, field, fault } = error;
     match fault {
@@ -373,9 +373,9 @@ fn of_scene(error: &SceneError, f: &mut Formatter<'_>) -> fmt::Result {
     }
 }
 
-/// Keys that name the owner of an output, as the message about a missing owner has them.
+/// Keys that name the owner of an output, as listed in the message about a missing owner.
 pub(crate) const OWNER: &str = "joint, body, coupling, rolling, effect or signal";
-/// Words of a message for the coordinate that a term or a measure needs of a joint with several.
+/// Part of a message: a joint with several coordinates needs the name of the coordinate that a term or a measure uses.
 pub(crate) const NAMED: &str = "coordinate, by its name,";
 const OF_WHOM: &str = "add `joint = \"...\"` for its value, rate or reaction, `body = \"...\"` with `at = [...]` for the position, velocity or \
                        acceleration of a point, or the `coupling`, `rolling`, `effect` or `signal`; the energy, momentum and center-of-mass are of the scene";
@@ -383,7 +383,7 @@ const INERTIA: &str = "add `inertia`, about the centre of mass [kg m^2]: one num
                        to a body has zeros; instead of `center` and `inertia`, a point mass has `point = [...]`, and a slender rod \
                        `rod = { from = [...], to = [...] }`";
 
-/// Hint for a line that is no TOML.
+/// Hint for a line that is not TOML.
 fn hint_of_toml(message: &str, line: &str) -> String {
     let is_header = message.contains("duplicate key") && line.trim_start().starts_with('[');
     match units::of_line(line) {
@@ -472,7 +472,7 @@ impl ReadFault {
     }
 }
 
-/// Entry number `index` (from 0) of the same table as `entry`.
+/// Entry with this `index` (from 0) in the table of `entry`.
 fn numbered(entry: Entry, index: usize) -> Entry {
     match entry {
         Entry::Body(_) => Entry::Body(index),

@@ -10,7 +10,7 @@ use crate::read::tree::{self, Item, Member, Node, Span};
 use crate::read::values::Values;
 use mbs_core::scene::{BallAngle, BodyId, Dimension, Freedom, Joint, JointId, Number, SignalId};
 
-/// Context that the readers of all entries share.
+/// Context that the readers of all entries have in common.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Context<'a> {
     pub(crate) texts: &'a Texts,
@@ -20,16 +20,16 @@ pub(crate) struct Context<'a> {
     pub(crate) signals: &'a Names,
     pub(crate) frames: Frames<'a>,
     pub(crate) values: &'a Values<'a>,
-    /// The key of which numbers are read, with its unit; `None`: any unit may stand there.
+    /// Key and unit of the numbers that are read; `None`: a number may have any unit.
     pub(crate) unit: Option<KeyUnit>,
-    /// Is the coordinate of which a table speaks a slide? `None`: that is not known.
+    /// Is the coordinate of this table a translation? `None`: the coordinate is not known.
     pub(crate) is_slide: Option<bool>,
 }
 
-/// A key, and its unit.
+/// A key, with the unit of its numbers.
 pub(crate) type KeyUnit = (&'static str, &'static str);
 
-/// The frames of a file.
+/// The frames of a file, with their names.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Frames<'a> {
     pub(crate) names: &'a Names,
@@ -37,24 +37,24 @@ pub(crate) struct Frames<'a> {
 }
 
 impl<'a> Frames<'a> {
-    /// Item at a key of the frame of that name.
+    /// Value of a key of the frame with this name.
     fn value(&self, name: &str, key: &str) -> Option<&'a Item> {
         self.items.get(self.names.place(name)?)?.get(key)
     }
 }
 
-/// One table of the file.
+/// One table of the file, with the key tables that its keys are checked by.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Fields<'a> {
     pub(crate) context: Context<'a>,
     pub(crate) header: &'a Span,
     pub(crate) members: &'a [Member],
-    /// The tables of keys, of which one is meant.
+    /// Tables of keys that may apply; one of them is that of the entry.
     pub(crate) tables: &'static [KeyTable],
 }
 
 impl<'a> Context<'a> {
-    /// Context of a file whose tables refer to nothing in it; `none` are no names.
+    /// Context of a file whose tables refer to no part of it; `none` is an empty list of names.
     pub(crate) fn of_file(texts: &'a Texts, values: &'a Values<'a>, none: &'a Names) -> Self {
         let (bodies, joints, signals) = (none, none, none);
         let frames = Frames { names: none, items: &[] };
@@ -75,7 +75,8 @@ impl<'a> Context<'a> {
         self.fault(&item.span, ReadFault::WrongType { expected, found })
     }
 
-    /// A table of that header. Its keys are checked here where they do not depend on its kind or form.
+    /// A table with this header. Keys that are in no table of the header are refused here, unless the allowed keys depend on its kind or
+    /// form.
     pub(crate) fn table(
         &self,
         item: &'a Item,
@@ -96,7 +97,7 @@ impl<'a> Context<'a> {
         }
     }
 
-    /// A list that is not empty.
+    /// A list with at least one entry.
     pub(crate) fn filled_list(&self, item: &'a Item, expected: &'static str) -> Read<&'a [Item]> {
         let items = self.list(item, expected)?;
         if items.is_empty() {
@@ -128,8 +129,8 @@ impl<'a> Context<'a> {
         }
     }
 
-    /// A vector of the scene's dimension that is no place, also from one place to another; a third component in a planar scene is left
-    /// to the check.
+    /// A vector of the scene's dimension that is not a place. It may also be given as the vector from one place to another. A third
+    /// component in a planar scene is left for the check of the scene.
     pub(crate) fn vector(&self, item: &'a Item) -> Read<[Number; 3]> {
         if !matches!(item.node, Node::Table(_)) {
             let items = self.list(item, "a list of numbers")?;
@@ -141,7 +142,7 @@ impl<'a> Context<'a> {
         point::between(self.texts, [&from, &to], &item.span)
     }
 
-    /// A place of the scene's dimension: numbers, the name of a point, or a place from one.
+    /// A place of the scene's dimension: numbers, the name of a point, or a place relative to a point.
     pub(crate) fn place(&self, item: &'a Item) -> Read<[Number; 3]> {
         if let Node::List(items) = &item.node {
             return self.components(item, items);
@@ -157,13 +158,13 @@ impl<'a> Context<'a> {
         self.fault(&item.span, ReadFault::WrongCount { needed, found: place.n })
     }
 
-    /// A body, and no frame.
+    /// A body by its name; the name of a frame is not accepted.
     pub(crate) fn body_alone(&self, item: &'a Item) -> Read<BodyId> {
         let frames = Frames { items: &[], ..self.frames };
         Self { frames, ..*self }.body(item)
     }
 
-    /// A body, or that of a frame.
+    /// A body by its name, or the body of a frame by the frame's name.
     pub(crate) fn body(&self, item: &'a Item) -> Read<BodyId> {
         let name = self.text(item)?;
         if name == "ground" {
@@ -227,14 +228,14 @@ impl<'a> Fields<'a> {
         }
     }
 
-    /// The place `at`, which is not written, of the frame that stands in place of a body.
+    /// The value of `at` of the frame that is named in place of a body, for a key `at` that is not written.
     pub(crate) fn of_frame(&self, key: &str) -> Option<&'a Item> {
         let body = tree::find(self.members, "body").filter(|_| key == "at")?;
         let Node::Text(name) = &body.node else { return None };
         self.context.frames.value(name, key)
     }
 
-    /// The word at `kind`, and the fields with the tables of that kind, by which the keys are checked.
+    /// The word of the key `kind`, and the fields with the key tables of that kind. The keys are checked by those tables.
     pub(crate) fn kind(&self) -> Read<(&'a str, Self)> {
         let word = self.word("kind")?;
         let tables = keys::of_kind(self.tables, word.0);
@@ -246,18 +247,18 @@ impl<'a> Fields<'a> {
         self.unknown_word("kind", word, &known)
     }
 
-    /// The fields with those tables, by which the keys are checked.
+    /// The fields with these key tables. The keys are checked by them.
     pub(crate) fn checked_by(&self, tables: &'static [KeyTable]) -> Read<Self> {
         Self { tables, ..*self }.checked()
     }
 
-    /// The fields with the tables that have the first of two keys where that is written, else with those that have the other.
+    /// The fields with the key tables that have key `one` when it is written, and otherwise with the tables that have key `other`.
     pub(crate) fn by(&self, one: &str, other: &str) -> Read<Self> {
         let key = if self.get(one).is_some() { one } else { other };
         self.checked_by(keys::together(self.tables, |table| table.key(key).is_some()))
     }
 
-    /// Refuses keys that are in no table; those in another table of the header are reported as known but not used here.
+    /// Refuses keys that are in none of the key tables. A key of another table with the same header is reported as not used here.
     pub(crate) fn checked(self) -> Read<Self> {
         let is_known = |member: &&Member| self.known().any(|known| known == member.key);
         let Some(stranger) = self.members.iter().find(|member| !is_known(member)) else {
@@ -278,7 +279,7 @@ impl<'a> Fields<'a> {
         self.context.fault(&stranger.key_span, fault)
     }
 
-    /// Is the key in a table of the header, of whatever kind?
+    /// Is the key in a key table of this header, for any kind?
     fn is_of_header(&self, key: &str) -> bool {
         keys::of(self.header_name()).iter().any(|table| table.key(key).is_some())
     }
@@ -287,13 +288,13 @@ impl<'a> Fields<'a> {
         self.tables.first().map_or("", |table| table.header)
     }
 
-    /// The keys of its tables in a scene of this dimension.
+    /// Names of the keys of all its key tables, in a scene of this dimension.
     fn known(&self) -> impl Iterator<Item = &'static str> {
         let dimension = self.context.dimension;
         self.tables.iter().flat_map(move |table| table.keys_of(dimension).map(|key| key.name))
     }
 
-    /// Refuses keys that have no meaning beside the others that are written.
+    /// Refuses keys that have no meaning together with the other keys of the table.
     pub(crate) fn unused(&self, keys: &[&str]) -> Read<()> {
         let unused = self.members.iter().find(|member| keys.contains(&member.key.as_str()));
         let Some(member) = unused else { return Ok(()) };
@@ -303,7 +304,7 @@ impl<'a> Fields<'a> {
         self.context.fault(&member.key_span, fault)
     }
 
-    /// Refuses a table with both of two keys.
+    /// Refuses a table that has both of two keys.
     pub(crate) fn exclusive(&self, one: &'static str, other: &'static str) -> Read<()> {
         match (self.get(one), self.get(other)) {
             (Some(_), Some(item)) => {
@@ -317,7 +318,7 @@ impl<'a> Fields<'a> {
         Ok(self.context.text(self.need("name")?)?.to_owned())
     }
 
-    /// The name, or `KIND-N`, counted from 1, where none is written.
+    /// The value of `name`, or `KIND-N`, counted from 1, when no name is written.
     pub(crate) fn name_or(&self, kind: &str, index: usize) -> Read<String> {
         match self.get("name") {
             Some(_) => self.name(),
@@ -337,12 +338,12 @@ impl<'a> Fields<'a> {
         Ok(self.optional(key)?.unwrap_or(Number::ZERO))
     }
 
-    /// The number of a key, or the nearest one to a decimal text.
+    /// The number of a key. When the key is not written, it is the number of the decimal text `default`.
     pub(crate) fn number_or(&self, key: &str, default: &str) -> Read<Number> {
         Ok(self.optional(key)?.or_else(|| Number::from_decimal(default)).unwrap_or(Number::ZERO))
     }
 
-    /// A whole number from 1 to `most`, with a fraction of zero too.
+    /// A whole number from 1 to `most`; a fraction of zero is allowed.
     pub(crate) fn count(&self, key: &'static str, most: u32) -> Read<u32> {
         let item = self.need(key)?;
         let Node::Number(text) = &item.node else {
@@ -357,7 +358,7 @@ impl<'a> Fields<'a> {
         }
     }
 
-    /// A vector, or a place where the tables of keys have one at that key.
+    /// A vector, or a place if the key tables have a place at that key.
     pub(crate) fn vector(&self, key: &'static str) -> Read<[Number; 3]> {
         self.vector_or_place(key, self.need(key)?)
     }
@@ -389,20 +390,20 @@ impl<'a> Fields<'a> {
         }
     }
 
-    /// `bodies = ["first", "second"]`.
+    /// The two bodies of the key `bodies = ["first", "second"]`.
     pub(crate) fn pair(&self) -> Read<[BodyId; 2]> {
         let [first, second] =
             self.context.exactly(self.need("bodies")?, "a list of two body names")?;
         Ok([self.context.body(first)?, self.context.body(second)?])
     }
 
-    /// Two vectors or places, one per body.
+    /// Two vectors or places, one for each of two bodies.
     pub(crate) fn two_vectors(&self, key: &'static str) -> Read<[[Number; 3]; 2]> {
         let [first, second] = self.context.exactly(self.need(key)?, "a list of two vectors")?;
         Ok([self.vector_or_place(key, first)?, self.vector_or_place(key, second)?])
     }
 
-    /// A coordinate of a joint, by its name or its number from 0.
+    /// A coordinate of a joint, by its name or by its number from 0.
     pub(crate) fn coordinate(&self, item: &Item, joint: &Joint<Number>) -> Read<usize> {
         let names = || joint.kind.coordinate_names(self.context.dimension);
         let number = match &item.node {
@@ -437,7 +438,7 @@ impl<'a> Fields<'a> {
     }
 }
 
-/// A whole number from 1 to `most`: `10`, or `10.0`, as numbers of code are written.
+/// A whole number from 1 to `most`, as `10` or `10.0`. Numbers from code have the second form.
 pub(crate) fn counted(text: &str, most: u32) -> Option<u32> {
     let whole = text.strip_suffix(".0").unwrap_or(text);
     whole.parse().ok().filter(|n| (1..=most).contains(n))

@@ -1,9 +1,9 @@
-//! `[[frame]]`: named places on bodies.
+//! Reads `[[frame]]`: named places on bodies.
 
 use super::fields::{Fields, Read};
 use mbs_core::scene::{BodyFrame, Number};
 
-/// Reads a frame.
+/// Reads a frame of a body.
 pub(crate) fn read(fields: &Fields<'_>) -> Read<BodyFrame<Number>> {
     Ok(BodyFrame {
         name: fields.name()?,

@@ -1,6 +1,7 @@
-//! The entries of guides in a file: which guides and joints of a scene each of them makes.
+//! Entries `[[guide]]` of a file, with the guides and joints of the scene that each makes.
 //!
-//! An entry with `signals` makes a guide for each of them, one with `body` also a free joint, which comes after those of the file.
+//! An entry with `signals` makes one guide for each signal. An entry with `body` also makes a free joint; these joints come after those of
+//! the file.
 
 use crate::read::ReadFault;
 use crate::read::document::SceneFile;
@@ -17,7 +18,7 @@ impl SceneFile {
         }
     }
 
-    /// The entry that makes a guide, by its number in the file, and which of its guides that is.
+    /// The entry that makes a guide, as its index in the file, and the index of the guide among the guides of that entry.
     pub(crate) fn entry_of_guide(&self, guide: usize) -> Option<(usize, usize)> {
         let mut first = 0;
         for (i, entry) in self.listed("guide").iter().enumerate() {
@@ -30,7 +31,8 @@ impl SceneFile {
         None
     }
 
-    /// The place of a guide's key, or of its entry: `signals` for a signal of them, and `body` for a joint.
+    /// The place of a guide's key, or of its entry when the key is not written. The key `signal` is one of several in `signals`, and
+    /// `joint` may be written as `body`.
     pub(crate) fn item_of_guide(&self, guide: usize, field: &str) -> Option<&Item> {
         let (entry, number) = self.entry_of_guide(guide)?;
         let entry = self.listed("guide").get(entry)?;
@@ -42,7 +44,7 @@ impl SceneFile {
         found.or(Some(entry))
     }
 
-    /// The place of a key of a joint, which is one of the file or that of a guided body.
+    /// The place of a key of a joint, which is a joint of the file or that of a guided body.
     pub(crate) fn item_of_joint(&self, joint: usize, field: &str) -> Option<&Item> {
         let joints = self.listed("joint");
         let Some(entry) = joints.get(joint) else {
@@ -54,17 +56,17 @@ impl SceneFile {
         entry.get(field).or(Some(entry))
     }
 
-    /// The names of guided bodies: those of their joints.
+    /// The names of the guided bodies, which are also the names of their joints.
     ///
     /// # Errors
-    /// A body that is guided twice.
+    /// An error for a body that is guided twice.
     pub(crate) fn guided_bodies(&self) -> Read<Vec<String>> {
         let (mut names, mut guide) = (Vec::<(String, usize)>::new(), 0);
         for entry in self.listed("guide") {
             let first = guide;
             guide += n_guides(entry);
             let Some(body) = entry.get("body") else { continue };
-            // what is no text is refused when the entry is read
+            // A value that is not a text is refused when the entry is read.
             let name = if let Node::Text(name) = &body.node { name.as_str() } else { "" };
             let twice = names.iter().find(|(other, _)| !name.is_empty() && other == name);
             if let Some(&(_, other)) = twice {

@@ -1,15 +1,15 @@
-//! Words of other programs and textbooks, and what stands for them in a scene file.
+//! Words of other programs and textbooks, each with the word of the scene format.
 //!
-//! A hint is given where the word that it speaks of may stand: `among` is one of the words or keys that are known there.
+//! A hint holds for certain places: its `among` is one of the words or keys that are allowed there.
 
-/// Words that are not known, and what is said instead of the nearest name.
+/// A hint for unknown words, which replaces the suggestion of the nearest name.
 #[derive(Debug)]
 pub struct Hint {
-    /// A word that is known where the hint holds.
+    /// A word that is allowed wherever the hint holds.
     pub among: &'static str,
-    /// The words, in small letters and with hyphens.
+    /// Unknown words with this hint, in small letters and with hyphens.
     pub words: &'static [&'static str],
-    /// Advice on what to do; empty: write `among` instead.
+    /// Advice on what to write; when it is empty, the advice is `among`.
     hint: &'static str,
 }
 
@@ -36,7 +36,7 @@ const RATIOS: &[&str] = &[
 
 const COUPLES: &str = "that is a `[[coupling]]` of joints: `kind = \"gear\"`, \"belt\", \"rack\" or \"screw\", with the `joints` that it couples";
 
-/// All hints; the first that holds is given.
+/// All hints; when several hold, the first is used.
 pub const HINTS: &[Hint] = &[
     // kinds of joints
     says(
@@ -207,7 +207,7 @@ pub const HINTS: &[Hint] = &[
     means("index-3", &["index3", "augmented", "natural"]),
 ];
 
-/// The hint for a word that is not among the known ones, where there is one.
+/// The hint for a word that is not among the allowed ones, if there is a hint for it.
 pub fn of_word<S: AsRef<str>>(found: &str, known: &[S]) -> Option<String> {
     let word = found.trim().to_lowercase().replace(['_', ' '], "-");
     let is_known = |among: &str| known.iter().any(|name| name.as_ref() == among);

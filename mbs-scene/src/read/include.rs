@@ -1,7 +1,7 @@
-//! `[[include]]`: the parts of other files in the tree of a scene.
+//! Reads `[[include]]`: the parts of other files are added to the tree of a scene.
 //!
-//! The names of an included file get a prefix, and so do the references to them; what a file does not have itself is looked up in the
-//! file that includes it. The parts of an included file stand where its `[[include]]` stands.
+//! The names of an included file get a prefix, and so do the references to them. A name that the included file does not define is looked up
+//! in the file that includes it. The parts of an included file are inserted at the place of its `[[include]]`.
 
 use super::ReadFault;
 use super::error::{ExpressionFault, Read};
@@ -17,14 +17,14 @@ use std::collections::HashMap;
 use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
-/// Most files in one another [-]. Chosen, not tuned.
+/// Largest depth of files that include one another [-]. Chosen, not tuned.
 const MAX_DEPTH: usize = 8;
-/// Most bytes of all texts of a scene with included files. Chosen, not tuned.
+/// Largest total length of the texts of a scene with included files [bytes]. Chosen, not tuned.
 const MOST_BYTES: usize = 64 << 20;
-/// Most files of a scene, each counted as often as it is included. Chosen, not tuned.
+/// Largest number of files of a scene [-], each counted as often as it is included. Chosen, not tuned.
 const MOST_FILES: usize = 10_000;
 
-/// The tree of a scene with the files that it includes, which lie beside it in a folder.
+/// The tree of a scene with the files that it includes. Their paths are relative to `folder`.
 pub(super) fn resolve(
     texts: &mut Texts,
     root: Vec<Member>,
@@ -43,10 +43,10 @@ pub(super) fn resolve(
     Includes { texts, chain }.expanded(root, folder)
 }
 
-/// Files that are read, one in another.
+/// Reader of the included files, at any depth.
 struct Includes<'a> {
     texts: &'a mut Texts,
-    /// The files in which the one at hand stands, as the system names them.
+    /// Paths of the files from the scene file to the one that is read, as the system names them.
     chain: Vec<PathBuf>,
 }
 
@@ -61,7 +61,7 @@ struct Include {
 }
 
 impl Includes<'_> {
-    /// The tree of a file that lies in a folder, with what it includes.
+    /// The tree of a file in a folder, with all its included files.
     fn expanded(&mut self, mut root: Vec<Member>, folder: &Path) -> Read<Vec<Member>> {
         let Some(at) = root.iter().position(|member| member.key == "include") else {
             return Ok(root);
@@ -89,7 +89,7 @@ impl Includes<'_> {
         self.fault(span, ReadFault::Include(ExpressionFault { message, hint }))
     }
 
-    /// Reads the entries of the list.
+    /// Reads the entries of the list `[[include]]`.
     fn entries(&self, list: &Item) -> Read<Vec<Include>> {
         let values = Values::none(self.texts);
         let names = Names::default();
@@ -119,7 +119,7 @@ impl Includes<'_> {
         context.list(list, form)?.iter().map(read).collect()
     }
 
-    /// The tree of an included file: with its own includes, with other parameters, and with its prefix.
+    /// The tree of an included file: with its own includes, new values of its parameters, and its prefix.
     fn parts(&mut self, include: &Include, folder: &Path) -> Read<Vec<Member>> {
         let path = folder.join(&include.file);
         let place = self.enter(&path, include)?;
@@ -142,7 +142,7 @@ impl Includes<'_> {
         Ok(root)
     }
 
-    /// The place of a file that may be read here.
+    /// The system's path of a file. Refuses a file that cannot be found, or that includes itself.
     fn enter(&self, path: &Path, include: &Include) -> Read<PathBuf> {
         let unreadable = |problem: String| {
             let message = format!("cannot include `{}`: {problem}", path.display());
@@ -193,7 +193,7 @@ impl Includes<'_> {
         }
     }
 
-    /// Refuses what belongs to a scene as a whole.
+    /// Refuses tables that a scene has only once, such as `[scene]`, in an included file.
     fn refuse_whole(&self, root: &[Member]) -> Read<()> {
         let is_whole = |key: &str| {
             let key = keys::of(FILE).iter().find_map(|table| table.key(key));
@@ -209,7 +209,7 @@ impl Includes<'_> {
         }
     }
 
-    /// Gives parameters of an included file other values.
+    /// Gives new values to parameters of an included file.
     fn set(&self, root: &mut [Member], set: &[Member], file: &str) -> Read<()> {
         let mut own: Vec<&mut Member> = Vec::new();
         for member in root.iter_mut().filter(|member| member.key == "parameters") {
@@ -233,7 +233,7 @@ impl Includes<'_> {
     }
 }
 
-/// Returns in words why a file cannot be read.
+/// Returns in words why the system cannot read a file.
 pub(super) fn plain(error: &std::io::Error) -> String {
     match error.kind() {
         std::io::ErrorKind::NotFound => "there is no such file".to_owned(),
@@ -246,15 +246,15 @@ fn name_of(path: &Path) -> String {
     path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default()
 }
 
-/// A tree into which parts of included files are put.
+/// A tree to which parts of included files are added.
 struct Merge {
     root: Vec<Member>,
-    /// Number of parts of files that were put into each list.
+    /// Number of entries of included files that were added to each list.
     before: HashMap<String, usize>,
 }
 
 impl Merge {
-    /// Puts a list or the parameters of a file, which is included at a byte, into the tree.
+    /// Adds a list or the parameters of an included file to the tree; `at` is the byte of the `[[include]]`.
     fn add(&mut self, part: Member, at: usize) -> Result<(), (Span, ReadFault)> {
         let Some(own) = self.root.iter_mut().find(|member| member.key == part.key) else {
             let n = if let Node::List(items) = &part.item.node { items.len() } else { 0 };
@@ -265,7 +265,7 @@ impl Merge {
         match (&mut own.item.node, part.item.node) {
             (Node::List(own), Node::List(items)) => {
                 let n = self.before.entry(part.key).or_default();
-                // bytes of included files come behind those of the file itself
+                // The bytes of included files are counted from the end of the file itself.
                 let first = *n + own.iter().filter(|item| item.span.start < at).count();
                 *n += items.len();
                 own.splice(first..first, items);

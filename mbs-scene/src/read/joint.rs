@@ -4,7 +4,7 @@ use crate::read::ReadFault;
 use crate::read::fields::{Fields, Read};
 use mbs_core::scene::{Body, BodyId, Joint, JointKind, JointLimits, Number};
 
-/// Reads a joint; a free one is placed at the centre of mass of one of the bodies by default.
+/// Reads a joint of a scene. By default, a free joint is at the centre of mass of one of its bodies.
 pub(crate) fn read(fields: &Fields<'_>, known: &[Body<Number>]) -> Read<Joint<Number>> {
     let (word, fields) = &fields.kind()?;
     let Some(kind) = JointKind::ALL.into_iter().find(|kind| kind.name() == *word) else {
@@ -41,7 +41,7 @@ pub(crate) fn read(fields: &Fields<'_>, known: &[Body<Number>]) -> Read<Joint<Nu
     })
 }
 
-/// The free joint from the ground by which a body is guided, at its centre of mass or `at`; it has the body's name.
+/// The free joint between the ground and a guided body, at the body's centre of mass or at `at`. It has the body's name.
 pub(crate) fn read_of_guided_body(
     fields: &Fields<'_>,
     known: &[Body<Number>],
@@ -65,7 +65,7 @@ pub(crate) fn read_of_guided_body(
 }
 
 fn read_limits(fields: &Fields<'_>, kind: JointKind) -> Read<JointLimits<Number>> {
-    // a kind with other coordinates has no limits, as the scene's check says
+    // A kind with other coordinates has no limits; the check of the scene reports them.
     let fields = &fields.about(kind, 0);
     let range = |item| fields.at("range").numbers_of(item, "a list of two numbers: [lower, upper]");
     Ok(JointLimits {
@@ -75,13 +75,13 @@ fn read_limits(fields: &Fields<'_>, kind: JointKind) -> Read<JointLimits<Number>
     })
 }
 
-/// The kind that a joint is between these bodies: a free one of a point mass does not turn.
+/// The kind of a joint between these bodies: the free joint of a point mass has no rotation.
 fn kind_between(kind: JointKind, bodies: [BodyId; 2], known: &[Body<Number>]) -> JointKind {
     let is_point = |body: BodyId| body.index().is_some_and(|i| known[i].is_point());
     if bodies.into_iter().any(is_point) { kind.of_points() } else { kind }
 }
 
-/// A free joint speaks about the centre of mass of the second body, or of the first when that is the ground.
+/// Default place of a free joint: the centre of mass of the second body, or of the first when the second is the ground.
 fn default_place(
     kind: JointKind,
     bodies: [BodyId; 2],

@@ -1,14 +1,14 @@
-//! Scenes in JSON, read into the same tree as those in TOML: values with their places, numbers as decimal text.
+//! Scenes in JSON, read into the same tree as scenes in TOML: values with their places, numbers as decimal text.
 
 use super::tree::{Item, Member, Node, Span};
 use core::fmt;
 use serde::de::{Deserialize, Deserializer, MapAccess, Visitor};
 use serde_json::value::RawValue;
 
-/// Most lists and tables within each other [-]: a slip, or an attack. Chosen, not tuned.
+/// Largest depth of lists and tables within each other [-]. A deeper file is a mistake or an attack. Chosen, not tuned.
 const MAX_DEPTH: usize = 64;
 
-/// Message of a syntax error, and its place.
+/// Message of a syntax error, with its place.
 type Fault = (String, Span);
 
 /// The tree of a whole file, or the message and place of its first syntax error.
@@ -20,16 +20,16 @@ pub(crate) fn parse(text: &str) -> Result<Vec<Member>, Fault> {
     }
 }
 
-/// A text that is read.
+/// Reader of one JSON text.
 struct Reader<'a> {
     text: &'a str,
 }
 
-/// The keys of an object with the texts of their values, in the order of the file.
+/// The keys of an object with the text of their values, in the order of the file.
 struct Pairs<'a>(Vec<(String, &'a RawValue)>);
 
 impl<'a> Reader<'a> {
-    /// The value whose text this is, a part of the whole.
+    /// The value of `part`, which is a part of the whole text.
     fn item(&self, part: &'a str, depth: usize) -> Result<Item, Fault> {
         let raw: &RawValue = self.read(part)?;
         let text = raw.get();
@@ -58,7 +58,7 @@ impl<'a> Reader<'a> {
 
     fn members(&self, text: &'a str, depth: usize) -> Result<Vec<Member>, Fault> {
         let Pairs(pairs) = self.read(text)?;
-        // behind the bracket, and then behind the value before
+        // Byte after the opening bracket, and later after the previous value.
         let mut behind = self.start(text) + 1;
         let mut members: Vec<Member> = Vec::with_capacity(pairs.len());
         let mut keys = std::collections::HashSet::new();
@@ -77,7 +77,7 @@ impl<'a> Reader<'a> {
         Ok(members)
     }
 
-    /// Byte at which a part of the text begins.
+    /// Byte at which a part of the whole text begins.
     fn start(&self, part: &str) -> usize {
         (part.as_ptr() as usize).saturating_sub(self.text.as_ptr() as usize)
     }
@@ -88,7 +88,7 @@ impl<'a> Reader<'a> {
                 part.split_inclusive('\n').take(error.line().saturating_sub(1)).map(str::len).sum();
             let at = self.start(part) + lines + error.column().saturating_sub(1);
             let message = error.to_string();
-            // the place is said by the line and the caret
+            // The line and the caret show the place, so the message need not.
             let message = message.split(" at line ").next().unwrap_or_default().to_owned();
             (message, at..at)
         })

@@ -1,4 +1,4 @@
-//! Numbers of a key: one that is written with a unit alone has the dimensions of the key's unit.
+//! Numbers of a key. The dimensions of a number with a unit are compared with those of the key's unit.
 
 use crate::read::ReadFault;
 use crate::read::fields::{Context, Fields, Read};
@@ -7,13 +7,13 @@ use crate::read::tree::{Item, Node};
 use mbs_core::scene::{JointKind, Number};
 
 impl<'a> Fields<'a> {
-    /// The context for the numbers of that key.
+    /// The context for the numbers of this key.
     pub(crate) fn at(&self, key: &str) -> Context<'a> {
         let known = self.tables.iter().find_map(|table| table.key(key));
         Context { unit: known.map(|key| (key.name, key.unit)), ..self.context }
     }
 
-    /// Exactly `N` numbers of that key.
+    /// Reads exactly `N` numbers of this key.
     pub(crate) fn numbers_of<const N: usize>(
         &self,
         key: &'static str,
@@ -22,14 +22,14 @@ impl<'a> Fields<'a> {
         self.at(key).numbers_of(self.need(key)?, expected)
     }
 
-    /// The fields of an entry about a coordinate of a joint.
+    /// The fields of an entry that refers to a coordinate of a joint.
     pub(crate) fn about(&self, kind: JointKind, number: usize) -> Self {
         Self { context: self.context.about(kind, number), ..*self }
     }
 }
 
 impl<'a> Context<'a> {
-    /// Context for a coordinate of a kind of joint: `rad or m` is then one of them.
+    /// Context for a coordinate of a kind of joint. A unit `rad or m` then means the unit of that coordinate.
     pub(crate) fn about(&self, kind: JointKind, number: usize) -> Self {
         let freedoms = kind.freedoms(self.dimension);
         let mut units =
@@ -37,19 +37,19 @@ impl<'a> Context<'a> {
         Self { is_slide: units.nth(number).map(|unit| unit == "m"), ..*self }
     }
 
-    /// Context for numbers of another unit.
+    /// Context for numbers of another key, with its unit.
     pub(crate) fn of_unit(&self, key: &'static str, unit: &'static str) -> Self {
         Self { unit: Some((key, unit)), ..*self }
     }
 
-    /// Context for entry `i` of `n`, where the unit of a list names those of its parts: `N/m and N m/rad`.
+    /// Context for entry `i` of `n`, when the unit of a list names the units of its parts: `N/m and N m/rad`.
     pub(crate) fn entry(&self, i: usize, n: usize) -> Self {
         let Some((key, unit)) = self.unit else { return *self };
         let parts: Vec<_> = unit.split(", ").flat_map(|part| part.split(" and ")).collect();
         self.of_unit(key, parts.get(i * parts.len() / n.max(1)).copied().unwrap_or(unit))
     }
 
-    /// The number of an expression; `rad or m` stands for the unit of a turn or a slide, in this order.
+    /// The number of an expression. A unit `rad or m` is that of a rotation or of a translation, in this order.
     fn in_unit(&self, text: &str, item: &Item) -> Read<Number> {
         let (number, dimensions) = self.values.number(text, &item.span)?;
         if let Some((key, unit)) = self.unit {
@@ -63,7 +63,7 @@ impl<'a> Context<'a> {
         Ok(number)
     }
 
-    /// The nearest number to the decimal text; finite.
+    /// The nearest number to a decimal text or expression, which must be finite.
     pub(crate) fn number(&self, item: &Item) -> Read<Number> {
         let text = match &item.node {
             Node::Number(text) => text,
@@ -76,7 +76,7 @@ impl<'a> Context<'a> {
         }
     }
 
-    /// One number or a list of numbers.
+    /// Reads one number or a list of numbers.
     pub(crate) fn numbers(&self, item: &'a Item) -> Read<Vec<Number>> {
         match &item.node {
             Node::Number(_) | Node::Text(_) => Ok(vec![self.number(item)?]),
@@ -85,7 +85,7 @@ impl<'a> Context<'a> {
         }
     }
 
-    /// One number or a list of numbers, for the coordinates of a joint.
+    /// Reads one number or a list of numbers, for the coordinates of a joint.
     pub(crate) fn coordinates(&self, item: &'a Item, kind: JointKind) -> Read<Vec<Number>> {
         let Node::List(items) = &item.node else { return self.about(kind, 0).numbers(item) };
         let entries = items.iter().enumerate();
@@ -105,7 +105,7 @@ impl<'a> Context<'a> {
         Ok(numbers)
     }
 
-    /// The components of a vector that stand in `items`, a part of `whole`.
+    /// The components of a vector from the list `items`; `whole` is the value to which an error refers.
     pub(crate) fn components(&self, whole: &Item, items: &[Item]) -> Read<[Number; 3]> {
         let needed = self.dimension.count();
         if items.len() != needed && items.len() != 3 {

@@ -32,7 +32,7 @@ pub(crate) fn read_initial(
     Ok(InitialCondition { target })
 }
 
-/// `at` and `velocity` come together.
+/// Reads `at` and `velocity`, of which one requires the other.
 fn point_velocity(fields: &Fields<'_>) -> Read<Option<([Number; 3], [Number; 3])>> {
     if fields.get("at").is_none() && fields.get("velocity").is_none() {
         return Ok(None);
@@ -40,7 +40,7 @@ fn point_velocity(fields: &Fields<'_>) -> Read<Option<([Number; 3], [Number; 3])
     Ok(Some((fields.vector("at")?, fields.vector("velocity")?)))
 }
 
-/// Angular velocity: in the plane one number, about z; in space a vector in global axes.
+/// Reads an angular velocity [rad/s]: in the plane one number about z, in space a vector in global axes.
 fn angular_velocity(fields: &Fields<'_>) -> Read<Option<[Number; 3]>> {
     if fields.context.is_planar() {
         let about_z = fields.optional("angular_velocity")?;
@@ -49,8 +49,8 @@ fn angular_velocity(fields: &Fields<'_>) -> Read<Option<[Number; 3]>> {
     fields.optional_vector("angular_velocity")
 }
 
-/// The guides of an entry: of one coordinate, or with `signals` of all coordinates of a joint, also of the free joint that a guided `body`
-/// gets.
+/// The guides of an entry. An entry guides one coordinate, or with `signals` all coordinates of a joint. The joint may be the free joint of
+/// a guided `body`.
 pub(crate) fn read_guides(
     fields: &Fields<'_>,
     joints: &[Joint<Number>],
@@ -67,7 +67,7 @@ pub(crate) fn read_guides(
     if !is_of_body && fields.get("table").is_none() {
         fields.unused(&["ends", "interpolation"])?;
     }
-    // the free joint of a guided body has the body's name
+    // The free joint of a guided body has the body's name.
     let of = if is_of_body { "body" } else { "joint" };
     let joint = context.joint(fields.need(of)?)?;
     if let Some(item) = fields.get("signals") {
@@ -92,10 +92,10 @@ pub(crate) fn read_guides(
     }
 }
 
-/// The keys that each give a function of time.
+/// The keys that define a function of time; an entry has at most one of them.
 const LAWS: [&str; 5] = ["table", "sine", "ramp", "input", "signal"];
 
-/// A function of time, where one of its keys is there.
+/// Reads a function of time; `None` when none of its keys is written.
 pub(crate) fn read_motion(fields: &Fields<'_>) -> Read<Option<Motion<Number>>> {
     for (i, one) in LAWS.iter().enumerate() {
         LAWS[i + 1..].iter().try_for_each(|other| fields.exclusive(one, other))?;

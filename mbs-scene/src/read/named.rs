@@ -1,4 +1,4 @@
-//! Values of parameters and points: each is found once, with those that it needs.
+//! Values of parameters and points. Each is evaluated once, after the names that it uses.
 
 use super::error::{ExpressionFault, Read};
 use super::expression::{EvaluationFault, evaluate, unit::Dimensions};
@@ -13,29 +13,29 @@ use mbs_core::scene::Number;
 use std::cell::RefCell;
 use std::collections::{HashMap, HashSet};
 
-/// Most parameters and points that need one another in a row [-]. Chosen, not tuned.
+/// Largest number of parameters and points that use one another in a row [-]. Chosen, not tuned.
 const MAX_CHAIN: usize = 64;
 
-/// Parameters and points by their full names, and the values that are found so far.
+/// Parameters and points by their full names, and the values found so far.
 pub(super) struct Named<'a> {
     pub(super) texts: &'a Texts,
-    /// Parameters as they are written.
+    /// Parameters as they are written in the files.
     parameters: HashMap<&'a str, &'a Member>,
-    /// Places of points as they are written.
+    /// Places of points as they are written in the files.
     places: HashMap<&'a str, &'a Item>,
     numbers: RefCell<HashMap<String, DoubleDouble>>,
     points: RefCell<HashMap<String, Point>>,
-    /// Names that need the one at hand.
+    /// Names whose evaluation needs the present name, from the outside inwards.
     chain: RefCell<Vec<String>>,
-    /// Parameters that an expression has needed.
+    /// Parameters that some expression has used.
     used: RefCell<HashSet<String>>,
 }
 
 /// Reason why a name has no value.
 pub(super) enum Missing {
-    /// The name stands for no value of this kind: message and hint.
+    /// The name has no value of this kind: message and hint.
     Unknown([String; 2]),
-    /// The value of the name is refused at its own place.
+    /// The value of the name has an error at its own place in the file.
     Refused(ReadError),
 }
 
@@ -43,7 +43,7 @@ impl<'a> Named<'a> {
     pub(super) fn new(texts: &'a Texts, parameters: &'a [Member], points: &'a [Item]) -> Self {
         let place = |item: &'a Item| match (item.text_at("name"), item.get("at")) {
             (Some(name), Some(at)) => Some((name, at)),
-            // the reader of the entry says what is missing
+            // The reader of the entry reports the missing key.
             _ => None,
         };
         Self {
@@ -57,7 +57,7 @@ impl<'a> Named<'a> {
         }
     }
 
-    /// Finds all of them.
+    /// Evaluates all parameters and points.
     pub(super) fn all(self, parameters: &'a [Member], points: &'a [Item]) -> Read<Self> {
         for member in parameters {
             self.parameter(member)?;
@@ -70,7 +70,7 @@ impl<'a> Named<'a> {
         Ok(self)
     }
 
-    /// The value of a parameter, and with it of those that it needs.
+    /// The value of a parameter; parameters that it uses are evaluated first.
     fn parameter(&self, member: &'a Member) -> Read<DoubleDouble> {
         let (name, span) = (member.key.as_str(), &member.item.span);
         if let Some(value) = self.numbers.borrow().get(name) {
@@ -91,7 +91,7 @@ impl<'a> Named<'a> {
         Ok(value)
     }
 
-    /// A point, and with it what it needs.
+    /// The place of a point; names that it uses are evaluated first.
     fn place(&self, name: &str, at: &'a Item) -> Read<Point> {
         if let Some(point) = self.points.borrow().get(name) {
             return Ok(point.clone());
@@ -103,7 +103,7 @@ impl<'a> Named<'a> {
         Ok(point)
     }
 
-    /// Refuses rings, and rows that are too long.
+    /// Begins the evaluation of a name. Refuses cycles, and chains that are too long.
     fn begin(&self, name: &str, span: &Span) -> Read<()> {
         let refused = |message: String| {
             let hint = "give one of them a number".to_owned();
@@ -124,13 +124,13 @@ impl<'a> Named<'a> {
         Ok(())
     }
 
-    /// The value of an expression that stands there, and of a number with a unit alone its dimensions.
+    /// The value of an expression at a place in the file. A text that is only a number with a unit also has its dimensions.
     pub(super) fn expression(
         &self,
         text: &str,
         span: &Span,
     ) -> Read<(DoubleDouble, Option<Dimensions>)> {
-        // the fault of another parameter stands at its own place
+        // An error of another parameter has its own place.
         let mut other = None;
         let texts = self.texts;
         let mut named = |name: &str| {
@@ -149,7 +149,8 @@ impl<'a> Named<'a> {
         }
     }
 
-    /// The value of a name, `PARAMETER` or `POINT.x`, in a text that stands there: of its own file first, then of that which includes it.
+    /// The value of a name, `PARAMETER` or `POINT.x`, in a text at a span. The name is looked up in the file of that text first, then in
+    /// the files that include it.
     fn value(&self, name: &str, span: &Span) -> Result<DoubleDouble, Missing> {
         let (base, axis) = match name.split_once('.') {
             Some((base, axis)) => (base, "xyz".find(axis)),
@@ -179,7 +180,7 @@ impl<'a> Named<'a> {
         Ok(point.at[axis].value())
     }
 
-    /// The parameters of the file itself that nothing has needed so far; included files may have spare ones.
+    /// The parameters of the scene's file itself that no expression has used so far. Unused parameters of included files are not reported.
     pub(super) fn unused(&self) -> Vec<String> {
         let used = self.used.borrow();
         let is_own = |member: &&&Member| self.texts.of(&member.key_span).by.is_none();
@@ -194,7 +195,7 @@ impl<'a> Named<'a> {
         spare.into_iter().map(|member| member.key.clone()).collect()
     }
 
-    /// Message and hint for a name without a value.
+    /// Message and hint for a name that has no value.
     fn unknown(&self, name: &str, full: &[String], span: &Span) -> [String; 2] {
         if full.iter().any(|full| self.places.contains_key(full.as_str())) {
             return [format!("`{name}` is a point"), format!("write `{name}.x`, or another axis")];
@@ -240,10 +241,10 @@ fn unknown_point<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> [Strin
     [format!("`{name}` is no point"), hint]
 }
 
-/// A fault of an expression, at its place within the text where that stands in the file as it is.
+/// The error of an expression. When the file has the text exactly as evaluated, the place is within the text.
 fn refused(texts: &Texts, (text, span): (&str, &Span), fault: EvaluationFault) -> ReadError {
     let inside = texts.written(span).and_then(|written| {
-        // without quotes, where a command line gives it
+        // The text of a command line has no quotes.
         if written == text {
             return Some(span.start);
         }

@@ -1,12 +1,12 @@
-//! Names of bodies or joints, found without a walk along the file.
+//! Names of bodies or joints, with a hash map for finding them.
 
 use std::collections::HashMap;
 
-/// Names in file order.
+/// Names of the entries of a list, in the order of the file.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Names {
     list: Vec<String>,
-    /// Position at which each name stands first.
+    /// Index of the first entry of each name.
     first: HashMap<String, usize>,
 }
 
@@ -19,12 +19,12 @@ impl Names {
         Self { list, first }
     }
 
-    /// All names, in file order.
+    /// All names, in the order of the file.
     pub(crate) fn list(&self) -> &[String] {
         &self.list
     }
 
-    /// Position at which a name stands first.
+    /// Index of the first entry of this name.
     pub(crate) fn place(&self, name: &str) -> Option<usize> {
         self.first.get(name).copied()
     }

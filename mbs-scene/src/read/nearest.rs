@@ -1,11 +1,11 @@
-//! The nearest of several names, for "did you mean".
+//! The nearest of several names, for suggestions in error messages.
 
 use crate::read::hints;
 use std::fmt::Write;
 
-/// The name at the smallest edit distance, when it is near enough to be meant.
+/// The name with the smallest edit distance, if it is small enough for a misspelling.
 pub fn nearest<'a, S: AsRef<str>>(found: &str, known: &'a [S]) -> Option<&'a str> {
-    /// Most letters of a name that is compared: the work grows like their square.
+    /// Longest name that is compared [letters]. The work grows with the square of the length.
     const LONGEST: usize = 64;
     let found: Vec<char> = found.to_lowercase().chars().take(LONGEST + 1).collect();
     let allowed = 1 + found.len() / 4;
@@ -26,7 +26,7 @@ pub fn nearest<'a, S: AsRef<str>>(found: &str, known: &'a [S]) -> Option<&'a str
         .map(|(_, name)| name)
 }
 
-/// Insertions, deletions, replacements and swaps of neighbours that turn `a` into `b`.
+/// Number of insertions, deletions, replacements and swaps of neighbouring letters that change `a` to `b`.
 fn distance(a: &[char], b: &[char]) -> usize {
     let mut two_back = vec![0; b.len() + 1];
     let mut previous: Vec<usize> = (0..=b.len()).collect();
@@ -45,7 +45,7 @@ fn distance(a: &[char], b: &[char]) -> usize {
     previous[b.len()]
 }
 
-/// Hint for a word that is not in a list: the nearest name, or all.
+/// Hint for a word that is not in a list: the nearest name, or else a list of the names.
 #[must_use]
 pub fn nearest_name<S: AsRef<str>>(found: &str, known: &[S], what: &str) -> String {
     if let Some(hint) = hints::of_word(found, known) {
@@ -57,9 +57,9 @@ pub fn nearest_name<S: AsRef<str>>(found: &str, known: &[S], what: &str) -> Stri
     }
 }
 
-/// All names when they are few, else the first of them.
+/// A list of the names; of many names only the first.
 pub(super) fn listing<S: AsRef<str>>(known: &[S], what: &str) -> String {
-    /// Most names that are listed [-]: some lines of a terminal.
+    /// Largest number of names that are listed [-]: some lines of a terminal.
     const MAX_NAMES: usize = 16;
     if known.is_empty() {
         return format!("there are no {what} yet");
@@ -67,7 +67,7 @@ pub(super) fn listing<S: AsRef<str>>(known: &[S], what: &str) -> String {
     let names: Vec<&str> = known.iter().take(MAX_NAMES).map(AsRef::as_ref).collect();
     let mut out = format!("{what}: {}", names.join(", "));
     if known.len() > MAX_NAMES {
-        // writing into a String does not fail
+        // Writing into a String does not fail.
         let _ = write!(out, " and {} more", known.len() - MAX_NAMES);
     }
     out

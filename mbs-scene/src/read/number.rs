@@ -1,4 +1,4 @@
-//! Numbers of decimal texts and of computed values.
+//! Numbers from decimal texts and from computed values.
 
 use super::ReadFault;
 use super::error::Read;
@@ -8,10 +8,10 @@ use super::tree::Span;
 use mbs_core::real::DoubleDouble;
 use mbs_core::scene::Number;
 
-/// Digits of a value's text after the first: 32 in all, those of a pair of doubles.
+/// Number of digits of a value's text after the first [-]: 32 in all, as a double-double number has.
 const DIGITS: usize = 31;
 
-/// The number of a decimal text.
+/// The number of a decimal text, which must be finite.
 pub(super) fn decimal(texts: &Texts, text: &str, span: &Span) -> Read<Number> {
     match Number::from_decimal(text) {
         Some(number) if number.to_f64().is_finite() => Ok(number),
@@ -19,7 +19,7 @@ pub(super) fn decimal(texts: &Texts, text: &str, span: &Span) -> Read<Number> {
     }
 }
 
-/// A value with the digits of a number; its text, for the refusal of one that is not finite.
+/// A computed value as a number with 32 digits. `text` is the text in the error for a value that is not finite.
 pub(super) fn rounded(
     texts: &Texts,
     value: DoubleDouble,
@@ -32,7 +32,7 @@ pub(super) fn rounded(
     number.ok_or_else(|| texts.error(span, ReadFault::NotFinite { text: text.to_owned() }))
 }
 
-/// Refuses a number with a unit alone of other dimensions than the key's.
+/// Refuses a number with a unit whose dimensions differ from those of the key.
 pub(super) fn check_unit(
     texts: &Texts,
     (text, span): (&str, &Span),

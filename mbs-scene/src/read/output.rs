@@ -11,10 +11,10 @@ use mbs_core::outputs::{
 };
 use mbs_core::scene::{BodyId, CouplingId, EffectId, Number, Output, RollingId};
 
-/// Keys that say what an output is of; one at most.
+/// Keys that name the owner of an output, such as a joint; an output has at most one of them.
 const OWNERS: [&str; 6] = ["joint", "body", "coupling", "rolling", "effect", "signal"];
 
-/// Reads an output of a scene with the names of its couplings, rollings and effects.
+/// Reads an output of a scene. `names` has the names of the couplings, rollings and effects of the scene.
 pub(crate) fn read(
     fields: &Fields<'_>,
     centers: &[[Number; 3]],
@@ -31,7 +31,7 @@ pub(crate) fn read(
             fields.get(owner).is_some() && row.target.is_relative() == is_relative
         }
         Some(owner) => fields.get(owner).is_some(),
-        // only what the whole scene alone has needs no owner
+        // Only quantities of the whole scene need no owner.
         None => !has_owner && word.is_some_and(|word| row.has_name(word.0)),
     };
     let rows: Vec<&QuantityRow> = QUANTITIES.iter().filter(is_here).collect();
@@ -56,7 +56,7 @@ pub(crate) fn read(
         let known: Vec<_> = rows.iter().map(|row| row.name).collect();
         fields.unknown_word("quantity", word, &known)
     };
-    // before keys are missed that another quantity has
+    // The quantity is checked before its keys, which another quantity may not have.
     let Some(kind) = rows.iter().find(|row| row.has_name(word.0)).map(|row| row.target) else {
         return unknown();
     };
@@ -76,7 +76,7 @@ pub(crate) fn read(
     Ok(Output { name: fields.name()?, quantity, frame, magnitude, is_in_degrees })
 }
 
-/// The body in whose axes an output has its components.
+/// The body whose axes the components of an output refer to.
 fn frame(fields: &Fields<'_>, item: &Item, quantity: &Quantity<Number>) -> Read<BodyId> {
     let context = fields.context;
     match (context.text(item)?, quantity.target().own_body()) {
@@ -89,7 +89,7 @@ fn frame(fields: &Fields<'_>, item: &Item, quantity: &Quantity<Number>) -> Read<
     }
 }
 
-/// Target of the output: what it is of.
+/// Target of an output: the owner and the points to which its quantity belongs.
 fn target(
     fields: &Fields<'_>,
     kind: TargetKind,
@@ -98,7 +98,7 @@ fn target(
     let owner = || fields.need(kind.keys().first().copied().unwrap_or_default());
     let body = || fields.context.moving_body(owner()?);
     let frame = || fields.context.body(fields.need("relative_to")?);
-    // the centre of mass where no place is written
+    // The default place is the centre of mass.
     let place_on = |body: BodyId, key| match fields.get(key).or_else(|| fields.of_frame(key)) {
         Some(item) => fields.at(key).place(item),
         None => Ok(body
@@ -139,7 +139,7 @@ fn target(
     })
 }
 
-/// The carrier of a wheel, and the vehicle body.
+/// The carrier of a wheel, with the vehicle body and the side.
 fn wheel(fields: &Fields<'_>, [body, relative_to]: [BodyId; 2]) -> Read<WheelCarrier<Number>> {
     let word = fields.word("side")?;
     let Some((side, _)) = VehicleSide::ALL.into_iter().find(|(_, name)| *name == word.0) else {

@@ -1,4 +1,4 @@
-//! Places in a file: line, column, and the line itself.
+//! Places in a text: line, column, and the text of the line.
 
 use crate::read::tree::Span;
 use core::ops::Range;
@@ -10,14 +10,14 @@ pub struct Place {
     pub line: usize,
     /// Column in characters, from 1.
     pub column: usize,
-    /// Characters of the offending text, at least 1 and within the line.
+    /// Length of the faulty text in characters, at least 1 and within the line.
     pub width: usize,
-    /// The whole line, without its end.
+    /// Text of the line, without its line feed.
     pub text: String,
 }
 
 impl Place {
-    /// The place of some bytes of a text.
+    /// The place of a range of bytes in a text.
     #[must_use]
     pub fn at(text: &str, bytes: Range<usize>) -> Self {
         Self::of(text, &bytes)
@@ -37,13 +37,13 @@ impl Place {
         }
     }
 
-    /// Renders a message: `file:line:column: message`, the line with carets under the offending text, and the hint.
+    /// Formats a message: `file:line:column: message`, the line with carets below the faulty text, and the hint.
     #[must_use]
     pub fn render(&self, file: &str, message: &str, hint: &str) -> String {
         let Self { column, width, text, .. } = &self.shortened();
         let number = self.line.to_string();
         let margin = " ".repeat(number.len());
-        // tabs stay tabs, so that the caret stands under its text in any terminal
+        // Tabs remain tabs, so that the carets are below their text in any terminal.
         let indent: String =
             text.chars().take(column - 1).map(|c| if c == '\t' { '\t' } else { ' ' }).collect();
         let mut out = format!("{file}:{number}:{}: {message}\n", self.column);
@@ -55,11 +55,11 @@ impl Place {
         out
     }
 
-    /// Returns the place for a screen: without control characters, and long lines cut to what surrounds the offending text.
+    /// Returns the place for display, without control characters. A long line is cut to the surroundings of the faulty text.
     fn shortened(&self) -> Self {
-        /// Most letters of a line that is shown: the width of a terminal.
+        /// Largest length of a line that is shown [characters]: the width of a terminal.
         const MAX_WIDTH: usize = 120;
-        /// Letters that are shown before the offending text, of a line that is cut.
+        /// Length of the text before the faulty text, in a line that is cut [characters].
         const BEFORE: usize = 40;
         let plain = |c: char| if c.is_control() && c != '\t' { '\u{fffd}' } else { c };
         let n = self.text.chars().count();

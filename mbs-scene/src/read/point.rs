@@ -1,4 +1,4 @@
-//! Places: numbers, the name of a point, or a place from another one.
+//! Places: numbers, the name of a point, or a place relative to another point.
 
 use super::ReadFault;
 use super::error::Read;
@@ -8,26 +8,26 @@ use super::tree::{Item, Node, Span};
 use mbs_core::real::DoubleDouble;
 use mbs_core::scene::Number;
 
-/// A place with the count of numbers that are given for it: two in the plane, three in space.
+/// A place, with the number of its coordinates in the file: two in the plane, three in space.
 #[derive(Debug, Clone)]
 pub(super) struct Point {
     pub(super) at: [Number; 3],
     pub(super) n: usize,
 }
 
-/// Source of the values of names.
+/// Source of the values of names and expressions.
 pub(super) trait Given {
     fn texts(&self) -> &Texts;
-    /// The length of an expression that stands there.
+    /// The length [m] of an expression at a span.
     fn length(&self, text: &str, span: &Span) -> Read<Number>;
-    /// The point of a full name that stands there.
+    /// The point whose full name is at a span.
     fn point(&self, name: &str, span: &Span) -> Read<Point>;
 }
 
 const FORM: &str =
     "a place: a list of numbers, the name of a point, or { of = \"point\", plus = [..] }";
 
-/// A place as it is written: `[x, y, z]`, `"NAME"`, or `{ of = "NAME", mirror = "y", plus = [x, y, z] }`.
+/// Reads a place: `[x, y, z]`, `"NAME"`, or `{ of = "NAME", mirror = "y", plus = [x, y, z] }`.
 pub(super) fn read(given: &dyn Given, item: &Item) -> Read<Point> {
     match &item.node {
         Node::List(items) => numbers(given, item, items),
@@ -46,7 +46,7 @@ fn wrong_type<R>(
     Err(given.texts().error(&item.span, ReadFault::WrongType { expected, found }))
 }
 
-/// Two or three numbers.
+/// Reads a place from two or three numbers.
 fn numbers(given: &dyn Given, whole: &Item, items: &[Item]) -> Read<Point> {
     if !matches!(items.len(), 2 | 3) {
         let fault = ReadFault::NoPlace { found: items.len() };
@@ -63,7 +63,7 @@ fn numbers(given: &dyn Given, whole: &Item, items: &[Item]) -> Read<Point> {
     Ok(Point { at, n: items.len() })
 }
 
-/// A point, mirrored and moved: `{ of = "NAME", mirror = "y", plus = [x, y, z] }`.
+/// A place relative to a point, mirrored and moved: `{ of = "NAME", mirror = "y", plus = [x, y, z] }`.
 fn from(given: &dyn Given, item: &Item) -> Read<Point> {
     const AXES: [&str; 3] = ["x", "y", "z"];
     let Some(of) = item.get("of") else {
@@ -99,7 +99,7 @@ fn from(given: &dyn Given, item: &Item) -> Read<Point> {
     Ok(point)
 }
 
-/// Vector from one place to another.
+/// The vector from one place to another.
 pub(super) fn between(
     texts: &Texts,
     [from, to]: [&[Number; 3]; 2],
@@ -112,12 +112,12 @@ pub(super) fn between(
     Ok(vector)
 }
 
-/// A sum with all digits of a pair of doubles.
+/// A sum in double-double arithmetic, with all its digits.
 fn sum(texts: &Texts, a: DoubleDouble, b: DoubleDouble, span: &Span) -> Read<Number> {
     rounded(texts, a + b, ("the sum", span))
 }
 
-/// Number with the same digits and the other sign; zero keeps it.
+/// The number with the same digits and the opposite sign; zero stays zero.
 fn negative(number: &Number) -> Number {
     if number.is_zero() {
         return number.clone();
@@ -130,7 +130,7 @@ fn negative(number: &Number) -> Number {
     Number::from_decimal(&negative).unwrap_or_else(|| Number::from(-number.to_f64()))
 }
 
-/// Fault of a point that is not there.
+/// The fault of a reference to a point that the file does not have.
 pub(super) fn unknown<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> ReadFault {
     let mut known: Vec<String> = known.map(str::to_owned).collect();
     known.sort_unstable();

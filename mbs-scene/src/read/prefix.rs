@@ -1,18 +1,18 @@
-//! Names of an included file, and the references to them, with what stands before them in the scene.
+//! Prefixes of the names of an included file, and of the references to these names.
 //!
-//! The tables of keys say where names and references stand.
+//! The key tables of the format define where names and references occur.
 
 use super::tree::{Item, Member, Node};
 use crate::keys::{self, KeyTable, KeyValue, Referent};
 use std::collections::{HashMap, HashSet};
 
-/// A prefix, and the names of a file to which it belongs.
+/// A prefix, and the names of a file to which it applies.
 pub(super) struct Prefix<'a> {
     prefix: &'a str,
     names: HashMap<&'static str, HashSet<String>>,
 }
 
-/// Kinds of parts that others refer to by name.
+/// Kinds of parts that other parts refer to by name.
 const PARTS: [Referent; 7] = [
     Referent::Body,
     Referent::Joint,
@@ -24,7 +24,7 @@ const PARTS: [Referent; 7] = [
 ];
 
 impl<'a> Prefix<'a> {
-    /// The names of a tree.
+    /// The names of the tree `root`, with the prefix for them.
     pub(super) fn new(prefix: &'a str, root: &[Member]) -> Self {
         let of_list = |header: &str, key: &str| {
             let list = root.iter().find(|member| member.key == header);
@@ -36,11 +36,11 @@ impl<'a> Prefix<'a> {
         let names = PARTS.map(|part| {
             let mut names: HashSet<String> = of_list(part.name(), "name").into_iter().collect();
             if part == Referent::Joint {
-                // the joint of a guided body has its name
+                // The joint of a guided body has the body's name.
                 names.extend(of_list("guide", "body"));
             }
             if part == Referent::Body {
-                // a frame stands wherever a body does
+                // The name of a frame is allowed wherever that of a body is.
                 names.extend(of_list("frame", "name"));
             }
             (part.name(), names)
@@ -48,7 +48,7 @@ impl<'a> Prefix<'a> {
         Self { prefix, names: names.into() }
     }
 
-    /// Puts the prefix before the names of a tree and the references to them, and before the names of its parameters.
+    /// Adds the prefix to the names of a tree, to the references to them, and to the names of its parameters.
     pub(super) fn put(&self, root: &mut [Member]) {
         if self.prefix.is_empty() {
             return;
@@ -71,13 +71,13 @@ impl<'a> Prefix<'a> {
         name.insert_str(0, self.prefix);
     }
 
-    /// A table with one of these tables of keys.
+    /// Adds the prefix within a table that has one of these key tables.
     fn entry(&self, item: &mut Item, tables: &'static [KeyTable]) {
         let of_kind = item.text_at("kind").map_or(&[][..], |kind| keys::of_kind(tables, kind));
         let tables = if of_kind.is_empty() { tables } else { of_kind };
         let Node::Table(members) = &mut item.node else { return };
         for Member { key, item, .. } in members {
-            // a key of planar and one of spatial scenes have the same names in them
+            // A key that differs between planar and spatial scenes has the same names in both.
             if let Some(key) = tables.iter().find_map(|table| table.key(key)) {
                 self.value(item, &key.value);
             }
@@ -115,7 +115,7 @@ impl<'a> Prefix<'a> {
             KeyValue::PlacesOrTables(header) => {
                 let Node::List(items) = &mut item.node else { return };
                 for item in items {
-                    // a place from a point is a table too
+                    // A place relative to a point is a table too.
                     match (&item.node, item.get("of")) {
                         (Node::Table(_), None) => self.tables(item, header),
                         _ => self.places(item, &KeyValue::Place),
@@ -126,7 +126,7 @@ impl<'a> Prefix<'a> {
         }
     }
 
-    /// A name of a part of the scene, or several.
+    /// Adds the prefix to a reference, or to several, if the file has the name.
     fn references(&self, item: &mut Item, part: Referent) {
         match &mut item.node {
             Node::Text(name) if self.names[part.name()].contains(name) => self.name(name),
@@ -142,7 +142,7 @@ impl<'a> Prefix<'a> {
         }
     }
 
-    /// A place or a vector, or several; numbers in it are no names of points.
+    /// Adds the prefix to the names of points in a place or a vector, or in several.
     fn places(&self, item: &mut Item, value: &KeyValue) {
         match (value, &mut item.node) {
             (KeyValue::Places(_), Node::List(items)) => {

@@ -1,4 +1,4 @@
-//! `[road]`: features under all wheels, or different ones on the left and on the right.
+//! Reads `[road]`: features for all wheels, or separate features for the left and the right wheels.
 
 use crate::keys::{self, FEATURE};
 use crate::read::fields::{Context, Fields, Read};
@@ -6,12 +6,12 @@ use crate::read::table;
 use crate::read::tree::{Item, Node};
 use mbs_core::scene::{Number, Road, RoadFeature};
 
-/// Most steps of one staircase. Chosen, not tuned: a slip of a count ends in a message.
+/// Largest number of steps of a staircase [-]. It turns a mistyped count into a message. Chosen, not tuned.
 const MOST_STEPS: u32 = 10_000;
-/// Rounded corners of a ramp as a share of its length, where none is written.
+/// Default length of the rounded corners of a ramp, as a fraction of the length of the ramp [-].
 const ROUNDING: &str = "0.1";
 
-/// Reads the road. One feature may stand in `[road]` itself.
+/// Reads the road of a scene. A single feature may be written in `[road]` itself.
 pub(crate) fn read(fields: &Fields<'_>) -> Read<Road<Number>> {
     let speed = fields.number_or_zero("speed")?;
     let both =
@@ -36,7 +36,7 @@ pub(crate) fn read(fields: &Fields<'_>) -> Read<Road<Number>> {
     Ok(Road { left: track("left")?, right: track("right")?, speed })
 }
 
-/// A list of features, or one.
+/// Reads a feature or a list of features.
 fn features(context: &Context<'_>, item: &Item) -> Read<Vec<RoadFeature<Number>>> {
     let form = "a feature { kind = .. }, or a list of them";
     if let Node::Table(_) = item.node {
@@ -81,7 +81,7 @@ fn stairs(fields: &Fields<'_>) -> Read<RoadFeature<Number>> {
     })
 }
 
-/// `amplitude` is half the height; `1-cos` and `cosine` are two names of one shape.
+/// Reads a bump of a road. Its `amplitude` is half the height, and `1-cos` and `cosine` are two names of one shape.
 fn bump(fields: &Fields<'_>) -> Read<RoadFeature<Number>> {
     if fields.get("shape").is_some() {
         match fields.word("shape")? {
@@ -98,7 +98,7 @@ fn bump(fields: &Fields<'_>) -> Read<RoadFeature<Number>> {
     Ok(RoadFeature::Bump { start, length, amplitude })
 }
 
-/// The table of the file that gave feature `index` of a track of the scene.
+/// The table of the file from which feature `index` of a track of the scene was read.
 pub(crate) fn item_of<'a>(road: &'a Item, track: &str, index: usize) -> Option<&'a Item> {
     if !matches!(road.node, Node::Table(_)) {
         return None;

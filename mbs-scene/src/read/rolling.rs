@@ -1,9 +1,9 @@
-//! `[[rolling]]`: bodies that roll without slipping, and blades.
+//! Reads `[[rolling]]`: bodies that roll without slipping, and blades.
 
 use crate::read::fields::{Fields, Read};
 use mbs_core::scene::{BodyId, Number, Rolling, RollingKind, RollingPlane};
 
-/// Reads a rolling; without a name it is called `rolling-N`, counted from 1.
+/// Reads a rolling; one without a name is called `rolling-N`, counted from 1.
 pub(crate) fn read(index: usize, fields: &Fields<'_>) -> Read<Rolling<Number>> {
     let (kind, fields) = &fields.kind()?;
     let context = &fields.context;

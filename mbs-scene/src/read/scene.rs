@@ -1,4 +1,4 @@
-//! The scene that a file means, table by table; and the places of its entries.
+//! The scene that a file describes, read table by table; and the places of its entries.
 
 use crate::keys::{self, FILE};
 use crate::read::document::SceneFile;
@@ -17,27 +17,27 @@ use mbs_core::scene::{
 };
 use std::collections::BTreeMap;
 
-/// The joints of a file with those of its guided bodies, and the guides.
+/// All joints of a file, then those of its guided bodies; and the guides.
 type JointsAndGuides = (Vec<Joint<Number>>, Vec<Guide<Number>>);
 
 impl SceneFile {
-    /// The scene in the precision `T`, checked: every number is the one of `T` nearest to its decimal text.
+    /// The scene in the scalar `T`, checked. Every number is the number of `T` nearest to its decimal text.
     ///
     /// # Errors
-    /// The first thing in the file that is unknown, missing, or cannot be meant, with its place.
+    /// The first entry in the file that is unknown, missing or not valid, with its place.
     pub fn scene<T: Real>(&self) -> Result<Scene<T>, ReadError> {
         self.numbers()?.resolve().map_err(|error| self.meaning(error))
     }
 
-    /// The scene with its numbers as they are written; [`Scene::resolve`] checks it in a precision.
+    /// The scene with its numbers as decimal text, not checked. [`Scene::resolve`] checks it in a scalar.
     ///
     /// # Errors
-    /// The first thing in the file that is unknown, missing, or of another form, with its place.
+    /// The first entry in the file that is unknown, missing or of the wrong type, with its place.
     pub fn numbers(&self) -> Result<Scene<Number>, ReadError> {
         self.read_with(&Values::new(&self.texts, &self.root)?)
     }
 
-    /// The parameters of the file itself that nothing needs; none where it is refused.
+    /// The parameters of the file itself that no expression uses. The list is empty when the file is not valid.
     #[must_use]
     pub fn unused_parameters(&self) -> Vec<String> {
         let Ok(values) = Values::new(&self.texts, &self.root) else { return Vec::new() };
@@ -54,7 +54,7 @@ impl SceneFile {
         let context = Context {
             values,
             texts: &self.texts,
-            // not known yet; nothing dimensional is read before it is
+            // The dimension is not known yet; nothing that depends on it is read before.
             dimension: Dimension::Planar,
             bodies: &bodies,
             joints: &joints,
@@ -114,7 +114,7 @@ impl SceneFile {
         self.top("solver").map_or(Ok(SolverTable::default()), |item| solver::read(context, item))
     }
 
-    /// The joints of a file, then those of its guided bodies; and the guides.
+    /// All joints of a file, then those of its guided bodies; and the guides.
     fn joints_and_guides(
         &self,
         context: &Context<'_>,
@@ -128,13 +128,13 @@ impl SceneFile {
         Ok((joints, guides))
     }
 
-    /// The file and the place of a key's value, of the entry's header when the key is not written, or of the file's start.
+    /// The file, and the place of a key's value. For a key that is not written it is the entry's header, or else the start of the file.
     #[must_use]
     pub fn place(&self, entry: Entry, field: &str) -> (&str, Place) {
         self.texts.place(self.item(entry, field).map_or(&(0..0), |item| &item.span))
     }
 
-    /// A key's value, or the entry when the key is not written.
+    /// A key's value, or the whole entry when the key is not written.
     fn item<'a>(&'a self, entry: Entry, field: &str) -> Option<&'a Item> {
         let entries = |table: &str, i: usize| self.listed(table).get(i);
         let road = |track: &str, i| road::item_of(self.top("road")?, track, i);
@@ -157,7 +157,7 @@ impl SceneFile {
             Entry::Output(i) => entries("output", i),
         };
         let of_key = |members: &'a [Member], key: &str| members.iter().find(|m| m.key == key);
-        // what an effect has not itself stands in its terms
+        // A key that the effect does not have may be in one of its terms.
         let is_of_term = matches!(entry, Entry::Effect(_))
             && keys::of("term").iter().any(|table| table.key(field).is_some());
         let value = |members: &'a [Member]| {
@@ -170,15 +170,15 @@ impl SceneFile {
         }
     }
 
-    /// Names of entries that are texts; the rest is refused when the entry is read.
+    /// Names of the entries of a list. A name that is not a text is empty here, and refused when the entry is read.
     fn names(&self, key: &str) -> Names {
         let items = self.listed(key);
         let name = |item: &Item| item.text_at("name").unwrap_or_default().to_owned();
         Names::new(items.iter().map(name).collect())
     }
 
-    /// Names are checked before they are referred to: else a repeated name reads as an unknown one.
-    /// Bodies, joints, signals and frames have a name of their own each.
+    /// Refuses bodies, joints, signals or frames that share a name with another of their kind. The check comes before references are read:
+    /// otherwise a repeated name would be reported as unknown.
     fn refuse_shared_names(&self, [bodies, joints, signals, frames]: [&Names; 4]) -> Read<()> {
         if let Some(i) = bodies.place("ground") {
             let (entry, fault) = (Entry::Body(i), SceneFault::ReservedName);
@@ -201,9 +201,9 @@ impl SceneFile {
         Ok(())
     }
 
-    /// A fault of the scene at its place in the file.
+    /// The error for a fault of the scene, with its place in the file.
     ///
-    /// Also for scenes that were changed after reading (by a command line) and checked again.
+    /// The function also serves scenes that were changed after reading (by a command line) and then checked.
     #[must_use]
     pub fn meaning(&self, error: SceneError) -> ReadError {
         let item = self.item(error.entry, error.field);
@@ -215,7 +215,7 @@ impl SceneFile {
         self.error(row.or(item).map_or(&(0..0), |item| &item.span), fault)
     }
 
-    /// The fault, with the names of the signals or of the body that it is about.
+    /// The fault, with the names of the signals or of the body that it refers to.
     fn fault(&self, error: SceneError) -> ReadFault {
         let named = match error.fault {
             SceneFault::GivenTwice(first) if matches!(error.entry, Entry::Guide(_)) => {
@@ -256,7 +256,7 @@ impl SceneFile {
         named.unwrap_or(ReadFault::Scene(error))
     }
 
-    /// The name of an entry of a table.
+    /// The name of entry `i` of a table.
     fn name(&self, table: &str, i: usize) -> Option<String> {
         self.names(table).list().get(i).cloned()
     }
@@ -276,7 +276,7 @@ impl SceneFile {
             .collect()
     }
 
-    /// Points have a name of their own each, and a place, which is read with the values.
+    /// Checks that points have unique names, and that each has a place. The places are read with the values.
     fn check_points(&self, context: &Context<'_>) -> Read<()> {
         let names = self.entries(context, "point", |_, fields| {
             fields.need("at")?;
@@ -298,7 +298,7 @@ impl SceneFile {
         Fields { context: *context, header: &(0..0), members, tables }.checked().map(|_| ())
     }
 
-    /// The name as written, else the file's name without directories and ending.
+    /// The name in the file, or the file's name without folder and extension.
     fn scene_name(&self, header: &Fields<'_>) -> Read<String> {
         if header.get("name").is_some() {
             return header.name();
@@ -319,7 +319,7 @@ fn read_dimension(header: &Fields<'_>) -> Read<Dimension> {
     }
 }
 
-/// The scene with the outputs of all joints and effects, where its header asks for them.
+/// The scene with the outputs of all joints and effects, if its header requests them.
 fn with_asked(header: &Fields<'_>, mut scene: Scene<Number>) -> Read<Scene<Number>> {
     if header.get("outputs").is_none() {
         return Ok(scene);
@@ -345,7 +345,7 @@ fn read_start(header: &Fields<'_>) -> Read<Start> {
     }
 }
 
-/// The row of a list that a fault speaks about.
+/// The row of a list that a fault refers to.
 fn row(fault: SceneFault) -> Option<usize> {
     match fault {
         SceneFault::TableOrder(row)

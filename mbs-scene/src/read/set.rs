@@ -1,4 +1,4 @@
-//! `PATH=VALUE`: values of a scene that a command line replaces or adds.
+//! Assignments `PATH=VALUE` of a command line, which replace or add values of a scene.
 
 use super::fields::Read;
 use super::sweep::path::{self, PathPart};
@@ -7,12 +7,13 @@ use super::tree::{self, Item, Member, Node, Span};
 use super::{ReadFault, SceneFile, SweepFault};
 use crate::keys::{self, FILE, KeyTable, KeyValue, Standing};
 
-/// The name of such a text in messages.
+/// The name of an assignment's text in messages.
 const NAME: &str = "--set";
 
 impl SceneFile {
-    /// The scene with another value at a path, as sweeps write it: `body.rod.mass=2`, `parameter.k=36 kN/m`, `point.ball[2]=0.3`. The
-    /// value is read as TOML, else it is a text: a word or an expression. A key that its table may have is added.
+    /// The scene with another value at a path. Paths are those of sweeps: `body.rod.mass=2`, `parameter.k=36 kN/m`, `point.ball[2]=0.3`.
+    /// The value is read as TOML; when it is not valid TOML, it is a text, such as a word or an expression. A key that the table may have
+    /// is added.
     ///
     /// ```
     /// # let text = "[scene]\ndimension = 2\nduration = 1.0\n";
@@ -23,7 +24,7 @@ impl SceneFile {
     /// ```
     ///
     /// # Errors
-    /// A path to nothing, and a key that is none, with the place in the assignment.
+    /// A path that leads to no value, or a key that the format does not have, with the place in the assignment.
     pub fn with_set(&self, assignment: &str) -> Read<Self> {
         let mut file = self.clone();
         let start = file.note(assignment);
@@ -50,12 +51,12 @@ impl SceneFile {
         Ok(file)
     }
 
-    /// Adds a text of a command line to those of the scene; gives the byte at which it begins.
+    /// Adds a text of a command line to the texts of the scene; returns the byte at which it begins.
     pub(super) fn note(&mut self, text: &str) -> usize {
         self.texts.add(Text { name: NAME.to_owned(), text: text.to_owned(), ..Text::default() })
     }
 
-    /// Adds a key to a table that may have it; else the fault of its path.
+    /// Adds a key to a table that may have it. Otherwise returns the fault of its path.
     fn insert(
         &mut self,
         parts: &[PathPart],
@@ -96,7 +97,7 @@ impl SceneFile {
     }
 }
 
-/// The first `=` that is in no quotes.
+/// Position of the first `=` outside quotes.
 fn sign(text: &str) -> Option<usize> {
     let mut quote = None;
     text.char_indices().find_map(|(i, c)| {
@@ -110,9 +111,9 @@ fn sign(text: &str) -> Option<usize> {
     })
 }
 
-/// A value that stands at a byte.
+/// The value of a text that begins at byte `at` of the texts.
 fn read(value: &str, at: usize) -> Item {
-    /// The key of the value, where it is read as TOML.
+    /// Key that is put before the value, so that it can be read as TOML.
     const KEY: &str = "v=";
     let toml = tree::parse(&format!("{KEY}{value}")).ok();
     if let Some(Ok([mut member])) = toml.map(<[Member; 1]>::try_from) {
@@ -124,18 +125,18 @@ fn read(value: &str, at: usize) -> Item {
     Item { span: start..start + text.len(), node: Node::Text(text.to_owned()) }
 }
 
-/// Does a table of that name stand once in a scene file?
+/// Is it a table of the scene file that may occur only once?
 fn is_once(table: &str) -> bool {
     let is_of_file = keys::of(FILE).iter().any(|file| file.key(table).is_some());
     is_of_file && keys::of(table).iter().any(|table| table.standing == Standing::Once)
 }
 
-/// The tables of keys to which a path leads.
+/// The key tables of the table to which a path leads.
 fn tables_at(parts: &[PathPart]) -> &'static [KeyTable] {
     let [PathPart::Key(table), rest @ ..] = parts else { return &[] };
     let mut tables = keys::of(table);
     let is_list = tables.first().is_some_and(|table| table.standing == Standing::Listed);
-    // the first part behind a list is an entry, and may be called like a key
+    // The first part after a list is the name of an entry, and may equal the name of a key.
     for part in rest.iter().skip(usize::from(is_list)) {
         let PathPart::Key(name) = part else { continue };
         let key = tables.iter().find_map(|table| table.key(name));

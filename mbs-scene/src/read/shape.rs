@@ -1,4 +1,4 @@
-//! `[[shape]]`: forms on bodies and on the ground, for pictures.
+//! Reads `[[shape]]`: shapes on bodies and on the ground, for pictures.
 
 use super::ReadFault;
 use super::fields::{Fields, Read};
@@ -6,7 +6,7 @@ use super::tree::{Item, Node};
 use crate::keys::{COLOURS, SHAPES};
 use mbs_core::scene::{BodyShape, Number, ShapeKind};
 
-/// Reads a shape; without a name it is called `shape-N`, counted from 1.
+/// Reads a shape; one without a name is called `shape-N`, counted from 1.
 pub(crate) fn read(index: usize, fields: &Fields<'_>) -> Read<BodyShape<Number>> {
     let context = fields.context;
     let written = SHAPES.into_iter().filter_map(|form| Some((form, fields.get(form)?)));
@@ -64,7 +64,7 @@ fn kind<'a>(fields: &Fields<'a>, form: &str, item: &'a Item) -> Read<ShapeKind<N
     })
 }
 
-/// A file of triangles; its path becomes one that holds in every folder.
+/// Reads a file of triangles; its path is made absolute.
 fn mesh(table: &Fields<'_>) -> Read<ShapeKind<Number>> {
     let file = table.need("file")?;
     let path = table.context.text(file)?;
@@ -84,7 +84,7 @@ fn mesh(table: &Fields<'_>) -> Read<ShapeKind<Number>> {
     Ok(ShapeKind::Mesh { file: table.context.texts.path(&file.span, path), at, axes, scale })
 }
 
-/// A name of the list, or `#rrggbb`.
+/// Reads a colour: a name of the list, or `#rrggbb`.
 fn colour(fields: &Fields<'_>, item: &Item) -> Read<[u8; 3]> {
     let known = COLOURS.map(|(name, _)| name);
     let Node::Text(text) = &item.node else {

@@ -1,4 +1,4 @@
-//! `[[signal]]`, and references to signals by name.
+//! Reads `[[signal]]`, and references to signals by name.
 
 use crate::read::coupling::{need_curve, one, read_measure};
 use crate::read::fields::{Context, Fields, Read};
@@ -6,7 +6,7 @@ use crate::read::table;
 use crate::read::tree::{Item, Node};
 use mbs_core::scene::{Joint, NamedSignal, Number, SignalId, SignalKind};
 
-/// Reads a signal.
+/// Reads a signal of any kind.
 pub(crate) fn read<'a>(
     fields: &Fields<'a>,
     joints: &'a [Joint<Number>],
@@ -81,7 +81,7 @@ fn kind<'a>(
     })
 }
 
-/// Reads the kinds of signals that follow the motion or have a state.
+/// Reads the kinds of signals that depend on the motion or have a state.
 fn feedback<'a>(
     fields: &Fields<'a>,
     word: &str,
@@ -111,7 +111,8 @@ fn feedback<'a>(
     })
 }
 
-/// A coordinate of a joint, the length over points or an angle of a ball; or its rate. A joint without one is left to the scene's check.
+/// Reads a measure, or its rate: a coordinate of a joint, a length over points or an angle of a ball joint. A joint without the coordinate
+/// is left for the check of the scene.
 fn measure<'a>(fields: &Fields<'a>, joints: &'a [Joint<Number>]) -> Read<SignalKind<Number>> {
     let of = read_measure(fields, joints)?;
     let is_rate = match fields.get("quantity").map(|_| fields.word("quantity")).transpose()? {
@@ -135,7 +136,7 @@ fn list(fields: &Fields<'_>) -> Read<Vec<SignalId>> {
     items.iter().map(|item| fields.context.signal(item)).collect()
 }
 
-/// The components of a signal: one name, or a list of them.
+/// Reads the components of a signal: one name, or a list of names.
 pub(crate) fn components<'a>(context: &Context<'a>, item: &'a Item) -> Read<[Option<SignalId>; 3]> {
     let items = match &item.node {
         Node::List(items) if !items.is_empty() && items.len() <= 3 => &items[..],

@@ -4,7 +4,7 @@ use crate::read::fields::{Context, Read};
 use crate::read::tree::Item;
 use mbs_core::scene::{Number, Setting, SettingForm, SettingValue, SolverTable};
 
-/// Reads the settings that are written.
+/// Reads the settings that are written in the table.
 pub(crate) fn read<'a>(context: &Context<'a>, item: &'a Item) -> Read<SolverTable<Number>> {
     let fields = context.table(item, "a table: [solver]", "solver")?;
     let mut table = SolverTable::default();
@@ -20,7 +20,7 @@ pub(crate) fn read<'a>(context: &Context<'a>, item: &'a Item) -> Read<SolverTabl
             SettingForm::Count => SettingValue::Count(fields.count(key, u32::MAX)? as usize),
             SettingForm::Positive => SettingValue::Number(fields.at(key).number(item)?),
         };
-        // the table has the forms of the rows
+        // The value has the form that the table of settings requires, so setting it does not fail.
         let _ = table.set(key, value);
     }
     Ok(table)

@@ -1,11 +1,11 @@
-//! The tree of a text, TOML or JSON.
+//! Reads the tree of a text, in TOML or JSON.
 
 use super::texts::Texts;
 use super::tree::{self, Member};
 use super::{ReadError, ReadFault, json};
 use std::path::Path;
 
-/// The tree of the text that begins at a byte.
+/// The tree of the text that begins at byte `start`.
 pub(super) fn read(texts: &Texts, start: usize) -> Result<Vec<Member>, ReadError> {
     let text = texts.of(&(start..start));
     let is_json = match Path::new(&text.name).extension().and_then(|ending| ending.to_str()) {

@@ -1,4 +1,4 @@
-//! Rows of tables, and how a table goes between them.
+//! Reads rows of tables, and the interpolation between them.
 
 use super::ReadFault;
 use super::fields::{Context, Fields, Read};
@@ -7,10 +7,10 @@ use mbs_core::scene::{
     TableEnds,
 };
 
-/// The words at `interpolation`; that which holds is of signals alone.
+/// The words of the key `interpolation`; `hold` is allowed for signals alone.
 const WORDS: [&str; 4] = ["spline", "monotone", "linear", "hold"];
 
-/// The word at `interpolation` among the first few, which is a spline where none is written.
+/// The word at `interpolation`, among the first `n_words`. Default: `spline`.
 fn word<'a>(fields: &Fields<'a>, n_words: usize) -> Read<&'a str> {
     if fields.get("interpolation").is_none() {
         return Ok(WORDS[0]);
@@ -24,7 +24,7 @@ fn word<'a>(fields: &Fields<'a>, n_words: usize) -> Read<&'a str> {
     }
 }
 
-/// The shape of a table that has no ends to choose; `None`: a spline.
+/// The shape of a table without end conditions; `None`: a spline.
 fn shape(fields: &Fields<'_>) -> Read<Option<CurveShape>> {
     Ok(match word(fields, 3)? {
         "monotone" => Some(CurveShape::Monotone),
@@ -44,7 +44,7 @@ fn ends(fields: &Fields<'_>) -> Read<TableEnds> {
     }
 }
 
-/// Pairs of numbers at a key.
+/// Reads pairs of numbers at a key.
 fn rows<'a>(
     (context, fields): (Context<'a>, &Fields<'a>),
     key: &'static str,
@@ -62,7 +62,7 @@ fn over_time(fields: &Fields<'_>) -> Read<Vec<[Number; 2]>> {
     )
 }
 
-/// The rows of a signal, how it goes between them, and whether it repeats.
+/// The rows of a signal, their interpolation, and whether the table repeats.
 pub(crate) fn of_signal(fields: &Fields<'_>) -> Read<(Vec<[Number; 2]>, Interpolation, bool)> {
     let periodic = fields.flag("periodic", false)?;
     let interpolation = match word(fields, 4)? {
@@ -86,7 +86,7 @@ pub(crate) fn of_signal(fields: &Fields<'_>) -> Read<(Vec<[Number; 2]>, Interpol
     Ok((over_time(fields)?, interpolation, periodic))
 }
 
-/// The table of a guide or a coupling over time. One that is linear has corners, at which accelerations would have no bound.
+/// The table of a guide or a coupling over time. A linear table is refused: it has corners, where the acceleration is unbounded.
 pub(crate) fn of_motion(fields: &Fields<'_>) -> Read<Motion<Number>> {
     let (rows, ends) = (over_time(fields)?, ends(fields)?);
     match word(fields, 3)? {
@@ -100,7 +100,7 @@ pub(crate) fn of_motion(fields: &Fields<'_>) -> Read<Motion<Number>> {
     }
 }
 
-/// A function of a number; `None`: none is written.
+/// Reads a function of a number; `None`: no function is written.
 pub(crate) fn of_curve(fields: &Fields<'_>) -> Read<Option<Curve<Number>>> {
     fields.exclusive("table", "coefficients")?;
     let context = fields.context;
@@ -112,7 +112,7 @@ pub(crate) fn of_curve(fields: &Fields<'_>) -> Read<Option<Curve<Number>>> {
         fields.unused(&["interpolation"])?;
         return Ok(None);
     }
-    // of any units
+    // The numbers of a curve may have any unit.
     let form = ["a list of rows [x, f]", "a row [x, f]"];
     let rows = rows((context, fields), "table", form)?;
     let periodic = fields.flag("periodic", false)?;
@@ -123,7 +123,7 @@ pub(crate) fn of_curve(fields: &Fields<'_>) -> Read<Option<Curve<Number>>> {
     }))
 }
 
-/// Reads a feature whose heights are given by points.
+/// Reads a feature of a road whose heights are given by points.
 pub(crate) fn of_road(fields: &Fields<'_>) -> Read<RoadFeature<Number>> {
     let form = ["a list of points [x, z]", "a point [x, z]"];
     let points = rows((fields.at("points"), fields), "points", form)?;

@@ -1,23 +1,23 @@
-//! The syntax tree: every value with its bytes in the file, numbers as decimal text, keys in file order.
+//! The syntax tree of a file: every value with its bytes, numbers as decimal text, keys in the order of the file.
 
 use core::ops::Range;
 use toml::de::{DeInteger, DeTable, DeValue};
 
-/// Bytes of the file.
+/// Range of bytes in the texts of a scene.
 pub(crate) type Span = Range<usize>;
 
-/// A value and where it stands.
+/// A value, with its bytes in the file.
 #[derive(Debug, Clone)]
 pub(crate) struct Item {
     pub(crate) span: Span,
     pub(crate) node: Node,
 }
 
-/// Value of an item, as it is written.
+/// Content of a value, as it is written in the file.
 #[derive(Debug, Clone)]
 pub(crate) enum Node {
     Text(String),
-    /// Decimal text, without underscores.
+    /// Decimal text of a number, without underscores.
     Number(String),
     Bool(bool),
     Date,
@@ -33,13 +33,13 @@ pub(crate) struct Member {
     pub(crate) item: Item,
 }
 
-/// The value of a key among the keys of a table.
+/// The value of a key, among the keys of a table.
 pub(crate) fn find<'a>(members: &'a [Member], key: &str) -> Option<&'a Item> {
     members.iter().find(|member| member.key == key).map(|member| &member.item)
 }
 
 impl Member {
-    /// Moves the spans of a whole branch, byte by byte.
+    /// Maps all byte positions of the key and of its value by `moved`.
     pub(crate) fn move_spans(&mut self, moved: &impl Fn(usize) -> usize) {
         self.key_span = moved(self.key_span.start)..moved(self.key_span.end);
         self.item.move_spans(moved);
@@ -47,13 +47,13 @@ impl Member {
 }
 
 impl Item {
-    /// The value of a key of a table.
+    /// The value of a key, if the item is a table.
     pub(crate) fn get(&self, key: &str) -> Option<&Self> {
         let Node::Table(members) = &self.node else { return None };
         find(members, key)
     }
 
-    /// The text at a key of a table.
+    /// The text at a key, if the item is a table and the value is a text.
     pub(crate) fn text_at(&self, key: &str) -> Option<&str> {
         match &self.get(key)?.node {
             Node::Text(text) => Some(text),
@@ -61,7 +61,7 @@ impl Item {
         }
     }
 
-    /// Moves the spans of a whole branch, byte by byte.
+    /// Maps all byte positions of the item and of its parts by `moved`.
     pub(crate) fn move_spans(&mut self, moved: &impl Fn(usize) -> usize) {
         self.span = moved(self.span.start)..moved(self.span.end);
         match &mut self.node {
@@ -75,7 +75,7 @@ impl Item {
 }
 
 impl Node {
-    /// Description of the value, for messages.
+    /// Description of the type of the value, for messages.
     pub(crate) fn description(&self) -> &'static str {
         match self {
             Self::Text(_) => "a text",
@@ -105,7 +105,7 @@ fn members(table: &DeTable<'_>) -> Vec<Member> {
             item: item(value.get_ref(), value.span()),
         })
         .collect();
-    // the parser sorts by name; messages speak about the first fault in the file
+    // The parser sorts keys by name, but messages report the first fault in the file.
     members.sort_by_key(|member| member.key_span.start);
     members
 }
@@ -125,7 +125,7 @@ fn item(value: &DeValue<'_>, span: Span) -> Item {
     Item { span, node }
 }
 
-/// Hexadecimal and binary integers too large for 128 bits keep their text and are refused as numbers later.
+/// Decimal text of a whole number. Hexadecimal and binary numbers beyond 128 bits keep their text, and are refused as numbers later.
 fn decimal(number: &DeInteger<'_>) -> String {
     if number.radix() == 10 {
         return number.as_str().to_owned();

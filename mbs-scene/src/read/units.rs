@@ -1,14 +1,14 @@
-//! Numbers that are written with a unit and without quotes, which is no TOML.
+//! Hints for numbers with a unit but without quotes, which are not valid TOML or JSON.
 
 use super::expression::evaluate;
 use crate::format::shortest;
 
-/// A text that begins with a decimal number: that number, and what follows it.
+/// Splits a text that begins with a decimal number into that number and the text after it.
 fn quantity(text: &str) -> Option<(&str, &str)> {
     let text = text.trim();
     let is_part = |c: char| c.is_ascii_digit() || matches!(c, '.' | '+' | '-' | '_');
     let mut end = text.find(|c| !is_part(c)).unwrap_or(text.len());
-    // an exponent, if digits follow its letter
+    // The letter of an exponent counts only with digits after it.
     if let Some(rest) = text[end..].strip_prefix(['e', 'E']) {
         let digits = rest.find(|c: char| !is_part(c)).unwrap_or(rest.len());
         if rest[..digits].contains(|c: char| c.is_ascii_digit()) {

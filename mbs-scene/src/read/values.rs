@@ -1,4 +1,4 @@
-//! The values that a file gives to names: parameters and points, for expressions and places.
+//! The values of the names in a file, parameters and points, for expressions and places.
 
 use super::ReadFault;
 use super::error::{ExpressionFault, Read};
@@ -11,10 +11,10 @@ use super::texts::Texts;
 use super::tree::{self, Item, Member, Node, Span};
 use mbs_core::scene::Number;
 
-/// Words that keys take in place of a number.
+/// Words that some keys allow in place of a number.
 const WORDS: [&str; 1] = ["reference"];
 
-/// The parameters and points of a file, with their values.
+/// The parameters and points of a scene, with their values.
 pub(crate) struct Values<'a>(Named<'a>);
 
 impl core::fmt::Debug for Values<'_> {
@@ -24,12 +24,12 @@ impl core::fmt::Debug for Values<'_> {
 }
 
 impl<'a> Values<'a> {
-    /// Returns the values of no names.
+    /// Returns an empty set of names.
     pub(crate) fn none(texts: &'a Texts) -> Self {
         Self(Named::new(texts, &[], &[]))
     }
 
-    /// Returns the values of a tree's names, each evaluated once.
+    /// Returns the values of the names in a tree; each is evaluated once.
     pub(crate) fn new(texts: &'a Texts, root: &'a [Member]) -> Read<Self> {
         let parameters = match tree::find(root, "parameters") {
             None => &[],
@@ -52,24 +52,24 @@ impl<'a> Values<'a> {
         Ok(Self(named.all(parameters, points)?))
     }
 
-    /// The number of an expression, and of a number with a unit alone its dimensions.
+    /// The number of an expression. A text that is only a number with a unit also has its dimensions.
     pub(crate) fn number(&self, text: &str, span: &Span) -> Read<(Number, Option<Dimensions>)> {
         let (value, dimensions) = self.0.expression(text, span)?;
         Ok((rounded(self.0.texts, value, (text, span))?, dimensions))
     }
 
-    /// The parameters of the file itself that no expression has needed so far.
+    /// The parameters of the scene's file itself that no expression has used so far.
     pub(crate) fn unused(&self) -> Vec<String> {
         self.0.unused()
     }
 
-    /// A place as it is written.
+    /// The place that an item describes.
     pub(super) fn place(&self, item: &Item) -> Read<Point> {
         point::read(&self.0, item)
     }
 }
 
-/// Refuses a name that expressions have for themselves, or cannot write.
+/// Refuses the name of a parameter that expressions reserve, or that they cannot contain.
 fn check_name(texts: &Texts, member: &Member) -> Read<()> {
     let full = member.key.as_str();
     let name = full.strip_prefix(&texts.of(&member.key_span).prefix).unwrap_or(full);

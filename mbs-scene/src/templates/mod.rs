@@ -1,9 +1,9 @@
-//! Small scenes to begin from, with comments.
+//! Small scenes with comments, as templates of new scenes.
 
-/// A scene to begin from.
+/// A scene file to begin a new scene from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Template {
-    /// Name of the template: that of the file without its ending.
+    /// Name of the template: the name of its file without the extension.
     pub name: &'static str,
     /// Text of the scene file.
     pub text: &'static str,
@@ -28,7 +28,7 @@ templates![
 ];
 
 impl Template {
-    /// Meaning of the template: the first sentence of its first comment.
+    /// Description of the template: the first sentence of the first comment.
     #[must_use]
     pub fn meaning(&self) -> &'static str {
         let line = self.text.lines().next().unwrap_or_default().trim_start_matches(['#', ' ']);

@@ -1,4 +1,4 @@
-//! The text of a scene file with the values of another scene: keys and entries that stay keep their text.
+//! Changes of a scene file: the text gets the values of another scene, and unchanged keys and entries keep their text.
 
 use super::toml;
 use crate::read::SceneFile;
@@ -6,8 +6,8 @@ use crate::read::edit::spliced;
 use crate::read::tree::{self, Item, Member, Node, Span};
 
 impl SceneFile {
-    /// The text with the values and entries of another scene, by their trees; `None` where that takes more than other values of keys,
-    /// further keys, and further entries.
+    /// The text with the values and entries of another scene, given both scenes as trees. Values, new keys and new entries can be changed;
+    /// `None` when other changes are needed, such as removed keys.
     pub(crate) fn edited(&self, old: &[Member], new: &[Member]) -> Option<String> {
         if self.texts.list().len() > 1 {
             return None;
@@ -44,7 +44,7 @@ impl SceneFile {
     }
 }
 
-/// Changes of a text, with the tail that is added at its end.
+/// Changes of a text: replaced parts, and a tail that is added at its end.
 struct Changes<'a> {
     text: &'a str,
     edits: Vec<(Span, String)>,
@@ -56,7 +56,7 @@ impl Changes<'_> {
         toml::table(&mut self.tail, header, members);
     }
 
-    /// The keys of one entry that have other values now.
+    /// Adds the changes of the keys of one entry whose values differ.
     fn entry(&mut self, old: &Item, new: &Item, file: &Item) -> Option<()> {
         let (Node::Table(old), Node::Table(new), Node::Table(file_keys)) =
             (&old.node, &new.node, &file.node)
@@ -75,7 +75,7 @@ impl Changes<'_> {
                 self.edits.push((item.span.clone(), value));
                 continue;
             }
-            // below the header
+            // A new key goes below the header.
             let rest = self.text.get(file.span.start..)?;
             let end = rest.starts_with('[').then(|| rest.find('\n').unwrap_or(rest.len()))?;
             let at = file.span.start + end;
@@ -85,7 +85,7 @@ impl Changes<'_> {
     }
 }
 
-/// The entries of a list of tables.
+/// The entries of a list of tables; none when `item` is not a list.
 fn entries(item: Option<&Item>) -> &[Item] {
     match item {
         Some(Item { node: Node::List(items), .. }) => items,

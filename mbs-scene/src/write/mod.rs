@@ -1,4 +1,4 @@
-//! A scene as text: TOML, and serde both ways.
+//! Writing of scenes: as TOML text, and as data of serde in both directions.
 
 mod edited;
 mod scene;

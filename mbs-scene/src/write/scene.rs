@@ -1,6 +1,7 @@
-//! From a scene to its syntax tree: the one writer of scene files.
+//! Conversion of a scene to the syntax tree of a scene file.
 //!
-//! Every number is written, zeros too, so that each has a path; a default that the reader computes from other keys is left out.
+//! Every number is written, zeros too, so that each has a path. A key is left out when its value equals a default that the reader computes
+//! from other keys.
 
 mod coupling;
 mod effect;
@@ -21,15 +22,15 @@ use mbs_core::scene::{
     InitialCondition, InitialTarget, Joint, JointId, JointLimits, Number, Scene, Start,
 };
 
-/// A scene that has no text.
+/// Error when a scene cannot be written as text.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum WriteError {
-    /// A part that is code; what it is, with its name.
+    /// A part of the scene that is code, with its kind and name.
     InCode(String),
-    /// A body or joint that an entry refers to is not there (scenes built in code); the entry's key.
+    /// A reference to a body or joint that is not in the scene, with the key of the entry. Scenes built in code can have such references.
     UnknownReference(&'static str),
-    /// The system does not take the file; what it says.
+    /// A file or key that cannot be written, with the reason.
     NotWritten(String),
 }
 
@@ -47,10 +48,10 @@ impl Display for WriteError {
 
 impl core::error::Error for WriteError {}
 
-/// The text of a scene file. Numbers keep their digits: read again, it gives an equal scene.
+/// The text of a scene file. Numbers keep all their digits, so reading the text gives an equal scene.
 ///
 /// # Errors
-/// [`WriteError`] for an effect in code or a reference to nothing.
+/// [`WriteError`] for a part in code, or a reference to a part that is not in the scene.
 ///
 /// # Examples
 /// ```
@@ -71,20 +72,20 @@ pub fn to_toml(scene: &Scene<Number>) -> Result<String, WriteError> {
 }
 
 impl SceneFile {
-    /// A scene as a file without comments.
+    /// A scene as a scene file without comments.
     ///
     /// # Errors
-    /// As [`to_toml`].
+    /// The errors of [`to_toml`].
     pub fn of(scene: &Scene<Number>) -> Result<Self, WriteError> {
-        // What the writer writes is TOML.
+        // The writer produces valid TOML, so parsing does not fail.
         Ok(Self::parse(&to_toml(scene)?, &scene.name).unwrap_or_default())
     }
 
-    /// The file of a scene that was read from this one and changed: values that changed and parts that are new are written, all else
-    /// keeps its text, comments too. Where the change is of another kind, it is a file without comments.
+    /// The file of a scene that was read from this file and then changed. Changed values and new parts are written, and the other text
+    /// remains, with its comments. When the scene has changes of another kind, the result is a file without comments.
     ///
     /// # Errors
-    /// As [`to_toml`].
+    /// The errors of [`to_toml`].
     pub fn updated(&self, scene: &Scene<Number>) -> Result<Self, WriteError> {
         let new = tree(scene)?;
         let old = self.numbers().ok().map(|scene| tree(&scene)).transpose()?;
@@ -112,7 +113,7 @@ fn tree(scene: &Scene<Number>) -> Result<Vec<Member>, WriteError> {
     Ok(root.0)
 }
 
-/// Visits the tables of a scene one by one, so that a large one is never in memory as a tree; `true` for entries of a list.
+/// Visits the tables of a scene one by one, so that a large scene is never in memory as a tree. The flag is `true` for entries of a list.
 fn tables(
     scene: &Scene<Number>,
     visit: &mut dyn FnMut(&str, bool, Keys),
@@ -149,7 +150,7 @@ fn tables(
     Ok(())
 }
 
-/// The keys of a table that is written.
+/// Keys of one table, with their values.
 #[derive(Debug, Default)]
 struct Keys(Vec<Member>);
 
@@ -159,7 +160,7 @@ impl Keys {
         self.0.push(Member { key: key.to_owned(), key_span: 0..0, item });
     }
 
-    /// A key, where it has a value.
+    /// Adds a key if it has a value.
     fn push_some(&mut self, key: &str, node: Option<impl Into<Node>>) {
         if let Some(node) = node {
             self.push(key, node);
@@ -199,7 +200,7 @@ fn list(nodes: impl IntoIterator<Item = Node>) -> Node {
     Node::List(nodes.into_iter().map(item).collect())
 }
 
-/// The keys of a function of a number.
+/// Adds the keys of a function of a number.
 fn curve(keys: &mut Keys, curve: &Curve<Number>) {
     let rows = |rows: &[[Number; 2]]| list(rows.iter().map(Node::from));
     match curve {
@@ -221,7 +222,7 @@ fn curve(keys: &mut Keys, curve: &Curve<Number>) {
     }
 }
 
-/// Writer of entries, with the scene to which they refer.
+/// Writer of entries, with the scene that they refer to.
 #[derive(Clone, Copy)]
 struct Writer<'a> {
     scene: &'a Scene<Number>,
@@ -232,7 +233,8 @@ impl Writer<'_> {
         self.scene.dimension == Dimension::Planar
     }
 
-    /// A vector of the scene's dimension; one that leaves the plane keeps its third number, for the check.
+    /// A vector with as many numbers as the scene has dimensions. A third number that is not zero is written in a planar scene too, so that
+    /// the check reports it.
     fn vector(self, [x, y, z]: &[Number; 3]) -> Node {
         let n = if z.is_absent() || (self.is_planar() && z.is_zero()) { 2 } else { 3 };
         list([x, y, z].into_iter().take(n).map(Node::from))
@@ -324,7 +326,7 @@ impl Writer<'_> {
         Ok(keys)
     }
 
-    /// Whether a free joint lies where the reader puts it when no place is written.
+    /// Is a free joint at the place that the reader assumes when no place is written?
     fn is_in_the_centre(self, joint: &Joint<Number>) -> bool {
         let body = match joint.bodies {
             [_, BodyId::Body(i)] | [BodyId::Body(i), BodyId::Ground] => self.scene.bodies.get(i),
@@ -370,7 +372,7 @@ impl Writer<'_> {
         Ok(keys)
     }
 
-    /// The terms of a sum.
+    /// The list of the terms of a sum.
     fn terms(self, terms: &[CouplingTerm<Number>]) -> Result<Node, WriteError> {
         let terms: Result<Vec<_>, _> = terms.iter().map(|term| self.term(term)).collect();
         Ok(list(terms?))
@@ -386,7 +388,7 @@ impl Writer<'_> {
         Ok(keys.into())
     }
 
-    /// The keys of a number that a mechanism has.
+    /// Adds the keys of a measure: a joint coordinate, a length or an angle.
     fn measure(self, of: &CouplingMeasure<Number>, keys: &mut Keys) -> Result<(), WriteError> {
         match of {
             CouplingMeasure::Coordinate { joint, number } => {
@@ -405,7 +407,7 @@ impl Writer<'_> {
         Ok(())
     }
 
-    /// The points of a line, with their bodies.
+    /// The list of the points of a line, with their bodies.
     fn line(self, points: &[(BodyId, [Number; 3])]) -> Result<Node, WriteError> {
         let point = |(body, at): &(BodyId, [Number; 3])| {
             let mut keys = Keys::default();

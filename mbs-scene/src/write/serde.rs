@@ -1,6 +1,6 @@
-//! Scene files as data of serde: the tables and keys of the format.
+//! Scene files as data of serde: tables and keys as in the scene format.
 //!
-//! A number is an `f64` where its shortest text is what is written, else `{ "decimal": "..." }`, which keeps all digits.
+//! A number is an `f64` when its shortest text is the written text. Otherwise it is `{ "decimal": "..." }`, which keeps all digits.
 
 use crate::read::SceneFile;
 use crate::read::tree::{Item, Member, Node};
@@ -11,7 +11,7 @@ use serde::de::{Error, MapAccess, SeqAccess, Visitor};
 use serde::ser::{SerializeMap, SerializeSeq};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-/// The key of a number that is kept as text.
+/// Key of a number that is stored as decimal text.
 const DECIMAL: &str = "decimal";
 
 impl Serialize for SceneFile {
@@ -35,7 +35,7 @@ impl Serialize for Value<'_> {
         match &self.0.node {
             Node::Text(text) => serializer.serialize_str(text),
             Node::Number(text) => match (text.parse::<i64>(), Number::from_decimal(text)) {
-                // a count or a dimension is no float
+                // A whole number, such as a count or a dimension, is not a float.
                 (Ok(whole), _) => serializer.serialize_i64(whole),
                 (_, Some(x)) if Number::from(x.to_f64()) == x => {
                     serializer.serialize_f64(x.to_f64())
@@ -47,7 +47,7 @@ impl Serialize for Value<'_> {
                 }
             },
             Node::Bool(flag) => serializer.serialize_bool(*flag),
-            // No key of a scene is a date.
+            // No key of a scene is a date, so the text is not used.
             Node::Date => serializer.serialize_str(""),
             Node::List(items) => {
                 let mut list = serializer.serialize_seq(Some(items.len()))?;

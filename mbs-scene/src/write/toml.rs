@@ -3,10 +3,10 @@
 use crate::read::tree::{Item, Member, Node};
 use core::fmt::Write;
 
-/// Most rows of a list of lists on one line; longer ones get a line for each row.
+/// Largest number of rows of a list of lists on one line [-]. A longer list gets a line for each row.
 const ROWS_ON_A_LINE: usize = 3;
 
-/// The text of a whole file: each table and each entry of a list of tables under its header.
+/// The text of a whole file, with each table and each entry of a list of tables under its header.
 pub(crate) fn text(root: &[Member]) -> String {
     let mut out = String::new();
     for Member { key, item, .. } in root {
@@ -24,7 +24,7 @@ pub(crate) fn text(root: &[Member]) -> String {
     out
 }
 
-/// A header, after an empty line where something stands before it, and its keys.
+/// Writes a header and its keys, after an empty line when the text is not empty.
 pub(crate) fn table(out: &mut String, header: &str, members: &[Member]) {
     if !out.is_empty() {
         out.push('\n');
@@ -32,18 +32,18 @@ pub(crate) fn table(out: &mut String, header: &str, members: &[Member]) {
     out.push_str(header);
     out.push('\n');
     for Member { key, item, .. } in members {
-        // Writing into a String has nothing to fail on.
+        // Writing into a String does not fail.
         let _ = writeln!(out, "{} = {}", bare(key), value(item));
     }
 }
 
-/// A value on one line, or with a line for each row.
+/// The text of a value: on one line, or with a line for each row of a long list.
 pub(crate) fn value(item: &Item) -> String {
     match &item.node {
         Node::Text(text) => quoted(text),
         Node::Number(text) => text.clone(),
         Node::Bool(flag) => flag.to_string(),
-        // No key of a scene is a date.
+        // No key of a scene is a date, so the text is not used.
         Node::Date => quoted(""),
         Node::List(items) => {
             let is_long = items.len() > ROWS_ON_A_LINE
@@ -58,18 +58,18 @@ pub(crate) fn value(item: &Item) -> String {
     }
 }
 
-/// Writes values in brackets.
+/// The text of a list of values, in brackets.
 pub(crate) fn list(values: &[String]) -> String {
     format!("[{}]", values.join(", "))
 }
 
-/// A key, in quotes where it has other characters than TOML allows bare.
+/// A key, in quotes when it has characters that TOML does not allow without quotes.
 fn bare(key: &str) -> String {
     let is_bare = |c: char| c.is_ascii_alphanumeric() || matches!(c, '-' | '_');
     if !key.is_empty() && key.chars().all(is_bare) { key.to_owned() } else { quoted(key) }
 }
 
-/// A text in quotes, as TOML has it.
+/// A text in quotes, with the escapes of TOML.
 #[must_use]
 pub fn quoted(text: &str) -> String {
     let mut out = String::from("\"");

@@ -1,4 +1,4 @@
-//! Numbers and nouns as text.
+//! Tests of the text of numbers, and of counts with their nouns.
 
 use mbs_scene::format::*;
 

@@ -1,4 +1,4 @@
-//! Numbers of generated scenes.
+//! Tests of the numbers in generated scenes.
 
 use mbs_scene::inside::number;
 

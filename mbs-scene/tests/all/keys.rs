@@ -1,4 +1,4 @@
-//! Tables of keys against each other, and against what the readers take.
+//! Key tables: each is consistent with the others, and with the keys that the readers accept.
 
 use mbs_scene::inside::keys::{of, of_kind};
 use mbs_scene::keys::{Base, Example, KeyTable, KeyValue, Standing, tables};
@@ -6,12 +6,12 @@ use mbs_scene::{SceneFile, SceneSweep};
 use std::collections::BTreeSet;
 use std::path::Path;
 
-/// The text of an example in its scene.
+/// The text of an example within its scene.
 fn whole(example: &Example) -> String {
     format!("{}\n{}", example.base.text(), example.text)
 }
 
-/// The folder of the files that examples include.
+/// Folder of the files that the examples include.
 fn folder() -> &'static Path {
     Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/src/keys/bases"))
 }
@@ -36,7 +36,7 @@ fn every_table_of_files_has_an_example_that_reads_in_all_precisions() {
         if let Err(error) = file.scene::<f64>() {
             panic!("{name:?}: {}", error.render());
         }
-        // the example is of its table
+        // The example is one of its own table.
         let header = table.title();
         assert!(example.text.contains(&header), "{name:?}");
         assert!(table.kind.is_none_or(|kind| example.text.contains(kind)), "{name:?}");
@@ -83,10 +83,11 @@ fn tables_of_a_header_and_of_a_kind_stand_together() {
     }
 }
 
-/// A key that a table lacks is refused where it stands, and one that it has is read: so neither can be added to one alone.
+/// Each reader refuses an entry without a key that its table marks as needed. A key can therefore not be added to the table or to the
+/// reader alone.
 #[test]
 fn each_needed_key_is_missed_by_its_reader() {
-    // an output without one of its keys is another output
+    // An output without one of its keys is a valid output of another kind.
     let is_tried =
         |table: &&KeyTable| table.standing == Standing::Listed && table.header != "output";
     for table in tables().iter().filter(is_tried) {
@@ -111,7 +112,7 @@ fn each_needed_key_is_missed_by_its_reader() {
     }
 }
 
-/// A text without the first line of a key below the last header of that name; `None` where there is none.
+/// A text without the first line of `key` below the last `[[header]]`; `None` when there is no such line.
 fn without(text: &str, header: &str, key: &str) -> Option<String> {
     let at = text.rfind(&format!("[[{header}]]"))?;
     let line = text[at..].find(&format!("\n{key} = "))? + at + 1;

@@ -1,4 +1,4 @@
-//! The manual has every key, and what it says of a kind is on its page.
+//! The manual: every key is in it, and the page of a kind has its whole description.
 
 use mbs_scene::inside::{entries, groups};
 use mbs_scene::manual::{list, markdown, page, schema};
@@ -40,7 +40,7 @@ fn lines_of_pages_fit_a_terminal() {
     }
 }
 
-/// Writes docs/SCENES.md where MBS_WRITE_DOCS is set.
+/// Writes docs/SCENES.md when the environment variable MBS_WRITE_DOCS is set.
 #[test]
 fn the_document_is_written_from_the_tables() {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/SCENES.md");
@@ -54,7 +54,7 @@ fn the_document_is_written_from_the_tables() {
     );
 }
 
-/// A twist has no value where the swing is half a turn: no signal measures it, and no page says so.
+/// The twist has no value where the swing is half a turn. Therefore no signal measures a twist, and no page offers it.
 #[test]
 fn a_signal_is_not_offered_the_twist_of_a_ball() {
     let document = markdown();

@@ -1,10 +1,10 @@
-//! Files of meshes in each format.
+//! Tests of mesh files in each format.
 
 use mbs_scene::{MeshFault, TriangleMesh};
 use std::io::ErrorKind;
 use std::path::Path;
 
-/// A box of 1, 2 and 3 m at a corner of the origin.
+/// A box of 1 m, 2 m and 3 m with one corner at the origin.
 const BOX: &str = "\
 v 0 0 0\nv 1 0 0\nv 1 2 0\nv 0 2 0\nv 0 0 3\nv 1 0 3\nv 1 2 3\nv 0 2 3
 f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3/1 4/2/3 8//1 7\nf -5 -8 -4 -1\n";

@@ -1,4 +1,4 @@
-//! Templates read, and have outputs.
+//! Templates: each can be read, and has outputs.
 
 use mbs_scene::SceneFile;
 use mbs_scene::templates::TEMPLATES;
@@ -10,7 +10,7 @@ fn every_template_reads_says_what_it_is_and_has_outputs() {
         let scene = file.scene::<f64>().unwrap_or_else(|e| panic!("{}", e.render()));
         assert!(!scene.outputs.is_empty(), "{}", template.name);
         assert!(template.meaning().len() > 10, "{}", template.name);
-        // three screens, of which a list of hard points takes one
+        // A template has at most three screens of text; a list of hard points takes one.
         assert!(template.text.lines().count() <= 160, "{}", template.name);
     }
 }

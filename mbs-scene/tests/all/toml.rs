@@ -1,4 +1,4 @@
-//! Names in quotes, with escapes where they need them.
+//! Names in quotes, with escapes for special characters.
 
 use mbs_scene::quoted;
 

@@ -1,4 +1,4 @@
-//! Written scenes read back as the same scene, to all digits of every precision.
+//! Writing of scenes: reading the text gives an equal scene, with all digits of every scalar.
 
 use mbs_core::Real;
 use mbs_core::outputs::QUANTITIES;
@@ -7,7 +7,7 @@ use mbs_core::scene::{Number, Scene};
 use mbs_scene::{SceneFile, to_toml};
 use std::path::PathBuf;
 
-/// Every scene of the workspace that reads, with its name.
+/// Every valid scene file of the workspace, with its name.
 fn scenes() -> Vec<(String, Scene<Number>)> {
     let folders = ["../scenes", "../mbs/tests/field"].map(PathBuf::from);
     let files = folders.iter().flat_map(|folder| std::fs::read_dir(folder).expect("a folder"));
@@ -28,7 +28,7 @@ fn again(scene: &Scene<Number>) -> Scene<Number> {
     }
 }
 
-/// All bits of a scene in a precision.
+/// A text of all numbers of a scene in a scalar, for comparison.
 fn bits<T: Real>(scene: &Scene<Number>) -> String {
     format!("{:?}", scene.resolve::<T>())
 }

@@ -1,4 +1,4 @@
-//! Joints that a coupling names, and which of their coordinates its kind means.
+//! Joints that a coupling names, and the coordinates of them that its kind uses.
 
 use crate::read::ReadFault;
 use crate::read::error::NAMED;
@@ -6,20 +6,20 @@ use crate::read::fields::{Fields, Read};
 use crate::read::tree::Item;
 use mbs_core::scene::{CouplingMeasure, CouplingTerm, Freedom, Joint, JointId, Number};
 
-/// Coordinate that a kind takes of a joint.
+/// Coordinate of a joint that a kind of coupling uses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Needed {
-    /// The one turn of the joint about an axis.
+    /// The only rotation of the joint about an axis.
     Turn,
-    /// The one slide of the joint.
+    /// The only translation of the joint.
     Slide,
     /// The only coordinate of the joint.
     Only,
-    /// The only coordinate of the joint, where a key can name one of several.
+    /// The only coordinate of the joint, or one of several that a key names.
     Named,
 }
 
-/// A joint, and where it is named.
+/// A joint, with the value in the file that names it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Named<'a> {
     pub(super) id: JointId,
@@ -37,7 +37,7 @@ impl<'a> Named<'a> {
         Ok(Self { id, joint: &joints[id.index()], item })
     }
 
-    /// The number of the coordinate. A joint without one about or along an axis is left to the scene's check.
+    /// The number of the coordinate. A joint without a coordinate about or along an axis is left for the check of the scene.
     pub(super) fn number(&self, fields: &Fields<'a>, needed: Needed) -> Read<usize> {
         let (kind, dimension) = (self.joint.kind, fields.context.dimension);
         let n = kind.n_coordinates(dimension);
@@ -63,7 +63,7 @@ impl<'a> Named<'a> {
         }
     }
 
-    /// The coordinate with a factor.
+    /// A term: the coordinate, multiplied by a factor.
     pub(super) fn term(
         &self,
         fields: &Fields<'a>,
@@ -75,7 +75,7 @@ impl<'a> Named<'a> {
         Ok(CouplingTerm { factor, of, curve: None })
     }
 
-    /// The turn with a factor.
+    /// A term: the rotation of the joint, multiplied by a factor.
     pub(super) fn turn(&self, fields: &Fields<'a>, factor: Number) -> Read<CouplingTerm<Number>> {
         self.term(fields, Needed::Turn, factor)
     }

@@ -1,4 +1,4 @@
-//! The value of a field, by its form.
+//! Reads the value of a field, according to its form.
 
 use crate::read::ReadFault;
 use crate::read::coupling::{ball_term, read_points, read_terms};
@@ -11,7 +11,7 @@ use mbs_core::scene::{
     Signal,
 };
 
-/// The value of a field of an effect of the kind `name`; `None` where its key is left out.
+/// The value of a field of an effect of the kind `name`; `None` when its key is not written.
 pub(super) fn read(
     fields: &Fields<'_>,
     field: &'static Field,
@@ -66,7 +66,8 @@ pub(super) fn read(
     }))
 }
 
-/// `value`, with `input = true` one that is set between steps, `signal` with a name or a list of them, or `table` with rows `[time, value]`; a vector may also stand flat: `[time, x, y, z]`.
+/// Reads a signal from one of three keys. The key `value` has a constant, or with `input = true` an input that is set between steps. The
+/// key `signal` has a name or a list of names. The key `table` has rows `[time, value]`, for a vector also `[time, x, y, z]`.
 fn signal<'a>(
     fields: &Fields<'a>,
     (form, context): (SignalForm, Context<'a>),
@@ -112,7 +113,7 @@ fn signal<'a>(
     rows.iter().map(read_row).collect::<Read<Vec<_>>>().map(|rows| Some(Signal::Table(rows)))
 }
 
-/// `[lower, upper, c0, c1, ...]`.
+/// Reads a piece of a polynomial, `[lower, upper, c0, c1, ...]`.
 fn piece(fields: &Fields<'_>, item: &Item) -> Read<PolynomialPiece<Number>> {
     let context = fields.context;
     let numbers = context.list(item, "a piece [lower, upper, c0, c1, ...]")?;
@@ -127,7 +128,7 @@ fn piece(fields: &Fields<'_>, item: &Item) -> Read<PolynomialPiece<Number>> {
     })
 }
 
-/// Along and about x, y, z; in the plane along x, y and about z.
+/// Reads six numbers: along and about x, y, z. In the plane there are three: along x, along y and about z.
 fn six(context: &Context<'_>, item: &Item) -> Read<[Number; 6]> {
     if context.is_planar() {
         let [x, y, about] = context.numbers_of(item, "a list of three numbers: [x, y, theta]")?;
@@ -137,7 +138,7 @@ fn six(context: &Context<'_>, item: &Item) -> Read<[Number; 6]> {
     context.numbers_of(item, "a list of six numbers: along x, y, z, then about x, y, z")
 }
 
-/// Points with their bodies; or `bodies` and a place on each.
+/// Reads points with their bodies, or `bodies` with a place on each.
 fn line(fields: &Fields<'_>, item: &Item) -> Read<Vec<(BodyId, [Number; 3])>> {
     if fields.get("bodies").is_none() {
         return read_points(fields, item);
@@ -146,14 +147,14 @@ fn line(fields: &Fields<'_>, item: &Item) -> Read<Vec<(BodyId, [Number; 3])>> {
     Ok(bodies.into_iter().zip(points).collect())
 }
 
-/// `{ stiffness = .., friction = .. }`.
+/// Reads longitudinal slip, `{ stiffness = .., friction = .. }`.
 fn slip(fields: &Fields<'_>, item: &Item) -> Read<LongitudinalSlip<Number>> {
     let table = fields.context.table(item, "a table: { stiffness = .., friction = .. }", "slip")?;
     let [stiffness, friction] = ["stiffness", "friction"].map(|key| table.number(key));
     Ok(LongitudinalSlip { stiffness: stiffness?, friction: friction? })
 }
 
-/// `side = "calspan"` with `coefficients`, where they are left out those of the Iltis.
+/// Reads the side force, `side = "calspan"` with `coefficients`. Default: the coefficients of the Iltis.
 fn side(fields: &Fields<'_>) -> Read<Option<CalspanCoefficients<Number>>> {
     let model = fields.get("side").map(|_| fields.word("side")).transpose()?;
     match model {

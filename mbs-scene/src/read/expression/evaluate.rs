@@ -1,48 +1,48 @@
-//! The value of an expression.
+//! Evaluation of an expression, with units and names.
 
 use super::unit::{self, Dimensions, Product};
 use core::ops::Range;
 use mbs_core::Real;
 use mbs_core::real::DoubleDouble;
 
-/// Most brackets and signs within each other [-]: a slip, or an attack. Chosen, not tuned.
+/// Largest depth of brackets and signs within each other [-]. A deeper expression is a mistake or an attack. Chosen, not tuned.
 const MAX_DEPTH: usize = 64;
 /// Largest whole exponent [-]. Chosen, not tuned.
 const MAX_POWER: i32 = 64;
-/// Functions of one number, then those of two.
+/// Names of the functions: first those of one number, then those of two.
 const FUNCTIONS: [&str; 8] = ["sqrt", "sin", "cos", "tan", "abs", "atan2", "min", "max"];
-/// Number of the functions that take one number.
+/// Number of functions that have one argument.
 const N_UNARY: usize = 5;
 
-/// Fault of an expression, and where in its text.
+/// Error of an expression, with its place in the text.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EvaluationFault {
     /// Message that says what is wrong.
     pub message: String,
     /// Hint that says what to do.
     pub hint: String,
-    /// Bytes of the text.
+    /// Bytes of the text to which the message refers.
     pub span: Range<usize>,
 }
 
-/// A value, and of a number with a unit alone its dimensions.
+/// Value of an expression. A text that is only a number with a unit also has its dimensions.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Evaluated {
     /// The value, in SI units.
     pub value: DoubleDouble,
-    /// Powers of length, mass and time.
+    /// Powers of length, mass and time; `None` for any other expression.
     pub dimensions: Option<Dimensions>,
 }
 
-/// Is this a word that expressions have for themselves?
+/// Is the name a constant, a function or a unit of expressions, which no parameter may have?
 pub(crate) fn is_reserved(name: &str) -> bool {
     name == "pi" || FUNCTIONS.contains(&name) || unit::of_name(name).is_some()
 }
 
-/// The value of a text; `named` gives that of a name, or the message and hint of its fault.
+/// The value of the expression `text`. `named` returns the value of a name, or the message and hint of an error.
 ///
 /// # Errors
-/// [`EvaluationFault`] at the first place that is no part of an expression, or whose value is not finite.
+/// [`EvaluationFault`] at the first place that is not part of an expression, or whose value is not finite.
 pub fn evaluate(
     text: &str,
     named: &mut dyn FnMut(&str) -> Result<DoubleDouble, [String; 2]>,
@@ -59,7 +59,7 @@ pub fn evaluate(
     Ok(Evaluated { value, dimensions: alone(text) })
 }
 
-/// The dimensions of a text that is a number with a unit and nothing else.
+/// The dimensions of a text that is only a number with a unit; `None` for any other text.
 fn alone(text: &str) -> Option<Dimensions> {
     let mut named = |_: &str| Err([String::new(), String::new()]);
     let mut reader = Reader { text: text.trim(), at: 0, depth: 0, named: &mut named };
@@ -75,7 +75,7 @@ fn fault(message: &str, hint: &str, span: Range<usize>) -> EvaluationFault {
     EvaluationFault { message: message.to_owned(), hint: hint.to_owned(), span }
 }
 
-/// Reader of an expression, with the place in its text at which reading stands.
+/// Reader of an expression, with the present byte in its text.
 struct Reader<'a> {
     text: &'a str,
     at: usize,
@@ -95,7 +95,7 @@ impl<'a> Reader<'a> {
         self.at += rest.len() - rest.trim_start().len();
     }
 
-    /// Takes a sign behind blanks.
+    /// Skips blanks, then reads the given sign; returns `true` when the sign was there.
     fn take(&mut self, sign: char) -> bool {
         let before = self.at;
         self.blank();
@@ -198,7 +198,7 @@ impl<'a> Reader<'a> {
         Ok(if power < 0 { DoubleDouble::ONE / product } else { product })
     }
 
-    /// A whole number with its sign.
+    /// Reads a whole number with its sign.
     fn whole(&mut self) -> Option<i32> {
         let rest = self.rest();
         let digits = rest.strip_prefix('-').unwrap_or(rest);
@@ -252,7 +252,7 @@ impl<'a> Reader<'a> {
         Err(self.unexpected())
     }
 
-    /// A function of one number, or of two.
+    /// Evaluates a function of one number or of two.
     fn function(&mut self, i: usize, span: Range<usize>) -> Read<DoubleDouble> {
         let name = FUNCTIONS[i];
         let open = self.at;
@@ -290,7 +290,7 @@ impl<'a> Reader<'a> {
         })
     }
 
-    /// Takes the axis behind the name of a point: `.x`, `.y` or `.z`.
+    /// Reads the axis after the name of a point: `.x`, `.y` or `.z`.
     fn axis(&mut self) -> bool {
         let rest = self.rest().as_bytes();
         let is_name = |c: &u8| c.is_ascii_alphanumeric() || *c == b'_';
@@ -311,7 +311,7 @@ impl<'a> Reader<'a> {
         Some(&rest[..end])
     }
 
-    /// A decimal number as scene files have it.
+    /// Reads a decimal number in the notation of scene files.
     fn decimal(&mut self) -> Option<DoubleDouble> {
         let bytes = self.rest().as_bytes();
         let digits = |from: usize| bytes[from..].iter().take_while(|c| c.is_ascii_digit()).count();
@@ -332,7 +332,7 @@ impl<'a> Reader<'a> {
         Some(number)
     }
 
-    /// A number with the unit that follows it, where one does.
+    /// Reads the unit after a number, if there is one, and converts the number to SI units.
     fn with_unit(&mut self, number: DoubleDouble) -> Read<DoubleDouble> {
         let behind = self.at;
         self.blank();
@@ -350,7 +350,7 @@ impl<'a> Reader<'a> {
         Ok(number)
     }
 
-    /// A product of units; nothing, where none begins here.
+    /// Reads a product of units; `None` when no unit begins here.
     fn unit(&mut self) -> Option<Product> {
         let mut product = Product::ONE;
         let mut sign = 1;
@@ -369,7 +369,7 @@ impl<'a> Reader<'a> {
                 self.at = before;
                 return is_any.then_some(product);
             };
-            // `min(` is the function
+            // The function `min(`, not the unit of minutes.
             if self.rest().starts_with('(') {
                 self.at = before;
                 return is_any.then_some(product);

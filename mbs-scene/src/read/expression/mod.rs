@@ -6,7 +6,7 @@
 //! signed   = - signed | power                   unit  = name [^ whole] { (*|/) name [^ whole] }, without blanks
 //! ```
 //!
-//! `-2^2` is -4. All is computed in pairs of doubles, and rounded once to the digits of a run.
+//! The value of `-2^2` is -4. Expressions are evaluated in double-double arithmetic, and rounded once to the scalar of the run.
 
 mod evaluate;
 pub(crate) mod unit;

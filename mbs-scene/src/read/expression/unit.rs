@@ -2,7 +2,7 @@
 
 use mbs_core::real::DoubleDouble;
 
-/// Powers of metre, kilogram and second; a radian is a number.
+/// Powers of metre, kilogram and second. A radian has no dimension.
 pub(crate) type Dimensions = [i32; 3];
 
 const NONE: Dimensions = [0, 0, 0];
@@ -15,11 +15,11 @@ const WORK: Dimensions = [2, 1, -2];
 const POWER: Dimensions = [2, 1, -3];
 const PRESSURE: Dimensions = [-1, 1, -2];
 
-/// A unit: its name, numerator and denominator in SI units, whether it has a factor pi, its dimensions.
+/// A unit: its name, its factor to SI units as numerator and denominator, whether that factor includes pi, and its dimensions.
 #[derive(Debug)]
 pub(crate) struct Unit(&'static str, f64, f64, bool, Dimensions);
 
-/// All units. Factors are quotients of whole numbers, so that `9 mm` is the number nearest to 0.009.
+/// All units of expressions. Factors are quotients of whole numbers, so that `9 mm` is the number nearest to 0.009.
 static UNITS: [Unit; 31] = [
     Unit("m", 1.0, 1.0, false, LENGTH),
     Unit("mm", 1.0, 1e3, false, LENGTH),
@@ -54,15 +54,15 @@ static UNITS: [Unit; 31] = [
     Unit("GPa", 1e9, 1.0, false, PRESSURE),
 ];
 
-/// The unit of that name.
+/// The unit with this name.
 pub(crate) fn of_name(name: &str) -> Option<&'static Unit> {
     UNITS.iter().find(|unit| unit.0 == name)
 }
 
-/// A product of units, as it is read.
+/// A product of powers of units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Product {
-    /// Numerator and denominator of the product in SI units.
+    /// Numerator and denominator of the factor to SI units.
     factor: [DoubleDouble; 2],
     pub(crate) dimensions: Dimensions,
 }
@@ -71,7 +71,7 @@ impl Product {
     pub(crate) const ONE: Self =
         Self { factor: [DoubleDouble::ONE, DoubleDouble::ONE], dimensions: NONE };
 
-    /// The product with a power of a unit.
+    /// The product multiplied by a power of a unit.
     pub(crate) fn times(mut self, unit: &Unit, power: i32) -> Self {
         let [up, down] = if power < 0 { [1, 0] } else { [0, 1] };
         let pi = if unit.3 { DoubleDouble::PI } else { DoubleDouble::ONE };
@@ -85,13 +85,13 @@ impl Product {
         self
     }
 
-    /// A number of that unit in SI units.
+    /// Converts a number in this unit to SI units.
     pub(crate) fn of(self, number: DoubleDouble) -> DoubleDouble {
         number * self.factor[0] / self.factor[1]
     }
 }
 
-/// The dimensions of a key's unit, each way in which it is written; none where the key takes any.
+/// The dimensions of a key's unit, for each alternative of `or` in it. The list is empty when the key allows any unit.
 pub fn of_key(unit: &str) -> Vec<Dimensions> {
     let ways = unit.split(" or ").map(|way| {
         let mut product = Product::ONE;
@@ -110,7 +110,7 @@ pub fn of_key(unit: &str) -> Vec<Dimensions> {
     ways.collect::<Option<Vec<_>>>().unwrap_or_default()
 }
 
-/// Quantity that has these dimensions, in words.
+/// Description of the quantity that has these dimensions.
 pub(crate) fn described(dimensions: Dimensions) -> String {
     let known = [
         (LENGTH, "a length"),

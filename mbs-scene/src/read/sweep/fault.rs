@@ -1,87 +1,87 @@
-//! Faults of a sweep, beside those of any file.
+//! Faults of a sweep, in addition to those of any scene file.
 
 use crate::format::significant;
 use crate::read::nearest::nearest_name;
 use core::fmt::{self, Display, Formatter};
 
-/// The faults of a sweep.
+/// All faults that a sweep can have.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum SweepFault {
-    /// A path that cannot be read; what is wrong with it.
+    /// A path with a syntax error; the text says what is wrong.
     PathSyntax(&'static str),
-    /// A table of the scene without this key.
+    /// A table of the scene that does not have this key.
     NoKey {
-        /// The table, as the path names it; empty for the file itself.
+        /// Path of the table; empty for the top level of the file.
         at: String,
         /// Key that the table lacks.
         key: String,
-        /// The keys that are written there.
+        /// Keys of the table in the file.
         known: Vec<String>,
     },
-    /// A list of tables without an entry of this name.
+    /// A list of tables that has no entry of this name.
     NoEntry {
         /// The list, such as `body`.
         table: String,
         /// Name that no entry has.
         name: String,
-        /// The names that are there.
+        /// Names of the entries in the list.
         known: Vec<String>,
     },
-    /// A name that several entries have.
+    /// A name that several entries of a list have.
     Ambiguous {
         /// The list, such as `initial`.
         table: String,
         /// Positions of the entries, from 0.
         entries: Vec<usize>,
     },
-    /// An index beyond the end of a list.
+    /// An index that is beyond the end of a list.
     NoIndex {
-        /// The list, as the path names it.
+        /// Path of the list.
         at: String,
-        /// The index, from 0.
+        /// Index in the path, from 0.
         index: usize,
-        /// Number of the entries there.
+        /// Number of entries of the list.
         count: usize,
     },
-    /// A path that ends at something else than a number, or continues where it should end.
+    /// A path that does not end at a number, or that continues after one.
     NotANumber {
-        /// The place, as the path names it.
+        /// Path of the value that was found.
         at: String,
-        /// Description of what is there.
+        /// Description of the value at this path.
         found: &'static str,
         /// Advice on what to do.
         advice: String,
     },
-    /// A number that makes another scene of it.
+    /// The dimension of the scene, which a sweep cannot vary.
     Fixed,
-    /// A place that two parameters set.
+    /// A number that two parameters set.
     SetTwice {
-        /// The parameter that sets it already.
+        /// Name of the parameter that already sets the number.
         by: String,
     },
-    /// A column name that is taken.
+    /// A parameter's name that is already the name of a column.
     NameTaken(String),
-    /// No `[[vary]]`, or one without values.
+    /// A sweep without `[[vary]]`, or a parameter without values.
     NoValues,
-    /// A seed that is none.
+    /// A seed that is not a whole number from 0.
     NotASeed(String),
-    /// A list of values in a Latin hypercube, which samples ranges.
+    /// A list of values in a Latin hypercube, which needs ranges.
     NotSampled,
     /// A range whose ends are equal.
     NoRange,
-    /// A logarithmic range that reaches zero or less.
+    /// A logarithmic range that contains zero or negative numbers.
     NotLogarithmic,
-    /// A step that leads away from the end, or over it.
+    /// A step that is zero or points away from the end, or is longer than the range.
     Step {
         /// First value of the range.
         from: f64,
         /// End of the range.
         to: f64,
     },
-    /// Members beyond what a sweep may have; as many as can be counted.
+    /// More members than a sweep may have; the value is their number.
     TooMany(f64),
-    /// Values that pair off with none of the others.
+    /// A parameter whose number of values differs from that of the first parameter, when values are combined one to one.
     ZipCount {
         /// Name of the first parameter.
         first: String,
@@ -90,20 +90,20 @@ pub enum SweepFault {
         /// Number of values of this parameter.
         found: usize,
     },
-    /// A value that the scene refuses.
+    /// A value for which the scene is not valid.
     Refused {
-        /// Value that the scene refuses.
+        /// Value for which the scene is not valid.
         value: String,
         /// Name of the parameter.
         name: String,
-        /// Problem, as the scene says it.
+        /// Message of the scene's error.
         problem: String,
         /// Advice on what to do.
         advice: String,
     },
 }
 
-/// Most members of a sweep. Chosen, not tuned: a slip of a count ends in a message.
+/// Largest number of members of a sweep [-]. It turns a mistyped count into a message. Chosen, not tuned.
 pub(super) const MOST_MEMBERS: u32 = 1_000_000;
 
 impl Display for SweepFault {
@@ -199,7 +199,7 @@ impl SweepFault {
         }
     }
 
-    /// Hint for a sweep in code, which has no keys of a file.
+    /// Hint for a sweep in code, which does not mention keys of a file.
     #[must_use]
     pub fn hint_in_code(&self) -> String {
         let hint = match self {

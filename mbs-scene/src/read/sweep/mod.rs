@@ -1,4 +1,4 @@
-//! Sweeps: which numbers of a scene are varied, and how.
+//! Sweeps: the numbers of a scene that are varied, and their values.
 
 mod fault;
 mod parameter;
@@ -22,10 +22,10 @@ use parameter::{Combine, Parameter};
 use path::Address;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Sweep of a scene: parameters with their values, and the members that these make. Numbers are decimal text, as in a scene.
+/// A sweep of a scene: its parameters with their values, and the members that they make. Numbers are decimal text, as in a scene.
 #[derive(Debug, Clone)]
 pub struct SceneSweep {
-    /// Texts in which the bytes of parameters are places.
+    /// Texts that the byte positions of the parameters refer to.
     texts: Texts,
     combine: Combine,
     parameters: Vec<Parameter>,
@@ -33,25 +33,26 @@ pub struct SceneSweep {
     n_members: usize,
 }
 
-/// A number of the scene that members replace.
+/// A number of the scene that is replaced in the members.
 #[derive(Debug, Clone)]
 struct PlaceOfScene {
     address: Address,
-    /// Value that the scene has there.
+    /// Value of the number in the scene.
     base: f64,
     set_by: Option<usize>,
-    /// Parameters that shift the number, each with the value of the scene at its path.
+    /// Parameters that shift the number, each with the value that the scene has at the parameter's path.
     shifts: Vec<(usize, f64)>,
 }
 
-/// Significant digits that a sum of decimals keeps: what every decimal text keeps through `f64`.
+/// Significant digits to which a sum of decimals is rounded [-]. Every decimal text of 15 digits survives the conversion to `f64`.
 const DIGITS: usize = 15;
 
 impl SceneSweep {
-    /// Lays a sweep out over a scene. `columns` are the names that parameters must not have.
+    /// A sweep applied to a scene. `columns` are the names that parameters must not have.
     ///
     /// # Errors
-    /// What is unknown, missing, or cannot be meant in the sweep: with its place in the file, or with the path that code gave.
+    /// `SweepRefusal` for an entry of the sweep that is unknown, missing or not valid. It has the place in the file, or the path that
+    /// code gave.
     pub fn new(
         source: &SweepSource,
         scene: &SceneFile,
@@ -66,7 +67,7 @@ impl SceneSweep {
         Ok(sweep)
     }
 
-    /// Number of members.
+    /// Number of members of the sweep.
     #[must_use]
     pub fn n_members(&self) -> usize {
         self.n_members
@@ -77,13 +78,13 @@ impl SceneSweep {
         self.parameters.iter().map(|parameter| parameter.name.as_str())
     }
 
-    /// The decimal texts of a member's values, in the order of the parameters; members count from 0.
+    /// The decimal texts of a member's values, in the order of the parameters. Members are numbered from 0.
     pub fn values(&self, member: usize) -> impl ExactSizeIterator<Item = &str> {
         let choice = self.choice(member);
         self.parameters.iter().zip(choice).map(|(p, i)| p.texts[i].as_str())
     }
 
-    /// The scene of a member. Places in messages are those of the scene's file.
+    /// The scene of a member. Error messages about it refer to places in the scene's file.
     ///
     /// Cost: a copy of the document; nothing is read or parsed again.
     #[must_use]
@@ -92,14 +93,14 @@ impl SceneSweep {
         self.replaced(scene, |p| Some(values[p]))
     }
 
-    /// Tries the values one by one in the scene as it is otherwise: of a list all, of a range its ends. Refuses one
-    /// that no other value could mend: a negative mass, a count with decimals. `also` may refuse a scene with a
-    /// problem and an advice.
+    /// Tries the values of each parameter in the scene, one at a time. Of a list it tries all values, of a range the ends and two values.
+    /// It rejects a value that is wrong for any values of the other parameters, such as a negative mass or a count with decimals. `also`
+    /// may reject a scene with a message and a hint.
     ///
-    /// Cost: each trial reads the scene.
+    /// Cost: the scene is read once for each trial.
     ///
     /// # Errors
-    /// [`SweepFault::Refused`] at the place of the value, or with the path that code gave.
+    /// [`SweepFault::Refused`] with the place of the value, or with the path that code gave.
     pub fn check(
         &self,
         scene: &SceneFile,
@@ -108,7 +109,7 @@ impl SceneSweep {
         for (p, parameter) in self.parameters.iter().enumerate() {
             let texts = parameter.texts.iter().enumerate();
             let is_list = parameter.ends.is_empty();
-            // of a range, two values show whether it gives whole numbers
+            // Two values of a range show whether its values are whole numbers.
             let texts = texts.take(if is_list { parameter.texts.len() } else { 2 });
             let own = texts.map(|(i, text)| {
                 (text, parameter.value_spans.get(i).unwrap_or(&parameter.value_spans[0]))
@@ -132,14 +133,14 @@ impl SceneSweep {
         Ok(())
     }
 
-    /// Is a number of the scene varied, given the path that names it?
+    /// Does the sweep change the number that a path names?
     #[must_use]
     pub fn varies(&self, scene: &SceneFile, path: &str) -> bool {
         let address = path::address(scene, path);
         address.is_ok_and(|address| self.places.iter().any(|place| place.address == address))
     }
 
-    /// Refuses something of a parameter, at some bytes of its file.
+    /// The error of a parameter, at a place in the sweep's file or with the path that code gave.
     fn fault<R>(
         &self,
         parameter: &Parameter,
@@ -152,7 +153,7 @@ impl SceneSweep {
         })
     }
 
-    /// The values of a member, by index.
+    /// Index of the value of each parameter in a member.
     fn choice(&self, member: usize) -> Vec<usize> {
         let mut choice = vec![member; self.parameters.len()];
         if self.combine == Combine::Grid {
@@ -165,7 +166,7 @@ impl SceneSweep {
         choice
     }
 
-    /// The scene with some parameters at given values.
+    /// The scene with new values for the parameters for which `text` gives one.
     fn replaced<'a>(
         &self,
         scene: &SceneFile,
@@ -201,7 +202,7 @@ impl SceneSweep {
         Ok(())
     }
 
-    /// The places of the scene, each with the parameters that change it.
+    /// The numbers of the scene that change, each with the parameters that change it.
     fn lay_out(&self, scene: &SceneFile) -> Result<Vec<PlaceOfScene>, SweepRefusal> {
         let mut places: BTreeMap<&Address, PlaceOfScene> = BTreeMap::new();
         let base =
@@ -262,7 +263,7 @@ impl SceneSweep {
     }
 }
 
-/// Is this the fault of one number, whatever the others are?
+/// Is the fault that of one number alone, for any values of the other numbers?
 fn is_final(fault: &ReadFault) -> bool {
     match fault {
         ReadFault::NotFinite { .. } | ReadFault::NotACount { .. } => true,

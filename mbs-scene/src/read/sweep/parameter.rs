@@ -1,4 +1,4 @@
-//! Contents of a sweep: parameters, and how their values are combined.
+//! Data of a sweep: parameters, and the combination of their values.
 
 use super::SweepFault;
 use super::path::{self, Address};
@@ -9,35 +9,35 @@ use mbs_core::scene::Number;
 /// Combination of the values of several parameters.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Combine {
-    /// Each value with each; the last parameter changes fastest.
+    /// Every combination of values; the last parameter changes fastest.
     Grid,
-    /// Values one to one.
+    /// The first values of all parameters together, then the second ones, and so on.
     Zip,
-    /// Samples of a Latin hypercube; their number.
+    /// Samples of a Latin hypercube, with their number.
     Latin(u32),
 }
 
-/// Parameter of a sweep, as `[[vary]]` or code gives it.
+/// Parameter of a sweep, from `[[vary]]` or from code.
 #[derive(Debug, Clone)]
 pub(super) struct Parameter {
     pub(super) name: String,
-    /// Bytes of the name, or of the path where there is none.
+    /// Bytes of the name, or of the path when the parameter has no name.
     pub(super) span: Span,
-    /// Places that take the value, that of `path` first.
+    /// Places that get the value, with the place of `path` first.
     pub(super) sets: Vec<(Address, Span)>,
-    /// Places that move by as much as `path` does.
+    /// Places that are shifted by the same amount as the place of `path`.
     pub(super) shifts: Vec<(Address, Span)>,
     pub(super) texts: Vec<String>,
-    /// Bytes of each value, or of one entry for all.
+    /// Bytes of each value, or a single entry for all values.
     pub(super) value_spans: Vec<Span>,
-    /// Ends of a range, with their bytes, tried beside its values.
+    /// Ends of a range, with their bytes. `SceneSweep::check` tries them as well as the values.
     pub(super) ends: Vec<(String, Span)>,
-    /// Is it given in code? Its bytes are then of no text, and its name is its path.
+    /// Is the parameter given in code? Then its spans refer to no text, and its name is its path.
     pub(super) is_in_code: bool,
 }
 
 impl Parameter {
-    /// Parameter that takes numbers of code at a path.
+    /// A parameter that gets numbers from code at a path.
     pub(super) fn of_numbers(
         (path, numbers): (&str, &[Number]),
         scene: &SceneFile,

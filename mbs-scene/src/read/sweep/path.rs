@@ -14,20 +14,20 @@ use super::SweepFault;
 use crate::read::SceneFile;
 use crate::read::tree::{Item, Member, Node, Span};
 
-/// Address of a number in the tree: child by child.
+/// Address of a number in the tree: the indices of the children from the root on.
 pub(in crate::read) type Address = Vec<usize>;
 
-/// A part of a path.
+/// A part of a path: a key or an index.
 #[derive(Debug, Clone, PartialEq)]
 pub enum PathPart {
-    /// A table, a name or a key.
+    /// The name of a table, of an entry or of a key.
     Key(String),
-    /// A place in a list.
+    /// An index in a list, from 0.
     Index(usize),
 }
 
 impl PathPart {
-    /// The place in a list: `[2]` or `.2`.
+    /// The index in a list, from `[2]` or `.2`.
     fn index(&self) -> Option<usize> {
         match self {
             Self::Index(i) => Some(*i),
@@ -36,7 +36,7 @@ impl PathPart {
     }
 }
 
-/// The address of the number that a path names; an expression is a number.
+/// The address of the number that a path names. A text with an expression counts as a number.
 pub(in crate::read) fn address(scene: &SceneFile, path: &str) -> Result<Address, SweepFault> {
     let parts = parse(path).map_err(SweepFault::PathSyntax)?;
     let (walk, item) = walked(scene.root(), &parts)?;
@@ -48,7 +48,7 @@ pub(in crate::read) fn address(scene: &SceneFile, path: &str) -> Result<Address,
     }
 }
 
-/// The address of whatever the parts of a path name.
+/// The address of the value that the parts of a path name, of any type.
 pub(in crate::read) fn found(root: &[Member], parts: &[PathPart]) -> Result<Address, SweepFault> {
     Ok(walked(root, parts)?.0.address)
 }
@@ -83,12 +83,12 @@ fn walked<'a>(root: &'a [Member], parts: &[PathPart]) -> Result<(Walk, &'a Item)
     Ok((walk, item))
 }
 
-/// The bytes of the value at an address.
+/// The bytes of the value at an address, in the texts of the scene.
 pub(in crate::read) fn span(root: &[Member], address: &[usize]) -> Option<Span> {
     Some(item(root, address)?.span.clone())
 }
 
-/// The value at an address.
+/// The value at an address, for reading.
 pub(in crate::read) fn item<'a>(root: &'a [Member], address: &[usize]) -> Option<&'a Item> {
     let (first, rest) = address.split_first()?;
     let mut item = &root.get(*first)?.item;
@@ -109,7 +109,7 @@ pub(in crate::read) fn replace(root: &mut [Member], address: &[usize], number: S
     }
 }
 
-/// The value at an address.
+/// The value at an address, for changing.
 pub(in crate::read) fn item_mut<'a>(
     root: &'a mut [Member],
     address: &[usize],
@@ -126,10 +126,10 @@ pub(in crate::read) fn item_mut<'a>(
     Some(item)
 }
 
-/// The parts of a path, or what is wrong with it.
+/// The parts of a path, in order.
 ///
 /// # Errors
-/// What is wrong, as a clause.
+/// Message that says what is wrong, as a clause.
 pub fn parse(path: &str) -> Result<Vec<PathPart>, &'static str> {
     let mut parts = Vec::new();
     let mut rest = path.trim();
@@ -151,7 +151,7 @@ pub fn parse(path: &str) -> Result<Vec<PathPart>, &'static str> {
     }
 }
 
-/// A bare or quoted word, and what follows.
+/// A word with or without quotes, and the text after it.
 fn word(text: &str) -> Result<(String, &str), &'static str> {
     for quote in ['"', '\''] {
         if let Some(inside) = text.strip_prefix(quote) {
@@ -167,7 +167,7 @@ fn word(text: &str) -> Result<(String, &str), &'static str> {
     }
 }
 
-/// The way so far.
+/// A walk along a path: the address found so far, and its text.
 struct Walk {
     address: Address,
     at: String,
@@ -215,7 +215,7 @@ impl Walk {
         }
     }
 
-    /// Something that is no number, and how the path should continue.
+    /// The fault of a path that leads to something other than a number, with advice on how to continue it.
     fn not_a_number(&self, item: &Item) -> SweepFault {
         let at = &self.at;
         let advice = match &item.node {
@@ -234,7 +234,8 @@ impl Walk {
     }
 }
 
-/// Name by which an entry goes: its own, else that of its joint or body; an effect without name as in the scene's outputs.
+/// Name of an entry in a path: the entry's own name, or for `[[initial]]` and `[[guide]]` the name of the joint or body. An entry without a
+/// name is numbered, as in the scene's outputs.
 fn called(item: &Item, table: &str, index: usize) -> String {
     let keys: &[&str] =
         if matches!(table, "initial" | "guide") { &["joint", "body"] } else { &["name"] };

@@ -15,7 +15,7 @@ use crate::read::{ReadFault, SceneFile};
 const COMBINE: [&str; 3] = ["grid", "zip", "latin-hypercube"];
 const SCALES: [&str; 2] = ["linear", "log"];
 
-/// Reads how values are combined, and the parameters in the order of the file; `has_more`: code gives further ones.
+/// Reads the combination of values, and the parameters in the order of the file. `has_more`: code gives further parameters.
 pub(super) fn read(
     sweep: &SceneFile,
     scene: &SceneFile,
@@ -106,7 +106,7 @@ fn read_parameter(
     Ok(parameter)
 }
 
-/// The addresses that a list of paths (or one) names.
+/// The addresses that a path or a list of paths names.
 fn addresses(fields: &Fields<'_>, key: &str, scene: &SceneFile) -> Read<Vec<(Address, Span)>> {
     let context = fields.context;
     let place = |item: &Item| Ok((address(&context, item, scene)?, item.span.clone()));
@@ -126,7 +126,7 @@ fn address(context: &Context<'_>, item: &Item, scene: &SceneFile) -> Read<Addres
     path::address(scene, path).or_else(|found| fault(context, &item.span, found))
 }
 
-/// Reads `values = [..]`; the numbers keep their decimal text.
+/// Reads `values = [..]` of a parameter; the numbers keep their decimal text.
 fn read_values(fields: &Fields<'_>, combine: Combine, parameter: &mut Parameter) -> Read<()> {
     let context = fields.context;
     fields.unused(&["from", "to", "count", "step", "scale"])?;
@@ -145,13 +145,13 @@ fn read_values(fields: &Fields<'_>, combine: Combine, parameter: &mut Parameter)
     }
 }
 
-/// The decimal text of a number, as it is written where it is no expression.
+/// The decimal text of a number: the text in the file, or that of the value of an expression.
 fn decimal(context: &Context<'_>, item: &Item) -> Read<String> {
     let number = context.number(item)?;
     Ok(if let Node::Number(text) = &item.node { text.clone() } else { number.text() })
 }
 
-/// `from`, `to`, and how many between them.
+/// Reads the ends of a range, and the number of values or the step.
 fn read_range(
     fields: &Fields<'_>,
     (combine, seed, index): (Combine, u64, usize),
@@ -190,7 +190,7 @@ fn read_range(
     for item in ends {
         parameter.ends.push((decimal(&context, item)?, item.span.clone()));
     }
-    // what a range gives between its ends is shown at the end of the range
+    // An error of a value between the ends is shown at the end of the range.
     parameter.value_spans = vec![ends[1].span.clone()];
     Ok(())
 }

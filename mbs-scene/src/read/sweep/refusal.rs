@@ -1,17 +1,17 @@
-//! Refusals of sweeps: of a file with its place, of code with the path.
+//! Errors of sweeps: of a file with the place in it, of code with the path.
 
 use super::SweepFault;
 use crate::read::ReadError;
 use core::fmt;
 
-/// Refusal of a sweep.
+/// Error of a sweep that is not valid.
 #[derive(Debug, Clone, PartialEq)]
 pub enum SweepRefusal {
-    /// Refusal of what its file says, with the place there.
+    /// An error of the sweep's file, with the place in it.
     File(ReadError),
-    /// Refusal of numbers that code gives.
+    /// An error of numbers that code gives.
     Numbers {
-        /// Path of the numbers; empty where there are none.
+        /// Path of the numbers; empty when the error belongs to no path.
         path: String,
         /// Fault of the path or of a number.
         fault: SweepFault,

@@ -1,4 +1,4 @@
-//! Sweeps before they meet their scene: a file, numbers of code, or both.
+//! Sweeps before they are applied to a scene: from a file, from numbers in code, or from both.
 
 use super::parameter::{Combine, Parameter};
 use super::{SweepFault, SweepRefusal, reader};
@@ -6,40 +6,41 @@ use crate::read::SceneFile;
 use crate::read::texts::Texts;
 use mbs_core::scene::Number;
 
-/// Sweep before its scene is known: what a file says, then what code varies.
+/// A sweep before its scene is known: the parameters of the file, then those of code.
 #[derive(Debug, Clone)]
 pub struct SweepSource {
     file: Option<SceneFile>,
-    /// Combination of the values where no file gives one.
+    /// Combination of the values when no file defines one.
     combine: Combine,
-    /// Paths with their values, in the order in which code gives them.
+    /// Paths with their values, in the order of the calls.
     varied: Vec<(String, Vec<Number>)>,
 }
 
 impl SweepSource {
-    /// Each value with each; the last path changes fastest.
+    /// A sweep over every combination of values; the last path changes fastest.
     #[must_use]
     pub fn grid() -> Self {
         Self { file: None, combine: Combine::Grid, varied: Vec::new() }
     }
 
-    /// The first values together, then the second ones, and so on: all paths have as many.
+    /// A sweep over the first values of all paths together, then the second ones, and so on. All paths have the same number of values.
     #[must_use]
     pub fn zip() -> Self {
         Self { combine: Combine::Zip, ..Self::grid() }
     }
 
-    /// Varies a number of the scene by its path, which is the name of its column too.
+    /// Varies the number of the scene at a path. The path is also the name of its column.
     pub fn vary(&mut self, path: &str, values: Vec<Number>) {
         self.varied.push((path.to_owned(), values));
     }
 
-    /// The paths that code varies, with their values.
+    /// The paths that code varies, with their values, in the order of the calls.
     pub fn varied(&self) -> impl Iterator<Item = (&str, &[Number])> {
         self.varied.iter().map(|(path, values)| (path.as_str(), &values[..]))
     }
 
-    /// A text that is the same for the same sweep: that of the file with all that it includes, and a line for each path that code varies.
+    /// A text that identifies the sweep: the file with all its included files, and a line for each path that code varies. Equal sweeps have
+    /// equal texts.
     #[must_use]
     pub fn text(&self) -> String {
         let combine = || format!("{:?}\n", self.combine);
@@ -51,12 +52,12 @@ impl SweepSource {
         text
     }
 
-    /// Texts in which the bytes of parameters are places.
+    /// Texts that the byte positions of the parameters refer to.
     pub(super) fn texts(&self) -> Texts {
         self.file.as_ref().map(|file| file.texts.clone()).unwrap_or_default()
     }
 
-    /// Combination of the values, and the parameters with their places in a scene.
+    /// The combination of the values, and the parameters with their addresses in a scene.
     pub(super) fn parameters(
         &self,
         scene: &SceneFile,

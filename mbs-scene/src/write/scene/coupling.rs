@@ -1,4 +1,4 @@
-//! `[[coupling]]`: what is drawn by its kind, everything else as the sum that it is.
+//! Writes `[[coupling]]`: a coupling drawn by its kind with the keys of that kind, any other coupling as a sum.
 
 use super::{Keys, Node, WriteError, Writer, curve, list};
 use mbs_core::scene::{
@@ -9,7 +9,8 @@ use mbs_core::scene::{
 type Coordinates<'a> = [(JointId, usize, &'a Number)];
 
 impl Writer<'_> {
-    /// A relation is code. What no kind has keys for, such as gears that are driven in code, is written as a sum.
+    /// The keys of a coupling. A relation is code and cannot be written. A coupling that its kind has no keys for, such as gears driven in
+    /// code, is written as a sum.
     pub(super) fn coupling(self, coupling: &Coupling<Number>) -> Result<Keys, WriteError> {
         let in_code = || WriteError::InCode(format!("coupling `{}`", coupling.name));
         if coupling.relation.is_some() {
@@ -46,7 +47,7 @@ impl Writer<'_> {
         Ok(keys)
     }
 
-    /// The keys of what is drawn; `None`: its kind has no keys for it.
+    /// The keys of a drawn coupling; `None` when its kind has no keys for it.
     fn drawn(self, coupling: &Coupling<Number>, drawn: Drawn) -> Result<Option<Keys>, WriteError> {
         let mut keys = Keys::default();
         let of =
@@ -108,7 +109,7 @@ impl Writer<'_> {
         Ok(written.then_some(keys))
     }
 
-    /// The keys of a cam; `None`: it is none, or its kind has no keys for it.
+    /// The keys of a cam; `None` when the coupling is not a cam, or when the kind has no keys for it.
     fn cam(self, coupling: &Coupling<Number>) -> Result<Option<Keys>, WriteError> {
         let is_cam = coupling.kind == CouplingKind::Cam && coupling.value.is_zero();
         let [follower, shaft] = &coupling.terms[..] else { return Ok(None) };
@@ -134,7 +135,7 @@ impl Writer<'_> {
         Ok(Some(keys))
     }
 
-    /// The terms of the sum that is drawn, in doubles; `None`: the scene is none.
+    /// The terms of a drawn sum, computed in doubles; `None` when the scene is not valid.
     fn found(self, coupling: &Coupling<Number>) -> Option<Vec<CouplingTerm<Number>>> {
         let index = self.scene.couplings.iter().position(|other| core::ptr::eq(other, coupling))?;
         let resolved = self.scene.resolve::<f64>().ok()?;
@@ -151,7 +152,7 @@ impl Writer<'_> {
         Ok(())
     }
 
-    /// Does a kind that names the joint take this coordinate: its only turn, or its only slide?
+    /// Does the kind find these coordinates from the joints alone, as their only turn or their only slide?
     fn takes(self, named: &Coordinates<'_>, is_turn: bool) -> bool {
         named.iter().all(|&(joint, number, _)| {
             let Some(joint) = self.scene.joints.get(joint.index()) else { return false };
@@ -164,7 +165,7 @@ impl Writer<'_> {
     }
 }
 
-/// The digits without their sign; of a count without a decimal point.
+/// The number without its sign; a whole number is written without a decimal point.
 fn positive(number: &Number) -> Node {
     let text = number.text();
     let text = text.strip_prefix('-').unwrap_or(&text);

@@ -1,4 +1,4 @@
-//! `[[effect]]`: any kind with its keys, by the table of mbs-core.
+//! Writes `[[effect]]`: an effect of any kind with its keys, by the table of mbs-core.
 
 use super::{Keys, Node, WriteError, Writer, list};
 use mbs_core::effects::{Default, Field, Form, Value};
@@ -28,7 +28,7 @@ impl Writer<'_> {
         Ok(keys)
     }
 
-    /// A key, or none where its value is the default that follows from others.
+    /// Adds the key of a field. A key whose value equals the default that follows from other keys is left out.
     fn field(
         self,
         keys: &mut Keys,
@@ -81,19 +81,19 @@ impl Writer<'_> {
                 keys.push_some(key, name);
             }
             Value::Slip(slip) => keys.push_some(key, slip.as_ref().map(slip_keys)),
-            // the kind's name says it
+            // The name of the kind already has this value.
             _ => {}
         }
         Ok(())
     }
 
-    /// Along and about x, y, z; in the plane along x, y and about z.
+    /// The list of six numbers: along and about x, y, z. In the plane it has three: along x, along y and about z.
     fn six(self, numbers: &[Number; 6]) -> Node {
         let [x, y, .., about] = numbers;
         if self.is_planar() { list([x, y, about].map(Node::from)) } else { numbers.into() }
     }
 
-    /// `value`, `table` over time, or `signal` by name; an input by its value at the start.
+    /// Adds the keys of a signal: `value`, a `table` over time, or `signal` by name. An input is written with its value at the start.
     fn course(
         self,
         keys: &mut Keys,
@@ -121,7 +121,7 @@ impl Writer<'_> {
     }
 }
 
-/// Is it the constant that holds where none of its keys stands?
+/// Is the signal the constant that the reader assumes when no key is written?
 fn is_default(field: &Field, signal: &Signal<Number>) -> bool {
     let Default::Number(text) = field.default else { return false };
     matches!(signal, Signal::Constant([x, ..]) if Number::from_decimal(text).as_ref() == Some(x))

@@ -63,7 +63,7 @@ impl Writer<'_> {
         Ok(keys)
     }
 
-    /// The axes of an output of this body; a name that is a word of the key has no text there.
+    /// The axes of an output of this body. A body whose name is also a word of the key cannot be written.
     fn axes(self, frame: BodyId, own: Option<BodyId>) -> Result<Node, WriteError> {
         if frame == BodyId::Ground {
             return Ok(GLOBAL.into());

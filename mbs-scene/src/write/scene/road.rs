@@ -1,10 +1,10 @@
-//! `[road]`: one list of features for all wheels, or one for each side.
+//! Writes `[road]`: one list of features for all wheels, or one list for each side.
 
 use super::{Keys, Node, Writer, list};
 use mbs_core::scene::{Number, Road, RoadFeature};
 
 impl Writer<'_> {
-    /// Table of the road; `None` where there is none.
+    /// The table of the road; `None` when the scene has no road.
     pub(super) fn road(self) -> Option<Keys> {
         let Road { left, right, speed } = &self.scene.road;
         let (mut keys, features) = (Keys::default(), |track: &[RoadFeature<Number>]| {

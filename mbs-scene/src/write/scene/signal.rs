@@ -1,4 +1,4 @@
-//! `[[signal]]`, and functions of time.
+//! Writes `[[signal]]`, and other functions of time.
 
 use super::{Keys, Node, WriteError, Writer, curve, list};
 use mbs_core::scene::{Motion, NamedSignal, Number, SignalId, SignalKind, TableEnds};
@@ -9,7 +9,7 @@ impl Writer<'_> {
         Ok(signal.ok_or(WriteError::UnknownReference("signal"))?.name.as_str().into())
     }
 
-    /// The keys of a function of time.
+    /// Adds the keys of a function of time.
     pub(super) fn motion(self, keys: &mut Keys, law: &Motion<Number>) -> Result<(), WriteError> {
         let mut parts = Keys::default();
         match law {
@@ -101,7 +101,7 @@ impl Writer<'_> {
         Ok(keys)
     }
 
-    /// The keys of a signal that follows the motion or has a state.
+    /// Adds the keys of a signal that depends on the motion or has a state.
     fn feedback(self, signal: &NamedSignal<Number>, keys: &mut Keys) -> Result<(), WriteError> {
         match &signal.kind {
             SignalKind::Measure { of, is_rate } => {
@@ -136,7 +136,7 @@ impl Writer<'_> {
         Ok(())
     }
 
-    /// The keys of a signal that is made of others.
+    /// Adds the keys of a signal that is computed from other signals.
     fn combination(self, signal: &NamedSignal<Number>, keys: &mut Keys) -> Result<(), WriteError> {
         let names = |of: &[SignalId]| {
             let names: Result<Vec<_>, _> = of.iter().map(|of| self.signal_name(*of)).collect();

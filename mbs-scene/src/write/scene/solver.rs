@@ -5,7 +5,7 @@ use crate::read::tree::Node;
 use mbs_core::scene::{Number, Setting, SettingValue, SolverTable};
 
 impl Keys {
-    /// The keys of the table that are written.
+    /// The keys of the solver's settings that are set.
     pub(super) fn of_solver(solver: &SolverTable<Number>) -> Self {
         let mut keys = Self::default();
         for (key, _) in Setting::of_table("solver") {

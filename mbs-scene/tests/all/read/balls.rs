@@ -1,4 +1,4 @@
-//! Effects on swing and twist of ball joints: read as sums, written as read; faults have their place.
+//! Effects on swing and twist of ball joints: they are read as sums, and written as they were read. Faults have their place.
 
 use super::{THREE_BODIES, read, read_back, refused};
 use mbs_core::scene::*;
@@ -45,7 +45,7 @@ fn every_kind_on_a_ball_is_a_sum_of_one_term() {
     assert_eq!(limit.lower, -core::f64::consts::PI);
 }
 
-/// Torsion springs that are refused, with place, message and hint.
+/// Torsion springs that are refused, each with its place, message and hint.
 const REFUSED: &[[&str; 4]] = &[
     [
         "joint = \"a\"\ncoordinate = \"swing\"\naxis = [0, 0, 1]",

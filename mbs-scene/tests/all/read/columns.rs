@@ -1,10 +1,10 @@
-//! Tables that are columns of a CSV file: rows, units, and refusals with line and column of the file.
+//! Tables from columns of a CSV file: rows, units, and errors with line and column of the file.
 
 use super::includes::Folder;
 use mbs_core::scene::*;
 use mbs_scene::{SceneFile, to_toml};
 
-/// A slide that is guided, pushed and measured by tables; what follows is the road.
+/// A prismatic joint that is guided, pushed and measured by tables; the road follows.
 fn scene(guide: &str, effect: &str, curve: &str) -> String {
     format!(
         "[scene]\ndimension = 2\nduration = 4\n\
@@ -63,7 +63,7 @@ fn the_text_of_a_scene_has_that_of_its_tables() {
     assert_ne!(whole("one", FORCES), whole("two", &FORCES.replace("2.5", "2.25")));
 }
 
-/// Refusal of a scene with other files, or another guide.
+/// The error of a scene with other CSV files or another guide.
 fn refusal(name: &str, (strokes, forces): (&str, &str), guide: &str) -> String {
     folder(name, strokes, forces, &scene(guide, FORCE, CURVE)).refusal("x.toml")
 }

@@ -1,4 +1,4 @@
-//! Couplings: every kind reads to its sum; faults have their place.
+//! Couplings: every kind is read as its sum, and faults have their place.
 
 use super::{THREE_BODIES, read, refused};
 use mbs_core::scene::*;
@@ -28,7 +28,7 @@ fn with(coupling: &str) -> String {
     format!("\n{THREE_BODIES}{JOINTS}[[coupling]]\n{coupling}\n")
 }
 
-/// Factor, joint and number of each term, and the value.
+/// Factor, joint and coordinate of each term, and the value of the sum.
 fn sum(coupling: &str) -> (Vec<(f64, usize, usize)>, f64) {
     let scene = read(&with(coupling)).unwrap_or_else(|e| panic!("{}", e.render()));
     let [coupling] = &scene.couplings[..] else { panic!("one coupling") };
@@ -43,7 +43,7 @@ fn sum(coupling: &str) -> (Vec<(f64, usize, usize)>, f64) {
 fn every_kind_of_coupling_is_the_sum_that_it_says() {
     let tau = core::f64::consts::TAU;
     for (coupling, terms, value) in [
-        // about axes of opposite sense the angles of wheels in external mesh grow alike, those of wheels on a belt do not
+        // Wheels in external mesh, about axes of opposite sense, have angles that grow alike. Wheels with a belt on such axes do not.
         (
             "kind = \"gear\"\njoints = [\"a\", \"b\"]\nteeth = [20, 40]",
             vec![(20.0, 0, 0), (-40.0, 1, 0)],

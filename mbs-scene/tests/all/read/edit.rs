@@ -1,10 +1,11 @@
-//! Numbers of a file that are replaced by their paths.
+//! Replacement of numbers in a file by their paths.
 
 use mbs_core::real::DoubleDouble;
 use mbs_core::scene::Number;
 use mbs_scene::SceneFile;
 
-/// A scene with numbers in all places: in tables, lists, inline tables, expressions, before comments, at its end; and behind letters of two bytes.
+/// A scene with numbers in all syntactic places: tables, lists, inline tables, expressions, before comments, at the end, and after letters
+/// of two bytes.
 const TOML: &str = r#"# a comment, à côté
 [scene]
 dimension = 2

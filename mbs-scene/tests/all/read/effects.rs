@@ -1,9 +1,9 @@
-//! Every kind of effect reads to the data meant; what cannot be meant is refused at its place.
+//! Effects: every kind is read to the intended data, and an invalid one is refused at its place.
 
 use super::{read, refused, spoil};
 use mbs_core::scene::*;
 
-/// A cart on a slide in the plane.
+/// A cart on a prismatic joint in the plane.
 pub(super) const CART: &str = r#"[scene]
 dimension = 2
 duration = 1
@@ -374,7 +374,7 @@ fn a_wheel_that_cannot_spin_as_the_scene_says_is_refused_at_its_place() {
     refused(&e, "26:1", "`axis` is missing", "add");
 }
 
-/// A body on a cylindrical joint.
+/// A body on a cylindrical joint, in space.
 const SHAFT: &str = r#"[scene]
 dimension = 3
 duration = 1
@@ -409,7 +409,7 @@ fn effects_name_a_coordinate_of_a_joint_that_has_several() {
     assert_eq!(coordinate(SHAFT), Some(0));
     assert_eq!(coordinate(&with("coordinate = \"turn\"\n")), Some(1));
     assert_eq!(coordinate(&with("coordinate = 1\n")), Some(1));
-    // the only turn is meant where nothing is said
+    // The only rotation is the default coordinate.
     let turn = with("").replace("\"limit\"", "\"torsion-spring\"");
     let turn = turn.replace("lower = -1\nupper = 1\n", "");
     assert_eq!(coordinate(&turn), None);

@@ -1,4 +1,4 @@
-//! Values to 31 digits, and faults with their places in the text.
+//! Expressions: values to 31 digits, and faults with their places in the text.
 
 #![allow(clippy::float_cmp, reason = "numbers are rounded once")]
 
@@ -18,7 +18,7 @@ fn fault(text: &str) -> EvaluationFault {
     evaluate(text, &mut named).expect_err(text)
 }
 
-/// Near and far parts, by arithmetic of any precision (mpmath, 50 digits).
+/// Leading parts and remainders of the expected values are from arithmetic of 50 digits (mpmath).
 #[test]
 fn values_have_thirty_one_digits() {
     for (text, near, far) in [
@@ -47,7 +47,7 @@ fn values_have_thirty_one_digits() {
     assert!((rpm.lo() + 9.195e-17).abs() < 1e-20, "{}", rpm.lo());
 }
 
-/// A quotient of whole numbers rounds once, so a length in millimetres is the decimal number of metres.
+/// A quotient of whole numbers is rounded once. A length in millimetres is therefore the number nearest to its decimal in metres.
 #[test]
 fn a_number_with_a_unit_is_the_number_nearest_to_its_decimal_in_si() {
     for k in 1..=1000_u32 {

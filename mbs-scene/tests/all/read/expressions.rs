@@ -1,4 +1,4 @@
-//! Expressions and parameters in scenes: the same scene as with plain numbers, and refusals with line and column.
+//! Expressions and parameters in scenes: they give the same scene as plain numbers. Errors have line and column.
 
 use super::*;
 use mbs_core::real::DoubleDouble;
@@ -19,7 +19,7 @@ mass = MASS
 point = [X, 0.0]
 ";
 
-/// The scene of these parameters, with a body of that mass and place.
+/// A scene with these parameters, and a body with this mass and place.
 fn scene(parameters: &str, [mass, x]: [&str; 2]) -> Result<SceneFile, ReadError> {
     let body = BODY.replace("MASS", mass).replace('X', x);
     SceneFile::parse(&format!("{SCENE}{parameters}\n{body}"), "test.toml")

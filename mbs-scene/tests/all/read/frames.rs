@@ -1,4 +1,4 @@
-//! `[[frame]]`: named places on bodies, and what is refused.
+//! Tests of `[[frame]]`: named places on bodies, and refused entries.
 
 use super::*;
 

@@ -1,4 +1,4 @@
-//! Guides of whole joints and of bodies read to the data meant, are written back, and are refused at their place.
+//! Guides of whole joints and of bodies: they are read to the intended data and written back. Invalid ones are refused at their place.
 
 use super::{refused, spoil};
 use mbs_core::scene::*;
@@ -91,7 +91,7 @@ fn guides_of_whole_joints_read_back_as_they_were_written() {
     let scene = numbers(SCENE);
     let text = to_toml(&scene).expect("no code in it");
     assert_eq!(numbers(&text), scene, "{text}");
-    // each coordinate may have a motion of another form
+    // Each coordinate may have a motion of another form.
     let each = "joint = \"neck\"\ncoordinate = 0\nramp = { rate = 1 }\n[[guide]]\njoint = \"neck\"\ncoordinate = 1\n\
                 sine = { amplitude = 1, frequency = 2 }\n[[guide]]\njoint = \"neck\"\ncoordinate = 2\nsignal = \"rise\"";
     let text =

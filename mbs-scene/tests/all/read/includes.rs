@@ -1,11 +1,11 @@
-//! `[[include]]`: parts of other files with their prefix, and what is refused.
+//! Tests of `[[include]]`: parts of other files with their prefix, and refused files.
 
 use super::*;
 use mbs_scene::SweepSource;
 use std::fs;
 use std::path::PathBuf;
 
-/// A folder that is removed in the end.
+/// A temporary folder, which is removed when the value is dropped.
 pub(super) struct Folder(PathBuf);
 
 impl Folder {
@@ -85,7 +85,7 @@ fn parts_stand_where_they_are_included_with_their_prefix_and_parameters() {
     assert_eq!(scene.bodies[1].center, [1.0, 2.5, 0.0]);
     assert_eq!(scene.bodies[2].center, [1.0, 2.5, 0.0]);
     assert_eq!(scene.outputs[1].name, "right load");
-    // the tree of the parts is that of the same written out
+    // The tree with included parts equals that of a file with the parts written out.
     let corner = |name: &str| {
         CORNER
             .replace("\"wheel", &format!("\"{name} wheel"))
@@ -117,7 +117,7 @@ fn includes_nest_and_look_names_up_outwards() {
     assert_eq!(names, ["chassis", "left inner cap", "left wheel"]);
     assert_eq!((scene.bodies[1].mass, scene.bodies[1].center), (0.5, [1.0, 2.5, 1.0]));
     assert_eq!(scene.joints[0].name, "left inner rod");
-    // paths of sweeps reach the parts
+    // Paths of sweeps also name included parts.
     assert_eq!(file.number("parameter.\"left x\"").expect("a number").to_f64(), 1.0);
     let scene = file.with_set("parameter.\"left x\"=2").and_then(|file| file.scene::<f64>());
     assert_eq!(scene.expect("a scene").bodies[2].center, [2.0, 4.5, 0.0]);

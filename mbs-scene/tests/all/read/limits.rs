@@ -1,10 +1,10 @@
-//! Limits that a joint is meant to keep to: read, written, and refused at their place.
+//! Limits of joints: they are read and written. Invalid ones are refused at their place.
 
 use super::{PLANAR, read, refused};
 use mbs_core::scene::*;
 use mbs_scene::{SceneFile, to_toml};
 
-/// The planar scene with lines more in its first joint; the first of them is line 23.
+/// The planar scene with further lines in its first joint; the first of them is line 23.
 fn with(lines: &str) -> String {
     PLANAR
         .replace("at = [0.0, 0.0]\n\n[[joint]]", &format!("at = [0.0, 0.0]\n{lines}\n\n[[joint]]"))
@@ -19,7 +19,7 @@ fn range_effort_and_rate_of_a_joint_are_read_and_written() {
     assert_eq!(scene.joints[1].limits, JointLimits::NONE);
     let numbers = SceneFile::parse(&text, "x").unwrap().numbers().unwrap();
     assert_eq!(read(&to_toml(&numbers).unwrap()).unwrap(), scene);
-    // the same in code
+    // The joint built in code has the same limits.
     let bodies = [GROUND, BodyId::Body(0)];
     let built = Joint::revolute(bodies, [0.0, 0.0]).range(-0.5, 1.25).effort_limit(40.0);
     assert_eq!(built.velocity_limit(3.5).limits, numbers.joints[0].limits);

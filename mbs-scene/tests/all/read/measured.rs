@@ -1,4 +1,4 @@
-//! Units of numbers in lists, places and values: one that stands alone is of the key's kind.
+//! Units of numbers in lists, places and values: a number with a unit must have the dimensions of its key.
 
 use super::*;
 

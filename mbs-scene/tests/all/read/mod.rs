@@ -1,4 +1,4 @@
-//! Scenes of the format, each refusal with its exact place, and no panic on anything.
+//! Scenes of the format: each error has its exact place, and no input causes a panic.
 #![allow(clippy::float_cmp, reason = "numbers are read exactly")]
 
 use mbs_core::scene::*;
@@ -153,7 +153,7 @@ fn read(text: &str) -> Result<Scene<f64>, ReadError> {
     SceneFile::parse(text, "test.toml")?.scene()
 }
 
-/// The planar scene with one passage replaced, which must be refused; `line:column: message`.
+/// The error of the planar scene with one passage replaced.
 fn spoiled(from: &str, to: &str) -> ReadError {
     spoil(PLANAR, from, to)
 }
@@ -163,7 +163,7 @@ fn spoil(scene: &str, from: &str, to: &str) -> ReadError {
     read(&scene.replacen(from, to, 1)).expect_err(to)
 }
 
-/// The head of a scene in space, and three bodies.
+/// The beginning of a spatial scene, with three bodies.
 const THREE_BODIES: &str = r#"[scene]
 dimension = 3
 duration = 1.0
@@ -184,7 +184,7 @@ center = [2.0, 0.0, 0.0]
 inertia = [1.0, 1.0, 1.0, 0.0, 0.0, 0.0]
 "#;
 
-/// Asserts place, message and hint of a refusal.
+/// Asserts that an error has this place, message and hint.
 fn refused(error: &ReadError, place: &str, message: &str, hint: &str) {
     let expected = format!("test.toml:{place}: {message}");
     assert_eq!(error.to_string(), expected);
@@ -235,7 +235,7 @@ fn numbers_keep_their_decimal_text_until_the_precision_is_known() {
         document.scene::<f64>().unwrap().gravity.unwrap()[1].to_bits(),
         (-9.81_f64).to_bits()
     );
-    // halfway cases: through f64 this text would round to 1.0 in f32
+    // A halfway case: by way of f64 this text would be rounded to 1.0 in f32.
     let text = PLANAR.replace("duration = 10.0", "duration = 1.00000005960464477540");
     let document = SceneFile::parse(&text, "x").unwrap();
     assert_eq!(document.scene::<f32>().unwrap().duration.to_bits(), 1.000_000_1_f32.to_bits());
@@ -322,7 +322,7 @@ fn types_counts_and_missing_keys_have_places() {
         "body = \"ground\"\nat = [2.0, 0.0]\nvelocity",
     );
     refused(&e, "36:8", "the ground does not move", "name a body");
-    // the word, not a key that the nearest quantity has no use for
+    // The error is about the word, not about a key that the quantity nearest to it does not use.
     let e = spoiled("at = [2.0, 0.0]\nquantity = \"position\"", "quantity = \"angular-velocty\"");
     refused(&e, "68:12", "unknown quantity `angular-velocty`", "`angular-velocity`");
     let e = spoiled("duration = 10.0", "duration = = 10.0");
@@ -377,7 +377,7 @@ fn rendering_shows_the_line_with_carets_under_the_text() {
     assert_eq!((error.place().line, error.place().column), (2, 9));
 }
 
-/// A scene whose effects are the same when it is written and read again.
+/// The scene of a text. Its effects must be equal after it is written and read again.
 fn read_back(text: &str) -> Scene<f64> {
     let scene = read(text).unwrap_or_else(|e| panic!("{}", e.render()));
     let file = SceneFile::parse(text, "s.toml").expect("it reads");

@@ -1,4 +1,4 @@
-//! The name nearest to a mistyped one.
+//! Suggestion of the name nearest to a mistyped one.
 
 use mbs_scene::inside::nearest;
 

@@ -32,7 +32,7 @@ fn outputs_of_parts_and_of_the_scene_are_read_by_name_with_their_defaults() {
             "effect = \"strut\"\nquantity = \"length\"",
             Quantity::EffectValue { effect: EffectId::new(0) },
         ),
-        // without a name of its own
+        // An effect without a name is called by its number.
         ("effect = \"effect-2\"", Quantity::EffectForce { effect: EffectId::new(1) }),
         ("quantity = \"energy\"", Quantity::Energy),
         ("quantity = \"kinetic-energy\"", Quantity::KineticEnergy),
@@ -65,7 +65,7 @@ fn outputs_may_be_seen_from_another_body() {
         origin,
     };
     let point = "body = \"lower\"\nat = [2, 0]\n";
-    // from the centre of mass, and of it, where no place is written
+    // The default of both places is the centre of mass.
     let bare = RelativePoint { at: [1.5, 0.0, 0.0], ..seen(upper, [0.5, 0.0, 0.0]) };
     assert_eq!(
         read_one("body = \"lower\"\nrelative_to = \"upper\""),
@@ -193,7 +193,7 @@ fn degrees_are_of_angles_alone() {
         let text = with(&format!("{output}\nunit = \"deg\""));
         let scene = read(&text).unwrap_or_else(|e| panic!("{output}: {e}"));
         assert!(scene.outputs.last().expect("an output").is_in_degrees, "{output}");
-        // and back
+        // The written scene has the same outputs.
         let file = SceneFile::parse(&text, "x.toml").expect("it reads");
         let numbers = file.numbers().expect("it reads");
         let again = to_toml(&numbers).expect("it is written");

@@ -1,4 +1,4 @@
-//! Paths to numbers of a scene, part by part.
+//! Tests of paths to numbers of a scene, part by part.
 
 use mbs_scene::inside::{PathPart, parse};
 

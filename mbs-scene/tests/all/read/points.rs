@@ -1,9 +1,9 @@
-//! Point masses: read with a place alone, written as read; what asks for an orientation is refused at its place.
+//! Point masses: they are read with a place alone, and written as they were read. A key that needs an orientation is refused at its place.
 
 use super::{read, read_back, refused};
 use mbs_core::scene::*;
 
-/// A point on a distance and an arm on a hinge, in space; entries follow from line 28 on.
+/// A point on a distance joint and an arm on a revolute joint, in space. Tests append entries, from line 28 on.
 const SPACE: &str = r#"[scene]
 dimension = 3
 duration = 1.0
@@ -33,7 +33,7 @@ kind = "free"
 bodies = ["ground", "ball"]
 "#;
 
-/// A point mass in the plane, on an arm; entries follow from line 23 on.
+/// A point mass in the plane, on an arm. Tests append entries, from line 23 on.
 const PLANE: &str = r#"[scene]
 dimension = 2
 duration = 1.0
@@ -61,7 +61,7 @@ at = [0.5, -0.25]
 const TURNS: &str = "`ball` is a point: it has no orientation";
 const OFF: &str = "`ball` is a point: this place is 2.500000e-1 m off it";
 
-/// Entries of a spatial scene that are refused: text, place, message.
+/// Entries that are refused in the spatial scene, each with its text, place and message.
 const IN_SPACE: &[[&str; 3]] = &[
     [
         "[[joint]]\nname = \"x\"\nkind = \"revolute\"\nbodies = [\"arm\", \"ball\"]\nat = [0.5, 0, -0.25]\naxis = [0, 1, 1]",
@@ -195,7 +195,7 @@ const IN_SPACE: &[[&str; 3]] = &[
     ],
 ];
 
-/// Entries that are refused on the pin of the planar scene, whose angle is that of a point, with their place.
+/// Entries that are refused in the planar scene, with their place. They ask for the angle of the pin, which a point does not have.
 const IN_THE_PLANE: &[[&str; 2]] = &[
     ["[[initial]]\njoint = \"pin\"\nvalue = 0.1", "24:9"],
     ["[[guide]]\njoint = \"pin\"\nramp = { rate = 1.0 }", "24:9"],
@@ -280,7 +280,7 @@ quantity = "kinetic-energy"
     assert_eq!((way.kind, way.points[0]), (JointKind::FreePoint, [0.5, 0.0, -0.25]));
     assert_eq!(way.kind.n_coordinates(Dimension::Spatial), 3);
     let planar = read_back(PLANE);
-    // the angle of the pin is none
+    // The pin has no angle, so it has no output.
     let names: Vec<_> = planar.channels().into_iter().map(|output| output.name).collect();
     assert_eq!(names, ["hinge"]);
 }

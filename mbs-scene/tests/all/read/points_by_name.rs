@@ -1,4 +1,4 @@
-//! `[[point]]`: places by name, mirrored and moved, in expressions, and what is refused.
+//! Tests of `[[point]]`: places by name, mirrored and moved, in expressions, and refused entries.
 
 use super::*;
 use mbs_core::Real;

@@ -1,4 +1,4 @@
-//! Random and mutated files: the reader answers, it never panics.
+//! Random and mutated files: the reader returns a result for each, and never panics.
 
 use super::effects::{CAR, CART};
 use super::{PLANAR, SPATIAL, read};
@@ -7,7 +7,7 @@ use proptest::prelude::*;
 
 const SCENES: [&str; 4] = [PLANAR, SPATIAL, CART, CAR];
 
-/// Pieces of scenes, so that random texts reach deep into the reader.
+/// Pieces of scenes, so that random texts pass the first checks of the reader.
 fn piece() -> impl Strategy<Value = String> {
     let lines: Vec<String> = SCENES.iter().flat_map(|s| s.lines()).map(str::to_owned).collect();
     prop_oneof![

@@ -1,10 +1,10 @@
-//! Roads: every feature reads to the data meant, in all spellings; faults have the place of their feature.
+//! Roads: every feature is read to the intended data, in all notations. Faults have the place of their feature.
 
 use super::effects::{CAR, CART};
 use super::{read, refused, spoil};
 use mbs_core::scene::*;
 
-/// The car on another road.
+/// The car of the effects' tests on another road.
 fn road(text: &str) -> String {
     let (head, _) = CAR.split_once("[road]").expect("a road");
     format!("{head}[road]\n{text}\n")
@@ -82,7 +82,7 @@ fn wrong_numbers_of_roads_are_refused_at_their_feature() {
 
 #[test]
 fn hollows_too_tight_for_a_wheel_are_refused_at_their_feature() {
-    // largest wheel 0.364325 m; riser: h'' = 4 |height| / riser^2
+    // The largest wheel has 0.364325 m; curvature of the riser: h'' = 4 |height| / riser^2.
     let e = spoil(CAR, "riser = 0.5", "riser = 0.25");
     let message =
         "`height` makes a hollow of radius 0.1250 m, too tight for a wheel of radius 0.364325 m";

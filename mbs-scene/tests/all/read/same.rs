@@ -1,4 +1,4 @@
-//! Scenes of the repository in other forms: the same numbers in all digits.
+//! Scenes of the repository in other notations: the numbers are equal in all digits.
 
 use super::*;
 use std::fmt::Write;
@@ -9,7 +9,7 @@ fn scenes() -> PathBuf {
     PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes"))
 }
 
-/// A TOML value as JSON, with the decimal texts of its numbers.
+/// Writes a TOML value as JSON, with the decimal texts of its numbers.
 fn json(value: &DeValue<'_>, out: &mut String) {
     let text = |text: &str| serde_json::Value::from(text).to_string();
     match value {
@@ -33,7 +33,7 @@ fn json(value: &DeValue<'_>, out: &mut String) {
     }
 }
 
-/// A table as a JSON object, its keys in the order of the file.
+/// Writes a table as a JSON object, with its keys in the order of the file.
 fn object(table: &DeTable<'_>, out: &mut String) {
     let mut members: Vec<_> = table.iter().collect();
     members.sort_by_key(|(key, _)| key.span().start);

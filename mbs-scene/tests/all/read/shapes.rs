@@ -1,4 +1,4 @@
-//! `[[shape]]`: forms for pictures, and what is refused.
+//! Tests of `[[shape]]`: shapes for pictures, and refused entries.
 
 use super::*;
 
@@ -58,7 +58,7 @@ fn a_mesh_names_its_file_from_the_folder_of_the_scene() {
         assert_eq!(file, "/somewhere/parts/a.stl");
         assert_eq!((at, axes, scale), ([1.0, 2.0, 3.0], None, [0.001; 3]));
     }
-    // a text that is no file has no folder
+    // A text that is not a file has no folder, so the path stays relative.
     let ShapeKind::Mesh { file, .. } = scene_of_text(&text).shapes.remove(0).form else {
         panic!("a mesh")
     };

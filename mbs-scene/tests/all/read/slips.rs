@@ -1,4 +1,4 @@
-//! Slips of a first scene, with what is said of them.
+//! Mistakes that beginners make in a scene, with the expected messages.
 
 use super::*;
 

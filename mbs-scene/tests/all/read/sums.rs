@@ -1,4 +1,4 @@
-//! Effects on sums: every kind reads its terms and is written as it was read; faults have their place.
+//! Effects on sums: every kind reads its terms and is written as it was read. Faults have their place.
 
 use super::{THREE_BODIES, read, read_back, refused};
 use mbs_core::effects::{ActsOn, Value};
@@ -71,7 +71,7 @@ fn every_kind_on_a_line_is_written_as_it_was_read() {
         let scene = read_back(&text);
         assert_eq!(scene.effects[0].kind.acts_on(), ActsOn::Line, "{rest}");
     }
-    // between two bodies, by the flag
+    // The flag makes an effect between two bodies one on a line.
     let pair = "bodies = [\"w\", \"u\"]\npoints = [[0, 0, 0], [2, 0, 0]]\nkind = \"spring-damper\"\nstiffness = 3.0\n";
     let slack = read(&with(&format!("{pair}pulls_only = true"))).expect("it reads");
     let EffectKind::LineSpring(spring) = &slack.effects[0].kind else { panic!("a line") };
@@ -84,7 +84,7 @@ fn every_kind_on_a_line_is_written_as_it_was_read() {
     assert!(sum.effects[0].kind.is_one_sided());
 }
 
-/// Lines that are refused, with place, message and hint.
+/// Lines that are refused, each with its place, message and hint.
 const REFUSED_LINES: &[[&str; 4]] = &[
     ["points = [{ body = \"w\", at = [0, 0, 0] }]", "37:10", "expected 2 entries, found 1", ""],
     [
@@ -157,7 +157,7 @@ fn an_effect_of_a_joint_is_taken_to_a_sum_in_code() {
     assert_eq!(drag.clone().on_terms(terms), drag);
 }
 
-/// Terms that are refused, with place, message and hint.
+/// Terms that are refused, each with its place, message and hint.
 const REFUSED: &[[&str; 4]] = &[
     ["terms = [{ joint = \"b\" }]", "37:20", "unknown joint `b`", ""],
     [

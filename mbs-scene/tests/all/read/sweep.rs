@@ -1,4 +1,4 @@
-//! Members of sweeps, and each refusal with its place.
+//! Members of sweeps, and the place of each error.
 
 use mbs_core::scene::Number;
 use mbs_scene::{
@@ -63,7 +63,7 @@ fn file(text: &str) -> SweepSource {
     SceneFile::parse(text, "sweep.toml").expect("the sweep is TOML").into()
 }
 
-/// Lays a sweep out over the scene and tries its values.
+/// Applies a sweep to the scene and tries its values.
 fn laid_out(source: &SweepSource) -> Result<SceneSweep, SweepRefusal> {
     let sweep = SceneSweep::new(source, &scene(), &["member".to_owned()])?;
     sweep.check(&scene(), |_| Ok(()))?;
@@ -81,12 +81,12 @@ fn members(text: &str) -> Vec<Vec<String>> {
     values(&read(text).unwrap_or_else(|error| panic!("{}", error.render())))
 }
 
-/// The values of each member.
+/// The values of all parameters, member by member.
 fn values(sweep: &SceneSweep) -> Vec<Vec<String>> {
     (0..sweep.n_members()).map(|i| sweep.values(i).map(str::to_owned).collect()).collect()
 }
 
-/// `[[vary]]` of a path with further lines.
+/// A table `[[vary]]` of a path, with further lines.
 fn vary(path: &str, more: &str) -> String {
     format!("[[vary]]\npath = '{path}'\n{more}\n")
 }
@@ -110,7 +110,7 @@ fn zip_pairs_values_one_to_one() {
 
 #[test]
 fn a_latin_hypercube_has_one_sample_in_each_stratum_of_each_parameter() {
-    // Samples, one in each stratum.
+    // Number of samples, and of intervals of each parameter.
     const N: usize = 64;
     let text = format!("[sweep]\ncombine = 'latin-hypercube'\nsamples = {N}\nseed = 5\n")
         + &vary("body.lower.mass", &format!("from = 1\nto = {}", N + 1))
@@ -160,7 +160,7 @@ fn hard_points_shift_together_and_shifts_add() {
 
 #[test]
 fn what_only_a_member_can_show_is_no_refusal() {
-    // alone, each half of the pair would break the scene's rule that rods have length
+    // Alone, each value of the pair would break a rule of the scene: a rod must have a length.
     let text = "[sweep]\ncombine = 'zip'\n".to_owned()
         + &vary("body.lower.rod.from[0]", "values = [2.0]\nshift = 'joint.elbow.at[0]'")
         + &vary("body.lower.rod.to[0]", "values = [3.0]");
@@ -168,10 +168,10 @@ fn what_only_a_member_can_show_is_no_refusal() {
     assert!(sweep.member(&scene(), 0).scene::<f64>().is_ok());
 }
 
-/// Case that is refused: the text of the file, the text that the place points to, and a word of message and hint.
+/// A refused case: the text of the file, the text at the place of the error, and a word each of message and hint.
 type Case = (String, &'static str, &'static str, &'static str);
 
-/// Reads each, and looks at place, message and hint.
+/// Reads each case, and compares place, message and hint of its error.
 fn refuse(cases: Vec<Case>) {
     for (text, place, message, hint) in cases {
         let error = read(&text).expect_err(&text);
@@ -321,7 +321,7 @@ fn what_the_settings_refuse_is_refused_too_and_varied_paths_are_known() {
     assert!(sweep.varies(&scene, "solver.step") && !sweep.varies(&scene, "scene.duration"));
 }
 
-/// A sweep in code.
+/// Adds numbers of code to a sweep.
 fn numbers(mut sweep: SweepSource, varied: &[(&str, &[f64])]) -> SweepSource {
     for (path, values) in varied {
         sweep.vary(path, values.iter().map(|&x| Number::from(x)).collect());
@@ -347,7 +347,7 @@ fn numbers_of_code_make_the_members_of_their_text() {
         assert_eq!(scene.expect("a scene"), of_text.scene::<f64>().expect("a scene"));
         assert_eq!(sweep.names().collect::<Vec<_>>(), varied.map(|(path, _)| path));
     }
-    // all digits of a number are kept
+    // All digits of a number remain.
     let mut long = SweepSource::grid();
     let digits = "1.00000000000000000000000001";
     long.vary("body.lower.mass", Number::from_decimal(digits).into_iter().collect());
@@ -363,12 +363,12 @@ fn code_varies_more_than_a_file_does() {
     let both = laid_out(&sweep).expect("a good sweep");
     assert_eq!(values(&both), [["1", "3.0"], ["2", "4.0"]]);
     assert!(sweep != of_file && sweep.text().starts_with(&of_file.text()));
-    // a file may leave all to code
+    // A file may have no `[[vary]]` when code gives the parameters.
     let sweep = numbers(file("[sweep]\ncombine = 'zip'\n"), &[("body.lower.mass", &[3.0, 4.0])]);
     assert_eq!(values(&laid_out(&sweep).expect("a good sweep")), [["3.0"], ["4.0"]]);
 }
 
-/// Paths of a sweep, each with its numbers.
+/// Paths of a sweep, each with its values.
 type Lists<'a> = Vec<(&'a str, &'a [f64])>;
 
 #[test]

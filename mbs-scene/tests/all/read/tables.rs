@@ -1,4 +1,4 @@
-//! How tables go between their rows: words, what they read to, what is written back, and refusals at their place.
+//! Interpolation between the rows of tables: the words, their data, the written text, and errors at their place.
 
 use super::{read, refused};
 use mbs_core::scene::*;
@@ -80,7 +80,7 @@ interpolation = "ROAD"
 
 const PLACES: [&str; 8] = ["GUIDE", "CAM", "TERM", "SUM", "EFFECT", "SIGNAL", "CURVE", "ROAD"];
 
-/// The scene with one word at a place, and another everywhere else.
+/// The scene with one word at one place, and another word at all other places.
 fn with(place: &str, word: &str, others: &str) -> String {
     PLACES.iter().fold(SCENE.to_owned(), |text, other| {
         text.replace(

@@ -1,4 +1,4 @@
-//! Hints for units that stand outside of quotes.
+//! Hints for units that are written without quotes.
 
 use mbs_scene::inside::units::{hint, of_json, of_line};
 

@@ -1,4 +1,4 @@
-//! Values of a parameter between two ends.
+//! Values of a parameter between the two ends of a range.
 
 #![allow(clippy::float_cmp, reason = "values are exact decimals")]
 
@@ -31,7 +31,7 @@ fn steps_stop_before_the_end_and_lead_nowhere_the_wrong_way() {
 
 #[test]
 fn every_stratum_has_one_sample() {
-    // Strata.
+    // Number of intervals.
     const N: u32 = 500;
     for stream in 0..3 {
         let samples = range(0.0, f64::from(N), false).strata(N, 42, stream);
