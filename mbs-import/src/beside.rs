@@ -1,4 +1,4 @@
-//! Files beside the model: where they are, and those that stand for a part of it, within limits.
+//! Files that a model refers to: their paths, and included files with limits on their number.
 
 use crate::context::Context;
 use crate::element::{Attribute, Element};
@@ -7,12 +7,12 @@ use crate::source::{MOST_BYTES, Origin, Read};
 use crate::xml;
 use std::path::{Path, PathBuf};
 
-/// Files that include each other, one in the other.
+/// Largest depth of files that include one another [-].
 const MAX_DEPTH: usize = 32;
-/// Files that a model includes in all.
+/// Largest number of files that a model includes [-].
 const MAX_FILES: usize = 1_000;
 
-/// The folder of the model, for an attribute that says the place of a file; `hint` is what to do where there is none.
+/// The folder of the model, for an attribute with a path; `hint` is the advice in the error when there is no folder.
 pub(crate) fn home<'a>(file: &Attribute, hint: &str, context: &'a Context<'_>) -> Read<&'a Path> {
     context
         .options
@@ -21,7 +21,7 @@ pub(crate) fn home<'a>(file: &Attribute, hint: &str, context: &'a Context<'_>) -
         .ok_or_else(|| file.fault("this text has no folder, from which it could read files", hint))
 }
 
-/// The file whose place an attribute says, from the folder of the model, else at another place.
+/// The file with path `name`, relative to the folder of the model, or else the file `other`.
 pub(crate) fn find(
     file: &Attribute,
     name: &Path,
@@ -38,11 +38,10 @@ pub(crate) fn find(
     })
 }
 
-/// Paths at which a file may be whose place is written in a file of this folder. A package or model is looked for in the folder that is
-/// given for it, those of the search path, then upwards.
+/// Possible paths of a file that is named in a file of this folder. A package or model is sought in the folder given for it, then in the
+/// search path, then in the parent folders.
 ///
-/// # Errors
-/// A scheme from which nothing is fetched.
+/// An error for a URI scheme that is not supported.
 pub(crate) fn places<'a>(
     written: &'a str,
     folder: &Path,
@@ -58,7 +57,7 @@ pub(crate) fn places<'a>(
     }
 }
 
-/// The package or model of a place, and the place in it.
+/// The package or model of a URI, and the path in it.
 pub(crate) fn package(written: &str) -> Option<(&str, &str)> {
     let Some(("package" | "model", rest)) = written.split_once("://") else { return None };
     let rest = rest.trim_start_matches('/');
@@ -78,24 +77,24 @@ fn in_package(package: &str, rest: &str, folder: &Path, options: &ImportOptions)
     given.chain(around).collect()
 }
 
-/// The path without links and dots, where it is there.
+/// The absolute path without links and dots; a path that does not exist is returned unchanged.
 pub(crate) fn whole(path: &Path) -> PathBuf {
     let path = if path.as_os_str().is_empty() { Path::new(".") } else { path };
     path.canonicalize().unwrap_or_else(|_| path.to_owned())
 }
 
-/// The whole path of the first of some places at which there is a file, if any.
+/// The absolute path of the first existing file among some paths.
 pub(crate) fn existing(places: impl IntoIterator<Item = PathBuf>) -> Option<PathBuf> {
     places.into_iter().find(|path| path.is_file())?.canonicalize().ok()
 }
 
-/// Does a file, by its whole path, lie outside of the folder of the model where that is not allowed?
+/// Is a file outside of the model's folder, when the options forbid this? `path` is absolute.
 pub(crate) fn is_barred(path: &Path, options: &ImportOptions) -> bool {
     let is_inside = |home: &Path| path.starts_with(whole(home));
     options.no_outside && !options.folder.as_deref().is_some_and(is_inside)
 }
 
-/// First of some places at which there is a file, as its whole path; one that is not allowed is refused.
+/// The absolute path of the first existing file among some paths. A file outside of the allowed folder is an error.
 pub(crate) fn first(
     file: &Attribute,
     places: impl IntoIterator<Item = PathBuf>,
@@ -109,7 +108,7 @@ pub(crate) fn first(
     Ok(found)
 }
 
-/// Included files, those that are open now and all so far.
+/// Included files: those that are open now, and the number of all so far.
 #[derive(Debug, Default)]
 pub(crate) struct Included {
     chain: Vec<PathBuf>,
@@ -118,7 +117,7 @@ pub(crate) struct Included {
 }
 
 impl Included {
-    /// Opens a file whose place an attribute of an element says; its root.
+    /// Opens the file that an attribute names, and returns its root element.
     pub(crate) fn open(
         &mut self,
         file: &Attribute,
@@ -143,12 +142,12 @@ impl Included {
         xml::read(&text, source)
     }
 
-    /// The last one is read.
+    /// Closes the file that was opened last.
     pub(crate) fn close(&mut self) {
         self.chain.pop();
     }
 
-    /// The folder of the file that is open.
+    /// The folder of the open file, if there is one.
     pub(crate) fn folder(&self) -> Option<&Path> {
         self.chain.last().and_then(|path| path.parent())
     }

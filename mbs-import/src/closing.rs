@@ -1,14 +1,14 @@
-//! Loops that a file closes by two points.
+//! Loops that a file closes by a common point of two links.
 
 use crate::element::Element;
 use crate::pose::V3;
 use crate::robot::{Joint, Kind};
 use crate::source::Read;
 
-/// Largest gap between the ends of a loop that counts as closed [m]: published poses have six digits.
+/// Largest distance between the two points of a closed loop [m]. Published poses have six digits.
 pub(crate) const CLOSED: f64 = 1.0e-5;
 
-/// A ball at two points that are one where all joints are at zero.
+/// A ball joint at two points that coincide when all joints are at zero.
 pub(crate) fn ball(name: &str, element: &Element, [a, b]: [(usize, V3); 2]) -> Read<Joint> {
     let gap = (a.1 - b.1).norm();
     if gap > CLOSED {

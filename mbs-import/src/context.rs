@@ -1,4 +1,4 @@
-//! Context of a reader of a format.
+//! Data that the parts of a format's reader have in common.
 
 use crate::findings::Findings;
 use crate::options::ImportOptions;
@@ -6,7 +6,7 @@ use crate::source::{Fault, Origin, Read, Sources};
 use mbs_scene::nearest_name;
 use std::collections::HashMap;
 
-/// Context that a reader of a format has at hand.
+/// Texts, findings and options of a reader.
 #[derive(Debug)]
 pub(crate) struct Context<'a> {
     pub(crate) sources: Sources,
@@ -14,10 +14,10 @@ pub(crate) struct Context<'a> {
     pub(crate) options: &'a ImportOptions,
 }
 
-/// Things of one kind by their names.
+/// Named parts of one kind, with their indices.
 #[derive(Debug)]
 pub(crate) struct Named {
-    /// Kind of the things: `link`.
+    /// Kind of the parts, such as `link`.
     what: &'static str,
     first: usize,
     by_name: HashMap<String, (usize, Origin)>,
@@ -25,12 +25,12 @@ pub(crate) struct Named {
 }
 
 impl Named {
-    /// Returns a list without things; the first one gets the number `first`.
+    /// Returns an empty list whose first part will get the index `first`.
     pub(crate) fn new(what: &'static str, first: usize) -> Self {
         Self { what, first, by_name: HashMap::new(), names: Vec::new() }
     }
 
-    /// Adds the next one.
+    /// Adds the next part and returns its index. A name that the list already has is an error.
     pub(crate) fn add(&mut self, name: &str, at: Origin, sources: &Sources) -> Read<usize> {
         let number = self.first + self.names.len();
         if let Some((_, first)) = self.by_name.insert(name.to_owned(), (number, at)) {
@@ -46,7 +46,7 @@ impl Named {
         Ok(number)
     }
 
-    /// The number of a name that stands at a place.
+    /// The index of the part with this name; an unknown name is an error at the place `at`.
     pub(crate) fn find(&self, name: &str, at: Origin) -> Read<usize> {
         self.get(name).ok_or_else(|| {
             let hint = nearest_name(name, &self.names, &format!("{}s", self.what));
@@ -54,7 +54,7 @@ impl Named {
         })
     }
 
-    /// The number of a copy with that ending, else of the name alone.
+    /// The index of the copy with this ending, or else of the part with the plain name.
     pub(crate) fn find_copy(&self, name: &str, ending: &str, at: Origin) -> Read<usize> {
         self.get(&format!("{name}{ending}")).map_or_else(|| self.find(name, at), Ok)
     }

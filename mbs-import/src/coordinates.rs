@@ -1,31 +1,32 @@
-//! Coordinates of a file in its own order, and where they are in the scene.
+//! Coordinates in the order of the file, with their places in the scene.
 
-/// Kind of motion that a coordinate of a file has.
+/// Kind of motion of a joint of the file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FileMotion {
-    /// A hinge or a slide: one number.
+    /// A hinge or a slide, with one coordinate.
     Single,
-    /// A ball: a quaternion, and an angular velocity in axes of the body.
+    /// A ball joint: its position is a quaternion, its velocity an angular velocity in axes of the body.
     Ball,
-    /// A free body: a global place and a quaternion; a global velocity, and an angular velocity in axes of the body.
+    /// A free body: its position is a global point and a quaternion. Its velocity is a global velocity and an angular velocity in axes of
+    /// the body.
     Free,
 }
 
-/// A joint of a file, in the order in which its states have numbers.
+/// A joint of the file, in the order of the file's position and velocity vectors.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FileCoordinate {
     /// Kind of motion of the joint.
     pub motion: FileMotion,
-    /// The joint of the scene.
+    /// Name of the joint in the scene.
     pub joint: String,
-    /// Number of the first coordinate among those of the joint.
+    /// Index of its first coordinate among those of the scene's joint.
     pub number: usize,
     /// Sign of a single coordinate: the scene's value is `sign` (value − `zero`) [-].
     pub sign: f64,
-    /// The file's value in the reference configuration [rad or m].
+    /// Coordinate of the file in the reference configuration [rad or m].
     pub zero: f64,
-    /// Place of the body as it is drawn, global [m].
+    /// Origin of the body as the model is drawn, in global axes [m].
     pub at: [f64; 3],
-    /// Axes of the body as it is drawn, as columns, global.
+    /// Axes of the body as the model is drawn, as columns in global axes.
     pub turn: [[f64; 3]; 3],
 }

@@ -1,7 +1,7 @@
-//! Elements of a file, which know what was read of them.
+//! Elements of a file, which record whether they were read.
 //!
-//! A reader asks for attributes and children by name; what it never asked for is what the model is not given. So nothing is lost unsaid: a walk
-//! at the end finds all that (`unread.rs`).
+//! A reader asks for attributes and children by name. An element or attribute that no reader asked for has no counterpart in the scene. A
+//! walk at the end reports all of them (`unread.rs`), so that nothing is dropped silently.
 
 use crate::source::{Fault, Origin, Read};
 use std::cell::Cell;
@@ -9,12 +9,12 @@ use std::cell::Cell;
 /// An element of a file.
 #[derive(Debug, Clone)]
 pub(crate) struct Element {
-    /// Name of the element, with the prefix that the file gives it.
+    /// Name of the element, with its namespace prefix in the file.
     pub(crate) name: String,
     pub(crate) at: Origin,
     pub(crate) attributes: Vec<Attribute>,
     pub(crate) children: Vec<Self>,
-    /// The text between its children.
+    /// Text between the child elements.
     pub(crate) text: String,
     is_read: Cell<bool>,
 }
@@ -37,17 +37,17 @@ impl Attribute {
         self.is_read.get()
     }
 
-    /// A refusal of its value.
+    /// The error of an attribute's value, at its place.
     pub(crate) fn fault(&self, message: impl Into<String>, hint: impl Into<String>) -> Fault {
         Fault::new(self.at, message, hint)
     }
 
-    /// Numbers of the value, as many as there are.
+    /// All numbers of the value, in order.
     pub(crate) fn list(&self) -> Read<Vec<f64>> {
         self.value.split_ascii_whitespace().map(|word| self.word(word)).collect()
     }
 
-    /// Takes over as many numbers as are written, at most `all` of them.
+    /// Overwrites the first numbers of `all` with those of the value, which has at most as many.
     pub(crate) fn merge(&self, all: &mut [f64]) -> Read<()> {
         let list = self.list()?;
         if list.len() > all.len() {
@@ -58,7 +58,7 @@ impl Attribute {
         Ok(())
     }
 
-    /// Exactly `N` numbers of the value.
+    /// The value as exactly `N` numbers.
     pub(crate) fn numbers<const N: usize>(&self) -> Read<[f64; N]> {
         let list = self.list()?;
         let n = list.len();
@@ -71,12 +71,12 @@ impl Attribute {
         })
     }
 
-    /// The one number of the value.
+    /// The value as a single number.
     pub(crate) fn number(&self) -> Read<f64> {
         self.numbers::<1>().map(|[x]| x)
     }
 
-    /// Is the value true?
+    /// The value as a Boolean: `true`, `1`, `false` or `0`.
     pub(crate) fn flag(&self) -> Read<bool> {
         match self.value.trim().to_ascii_lowercase().as_str() {
             "true" | "1" => Ok(true),
@@ -121,7 +121,7 @@ impl Element {
         self
     }
 
-    /// Marks the element and all below it as read: something else said what becomes of it.
+    /// Marks the element and everything in it as read, because another finding reports them.
     pub(crate) fn read_whole(&self) {
         let mut rest = vec![self];
         while let Some(element) = rest.pop() {
@@ -131,31 +131,31 @@ impl Element {
         }
     }
 
-    /// An attribute that is there, which is read from here on.
+    /// An attribute of the element, if it exists; it then counts as read.
     pub(crate) fn attribute(&self, name: &str) -> Option<&Attribute> {
         let found = self.attributes.iter().find(|attribute| attribute.name == name)?;
         found.is_read.set(true);
         Some(found)
     }
 
-    /// The value of an attribute, without blanks around it.
+    /// The value of an attribute without surrounding blanks, if it exists.
     pub(crate) fn value(&self, name: &str) -> Option<&str> {
         self.attribute(name).map(|attribute| attribute.value.trim())
     }
 
-    /// An attribute that must be there.
+    /// An attribute that must exist; otherwise an error.
     pub(crate) fn need(&self, name: &str) -> Read<&Attribute> {
         self.attribute(name).ok_or_else(|| {
             self.fault(format!("`{}` has no `{name}`", self.name), format!("write {name}=\"...\""))
         })
     }
 
-    /// A number, or what stands for it.
+    /// The number of an attribute, or `default` when the attribute does not exist.
     pub(crate) fn number_or(&self, name: &str, default: f64) -> Read<f64> {
         self.attribute(name).map_or(Ok(default), Attribute::number)
     }
 
-    /// Some numbers, or what stands for them.
+    /// The numbers of an attribute, or `default` when the attribute does not exist.
     pub(crate) fn numbers_or<const N: usize>(
         &self,
         name: &str,
@@ -164,22 +164,22 @@ impl Element {
         self.attribute(name).map_or(Ok(default), Attribute::numbers)
     }
 
-    /// The first child of a name; it is read from here on.
+    /// The first child of this name, if it exists; it then counts as read.
     pub(crate) fn child(&self, name: &str) -> Option<&Self> {
         self.children.iter().find(|child| child.name == name).map(Self::read)
     }
 
-    /// The children of a name; each is read from when it is reached.
+    /// All children of this name. Each counts as read when the iteration reaches it.
     pub(crate) fn each<'a>(&'a self, name: &'a str) -> impl Iterator<Item = &'a Self> {
         self.children.iter().filter(move |child| child.name == name).map(Self::read)
     }
 
-    /// A refusal of it.
+    /// The error of an element, at its place.
     pub(crate) fn fault(&self, message: impl Into<String>, hint: impl Into<String>) -> Fault {
         Fault::new(self.at, message, hint)
     }
 
-    /// The text in it, as if it were an attribute.
+    /// The text in the element, in the form of an attribute.
     pub(crate) fn content(&self) -> Attribute {
         Attribute::new(self.name.clone(), self.text.trim().to_owned(), self.at)
     }

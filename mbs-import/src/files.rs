@@ -1,15 +1,15 @@
-//! Files that are a scene or a model.
+//! Reads files that contain either a scene or a model of another format.
 
 use crate::import::{Imported, import, is_model};
 use crate::options::ImportOptions;
 use mbs_scene::{ReadError, SceneFile};
 use std::path::Path;
 
-/// Reads the bytes of a file that lies in the folder of the options: a scene, or a model, which becomes one as they say. `file` is the name
-/// that messages show.
+/// Reads the bytes of a scene, or of a model, which is converted by the options. Paths in the file are relative to the folder in the
+/// options; `file` is the name in messages.
 ///
 /// # Errors
-/// Those of [`SceneFile::from_bytes_in`] and of [`import`].
+/// The errors of [`SceneFile::from_bytes_in`] and of [`import`].
 pub fn scene_file(
     bytes: &[u8],
     file: &str,
@@ -23,14 +23,14 @@ pub fn scene_file(
     Ok((model.scene_file(file)?, Some(model)))
 }
 
-/// Reads a file: a scene, or a model, which becomes one.
+/// Reads a file with a scene, or with a model, which is converted to a scene.
 ///
 /// # Errors
-/// Those of [`SceneFile::read`] and of [`import`].
+/// The errors of [`SceneFile::read`] and of [`import`].
 pub fn read(path: impl AsRef<Path>) -> Result<SceneFile, ReadError> {
     let path = path.as_ref();
     let Ok(bytes) = std::fs::read(path) else {
-        // it says why a file cannot be read
+        // The reader of scenes returns the error of the system.
         return SceneFile::read(path);
     };
     let folder = path.parent().unwrap_or(Path::new(""));

@@ -1,24 +1,24 @@
-//! Findings: what became of a model's elements.
+//! Findings: differences between the elements of a model and the scene.
 
 use crate::source::{Origin, Sources};
 
-/// Way in which an element came into the scene.
+/// Kind of difference between an element and the scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum FindingKind {
-    /// In the form of something that acts nearly the same.
+    /// The scene has something that acts nearly like the element.
     Approximated,
-    /// Not at all, and it could act.
+    /// The scene does not have the element, which could affect the motion.
     Ignored,
-    /// Not at all, since it is for the eye alone.
+    /// The scene does not have the element, which is for pictures only.
     Appearance,
-    /// Just as the file has it, where the format or what was asked for leaves a choice.
+    /// The scene has the element exactly; the finding reports a choice that the format or the options leave open.
     Noted,
 }
 
-/// Finding that says what became of an element that is not in the scene as the file has it.
+/// Finding about an element that the scene does not have exactly as the file does.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ModelFinding {
-    /// Way in which the element came into the scene.
+    /// Kind of the difference.
     pub kind: FindingKind,
     /// Name of the file.
     pub file: String,
@@ -28,11 +28,11 @@ pub struct ModelFinding {
     pub column: usize,
     /// Element with its path: `robot/joint[elbow]/limit`.
     pub element: String,
-    /// Sentence that says what was done.
+    /// Sentence that describes what the import did.
     pub says: String,
 }
 
-/// Findings while a model is read.
+/// List of findings while a model is read.
 #[derive(Debug, Default, Clone)]
 pub(crate) struct Findings(Vec<(FindingKind, Origin, String, String)>);
 
@@ -55,7 +55,7 @@ impl Findings {
         self.0.push((FindingKind::Ignored, at, element.into(), says.into()));
     }
 
-    /// A choice that was made where the file leaves one.
+    /// Adds a choice that the import made where the file leaves it open.
     pub(crate) fn noted(
         &mut self,
         at: Origin,
@@ -69,7 +69,7 @@ impl Findings {
         self.not_drawn(at, element, "");
     }
 
-    /// Something that is for the eye, and why it is not drawn.
+    /// Adds an element for pictures that is not drawn, with the reason.
     pub(crate) fn not_drawn(
         &mut self,
         at: Origin,
@@ -79,7 +79,7 @@ impl Findings {
         self.0.push((FindingKind::Appearance, at, element.into(), says.into()));
     }
 
-    /// All of them with their places, in the order of the files.
+    /// All findings with their places, sorted by kind and then in the order of the files.
     pub(crate) fn list(mut self, sources: &Sources) -> Vec<ModelFinding> {
         self.0.sort_by_key(|(kind, at, ..)| (*kind, at.source, at.start));
         let list = self.0.into_iter().map(|(kind, at, element, says)| {

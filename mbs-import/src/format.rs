@@ -1,13 +1,13 @@
-//! Formats of models that are read.
+//! Formats of models that the import can read.
 
 /// A format of models.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ModelFormat {
     /// Unified Robot Description Format.
     Urdf,
-    /// The format of MuJoCo.
+    /// Format of the simulator MuJoCo.
     Mjcf,
-    /// Simulation Description Format.
+    /// Simulation Description Format of Gazebo.
     Sdf,
 }
 
@@ -22,7 +22,7 @@ impl ModelFormat {
         }
     }
 
-    /// Names of the options that a reader of it takes, as Python and `mbs import` call them.
+    /// Names of the options that a reader of the format supports, as in Python and in `mbs import`.
     #[must_use]
     pub const fn options(self) -> &'static [&'static str] {
         match self {

@@ -1,9 +1,10 @@
-//! Links on which gravity acts by different factors are different bodies: those that are welded get a weld of the scene.
+//! Separates links with different factors of gravity. They cannot be one body, so a weld joint of the scene connects them.
 
 use crate::robot::{GROUND, Kind, Link, Robot};
 use std::collections::HashSet;
 
-/// Makes a weld of every fixed joint between moving links whose factors of gravity differ. Links without mass take any factor.
+/// Turns every fixed joint between moving links with different factors of gravity into a weld joint. Links without mass may have any
+/// factor.
 pub(crate) fn part(robot: &mut Robot) {
     let carriers = robot.carriers(|joint| joint.kind == Kind::Fixed);
     let mut factors: Vec<Option<f64>> = robot.links.iter().map(factor).collect();
@@ -33,12 +34,12 @@ pub(crate) fn part(robot: &mut Robot) {
     }
 }
 
-/// The factor of a link, where it has mass.
+/// The factor of gravity of a link; `None` for a link without mass.
 fn factor(link: &Link) -> Option<f64> {
     link.mass.is_some_and(|mass| mass.mass > 0.0).then_some(link.gravity_scale)
 }
 
-/// Are two factors the same number?
+/// Are the bits of two factors equal?
 pub(crate) fn is_same(x: f64, y: f64) -> bool {
     x.to_bits() == y.to_bits()
 }

@@ -1,4 +1,4 @@
-//! A file of a model in, the text of a scene out.
+//! Import of a model: from the bytes of its file to the text of a scene.
 
 use crate::context::Context;
 use crate::coordinates::FileCoordinate;
@@ -16,28 +16,28 @@ use mbs_scene::{ReadError, SceneFile};
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
-/// A model as a scene.
+/// A model as a scene, with the findings of the import.
 #[derive(Debug, Clone)]
 pub struct Imported {
     /// The format of the file.
     pub format: ModelFormat,
     /// The text of the scene, TOML.
     pub text: String,
-    /// Findings about what is not in the scene as the file has it, in the order of the file.
+    /// Findings: elements that the scene does not have exactly as the file does, in the order of the file.
     pub findings: Vec<ModelFinding>,
-    /// Sizes of the model: how many parts it has.
+    /// Sizes of the model: the numbers of its parts.
     pub sizes: ModelSizes,
-    /// The coordinates of the file in its order: of an MJCF, those of `qpos` and `qvel`.
+    /// The coordinates in the order of the file: for MJCF, the order of `qpos` and `qvel`.
     pub coordinates: Vec<FileCoordinate>,
-    /// Folder from which the text names files.
+    /// Folder to which the paths in the text are relative.
     folder: Option<PathBuf>,
 }
 
 impl Imported {
-    /// The scene of its text. Messages call it that of `file`: its lines are not those of the model.
+    /// Parses the text as a scene file. Its name in messages is `scene of` and `file`, since its lines are not those of the model.
     ///
     /// # Errors
-    /// Those of [`SceneFile::parse`].
+    /// The errors of [`SceneFile::parse`].
     pub fn scene_file(&self, file: &str) -> Result<SceneFile, ReadError> {
         let name = format!("scene of {file}");
         match &self.folder {
@@ -47,38 +47,38 @@ impl Imported {
     }
 }
 
-/// Sizes of a model: how many parts it has.
+/// Sizes of a model: the numbers of its parts.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct ModelSizes {
-    /// Links of the file.
+    /// Number of links in the file.
     pub links: usize,
-    /// Bodies of the scene: what is welded together is one.
+    /// Number of bodies of the scene. Links that are welded together are one body.
     pub bodies: usize,
-    /// Joints of the scene.
+    /// Number of joints of the scene.
     pub joints: usize,
-    /// Couplings of the scene.
+    /// Number of couplings of the scene.
     pub couplings: usize,
-    /// Inputs of the scene.
+    /// Number of inputs of the scene.
     pub inputs: usize,
 }
 
-/// Does a text look like a model, and not like a scene? Its first character is `<`, or `<` with a zero beside it, or it is a file of USD.
+/// Is a file a model rather than a scene? A model begins with `<` (in UTF-8 or UTF-16) after blanks, or is a file of USD.
 #[must_use]
 pub fn is_model(bytes: &[u8]) -> bool {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     match bytes {
-        // UTF-16, which the reader refuses by name
+        // UTF-16, for which the reader has an error message.
         [0xff, 0xfe, b'<', 0, ..] | [0xfe, 0xff, 0, b'<', ..] => true,
-        // of USD too
+        // Also USD, for which the reader has an error message.
         _ if is_usd(bytes) => true,
         _ => bytes.iter().find(|byte| !byte.is_ascii_whitespace()) == Some(&b'<'),
     }
 }
 
-/// Reads a model; `file` is the name that messages show.
+/// Reads a model and converts it to a scene; `file` is the name in messages.
 ///
 /// # Errors
-/// [`ReadError`] with file, line, column and a hint: where the text is no XML or no model, or a model that no scene can have.
+/// [`ReadError`] with file, line, column and a hint, when the text is not XML, not a model, or a model that cannot be a scene.
 ///
 /// ```
 /// use mbs_import::{ImportOptions, import};
@@ -174,7 +174,7 @@ fn whole(
     Ok((format, write::scene(&robot, &lumps), sizes, coordinates))
 }
 
-/// Has the format the options that are given? Else what is wrong, and what to do.
+/// Checks that the format supports the given options. The error has a message and a hint.
 fn fits(format: ModelFormat, options: &ImportOptions) -> Result<(), (String, String)> {
     let given = [
         ("base", options.base.is_some()),
@@ -191,10 +191,10 @@ fn fits(format: ModelFormat, options: &ImportOptions) -> Result<(), (String, Str
     }
 }
 
-/// The format of a model.
+/// The format of a model, from its bytes.
 ///
 /// # Errors
-/// As [`import`], where the text is no XML or no model.
+/// The errors of [`import`] for a text that is not XML or not a model.
 pub fn model_format(bytes: &[u8], file: &str) -> Result<ModelFormat, ReadError> {
     let mut sources = Sources::default();
     let text = String::from_utf8_lossy(bytes);
@@ -203,7 +203,7 @@ pub fn model_format(bytes: &[u8], file: &str) -> Result<ModelFormat, ReadError> 
     found.map_err(|fault| sources.error(fault))
 }
 
-/// The format by the root element.
+/// The format of a model, from its root element.
 fn format(root: &Element) -> Read<ModelFormat> {
     if root.children.iter().any(|child| child.name.starts_with("xacro:")) {
         let message = "a file of macros: it has elements `xacro:...`";
@@ -230,7 +230,7 @@ fn format(root: &Element) -> Read<ModelFormat> {
     }
 }
 
-/// The first attribute of a file that is written as a macro.
+/// The first attribute whose value has a macro `${...}`.
 fn first_macro(root: &Element) -> Option<&Attribute> {
     let mut rest = vec![root];
     while let Some(element) = rest.pop() {
@@ -243,7 +243,7 @@ fn first_macro(root: &Element) -> Option<&Attribute> {
     None
 }
 
-/// Every link is a frame of the scene, with its own axes.
+/// Adds a frame of the scene for every link, with the link's axes.
 fn frames_of_links(robot: &mut Robot) {
     let mut names: HashSet<String> = robot.frames.iter().map(|frame| frame.name.clone()).collect();
     for (link, Link { name, pose, .. }) in robot.links.iter().enumerate() {

@@ -2,13 +2,14 @@
 
 use crate::pose::{M3, Pose, V3};
 
-/// Tolerance of the triangle inequality of a tensor, relative to its largest moment: what rounding and turning of printed numbers leave.
+/// Tolerance of the triangle inequality of a tensor, relative to its largest moment [-]. The rounding of printed numbers and of rotations
+/// is smaller than this.
 pub(crate) const SLACK: f64 = 1.0e-9;
 
 /// The inertia of a body, in the axes of one frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Mass {
-    /// Mass [kg].
+    /// Mass of the body [kg].
     pub(crate) mass: f64,
     /// Centre of mass [m].
     pub(crate) center: V3,
@@ -21,16 +22,16 @@ impl Mass {
         Self { mass: 0.0, center: V3::zeros(), tensor: M3::zeros() }
     }
 
-    /// Returns the inertia in the axes of the frame in which this one stands as `pose` says.
+    /// Returns the inertia in the axes of another frame; `pose` is the pose of the present frame in that one.
     pub(crate) fn seen_from(&self, pose: &Pose) -> Self {
         let turned = pose.turn * self.tensor * pose.turn.transpose();
-        // rounding of the two products is not the same on both sides of the diagonal
+        // The rounding errors of the products are not symmetric, so the mean is taken.
         let tensor = (turned + turned.transpose()) * 0.5;
         let tensor = if pose.turn == M3::identity() { self.tensor } else { tensor };
         Self { mass: self.mass, center: pose.point(&self.center), tensor }
     }
 
-    /// Two bodies as one.
+    /// The inertia of two bodies together, about their common centre of mass.
     pub(crate) fn with(&self, other: &Self) -> Self {
         let mass = self.mass + other.mass;
         if self.is_nothing() {
@@ -47,24 +48,24 @@ impl Mass {
         Self { mass, center, tensor }
     }
 
-    /// Is there neither mass nor inertia?
+    /// Are both mass and inertia zero?
     pub(crate) fn is_nothing(&self) -> bool {
         self.mass == 0.0 && self.tensor == M3::zeros()
     }
 
-    /// The tensor about another point, by the theorem of parallel axes.
+    /// The tensor about another point, by the parallel axis theorem.
     pub(crate) fn about(&self, point: &V3) -> M3 {
         let r = self.center - point;
         self.tensor + (M3::identity() * r.dot(&r) - r * r.transpose()) * self.mass
     }
 
-    /// Six numbers of the tensor, as scenes write it: xx, yy, zz, xy, yz, zx.
+    /// The six numbers of the tensor in the order of scenes: xx, yy, zz, xy, yz, zx.
     pub(crate) fn six(&self) -> [f64; 6] {
         [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0)].map(|entry| self.tensor[entry])
     }
 }
 
-/// The tensor of its six numbers xx, yy, zz, xy, yz, zx.
+/// The tensor with the six numbers xx, yy, zz, xy, yz, zx.
 pub(crate) fn tensor([xx, yy, zz, xy, yz, zx]: [f64; 6]) -> M3 {
     M3::new(xx, xy, zx, xy, yy, yz, zx, yz, zz)
 }
@@ -76,7 +77,7 @@ mod tests {
 
     #[test]
     fn two_halves_of_a_turned_rod_make_the_rod() {
-        // a rod of 3 kg and 2 m along x: m l²/12 = 1 about y and z
+        // A rod of 3 kg and 2 m along x has m l²/12 = 1 about y and z.
         let half = |x: f64| Mass {
             mass: 1.5,
             center: v3([x, 0.0, 0.0]),

@@ -1,4 +1,4 @@
-//! Laws that formats have in common: stops at the ends of a range, dry friction, and dampers of balls.
+//! Laws that several formats have: stops at the limits of joints, dry friction, and dampers of ball joints.
 
 use crate::context::Context;
 use crate::options::Stops;
@@ -6,8 +6,8 @@ use crate::pose::{V3, v3};
 use crate::robot::{Coordinate, Law, Robot, Target, What};
 use crate::source::Origin;
 
-/// Reports what becomes of the ends of a joint's range, and adds their law. The file writes the range at a place; `own` is
-/// stiffness and damping that it writes.
+/// Adds the stops of a joint's limits, and reports them. `at` and `path` are the place of the limits in the file. `own` has stiffness and
+/// damping if the file gives them.
 pub(crate) fn stops(
     (at, path): (Origin, &str),
     (name, of): (&str, Coordinate),
@@ -33,14 +33,14 @@ pub(crate) fn stops(
     }
 }
 
-/// Returns the reason why a joint whose ends are written gets no range.
+/// Returns the reason why a joint with limits in the file gets no limits.
 pub(crate) fn no_range(lower: f64, upper: f64) -> String {
     format!(
         "`lower` {lower} is not below `upper` {upper}: no range is taken; write type=\"fixed\" where the joint does not move"
     )
 }
 
-/// Dry friction that is written in `dynamics`; nothing where it is zero.
+/// Adds the dry friction of the element `dynamics`, unless it is zero.
 pub(crate) fn friction(
     (at, path): (Origin, &str),
     (name, of): (&str, Coordinate),
@@ -56,17 +56,17 @@ pub(crate) fn friction(
     }
 }
 
-/// Corners of a tetrahedron: Σ r = 0 and Σ (r² E − r rᵀ) = 8 E. So forces −c v at them are a moment −8 c ω.
+/// Corners of a tetrahedron: Σ r = 0 and Σ (r² E − r rᵀ) = 8 E. Forces −c v at them therefore give the moment −8 c ω.
 const CORNERS: [[f64; 3]; 4] =
     [[1.0, 1.0, 1.0], [1.0, -1.0, -1.0], [-1.0, 1.0, -1.0], [-1.0, -1.0, 1.0]];
 
-/// The moment −d ω between two links at a place, for a free joint with the force −d v beside it: four dampers.
+/// Dampers that act as a moment −d ω between two links at a place, made of four dampers. For a free joint they also act as a force −d v.
 pub(crate) fn dampers(
     (links, place): ([usize; 2], V3),
     damping: f64,
     is_free: bool,
 ) -> impl Iterator<Item = What> {
-    // of a ball the moment is −8 c a² ω, of a free joint the force is −4 c v beside it
+    // The moment of a ball joint is −8 c a² ω, with the arm a; a free joint also has the force −4 c v.
     let (arm, c) = if is_free {
         (core::f64::consts::FRAC_1_SQRT_2, damping / 4.0)
     } else {

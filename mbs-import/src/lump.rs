@@ -1,4 +1,4 @@
-//! Links that are welded together are one body.
+//! Bodies of a model: links that are welded together form one body.
 
 use crate::findings::Findings;
 use crate::inertia::{Mass, SLACK};
@@ -7,30 +7,31 @@ use crate::pose::M3;
 use crate::robot::{Kind, Robot};
 use crate::source::{Fault, Read};
 
-/// Radius of gyration below which a mass is a point [m]: far below that of any part, far above what rounding leaves of zero. Published humanoids
-/// have a leg with 2e-9 m.
+/// Radius of gyration below which a body counts as a point mass [m]. It is far smaller than any part, and far larger than rounding errors.
+/// A leg of a published humanoid has 2e-9 m.
 const NEGLIGIBLE: f64 = 1.0e-7;
 
-/// Links that move together.
+/// Links that are welded together and form one body.
 #[derive(Debug, Clone)]
 pub(crate) struct Lump {
-    /// The link that carries the others and gives the body its name.
+    /// Link that the others are welded to, whose name the body gets.
     pub(crate) carrier: usize,
     pub(crate) mass: Mass,
-    /// Factor of gravity, the same of all links that have mass.
+    /// Factor of gravity, equal for all links that have mass [-].
     pub(crate) gravity_scale: f64,
 }
 
-/// The bodies of a model.
+/// The bodies of a model, with the links in them.
 #[derive(Debug, Clone)]
 pub(crate) struct Lumps {
-    /// The lump of each link.
+    /// Index of the body of each link.
     pub(crate) of: Vec<usize>,
-    /// Lumps, the ground first; the others in the order of their carriers in the file.
+    /// Bodies, with the ground first. The others are in the order of their carriers in the file.
     pub(crate) lumps: Vec<Lump>,
 }
 
-/// Joins what `Fixed` joints weld, and checks the inertia of what moves; options may mend an impossible one, or leave it out.
+/// Joins links that are connected by `Fixed` joints, and checks the inertia of moving bodies. An impossible inertia is an error; options
+/// may correct it or leave it out.
 pub(crate) fn lumps(
     robot: &Robot,
     options: &ImportOptions,
@@ -68,7 +69,7 @@ pub(crate) fn lumps(
     Ok(found)
 }
 
-/// Is the inertia one that a body can have?
+/// Checks that the inertia of a body is possible, or corrects it when `balance` is true.
 fn check(robot: &Robot, lump: &mut Lump, balance: bool, findings: &mut Findings) -> Read<()> {
     let link = &robot.links[lump.carrier];
     let size = lump.mass.tensor.abs().max();

@@ -1,11 +1,11 @@
-//! Motors that the file does not have: an input for each joint that moves.
+//! Motors that the file does not have: an input for each moving joint.
 
 use crate::findings::Findings;
 use crate::robot::{Coordinate, GROUND, Joint, Kind, Law, Robot, Signal, Target, Term, What};
 use crate::source::{Fault, Read};
 
-/// Adds a motor to each joint that neither an actuator of the file drives nor another joint leads. A free joint of the ground holds a base,
-/// and has none.
+/// Adds a motor to each joint that no actuator of the file drives, unless the joint follows another one. A free joint on the ground belongs
+/// to a base and gets no motor.
 pub(crate) fn add(robot: &mut Robot, findings: &mut Findings) -> Read<()> {
     let driven = driven(robot);
     for number in 0..robot.joints.len() {
@@ -50,7 +50,7 @@ fn driven(robot: &Robot) -> Vec<bool> {
     driven
 }
 
-/// Words of the coordinates that have an effort of their own, in the order of the scene; that of an only one is empty.
+/// Words of the coordinates that get their own motor, in the order of the scene. The word of a single coordinate is empty.
 const fn words(kind: Kind) -> &'static [&'static str] {
     match kind {
         Kind::Fixed | Kind::Weld | Kind::Distance(_) | Kind::Spherical => &[],
@@ -62,12 +62,12 @@ const fn words(kind: Kind) -> &'static [&'static str] {
     }
 }
 
-/// The motors of coordinates.
+/// Adds the motors of single coordinates of a joint.
 fn efforts(joint: &Joint, number: usize, robot: &mut Robot) -> Read<()> {
     let words = words(joint.kind);
     for (i, word) in words.iter().enumerate() {
         let of = Coordinate { joint: number, number: (words.len() > 1).then_some(i) };
-        // a sum of coordinates holds its first one
+        // A coupling determines its first coordinate.
         let is_led = robot.couplings.iter().any(|coupling| coupling.terms[0].of == of);
         if is_led {
             continue;
@@ -87,11 +87,11 @@ fn efforts(joint: &Joint, number: usize, robot: &mut Robot) -> Read<()> {
     Ok(())
 }
 
-/// The motors of the turns of a ball: moments about global axes, on its second body and back on the first.
+/// Adds the motors of the rotations of a ball joint: moments about global axes on its second body, and opposite moments on the first.
 fn moments(joint: &Joint, robot: &mut Robot) -> Read<()> {
     let word = match joint.kind {
         Kind::Spherical => "",
-        // beside its slides
+        // The word distinguishes the rotations from the translations.
         Kind::Free => "turn-",
         _ => return Ok(()),
     };
@@ -115,7 +115,7 @@ fn moments(joint: &Joint, robot: &mut Robot) -> Read<()> {
     Ok(())
 }
 
-/// An input of a joint, and the signal that acts: it, or it within the limits of the joint's effort.
+/// Adds an input of a joint. Returns the signal that acts: the input, or the input limited by the joint's effort.
 fn input(
     joint: &Joint,
     ending: &str,

@@ -1,20 +1,20 @@
-//! Options that a user may give a reader.
+//! Options for reading a model.
 
 use std::path::{Path, PathBuf};
 
-/// Whether the root of a model stands on the ground or moves.
+/// Base of a model: its root link is fixed to the ground or moves freely.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum BaseKind {
-    /// The root is fixed to the ground.
+    /// The root link is fixed to the ground.
     Fixed,
-    /// The root moves freely.
+    /// The root link moves freely.
     Free,
 }
 
-/// Choice of the stiffness and damping of stops at the ends of joints.
+/// Stiffness and damping of the stops at the limits of joints.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Stops {
-    /// Stiffness and damping by the mass that they move.
+    /// Values estimated from the mass that the joint moves.
     ByMass,
     /// Given stiffness and damping [N m/rad and N m s/rad, or N/m and N s/m].
     Given {
@@ -25,42 +25,43 @@ pub enum Stops {
     },
 }
 
-/// Folders of packages and models, as other programs have them.
+/// Environment variables with folders of packages and models, as in ROS and Gazebo.
 const SEARCH_PATHS: [&str; 3] = ["ROS_PACKAGE_PATH", "SDF_PATH", "GZ_SIM_RESOURCE_PATH"];
 
-/// Options that a user may give a reader.
+/// Options for reading a model.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct ImportOptions {
-    /// Base of the model; `None`: as the file says, and fixed where a URDF says nothing.
+    /// Base of the model; `None`: the base in the file, or a fixed one for a URDF without this information.
     pub base: Option<BaseKind>,
-    /// Stops at the ends of ranges that have no stiffness in the file; `None`: the ranges are data.
+    /// Stops at limits that have no stiffness in the file; `None`: limits are written as data, without stops.
     pub limits: Option<Stops>,
-    /// Whether impossible inertias are mended by the least raise of the two smaller moments.
+    /// Are impossible inertias corrected? The two smaller principal moments are then raised by the least amount that is needed.
     pub balance: bool,
-    /// Fixed joints that stay joints, so that they have a reaction.
+    /// Fixed joints that become weld joints of the scene, so that their reaction is available.
     pub keep_fixed: Vec<String>,
-    /// The keyframe of an MJCF from which it starts.
+    /// Name of the MJCF keyframe that gives the initial state.
     pub key: Option<String>,
-    /// The folder of the file, from which it includes others; `None` refuses includes.
+    /// Folder of the file, to which includes are relative; `None` refuses includes.
     pub folder: Option<PathBuf>,
-    /// Whether a file outside of that folder is refused.
+    /// Are files outside that folder refused?
     pub no_outside: bool,
-    /// The folder of the scene, from which it names files of meshes; `None`: that of the model.
+    /// Folder of the scene, to which paths of meshes are relative; `None`: the folder of the model.
     pub scene_folder: Option<PathBuf>,
-    /// Folders of packages by their names.
+    /// Folders of packages, each with the package's name.
     pub packages: Vec<(String, PathBuf)>,
-    /// Folders in which packages and models lie.
+    /// Folders that contain packages and models.
     pub package_path: Vec<PathBuf>,
-    /// Whether each joint that moves gets an input, where no actuator of the file drives it.
+    /// Does each moving joint get an input, unless an actuator of the file drives it?
     pub motors: bool,
-    /// Whether meshes whose mass is needed count as massless, and are reported.
+    /// Are meshes, whose mass is needed, counted as massless and reported?
     pub massless_meshes: bool,
-    /// Whether inertias that no body has are left out, and reported: for places, Jacobians and inverse kinematics.
+    /// Are impossible inertias left out and reported? The scene then serves for positions, Jacobians and inverse kinematics.
     pub geometry_alone: bool,
 }
 
 impl ImportOptions {
-    /// Options for a model in a folder, with the search paths of the environment: `ROS_PACKAGE_PATH`, `SDF_PATH`, `GZ_SIM_RESOURCE_PATH`.
+    /// Options for a model in a folder, with the search paths of the environment variables `ROS_PACKAGE_PATH`, `SDF_PATH` and
+    /// `GZ_SIM_RESOURCE_PATH`.
     #[must_use]
     pub fn in_folder(folder: PathBuf) -> Self {
         let paths = SEARCH_PATHS.into_iter().filter_map(std::env::var_os);
@@ -68,7 +69,7 @@ impl ImportOptions {
         Self { folder: Some(folder), package_path: paths.collect(), ..Self::default() }
     }
 
-    /// Folder from which the scene names files, if that is known.
+    /// Folder to which paths in the scene are relative, if it is known.
     pub(crate) fn scene_home(&self) -> Option<&Path> {
         self.scene_folder.as_deref().or(self.folder.as_deref())
     }

@@ -1,18 +1,18 @@
-//! Places and rotations of frames.
+//! Positions and rotations of frames.
 
 use mbs_core::algebra::{Matrix, Vector, along, cross, norm, vector};
 
 /// A vector in space.
 pub(crate) type V3 = Vector<f64, 3>;
-/// A rotation, or a tensor.
+/// A rotation matrix or an inertia tensor.
 pub(crate) type M3 = Matrix<f64, 3>;
 
-/// Pose of a frame in another one.
+/// Pose of a frame relative to another frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Pose {
-    /// Takes components in the frame to those in the other.
+    /// Rotation matrix: it converts components in the frame to components in the other frame.
     pub(crate) turn: M3,
-    /// The frame's origin in the other.
+    /// Origin of the frame, in the other frame [m].
     pub(crate) at: V3,
 }
 
@@ -25,53 +25,53 @@ impl Pose {
         Self { turn, at }
     }
 
-    /// The pose, in the frame in which this one is, of a frame that is `inner` in this one.
+    /// The pose of an inner frame relative to the outer frame, given the pose `inner` of the inner frame relative to this one.
     pub(crate) fn then(&self, inner: &Self) -> Self {
         Self { turn: self.turn * inner.turn, at: self.point(&inner.at) }
     }
 
-    /// The other frame as seen from this one.
+    /// The pose of the other frame relative to this one.
     pub(crate) fn inverse(&self) -> Self {
         let turn = self.turn.transpose();
         Self { turn, at: -(turn * self.at) }
     }
 
-    /// A point of the frame, in the other.
+    /// The position of a point of this frame, in the other frame.
     pub(crate) fn point(&self, x: &V3) -> V3 {
         self.at + self.turn * x
     }
 }
 
-/// The vector of three numbers.
+/// The vector with three components.
 pub(crate) const fn v3(numbers: [f64; 3]) -> V3 {
     vector(numbers)
 }
 
-/// The rotation by an angle about an axis of unit length.
+/// The rotation by an angle [rad] about a unit vector.
 pub(crate) fn about(axis: &V3, angle: f64) -> M3 {
-    // a quarter of a turn has no rounding in its matrix
+    // The matrix of a quarter turn is exact.
     let (sine, cosine) = sine_cosine(angle);
     let outer = axis * axis.transpose();
     let skew = M3::new(0.0, -axis[2], axis[1], axis[2], 0.0, -axis[0], -axis[1], axis[0], 0.0);
     outer + (M3::identity() - outer) * cosine + skew * sine
 }
 
-/// Sine and cosine; zero and one where the angle is a multiple of a right angle to its last digits.
+/// Sine and cosine of an angle. Values near zero become exactly zero, so that right angles are exact.
 fn sine_cosine(angle: f64) -> (f64, f64) {
-    /// Right angles are written with at least so many digits.
+    /// Bound of a sine or cosine that counts as zero [-]. Right angles in files have at least 15 digits.
     const SLACK: f64 = 1.0e-15;
     let (sine, cosine) = angle.sin_cos();
     let clean = |x: f64| if x.abs() < SLACK { 0.0 } else { x };
     (clean(sine), clean(cosine))
 }
 
-/// Roll, pitch and yaw: about the fixed axes x, y, z in this order.
+/// The rotation by roll, pitch and yaw: about the fixed axes x, y, z in this order.
 pub(crate) fn roll_pitch_yaw([roll, pitch, yaw]: [f64; 3]) -> M3 {
     let [x, y, z] = [0, 1, 2].map(unit);
     about(&z, yaw) * about(&y, pitch) * about(&x, roll)
 }
 
-/// The rotation of a quaternion w, x, y, z; `None` where its length is zero.
+/// The rotation of a quaternion w, x, y, z; `None` when the quaternion is zero.
 pub(crate) fn quaternion(q: [f64; 4]) -> Option<M3> {
     let length = q.iter().map(|x| x * x).sum::<f64>().sqrt();
     if length == 0.0 {
@@ -96,18 +96,18 @@ pub(crate) fn unit(i: usize) -> V3 {
     mbs_core::algebra::unit(i)
 }
 
-/// A direction of unit length; `None` where it has none.
+/// The unit vector along a vector; `None` when its length is zero or not finite.
 pub(crate) fn direction(x: &V3) -> Option<V3> {
     let length = norm(x);
     if length == 0.0 || !length.is_finite() {
         return None;
     }
-    // an axis of the frame stays one exactly
+    // A vector along an axis of the frame gives that axis exactly.
     let is_axis = x.iter().filter(|x| **x != 0.0).count() == 1;
     Some(if is_axis { x.map(|x| if x == 0.0 { 0.0 } else { x.signum() }) } else { along(x) })
 }
 
-/// The rotation by the least angle that takes z to a direction of unit length.
+/// The rotation by the smallest angle that turns the z axis to a unit vector.
 pub(crate) fn from_z_to(z: &V3) -> M3 {
     let axis = cross(&unit(2), z);
     let sine = norm(&axis);

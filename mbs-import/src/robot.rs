@@ -1,4 +1,4 @@
-//! Model that the readers of all formats fill in: links and joints in global axes of the reference configuration.
+//! Model that the readers of all formats fill: links and joints, in global axes of the reference configuration.
 
 use crate::coordinates::FileCoordinate;
 use crate::inertia::Mass;
@@ -6,7 +6,7 @@ use crate::pose::{Pose, V3};
 use crate::source::Origin;
 use std::collections::HashSet;
 
-/// The link that is the ground.
+/// Index of the link that is the ground.
 pub(crate) const GROUND: usize = 0;
 
 /// A model of links and joints.
@@ -17,38 +17,38 @@ pub(crate) struct Robot {
     pub(crate) links: Vec<Link>,
     pub(crate) joints: Vec<Joint>,
     pub(crate) couplings: Vec<Coupling>,
-    /// Laws and signals, in the order in which they are written.
+    /// Effects and signals, in the order in which they are written.
     pub(crate) laws: Vec<Law>,
     pub(crate) shapes: Vec<Form>,
     pub(crate) frames: Vec<Frame>,
     pub(crate) gravity: [f64; 3],
-    /// Values and rates at the start.
+    /// Initial values and rates of joint coordinates.
     pub(crate) start: Vec<Start>,
-    /// The coordinates of the file in its order, where the file gives them one.
+    /// Coordinates in the order of the file, if the format numbers them.
     pub(crate) coordinates: Vec<FileCoordinate>,
-    /// Sentences for the head of the scene.
+    /// Sentences of the comment at the head of the scene.
     pub(crate) notes: Vec<String>,
 }
 
-/// A rigid part of a model.
+/// A rigid part of a model; links that are welded become one body.
 #[derive(Debug, Clone)]
 pub(crate) struct Link {
     pub(crate) name: String,
     pub(crate) at: Origin,
     /// Pose of the link in the reference configuration.
     pub(crate) pose: Pose,
-    /// Inertia of the link in global axes; `None` where the file writes no inertia.
+    /// Inertia of the link in global axes; `None` when the file has none.
     pub(crate) mass: Option<Mass>,
-    /// Factor of gravity on it.
+    /// Factor of gravity for this link [-].
     pub(crate) gravity_scale: f64,
 }
 
-/// The kinds of joints that formats have.
+/// Kinds of joints in the formats of models.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Kind {
     /// Fixed joint: both links are welded to one body.
     Fixed,
-    /// Welded, and written as a joint of the scene: its reaction is wanted, or it closes a loop.
+    /// Weld that is written as a joint of the scene, because its reaction is requested or because it closes a loop.
     Weld,
     Revolute,
     Prismatic,
@@ -57,7 +57,7 @@ pub(crate) enum Kind {
     Spherical,
     Planar,
     Free,
-    /// Two points keep their distance; `place` and this point.
+    /// Joint that holds the distance between two points constant: `place`, and the point given here.
     Distance(V3),
 }
 
@@ -69,49 +69,49 @@ pub(crate) struct Joint {
     pub(crate) kind: Kind,
     pub(crate) parent: usize,
     pub(crate) child: usize,
-    /// Place of the joint, global.
+    /// Place of the joint in global axes [m].
     pub(crate) place: V3,
-    /// Global axes of unit length: one, two of a cross, normal and first slide of a plane.
+    /// Global axes of unit length: one axis, the two axes of a universal joint, or the normal and the first translation of a planar joint.
     pub(crate) axes: Vec<V3>,
-    /// Coordinate of the file where that of the scene is zero.
+    /// Coordinate of the file at which the scene's coordinate is zero.
     pub(crate) zero: f64,
-    /// Ends of the scene's coordinate.
+    /// Limits of the scene's coordinate [rad or m].
     pub(crate) range: Option<[f64; 2]>,
-    /// Largest effort and rate of its drive.
+    /// Limits of the effort of the drive [N m or N] and of the rate [rad/s or m/s].
     pub(crate) effort: Option<f64>,
     pub(crate) rate: Option<f64>,
-    /// Does it close a loop that the file writes as an equation?
+    /// Does the joint close a loop, given in the file as a constraint equation?
     pub(crate) closes: bool,
 }
 
 /// A coordinate of a joint.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Coordinate {
-    /// The number of the joint.
+    /// Index of the joint.
     pub(crate) joint: usize,
-    /// Number of the coordinate, where the joint has several.
+    /// Index of the coordinate, if the joint has several.
     pub(crate) number: Option<usize>,
 }
 
-/// A term of a sum.
+/// A term of a sum of coordinates and lengths.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Term {
     pub(crate) of: Coordinate,
     pub(crate) factor: f64,
-    /// A polynomial of the coordinate in its place, where there are any.
+    /// Coefficients of a polynomial of the coordinate, which replaces the coordinate unless the list is empty.
     pub(crate) coefficients: Vec<f64>,
-    /// The length of a line over places of links in place of the coordinate, where there are any.
+    /// Points of a line on links, whose length replaces the coordinate unless the list is empty.
     pub(crate) line: Vec<(usize, V3)>,
 }
 
 impl Term {
-    /// A coordinate with its factor.
+    /// The term of a coordinate with its factor.
     pub(crate) const fn new(of: Coordinate, factor: f64) -> Self {
         Self { of, factor, coefficients: Vec::new(), line: Vec::new() }
     }
 }
 
-/// A sum of coordinates that holds.
+/// A constraint on a sum of coordinates: the sum equals the value.
 #[derive(Debug, Clone)]
 pub(crate) struct Coupling {
     pub(crate) name: String,
@@ -119,7 +119,7 @@ pub(crate) struct Coupling {
     pub(crate) value: f64,
 }
 
-/// A polynomial of degree three between two values, by increasing power.
+/// A cubic polynomial between two values, with coefficients of increasing power.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Piece {
     pub(crate) lower: f64,
@@ -127,7 +127,7 @@ pub(crate) struct Piece {
     pub(crate) coefficients: [f64; 4],
 }
 
-/// Target of a law: what it acts on.
+/// Coordinate or sum on which a law acts.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Target {
     Coordinate(Coordinate),
@@ -141,7 +141,7 @@ pub(crate) struct Law {
     pub(crate) what: What,
 }
 
-/// Effects and signals that formats have.
+/// Kinds of effects and signals in the formats of models.
 #[derive(Debug, Clone)]
 pub(crate) enum What {
     Spring {
@@ -150,13 +150,13 @@ pub(crate) enum What {
         damping: f64,
         free: f64,
     },
-    /// A spring or a damper by pieces of a polynomial of a sum, or of its rate.
+    /// A spring or damper whose force is a piecewise polynomial of a sum, or of its rate.
     Polynomial {
         terms: Vec<Term>,
         pieces: Vec<Piece>,
         of_rate: bool,
     },
-    /// A spring that is slack below its free value.
+    /// A spring that has no force below its free value.
     Pull {
         on: Target,
         stiffness: f64,
@@ -177,23 +177,23 @@ pub(crate) enum What {
         stiffness: f64,
         damping: f64,
     },
-    /// Stops at the ends of the joint's own range.
+    /// Stops at the limits of the joint.
     RangeLimit {
         on: Target,
         stiffness: Option<[f64; 2]>,
     },
-    /// A moment or force that is set from outside.
+    /// A moment or force that is an input of the scene.
     Input {
         on: Target,
         value: f64,
     },
-    /// A moment or force that follows a signal, by its name.
+    /// A moment or force that equals a signal, given by its name.
     Driven {
         on: Target,
         signal: String,
     },
-    /// A force at a place, or without one a moment, whose components follow signals: along global axes, or those of the reference
-    /// configuration that turn with the link.
+    /// A force at a point of a link, or without a point a moment. Its components are signals, along global axes. When `turns` is true, the
+    /// axes turn with the link from the reference configuration on.
     Push {
         link: usize,
         at: Option<V3>,
@@ -209,10 +209,10 @@ pub(crate) enum What {
     Signal(Signal),
 }
 
-/// Signals that formats have.
+/// Kinds of signals in the formats of models.
 #[derive(Debug, Clone)]
 pub(crate) enum Signal {
-    /// Input that is set from outside, with its unit where that is known.
+    /// Input of the scene, with its unit if it is known.
     Set {
         value: f64,
         unit: &'static str,
@@ -228,7 +228,7 @@ pub(crate) enum Signal {
     Constant {
         value: f64,
     },
-    /// Sum of signals with factors.
+    /// Sum of signals, each multiplied by a factor.
     Sum {
         of: Vec<(String, f64)>,
     },
@@ -246,13 +246,13 @@ pub(crate) enum Signal {
     Product {
         of: Vec<String>,
     },
-    /// A signal within limits by that signal.
+    /// Ratio of the limited signal to the signal itself [-].
     LimitRatio {
         of: String,
         lower: f64,
         upper: f64,
     },
-    /// The integral of a signal, which stops at the ends of its range.
+    /// The integral of a signal, limited to its range.
     Integral {
         of: String,
         range: Option<[f64; 2]>,
@@ -261,25 +261,25 @@ pub(crate) enum Signal {
     },
 }
 
-/// Form that is drawn, in the frame of `pose` in global axes.
+/// A shape for pictures; `pose` is its frame in global axes.
 #[derive(Debug, Clone)]
 pub(crate) struct Form {
     pub(crate) link: usize,
     pub(crate) pose: Pose,
     pub(crate) kind: FormKind,
-    /// Red, green, blue and opacity, each to 1.
+    /// Red, green, blue and opacity, each from 0 to 1.
     pub(crate) colour: Option<[f64; 4]>,
 }
 
-/// Forms along the z axis of their frame.
+/// Kinds of shapes; cylinders and capsules are along the z axis of their frame.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum FormKind {
-    /// Lengths of a box along its three axes.
+    /// Edge lengths of a box along its three axes [m].
     Box([f64; 3]),
     Sphere {
         radius: f64,
     },
-    /// Radius, and length without the round ends.
+    /// Radius, and length without the round ends [m].
     Capsule {
         radius: f64,
         length: f64,
@@ -288,14 +288,14 @@ pub(crate) enum FormKind {
         radius: f64,
         length: f64,
     },
-    /// The file as the scene names it, and factors of its numbers.
+    /// Mesh file, by its name in the scene, and scale factors of its coordinates.
     Mesh {
         file: String,
         scale: [f64; 3],
     },
 }
 
-/// A named place on a link.
+/// A named frame on a link.
 #[derive(Debug, Clone)]
 pub(crate) struct Frame {
     pub(crate) name: String,
@@ -303,7 +303,7 @@ pub(crate) struct Frame {
     pub(crate) pose: Pose,
 }
 
-/// Coordinates of a joint at the start.
+/// Initial coordinates and rates of a joint.
 #[derive(Debug, Clone)]
 pub(crate) struct Start {
     pub(crate) joint: usize,
@@ -311,18 +311,18 @@ pub(crate) struct Start {
     pub(crate) rate: Vec<f64>,
 }
 
-/// The name that a link or a frame has in the scene, which calls by `ground` what does not move.
+/// Name of a link or a frame in the scene. The name `ground` gets an ending, because the scene uses it for the ground.
 pub(crate) fn scene_name(name: &str, what: &str) -> String {
     if name == "ground" { format!("{name}-{what}") } else { name.to_owned() }
 }
 
-/// Are the factors along all axes the same?
+/// Are the factors along all axes equal?
 pub(crate) fn is_even(scale: [f64; 3]) -> bool {
     scale.map(f64::to_bits) == [scale[0].to_bits(); 3]
 }
 
 impl FormKind {
-    /// The form, if all its sizes are above zero.
+    /// The shape, if all its sizes are above zero.
     pub(crate) fn of_size(self) -> Option<Self> {
         let is_there = match &self {
             Self::Box(size) => size.iter().all(|x| *x > 0.0),
@@ -336,7 +336,8 @@ impl FormKind {
     }
 }
 
-/// Red, green, blue and opacity of three or four numbers; some files write other counts, and a colour is for the eye alone.
+/// Red, green, blue and opacity from three or four numbers. Other counts give `None`, not an error, since a colour does not affect the
+/// motion.
 pub(crate) fn colour(numbers: &[f64]) -> Option<[f64; 4]> {
     match *numbers {
         [r, g, b] => Some([r, g, b, 1.0]),
@@ -346,7 +347,7 @@ pub(crate) fn colour(numbers: &[f64]) -> Option<[f64; 4]> {
 }
 
 impl Coupling {
-    /// x − factor y = offset of the coordinates x and y.
+    /// The coupling x − factor y = offset of the coordinates x and y.
     pub(crate) fn follows(name: &str, [x, y]: [Coordinate; 2], factor: f64, offset: f64) -> Self {
         let terms = vec![Term::new(x, 1.0), Term::new(y, -factor)];
         Self { name: format!("{name} mimic"), terms, value: offset }
@@ -354,7 +355,7 @@ impl Coupling {
 }
 
 impl Link {
-    /// A link at the origin, without mass.
+    /// A link at the origin of the global axes, without mass.
     pub(crate) fn new(name: &str, at: Origin) -> Self {
         Self {
             name: scene_name(name, "link"),
@@ -367,7 +368,7 @@ impl Link {
 }
 
 impl Joint {
-    /// A joint of a kind between two links, with nothing else.
+    /// A joint between two links, without axes, limits or other data.
     pub(crate) fn new(
         name: &str,
         at: Origin,
@@ -393,14 +394,14 @@ impl Joint {
 }
 
 impl Robot {
-    /// A model with the ground alone.
+    /// A model that has only the ground.
     pub(crate) fn new(name: &str, source: u16) -> Self {
         let at = Origin::start_of(source);
         let ground = Link { name: "ground".into(), ..Link::new("", at) };
         Self { name: name.to_owned(), links: vec![ground], ..Self::default() }
     }
 
-    /// Gives links and frames that have the same name other ones: the scene names both of one kind.
+    /// Makes the names of links and frames unique, since the scene has both in one list of names.
     pub(crate) fn rename_alike(&mut self) {
         let mut taken = HashSet::new();
         let links = self.links.iter_mut().map(|link| &mut link.name);
@@ -411,7 +412,8 @@ impl Robot {
         }
     }
 
-    /// The link that carries each, over some of the joints, from child to parent. The ground carries all that is joined to it.
+    /// Root of each link along the joints that `is_counted` selects, from child to parent. Links that are joined to the ground have the
+    /// ground as root.
     pub(crate) fn carriers(&self, is_counted: impl Fn(&Joint) -> bool) -> Vec<usize> {
         fn root(parent: &mut [usize], mut link: usize) -> usize {
             while parent[link] != link {

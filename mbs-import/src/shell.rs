@@ -1,11 +1,11 @@
-//! Thin shells of the surfaces of simple forms, with half lengths: the area, and the moments for each kilogram.
+//! Thin shells on the surfaces of simple shapes, given by half lengths: their area, and their moments of inertia per unit of mass.
 
 use core::f64::consts::PI;
 
-/// Area of a shell, and its moments for each kilogram.
+/// Area of a shell [m²], and its moments of inertia per unit of mass [m²].
 type Shell = (f64, [f64; 3]);
 
-/// A tube with what closes it: area, moment across and along of the latter.
+/// A tube with closed ends. The array has the area of the ends, and their moments per unit of mass across and along the axis.
 fn closed([r, h]: [f64; 2], [area, across, along]: [f64; 3]) -> Shell {
     let tube = 4.0 * PI * r * h;
     let all = tube + area;
@@ -14,7 +14,7 @@ fn closed([r, h]: [f64; 2], [area, across, along]: [f64; 3]) -> Shell {
     (all, [across, across, tube * r * r + ends * along])
 }
 
-/// Radius, and half the length without the round ends.
+/// The shell of a capsule: `r` is the radius, `h` half the length without the round ends.
 pub(crate) fn capsule(r: f64, h: f64) -> Shell {
     let ball = 2.0 / 3.0 * r * r;
     closed([r, h], [4.0 * PI * r * r, ball + h * h + r * h, ball])
@@ -28,7 +28,7 @@ pub(crate) fn cuboid(half: [f64; 3]) -> Shell {
     let [a, b, c] = half;
     let faces = [b * c, a * c, a * b];
     let all: f64 = faces.iter().sum();
-    // the mean square along an axis: one on the faces across it, a third on the others
+    // Mean square of a coordinate: that of the faces across the axis is one, that of the other faces a third.
     let square = |axis: usize| {
         let share = faces[axis] / all;
         half[axis] * half[axis] * (share + (1.0 - share) / 3.0)
@@ -37,11 +37,12 @@ pub(crate) fn cuboid(half: [f64; 3]) -> Shell {
     (8.0 * all, [y + z, x + z, x + y])
 }
 
-/// An ellipsoid, by complete elliptic integrals.
+/// The shell of an ellipsoid, by complete elliptic integrals.
 ///
-/// With Q = n1²/a² + n2²/b² + n3²/c² on the unit sphere the area is abc ∫ √Q, and ∫ x² dA is a² abc ∫ n1² √Q. The theorem of Gauss on the
-/// sphere, for the fields n_i Q^(±1/2) e_i, gives both by R_F = ⟨Q^(-1/2)⟩ and R_D = 3 ⟨n_i² Q^(-3/2)⟩ of Carlson, ⟨⟩ the mean:
-/// k_i = ⟨n_i² Q^(-1/2)⟩ = (R_F - R_D / (3 a_i²)) / 2, ⟨√Q⟩ = Σ k_i / a_i², ⟨n_i² √Q⟩ = (⟨√Q⟩ + k_i / a_i²) / 4.
+/// Let Q = n1²/a² + n2²/b² + n3²/c² for the points n of the unit sphere. The area is then abc ∫ √Q, and ∫ x² dA is a² abc ∫ n1² √Q. Both
+/// follow from the means ⟨⟩ over the sphere that Carlson's integrals give: R_F = ⟨Q^(-1/2)⟩ and R_D = 3 ⟨n_i² Q^(-3/2)⟩. The divergence
+/// theorem for the fields n_i Q^(±1/2) e_i gives k_i = ⟨n_i² Q^(-1/2)⟩ = (R_F - R_D / (3 a_i²)) / 2, then ⟨√Q⟩ = Σ k_i / a_i² and ⟨n_i² √Q⟩
+/// = (⟨√Q⟩ + k_i / a_i²) / 4.
 pub(crate) fn ellipsoid(half: [f64; 3]) -> Shell {
     let inverse = half.map(|a| 1.0 / (a * a));
     let parts = [0, 1, 2].map(|i| {
@@ -55,9 +56,9 @@ pub(crate) fn ellipsoid(half: [f64; 3]) -> Shell {
     (4.0 * PI * half.iter().product::<f64>() * mean, [y + z, x + z, x + y])
 }
 
-/// Carlson's integrals R_F and R_D of three numbers above zero, the third of which R_D has twice; by duplication.
+/// Carlson's integrals R_F and R_D of three positive numbers, by duplication. R_D has the third number twice.
 fn elliptic(numbers: [f64; 3]) -> (f64, f64) {
-    /// The errors of both go with the square of the spread that is left.
+    /// Spread of the numbers at which the duplication ends [-]. The errors of both integrals are of the order of its square.
     const SPREAD: f64 = 1.0e-9;
     let [mut x, mut y, mut z] = numbers;
     let (mut sum, mut factor) = (0.0, 1.0);
@@ -80,12 +81,12 @@ fn elliptic(numbers: [f64; 3]) -> (f64, f64) {
 mod tests {
     use super::*;
 
-    /// Shell of an ellipsoid by a sum over the sphere that is exact for smooth integrands: Gauss-Legendre points along, equal steps around.
+    /// The shell of an ellipsoid by a numerical quadrature over the sphere: Gauss-Legendre points along the axis, equal steps around it.
     fn by_points(half: [f64; 3]) -> Shell {
-        /// Points along and around: enough for fourteen digits of these ellipsoids.
+        /// Number of points along and around [-]: enough for fourteen digits of the ellipsoids in these tests.
         const N: usize = 400;
         let (mut area, mut squares) = (0.0, [0.0; 3]);
-        // the points of Fejer's first rule are cosines of equal steps
+        // The points of Fejer's first rule are cosines of equal steps.
         for i in 0..N {
             let theta = (i as f64 + 0.5) * PI / N as f64;
             let weights = (1..=N / 2)
@@ -123,7 +124,7 @@ mod tests {
         let (area, [x, y, z]) = ellipsoid([3.0, 3.0, 1.0e-7]);
         assert!((area / (18.0 * PI) - 1.0).abs() < 1.0e-12);
         assert!([x - 2.25, y - 2.25, z - 4.5].iter().all(|x| x.abs() < 1.0e-12));
-        // its girth is a half circle: area π² a b, mean square of the length a²/4
+        // A needle has a half circle as girth: area π² a b, mean square of the length a²/4.
         let (area, [x, y, z]) = ellipsoid([2.0, 1.0e-7, 1.0e-7]);
         assert!((area / (2.0e-7 * PI * PI) - 1.0).abs() < 1.0e-12);
         assert!(x < 1.0e-13 && [y, z].iter().all(|x| (x - 1.0).abs() < 1.0e-12));

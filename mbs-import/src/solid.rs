@@ -1,4 +1,4 @@
-//! Solids and shells of simple forms: how large they are, and their moments.
+//! Solids and shells of simple shapes: their sizes and moments of inertia.
 
 use crate::inertia::Mass;
 use crate::pose::{M3, V3, v3};
@@ -6,16 +6,16 @@ use crate::robot::FormKind;
 use crate::shell;
 use core::f64::consts::PI;
 
-/// A solid along the z axis of its frame, with half lengths.
+/// A solid along the z axis of its frame, with half lengths [m].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Solid {
     Sphere(f64),
-    /// Radius, half the length without the round ends.
+    /// Radius, and half the length without the round ends.
     Capsule(f64, f64),
     Cylinder(f64, f64),
     Ellipsoid([f64; 3]),
     Box([f64; 3]),
-    /// Radius of the base, half the height: the base is below the tip, the origin between both.
+    /// Radius of the base, and half the height. The base is below the tip, and the origin is halfway between them.
     Cone(f64, f64),
 }
 
@@ -31,7 +31,7 @@ impl Solid {
         }
     }
 
-    /// Returns the solid with all sizes times a factor.
+    /// Returns the solid with all sizes multiplied by a factor.
     pub(crate) fn scaled(&self, factor: f64) -> Self {
         let all = |half: [f64; 3]| half.map(|x| x * factor);
         match *self {
@@ -44,7 +44,7 @@ impl Solid {
         }
     }
 
-    /// Mass of the solid at a density, or with the mass that is written; a shell's density is that of an area.
+    /// Inertia of the solid from a density, or from the mass in the file. The density of a shell is per area.
     pub(crate) fn mass(&self, is_shell: bool, density: f64, written: Option<f64>) -> Mass {
         let (size, moments) = match self.shell().filter(|_| is_shell) {
             Some(shell) => shell,
@@ -55,7 +55,7 @@ impl Solid {
         Mass { mass, center: self.center(), tensor }
     }
 
-    /// Centre of mass of the solid.
+    /// Centre of mass of the solid, in its frame.
     const fn center(&self) -> V3 {
         match *self {
             Self::Cone(_, h) => v3([0.0, 0.0, -h / 2.0]),
@@ -63,7 +63,7 @@ impl Solid {
         }
     }
 
-    /// Principal moments for each kilogram.
+    /// Principal moments of inertia per unit of mass [m²].
     fn moments(&self) -> [f64; 3] {
         let squares = |[a, b, c]: [f64; 3], share: f64| {
             [b * b + c * c, a * a + c * c, a * a + b * b].map(|x| x * share)
@@ -81,7 +81,7 @@ impl Solid {
                 [across, across, 0.3 * r * r]
             }
             Self::Capsule(r, h) => {
-                // the shares of the cylinder and of both ends together
+                // Fractions of the mass in the cylinder and in both ends together.
                 let (middle, ends) = (2.0 * PI * r * r * h, 4.0 / 3.0 * PI * r.powi(3));
                 let all = middle + ends;
                 let (middle, ends) = (middle / all, ends / all);
@@ -92,7 +92,7 @@ impl Solid {
         }
     }
 
-    /// The area of its surface, and the moments of a shell for each kilogram; `None` where no format has that shell.
+    /// The area of the surface, and the moments of a shell per unit of mass. `None` for a shape whose shell no format has.
     fn shell(&self) -> Option<(f64, [f64; 3])> {
         Some(match *self {
             Self::Sphere(r) => (4.0 * PI * r * r, [2.0 / 3.0 * r * r; 3]),
@@ -104,7 +104,7 @@ impl Solid {
         })
     }
 
-    /// Form that is drawn of the solid.
+    /// Shape for pictures of the solid; `None` when the scene has no such shape.
     pub(crate) const fn form(&self) -> Option<FormKind> {
         Some(match *self {
             Self::Sphere(radius) => FormKind::Sphere { radius },

@@ -1,30 +1,30 @@
-//! Texts of a model, and places in them.
+//! Texts of a model, and places in these texts.
 
 use mbs_scene::{Place, ReadError};
 use std::path::{Path, PathBuf};
 
-/// Most bytes of a file, and of all that it includes: an element takes a few hundred bytes of memory.
+/// Largest total length of a file and its includes [bytes]. An element takes a few hundred bytes of memory.
 pub(crate) const MOST_BYTES: usize = 64 << 20;
 
-/// Some bytes of one of the texts.
+/// A range of bytes in one of the texts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Origin {
-    /// The number of the text.
+    /// Index of the text.
     pub(crate) source: u16,
-    /// First byte of the place.
+    /// First byte of the range.
     pub(crate) start: u32,
-    /// The byte behind the last.
+    /// Byte after the last byte of the range.
     pub(crate) end: u32,
 }
 
 impl Origin {
-    /// The beginning of a text.
+    /// The beginning of a text, as an empty range.
     pub(crate) const fn start_of(source: u16) -> Self {
         Self { source, start: 0, end: 0 }
     }
 }
 
-/// Reason why a model is refused: a place, what is wrong, and what to do.
+/// Error of a model: a place, a message, and a hint.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Fault {
     pub(crate) at: Origin,
@@ -32,7 +32,7 @@ pub(crate) struct Fault {
     pub(crate) hint: String,
 }
 
-/// Result of a reader: what is read of a model, or why it is refused.
+/// Result of a reader: a part of the model, or an error.
 pub(crate) type Read<T> = Result<T, Fault>;
 
 impl Fault {
@@ -41,18 +41,18 @@ impl Fault {
     }
 }
 
-/// A text as it is in its file.
+/// A text with the name of its file.
 #[derive(Debug, Clone)]
 struct Source {
     name: String,
     text: String,
-    /// The text that includes it, and where.
+    /// Place of the include in another text; `None` for the model's file.
     by: Option<Origin>,
-    /// The first byte of each line.
+    /// First byte of each line.
     lines: Vec<usize>,
 }
 
-/// The texts that a model is made of: the file, then those that it includes.
+/// The texts of a model: its file, then the included files.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Sources(Vec<Source>);
 
@@ -65,17 +65,17 @@ impl Sources {
         u16::try_from(self.0.len() - 1).unwrap_or(u16::MAX)
     }
 
-    /// The name of the file of a place.
+    /// Name of the file with a place.
     pub(crate) fn name(&self, at: Origin) -> &str {
         &self.source(at).name
     }
 
-    /// A file beside that of a place; none beside the first one, whose folder the options have.
+    /// The path of a file in the folder of the text with place `at`. `None` for the model's file, whose folder is in the options.
     pub(crate) fn beside(&self, at: Origin, file: &Path) -> Option<PathBuf> {
         (at.source > 0).then(|| Path::new(self.name(at)).with_file_name(file))
     }
 
-    /// Line and column, both from 1.
+    /// Line and column of a place, both from 1.
     pub(crate) fn line_and_column(&self, at: Origin) -> [usize; 2] {
         let Source { text, lines, .. } = self.source(at);
         let byte = (at.start as usize).min(text.len());
@@ -84,12 +84,12 @@ impl Sources {
         [line, text.get(start..byte).map_or(1, |before| before.chars().count() + 1)]
     }
 
-    /// Line and column, with the line.
+    /// Line, column and text of the line of a place.
     pub(crate) fn place(&self, at: Origin) -> Place {
         Place::at(&self.source(at).text, at.start as usize..at.end as usize)
     }
 
-    /// A refusal as the reader of scenes gives it.
+    /// The error in the form that the reader of scenes returns.
     pub(crate) fn error(&self, fault: Fault) -> ReadError {
         let mut by = Vec::new();
         let mut outer = self.source(fault.at).by;

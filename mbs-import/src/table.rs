@@ -1,32 +1,33 @@
-//! Tables that say what becomes of the elements and attributes of a format.
+//! Tables with the treatment of the elements and attributes of a format.
 
 /// Treatment of an element or an attribute.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Treatment {
-    /// The element or attribute is in the scene.
+    /// The scene has an exact counterpart of the element or attribute.
     Mapped,
-    /// Something in the scene acts nearly so; the reader says what.
+    /// The scene has a counterpart that acts nearly the same; the reader adds a finding.
     Approximated,
-    /// The element or attribute is not in the scene, and this is reported, with the reason.
+    /// The scene has no counterpart. A finding reports it, with the reason.
     Ignored(&'static str),
-    /// The element or attribute is for the eye alone.
+    /// The element or attribute is for pictures only.
     Appearance,
-    /// The element or attribute has no effect on the motion, or another finding has it.
+    /// The element or attribute does not affect the motion, or another finding reports it.
     Silent,
-    /// The model is refused.
+    /// The element or attribute makes the model invalid for the import.
     Refused,
 }
 
-/// An element, or its name behind its parent's: `mimic/joint`; a name may end with `*`, for all that begin so. With attributes that are
-/// treated alike; none stands for the element itself. The first row that fits holds, those with a parent before those without.
+/// A row: an element and some of its attributes, with their common treatment. The element may have its parent's name before it,
+/// `mimic/joint`. A name may end with `*` for any ending. Without attributes the row is for the element itself. The first matching row
+/// applies; rows with a parent come before rows without one.
 pub(crate) struct Row {
     pub(crate) element: &'static str,
-    /// Names with blanks between them; `*` for all others.
+    /// Names of attributes, separated by blanks; `*` stands for all others.
     pub(crate) attributes: &'static str,
     pub(crate) treatment: Treatment,
 }
 
-/// Returns a row of a table.
+/// Makes a row of a treatment table.
 pub(crate) const fn row(
     element: &'static str,
     attributes: &'static str,
@@ -35,7 +36,7 @@ pub(crate) const fn row(
     Row { element, attributes, treatment }
 }
 
-/// Treatment by a table of an element (`attribute` is empty), or of an attribute; `None` where the table does not know it.
+/// Treatment of an attribute, or of an element when `attribute` is empty; `None` when the table does not have it.
 pub(crate) fn treatment(
     table: &[Row],
     parent: &str,
@@ -67,7 +68,7 @@ mod tests {
     use super::*;
     use crate::{mjcf, sdf, urdf};
 
-    /// Lines `parent/element attribute` of a committed list that a table does not know; what is in an element without effect goes with it.
+    /// Lines `parent/element attribute` of a stored list that a table does not have. The parts of an element without effect are left out.
     fn unknown(list: &str, table: &[Row]) -> Vec<String> {
         let lines = list.lines().filter(|line| !line.starts_with('#')).map(|line| {
             let (path, attribute) = line.split_once(' ').expect("two words");

@@ -1,4 +1,4 @@
-//! Elements and attributes for which no reader asked.
+//! Finds elements and attributes that no reader asked for.
 
 use crate::element::Element;
 use crate::findings::Findings;
@@ -21,7 +21,7 @@ struct Walk<'a> {
 }
 
 impl Walk<'_> {
-    /// The attributes and children of an element that is read.
+    /// Adds findings for the unread attributes and children of an element that was read.
     fn inside(&mut self, parent: &str, path: &str, element: &Element) {
         for attribute in element.attributes.iter().filter(|attribute| !attribute.is_read()) {
             let treated = treatment(self.table, parent, &element.name, &attribute.name);
@@ -37,7 +37,7 @@ impl Walk<'_> {
         }
     }
 
-    /// An element with all that is in it.
+    /// Adds one finding for an unread element with all its parts.
     fn lost(&mut self, parent: &str, path: &str, element: &Element) {
         let treated = treatment(self.table, parent, &element.name, "");
         self.add(treated, element.at, path.to_owned(), "element");

@@ -1,16 +1,16 @@
-//! Files of USD, which are refused by name.
+//! Recognises files of USD, which have their own error message.
 
 use crate::source::{Fault, Origin};
 
-/// First bytes of the text and the binary files of USD.
+/// First bytes of USD files, in text and in binary form.
 const BEGINS: [&[u8]; 2] = [b"#usda", b"PXR-USDC"];
 
-/// Is it a file of USD?
+/// Do the bytes begin like a file of USD?
 pub(crate) fn is_usd(bytes: &[u8]) -> bool {
     BEGINS.iter().any(|begin| bytes.starts_with(begin))
 }
 
-/// Refusal of a file of USD.
+/// The error for a file of USD.
 pub(crate) fn refusal(source: u16) -> Fault {
     Fault::new(
         Origin::start_of(source),

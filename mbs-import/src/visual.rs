@@ -1,4 +1,4 @@
-//! Files of meshes that are drawn: where they are, and how the scene names them.
+//! Mesh files for pictures: their paths, and their names in the scene.
 
 use crate::beside::{existing, is_barred, package, places, whole};
 use crate::context::Context;
@@ -7,7 +7,7 @@ use crate::robot::FormKind;
 use mbs_scene::{MESH_ENDINGS, mesh_ending};
 use std::path::{Component, Path, PathBuf};
 
-/// The form of a mesh by its file and the factors of its numbers, where none is zero; or why it is not drawn.
+/// The shape of a mesh, from its file and the scale factors of its coordinates. The error is the reason why it is not drawn.
 pub(crate) fn mesh_form(
     file: Option<&Attribute>,
     scale: Option<&Attribute>,
@@ -24,7 +24,7 @@ pub(crate) fn mesh_form(
     Ok(FormKind::Mesh { file, scale }.of_size())
 }
 
-/// A file that is drawn, as the scene names it; or why it is not.
+/// The name in the scene of a mesh file. The error is the reason why it is not drawn.
 pub(crate) fn mesh_file(written: &str, context: &Context<'_>) -> Result<String, String> {
     let written = written.trim();
     let ending = mesh_ending(Path::new(written));
@@ -42,7 +42,7 @@ pub(crate) fn mesh_file(written: &str, context: &Context<'_>) -> Result<String, 
     Ok(from_folder(folder, &path))
 }
 
-/// The whole path of a file that is there.
+/// The absolute path of an existing file.
 fn found(written: &str, context: &Context<'_>) -> Result<PathBuf, String> {
     let Some(home) = &context.options.folder else {
         return Err("meshes are not drawn: this text has no folder".to_owned());
@@ -57,7 +57,7 @@ fn found(written: &str, context: &Context<'_>) -> Result<PathBuf, String> {
     })
 }
 
-/// A file from a folder, if they have more than the root in common: a scene and its files can move together.
+/// A path relative to a folder, if both have more than the root in common. The scene and its files can then be moved together.
 fn from_folder(folder: &Path, file: &Path) -> String {
     let folder = whole(folder);
     let common = folder.components().zip(file.components()).take_while(|(a, b)| a == b).count();

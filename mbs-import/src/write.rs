@@ -1,4 +1,4 @@
-//! The scene text of a model.
+//! Writes the text of the scene for a model.
 
 mod law;
 
@@ -9,7 +9,7 @@ use crate::robot::{Form, FormKind, GROUND, Joint, Kind, Robot, Target, Term, is_
 use mbs_scene::quoted;
 use std::fmt::Write;
 
-/// Writes the text of a scene; a check of the scene's reader says whether it can be meant.
+/// Writes the text of a scene. The reader of scenes checks later whether the scene is valid.
 pub(crate) fn scene(robot: &Robot, lumps: &Lumps) -> String {
     let mut writer = Writer { robot, lumps, out: String::new() };
     writer.head();
@@ -29,7 +29,7 @@ struct Writer<'a> {
     out: String,
 }
 
-/// Shortest text of a number that reads back to it.
+/// Shortest text of a number that reads back as the same number.
 fn number(x: f64) -> String {
     format!("{:?}", if x == 0.0 { 0.0 } else { x })
 }
@@ -59,7 +59,7 @@ impl Writer<'_> {
 
     fn head(&mut self) {
         for note in &self.robot.notes {
-            // what a file writes in its names must not end the comment
+            // Control characters in names of the file must not end the comment.
             let note = note.replace(|c: char| c.is_control(), " ");
             let _ = writeln!(self.out, "# {note}");
         }
@@ -70,7 +70,7 @@ impl Writer<'_> {
         self.key("duration", "1.0");
     }
 
-    /// The name of the body that a link is part of.
+    /// The name of the body that contains a link.
     fn body(&self, link: usize) -> String {
         let carrier = self.lumps.lumps[self.lumps.of[link]].carrier;
         if carrier == GROUND { quoted("ground") } else { quoted(&self.robot.links[carrier].name) }
@@ -159,7 +159,7 @@ impl Writer<'_> {
             if let Some(number) = term.of.number {
                 let _ = write!(text, ", coordinate = {number}");
             }
-            // a factor of one is what stands for it
+            // A factor of one is the default.
             if (term.factor - 1.0).abs() > 0.0 {
                 let _ = write!(text, ", factor = {}", number(term.factor));
             }
@@ -200,7 +200,7 @@ impl Writer<'_> {
                 if let Some(number) = of.number {
                     self.key("coordinate", number.to_string());
                 } else if self.robot.joints[of.joint].kind == Kind::Prismatic {
-                    // what a torque or a torsion spring does to a slide must be said
+                    // The coordinate of a torque or torsion spring on a prismatic joint must be named.
                     self.key("coordinate", quoted("slide"));
                 }
             }
@@ -263,7 +263,7 @@ impl Writer<'_> {
     }
 }
 
-/// The word of a joint's kind; `None` for what is welded.
+/// The word of a joint's kind in a scene; `None` for a welded link.
 const fn word(kind: Kind) -> Option<&'static str> {
     Some(match kind {
         Kind::Fixed => return None,
@@ -279,7 +279,7 @@ const fn word(kind: Kind) -> Option<&'static str> {
     })
 }
 
-/// The first two axes of a frame.
+/// The first two axes of a frame, as a list of two vectors.
 fn axes(turn: &M3) -> String {
     let [x, y] = [0, 1].map(|i| vector(&turn.column(i).into_owned()));
     format!("[{x}, {y}]")
@@ -298,7 +298,7 @@ impl FormKind {
 }
 
 impl Form {
-    /// Axes of the form, where they are not the global ones.
+    /// The key for the axes of the shape, empty when they are the global axes.
     fn turned(&self) -> String {
         let is_turned = self.pose.turn != M3::identity();
         if is_turned { format!(", axes = {}", axes(&self.pose.turn)) } else { String::new() }

@@ -1,27 +1,27 @@
-//! XML with the place of every element and attribute.
+//! Reader of XML that keeps the place of every element and attribute.
 
 use crate::element::{Attribute, Element};
 use crate::source::{Fault, Origin, Read};
 use roxmltree::{Document, Node, ParsingOptions, TextPos};
 
-/// Most elements, attributes and texts of a file; each takes about a hundred bytes.
+/// Largest number of elements, attributes and texts of a file [-]. Each takes about a hundred bytes.
 const MOST_NODES: u32 = 1_000_000;
-/// Most levels of elements: walks go down by calls. Published models have 40 at most.
+/// Largest depth of elements [-], since later walks are recursive. Published models have a depth of at most 40.
 const MOST_LEVELS: usize = 512;
-/// Prefixes that a file may use without saying what they are.
+/// Largest number of namespace prefixes that a file may use without a declaration [-].
 const MOST_PREFIXES: usize = 64;
 
-/// A text as the parser gets it: some of the file's bytes are left out, and declarations of prefixes are put in.
+/// Text for the XML parser: leading bytes of the file are removed, and declarations of prefixes are inserted.
 struct Edited {
     text: String,
-    /// Bytes of the file before the text.
+    /// Number of bytes of the file before the text.
     skipped: usize,
-    /// Byte at which declarations stand, and the number of their bytes.
+    /// Byte at which declarations are inserted, and their length.
     inserted: (usize, usize),
     source: u16,
 }
 
-/// Reads a text whose number is `source`; its root element.
+/// Parses the text with the index `source`, and returns its root element.
 pub(crate) fn read(text: &str, source: u16) -> Read<Element> {
     let trimmed = text.trim_start_matches(|c: char| c == '\u{feff}' || c.is_whitespace());
     let skipped = text.len() - trimmed.len();
@@ -50,7 +50,7 @@ pub(crate) fn read(text: &str, source: u16) -> Read<Element> {
     ))
 }
 
-/// The byte behind the name of the root element; 0 where there is none.
+/// The byte after the name of the root element; 0 when there is none.
 fn after_root_name(text: &str) -> usize {
     let mut at = 0;
     while let Some(found) = text[at..].find('<') {
@@ -70,7 +70,7 @@ fn after_root_name(text: &str) -> usize {
 }
 
 impl Edited {
-    /// A place in the file.
+    /// The place in the file of a range of the edited text.
     fn origin(&self, range: std::ops::Range<usize>) -> Origin {
         let (at, length) = self.inserted;
         let back = |x: usize| {
@@ -90,7 +90,7 @@ impl Edited {
 
     fn refusal(&self, error: &roxmltree::Error) -> Fault {
         let byte = match error {
-            // it is missed at the end, whatever the parser says
+            // The missing end tag is reported at the end of the text, not at the place of the parser.
             roxmltree::Error::UnclosedRootNode => self.text.trim_end().len(),
             _ => self.byte(error.pos()),
         };
@@ -107,7 +107,7 @@ impl Edited {
                 "give a model, or a part of it, in a smaller file",
             ),
             other => {
-                // the parser ends its messages with its own place, which knows nothing of what was put in
+                // The parser's message ends with its own place, which does not account for the insertions.
                 let text = other.to_string();
                 let message =
                     text.rsplit_once(" at ").map_or(text.as_str(), |(message, _)| message);
@@ -120,7 +120,7 @@ impl Edited {
         }
     }
 
-    /// The elements without recursion: a file may be as deep as it is long.
+    /// Converts the elements without recursion, since a file can have very deep elements.
     fn tree(&self, root: Node<'_, '_>) -> Read<Element> {
         let mut open = vec![self.element(root)];
         let mut walk = vec![root.children()];

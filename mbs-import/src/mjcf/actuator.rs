@@ -1,4 +1,4 @@
-//! Actuators as they are written.
+//! Actuators of the file, before they become laws of the scene.
 
 use super::size::Size;
 use super::strength::Strength;
@@ -6,12 +6,12 @@ use super::transmission::Transmission;
 use crate::element::{Attribute, Element};
 use crate::source::Read;
 
-/// An actuator: force = (g₀ + g₁ l + g₂ l̇) u + b₀ + b₁ l + b₂ l̇. Its length is l; u is its control, or what follows it.
+/// An actuator with force = (g₀ + g₁ l + g₂ l̇) u + b₀ + b₁ l + b₂ l̇. Here l is its length, and u is its control or activation.
 #[derive(Debug, Clone)]
 pub(super) struct Actuator {
-    /// The word that wrote its gain and bias, where one did that is not `general`.
+    /// Element name that set gain and bias, or `general`.
     by: String,
-    /// Word of the last element that wrote it.
+    /// Element name that wrote to the actuator last.
     word: String,
     gain: [f64; 3],
     bias: [f64; 3],
@@ -29,20 +29,20 @@ pub(super) struct Actuator {
     pub(super) armature: f64,
     pub(super) damping: Strength,
     inherit: f64,
-    /// The length of the rod from a crank to its slider.
+    /// Length of the rod between a crank and its slider [m].
     pub(super) crank_length: Option<f64>,
-    /// Parts that act and have no counterpart.
+    /// Parts of the actuator that affect the force but have no counterpart in the scene.
     pub(super) lost: Vec<String>,
 }
 
-/// Dynamics between a control and what acts.
+/// Dynamics between the control and the activation that acts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Dynamics {
-    /// The control acts at once.
+    /// The control acts without delay.
     None,
-    /// A delay of first order.
+    /// A delay of first order, with a time constant.
     Lag,
-    /// The integral of the control acts.
+    /// The activation is the integral of the control.
     Integral,
 }
 
@@ -72,8 +72,8 @@ impl Actuator {
         }
     }
 
-    /// Actuator that the classes of an element make, and then the element. Each stands with the depth of its class; the last depth is that
-    /// of the class of the element.
+    /// The actuator from the defaults of an element's class and from the element. Each default has the depth of its class; `depth` is that
+    /// of the element's own class.
     pub(super) fn of(
         element: &Element,
         (defaults, depth): (&[(usize, &Element)], usize),
@@ -88,9 +88,10 @@ impl Actuator {
         Ok(actuator)
     }
 
-    /// Takes over what an element of one of the words writes, in a class within `outer` ones.
+    /// Applies the attributes of an element or a default, in a class within `outer` classes.
     ///
-    /// The words of two kinds do not add up: another word begins from the nearest outer class that ends with it or with `general`.
+    /// Attributes of different kinds of actuators do not combine. For another kind, the actuator starts from the nearest outer class whose
+    /// last element has that kind or `general`.
     fn apply(&mut self, element: &Element, outer: &[Self]) -> Read<()> {
         let word = element.name.as_str();
         let is_alike = |own: &str| own == word || own == "general";
@@ -121,14 +122,14 @@ impl Actuator {
                 Ok(())
             }
             "damper" => {
-                // force = −kv u l̇: a product of control and rate
+                // The force −kv u l̇ is a product of control and rate.
                 let damping = element.number_or("kv", -self.gain[2])?;
                 (self.gain, self.bias) = ([0.0, 0.0, -damping], [0.0; 3]);
                 self.kinds(["affine", "none", "none"]);
                 Ok(())
             }
             "cylinder" => self.cylinder(element),
-            // their own laws
+            // Kinds with their own laws of force.
             _ => {
                 self.gain_kind = word.to_owned();
                 Ok(())
@@ -142,11 +143,11 @@ impl Actuator {
         dynamics.clone_into(&mut self.dynamics);
     }
 
-    /// A servo of the place, whose target is the control or its integral.
+    /// Reads a position servo, whose target is the control or its integral.
     fn servo(&mut self, element: &Element, is_integral: bool) -> Read<()> {
         let stiffness = element.number_or("kp", self.gain[0])?;
         let damping = element.number_or("kv", -self.bias[2])?;
-        // above zero it is a ratio
+        // A positive third bias is a damping ratio.
         let damping = element.number_or("dampratio", -damping)?;
         (self.gain, self.bias) = ([stiffness, 0.0, 0.0], [0.0, -stiffness, damping]);
         self.inherit = element.number_or("inheritrange", self.inherit)?;
@@ -163,7 +164,7 @@ impl Actuator {
         Ok(())
     }
 
-    /// A cylinder under pressure, which follows the control with a delay.
+    /// Reads a pneumatic cylinder, whose pressure follows the control with a delay.
     fn cylinder(&mut self, element: &Element) -> Read<()> {
         let area = element.number_or("area", self.gain[0])?;
         let area = match element.attribute("diameter") {
@@ -177,7 +178,7 @@ impl Actuator {
         Ok(())
     }
 
-    /// Gain, bias and dynamics as they are.
+    /// Reads gain, bias and dynamics, which a `general` actuator has as attributes.
     fn general(&mut self, element: &Element) -> Read<()> {
         let text = |name: &str, value: &mut String| {
             if let Some(word) = element.value(name) {
@@ -188,7 +189,7 @@ impl Actuator {
         text("biastype", &mut self.bias_kind);
         text("dyntype", &mut self.dynamics);
         for (name, own) in [("gainprm", &mut self.gain), ("biasprm", &mut self.bias)] {
-            // a shorter list leaves the others as they are; what comes behind is of other laws
+            // A shorter list leaves the other values unchanged. Further values belong to other laws.
             if let Some(list) = element.attribute(name) {
                 own.iter_mut().zip(list.list()?).for_each(|(own, written)| *own = written);
             }
@@ -199,7 +200,7 @@ impl Actuator {
         Ok(())
     }
 
-    /// Reads the attributes that all words have.
+    /// Reads the attributes that all kinds of actuators have.
     fn common(&mut self, element: &Element) -> Read<()> {
         for name in ["name", "class", "group", "user"] {
             element.attribute(name);
@@ -247,12 +248,12 @@ impl Actuator {
         }
     }
 
-    /// The time of its delay.
+    /// The time constant of its delay [s].
     pub(super) const fn time(&self) -> f64 {
         self.time
     }
 
-    /// Count of the numbers in a keyframe that are the actuator's activation; `None` where only its own program knows.
+    /// Number of activation values in a keyframe; `None` when the number is not known here.
     pub(super) fn activations(&self) -> Option<usize> {
         match (self.by.as_str(), self.dynamics.as_str()) {
             ("muscle", _) => Some(1),
@@ -262,19 +263,19 @@ impl Actuator {
         }
     }
 
-    /// Gains g₀, g₁, g₂.
+    /// The gains g₀, g₁ and g₂ of the force.
     pub(super) fn gains(&self) -> [f64; 3] {
         let [constant, rest @ ..] = self.gain;
         let [length, rate] = if self.gain_kind == "affine" { rest } else { [0.0; 2] };
         [constant, length, rate]
     }
 
-    /// Biases b₀, b₁, b₂.
+    /// The biases b₀, b₁ and b₂ of the force.
     pub(super) fn biases(&self) -> [f64; 3] {
         if self.bias_kind == "affine" { self.bias } else { [0.0; 3] }
     }
 
-    /// Limits of the control; `auto` says whether they act where they are written.
+    /// Limits of the control. `auto`: limits that are written apply even without `ctrllimited`.
     pub(super) fn control_range(
         &self,
         of_length: Option<[f64; 2]>,
@@ -284,7 +285,7 @@ impl Actuator {
         inherited.or(self.control).filter(|_| self.control_limited.unwrap_or(auto))
     }
 
-    /// Limits of the activation.
+    /// Limits of the activation, if they apply.
     pub(super) fn activation_range(
         &self,
         of_length: Option<[f64; 2]>,
@@ -294,19 +295,19 @@ impl Actuator {
         inherited.or(self.activation).filter(|_| self.activation_limited.unwrap_or(auto))
     }
 
-    /// The range of the joint or tendon, as the word asks for it that wrote `inheritrange`.
+    /// The limits of the joint or tendon, scaled by `inheritrange`.
     fn inherited(&self, of_length: Option<[f64; 2]>) -> Option<[f64; 2]> {
         let [lower, upper] = of_length.filter(|_| self.inherit > 0.0)?;
         let (middle, half) = ((lower + upper) / 2.0, (upper - lower) / 2.0 * self.inherit);
         Some([middle - half, middle + half])
     }
 
-    /// Limits of the force.
+    /// Limits of the force, if they apply.
     pub(super) fn force_range(&self, auto: bool) -> Option<[f64; 2]> {
         self.force.filter(|_| self.force_limited.unwrap_or(auto))
     }
 
-    /// Returns the reason why the scene cannot have the actuator's force, if there is one.
+    /// Returns the reason why the scene cannot have the force of this actuator, if there is one.
     pub(super) fn refusal(&self, auto: bool) -> Option<String> {
         if !matches!(self.gain_kind.as_str(), "fixed" | "affine") {
             let other = if self.by == "general" { &self.gain_kind } else { &self.by };
@@ -329,13 +330,14 @@ impl Actuator {
         None
     }
 
-    /// Does its damping follow from a ratio, and from what it moves?
+    /// Is its damping given by a damping ratio and the inertia that it moves?
     pub(super) fn has_ratio(&self) -> bool {
         let ([stiffness, ..], [_, bias, ratio]) = (self.gain, self.biases());
         stiffness == -bias && ratio > 0.0
     }
 
-    /// Returns the actuator with the damping of its ratio: c = 2 d √(k m), and m what it moves in the reference configuration.
+    /// Returns the actuator with the damping of its ratio d: c = 2 d √(k m), where m is the inertia that it moves in the reference
+    /// configuration.
     pub(super) fn damped(&self, moved: impl FnOnce() -> Option<f64>) -> Result<Self, String> {
         if !self.has_ratio() {
             return Ok(self.clone());
@@ -349,7 +351,7 @@ impl Actuator {
         Ok(damped)
     }
 
-    /// Returns the actuator of a hinge or a slide in frames with a scale; `None` where the scene cannot have it.
+    /// Returns the actuator of a hinge or a slide, scaled by the size of its frames; `None` when the scene cannot have it.
     pub(super) fn grown(&self, size: Size, is_slide: bool) -> Option<Self> {
         if size == Size::ONE {
             return Some(self.clone());
@@ -360,10 +362,10 @@ impl Actuator {
         let mut grown = self.clone();
         let by = |power| if is_slide { size.force_by(power) } else { size.moment() };
         let is_servo = self.is_servo();
-        // the control of a servo is a length, or its rate
+        // The control of a servo is a length, or the rate of a length.
         let powers = [i32::from(is_servo), 1, 1];
         grown.gain.iter_mut().zip(powers).for_each(|(gain, power)| *gain *= by(power));
-        // a third number above zero is a damping ratio
+        // A positive third bias is a damping ratio, which is not scaled.
         let factors = [by(0), by(1), if grown.bias[2] > 0.0 { 1.0 } else { by(1) }];
         grown.bias.iter_mut().zip(factors).for_each(|(bias, factor)| *bias *= factor);
         grown.force = self.force.map(|range| range.map(|end| end * by(0)));
@@ -376,7 +378,7 @@ impl Actuator {
         Some(grown)
     }
 
-    /// Factor of its control in the file: that of a servo of a slide is a length, or a rate.
+    /// Factor of the control in the file. The control of a servo on a slide is a length or a rate, and is scaled like one.
     pub(super) fn control_factor(&self, (size, is_slide): (Size, bool)) -> f64 {
         if is_slide && self.is_servo() { size.length } else { 1.0 }
     }
@@ -385,7 +387,8 @@ impl Actuator {
         matches!(self.by.as_str(), "position" | "velocity" | "intvelocity")
     }
 
-    /// Returns the reason why the scene cannot have the actuator at this transmission, if there is one: what is no coordinate has no measure.
+    /// Returns the reason why the scene cannot have the actuator at this transmission, if there is one. A force on a body has no length to
+    /// measure.
     pub(super) fn refusal_of(&self, pulled: &Transmission) -> Option<String> {
         if pulled.pushes.is_empty() {
             return None;

@@ -1,4 +1,4 @@
-//! Meshes, and the mass of geoms that are meshes.
+//! Meshes of the file, and the masses of geoms that are meshes.
 
 use super::defaults::{MAIN, View};
 use super::fitted::{Fitted, fitted};
@@ -14,33 +14,33 @@ use crate::visual::mesh_file;
 use mbs_scene::{TriangleMesh, VolumeRule, hull, nearest_name};
 use std::path::{Path, PathBuf};
 
-/// A geom that is a mesh, and whose mass counts.
+/// A geom that is a mesh with mass.
 #[derive(Debug, Clone)]
 pub(super) struct MeshGeom {
     pub(super) at: Origin,
     /// The name of the mesh.
     pub(super) mesh: Option<Attribute>,
-    /// Form that is fitted to the mesh, where the geom is one.
+    /// Shape that is fitted to the mesh, if the geom requests one.
     pub(super) fit: Option<Fit>,
     pub(super) mass: Option<f64>,
     pub(super) density: f64,
-    /// Pose of the geom, global.
+    /// Pose of the geom in global axes.
     pub(super) pose: Pose,
 }
 
-/// A form that is fitted to a mesh.
+/// A request for a shape that is fitted to a mesh.
 #[derive(Debug, Clone)]
 pub(super) struct Fit {
     pub(super) kind: String,
-    /// The factor of its sizes.
+    /// Factor of the sizes of the fitted shape [-].
     pub(super) scale: f64,
     pub(super) is_shell: bool,
 }
 
-/// Hint where the mass of a mesh is not computed.
+/// Hint when the mass of a mesh cannot be computed.
 const HINT: &str = "write an <inertial> in its body, or mass=\"0\" here, or let --massless-meshes count it as massless";
 
-/// Attributes of meshes that say a mass: they are read, whether one follows from them or not.
+/// Attributes of meshes that affect a mass. They count as read even when no mass is computed from them.
 const ATTRIBUTES: [&str; 11] = [
     "name",
     "file",
@@ -55,7 +55,7 @@ const ATTRIBUTES: [&str; 11] = [
     "params",
 ];
 
-/// Finds the meshes of a model; none is opened before its mass is asked for.
+/// Lists the meshes of a model. A mesh file is opened only when its mass is needed.
 pub(super) fn collect<'a>(root: &'a Element, model: &mut Model<'a, '_, '_>) -> Read<()> {
     for asset in root.each("asset") {
         for element in asset.each("mesh") {
@@ -73,7 +73,7 @@ pub(super) fn collect<'a>(root: &'a Element, model: &mut Model<'a, '_, '_>) -> R
     Ok(())
 }
 
-/// The mass of a geom, global.
+/// The mass of a geom that is a mesh, in global axes.
 pub(super) fn mass(geom: &MeshGeom, model: &mut Model<'_, '_, '_>) -> Read<Mass> {
     let refused = |why: &str| {
         Fault::new(geom.at, format!("the mass of this geom follows from a mesh: {why}"), HINT)
@@ -106,10 +106,10 @@ pub(super) fn mass(geom: &MeshGeom, model: &mut Model<'_, '_, '_>) -> Read<Mass>
     Ok(own.seen_from(&geom.pose.then(&frame)))
 }
 
-/// The triangles of a mesh in the frame of a geom, how they count, and their mass at a density of one.
+/// The triangles of a mesh in the frame of a geom, the rule for their volume, and their mass at a density of one.
 type Whole = (TriangleMesh, VolumeRule, Mass);
 
-/// A mesh with its mass, or why it has none.
+/// Reads a mesh and computes its mass. The inner error is the reason why it has no mass.
 fn whole(view: &View<'_>, model: &Model<'_, '_, '_>) -> Read<Result<Whole, String>> {
     let is_exact = model.compiler.is_mesh_exact;
     let word = view.value("inertia").unwrap_or(if is_exact { "exact" } else { "legacy" });
@@ -121,7 +121,7 @@ fn whole(view: &View<'_>, model: &Model<'_, '_, '_>) -> Read<Result<Whole, Strin
     };
     let mesh = surface::read(view, model)?;
     let mesh = if mesh.triangles.is_empty() || word == "convex" {
-        // a limit that no hull reaches is none
+        // A limit that no hull reaches is no limit.
         let most = view.number_or("maxhullvert", -1.0)?;
         let Some(hull) = hull(&mesh.vertices) else {
             return Ok(Err("its vertices are in one plane, and have no hull".to_owned()));
@@ -138,7 +138,7 @@ fn whole(view: &View<'_>, model: &Model<'_, '_, '_>) -> Read<Result<Whole, Strin
     Ok(mass.map(|mass| (mesh, count, mass)))
 }
 
-/// Pose and form that are drawn of a geom that is a mesh, or why it is not drawn.
+/// Pose and shape for the picture of a geom that is a mesh. The inner error is the reason why it is not drawn.
 pub(super) fn form(
     geom: &MeshGeom,
     model: &Model<'_, '_, '_>,
@@ -159,13 +159,13 @@ pub(super) fn form(
     if !is_even(scale) && turn != M3::identity() {
         return Ok(Err("meshes that are turned and stretched are not drawn".to_owned()));
     }
-    // pose (S Rt (x - p)), where S and Rt commute
+    // The pose follows from S Rᵗ (x − p), where S and Rᵗ commute.
     let turn = turn.transpose();
     let own = Pose::new(turn, -(turn * from).component_mul(&v3(scale)));
     Ok(Ok((geom.pose.then(&own), FormKind::Mesh { file, scale })))
 }
 
-/// Reference of a mesh: how the triangles of a file stand in the frame of a geom.
+/// Transformation of the vertices of a mesh file to the frame of a geom.
 struct Reference {
     from: V3,
     turn: M3,
@@ -181,7 +181,7 @@ fn reference(view: &View<'_>) -> Read<Reference> {
     Ok(Reference { from, turn, scale: view.numbers_or("scale", [1.0; 3])? })
 }
 
-/// The triangles as they stand in the frame of a geom.
+/// Transforms the vertices of a mesh to the frame of a geom.
 fn placed(view: &View<'_>, mut mesh: TriangleMesh) -> Read<TriangleMesh> {
     let Reference { from, turn, scale } = reference(view)?;
     for vertex in &mut mesh.vertices {

@@ -1,6 +1,7 @@
-//! Models that a model attaches: their bodies stand where the `attach` stood, under names with a prefix.
+//! Attached models: their bodies replace the `attach` element, and their names get a prefix.
 //!
-//! Each keeps its own defaults, and its own units of angles. Tendons, actuators and equalities come along where all that they name does.
+//! Each attached model keeps its default classes and its unit of angles. Its tendons, actuators and equalities are attached too, if
+//! everything that they name is attached.
 
 use super::compiler::{ATTACHED, Compiler, SAVED, SOURCES};
 use super::defaults::is_actuator;
@@ -12,7 +13,7 @@ use crate::source::Read;
 use std::collections::{BTreeSet, HashSet};
 use std::path::Path;
 
-/// Attributes that name what has a prefix.
+/// Attributes that contain names, to which the prefix is added.
 const NAMES: [&str; 20] = [
     "name",
     "class",
@@ -35,10 +36,10 @@ const NAMES: [&str; 20] = [
     "tendon2",
     "mesh",
 ];
-/// Attributes of the names at the beginning of that list that are no references.
+/// Number of attributes at the beginning of `NAMES` that are no references to other elements.
 const OWN_NAMES: usize = 3;
 
-/// Puts the bodies of other models in the places of `attach` elements.
+/// Replaces the `attach` elements by the bodies of other models.
 pub(crate) fn attach(root: &mut Element, context: &mut Context<'_>) -> Read<()> {
     let mut reader = Reader { context, included: Included::default(), added: Vec::new() };
     reader.model(root)
@@ -47,12 +48,12 @@ pub(crate) fn attach(root: &mut Element, context: &mut Context<'_>) -> Read<()> 
 struct Reader<'a, 'c> {
     context: &'a mut Context<'c>,
     included: Included,
-    /// Elements that come into the root beside bodies.
+    /// Elements to be added to the root, besides the bodies.
     added: Vec<Element>,
 }
 
 impl Reader<'_, '_> {
-    /// All attachments of a model.
+    /// Replaces all attachments in a model.
     fn model(&mut self, root: &mut Element) -> Read<()> {
         let models: Vec<Element> =
             root.each("asset").flat_map(|asset| asset.each("model")).cloned().collect();
@@ -88,7 +89,7 @@ impl Reader<'_, '_> {
         Ok(())
     }
 
-    /// Element that stands in the place of an `attach`.
+    /// The element that replaces an `attach`.
     fn attached(&mut self, attach: &Element, (models, _): (&[Element], &Element)) -> Read<Element> {
         let name = attach.need("model")?;
         let is_it = |model: &&Element| model.value("name") == Some(name.value.trim());
@@ -128,7 +129,7 @@ impl Reader<'_, '_> {
         Ok(frame)
     }
 
-    /// Meshes, tendons, equalities and actuators, of which all that they name is attached.
+    /// Adds meshes, and those tendons, equalities and actuators whose named elements are all attached.
     fn sections(
         &mut self,
         root: &Element,
@@ -174,7 +175,7 @@ impl Reader<'_, '_> {
     }
 }
 
-/// The body that is asked for, or all that is in the world.
+/// The body that the `attach` names, or all bodies of the world.
 fn taken(root: &Element, attach: &Element) -> Read<Vec<Element>> {
     let worlds = root.children.iter().filter(|child| child.name == "worldbody");
     let Some(name) = attach.attribute("body") else {
@@ -191,7 +192,7 @@ fn taken(root: &Element, attach: &Element) -> Read<Vec<Element>> {
     Err(name.fault(message, "name a body of it, or none to attach all that is in its world"))
 }
 
-/// Names of what is in an element, with their kinds.
+/// Collects the names in an element, with their kinds.
 fn collect(element: &Element, names: &mut HashSet<(&'static str, String)>) {
     let kind = match element.name.as_str() {
         "joint" | "freejoint" => Some("joint"),
@@ -205,13 +206,13 @@ fn collect(element: &Element, names: &mut HashSet<(&'static str, String)>) {
     element.children.iter().for_each(|child| collect(child, names));
 }
 
-/// The numbers of the texts of which an element is made.
+/// Collects the indices of the texts of which an element consists.
 fn collect_sources(element: &Element, sources: &mut BTreeSet<u16>) {
     sources.insert(element.at.source);
     element.children.iter().for_each(|child| collect_sources(child, sources));
 }
 
-/// Is all attached that an element names?
+/// Are all elements attached that this element names?
 fn is_whole(element: &Element, names: &HashSet<(&'static str, String)>) -> bool {
     let is_there = |word: &Attribute| {
         let kind = match word.name.as_str() {
@@ -228,7 +229,7 @@ fn is_whole(element: &Element, names: &HashSet<(&'static str, String)>) -> bool 
     element.attributes.iter().chain(children).all(is_there)
 }
 
-/// Gives a mesh its own name, and its file a place that holds in every model.
+/// Gives a mesh a name if it has none, and makes the path of its file absolute.
 fn mesh(element: &mut Element, compiler: &Compiler, folder: &Path) {
     let at = element.clone();
     for word in element.attributes.iter_mut().filter(|word| word.name == "file") {
@@ -246,12 +247,12 @@ fn mesh(element: &mut Element, compiler: &Compiler, folder: &Path) {
     }
 }
 
-/// An attribute that stands for one of the file.
+/// An attribute that the import adds to an element.
 fn written(name: &str, value: String, at: &Element) -> Attribute {
     Attribute::new(name.to_owned(), value, at.at)
 }
 
-/// Puts a prefix before all names, those that are referred to among them.
+/// Adds a prefix to all names in an element, and to all references.
 fn prefixed(element: &mut Element, prefix: &str) {
     for word in &mut element.attributes {
         let is_name = NAMES.iter().position(|name| *name == word.name);

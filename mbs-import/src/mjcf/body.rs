@@ -15,35 +15,35 @@ use crate::pose::{Pose, V3, v3};
 use crate::robot::{Frame, GROUND, Link, scene_name};
 use crate::source::{Fault, Read};
 
-/// Copies that one `replicate` makes.
+/// Largest number of copies that one `replicate` makes [-].
 const MAX_COPIES: f64 = 10_000.0;
-/// Bodies, joints, geoms and sites of a model: copies of copies grow fast.
+/// Largest number of bodies, joints, geoms and sites of a model [-]. Nested copies could multiply without this limit.
 const MAX_PARTS: usize = 200_000;
 
-/// Scope in which the elements of a body, a frame or a copy stand.
+/// Scope of the elements in a body, a frame or a copy.
 #[derive(Debug, Clone)]
 struct Scope {
     link: usize,
-    /// Frame of the scope, global.
+    /// Frame of the scope, in global axes.
     frame: Pose,
-    /// Frame of the scope as it is drawn, where bodies stand at a keyframe.
+    /// Frame of the scope as the model is drawn, when the reference configuration is that of a keyframe.
     drawn: Pose,
     class: usize,
-    /// The ending of all names, which copies have.
+    /// Ending of all names in a copy; empty outside of copies.
     ending: String,
-    /// Whether the body does not move.
+    /// Is the body fixed to the ground?
     is_still: bool,
-    /// Size of all that stands in the scope.
+    /// Size factors of everything in the scope.
     size: Size,
 }
 
-/// Parts that a body has besides other bodies.
+/// Parts of a body, without the bodies in it.
 #[derive(Debug, Default)]
 struct Own {
     joints: Vec<Written>,
     inertial: Option<Mass>,
     geoms: Vec<Mass>,
-    /// Meshes, each with the place about which it grows.
+    /// Meshes with mass, each with the place about which it is scaled.
     meshes: Vec<(MeshGeom, Size, V3)>,
     gravity_share: f64,
 }
@@ -76,9 +76,9 @@ pub(super) fn read<'a>(root: &'a Element, model: &mut Model<'a, '_, '_>) -> Read
 struct Walk<'m, 'a, 'b, 'c> {
     model: &'m mut Model<'a, 'b, 'c>,
     parts: usize,
-    /// Coordinates of joints so far.
+    /// Number of position values of the joints read so far.
     places: usize,
-    /// Bodies so far, which those without a name are called by.
+    /// Number of bodies read so far, for the names of bodies without a name.
     numbers: usize,
 }
 
@@ -92,7 +92,7 @@ impl<'a> Walk<'_, 'a, '_, '_> {
         Ok(())
     }
 
-    /// The class of what is in an element.
+    /// The default class for the elements in an element.
     fn class(&self, element: &Element, scope: &Scope) -> Read<usize> {
         let class = element.attribute("childclass");
         class.map_or(Ok(scope.class), |name| self.model.classes.find(name))
@@ -103,7 +103,7 @@ impl<'a> Walk<'_, 'a, '_, '_> {
         Some(self.model.copied(name, &scope.ending))
     }
 
-    /// Reads what belongs to the body itself.
+    /// Reads the joints, inertia, geoms and sites of a body.
     fn own(&mut self, element: &'a Element, scope: &Scope, own: &mut Own) -> Read<()> {
         let classes = self.model.classes;
         for child in &element.children {
@@ -162,7 +162,7 @@ impl<'a> Walk<'_, 'a, '_, '_> {
         Ok(())
     }
 
-    /// The bodies in a body.
+    /// Reads the bodies within a body.
     fn bodies(&mut self, element: &'a Element, scope: &Scope) -> Read<()> {
         for child in &element.children {
             match child.name.as_str() {
@@ -186,10 +186,10 @@ impl<'a> Walk<'_, 'a, '_, '_> {
             None => self.model.free_name(Sort::Link, &format!("body{}", self.numbers)),
         };
         let link = self.model.robot.links.len();
-        // a body of the file has the number of its link here, which massless links between joints would move
+        // The list `body_links` has the link of each body. Massless links between joints make the indices of bodies and links differ.
         self.model.bodies.add(&name, element.at, &self.model.context.sources)?;
         self.model.body_links.push(link);
-        // the scene's own name for what does not move
+        // The scene uses the name `ground` for the ground.
         let name = if name == "ground" { "ground-link".to_owned() } else { name };
         let name = if element.value("name").is_some() {
             self.model.free_name(Sort::Link, &name)
@@ -224,7 +224,7 @@ impl<'a> Walk<'_, 'a, '_, '_> {
         inner.is_still = own.joints.is_empty() && scope.is_still;
         let mut mass = self.mass(element, &own, inner.is_still)?;
         if mass.is_nothing() && own.inertial.is_none() {
-            // what `boundmass` gives to a body without inertia is where its own place says, taken in its own frame
+            // A body without inertia may get mass by `boundmass`, which is then at `pos` of its own frame.
             mass.center = inner.frame.point(&in_parent.at);
         }
         self.model.masses.push((link, mass, own.gravity_share));
@@ -232,7 +232,7 @@ impl<'a> Walk<'_, 'a, '_, '_> {
         self.bodies(element, &inner)
     }
 
-    /// Puts a body with all that is its own where the keyframe has it, if bodies stand there.
+    /// Moves a body with all its own parts to its pose in the keyframe, if the reference configuration is that of a keyframe.
     fn posed(&mut self, inner: &mut Scope, own: &mut Own, [shape, site]: [usize; 2]) -> Read<()> {
         let Some(places) = self.model.posed.take() else { return Ok(()) };
         let rest = places.get(self.places..).unwrap_or_default();
@@ -258,7 +258,7 @@ impl<'a> Walk<'_, 'a, '_, '_> {
         Ok(())
     }
 
-    /// The mass of a body: as written, or that of its geoms.
+    /// The mass of a body: the mass that is written, or the sum of its geoms.
     fn mass(&mut self, element: &Element, own: &Own, is_still: bool) -> Read<Mass> {
         use super::compiler::FromGeoms::{Always, Auto, Never};
         let sum = own.geoms.iter().fold(Mass::none(), |sum, geom| sum.with(geom));
@@ -292,7 +292,7 @@ impl<'a> Walk<'_, 'a, '_, '_> {
         }
         let [xx, yy, zz] = element.numbers_or("diaginertia", [0.0; 3])?;
         let six = match element.attribute("fullinertia") {
-            // the file has xx yy zz xy xz yz
+            // The file has the order xx yy zz xy xz yz.
             Some(full) => {
                 let [xx, yy, zz, xy, xz, yz] = full.numbers()?;
                 let six = [xx, yy, zz, xy, yz, xz];
@@ -320,7 +320,7 @@ impl<'a> Walk<'_, 'a, '_, '_> {
         Ok(())
     }
 
-    /// Scopes of the elements of a `frame`, or of each copy of a `replicate`.
+    /// Scopes of the elements in a `frame`, or of each copy of a `replicate`.
     fn scopes(&mut self, element: &'a Element, scope: &Scope) -> Read<Vec<Scope>> {
         let view = View::plain(element);
         let class = self.class(element, scope)?;
@@ -349,7 +349,7 @@ impl<'a> Walk<'_, 'a, '_, '_> {
             let own = Pose::new(turned, at);
             let (frame, drawn) = (scope.frame.then(&own), scope.drawn.then(&own));
             at += turned * offset;
-            // the endings of inner copies come first
+            // The endings of inner copies come before those of outer copies.
             let ending = format!("{separator}{copy:0width$}{}", scope.ending);
             scopes.push(Scope { frame, drawn, class, ending, ..scope.clone() });
         }
@@ -357,10 +357,10 @@ impl<'a> Walk<'_, 'a, '_, '_> {
     }
 }
 
-/// Sites are named places of the scene.
+/// Adds the sites as frames of the scene.
 pub(super) fn frames(model: &mut Model<'_, '_, '_>) {
     for site in std::mem::take(&mut model.sites) {
-        // bodies have the same names at times
+        // A body may have the same name as a site.
         let name = model.free_name(Sort::Link, &scene_name(&site.name, "frame"));
         model.robot.frames.push(Frame { name, link: site.link, pose: site.pose });
     }

@@ -1,18 +1,18 @@
-//! Meshes that the format makes: those that are the hull of few points.
+//! Built-in meshes of the format: convex hulls of a few points.
 
 use super::defaults::View;
 use crate::element::Attribute;
 use crate::source::Read;
 use core::f64::consts::TAU;
 
-/// Most corners of a cone. Chosen, not tuned.
+/// Largest number of corners of a cone [-]. Chosen, not tuned.
 const MAX_CORNERS: f64 = 10_000.0;
-/// Most rows of a hemisphere. Chosen, not tuned: it has two points for each square of a row.
+/// Largest number of rows of a hemisphere [-]. The number of its points is twice the square of the rows. Chosen, not tuned.
 const MAX_ROWS: f64 = 100.0;
-/// Most times that a sphere is divided: those of the format.
+/// Largest number of subdivisions of a sphere [-], as in the format.
 const MAX_DIVISIONS: f64 = 4.0;
 
-/// The vertices of the mesh that an attribute names.
+/// The vertices of the built-in mesh that an attribute names.
 pub(super) fn built_in(word: &Attribute, view: &View<'_>) -> Read<Vec<[f64; 3]>> {
     let kind = word.value.trim();
     let params = view.attribute("params").map(Attribute::list).transpose()?.unwrap_or_default();
@@ -40,7 +40,7 @@ pub(super) fn built_in(word: &Attribute, view: &View<'_>) -> Read<Vec<[f64; 3]>>
     Ok(vertices)
 }
 
-/// Two rings around the z axis: at -1 with radius 1, and at 1 with another.
+/// Two rings of corners around the z axis: radius 1 at z = -1, and radius `top` at z = 1.
 fn cone(corners: f64, top: f64) -> Vec<[f64; 3]> {
     let ring = |radius: f64, z: f64| {
         (0..corners as usize).map(move |i| {
@@ -51,13 +51,13 @@ fn cone(corners: f64, top: f64) -> Vec<[f64; 3]> {
     ring(1.0, -1.0).chain(ring(top, 1.0)).collect()
 }
 
-/// A direction of unit length.
+/// A vector scaled to unit length.
 fn unit(x: [f64; 3]) -> [f64; 3] {
     let length = x.iter().map(|x| x * x).sum::<f64>().sqrt();
     x.map(|x| x / length)
 }
 
-/// An icosahedron, whose triangles are divided into four, some times; all points are at a distance of one.
+/// An icosahedron whose triangles are repeatedly divided into four; all points are on the unit sphere.
 fn sphere(divisions: usize) -> Vec<[f64; 3]> {
     let golden = 0.5 + 1.25_f64.sqrt();
     let mut points: Vec<[f64; 3]> = Vec::new();
@@ -67,7 +67,7 @@ fn sphere(divisions: usize) -> Vec<[f64; 3]> {
     let distance =
         |a: &[f64; 3], b: &[f64; 3]| a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>();
     for _ in 0..divisions {
-        // edges of the triangles differ by less than a fifth; other pairs are farther apart by half
+        // Edge lengths differ by less than a fifth; other pairs of points are at least half an edge farther apart.
         let first = points[0];
         let least = points[1..].iter().map(|x| distance(x, &first)).fold(f64::INFINITY, f64::min);
         let mut middles = Vec::new();
@@ -81,7 +81,7 @@ fn sphere(divisions: usize) -> Vec<[f64; 3]> {
     points
 }
 
-/// The upper half of an octahedron with points in rows, all at a distance of one, and the centre.
+/// The upper half of an octahedron with points in rows on the unit sphere, and its centre.
 fn hemisphere(rows: i32) -> Vec<[f64; 3]> {
     let n = rows + 1;
     let mut points = vec![[0.0; 3]];

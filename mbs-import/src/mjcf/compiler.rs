@@ -1,50 +1,50 @@
-//! Settings of the whole model: `compiler` and `option`.
+//! Settings of the whole model, from the elements `compiler` and `option`.
 
 use crate::element::{Attribute, Element};
 use crate::source::{Origin, Read};
 use std::collections::HashMap;
 
-/// Hint where the format's own program makes something of the file.
+/// Hint for features of the file that only MuJoCo itself can evaluate.
 pub(super) const SAVED: &str = "write the model as its own program compiles it, and give that file: in Python mujoco.mj_saveLastXML(\"model.xml\", mujoco.MjModel.from_xml_path(\"...\"))";
 
-/// Attribute of an attached model with the numbers of the texts of which it is made.
+/// Attribute of an attached model: the numbers of the texts of which it consists.
 pub(super) const SOURCES: &str = "sources";
 
-/// The element in which the settings of attached models stay; no file can have this name.
+/// Name of the element that holds the settings of an attached model. No XML file can have this name.
 pub(super) const ATTACHED: &str = "attached model";
 
-/// Whether the inertia of a body comes from its geoms.
+/// Rule whether the inertia of a body comes from its geoms.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum FromGeoms {
     Never,
     Always,
-    /// Only where no `inertial` is written.
+    /// The geoms count only when the body has no `inertial`.
     Auto,
 }
 
-/// Settings of how a file is to be read, and of what acts in it.
+/// Settings for reading a file, and for the laws in it.
 #[derive(Debug, Clone)]
 pub(super) struct Compiler {
     pub(super) is_degree: bool,
-    /// Axes of three Euler angles; capitals are axes that stay.
+    /// Axes of three Euler angles: small letters are moving axes, capitals are fixed axes.
     pub(super) sequence: [u8; 3],
     pub(super) auto_limits: bool,
     pub(super) from_geoms: FromGeoms,
-    /// The first and the last group of geoms that have mass.
+    /// First and last group of the geoms that have mass.
     pub(super) groups: [f64; 2],
     pub(super) bound_mass: f64,
     pub(super) bound_inertia: f64,
     pub(super) balance: bool,
     pub(super) total_mass: Option<f64>,
-    /// The folder of meshes, from that of the file.
+    /// Folder of meshes, relative to the folder of the file.
     pub(super) mesh_folder: String,
-    /// Does a mesh stand in that folder whatever its own path is?
+    /// Is the folder in a mesh's own path ignored?
     pub(super) strip_path: bool,
-    /// Are forms fitted to the boxes around meshes, and not to their inertias?
+    /// Are geoms fitted to the boxes around meshes, not to their inertias?
     pub(super) fits_boxes: bool,
-    /// Is the mass of a mesh that of the enclosed volume?
+    /// Is the mass of a mesh that of its enclosed volume?
     pub(super) is_mesh_exact: bool,
-    /// Are frames of free joints at the centres of mass where these do not say?
+    /// Are frames of free joints at the centre of mass, unless `align` says otherwise?
     pub(super) align_free: bool,
     pub(super) gravity: [f64; 3],
     pub(super) acts: Acts,
@@ -52,7 +52,7 @@ pub(super) struct Compiler {
     attached: HashMap<u16, Self>,
 }
 
-/// Parts of a model that `option/flag` leaves on.
+/// Kinds of forces that `option/flag` leaves switched on.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Acts {
     pub(super) spring: bool,
@@ -66,7 +66,7 @@ pub(super) struct Acts {
 }
 
 impl Compiler {
-    /// The settings of all `compiler` and `option` elements: a later one holds.
+    /// Reads the settings of all `compiler` and `option` elements; later ones override earlier ones.
     pub(super) fn read(root: &Element) -> Read<Self> {
         let mut settings = Self {
             is_degree: true,
@@ -108,12 +108,12 @@ impl Compiler {
         Ok(settings)
     }
 
-    /// Settings that hold at a place: an attached model has its own.
+    /// The settings that apply at a place: those of the attached model that contains it, or else those of the file.
     pub(super) fn of(&self, at: Origin) -> &Self {
         self.attached.get(&at.source).unwrap_or(self)
     }
 
-    /// Takes the settings of an attached model, where none of them is of the whole.
+    /// Adds the settings of an attached model. Settings that apply to the whole model must not differ.
     fn attach(&mut self, model: &Element) -> Read<()> {
         let own = Self::read(model)?;
         let of_all = |one: &Self| {
@@ -128,12 +128,12 @@ impl Compiler {
         for source in sources.split(' ').filter_map(|number| number.parse().ok()) {
             self.attached.insert(source, Self { attached: HashMap::new(), ..own.clone() });
         }
-        // what that one attaches has settings of its own
+        // Models attached within the attached model have their own settings.
         self.attached.extend(own.attached);
         Ok(())
     }
 
-    /// An angle in radians.
+    /// Converts an angle of the file to radians.
     pub(super) fn angle(&self, x: f64) -> f64 {
         if self.is_degree { x / 180.0 * core::f64::consts::PI } else { x }
     }
@@ -175,7 +175,7 @@ impl Compiler {
         self.bound_mass = element.number_or("boundmass", self.bound_mass)?;
         self.bound_inertia = element.number_or("boundinertia", self.bound_inertia)?;
         if let Some(total) = element.attribute("settotalmass") {
-            // a number below zero says that nothing is asked for
+            // A negative number means that no total mass is set.
             self.total_mass = Some(total.number()?).filter(|total| *total > 0.0);
         }
         Ok(())
@@ -217,7 +217,7 @@ impl Compiler {
     }
 }
 
-/// Index in `known` of the word that a value is.
+/// Index in `known` of the word that is the value of an attribute.
 pub(super) fn word(attribute: &Attribute, known: &[&str]) -> Read<usize> {
     known.iter().position(|word| *word == attribute.value.trim()).ok_or_else(|| {
         attribute.fault(

@@ -1,4 +1,4 @@
-//! Sliders that a rod moves: a massless link on a slide, at a fixed distance from a place of the crank.
+//! Sliders driven by a rod: a massless link on a slide, at a fixed distance from a point of the crank.
 
 use super::model::{Model, Site, Sort};
 use super::transmission::{GROWN, Transmission};
@@ -6,7 +6,8 @@ use crate::element::Element;
 use crate::robot::{Coordinate, Joint, Kind, Link, Term};
 use crate::source::Read;
 
-/// The slide of an actuator with `cranksite` and `slidersite`, or why there is none. Its length is that from the slider's site to the rod's end.
+/// The slide of an actuator with `cranksite` and `slidersite`, or the reason why there is none. Its length is measured from the slider's
+/// site to the end of the rod.
 pub(super) fn slide(
     element: &Element,
     gear: f64,
@@ -29,7 +30,7 @@ pub(super) fn slide(
     };
     let axis = slider.pose.turn.column(2).into_owned();
     let offset = crank.pose.at - slider.pose.at;
-    // l = a·r − √((a·r)² + L² − r²)
+    // Length l = a·r − √((a·r)² + L² − r²), with the axis a, the rod's length L and the vector r from slider to crank.
     let along = axis.dot(&offset);
     let square = along * along + rod * rod - offset.dot(&offset);
     if square <= 0.0 {
@@ -42,7 +43,7 @@ pub(super) fn slide(
     Ok(Ok(Transmission { terms, drawn, gear, has_length: true, ..Transmission::none(&word.value) }))
 }
 
-/// Adds the link, its slide and the rod.
+/// Adds the massless link, its slide and the rod.
 fn add(
     wanted: &str,
     element: &Element,

@@ -1,4 +1,4 @@
-//! Defaults by classes: what an element does not write, its class does.
+//! Default classes: values of attributes that an element does not have itself.
 
 use super::compiler::ATTACHED;
 use super::table::TABLE;
@@ -8,21 +8,22 @@ use crate::table::{Treatment, treatment};
 use mbs_scene::nearest_name;
 use std::collections::HashMap;
 
-/// The class of what names none.
+/// Index of the default class for elements that name none.
 pub(super) const MAIN: usize = 0;
 
-/// Values that a class gives the elements of each name, those of its parents included.
+/// Values that a class gives to elements, with the values of its parent classes.
 #[derive(Debug, Clone, Default)]
 struct Class<'a> {
-    /// Attributes by the names of element and attribute, each as often as a class on the way writes it, the innermost last.
+    /// Attributes by the names of element and attribute. Each is listed once for every class on the way that writes it, the innermost last.
     values: HashMap<(&'a str, &'a str), Vec<&'a Attribute>>,
-    /// Elements of actuators with the depths of their classes: one kind changes what another starts from, so they count in their order.
+    /// Default elements of actuators, with the depths of their classes. Their order matters, since one kind of actuator changes the start
+    /// of another.
     actuators: Vec<(usize, &'a Element)>,
-    /// Number of classes in which the class is.
+    /// Number of classes that contain this class.
     depth: usize,
 }
 
-/// The classes of a model.
+/// All default classes of a model.
 #[derive(Debug, Clone)]
 pub(super) struct Classes<'a> {
     classes: Vec<Class<'a>>,
@@ -30,7 +31,7 @@ pub(super) struct Classes<'a> {
 }
 
 impl<'a> Classes<'a> {
-    /// The classes of all `default` elements below the root.
+    /// Reads the classes of all `default` elements below the root.
     pub(super) fn read(root: &'a Element) -> Read<Self> {
         let at = root.at;
         let mut classes =
@@ -48,7 +49,7 @@ impl<'a> Classes<'a> {
         Ok(classes)
     }
 
-    /// The classes of attached models, which inherit nothing from those of this one.
+    /// Adds the classes of attached models, which do not inherit from the classes of this model.
     fn attached(&mut self, root: &'a Element) -> Read<()> {
         for model in root.each(ATTACHED) {
             let name = model.need("class")?;
@@ -64,7 +65,7 @@ impl<'a> Classes<'a> {
         Ok(())
     }
 
-    /// Adds the class's own elements first, then the classes in it, which start as copies.
+    /// Adds the default elements of a class first, and then its inner classes, which start as copies of it.
     fn add(&mut self, element: &'a Element, number: usize) -> Read<()> {
         for child in element.children.iter().filter(|child| child.name != "default") {
             if treatment(TABLE, "default", &child.name, "") != Some(Treatment::Mapped) {
@@ -78,7 +79,7 @@ impl<'a> Classes<'a> {
             for attribute in &child.attributes {
                 let is_used = treatment(TABLE, "default", &child.name, &attribute.name);
                 if matches!(is_used, Some(Treatment::Mapped | Treatment::Approximated)) {
-                    // it is for those that come: whether one of them asks is of no account
+                    // The attribute counts as read, whether an element uses this default or not.
                     child.attribute(&attribute.name);
                     let values = &mut self.classes[number].values;
                     values.entry((&child.name, &attribute.name)).or_default().push(attribute);
@@ -101,7 +102,7 @@ impl<'a> Classes<'a> {
         Ok(())
     }
 
-    /// The class of a name that stands in an attribute.
+    /// The class whose name is the value of an attribute.
     pub(super) fn find(&self, name: &Attribute) -> Read<usize> {
         self.names.get(name.value.trim()).map(|(number, _)| *number).ok_or_else(|| {
             let names: Vec<_> = self.names.keys().map(|name| (*name).to_owned()).collect();
@@ -110,12 +111,12 @@ impl<'a> Classes<'a> {
         })
     }
 
-    /// An element with what its class says; `scope` is the class of those that name none.
+    /// An element with the defaults of its class; `scope` is the class of an element that names none.
     pub(super) fn view(&'a self, element: &'a Element, scope: usize) -> Read<View<'a>> {
         self.view_as(element, &element.name, scope)
     }
 
-    /// An element whose defaults have another name, with what its class says: `tendon` for `fixed`.
+    /// An element with the defaults of another element name: `tendon` for `fixed`.
     pub(super) fn view_as(
         &'a self,
         element: &'a Element,
@@ -126,7 +127,7 @@ impl<'a> Classes<'a> {
         Ok(View { element, kind, class: Some(&self.classes[class]) })
     }
 
-    /// The actuators that the class of an element writes, in their order with the depths of their classes, and its own depth.
+    /// The actuator defaults of the class of an element, in their order and with the depths of their classes; and the depth of that class.
     pub(super) fn actuators(&self, element: &Element) -> Read<(&[(usize, &'a Element)], usize)> {
         let class = element.attribute("class").map_or(Ok(MAIN), |name| self.find(name))?;
         let Class { actuators, depth, .. } = &self.classes[class];
@@ -154,7 +155,7 @@ pub(super) fn is_actuator(name: &str) -> bool {
     .contains(&name)
 }
 
-/// An element with what its class says.
+/// An element with the defaults of its class.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct View<'a> {
     pub(super) element: &'a Element,
@@ -168,17 +169,17 @@ impl<'a> View<'a> {
         Self { element, kind: &element.name, class: None }
     }
 
-    /// Attribute that the element itself writes.
+    /// Attribute that the element itself has.
     pub(super) fn own(&self, name: &str) -> Option<&'a Attribute> {
         self.element.attribute(name)
     }
 
-    /// Attribute that the class of the element writes.
+    /// Attribute that the class of the element has.
     pub(super) fn inherited(&self, name: &str) -> Option<&'a Attribute> {
         self.class.and_then(|class| class.values.get(&(self.kind, name))?.last().copied())
     }
 
-    /// Up to `N` numbers: a list that is shorter leaves the others as an outer class has them.
+    /// Up to `N` numbers. Numbers that a shorter list does not have come from the outer classes, or else from `default`.
     pub(super) fn merged<const N: usize>(&self, name: &str, default: [f64; N]) -> Read<[f64; N]> {
         let classes = self.class.and_then(|class| class.values.get(&(self.kind, name)));
         let mut all = default;
@@ -216,7 +217,7 @@ impl<'a> View<'a> {
         self.attribute(name).map_or(Ok(default), Attribute::numbers)
     }
 
-    /// Do ends act, which `limited` says or, where it says `auto`, their being there?
+    /// Do the limits of a range apply? `limited` decides it, or for `auto` whether the limits are written.
     pub(super) fn is_limited(&self, limited: &str, range: &str, auto: bool) -> Read<bool> {
         let word = self
             .attribute(limited)

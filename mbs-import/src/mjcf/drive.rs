@@ -1,4 +1,4 @@
-//! Drives: the input of each actuator, the signals that follow from it, and the effort that follows from those.
+//! Drives: the input of each actuator, the signals computed from it, and the resulting effort.
 
 use super::actuator::{Actuator, Dynamics};
 use super::crank;
@@ -34,7 +34,7 @@ pub(super) fn read<'a>(
     Ok(())
 }
 
-/// An actuator that pulls something; one that the scene cannot have is reported, never silent.
+/// Adds an actuator to the model. One that the scene cannot have is always reported.
 fn add(
     element: &Element,
     actuator: &Actuator,
@@ -100,7 +100,7 @@ fn add(
     Ok(())
 }
 
-/// The input, the signals that follow from it, and the effort that follows from those.
+/// Adds the input of an actuator, the signals computed from it, and the effort.
 fn laws(
     (name, auto): (&str, bool),
     actuator: &Actuator,
@@ -139,7 +139,7 @@ fn laws(
     }
 }
 
-/// The signal of its force, and the gear by which that acts.
+/// The signal of the actuator's force, and the gear by which it acts.
 fn force(
     (name, auto): (&str, bool),
     (actuator, control): (&Actuator, Option<[f64; 2]>),
@@ -163,7 +163,7 @@ fn force(
         gains => vec![(gained(name, signal, gains, pulled, model), 1.0)],
     };
     sum.extend(measured(name, actuator.biases(), pulled, model));
-    // without a limit of its force, the gear goes into the same sum
+    // Without a limit on the force, the gear is included in the same sum.
     let force = actuator.force_range(auto);
     let is_apart = force.is_some() || pulled.rope.is_some();
     let [share, gear] = if is_apart { [1.0, pulled.gear] } else { [pulled.gear, 1.0] };
@@ -176,7 +176,7 @@ fn force(
     (signal, gear)
 }
 
-/// Signal that follows a control.
+/// Signal of the activation that follows from a control.
 fn followed(of: String, actuator: &Actuator, of_length: Option<[f64; 2]>, auto: bool) -> Signal {
     match actuator.dynamics() {
         Dynamics::Integral => {
@@ -188,7 +188,7 @@ fn followed(of: String, actuator: &Actuator, of_length: Option<[f64; 2]>, auto: 
     }
 }
 
-/// (g₀ + g₁ l + g₂ l̇) times a signal.
+/// Adds the product of (g₀ + g₁ l + g₂ l̇) and a signal.
 fn gained(
     name: &str,
     signal: String,
@@ -202,10 +202,10 @@ fn gained(
     model.signal(&format!("{name} of control"), Signal::Product { of: vec![gain, signal] })
 }
 
-/// Inertia and damping of the actuator itself, on its length, which is gear times what it pulls.
+/// Adds the inertia and the damping of the actuator itself. They act on its length, which is the gear times the length of its transmission.
 fn own(name: &str, actuator: &Actuator, pulled: &Transmission, model: &mut Model<'_, '_, '_>) {
     let square = pulled.gear * pulled.gear;
-    // its higher powers are of the rate of what it pulls
+    // The higher powers are those of the rate of the transmission.
     let damping = Strength(actuator.damping.0.map(|x| x * square));
     if damping != Strength::NONE && model.compiler.acts.damper {
         let on = effort::target(&pulled.terms);
@@ -217,7 +217,7 @@ fn own(name: &str, actuator: &Actuator, pulled: &Transmission, model: &mut Model
     }
 }
 
-/// a + b l + c l̇ as signals with factors, with l = gear times the length that is pulled.
+/// The sum a + b l + c l̇ as signals with factors, where l is the gear times the length of the transmission.
 fn measured(
     name: &str,
     [constant, of_length, of_rate]: [f64; 3],
@@ -226,7 +226,7 @@ fn measured(
 ) -> Vec<(String, f64)> {
     let gear = pulled.gear;
     let mut sum = Vec::new();
-    // a measured length is whole, a measured coordinate counts from the reference configuration
+    // A measured line gives its whole length, a measured coordinate its deviation from the reference configuration.
     let lines = pulled.terms.iter().map(|term| term.factor * super::tendon::length(&term.line));
     let drawn = pulled.drawn - lines.sum::<f64>();
     let constant = constant + of_length * gear * drawn;

@@ -1,10 +1,10 @@
-//! Limits of what several actuators do together: to a joint, or by a tendon.
+//! Limits on the total effort of several actuators, on one joint or on one tendon.
 
 use super::model::{Model, Motion};
 use super::transmission::Transmission;
 use crate::robot::{Coordinate, GROUND, Robot, Signal, Target, Term, What};
 
-/// Pull of an actuator on terms: a signal times a gear.
+/// Force of an actuator on the terms of a sum: a signal times a gear.
 #[derive(Debug, Clone)]
 pub(super) struct Pull {
     pub(super) name: String,
@@ -13,20 +13,20 @@ pub(super) struct Pull {
     pub(super) terms: Vec<Term>,
 }
 
-/// A part of the effort of a joint: the actuator, its signal, and the factor.
+/// A part of the effort on a joint: the actuator's name, its signal, and the factor.
 type Share = (String, String, f64);
 
-/// Actuators that are limited together.
+/// Actuators that have a common limit.
 #[derive(Debug, Default)]
 pub(super) struct Shared {
-    /// Pulls by the number of a tendon.
+    /// Actuators of a tendon with limits, by the tendon's index.
     ropes: Vec<(usize, Vec<Pull>)>,
-    /// Shares by the number of a joint of the file.
+    /// Parts of the effort on a joint with limits, by the index of the file's joint.
     joints: Vec<(usize, Vec<Share>)>,
 }
 
 impl Shared {
-    /// Takes what an actuator does, by a tendon with limits where `rope` is one.
+    /// Adds the force of an actuator. `rope` is the index of its tendon if that tendon limits all its actuators together.
     pub(super) fn add(&mut self, pull: Pull, rope: Option<usize>, model: &mut Model<'_, '_, '_>) {
         let Some(rope) = rope else { return self.spread(&pull, model) };
         match self.ropes.iter_mut().find(|(other, _)| *other == rope) {
@@ -35,7 +35,7 @@ impl Shared {
         }
     }
 
-    /// Adds the limits and the drives behind them.
+    /// Adds the signals of the common limits, and the laws that apply the limited efforts.
     pub(super) fn finish(mut self, model: &mut Model<'_, '_, '_>) {
         for (rope, pulls) in std::mem::take(&mut self.ropes) {
             let pull = limited(rope, &pulls, model);
@@ -46,7 +46,7 @@ impl Shared {
         }
     }
 
-    /// A drive on the terms without limits; the others have theirs in common with other actuators.
+    /// Applies a force to the terms without limits. Terms of joints with limits are collected until all actuators are known.
     fn spread(&mut self, pull: &Pull, model: &mut Model<'_, '_, '_>) {
         let mut free = Vec::new();
         for term in &pull.terms {
@@ -69,7 +69,7 @@ impl Shared {
     }
 }
 
-/// A signal times a factor.
+/// Adds a signal multiplied by a factor, and returns its name.
 fn geared(name: &str, signal: &str, factor: f64, model: &mut Model<'_, '_, '_>) -> String {
     if factor == 1.0 {
         return signal.to_owned();
@@ -78,7 +78,7 @@ fn geared(name: &str, signal: &str, factor: f64, model: &mut Model<'_, '_, '_>) 
     model.signal(&format!("{name} geared"), Signal::Sum { of })
 }
 
-/// The actuators of a tendon together: one factor for all, so that the sum of their forces meets the end.
+/// Combines the actuators of a tendon. All forces are reduced by the same factor, so that their sum keeps the limit.
 fn limited(rope: usize, pulls: &[Pull], model: &mut Model<'_, '_, '_>) -> Pull {
     let [lower, upper] = model.tendons[rope].effort.unwrap_or([f64::MIN, f64::MAX]);
     let first = &pulls[0];
@@ -97,7 +97,7 @@ fn limited(rope: usize, pulls: &[Pull], model: &mut Model<'_, '_, '_>) -> Pull {
         let signal = model.signal(&format!("{name} effort"), clamp);
         return Pull { name, signal, gear: first.gear, terms: first.terms.clone() };
     }
-    // Σ gᵢ fᵢ times what the limit leaves of Σ fᵢ
+    // The sum Σ gᵢ fᵢ is multiplied by the ratio of the limited Σ fᵢ to Σ fᵢ.
     let all = sum(model, "geared actuators", |pull| pull.gear);
     let ratio = Signal::LimitRatio { of, lower, upper };
     let ratio = model.signal(&format!("{name} limit ratio"), ratio);
@@ -106,7 +106,7 @@ fn limited(rope: usize, pulls: &[Pull], model: &mut Model<'_, '_, '_>) -> Pull {
     Pull { name, signal, gear: 1.0, terms: first.terms.clone() }
 }
 
-/// The actuators of a joint together.
+/// Combines the actuators of a joint, and applies their limited effort.
 fn joint(number: usize, shares: &[Share], model: &mut Model<'_, '_, '_>) {
     let motion = model.motions[number].clone();
     let [lower, upper] = motion.effort.unwrap_or([f64::MIN, f64::MAX]);
@@ -124,7 +124,7 @@ fn joint(number: usize, shares: &[Share], model: &mut Model<'_, '_, '_>) {
     model.law(&format!("{name} drive"), What::Driven { on: target(&[term]), signal });
 }
 
-/// Terms as what a law acts on.
+/// The target of a law that acts on these terms.
 pub(super) fn target(terms: &[Term]) -> Target {
     match terms {
         [only] if only.factor == 1.0 && only.line.is_empty() => Target::Coordinate(only.of.clone()),
@@ -132,7 +132,7 @@ pub(super) fn target(terms: &[Term]) -> Target {
     }
 }
 
-/// The joint of the file, if its actuators have a limit, of which a term is the coordinate.
+/// Index of the file's joint to which a term belongs, if that joint limits its actuators together.
 fn limited_joint(term: &Term, model: &Model<'_, '_, '_>) -> Option<usize> {
     let is_it = |of: &Coordinate| *of == term.of && term.line.is_empty();
     model.motions.iter().position(|motion| {
@@ -140,12 +140,12 @@ fn limited_joint(term: &Term, model: &Model<'_, '_, '_>) -> Option<usize> {
     })
 }
 
-/// Is a term the coordinate of a joint whose actuators have a limit?
+/// Is a term the coordinate of a joint whose actuators have a common limit?
 pub(super) fn is_limited(terms: &[Term], model: &Model<'_, '_, '_>) -> bool {
     terms.iter().any(|term| limited_joint(term, model).is_some())
 }
 
-/// Joints whose actuators have a limit, which a line or a force at a place passes by.
+/// Joints with a common limit of their actuators that a line or a force on a body affects without this limit.
 pub(super) fn passed_by(pulled: &Transmission, model: &Model<'_, '_, '_>) -> Vec<String> {
     let limited: Vec<&Motion> =
         model.motions.iter().filter(|motion| motion.effort.is_some()).collect();
@@ -166,10 +166,10 @@ pub(super) fn passed_by(pulled: &Transmission, model: &Model<'_, '_, '_>) -> Vec
     found.map(|motion| motion.name.clone()).collect()
 }
 
-/// Does a link hang on another one, or is it that?
+/// Is a link equal to another link, or connected to the ground by way of it?
 fn is_carried(mut link: usize, by: usize, robot: &Robot) -> bool {
     while link != GROUND && link != by {
-        // the first joint of a link leads towards the ground, later ones close loops
+        // The first joint of a link leads to the ground; later joints of the same child close loops.
         let joint = robot.joints.iter().find(|joint| joint.child == link);
         link = joint.map_or(GROUND, |joint| joint.parent);
     }

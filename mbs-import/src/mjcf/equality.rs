@@ -1,4 +1,4 @@
-//! Equalities: loops and couplings, hard here.
+//! Equalities: closed loops and couplings. They are soft in MuJoCo and exact constraints here.
 
 use super::compiler::SAVED;
 use super::model::{Model, Moves, Tendon};
@@ -46,7 +46,7 @@ pub(super) fn read<'a>(root: &'a Element, model: &mut Model<'a, '_, '_>) -> Read
     Ok(())
 }
 
-/// Refuses what follows from lengths that a frame scales.
+/// Refuses an attribute whose lengths are scaled by a frame.
 fn grown_fault(word: &Attribute, size: Size) -> Read<()> {
     if size == Size::ONE {
         return Ok(());
@@ -58,7 +58,7 @@ fn name(element: &Element, ending: &str, wanted: &str) -> String {
     element.value("name").map_or_else(|| wanted.to_owned(), |name| format!("{name}{ending}"))
 }
 
-/// Reads `connect` and `weld`: a joint that closes a loop.
+/// Reads `connect` or `weld` as a joint that closes a loop.
 fn closing(element: &Element, ending: &str, model: &mut Model<'_, '_, '_>) -> Read<()> {
     let is_weld = element.name == "weld";
     let (ends, offset) = if let Some(first) = element.attribute("site1") {
@@ -91,7 +91,7 @@ fn closing(element: &Element, ending: &str, model: &mut Model<'_, '_, '_>) -> Re
     Ok(())
 }
 
-/// Offset by which the first of two bodies holds the second.
+/// Offset at which the first of two bodies holds the second one.
 fn between(
     element: &Element,
     is_weld: bool,
@@ -101,7 +101,7 @@ fn between(
     let links = &model.robot.links;
     let size = |link: usize| model.sizes.get(&link).copied().unwrap_or(Size::ONE);
     let point = |link: usize, at: [f64; 3]| links[link].pose.point(&(v3(at) * size(link).length));
-    // what holds as they are drawn: where the first body has it now, and where the second one has it
+    // The weld holds the relative pose of the drawn configuration: where the first body has the second one now.
     let drawn = |link: usize| model.drawn.get(&link).copied().unwrap_or(links[link].pose);
     let held = links[first].pose.then(&drawn(first).inverse().then(&drawn(second)));
     let back = match model.posed {
@@ -113,23 +113,23 @@ fn between(
         let moved = place - back.point(&place);
         return Ok(Offset { place: back.point(&place), moved, turned: M3::identity() });
     }
-    // the anchor of a weld is in the second body
+    // The anchor of a weld is a point of the second body.
     let place = point(second, element.numbers_or("anchor", [0.0; 3])?);
     let forth = back.inverse();
     let drawn = Offset { place, moved: forth.point(&place) - place, turned: forth.turn };
     let Some(relative) = element.attribute("relpose") else { return Ok(drawn) };
     grown_fault(relative, size(first))?;
     let [x, y, z, a, b, c, d] = relative.numbers()?;
-    // a quaternion of zeros stands for the pose as drawn
+    // A quaternion of zeros stands for the relative pose of the drawn configuration.
     let Some(turn) = quaternion([a, b, c, d]) else { return Ok(drawn) };
     let wanted = links[first].pose.then(&Pose::new(turn, v3([x, y, z])));
     let is = &links[second].pose;
-    // it has the anchor where the first body holds it
+    // The second body has its anchor where the first body holds it.
     let turned = wanted.turn * is.turn.transpose();
     Ok(Offset { place: drawn.place, moved: wanted.at - drawn.place, turned })
 }
 
-/// Reads an equality of two tendons, or of one, each a sum of coordinates; `false` where no sum is equal.
+/// Reads an equality of one or two tendons that are sums of coordinates; returns `false` when a tendon is not such a sum.
 fn tendons(element: &Element, ending: &str, model: &mut Model<'_, '_, '_>) -> Read<bool> {
     let [constant, slope, rest @ ..] = polynomial(element)?;
     let first = model.tendon(element.need("tendon1")?, ending)?.1.clone();
@@ -160,7 +160,7 @@ fn tendons(element: &Element, ending: &str, model: &mut Model<'_, '_, '_>) -> Re
     Ok(true)
 }
 
-/// The five coefficients of an equality.
+/// Reads the five coefficients of the polynomial of an equality.
 fn polynomial(element: &Element) -> Read<[f64; 5]> {
     let mut all = [0.0, 1.0, 0.0, 0.0, 0.0];
     if let Some(written) = element.attribute("polycoef") {
@@ -171,7 +171,7 @@ fn polynomial(element: &Element) -> Read<[f64; 5]> {
     Ok(all)
 }
 
-/// Coefficients of p(x + offset) by powers of x; the first is that of p.
+/// Coefficients of p(x + offset) in powers of x, without the constant term, which remains that of p.
 fn shifted(coefficients: [f64; 5], offset: f64) -> [f64; 5] {
     let mut all = coefficients;
     for first in 0..4 {
@@ -183,7 +183,7 @@ fn shifted(coefficients: [f64; 5], offset: f64) -> [f64; 5] {
     all
 }
 
-/// y − y₀ = a₀ + a₁ (x − x₀) + ..., or y − y₀ = a₀ without a second joint.
+/// Adds the coupling y − y₀ = a₀ + a₁ (x − x₀) + ..., or y − y₀ = a₀ without a second joint.
 fn coupling(element: &Element, ending: &str, model: &mut Model<'_, '_, '_>) -> Read<()> {
     let word = element.need("joint1")?;
     let first = model.single(word, ending)?.clone();
@@ -193,7 +193,7 @@ fn coupling(element: &Element, ending: &str, model: &mut Model<'_, '_, '_>) -> R
     let all = polynomial(element)?;
     let constant = all[0];
     let mut terms = vec![Term::new(first.coordinate(), first.sign)];
-    // deviations count from the model as it is drawn
+    // Deviations are measured from the drawn configuration.
     let mut value = constant - (first.zero - first.drawn);
     if let Some(second) = element.attribute("joint2") {
         let word = second;
@@ -202,7 +202,7 @@ fn coupling(element: &Element, ending: &str, model: &mut Model<'_, '_, '_>) -> R
             grown_fault(word, second.size)?;
         }
         let of = second.coordinate();
-        // of the scene's coordinate, which may grow against the file's
+        // The sign of the scene's coordinate may be opposite to the file's.
         let signed = |power: i32, a: f64| a * second.sign.powi(power);
         let offset = second.zero - second.drawn;
         value += all.iter().zip(0..).skip(1).map(|(a, power)| a * offset.powi(power)).sum::<f64>();

@@ -1,4 +1,4 @@
-//! Forms that are fitted to meshes.
+//! Shapes that are fitted to meshes.
 
 use super::compiler::Compiler;
 use crate::inertia::Mass;
@@ -6,19 +6,20 @@ use crate::pose::{M3, Pose, V3, v3};
 use crate::solid::Solid;
 use mbs_scene::TriangleMesh;
 
-/// Principal moments that are alike so far have no axes of their own: vertices have the seven digits of single precision.
+/// Relative difference of principal moments that count as equal, and have no distinct axes [-]. Vertices have the seven digits of single
+/// precision.
 const ALIKE: f64 = 1.0e-6;
 
-/// A form that is fitted to a mesh.
+/// A shape that is fitted to a mesh.
 pub(super) struct Fitted {
     pub(super) solid: Solid,
-    /// Frame of the form in that of the mesh.
+    /// Frame of the shape, relative to that of the mesh.
     pub(super) frame: Pose,
-    /// Are its axes a choice, on which its mass or moments depend?
+    /// Are its axes arbitrary, although the mass or the moments depend on them?
     pub(super) is_chosen: bool,
 }
 
-/// A form of a kind that is fitted to a mesh, whose mass is known at some density; or why there is none.
+/// Fits a shape of this kind to a mesh whose mass is known for some density. The error is the reason why there is no such shape.
 pub(super) fn fitted(
     kind: &str,
     mesh: &TriangleMesh,
@@ -30,7 +31,7 @@ pub(super) fn fitted(
         let (center, half) = around(mesh, &axes, &mass.center);
         (mass.center + axes * center, half)
     } else {
-        // the box of the same mass and moments
+        // Half lengths of the box with the same mass and moments.
         let sum: f64 = moments.iter().sum();
         let half = moments.map(|moment| (1.5 * (sum - 2.0 * moment).max(0.0) / mass.mass).sqrt());
         (mass.center, half)
@@ -59,18 +60,19 @@ pub(super) fn fitted(
     Ok(Fitted { solid, frame: Pose::new(axes, center), is_chosen })
 }
 
-/// Principal moments, the largest first, and their axes.
+/// Principal moments in descending order, with their axes.
 fn principal(tensor: &M3) -> ([f64; 3], M3) {
     let eigen = tensor.symmetric_eigen();
     let mut order = [0, 1, 2];
     order.sort_by(|a, b| eigen.eigenvalues[*b].total_cmp(&eigen.eigenvalues[*a]));
     let axes = order.map(|i| eigen.eigenvectors.column(i).into_owned());
-    // right-handed
+    // The last axis makes the frame right-handed.
     let last = axes[0].cross(&axes[1]);
     (order.map(|i| eigen.eigenvalues[i]), M3::from_columns(&[axes[0], axes[1], last]))
 }
 
-/// The box around the vertices along some axes at a place: its centre there, and its half lengths.
+/// The box around the vertices, along the columns of `axes`. Returns its centre relative to the point `at`, in components along these axes,
+/// and its half lengths.
 fn around(mesh: &TriangleMesh, axes: &M3, at: &V3) -> (V3, [f64; 3]) {
     let mut ends = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
     for vertex in &mesh.vertices {

@@ -1,4 +1,4 @@
-//! Inertia of a sum of coordinates: armature of tendons, and of the actuators that pull them.
+//! Inertia on a sum of coordinates: armature of tendons, and of the actuators that act on them.
 
 use super::model::{Model, Sort};
 use crate::inertia::Mass;
@@ -6,7 +6,8 @@ use crate::pose::{M3, V3, unit};
 use crate::robot::{Coordinate, Coupling, GROUND, Joint, Kind, Link, Target, Term, What};
 use crate::source::Origin;
 
-/// Adds ½ a ṁ² of a sum m to the kinetic energy. Of one coordinate it is a rotor; else a body with that inertia turns by m about its centre.
+/// Adds ½ a ṁ² to the kinetic energy, where m is a sum of coordinates. For one coordinate it is a rotor. Otherwise a body with that inertia
+/// rotates by m about its centre.
 pub(super) fn add(name: &str, terms: &[Term], inertia: f64, model: &mut Model<'_, '_, '_>) {
     if let [only] = terms
         && only.line.is_empty()
@@ -19,7 +20,7 @@ pub(super) fn add(name: &str, terms: &[Term], inertia: f64, model: &mut Model<'_
     let wheel = model.free_name(Sort::Link, name);
     let link = model.robot.links.len();
     let at = Origin::start_of(0);
-    // its mass rests at the origin: the number of its moment, which keeps sizes alike
+    // The body's mass rests at the origin. It has the same number as its moment, so that magnitudes are similar.
     let mass = Mass { mass: inertia, center: V3::zeros(), tensor: M3::identity() * inertia };
     model.robot.links.push(Link { mass: Some(mass), ..Link::new(&wheel, at) });
     let note =

@@ -1,4 +1,4 @@
-//! Geoms: mass, and what is drawn.
+//! Geoms: their mass, and their shapes for pictures.
 
 use super::asset::{self, Fit, MeshGeom};
 use super::defaults::View;
@@ -10,21 +10,21 @@ use crate::robot::Form;
 use crate::solid::Solid;
 use crate::source::Read;
 
-/// Groups that the format's own viewer shows; the others are for contact.
+/// Last of the groups of geoms that MuJoCo's viewer shows by default [-]; the other groups are for contact.
 const SEEN_GROUPS: f64 = 2.0;
 
-/// Mass that a geom has: of a solid, of a mesh, or none.
+/// Kind of a geom by its mass: a solid, a mesh, or neither.
 #[derive(Debug, Clone)]
 pub(super) enum Geom {
-    /// A solid with its mass, which is zero where it counts for none.
+    /// A solid with its mass, which is zero when the geom does not count.
     Solid(Mass),
-    /// A mesh whose mass counts.
+    /// A mesh whose mass is added to that of its body.
     Mesh(MeshGeom),
-    /// Neither a solid nor a mesh whose mass counts.
+    /// Neither a solid nor a mesh whose mass is added to that of its body.
     Nothing,
 }
 
-/// Reads a geom in a frame that stands as `scope` says: its mass in global axes, and its form.
+/// Reads a geom in the frame `scope`: returns its mass in global axes, and adds its shape.
 pub(super) fn read(
     view: &View<'_>,
     link: usize,
@@ -65,7 +65,7 @@ pub(super) fn read(
     }
     let (frame, half) = match view.attribute("fromto") {
         Some(ends) => {
-            // they say all of the place
+            // The two ends replace all attributes of the pose.
             for name in ["pos", "quat", "euler", "axisangle", "xyaxes", "zaxis"] {
                 view.own(name);
             }
@@ -90,7 +90,7 @@ pub(super) fn read(
     Ok(Geom::Solid(solid.mass(is_shell, density, written).seen_from(&frame)))
 }
 
-/// Adds what is drawn of a mesh.
+/// Adds the shape of a mesh for pictures.
 fn draw(geom: &MeshGeom, view: &View<'_>, link: usize, model: &mut Model<'_, '_, '_>) -> Read<()> {
     match asset::form(geom, model)? {
         Ok((pose, kind)) => {
@@ -102,7 +102,7 @@ fn draw(geom: &MeshGeom, view: &View<'_>, link: usize, model: &mut Model<'_, '_,
     Ok(())
 }
 
-/// The form and its sizes; of one between two places the half length is known.
+/// Reads the solid and its sizes. `half` is the half length, when two end points give it.
 fn solid(view: &View<'_>, kind: &str, half: Option<f64>) -> Read<Solid> {
     let sizes = view.attribute("size").map(|size| size.list()).transpose()?.unwrap_or_default();
     let needed = match (kind, half) {

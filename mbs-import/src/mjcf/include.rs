@@ -1,4 +1,4 @@
-//! Files that a file includes: their elements stand where the `include` stood.
+//! Included files: their elements replace the `include` element.
 
 use crate::beside::{Included, find};
 use crate::context::Context;
@@ -6,7 +6,7 @@ use crate::element::Element;
 use crate::source::Read;
 use std::path::Path;
 
-/// Puts the elements of other files in the places of `include` elements.
+/// Replaces the `include` elements by the elements of other files.
 pub(crate) fn include(root: &mut Element, context: &mut Context<'_>) -> Read<()> {
     Includer { context, included: Included::default() }.inside(root)
 }
@@ -29,7 +29,7 @@ impl Includer<'_, '_> {
         Ok(())
     }
 
-    /// The elements of an included file: looked for from the first file's folder, then from that of the file that includes it.
+    /// The elements of an included file. Its path is relative to the folder of the first file, or else to the folder of the including file.
     fn file(&mut self, include: &Element) -> Read<Vec<Element>> {
         let file = include.need("file")?;
         let name = Path::new(file.value.trim());

@@ -1,4 +1,4 @@
-//! Joints of a body, which act one after the other.
+//! Joints of a body, which are connected in series.
 
 use super::compiler::word;
 use super::defaults::View;
@@ -11,10 +11,11 @@ use crate::robot::{GROUND, Joint, Kind, Link, What};
 use crate::source::{Fault, Origin, Read};
 use mbs_core::algebra::cross;
 
-/// Axes are at right angles where their product is at most this; six printed digits leave 1e-6.
+/// Largest product of two axes of unit length that count as perpendicular [-]. Six printed digits leave 1e-6, so such axes must be written
+/// exactly.
 const RIGHT_ANGLE: f64 = 1.0e-9;
 
-/// A joint as it is read, in global axes.
+/// A joint as read from the file, in global axes.
 #[derive(Debug, Clone)]
 pub(super) struct Written {
     motion: Motion,
@@ -38,7 +39,7 @@ fn moves(view: &View<'_>) -> Read<Moves> {
     })
 }
 
-/// Global axis of a joint; zero of one that has none.
+/// Global axis of a joint; zero for a joint without an axis.
 fn axis(view: &View<'_>, scope: &Pose, (name, is_single): (&str, bool)) -> Read<V3> {
     match direction(&v3(view.numbers_or("axis", [0.0, 0.0, 1.0])?)) {
         Some(axis) => Ok(scope.turn * axis),
@@ -50,7 +51,7 @@ fn axis(view: &View<'_>, scope: &Pose, (name, is_single): (&str, bool)) -> Read<
     }
 }
 
-/// Numbers of what acts in a joint, in the size of its frames.
+/// Stiffness, damping and friction of a joint, scaled by the size of its frames.
 struct Strong {
     strengths: [Strength; 2],
     friction: f64,
@@ -87,7 +88,7 @@ fn strong(
     })
 }
 
-/// Time and damping ratio from which spring and damper follow.
+/// Reads the time constant and the damping ratio that define stiffness and damping.
 fn timed(view: &View<'_>) -> Read<Option<[f64; 2]>> {
     let Some(word) = view.attribute("springdamper") else { return Ok(None) };
     match word.numbers()? {
@@ -100,7 +101,7 @@ fn timed(view: &View<'_>) -> Read<Option<[f64; 2]>> {
     }
 }
 
-/// Lists a free joint whose frame is to be put at the centre of mass.
+/// Lists a free joint whose frame must move to the centre of mass.
 fn aligned(view: &View<'_>, model: &mut Model<'_, '_, '_>) -> Read<()> {
     let is_free = view.element.name == "freejoint";
     let word = view.attribute("align").map(|align| word(align, &["false", "true", "auto"]));
@@ -112,7 +113,7 @@ fn aligned(view: &View<'_>, model: &mut Model<'_, '_, '_>) -> Read<()> {
     Ok(())
 }
 
-/// Reads `joint` or `freejoint`, in a frame that stands as `scope` says.
+/// Reads a `joint` or `freejoint`; `scope` is the frame that contains it.
 pub(super) fn read(
     view: &View<'_>,
     name: String,
@@ -167,7 +168,8 @@ pub(super) fn read(
     })
 }
 
-/// Puts the joints of a body, which has a frame, where coordinates of a keyframe have them; how that moves the body, and how many it takes.
+/// Moves the joints of a body with frame `frame` to the coordinates of a keyframe. Returns the displacement of the body and the number of
+/// coordinates that it uses.
 pub(super) fn posed(joints: &mut [Written], frame: &Pose, places: &[f64]) -> Read<(Pose, usize)> {
     let mut moved = Pose::identity();
     let mut taken = 0;
@@ -216,8 +218,8 @@ pub(super) fn posed(joints: &mut [Written], frame: &Pose, places: &[f64]) -> Rea
     Ok((moved, taken))
 }
 
-/// Joins a body to its parent by its joints, the first one outermost: those that are one joint of the scene become one, others get massless
-/// links between.
+/// Joins a body to its parent by its joints, with the outermost first. Joints that form one joint of the scene are combined. Massless links
+/// are added between the others.
 pub(super) fn join(
     joints: Vec<Written>,
     parent: usize,
@@ -261,12 +263,12 @@ pub(super) fn join(
     Ok(())
 }
 
-/// Joints of the file that are one of the scene.
+/// Joints of the file that form one joint of the scene.
 struct Group {
     len: usize,
     kind: Kind,
     axes: Vec<V3>,
-    /// The number of the scene's coordinate of each, and its sign; none of one that has but one.
+    /// Index and sign of the scene's coordinate for each joint; empty when the scene's joint has a single coordinate.
     places: Vec<(usize, f64)>,
 }
 
@@ -277,7 +279,7 @@ fn group(joints: &[Written]) -> Group {
     if moves.starts_with(&[Moves::Slide, Moves::Slide, Moves::Hinge]) {
         let [a, b, turn] = [axis(0), axis(1), axis(2)];
         if is_across(&a, &b) && is_across(&a, &turn) && is_across(&b, &turn) {
-            // the second slide of the scene is the normal times the first
+            // The second translation of the scene is along the normal times the first.
             let sign = cross(&turn, &a).dot(&b).signum();
             return Group {
                 len: 3,
@@ -288,9 +290,9 @@ fn group(joints: &[Written]) -> Group {
         }
     }
     if moves == [Moves::Slide, Moves::Slide, Moves::Slide, Moves::Ball] {
-        // one mass for all directions
+        // The three translations must have the same armature.
         let is_alike = (1..3).all(|i| joints[i].motion.armature == joints[0].motion.armature);
-        // the scene's slides are along the global axes
+        // The translations of the scene's free joint are along the global axes.
         let along = |axis: V3| {
             (0..3).find(|i| 1.0 - axis[*i].abs() <= RIGHT_ANGLE).map(|i| (i, axis[i].signum()))
         };
@@ -312,7 +314,7 @@ fn group(joints: &[Written]) -> Group {
     Group { len: 1, kind, axes, places: Vec::new() }
 }
 
-/// Adds a joint of the scene for those of the file.
+/// Adds the joint of the scene for a group of joints of the file.
 fn add(
     joints: &[Written],
     group: &Group,
@@ -364,7 +366,7 @@ fn add(
     Ok(())
 }
 
-/// Friction and armature of a hinge or a slide.
+/// Adds the friction and the armature of a hinge or a slide.
 fn single(read: &Written, motion: &Motion, model: &mut Model<'_, '_, '_>) {
     let (name, on) = (&motion.name, motion.target());
     if read.friction > 0.0 {
@@ -375,14 +377,14 @@ fn single(read: &Written, motion: &Motion, model: &mut Model<'_, '_, '_>) {
             What::Friction { on: on.clone(), coulomb: read.friction },
         );
     }
-    // that of a free joint is a mass of its body
+    // The armature of a free joint is added to the mass of its body.
     let is_free = model.robot.joints[motion.joint].kind == Kind::Free;
     if motion.armature > 0.0 && !is_free {
         model.law(&format!("{name} armature"), What::Rotor { on, inertia: motion.armature });
     }
 }
 
-/// Reports what does not act in a ball or a free joint.
+/// Reports the properties of a ball or a free joint that have no counterpart.
 fn several(read: &Written, motion: &Motion, model: &mut Model<'_, '_, '_>) {
     let label = format!("joint[{}]", motion.name);
     if read.friction > 0.0 {

@@ -1,4 +1,4 @@
-//! Keyframes: where a run starts.
+//! Keyframes: initial states of a run.
 
 use super::model::{Model, Motion, Moves};
 use crate::context::Context;
@@ -8,7 +8,7 @@ use crate::robot::{GROUND, Kind, Signal, Start, What};
 use crate::source::{Fault, Origin, Read};
 use mbs_scene::nearest_name;
 
-/// The coordinates of the keyframe that is asked for.
+/// The coordinates of the keyframe that the options name; `None` when they name none.
 pub(super) fn places(root: &Element, context: &Context<'_>) -> Read<Option<Vec<f64>>> {
     let Some(asked) = &context.options.key else { return Ok(None) };
     let keys = root.each("keyframe").flat_map(|keys| keys.each("key"));
@@ -19,7 +19,7 @@ pub(super) fn places(root: &Element, context: &Context<'_>) -> Read<Option<Vec<f
     places.map(Attribute::list).transpose()
 }
 
-/// Takes the keyframe that is asked for; others are named in the head of the scene.
+/// Applies the keyframe that the options name; the other keyframes are listed in the head of the scene.
 pub(super) fn read(root: &Element, model: &mut Model<'_, '_, '_>) -> Read<()> {
     let keys: Vec<_> = root.each("keyframe").flat_map(|keys| keys.each("key")).collect();
     let names: Vec<_> = keys
@@ -59,7 +59,7 @@ pub(super) fn read(root: &Element, model: &mut Model<'_, '_, '_>) -> Read<()> {
     }
 }
 
-/// The numbers of each joint in a list of all.
+/// Splits a list of values into those of each joint.
 fn numbers(
     word: Option<&Attribute>,
     count: impl Fn(Moves) -> usize,
@@ -90,7 +90,7 @@ fn start(key: &Element, model: &mut Model<'_, '_, '_>) -> Read<()> {
         Moves::Free => 6,
     };
     let values = numbers(key.attribute("qpos"), Moves::places, &model.motions)?;
-    // its bodies may stand there already
+    // The reference configuration may already be that of the keyframe.
     let values = values.filter(|_| model.posed.is_none());
     let speeds = numbers(key.attribute("qvel"), rates, &model.motions)?;
     if let Some(controls) = key.attribute("ctrl") {
@@ -110,7 +110,7 @@ fn start(key: &Element, model: &mut Model<'_, '_, '_>) -> Read<()> {
     let mut turned = vec![M3::identity(); model.robot.links.len()];
     for joint in 0..model.robot.joints.len() {
         let of = &model.robot.joints[joint];
-        // joints that close loops follow
+        // Joints that close loops have no values of their own.
         let own: Vec<_> =
             (0..model.motions.len()).filter(|i| model.motions[*i].joint == joint).collect();
         let (parent, child) = (of.parent, of.child);
@@ -123,7 +123,7 @@ fn start(key: &Element, model: &mut Model<'_, '_, '_>) -> Read<()> {
         let (start, turn) =
             joint_start(joint, &own, values.as_deref(), speeds.as_deref(), &turned[parent], model)?;
         turned[child] = turned[parent] * turn;
-        // a joint that a coupling leads follows from the others
+        // The coordinate of a joint that a coupling determines is not set.
         let couplings = &model.robot.couplings;
         if couplings.iter().any(|coupling| coupling.terms[0].of.joint == joint) {
             continue;
@@ -135,7 +135,7 @@ fn start(key: &Element, model: &mut Model<'_, '_, '_>) -> Read<()> {
     Ok(())
 }
 
-/// Activations of the actuators that have some, in their order.
+/// Reads the activations of those actuators that have any, in their order.
 fn activations(word: &Attribute, model: &mut Model<'_, '_, '_>) -> Read<()> {
     let list = word.list()?;
     let counts: Option<Vec<_>> = model.inputs.iter().map(|input| input.activations).collect();
@@ -164,7 +164,7 @@ fn activations(word: &Attribute, model: &mut Model<'_, '_, '_>) -> Read<()> {
     Ok(())
 }
 
-/// The start of a joint of the scene, and how it turns its child, in axes of the reference configuration.
+/// The initial state of a joint of the scene, and the rotation of its child in axes of the reference configuration.
 fn joint_start(
     joint: usize,
     own: &[usize],
@@ -201,7 +201,7 @@ fn joint_start(
                 let first = if count == 6 { 3 } else { 0 };
                 if let Some(q) = q {
                     let is = of_quaternion(&q[q.len() - 4..], motion)?;
-                    // a free joint has the body's own frame, a ball what turns it
+                    // The quaternion of a free joint is that of the body's frame; that of a ball is the relative rotation.
                     turn = if is_free {
                         is * link.pose.turn.transpose()
                     } else {
@@ -236,14 +236,14 @@ fn of_quaternion(q: &[f64], motion: &Motion) -> Read<M3> {
     })
 }
 
-/// The rotation vector of a rotation.
+/// The rotation vector of a rotation matrix [rad].
 pub(super) fn vector_of(turn: &M3) -> [f64; 3] {
     let skew =
         v3([turn[(2, 1)] - turn[(1, 2)], turn[(0, 2)] - turn[(2, 0)], turn[(1, 0)] - turn[(0, 1)]])
             * 0.5;
     let (sine, cosine) = (skew.dot(&skew).sqrt(), (turn.trace() - 1.0) / 2.0);
     let angle = sine.atan2(cosine);
-    /// Sine of an angle near zero or half a turn, where the axis follows from the symmetric part.
+    /// Sine below which the angle is near zero or half a turn, where the axis comes from the symmetric part [-].
     const SMALL: f64 = 1.0e-6;
     if sine > SMALL {
         return (skew * (angle / sine)).into();
@@ -251,7 +251,7 @@ pub(super) fn vector_of(turn: &M3) -> [f64; 3] {
     if cosine > 0.0 {
         return skew.into();
     }
-    // R + 1 = 2 a aᵀ at half a turn
+    // At half a turn R + 1 = 2 a aᵀ, with the axis a.
     let outer = (turn + M3::identity()) * 0.5;
     let largest = (0..3).max_by(|a, b| outer[(*a, *a)].total_cmp(&outer[(*b, *b)])).unwrap_or(0);
     let axis: V3 = outer.column(largest).into_owned() / outer[(largest, largest)].sqrt();

@@ -1,4 +1,4 @@
-//! MJCF: bodies in bodies, with defaults, loops, tendons and actuators.
+//! Reader of MJCF: bodies within bodies, with defaults, loops, tendons and actuators.
 #![allow(clippy::float_cmp, reason = "what a file writes is compared as it stands")]
 
 mod actuator;
@@ -46,20 +46,20 @@ use compiler::Compiler;
 use defaults::Classes;
 use model::Model;
 
-/// Reads the root element `mujoco`.
+/// Reads a model from the root element `mujoco`.
 pub(crate) fn read(root: &Element, context: &mut Context<'_>) -> Read<Robot> {
     let before = context.findings.clone();
     let (robot, is_open) = whole(root, None, context)?;
     if !is_open {
         return Ok(robot);
     }
-    // bodies stand where the keyframe has them, if it closes what is drawn open
+    // The bodies are placed as in the keyframe, if that closes the loops that are drawn open.
     let Some(posed) = keyframe::places(root, context)? else { return Ok(robot) };
     context.findings = before;
     whole(root, Some(posed), context).map(|(robot, _)| robot)
 }
 
-/// Reads a model, with its bodies as they are drawn or at coordinates of a keyframe; is a loop open there?
+/// Reads a model, with its bodies as drawn or at the coordinates of a keyframe. Also returns whether a loop is open in that configuration.
 fn whole(
     root: &Element,
     posed: Option<Vec<f64>>,

@@ -1,4 +1,4 @@
-//! Model that the parts of the reader fill in together.
+//! Model that the parts of the MJCF reader fill together.
 
 use super::compiler::Compiler;
 use super::defaults::Classes;
@@ -13,7 +13,7 @@ use crate::robot::{Coordinate, GROUND, Law, Robot, Signal, Target, Term, What};
 use crate::source::{Origin, Read};
 use std::collections::{HashMap, HashSet};
 
-/// Kind of a joint of the file, by what it lets move.
+/// Kind of a joint of the file, by its freedoms.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Moves {
     Hinge,
@@ -23,7 +23,7 @@ pub(super) enum Moves {
 }
 
 impl Moves {
-    /// Numbers of its place in a keyframe.
+    /// Number of position values of the joint in a keyframe.
     pub(super) const fn places(self) -> usize {
         match self {
             Self::Hinge | Self::Slide => 1,
@@ -33,7 +33,7 @@ impl Moves {
     }
 }
 
-/// Sort of what names are of: names of one sort differ.
+/// Kind of named things. Names of one kind are unique.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(super) enum Sort {
     Link,
@@ -41,48 +41,48 @@ pub(super) enum Sort {
     Law,
 }
 
-/// A joint of the file, and where its coordinates are in the scene.
+/// A joint of the file, with its coordinates in the scene.
 #[derive(Debug, Clone)]
 pub(super) struct Motion {
     pub(super) name: String,
     pub(super) at: Origin,
     pub(super) moves: Moves,
-    /// The joint of the scene.
+    /// Index of the joint of the scene.
     pub(super) joint: usize,
-    /// Number of the coordinate, where the joint has several.
+    /// Index of the coordinate, if the joint of the scene has several.
     pub(super) number: Option<usize>,
-    /// The scene's coordinate grows against the file's where this is −1.
+    /// Sign of the scene's coordinate relative to the file's, 1 or −1.
     pub(super) sign: f64,
-    /// The file's coordinate in the reference configuration.
+    /// Coordinate of the file in the reference configuration of the scene.
     pub(super) zero: f64,
-    /// Coordinate of the file as the model is drawn.
+    /// Coordinate of the file in the configuration in which the model is drawn.
     pub(super) drawn: f64,
-    /// Coordinate of the file without tension in its spring.
+    /// Coordinate of the file at which its spring has no force.
     pub(super) spring: f64,
-    /// Ends of the file's coordinate.
+    /// Limits of the file's coordinate.
     pub(super) range: Option<[f64; 2]>,
-    /// Ends of the effort of all actuators.
+    /// Limits of the effort of all actuators together [N m or N].
     pub(super) effort: Option<[f64; 2]>,
     pub(super) armature: f64,
-    /// Direction of the motion in the reference configuration, global: of a turn about the place of its joint.
+    /// Axis in the reference configuration, global: of a translation, or of a rotation about the joint's place.
     pub(super) axis: V3,
-    /// Time and damping ratio of its stops, where it has any.
+    /// Time constant [s] and damping ratio of its stops, if it has stops.
     pub(super) stops: Option<[f64; 2]>,
-    /// Time and damping ratio from which its spring follows.
+    /// Time constant [s] and damping ratio that define its spring, if the file gives them.
     pub(super) timed: Option<[f64; 2]>,
-    /// Size of the frames in which the joint stands.
+    /// Size factors of the frames that contain the joint.
     pub(super) size: Size,
-    /// Spring and damper of the joint, where they act.
+    /// Stiffness and damping of the joint, if they are not switched off.
     pub(super) strengths: [Strength; 2],
 }
 
 impl Motion {
-    /// Is it one coordinate?
+    /// Has the joint a single coordinate?
     pub(super) const fn is_single(&self) -> bool {
         matches!(self.moves, Moves::Hinge | Moves::Slide)
     }
 
-    /// The coordinate of the scene.
+    /// The coordinate of the scene to which this joint belongs.
     pub(super) const fn coordinate(&self) -> Coordinate {
         Coordinate { joint: self.joint, number: self.number }
     }
@@ -91,13 +91,13 @@ impl Motion {
         Target::Coordinate(self.coordinate())
     }
 
-    /// A term of a sum of the file's coordinates, and what it adds to the sum in the reference configuration.
+    /// The term of the file's coordinate in a sum, and the constant that it adds to the sum.
     pub(super) fn term(&self, factor: f64) -> (Term, f64) {
         let term = Term::new(self.coordinate(), factor * self.sign);
         (term, factor * self.zero)
     }
 
-    /// Joint of the file with the place of its numbers in the scene.
+    /// The joint as a coordinate of the file, with its place in the scene.
     pub(super) fn of_file(&self, robot: &Robot) -> FileCoordinate {
         let joint = &robot.joints[self.joint];
         let Pose { turn, at } = robot.links[joint.child].pose;
@@ -118,64 +118,64 @@ impl Motion {
         }
     }
 
-    /// A value of the file as one of the scene.
+    /// Converts a value of the file's coordinate to the scene's coordinate.
     pub(super) fn in_scene(&self, value: f64) -> f64 {
         self.sign * (value - self.zero)
     }
 
-    /// Ends of the file's coordinate as ends of the scene's.
+    /// Converts limits of the file's coordinate to the scene's coordinate.
     pub(super) fn ends(&self, [lower, upper]: [f64; 2]) -> [f64; 2] {
         let [a, b] = [self.in_scene(lower), self.in_scene(upper)];
         [a.min(b), a.max(b)]
     }
 }
 
-/// A named place of the file.
+/// A named place of the file, an MJCF site.
 #[derive(Debug, Clone)]
 pub(super) struct Site {
     pub(super) name: String,
     pub(super) link: usize,
     pub(super) pose: Pose,
-    /// Size of the frames in which the site stands.
+    /// Size factors of the frames that contain the site.
     pub(super) size: Size,
 }
 
 impl Site {
-    /// Does it stand in a frame with a scale?
+    /// Is the site in a frame with a scale?
     pub(super) fn is_grown(&self) -> bool {
         self.size != Size::ONE
     }
 }
 
-/// A tendon; without terms it is nothing that the scene can pull.
+/// A tendon of the file. One without terms has no counterpart in the scene.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Tendon {
     pub(super) name: String,
     pub(super) terms: Vec<Term>,
     /// Length of the tendon in the reference configuration.
     pub(super) drawn: f64,
-    /// Ends of its length.
+    /// Limits of the length of the tendon.
     pub(super) range: Option<[f64; 2]>,
-    /// Ends of the force of all its actuators.
+    /// Limits of the force of all its actuators together.
     pub(super) effort: Option<[f64; 2]>,
-    /// Is any part of it in a frame with a scale?
+    /// Is a part of the tendon in a frame with a scale?
     pub(super) is_grown: bool,
 }
 
 /// Control of an actuator, which a keyframe sets.
 #[derive(Debug, Clone)]
 pub(super) struct Control {
-    /// The law of its input.
+    /// Index of the law that is its input.
     pub(super) law: Option<usize>,
-    /// The law of its activation.
+    /// Index of the law that is its activation.
     pub(super) activation: Option<usize>,
-    /// Factor of its control and its activation in the file.
+    /// Factor that converts control and activation from the file to the scene.
     pub(super) factor: f64,
-    /// Count of the numbers that the activation has in the file, if that is known.
+    /// Number of activation values of the actuator in the file, if it is known.
     pub(super) activations: Option<usize>,
 }
 
-/// The model while it is read.
+/// The model while its parts are read.
 pub(super) struct Model<'a, 'b, 'c> {
     /// Meshes by their names.
     pub(super) meshes: HashMap<String, &'a Element>,
@@ -184,9 +184,9 @@ pub(super) struct Model<'a, 'b, 'c> {
     pub(super) context: &'b mut Context<'c>,
     pub(super) robot: Robot,
     pub(super) bodies: Named,
-    /// The links of the bodies: massless ones between joints have numbers too.
+    /// Links of the bodies. Massless links between joints are in the list of links too, so that indices of bodies and links differ.
     pub(super) body_links: Vec<usize>,
-    /// Sizes of links that stand in frames with a scale.
+    /// Size factors of links in frames with a scale.
     pub(super) sizes: HashMap<usize, Size>,
     pub(super) joints: Named,
     pub(super) motions: Vec<Motion>,
@@ -194,19 +194,20 @@ pub(super) struct Model<'a, 'b, 'c> {
     pub(super) sites: Vec<Site>,
     pub(super) tendon_names: Named,
     pub(super) tendons: Vec<Tendon>,
-    /// Link, inertia and share of its weight that is lifted, of each body of the file: settings of the whole model bound and scale them.
+    /// Link, inertia and fraction of compensated weight for each body of the file. Settings of the whole model limit and scale the inertias
+    /// later.
     pub(super) masses: Vec<(usize, Mass, f64)>,
-    /// Endings of names that `replicate` gives, by the name without one.
+    /// Endings that `replicate` adds to a name, by the name without an ending.
     pub(super) copies: HashMap<String, Vec<String>>,
-    /// Controls by the number of the actuator.
+    /// Controls of the actuators, by actuator index.
     pub(super) inputs: Vec<Control>,
-    /// Coordinates of the keyframe at which bodies stand in the reference configuration; `None`: as they are drawn.
+    /// Coordinates of the keyframe that gives the reference configuration; `None`: the bodies are as drawn.
     pub(super) posed: Option<Vec<f64>>,
-    /// Poses of links as they are drawn.
+    /// Poses of links in the configuration in which the model is drawn.
     pub(super) drawn: HashMap<usize, Pose>,
     /// Is a loop open in the reference configuration?
     pub(super) is_open: bool,
-    /// Geoms that could touch others.
+    /// Number of geoms that could be in contact.
     pub(super) touching: usize,
     names: HashSet<(Sort, String)>,
 }
@@ -244,7 +245,7 @@ impl<'a, 'b, 'c> Model<'a, 'b, 'c> {
         }
     }
 
-    /// A name that nothing of its sort has yet: this one, or with an ending.
+    /// A name that is unique among its kind: the given name, with an ending if needed.
     pub(super) fn free_name(&mut self, sort: Sort, wanted: &str) -> String {
         let mut name = wanted.to_owned();
         let mut number = 1;
@@ -255,14 +256,14 @@ impl<'a, 'b, 'c> Model<'a, 'b, 'c> {
         name
     }
 
-    /// Adds a law or a signal; its name.
+    /// Adds an effect or a signal, and returns its name.
     pub(super) fn law(&mut self, wanted: &str, what: What) -> String {
         let name = self.free_name(Sort::Law, wanted);
         self.robot.laws.push(Law { name: name.clone(), what });
         name
     }
 
-    /// A place of a link in the reference configuration, where it is drawn.
+    /// Position, in the drawn configuration, of the point of a link that is at `place` in the reference configuration.
     pub(super) fn as_drawn(&self, link: usize, place: &V3) -> V3 {
         let drawn = self.drawn.get(&link);
         drawn.map_or(*place, |drawn| {
@@ -275,7 +276,7 @@ impl<'a, 'b, 'c> Model<'a, 'b, 'c> {
         self.law(wanted, What::Signal(signal))
     }
 
-    /// Keeps a name with the ending that `replicate` gives it.
+    /// Stores a name together with the ending that `replicate` adds to it.
     pub(super) fn copied(&mut self, name: &str, ending: &str) -> String {
         if !ending.is_empty() {
             let endings = self.copies.entry(name.to_owned()).or_default();
@@ -286,7 +287,7 @@ impl<'a, 'b, 'c> Model<'a, 'b, 'c> {
         format!("{name}{ending}")
     }
 
-    /// The link of a body by its name.
+    /// The link of a body, by the body's name.
     pub(super) fn body(&self, name: &Attribute, ending: &str) -> Read<usize> {
         let word = name.value.trim();
         if word == "world" {
@@ -296,25 +297,26 @@ impl<'a, 'b, 'c> Model<'a, 'b, 'c> {
         Ok(self.body_links[number])
     }
 
-    /// A place by its name.
+    /// A site of the file, by its name.
     pub(super) fn site(&self, name: &Attribute, ending: &str) -> Read<&Site> {
         let number = self.site_names.find_copy(name.value.trim(), ending, name.at)?;
         Ok(&self.sites[number])
     }
 
-    /// A joint by its name.
+    /// A joint of the file, by its name.
     pub(super) fn motion(&self, name: &Attribute, ending: &str) -> Read<&Motion> {
         let number = self.joints.find_copy(name.value.trim(), ending, name.at)?;
         Ok(&self.motions[number])
     }
 
-    /// A tendon by its name, with its number.
+    /// A tendon by its name, with its index.
     pub(super) fn tendon(&self, name: &Attribute, ending: &str) -> Read<(usize, &Tendon)> {
         let number = self.tendon_names.find_copy(name.value.trim(), ending, name.at)?;
         Ok((number, &self.tendons[number]))
     }
 
-    /// The endings of the copies that an element names, or none: what names a copied thing by its plain name is copied with it.
+    /// Endings of the copies that an element refers to by a name without ending; the element is then copied too. Otherwise the list has a
+    /// single, empty ending.
     pub(super) fn endings(&self, element: &Element) -> Vec<String> {
         let mut names = element
             .attributes
@@ -327,7 +329,7 @@ impl<'a, 'b, 'c> Model<'a, 'b, 'c> {
         found.cloned().unwrap_or_else(|| vec![String::new()])
     }
 
-    /// A joint of one coordinate by its name.
+    /// A joint with one coordinate, by its name.
     pub(super) fn single(&self, name: &Attribute, ending: &str) -> Read<&Motion> {
         let motion = self.motion(name, ending)?;
         if motion.is_single() {

@@ -1,14 +1,15 @@
-//! Loops that are open as the model is drawn: a massless link stands where the other side has to be.
+//! Loops that are open in the drawn configuration: a massless link is added where the other side has to be.
 
 use super::model::{Model, Sort};
 use crate::element::Element;
 use crate::pose::{M3, V3, direction};
 use crate::robot::{Coordinate, Coupling, Joint, Kind, Link, Term};
 
-/// Largest distance and turn between two sides that meet as drawn [m and rad].
+/// Largest distance [m] and rotation [rad] between two sides that count as coincident in the drawn configuration.
 const SLACK: f64 = 1.0e-6;
 
-/// Offset that takes the second side to where the first one holds it: a displacement, and a turn about its place; global, as drawn.
+/// Displacement and rotation (about `place`) from the drawn pose of the second side to the pose at which the first side holds it. All are
+/// global.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Offset {
     pub(super) place: V3,
@@ -16,7 +17,7 @@ pub(super) struct Offset {
     pub(super) turned: M3,
 }
 
-/// A link that the first one carries, displaced and turned against it: the first one itself where both sides meet as drawn.
+/// A link that the first link carries, at an offset from it. When both sides coincide as drawn, it is the first link itself.
 pub(super) fn carried(
     name: &str,
     element: &Element,
@@ -43,7 +44,7 @@ pub(super) fn carried(
     link
 }
 
-/// Place at which the joints of one loop stand.
+/// Place of the joints that make up one offset.
 struct Step<'a> {
     name: &'a str,
     element: &'a Element,
@@ -51,7 +52,7 @@ struct Step<'a> {
 }
 
 impl Step<'_> {
-    /// A massless link on a joint whose coordinate is held.
+    /// Adds a massless link, on a joint whose coordinate is held constant.
     fn add(
         &self,
         word: &str,

@@ -1,4 +1,4 @@
-//! Places and orientations of elements.
+//! Positions and orientations of elements.
 
 use super::compiler::Compiler;
 use super::defaults::View;
@@ -7,15 +7,15 @@ use crate::pose::{M3, Pose, V3, about, direction, from_z_to, quaternion, unit, v
 use crate::source::Read;
 use mbs_core::algebra::cross;
 
-/// The attributes that say an orientation; an element has one of them.
+/// The attributes that give an orientation; an element has one of them.
 const WORDS: [&str; 5] = ["quat", "axisangle", "xyaxes", "zaxis", "euler"];
 
-/// The frame of an element in that of its parent.
+/// The frame of an element, relative to that of its parent.
 pub(super) fn pose(view: &View<'_>, compiler: &Compiler) -> Read<Pose> {
     Ok(Pose::new(turn(view, compiler)?, v3(view.numbers_or("pos", [0.0; 3])?)))
 }
 
-/// The orientation of an element: what it writes itself comes before what its class writes, in whatever words.
+/// The orientation of an element. An attribute of the element overrides all orientation attributes of its class.
 pub(super) fn turn(view: &View<'_>, compiler: &Compiler) -> Read<M3> {
     let compiler = compiler.of(view.element.at);
     let own: Vec<_> = WORDS.iter().filter_map(|word| view.own(word)).collect();
@@ -57,7 +57,7 @@ fn of(word: &Attribute, compiler: &Compiler) -> Read<M3> {
     }
 }
 
-/// Rotation of three turns: small letters are axes that turn along, capitals are axes that stay.
+/// Rotation by three Euler angles: small letters are moving axes, capitals are fixed axes.
 pub(super) fn euler(angles: [f64; 3], compiler: &Compiler) -> M3 {
     angles.iter().zip(compiler.sequence).fold(M3::identity(), |turned, (angle, letter)| {
         let axis = unit(usize::from(letter.to_ascii_lowercase() - b'x'));
@@ -66,7 +66,7 @@ pub(super) fn euler(angles: [f64; 3], compiler: &Compiler) -> M3 {
     })
 }
 
-/// The frame of a form between two places: its z axis is along the line, its origin in the middle. With half the length.
+/// The frame of a shape between two points, and half its length. The z axis is along the line, the origin in its middle.
 pub(super) fn from_to(word: &Attribute) -> Read<(Pose, f64)> {
     let [a, b, c, d, e, f] = word.numbers()?;
     let (from, to): (V3, V3) = (v3([a, b, c]), v3([d, e, f]));

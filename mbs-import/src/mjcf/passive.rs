@@ -6,7 +6,7 @@ use super::strength::Strength;
 use crate::laws;
 use crate::robot::What;
 
-/// Adds the spring and the damper of a joint.
+/// Adds the spring and the damper of a joint of the file.
 pub(super) fn add(motion: &Motion, strengths: [Strength; 2], model: &mut Model<'_, '_, '_>) {
     if motion.is_single() {
         let free = motion.in_scene(motion.spring);
@@ -18,7 +18,7 @@ pub(super) fn add(motion: &Motion, strengths: [Strength; 2], model: &mut Model<'
     }
 }
 
-/// Spring and damper of a ball or a free joint.
+/// Adds the spring and the damper of a ball or a free joint.
 fn several(motion: &Motion, strengths: [Strength; 2], model: &mut Model<'_, '_, '_>) {
     let label = format!("joint[{}]", motion.name);
     let [stiffness, damping] = [("stiffness", strengths[0]), ("damping", strengths[1])].map(

@@ -1,6 +1,7 @@
-//! The size of what stands in frames with a `scale`.
+//! Size factors of elements in frames with a `scale`.
 //!
-//! Lengths grow with s, masses with s³ or as `massscale` says. With the scaling `similar` forces grow with m s, moments with m s².
+//! Lengths are multiplied by s, masses by s³ or by `massscale`. With the scaling `similar`, forces are multiplied by m s and moments by m
+//! s².
 
 use super::compiler::{SAVED, word};
 use crate::element::{Attribute, Element};
@@ -9,7 +10,7 @@ use crate::pose::{Pose, V3};
 use crate::robot::{Form, FormKind};
 use crate::source::Read;
 
-/// Factors of lengths and masses, and those from which forces follow.
+/// Factors of lengths and masses, and the factors from which those of forces follow.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Size {
     pub(super) length: f64,
@@ -22,7 +23,7 @@ impl Size {
     pub(super) const ONE: Self =
         Self { length: 1.0, mass: 1.0, force_length: 1.0, force_mass: 1.0 };
 
-    /// Size of what is in a frame that stands in this size.
+    /// The size factors within a frame that itself has these factors.
     pub(super) fn of_frame(self, frame: &Element) -> Read<Self> {
         let length = frame.attribute("scale").map(scale).transpose()?;
         let scaling = frame.attribute("scaling");
@@ -39,12 +40,12 @@ impl Size {
         })
     }
 
-    /// A pose in a frame, with its place in that size.
+    /// A pose within a frame, with its position scaled.
     pub(super) fn pose(&self, pose: Pose) -> Pose {
         Pose { at: pose.at * self.length, ..pose }
     }
 
-    /// A global mass, that grows about a place.
+    /// A mass in global axes, scaled about a place.
     pub(super) fn of_mass(&self, mass: &Mass, about: &V3) -> Mass {
         if *self == Self::ONE {
             return *mass;
@@ -56,7 +57,7 @@ impl Size {
         }
     }
 
-    /// A form, that grows about a place.
+    /// Scales a shape about a place.
     pub(super) fn grow(&self, form: &mut Form, about: &V3) {
         if *self == Self::ONE {
             return;
@@ -74,23 +75,23 @@ impl Size {
         }
     }
 
-    /// Factor of a moment, and of all that is one by an angle or its rate.
+    /// Factor of moments, and of moments per angle or angular rate.
     pub(super) const fn moment(&self) -> f64 {
         self.force_mass * self.force_length * self.force_length
     }
 
-    /// Factor of a force.
+    /// Factor of forces in the frame [-].
     pub(super) const fn force(&self) -> f64 {
         self.force_mass * self.force_length
     }
 
-    /// Factor of a force by a power of a length, or of its rate.
+    /// Factor of a force coefficient that multiplies a power of a length or of its rate.
     pub(super) fn force_by(&self, power: i32) -> f64 {
         self.force() / self.force_length.powi(power)
     }
 }
 
-/// A factor of lengths, the same along all axes.
+/// Reads a scale factor of lengths, which must be equal along all axes.
 fn scale(word: &Attribute) -> Read<f64> {
     let list = word.list()?;
     match list[..] {

@@ -1,10 +1,10 @@
-//! Springs and dampers on coordinates, sums and lines.
+//! Springs and dampers that act on coordinates, sums or lines.
 
 use super::model::Model;
 use super::strength::Strength;
 use crate::robot::{Target, Term, What};
 
-/// Adds a spring that is slack from one value to the other, and a damper.
+/// Adds a spring that has no force between two values, and a damper.
 pub(super) fn add(
     name: &str,
     on: &Target,
@@ -14,7 +14,7 @@ pub(super) fn add(
 ) {
     let [k, c] = [stiffness.0[0], damping.0[0]].map(|x| x.max(0.0));
     let is_slack = lower < upper && stiffness != Strength::NONE;
-    // what is in proportion is a law of its own
+    // A linear spring or damper has its own kind of law.
     let [mut above, mut beside] = [stiffness, damping];
     let is_plain = stiffness.linear().is_some_and(|k| k >= 0.0);
     let k = if is_slack { 0.0 } else { k };
@@ -42,7 +42,7 @@ pub(super) fn add(
     }
 }
 
-/// A spring that is slack between two lengths: one that pulls above them, and one that pulls at the sum with the other sign below.
+/// Adds a spring that has no force between two lengths. One spring pulls above them; another acts on the negative sum below them.
 fn slack_between(
     (name, on): (&str, &Target),
     [lower, upper]: [f64; 2],
@@ -54,7 +54,7 @@ fn slack_between(
     model.law(&format!("{name} below"), What::Pull { on: below, stiffness, free: -lower });
 }
 
-/// A target as terms of a sum, times a factor.
+/// A target as the terms of a sum, multiplied by a factor.
 fn terms(on: &Target, factor: f64) -> Vec<Term> {
     match on {
         Target::Sum(terms) => {

@@ -1,6 +1,7 @@
-//! Laws that follow from the inertia that a coordinate moves in the reference configuration: stops, and springs of a given time.
+//! Laws that depend on the inertia that a coordinate moves in the reference configuration: stops, and springs with a given time constant.
 //!
-//! Mass matrix of a tree by composite bodies, factored as M = Lᵀ L along the branches, without fill.
+//! The mass matrix of the tree is computed by the composite-body method (Featherstone). Its factor M = Lᵀ L follows the branches of the
+//! tree and has no fill.
 
 use super::model::{Model, Moves};
 use super::passive;
@@ -12,20 +13,20 @@ use mbs_core::algebra::cross;
 use std::cell::OnceCell;
 use std::collections::HashMap;
 
-/// Entries of the mass matrix, above which stops follow from the scene's own estimate.
+/// Largest number of entries of the mass matrix [-]. For larger models the scene estimates the stops itself.
 const MAX_ENTRIES: usize = 4_000_000;
 
-/// A coordinate of the tree: its link, angular velocity and velocity of the origin for a rate of one.
+/// A coordinate of the tree: its link, with the angular velocity and the velocity of the origin at a rate of one.
 struct Column {
     link: usize,
     turn: V3,
     slide: V3,
     armature: f64,
-    /// The joint of the file.
+    /// Index of the joint of the file.
     motion: usize,
 }
 
-/// Mass, first and second moment about the origin of a link with all that hangs on it.
+/// Mass, first and second moment about the origin, of a link with its whole subtree.
 #[derive(Clone, Copy)]
 struct Composite {
     mass: f64,
@@ -33,7 +34,7 @@ struct Composite {
     second: M3,
 }
 
-/// Adds stops, and the springs that a time and a damping ratio say.
+/// Adds stops, and springs that are given by a time constant and a damping ratio.
 pub(super) fn add(factor: &Lazy, model: &mut Model<'_, '_, '_>) {
     let is_needed =
         model.motions.iter().any(|motion| motion.stops.is_some() || motion.timed.is_some());
@@ -54,7 +55,7 @@ pub(super) fn add(factor: &Lazy, model: &mut Model<'_, '_, '_>) {
             );
             model.context.findings.approximated(motion.at, format!("joint[{}]", motion.name), says);
             let [mut spring, mut damper] = motion.strengths;
-            // what grows faster stays as it is written
+            // Coefficients of higher powers remain as in the file.
             (spring.0[0], damper.0[0]) = (stiffness, damping);
             let acts = model.compiler.acts;
             let strengths = [spring.where_it(acts.spring), damper.where_it(acts.damper)];
@@ -86,7 +87,8 @@ pub(super) fn add(factor: &Lazy, model: &mut Model<'_, '_, '_>) {
     }
 }
 
-/// Stiffness and damping of a stop: of time and damping ratio, or where below zero for each kilogram.
+/// Stiffness and damping of a stop. Positive parameters are a time constant and a damping ratio; negative ones are stiffness and damping
+/// per unit of inertia.
 pub(super) fn stop([first, second]: [f64; 2], inertia: f64) -> [f64; 2] {
     if first > 0.0 {
         [inertia / (first * second).powi(2), 2.0 * inertia / first]
@@ -95,7 +97,7 @@ pub(super) fn stop([first, second]: [f64; 2], inertia: f64) -> [f64; 2] {
     }
 }
 
-/// The coordinates of a joint of the file, in its own terms.
+/// The columns of all coordinates of the file, in the order of its joints.
 fn columns(model: &Model<'_, '_, '_>) -> Vec<Column> {
     let mut columns = Vec::new();
     for (number, motion) in model.motions.iter().enumerate() {
@@ -121,20 +123,20 @@ fn columns(model: &Model<'_, '_, '_>) -> Vec<Column> {
     columns
 }
 
-/// A factor that is made where it is first asked for.
+/// A factor of the mass matrix that is computed at its first use.
 pub(super) type Lazy = OnceCell<Option<Factor>>;
 
 /// The factor of the mass matrix in the reference configuration.
 pub(super) struct Factor {
     tree: Chains,
-    /// Row i of L has the entries of the coordinates `tree.chains[i]`.
+    /// Row i of L, with an entry for each of the coordinates `tree.chains[i]`.
     rows: Vec<Vec<f64>>,
-    /// The column of each coordinate of the scene that is one of a hinge or a slide.
+    /// Column of each coordinate of the scene that is a hinge or a slide.
     of: HashMap<(usize, Option<usize>), usize>,
 }
 
 impl Factor {
-    /// `None` where a coordinate moves no mass, or the model is too large.
+    /// Computes the factor; `None` when a coordinate moves no mass or the model is too large.
     pub(super) fn new(model: &Model<'_, '_, '_>) -> Option<Self> {
         let (tree, rows) = matrix(model)?;
         let rows = factored(rows, &tree.chains)?;
@@ -145,8 +147,8 @@ impl Factor {
         Some(Self { of: of.collect(), rows, tree })
     }
 
-    /// Inertia that each joint of the file moves while others give way. It is one over the diagonal of the inverse of M; of several
-    /// coordinates, one over its mean.
+    /// Inertia that each joint of the file moves while the other coordinates are free. It is the reciprocal of the diagonal of M⁻¹, or of
+    /// the mean of that diagonal when the joint has several coordinates.
     fn moved(&self, motions: usize) -> Vec<f64> {
         let mut found = vec![(0.0, 0.0); motions];
         for (number, column) in self.tree.columns.iter().enumerate() {
@@ -157,7 +159,7 @@ impl Factor {
         found.into_iter().map(|(count, softness)| count / softness).collect()
     }
 
-    /// Inertia that a sum moves, 1 / J M⁻¹ Jᵀ; `None` where it moves nothing.
+    /// Inertia that a sum of coordinates moves, 1 / (J M⁻¹ Jᵀ); `None` when it moves no mass.
     pub(super) fn moved_by(&self, terms: &[Term]) -> Option<f64> {
         let mut entries = Vec::new();
         for term in terms.iter().filter(|term| term.line.is_empty()) {
@@ -179,14 +181,14 @@ impl Factor {
         Some(1.0 / self.softness(&entries)).filter(|moved| moved.is_finite())
     }
 
-    /// J M⁻¹ Jᵀ = ‖L⁻ᵀ Jᵀ‖².
+    /// Computes J M⁻¹ Jᵀ = ‖L⁻ᵀ Jᵀ‖² from the entries of the row J.
     fn softness(&self, entries: &[(usize, f64)]) -> f64 {
         let chains = &self.tree.chains;
         let mut order: Vec<usize> =
             entries.iter().flat_map(|(number, _)| chains[*number].iter().copied()).collect();
         order.sort_unstable();
         order.dedup();
-        // all ancestors of what is in it are in it
+        // The list has all ancestors of each coordinate in it.
         let place = |number: usize| order.binary_search(&number).unwrap_or_default();
         let mut y = vec![0.0; order.len()];
         for (number, factor) in entries {
@@ -203,20 +205,20 @@ impl Factor {
     }
 }
 
-/// The coordinates of a tree.
+/// The coordinates of a tree, with the chains that lead to them.
 struct Chains {
     columns: Vec<Column>,
-    /// The coordinates from the ground to each, which is the last.
+    /// Coordinates on the way from the ground to each coordinate, which is the last of its chain.
     chains: Vec<Vec<usize>>,
-    /// The last coordinate on the way from the ground to each link.
+    /// Last coordinate on the way from the ground to each link, if there is one.
     end: Vec<Option<usize>>,
 }
 
-/// The mass matrix of the tree; row i has the entries of the coordinates of its chain, which ends with i.
+/// The mass matrix of the tree. Row i has the entries of the coordinates in the chain of coordinate i, which is the last of them.
 fn matrix(model: &Model<'_, '_, '_>) -> Option<(Chains, Vec<Vec<f64>>)> {
     let robot = &model.robot;
     let mut parent = vec![GROUND; robot.links.len()];
-    // a link stands behind its parent, as joints were added on the way down; later ones close loops
+    // A link comes after its parent, since joints were added from the ground outwards. Later joints of the same child close loops.
     let mut is_joined = vec![false; robot.links.len()];
     is_joined[GROUND] = true;
     let mut order = Vec::new();
@@ -239,7 +241,7 @@ fn matrix(model: &Model<'_, '_, '_>) -> Option<(Chains, Vec<Vec<f64>>)> {
     for (number, column) in columns.iter().enumerate() {
         of_link[column.link].push(number);
     }
-    // the coordinates from the ground to each link, its own included
+    // Each chain has the coordinates from the ground to the link, with those of the link itself.
     let mut rows: Vec<Vec<f64>> = Vec::with_capacity(columns.len());
     let mut chains: Vec<Vec<usize>> = Vec::with_capacity(columns.len());
     let mut entries = 0;
@@ -256,7 +258,7 @@ fn matrix(model: &Model<'_, '_, '_>) -> Option<(Chains, Vec<Vec<f64>>)> {
             return None;
         }
         let body = composites[column.link];
-        // momentum of all that the coordinate moves
+        // Linear and angular momentum of all links that the coordinate moves.
         let p = column.slide * body.mass + cross(&column.turn, &body.first);
         let l = body.second * column.turn + cross(&body.first, &column.slide);
         let mut row: Vec<f64> = chain
@@ -281,7 +283,7 @@ fn own(mass: Option<&Mass>) -> Composite {
     Composite { mass: mass.mass, first: mass.center * mass.mass, second }
 }
 
-/// M = Lᵀ L along the branches; the rows of L.
+/// Factors M = Lᵀ L along the branches of the tree; returns the rows of L.
 fn factored(mut rows: Vec<Vec<f64>>, chains: &[Vec<usize>]) -> Option<Vec<Vec<f64>>> {
     for k in (0..rows.len()).rev() {
         let row = std::mem::take(&mut rows[k]);

@@ -1,53 +1,53 @@
-//! Stiffness and damping of up to three numbers: forces that grow with powers of a length or of its rate.
+//! Stiffness and damping with up to three coefficients: forces that are polynomials of a length or of its rate.
 //!
-//! Spring: −(k₀ x + k₁ x² + k₂ x³), whose second term does not change sign with x. Damper: −(b₀ + b₁ |v| + b₂ v²) v.
+//! Force of a spring: −(k₀ x + k₁ x² + k₂ x³), whose second term does not change sign with x. Force of a damper: −(b₀ + b₁ |v| + b₂ v²) v.
 
 use super::defaults::View;
 use crate::robot::Piece;
 use crate::source::Read;
 
-/// Deviation up to which a spring follows its polynomial [rad or m]; beyond, its tangent continues. Its energy counts from there, so a larger
-/// one costs digits.
+/// Deviation up to which a spring follows its polynomial [rad or m]; beyond it the tangent continues. The energy is counted from this
+/// deviation, so a larger value costs digits.
 const REACH: f64 = 100.0;
-/// Ends of pieces on one side of a corner [rad or m, or by s]: they grow tenfold, so that none loses digits of its lowest values. The last is
-/// the rate up to which a damper follows its polynomial; beyond, its tangent continues.
+/// Ends of the pieces of a polynomial on one side of zero [rad or m, or per s]. Each is ten times the previous one, so that low values keep
+/// their digits. Beyond the last end, a damper follows the tangent.
 const STEPS: [f64; 8] = [0.0, 1.0, 10.0, 1.0e2, 1.0e3, 1.0e4, 1.0e5, 1.0e6];
 
-/// Three coefficients, of increasing power.
+/// Three coefficients, of increasing powers of a length or rate.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Strength(pub(super) [f64; 3]);
 
 impl Strength {
     pub(super) const NONE: Self = Self([0.0; 3]);
 
-    /// Up to three numbers, of which a class may write some.
+    /// Reads up to three coefficients, some of which may come from a default class.
     pub(super) fn read(view: &View<'_>, name: &str) -> Read<Self> {
         view.merged(name, [0.0; 3]).map(Self)
     }
 
-    /// Each number times a factor, by the power of its length or rate.
+    /// The coefficients multiplied by a factor that depends on the power of the length or rate.
     pub(super) fn grown(&self, factor: impl Fn(i32) -> f64) -> Self {
         let [a, b, c] = self.0;
         Self([a * factor(1), b * factor(2), c * factor(3)])
     }
 
-    /// Returns the strength where it acts, else none.
+    /// Returns the coefficients if the law acts, or else zeros.
     pub(super) const fn where_it(self, acts: bool) -> Self {
         if acts { self } else { Self::NONE }
     }
 
-    /// The number of one that is in proportion; `None` where higher powers act.
+    /// The coefficient of a linear law; `None` when higher powers act.
     pub(super) fn linear(&self) -> Option<f64> {
         (self.0[1..] == [0.0; 2]).then_some(self.0[0])
     }
 
-    /// Strength of a coordinate that grows against that of the file where the sign is −1: the even term of a spring turns.
+    /// The coefficients for a coordinate with this sign relative to the file's. The even term of a spring changes its sign.
     pub(super) fn against(&self, sign: f64) -> Self {
         let [a, b, c] = self.0;
         Self([a, b * sign, c])
     }
 
-    /// Coefficients by powers of m, of x = m − free.
+    /// Coefficients of the powers of m for the polynomial of x = m − free.
     fn shifted(&self, free: f64) -> [f64; 4] {
         let [k0, k1, k2] = self.0;
         [
@@ -58,7 +58,7 @@ impl Strength {
         ]
     }
 
-    /// Pieces of its spring, which is slack from one value to the other.
+    /// Pieces of the force of a spring that has no force between two values.
     pub(super) fn spring(&self, [lower, upper]: [f64; 2]) -> Vec<Piece> {
         let piece = |lower, upper, coefficients| Piece { lower, upper, coefficients };
         if lower == upper {
@@ -72,7 +72,7 @@ impl Strength {
         falling.chain(slack).chain(rising).collect()
     }
 
-    /// Pieces of its damper.
+    /// Pieces of the force of a damper.
     pub(super) fn damper(&self) -> Vec<Piece> {
         let [b0, b1, b2] = self.0;
         if b1 == 0.0 {

@@ -1,4 +1,4 @@
-//! The triangles of meshes: of files, or written in the model.
+//! Triangles of meshes, from files or from the model itself.
 
 use super::built_in::built_in;
 use super::defaults::View;
@@ -9,7 +9,7 @@ use crate::source::Read;
 use mbs_scene::TriangleMesh;
 use std::path::{Path, PathBuf};
 
-/// The triangles as they are written; none where the vertices stand for their hull.
+/// The triangles as they are written. The list is empty when the vertices are given alone, and stand for their convex hull.
 pub(super) fn read(view: &View<'_>, model: &Model<'_, '_, '_>) -> Read<TriangleMesh> {
     if let Some(vertex) = view.attribute("vertex") {
         let numbers = vertex.list()?;
@@ -38,7 +38,7 @@ pub(super) fn read(view: &View<'_>, model: &Model<'_, '_, '_>) -> Read<TriangleM
         .map_err(|why| file.fault(format!("`{}`: {why}", file.value), "give a mesh as STL or OBJ"))
 }
 
-/// The place of a file of a mesh, from the folder of the model; else beside the included file that names it, whatever folder meshes have.
+/// Paths of a mesh file: in the folder of meshes relative to the model, and next to the included file that names it.
 pub(super) fn places_of(file: &Attribute, model: &Model<'_, '_, '_>) -> (PathBuf, Option<PathBuf>) {
     let written = Path::new(file.value.trim());
     let name = match written.file_name().filter(|_| model.compiler.strip_path) {

@@ -10,7 +10,7 @@ const FLUID: &str = "forces of a fluid do not act here";
 const SOFT: &str = "softness of a constraint that is hard here";
 const OWN_LAW: &str = "an actuator with a law of its own";
 
-/// The elements and attributes of MJCF.
+/// Treatment of the elements and attributes of MJCF.
 pub(crate) const TABLE: &[Row] = &[
     row("mujoco", " model", Mapped),
     row("mujocoinclude", "", Mapped),
@@ -195,7 +195,7 @@ pub(crate) const TABLE: &[Row] = &[
         " name class joint jointinparent tendon site refsite cranksite slidersite cranklength gear ctrlrange ctrllimited forcerange forcelimited timeconst area diameter bias armature damping delay group user",
         Mapped,
     ),
-    // it names what the control is, and changes nothing
+    // The attribute names the quantity of the control, and has no effect.
     row("general", "input", Silent),
     row("general", "*", Ignored("this of an actuator does not act here")),
     row("motor", "*", Ignored("this of an actuator does not act here")),
@@ -204,7 +204,7 @@ pub(crate) const TABLE: &[Row] = &[
     row("intvelocity", "*", Ignored("this of an actuator does not act here")),
     row("damper", "*", Ignored("this of an actuator does not act here")),
     row("cylinder", "*", Ignored("this of an actuator does not act here")),
-    // what their defaults say of control and force holds for every actuator of the class
+    // Limits of control and force in these defaults apply to every actuator of the class.
     row("default/orientation", " *", Mapped),
     row("default/pid", " *", Mapped),
     row("default/muscle", " *", Mapped),

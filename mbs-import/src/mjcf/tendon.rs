@@ -15,10 +15,10 @@ use crate::robot::{Coordinate, Target, Term, What};
 use crate::source::{Fault, Read};
 use mbs_core::algebra::norm;
 
-/// Sum that a tendon pulls: terms, their length as drawn, and that without tension in the springs of the joints.
+/// The sum on which a tendon acts: its terms, its length as drawn, and its length when the springs of its joints have no force.
 struct Pulled {
     terms: Vec<Term>,
-    /// Is a part of it in a frame with a scale?
+    /// Is a part of the tendon in a frame with a scale?
     is_grown: bool,
     drawn: f64,
     slack: f64,
@@ -46,7 +46,7 @@ pub(super) fn read<'a>(
     Ok(())
 }
 
-/// A sum of coordinates.
+/// Reads a `fixed` tendon: a sum of joint coordinates.
 fn fixed(element: &Element, ending: &str, model: &Model<'_, '_, '_>) -> Read<Pulled> {
     let mut pulled = Pulled { terms: Vec::new(), is_grown: false, drawn: 0.0, slack: 0.0 };
     for child in element.each("joint") {
@@ -63,7 +63,7 @@ fn fixed(element: &Element, ending: &str, model: &Model<'_, '_, '_>) -> Read<Pul
     Ok(pulled)
 }
 
-/// Lines over sites, with a new one behind each pulley; `None` where it winds around a geom, and pulls nothing by itself.
+/// Reads a `spatial` tendon: lines over sites, with a new line after each pulley. `None` when the tendon wraps around a geom.
 fn spatial(view: &View<'_>, ending: &str, model: &Model<'_, '_, '_>) -> Read<Option<Pulled>> {
     let element = view.element;
     if let Some(winding) = element.children.iter().find(|child| child.name == "geom") {
@@ -111,7 +111,7 @@ fn spatial(view: &View<'_>, ending: &str, model: &Model<'_, '_, '_>) -> Read<Opt
     Ok(Some(Pulled { terms, is_grown, drawn, slack }))
 }
 
-/// The length of a line as it is drawn.
+/// Length of a line in the configuration of its points [m].
 pub(super) fn length(line: &[(usize, V3)]) -> f64 {
     line.windows(2).map(|ends| norm(&(ends[1].1 - ends[0].1))).sum()
 }
@@ -126,7 +126,7 @@ fn winding_fault(winding: &Element) -> Fault {
     )
 }
 
-/// Has it a law of its own?
+/// Has the tendon a spring, damper, friction or armature?
 fn acts(view: &View<'_>) -> Read<bool> {
     for name in ["stiffness", "damping", "frictionloss", "armature"] {
         let values = view.attribute(name).map(|word| word.list()).transpose()?.unwrap_or_default();
@@ -137,7 +137,7 @@ fn acts(view: &View<'_>) -> Read<bool> {
     Ok(false)
 }
 
-/// Keeps a tendon by its name, and adds what it does by itself.
+/// Stores a tendon under its name, and adds its own laws.
 fn laws(
     view: &View<'_>,
     ending: &str,
@@ -186,7 +186,7 @@ fn laws(
     ends(view, (&name, label), (&pulled, range), factor, model)
 }
 
-/// The ends of the length of a tendon: stops of the inertia that it moves, as those of a joint.
+/// Adds the stops of a tendon's length. Like those of a joint, they depend on the inertia that the tendon moves.
 fn ends(
     view: &View<'_>,
     (name, label): (&str, String),
@@ -219,7 +219,7 @@ fn ends(
     Ok(())
 }
 
-/// The spring and the damper of a tendon.
+/// Adds the spring and the damper of a tendon.
 fn spring(
     view: &View<'_>,
     name: &str,

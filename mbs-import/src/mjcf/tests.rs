@@ -1,4 +1,4 @@
-//! Models of ten lines: masses, places and axes that MuJoCo 4.0.0 has for them.
+//! Models of about ten lines: masses, positions and axes are compared with those of MuJoCo 4.0.0.
 
 use crate::context::Context;
 use crate::findings::Findings;
@@ -8,7 +8,7 @@ use crate::robot::{Kind, Robot, Signal, Target, What};
 use crate::source::Sources;
 use mbs_core::algebra::cross;
 
-/// Rounding of turned tensors of size one.
+/// Rounding errors of rotated tensors of size one [-].
 const TOLERANCE: f64 = 1.0e-12;
 
 fn robot(text: &str) -> Robot {
@@ -20,7 +20,8 @@ fn robot(text: &str) -> Robot {
     super::read(&root, &mut context).expect("read")
 }
 
-/// Compares with lines of a body each: mass, centre, tensor xx yy zz xy yz zx, origin, x axis and y axis of its frame, in global axes.
+/// Compares each body with a line of expected numbers, in global axes. A line has mass, centre and tensor xx yy zz xy yz zx, then origin, x
+/// axis and y axis of the body's frame.
 fn agrees(text: &str, bodies: &str) {
     let robot = robot(text);
     for line in bodies.lines() {
@@ -153,7 +154,7 @@ c 48.00000000000001 1.5 -3.8660254037844384 3.000000000000001 1.7600000000000007
     );
 }
 
-/// A law by its name.
+/// The law with this name; the test fails when there is none.
 fn law<'a>(robot: &'a Robot, name: &str) -> &'a What {
     &robot.laws.iter().find(|law| law.name == name).expect("law").what
 }
@@ -175,7 +176,7 @@ fn joints_of_a_body_are_a_chain_and_the_first_is_outermost() {
 
 #[test]
 fn springs_of_joints_and_tendons_pull_as_qfrc_passive_says() {
-    // qfrc_passive at qpos0 is −2 − 11.2 and 16.8
+    // MuJoCo's qfrc_passive at qpos0 is −2 − 11.2 and 16.8.
     let text = r#"<mujoco><compiler angle="radian"/><worldbody>
 <body><geom size=".1"/><joint name="a" ref="0.5" springref="0.1" stiffness="5" damping="0.7" armature="0.2"/></body>
 <body><geom size=".1"/><joint name="b" range="-1 2" solreflimit="-300 -4"/></body></worldbody>
@@ -191,7 +192,7 @@ fn springs_of_joints_and_tendons_pull_as_qfrc_passive_says() {
     };
     let pull: Vec<_> = terms.iter().map(|term| stiffness * free * term.factor).collect();
     assert!((pull[0] - -11.2).abs() < TOLERANCE && (pull[1] - 16.8).abs() < TOLERANCE, "{pull:?}");
-    // I = 2/5 m r² of a sphere of 1000 kg/m³, its joint through its centre
+    // I = 2/5 m r² of a sphere of 1000 kg/m³, with the joint through its centre.
     let inertia = 0.4 * 1000.0 * 4.0 / 3.0 * core::f64::consts::PI * 1.0e-5;
     let What::RangeLimit { stiffness: Some([k, d]), .. } = law(&robot, "b stops") else {
         panic!("no stops")
@@ -204,7 +205,7 @@ fn springs_of_joints_and_tendons_pull_as_qfrc_passive_says() {
 
 #[test]
 fn ends_of_tendons_are_stops_of_the_mass_that_tendon_invweight0_says() {
-    // 1 / tendon_invweight0 as the other program has it
+    // MuJoCo's value of 1 / tendon_invweight0.
     let text = r#"<mujoco><worldbody><site name="w" pos="0 .1 1"/>
 <body name="a" pos="0 0 1"><joint name="i" axis="0 1 0"/><geom size=".1" pos=".3 0 0"/><body pos=".5 0 0"><joint name="j"/><geom size=".1" pos=".2 .1 0"/><site name="s" pos=".3 0 .1"/></body></body></worldbody>
 <tendon><fixed name="t" range="-1 2" solreflimit=".1 .5"><joint joint="i" coef="-2"/><joint joint="j" coef="3"/></fixed>
@@ -219,7 +220,7 @@ fn ends_of_tendons_are_stops_of_the_mass_that_tendon_invweight0_says() {
         assert!((damping - 1.0).abs() < TOLERANCE, "{name}: {damping}");
     }
     let What::Limit { upper, .. } = law(&robot, "u stops") else { panic!("no stops") };
-    // the string is drawn 0.812… m long
+    // The line has a length of 0.812… m as drawn.
     assert!((upper - (0.9 - (0.8_f64 * 0.8 + 0.1 * 0.1 + 0.1 * 0.1).sqrt())).abs() < TOLERANCE);
 }
 
@@ -235,7 +236,7 @@ fn equalities_are_couplings_of_deviations_and_joints_of_loops() {
     assert_eq!((curved.factor, &curved.coefficients[..]), (-1.0, &[0.0, 2.0, 3.0, 4.0, 5.0][..]));
     let ball = robot.joints.last().expect("joint");
     assert_eq!(ball.kind, Kind::Spherical);
-    // the file turns the anchor by 90 degrees
+    // The file rotates the anchor by 90 degrees.
     assert!((ball.place[0] - 1.0).abs() < TOLERANCE && (ball.place[1] - 1.0).abs() < TOLERANCE);
 }
 
@@ -283,7 +284,7 @@ fn a_motor_at_a_site_pushes_and_turns_as_qfrc_actuator_says() {
     }
 }
 
-/// A channel with one high side: the other program's two ways to count its volume differ.
+/// A channel with one high side. MuJoCo's two rules for its volume give different results.
 const CHANNEL: &str = r#"<mujoco><asset><mesh name="u" INERTIA scale="1 2 -1" refpos="0.05 0.02 0.01" refquat="0.5 0.5 0.1 0.7"
 vertex="0 0 0 0.3 0 0 0.3 0.25 0 0.2 0.25 0 0.2 0.1 0 0.1 0.1 0 0.1 0.2 0 0 0.2 0 0 0 0.15 0.3 0 0.15 0.3 0.25 0.15 0.2 0.25 0.15 0.2 0.1 0.15 0.1 0.1 0.15 0.1 0.2 0.15 0 0.2 0.15"
 face="0 4 1 8 9 12 1 4 2 9 10 12 2 4 3 10 11 12 0 5 4 8 12 13 0 6 5 8 13 14 0 7 6 8 14 15 0 1 9 0 9 8 1 2 10 1 10 9 2 3 11 2 11 10 3 4 12 3 12 11 4 5 13 4 13 12 5 6 14 5 14 13 6 7 15 6 15 14 7 0 8 7 8 15"/></asset>
@@ -291,7 +292,7 @@ face="0 4 1 8 9 12 1 4 2 9 10 12 2 4 3 10 11 12 0 5 4 8 12 13 0 6 5 8 13 14 0 7 
 
 #[test]
 fn masses_of_meshes_are_those_of_the_other_program() {
-    /// The other program keeps vertices in single precision.
+    /// MuJoCo stores vertices in single precision.
     const SINGLE: f64 = 3.0e-7;
     for (inertia, expected) in [
         (

@@ -8,44 +8,44 @@ use crate::robot::{GROUND, Kind, Signal, Term, What};
 use crate::source::Read;
 use mbs_core::algebra::cross;
 
-/// Reason why an actuator does not act: what it does there is not known here.
+/// Reason why an actuator is left out: the import does not know its effect in such a frame.
 pub(super) const GROWN: &str = "it pulls a tendon, a site or a ball in a frame with a scale";
 
-/// Distance of the two forces of a couple [m]: with it a moment of 1 N m is two forces of 1 N.
+/// Distance between the two forces of a couple [m]. At this distance, two forces of 1 N are a moment of 1 N m.
 const ARM: f64 = 1.0;
 
-/// Transmission of an actuator: what it pulls.
+/// Transmission of an actuator: the sum or the forces on which it acts.
 pub(super) struct Transmission {
-    /// Terms of its length without gear, and the length in the reference configuration.
+    /// Terms of its length without gear. `drawn` is the length in the reference configuration.
     pub(super) terms: Vec<Term>,
     pub(super) drawn: f64,
     pub(super) gear: f64,
-    /// Pushes for each newton, in place of terms; the gear is in them.
+    /// Forces and moments on a body per newton of actuator force, used in place of terms. They include the gear.
     pub(super) pushes: Vec<Push>,
-    /// Whether its length stays zero.
+    /// Has the transmission a length that can differ from zero?
     pub(super) has_length: bool,
-    /// The number of its tendon, where that limits all its actuators together.
+    /// Index of its tendon, if that tendon limits all its actuators together.
     pub(super) rope: Option<usize>,
     pub(super) range: Option<[f64; 2]>,
-    /// Size of the frames in which it stands, and whether it is a slide.
+    /// Size factors of the frames that contain it, and whether it is a slide.
     pub(super) size: (Size, bool),
     pub(super) label: String,
 }
 
-/// A force at a place of a link, or without a place a moment.
+/// A force at a point of a link, or without a point a moment.
 #[derive(Debug, Clone)]
 pub(super) struct Push {
     pub(super) link: usize,
     at: Option<V3>,
-    /// Force or moment in global axes, of the reference configuration where it turns with the link.
+    /// Force or moment in global axes. When it turns with the link, these are the axes in the reference configuration.
     value: V3,
     turns: bool,
 }
 
-/// A transmission, or why the scene has none.
+/// A transmission, or the reason why the scene has none.
 type Found = Result<Transmission, String>;
 
-/// Transmission of an actuator, by the attribute that names it.
+/// Finds the transmission of an actuator, by the attribute that names it.
 pub(super) fn transmission(
     element: &Element,
     gear: &[f64; 6],
@@ -109,7 +109,7 @@ pub(super) fn transmission(
 }
 
 impl Transmission {
-    /// One that pulls nothing yet.
+    /// A transmission without terms and forces, to which they are added.
     pub(super) fn none(label: &str) -> Self {
         Self {
             terms: Vec::new(),
@@ -129,7 +129,8 @@ fn halves([a, b, c, d, e, f]: &[f64; 6]) -> [V3; 2] {
     [v3([*a, *b, *c]), v3([*d, *e, *f])]
 }
 
-/// A hinge or a slide has a coordinate; a free joint, and a ball on the ground, take forces and moments.
+/// The transmission on a joint. For a hinge or a slide it is the coordinate. For a free joint, and for a ball on the ground, it consists of
+/// forces and moments.
 fn of_joint(
     motion: &Motion,
     gear: &[f64; 6],
@@ -157,7 +158,7 @@ fn of_joint(
         return Err("a moment between two moving bodies about axes of one of them".into());
     }
     let (link, [first, second]) = (joint.child, halves(gear));
-    // a ball has three numbers; a free joint's forces are along global axes
+    // A ball has three gears. The forces on a free joint are along global axes.
     let is_free = motion.moves == Moves::Free;
     let (force, moment) = if is_free { (first, second) } else { (V3::zeros(), first) };
     let pose = &model.robot.links[link].pose;
@@ -166,7 +167,7 @@ fn of_joint(
         pushes.push(Push { link, at: Some(pose.at), value: force, turns: false });
     }
     if is_of_parent {
-        // of a ball the axes are those of the child as it is drawn
+        // The axes of a ball are those of the child in the drawn configuration.
         let turn = if is_free { M3::identity() } else { pose.turn };
         pushes.push(Push { link, at: None, value: turn * moment, turns: false });
     } else {
@@ -175,7 +176,7 @@ fn of_joint(
     Ok(Transmission { pushes, has_length: !is_free, ..Transmission::none(&motion.name) })
 }
 
-/// A force and a moment that turn with a link. The moment is a couple: F and −F, with d across the moment and F = m × d / d².
+/// A force and a moment that turn with a link. The moment is a couple of F and −F: d is perpendicular to the moment, and F = m × d / d².
 fn turning(link: usize, at: V3, force: V3, moment: V3) -> Vec<Push> {
     let push = |at: V3, value: V3| Push { link, at: Some(at), value, turns: true };
     let least = (0..3).min_by(|a, b| moment[*a].abs().total_cmp(&moment[*b].abs())).unwrap_or(0);
@@ -188,7 +189,7 @@ fn turning(link: usize, at: V3, force: V3, moment: V3) -> Vec<Push> {
     pushes
 }
 
-/// Adds the forces and moments that follow a signal.
+/// Adds the forces and moments whose value is a signal.
 pub(super) fn push(name: &str, signal: &str, pushes: &[Push], model: &mut Model<'_, '_, '_>) {
     for (number, push) in pushes.iter().enumerate() {
         let ending = if pushes.len() > 1 { format!(" {}", number + 1) } else { String::new() };

@@ -1,4 +1,4 @@
-//! Inertias of the bodies, by the settings of the whole model.
+//! Inertias of the bodies, with the settings of the whole model applied.
 
 use super::model::{Model, Moves, Sort};
 use crate::element::Attribute;
@@ -7,10 +7,10 @@ use crate::pose::{M3, Pose};
 use crate::robot::{GROUND, Joint, Kind, Link};
 use crate::source::{Fault, Read};
 
-/// Rounding of the moments of a tensor, relative to the largest.
+/// Rounding error of the principal moments of a tensor, relative to the largest [-].
 const ROUNDING: f64 = 1.0e-14;
 
-/// Refuses moments below zero, which no setting mends.
+/// Refuses negative moments in the file, which no setting can correct.
 pub(super) fn check_written(word: &Attribute, tensor: &M3) -> Read<()> {
     let moments = tensor.symmetric_eigen().eigenvalues;
     if moments.min() >= -ROUNDING * moments.amax() {
@@ -24,14 +24,14 @@ pub(super) fn check_written(word: &Attribute, tensor: &M3) -> Read<()> {
     ))
 }
 
-/// Principal moments of a tensor, rising.
+/// Text of the principal moments of a tensor, in ascending order.
 fn listed(tensor: &M3) -> String {
     let mut moments: Vec<f64> = tensor.symmetric_eigen().eigenvalues.iter().copied().collect();
     moments.sort_by(f64::total_cmp);
     format!("{moments:?}")
 }
 
-/// Bounds, balances and scales the masses of all bodies, and gives them to the links.
+/// Applies the settings for minimum, balance and total mass to all bodies, and gives the masses to the links.
 pub(super) fn settle(model: &mut Model<'_, '_, '_>) -> Read<()> {
     let mut masses = std::mem::take(&mut model.masses);
     let carriers = model.robot.carriers(|joint| joint.kind == Kind::Fixed);
@@ -77,15 +77,16 @@ pub(super) fn settle(model: &mut Model<'_, '_, '_>) -> Read<()> {
     Ok(())
 }
 
-/// Armature of a free joint, or of a ball on the ground, is an inertia of its body: E = ½ a |v|² + ½ a |ω|², with v of the joint's place, is
-/// that of a mass a there, without weight, and of a moment a about all axes. Between moving bodies it has no counterpart.
+/// Converts the armature a of a free joint, or of a ball on the ground, to inertia of its body. Its energy is ½ a |v|² + ½ a |ω|², with v
+/// the velocity at the joint's place. It equals that of a weightless mass a there, and of a moment a about all axes. Between moving bodies
+/// it has no counterpart.
 pub(super) fn armatures(model: &mut Model<'_, '_, '_>) {
     let carriers = model.robot.carriers(|joint| joint.kind == Kind::Fixed);
     for number in 0..model.motions.len() {
         let motion = model.motions[number].clone();
         let joint = &model.robot.joints[motion.joint];
         let (link, place, armature) = (joint.child, joint.place, motion.armature);
-        // the three slides of a free joint have the same
+        // The three translations of a free joint have equal armature.
         let [mass, moment] = match (joint.kind, motion.moves) {
             (Kind::Free, Moves::Free) => [armature, armature],
             (Kind::Free, Moves::Slide) if motion.number == Some(0) => [armature, 0.0],
@@ -118,7 +119,7 @@ pub(super) fn armatures(model: &mut Model<'_, '_, '_>) {
     }
 }
 
-/// A mass without weight as a link of its own, fixed to another one.
+/// Adds a mass without weight as a link of its own, fixed to another link.
 fn weightless(model: &mut Model<'_, '_, '_>, (to, name): (usize, &str), mass: Mass) {
     let name = model.free_name(Sort::Link, name);
     let (at, number, place) = (model.robot.links[to].at, model.robot.links.len(), mass.center);
@@ -129,7 +130,7 @@ fn weightless(model: &mut Model<'_, '_, '_>, (to, name): (usize, &str), mass: Ma
     model.robot.joints.push(Joint::new(&name, at, Kind::Fixed, [to, number], place));
 }
 
-/// Raises mass and principal moments to the least that settings allow.
+/// Raises the mass and the principal moments to the minimum values of the settings.
 fn bound(mass: &mut Mass, least_mass: f64, least_moment: f64) {
     mass.mass = mass.mass.max(least_mass);
     if least_moment > 0.0 {
@@ -141,7 +142,7 @@ fn bound(mass: &mut Mass, least_mass: f64, least_moment: f64) {
     }
 }
 
-/// Sets moments that no body has to their mean; did it?
+/// Replaces impossible principal moments by their mean; returns `true` if they were impossible.
 fn balance(mass: &mut Mass) -> bool {
     let is_possible = is_possible(mass);
     if !is_possible {
@@ -150,7 +151,7 @@ fn balance(mass: &mut Mass) -> bool {
     !is_possible
 }
 
-/// Is no moment larger than the sum of the others?
+/// Is no principal moment larger than the sum of the other two?
 fn is_possible(mass: &Mass) -> bool {
     let moments = mass.tensor.symmetric_eigen().eigenvalues;
     2.0 * moments.max() <= moments.sum() + SLACK * moments.max()

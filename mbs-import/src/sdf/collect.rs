@@ -1,4 +1,4 @@
-//! The frames of the world, of models and of those in them, and their links.
+//! Collects the frames of the world and of all models, with their links.
 
 use super::frames::{Frames, MODEL, Node, WORLD};
 use super::part::{self, Part};
@@ -11,14 +11,14 @@ use crate::robot::{Link, Robot};
 use crate::source::Read;
 use std::collections::HashSet;
 
-/// The world or a model of the file with its scope.
+/// The world or a model of the file, with its scope.
 pub(super) type Model<'a> = (&'a Element, Scope);
 
-/// Parts of a file that are found so far.
+/// Collector of models, frames, links and joints.
 pub(super) struct Collector<'a, 'r, 'c> {
-    /// Inner models stand before those that they are in.
+    /// Models found so far; inner models come before the models that contain them.
     pub(super) models: Vec<Model<'a>>,
-    /// Models that are URDFs.
+    /// Models that are URDF files.
     pub(super) parts: Vec<Part<'a>>,
     pub(super) frames: Frames,
     link_names: Named,
@@ -29,18 +29,18 @@ pub(super) struct Collector<'a, 'r, 'c> {
     context: &'r Context<'c>,
 }
 
-/// The full name of a name in a scope.
+/// The full name of a name in the scope with this prefix.
 fn scoped(prefix: &str, name: &str) -> String {
     if name == WORLD { name.to_owned() } else { format!("{prefix}{name}") }
 }
 
-/// The value of an attribute that is not empty.
+/// The value of an attribute, if it exists and is not empty.
 fn filled<'a>(element: &'a Element, name: &str) -> Option<&'a str> {
     element.value(name).filter(|value| !value.is_empty())
 }
 
 impl<'a, 'r, 'c> Collector<'a, 'r, 'c> {
-    /// `hidden` is what names in the scene leave out.
+    /// A collector without frames. `hidden` is the prefix that names in the scene leave out.
     pub(super) fn new(hidden: String, robot: &'r mut Robot, context: &'r Context<'c>) -> Self {
         Self {
             models: Vec::new(),
@@ -54,7 +54,7 @@ impl<'a, 'r, 'c> Collector<'a, 'r, 'c> {
         }
     }
 
-    /// Frames and joints of the world, when all models are there.
+    /// Adds the frames and joints of the world, after all models.
     pub(super) fn world(&mut self, world: &'a Element, scope: Scope) -> Read<()> {
         self.named_frames(world, &scope)?;
         self.joints(world, &scope)?;
@@ -62,7 +62,7 @@ impl<'a, 'r, 'c> Collector<'a, 'r, 'c> {
         Ok(())
     }
 
-    /// A model, which stands in the frame `outer`, with all that is in it.
+    /// Adds a model with everything in it; its pose is relative to the frame `outer`.
     pub(super) fn model(&mut self, model: &'a Element, mut scope: Scope, outer: &str) -> Read<()> {
         if let Some(number) = model.attribute(VERSION) {
             scope.version = version(number)?;
@@ -89,7 +89,7 @@ impl<'a, 'r, 'c> Collector<'a, 'r, 'c> {
         let attached_to = canonical.or(first);
         let mut node = Node { at: model.at, relative_to, pose: own, attached_to, link: None };
         if let Some(placement) = filled(model, "placement_frame") {
-            // the pose is that of this frame: the model's follows from where the frame is in the model
+            // The pose is that of the placement frame. The model's pose follows from the pose of that frame within the model.
             let alone = Node { relative_to: WORLD.into(), pose: Pose::identity(), ..node.clone() };
             self.frames.add(scope.model(), alone);
             let inner =
@@ -101,7 +101,7 @@ impl<'a, 'r, 'c> Collector<'a, 'r, 'c> {
         Ok(())
     }
 
-    /// The name of the first link.
+    /// Adds the links of a model, and returns the name of the first one.
     fn links(&mut self, model: &Element, scope: &Scope) -> Read<Option<String>> {
         let mut first = None;
         for element in model.each("link") {
@@ -119,7 +119,7 @@ impl<'a, 'r, 'c> Collector<'a, 'r, 'c> {
         Ok(first)
     }
 
-    /// Adds the frame of a link.
+    /// Adds the frame of a link, and marks the links of static models.
     fn link(&mut self, name: &str, node: Node, scope: &Scope) -> Read<()> {
         self.link_names.add(self.frames.plain(name), node.at, &self.context.sources)?;
         if let (true, Some(number)) = (scope.is_static, node.link) {
@@ -154,7 +154,7 @@ impl<'a, 'r, 'c> Collector<'a, 'r, 'c> {
     /// Adds the frame of a joint, and finds the joint's name in the scene.
     fn joint(&mut self, name: String, node: Node) -> Read<()> {
         let plain = self.frames.plain(&name);
-        // one of the world and one of the only model may have the same name
+        // A joint of the world and a joint of the only model may have the same name.
         let is_taken = !self.shown.insert(plain.to_owned());
         let shown = if is_taken { format!("{WORLD}::{plain}") } else { plain.to_owned() };
         self.joint_names.add(&name, node.at, &self.context.sources)?;
@@ -162,14 +162,14 @@ impl<'a, 'r, 'c> Collector<'a, 'r, 'c> {
         Ok(())
     }
 
-    /// A frame that moves with another one, and stands in it unless its pose says otherwise.
+    /// A frame that is attached to the frame `on`. Its pose is relative to `on`, unless the element names another frame.
     fn hung(&self, element: &Element, scope: &Scope, on: String) -> Read<Node> {
         let (pose, in_frame) = pose(element)?;
         let relative_to = in_frame.map_or_else(|| on.clone(), |name| scoped(&scope.prefix, name));
         Ok(Node { at: element.at, relative_to, pose, attached_to: Some(on), link: None })
     }
 
-    /// A URDF in place of a model; the full name of its root link.
+    /// Adds a URDF in place of a model, and returns the full name of its root link.
     fn part(&mut self, root: &'a Element, scope: &Scope) -> Read<String> {
         let (model, shown) = (scope.model(), self.frames.plain(&scope.prefix).to_owned());
         let part = Part::read(root, (model.clone(), shown), self.robot, self.context)?;

@@ -1,4 +1,4 @@
-//! Loops and springs in elements of another program: `drake:...`.
+//! Loops and springs in elements of the program Drake, `drake:...`.
 
 use super::frames::Frames;
 use super::scope::{Scope, placed, vector};
@@ -9,7 +9,7 @@ use crate::pose::V3;
 use crate::robot::{Joint, Kind, Law, Robot, What};
 use crate::source::{Fault, Read};
 
-/// Adds what a model has of them.
+/// Adds the constraints and bushings of a model.
 pub(super) fn read(
     model: &Element,
     scope: &Scope,
@@ -64,7 +64,7 @@ pub(super) fn read(
     Ok(())
 }
 
-/// The link and the global place of the points of a constraint.
+/// The two points of a constraint, each with its link and its global position.
 fn points(element: &Element, word: &str, scope: &Scope, frames: &Frames) -> Read<[(usize, V3); 2]> {
     let point = |body: &str, at: &str| -> Read<(usize, V3)> {
         let name = format!("{word}_{body}");
@@ -74,12 +74,12 @@ fn points(element: &Element, word: &str, scope: &Scope, frames: &Frames) -> Read
     Ok([point("body_A", "p_AP")?, point("body_B", "p_BQ")?])
 }
 
-/// Do both points move with nothing?
+/// Are both points fixed to the ground?
 fn are_still(ends: &[(usize, V3); 2], frames: &Frames) -> bool {
     ends.iter().all(|(link, _)| frames.is_still(*link))
 }
 
-/// A spring in six directions between two frames that coincide; was it added? Between what does not move there is none.
+/// Adds a spring in six directions between two frames that coincide. Returns `false` when both frames are fixed to the ground.
 fn bushing(
     element: &Element,
     (i, scope): (usize, &Scope),

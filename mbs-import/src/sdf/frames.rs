@@ -1,4 +1,4 @@
-//! The graph of frames: links, joints, frames and models, each placed in another.
+//! The graph of frames: frames of links, joints and models, and named frames, each placed relative to another.
 
 use crate::pose::Pose;
 use crate::robot::GROUND;
@@ -7,34 +7,34 @@ use mbs_scene::nearest_name;
 use std::cell::RefCell;
 use std::collections::{HashMap, HashSet};
 
-/// The frame of the world.
+/// Name of the frame of the world.
 pub(super) const WORLD: &str = "world";
-/// The frame of a model, in its scope.
+/// Name of the frame of a model, within its scope.
 pub(super) const MODEL: &str = "__model__";
 
-/// A frame of the file.
+/// A frame of the file, with its pose.
 #[derive(Debug, Clone)]
 pub(super) struct Node {
     pub(super) at: Origin,
-    /// Full name of the frame in which it is placed.
+    /// Full name of the frame to which its pose refers.
     pub(super) relative_to: String,
     pub(super) pose: Pose,
-    /// Full name of the frame with which it moves; `None` for links and joints, which say it otherwise.
+    /// Full name of the frame to which it is attached. `None` for links and joints, whose motion is defined elsewhere.
     pub(super) attached_to: Option<String>,
-    /// The link that it is.
+    /// Index of the link whose frame it is.
     pub(super) link: Option<usize>,
 }
 
-/// Frames by their full names, `outer::inner`.
+/// All frames by their full names, `outer::inner`.
 #[derive(Debug, Default)]
 pub(super) struct Frames {
     nodes: HashMap<String, Node>,
     places: RefCell<HashMap<String, Pose>>,
-    /// Joints by their full names: the full name of the frame of each, and its name in the scene.
+    /// Joints by their full names, with the full name of the joint's frame and the joint's name in the scene.
     joints: HashMap<String, [String; 2]>,
-    /// Links of static models.
+    /// Indices of links of static models.
     still: HashSet<usize>,
-    /// Prefix that names in the scene leave out: the name of the only model, `outer::`, or nothing.
+    /// Prefix that names in the scene leave out: the name of the only model with `::`, or an empty text.
     hidden: String,
 }
 
@@ -47,7 +47,7 @@ impl Frames {
         self.nodes.insert(name, node);
     }
 
-    /// Adds a joint with its name in the scene. Files before 1.7 give it the name of a link at times; the name is then that of the link.
+    /// Adds a joint with its name in the scene. Before version 1.7, a joint may have the name of a link, and that name then means the link.
     pub(super) fn add_joint(&mut self, name: String, shown: String, node: Node) {
         let is_taken = self.nodes.contains_key(&name);
         let own = if is_taken { format!("{name}_joint") } else { name.clone() };
@@ -55,12 +55,12 @@ impl Frames {
         self.joints.insert(name, [own, shown]);
     }
 
-    /// The full name of the frame of a joint by its own full name, and the name of the joint in the scene.
+    /// The full name of a joint's frame, and the joint's name in the scene, by the joint's full name.
     pub(super) fn joint(&self, name: &str) -> Option<[&str; 2]> {
         self.joints.get(name).map(|[own, shown]| [own.as_str(), shown.as_str()])
     }
 
-    /// A full name, or the beginning of one, as the scene has it.
+    /// A full name, or its beginning, without the prefix that names in the scene leave out.
     pub(super) fn plain<'a>(&self, name: &'a str) -> &'a str {
         name.strip_prefix(self.hidden.as_str()).unwrap_or(name)
     }
@@ -69,12 +69,12 @@ impl Frames {
         self.still.insert(link);
     }
 
-    /// Is a link the ground, or a part of a static model?
+    /// Is a link the ground, or a link of a static model?
     pub(super) fn is_still(&self, link: usize) -> bool {
         link == GROUND || self.still.contains(&link)
     }
 
-    /// The full name of a name that stands in a scope; its prefix ends with `::` or is empty.
+    /// The full name of a name in a scope, whose prefix is empty or ends with `::`.
     pub(super) fn full(&self, prefix: &str, name: &str, at: Origin) -> Read<String> {
         if name == WORLD {
             return Ok(name.to_owned());
@@ -84,7 +84,7 @@ impl Frames {
         if self.nodes.contains_key(&full) {
             return Ok(full);
         }
-        // a nested model stands for its frame
+        // The name of a nested model means its frame.
         if self.nodes.contains_key(&nested) {
             return Ok(nested);
         }
@@ -95,7 +95,7 @@ impl Frames {
         Err(Fault::new(at, format!("unknown link, joint, frame or model `{name}`"), hint))
     }
 
-    /// Pose of a frame in that of its model, which stands in the world for the time being.
+    /// Pose of a frame relative to its model, which is placed in the world only for this computation.
     pub(super) fn alone(&self, name: &str, model: &str, at: Origin) -> Read<Pose> {
         if !self.nodes.contains_key(name) {
             return Err(Fault::new(
@@ -105,7 +105,7 @@ impl Frames {
             ));
         }
         let places = [self.place(model)?, self.place(name)?];
-        // they change when the model gets its place
+        // The poses change when the model gets its own place.
         self.places.borrow_mut().clear();
         Ok(places[0].inverse().then(&places[1]))
     }
@@ -135,7 +135,7 @@ impl Frames {
         Ok(pose)
     }
 
-    /// The link with which a frame moves; `None` for the world.
+    /// The link to which a frame is attached; `None` for the world.
     pub(super) fn link(&self, name: &str) -> Read<Option<usize>> {
         let mut chain: Vec<&str> = Vec::new();
         let mut at = name;
@@ -155,7 +155,7 @@ impl Frames {
         }
     }
 
-    /// A frame, or that of a model; the last of the chain refers to it.
+    /// A frame by its full name, or the frame of the model of that name. The last frame in `chain` refers to it.
     fn node(&self, name: &str, chain: &[&str]) -> Read<&Node> {
         let found = self.nodes.get(name).or_else(|| self.nodes.get(&format!("{name}::{MODEL}")));
         found.ok_or_else(|| {

@@ -1,4 +1,4 @@
-//! Models of other files: they stand where the `include` stood, with its name, pose and the like.
+//! Included models: each replaces its `include` element, which may set its name, pose and other properties.
 
 use super::frames::MODEL;
 use super::part;
@@ -9,10 +9,10 @@ use crate::element::{Attribute, Element};
 use crate::source::Read;
 use std::path::PathBuf;
 
-/// Elements that an `include` has besides the place of its model.
+/// Elements of an `include` that replace those of its model.
 const OWN: [&str; 5] = ["uri", "name", "pose", "placement_frame", "static"];
 
-/// Puts the models of other files in the places of `include` elements.
+/// Replaces the `include` elements by the models of other files.
 pub(crate) fn include(root: &mut Element, context: &mut Context<'_>) -> Read<()> {
     Includer { context, included: Included::default() }.inside(root)
 }
@@ -46,7 +46,7 @@ impl Includer<'_, '_> {
         Ok(())
     }
 
-    /// The model of an included file, as the `include` has it; nothing where the file has lights alone.
+    /// The model of an included file, changed by the `include`. `None` when the file has only lights.
     fn model(&mut self, include: &Element) -> Read<Option<Element>> {
         let uri = include.child("uri").ok_or_else(|| missing(include, "uri"))?.content();
         let path = self.path(&uri)?;
@@ -85,7 +85,7 @@ impl Includer<'_, '_> {
         Ok(Some(model))
     }
 
-    /// Puts what the `include` says of its model in place of what the model says.
+    /// Replaces the name, the pose and other elements of a model by those of its `include`.
     fn own(&mut self, include: &Element, model: &mut Element) -> Read<()> {
         let mut set = |name: &str, value: Attribute| {
             model.attributes.retain(|attribute| attribute.name != name);
@@ -112,7 +112,7 @@ impl Includer<'_, '_> {
         Ok(())
     }
 
-    /// The file of a place, from the folder of the file that includes it on.
+    /// The path of a file, from a URI that is relative to the folder of the including file.
     fn path(&self, uri: &Attribute) -> Read<PathBuf> {
         let hint = "give the model as a file, or put the other model here";
         let home = home(uri, hint, self.context)?;
@@ -129,7 +129,8 @@ impl Includer<'_, '_> {
     }
 }
 
-/// The file of a place that may be a folder: that with the highest version of its `model.config`, else `model.sdf`.
+/// The model file in a folder: the file with the highest version in `model.config`, or else `model.sdf`. A path that is no folder is
+/// returned unchanged.
 fn described(place: PathBuf) -> PathBuf {
     if !place.is_dir() {
         return place;
@@ -148,7 +149,7 @@ fn described(place: PathBuf) -> PathBuf {
     place.join(file.unwrap_or_else(|| "model.sdf".to_owned()))
 }
 
-/// The parts of a model that go into the one around it. What stood in its frame stands in a frame of its own name.
+/// The elements of a model that are merged into the surrounding model. Poses that referred to its frame refer to a named frame instead.
 fn merged(include: &Element, model: Element, is_in_model: bool) -> Read<Vec<Element>> {
     let refused =
         |why: &str| include.fault(why, "leave out merge=\"true\": names then begin with its name");
@@ -198,7 +199,7 @@ fn merged(include: &Element, model: Element, is_in_model: bool) -> Read<Vec<Elem
     Ok(parts)
 }
 
-/// Gives the pose of an element the frame in which it stands, where it names none.
+/// Makes the pose of an element relative to `frame`, if the pose names no frame.
 fn stand_in(element: &mut Element, frame: &str) {
     if !element.children.iter().any(|child| child.name == "pose") {
         element.children.push(Element::new("pose".into(), element.at, Vec::new()));
@@ -212,7 +213,7 @@ fn stand_in(element: &mut Element, frame: &str) {
     }
 }
 
-/// Names the frame anew where an element names that of its model, but not in models in it.
+/// Replaces the name of the model's frame in an element by `frame`, but not within inner models.
 fn renamed(element: &mut Element, frame: &str) {
     for attribute in &mut element.attributes {
         let is_frame =

@@ -1,4 +1,4 @@
-//! Joints: kinds, axes, springs, ends, followers, screws.
+//! Joints: kinds, axes, springs, limits, mimic joints and screws.
 
 use super::frames::Frames;
 use super::scope::{Scope, link, number};
@@ -9,7 +9,7 @@ use crate::pose::{V3, direction, unit, v3};
 use crate::robot::{Coordinate, Coupling, Joint, Kind, Law, Robot, Target, Term, What};
 use crate::source::{Fault, Read};
 
-/// The types of the format; a gearbox is no joint but a relation of two others.
+/// Joint types of the format. A gearbox is not a joint, but a relation between two joints.
 const TYPES: [(&str, Kind); 8] = [
     ("revolute", Kind::Revolute),
     ("continuous", Kind::Revolute),
@@ -21,7 +21,7 @@ const TYPES: [(&str, Kind); 8] = [
     ("fixed", Kind::Fixed),
 ];
 
-/// Reads a joint; a gearbox is read when all joints are there.
+/// Reads a joint of a model. Gearboxes are read later, when all joints exist.
 pub(super) fn read(
     element: &Element,
     scope: &Scope,
@@ -81,7 +81,7 @@ pub(super) fn read(
     Ok(())
 }
 
-/// Damping of a ball, which stands at an axis that it does not have, and acts about all; nothing else of the axis does.
+/// Reads the damping of a ball joint, which the file writes at an axis. It acts about all axes; nothing else of the axis acts.
 fn damped_ball(
     element: &Element,
     (number, name): (usize, &str),
@@ -111,7 +111,7 @@ fn damped_ball(
     Ok(())
 }
 
-/// The axes that a joint of a kind has.
+/// The axis elements that a joint of a kind uses.
 fn axes_of<'a>(element: &'a Element, name: &str, kind: Kind) -> Read<Vec<&'a Element>> {
     let mut axes: Vec<&Element> =
         ["axis", "axis2"].into_iter().filter_map(|word| element.child(word)).collect();
@@ -132,20 +132,20 @@ fn axes_of<'a>(element: &'a Element, name: &str, kind: Kind) -> Read<Vec<&'a Ele
     Ok(axes)
 }
 
-/// The full name of the frame of a joint by its own full name, and its name in the scene.
+/// The full name of a joint's frame, and the joint's name in the scene, by the joint's full name.
 pub(super) fn known<'a>(frames: &'a Frames, full: &str, element: &Element) -> Read<[&'a str; 2]> {
     frames.joint(full).ok_or_else(|| {
         element.fault(format!("unknown joint `{}`", frames.plain(full)), "name a joint of the file")
     })
 }
 
-/// Does a joint join what does not move? Within static models it does nothing.
+/// Does a joint connect two links that are fixed to the ground, as within static models? Such a joint has no effect.
 pub(super) fn is_still(element: &Element, scope: &Scope, frames: &Frames) -> Read<bool> {
     let ends = [end(element, "parent", scope, frames)?, end(element, "child", scope, frames)?];
     Ok(ends.iter().all(|link| frames.is_still(*link)))
 }
 
-/// The link of an end, which is the ground where it is the world.
+/// The link at one end of a joint; the world is the ground.
 fn end(element: &Element, word: &str, scope: &Scope, frames: &Frames) -> Read<usize> {
     if element.child(word).is_none() {
         return Err(element.fault(
@@ -156,7 +156,7 @@ fn end(element: &Element, word: &str, scope: &Scope, frames: &Frames) -> Read<us
     link(element, word, scope, frames)
 }
 
-/// The coordinate that the first or the second axis of a joint means: of a cylinder the turn.
+/// The coordinate of the first or the second axis of a joint; for a cylindrical joint it is the rotation.
 pub(super) fn coordinate(joints: &[Joint], joint: usize, axis: usize) -> Coordinate {
     let number = match joints[joint].kind {
         Kind::Universal => Some(axis),
@@ -166,7 +166,7 @@ pub(super) fn coordinate(joints: &[Joint], joint: usize, axis: usize) -> Coordin
     Coordinate { joint, number }
 }
 
-/// The direction of an axis, global.
+/// The direction of a joint axis, in global axes.
 pub(super) fn direction_of(
     axis: &Element,
     joint: &str,
@@ -178,12 +178,12 @@ pub(super) fn direction_of(
         Some(content) => direction(&v3(content.numbers()?)).ok_or_else(|| {
             content.fault("the axis has no direction", "write a direction, as 0 0 1")
         })?,
-        // the format's default
+        // The format's default is z.
         None => unit(2),
     };
     let is_of_model = match axis.child("use_parent_model_frame") {
         Some(flag) => flag.content().flag()?,
-        // before 1.5 all axes were in the frame of the model
+        // Before version 1.5, all axes were in the frame of the model.
         None => scope.version < [1, 5],
     };
     let named = xyz.and_then(|xyz| xyz.value("expressed_in")).filter(|name| !name.is_empty());
@@ -195,14 +195,14 @@ pub(super) fn direction_of(
     Ok(frames.place(&frame)?.turn * along)
 }
 
-/// Ends, effort and rate; why there is no range, where one end or both are written.
+/// Reads limits, effort and rate. Returns the reason why there is no range, if the file has one or both limits.
 fn limits(axis: &Element, has_range: bool, joint: &mut Joint) -> Read<Option<String>> {
-    /// Value from which on the format means that there is no end.
+    /// Value from which on a limit means that there is none, as in the format.
     const NONE: f64 = 1.0e16;
     let Some(limit) = axis.child("limit") else { return Ok(None) };
     let value = |name: &str| -> Read<Option<f64>> {
         let Some(child) = limit.child(name) else { return Ok(None) };
-        // published files write inf where they mean none
+        // Published files write inf for a missing limit.
         let text = child.text.trim().trim_start_matches(['+', '-']).to_ascii_lowercase();
         if text.starts_with("inf") {
             return Ok(None);
@@ -225,7 +225,7 @@ fn limits(axis: &Element, has_range: bool, joint: &mut Joint) -> Read<Option<Str
     })
 }
 
-/// Springs, damping, friction, stops and mimicry about an axis.
+/// Adds spring, damping, friction, stops and mimic relations of an axis.
 fn laws(axis: &Element, of: Coordinate, robot: &mut Robot, context: &mut Context<'_>) -> Read<()> {
     let joint = &robot.joints[of.joint];
     let name = match of.number.filter(|_| joint.kind == Kind::Universal) {
@@ -259,25 +259,25 @@ fn laws(axis: &Element, of: Coordinate, robot: &mut Robot, context: &mut Context
     Ok(())
 }
 
-/// Stiffness and damping of stops that are not rigid.
+/// Stiffness and damping of stops; `None` for rigid stops.
 fn stiffness_of(limit: &Element) -> Read<Option<[f64; 2]>> {
-    /// Stiffness that the format writes where it means a rigid stop.
+    /// Stiffness in the format that stands for a rigid stop.
     const RIGID: f64 = 1.0e8;
     let stiffness = number(limit, "stiffness", RIGID)?;
     let damping = number(limit, "dissipation", 1.0)?;
     Ok((stiffness > 0.0 && stiffness < RIGID).then_some([stiffness, damping.max(0.0)]))
 }
 
-/// The slide of a screw follows its turn.
+/// The coupling of a screw: its translation is proportional to its rotation.
 fn screw(element: &Element, joint: usize, name: &str) -> Read<Coupling> {
     let turn = core::f64::consts::TAU;
     let of_length = ["screw_thread_pitch", "drake:screw_thread_pitch"]
         .into_iter()
         .find_map(|word| element.child(word));
     let slide_of_turn = match (of_length, element.child("thread_pitch")) {
-        // metres for a whole turn
+        // Metres per turn.
         (Some(pitch), _) => pitch.content().number()? / turn,
-        // the older key: radians for a metre, and of the other sense
+        // The older key has radians per metre, with the opposite sign.
         (None, Some(pitch)) => {
             let pitch = pitch.content();
             let x = pitch.number()?;
@@ -299,13 +299,13 @@ fn screw(element: &Element, joint: usize, name: &str) -> Read<Coupling> {
     })
 }
 
-/// Scope in which names of joints stand, and the frames by which they are found.
+/// Scope of the names of joints, and the frames by which joints are found.
 pub(super) struct Names<'a> {
     pub(super) scope: &'a Scope,
     pub(super) frames: &'a Frames,
 }
 
-/// The number of a joint by its name.
+/// The index of a joint, by its name in the file.
 pub(super) fn find(robot: &Robot, of: &Names<'_>, element: &Element, name: &str) -> Read<usize> {
     let full = format!("{}{name}", of.scope.prefix);
     let shown = of.frames.joint(&full).map(|[_, shown]| shown);

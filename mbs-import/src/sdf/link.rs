@@ -1,4 +1,4 @@
-//! Links: inertia, and what is drawn.
+//! Links: inertia, and shapes for pictures.
 
 use super::pose::pose;
 use super::scope::number;
@@ -11,7 +11,7 @@ use crate::robot::{self, Form, FormKind, Robot};
 use crate::source::Read;
 use crate::visual::mesh_form;
 
-/// The inertia of a link, in its own axes.
+/// The inertia of a link, in the axes of the link.
 pub(super) fn mass(
     element: &Element,
     place: &Place<'_>,
@@ -44,7 +44,7 @@ pub(super) fn mass(
     Ok(Some(local.seen_from(&at)))
 }
 
-/// The forms of `visual` that are drawn.
+/// Adds the shapes of `visual` elements.
 pub(super) fn shapes(
     element: &Element,
     (link, place): (usize, &Place<'_>),
@@ -71,7 +71,7 @@ pub(super) fn shapes(
     Ok(())
 }
 
-/// A mesh, or why it is not drawn.
+/// The shape of a mesh. The error is the reason why it is not drawn.
 fn surface(mesh: &Element, context: &Context<'_>) -> Result<Option<FormKind>, String> {
     if mesh.child("submesh").is_some() {
         return Err("parts of meshes are not drawn".to_owned());

@@ -1,4 +1,4 @@
-//! SDF: models in models, frames in frames, and loops by joints.
+//! Reader of SDF: nested models, frames relative to frames, and loops closed by joints.
 
 mod collect;
 mod drake;
@@ -27,7 +27,7 @@ use part::Part;
 use scope::{Scope, is_gearbox, version};
 use weight::Place;
 
-/// Reads the root element `sdf`.
+/// Reads a model from the root element `sdf`.
 pub(crate) fn read(root: &Element, context: &mut Context<'_>) -> Read<Robot> {
     let version = version(root.need("version")?)?;
     let (tops, world) = match root.child("world") {
@@ -45,7 +45,7 @@ pub(crate) fn read(root: &Element, context: &mut Context<'_>) -> Read<Robot> {
         Some(_) => "Gravity: the world's.".to_owned(),
         None => "Gravity: 0 0 -9.8, the format's default.".to_owned(),
     });
-    // the names of the only model stand alone
+    // Names in the scene leave out the name of the only model.
     let hidden = match tops[..] {
         [only] => format!("{}::", only.need("name")?.value),
         _ => String::new(),
@@ -79,7 +79,7 @@ pub(crate) fn read(root: &Element, context: &mut Context<'_>) -> Read<Robot> {
     Ok(robot)
 }
 
-/// Links where their frames are, with their inertia, their forms, and the frames that have names.
+/// Adds the links at their poses, with their inertias, shapes and named frames.
 fn links(
     models: &[Model<'_>],
     frames: &Frames,
@@ -95,7 +95,7 @@ fn links(
             let place = Place { name: &name, scope, frames };
             link::shapes(element, (number, &place), robot, context)?;
             if scope.is_static {
-                // of what does not move the masses do not act
+                // The masses of static links have no effect.
                 let own = ["inertial", "gravity"].into_iter().flat_map(|name| element.each(name));
                 own.for_each(Element::read_whole);
                 continue;
@@ -121,19 +121,19 @@ fn links(
     Ok(())
 }
 
-/// Does a link or a frame have a name?
+/// Does a link or a frame with this name exist?
 fn is_taken(name: &str, robot: &Robot) -> bool {
     let mut links = robot.links.iter().map(|link| &link.name);
     links.any(|link| link == name) || robot.frames.iter().any(|frame| frame.name == name)
 }
 
-/// Joins what hangs on nothing to the ground: free by default, and fixed where the model is static.
+/// Joins every tree of links without a connection to the ground: freely by default, or rigidly for a static model.
 fn base(frames: &Frames, trunks: &[usize], robot: &mut Robot, context: &Context<'_>) {
     for link in 1..robot.links.len() {
         if frames.is_still(link) {
             hold(robot, link, Kind::Fixed, "static");
         }
-        // older files call a link so, and mean what does not move
+        // Older files call a link `world` to mean the ground.
         if robot.links[link].name.rsplit("::").next() == Some(WORLD) {
             hold(robot, link, Kind::Fixed, "ground");
         }
@@ -143,7 +143,7 @@ fn base(frames: &Frames, trunks: &[usize], robot: &mut Robot, context: &Context<
     let mut is_held = vec![false; robot.links.len()];
     is_held[GROUND] = true;
     let mut roots = Vec::new();
-    // the root of a URDF, else the first link of those that are joined
+    // The base is the root of a URDF, or else the first of the connected links.
     for link in trunks.iter().copied().chain(0..carriers.len()) {
         if !std::mem::replace(&mut is_held[carriers[link]], true) {
             hold(robot, link, kind, "base");
@@ -159,7 +159,7 @@ fn base(frames: &Frames, trunks: &[usize], robot: &mut Robot, context: &Context<
     });
 }
 
-/// A joint between the ground and a link.
+/// Adds a joint between the ground and a link.
 fn hold(robot: &mut Robot, link: usize, kind: Kind, word: &str) {
     let Link { at, pose, name, .. } = &robot.links[link];
     let mut joint_name = if word == "base" { word.to_owned() } else { format!("{name} {word}") };

@@ -1,4 +1,4 @@
-//! A URDF that an SDF includes: it stands where a model would.
+//! URDF files that an SDF includes in place of a model.
 
 use super::frames::Frames;
 use crate::context::Context;
@@ -8,10 +8,10 @@ use crate::source::{Origin, Read};
 use crate::unread::unread;
 use crate::urdf::{self, Tree};
 
-/// The element of a model that has a URDF in it; no file can write such a name.
+/// Name of the element that contains a URDF in a model. No XML file can have such a name.
 const URDF: &str = "model of a URDF";
 
-/// The model that stands for a URDF, by its root.
+/// A model element that contains a URDF, given by its root element.
 pub(super) fn model(root: Element) -> Element {
     let name = root.attribute("name").cloned();
     let unnamed = Attribute::new("name".to_owned(), "robot".to_owned(), root.at);
@@ -22,12 +22,12 @@ pub(super) fn model(root: Element) -> Element {
     model
 }
 
-/// The root of the URDF that a model stands for.
+/// The root element of the URDF in a model, if it contains one.
 pub(super) fn root(model: &Element) -> Option<&Element> {
     model.child(URDF)?.child("robot")
 }
 
-/// Does a model stand for a URDF?
+/// Does a model contain a URDF?
 pub(super) fn is_part(model: &Element) -> bool {
     model.children.iter().any(|child| child.name == URDF)
 }
@@ -36,12 +36,12 @@ pub(super) fn is_part(model: &Element) -> bool {
 pub(super) struct Part<'a> {
     root: &'a Element,
     tree: Tree,
-    /// The full name of the frame of the model.
+    /// The full name of the model's frame.
     model: String,
 }
 
 impl<'a> Part<'a> {
-    /// Reads links and joints; `model` is the full name of the model's frame, `prefix` what stands before names in the scene.
+    /// Reads links and joints. `model` is the full name of the model's frame, and `prefix` precedes the names in the scene.
     pub(super) fn read(
         root: &'a Element,
         (model, prefix): (String, String),
@@ -52,27 +52,27 @@ impl<'a> Part<'a> {
         Ok(Self { root, tree, model })
     }
 
-    /// The names of its links in its file, with their numbers.
+    /// Names of its links in the URDF, with their indices.
     pub(super) fn links(&self) -> Vec<(String, usize)> {
         self.tree.links()
     }
 
-    /// The names of its joints in its file, where they are written, and the names of their children.
+    /// The joints: name and place in the URDF, and the name of the child link.
     pub(super) fn joints(&self) -> Vec<(String, Origin, String)> {
         self.tree.joints()
     }
 
-    /// The name of its root link in its file.
+    /// Name of its root link in the URDF.
     pub(super) fn trunk(&self) -> &str {
         self.tree.name(self.tree.trunk)
     }
 
-    /// The number of its root link.
+    /// Index of its root link.
     pub(super) const fn trunk_link(&self) -> usize {
         self.tree.trunk
     }
 
-    /// Adds what it has to the robot, at the place of its model.
+    /// Adds its joints, shapes and laws to the robot, at the place of its model.
     pub(super) fn add(
         self,
         frames: &Frames,

@@ -1,13 +1,13 @@
-//! `pose`: three lengths, and a rotation in one of two forms.
+//! Reads the element `pose`: three lengths, and a rotation in one of two forms.
 
 use crate::element::Element;
 use crate::pose::{Pose, quaternion, roll_pitch_yaw, v3};
 use crate::source::Read;
 
-/// The pose of an element, and the frame in which it is written where that is named; nothing is moved where there is none.
+/// The pose of an element, and the name of the frame to which it is relative, if one is named. Without the element it is the identity.
 pub(super) fn pose(element: &Element) -> Read<(Pose, Option<&str>)> {
     let Some(pose) = element.child("pose") else { return Ok((Pose::identity(), None)) };
-    // `frame` is the word of versions before 1.7
+    // Versions before 1.7 call the attribute `frame`.
     let in_frame = pose.value("relative_to").or_else(|| pose.value("frame"));
     let in_frame = in_frame.filter(|name| !name.is_empty());
     let is_in_degrees = pose.attribute("degrees").map_or(Ok(false), |degrees| degrees.flag())?;

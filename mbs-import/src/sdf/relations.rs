@@ -1,4 +1,4 @@
-//! Relations of joints to each other: gearboxes and mimicry.
+//! Relations between joints: gearboxes and mimic joints.
 
 use super::frames::Frames;
 use super::joint::{Names, coordinate, direction_of, find, is_still, known};
@@ -8,7 +8,7 @@ use crate::pose::V3;
 use crate::robot::{Coupling, Kind, Law, Robot, Target, Term, What};
 use crate::source::Read;
 
-/// Adds the gearboxes and followers of a model.
+/// Adds the gearboxes and mimic relations of a model.
 pub(super) fn read(model: &Element, scope: &Scope, frames: &Frames, robot: &mut Robot) -> Read<()> {
     for element in model.each("joint") {
         if is_gearbox(element) {
@@ -63,7 +63,7 @@ pub(super) fn read(model: &Element, scope: &Scope, frames: &Frames, robot: &mut 
     Ok(())
 }
 
-/// The inertia of a motor's rotor behind its gear.
+/// Adds the inertia of a motor's rotor, reflected by its gear.
 fn reflected(element: &Element, joint: usize, robot: &mut Robot) -> Read<()> {
     let Some(inertia) = element.child("drake:rotor_inertia") else { return Ok(()) };
     let inertia = inertia.content().number()?;
@@ -77,7 +77,7 @@ fn reflected(element: &Element, joint: usize, robot: &mut Robot) -> Read<()> {
     Ok(())
 }
 
-/// Angles of two links against a third: that of the child is minus the ratio times that of the parent.
+/// The coupling of a gearbox. Angles are relative to a third link: that of the child is minus the ratio times that of the parent.
 fn gearbox(element: &Element, scope: &Scope, frames: &Frames, robot: &Robot) -> Read<Coupling> {
     let full = format!("{}{}", scope.prefix, element.need("name")?.value);
     let [own, shown] = known(frames, &full, element)?;
@@ -101,9 +101,9 @@ fn gearbox(element: &Element, scope: &Scope, frames: &Frames, robot: &Robot) -> 
     })
 }
 
-/// The joint whose coordinate is the angle of the second link against the first about an axis, and its sign.
+/// The joint whose coordinate is the rotation of link `to` relative to link `from` about an axis, and its sign.
 fn turn(element: &Element, robot: &Robot, [from, to]: [usize; 2], axis: &V3) -> Read<(usize, f64)> {
-    /// Axes of one line agree so far; published ones have six digits.
+    /// Largest difference of unit vectors of one axis [-]. Published axes have six digits.
     const ALIKE: f64 = 1.0e-5;
     for (number, joint) in
         robot.joints.iter().enumerate().filter(|(_, joint)| joint.kind == Kind::Revolute)

@@ -1,4 +1,4 @@
-//! Scopes of names, and what all readers of the format ask of elements.
+//! Scopes of names, and functions that all parts of the SDF reader use.
 
 use super::frames::{Frames, MODEL, WORLD};
 use crate::element::{Attribute, Element};
@@ -6,31 +6,31 @@ use crate::pose::{Pose, V3, v3};
 use crate::robot::GROUND;
 use crate::source::{Fault, Read};
 
-/// The attribute in which a model of another file keeps the version of that file; no file can write such a name.
+/// Name of the attribute with the version of an included model's file. No XML file can have such a name.
 pub(super) const VERSION: &str = "version of its file";
 
-/// Scope in which names stand.
+/// Scope of names: the world or a model.
 #[derive(Debug, Clone)]
 pub(super) struct Scope {
-    /// Prefix of full names: `outer::`, or in the world nothing.
+    /// Prefix of full names, such as `outer::`; empty in the world.
     pub(super) prefix: String,
     pub(super) version: [u32; 2],
     pub(super) is_static: bool,
 }
 
 impl Scope {
-    /// Is it that of the world, and of no model?
+    /// Is the scope that of the world?
     pub(super) const fn is_world(&self) -> bool {
         self.prefix.is_empty()
     }
 
-    /// The full name of the frame of its model, or of the world.
+    /// The full name of the frame of the model, or of the world.
     pub(super) fn model(&self) -> String {
         if self.is_world() { WORLD.to_owned() } else { format!("{}{MODEL}", self.prefix) }
     }
 }
 
-/// The two numbers of a version.
+/// The major and minor number of a version.
 pub(super) fn version(attribute: &Attribute) -> Read<[u32; 2]> {
     let number = |text: Option<&str>| text.and_then(|text| text.trim().parse::<u32>().ok());
     let mut parts = attribute.value.split('.');
@@ -41,7 +41,7 @@ pub(super) fn version(attribute: &Attribute) -> Read<[u32; 2]> {
     }
 }
 
-/// A gearbox is no joint but a relation of two others.
+/// Is the joint a gearbox? A gearbox is a relation between two joints.
 pub(super) fn is_gearbox(element: &Element) -> bool {
     element
         .attributes
@@ -49,24 +49,24 @@ pub(super) fn is_gearbox(element: &Element) -> bool {
         .any(|attribute| attribute.name == "type" && attribute.value.trim() == "gearbox")
 }
 
-/// The number in a child, or what stands for it.
+/// The number in a child element, or `default` when there is no such child.
 pub(super) fn number(element: &Element, name: &str, default: f64) -> Read<f64> {
     element.child(name).map_or(Ok(default), |child| child.content().number())
 }
 
-/// The three numbers in a child.
+/// The three numbers in a child element.
 pub(super) fn vector(element: &Element, name: &str) -> Read<V3> {
     let child = element.child(name).ok_or_else(|| missing(element, name))?;
     Ok(v3(child.content().numbers()?))
 }
 
-/// The refusal of an element without a child.
+/// The error of an element that lacks a required child.
 pub(super) fn missing(element: &Element, name: &str) -> Fault {
     element
         .fault(format!("`{}` has no <{name}>", element.name), format!("write <{name}>...</{name}>"))
 }
 
-/// The frame that a child names: the link with which it moves, the ground where that is the world, and where it is.
+/// The link to which the frame named in a child element is attached, and the frame's pose. For the world the link is the ground.
 pub(super) fn placed(
     element: &Element,
     word: &str,
@@ -78,7 +78,7 @@ pub(super) fn placed(
     Ok((frames.link(&full)?.unwrap_or(GROUND), frames.place(&full)?))
 }
 
-/// The link of the frame that a child names.
+/// The link to which the frame named in a child element is attached.
 pub(super) fn link(element: &Element, word: &str, scope: &Scope, frames: &Frames) -> Read<usize> {
     placed(element, word, scope, frames).map(|(link, _)| link)
 }

@@ -3,14 +3,14 @@
 use crate::table::Treatment::{Appearance, Approximated, Ignored, Mapped};
 use crate::table::{Row, row};
 
-/// Reason why contact is left out.
+/// Reason why the scene has no contacts.
 const CONTACT: &str = "there is no contact between bodies yet";
-/// Reason why settings of a simulator are left out.
+/// Reason why the scene has no settings of simulators.
 const OTHER: &str = "settings of another simulator";
-/// Reason why sensors are left out.
+/// Reason why the scene has no sensors.
 const SENSOR: &str = "sensors measure, and do not act";
 
-/// The elements and attributes of SDF 1.4 to 1.12.
+/// Treatment of the elements and attributes of SDF 1.4 to 1.12.
 pub(crate) const TABLE: &[Row] = &[
     row("sdf", " version", Mapped),
     row("sdf", "xmlns:drake xmlns:xacro xmlns", Appearance),
@@ -27,7 +27,7 @@ pub(crate) const TABLE: &[Row] = &[
     row("spherical_coordinates", " *", Ignored(OTHER)),
     row("audio", " *", Appearance),
     row("road", " *", Ignored(CONTACT)),
-    // pybullet's
+    // Elements of the program pybullet.
     row("link/contact", " *", Ignored(CONTACT)),
     row("population", " *", Ignored("models that a simulator adds")),
     row("actor", " *", Appearance),

@@ -1,4 +1,4 @@
-//! Masses that follow from forms of collision: `inertial auto="true"`.
+//! Masses computed from collision shapes: `inertial auto="true"`.
 
 use super::frames::Frames;
 use super::pose::pose;
@@ -13,12 +13,12 @@ use crate::solid::Solid;
 use crate::source::Read;
 use mbs_scene::{TriangleMesh, VolumeRule};
 
-/// Density of what writes none [kg/m³]: the format's default, that of water.
+/// Default density [kg/m³]: that of water, as in the format.
 const DENSITY: f64 = 1000.0;
-/// Hint where no mass can be computed.
+/// Hint when the mass cannot be computed.
 const HINT: &str = "write <mass> and <inertia> with numbers, and leave out auto=\"true\"";
 
-/// Link in which parts stand: its full name, and what names in it mean.
+/// Link whose parts are read: its full name, and the scope of names in it.
 pub(super) struct Place<'a> {
     pub(super) name: &'a str,
     pub(super) scope: &'a Scope,
@@ -26,7 +26,7 @@ pub(super) struct Place<'a> {
 }
 
 impl Place<'_> {
-    /// The pose of a part of the link in the frame of the link.
+    /// The pose of a part of the link, relative to the link.
     pub(super) fn pose(&self, part: &Element) -> Read<Pose> {
         let (own, in_frame) = pose(part)?;
         let Some(name) = in_frame else { return Ok(own) };
@@ -36,7 +36,7 @@ impl Place<'_> {
     }
 }
 
-/// The mass of a link by its forms of collision, in its own axes.
+/// The mass of a link from its collision shapes, in the axes of the link.
 pub(super) fn mass(
     link: &Element,
     inertial: &Element,
@@ -53,7 +53,7 @@ pub(super) fn mass(
     let density = number(inertial, "density", DENSITY)?;
     let mut sum = Mass::none();
     let mut is_empty = true;
-    // contact is still not in the scene: a collision stays unread
+    // The scene still has no contact, so the collision itself does not count as read.
     for collision in link.children.iter().filter(|child| child.name == "collision") {
         let density = number(collision, "density", density)?;
         if density < 0.0 {
@@ -82,7 +82,7 @@ pub(super) fn mass(
     Ok(Mass { mass, tensor: sum.tensor * (mass / sum.mass), ..sum })
 }
 
-/// The mass of a form at a density, in its own frame.
+/// The mass of a collision shape at a density, in the frame of the shape.
 fn form(collision: &Element, density: f64, context: &Context<'_>) -> Read<Mass> {
     let refused = |what: &str| {
         collision.fault(format!("a mass follows from this collision, and {what}"), HINT)
@@ -108,12 +108,12 @@ fn form(collision: &Element, density: f64, context: &Context<'_>) -> Read<Mass> 
     Ok(solid.mass(false, density, None))
 }
 
-/// Three numbers in a child, or what stands for them.
+/// The three numbers in a child element, or `default` when there is no such child.
 fn three(element: &Element, name: &str, default: [f64; 3]) -> Read<[f64; 3]> {
     element.child(name).map_or(Ok(default), |child| child.content().numbers())
 }
 
-/// The mass of what the triangles of a file enclose.
+/// The mass of the volume within a triangle mesh.
 fn mesh(form: &Element, density: f64, context: &Context<'_>) -> Read<Mass> {
     if form.child("submesh").is_some() {
         return Err(form.fault("masses of parts of meshes are not computed", HINT));

@@ -1,4 +1,4 @@
-//! Drives: transmissions and interfaces of effort become inputs.
+//! Drives: transmissions and effort interfaces become inputs of the scene.
 
 use super::drake::rotor;
 use crate::context::{Context, Named};
@@ -6,7 +6,7 @@ use crate::element::Element;
 use crate::robot::{Coordinate, Kind, Law, Robot, Target, What};
 use crate::source::Read;
 
-/// Adds an input for every joint that is driven by its effort.
+/// Adds an input for every joint that has an effort interface.
 pub(super) fn inputs(
     root: &Element,
     joints: &Named,
@@ -56,7 +56,7 @@ pub(super) fn inputs(
     Ok(())
 }
 
-/// An input for a joint whose interface is an effort.
+/// Adds the input of a joint if its interface is an effort.
 fn input(
     element: &Element,
     interface: &str,

@@ -1,4 +1,4 @@
-//! Loops, rotors and frames in elements of another program: `drake:...` and `frame`.
+//! Loops, rotors and frames in elements of the program Drake: `drake:...` and `frame`.
 
 use super::root::WORLD;
 use crate::closing::ball;
@@ -8,7 +8,7 @@ use crate::pose::{Pose, V3, roll_pitch_yaw, v3};
 use crate::robot::{Coordinate, Frame, GROUND, Kind, Law, Robot, Target, What, scene_name};
 use crate::source::Read;
 
-/// Adds the balls that close loops.
+/// Adds the ball joints that close loops.
 pub(super) fn loops(root: &Element, links: &Named, prefix: &str, robot: &mut Robot) -> Read<()> {
     const WORD: &str = "drake:ball_constraint";
     for (i, element) in root.each(WORD).enumerate() {
@@ -31,7 +31,7 @@ pub(super) fn loops(root: &Element, links: &Named, prefix: &str, robot: &mut Rob
     Ok(())
 }
 
-/// Adds the frames that have a name: `frame` with a link, a place and angles.
+/// Adds the named frames: each `frame` element has a link, a position and angles.
 pub(super) fn frames(root: &Element, links: &Named, prefix: &str, robot: &mut Robot) -> Read<()> {
     for element in root.each("frame") {
         let name = format!("{prefix}{}", element.need("name")?.value);
@@ -46,7 +46,7 @@ pub(super) fn frames(root: &Element, links: &Named, prefix: &str, robot: &mut Ro
     Ok(())
 }
 
-/// Adds the inertia of a motor's rotor behind its gear, which the actuator of a transmission says.
+/// Adds the inertia of a motor's rotor, reflected by its gear, as given in the actuator of a transmission.
 pub(super) fn rotor(element: &Element, joint: usize, robot: &mut Robot) -> Read<()> {
     let number = |word: &str, default: f64| {
         element.child(word).map_or(Ok(default), |child| child.number_or("value", default))

@@ -1,4 +1,4 @@
-//! Joints: kinds, axes, ends, damping, followers.
+//! Joints: kinds, axes, limits, damping and mimic joints.
 
 use super::pose::origin;
 use crate::context::{Context, Named};
@@ -8,7 +8,7 @@ use crate::pose::{Pose, V3, direction, v3};
 use crate::robot::{Coordinate, Coupling, Joint, Kind, Law, Robot, Target, What};
 use crate::source::{Fault, Read};
 
-/// The types of the format.
+/// Joint types of the format, with the kinds of joints.
 const TYPES: [(&str, Kind); 7] = [
     ("revolute", Kind::Revolute),
     ("continuous", Kind::Revolute),
@@ -16,11 +16,11 @@ const TYPES: [(&str, Kind); 7] = [
     ("fixed", Kind::Fixed),
     ("floating", Kind::Free),
     ("planar", Kind::Planar),
-    // of later versions of the format
+    // Type of later versions of the format.
     ("spherical", Kind::Spherical),
 ];
 
-/// A joint in the frame of its parent, and the pose of its own frame there.
+/// Reads a joint in the frame of its parent link, and the pose of the joint's frame there.
 pub(super) fn read(
     element: &Element,
     prefix: &str,
@@ -58,11 +58,11 @@ pub(super) fn read(
             let normal = axis(element)?;
             joint.axes = vec![normal, across(&normal)];
         }
-        // published files write anything there, as 0 0 0 at a fixed joint
+        // Published files write any axis for a fixed joint, such as 0 0 0.
         _ => element.child("axis").map_or((), Element::read_whole),
     }
     if matches!(kind, Kind::Fixed | Kind::Weld) {
-        // of what does not move neither limits nor friction act
+        // Limits and friction have no effect on a fixed joint.
         ["limit", "dynamics"]
             .into_iter()
             .flat_map(|word| element.each(word))
@@ -92,7 +92,7 @@ fn no_range(limit: &Element) -> Read<String> {
     Ok(laws::no_range(lower, upper))
 }
 
-/// The axis in the joint's frame; the format's default is x.
+/// The axis in the frame of the joint; the default of the format is x.
 fn axis(element: &Element) -> Read<V3> {
     let Some(xyz) = element.child("axis").and_then(|axis| axis.attribute("xyz")) else {
         return Ok(v3([1.0, 0.0, 0.0]));
@@ -102,7 +102,8 @@ fn axis(element: &Element) -> Read<V3> {
         .ok_or_else(|| xyz.fault("the axis has no direction", "write a direction, as 0 0 1"))
 }
 
-/// A direction across a normal: x of the frame where that is across, else the frame's axis that is most so, made right-angled.
+/// A unit vector perpendicular to `normal`. It is made from the x axis of the frame. When x is nearly along the normal, it is made from the
+/// axis with the smallest component.
 fn across(normal: &V3) -> V3 {
     let least = (0..3).min_by(|a, b| normal[*a].abs().total_cmp(&normal[*b].abs())).unwrap_or(0);
     let first = crate::pose::unit(if normal[0].abs() < 0.9 { 0 } else { least });
@@ -110,7 +111,7 @@ fn across(normal: &V3) -> V3 {
     direction(&slide).unwrap_or(first)
 }
 
-/// Damping, friction, stops and mimicry of a joint whose number is known.
+/// Adds damping, friction, stops and the mimic relation of a joint.
 pub(super) fn laws(
     element: &Element,
     number: usize,
@@ -162,7 +163,7 @@ pub(super) fn laws(
     Ok(())
 }
 
-/// Followers, which are the couplings from a number on, follow joints with one coordinate, and not each other in a circle.
+/// Checks the mimic couplings, which begin at index `first`. Each must be between joints with one coordinate, and no cycle is allowed.
 pub(super) fn check_mimics(robot: &Robot, first: usize) -> Read<()> {
     let couplings = &robot.couplings[first..];
     let leader = |joint: usize| {

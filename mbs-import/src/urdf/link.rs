@@ -1,4 +1,4 @@
-//! Links: inertia, and what is drawn.
+//! Links: inertia, and shapes for pictures.
 
 use super::pose::origin;
 use crate::context::Context;
@@ -10,10 +10,10 @@ use crate::source::Read;
 use crate::visual::mesh_form;
 use std::collections::HashMap;
 
-/// Colours of the robot's materials.
+/// Colours of the robot's materials, by material name.
 pub(super) type Colours = HashMap<String, [f64; 4]>;
 
-/// A link in its own frame.
+/// Reads a link, in its own frame.
 pub(super) fn read(element: &Element) -> Read<Link> {
     let name = &element.need("name")?.value;
     let mass = element.child("inertial").map(inertial).transpose()?;
@@ -49,7 +49,7 @@ fn inertial(element: &Element) -> Read<Mass> {
     Ok(local.seen_from(&pose))
 }
 
-/// The colours of materials that stand beside the links.
+/// The colours of the materials that are defined at the robot, outside of links.
 pub(super) fn colours(root: &Element) -> Read<Colours> {
     let mut colours = Colours::new();
     for material in root.each("material") {
@@ -67,7 +67,7 @@ fn colour(material: &Element) -> Read<Option<[f64; 4]>> {
     Ok(robot::colour(&rgba.list()?))
 }
 
-/// The forms of `visual`; where none of them can be drawn, those of `collision`.
+/// Adds the shapes of `visual` elements; if none of them can be drawn, the shapes of `collision` elements.
 pub(super) fn shapes(
     element: &Element,
     link: usize,
@@ -99,11 +99,11 @@ pub(super) fn shapes(
         }
     }
     if robot.shapes.len() == first && !lost.is_empty() {
-        // what a collision says beside its form is still not in the scene
+        // The scene still has no contact, so the collision itself does not count as read.
         let collisions = element.children.iter().filter(|child| child.name == "collision");
         let mut why = None;
         for collision in collisions {
-            // it is no reason to refuse the model
+            // An invalid collision shape is no reason to refuse the model.
             why = why.or(draw(collision, None, robot).ok().flatten());
         }
         let stands_in = match why {
@@ -121,7 +121,7 @@ pub(super) fn shapes(
     Ok(())
 }
 
-/// A form, or why it is not drawn; nothing where there is none.
+/// The shape of a geometry. The inner error is the reason why it is not drawn; `None` when there is no shape.
 fn form(geometry: &Element, context: &Context<'_>) -> Read<Option<Result<FormKind, String>>> {
     if let Some(mesh) = geometry.child("mesh") {
         let form = mesh_form(mesh.attribute("filename"), mesh.attribute("scale"), context);

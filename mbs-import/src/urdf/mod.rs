@@ -1,4 +1,4 @@
-//! URDF: a tree of links, from one root.
+//! Reader of URDF: a tree of links with a single root.
 
 mod control;
 mod drake;
@@ -20,11 +20,11 @@ use crate::robot::{GROUND, Joint, Kind, Robot};
 use crate::source::{Fault, Read};
 use root::WORLD;
 
-/// Reads the root element `robot`.
+/// Reads a model from the root element `robot`.
 pub(crate) fn read(root: &Element, context: &mut Context<'_>) -> Read<Robot> {
     let name = root.value("name").unwrap_or("robot");
     let mut robot = Robot::new(name, root.at.source);
-    // the format has none
+    // The format has no gravity, so the standard value is used.
     robot.gravity = [0.0, 0.0, -9.81];
     let tree = Tree::read(root, "", &mut robot, context)?;
     let trunk = tree.trunk;
@@ -34,7 +34,7 @@ pub(crate) fn read(root: &Element, context: &mut Context<'_>) -> Read<Robot> {
     Ok(robot)
 }
 
-/// Adds the joint between the ground and the root, fixed or free.
+/// Adds the joint between the ground and the root link, fixed or free.
 fn base(robot: &mut Robot, trunk: usize, context: &mut Context<'_>) -> Read<()> {
     let link = &robot.links[trunk];
     let (at, place) = (link.at, link.pose.at);
@@ -71,7 +71,7 @@ fn base(robot: &mut Robot, trunk: usize, context: &mut Context<'_>) -> Read<()> 
     Ok(())
 }
 
-/// A name that no joint has.
+/// A name that no joint has: the given one, with an ending if needed.
 fn unused(name: &str, robot: &Robot) -> String {
     let mut name = name.to_owned();
     while robot.joints.iter().any(|joint| joint.name == name) {

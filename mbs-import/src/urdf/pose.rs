@@ -1,10 +1,10 @@
-//! Poses by the element `origin`, and masses.
+//! Poses from the element `origin`.
 
 use crate::element::Element;
 use crate::pose::{Pose, quaternion, roll_pitch_yaw, v3};
 use crate::source::Read;
 
-/// The `origin` of an element; where there is none, nothing is moved.
+/// The pose in the `origin` of an element; without this element it is the identity.
 pub(super) fn origin(element: &Element) -> Read<Pose> {
     let Some(origin) = element.child("origin") else { return Ok(Pose::identity()) };
     let at = v3(origin.numbers_or("xyz", [0.0; 3])?);

@@ -1,18 +1,18 @@
-//! The root of the links of a URDF, which are one tree.
+//! Finds the root of the links of a URDF, which must form one tree.
 
 use crate::element::Element;
 use crate::robot::{Joint, Link};
 use crate::source::{Fault, Read};
 
-/// The name of what does not move, which a file need not declare.
+/// Name of the ground, which a file need not declare as a link.
 pub(super) const WORLD: &str = "world";
 
-/// Links and the joints between them.
+/// Graph of links, with the joints between them.
 #[derive(Debug)]
 pub(super) struct Graph<'a> {
     pub(super) links: &'a [Link],
     pub(super) joints: &'a [Joint],
-    /// The number that joints have for the first link.
+    /// Index that joints use for the first link.
     pub(super) first: usize,
 }
 
@@ -21,7 +21,7 @@ impl Graph<'_> {
         self.joints[joint].parent - self.first
     }
 
-    /// The one link that is no child.
+    /// The only link that is not the child of a joint.
     pub(super) fn root(&self, root: &Element) -> Read<usize> {
         let mut parent = vec![None; self.links.len()];
         for (number, joint) in self.joints.iter().enumerate() {
@@ -44,7 +44,7 @@ impl Graph<'_> {
             }
             [] => Err(self.circle(0, &parent)),
             [trunk] => {
-                // with one root, what does not hang on it is a circle
+                // With one root, links that are not reached from it form a cycle.
                 self.reached(trunk, &parent)?;
                 Ok(trunk)
             }
@@ -60,7 +60,7 @@ impl Graph<'_> {
     }
 
     fn reached(&self, trunk: usize, parent: &[Option<usize>]) -> Read<()> {
-        // the walk that reached each link, from 1; the root is reached before all
+        // The number of the walk that reached each link, from 1; the root counts as reached before all walks.
         let mut by = vec![0; self.links.len()];
         by[trunk] = usize::MAX;
         for link in 0..self.links.len() {
@@ -76,7 +76,7 @@ impl Graph<'_> {
         Ok(())
     }
 
-    /// The links of a circle that is met from a link on.
+    /// The error that names the links of a cycle, which begins from the link `from`.
     fn circle(&self, from: usize, parent: &[Option<usize>]) -> Fault {
         let up = |link: usize| parent[link].map_or(link, |joint| self.parent(joint));
         let mut at = from;

@@ -3,10 +3,10 @@
 use crate::table::Treatment::{Appearance, Approximated, Ignored, Mapped};
 use crate::table::{Row, row};
 
-/// Reason why elements of controllers are left out.
+/// Reason why the scene has no controllers.
 const CONTROL: &str = "what a controller does is not part of the model";
 
-/// The elements and attributes of URDF 1.0 to 1.2, with those of transmissions.
+/// Treatment of the elements and attributes of URDF 1.0 to 1.2, including transmissions.
 pub(crate) const TABLE: &[Row] = &[
     row("robot", " name", Mapped),
     row("robot", "version", Ignored("the reader takes all versions up to 1.2")),

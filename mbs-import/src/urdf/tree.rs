@@ -1,4 +1,4 @@
-//! The links and joints of a URDF: one tree, of its own or as a part of another model.
+//! Tree of the links and joints of a URDF, as a model or as a part of another model.
 
 use super::root::{Graph, WORLD};
 use super::{control, drake, joint, link};
@@ -8,24 +8,24 @@ use crate::pose::Pose;
 use crate::robot::{Joint, Link, Robot, scene_name};
 use crate::source::{Origin, Read};
 
-/// Links that are in a robot, in the frame of the root link, and joints that are not yet.
+/// Tree of a URDF. Its links are already in the robot, in the frame of the root link; its joints are not.
 pub(crate) struct Tree {
     links: Named,
-    /// The names of the links in the file.
+    /// Names of the links in the file.
     names: Vec<String>,
-    /// The number of the first link.
+    /// Index of the first link.
     first: usize,
     joints: Vec<Joint>,
-    /// The names of the joints in the file.
+    /// Names of the joints in the file.
     joint_names: Vec<String>,
-    /// Number of the root link.
+    /// Index of the root link.
     pub(crate) trunk: usize,
-    /// Prefix of names in the scene.
+    /// Prefix of the names in the scene.
     prefix: String,
 }
 
 impl Tree {
-    /// Adds links to a robot, and reads the joints between them; `prefix` stands before names in the scene.
+    /// Adds the links of a URDF to a robot, and reads its joints. `prefix` precedes the names in the scene.
     pub(crate) fn read(
         root: &Element,
         prefix: &str,
@@ -64,7 +64,7 @@ impl Tree {
         Ok(tree)
     }
 
-    /// Reads the joints and returns the pose of each in the frame of its parent.
+    /// Reads the joints, and returns the pose of each in the frame of its parent link.
     fn read_joints(&mut self, root: &Element, context: &Context<'_>) -> Read<Vec<Pose>> {
         let mut origins = Vec::new();
         for element in root.each("joint") {
@@ -76,24 +76,24 @@ impl Tree {
         Ok(origins)
     }
 
-    /// The name in the file of a link.
+    /// The name of a link in the file.
     pub(crate) fn name(&self, link: usize) -> &str {
         &self.names[link - self.first]
     }
 
-    /// The names in the file of all links, with their numbers.
+    /// The names of all links in the file, with their indices.
     pub(crate) fn links(&self) -> Vec<(String, usize)> {
         self.names.iter().cloned().zip(self.first..).collect()
     }
 
-    /// The names in the file of all joints, where they are written, and the names of their children.
+    /// The joints: name and place in the file, and the name of the child link.
     pub(crate) fn joints(&self) -> Vec<(String, Origin, String)> {
         let all = self.joint_names.iter().zip(&self.joints);
         all.map(|(name, joint)| (name.clone(), joint.at, self.name(joint.child).to_owned()))
             .collect()
     }
 
-    /// Puts the tree at a place of its robot, with its joints, forms and laws.
+    /// Places the tree in its robot at a pose, and adds its joints, shapes and laws.
     pub(crate) fn add(
         self,
         root: &Element,
@@ -119,7 +119,7 @@ impl Tree {
         control::inputs(root, &joints, robot, context)
     }
 
-    /// Puts a tree that does not move at a place of its robot: its links and their forms alone count.
+    /// Places a static tree in its robot at a pose. Its joints are left out, and its links and shapes remain.
     pub(crate) fn add_still(
         self,
         root: &Element,
@@ -133,7 +133,7 @@ impl Tree {
         Ok(())
     }
 
-    /// Puts the links at a place of their robot, with their forms.
+    /// Places the links in their robot at a pose, and adds their shapes.
     fn place_links(
         &self,
         root: &Element,
@@ -153,7 +153,7 @@ impl Tree {
     }
 }
 
-/// Place at which a joint names the world as its parent, if no link is called so.
+/// Place of a joint whose parent is `world`, if no link has this name.
 fn undeclared_world(root: &Element, links: &Named) -> Option<Origin> {
     if links.get(WORLD).is_some() {
         return None;
@@ -166,7 +166,7 @@ fn undeclared_world(root: &Element, links: &Named) -> Option<Origin> {
     })
 }
 
-/// Takes all from the frames of the file to that of the root link: all joints are at zero.
+/// Converts links and joints from the frames of the file to the frame of the root link, with all joints at zero.
 fn place(tree: &mut Tree, links: &mut [Link], origins: &[Pose]) {
     let mut of_parent = vec![Vec::new(); tree.names.len()];
     for (number, joint) in tree.joints.iter().enumerate() {

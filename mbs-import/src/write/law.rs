@@ -1,4 +1,4 @@
-//! The text of effects and signals.
+//! Writes the text of effects and signals.
 
 use super::{Writer, list, number, vector};
 use crate::pose::V3;
@@ -80,7 +80,7 @@ impl Writer<'_> {
         self.key("coefficients", format!("[{}]", pieces.collect::<Vec<_>>().join(", ")));
     }
 
-    /// A signal within limits, or what they leave of it.
+    /// Writes a signal of kind `clamp` or `limit-ratio`, with its limits.
     fn within(&mut self, name: &str, kind: &str, of: &str, limits: [f64; 2]) {
         self.signal(name, kind);
         self.key("of", quoted(of));
@@ -108,7 +108,7 @@ impl Writer<'_> {
         self.key("damping", list(*damping));
     }
 
-    /// A force at a place, or without one a moment, whose components follow signals.
+    /// Writes a force at a point, or without a point a moment, whose components are signals.
     fn push(
         &mut self,
         (name, link): (&str, usize),
@@ -131,13 +131,13 @@ impl Writer<'_> {
         }
     }
 
-    /// A force or moment of a value.
+    /// Writes a force or moment of constant value.
     fn drive(&mut self, name: &str, on: &Target, value: f64) {
         self.effect(name, "torque", on);
         self.key("value", number(value));
     }
 
-    /// Writes the value that a signal with a state has at the start.
+    /// Writes the initial value of a signal with a state.
     fn started(&mut self, value: f64) {
         if value != 0.0 {
             self.key("value", number(value));

@@ -1,4 +1,4 @@
-//! Masses of links of an SDF by their forms of collision. Values are closed forms, or those of Drake 1.51.1.
+//! Masses of SDF links from their collision shapes. Expected values are closed forms, or from Drake 1.51.1.
 
 use crate::pendulum::{TOLERANCE, close, model, scene_of, ten};
 use mbs_import::{ImportOptions, import};
@@ -19,7 +19,7 @@ fn collision(pose: &str, density: &str, form: &str) -> String {
 const PANEL: &str = "<box><size>0.8 2 0.04</size></box>";
 const AUTO: &str = "<inertial auto='true'><density>600</density></inertial>";
 
-/// Compares the ten numbers of the link of a text of which nothing but its contact is left out.
+/// Compares the ten numbers of the link in a text. The import may leave out nothing but contact.
 #[track_caller]
 fn agrees(text: &str, expected: [f64; 10], tolerance: f64) {
     let model = model(text, "m.sdf", &ImportOptions::default());
@@ -34,7 +34,7 @@ fn masses_of_links_follow_from_their_forms_of_collision() {
     let flap = collision("0.4 0 0 0 0 0", "", PANEL);
     let expected = [38.4, 0.4, 0.0, 0.0, 12.80512, 2.05312, 14.848, 0.0, 0.0, 0.0];
     agrees(&sdf(AUTO, &flap), expected, TOLERANCE);
-    // two forms with densities of their own and of the link, and a mass that scales them
+    // Two shapes, one with its own density and one with that of the link, and a mass that scales both.
     let own = collision("0 0 0 0 0 0", "<density>100</density>", PANEL);
     let two = own + &collision("1 0 0 0 0 0", "", PANEL);
     let [xx, yy, zz] = [14.939306666666662, 7.8810209523809505, 22.80838095238095];
@@ -48,7 +48,7 @@ fn masses_of_links_follow_from_their_forms_of_collision() {
 
 #[test]
 fn masses_of_all_forms_are_those_of_the_other_program() {
-    // at 1000 kg/m^3, turned and moved: Drake 1.51.1
+    // Shapes of 1000 kg/m^3, rotated and moved: values of Drake 1.51.1.
     for line in [
         "<box><size>0.8 2 0.04</size></box> 64 0.4 0 0 20.148052521658215 4.954215921928711 24.408131556413082 4.6874302288132785 -1.7996582953955185 1.207321262386035",
         "<sphere><radius>0.3</radius></sphere> 113.09733552923252 0.4 0 0 4.071504079052372 4.071504079052371 4.071504079052371 0 0 0",
@@ -60,13 +60,13 @@ fn masses_of_all_forms_are_those_of_the_other_program() {
         let (form, numbers) = line.split_once("> ").expect("a form and its numbers");
         let numbers: Vec<f64> = numbers.split(' ').map(|x| x.parse().expect("number")).collect();
         let expected: [f64; 10] = numbers.try_into().expect("ten numbers");
-        // the centre of the cone has eight digits
+        // Drake's centre of the cone has eight digits.
         let tolerance = if form.starts_with("<cone") { 1.0e-8 } else { TOLERANCE };
         let form = format!("{form}>");
         let turned = |density: &str| collision("0.4 0 0 0.1 0.2 0.3", density, &form);
         let other = "<inertial auto='true'><density>7</density></inertial>";
         agrees(&sdf(other, &turned("<density>1000</density>")), expected, tolerance);
-        // the format's default is the same
+        // The format's default density is the same.
         agrees(&sdf("<inertial auto='true'/>", &turned("")), expected, tolerance);
     }
 }
@@ -83,7 +83,7 @@ fn the_mass_of_a_link_follows_from_a_mesh() {
         let form = format!("<mesh><uri>{file}</uri><scale>{scale}</scale></mesh>");
         sdf("<inertial auto='true'/>", &collision("0 0 0 0 0 0", "<density>500</density>", &form))
     };
-    // a sixth of the box
+    // The tetrahedron has a sixth of the volume of its box.
     for (scale, mass, x) in [("1 1 1", 2.0, 0.1), ("-1 2 3", 12.0, -0.1)] {
         let found = ten(&scene_of(&model(&text("t.obj", scale), "m.sdf", &options)), "b");
         close(found[0], mass, TOLERANCE, scale);
@@ -124,7 +124,7 @@ fn forms_from_which_no_mass_follows_are_refused() {
             import(text.as_bytes(), "m.sdf", &ImportOptions::default()).expect_err("refused");
         assert_eq!(error.fault().to_string(), says);
     }
-    // what is written beside is said
+    // Values written beside auto="true" are reported as ignored.
     let written =
         "<inertial auto='true'><pose>1 0 0 0 0 0</pose><inertia><ixx>9</ixx></inertia></inertial>";
     let model = model(&sdf(written, &collision("", "", ball)), "m.sdf", &ImportOptions::default());

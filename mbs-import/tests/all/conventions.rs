@@ -1,4 +1,4 @@
-//! Bodies of small files beside what Pinocchio, MuJoCo and Drake read of them (lab/models/README.md).
+//! Bodies of small files, compared with those that Pinocchio, MuJoCo and Drake read (lab/models/README.md).
 
 use mbs_core::scene::{Inertia, Scene};
 use mbs_import::{ImportOptions, import};
@@ -18,10 +18,10 @@ fn scene(file: &str) -> Scene<f64> {
     scene.unwrap_or_else(|e| panic!("{}\n{}", e.render(), model.text))
 }
 
-/// Mass, centre and tensor of a body.
+/// Mass, centre of mass and tensor of a body: ten numbers.
 type Ten = [f64; 10];
 
-/// The body that a reference calls so: by its own name, or by that of the joint whose second body it is.
+/// The body that a reference names: by its own name, or by the name of the joint whose second body it is.
 fn body(scene: &Scene<f64>, name: &str) -> Ten {
     let of_joint = scene
         .joints
@@ -37,18 +37,18 @@ fn body(scene: &Scene<f64>, name: &str) -> Ten {
     ten
 }
 
-/// The bodies that another program has where the scene has one: all that stand on a frame with their name are added to its body.
+/// Bodies of another program, combined into the bodies of the scene. Bodies whose names are frames of one scene body are added together.
 fn expected(scene: &Scene<f64>, bodies: &serde_json::Map<String, Value>) -> Vec<(String, Ten)> {
-    // Drake puts the model's name before all others
+    // Drake adds the name of the model before all other names.
     let plain = |name: &str| name.split_once("::").map_or(name, |(_, name)| name).to_owned();
     let ten = |value: &Value| -> Ten {
         let list = ["mass", "center", "inertia"].map(|key| numbers(&value[key])).concat();
         list.try_into().expect("ten numbers")
     };
-    // of what is welded to the ground the scene keeps no mass
+    // The scene has no mass for bodies that are welded to the ground.
     let frame = |name: &str| {
         let of = scene.frames.iter().find(|frame| frame.name == plain(name));
-        // a body's own frame has its name
+        // The frame of a body has the body's name.
         let is_own = |b: usize| scene.bodies[b].name == plain(name);
         of.filter(|frame| !frame.body.index().is_some_and(is_own))
     };
@@ -68,7 +68,7 @@ fn expected(scene: &Scene<f64>, bodies: &serde_json::Map<String, Value>) -> Vec<
     whole
 }
 
-/// Two bodies as one: each tensor moved to the common centre.
+/// Two bodies as one, with each tensor moved to the common centre.
 fn added(a: Ten, b: Ten) -> Ten {
     let mass = a[0] + b[0];
     let center: [f64; 3] = core::array::from_fn(|i| (a[0] * a[1 + i] + b[0] * b[1 + i]) / mass);
@@ -92,10 +92,10 @@ fn numbers(value: &Value) -> Vec<f64> {
     }
 }
 
-/// MuJoCo keeps vertices of meshes in single precision; armature of a free body is in our body, not in that of the other program.
+/// Files that are left out. MuJoCo stores vertices of meshes in single precision, and does not add the armature of a free body to the body.
 const LEFT_OUT: [&str; 2] = ["mesh.xml", "armature_free.xml"];
 
-/// Compares all files of an ending; the number of bodies that were compared.
+/// Compares all files with an ending; returns the number of bodies that were compared.
 fn compare(references: &str, ending: &str) -> usize {
     let text =
         std::fs::read_to_string(folder().join(references)).expect("a file of this repository");
@@ -111,7 +111,7 @@ fn compare(references: &str, ending: &str) -> usize {
         for (name, expected) in expected(&scene, bodies) {
             let found = body(&scene, &name);
             for (found, expected) in found.iter().zip(&expected) {
-                // a dozen products of rotations, each with its last bit
+                // A dozen products of rotations have rounding errors in the last bit.
                 assert!((found - expected).abs() < 1.0e-14, "{file}: {name}: {found} {expected}");
             }
             compared += 1;

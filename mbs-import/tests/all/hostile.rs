@@ -1,4 +1,4 @@
-//! Files that nobody meant: refused at their place, in less than a second, without a panic.
+//! Malformed files: each is refused at its place, in less than a second, without a panic.
 
 use mbs_import::{FindingKind, ImportOptions, import};
 
@@ -56,7 +56,7 @@ fn what_cannot_be_meant_is_refused_at_its_place() {
         ("robot", "robots", "2:1: the root element is `robots`"),
         ("</robot>", "", "7:117: not XML: the root node was opened but never closed"),
     ] {
-        // both ends of the root element
+        // For the root element, its start and its end are replaced.
         let all = found == "robot";
         let text = if all { ARM.replace(found, instead) } else { ARM.replacen(found, instead, 1) };
         assert_eq!(refused(&text), message, "{found} -> {instead}");
@@ -89,7 +89,7 @@ fn a_model_of_another_file_is_found_or_refused_with_the_chain() {
                 error.lines().next().unwrap_or_default().to_owned()
             })
     };
-    // the folder of `model.config`, by its place, and upwards of the file
+    // The folder of `model.config`, by its path and by the search in parent folders.
     for uri in ["../sdf_part", "model://sdf_part", "part.sdf", "file://part.sdf"] {
         assert_eq!(with(uri, false), Ok(true), "{uri}");
     }
@@ -131,7 +131,7 @@ fn every_element_that_nobody_reads_is_told_with_its_place() {
     );
 }
 
-/// Damages a text in one place.
+/// Damages a text in one place, at random.
 fn damaged(bytes: &[u8], dice: &mut mbs_scene::Dice) -> Vec<u8> {
     let mut text = bytes.to_vec();
     let at = dice.below(text.len());
@@ -139,7 +139,7 @@ fn damaged(bytes: &[u8], dice: &mut mbs_scene::Dice) -> Vec<u8> {
         0 => text[at] = u8::try_from(dice.below(256)).unwrap_or(0),
         1 => drop(text.drain(at..(at + dice.below(40)).min(bytes.len()))),
         2 => text.splice(at..at, bytes[at / 2..at].iter().copied()).for_each(drop),
-        // another number
+        // The replacement by another number.
         _ => {
             let digits = ["-1", "0", "1e300", "nan", "7 7 7", ""];
             let end = (at + 1 + dice.below(3)).min(bytes.len());
@@ -171,6 +171,6 @@ fn damaged_files_of_all_formats_never_panic() {
             }
         }
     }
-    // of both kinds there are many
+    // Many damaged texts are read, and many are refused.
     assert!(read > 300 && refused > 1000, "{read} {refused}");
 }

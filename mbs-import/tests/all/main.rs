@@ -1,4 +1,4 @@
-//! The reader beside other programs, on files of ten lines each, and on damaged ones.
+//! Tests of the import: comparison with other programs on files of about ten lines, and damaged files.
 
 mod collisions;
 mod conventions;

@@ -1,4 +1,4 @@
-//! Motors that a file does not have.
+//! Motors for joints without an actuator in the file.
 
 use mbs_import::{FindingKind, ImportOptions, import};
 
@@ -17,7 +17,7 @@ fn a_motor_is_an_input_within_the_effort_of_its_joint() {
     assert_eq!(model.sizes.inputs, 2);
     let limited = "name = \"shoulder.motor limited\"\nkind = \"clamp\"\nof = \"shoulder.motor\"\nlower = -50.0\nupper = 50.0\n";
     assert!(model.text.contains(limited));
-    // a slide's force acts as it is: an effort of zero is that of exporters that know none
+    // The force on a slide is not limited: some exporters write an effort of zero for an unknown one.
     assert!(
         model
             .text

@@ -1,10 +1,10 @@
-//! Models as scenes, and the acceleration of a body that one joint moves, at rest as drawn.
+//! Models as scenes, and the initial acceleration of a body on one joint, computed from the scene.
 
 use mbs_core::scene::{Inertia, JointKind, Scene};
 use mbs_import::{FindingKind, ImportOptions, Imported, import};
 use mbs_scene::SceneFile;
 
-/// Rounding of a dozen products.
+/// Relative rounding error of a dozen products [-].
 pub(crate) const TOLERANCE: f64 = 1.0e-11;
 
 pub(crate) fn model(text: &str, name: &str, options: &ImportOptions) -> Imported {
@@ -16,7 +16,7 @@ pub(crate) fn scene_of(model: &Imported) -> Scene<f64> {
     scene.unwrap_or_else(|e| panic!("{}\n{}", e.render(), model.text))
 }
 
-/// The scene of a text of which nothing was left out that acts.
+/// The scene of a text, from which the import may leave out appearance alone.
 pub(crate) fn whole(text: &str, name: &str) -> Scene<f64> {
     let model = model(text, name, &ImportOptions::default());
     let acts = model.findings.iter().find(|finding| finding.kind != FindingKind::Appearance);
@@ -41,7 +41,8 @@ pub(crate) fn ten(scene: &Scene<f64>, name: &str) -> [f64; 10] {
     all.try_into().expect("ten numbers")
 }
 
-/// The acceleration of a joint between the ground and a body that moves alone: m a·g of a slide, (r × m g)·a of a hinge, each by its inertia.
+/// The acceleration of a joint between the ground and a body that no other joint moves. For a slide it is m a·g divided by the mass; for a
+/// hinge (r × m g)·a divided by the inertia.
 pub(crate) fn acceleration(scene: &Scene<f64>, joint: &str) -> f64 {
     let found = scene.joints.iter().find(|found| found.name == joint);
     let joint = found.unwrap_or_else(|| panic!("no joint `{joint}`"));

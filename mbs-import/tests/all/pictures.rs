@@ -1,9 +1,9 @@
-//! Forms for pictures: meshes are found, named from the scene's folder, and stand where the file says.
+//! Shapes for pictures: meshes are found, have paths relative to the scene's folder, and are at the poses of the file.
 
 use mbs_import::{FindingKind, ImportOptions, import};
 use std::path::{Path, PathBuf};
 
-/// A folder of its own with a package `parts` that has one mesh.
+/// A folder for one test, with a package `parts` that has one mesh.
 fn folder(name: &str) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     for part in ["parts/meshes", "robots/arm", "scenes"] {
@@ -14,7 +14,7 @@ fn folder(name: &str) -> PathBuf {
     folder
 }
 
-/// The lines of meshes, and what is said of elements for the eye that are not drawn.
+/// The lines of meshes in the scene, and the messages about elements for pictures that are not drawn.
 fn drawn(text: &str, options: &ImportOptions) -> (Vec<String>, Vec<String>) {
     let model = import(text.as_bytes(), "model", options).expect("a model");
     model.scene_file("model").and_then(|file| file.scene::<f64>()).expect("a scene");
@@ -78,7 +78,7 @@ fn a_mesh_that_is_not_read_is_no_reason_to_refuse_a_model() {
         let text = LINK.replace("MESH", mesh);
         let (lines, says) = drawn(&text, &options);
         assert!(lines.is_empty() && says.len() == 1 && says[0].contains(word), "{says:?}");
-        // the form of contact stands in for it
+        // The collision shape is drawn instead.
         assert!(says[0].ends_with("stand in"), "{says:?}");
         let model = import(text.as_bytes(), "model", &options).expect("a model");
         assert!(model.text.contains("sphere = { center = [0.0, 0.0, 0.0], radius = 0.5 }"));
@@ -104,7 +104,7 @@ fn meshes_of_mjcf_and_sdf_stand_where_their_files_say() {
 <asset><mesh name="u" file="link.STL" scale="2 2 2" refpos="0 0 1" refquat="1 0 0 1"/></asset>
 <worldbody><body name="b"><freejoint/><inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/>
 <geom type="mesh" mesh="u" pos="0 0 3"/></body></worldbody></mujoco>"#;
-    // 3 + 2 Rt (0 - 1 z); the quaternion turns by a right angle about z, and its inverse takes x to -y
+    // Position 3 + 2 Rᵗ (0 - 1 z). The quaternion rotates by a right angle about z, and its inverse turns x to -y.
     let line = r#"mesh = { file = "parts/meshes/link.STL", at = [0.0, 0.0, 1.0], axes = [[0.0, -1.0, 0.0], [1.0, 0.0, 0.0]], scale = 2.0 }"#;
     let (lines, says) = drawn(mjcf, &options);
     assert!(says.is_empty(), "{says:?}");
@@ -116,7 +116,7 @@ fn meshes_of_mjcf_and_sdf_stand_where_their_files_say() {
     assert_eq!((lines[0].as_str(), says), (line, vec![]));
 }
 
-/// A line whose numbers have no rounding.
+/// A line of the scene with its numbers rounded to nine decimals.
 fn rounded(line: &str) -> String {
     let number = |word: &str| match word.parse::<f64>() {
         Ok(x) => format!("{:?}", (x * 1e9).round() / 1e9 + 0.0),

@@ -1,11 +1,11 @@
-//! Masses that follow from forms and meshes. Values are closed forms, or those of the program that is named.
+//! Masses computed from shapes and meshes. Expected values are closed forms, or from the program that is named.
 
 use crate::pendulum::{TOLERANCE, acceleration, close, model, scene_of, ten, whole};
 use mbs_import::{FindingKind, ImportOptions, import};
 
-/// MuJoCo keeps the vertices of meshes in single precision.
+/// Tolerance for meshes, since MuJoCo stores their vertices in single precision [-].
 const SINGLE: f64 = 1.0e-6;
-/// A tetrahedron at a corner of the origin.
+/// A tetrahedron with one corner at the origin.
 const CORNER: &str =
     r#"vertex="0 0 0  0.4 0 0  0 0.3 0  0 0 0.2" face="0 2 1  0 1 3  1 2 3  0 3 2""#;
 
@@ -15,7 +15,7 @@ fn mjcf(mesh: &str, geom: &str, compiler: &str) -> String {
     )
 }
 
-/// Compares mass, centre and moments, those of the mass on their own scale.
+/// Compares mass, centre and moments; moments are relative to their own size.
 #[track_caller]
 fn agrees(text: &str, expected: [f64; 10], tolerance: f64) {
     let found = ten(&whole(text, "m.xml"), "b");
@@ -37,7 +37,7 @@ fn agrees(text: &str, expected: [f64; 10], tolerance: f64) {
 
 #[test]
 fn vertices_without_faces_are_their_hull() {
-    // a cube with points within and on its faces and edges: 8 kg, m a²/6
+    // A cube with additional points inside and on its faces and edges: 8 kg, m a²/6.
     let text = mjcf(
         r#"vertex="-1 -1 -1 1 -1 -1 -1 1 -1 1 1 -1 -1 -1 1 1 -1 1 -1 1 1 1 1 1 0 0 0 1 0 0 1 1 0 0 -1 -1" scale="0.1 0.1 0.1""#,
         r#"type="mesh""#,
@@ -47,7 +47,7 @@ fn vertices_without_faces_are_their_hull() {
     agrees(&text, [8.0, 0.0, 0.0, 1.0, moment, moment, moment, 0.0, 0.0, 0.0], TOLERANCE);
     let text = text.replace("axis=\"0 1 0\"", "axis=\"0 1 0\" pos=\"-0.1 0 0\"");
     close(acceleration(&whole(&text, "m.xml"), "j"), 58.86, TOLERANCE, "cube");
-    // a tip on the cube, as a volume and as a shell: MuJoCo 4.0.0, and a pyramid of height 0.6 m by hand
+    // The cube with a tip, as a volume and as a shell: values of MuJoCo 4.0.0. The pyramid of height 0.6 m is computed by hand.
     let tip = r#"vertex="-1 -1 -1 1 -1 -1 -1 1 -1 1 1 -1 -1 -1 1 1 -1 1 -1 1 1 1 1 1 0 0 3" scale=".1 .2 .3""#;
     let volume = [64.0, 0.0, 0.0, 1.1125, 4.854, 4.278, 0.96, 0.0, 0.0, 0.0];
     for inertia in ["", r#" inertia="convex""#, r#" inertia="exact""#, r#" inertia="legacy""#] {
@@ -70,7 +70,7 @@ fn vertices_without_faces_are_their_hull() {
 
 #[test]
 fn the_hull_of_a_mesh_with_dents_is_asked_for_by_its_inertia() {
-    // an L of 2 m and 1 m height: three cubes, and the hull half a cube more
+    // An L of 2 m and 1 m height: three cubes. Its hull has half a cube more.
     let l = r#"vertex="0 0 0 2 0 0 2 1 0 1 1 0 1 2 0 0 2 0 0 0 1 2 0 1 2 1 1 1 1 1 1 2 1 0 2 1" face="0 2 1 0 3 2 0 4 3 0 5 4 6 7 8 6 8 9 6 9 10 6 10 11 0 1 7 0 7 6 1 2 8 1 8 7 2 3 9 2 9 8 3 4 10 3 10 9 4 5 11 4 11 10 5 0 6 5 6 11""#;
     for (inertia, mass, center) in [("exact", 3000.0, 5.0 / 6.0), ("convex", 3500.0, 19.0 / 21.0)] {
         let text = mjcf(&format!(r#"{l} inertia="{inertia}""#), r#"type="mesh""#, "");
@@ -103,7 +103,7 @@ fn an_open_surface_is_closed_from_its_centre_and_listed() {
     let model = model(&text, "m.xml", &ImportOptions::default());
     let acts = model.findings.iter().find(|x| x.kind == FindingKind::Approximated);
     assert!(acts.is_some_and(|x| x.says.starts_with("its surface is open at the edge from 0 0 0")));
-    // MuJoCo 4.0.0
+    // Values of MuJoCo 4.0.0.
     let found = ten(&scene_of(&model), "b");
     close(found[0], 2.666666852103343, SINGLE, "mass");
     close(found[4], 0.012863284140707002, SINGLE, "moment");
@@ -112,7 +112,7 @@ fn an_open_surface_is_closed_from_its_centre_and_listed() {
 #[test]
 fn the_shell_of_a_mesh_has_the_area_of_its_triangles() {
     let text = mjcf(&format!(r#"{CORNER} inertia="shell""#), r#"type="mesh" density="5""#, "");
-    // MuJoCo 4.0.0
+    // Values of MuJoCo 4.0.0.
     let expected = [
         1.040512533135511,
         0.11411204,
@@ -130,7 +130,7 @@ fn the_shell_of_a_mesh_has_the_area_of_its_triangles() {
 
 #[test]
 fn forms_are_fitted_to_the_inertia_or_the_box_of_a_mesh() {
-    // mass, and moments xx, yy, zz: MuJoCo 4.0.0
+    // Mass, and moments xx, yy, zz: values of MuJoCo 4.0.0.
     for line in [
         "box false 5.577096406362992 0.027188346717104253 0.04182822425471229 0.052285281351523785",
         "sphere false 3.830945986312027 0.014438130617111097 0.014438130617111097 0.014438130617111099",
@@ -155,7 +155,7 @@ fn forms_are_fitted_to_the_inertia_or_the_box_of_a_mesh() {
 
 #[test]
 fn a_form_whose_axes_are_a_choice_is_listed() {
-    // a plate of 6 by 6 by 2 m, turned about z
+    // A plate of 6 m by 6 m by 2 m, rotated about z.
     let corner = |x: f64, y: f64, z: f64| {
         let (sine, cosine) = 0.5_f64.sin_cos();
         format!("{} {} {z} ", cosine * x - sine * y, sine * x + cosine * y)
@@ -183,7 +183,7 @@ fn a_form_that_is_fitted_has_a_mass_a_scale_and_a_shell_of_its_own() {
     let own = mass(CORNER, r#"type="box""#);
     close(mass(CORNER, r#"type="box" mass="3""#), 3.0, TOLERANCE, "mass");
     close(mass(CORNER, r#"type="box" fitscale="2""#), 8.0 * own, TOLERANCE, "fitscale");
-    // a shell of the box that is fitted to the solid, and a box that is fitted to a shell: MuJoCo 4.0.0
+    // A shell on the box that is fitted to the solid, and a box that is fitted to a shell: values of MuJoCo 4.0.0.
     close(mass(CORNER, r#"type="box" shellinertia="true""#), 208.69343618442605, SINGLE, "shell");
     let shell = format!(r#"{CORNER} inertia="shell""#);
     close(mass(&shell, r#"type="box""#), 11.743565356604618, SINGLE, "box of a shell");
@@ -218,7 +218,7 @@ fn a_mesh_whose_mass_does_not_count_is_for_the_eye() {
 #[test]
 fn built_in_meshes_of_few_points_are_computed_and_others_are_named() {
     let built_in = |words: &str| mjcf(&format!("builtin={words}"), r#"type="mesh""#, "");
-    // mass and height of the centre: MuJoCo 4.0.0, and the last a pyramid on a square
+    // Mass and height of the centre: values of MuJoCo 4.0.0; the last one is by hand, for a pyramid on a square.
     for (words, mass, height) in [
         (r#""cone" params="8 0.5""#, 3299.8315890630092, -0.214285714),
         (r#""sphere" params="0""#, 2536.1504726624075, 0.0),
@@ -255,7 +255,7 @@ fn built_in_meshes_of_few_points_are_computed_and_others_are_named() {
     assert!(model(&other, "m.xml", &options).findings.iter().any(|x| x.says == says));
 }
 
-/// A folder of this test with files in it.
+/// A folder for one test, with these files in it.
 fn folder(name: &str, files: &[(&str, &str)]) -> ImportOptions {
     let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     for (file, text) in files {
@@ -266,7 +266,8 @@ fn folder(name: &str, files: &[(&str, &str)]) -> ImportOptions {
     ImportOptions { folder: Some(folder), ..ImportOptions::default() }
 }
 
-/// Tetrahedra at a corner of the origin and 5 m beside it, with lines before each and between the faces of the first.
+/// Two tetrahedra, one with a corner at the origin and one 5 m beside it. Lines can be inserted before each, and between the faces of the
+/// first.
 fn two(first: &str, between: &str, second: &str) -> String {
     format!(
         "{first}\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\n{between}\nf 2 3 4\nf 1 4 3\n{second}\nv 5 0 0\nv 6 0 0\nv 5 1 0\nv 5 0 1\nf 5 7 6\nf 5 6 8\nf 6 7 8\nf 5 8 7\n"
@@ -276,7 +277,7 @@ fn two(first: &str, between: &str, second: &str) -> String {
 #[test]
 fn of_an_obj_with_several_objects_the_first_has_mass_as_in_mujoco_4() {
     let one = [1.0 / 6.0, 0.25, 0.25, 1.25];
-    // the hull has the vertices of all: MuJoCo 4.0.0
+    // The hull has the vertices of both tetrahedra: values of MuJoCo 4.0.0.
     let hull = [2.666666666666667, 2.671875, 0.328125, 1.328125];
     for (first, between, second, inertia, expected) in [
         ("o a", "", "o b", "legacy", one),
@@ -297,7 +298,7 @@ fn of_an_obj_with_several_objects_the_first_has_mass_as_in_mujoco_4() {
     }
 }
 
-/// An OBJ moved by -3 m along x.
+/// An OBJ file moved by -3 m along x.
 fn moved_back(text: &str) -> String {
     let moved = text.lines().map(|line| {
         match line.strip_prefix("v ").and_then(|rest| rest.split_once(' ')) {
@@ -308,7 +309,7 @@ fn moved_back(text: &str) -> String {
     moved.collect()
 }
 
-/// A prism of 1 m over a regular polygon in a circle of 1 m.
+/// A prism of height 1 m over a regular polygon in a circle of radius 1 m.
 fn regular_prism(corners: usize) -> String {
     let vertices = [0, 1].into_iter().flat_map(|z| {
         (0..corners).map(move |i| {
@@ -330,19 +331,19 @@ fn regular_prism(corners: usize) -> String {
 
 #[test]
 fn polygons_of_an_obj_are_cut_as_in_mujoco_4() {
-    // an L, and a box whose lid is bent at one corner
+    // An L, and a box whose lid is bent at one corner.
     let concave = "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\nv 0 0 1\nv 2 0 1\nv 2 1 1\nv 1 1 1\nv 1 2 1\nv 0 2 1\nf 6 5 4 3 2 1\nf 7 8 9 10 11 12\nf 1 2 8 7\nf 2 3 9 8\nf 3 4 10 9\nf 4 5 11 10\nf 5 6 12 11\nf 6 1 7 12\n";
     let bent = |lid: &str| {
         format!(
             "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 2\nv 0 1 1\nf 4 3 2 1\nf {lid}\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n"
         )
     };
-    // the diagonal beside the corner is the shorter one: a pyramid of a third of a half square stands on the box
+    // The diagonal beside the corner is the shorter one, so a pyramid with a third of half a square is on the box.
     let box_and_pyramid = 1.0 + 1.0 / 6.0;
     for (text, inertia, mass) in [
         (concave.to_owned(), "exact", 3.0),
         (concave.to_owned(), "legacy", 3.0),
-        // an inner corner on the edge of what could be an ear
+        // A concave corner on the edge of a possible ear.
         (
             concave
                 .replace("f 6 5 4 3 2 1\n", "f 1 6 5 4 3 2\n")
@@ -351,10 +352,10 @@ fn polygons_of_an_obj_are_cut_as_in_mujoco_4() {
             3.0,
         ),
         (concave.replace("f 6 5 4 3 2 1\n", "f 2 1 6 5 4 3\n"), "legacy", 3.0),
-        // what an ear is depends on the side on which the origin lies: the same L, three metres away
+        // The choice of ears depends on the side of the origin: the same L, three metres away.
         (moved_back(concave), "exact", 2.825_262_308_313_156),
         (regular_prism(100), "exact", 50.0 * (core::f64::consts::TAU / 100.0).sin()),
-        // a polygon of more than 100 corners is lost; what is left is 2/3 of the volume, about the centre of the faces
+        // A polygon of more than 100 corners is lost. The remainder has 2/3 of the volume, about the centre of the faces.
         (regular_prism(101), "exact", 101.0 / 3.0 * (core::f64::consts::TAU / 101.0).sin()),
         (bent("5 6 7 8"), "exact", box_and_pyramid),
         (bent("6 7 8 5"), "exact", box_and_pyramid),
@@ -380,7 +381,7 @@ fn a_mesh_of_an_included_file_may_lie_beside_it() {
 
 #[test]
 fn the_least_mass_of_a_body_without_any_is_where_mujoco_4_has_it() {
-    // its own place, taken once more in its own frame: each of 10 g
+    // The mass is at the body's place, applied twice: once in the parent's frame and once in its own. Each body has 10 g.
     let text = r#"<mujoco><compiler boundmass="0.01" boundinertia="1e-5"/><option><flag contact="disable"/></option><worldbody><body name="arm" pos="1 0 0"><joint axis="0 1 0"/><geom type="box" contype="0" size=".1 .1 .1" mass="1"/>
 <body name="none" pos="0 .5 0"/><body name="one" pos="0 0 .7"><geom type="box" contype="0" size=".1 .1 .1" mass="0" pos=".3 0 0"/></body><frame pos="0 0 -.4"><body name="two" pos="0 0 -.5"/></frame></body></worldbody></mujoco>"#;
     let found = ten(&whole(text, "m.xml"), "arm");

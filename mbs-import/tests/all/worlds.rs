@@ -1,11 +1,12 @@
-//! Worlds of SDF: joints and frames of the world, static models, included URDFs. Values are closed forms, unless a program is named.
+//! Worlds of SDF: joints and frames of the world, static models, included URDFs. Expected values are closed forms, unless a program is
+//! named.
 
 use crate::pendulum::{TOLERANCE, acceleration, close, model, scene_of, whole};
 use mbs_core::scene::EffectKind;
 use mbs_import::{ImportOptions, import};
 use std::path::Path;
 
-/// A rod of 1 kg on a pin: g m l / (I + m l²) with l = 0.3 m, I = 0.02 kg m².
+/// Acceleration of a rod of 1 kg on a pin [rad/s²]: g m l / (I + m l²) with l = 0.3 m, I = 0.02 kg m².
 const SWING: f64 = 9.81 * 0.3 / 0.11;
 
 const INERTIAL: &str = "<inertial><pose>0.3 0 0 0 0 0</pose><mass>1</mass><inertia><ixx>0.01</ixx><iyy>0.02</iyy><izz>0.02</izz></inertia></inertial>";
@@ -19,7 +20,7 @@ fn bolt(child: &str) -> String {
     format!("<joint name='bolt' type='fixed'><parent>world</parent><child>{child}</child></joint>")
 }
 
-/// Base and rod on a pin.
+/// A model of a base and a rod on a pin, without its `model` element.
 fn arm() -> String {
     link("base", "0 0 0 0 0 0") + &link("rod", "0 0 1 0 0 0") + PIN
 }
@@ -40,7 +41,7 @@ fn swings(inside: &str, joint: &str, expected: f64) {
 #[test]
 fn a_joint_of_the_world_holds_a_model_and_moves_one_against_the_other() {
     swings(&format!("<model name='m'>{}</model>{}", arm(), bolt("m::base")), "pin", SWING);
-    // the frame of the model stands for it
+    // The model's name stands for the model's frame.
     swings(&format!("<model name='m'>{}</model>{}", arm(), bolt("m")), "pin", SWING);
     let two = |joint: &str| {
         let (base, rod) = (link("base", "0 0 0 0 0 0"), link("rod", "0 0 0 0 0 0"));
@@ -62,12 +63,12 @@ fn frames_of_the_world_place_models_joints_and_axes() {
         format!("<model name='m'><pose relative_to='{frame}'/>{}{}</model>", arm(), bolt("base"))
     };
     swings(&(shelf.to_owned() + &on("shelf")), "pin", SWING * 0.5_f64.cos());
-    // a frame in a frame, named before it, and the frame of another model
+    // A frame relative to a frame that is defined after it, and the frame of another model.
     let far = "<frame name='far' attached_to='shelf'><pose>0 0 1 0.3 0 0</pose></frame>";
     swings(&format!("{}{far}{shelf}", on("far")), "pin", SWING * 0.8_f64.cos());
     let stone = "<model name='stone'><static>true</static><pose>1 0 0 0.7 0 0</pose><link name='l'/></model>";
     swings(&(stone.to_owned() + &on("stone")), "m::pin", SWING * 0.7_f64.cos());
-    // the joint of the world stands in a frame that moves with a link, its axis in another
+    // The joint of the world is in a frame attached to a link, and its axis is in another frame.
     let inside = format!(
         "{shelf}<frame name='hook' attached_to='a::base'><pose>0 0 0.1 0 0 0</pose></frame><model name='a'>{}{}</model><model name='b'>{}</model>\
          <joint name='j' type='revolute'><pose relative_to='hook'/><parent>hook</parent><child>b</child><axis><xyz expressed_in='shelf'>0 1 0</xyz></axis></joint>",
@@ -75,7 +76,7 @@ fn frames_of_the_world_place_models_joints_and_axes() {
         bolt("base"),
         link("rod", "0 0 0.1 0 0 0"),
     );
-    // about (0, cos, sin): I = 0.02 + 0.09 in both directions across
+    // The axis is (0, cos, sin); I = 0.02 + 0.09 about both perpendicular axes.
     swings(&inside, "j", SWING * 0.5_f64.cos());
 }
 
@@ -122,7 +123,7 @@ fn what_is_in_a_static_model_does_nothing() {
     for inside in [
         arm(),
         link("base", "0 0 0 0 0 0") + &link("rod", "0 0 1 0 0 0") + screw + &follows,
-        // without an inertia, and without gravity
+        // Links without an inertia and without gravity.
         format!(
             "<link name='base'><gravity>false</gravity></link><link name='rod'><inertial auto='true'/></link>{PIN}"
         ),
@@ -136,7 +137,7 @@ fn what_is_in_a_static_model_does_nothing() {
         );
         swings(&text, "m::pin", SWING);
     }
-    // what hangs on it moves
+    // A rod on a static model can move.
     let text = format!(
         "<model name='s'><static>1</static>{}</model><model name='m'>{}</model>\
          <joint name='j' type='revolute'><parent>s::base</parent><child>m::rod</child><axis><xyz>0 1 0</xyz></axis></joint>",
@@ -157,7 +158,7 @@ fn the_default_of_an_axis_is_z_of_the_joint() {
     let range = "<axis><limit><effort>2</effort></limit></axis>";
     swings(&text("prismatic", range), "j", -9.81 * 0.3_f64.cos());
     swings(&text("revolute", "<axis/>"), "j", -SWING * 0.3_f64.sin());
-    // before 1.5 axes stood in the frame of the model
+    // Before version 1.5, axes were in the frame of the model.
     let old = world(&text("prismatic", "<axis/>")).replace("1.10", "1.4");
     close(acceleration(&whole(&old, "old.sdf"), "j"), -9.81, TOLERANCE, "1.4");
 }
@@ -169,12 +170,12 @@ fn a_joint_of_old_files_may_have_the_name_of_a_link() {
     close(acceleration(&whole(&text, "old.sdf"), "rod"), SWING, TOLERANCE, "rod");
 }
 
-/// Two rods on hinges, as a URDF.
+/// A base and a rod on a pin, as a URDF.
 const PART: &str = r#"<robot name="part"><link name="base"/>
 <link name="rod"><inertial><origin xyz="0.3 0 0"/><mass value="1"/><inertia ixx="0.01" iyy="0.02" izz="0.02"/></inertial></link>
 <joint name="pin" type="continuous"><parent link="base"/><child link="rod"/><origin xyz="0 0 1"/><axis xyz="0 1 0"/></joint></robot>"#;
 
-/// A folder with the URDF, and options that read it.
+/// Writes the URDF into a folder, and returns options that read it.
 fn beside(folder: &str, part: &str) -> ImportOptions {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(folder);
     std::fs::create_dir_all(&folder).expect("a folder");
@@ -193,7 +194,7 @@ fn a_urdf_stands_in_a_world_as_a_model_would() {
     };
     swings(&(include("") + &bolt("part::base")), "pin", SWING);
     swings(&(include("<name>p</name>") + &bolt("p::base")), "pin", SWING);
-    // the pose of the model, that of a frame in it, and a model around it
+    // The pose of the model, the pose of a frame in it, and a model around it.
     let posed = "<name>p</name><pose>0 3 0 0.4 0 0</pose>";
     swings(&(include(posed) + &bolt("p")), "pin", SWING * 0.4_f64.cos());
     let placed = "<name>p</name><pose>0 3 0 0.4 0 0</pose><placement_frame>rod</placement_frame>";
@@ -204,7 +205,7 @@ fn a_urdf_stands_in_a_world_as_a_model_would() {
         bolt("p::base")
     );
     swings(&outer, "p::pin", SWING * 0.5_f64.cos());
-    // two of them, and one that stands still
+    // Two copies of the model, of which one is static.
     let second = include("<name>q</name><static>true</static>");
     swings(&(include("<name>p</name>") + &bolt("p::base") + &second), "p::pin", SWING);
     let merged = include("").replace("<include>", "<include merge='true'>");
@@ -235,7 +236,7 @@ fn a_urdf_in_a_world_keeps_its_followers_inputs_and_findings() {
     );
     let found: Vec<_> = model.findings.iter().map(|finding| finding.element.as_str()).collect();
     assert_eq!(found, ["robot[part]/gazebo"]);
-    // its root link is the first body of the base
+    // The root link of the URDF is the first body of the base.
     assert!(model.text.contains("bodies = [\"ground\", \"part::base\"]"), "{}", model.text);
 }
 
@@ -247,12 +248,12 @@ fn the_world_of_a_urdf_need_not_be_declared() {
         ImportOptions { base: Some(mbs_import::BaseKind::Free), ..ImportOptions::default() };
     let refused = import(text.as_bytes(), "part.urdf", &options).expect_err("refused");
     assert!(refused.fault().to_string().contains("it is the ground, and cannot be free"));
-    // a frame of Drake, on a link and on the ground
+    // Frames of Drake, on a link and on the ground.
     let frames = r#"<frame name="hand" link="rod" xyz="0.5 0 0" rpy="0 0 1"/><frame name="wall" link="world" xyz="0 2 0"/></robot>"#;
     let scene = whole(&text.replace("</robot>", frames), "part.urdf");
     let at = |name: &str| scene.frames.iter().find(|frame| frame.name == name).map(|x| x.at);
     assert_eq!([at("hand"), at("wall")], [Some([0.5, 0.0, 1.0]), Some([0.0, 2.0, 0.0])]);
-    // as a child it is unknown
+    // As a child link, `world` is unknown.
     let text = PART.replace("child link=\"rod\"", "child link=\"world\"");
     let refused = import(text.as_bytes(), "part.urdf", &ImportOptions::default());
     assert_eq!(refused.expect_err("refused").fault().to_string(), "unknown link `world`");
@@ -296,7 +297,7 @@ fn damping_of_a_ball_is_a_moment_against_its_turn_as_in_drake() {
     };
     let read =
         |dynamics: &str| import(joint(dynamics).as_bytes(), "m.sdf", &ImportOptions::default());
-    // four dampers of d / 8 at the corners of a tetrahedron of 1 m are a moment of d
+    // Four dampers of d / 8 at the corners of a tetrahedron with 1 m coordinates give a moment of d.
     let scene = scene_of(&read("<damping>0.8</damping>").expect("it is read"));
     assert_eq!(scene.effects.len(), 4);
     for effect in &scene.effects {
