@@ -7,7 +7,7 @@
 //! plane:  r = sum_k (a_k + b_k J) e_k     J = quarter turn, that is complex coefficients
 //! ```
 //!
-//! so both are written with one [`Coef`] whose second part is unused in space.
+//! The second part b of a coefficient is zero in space, so [`Coef`] serves the plane and space.
 
 use crate::Real;
 use nalgebra::{SMatrix, SVector};
@@ -17,13 +17,13 @@ pub type Vector<T, const D: usize> = SVector<T, D>;
 /// A D x D matrix.
 pub type Matrix<T, const D: usize> = SMatrix<T, D, D>;
 
-/// A column of given numbers, also where a constant is asked for.
+/// A column vector of the given numbers. The function is `const`, so that constants can be built with it.
 #[must_use]
 pub const fn vector<T, const D: usize>(numbers: [T; D]) -> Vector<T, D> {
     Vector::from_array_storage(nalgebra::ArrayStorage([numbers]))
 }
 
-/// alpha + beta J in the plane, alpha in space (beta unused and zero).
+/// A coefficient alpha + beta J of the plane; in space it is alpha alone, and beta is zero.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Coef<T> {
     /// Coefficient alpha of the identity.
@@ -57,12 +57,12 @@ impl<T: Real> Coef<T> {
     pub fn minus(self, other: Self) -> Self {
         self.plus(other.scaled(-T::ONE))
     }
-    /// Multiplied by a number.
+    /// This coefficient multiplied by a real number.
     #[must_use]
     pub fn scaled(self, s: T) -> Self {
         Self { re: self.re * s, im: self.im * s }
     }
-    /// Product (of complex numbers).
+    /// Product of two coefficients, multiplied as complex numbers.
     #[must_use]
     pub fn times(self, o: Self) -> Self {
         Self { re: self.re * o.re - self.im * o.im, im: self.re * o.im + self.im * o.re }
@@ -77,13 +77,13 @@ impl<T: Real> Coef<T> {
     pub fn norm_squared(self) -> T {
         self.re * self.re + self.im * self.im
     }
-    /// Is it zero to the last bit?
+    /// Are alpha and beta exactly zero?
     #[must_use]
     pub fn is_zero(self) -> bool {
         self.re == T::ZERO && self.im == T::ZERO
     }
 
-    /// (alpha + beta J) x.
+    /// The product (alpha + beta J) x, with alpha alone in space.
     #[inline(always)]
     #[must_use]
     pub fn apply<const D: usize>(self, x: &Vector<T, D>) -> Vector<T, D> {
@@ -95,7 +95,7 @@ impl<T: Real> Coef<T> {
         r
     }
 
-    /// (alpha + beta J)^T x.
+    /// The product (alpha + beta J)^T x, with alpha alone in space.
     #[inline(always)]
     #[must_use]
     pub fn apply_transposed<const D: usize>(self, x: &Vector<T, D>) -> Vector<T, D> {
@@ -103,7 +103,7 @@ impl<T: Real> Coef<T> {
     }
 }
 
-/// Reads D numbers at `at`.
+/// Reads the D numbers of `x` that begin at index `at`.
 #[inline(always)]
 pub fn load<T: Real, const D: usize>(x: &[T], at: u32) -> Vector<T, D> {
     let at = at as usize;
@@ -111,7 +111,7 @@ pub fn load<T: Real, const D: usize>(x: &[T], at: u32) -> Vector<T, D> {
     Vector::from_fn(|i, _| x[i])
 }
 
-/// Writes D numbers at `at`.
+/// Writes the D numbers of `y` into `x`, beginning at index `at`.
 #[inline(always)]
 pub fn store<T: Real, const D: usize>(x: &mut [T], at: u32, y: &Vector<T, D>) {
     let at = at as usize;
@@ -121,7 +121,7 @@ pub fn store<T: Real, const D: usize>(x: &mut [T], at: u32, y: &Vector<T, D>) {
     }
 }
 
-/// Adds D numbers at `at`.
+/// Adds the D numbers of `y` to `x`, beginning at index `at`.
 #[inline(always)]
 pub fn add_to<T: Real, const D: usize>(x: &mut [T], at: usize, y: &Vector<T, D>) {
     let x = &mut x[at..at + D];
@@ -137,13 +137,13 @@ pub fn unit<T: Real>(i: usize) -> Vector<T, 3> {
     e
 }
 
-/// A vector of the plane or of space, in space.
+/// A vector of the plane or of space, as a vector of space: components that the plane lacks are zero.
 #[inline(always)]
 pub fn raised<T: Real, const D: usize>(x: &Vector<T, D>) -> Vector<T, 3> {
     Vector::from_fn(|i, _| if i < D { x[i] } else { T::ZERO })
 }
 
-/// Components that the plane or space has of a vector of space.
+/// The first D components of a vector of space: x and y for the plane, all for space.
 #[inline(always)]
 pub fn lowered<T: Real, const D: usize>(x: &Vector<T, 3>) -> Vector<T, D> {
     Vector::from_fn(|i, _| x[i])
@@ -154,22 +154,22 @@ pub fn norm<T: Real, const D: usize>(x: &Vector<T, D>) -> T {
     x.dot(x).sqrt()
 }
 
-/// The unit vector along a vector that is not zero, however long: where its square leaves the range of the scalar, it is first divided
-/// by its largest component.
+/// The unit vector along a vector that is not zero. A vector of extreme length is first divided by its largest component, since its square
+/// would leave the range of the scalar.
 #[cfg(feature = "alloc")]
 pub fn along<T: Real>(x: &Vector<T, 3>) -> Vector<T, 3> {
-    /// Bounds of sizes whose squares stay within the range of `f32` (1e-38 to 3e38) [-].
+    /// Bounds of the lengths whose squares stay within the range of `f32`, 1e-38 to 3e38 [-].
     const USUAL: [f64; 2] = [1e-15, 1e15];
     let size = norm_inf(x.as_slice());
     let [least, most] = USUAL.map(T::from_f64);
     let is_usual = size > least && size < most;
-    // not a product with 1/size, which overflows for the smallest
+    // A product with 1/size would not do: 1/size overflows for the smallest sizes.
     let x = if is_usual { *x } else { x.map(|x| x / size) };
     x * (T::ONE / norm(&x))
 }
 
-/// Largest absolute value of a slice; NaN when one of its numbers is. Without arithmetic, which bounds of operations count, and without
-/// branches.
+/// Largest absolute value in a slice; NaN when a number in it is NaN. Comparisons alone are used: no branches, and no arithmetic that would
+/// enter the counts of operations.
 #[inline]
 pub fn norm_inf<T: Real>(x: &[T]) -> T {
     let (mut largest, mut are_numbers) = (T::ZERO, true);
@@ -190,7 +190,7 @@ pub fn cross<T: Real>(a: &Vector<T, 3>, b: &Vector<T, 3>) -> Vector<T, 3> {
     )
 }
 
-/// A unit vector across the unit vector `n`, always the same for the same `n`.
+/// A unit vector perpendicular to the unit vector `n`. The choice is deterministic: equal `n` give equal results.
 pub fn across<T: Real>(n: &Vector<T, 3>) -> Vector<T, 3> {
     let mut least = 0;
     for i in 1..3 {
@@ -231,7 +231,7 @@ pub fn rotation_vector<T: Real>(r: &Matrix<T, 3>) -> Vector<T, 3> {
     if cosine > -T::HALF {
         return if sine == T::ZERO { w } else { w * (angle / sine) };
     }
-    // Near half a turn the axis is read off the symmetric part, R + R^T = 2 c 1 + 2 (1 - c) n n^T.
+    // Near half a turn the axis comes from the symmetric part, R + R^T = 2 c 1 + 2 (1 - c) n n^T, since w is nearly zero there.
     let mut k = 0;
     for i in 1..3 {
         if r[(i, i)] > r[(k, k)] {
@@ -247,17 +247,18 @@ pub fn rotation_vector<T: Real>(r: &Matrix<T, 3>) -> Vector<T, 3> {
     if n.dot(&w) < T::ZERO { n * -angle } else { n * angle }
 }
 
-/// The gradient of a component of the rotation vector w = log(R) with respect to rotations in the axes that R leads to: w_i' = g.omega.
+/// The gradient of a component of the rotation vector w = log(R) with respect to a rotation of the frame that R leads to. The rate of the
+/// component is w_i' = g.omega, where omega [rad/s] is the angular velocity of that frame.
 ///
 /// ```text
 /// g = e_i + w x e_i / 2 + c w x (w x e_i),   c = (1 - a cot a) / |w|^2,   a = |w| / 2
 /// ```
 ///
-/// It grows without limit towards a whole turn, where rotation vectors end.
+/// The gradient grows without limit as |w| approaches a whole turn, 2 pi, where the rotation vector is not defined.
 pub fn rotation_gradient<T: Real>(w: &Vector<T, 3>, i: usize) -> Vector<T, 3> {
     let square = w.dot(w);
     let c = if square < T::EPSILON.sqrt().sqrt() {
-        // 1/12 + |w|^2/720 + |w|^4/30240: the next term is below rounding
+        // Series 1/12 + |w|^2/720 + |w|^4/30240: the next term is below machine precision.
         T::ONE / T::from_f64(12.0)
             + square * (T::ONE / T::from_f64(720.0) + square / T::from_f64(30240.0))
     } else {
@@ -308,7 +309,7 @@ pub fn inverse<T: Real, const N: usize>(a: &SMatrix<T, N, N>) -> Option<SMatrix<
 mod tests {
     use super::*;
 
-    /// Rounding of a few products of numbers of order one.
+    /// Bound of the rounding errors of a few products of numbers of order one [-].
     const ROUNDING: f64 = 1e-14;
 
     #[cfg(feature = "alloc")]
@@ -343,7 +344,7 @@ mod tests {
         for w in [[0.0, 0.0, 0.0], [1e-5, 0.0, 2e-5], [0.3, -0.2, 0.9], [-1.7, 1.5, 1.2]] {
             let w = Vector::<f64, 3>::from_row_slice(&w);
             for k in 0..3 {
-                // central differences: the square of the step, and rounding over it
+                // Error of a central difference: a term with the square of the step, and the rounding error divided by the step.
                 let h = 1e-5;
                 let at = |x: f64| rotation_vector(&(rotation(&(unit(k) * x)) * rotation(&w)));
                 let difference = (at(h) - at(-h)) * (0.5 / h);

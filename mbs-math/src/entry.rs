@@ -1,69 +1,70 @@
-//! Values as numbers in a fixed order: the traits of what is written into tables of controllers and read again.
+//! Traits of values that are written as numbers in a fixed order, into tables of controllers, and read from them.
 
 use crate::Real;
 
 /// Reader of the numbers of an entry.
 pub trait EntryReader<T> {
-    /// Why there is none.
+    /// Error when a number cannot be read.
     type Error;
 
     /// Reads a real number.
     ///
     /// # Errors
-    /// At the end.
+    /// The reader's error at the end of the numbers.
     fn real(&mut self) -> Result<T, Self::Error>;
 
-    /// A count or a place.
+    /// Reads a count or an index.
     ///
     /// # Errors
-    /// At the end.
+    /// The reader's error at the end of the numbers.
     fn word(&mut self) -> Result<u32, Self::Error>;
 
-    /// The last number is none that can stand there.
+    /// The error for a number that was read and is not valid at its place.
     fn fault(&self) -> Self::Error;
 }
 
-/// Writer of numbers, as bytes or as an expression of Rust. What is for the expression alone is left out of bytes.
+/// Writer of values, as bytes or as an expression of Rust. The methods with an empty default serve the expression alone, and write no
+/// bytes.
 pub trait EntryWriter<T> {
     /// Writes a real number.
     fn real(&mut self, x: T);
-    /// A count or a place.
+    /// Writes a count or an index.
     fn word(&mut self, x: u32);
-    /// Writes a claim, true or false.
+    /// Writes a Boolean value.
     fn flag(&mut self, x: bool);
-    /// The number of a variant, which an expression names.
+    /// Writes the number of an enum variant. The expression has the variant's name instead.
     fn tag(&mut self, tag: u32);
-    /// Writes that there is nothing, `None`.
+    /// Writes an optional value that does not exist, `None`.
     fn none(&mut self);
-    /// Something, which is written next; [`text`](Self::text) closes it.
+    /// Begins an optional value that exists. The value is written next, and [`text`](Self::text) closes it.
     fn some(&mut self);
-    /// Begins a struct, or a variant.
+    /// Begins a struct or an enum variant of this name.
     fn open(&mut self, _name: &'static str) {}
-    /// Begins a field by its name, or by its place in a tuple.
+    /// Begins a field, by its name or by its index in a tuple.
     fn field(&mut self, _name: &'static str) {}
-    /// Ends a struct, or a variant.
+    /// Ends a struct or an enum variant.
     fn close(&mut self) {}
-    /// Writes words and brackets.
+    /// Writes text of the expression, such as words and brackets.
     fn text(&mut self, _text: &'static str) {}
 }
 
-/// Value that is made of numbers in a fixed order.
+/// A value that consists of numbers in a fixed order.
 pub trait Entry<T>: Sized {
     /// Reads the value from a reader.
     ///
     /// # Errors
-    /// Those of the reader.
+    /// The errors of the reader.
     fn of<R: EntryReader<T>>(from: &mut R) -> Result<Self, R::Error>;
 
-    /// Writes the value's numbers; false if it is not made of numbers.
+    /// Writes the numbers of the value; returns `false` when the value does not consist of numbers.
     fn numbers<W: EntryWriter<T>>(&self, to: &mut W) -> bool;
 }
 
-/// Entry that a build cannot have.
+/// Type without values, for an entry that the build does not support.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Absent {}
 
-/// The entry of a table that is always empty, for any scalar.
+/// Entry type of a table that is always empty, for any scalar.
 pub trait NoEntry {
     /// Entry type of the table, [`Absent`].
     type Entry;

@@ -1,35 +1,35 @@
-//! Functions that are compiled once, in the crate that owns them, for each scalar and dimension that programs use.
+//! Tables of functions that are compiled once, in the crate that owns them, for each scalar and dimension that programs use.
 //!
-//! An optimised build compiles a generic function anew in every crate that calls it. An owner lists its large functions in a table with
-//! [`instances!`](crate::instances), behind its feature `instances`; callers reach them by type, and have none of their code. It is for what
-//! is done once for a scene or a run: nothing in a step goes through a table.
+//! An optimised build compiles a generic function again in every crate that calls it. To avoid this, a crate lists its large functions in a
+//! table with [`instances!`](crate::instances), behind its feature `instances`. Other crates find a function by its type, and do not
+//! compile its code. Tables are for functions that run once for a scene or a run; nothing within a step uses a table.
 
 use core::any::Any;
 
-/// One function for each scalar and dimension.
+/// Table of one function, compiled for several scalars and dimensions.
 pub type InstanceTable = [&'static (dyn Any + Sync)];
 
-/// The function of this type; `None` where its scalar or dimension is not built.
+/// The function of type `F`; `None` when the table has no entry for its scalar or dimension.
 ///
-/// Cost: a comparison for each entry of the table.
+/// Cost: one comparison of types for each entry of the table.
 #[must_use]
 pub fn find<F: Copy + 'static>(table: &InstanceTable) -> Option<F> {
     table.iter().find_map(|function| (*function as &dyn Any).downcast_ref::<F>().copied())
 }
 
-/// The function of this type, of a scalar whose [`HAS_INSTANCES`](crate::Real::HAS_INSTANCES) holds.
+/// The function of type `F`, whose scalar has a true [`HAS_INSTANCES`](crate::Real::HAS_INSTANCES).
 ///
 /// # Panics
-/// For a dimension beside the plane and space.
+/// If the table has no entry of this type, as for a dimension other than 2 and 3.
 #[must_use]
 pub fn found<F: Copy + 'static>(table: &InstanceTable) -> F {
     find(table).expect("a scalar that has instances is in every table, in the plane and in space")
 }
 
-/// Makes a table of a generic function, for `f64`, and for `f32` and `dd` where the crate has these features.
+/// Makes a table of a generic function for `f64`, and for `f32` and `dd` when the crate has these features.
 ///
-/// `T` names the scalar; the last argument lists what else varies. Without it, `D` is the plane and space. A table that begins with `f64` has
-/// no other scalar.
+/// `T` is the name of the scalar. The last argument lists the other generic arguments; without it, `D` is 2 and 3. A table that begins with
+/// `f64` is for that scalar alone.
 ///
 /// ```
 /// use mbs_math::{Real, instances, once};

@@ -1,7 +1,7 @@
-//! The one scalar trait: [`Real`] is what every formula of the workspace is generic over.
+//! The scalar trait [`Real`]: every formula of the workspace is generic over it.
 //!
-//! It asks of nalgebra only `Scalar` and the closed operations, so only matrix *arithmetic* of nalgebra is
-//! used. Roots and trigonometry come from `libm` or from here on every target, so no feature and no host changes a number.
+//! The trait requires only `Scalar` and the closed operations of nalgebra, so only its matrix *arithmetic* is used. Roots and trigonometric
+//! functions come from `libm` or from this module on every target. No feature and no host therefore changes a number.
 
 mod root;
 mod turn;
@@ -23,7 +23,7 @@ mod wide;
 pub use double_double::DoubleDouble;
 pub use lanes::Lanes;
 
-/// A real number type the mechanics can be computed in: `f32`, `f64`, [`DoubleDouble`], several doubles at once ([`Lanes`]).
+/// A real number type for the mechanics: `f32`, `f64`, [`DoubleDouble`], or several doubles at once ([`Lanes`]).
 pub trait Real:
     Scalar
     + Copy
@@ -42,40 +42,40 @@ pub trait Real:
     + Send
     + Sync
 {
-    /// Zero.
+    /// The number zero, exact in every scalar.
     const ZERO: Self;
-    /// One.
+    /// The number one, exact in every scalar.
     const ONE: Self;
-    /// One half.
+    /// The number one half, exact in every scalar.
     const HALF: Self;
-    /// Two.
+    /// The number two, exact in every scalar.
     const TWO: Self;
-    /// Distance from one to the next larger number; of pairs of numbers, the unit of their arithmetic.
+    /// Distance from one to the next larger number, the machine precision. For a [`DoubleDouble`] it is the precision of the arithmetic.
     const EPSILON: Self;
     /// Half a turn [rad].
     const PI: Self;
-    /// Whether the crates that own large functions have compiled them for this scalar, where they are asked to: see [`once`](crate::once).
+    /// Have the crates with large functions compiled them for this scalar, if their feature `instances` is on? See [`once`](crate::once).
     const HAS_INSTANCES: bool = false;
 
     /// The nearest number to `x`.
     fn from_f64(x: f64) -> Self;
-    /// The value of a function that was computed in `f64`, with its slope along each number that it depends on: what carries
-    /// derivatives along takes those from the slopes.
+    /// The value of a function that was computed in `f64`. Each entry of `_slopes` has the derivative with respect to an argument, and that
+    /// argument. A scalar that carries derivatives computes its derivatives from the slopes.
     #[inline]
     #[must_use]
     fn from_f64_with(value: f64, _slopes: &[(f64, Self)]) -> Self {
         Self::from_f64(value)
     }
-    /// The nearest number to a decimal text such as `9.81` or `1.0e-3`; `None` when it is not one.
+    /// The nearest number to a decimal text such as `9.81` or `1.0e-3`; `None` when the text is not a number.
     fn from_decimal(text: &str) -> Option<Self>;
     /// Nearest `f64` to the number.
     fn to_f64(self) -> f64;
-    /// The number as the sum of two `f64`, to the last bit; the second is zero where one holds it.
+    /// The number as the exact sum of two `f64`. The second is zero when one `f64` is enough.
     #[inline]
     fn parts(self) -> [f64; 2] {
         [self.to_f64(), 0.0]
     }
-    /// The number whose [`parts`](Self::parts) these are.
+    /// The number whose [`parts`](Self::parts) are the two arguments.
     #[inline]
     #[must_use]
     fn from_parts([near, _]: [f64; 2]) -> Self {
@@ -85,7 +85,7 @@ pub trait Real:
     fn sqrt(self) -> Self;
     /// Sine and cosine of an angle [rad].
     fn sin_cos(self) -> (Self, Self);
-    /// Angle of the point (`x`, `self`) from the x axis [rad], in (-pi, pi].
+    /// Angle of the point (x, y) = (`x`, `self`) from the x axis [rad], in (-pi, pi].
     fn atan2(self, x: Self) -> Self;
 
     /// Absolute value of the number.
@@ -103,13 +103,14 @@ pub trait Real:
     fn min(self, other: Self) -> Self {
         if self > other { other } else { self }
     }
-    /// A tolerance that is `x` in `f64`, as many roundings of a finer number; coarser ones have floors of their own.
+    /// The tolerance `x` for `f64`, reduced in proportion to the machine precision of a more precise scalar. Less precise scalars get `x`;
+    /// their users set larger minimum tolerances.
     #[must_use]
     fn tolerance(x: f64) -> Self {
         let finer = Self::EPSILON / Self::from_f64(f64::EPSILON);
         Self::from_f64(x) * finer.min(Self::ONE)
     }
-    /// Neither infinite nor NaN.
+    /// Is the number neither infinite nor NaN?
     #[inline]
     fn is_finite(self) -> bool {
         let zero = self * Self::ZERO;

@@ -1,16 +1,17 @@
-//! Solutions with more digits than their factor: [`Refined`] factors in `f64` and solves in a finer scalar.
+//! Solutions with more digits than the factor of their matrix: [`Refined`] factors in `f64` and solves in a finer scalar.
 //!
 //! ```text
 //! T = L D L^T in f64,   x = 0,   r = b
 //! d = (L D L^T)^-1 r,   x += d,   r = b - sum_e P_e^T T_e P_e x in the finer scalar        until d is rounding
 //! ```
 //!
-//! Each correction leaves about cond(T) times the epsilon of `f64` of the error before it, so that a
-//! double-double solution has its digits after 32 / (16 - log10 cond) corrections. cond(T) must stay below 1e15. Residuals
-//! are sums over the blocks of the elements, which keep what an assembled matrix in `f64` has lost: the mass beside a penalty.
+//! Each correction multiplies the error by about cond(T) times the machine precision of `f64`. A double-double solution therefore has all
+//! its digits after 32 / (16 - log10 cond) corrections, and cond(T) must stay below 1e15. Residuals are sums over the blocks of the
+//! elements. An assembled matrix in `f64` would lose the mass that is added to a large penalty; the blocks in the finer scalar do not.
 //!
-//! A formulation that solves for corrections of a residual of its own needs none of this: its next residual refines
-//! ([`Refined::most`] is then 1). One that solves for the vector itself, as the printed projections do [P1 (13), (19)], does.
+//! A formulation that solves for corrections of its own residual needs no refinement, since its next residual refines the solution
+//! ([`Refined::most`] is then 1). A formulation that solves for the vector itself needs it, as the published projections do [P1 (13),
+//! (19)].
 
 use crate::Real;
 use crate::algebra::norm_inf;
@@ -22,67 +23,68 @@ use alloc::vec;
 use alloc::vec::Vec;
 use core::cell::{Cell, RefCell};
 
-/// A solver in `T` over a solver in `f64`.
+/// A solver in the scalar `T` that uses a solver in `f64`.
 ///
-/// Cost beside that of the inner solver: a factorisation keeps the blocks of all elements, in the finer scalar. Each correction
-/// after the first takes a product with them, two operations for each entry, and one solution in `f64`.
+/// Cost besides the inner solver: a factorisation copies the blocks of all elements, in the finer scalar. Each correction after the first
+/// takes a product with these blocks, two operations for each entry, and one solution in `f64`.
 #[derive(Debug, Clone)]
 pub struct Refined<T, S> {
     solver: S,
     most: u32,
     cliques: Lists,
-    /// The blocks last factored, one after the other.
+    /// The blocks of the last factorisation, one after the other.
     blocks: Vec<T>,
-    /// Start of the block of each element, and the end of all.
+    /// Start of the block of each element, and the end of the last block.
     places: Vec<usize>,
-    /// Values of one element.
+    /// Residual of one element, while residuals are summed.
     values: Vec<T>,
     pivots: Vec<T>,
     room: RefCell<Room>,
     tally: Cell<Tally>,
 }
 
-/// Room for a solution in `f64`: a solver shares itself while it solves.
+/// Work vectors of a solution in `f64`. They are in a `RefCell`, since `solve` has no write access to the solver.
 #[derive(Debug, Clone)]
 struct Room {
     x: Vec<f64>,
     scratch: Vec<f64>,
 }
 
-/// Tally of the solutions since [`Refined::take_tally`] was last asked.
+/// Counts of the solutions since the last [`Refined::take_tally`].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Tally {
-    /// Number of solutions asked for.
+    /// Number of solutions that were requested.
     pub solutions: u64,
-    /// Corrections of those that succeeded, each a solution in `f64`; the first of each is that of the factor alone.
+    /// Number of corrections of the solutions that succeeded, each a solution in `f64`. The first correction of a solution is the solution
+    /// with the factor alone.
     pub corrections: u64,
-    /// Solutions that have fewer digits than was asked for.
+    /// Number of solutions that did not reach the digits of `T`.
     pub failed: u64,
-    /// Why the last of those has.
+    /// Error of the last solution that failed.
     pub failure: Option<RefinementError>,
 }
 
-/// A solution has no more digits than its factor gives.
+/// Error of a refinement that did not reach the digits of the finer scalar.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum RefinementError {
-    /// Corrections did not fall by half: the condition of the matrix is beyond the factor's precision. Remedy: a smaller
-    /// penalty, or a factor in the finer scalar.
+    /// A correction was more than half of the previous one: the condition number of the matrix is too large for the precision of the
+    /// factor. Remedy: a smaller penalty, or a factor in the finer scalar.
     Stalled {
         /// Number of corrections made.
         corrections: u32,
-        /// The last one beside the one before it [-].
+        /// The last correction relative to the previous one [-].
         contraction: f64,
-        /// The last one beside the solution [-].
+        /// The last correction relative to the solution [-].
         left: f64,
     },
-    /// The corrections that are allowed were made, and the last one was not rounding yet. Remedy: allow more.
+    /// All allowed corrections were made, and the last one was above the machine precision. Remedy: allow more.
     Unfinished {
         /// Number of corrections made.
         corrections: u32,
-        /// The last one beside the solution [-].
+        /// The last correction relative to the solution [-].
         left: f64,
     },
-    /// A correction was not a number.
+    /// A correction was not finite.
     NotFinite,
 }
 
@@ -107,12 +109,12 @@ impl core::fmt::Display for RefinementError {
 
 impl core::error::Error for RefinementError {}
 
-/// Corrections that give all digits of a double-double [-] where each leaves less than half of the error before it.
+/// Number of corrections that gives all digits of a double-double [-]: enough when each leaves less than half of the error.
 pub const ALL: u32 = 100;
 
 impl<T: Real, S: SpdSolver<f64>> Refined<T, S> {
-    /// Over a `solver` that was analysed for the same `cliques`. At most `most` corrections make a solution: one takes what
-    /// the factor gives, [`ALL`] continue to the machine precision of `T`. The only place that allocates.
+    /// A refined solver over `solver`, which was analysed for the same `cliques`. At most `most` corrections make a solution: one gives the
+    /// digits of the factor, [`ALL`] continue to the machine precision of `T`. Only this function allocates.
     pub fn new(cliques: &impl Cliques, solver: S, most: u32) -> Self {
         let n = cliques.n_unknowns();
         let cliques = Lists::of(cliques);
@@ -134,21 +136,21 @@ impl<T: Real, S: SpdSolver<f64>> Refined<T, S> {
         }
     }
 
-    /// Corrections that may make a solution.
+    /// Largest number of corrections that make a solution.
     pub fn most(&self) -> u32 {
         self.most
     }
 
-    /// Takes the tally of the solutions since this was last asked.
+    /// Returns the counts of the solutions since the last call, and resets them.
     pub fn take_tally(&self) -> Tally {
         self.tally.take()
     }
 
-    /// Replaces `x` (n places) by the solution of T x = b, given b in `x`, with [`n_scratch`](SpdSolver::n_scratch) places of
-    /// `scratch`. Returns the number of corrections; of a single one nothing is asked.
+    /// Replaces `x` (n places) by the solution of T x = b, given b in `x`, with [`n_scratch`](SpdSolver::n_scratch) places of `scratch`.
+    /// Returns the number of corrections. When only one correction is allowed, its accuracy is not checked.
     ///
     /// # Errors
-    /// [`RefinementError`]; `x` is then the best that was reached.
+    /// [`RefinementError`]; `x` is then the last solution that was reached.
     pub fn refine(&self, x: &mut [T], scratch: &mut [T]) -> Result<u32, RefinementError> {
         let (residual, rest) = scratch.split_at_mut(x.len());
         let d = &mut rest[..x.len()];
@@ -170,7 +172,7 @@ impl<T: Real, S: SpdSolver<f64>> Refined<T, S> {
             }
             x.iter_mut().zip(&*d).for_each(|(x, &d)| *x += d);
             last = size;
-            // The next correction would be smaller by the same factor.
+            // The next correction would be smaller by the same factor, so it is predicted and need not be made.
             let is_rounding = size * contraction <= goal * norm_inf(x).to_f64();
             if is_rounding || self.most == 1 {
                 return Ok(corrections);
@@ -183,7 +185,7 @@ impl<T: Real, S: SpdSolver<f64>> Refined<T, S> {
         Err(RefinementError::Unfinished { corrections: self.most, left })
     }
 
-    /// d = (L D L^T)^-1 r in `f64`; returns its largest absolute value, or what is not finite in it.
+    /// Sets d = (L D L^T)^-1 r in `f64`. Returns the largest absolute value of d; it is not finite when a number in d is not.
     fn correction(&self, r: &[T], d: &mut [T]) -> f64 {
         let mut room = self.room.borrow_mut();
         let Room { x, scratch } = &mut *room;
@@ -193,7 +195,7 @@ impl<T: Real, S: SpdSolver<f64>> Refined<T, S> {
         norm_inf(x)
     }
 
-    /// r <- r - T d, element by element.
+    /// Subtracts T d from the residual `r`, element by element.
     fn subtract_product(&self, d: &[T], r: &mut [T]) {
         for (clique, ends) in self.cliques.iter().zip(self.places.windows(2)) {
             subtract_product(clique, &self.blocks[ends[0]..ends[1]], d, r);
@@ -201,7 +203,7 @@ impl<T: Real, S: SpdSolver<f64>> Refined<T, S> {
     }
 }
 
-/// The blocks as the inner solver takes them.
+/// The blocks rounded to `f64`, for the inner solver.
 struct Rounded<'a, T> {
     blocks: &'a [T],
     places: &'a [usize],
@@ -229,8 +231,8 @@ impl<T: Real, S: SpdSolver<f64>> SpdSolver<T> for Refined<T, S> {
         Ok(())
     }
 
-    /// Solves T x = b by [`refine`](Refined::refine); what fails there is kept in the [`Tally`], and the best that was reached is the
-    /// solution.
+    /// Solves T x = b by [`refine`](Refined::refine). An error of the refinement is stored in the [`Tally`], and `x` is then the last
+    /// solution that was reached.
     fn solve(&self, x: &mut [T], scratch: &mut [T]) {
         let mut tally = self.tally.get();
         tally.solutions += 1;
@@ -252,7 +254,7 @@ impl<T: Real, S: SpdSolver<f64>> SpdSolver<T> for Refined<T, S> {
         combine(self.cliques.iter(), (&mut self.values, f), T::ZERO, write, |sum, x| sum + x);
     }
 
-    /// With the digits of `f64`.
+    /// Pivots with the precision of `f64`, in the order of elimination.
     fn pivots(&self) -> &[T] {
         &self.pivots
     }

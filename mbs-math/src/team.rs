@@ -1,27 +1,27 @@
-//! Who shares the work of a step: [`Team`] is all that the numerics know of threads.
+//! Division of the work of a step among threads. The numerics know threads only by the trait [`Team`].
 //!
 //! ```text
 //! work on 0..n  =  work on 0..n/2  and  work on n/2..n,  down to stretches of a fixed length
 //! ```
 //!
-//! How work is cut never depends on the team, and sums meet in the order of the cut: a result has the same bits for
-//! every team. [`Alone`] needs no operating system; teams of threads are in mbs-parallel.
+//! The division of the work never depends on the team, and sums are added in the order of the division. A result is therefore identical to
+//! the last bit for every team. [`Alone`] needs no operating system; teams of threads are in mbs-parallel.
 
 use crate::Real;
 
-/// Runs two pieces of work, at the same time where it has the hands.
+/// Runs two pieces of work, at the same time if the team has several threads.
 pub trait Team: Sync {
-    /// Is it always the caller's thread alone? What more threads need is not compiled for such a type.
+    /// Is the team always the caller's thread alone? Code for several threads is not compiled for such a type.
     const IS_ALONE: bool = false;
 
-    /// The results of `a` and `b`. Both have ended when it returns; a panic of one is passed on.
+    /// Runs `a` and `b` and returns both results after both have ended. A panic of either is passed on.
     fn join<A: Send, B: Send>(
         &self,
         a: impl FnOnce() -> A + Send,
         b: impl FnOnce() -> B + Send,
     ) -> (A, B);
 
-    /// How many may work at the same time. With one, work that needs no cut for its result is not cut.
+    /// Number of threads that may work at the same time. With one thread, work is divided only where its result depends on the division.
     fn size(&self) -> usize;
 }
 
@@ -63,12 +63,12 @@ impl<W: Team> Team for &W {
     }
 }
 
-/// Most numbers in one stretch of a vector that is worked on at a time [-]: some microseconds of additions.
+/// Largest number of entries in one stretch of a vector [-]. A thread adds so many in some microseconds.
 pub const STRETCH: usize = 4096;
 
-/// Calls `work` with the first place and the stretch of each of `N` vectors of equal length, stretch by stretch.
+/// Calls `work` with the first index and the stretch of each of `N` vectors of equal length, stretch by stretch.
 ///
-/// For work on every number by itself: how it is cut shows in no bit.
+/// `work` must treat every entry independently of the others, so that the result does not depend on the division.
 #[inline(always)]
 pub fn on_stretches<W: Team, T: Send, const N: usize>(
     team: &W,
@@ -97,7 +97,7 @@ fn cut<W: Team, T: Send, const N: usize>(
     team.join(|| cut(team, first, left, work), || cut(team, first + half, right, work));
 }
 
-/// Each vector in two, at a place. A function by itself, which no piece of work is compiled with.
+/// Splits each vector in two at index `at`. The function is separate, so that it is not compiled again for each closure of work.
 fn parted<T, const N: usize>(vectors: [&mut [T]; N], at: usize) -> [[&mut [T]; N]; 2] {
     let mut right: [&mut [T]; N] = core::array::from_fn(|_| Default::default());
     let mut places = right.iter_mut();
@@ -111,10 +111,10 @@ fn parted<T, const N: usize>(vectors: [&mut [T]; N], at: usize) -> [[&mut [T]; N
     [left, right]
 }
 
-/// Most elements whose numbers one thread writes at a time [-]. Chosen, not tuned: no bit depends on it.
+/// Largest number of elements that one thread writes in one piece of work [-]. No result depends on it. Chosen, not tuned.
 const ELEMENTS: usize = 128;
 
-/// Calls `write` with each element and its stretch of `out`: element e has places `starts[e]..starts[e + 1]`.
+/// Calls `write` with each element e and its stretch of `out`, which is `out[starts[e]..starts[e + 1]]`.
 pub fn on_elements<W: Team, T: Send>(
     team: &W,
     starts: &[usize],
@@ -148,7 +148,7 @@ fn write_elements<W: Team, T: Send>(
     }
 }
 
-/// out = base + weight x, entry by entry.
+/// Sets out = base + weight x, entry by entry.
 #[inline]
 pub fn set_sum<W: Team, T: Real>(team: &W, out: &mut [T], base: &[T], (weight, x): (&[T], &[T])) {
     on_stretches(team, [out], |first, [out]| {
@@ -160,7 +160,7 @@ pub fn set_sum<W: Team, T: Real>(team: &W, out: &mut [T], base: &[T], (weight, x
     });
 }
 
-/// out += weight x, entry by entry.
+/// Adds weight x to `out`, entry by entry.
 #[inline]
 pub fn add_product<W: Team, T: Real>(team: &W, out: &mut [T], (weight, x): (&[T], &[T])) {
     on_stretches(team, [out], |first, [out]| {
@@ -172,7 +172,7 @@ pub fn add_product<W: Team, T: Real>(team: &W, out: &mut [T], (weight, x): (&[T]
     });
 }
 
-/// out = weight x, entry by entry.
+/// Sets out = weight x, entry by entry.
 #[inline]
 pub fn set_product<W: Team, T: Real>(team: &W, out: &mut [T], (weight, x): (&[T], &[T])) {
     on_stretches(team, [out], |first, [out]| {
@@ -184,7 +184,7 @@ pub fn set_product<W: Team, T: Real>(team: &W, out: &mut [T], (weight, x): (&[T]
     });
 }
 
-/// out += x, entry by entry.
+/// Adds x to `out`, entry by entry.
 #[inline]
 pub fn add<W: Team, T: Real>(team: &W, out: &mut [T], x: &[T]) {
     on_stretches(team, [out], |first, [out]| {
@@ -194,7 +194,7 @@ pub fn add<W: Team, T: Real>(team: &W, out: &mut [T], x: &[T]) {
     });
 }
 
-/// out -= x, entry by entry.
+/// Subtracts x from `out`, entry by entry.
 #[inline]
 pub fn subtract<W: Team, T: Real>(team: &W, out: &mut [T], x: &[T]) {
     on_stretches(team, [out], |first, [out]| {
@@ -204,7 +204,8 @@ pub fn subtract<W: Team, T: Real>(team: &W, out: &mut [T], x: &[T]) {
     });
 }
 
-/// The sum of `part(from, to)` over stretches of 0..`n`, added pair by pair: the same bits for every team.
+/// The sum of `part(from, to)` over the stretches of 0..`n`. Partial sums are added pair by pair, so that every team gets the same result
+/// to the last bit.
 #[inline]
 pub fn sum<W: Team, T: Real>(team: &W, n: usize, part: impl Fn(usize, usize) -> T + Sync) -> T {
     if n <= STRETCH {
@@ -213,7 +214,7 @@ pub fn sum<W: Team, T: Real>(team: &W, n: usize, part: impl Fn(usize, usize) -> 
     fold(team, (0, n), &part, &|a, b| a + b)
 }
 
-/// The largest absolute value of a vector; not finite when one of its numbers is not. The same for every team.
+/// The largest absolute value of a vector; not finite when a number of the vector is not. Every team gets the same result.
 #[inline]
 pub fn norm_inf<W: Team, T: Real>(team: &W, x: &[T]) -> T {
     if team.size() == 1 {

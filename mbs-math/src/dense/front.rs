@@ -1,4 +1,4 @@
-//! Partial L D L^T of one dense front with pivots chosen by the numbers.
+//! Partial L D L^T factorisation of one dense front. The pivots are chosen by the numbers.
 //!
 //! ```text
 //! 1x1:  d = a_kk,                    |d| >= u max_{i != k} |a_ik|
@@ -7,41 +7,42 @@
 //! l = a B^-1,   a_ij <- a_ij - l_i B l_j^T
 //! ```
 //!
-//! Pivots of one unknown that pass the test where they stand are applied to the columns after them some at a time. A column
-//! is brought up to date before it is tested.
+//! A candidate that passes the 1x1 test at its own place becomes a pivot there. Up to six such pivots are collected and then applied to the
+//! later columns together. A column is updated before it is tested.
 //!
-//! Only the first `p` unknowns may become pivots. Those for which no test holds stay, for a front where more is known of
-//! them. A pivot that is rounding beside what it was the sum of is never taken: the sizes of those sums are carried along.
+//! Only the first `p` unknowns may become pivots. A candidate that fails both tests stays for a later front, where more of its equations
+//! are assembled. A pivot at machine precision relative to the sum of the absolute values that it was computed from is never used. These
+//! sums are updated with the front.
 //!
-//! A front of f unknowns is a lower triangle packed by columns; column j starts at [`column()`] of (f, j) with its diagonal.
-//! Afterwards the columns of L stand below D^-1; a pair has its B^-1 in the triangle of its two columns.
+//! A front of f unknowns is a lower triangle packed by columns; column j starts at [`column()`] of (f, j) with its diagonal. After the
+//! elimination, each column of L is below its entry of D^-1. A pair of pivots has its B^-1 in the triangle of its two columns.
 
 use super::panel::Panel;
 pub use super::panel::column;
 use crate::Real;
 use crate::blocks::{FactorError, Inertia, Weakest};
 
-/// When a pivot is good enough.
+/// Thresholds that a pivot has to pass.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Thresholds<T> {
-    /// Threshold u of growth: multipliers l stay below 1/u; in (0, 0.35], so that what is all candidates always has a pivot.
+    /// Threshold u of growth, in (0, 0.35]: multipliers l stay below 1/u. Up to 0.35, a front of candidates alone always has a pivot.
     pub growth: T,
-    /// A pivot below this times the sum of the absolute values it is made of counts as zero.
+    /// Fraction of the sum of the absolute values that a pivot was computed from. A smaller pivot counts as zero.
     pub zero: T,
 }
 
 impl<T: Real> Default for Thresholds<T> {
-    /// Default of u = 0.01; zero is 256 units of rounding.
+    /// Default thresholds: u = 0.01, and zero at 256 machine precisions.
     fn default() -> Self {
         /// Default of u [-]: multipliers stay below 100. Chosen, not tuned.
         const GROWTH: f64 = 0.01;
-        /// Pivots that count as zero, in units of rounding of their sums [-]. Chosen, not tuned.
+        /// Threshold of zero, in machine precisions of the sum that the pivot was computed from [-]. Chosen, not tuned.
         const ZERO_ROUNDINGS: f64 = 256.0;
         Self { growth: T::from_f64(GROWTH), zero: T::EPSILON * T::from_f64(ZERO_ROUNDINGS) }
     }
 }
 
-/// Signs and weakness of the pivots, counted over a factorisation.
+/// Signs of the pivots and the weakest pivot, counted over a factorisation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tally {
     /// Signs of the pivots.
@@ -67,7 +68,7 @@ impl Tally {
         }
     }
 
-    /// Counts what another part of the factorisation has counted, later in its order.
+    /// Adds the counts of a part of the factorisation that comes later in its order.
     pub fn add(&mut self, other: &Self) {
         self.inertia.positive += other.inertia.positive;
         self.inertia.negative += other.inertia.negative;
@@ -77,8 +78,10 @@ impl Tally {
         }
     }
 
+    /// Returns an error when there were zero pivots.
+    ///
     /// # Errors
-    /// The weakest unknown, when there were zero pivots.
+    /// `FactorError` with the weakest unknown.
     pub fn verdict(&self) -> Result<(), FactorError> {
         if self.inertia.zero == 0 {
             return Ok(());
@@ -86,7 +89,7 @@ impl Tally {
         Err(FactorError { unknown: self.weakest.unknown, pivot: self.weakest.ratio })
     }
 
-    /// Counts the unknowns that the packed front `a` of a root has left over from place `k` on: zero pivots.
+    /// Counts the unknowns of a root front that have no pivot, from place `k` on, as zero pivots. `a` is the packed front.
     pub fn note_left<T: Real>(&mut self, a: &[T], order: &[u32], k: usize, size: &[T]) {
         let f = order.len();
         for c in k..f {
@@ -100,7 +103,7 @@ impl Tally {
     }
 }
 
-/// Place of (row, col), row >= col, in a packed front of `f` unknowns.
+/// Index of (row, col), row >= col, in a packed front of `f` unknowns.
 #[inline(always)]
 fn at(f: usize, row: usize, col: usize) -> usize {
     column(f, col) + row - col
@@ -109,11 +112,11 @@ fn at(f: usize, row: usize, col: usize) -> usize {
 /// The unknowns of a front while it is factored.
 #[derive(Debug)]
 pub struct Places<'a, T> {
-    /// The unknown at each place of the front; permuted with the pivots, as `size`.
+    /// The unknown at each place of the front. It is permuted with the pivots, as is `size`.
     pub order: &'a mut [u32],
-    /// Whether the pivot at a place is the first of a pair, f places.
+    /// Says for each place whether its pivot is the first of a pair. Length f.
     pub pairs: &'a mut [bool],
-    /// For the unknown at each place the sum of the absolute values that its diagonal is made of, f places.
+    /// Sum of the absolute values that the diagonal was computed from, for the unknown at each place. Length f.
     pub size: &'a mut [T],
 }
 
@@ -124,9 +127,9 @@ impl<T> Places<'_, T> {
     }
 }
 
-/// Eliminates as many as possible of the first `p` unknowns of the packed front `a`; returns how many.
+/// Eliminates as many as possible of the first `p` unknowns of the packed front `a`; returns their number.
 ///
-/// They are then the first ones, the other candidates follow, and the rest keeps its places.
+/// Afterwards the eliminated unknowns come first, then the other candidates. The unknowns from `p` on keep their places.
 ///
 /// Cost: about f^2 / 2 multiply-subtracts for each pivot and f comparisons for each candidate tried; no allocation.
 pub fn eliminate<T: Real>(
@@ -151,7 +154,7 @@ pub fn eliminate<T: Real>(
             k += 1;
             continue;
         }
-        // A pair or another candidate: all columns are looked at.
+        // A pair or another candidate is needed. Every column is updated, since the search compares all of them.
         panel.apply(a, f, k + 1..f);
         panel = Panel::starting_at(k);
         let found = (k..p).find_map(|c| test(a, f, (k, p, c), places, thresholds));
@@ -160,7 +163,7 @@ pub fn eliminate<T: Real>(
         places.swap(k, first);
         tally.note(places.order[k], ratio);
         if let Some(second) = second {
-            // The first of the pair may just have displaced the second.
+            // The exchange for the first of the pair may have moved the second from place k.
             let second = if second == k { first } else { second };
             swap(a, f, k + 1, second);
             places.swap(k + 1, second);
@@ -177,14 +180,14 @@ pub fn eliminate<T: Real>(
     k
 }
 
-/// One pivot or a pair of them, where they stand now.
+/// A pivot of one unknown or of a pair, at their places before the exchange.
 struct Pivot<T> {
     first: usize,
     second: Option<usize>,
     ratio: T,
 }
 
-/// The largest absolute value of column `c` over the rows from `k` on, but for rows `c` and `not`, with its row.
+/// The largest absolute value in column `c` over the rows from `k` on, except rows `c` and `not`, and the row of that value.
 #[inline(always)]
 fn largest<T: Real>(a: &[T], f: usize, k: usize, (c, not): (usize, usize)) -> (T, usize) {
     let (mut size, mut row) = (T::ZERO, c);
@@ -203,10 +206,11 @@ fn largest<T: Real>(a: &[T], f: usize, k: usize, (c, not): (usize, usize)) -> (T
     (size, row)
 }
 
-/// Size of the diagonal of a column relative to what it was the sum of, if it is a pivot of one unknown.
+/// Size of the diagonal of a column relative to the sum of the absolute values that it was computed from. `None` when the diagonal is no
+/// 1x1 pivot.
 #[inline(always)]
 fn test_single<T: Real>(column: &[T], size: T, thresholds: &Thresholds<T>) -> Option<T> {
-    /// Comparisons made side by side [-]: four doubles fill a register of 256 bits.
+    /// Number of comparisons made at the same time [-]: four doubles fill a vector register of 256 bits.
     const LANES: usize = 4;
     let d = column[0].abs();
     let mut most = [T::ZERO; LANES];
@@ -223,7 +227,7 @@ fn test_single<T: Real>(column: &[T], size: T, thresholds: &Thresholds<T>) -> Op
     is_good.then(|| d / size)
 }
 
-/// Is there a pivot with candidate `c` of `k..p`?
+/// Finds a 1x1 pivot at candidate `c` of `k..p`, or a 2x2 pivot of `c` and another candidate.
 #[inline(always)]
 fn test<T: Real>(
     a: &[T],
@@ -267,7 +271,7 @@ fn largest_candidate<T: Real>(a: &[T], f: usize, (k, p): (usize, usize), c: usiz
     row
 }
 
-/// Makes the column at place `k` one of L; returns its pivot, for the columns after it.
+/// Divides the column at place `k` by its pivot, so that it becomes a column of L. Returns the pivot, for the later columns.
 #[inline(always)]
 fn eliminate_single<T: Real>(
     a: &mut [T],
@@ -294,7 +298,7 @@ fn eliminate_single<T: Real>(
     d
 }
 
-/// Eliminates the unknowns at places `k` and `k + 1` together.
+/// Eliminates the unknowns at places `k` and `k + 1` together, by a 2x2 pivot.
 #[inline(always)]
 fn eliminate_pair<T: Real>(
     a: &mut [T],
@@ -333,7 +337,7 @@ fn eliminate_pair<T: Real>(
     (first[0], first[1], second[0]) = (x, y, z);
 }
 
-/// Swaps the unknowns `k <= q` of a packed front of `f`, in the columns from `k` on and in those of L before.
+/// Swaps the unknowns at places `k <= q` of a packed front of `f`. The columns from `k` on change, and the columns of L before `k`.
 pub fn swap<T: Real>(a: &mut [T], f: usize, k: usize, q: usize) {
     if k == q {
         return;
@@ -350,7 +354,7 @@ pub fn swap<T: Real>(a: &mut [T], f: usize, k: usize, q: usize) {
     }
 }
 
-/// Forward sweep, z <- L^-1 z, through the `pairs.len()` pivots of the packed front `a`; `z` has all its unknowns.
+/// Forward sweep, z <- L^-1 z, over the `pairs.len()` pivots of the packed front `a`; `z` has all unknowns of the front.
 pub fn forward<T: Real>(a: &[T], pairs: &[bool], z: &mut [T]) {
     let (mut a, mut z, mut k) = (a, z, 0);
     while k < pairs.len() {
@@ -373,9 +377,9 @@ pub fn forward<T: Real>(a: &[T], pairs: &[bool], z: &mut [T]) {
     }
 }
 
-/// Backward sweep, z_1 <- L_11^-T (D^-1 z_1 - L_21^T z_2), through the `pairs.len()` pivots of a packed front.
+/// Backward sweep, z_1 <- L_11^-T (D^-1 z_1 - L_21^T z_2), over the `pairs.len()` pivots of a packed front.
 ///
-/// Without `is_divided` D is left out: z_1 <- L_11^-T (z_1 - L_21^T z_2).
+/// When `is_divided` is false, D is left out: z_1 <- L_11^-T (z_1 - L_21^T z_2).
 pub fn backward<T: Real>(a: &[T], pairs: &[bool], z: &mut [T], is_divided: bool) {
     let f = z.len();
     let mut end = pairs.len();

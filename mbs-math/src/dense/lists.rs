@@ -1,14 +1,14 @@
-//! Cliques kept by a solver, one after the other.
+//! Cliques stored by a solver, one after the other.
 
 use crate::blocks::Cliques;
 use alloc::vec;
 use alloc::vec::Vec;
 
-/// The cliques of all elements.
+/// The cliques of all elements, in one list.
 #[derive(Debug, Clone)]
 pub(crate) struct Lists {
     unknowns: Vec<u32>,
-    /// Start of each clique, and their end.
+    /// Start of each clique, and the end of the last one.
     starts: Vec<usize>,
 }
 
@@ -27,7 +27,7 @@ impl Lists {
         self.starts.windows(2).map(|ends| &self.unknowns[ends[0]..ends[1]])
     }
 
-    /// Unknowns of the largest one.
+    /// Number of unknowns of the largest clique.
     pub(crate) fn largest(&self) -> usize {
         self.iter().map(<[u32]>::len).max().unwrap_or(0)
     }

@@ -1,5 +1,5 @@
-//! One dense matrix for all unknowns: [`Dense`], a solver for tiny systems, for tests, and for users who want no other
-//! crate. Sparse solvers are made of its [`front`] and [`scaling`].
+//! A solver with one dense matrix for all unknowns: [`Dense`]. It is for small systems, for tests, and for users who want no other crate.
+//! Sparse solvers use its modules [`front`] and [`scaling`].
 //!
 //! ```text
 //! as SpdSolver:         T = L D L^T, pivots in the given order
@@ -21,15 +21,15 @@ use alloc::vec::Vec;
 use front::{Places, Tally, Thresholds, column};
 use lists::Lists;
 
-/// A dense solver for any [`Cliques`]; cost n^3 / 6 multiply-subtracts for a factorisation, n^2 for a solution.
+/// A dense solver for any [`Cliques`]. Cost: n^3 / 6 multiply-subtracts for a factorisation, n^2 for a solution.
 #[derive(Debug, Clone)]
 pub struct Dense<T> {
     cliques: Lists,
-    /// One block or residual of an element.
+    /// Block or residual of one element.
     block: Vec<T>,
-    /// 0, 1, ..., n - 1: the clique of the whole matrix.
+    /// List of all unknowns, 0, 1, ..., n - 1, which is the clique of the whole matrix.
     natural: Vec<u32>,
-    /// The matrix, packed lower triangle, and its factor.
+    /// The matrix as a packed lower triangle; `factor` has the factor in the same order.
     matrix: Vec<T>,
     factor: Vec<T>,
     diagonal: Vec<T>,
@@ -39,15 +39,15 @@ pub struct Dense<T> {
     pairs: Vec<bool>,
     pivots: Vec<T>,
     tally: Tally,
-    /// Pivots taken by the last factorisation of a symmetric matrix.
+    /// Number of pivots in the last factorisation of a symmetric matrix.
     n_pivots: usize,
 }
 
 impl<T: Real> Dense<T> {
-    /// A solver for the unknowns and elements of `cliques`. The only place that allocates.
+    /// A solver for the unknowns and elements of `cliques`. Only this function allocates.
     ///
     /// # Panics
-    /// With more than 2^32 - 1 unknowns.
+    /// If there are more than 2^32 - 1 unknowns.
     pub fn new(cliques: &impl Cliques) -> Self {
         let n = cliques.n_unknowns();
         let cliques = Lists::of(cliques);
@@ -95,7 +95,7 @@ impl<T: Real> Dense<T> {
         combine(self.cliques.iter(), (&mut self.block, f), T::ZERO, write, |sum, x| sum + x);
     }
 
-    /// x <- S P^T (L D L^T)^-1 P S x.
+    /// Replaces x by S P^T (L D L^T)^-1 P S x.
     fn sweep(&self, x: &mut [T], scratch: &mut [T]) {
         let z = &mut scratch[..x.len()];
         for (z, &u) in z.iter_mut().zip(&self.order) {

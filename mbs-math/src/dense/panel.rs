@@ -1,4 +1,4 @@
-//! Pivots that are not yet applied to some columns of a front, and the products that apply them.
+//! Pivots of a front that are not yet applied to some later columns, and the products that apply them.
 //!
 //! ```text
 //! a_j <- a_j - sum_m  d_m l_jm l_m          pivots m of the panel, together: each column is read and written once
@@ -7,13 +7,13 @@
 use crate::Real;
 use core::ops::Range;
 
-/// Most pivots in a panel [-]: the columns after it are read and written once for all of them. Chosen, not tuned.
+/// Largest number of pivots in a panel [-]. The later columns are read and written once for the whole panel. Chosen, not tuned.
 const MAX_PIVOTS: usize = 6;
 
-/// Neighbouring pivots of one unknown each.
+/// Consecutive pivots of one unknown each.
 #[derive(Debug)]
 pub(super) struct Panel<T> {
-    /// Place of the first.
+    /// Place of the first pivot.
     start: usize,
     pivots: [T; MAX_PIVOTS],
     len: usize,
@@ -31,7 +31,7 @@ impl<T: Real> Panel<T> {
         Self { start, pivots: [T::ZERO; MAX_PIVOTS], len: 0 }
     }
 
-    /// The pivot at the next place.
+    /// Adds the pivot of the next place.
     pub(super) fn push(&mut self, pivot: T) {
         self.pivots[self.len] = pivot;
         self.len += 1;
@@ -41,7 +41,7 @@ impl<T: Real> Panel<T> {
         self.len == MAX_PIVOTS
     }
 
-    /// Applies the pivots to `columns`, all after the panel.
+    /// Applies the pivots to `columns`, all of them after the panel.
     #[inline(always)]
     pub(super) fn apply(&self, a: &mut [T], f: usize, columns: Range<usize>) {
         match self.len {
@@ -68,7 +68,8 @@ impl<T: Real> Panel<T> {
     }
 }
 
-/// a_ij <- a_ij - sum_m d_m l_im l_jm in the first `n` columns of the packed triangle `a`; `l` has as many rows as it.
+/// Subtracts sum_m d_m l_im l_jm from a_ij in the first `n` columns of the packed triangle `a`. Each column of `l` has as many rows as the
+/// triangle.
 #[inline(always)]
 pub fn subtract_products<T: Real, const P: usize>(
     a: &mut [T],
@@ -90,10 +91,10 @@ pub fn subtract_products<T: Real, const P: usize>(
     }
 }
 
-/// target_i <- target_i - sum_m w_m column_m,i
+/// Subtracts the weighted columns: target_i <- target_i - sum_m w_m column_m,i.
 ///
-/// Four rows at a time, then two, then one, each a block of numbers whose size the compiler knows. A loop over rows
-/// would stay scalar in some of the functions this is inlined into.
+/// The function handles four rows at a time, then two, then one, as blocks of a size that the compiler knows. A loop over rows would not be
+/// vectorised in some of the functions that this one is inlined into.
 #[inline(always)]
 pub fn subtract<T: Real, const M: usize>(target: &mut [T], mut columns: [&[T]; M], w: [T; M]) {
     let len = target.len();
@@ -114,7 +115,7 @@ pub fn subtract<T: Real, const M: usize>(target: &mut [T], mut columns: [&[T]; M
     }
 }
 
-/// Rows i, ..., i + R - 1 of it.
+/// Subtracts the weighted columns in the rows i, ..., i + R - 1.
 #[inline(always)]
 fn subtract_rows<T: Real, const M: usize, const R: usize>(
     target: &mut [T],

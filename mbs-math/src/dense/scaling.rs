@@ -5,19 +5,20 @@
 //! else:       r_i = max_j |s_i a_ij s_j|,   s_i <- s_i / sqrt(r_i)  (Ruiz, 2001): tends to a largest entry of 1
 //! ```
 //!
-//! In a saddle system a row and its multiplier can be scaled at will, so the diagonal sets the scale. Pivots of one unknown then
-//! hold for coordinates that are light beside the entries of their rows; else they would be taken in pairs or delayed.
+//! A row of constraints and its multiplier can be scaled freely, so the diagonal sets the scale of the coordinates. Scaled by their
+//! inertia, even light coordinates pass the test for a pivot of one unknown. Unscaled, such coordinates would be eliminated in pairs or in
+//! a later front.
 
 use crate::Real;
 use crate::team::{Team, on_stretches};
 
-/// Rounds of the scaling [-]; each takes the square root of the remaining spread, so that three bring 1e8 to 10.
+/// Number of rounds of the scaling [-]. Each round takes the square root of the remaining spread, so that three rounds reduce 1e8 to 10.
 const ROUNDS: u32 = 3;
 
-/// Finds `scale` (n places) for a matrix with this `diagonal`; `rows` (n places) is scratch. `measure` is given a scale, and writes
-/// the largest entry of every row of the scaled matrix.
+/// Finds `scale` (n places) for a matrix with this `diagonal`; `rows` (n places) is scratch. `measure(scale, rows)` writes the largest
+/// entry of every row of the matrix scaled by `scale` into `rows`.
 ///
-/// Cost: three measures, and at most as many roots of n numbers.
+/// Cost: three calls of `measure`, and at most three square roots for each of the n unknowns.
 pub fn equilibrate<W: Team, T: Real>(
     team: &W,
     (scale, rows): (&mut [T], &mut [T]),
@@ -42,13 +43,13 @@ pub fn equilibrate<W: Team, T: Real>(
     }
 }
 
-/// Can a diagonal entry be scaled to one?
+/// Can a diagonal entry be scaled to one? The entry must be positive and finite, and so must be its reciprocal.
 #[inline(always)]
 fn is_unit<T: Real>(d: T) -> bool {
     d > T::ZERO && d.is_finite() && (T::ONE / d).is_finite()
 }
 
-/// The diagonal of one packed block of `diagonal.len()` unknowns.
+/// Writes the diagonal of one packed block of `diagonal.len()` unknowns.
 #[inline(always)]
 pub fn write_diagonal<T: Real>(block: &[T], diagonal: &mut [T]) {
     let (k, mut at) = (diagonal.len(), 0);
@@ -58,13 +59,13 @@ pub fn write_diagonal<T: Real>(block: &[T], diagonal: &mut [T]) {
     }
 }
 
-/// The larger of two numbers; what is not a number counts for nothing.
+/// The larger of two numbers; a NaN in `b` is ignored.
 #[inline(always)]
 pub fn larger<T: Real>(a: T, b: T) -> T {
     if b > a { b } else { a }
 }
 
-/// rows_j = max_i |s_i a_ij s_j| of one packed block, in the order of its clique.
+/// Writes rows_j = max_i |s_i a_ij s_j| of one packed block, in the order of its clique.
 #[inline(always)]
 pub fn measure_rows<T: Real>(clique: &[u32], block: &[T], scale: &[T], rows: &mut [T]) {
     rows.fill(T::ZERO);
@@ -82,7 +83,7 @@ pub fn measure_rows<T: Real>(clique: &[u32], block: &[T], scale: &[T], rows: &mu
     }
 }
 
-/// b <- b - A x for one packed block.
+/// Subtracts A x of one packed block from `b`.
 pub fn subtract_product<T: Real>(clique: &[u32], block: &[T], x: &[T], b: &mut [T]) {
     let mut rest = block;
     for (j, &v) in clique.iter().enumerate() {

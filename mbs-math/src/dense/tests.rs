@@ -1,8 +1,8 @@
-//! The dense solver against matrices done by hand.
+//! The dense solver, compared with solutions by hand.
 
 use super::*;
 
-/// Rounding of a few operations on numbers of order one.
+/// Bound of the rounding errors of a few operations on numbers of order one [-].
 const ROUNDING: f64 = 1e-14;
 
 struct One {
@@ -46,7 +46,7 @@ fn solve(source: &One, b: &[f64]) -> (Dense<f64>, Vec<f64>) {
 
 #[test]
 fn a_pair_without_any_diagonal_is_solved() {
-    // [0 2; 2 0] (x, y) = (6, 4): x = 2, y = 3
+    // System [0 2; 2 0] (x, y) = (6, 4): x = 2, y = 3.
     let (solver, x) = solve(&one(&[0, 1], &[0.0, 2.0, 0.0]), &[6.0, 4.0]);
     assert!((x[0] - 2.0).abs() < ROUNDING && (x[1] - 3.0).abs() < ROUNDING);
     assert_eq!(solver.inertia(), Inertia { positive: 1, negative: 1, zero: 0 });
@@ -54,7 +54,7 @@ fn a_pair_without_any_diagonal_is_solved() {
 
 #[test]
 fn a_pendulum_hanging_still_has_its_weight_in_the_multiplier() {
-    // [[m, 0, 0], [0, m, -1], [0, -1, 0]] (x'', y'', lambda) = (0, -m g, 0): lambda = m g
+    // System [[m, 0, 0], [0, m, -1], [0, -1, 0]] (x'', y'', lambda) = (0, -m g, 0): lambda = m g.
     let (m, g) = (3.0, 9.81);
     let (solver, x) = solve(&one(&[0, 1, 2], &[m, 0.0, 0.0, m, -1.0, 0.0]), &[0.0, -m * g, 0.0]);
     assert!(x[0].abs() < ROUNDING && x[1].abs() < ROUNDING);
@@ -65,13 +65,13 @@ fn a_pendulum_hanging_still_has_its_weight_in_the_multiplier() {
 #[test]
 fn the_order_of_a_clique_does_not_matter() {
     let (_, x) = solve(&one(&[1, 0], &[0.0, 2.0, 5.0]), &[1.0, 2.0]);
-    // T = [5 2; 2 0]: 2 x = 2, 5 x + 2 y = 1
+    // System T = [5 2; 2 0]: 2 x = 2, 5 x + 2 y = 1.
     assert!((x[0] - 1.0).abs() < ROUNDING && (x[1] + 2.0).abs() < ROUNDING);
 }
 
 #[test]
 fn a_row_given_twice_is_named_with_its_combination() {
-    // M = 1 and the rows J = (1), (3) of one coordinate: lambda_1 + 3 lambda_2 is all that is known.
+    // The system has M = 1 and two rows J = (1), (3) of one coordinate. Only the sum lambda_1 + 3 lambda_2 is determined.
     let source = one(&[0, 1, 2], &[1.0, 1.0, 3.0, 0.0, 0.0, 0.0]);
     let mut solver = Dense::new(&source);
     let error = SymmetricSolver::factor(&mut solver, &source).expect_err("singular");

@@ -1,30 +1,33 @@
-//! Methods with error control, over given lengths of time.
+//! Integration over a given length of time by a method with error control.
 
 use super::{Method, OdeError, Options, Rates, StepControl, method};
 use crate::Real;
 
-/// Shortest step, in units of rounding of the time [-]: the clock then measures it to a sixteenth.
+/// Shortest step, in machine precisions of the time [-]: the rounding of the time is then at most a sixteenth of the step.
 const SMALLEST_STEP: f64 = 16.0;
-/// Largest move of a projection, in tolerances, after which the rates found before it hold [-]: their error enters the state times the
-/// step. Chosen, not tuned.
+/// Largest displacement by a projection, in tolerances, after which the rates found before the projection are used again [-]. The error of
+/// those rates enters the next state multiplied by the step. Chosen, not tuned.
 const HOLDING_MOVE: f64 = 0.1;
-/// Least steps before a call ends since too many more are expected [-]. Beside a change point ten thousand may be as short.
+/// Least number of steps before a call may end because too many more are expected [-]. Up to ten thousand steps near a discontinuity may be
+/// much shorter than the later ones.
 const LEAST_TRIED: u32 = 10_000;
-/// Largest ratio of the last step to the planned one [-], so that no tiny step remains. Chosen, not tuned.
+/// Largest ratio of the last step to the planned step [-]. The last step is lengthened by up to 1 % so that no tiny step remains. Chosen,
+/// not tuned.
 const LAST_STEP: f64 = 1.01;
-/// Expected steps at which a call ends, relative to those that it may try [-]: an explicit method on a stiff system stops early. Chosen, not
-/// tuned.
+/// Number of expected steps at which a call ends, relative to the steps that it may try [-]. An explicit method on a stiff system then ends
+/// early. Chosen, not tuned.
 const TOO_MANY: f64 = 10.0;
 
 /// Change of the state by the hook at the end of an accepted step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum EndState {
-    /// The hook left the state, and whatever else its rates depend on, as they were: the rates found there hold.
+    /// The hook changed neither the state nor any other quantity that the rates depend on. The rates found at the end of the step remain
+    /// valid.
     Kept,
-    /// The hook moved the state back to where it belongs, as a projection does, and nothing else. The rates found before are taken where
-    /// it was moved by less than a tenth of the tolerance.
+    /// The hook projected the state onto its constraints, and changed nothing else. The rates found before the projection are used again
+    /// when the displacement is at most a tenth of the tolerance.
     Projected,
-    /// The hook changed the state, or what rates depend on beside it: the rates are evaluated anew.
+    /// The hook changed the state or another quantity that the rates depend on. The rates are evaluated again.
     Changed,
 }
 
@@ -35,22 +38,22 @@ pub struct Counts {
     pub accepted: u64,
     /// Number of rejected steps.
     pub rejected: u64,
-    /// Evaluations of the rates; those of a trial that the rates ended are not counted.
+    /// Number of evaluations of the rates. Evaluations of a trial that ended with an error of the rates are not counted.
     pub evaluations: u64,
 }
 
-/// History of an [`Adaptive`] from step to step.
+/// History of an [`Adaptive`] that the next step depends on.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct AdaptiveHistory<T> {
-    /// The step that will be tried next [s].
+    /// The length of the next trial step [s].
     pub step: T,
-    /// History of its [`StepControl`].
+    /// History of the [`StepControl`]: the last error, and whether the last trial was rejected.
     pub control: (Option<f64>, bool),
     /// Counts of the integration so far.
     pub counts: Counts,
 }
 
-/// A method with error control: what it remembers from step to step and from call to call.
+/// A method with error control, with its history from step to step and from call to call.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Adaptive<T, M> {
     method: M,
@@ -60,7 +63,7 @@ pub struct Adaptive<T, M> {
 }
 
 impl<T: Real, M: Method<T>> Adaptive<T, M> {
-    /// A driver of this method, with the step to try first [s].
+    /// A driver of this method; `first_step` is the length of the first trial step [s].
     ///
     /// # Panics
     ///
@@ -72,19 +75,19 @@ impl<T: Real, M: Method<T>> Adaptive<T, M> {
         Self { method, control, step: first_step, counts: Counts::default() }
     }
 
-    /// The step that will be tried next [s], if the end of the call and the longest step allow it.
+    /// The length of the next trial step [s], unless the end of the call or the longest step limits it.
     #[must_use]
     pub fn step(&self) -> T {
         self.step
     }
 
-    /// Method of the steps.
+    /// The method that makes the steps.
     #[must_use]
     pub fn method(&self) -> &M {
         &self.method
     }
 
-    /// The method, to restore its history.
+    /// The method with write access, to restore its history.
     pub fn method_mut(&mut self) -> &mut M {
         &mut self.method
     }
@@ -95,13 +98,14 @@ impl<T: Real, M: Method<T>> Adaptive<T, M> {
         self.counts
     }
 
-    /// State that the next call continues from.
+    /// History that the next call continues from.
     #[must_use]
     pub fn history(&self) -> AdaptiveHistory<T> {
         AdaptiveHistory { step: self.step, control: self.control.history(), counts: self.counts }
     }
 
-    /// Restores the history of a driver of the same method; returns whether its step is valid: positive and finite.
+    /// Restores the history of a driver of the same method. Returns `false`, and changes nothing, when the step in the history is not
+    /// positive and finite.
     pub fn set_history(&mut self, history: AdaptiveHistory<T>) -> bool {
         let AdaptiveHistory { step, control, counts } = history;
         let is_step = step > T::ZERO && step.is_finite();
@@ -112,7 +116,8 @@ impl<T: Real, M: Method<T>> Adaptive<T, M> {
         is_step
     }
 
-    /// The step to make of what is left, which is longer than the planned one.
+    /// Length of the next step [s] when the remaining time `rest` is longer than the `planned` step. A method that wants equal steps gets
+    /// an equal part of the remaining time.
     fn share(&self, rest: T, planned: T) -> T {
         if !self.method.shares() {
             return planned;
@@ -121,26 +126,26 @@ impl<T: Real, M: Method<T>> Adaptive<T, M> {
         rest / T::from_f64(steps.max(2.0))
     }
 
-    /// Advances `y` from `t` by exactly `dt` [s], in as many accepted steps as the tolerance asks for.
+    /// Advances `y` from `t` by exactly `dt` [s], in as many accepted steps as the tolerance requires.
     ///
-    /// After each accepted step `hook` gets the system, the time and the state, which it may change, and says what it
-    /// did, see [`EndState`]. The last step is shortened to end at `t + dt`; what the step would have been is remembered for the
-    /// next call. `scratch` is [`Method::n_scratch`] numbers or more.
+    /// After each accepted step, `hook` gets the system, the time and the state. It may change the state, and returns how it did so, see
+    /// [`EndState`]. The last step is shortened to end at `t + dt`, and the planned length is kept for the next call. `scratch` has at
+    /// least [`Method::n_scratch`] numbers.
     ///
-    /// Cost, beside the hook: one evaluation, and [`Method::evaluations`] less one for each step tried. Where the hook changed
-    /// the state by more than a little, or the method does not end with the rates there, one more for each accepted step but the
-    /// last. No allocation.
+    /// Cost, besides the hook: one evaluation, and [`Method::evaluations`] less one for each trial step. Each accepted step but the last
+    /// costs one evaluation more when the rates at its end are not known. They are not known after `EndState::Changed`, after a
+    /// projection by more than a tenth of the tolerance, and for methods that do not evaluate them. No allocation.
     ///
     /// # Errors
     ///
-    /// [`OdeError::Rates`] with what the rates or the hook say. [`OdeError::StepTooSmall`] where the error stays too large
-    /// or is no number at the smallest step. [`OdeError::TooManySteps`] where the steps are used up, or a tenth of a large number and
-    /// the rest would take more than ten times as many as may be tried. `y` is then the last accepted state
-    /// (if the hook failed, as the hook left it).
+    /// [`OdeError::Rates`] with the error of the rates or of the hook. [`OdeError::StepTooSmall`] when the error at the smallest step is
+    /// too large or is NaN. [`OdeError::TooManySteps`] when all steps are used up. A call also ends with this error after a tenth of a
+    /// large number of steps. The condition is that the rest would need more than ten times that number. `y` is then the last accepted
+    /// state (when the hook failed, the state that the hook left).
     ///
     /// # Panics
     ///
-    /// If `dt` is negative or not finite, or a slice has the wrong length.
+    /// If `dt` is negative or not finite, if `y` has the wrong length, or if `scratch` is too short.
     pub fn advance<R: Rates<T>>(
         &mut self,
         system: &mut R,
@@ -174,7 +179,7 @@ impl<T: Real, M: Method<T>> Adaptive<T, M> {
             self.counts.evaluations += self.method.evaluations(first_is_known);
             first_is_known = true;
 
-            // A NaN is no error within the tolerance.
+            // The negated comparison also rejects a NaN.
             if !(error <= T::ONE) {
                 self.counts.rejected += 1;
                 self.step = h * self.control.rejected(error);
@@ -188,7 +193,7 @@ impl<T: Real, M: Method<T>> Adaptive<T, M> {
             self.counts.accepted += 1;
             y.copy_from_slice(self.method.new_state(n, scratch));
             done = if is_last { dt } else { done + h };
-            // A step cut short at the end says nothing about the step that was planned, unless it is the shorter one.
+            // A last step that was cut short gives no reason to change the planned step, unless its error asks for a shorter one.
             if h >= planned || self.method.shares() {
                 let factor = self.control.accepted(error);
                 let wish = h * self.method.worth(factor);
@@ -212,7 +217,8 @@ impl<T: Real, M: Method<T>> Adaptive<T, M> {
     }
 }
 
-/// After a tenth of the steps, would the rest with steps of the next one's length take far more than may be tried?
+/// Will the call need far too many steps? The answer is no before a tenth of the allowed steps. `wanted` is the remaining time in steps of
+/// the next one's length.
 fn is_hopeless<T: Real>(tried: u32, wanted: T, max_steps: u32) -> bool {
     let limit = TOO_MANY * f64::from(max_steps);
     tried > (max_steps / 10).max(LEAST_TRIED) && wanted > T::from_f64(limit)

@@ -4,13 +4,15 @@ use crate::Real;
 
 /// Safety factor on the step that the estimate allows [-], from the usual range of 0.8 to 0.9 (Hairer, Norsett and Wanner II.4).
 const SAFETY: f64 = 0.9;
-/// Exponent of the last error, times the power of h in the estimate [-]: as published (Gustafsson).
+/// Exponent of the error of the last step, multiplied by the power p of h in the estimate [-]: as published (Gustafsson).
 const INTEGRAL: f64 = 0.7;
-/// Exponent of the error before it, times the power of h in the estimate [-]: as published (Gustafsson).
+/// Exponent of the error of the step before the last, multiplied by the power p of h in the estimate [-]: as published (Gustafsson).
 const PROPORTIONAL: f64 = 0.4;
-/// Bounds of the ratio of a step to the one before [-]: an estimate far from its tolerance is not in the asymptotic range. Chosen, not tuned.
+/// Bounds of the ratio of a step to the previous step [-]. An estimate far from the tolerance is not in the asymptotic range. Chosen, not
+/// tuned.
 const FACTORS: (f64, f64) = (0.2, 5.0);
-/// Least error that is remembered, in tolerances [-]: a smaller one may be chance, and would shorten the next step. Chosen, not tuned.
+/// Least error, in tolerances, that the controller stores [-]. A smaller error may be accidental, and would shorten the next step too much.
+/// Chosen, not tuned.
 const SMALLEST_MEMORY: f64 = 1e-4;
 
 /// A proportional-integral controller of the step (Gustafsson, ACM Trans. Math. Softw. 17 (1991) 533-554).
@@ -20,8 +22,8 @@ const SMALLEST_MEMORY: f64 = 1e-4;
 /// rejected:  h ← h · 0.9 error^(−1/p)
 /// ```
 ///
-/// Errors are in tolerances, p is the power of h in the estimate; the factor stays within 0.2 and 5. The first step, which
-/// has none before it, is followed by 0.9 error^(−1/p).
+/// Errors are in tolerances, and p is the power of h in the estimate. The factor stays between 0.2 and 5. After the first step there is no
+/// earlier error, and the factor is 0.9 error^(−1/p).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StepControl<T> {
     power: f64,
@@ -31,7 +33,7 @@ pub struct StepControl<T> {
 }
 
 impl<T: Real> StepControl<T> {
-    /// A controller for an estimate that goes with h to the `power`.
+    /// A controller for an error estimate that is proportional to h to the `power`.
     #[must_use]
     pub fn new(power: u32) -> Self {
         Self {
@@ -42,7 +44,7 @@ impl<T: Real> StepControl<T> {
         }
     }
 
-    /// History of the control: the error of the last accepted step, where there was one, and whether the last trial was rejected.
+    /// History of the control: the error of the last accepted step, if there was one, and whether the last trial was rejected.
     #[must_use]
     pub fn history(&self) -> (Option<f64>, bool) {
         (self.memory, self.was_rejected)
@@ -53,7 +55,7 @@ impl<T: Real> StepControl<T> {
         (self.memory, self.was_rejected) = (memory, was_rejected);
     }
 
-    /// Factor for the step after an accepted one with this `error`, which is remembered.
+    /// Factor for the step after an accepted step with this `error`, in tolerances. The controller stores the error.
     ///
     /// Cost: two powers, in `f64` for every scalar.
     pub fn accepted(&mut self, error: T) -> T {
@@ -71,7 +73,7 @@ impl<T: Real> StepControl<T> {
         T::from_f64((SAFETY * wish).clamp(FACTORS.0, most))
     }
 
-    /// Factor for the next trial after a rejected one with this `error`, which may be NaN.
+    /// Factor for the next trial after a rejected trial with this `error`, in tolerances, which may be NaN.
     ///
     /// Cost: one power, in `f64` for every scalar.
     pub fn rejected(&mut self, error: T) -> T {

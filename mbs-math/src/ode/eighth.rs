@@ -3,7 +3,7 @@
 use super::Tableau;
 use crate::Real;
 
-/// Stages that a row takes part of, with their weights.
+/// Stages that enter a sum, each with its weight.
 type Row = &'static [(usize, &'static str)];
 
 const A: [Row; 12] = [
@@ -74,7 +74,7 @@ const A: [Row; 12] = [
     ],
 ];
 
-/// Weights of the new state.
+/// Weights of the new state, by stage.
 const B: Row = &[
     (0, "0.0542937341165687622380535766363"),
     (5, "4.45031289275240888144113950566"),
@@ -86,7 +86,7 @@ const B: Row = &[
     (11, "0.0447106157277725905176885569043"),
 ];
 
-/// Times of the stages.
+/// Times of the stages, in steps.
 const C: [&str; 12] = [
     "0",
     "0.0526001519587677318785587544488",
@@ -102,7 +102,7 @@ const C: [&str; 12] = [
     "1.0",
 ];
 
-/// The error of order 5.
+/// Weights of the error estimate of order 5.
 const E5: Row = &[
     (0, "0.01312004499419488073250102996"),
     (5, "-1.225156446376204440720569753"),
@@ -114,7 +114,7 @@ const E5: Row = &[
     (11, "-0.02235530786388629525884427845"),
 ];
 
-/// Weights that the method of order 3 has in place of [`B`].
+/// Weights of the method of order 3, in place of [`B`].
 const THIRD: Row = &[
     (0, "0.244094488188976377952755905512"),
     (8, "0.733846688281611857341361741547"),
@@ -125,9 +125,9 @@ impl<T: Real> Tableau<T, 12> {
     /// The method 8(5,3) of Dormand and Prince with the error estimates of Hairer (E. Hairer, S. P. Nørsett, G. Wanner, Solving Ordinary
     /// Differential Equations I, 2nd edition, II.5 and II.10, program DOP853): twelve evaluations for a step of order 8.
     ///
-    /// The coefficients are printed with 28 digits or more: in double-double their conditions hold to 1e-27.
+    /// The coefficients are published with 28 digits or more. In double-double arithmetic, their order conditions hold to 1e-27.
     ///
-    /// Cost: a hundred decimal numbers are read.
+    /// Cost: the conversion of a hundred decimal texts.
     #[must_use]
     pub fn dormand_prince_8() -> Self {
         let b = row(B);
@@ -152,7 +152,7 @@ fn row<T: Real>(of: Row) -> [T; 12] {
     weights
 }
 
-/// Number of a decimal text; NaN where it is none, as every step would then be too.
+/// Number of a decimal text. A text that is no number gives NaN, so that every step fails.
 fn number<T: Real>(text: &str) -> T {
     T::from_decimal(text).unwrap_or_else(|| T::from_f64(f64::NAN))
 }

@@ -1,6 +1,6 @@
-//! Errors that end an integration before its time.
+//! Errors that end an integration before its end time.
 
-/// An integration that stopped. The state is that of the last accepted step, at `time`.
+/// An integration that stopped early. The state is the last accepted state, at `time`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum OdeError<E> {
@@ -11,14 +11,14 @@ pub enum OdeError<E> {
         /// Error of the rates or the hook.
         error: E,
     },
-    /// No step above rounding of the time meets the tolerance.
+    /// No step above the rounding of the time satisfies the tolerance.
     StepTooSmall {
         /// Time of the last accepted state [s].
         time: f64,
         /// Step that would have been tried next [s].
         step: f64,
     },
-    /// The steps that one call may try are used up, or the rest is predicted to take more than ten times as many.
+    /// The steps that one call may try are used up, or the remaining time would need more than ten times as many.
     TooManySteps {
         /// Time of the last accepted state [s].
         time: f64,

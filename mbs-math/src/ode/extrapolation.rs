@@ -3,10 +3,11 @@
 use super::{Method, Options, Rates, method};
 use crate::Real;
 
-/// Least and most columns [-]: orders 6 to 32, as rounding grows with the sum of the weights, to 12,600 for 14 columns.
+/// Least and largest number of columns [-], for orders 6 to 32. The limit is due to rounding, which grows with the sum of the weights:
+/// 12,600 for 14 columns.
 const COLUMNS: (usize, usize) = (3, 16);
 
-/// The midpoint rule over a step in 2, 4, 6, ... 2k parts, extrapolated in h² to parts of no length.
+/// The midpoint rule over a step in 2, 4, 6, ... 2k parts, extrapolated in h² to parts of length zero.
 ///
 /// ```text
 /// d₀ = 0,   d₁ = η f(t, y),   dₘ₊₁ = dₘ₋₁ + 2 η f(t + m η, y + dₘ),   η = h/nⱼ
@@ -14,11 +15,11 @@ const COLUMNS: (usize, usize) = (3, 16);
 /// Tⱼ,ₗ₊₁ = Tⱼₗ + (Tⱼₗ − Tⱼ₋₁,ₗ) / ((nⱼ/nⱼ₋ₗ)² − 1),   y(t + h) = y + Tₖₖ,   error = Tₖₖ − Tₖ,ₖ₋₁
 /// ```
 ///
-/// The rates at the end are in every column: where forces set in just before it, columns differ, and the estimate sees them.
+/// The rates at the end are in every column. When a force begins just before the end, the columns differ, and the estimate shows it.
 ///
-/// k columns give order 2k, of which the estimate is h^(2k−1). For reference runs in [`DoubleDouble`](crate::real::DoubleDouble):
-/// the higher the order, the fewer evaluations the last digits take. Increments are extrapolated, not states, for the weights
-/// sum to 26 in size for 6 columns, to 12,600 for 14, and rounding grows with them.
+/// With k columns the method has order 2k, and its error estimate is proportional to h^(2k−1). The method is for reference runs in
+/// [`DoubleDouble`](crate::real::DoubleDouble): a higher order needs fewer evaluations for the last digits. The increments are
+/// extrapolated, not the states. The reason is that rounding errors grow with the sum of the weights: 26 for 6 columns, 12,600 for 14.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Extrapolation {
     columns: usize,
@@ -31,7 +32,7 @@ impl Extrapolation {
         Self { columns: columns.clamp(COLUMNS.0, COLUMNS.1) }
     }
 
-    /// Extrapolation with as many columns as a tolerance is worth: nine for twenty digits, and two more.
+    /// Extrapolation with the number of columns for a tolerance: nine for twenty digits, plus two.
     #[must_use]
     pub fn for_tolerance<T: Real>(tolerance: T) -> Self {
         /// Columns for each digit [-]. Chosen, not tuned.
@@ -45,13 +46,13 @@ impl Extrapolation {
         Self::new(libm::round(2.0 + PER_DIGIT * digits.clamp(0.0, 40.0)) as usize)
     }
 
-    /// Numbers of scratch for `n` components, whatever the columns.
+    /// Number of places in `scratch` for `n` components and any number of columns.
     #[must_use]
     pub const fn most_scratch(n: usize) -> usize {
         (COLUMNS.1 + 5) * n
     }
 
-    /// The midpoint rule in `parts` parts; the increment is left in `now`.
+    /// Integrates by the midpoint rule in `parts` parts; writes the increment of the state into `now`.
     fn midpoint<T: Real, R: Rates<T>>(
         system: &mut R,
         (t, h, parts): (T, T, usize),
@@ -86,7 +87,7 @@ impl Extrapolation {
     }
 }
 
-/// 1 / ((nⱼ/nᵢ)² − 1) for nⱼ = 2 (j + 1), from whole numbers.
+/// The weight 1 / ((nⱼ/nᵢ)² − 1) for nⱼ = 2 (j + 1), computed from whole numbers.
 fn share<T: Real>(j: usize, i: usize) -> T {
     let square = |j: usize| ((j + 1) * (j + 1)) as f64;
     T::from_f64(square(i)) / T::from_f64(square(j) - square(i))
@@ -101,7 +102,7 @@ impl<T: Real> Method<T> for Extrapolation {
         (self.columns + 5) * n
     }
 
-    /// k (k + 1) parts with the rates at the end of each; all columns begin with the same ones.
+    /// A trial has k (k + 1) parts, with an evaluation at the end of each. The first rates serve all columns.
     fn evaluations(&self, first_is_known: bool) -> u64 {
         (self.columns * (self.columns + 1)) as u64 + u64::from(!first_is_known)
     }
@@ -126,7 +127,7 @@ impl<T: Real> Method<T> for Extrapolation {
         for j in 0..k {
             let memory = [&mut *before, &mut *now, &mut *stage, &mut *rates];
             Self::midpoint(system, (t, h, 2 * (j + 1)), (y, first), memory)?;
-            // The row above gives way to this one, entry by entry.
+            // The new row overwrites the previous row of the table, entry by entry.
             for l in 0..j {
                 let share = share(j, j - 1 - l);
                 for i in 0..n {

@@ -1,29 +1,29 @@
-//! Method as the control of the step sees it, options of its caller, and the size of an error.
+//! Interface between a one-step method and the step control, options of the caller, and norms of an error.
 
 use super::Rates;
 use crate::Real;
 
 /// A one-step method that estimates its own error: an embedded pair, or an extrapolation.
 ///
-/// Its scratch begins with the rates at the start of the step, n numbers, and holds the new state after a trial.
+/// The scratch of a method begins with the n rates at the start of the step. After a trial it also has the new state.
 pub trait Method<T: Real> {
-    /// Power of h in the size of the error.
+    /// Power of the step h with which the size of the error decreases.
     fn power(&self) -> u32;
 
-    /// Numbers of scratch for `n` components.
+    /// Number of places that the method needs in `scratch`, for `n` components.
     fn n_scratch(&self, n: usize) -> usize;
 
-    /// Evaluations of the last trial step.
+    /// Number of evaluations of the rates in the last trial step.
     fn evaluations(&self, first_is_known: bool) -> u64;
 
-    /// Makes one trial step and returns the size of its error: at most one is within the tolerance. `y` is not changed.
+    /// Makes one trial step and returns the size of its error, in tolerances: a step of size one or less is accepted. `y` is not changed.
     ///
-    /// With `first_is_known` the rates at (`t`, `y`) stand at the beginning of `scratch` already. A number that is not finite
-    /// gives NaN or infinity.
+    /// With `first_is_known`, the first n numbers of `scratch` are already the rates at (`t`, `y`). The size is NaN or infinite when a rate
+    /// is not finite.
     ///
     /// # Errors
     ///
-    /// What the rates say.
+    /// The error of the rates.
     fn trial<R: Rates<T>>(
         &mut self,
         system: &mut R,
@@ -33,24 +33,27 @@ pub trait Method<T: Real> {
         control: (&Options<'_, T>, &mut [T]),
     ) -> Result<T, R::Error>;
 
-    /// The new state that a trial left in `scratch`, for `n` components.
+    /// The new state, of `n` components, that a trial wrote into `scratch`.
     fn new_state<'s>(&self, n: usize, scratch: &'s [T]) -> &'s [T];
 
-    /// Brings the rates at the new state to the beginning of `scratch`, if the trial found them; says whether it did.
+    /// Copies the rates at the new state to the beginning of `scratch`. Returns `false`, and copies nothing, when the trial did not
+    /// evaluate those rates.
     fn carry(&self, n: usize, scratch: &mut [T]) -> bool;
 
-    /// Does the method want what is left of a length of time in steps of one length, since a step of another costs it a factorisation?
+    /// Does the method want the remaining time divided into equal steps? An implicit method does, since another step length costs a
+    /// factorisation.
     fn shares(&self) -> bool {
         false
     }
 
-    /// Factor for the next step, which may be longer by `factor`, as the method wants it: a change may not be worth its cost.
+    /// Factor for the next step, chosen by the method when the controller allows growth by `factor`. An implicit method keeps its step
+    /// where the growth is not worth a factorisation.
     fn worth(&self, factor: T) -> T {
         factor
     }
 }
 
-/// One over the tolerance of each component by its value at the beginning of a step; zero where there is none yet.
+/// Reciprocal of the tolerance of each component, by its value at the beginning of a step; zero for a component whose tolerance is zero.
 #[cfg(feature = "alloc")]
 pub(super) fn weights<T: Real>(y: &[T], options: &Options<'_, T>, weights: &mut [T]) {
     for (k, weight) in weights.iter_mut().enumerate() {
@@ -59,13 +62,13 @@ pub(super) fn weights<T: Real>(y: &[T], options: &Options<'_, T>, weights: &mut 
     }
 }
 
-/// The tolerance of component k of this size.
+/// The tolerance of component k when its absolute value is `size`.
 fn tolerance<T: Real>(k: usize, size: T, options: &Options<'_, T>) -> T {
     let unit = options.sizes.get(k).copied().unwrap_or(T::ONE);
     options.absolute * unit + options.relative * size
 }
 
-/// Size of an error beside the tolerance.
+/// Size of an error in tolerances: the root mean square over the components [-].
 ///
 /// ```text
 /// √(1/n Σ (errorₖ / (absolute sizeₖ + relative max(|yₖ|, |y'ₖ|)))²)
@@ -74,7 +77,7 @@ pub(super) fn size<T: Real>(ends: (&[T], &[T]), options: &Options<'_, T>, error:
     size_by(ends, options, |k| error[k])
 }
 
-/// Size of the difference of two states beside the tolerance.
+/// Size of the difference of two states in tolerances: the root mean square over the components [-].
 pub(super) fn distance<T: Real>(x: &[T], y: &[T], options: &Options<'_, T>) -> T {
     size_by((x, y), options, |k| y[k] - x[k])
 }
@@ -89,7 +92,8 @@ fn size_by<T: Real>(
     for k in 0..n {
         let error = error(k);
         let tolerance = tolerance(k, y[k].abs().max(end[k].abs()), options);
-        // No error needs no tolerance; a state that is not finite must not hide in the denominator.
+        // An error of zero is not divided by the tolerance, which may be zero too. The second term makes the sum NaN for a state that is
+        // not finite. The division by an infinite tolerance would hide such a state.
         let share = if error == T::ZERO { T::ZERO } else { error / tolerance };
         sum += share * share + end[k] * T::ZERO;
     }
@@ -99,20 +103,20 @@ fn size_by<T: Real>(
 /// Options that the caller chooses.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Options<'a, T> {
-    /// Tolerance as a share of a component's value. `≥ 0`.
+    /// Relative tolerance, a fraction of the value of a component [-], `≥ 0`.
     pub relative: T,
-    /// Tolerance as a share of a component's size. `≥ 0`; not both zero.
+    /// Absolute tolerance, a fraction of the size of a component [-], `≥ 0`. The two tolerances are not both zero.
     pub absolute: T,
-    /// Size of each component, in its own unit `> 0`; one for those that are not given.
+    /// Typical size of each component, in the unit of that component, `> 0`. A component without an entry has the size one.
     pub sizes: &'a [T],
-    /// No step is longer [s]. `> 0`.
+    /// Length of the longest step [s], `> 0`.
     pub max_step: T,
-    /// Steps that one call may try.
+    /// Largest number of steps that one call may try.
     pub max_steps: u32,
 }
 
 impl<T: Real> Options<'_, T> {
-    /// Options with the same relative and absolute tolerance, sizes of one, steps of any length, a million of them.
+    /// Options with the same relative and absolute tolerance, sizes of one, steps of any length, and at most a million steps.
     pub fn new(tolerance: T) -> Self {
         Self {
             relative: tolerance,

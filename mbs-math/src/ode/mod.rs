@@ -1,15 +1,15 @@
-//! Runge-Kutta methods for y' = f(t, y), of any formulation whose state is a vector of numbers.
+//! Runge-Kutta methods for y' = f(t, y), where the state y is a vector of numbers. They serve every formulation with such a state.
 //!
 //! ```text
 //! kᵢ = f(t + cᵢ h, y + h Σⱼ aᵢⱼ kⱼ),   y(t + h) = y + h Σᵢ bᵢ kᵢ,   error = h Σᵢ eᵢ kᵢ
 //! ```
 //!
-//! [`rk4_step`] is the classical method of order 4 with a fixed step. [`Tableau`] holds an embedded pair, or the
-//! method 8(5,3) with two estimates, and [`Adaptive`] drives it or an [`Extrapolation`] of any even order with error control.
-//! [`StepControl`] chooses the steps, and a hook after each accepted step may project the state onto its constraints.
+//! [`rk4_step`] is the classical method of order 4 with a fixed step. [`Tableau`] has the coefficients of an embedded pair, or of the
+//! method 8(5,3) with two error estimates. [`Adaptive`] makes steps of a [`Tableau`] or of an [`Extrapolation`], which has any even order,
+//! with error control. [`StepControl`] chooses the steps. A hook after each accepted step may project the state onto its constraints.
 //!
-//! All storage is in slices of the caller; the explicit methods are built without `alloc`, so nothing in them can allocate.
-//! [`Radau`] is implicit, for stiff systems, and makes its matrices with the feature `alloc`, when it is made.
+//! All storage is in slices of the caller. The explicit methods are built without `alloc`, so no explicit method can allocate. [`Radau`] is
+//! implicit, for stiff systems; it needs the feature `alloc`, and allocates its matrices when it is made.
 
 mod adaptive;
 mod control;
@@ -36,7 +36,7 @@ pub use tableau::Tableau;
 
 /// A system of first-order differential equations y' = f(t, y).
 pub trait Rates<T> {
-    /// Why rates could not be evaluated.
+    /// Error of an evaluation of the rates.
     type Error;
 
     /// Number of components of y.
@@ -44,29 +44,30 @@ pub trait Rates<T> {
 
     /// Writes y' at time `t` [s] and state `y` into `dy`; both slices have [`Self::n`] components.
     ///
-    /// A number that is not finite in `dy` makes a step with error control try a shorter one.
+    /// A number in `dy` that is not finite makes a method with error control try a shorter step.
     ///
     /// # Errors
     ///
-    /// What makes an answer impossible; the integration ends with it.
+    /// An error that prevents the evaluation; it ends the integration.
     fn rates(&mut self, t: T, y: &[T], dy: &mut [T]) -> Result<(), Self::Error>;
 
-    /// Writes the rates with as few roundings as can be had, for slopes by differences. By default [`Self::rates`].
+    /// Writes the rates with the smallest rounding errors that the system can give, for derivatives by finite differences. Default:
+    /// [`Self::rates`].
     ///
     /// # Errors
     ///
-    /// As [`Self::rates`].
+    /// An error that prevents the evaluation, as of [`Self::rates`].
     fn fine_rates(&mut self, t: T, y: &[T], dy: &mut [T]) -> Result<(), Self::Error> {
         self.rates(t, y, dy)
     }
 
-    /// Takes from the error of a trial step what the end of a step takes from the state, such as what a projection removes.
-    /// Only what is left says something about the step. Called after the rates of all stages, once for each estimate; by default all
-    /// is left.
+    /// Removes components from the estimated error of a trial step, namely those that the hook after the step removes from the state. A
+    /// projection is an example. Only the remaining components measure the accuracy of the step. The function is called after the rates of
+    /// all stages, once for each estimate. Default: nothing is removed.
     ///
     /// # Errors
     ///
-    /// What makes an answer impossible; the integration ends with it.
+    /// An error that prevents the answer; it ends the integration.
     fn keep(&mut self, error: &mut [T]) -> Result<(), Self::Error> {
         let _ = error;
         Ok(())

@@ -3,7 +3,7 @@
 use super::Rates;
 use crate::Real;
 
-/// Numbers of scratch that [`rk4_step`] needs for `n` components: three vectors.
+/// Number of places that [`rk4_step`] needs in `scratch` for `n` components: three vectors.
 #[must_use]
 pub const fn rk4_scratch(n: usize) -> usize {
     3 * n
@@ -20,11 +20,11 @@ pub const fn rk4_scratch(n: usize) -> usize {
 ///
 /// # Errors
 ///
-/// What the rates say; `y` is then as it was.
+/// The error of the rates; `y` is then not changed.
 ///
 /// # Panics
 ///
-/// If `y` has not [`Rates::n`] components or `scratch` fewer than [`rk4_scratch`] numbers.
+/// If `y` does not have [`Rates::n`] components or `scratch` has fewer than [`rk4_scratch`] numbers.
 pub fn rk4_step<T: Real, S: Rates<T>>(
     system: &mut S,
     t: T,
@@ -44,7 +44,7 @@ pub fn rk4_step<T: Real, S: Rates<T>>(
     system.rates(t, y, k)?;
     sum.copy_from_slice(k);
 
-    // k₂, k₃ at t + h/2 and k₄ at t + h, each from the one before
+    // Rates k₂ and k₃ at t + h/2 and k₄ at t + h, each from the previous rates.
     for (reach, weight) in [(half, T::TWO), (half, T::TWO), (h, T::ONE)] {
         for i in 0..n {
             stage[i] = y[i] + reach * k[i];
@@ -55,7 +55,7 @@ pub fn rk4_step<T: Real, S: Rates<T>>(
         }
     }
 
-    // y ← y + h/6 Σ
+    // New state y ← y + h/6 Σ.
     let sixth = h / T::from_f64(6.0);
     for i in 0..n {
         y[i] += sixth * sum[i];

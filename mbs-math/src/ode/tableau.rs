@@ -8,28 +8,28 @@ use crate::Real;
 /// The method of higher order gives the new state; its difference from the method of lower order estimates the error.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tableau<T, const S: usize> {
-    /// Coefficients aᵢⱼ of the stages: stage i from the rates of the stages j < i; the rest is not read.
+    /// Coefficients aᵢⱼ of the stages: stage i uses the rates of the stages j < i. The other entries are not read.
     pub a: [[T; S]; S],
     /// Weights bᵢ of the new state.
     pub b: [T; S],
-    /// Times cᵢ of the stages.
+    /// Times cᵢ of the stages, in steps.
     pub c: [T; S],
-    /// eᵢ = bᵢ − b̂ᵢ: the error estimate.
+    /// Weights eᵢ = bᵢ − b̂ᵢ of the error estimate.
     pub e: [T; S],
-    /// A second estimate, of lower order: where it is large too, the first may be small by accident. The size of the error is
-    /// then E²/√(E² + 0.01 C²), E that by `e` and C that by this one.
+    /// Weights of a second estimate, of lower order. Where it is large too, the first estimate may be small by accident. The size of the
+    /// error is then E²/√(E² + 0.01 C²), with E from `e` and C from this estimate.
     pub coarse: Option<[T; S]>,
-    /// Power of h in the size of the error: the order of the estimate plus one; with two estimates twice that of the first less
-    /// that of the second.
+    /// Power of h in the size of the error: the order of the estimate plus one. With two estimates it is twice the power of the first less
+    /// the power of the second.
     pub power: u32,
-    /// Whether the last stage stands at the new state (a of the last row is b), so that its rates serve the next step.
+    /// Is the last stage at the new state (the last row of a is b)? Its rates are then the first rates of the next step.
     pub first_same_as_last: bool,
 }
 
-/// Numerators and the common denominator of a row of coefficients.
+/// Numerators and denominators of a row of coefficients.
 type Row<const S: usize> = ([f64; S], [f64; S]);
 
-/// Coefficients from whole numbers, so that they are exact in every precision.
+/// Quotients of whole numbers, so that the coefficients are rounded once in every precision.
 fn ratios<T: Real, const S: usize>((over, under): Row<S>) -> [T; S] {
     core::array::from_fn(|i| T::from_f64(over[i]) / T::from_f64(under[i]))
 }
@@ -69,26 +69,26 @@ impl<T: Real> Tableau<T, 7> {
 }
 
 impl<T: Real, const S: usize> Tableau<T, S> {
-    /// Numbers of scratch for `n` components: the rates of the stages, one state and an error.
+    /// Number of places in `scratch` for `n` components: the rates of the stages, one state and an error.
     #[must_use]
     pub const fn scratch(n: usize) -> usize {
         (S + 2) * n
     }
 
-    /// Makes one trial step: the rates of all stages, then the new state, both in `scratch`; `y` is not changed.
+    /// Makes one trial step: computes the rates of all stages and then the new state, both in `scratch`. `y` is not changed.
     ///
-    /// With `first_is_known` the rates at (`t`, `y`) stand in the first n numbers of `scratch` already. The new state is
-    /// given by [`Self::end_state`].
+    /// With `first_is_known`, the first n numbers of `scratch` are already the rates at (`t`, `y`). [`Self::end_state`] gives the new
+    /// state.
     ///
-    /// Cost: S evaluations, one less if the first is known; about S²/2 n multiplications.
+    /// Cost: S evaluations, one less if the first rates are known, and about S²/2 n multiplications.
     ///
     /// # Errors
     ///
-    /// What the rates say.
+    /// The error of the rates.
     ///
     /// # Panics
     ///
-    /// If `y` has not [`Rates::n`] components or `scratch` not [`Self::scratch`] numbers.
+    /// If `y` does not have [`Rates::n`] components or `scratch` does not have [`Self::scratch`] numbers.
     pub fn stages<R: Rates<T>>(
         &self,
         system: &mut R,
@@ -110,29 +110,29 @@ impl<T: Real, const S: usize> Tableau<T, S> {
             system.rates(t + self.c[i] * h, stage, &mut rest[..n])?;
         }
 
-        // y + h Σᵢ bᵢ kᵢ: where the last stage stands
+        // The new state y + h Σᵢ bᵢ kᵢ, unless the last stage is the new state.
         if !self.first_same_as_last {
             combine(&self.b, h, y, rates, stage);
         }
         Ok(())
     }
 
-    /// The new state that [`Self::stages`] left in `scratch`, for `n` components.
+    /// The new state, of `n` components, that [`Self::stages`] wrote into `scratch`.
     #[must_use]
     pub fn end_state(n: usize, scratch: &[T]) -> &[T] {
         &scratch[S * n..][..n]
     }
 
-    /// Size of the error of the trial step in `scratch`, h Σᵢ eᵢ kᵢ, of the components that `system` keeps, with a second estimate
-    /// as described at [`Self::coarse`]. At most one is within the tolerance.
+    /// Size of the error h Σᵢ eᵢ kᵢ of the trial step in `scratch`, in tolerances: a step of size one or less is accepted. `system` removes
+    /// components from the error by [`Rates::keep`]. A second estimate is used as described at [`Self::coarse`].
     ///
-    /// A number that is not finite anywhere in it or in the new state gives NaN or infinity.
+    /// The size is NaN or infinite when a number in the error or in the new state is not finite.
     ///
     /// Cost: (S + 2) n multiplications and [`Rates::keep`], twice with a second estimate; no evaluation.
     ///
     /// # Errors
     ///
-    /// What [`Rates::keep`] says.
+    /// The error of [`Rates::keep`].
     pub fn error<R: Rates<T>>(
         &self,
         system: &mut R,
@@ -196,7 +196,7 @@ impl<T: Real, const S: usize> Method<T> for Tableau<T, S> {
     }
 }
 
-/// y + h Σⱼ wⱼ kⱼ into `to`.
+/// Writes y + h Σⱼ wⱼ kⱼ into `to`.
 fn combine<T: Real>(weights: &[T], h: T, y: &[T], rates: &[T], to: &mut [T]) {
     sum(weights, rates, to);
     for (to, &y) in to.iter_mut().zip(y) {
@@ -204,7 +204,7 @@ fn combine<T: Real>(weights: &[T], h: T, y: &[T], rates: &[T], to: &mut [T]) {
     }
 }
 
-/// Σⱼ wⱼ kⱼ into `to`.
+/// Writes Σⱼ wⱼ kⱼ into `to`.
 fn sum<T: Real>(weights: &[T], rates: &[T], to: &mut [T]) {
     to.fill(T::ZERO);
     for (rates, &weight) in rates.chunks_exact(to.len().max(1)).zip(weights) {

@@ -4,7 +4,7 @@ use super::*;
 use crate::Real;
 use core::convert::Infallible;
 
-/// A problem by its rates, which counts how often they are asked for.
+/// A problem y' = f(t, y) that counts the evaluations of its rates.
 struct Problem<const N: usize> {
     rates: fn(f64, &[f64; N]) -> [f64; N],
     evaluations: u64,
@@ -28,12 +28,12 @@ impl<const N: usize> Rates<f64> for Problem<N> {
     }
 }
 
-/// y = (cos t, −sin t).
+/// The oscillator with the solution y = (cos t, −sin t).
 fn oscillator() -> Problem<2> {
     Problem::new(|_, y| [y[1], -y[0]])
 }
 
-/// y = 1/(1 + t²): nonlinear, and dependent on time.
+/// The problem with the solution y = 1/(1 + t²): nonlinear, and dependent on time.
 fn witch() -> Problem<2> {
     Problem::new(|t, y| [-2.0 * t * y[0] * y[0], 1.0])
 }
@@ -46,12 +46,12 @@ fn witch_error(t: f64, y: &[f64; 2]) -> f64 {
     (y[0] - 1.0 / (1.0 + t * t)).abs()
 }
 
-/// Start of the oscillator: cosine and its rate.
+/// Start of the oscillator: the cosine and its rate.
 const OSCILLATOR: [f64; 2] = [1.0, 0.0];
-/// Start of the curve 1 / (1 + t²): its value, and the time.
+/// Start of the problem with the solution 1/(1 + t²): its value, and the time.
 const WITCH: [f64; 2] = [1.0, 0.0];
 
-/// At these steps the terms of the next order change the ratio of errors by less than this share.
+/// Bound of the relative change of error ratios by the terms of the next order, at these steps [-].
 const HIGHER_ORDER: f64 = 0.1;
 
 #[track_caller]
@@ -62,7 +62,7 @@ fn assert_ratio(coarse: f64, fine: f64, expected: f64) {
 
 type Error = fn(f64, &[f64; 2]) -> f64;
 
-/// Error at t = 2 after `steps` of the classical method.
+/// Error at t = 2 after `steps` equal steps of the classical method.
 fn rk4(mut problem: Problem<2>, mut y: [f64; 2], error: Error, steps: u32) -> f64 {
     let h = 2.0 / f64::from(steps);
     for k in 0..steps {
@@ -80,7 +80,7 @@ fn classical_method_is_of_order_4() {
     assert_ratio(nonlinear(40), nonlinear(80), 16.0);
 }
 
-/// Error at t = 1 after `steps` equal steps of the pair.
+/// Error at t = 1 after `steps` equal steps of the pair 5(4).
 fn pair(mut problem: Problem<2>, mut y: [f64; 2], error: Error, steps: u32) -> f64 {
     let (tableau, mut scratch) = (Tableau::dormand_prince(), [0.0; 18]);
     let h = 1.0 / f64::from(steps);
@@ -114,7 +114,7 @@ fn embedded_estimate_goes_with_the_fifth_power_of_the_step() {
     assert_ratio(nonlinear(0.02), nonlinear(0.01), 32.0);
 }
 
-/// Sums of coefficients of order ten.
+/// Bound of the rounding errors in sums of about ten coefficients [-].
 const ROUNDING: f64 = 1e-14;
 
 #[test]
@@ -129,13 +129,13 @@ fn coefficients_fulfil_the_quadrature_conditions_of_both_orders() {
         w.iter().zip(&c).map(|(w, c)| w * (0..k).fold(1.0, |p, _| p * c)).sum()
     };
     for k in 0..5 {
-        // Σ bᵢ cᵢᵏ = 1/(k + 1) up to order 5, and Σ eᵢ cᵢᵏ = 0 up to order 4 but not 5
+        // Order conditions: Σ bᵢ cᵢᵏ = 1/(k + 1) up to order 5, and Σ eᵢ cᵢᵏ = 0 up to order 4 but not 5.
         assert!((moment(&b, k) - 1.0 / f64::from(k + 1)).abs() < ROUNDING, "b, power {k}");
         assert_eq!(moment(&e, k).abs() < ROUNDING, k < 4, "e, power {k}");
     }
 }
 
-/// A driver after ten seconds of the oscillator, with the problem and the state; the hook always says `end`.
+/// A driver after ten seconds of the oscillator, with the problem and the state. The hook returns `end` after every step.
 fn drive(
     tolerance: f64,
     first_step: f64,
@@ -150,7 +150,7 @@ fn drive(
     (driver, problem, y)
 }
 
-/// Errors of single steps add up over ten radians, each at most a tolerance of about one: [tolerances].
+/// Bound of the error after ten radians, in tolerances [-]: it sums the errors of all steps, each of at most about one tolerance.
 const ADDED_UP: f64 = 100.0;
 
 #[test]
@@ -161,7 +161,7 @@ fn true_error_falls_with_the_tolerance_over_six_decades() {
         let (_, _, y) = drive(tolerance, 1e-2, EndState::Kept);
         let error = oscillator_error(10.0, &y);
         assert!(error <= ADDED_UP * tolerance, "{tolerance:e}: {error:e}");
-        // A decade of tolerance is nearly one of error, as the step goes with tolerance^(1/5) and the error with step^5.
+        // A tenth of the tolerance gives nearly a tenth of the error: the step is proportional to tolerance^(1/5), the error to step^5.
         assert!(error <= last / 4.0, "{tolerance:e}: {error:e} after {last:e}");
         last = error;
     }
@@ -182,7 +182,7 @@ fn counts_are_those_of_the_rates() {
     assert_eq!(changed.evaluations, evaluations + accepted - 1);
 }
 
-/// A hook that moves the second component by this many tolerances and calls that a projection; evaluations per accepted step.
+/// Evaluations per accepted step, when the hook moves the second component by this many tolerances and returns `Projected`.
 fn projected_by(tolerances: f64) -> u64 {
     let (mut problem, mut y, mut scratch) = (oscillator(), OSCILLATOR, [0.0; 18]);
     let mut driver = Adaptive::new(Tableau::dormand_prince(), 0.1);
@@ -198,7 +198,7 @@ fn projected_by(tolerances: f64) -> u64 {
     problem.evaluations
 }
 
-/// The size of a move is its root mean square over both components.
+/// The size of a displacement is the root mean square of both components, hence the factor √2.
 #[test]
 fn rates_are_found_anew_where_a_projection_moved_the_state_by_more_than_a_tenth_of_the_tolerance() {
     let tenth = 0.1 * 2.0_f64.sqrt();
@@ -227,12 +227,12 @@ fn calls_end_exactly_and_the_planned_step_survives_them() {
     }
     assert_eq!(hooks, driver.counts().accepted);
     assert_eq!(driver.counts().evaluations, problem.evaluations);
-    // Once the step has grown past the calls, each call is one step.
+    // When the step exceeds the length of a call, each call is one step.
     assert!(driver.step() > 0.05 && driver.counts().accepted < 210, "{driver:?}");
     assert!(oscillator_error(10.0, &y) < 1e-6);
 }
 
-/// A projection onto the circle after every step.
+/// The hook projects the state onto the circle after every step.
 #[test]
 fn hook_projects_the_state_and_the_order_stays() {
     let solve = |tolerance: f64| {
@@ -260,7 +260,7 @@ fn hook_projects_the_state_and_the_order_stays() {
     }
 }
 
-/// Advances by 10 s from zero; the state that is left.
+/// Advances by 10 s from zero; returns the error and the last state.
 fn failure<const N: usize, const W: usize>(
     mut problem: Problem<N>,
     mut y: [f64; N],
@@ -280,13 +280,13 @@ fn stiffness_ends_with_the_steps_used_up() {
     let options = Options { max_steps: 1000, ..Options::new(1e-6) };
     let (error, _) = failure::<1, 9>(stiff, [1.0], &options);
     let Some(OdeError::TooManySteps { time, steps: 1000 }) = error else { panic!("{error:?}") };
-    // Stability bounds a step by 3.3e-6 s.
+    // Stability limits the step to 3.3e-6 s.
     assert!(time > 0.0 && time < 1000.0 * 3.4e-6 + 1e-3, "{time}");
 }
 
 #[test]
 fn stiffness_out_of_all_proportion_is_reported_after_a_tenth_of_the_steps() {
-    // Stability bounds a step by 3.3e-12 s: 10 s would take three million times a million of them.
+    // Stability limits the step to 3.3e-12 s, so 10 s would take three million times the allowed million steps.
     let stiff = Problem::new(|t, y: &[f64; 1]| [-1e12 * (y[0] - libm::cos(t))]);
     let (error, _) = failure::<1, 9>(stiff, [1.0], &Options::new(1e-6));
     let Some(OdeError::TooManySteps { time, steps: 100_001 }) = error else { panic!("{error:?}") };
@@ -322,7 +322,7 @@ fn rates_that_are_no_numbers_are_rejected_and_named() {
     }
 }
 
-/// Refuses from one second on.
+/// A problem that returns an error from one second on.
 struct Wall;
 #[derive(Debug, PartialEq)]
 struct Stop;
@@ -358,7 +358,7 @@ fn failing_rates_and_hooks_come_back_with_the_time_of_the_state() {
 fn controller_follows_its_formulas() {
     let mut control = StepControl::<f64>::new(5);
     let close = |x: f64, y: f64| (x - y).abs() < ROUNDING;
-    // 0.9 · 0.5^(−1/5), then 0.9 · 0.25^(−0.14) 0.5^0.08
+    // First factor 0.9 · 0.5^(−1/5), second factor 0.9 · 0.25^(−0.14) 0.5^0.08.
     assert!(close(control.accepted(0.5), 0.9 * libm::pow(0.5, -0.2)));
     assert!(close(control.accepted(0.25), 0.9 * libm::pow(0.25, -0.14) * libm::pow(0.5, 0.08)));
     assert!(close(control.rejected(2.0), 0.9 * libm::pow(2.0, -0.2)));
@@ -371,7 +371,7 @@ fn controller_follows_its_formulas() {
 
 #[test]
 fn sizes_weigh_the_components() {
-    // A component that is a million times larger in its unit, with a size to match, counts as much as the other.
+    // In a unit 1024 times smaller, with sizes to match, the state has the same error size.
     let tableau = Tableau::dormand_prince();
     let norm = |scale: f64, sizes: &[f64]| {
         let mut problem = oscillator();
@@ -384,7 +384,7 @@ fn sizes_weigh_the_components() {
     assert!((plain / weighed - 1.0).abs() < ROUNDING, "{plain} {weighed}");
 }
 
-/// Oscillator y'' = -y in any precision.
+/// Oscillator y'' = −y, for any scalar.
 struct Generic;
 impl<T: Real> Rates<T> for Generic {
     type Error = Infallible;

@@ -1,22 +1,22 @@
-//! Decimal text to double-double, through exact whole numbers.
+//! Decimal text to double-double number, by exact whole numbers.
 
 use super::double_double::DoubleDouble;
 use super::wide::Wide;
 
-/// Most digits that are read; the others move the number by less than 10⁻⁵⁹ of it.
+/// Largest number of digits that are read [-]. The other digits change the number by less than 10⁻⁵⁹ of it.
 const MOST_DIGITS: u32 = 60;
-/// Bits of the quotient: two more than are kept are enough, and these fit the type.
+/// Number of bits of the quotient [-]. The result needs 108 bits, two more than it keeps, and 120 fit the type.
 const BITS: usize = 120;
 
-/// Least number with room for all bits of a second part: 2⁻⁹⁶⁹.
+/// Least number whose second part has all its bits: 2⁻⁹⁶⁹.
 const WHOLE: f64 = f64::from_bits((1023 - 969) << 52);
 
-/// The number that `text` says, within 2⁻¹⁰⁶ of its size (above 2⁻⁹⁶⁹); what `f64` reads as a number is one.
+/// The number of the decimal `text`, within 2⁻¹⁰⁶ of its size for numbers above 2⁻⁹⁶⁹. Every text that `f64` accepts is accepted.
 ///
 /// Cost: about 10⁵ operations on whole numbers.
 pub(super) fn read(text: &str) -> Option<DoubleDouble> {
     let near: f64 = text.parse().ok()?;
-    // Infinities and NaN have no digits; what is too small for `f64` is zero.
+    // Infinities and NaN have no digits. A number too small for `f64` is zero.
     if near == 0.0 || !near.is_finite() {
         return Some(DoubleDouble::from_f64(near));
     }
@@ -27,7 +27,7 @@ pub(super) fn read(text: &str) -> Option<DoubleDouble> {
     } else {
         under.multiply_by_ten_to(exponent.unsigned_abs());
     }
-    // Scaled by a power of two so that the quotient has `BITS` bits or one less.
+    // The fraction is scaled by a power of two, so that the quotient has `BITS` bits or one less.
     let (of_over, wanted) = (over.bits(), under.bits() + BITS - 1);
     let (power, surplus) = (wanted.saturating_sub(of_over), of_over.saturating_sub(wanted));
     over.shift_up(power);
@@ -35,7 +35,7 @@ pub(super) fn read(text: &str) -> Option<DoubleDouble> {
     let quotient = over.divide(&under, BITS);
     let shift = i32::try_from(surplus).ok()? - i32::try_from(power).ok()?;
     let mut size = pair(quotient, shift);
-    // A second part that loses bits may tip the first over.
+    // Lost bits of the second part may change the first part by rounding.
     let nearest = near.abs();
     if nearest < WHOLE && size.hi().to_bits() != nearest.to_bits() {
         size = DoubleDouble::from_f64(nearest);
@@ -43,7 +43,7 @@ pub(super) fn read(text: &str) -> Option<DoubleDouble> {
     Some(if near < 0.0 { -size } else { size })
 }
 
-/// The first digits as a whole number, and the power of ten to multiply it by; the text is known to be a number.
+/// The first digits as a whole number, and its power of ten. The caller has checked that the text is a number.
 fn digits(text: &str) -> Option<(Wide, i32)> {
     let (mantissa, exponent) = match text.find(['e', 'E']) {
         Some(at) => (&text[..at], text[at + 1..].parse::<i32>().ok()?),
@@ -59,7 +59,7 @@ fn digits(text: &str) -> Option<(Wide, i32)> {
                 n += u32::from(!number.is_zero());
                 shift -= i32::from(is_fraction);
             }
-            // A digit that is left out counts for the place of the point.
+            // A digit of the whole part that is left out still moves the decimal point.
             b'0'..=b'9' => shift += i32::from(!is_fraction),
             _ => {}
         }
@@ -67,7 +67,7 @@ fn digits(text: &str) -> Option<(Wide, i32)> {
     Some((number, exponent.checked_add(shift)?))
 }
 
-/// m 2^shift in two parts, each rounded to nearest.
+/// The number m 2^shift in two parts, each rounded to nearest.
 #[allow(
     clippy::cast_precision_loss,
     clippy::cast_possible_truncation,

@@ -1,4 +1,4 @@
-//! Double-double numbers with about 32 digits by pairs of `f64`, for reference runs.
+//! Double-double numbers: pairs of `f64` with about 32 digits, for reference runs.
 //!
 //! A number is hi + lo with |lo| at most half a unit in the last place of hi. With u = 2⁻⁵³, relative errors are at most
 //!
@@ -9,15 +9,15 @@
 //! | x / y | 15 u² + 56 u³ | 49 |
 //! | √x | 25/8 u² | 26 and a root in `f64` |
 //!
-//! by Joldes, Muller and Popescu, ACM Trans. Math. Softw. 44 (2017) 15: their algorithms 6, 10 and 17 without fused
-//! multiply-add; the root by Lefèvre, Louvet, Muller, Picot and Rideau, ACM Trans. Math. Softw. 49 (2023) 1. A sum of pairs
-//! that cancel keeps its bound: the cheaper addition of 11 flops does not. Bounds hold between 2⁻⁹⁶⁹ and 2⁹⁹⁶, where
-//! products split exactly (`transforms.rs`); beyond, lo loses bits or is zero. Infinities and NaN come as in `f64`; a sum
-//! or product that is zero has no sign.
-//! Functions, reading and writing have their bounds where they stand (`functions.rs`, `decimal.rs`, `show.rs`).
+//! The bounds are by Joldes, Muller and Popescu, ACM Trans. Math. Softw. 44 (2017) 15, for their algorithms 6, 10 and 17 without fused
+//! multiply-add. The bound of the root is by Lefèvre, Louvet, Muller, Picot and Rideau, ACM Trans. Math. Softw. 49 (2023) 1. The bound of a
+//! sum holds even when the terms cancel; the cheaper addition of 11 flops has no such bound. Bounds hold between 2⁻⁹⁶⁹ and 2⁹⁹⁶, where
+//! products split exactly (`transforms.rs`). Outside this range, lo loses bits or is zero. Infinities and NaN behave as in `f64`. A zero
+//! sum or product has no sign.
+//! The bounds of functions, reading and writing are in `functions.rs`, `decimal.rs` and `show.rs`.
 //!
-//! The crate `twofloat` 0.8 has the same arithmetic, but calls its elementary functions preliminary, leaves infinities and
-//! NaN out, and reads no decimal text. What is left of it is these few lines.
+//! The crate `twofloat` 0.8 has the same arithmetic. However, it calls its elementary functions preliminary, does not handle infinities and
+//! NaN, and reads no decimal text.
 
 use super::transforms::{fast_two_sum, two_product, two_sum};
 use core::cmp::Ordering;
@@ -32,23 +32,23 @@ pub struct DoubleDouble {
 }
 
 impl DoubleDouble {
-    /// Zero.
+    /// The number zero, with both parts zero.
     pub const ZERO: Self = Self::from_f64(0.0);
-    /// One.
+    /// The number one, with a second part of zero.
     pub const ONE: Self = Self::from_f64(1.0);
-    /// Half a turn π, to 2⁻¹⁰⁷.
+    /// Half a turn π [rad], within 2⁻¹⁰⁷.
     pub const PI: Self = Self { hi: core::f64::consts::PI, lo: 1.2246467991473532e-16 };
-    /// 2⁻¹⁰⁴, four times u²: the smallest difference from one that the arithmetic resolves.
+    /// Machine precision 2⁻¹⁰⁴, four times u²: the smallest difference from one that the arithmetic resolves.
     pub const EPSILON: Self = Self::from_f64(f64::EPSILON * f64::EPSILON);
 
-    /// Makes the same number of an `f64`.
+    /// The number that equals the `f64` x.
     #[inline]
     #[must_use]
     pub const fn from_f64(x: f64) -> Self {
         Self { hi: x, lo: 0.0 }
     }
 
-    /// a + b, rounded once where their exponents are far apart.
+    /// The sum a + b of two `f64`. It is exact unless their exponents differ too much for two parts.
     #[inline]
     #[must_use]
     pub const fn from_sum(a: f64, b: f64) -> Self {
@@ -63,20 +63,20 @@ impl DoubleDouble {
         self.hi
     }
 
-    /// Remainder that the leading part leaves.
+    /// Second part of the number: the number minus its leading part.
     #[inline]
     #[must_use]
     pub const fn lo(self) -> f64 {
         self.lo
     }
 
-    /// A pair whose remainder is no number where its leading part is infinite.
+    /// A number of two parts. The second part is zero when the first is not finite, so that infinities do not become NaN.
     #[inline]
     pub(super) const fn pair(hi: f64, lo: f64) -> Self {
         Self { hi, lo: if hi.is_finite() { lo } else { 0.0 } }
     }
 
-    /// x + y in constants; algorithm 6.
+    /// The sum x + y by algorithm 6, also for constants.
     #[inline(never)]
     pub(super) const fn plus(self, y: Self) -> Self {
         let (s, s_left) = two_sum(self.hi, y.hi);
@@ -89,7 +89,7 @@ impl DoubleDouble {
         Self { hi, lo }
     }
 
-    /// x y in constants; algorithm 10.
+    /// The product x y by algorithm 10, also for constants.
     #[inline(never)]
     pub(super) const fn times(self, y: Self) -> Self {
         let (p, left) = two_product(self.hi, y.hi);
@@ -98,7 +98,7 @@ impl DoubleDouble {
         if hi.is_finite() { Self { hi, lo } } else { Self::from_f64(p) }
     }
 
-    /// x y for a number y; algorithm 7, error 3/2 u² + 4 u³, 24 flops.
+    /// The product x y with an `f64` y, by algorithm 7: error 3/2 u² + 4 u³, 24 flops.
     #[inline(never)]
     pub(super) const fn times_f64(self, y: f64) -> Self {
         let (p, left) = two_product(self.hi, y);
@@ -107,7 +107,7 @@ impl DoubleDouble {
         if hi.is_finite() { Self { hi, lo } } else { Self::from_f64(p) }
     }
 
-    /// x / y in constants; algorithm 17.
+    /// The quotient x / y by algorithm 17, also for constants.
     #[inline(never)]
     pub(super) const fn over(self, y: Self) -> Self {
         let quotient = self.hi / y.hi;
@@ -120,13 +120,13 @@ impl DoubleDouble {
         if hi.is_finite() { Self { hi, lo } } else { Self::from_f64(quotient) }
     }
 
-    /// Negated number −x, in constants.
+    /// The negated number −x, also for constants.
     #[inline]
     pub(super) const fn minus(self) -> Self {
         Self { hi: -self.hi, lo: -self.lo }
     }
 
-    /// x 2ⁿ for a power of two that is given; exact but where it leaves the range.
+    /// The product of the number and a power of two, exact within the range of `f64`.
     #[inline]
     pub(super) const fn scaled(self, power: f64) -> Self {
         Self::pair(self.hi * power, self.lo * power)

@@ -1,11 +1,11 @@
-//! Doubles side by side: one evaluation for several states of a mechanism.
+//! Several doubles as one scalar: one evaluation serves several states of a mechanism.
 //!
 //! ```text
 //! (x₁ … x_N) ∘ (y₁ … y_N) = (x₁ ∘ y₁ … x_N ∘ y_N)          x < y  holds when it holds in every lane
 //! ```
 //!
-//! Each lane has the bits that a double alone would have. That is so only where no branch is taken by numbers but to refuse them:
-//! `!(x > limit)` refuses all lanes if one is not above the limit.
+//! Each lane has the same bits as a computation with a single double. This requires that the code branches on numbers only to reject them:
+//! `!(x > limit)` rejects all lanes when one lane is not above the limit.
 
 use super::Real;
 use core::cmp::Ordering;
@@ -13,7 +13,7 @@ use core::fmt;
 use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 use num_traits::{One, Zero};
 
-/// `N` doubles side by side: two, four or eight fill registers.
+/// A scalar of `N` doubles. Two, four or eight doubles fill the vector registers of processors.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[repr(align(16))]
 pub struct Lanes<const N: usize>(pub [f64; N]);
@@ -26,7 +26,7 @@ impl<const N: usize> Lanes<N> {
         Self([x; N])
     }
 
-    /// Does `holds` in every lane of both?
+    /// Is `holds` true in every lane of the two numbers?
     #[inline(always)]
     fn every(&self, other: &Self, holds: impl Fn(f64, f64) -> bool) -> bool {
         let mut every = true;
@@ -45,7 +45,7 @@ impl<const N: usize> Lanes<N> {
         self
     }
 
-    /// Lane by lane, of two.
+    /// Applies a function of two numbers lane by lane.
     #[inline(always)]
     fn with(mut self, other: Self, of: impl Fn(f64, f64) -> f64) -> Self {
         for k in 0..N {
@@ -86,7 +86,7 @@ impl<const N: usize> Neg for Lanes<N> {
     }
 }
 
-/// Order that holds in every lane.
+/// An order holds between two numbers when it holds in every lane.
 impl<const N: usize> PartialOrd for Lanes<N> {
     #[inline]
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
@@ -140,7 +140,7 @@ impl<const N: usize> One for Lanes<N> {
     }
 }
 
-/// Writes lanes between brackets.
+/// Writes the numbers of the lanes between brackets.
 macro_rules! shown {
     ($trait:ident) => {
         impl<const N: usize> fmt::$trait for Lanes<N> {
@@ -172,7 +172,7 @@ impl<const N: usize> Real for Lanes<N> {
     fn from_decimal(text: &str) -> Option<Self> {
         text.parse().ok().map(Self::all)
     }
-    /// Number of the first lane.
+    /// The number in the first lane.
     #[inline]
     fn to_f64(self) -> f64 {
         self.0.first().copied().unwrap_or(f64::NAN)

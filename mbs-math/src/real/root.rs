@@ -1,19 +1,20 @@
-//! The square root in single precision, by the instruction of an ARM with hardware floating point, for which libm has one in
-//! software alone. Elsewhere it is libm's, which takes the instruction where there is one. Both round correctly: the bits are the same.
+//! Square root in single precision. On an ARM with hardware floating point it is the processor's instruction, since libm computes it there
+//! in software. On other targets it is libm's function, which uses an instruction where it can. Both round correctly, so the bits are
+//! equal.
 //!
-//! **Proof.** Targets whose ABI passes numbers in registers of the floating-point unit (`eabihf`) have that unit, and every such
-//! unit has `vsqrt.f32`. The three instructions write `s0` and one other register, both named to the compiler; they touch no
-//! memory, no stack and no flag that the compiler keeps. (A unit of single precision alone has registers that the compiler does not
-//! take as operands, hence the moves.)
+//! **Proof.** Targets whose ABI passes numbers in registers of the floating-point unit (`eabihf`) have that unit. Every such unit has
+//! `vsqrt.f32`. The three instructions write `s0` and one other register, both declared to the compiler. They access no memory, no stack
+//! and no flag that the compiler relies on. The moves are needed for units of single precision alone: the compiler does not accept their
+//! registers as operands.
 
 #![allow(unsafe_code, reason = "the proof is above")]
 
-/// Square root of `x`; of a negative number not a number.
+/// Square root of `x`; NaN for a negative number.
 #[cfg(all(target_arch = "arm", target_abi = "eabihf"))]
 #[inline]
 pub(super) fn root(x: f32) -> f32 {
     let root: f32;
-    // SAFETY: above.
+    // SAFETY: see the proof at the top of this file.
     unsafe {
         core::arch::asm!(
             "vmov s0, {x}",
@@ -28,7 +29,7 @@ pub(super) fn root(x: f32) -> f32 {
     root
 }
 
-/// Square root of `x`; of a negative number not a number.
+/// Square root of `x`; NaN for a negative number.
 #[cfg(not(all(target_arch = "arm", target_abi = "eabihf")))]
 #[inline]
 pub(super) fn root(x: f32) -> f32 {

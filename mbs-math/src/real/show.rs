@@ -1,19 +1,19 @@
-//! Double-double to decimal text, through exact whole numbers.
+//! Double-double number to decimal text, by exact whole numbers.
 
 use super::double_double::DoubleDouble;
 use super::wide::Wide;
 use core::fmt::{self, Alignment, Display, Formatter, LowerExp, Write};
 
-/// Digits where no precision is asked for: all that a pair of doubles has.
+/// Number of digits when no precision is requested: all digits of a double-double number.
 const DIGITS: usize = 32;
-/// Digits that are computed at most; zeros follow.
+/// Largest number of digits that are computed. Further digits are written as zeros.
 const MOST_DIGITS: usize = 64;
-/// Exponent of the smallest `f64`, which is 2^-1074.
+/// Exponent of the smallest positive `f64`, which is 2^-1074.
 const SMALLEST: i32 = 1074;
-/// Bound of the rounding of a logarithm of a size [-]: below 400, it is off by 1e-13 at most.
+/// Bound of the rounding error of a logarithm [-]. The logarithms are below 400, with errors of at most 1e-13.
 const LOG_ROUNDING: f64 = 1e-9;
 
-/// Decimal digits of a size: d₀ d₁ ... times 10^exponent, d₀ before the point. Zero has no digits.
+/// Decimal digits of an absolute value: d₀.d₁d₂ ... times 10^exponent. Zero has no digits.
 struct Decimal {
     digits: [u8; MOST_DIGITS],
     n: usize,
@@ -21,7 +21,7 @@ struct Decimal {
 }
 
 impl Decimal {
-    /// The size of a finite number rounded to nearest, ties to even, at `wanted(exponent)` digits.
+    /// The absolute value of a finite number, rounded to nearest with ties to even. The number of digits is `wanted(exponent)`.
     fn new(x: DoubleDouble, wanted: impl Fn(i32) -> i32) -> Self {
         let mut of = Self { digits: [0; MOST_DIGITS], n: 0, exponent: 0 };
         if x.hi() == 0.0 {
@@ -29,7 +29,7 @@ impl Decimal {
         }
         let (mut over, mut under) = (exact(x), Wide::from_u64(1));
         under.shift_up(SMALLEST.unsigned_abs() as usize);
-        // One too small is put right below, and rounding of the logarithm makes none too large.
+        // An exponent that is one too small is corrected below. The subtracted bound keeps the exponent from being too large.
         #[allow(clippy::cast_possible_truncation, reason = "an exponent is below 400")]
         let mut exponent = libm::floor(libm::log10(x.hi().abs()) - LOG_ROUNDING) as i32;
         let scaled = if exponent >= 0 { &mut under } else { &mut over };
@@ -52,7 +52,7 @@ impl Decimal {
             *digit = u8::try_from(over.divide(&under, 4)).unwrap_or(9);
             over.multiply(10);
         }
-        // What is left was multiplied by ten, but for no digits at all.
+        // The remainder was multiplied by ten after the last digit, unless no digits were computed.
         under.multiply(if of.n == 0 { 1 } else { 10 });
         over.multiply(2);
         let last_is_odd = of.n > 0 && of.digits[of.n - 1] % 2 == 1;
@@ -62,7 +62,7 @@ impl Decimal {
         of
     }
 
-    /// One more in the last place.
+    /// Adds one to the last digit.
     fn round_up(&mut self) {
         for digit in self.digits[..self.n].iter_mut().rev() {
             if *digit < 9 {
@@ -71,7 +71,7 @@ impl Decimal {
             }
             *digit = 0;
         }
-        // 9.99 becomes 10.0, and nothing becomes the one before it.
+        // Rounding 9.99 up gives 10.0. A number without digits becomes a one at the place before.
         self.exponent += 1;
         self.n = (self.n + 1).min(MOST_DIGITS);
         self.digits[0] = 1;
@@ -90,12 +90,12 @@ impl Decimal {
         char::from(b'0' + i.map_or(0, |i| self.digits[i]))
     }
 
-    /// Digits from 10^from down to 10^to.
+    /// Writes the digits from 10^from down to 10^to.
     fn write(&self, to: &mut dyn Write, (from, down): (i32, i32)) -> fmt::Result {
         (down..=from).rev().try_for_each(|place| to.write_char(self.at(place)))
     }
 
-    /// The whole part, and decimals of this number.
+    /// Writes the whole part, and this number of decimals.
     fn plain(&self, to: &mut dyn Write, decimals: usize) -> fmt::Result {
         self.write(to, (self.exponent.max(0), 0))?;
         if decimals == 0 {
@@ -105,7 +105,7 @@ impl Decimal {
         self.write(to, (-1, -i32::try_from(decimals).unwrap_or(i32::MAX)))
     }
 
-    /// One digit, decimals of this number, and the exponent.
+    /// Writes one digit, this number of decimals, and the exponent.
     fn scientific(&self, to: &mut dyn Write, decimals: usize) -> fmt::Result {
         to.write_char(self.at(self.exponent))?;
         if decimals > 0 {
@@ -117,7 +117,7 @@ impl Decimal {
     }
 }
 
-/// The size of a finite number times 2^[`SMALLEST`].
+/// The absolute value of a finite number times 2^[`SMALLEST`], which is a whole number.
 fn exact(x: DoubleDouble) -> Wide {
     let mut sum = Wide::ZERO;
     let (hi, lo) = (parts(x.hi()), parts(x.lo()));
@@ -130,13 +130,13 @@ fn exact(x: DoubleDouble) -> Wide {
     sum
 }
 
-/// Significand and shift of the size of a finite `f64`, as a multiple of the smallest.
+/// Significand and shift of the absolute value of a finite `f64`, as a multiple of the smallest positive `f64`.
 fn parts(x: f64) -> (u64, usize) {
     let (fraction, exponent) = (x.to_bits() & ((1 << 52) - 1), (x.to_bits() >> 52) & 0x7ff);
     if exponent == 0 { (fraction, 0) } else { (fraction | 1 << 52, exponent as usize - 1) }
 }
 
-/// Counts what is written.
+/// Writer that counts the characters.
 struct Length(usize);
 
 impl Write for Length {
@@ -146,7 +146,7 @@ impl Write for Length {
     }
 }
 
-/// Sign, body, and filling to the width asked for: to the right where nothing else is said, as numbers are.
+/// Writes sign, body, and the padding to the requested width. Numbers are aligned to the right by default.
 fn padded(
     f: &mut Formatter<'_>,
     is_negative: bool,
@@ -177,7 +177,8 @@ fn padded(
 }
 
 impl Display for DoubleDouble {
-    /// Without an exponent, as `f64`: with the decimals asked for, else with 32 digits but for zeros at their end.
+    /// Writes the number without an exponent, like `f64`, with the requested decimals. Without a request it has 32 digits, and zeros at the
+    /// end are left out.
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         if !self.hi().is_finite() {
             return Display::fmt(&self.hi(), f);
@@ -200,7 +201,8 @@ impl Display for DoubleDouble {
 }
 
 impl LowerExp for DoubleDouble {
-    /// Writes the number with an exponent: with the decimals asked for, else with 32 digits but for zeros at their end.
+    /// Writes the number with an exponent, with the requested decimals. Without a request it has 32 digits, and zeros at the end are left
+    /// out.
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         if !self.hi().is_finite() {
             return LowerExp::fmt(&self.hi(), f);

@@ -1,13 +1,13 @@
-//! Error-free transforms of two numbers: their rounded sum or product, and what rounding took from it.
+//! Error-free transforms of two numbers: their rounded sum or product, and its rounding error.
 //!
-//! A fused multiply-add is not asked for: where the hardware has none it is a slow call, and a product is split exactly
-//! without it. The results are the same bits on every target whose `f64` is IEEE 754 binary64 in every operation; the x87
-//! registers of 32-bit x86 without SSE2 are not.
+//! A fused multiply-add is not used: without hardware support it is a slow call, and a product can be split exactly without it. The results
+//! have the same bits on every target whose `f64` is IEEE 754 binary64 in every operation. The x87 registers of 32-bit x86 without SSE2 are
+//! not.
 
-/// Factor 2²⁷ + 1: times a number, it parts the upper 26 bits from the rest.
+/// Factor 2²⁷ + 1: its product with a number separates the upper 26 bits from the others.
 const SPLITTER: f64 = 134_217_729.0;
 
-/// s + e = a + b exactly, s the rounded sum (Knuth). 6 flops; exact for all finite numbers whose sum is finite.
+/// Rounded sum s and rounding error e, with s + e = a + b exactly (Knuth). 6 flops. Exact for all finite numbers whose sum is finite.
 #[inline]
 pub(super) const fn two_sum(a: f64, b: f64) -> (f64, f64) {
     let s = a + b;
@@ -16,14 +16,14 @@ pub(super) const fn two_sum(a: f64, b: f64) -> (f64, f64) {
     (s, (a - of_a) + (b - of_b))
 }
 
-/// s + e = a + b exactly, where |a| ≥ |b| or a = 0 (Dekker). 3 flops.
+/// Rounded sum s and rounding error e, with s + e = a + b exactly, if |a| ≥ |b| or a = 0 (Dekker). 3 flops.
 #[inline]
 pub(super) const fn fast_two_sum(a: f64, b: f64) -> (f64, f64) {
     let s = a + b;
     (s, b - (s - a))
 }
 
-/// Two halves of at most 26 bits each that sum to a exactly (Veltkamp). 4 flops; |a| < 2⁹⁹⁶.
+/// Splits a into two parts of at most 26 bits each whose sum is exactly a (Veltkamp). 4 flops; |a| < 2⁹⁹⁶.
 #[inline]
 const fn split(a: f64) -> (f64, f64) {
     let c = SPLITTER * a;
@@ -31,8 +31,8 @@ const fn split(a: f64) -> (f64, f64) {
     (upper, a - upper)
 }
 
-/// p + e = a b exactly, p the rounded product (Dekker). 17 flops; exact where both factors are below 2⁹⁹⁶ and the
-/// product is above 2⁻⁹⁶⁹, below which e is rounded to a multiple of 2⁻¹⁰⁷⁴.
+/// Rounded product p and rounding error e, with p + e = a b exactly (Dekker). 17 flops. Exact when both factors are below 2⁹⁹⁶ and the
+/// product is above 2⁻⁹⁶⁹. Below that, e is rounded to a multiple of 2⁻¹⁰⁷⁴.
 #[inline]
 pub(super) const fn two_product(a: f64, b: f64) -> (f64, f64) {
     let p = a * b;

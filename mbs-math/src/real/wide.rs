@@ -1,10 +1,10 @@
-//! Whole numbers of 2304 bits, for exact work with decimal text: 2²¹⁰⁰ is the largest that a pair of `f64` times a power of
-//! ten needs.
+//! Whole numbers of 2304 bits, for exact work with decimal text. The largest number needed is a pair of `f64` times a power of ten, below
+//! 2²¹⁰¹.
 
-/// Limbs of 32 bits: 2304 bits in all, above the 2101 that are needed.
+/// Number of limbs, of 32 bits each: 2304 bits, above the 2101 bits that are needed.
 const LIMBS: usize = 72;
 
-/// A whole number, lowest limb first.
+/// A whole number, stored from the lowest limb to the highest.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) struct Wide([u32; LIMBS]);
 
@@ -21,7 +21,7 @@ impl Wide {
         self.0.iter().all(|&limb| limb == 0)
     }
 
-    /// Adds x 2^shift to the number; what leaves the top is lost.
+    /// Adds x 2^shift to the number; bits above the highest limb are lost.
     #[allow(clippy::cast_possible_truncation, reason = "a number is cut into its limbs")]
     pub(super) fn add(&mut self, x: u64, shift: usize) {
         let mut carry = u128::from(x) << (shift % 32);
@@ -32,7 +32,7 @@ impl Wide {
         }
     }
 
-    /// Takes x 2^shift away; it must not be more than there is.
+    /// Subtracts x 2^shift from the number, which must be at least as large.
     #[allow(clippy::cast_possible_truncation, reason = "a number is cut into its limbs")]
     pub(super) fn subtract(&mut self, x: u64, shift: usize) {
         let mut owed = u128::from(x) << (shift % 32);
@@ -43,7 +43,7 @@ impl Wide {
         }
     }
 
-    /// Times a small number.
+    /// Multiplies the number by a small whole number.
     #[allow(clippy::cast_possible_truncation, reason = "a number is cut into its limbs")]
     pub(super) fn multiply(&mut self, by: u32) {
         let mut carry = 0_u64;
@@ -72,7 +72,7 @@ impl Wide {
         }
     }
 
-    /// Takes `other` away if it is not more than this; says whether it was.
+    /// Subtracts `other` if it is not larger than the number; returns `true` if it did.
     fn take(&mut self, other: &Self) -> bool {
         if *self < *other {
             return false;
@@ -87,7 +87,7 @@ impl Wide {
         true
     }
 
-    /// The quotient by `other`, below 2ⁿ; this becomes the remainder. `other` times 2ⁿ must fit.
+    /// Divides by `other` and returns the quotient, which must be below 2ⁿ. The number becomes the remainder. `other` times 2ⁿ must fit.
     pub(super) fn divide(&mut self, other: &Self, n: usize) -> u128 {
         let mut quotient = 0;
         for bit in (0..n).rev() {
@@ -98,7 +98,7 @@ impl Wide {
         quotient
     }
 
-    /// Bits up to the highest that is set.
+    /// Number of bits up to the highest bit that is set.
     pub(super) fn bits(&self) -> usize {
         let top = self.0.iter().rposition(|&limb| limb != 0);
         top.map_or(0, |i| 32 * (i + 1) - self.0[i].leading_zeros() as usize)

@@ -1,4 +1,4 @@
-//! Double-double numbers against arithmetic of 400 bits and more.
+//! Double-double numbers, compared with arithmetic of at least 400 bits.
 
 #![allow(
     clippy::unwrap_used,
@@ -13,7 +13,7 @@ use proptest::prelude::*;
 
 type Big = FBig<HalfEven, 2>;
 
-/// Bits of the oracle: an error of 2⁻⁴⁰⁰ is none beside 2⁻¹⁰⁶.
+/// Precision of the reference arithmetic [bits]. Its errors of 2⁻⁴⁰⁰ are negligible compared with 2⁻¹⁰⁶.
 const BITS: usize = 400;
 
 fn big(x: f64) -> Big {
@@ -21,12 +21,12 @@ fn big(x: f64) -> Big {
 }
 
 fn exact(x: DoubleDouble) -> Big {
-    // Parts of very different size need every bit between them.
+    // Parts of very different size need all bits between them.
     let wide = |x: f64| big(x).with_precision(2400).value();
     wide(x.hi()) + wide(x.lo())
 }
 
-/// |got − wanted| in u², relative to `size`.
+/// The error |got − wanted| in units of u², relative to `size`.
 fn error_in_u2(got: DoubleDouble, wanted: &Big, size: &Big) -> f64 {
     let off = exact(got) - wanted;
     let off = if off < Big::ZERO { -off } else { off };
@@ -42,7 +42,7 @@ fn relative(got: DoubleDouble, wanted: &Big) -> f64 {
     error_in_u2(got, wanted, wanted)
 }
 
-/// Pairs with all bits in use, of sizes 2^±range; some whose second part is far off, and plain numbers.
+/// Double-double numbers with all bits in use, of sizes 2^±range. Some have a second part that is much smaller, or none.
 fn numbers(range: i32) -> impl Strategy<Value = DoubleDouble> {
     let parts = (any::<bool>(), 1.0..2.0_f64, -range..=range, -1.0..1.0_f64, 0..60_i32);
     parts.prop_map(|(is_negative, m, exponent, lo, gap)| {
@@ -56,14 +56,14 @@ fn numbers(range: i32) -> impl Strategy<Value = DoubleDouble> {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(2000))]
 
-    /// 3 u² + 13 u³, of any signs.
+    /// The bound of a sum is 3 u² + 13 u³, for terms of any signs.
     #[test]
     fn sums_are_within_three_u2(x in numbers(60), y in numbers(60)) {
         prop_assert!(relative(x + y, &(exact(x) + exact(y))) <= 3.0001);
         prop_assert!(relative(x - y, &(exact(x) - exact(y))) <= 3.0001);
     }
 
-    /// The bound is relative to the sum, however much of the terms has cancelled.
+    /// The bound is relative to the sum, even when the terms nearly cancel.
     #[test]
     fn sums_that_cancel_are_within_three_u2(x in numbers(20), part in numbers(20), small in 0..110_i32) {
         let y = -(x + x * part * DoubleDouble::from_f64(2f64.powi(-small)));
@@ -88,7 +88,7 @@ proptest! {
         prop_assert!(relative(x.sqrt(), &exact(x).sqrt()) <= 3.126);
     }
 
-    /// 2⁻¹⁰² is 16 u².
+    /// The documented bound 2⁻¹⁰² is 16 u².
     #[test]
     fn sine_and_cosine_are_within_16_u2(x in numbers(20)) {
         let (sine, cosine) = x.sin_cos();
@@ -97,7 +97,7 @@ proptest! {
         prop_assert!(relative(cosine, &wanted_cosine) <= 16.0, "{x}: {}", relative(cosine, &wanted_cosine));
     }
 
-    /// All digits of a pair cancel at quarter turns: the later parts of π give the remainder.
+    /// At quarter turns all digits of the leading terms cancel, and the later terms of π give the remainder.
     #[test]
     fn sine_and_cosine_are_within_16_u2_at_quarter_turns(k in -3000..3000_i32, ulps in -4.0..4.0_f64) {
         let at = DoubleDouble::PI * DoubleDouble::from_f64(f64::from(k) * 0.5);
@@ -108,14 +108,14 @@ proptest! {
         prop_assert!(relative(cosine, &wanted_cosine) <= 16.0);
     }
 
-    /// 2⁻¹⁰⁰ is 64 u².
+    /// The documented bound 2⁻¹⁰⁰ is 64 u².
     #[test]
     fn angles_are_within_64_u2(y in numbers(60), x in numbers(60)) {
         let wanted = exact(y).atan2(&exact(x));
         prop_assert!(relative(y.atan2(x), &wanted) <= 64.0, "{}", relative(y.atan2(x), &wanted));
     }
 
-    /// Text of 40 digits: the nearest pair is within u²/2, and the rounded quotient adds nothing to speak of.
+    /// Text of 40 digits: the nearest double-double is within u²/2, and the rounding of the quotient adds much less.
     #[test]
     fn decimal_text_is_read_to_one_u2(
         first in 1..10_u64,
@@ -135,19 +135,19 @@ proptest! {
         prop_assert!(relative(got, &wanted) <= 1.0, "{text}: {}", relative(got, &wanted));
     }
 
-    /// Half a unit of the 32nd digit is at most 5e-32 of the number, that is 4.06 u².
+    /// Half a unit of the 32nd digit is at most 5e-32 of the number, which is 4.06 u².
     #[test]
     fn text_of_32_digits_leads_back_to_the_number(x in numbers(300)) {
         for text in [format!("{x}"), format!("{x:e}")] {
             let back = DoubleDouble::from_decimal(&text).unwrap();
             prop_assert!(relative(back, &exact(x)) <= 5.1, "{text}");
         }
-        // With 40 digits it is the number but for the rounding of reading.
+        // With 40 digits the text gives the number back, except for the rounding error of reading.
         let back = DoubleDouble::from_decimal(&format!("{x:.40e}")).unwrap();
         prop_assert!(relative(back, &exact(x)) <= 1.0);
     }
 
-    /// A number of 53 bits is written as `f64` writes it, where `f64` is told how many digits.
+    /// A number of 53 bits is written as `f64` writes it, when `f64` is given the number of digits.
     #[test]
     fn plain_numbers_are_written_as_f64_writes_them(x in -1e6..1e6_f64, small in -300..300_i32, p in 0..17_usize) {
         let y = x * 2f64.powi(small);
@@ -185,7 +185,7 @@ fn number(x: f64) -> DoubleDouble {
     DoubleDouble::from_f64(x)
 }
 
-/// The digits of π are those of any table of constants.
+/// The written digits of π are those of published tables.
 #[test]
 fn known_numbers_are_written_to_32_digits() {
     assert_eq!(DoubleDouble::PI.to_string(), "3.1415926535897932384626433832795");
@@ -228,7 +228,7 @@ fn infinities_zeros_and_nan_are_those_of_f64() {
         assert_eq!(Real::is_finite(number(x)), x.is_finite());
         assert_eq!(number(x).to_string(), x.to_string());
     }
-    // A factor above 2^996 is not split: the product is then that of f64.
+    // A factor above 2^996 is not split; the product is then that of f64.
     assert!(same(number(f64::MAX) * number(0.3), f64::MAX * 0.3));
     assert!(same(number(f64::MAX) * number(1.3), f64::INFINITY));
     for x in [f64::INFINITY, f64::NAN, 1e300] {
@@ -241,7 +241,7 @@ fn y_of(y: f64, x: f64) -> f64 {
     Real::atan2(y, x)
 }
 
-/// A sum of a million tenths is off by its roundings alone: 10⁶ sums within 3 u² each of 10⁵.
+/// The error of a sum of a million tenths comes from its roundings alone: 10⁶ sums, each within 3 u² of up to 10⁵.
 #[test]
 fn a_long_sum_keeps_its_digits() {
     let tenth = DoubleDouble::from_decimal("0.1").unwrap();

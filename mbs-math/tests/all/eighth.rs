@@ -1,11 +1,12 @@
-//! The method 8(5,3): its conditions in 32 digits, its order, its estimate, and that it takes less than the pair 5(4) for many digits.
+//! The method 8(5,3): its order conditions in 32 digits, its order, its error estimate, and its cost compared with the pair 5(4) for many
+//! digits.
 
 use core::convert::Infallible;
 use mbs_math::Real;
 use mbs_math::ode::{Adaptive, EndState, Method, Options, Rates, Tableau};
 use mbs_math::real::DoubleDouble as Pair;
 
-/// The coefficients are printed with 28 digits at least.
+/// Precision of the coefficients [-], which are published with at least 28 digits.
 const PRINTED: f64 = 1e-27;
 
 fn size(x: Pair) -> f64 {
@@ -20,7 +21,7 @@ fn printed_coefficients_fulfil_the_quadrature_conditions_of_all_three_orders() {
         w.iter().zip(&c).fold(Pair::ZERO, |sum, (&w, &c)| sum + w * power(c))
     };
     for (i, row) in a.iter().enumerate() {
-        // c_i = sum_j a_ij, of earlier stages alone
+        // Condition c_i = sum_j a_ij, with earlier stages alone.
         assert!(size(moment(row, 0) - c[i]) < PRINTED, "row {i}");
         assert!(row[i..].iter().all(|x| *x == Pair::ZERO), "row {i}");
     }
@@ -33,7 +34,7 @@ fn printed_coefficients_fulfil_the_quadrature_conditions_of_all_three_orders() {
     }
 }
 
-/// y = 1/(1 + t²): y' = −2 t y², nonlinear and dependent on time; counts how often its rates are asked for.
+/// The problem with the solution y = 1/(1 + t²): y' = −2 t y², nonlinear and dependent on time. It counts the evaluations of its rates.
 struct Witch(u64);
 
 impl<T: Real> Rates<T> for Witch {
@@ -52,7 +53,7 @@ fn witch(t: Pair) -> Pair {
     Pair::ONE / (Pair::ONE + t * t)
 }
 
-/// Error and estimate of one step from t = 0.3.
+/// Error and error estimate of one step from t = 0.3.
 fn one_step(h: f64) -> [f64; 2] {
     let (mut tableau, start, h) =
         (Tableau::<Pair, 12>::dormand_prince_8(), Pair::from_f64(0.3), Pair::from_f64(h));
@@ -64,7 +65,7 @@ fn one_step(h: f64) -> [f64; 2] {
     [size(tableau.new_state(1, &scratch)[0] - witch(start + h)), estimate.to_f64()]
 }
 
-/// Half the step: an error smaller by 2^9, an estimate by 2^8, but for a tenth by later terms.
+/// With half the step the error is smaller by 2^9 and the estimate by 2^8. Later terms change these ratios by up to a tenth.
 #[test]
 fn a_step_has_order_8_and_its_estimate_goes_with_the_eighth_power() {
     let (coarse, fine) = (one_step(0.004), one_step(0.002));
@@ -74,7 +75,7 @@ fn a_step_has_order_8_and_its_estimate_goes_with_the_eighth_power() {
     }
 }
 
-/// Error at t = 2 and evaluations with a tolerance.
+/// Error at t = 2 with a tolerance, and the number of evaluations.
 fn run<const S: usize>(tableau: Tableau<f64, S>, tolerance: f64) -> (f64, u64) {
     let (mut system, mut y) = (Witch(0), [1.0]);
     let mut scratch = vec![0.0; Tableau::<f64, S>::scratch(1)];
@@ -88,7 +89,7 @@ fn run<const S: usize>(tableau: Tableau<f64, S>, tolerance: f64) -> (f64, u64) {
     ((y[0] - 0.2).abs(), system.0)
 }
 
-/// Ten steps or so, each at most a tolerance off, may add up.
+/// The errors of about ten steps may add up, each of at most one tolerance.
 #[test]
 fn tolerances_are_kept_and_many_digits_take_fewer_evaluations_than_by_the_pair_of_order_5() {
     for tolerance in [1e-6, 1e-8, 1e-10, 1e-12] {

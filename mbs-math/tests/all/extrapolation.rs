@@ -1,11 +1,11 @@
-//! Extrapolation of the midpoint rule: its order, its counts, and how far its digits go.
+//! Extrapolation of the midpoint rule: its order, its number of evaluations, and the digits that it reaches.
 
 use core::convert::Infallible;
 use mbs_math::Real;
 use mbs_math::ode::{Adaptive, EndState, Extrapolation, Method, Options, Rates};
 use mbs_math::real::DoubleDouble as Pair;
 
-/// y = (cos t, −sin t), which counts how often its rates are asked for.
+/// The oscillator with the solution y = (cos t, −sin t). It counts the evaluations of its rates.
 struct Oscillator(u64);
 
 impl Rates<Pair> for Oscillator {
@@ -27,7 +27,7 @@ fn off(t: Pair, y: &[Pair]) -> f64 {
     (y[0] - cosine).abs().max((y[1] + sine).abs()).to_f64()
 }
 
-/// Error of one step with `k` columns, and its estimate in tolerances of one.
+/// Error of one step with `k` columns, and its error estimate for tolerances of one.
 fn one_step(k: usize, h: f64) -> [f64; 2] {
     let (mut method, h) = (Extrapolation::new(k), Pair::from_f64(h));
     let mut scratch = vec![Pair::ZERO; Method::<Pair>::n_scratch(&method, 2)];
@@ -39,8 +39,8 @@ fn one_step(k: usize, h: f64) -> [f64; 2] {
     [off(h, method.new_state(2, &scratch)), estimate.to_f64()]
 }
 
-/// A step of half the length has an error smaller by 2^(2k+1), and an estimate by 2^(2k−1), but for a tenth by later terms. With
-/// 8 columns the error is down to 1e-31, where rounding is seen.
+/// With half the step the error is smaller by 2^(2k+1) and the estimate by 2^(2k−1). Later terms change these ratios by up to a tenth. With
+/// 8 columns the error would be 1e-31, where rounding errors dominate.
 #[test]
 fn k_columns_have_order_2k_and_an_estimate_of_order_2k_less_two() {
     for k in 3..=7 {
@@ -53,7 +53,7 @@ fn k_columns_have_order_2k_and_an_estimate_of_order_2k_less_two() {
     }
 }
 
-/// Ten units of time in as many digits as pairs have, but for what some hundred roundings take.
+/// Integrates ten units of time with all digits of double-double numbers, except those lost by some hundred roundings.
 #[test]
 fn the_last_digits_of_pairs_are_reached() {
     let tolerance = Pair::from_f64(1e-28);
@@ -76,7 +76,7 @@ fn the_last_digits_of_pairs_are_reached() {
     assert_eq!(system.0, counts.evaluations);
 }
 
-/// The orders are those of the documentation, whatever is asked for.
+/// The orders are those in the documentation, for any requested tolerance.
 #[test]
 fn columns_follow_the_digits_within_their_limits() {
     let order = |tolerance: f64| Method::<f64>::power(&Extrapolation::for_tolerance(tolerance)) + 1;

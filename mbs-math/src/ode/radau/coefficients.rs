@@ -3,25 +3,25 @@
 use super::complex::Complex;
 use crate::Real;
 
-/// A, its eigenvalues, and the basis in which it is diagonal: see [`Coefficients::new`].
+/// Nodes, eigenvalues and eigenvectors of the matrix A of the method, see [`Coefficients::new`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Coefficients<T> {
     /// Nodes c of the stages.
     pub(super) nodes: [T; 3],
     /// Real eigenvalue γ of A⁻¹.
     pub(super) real: T,
-    /// α + i β, one of the other two.
+    /// Complex eigenvalue α + i β of A⁻¹; the third eigenvalue is its conjugate.
     pub(super) complex: Complex<T>,
     /// Columns t₁, t₂, t₃ with A⁻¹ t₁ = γ t₁ and A⁻¹ (t₂ + i t₃) = (α − i β)(t₂ + i t₃).
     pub(super) basis: [[T; 3]; 3],
     /// Inverse of the basis.
     pub(super) inverse: [[T; 3]; 3],
-    /// Weights d of the stages in the error f + Σ dᵢ zᵢ / h.
+    /// Weights d of the stages z in the error f + Σ dᵢ zᵢ / h.
     pub(super) error: [T; 3],
 }
 
 impl<T: Real> Coefficients<T> {
-    /// From √6 and a root of γ³ − 9 γ² + 36 γ − 60, the denominator of the stability function.
+    /// Coefficients from √6 and the real root of γ³ − 9 γ² + 36 γ − 60, the denominator of the stability function.
     pub(super) fn new() -> Self {
         let number = |x: f64| T::from_f64(x);
         let root = number(6.0).sqrt();
@@ -29,20 +29,20 @@ impl<T: Real> Coefficients<T> {
             (number(whole) + number(roots) * root) / number(under)
         };
         let nodes = [ratio(4.0, -1.0, 10.0), ratio(4.0, 1.0, 10.0), T::ONE];
-        // A, without its last row.
+        // Matrix A without its last row.
         let a = [
             [ratio(88.0, -7.0, 360.0), ratio(296.0, -169.0, 1800.0), ratio(-2.0, 3.0, 225.0)],
             [ratio(296.0, 169.0, 1800.0), ratio(88.0, 7.0, 360.0), ratio(-2.0, -3.0, 225.0)],
         ];
 
         let mut real = number(3.637_834_252_744_496);
-        // From 16 digits to those of any pair.
+        // Newton's method improves the root from 16 digits to the precision of any scalar.
         for _ in 0..3 {
             let value = ((real - number(9.0)) * real + number(36.0)) * real - number(60.0);
             let slope = (number(3.0) * real - number(18.0)) * real + number(36.0);
             real -= value / slope;
         }
-        // The others solve x² + (γ − 9) x + 60/γ.
+        // The two complex eigenvalues solve x² + (γ − 9) x + 60/γ.
         let alpha = (number(9.0) - real) * T::HALF;
         let beta = (number(60.0) / real - alpha * alpha).sqrt();
 
@@ -59,7 +59,7 @@ impl<T: Real> Coefficients<T> {
         }
     }
 
-    /// Weights of z at the nodes, for the value at `place` (in steps) of the polynomial that is zero at zero.
+    /// Weights of the stages z in the value of the collocation polynomial at `place` (in steps). The polynomial is zero at place zero.
     pub(super) fn at(&self, place: T) -> [T; 3] {
         core::array::from_fn(|j| {
             let own = self.nodes[j];
@@ -69,7 +69,7 @@ impl<T: Real> Coefficients<T> {
     }
 }
 
-/// v with A v = v / `value` and a last component of one.
+/// Eigenvector v with A v = v / `value` whose last component is one.
 fn eigenvector<T: Real>(a: &[[T; 3]; 2], value: Complex<T>) -> [Complex<T>; 3] {
     let of = |x: T| Complex::new(x, T::ZERO);
     let shift = of(T::ONE) / value;

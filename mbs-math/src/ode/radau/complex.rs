@@ -1,4 +1,4 @@
-//! Complex numbers with the operations of a factorisation, and the scalars that it is written for.
+//! Complex numbers with the operations of a factorisation, and a trait for real and complex entries.
 
 use crate::Real;
 use core::ops::{Div, Mul, Sub};
@@ -32,7 +32,7 @@ impl<T: Real> Sub for Complex<T> {
 
 impl<T: Real> Div for Complex<T> {
     type Output = Self;
-    /// By the larger part of the divisor, so that no square of it can leave the range of the numbers.
+    /// Divides by way of the larger part of the divisor, so that no square leaves the range of the scalar.
     fn div(self, b: Self) -> Self {
         if b.re.abs() >= b.im.abs() {
             let share = b.im / b.re;

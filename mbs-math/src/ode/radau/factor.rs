@@ -19,7 +19,7 @@ impl<T: Real> Matrices<T> {
         Self { real: Factor::new(n, leading), complex: Factor::new(n, leading) }
     }
 
-    /// Factors both for a step; says whether they are regular.
+    /// Factors both matrices for a step; returns `true` when both are regular.
     pub(super) fn factor(&mut self, of: &Coefficients<T>, h: T, jacobian: &[T]) -> bool {
         let Complex { re, im } = of.complex;
         self.real.factor(of.real / h, jacobian)
@@ -27,18 +27,18 @@ impl<T: Real> Matrices<T> {
     }
 }
 
-/// L U = P (x − J), row by row in one array.
+/// Factors of P (x − J) = L U, stored row by row in one array.
 ///
-/// The leading unknowns, whose rates hardly depend on each other, are eliminated on the diagonal, and the zeros of their rows
-/// passed over. The others are eliminated by the largest pivot in their column.
+/// The leading unknowns, whose rates depend little on each other, are eliminated without row exchanges, and zeros in their rows are
+/// skipped. The other unknowns are eliminated with the largest pivot in their column.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Factor<T, N> {
     n: usize,
     leading: usize,
     entries: Vec<N>,
-    /// The row that was brought to each place.
+    /// The row that was moved to each place.
     pivots: Vec<usize>,
-    /// Columns that a row has, for the time of its elimination.
+    /// Work list during an elimination: the columns in which a row is not zero.
     columns: Vec<usize>,
     scalar: PhantomData<T>,
 }
@@ -55,10 +55,10 @@ impl<T: Real, N: Number<T>> Factor<T, N> {
         }
     }
 
-    /// Factors x − J; says whether all pivots are numbers other than zero.
+    /// Factors x − J; returns `true` when all pivots are finite and not zero.
     ///
-    /// Cost: for n − l unknowns that do not lead (n − l)³/3 products, and less than (n − l)² l for the others where each is the rate of
-    /// few.
+    /// Cost, with l leading unknowns: (n − l)³/3 products for the others. The leading ones cost less than (n − l)² l when each is the rate
+    /// of few unknowns.
     pub(super) fn factor(&mut self, x: N, jacobian: &[T]) -> bool {
         let n = self.n;
         for (entry, &slope) in self.entries.iter_mut().zip(jacobian) {
@@ -80,7 +80,7 @@ impl<T: Real, N: Number<T>> Factor<T, N> {
         })
     }
 
-    /// Brings the row with the largest entry of column k to its place.
+    /// Moves the row with the largest entry of column k to place k.
     fn exchange(&mut self, k: usize) {
         let n = self.n;
         let mut largest = (k, T::ZERO);
@@ -97,7 +97,7 @@ impl<T: Real, N: Number<T>> Factor<T, N> {
         }
     }
 
-    /// Takes row k from those below.
+    /// Subtracts multiples of row k from the rows below it.
     fn eliminate(&mut self, k: usize) {
         let n = self.n;
         let (above, below) = self.entries.split_at_mut((k + 1) * n);
@@ -125,7 +125,7 @@ impl<T: Real, N: Number<T>> Factor<T, N> {
         }
     }
 
-    /// b ← (x − J)⁻¹ b. Cost: n² products.
+    /// Replaces b by (x − J)⁻¹ b. Cost: n² products.
     pub(super) fn solve(&self, b: &mut [N]) {
         let n = self.n;
         for k in self.leading..n {

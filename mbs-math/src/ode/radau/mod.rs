@@ -15,19 +15,22 @@ use coefficients::Coefficients;
 use factor::Matrices;
 use newton::{End, Newton};
 
-/// Error that stands for an iteration that did not converge, in tolerances [-]: the step control then halves the step.
+/// Error that a trial returns when its iteration did not converge, in tolerances [-]. The step control then halves the step.
 const DIVERGED: f64 = 10.0;
-/// Growth below which a step keeps its length, and its factors with it [-]: as published (Hairer and Wanner II, IV.8).
+/// Least growth for which a step changes its length [-]: as published (Hairer and Wanner II, IV.8). A step of the same length needs no new
+/// factorisation.
 const WORTH_IT: f64 = 1.2;
-/// Ratio of a stage's defect after a correction to that before it, above which the slopes are of another motion [-]. Chosen, not tuned.
+/// Largest ratio of a stage's defect after the last correction to the defect before it [-]. Above it the slopes J do not describe the
+/// present motion. Chosen, not tuned.
 const MAX_DEFECT_RATIO: f64 = 0.5;
-/// Defect that is rounding, in units of what rounding of the state makes of the rates [-]. Chosen, not tuned.
+/// Defect that counts as rounding error, in units of the rounding error of the rates due to the rounding of the state [-]. Chosen, not
+/// tuned.
 const ROUNDINGS: f64 = 16.0;
-/// Least value of a component for differences, in units of its size [-]: as in the published code RADAU5 (Hairer and Wanner).
+/// Least value of a component for finite differences, in units of its size [-]: as in the published code RADAU5 (Hairer and Wanner).
 const LEAST_VALUE: f64 = 1e-5;
-/// Contraction of the iteration below which its slopes are kept for the next step [-]. Chosen, not tuned.
+/// Contraction of the iteration below which the slopes J are used again in the next step [-]. Chosen, not tuned.
 const FAST_CONTRACTION: f64 = 0.05;
-/// Relative difference of two steps below which the factors of one serve for the other [-]. Chosen, not tuned.
+/// Relative difference of two steps below which the factors for one step are used for the other [-]. Chosen, not tuned.
 const SAME_STEP: f64 = 1e-3;
 
 /// Radau IIA with three stages (Hairer and Wanner, Solving Ordinary Differential Equations II, IV.8): order 5, L-stable.
@@ -37,23 +40,25 @@ const SAME_STEP: f64 = 1e-3;
 /// error = (γ/h − J)⁻¹ (f(t, y) + Σᵢ dᵢ zᵢ / h)
 /// ```
 ///
-/// The stages are found by Newton's method with slopes J by differences, which are kept while it converges fast. In the basis
-/// where A⁻¹ is diagonal its matrices are γ/h − J and (α + iβ)/h − J. The iteration begins from the polynomial of the step before.
+/// Newton's method finds the stages zᵢ. Its slopes J = ∂f/∂y come from finite differences, and are used again while the iteration converges
+/// fast. In the basis where A⁻¹ is diagonal, the matrices of the iteration are γ/h − J and (α + iβ)/h − J. The iteration begins from the
+/// collocation polynomial of the previous step.
 ///
-/// A step is refused where slopes hide from the iteration what its stages are off by, as those of a spring do that has let go within
-/// the step. What begins and ends within a step, or moves the state by less than the tolerance, is not seen: [`Options::max_step`].
-/// In `f32` the rounding of positions, times the slopes of very stiff springs, keeps the iteration from small tolerances, and steps short.
+/// A converged iteration is rejected when the slopes hide a defect of the stages. An example is a stiff spring that loses contact within
+/// the step. An event that begins and ends within a step is not detected. An event that moves the state by less than the tolerance is not
+/// detected either. [`Options::max_step`] limits the step for such events. In `f32`, the rounding of positions times the slopes of very
+/// stiff springs limits the tolerances that the iteration can reach, and keeps steps short.
 ///
-/// All memory is made by [`Radau::new`]; nothing is allocated in a step.
+/// [`Radau::new`] allocates all memory; a step allocates nothing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Radau<T> {
     coefficients: Coefficients<T>,
     memory: RadauHistory<T>,
     matrices: Matrices<T>,
     newton: Newton<T>,
-    /// When the last trial began [s].
+    /// Time at which the last trial began [s].
     begun: Option<T>,
-    /// When the slopes were found [s].
+    /// Time at which the slopes J were evaluated [s].
     found: Option<T>,
     evaluations: u64,
 }
@@ -61,23 +66,23 @@ pub struct Radau<T> {
 /// History of a [`Radau`] from step to step.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct RadauHistory<T> {
-    /// J, row by row.
+    /// Slopes J = ∂f/∂y, row by row.
     pub jacobian: Vec<T>,
-    /// Is J one that the next step may use?
+    /// May the next step use J?
     pub has_jacobian: bool,
-    /// The step that the factors are of [s], if they are of these slopes.
+    /// Step length for which the matrices are factored [s], if they are factored with the present slopes.
     pub factored: Option<T>,
-    /// z₁, z₂, z₃ of the last step.
+    /// Stages z₁, z₂, z₃ of the last step.
     pub stages: Vec<T>,
-    /// The length of that step [s], if its iteration converged.
+    /// Length of the last step [s], if its iteration converged.
     pub step: Option<T>,
-    /// How much more than the last correction was left after it.
+    /// Ratio of the error left after the last correction to that correction [-].
     pub rest: T,
 }
 
 impl<T: Real> Radau<T> {
-    /// A method for systems of `n` components. The rates of the first `leading` depend little on each other, as those of positions do,
-    /// which are velocities: they are eliminated without exchange of rows.
+    /// A method for systems of `n` components. The rates of the first `leading` components depend little on each other, as the rates of
+    /// positions do, which are velocities. These components are eliminated without row exchanges.
     #[must_use]
     pub fn new(n: usize, leading: usize) -> Self {
         Self {
@@ -98,16 +103,16 @@ impl<T: Real> Radau<T> {
         }
     }
 
-    /// State that the next step continues from.
+    /// History that the next step continues from.
     #[must_use]
     pub fn history(&self) -> RadauHistory<T> {
         self.memory.clone()
     }
 
-    /// Restores the history of a method for as many components; returns whether it is one. Else no more is changed than that slopes
-    /// are found anew.
+    /// Restores the history of a method with the same number of components. Returns `false` when the number differs or the matrices are not
+    /// regular. The old history then remains, except that after a singular matrix the slopes are evaluated again.
     ///
-    /// Cost: the factorisations that the history is of.
+    /// Cost: the two factorisations, if the history has a factored step.
     pub fn set_history(&mut self, history: &RadauHistory<T>) -> bool {
         let lengths = |memory: &RadauHistory<T>| (memory.jacobian.len(), memory.stages.len());
         if lengths(history) != lengths(&self.memory) {
@@ -122,14 +127,15 @@ impl<T: Real> Radau<T> {
         is_sound
     }
 
-    /// Factors both matrices for a step; says whether they are sound.
+    /// Factors both matrices for the step `h`; returns `true` when both are regular.
     fn factor(&mut self, h: T) -> bool {
         let is_sound = self.matrices.factor(&self.coefficients, h, &self.memory.jacobian);
         self.memory.factored = is_sound.then_some(h);
         is_sound
     }
 
-    /// J by differences of the rates at (t, y), column by column; zero where they are no numbers on both sides. Cost: n + 1 evaluations.
+    /// Evaluates J by finite differences of the rates at (t, y), column by column. A column is zero when the rates are not finite on both
+    /// sides. Cost: n + 1 evaluations, and one more for each column that needs the second side.
     fn differentiate<R: Rates<T>>(
         &mut self,
         system: &mut R,
@@ -147,7 +153,7 @@ impl<T: Real> Radau<T> {
             let size = y[k].abs().max(T::from_f64(LEAST_VALUE) * unit);
             let root = (T::EPSILON * size * unit).sqrt();
             for by in [root, -root] {
-                // What the sum is larger by, not what was added.
+                // The increment after rounding of the sum, which differs from `by`.
                 stage[k] = y[k] + by;
                 let step = stage[k] - y[k];
                 system.fine_rates(t, stage, moved)?;
@@ -169,8 +175,8 @@ impl<T: Real> Radau<T> {
         Ok(())
     }
 
-    /// Brings slopes and factors up to what a step needs; says whether the slopes are of its very beginning, or nothing where the
-    /// matrices are not regular.
+    /// Updates the slopes and the factors as the step `h` needs. Returns whether the slopes were evaluated at the beginning of this step,
+    /// or `None` when the matrices are not regular.
     fn prepare<R: Rates<T>>(
         &mut self,
         system: &mut R,
@@ -186,9 +192,9 @@ impl<T: Real> Radau<T> {
         Ok(is_sound.then_some(is_new))
     }
 
-    /// Was the last correction one? `last` are the rates at the end.
+    /// Does the defect confirm that the last correction converged? `last` has the rates at the end of the step.
     ///
-    /// Cost: 6 n products; where what is left is in doubt, n² more.
+    /// Cost: 6 n products, and n² more when the defect is above one tolerance and did not fall by half.
     fn judge(&self, h: T, y: &[T], last: &[T]) -> End {
         if !last.iter().all(|rate| rate.is_finite()) {
             return End::NotFinite;
@@ -198,7 +204,7 @@ impl<T: Real> Radau<T> {
         if after <= T::ONE || after <= T::from_f64(MAX_DEFECT_RATIO) * newton.before {
             return End::Converged;
         }
-        // What the rounding of the state makes of rates through these slopes.
+        // Rounding error of the rates: the slopes times the rounding error of the state.
         let mut sum = T::ZERO;
         for (row, &weight) in self.memory.jacobian.chunks_exact(n.max(1)).zip(&newton.weights) {
             let products = row.iter().zip(y).fold(T::ZERO, |sum, (j, y)| sum + j.abs() * y.abs());
@@ -208,9 +214,9 @@ impl<T: Real> Radau<T> {
         if after <= T::from_f64(ROUNDINGS) * noise { End::Converged } else { End::Diverged }
     }
 
-    /// Size of the error of the stages found, in tolerances; `first` are the rates at the beginning, `end` the new state.
+    /// Size of the error of the step, in tolerances. `first` has the rates at the beginning, `end` the new state.
     ///
-    /// Cost: n² products; where a step after a rejected one would be rejected as well, one evaluation and as many products again.
+    /// Cost: n² products. When a step after a rejected one would be rejected too, the cost is one evaluation and n² products more.
     fn error<R: Rates<T>>(
         &mut self,
         system: &mut R,
@@ -234,7 +240,8 @@ impl<T: Real> Radau<T> {
         if error <= T::ONE || !is_repeated {
             return Ok(error);
         }
-        // What a stiff system damps at once is no error: rates are taken where it has.
+        // An error component that a stiff system damps at once does not count. The estimate is therefore repeated with the rates at y +
+        // error, where such components are damped.
         for k in 0..n {
             one[k] += y[k];
         }
@@ -288,7 +295,7 @@ impl<T: Real> Method<T> for Radau<T> {
                 self.memory.step = None;
                 return Ok(T::from_f64(f64::NAN));
             };
-            // A trial after a rejected one begins where that began.
+            // A trial after a rejected trial begins at the same time and state as the rejected one.
             let from = if is_repeated { T::ZERO } else { T::ONE };
             let nodes = self.coefficients.nodes;
             let before = self.memory.step.map(|old| {

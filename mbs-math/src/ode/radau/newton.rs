@@ -8,19 +8,20 @@ use crate::ode::Rates;
 use alloc::vec;
 use alloc::vec::Vec;
 
-/// Most iterations of a step [-]: from the published range of 7 to 10 (Hairer and Wanner II, IV.8).
+/// Largest number of iterations in a step [-]: from the published range of 7 to 10 (Hairer and Wanner II, IV.8).
 const MAX_ITERATIONS: i32 = 8;
 /// Largest remaining error of the iteration, in tolerances of the step [-]: from the published range of 0.01 to 0.1 (IV.8).
 const MAX_REMAINDER: f64 = 0.03;
 /// Contraction above which an iteration ends without success [-]. Chosen, not tuned.
 const TOO_SLOW: f64 = 0.9;
-/// Least ratio of the remaining error to the first correction [-], however fast the last step converged: the contraction is not known yet.
-/// Chosen, not tuned.
+/// Least assumed ratio of the remaining error to the first correction [-]. It applies even if the last step converged faster, since the
+/// contraction of the new step is not known yet. Chosen, not tuned.
 const UNSEEN: f64 = 1e-3;
-/// Exponent on the last step's ratio of remaining error to correction [-]: as published (IV.8), where it is less certain in the next step.
+/// Exponent on the last step's ratio of remaining error to correction [-]: as published (IV.8). The exponent makes the ratio larger, since
+/// it is less certain in the next step.
 const REST_EXPONENT: f64 = 0.8;
 
-/// How an iteration ended.
+/// Result of an iteration of a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum End {
     Converged,
@@ -28,22 +29,22 @@ pub(super) enum End {
     NotFinite,
 }
 
-/// Stages, in n numbers each, and what the iteration needs.
+/// Stages of a step, n numbers each, and the work vectors of the iteration.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Newton<T> {
-    /// Stages z₁, z₂, z₃.
+    /// Stages z₁, z₂, z₃: differences from the state at the beginning of the step.
     pub(super) z: Vec<T>,
-    /// Stages in the basis of the eigenvectors.
+    /// Stages w = T⁻¹ z in the basis of the eigenvectors.
     w: Vec<T>,
     pub(super) rates: Vec<T>,
     pub(super) stage: Vec<T>,
     pub(super) one: Vec<T>,
     pair: Vec<Complex<T>>,
-    /// One over the tolerance of each component.
+    /// Reciprocal of the tolerance of each component.
     pub(super) weights: Vec<T>,
-    /// The share of the error that the last iteration left.
+    /// Ratio of the error after the last iteration to the error before it [-].
     pub(super) contraction: T,
-    /// How far the third stage was from its equation before the last correction, see [`Self::defect`].
+    /// Defect of the third stage before the last correction, see [`Self::defect`].
     pub(super) before: T,
 }
 
@@ -63,10 +64,10 @@ impl<T: Real> Newton<T> {
         }
     }
 
-    /// How far the third stage is from its equation, h f − (A⁻¹ z)₃, in tolerances, with these rates there.
+    /// Defect of the third stage with these `rates` at it, h f − (A⁻¹ z)₃, in tolerances.
     ///
-    /// Corrections are small where the slopes are steep, whatever the rates are. A spring that is in the slopes but not in the motion
-    /// any more hides what is wrong from them; the defect shows it.
+    /// Corrections are small where the slopes are steep, whatever the rates are. When a spring is still in the slopes but has left the
+    /// motion, small corrections hide the error of the stages. The defect shows it.
     pub(super) fn defect(&self, coefficients: &Coefficients<T>, h: T, rates: &[T]) -> T {
         let n = self.one.len();
         let (gamma, Complex { re, im }) = (coefficients.real, coefficients.complex);
@@ -81,8 +82,9 @@ impl<T: Real> Newton<T> {
         (sum / T::from_f64(n.max(1) as f64)).sqrt()
     }
 
-    /// Begins from stages of zero, or from the polynomial of the step before. `places` has the stages' places in that step. `from` is one
-    /// where its end is where this one begins, zero where both begin at the same place.
+    /// Begins from stages of zero, or from the collocation polynomial of the previous step. `places` has the nodes of the new step, in
+    /// lengths of the previous one. `from` is one when the new step begins at the end of the previous one, and zero when both begin at the
+    /// same time.
     pub(super) fn begin(
         &mut self,
         coefficients: &Coefficients<T>,
@@ -109,8 +111,8 @@ impl<T: Real> Newton<T> {
         }
     }
 
-    /// Finds the stages of the step `h` from `t` and `y`. `rest` is how much more than the last correction was left after it, and
-    /// is brought up to date.
+    /// Finds the stages of the step `h` from `t` and `y`. `rest` is the ratio of the error left after the last correction to that
+    /// correction; it is updated on convergence.
     ///
     /// Cost: three evaluations and 5 n² products for each iteration.
     pub(super) fn solve<R: Rates<T>>(
@@ -166,7 +168,7 @@ impl<T: Real> Newton<T> {
         Ok(End::Diverged)
     }
 
-    /// (Λ/h − J) Δw = T⁻¹ f − Λ/h w, which is left in `one` and `pair`.
+    /// Solves (Λ/h − J) Δw = T⁻¹ f − Λ/h w for Δw; its components are written to `one` and `pair`.
     fn correct(&mut self, (coefficients, matrices): (&Coefficients<T>, &Matrices<T>), h: T) {
         let n = self.one.len();
         let (gamma, alpha) = (coefficients.real / h, coefficients.complex.re / h);
@@ -183,7 +185,7 @@ impl<T: Real> Newton<T> {
         matrices.complex.solve(&mut self.pair);
     }
 
-    /// w += Δw, z = T w; returns the size of Δw in tolerances.
+    /// Adds Δw to w, sets z = T w, and returns the size of Δw in tolerances.
     fn take(&mut self, coefficients: &Coefficients<T>) -> T {
         let n = self.one.len();
         let mut sum = T::ZERO;

@@ -1,4 +1,4 @@
-//! Coefficients, order, stiffness, counts and memory of the implicit method, on problems with closed forms.
+//! Coefficients, order, stiffness, counts and history of the implicit method, mostly on problems with closed forms.
 
 use super::complex::Complex;
 use super::*;
@@ -9,7 +9,7 @@ use core::convert::Infallible;
 
 type Law<T> = dyn Fn(T, &[T], &mut [T]);
 
-/// A problem by its rates, which counts how often they are asked for.
+/// A problem y' = f(t, y) that counts the evaluations of its rates.
 struct Problem<T> {
     rates: Box<Law<T>>,
     evaluations: u64,
@@ -33,12 +33,13 @@ impl<T: Real> Rates<T> for Problem<T> {
     }
 }
 
-/// A pendulum's oscillation written with position and velocity, x'' = −x³: no closed form is needed, its energy is kept.
+/// The nonlinear oscillator x'' = −x³, with position and velocity. Its energy is constant, so no closed form is needed.
 fn duffing<T: Real>() -> Problem<T> {
     Problem::new(|_, y: &[T], dy: &mut [T]| (dy[0], dy[1]) = (y[1], -y[0] * y[0] * y[0]))
 }
 
-/// x = sin t by a spring of stiffness k and a damper that is critical: x'' = −sin t − k (x − sin t) − 2 √k (x' − cos t).
+/// The problem with the solution x = sin t, led by a spring of stiffness k and a critical damper: x'' = −sin t − k (x − sin t) − 2 √k (x' −
+/// cos t).
 fn led(k: f64) -> Problem<f64> {
     Problem::new(move |t, y: &[f64], dy: &mut [f64]| {
         let (s, c) = (libm::sin(t), libm::cos(t));
@@ -46,7 +47,7 @@ fn led(k: f64) -> Problem<f64> {
     })
 }
 
-/// Runs to `end` with a tolerance; returns the state, and the driver.
+/// Integrates to `end` with a tolerance; returns the driver, and leaves the state in `y`.
 fn run<T: Real>(
     problem: &mut Problem<T>,
     (tolerance, first): (f64, f64),
@@ -66,7 +67,7 @@ fn run<T: Real>(
     Ok(driver)
 }
 
-/// Error of x'' = −x after one step of h from (1, 0), whose stages are found to rounding.
+/// Error of x'' = −x after one step h from (1, 0), with stages found to machine precision.
 fn one_step(h: f64) -> f64 {
     let mut problem = Problem::new(|_, y: &[Pair], dy: &mut [Pair]| (dy[0], dy[1]) = (y[1], -y[0]));
     let (mut method, mut scratch) = (Radau::new(2, 1), [Pair::ZERO; 6]);
@@ -79,7 +80,7 @@ fn one_step(h: f64) -> f64 {
     (end[0] - cosine).abs().max((end[1] + sine).abs()).to_f64()
 }
 
-/// The error of one step goes with h⁶; later terms change the ratio by less than a tenth at these steps.
+/// The error of one step is proportional to h⁶. Later terms change the ratio of errors by less than a tenth at these steps.
 #[test]
 fn the_method_is_of_order_5() {
     for h in [0.2, 0.1] {
@@ -88,8 +89,8 @@ fn the_method_is_of_order_5() {
     }
 }
 
-/// Σⱼ aᵢⱼ cⱼ^k = cᵢ^(k+1)/(k+1) for k < 3 says that A is that of the collocation. Here it is tried of what is made of it: A = T Λ⁻¹ T⁻¹, to
-/// some roundings of pairs.
+/// Σⱼ aᵢⱼ cⱼ^k = cᵢ^(k+1)/(k+1) for k < 3 are the conditions of collocation on A. The test checks them for A = T Λ⁻¹ T⁻¹, computed from the
+/// coefficients, up to some rounding errors of double-double numbers.
 #[test]
 fn the_basis_is_that_of_the_collocation_in_32_digits() {
     let c = Coefficients::<Pair>::new();
@@ -99,7 +100,7 @@ fn the_basis_is_that_of_the_collocation_in_32_digits() {
         let power = |x: Pair, k: u8| (0..k).fold(Pair::ONE, |p, _| p * x);
         let given = c.nodes.map(|c| power(c, k));
         let w = c.inverse.map(|row| row[0] * given[0] + row[1] * given[1] + row[2] * given[2]);
-        // Λ has the block [α −β; β α].
+        // The matrix Λ has the block [α −β; β α].
         let u = [w[0] / c.real, (re * w[1] + im * w[2]) / size, (re * w[2] - im * w[1]) / size];
         for (i, row) in c.basis.iter().enumerate() {
             let integral = row[0] * u[0] + row[1] * u[1] + row[2] * u[2];
@@ -109,8 +110,9 @@ fn the_basis_is_that_of_the_collocation_in_32_digits() {
     }
 }
 
-/// A spring of 1e10 per second squared: explicit methods are stable with half a million steps. The order of velocities falls to that
-/// of the stages, and steps with it, once. 30 tolerances are what the sum of all steps may make of one.
+/// A spring of up to 1e10 per second squared, for which explicit methods need half a million steps. On stiff problems the order of the
+/// velocities drops to that of the stages, and with it the step, but only once. The bound of 30 tolerances allows for the sum over all
+/// steps.
 #[test]
 fn stiff_springs_hardly_cost_steps() {
     for k in [1e2, 1e6, 1e10] {
@@ -124,7 +126,7 @@ fn stiff_springs_hardly_cost_steps() {
     }
 }
 
-/// The energy of a nonlinear oscillator follows the tolerance.
+/// The energy error of a nonlinear oscillator decreases with the tolerance.
 #[test]
 fn errors_follow_the_tolerance() {
     let off = |tolerance: f64| {
@@ -139,7 +141,7 @@ fn errors_follow_the_tolerance() {
     }
 }
 
-/// In pairs of doubles slopes by differences have 16 digits, and the tolerance may be below the rounding of doubles.
+/// In double-double arithmetic the finite differences have 16 digits, and the tolerance may be below the machine precision of doubles.
 #[test]
 fn pairs_reach_20_digits() {
     let mut y = [Pair::ONE, Pair::ZERO];
@@ -150,7 +152,7 @@ fn pairs_reach_20_digits() {
     assert!(off < 1e-19, "{off:e}");
 }
 
-/// Slopes that are those of the whole motion are found once, and the matrices of one length of step made once.
+/// The slopes of a linear problem are evaluated once, and the matrices of one step length are factored once.
 #[test]
 fn slopes_and_factors_are_kept_while_they_serve() {
     let mut y = [0.0, 1.0];
@@ -158,11 +160,11 @@ fn slopes_and_factors_are_kept_while_they_serve() {
     let driver = run(&mut problem, (1e-6, 0.05), (5.0, 100), &mut y).expect("a run");
     let counts = driver.counts();
     let steps = counts.accepted + counts.rejected;
-    // One evaluation at the beginning of each step, three for each of at most two iterations, and three for the slopes, once.
+    // Each step has one evaluation at its beginning and three for each of at most two iterations. The slopes have three, once.
     assert!(counts.evaluations <= 7 * steps + 6, "{counts:?}");
 }
 
-/// Another that is restored from the history makes the same step, bit for bit.
+/// A method that is restored from the history makes the same step, bit for bit.
 #[test]
 fn a_history_makes_the_same_step() {
     let mut y = [1.0, 0.0];
@@ -180,7 +182,7 @@ fn a_history_makes_the_same_step() {
     assert_eq!(ends[0], ends[1]);
 }
 
-/// A rate that is no number from some place on ends the run with a typed error, not with numbers.
+/// A rate that is NaN from some position on ends the run with an error, and no NaN reaches the state.
 #[test]
 fn a_wall_of_no_numbers_is_reported() {
     let mut problem = Problem::new(|_, y: &[f64], dy: &mut [f64]| {
@@ -192,9 +194,10 @@ fn a_wall_of_no_numbers_is_reported() {
     assert!((y[0] - 0.5).abs() < 1e-3, "{y:?} {error}");
 }
 
-/// A mass that is pressed on a stiff stop and pulled off it: x'' = p(t) + k max(−x, 0) − 2 √k v there. At rest the steps grow, and the
-/// slopes of the stop stand in the matrices when it is gone: all that it hides must be seen. It lifts off where the pull is zero and
-/// falls freely from then on. The way after that is the integral of the pull, but for what a stop of k lets through.
+/// A mass is pressed onto a stiff stop and then pulled off it: x'' = p(t) + k max(−x, 0) − 2 √k v at the stop. In contact the steps grow.
+/// When the contact ends, the matrices still contain the slopes of the stop, so the method must detect the defect that they hide. The mass
+/// leaves the stop when p is zero, and then moves freely. Its displacement is the double integral of p, apart from the compression of the
+/// stop.
 #[test]
 fn a_stiff_contact_that_ends_is_not_held_by_its_slopes() {
     for (k, tolerance, most) in [(1e6, 1e-6, 1e-3), (1e8, 1e-8, 1e-4)] {
@@ -204,12 +207,12 @@ fn a_stiff_contact_that_ends_is_not_held_by_its_slopes() {
         });
         let mut y = [-2.0 / k, 0.0];
         run(&mut problem, (tolerance, 1e-3), (5.0, 1), &mut y).expect("a run");
-        // (t − 2)³/6 at t = 5
+        // The exact position is (t − 2)³/6 at t = 5.
         assert!((y[0] - 4.5).abs() < most, "k = {k:e}, {tolerance:e}: {} m", y[0]);
     }
 }
 
-/// A component that begins with nothing has no tolerance yet, where nothing is absolute.
+/// With a relative tolerance alone, a component that begins at zero has the tolerance zero.
 #[test]
 fn a_relative_tolerance_alone_is_one() {
     let (mut driver, mut y) = (Adaptive::new(Radau::new(2, 1), 1e-3), [1.0, 0.0]);
