@@ -1,4 +1,4 @@
-//! A state a little later, on its own motion: one step of the classical rule of Runge and Kutta in natural coordinates.
+//! State after a short time, by one step of the classical Runge-Kutta method in natural coordinates.
 //!
 //! ```text
 //! (q, v)' = (v, a(q, v, t)),   q on the constraints and v on their rates at each stage
@@ -12,14 +12,14 @@ use alloc::vec::Vec;
 use mbs_core::model::{Model, State};
 use mbs_core::{Real, SymmetricSolver};
 
-/// The state after a time `h` [s]. States of signals stay.
+/// Returns the state after a time `h` [s]. States of signals stay.
 ///
 /// The error is of fifth order in h.
 ///
 /// Cost: 5 evaluations and factorisations, and the dense split; allocates.
 ///
 /// # Errors
-/// [`LinearError`] when a stage is not closed, or lacks inertia.
+/// [`LinearError`] if the constraints cannot be closed at a stage, or the state lacks inertia.
 pub fn advance<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     model: &M,
     h: T,
@@ -48,7 +48,7 @@ pub fn advance<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
 }
 
 impl<T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'_, T, M, S> {
-    /// Accelerations at a time `h` after the state, where it has moved by these rates of places and velocities.
+    /// Evaluates accelerations at a time `h` after the state, with positions and velocities moved by these rates.
     fn go_to(&mut self, h: T, [v, a]: &[Vec<T>; 2]) -> Result<(), LinearError> {
         let start = self.start;
         self.model.set_inputs(start.t + h, start, &mut self.w.terms);

@@ -6,26 +6,27 @@
 //! H ← Zᵀ H Z              the first column of Z is that of (H − σ₁)(H − σ₂): σ are the eigenvalues of the last two rows
 //! ```
 //!
-//! Both shifts are taken at once, so that conjugate ones need no complex numbers. A subdiagonal entry that is rounding beside its
-//! neighbours is zero, and splits H; blocks of one and two rows have their eigenvalues by hand.
+//! Both shifts are applied in one step, so that a conjugate pair needs no complex numbers. A subdiagonal entry that is small relative to its
+//! neighbours counts as zero and splits H. The eigenvalues of blocks of one and two rows follow from formulas.
 
 use alloc::vec::Vec;
 use mbs_core::Real;
 
-/// Most sweeps for each row of a matrix, of ten rows at least [-]; two or three are usual. They are counted for all eigenvalues together: where
-/// stiff and soft springs act on the same coordinates, the first eigenvalue may take a hundred, and the others then take few.
+/// Sweeps for each row of a matrix, at most, counted for ten rows at least [-]; two or three are usual. The limit holds for all eigenvalues
+/// together. Where stiff and soft springs act on the same coordinates, the first eigenvalue may need a hundred sweeps, and the others only a
+/// few.
 const MAX_SWEEPS: usize = 30;
 /// Sweeps without success after which an exceptional shift breaks a cycle [-]: as in EISPACK's `hqr`.
 const STUCK: usize = 10;
-/// Most passes of balancing [-]; three are usual.
+/// Passes of balancing, at most [-]; three are usual.
 const MAX_PASSES: usize = 100;
-/// Ratio of the sums of a row and a column after and before scaling, below which it is done [-]: as published (Parlett and Reinsch 1969).
+/// Ratio of the sums of a row and a column after and before scaling, below which it is scaled [-]: as published (Parlett and Reinsch 1969).
 const WORTH_SCALING: f64 = 0.95;
 /// Half of the sum of exceptional shifts and minus their product, in sizes of the subdiagonal [-]: as in EISPACK's `hqr`.
 const EXCEPTIONAL: [f64; 2] = [0.75, 0.4375];
 
-/// All eigenvalues [real, imaginary] of an n x n matrix, column by column; conjugate ones stand side by side. Nothing where an entry or an
-/// eigenvalue is not finite, or the iteration does not converge.
+/// Returns all eigenvalues [real, imaginary] of an n x n matrix, given column by column; conjugate ones are adjacent. Returns `None` if an
+/// entry or an eigenvalue is not finite, or the iteration does not converge.
 ///
 /// Cost: about 10 n³ operations; allocates.
 ///
@@ -46,7 +47,7 @@ pub fn eigenvalues<T: Real>(n: usize, a: &[T]) -> Option<Vec<[T; 2]>> {
     values.iter().flatten().all(|x| x.is_finite()).then_some(values)
 }
 
-/// A matrix, column by column.
+/// A square matrix, stored column by column.
 struct Square<T> {
     n: usize,
     entries: Vec<T>,
@@ -61,7 +62,7 @@ impl<T: Real> Square<T> {
         &mut self.entries[j * self.n + i]
     }
 
-    /// Divides by a power of two that leaves entries of order one at most, and returns it.
+    /// Divides by a power of two so that entries are of order one at most, and returns it.
     fn scale(&mut self) -> T {
         let largest = self.entries.iter().fold(T::ZERO, |l, x| l.max(x.abs()));
         let mut scale = T::ONE;
@@ -75,7 +76,7 @@ impl<T: Real> Square<T> {
         scale
     }
 
-    /// Scales rows and columns, by sums of sizes without the diagonal: squares of small entries would vanish.
+    /// Balances rows and columns by sums of absolute entries without the diagonal. (Squares of small entries would underflow.)
     fn balance(&mut self) {
         let enough = T::from_f64(WORTH_SCALING);
         for _ in 0..MAX_PASSES {
@@ -112,7 +113,7 @@ impl<T: Real> Square<T> {
         }
     }
 
-    /// Reduces the matrix to H: nothing below the first subdiagonal.
+    /// Reduces the matrix to H, which is zero below the first subdiagonal.
     fn reduce(&mut self) {
         let n = self.n;
         for k in 0..n.saturating_sub(2) {
@@ -121,7 +122,7 @@ impl<T: Real> Square<T> {
             if largest == T::ZERO {
                 continue;
             }
-            // x ← x − left e₁,   β = 2 / xᵀx;   at the scale of x no square vanishes
+            // x ← x − left e₁,   β = 2 / xᵀx;   scaled to the size of x, so that no square underflows
             let largest = largest.max(x[0].abs());
             x.iter_mut().for_each(|x| *x /= largest);
             let square = |x: &[T]| x.iter().fold(T::ZERO, |sum, &x| sum + x * x);
@@ -145,7 +146,7 @@ impl<T: Real> Square<T> {
         }
     }
 
-    /// The eigenvalues of H, from the last rows to the first.
+    /// Computes the eigenvalues of H, from the last rows to the first.
     fn francis(&mut self) -> Option<Vec<[T; 2]>> {
         let norm = self.entries.iter().fold(T::ZERO, |l, x| l.max(x.abs()));
         let tiny = T::EPSILON * T::EPSILON * norm;
@@ -172,11 +173,11 @@ impl<T: Real> Square<T> {
         Some(values)
     }
 
-    /// Is the entry left of the diagonal of row i rounding? Then it becomes zero.
+    /// Is the subdiagonal entry of row i a rounding error? If so, sets it to zero.
     fn is_split(&mut self, i: usize, last: usize, tiny: T) -> bool {
         let mut beside = self.at(i - 1, i - 1).abs() + self.at(i, i).abs();
         if beside == T::ZERO {
-            // Without damping diagonals are zero: entries along the subdiagonal are what counts.
+            // Without damping the diagonal is zero, so the entry is compared with its neighbours on the subdiagonal.
             let above = if i > 1 { self.at(i - 1, i - 2).abs() } else { T::ZERO };
             beside = if i < last { above + self.at(i + 1, i).abs() } else { above };
         }
@@ -197,13 +198,13 @@ impl<T: Real> Square<T> {
         if square < T::ZERO {
             return [[d + half, root], [d + half, -root]];
         }
-        // λ − d: the larger one without cancellation, the smaller by the product of both; then the larger λ by the sum, λ₁ + λ₂ = a + d
+        // λ − d: the larger one without cancellation, the smaller one from their product; then the larger λ from the sum λ₁ + λ₂ = a + d
         let change = half + with_sign(root, half);
         let other = if change == T::ZERO { T::ZERO } else { -product / change };
         [[a - other, T::ZERO], [d + other, T::ZERO]]
     }
 
-    /// Chases a bulge from the first rows of a block to its last.
+    /// Makes one QR sweep, which moves a bulge from the first rows of a block to its last ones.
     fn sweep(&mut self, low: usize, last: usize, is_stuck: bool) {
         let (start, mut x) = self.start(low, last, self.shifts(last, is_stuck));
         for k in start..last {
@@ -224,7 +225,7 @@ impl<T: Real> Square<T> {
                 *self.at_mut(k, k - 1) = left * largest;
                 (1..n_rows).for_each(|i| *self.at_mut(k + i, k - 1) = T::ZERO);
             } else if k > low {
-                // (1 − β x₀²) h, as x₀ is nearly all of x
+                // (1 − β x₀²) h, written without cancellation, since x₀ is nearly all of x
                 *self.at_mut(k, k - 1) *= x[0] / left;
             }
 
@@ -235,7 +236,7 @@ impl<T: Real> Square<T> {
         }
     }
 
-    /// a, d and b c of two rows [a b; c d] whose eigenvalues are the shifts.
+    /// Returns a, d and b c of the two rows [a b; c d] whose eigenvalues are the shifts.
     fn shifts(&self, last: usize, is_stuck: bool) -> [T; 3] {
         let (a, d) = (self.at(last - 1, last - 1), self.at(last, last));
         if is_stuck {
@@ -247,7 +248,7 @@ impl<T: Real> Square<T> {
         [a, d, self.at(last, last - 1) * self.at(last - 1, last)]
     }
 
-    /// The row to begin at, and the first column of (H − σ₁)(H − σ₂) there over its subdiagonal entry.
+    /// Returns the row where the sweep starts, and the first column of (H − σ₁)(H − σ₂) there, divided by its subdiagonal entry.
     fn start(&self, low: usize, last: usize, [a, d, bc]: [T; 3]) -> (usize, [T; 3]) {
         for m in (low..=last - 2).rev() {
             let (h, next, below) = (self.at(m, m), self.at(m + 1, m + 1), self.at(m + 1, m));
@@ -259,7 +260,7 @@ impl<T: Real> Square<T> {
             if m == low {
                 return (m, x);
             }
-            // Two small entries in a row: what a beginning here spoils is rounding.
+            // Between two small subdiagonal entries, a sweep that starts here changes the entries to the left by a rounding error only.
             let spoilt = self.at(m, m - 1).abs() * (x[1].abs() + x[2].abs());
             let beside = self.at(m - 1, m - 1).abs() + h.abs() + next.abs();
             if spoilt <= T::EPSILON * x[0].abs() * beside {
@@ -269,7 +270,7 @@ impl<T: Real> Square<T> {
         unreachable!("a block has three rows or more")
     }
 
-    /// Reflects rows k.. and columns k.. within a block.
+    /// Applies a reflection to rows k.. and columns k.. within a block.
     fn reflect(&mut self, k: usize, (low, last): (usize, usize), (beta, x): (T, &[T])) {
         for j in k..=last {
             let sum = x.iter().zip(k..).fold(T::ZERO, |s, (&x, i)| s + x * self.at(i, j));
@@ -282,7 +283,7 @@ impl<T: Real> Square<T> {
     }
 }
 
-/// `size` with the sign of `of`.
+/// Returns `size` with the sign of `of`.
 fn with_sign<T: Real>(size: T, of: T) -> T {
     if of < T::ZERO { -size } else { size }
 }

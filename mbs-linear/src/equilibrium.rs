@@ -1,28 +1,29 @@
-//! Static equilibrium by pseudo-transient continuation: steps of the flow M q' = Q - J^T lambda on the constraints, which grow
-//! into Newton's method.
+//! Static equilibrium by pseudo-transient continuation. Steps follow the flow M q' = Q - J^T lambda on the constraints, and become those of
+//! Newton's method as they grow.
 //!
 //! ```text
 //! [ M + s (K + K_geo(lambda))  J^T ] ( d          )     ( s (Q - J^T lambda) )
 //! [ J                           0  ] ( s d_lambda )  =  ( -phi               ),     q += d, closed again; lambda += d_lambda
 //! ```
 //!
-//! The matrix is that of a step of implicit Euler with h^2 = s from rest: dynamic relaxation with the velocity reset to zero
-//! after every step. For s -> infinity it is that of Newton's method (C. T. Kelley, D. E. Keyes, SIAM J. Numer. Anal. 35, 1998).
-//! s grows tenfold with every accepted step and shrinks after a refused one. A step is refused when
+//! The matrix is that of a step of implicit Euler with h^2 = s from rest: dynamic relaxation with the velocity reset to zero after every
+//! step. For s -> infinity it is that of Newton's method (C. T. Kelley, D. E. Keyes, SIAM J. Numer. Anal. 35, 1998). s grows tenfold with
+//! every accepted step and shrinks after a refused one. A step is refused in four cases:
 //!
-//! - the matrix is not positive where J d = 0 (inertia not (n, m, 0), N. Gould 1985): towards no minimum of energy;
-//! - it turns the mechanism so far that the constraints are broken by a quarter of it;
-//! - the forces at its end work against it by more than half of what they did for it at its start: it went too far;
-//! - they do so where two points that a law may push apart pass each other on the way: it would go through a stop.
+//! - The matrix is not positive where J d = 0 (its inertia is not (n, m, 0), N. Gould 1985). The step then leads to no minimum of energy.
+//! - The step rotates the mechanism so far that it violates the constraints by a quarter of its size.
+//! - The forces at its end do negative work along it, of more than half of their positive work at its start. The step is then too long.
+//! - The forces do as much negative work where two points, which a law may push apart, pass each other. The step would go through a stop.
 //!
-//! Work along the step takes the place of the residual's norm in the line search. On the path down from a steep or unstable place
-//! forces must be allowed to grow. So the search leaves unstable places unless it starts exactly on one.
+//! The line search compares work along the step rather than norms of residuals. On the way down from a steep or unstable position forces must
+//! be allowed to grow. So the search leaves unstable positions unless it starts exactly at one.
 //!
-//! Neutral directions, in which no force acts and K is singular, have the step s (force) / M: rounding alone. s is bounded so
-//! that this moves them by at most sqrt(eps)/10 of the scene's length in each step, and they stay where they started.
+//! In neutral directions no force acts and K is singular, so that the step s (force) / M consists of rounding errors. s is bounded so that
+//! they move a neutral direction by at most sqrt(EPSILON)/10 of the scene's length in each step. Such directions stay where they started.
 //!
-//! Forces are small beside the largest met on a coordinate, and beside what its stiffness makes of a displacement of the scene's
-//! size. Where a spring alone holds a slide both forces vanish together.
+//! Forces are balanced if they are small relative to two quantities. One is the largest sum of absolute forces on a coordinate during the
+//! search. The other is the force that the stiffness gives for a displacement of the scene's size. The second matters for a slide that a
+//! spring alone holds, since there all forces vanish together.
 
 use crate::error::EquilibriumError;
 use crate::options::Options;
@@ -39,28 +40,29 @@ use mbs_core::{Real, SymmetricSolver};
 pub struct Equilibrium<T> {
     /// Number of steps taken.
     pub iterations: u32,
-    /// Factorisations, of refused steps and of the test of stability too.
+    /// Factorisations, including those of refused steps and of the test of stability.
     pub factorizations: u32,
-    /// Largest force left on a coordinate [N, N m for directions].
+    /// Largest remaining force on a coordinate [N; N m for directions].
     pub residual: T,
-    /// Largest force left, by its work along the scene's length [-]. It is relative to the largest sum of absolute forces that a
-    /// coordinate met, or to what its stiffness makes of a displacement of that size; 0 without forces.
+    /// Largest remaining force, by its work along the scene's length [-]. It is relative to the largest sum of absolute forces on a
+    /// coordinate during the search, or to the force that its stiffness gives for a displacement of that length. Zero without forces.
     pub relative: T,
     /// Largest constraint violation [m or rad].
     pub violation: T,
     /// Largest change of a coordinate [m or -].
     pub change: T,
-    /// Directions in which forces lead away from it: |omega| above [`rate`](Self::rate), omega^2 negative. An estimate by the
-    /// tangent that the effects give, which may leave parts out; the eigenvalues of a linearisation are the last word.
+    /// Number of unstable directions: omega^2 is negative and |omega| is above [`rate`](Self::rate).
+    ///
+    /// The number is an estimate from the effects' tangents, which may leave out parts. The eigenvalues of a linearisation are decisive.
     pub unstable: usize,
-    /// Directions with |omega| below [`rate`](Self::rate), in which it may stand anywhere, by the same estimate.
+    /// Number of neutral directions, with |omega| below [`rate`](Self::rate), by the same estimate. The mechanism may be anywhere along them.
     pub neutral: usize,
     /// Rate below which a direction counts as neutral [rad/s].
     pub rate: T,
 }
 
 impl<T> Equilibrium<T> {
-    /// Does no force lead away from it, by the estimate?
+    /// Are there no unstable directions, by the estimate?
     pub fn is_stable(&self) -> bool {
         self.unstable == 0
     }
@@ -70,36 +72,36 @@ impl<T> Equilibrium<T> {
 const SHRINK: f64 = 0.125;
 /// Factor on s after an accepted step [-]. Chosen, not tuned.
 const GROW: f64 = 10.0;
-/// Ratio of s to its first value at which the search ends [-]: 22 refusals in a row. Chosen, not tuned.
+/// Ratio of s to its first value at which the search ends [-]: it is reached by 22 refused steps in a row. Chosen, not tuned.
 const SMALLEST: f64 = 1e-20;
-/// Balanced steps without progress after which the search ends [-]. Chosen, not tuned.
+/// Steps with balanced forces but without progress after which the search ends [-]. Chosen, not tuned.
 const MAX_IDLE_STEPS: u32 = 40;
-/// Most sweeps that close the constraints after a step [-]. Chosen, not tuned.
+/// Sweeps that close the constraints after a step, at most [-]. Chosen, not tuned.
 const SWEEPS: u32 = 20;
-/// Longest step that is rounding, in units of rounding of the scene's size [-]. Chosen, not tuned.
+/// Longest step that counts as rounding error, in units of EPSILON times the scene's size [-]. Chosen, not tuned.
 const NOWHERE: f64 = 8.0;
-/// Largest force that is rounding, in units of rounding of its terms [-]. Chosen, not tuned.
+/// Largest force that counts as rounding error, in units of EPSILON times its terms [-]. Chosen, not tuned.
 const FORCE_ROUNDINGS: f64 = 4.0;
-/// Largest constraint violation of a step, relative to its size [-]: a larger one is refused. Chosen, not tuned.
+/// Constraint violation of a step, relative to its size, above which the step is refused [-]. Chosen, not tuned.
 const BROKEN: f64 = 0.25;
-/// Openness of the constraints at which a search may begin [-]. Chosen, not tuned.
+/// Constraint violation at which a search may begin, in sizes of coordinates [-]. Chosen, not tuned.
 const CLOSED: f64 = 1e-6;
-/// Violation that is rounding of a row, in units of rounding [-]. Chosen, not tuned.
+/// Constraint violation that counts as rounding error of a row, in units of EPSILON [-]. Chosen, not tuned.
 const FLOOR_ROUNDINGS: f64 = 8.0;
-/// Violation at which stalled sweeps may end, relative to rounding of a row [-]. Chosen, not tuned.
+/// Constraint violation at which sweeps without progress may end, relative to the rounding error of a row [-]. Chosen, not tuned.
 const STALLED: f64 = 64.0;
-/// Inverse of the largest move of neutral directions in a step, in roots of rounding of the scene's length [-]. Chosen, not tuned.
+/// Divisor of the largest displacement of neutral directions in a step, which is sqrt(EPSILON) of the scene's length [-]. Chosen, not tuned.
 const NEUTRAL: f64 = 10.0;
-/// Largest distance at which an equilibrium is searched, relative to the scene's length [-]. Chosen, not tuned.
+/// Largest displacement from the start in a search, relative to the scene's length [-]. Chosen, not tuned.
 const MAX_EXTENT: f64 = 1e6;
 
-/// Moves `s` to a static equilibrium near it.
+/// Moves `s` to a static equilibrium close to it.
 ///
-/// Guides keep their values of time `s.t`. Forces that depend on velocity are taken at the velocity in `s`: zero it for an
-/// equilibrium at rest. Positions, multipliers (also as `reaction`) and measured angles are written, accelerations become
-/// zero, velocities stay as they are and are not made consistent with the new positions.
+/// Guides keep their values at the time `s.t`. Forces that depend on velocity are evaluated at the velocity in `s`: set it to zero for an
+/// equilibrium at rest. Positions, multipliers (also as `reaction`) and measured angles are written. Accelerations become zero. Velocities
+/// stay as they are, and are not made consistent with the new positions.
 ///
-/// Cost: ten to forty factorisations near an equilibrium, more on a long way down; allocates a few vectors.
+/// Cost: ten to forty factorisations close to an equilibrium, more on a long way to it. Allocates a few vectors.
 ///
 /// # Errors
 /// [`EquilibriumError`]; the state is then unchanged.
@@ -121,25 +123,25 @@ pub(crate) struct Search<'a, T, M, S> {
     pub(crate) model: &'a M,
     pub(crate) w: &'a mut Workspace<T, S>,
     v: Vec<T>,
-    /// Positions, multipliers, measured angles and J^T lambda - Q, as accepted.
+    /// Accepted positions, multipliers, residual J^T lambda - Q and violation of constraints.
     pub(crate) q: Vec<T>,
     lambda: Vec<T>,
     residual: Vec<T>,
     phi: Vec<T>,
-    /// Positions, multipliers and residual of a step on trial.
+    /// Positions, multipliers and residual of a trial step.
     pub(crate) next: Vec<T>,
     next_lambda: Vec<T>,
     next_residual: Vec<T>,
     /// Positions at the start.
     from: Vec<T>,
-    /// Largest sum of absolute forces on a coordinate, as work along its size [J]: now, and met so far.
+    /// Largest sum of absolute forces on a coordinate, as work along its size [J]: at present, and during the search.
     scale: T,
     met: T,
-    /// Largest acceleration that a force would have given alone so far, in sizes [1/s^2].
+    /// Largest acceleration that a single force would have caused during the search, in sizes of coordinates [1/s^2].
     lively: T,
-    /// Largest work that the matrix of the last step makes of a displacement of a coordinate's size [J].
+    /// Largest work of the last step's matrix for a displacement by a coordinate's size [J].
     stiff: T,
-    /// Pseudo-time step squared and its bound [s^2].
+    /// Pseudo-time step squared and its upper bound [s^2].
     s: T,
     bound: T,
     iterations: u32,
@@ -174,7 +176,7 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Search<'a, T, M, S> {
         }
     }
 
-    /// Closes the constraints and finds the multipliers and accelerations at rest, and from them the first s.
+    /// Closes the constraints, solves for multipliers and accelerations at rest, and chooses the first s.
     pub(crate) fn begin(&mut self) -> Result<(), EquilibriumError> {
         self.model.evaluate(&self.next, &mut self.w.terms);
         let has_mass = self.factor(T::ZERO);
@@ -188,7 +190,7 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Search<'a, T, M, S> {
         }
         self.evaluate();
         let mut acceleration = T::ZERO;
-        // The second sweep removes what the regularisation of the rows left.
+        // The second sweep removes the error that the regularisation of the rows left.
         for _ in 0..if has_mass { 2 } else { 0 } {
             self.load(T::ONE, &self.next_residual.clone());
             self.w.solve();
@@ -205,7 +207,7 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Search<'a, T, M, S> {
         self.check_finite()
     }
 
-    /// Steps until the forces are balanced.
+    /// Makes steps until the forces are balanced.
     fn descend(&mut self, options: &Options<T>) -> Result<(), EquilibriumError> {
         let (mut idle, mut was_refused) = (0, false);
         let smallest = self.s * T::from_f64(SMALLEST);
@@ -228,7 +230,7 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Search<'a, T, M, S> {
             let left = self.w.work(&self.residual);
             let is_progress = left < before * T::HALF;
             if left <= options.tolerance * (self.scale + self.stiff) {
-                // A small s is a sign of an unstable place: what seems at rest there only begins to move.
+                // A small s indicates an unstable position, where a small step only shows the beginning of a motion.
                 let is_newton = self.s >= self.bound * T::from_f64(SHRINK);
                 let is_at_rest = size <= T::EPSILON.sqrt() && is_newton;
                 let is_rounding = left <= self.scale * T::EPSILON * T::from_f64(FORCE_ROUNDINGS)
@@ -248,7 +250,7 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Search<'a, T, M, S> {
         Err(self.not_converged())
     }
 
-    /// One step with the present s; its size, or nothing when it is refused.
+    /// Makes one step with the present s. Returns its size, or `None` if it is refused.
     fn step(&mut self, is_balanced: bool) -> Option<T> {
         let n = self.w.n;
         self.model.evaluate(&self.q, &mut self.w.terms);
@@ -292,7 +294,7 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Search<'a, T, M, S> {
         Some(size)
     }
 
-    /// Do forces work against the straight way to `next` where points that a law may push apart pass each other?
+    /// Do forces work against the straight path to `next` at a place where two points, which a law may push apart, pass each other?
     fn goes_through(&mut self) -> bool {
         let mut closest = Vec::new();
         self.model.approaches(&self.q, &self.next, |ratio| closest.push(ratio));
@@ -315,14 +317,14 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Search<'a, T, M, S> {
         })
     }
 
-    /// Factors at the present terms; is the matrix positive where J d = 0?
+    /// Factors the matrix at the present terms. Returns whether it is positive where J d = 0.
     fn factor(&mut self, s: T) -> bool {
         self.factorizations += 1;
         let is_regular = self.w.factor(self.model, s, (&self.q, &self.lambda)).is_ok();
         is_regular && self.w.solver.inertia().negative == self.w.m
     }
 
-    /// f = (-s residual, -phi).
+    /// Sets the right-hand side f = (-s residual, -phi).
     fn load(&mut self, s: T, residual: &[T]) {
         let (b, c) = self.w.f.split_at_mut(self.w.n);
         for (b, &r) in b.iter_mut().zip(residual) {
@@ -333,7 +335,7 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Search<'a, T, M, S> {
         }
     }
 
-    /// Closes the constraints at `next` by sweeps with the factor at hand: the smallest changes in its metric.
+    /// Closes the constraints at `next` by sweeps with the present factor, which make the smallest changes in its metric.
     pub(crate) fn close(&mut self) -> bool {
         let n = self.w.n;
         let mut violation = self.w.openness(&self.w.terms.phi);
@@ -359,7 +361,7 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Search<'a, T, M, S> {
         violation <= self.floor() * T::from_f64(STALLED)
     }
 
-    /// Rounding of a constraint row, as a coordinate of its size moves it [-].
+    /// Rounding error of a constraint row, expressed as the displacement of a coordinate relative to its size [-].
     pub(crate) fn floor(&self) -> T {
         (self.w.extent(&self.next[..self.w.n]) + T::ONE) * T::EPSILON * T::from_f64(FLOOR_ROUNDINGS)
     }
@@ -370,17 +372,17 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Search<'a, T, M, S> {
         self.measure();
     }
 
-    /// Residual at `next` with `next_lambda`.
+    /// Evaluates the residual at `next` with `next_lambda`.
     fn measure(&mut self) {
         let lambda = &self.next_lambda;
         self.scale = self.w.residual(self.model, None, lambda, &mut self.next_residual);
     }
 
-    /// Takes the trial over.
+    /// Accepts the trial step.
     fn accept(&mut self) {
         let lively = self.w.liveliness(self.model);
         self.lively = self.lively.max(lively);
-        // Where all forces vanish together their rounding does so with those that were met.
+        // Where all forces vanish together, their rounding errors are relative to the forces met earlier in the search.
         let lively = lively.max(self.lively * T::EPSILON.sqrt());
         if lively > T::ZERO {
             self.bound = T::ONE / (T::from_f64(NEUTRAL) * T::EPSILON.sqrt() * lively);
@@ -395,7 +397,7 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Search<'a, T, M, S> {
         self.phi.copy_from_slice(&self.w.terms.phi);
     }
 
-    /// Are the forces balanced where the search began?
+    /// Are the forces balanced at the position where the search started?
     pub(crate) fn check_balance(&mut self, options: &Options<T>) -> Result<(), EquilibriumError> {
         self.factor(self.bound);
         self.stiff = norm_inf(self.w.diagonal()) / self.bound;
@@ -430,7 +432,7 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Search<'a, T, M, S> {
         EquilibriumError::NotConverged { residual, unknown: largest(&self.residual) }
     }
 
-    /// Writes what was found into the state.
+    /// Writes the equilibrium into the state.
     pub(crate) fn finish(mut self, from: &[T], s: &mut State<T>) -> Equilibrium<T> {
         let report = self.report(from);
         let Search { model, q, lambda, w, .. } = self;
@@ -449,8 +451,8 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Search<'a, T, M, S> {
         report
     }
 
-    /// Counts the signs of K + K_geo where J d = 0: s K + M has a negative direction where omega^2 < -1/s, and M - s K where
-    /// omega^2 > 1/s.
+    /// Counts the negative directions of K + K_geo where J d = 0. s K + M has one for each omega^2 < -1/s, and M - s K for each omega^2 >
+    /// 1/s.
     fn report(&mut self, from: &[T]) -> Equilibrium<T> {
         self.model.evaluate(&self.q, &mut self.w.terms);
         self.model.evaluate_forces(&self.q, &self.v, &mut self.w.terms);

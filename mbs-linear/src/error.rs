@@ -2,7 +2,7 @@
 
 use mbs_core::step::OptionError;
 
-/// A search that found no equilibrium; the state is unchanged.
+/// A search for an equilibrium that failed; the state is unchanged.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum EquilibriumError {
@@ -10,35 +10,35 @@ pub enum EquilibriumError {
     Option(OptionError),
     /// The forces could not be balanced.
     NotConverged {
-        /// Largest force left [N or N m].
+        /// Largest remaining force [N or N m].
         residual: f64,
-        /// The coordinate it acts on.
+        /// The coordinate on which the force acts.
         unknown: u32,
     },
-    /// Newton's method from the state leads to no equilibrium.
+    /// Newton's method leads from the state to no equilibrium.
     NotNear,
-    /// Integrals or lags among the signals find no rest.
+    /// The states of integrals or lags among the signals do not come to rest.
     SignalsMove,
-    /// Nothing holds the mechanism: it fell or drove farther than a million times the scene's length.
+    /// Nothing holds the mechanism: it moved by more than a million times the scene's length.
     Escapes {
-        /// The coordinate that went farthest.
+        /// The coordinate with the largest displacement.
         unknown: u32,
     },
-    /// The constraints could not be met near the state.
+    /// The constraints could not be closed near the state.
     NotClosed {
         /// Largest violation [m or rad].
         violation: f64,
-        /// The row it belongs to.
+        /// The row with the largest violation.
         row: u32,
     },
     /// A coordinate without mass that neither constraints nor forces determine.
     Undetermined {
-        /// The unknown of the saddle system: a coordinate, or from n on a row.
+        /// The unknown of the saddle system: a coordinate, or a row if it is n or larger.
         unknown: u32,
     },
     /// A force became infinite or not a number.
     NotFinite {
-        /// The coordinate it acts on.
+        /// The coordinate on which the force acts.
         unknown: u32,
     },
 }
@@ -86,40 +86,40 @@ impl From<OptionError> for EquilibriumError {
     }
 }
 
-/// A linearisation that cannot be made.
+/// A linearisation that failed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum LinearError {
     /// An option is out of range.
     Option(OptionError),
-    /// The state, or one within a difference of it, does not meet the constraints.
+    /// The state, or one within a difference of it, does not satisfy the constraints.
     NotClosed {
         /// Largest violation [m or rad].
         violation: f64,
     },
-    /// Closing the constraints next to the state moves by the difference itself: a singular position is near.
+    /// A singular position is close: closing the constraints moves coordinates by as much as the difference itself.
     Singular {
         /// The independent coordinate that was changed.
         freedom: usize,
     },
-    /// Accelerations do not follow from the forces: a force meets no inertia.
+    /// Accelerations do not follow from the forces, because a force acts on a coordinate without inertia.
     NoInertia {
-        /// The unknown of the saddle system: a coordinate, or from n on a row.
+        /// The unknown of the saddle system: a coordinate, or a row if it is n or larger.
         unknown: u32,
     },
-    /// Accelerations next to the state do not meet the constraints: rows nearly repeat each other.
+    /// Accelerations near the state do not satisfy the constraints, because rows nearly depend on each other.
     NotSettled {
-        /// Largest acceleration by which the constraints are missed [m/s^2].
+        /// Largest violation of the constraints by accelerations [m/s^2].
         left: f64,
     },
     /// A force became infinite or not a number.
     NotFinite,
-    /// An output is infinite or not a number at the state or next to it.
+    /// An output is infinite or not a number at the state or near it.
     Output {
-        /// Number of the output among what is measured.
+        /// Index of the output among the measured values.
         output: usize,
     },
-    /// Bodies that roll are in motion: more places are free than velocities, and they drift from each other.
+    /// Rolling bodies are in motion. They have more free positions than free velocities, so that a difference would drift.
     Rolls,
 }
 

@@ -1,4 +1,4 @@
-//! Linearisation about a state: stiffness and damping in independent coordinates.
+//! Equations of motion linearised about a state: stiffness and damping in independent coordinates.
 
 use crate::signal_matrices::LinearSignals;
 use alloc::vec;
@@ -10,34 +10,34 @@ use mbs_core::Real;
 pub struct Linear<T> {
     /// Number of freedoms f.
     pub n_freedoms: usize,
-    /// -dz''/dz [1/s^2], f x f.
+    /// Stiffness -dz''/dz [1/s^2], f x f.
     pub stiffness: Vec<T>,
-    /// -dz''/dz' [1/s], f x f.
+    /// Damping -dz''/dz' [1/s], f x f.
     pub damping: Vec<T>,
-    /// dq/dz, n x f, with B^T M B = 1.
+    /// Basis B = dq/dz, n x f, with B^T M B = 1.
     pub basis: Vec<T>,
-    /// z'' at the state: zero in an equilibrium.
+    /// Accelerations z'' at the state: zero in an equilibrium.
     pub acceleration: Vec<T>,
-    /// Largest acceleration that the constraints ask for because bodies turn [m/s^2]: zero at rest and in translation.
+    /// Largest acceleration term of the constraints that the rotation of bodies causes [m/s^2]: zero at rest and in translation.
     ///
-    /// Where it is not, the coefficients change along the motion, and eigenvalues hold for an instant and for these z alone.
+    /// If it is not zero, the coefficients change along the motion. Eigenvalues then hold for one instant and for these z only.
     pub turning: T,
-    /// Rounding to be expected in `stiffness` [1/s^2]: eigenvalues whose square is of this size are zero.
+    /// Rounding error to be expected in `stiffness` [1/s^2]. An eigenvalue whose square is of this size counts as zero.
     pub noise: T,
-    /// Largest force over the inertia that it moves, in sizes of coordinates [1/s^2]: what accelerations are compared with.
+    /// Largest ratio of a force to the inertia that it moves, in sizes of coordinates [1/s^2]. Accelerations are compared with it.
     pub lively: T,
-    /// The states of signals.
+    /// Matrices of the states of signals.
     pub signals: LinearSignals<T>,
 }
 
 impl<T: Real> Linear<T> {
-    /// Order of the linearised motion: twice the freedoms, and the states of signals.
+    /// Order of the linearised motion: twice the number of freedoms, plus the number of states of signals.
     #[must_use]
     pub const fn order(&self) -> usize {
         2 * self.n_freedoms + self.signals.n
     }
 
-    /// A of d/dt (z, z', x) = A (z, z', x) with the states x of signals, column by column.
+    /// Matrix A of d/dt (z, z', x) = A (z, z', x), with the states x of signals, stored column by column.
     #[must_use]
     pub fn state_matrix(&self) -> Vec<T> {
         let (f, s, n) = (self.n_freedoms, self.signals.n, self.order());

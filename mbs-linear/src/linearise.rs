@@ -6,13 +6,12 @@
 //! d/dt (z, z') = A (z, z') + ...,   A = [[0, 1], [-K_r, -C_r]]        (with states of signals: see `signals`)
 //! ```
 //!
-//! Derivatives are central differences of fourth order of the equations of motion themselves, not of the tangent that the
-//! effects offer to implicit steps. Those may be symmetrised or clipped, and a stiffness through multipliers alone, as a
-//! pendulum's, is included.
+//! Derivatives are central differences of fourth order of the equations of motion themselves. The tangents that effects provide for implicit
+//! steps are not used, because they may be symmetrised or clipped. The differences include stiffness that acts through multipliers alone,
+//! such as that of a pendulum.
 //!
-//! About a state at rest in equilibrium, and about a uniform translation (a vehicle that drives straight), A is constant and
-//! its eigenvalues belong to the mechanism. Where bodies turn, A changes along the motion and depends on the choice of z:
-//! see [`Linear::turning`].
+//! For a state at rest in equilibrium, and for a uniform translation (a vehicle that drives straight), A is constant and its eigenvalues are
+//! properties of the mechanism. Where bodies rotate, A changes along the motion and depends on the choice of z: see [`Linear::turning`].
 
 use crate::error::LinearError;
 use crate::linear::Linear;
@@ -26,43 +25,45 @@ use mbs_core::algebra::norm_inf;
 use mbs_core::model::{Load, Model, State};
 use mbs_core::{Real, SymmetricSolver};
 
-/// Behaviour of guides and courses while a state is linearised.
+/// Motion of guides and signals at the time of a linearisation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Instant {
-    /// Guides are held at their values of that time: rates and accelerations are zero, as in an equilibrium.
+    /// Guides keep their values at that time; rates and accelerations are zero, as in an equilibrium.
     Rest,
-    /// Guides move as they do at that time.
+    /// Guides move as prescribed at that time.
     Motion,
 }
 
-/// Most sweeps that close the constraints next to the state [-]. Chosen, not tuned.
+/// Sweeps that close the constraints near the state, at most [-]. Chosen, not tuned.
 const SWEEPS: u32 = 60;
-/// Largest move that closes the constraints, relative to a difference [-]: their curvature takes some 1e-4.
+/// Largest displacement that closes the constraints, relative to a difference of coordinates [-]. The curvature of constraints alone causes
+/// about 1e-4.
 const CURVED: f64 = 0.1;
-/// Move that closes the constraints, relative to a difference, above which the difference gets shorter, in its reach [-]: 0.001 at the default.
-/// The modes of a chain of 60 links then have nine digits, and five at ten times this.
+/// Largest displacement that closes the constraints, relative to a difference and in units of the length of the difference [-]. A longer
+/// one makes the difference shorter. At the default length of 1e-4 the ratio is 0.001. The modes of a chain of 60 links then have nine
+/// digits, and five digits at ten times this value.
 const FLAT: f64 = 10.0;
-/// Largest part by which such a difference gets shorter at once [-]. Chosen, not tuned.
+/// Smallest factor by which such a difference is made shorter at once [-]. Chosen, not tuned.
 const SHORTER: f64 = 1.0 / 64.0;
-/// Most lengths that are tried [-]. Chosen, not tuned.
+/// Lengths of a difference that are tried, at most [-]. Chosen, not tuned.
 const LENGTHS: u32 = 4;
-/// Move that is rounding, in units of rounding of the coordinates [-]. Chosen, not tuned.
+/// Displacement that counts as rounding error, in units of EPSILON times the coordinates [-]. Chosen, not tuned.
 const ROUNDED: f64 = 16.0;
-/// Rounding of accelerations, in units of rounding of their terms [-]. Chosen, not tuned.
+/// Rounding error of accelerations, in units of EPSILON times their terms [-]. Chosen, not tuned.
 const NOISE: f64 = 16.0;
-/// Violation at which stalled sweeps may end, relative to rounding of a row [-]. Chosen, not tuned.
+/// Constraint violation at which sweeps without progress may end, relative to the rounding error of a row [-]. Chosen, not tuned.
 const STALLED: f64 = 1e3;
 
 /// Linearises about the consistent state `s`. Time and measured angles are constant.
 ///
-/// At a kink of a force (a contact that begins, a damper with two branches at rest) the mean of both sides is given, next to one something
-/// between. Differences are shorter where the constraints curve within them, as those of a long chain do.
+/// At a corner of a force law (a contact that begins, a damper with two branches at rest) the result is the mean of both sides. Near a corner
+/// it is a value between them. Differences are shorter where the constraints curve within them, as those of a long chain do.
 ///
-/// Cost: 4 f + 1 factorisations and 9 f evaluations for f freedoms, 4 more for each state of a signal, and n^3 operations for the dense
-/// split; allocates.
+/// Cost for f freedoms: 4 f + 1 factorisations and 9 f evaluations, 4 more for each state of a signal, and n^3 operations for the dense split
+/// of the coordinates. Allocates.
 ///
 /// # Errors
-/// [`LinearError`] when the state is not closed, stands next to a singular position, or lacks inertia.
+/// [`LinearError`] if the constraints are not satisfied, a singular position is close, or the state lacks inertia.
 pub fn linearise<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     model: &M,
     how: (Instant, &LinearOptions<T>),
@@ -74,7 +75,7 @@ pub fn linearise<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     Ok(Linear { basis: field.tangent.basis, ..linear })
 }
 
-/// (8 (f(h) - f(-h)) - (f(2h) - f(-2h))) / 12 h
+/// Returns the central difference of fourth order, (8 (f(h) - f(-h)) - (f(2h) - f(-2h))) / 12 h.
 pub(crate) fn difference<T: Real>(
     h: T,
     mut f: impl FnMut(T) -> Result<Vec<T>, LinearError>,
@@ -85,33 +86,33 @@ pub(crate) fn difference<T: Real>(
     Ok((0..a.len()).map(slope).collect())
 }
 
-/// z'' as a function of z and z'.
+/// Accelerations z'' as a function of z and z'.
 pub(crate) struct Field<'a, T, M, S> {
     pub(crate) model: &'a M,
     pub(crate) w: &'a mut Workspace<T, S>,
     pub(crate) start: &'a State<T>,
     pub(crate) tangent: TangentCoordinates<T>,
-    /// Position and velocity at hand, extended.
+    /// Present position and velocity; extended vectors, which include known coordinates.
     pub(crate) q: Vec<T>,
     pub(crate) v: Vec<T>,
-    /// Accelerations, extended, and multipliers as last evaluated.
+    /// Accelerations (an extended vector) and multipliers at the last evaluation.
     pub(crate) a: Vec<T>,
     pub(crate) lambda: Vec<T>,
-    /// Largest acceleration that a force would give alone, in sizes of coordinates [1/s^2].
+    /// Largest acceleration that a single force would cause, in sizes of coordinates [1/s^2].
     pub(crate) lively: T,
-    /// Shortest difference by coordinates and velocities, in sizes of coordinates [-].
+    /// Length of the shortest difference so far, in sizes of coordinates [-].
     shortest: T,
-    /// Outputs that are measured at each state; nothing where none are asked for.
+    /// Measure of the outputs at each state; `None` if no outputs are required.
     pub(crate) watch: Option<Watch<'a, T>>,
 }
 
-/// Slopes by coordinates or by velocities; matrices are stored column by column.
+/// Derivatives by coordinates or by velocities; matrices are stored column by column.
 pub(crate) struct Slopes<T> {
-    /// Slopes of the accelerations, as -z''.
+    /// Derivatives of the accelerations, as -z''.
     pub(crate) forces: Vec<T>,
-    /// Slopes of the rates x' of the states of signals.
+    /// Derivatives of the rates x' of the states of signals.
     signals: Vec<T>,
-    /// Slopes of the outputs.
+    /// Derivatives of the outputs.
     pub(crate) outputs: Vec<T>,
 }
 
@@ -164,14 +165,14 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'a, T, M, S> {
         let (lively, shortest, watch) = (T::ZERO, T::ONE, None);
         let mut field =
             Self { model, w, start: s, tangent, q, v, a, lambda, lively, shortest, watch };
-        // The sizes of the rows come with the factor.
+        // The factorisation also sets the sizes of the rows.
         field.factor()?;
         field.close()?;
         field.factor()?;
         Ok(field)
     }
 
-    /// A field whose options and motion were checked.
+    /// Creates a field after a check of options and motion.
     pub(crate) fn checked(
         model: &'a M,
         (instant, options): (Instant, &LinearOptions<T>),
@@ -186,7 +187,7 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'a, T, M, S> {
         Self::new(model, instant, s, w)
     }
 
-    /// The linearised motion but for its basis, with the values of the outputs and their slopes by z, z' and x.
+    /// Returns the linearised motion without its basis, and the values of the outputs with their derivatives by z, z' and x.
     pub(crate) fn linear(&mut self, reach: T) -> Result<(Linear<T>, [Vec<T>; 2]), LinearError> {
         let (f, start) = (self.tangent.n_freedoms(), self.start);
         let acceleration = self.at_rest_of(&start.v)?;
@@ -214,7 +215,7 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'a, T, M, S> {
         Ok((linear, [values, [by_places.outputs, by_speeds.outputs, by_signals].concat()]))
     }
 
-    /// Slopes by z, by differences that move coordinates by `reach` of their sizes.
+    /// Returns the derivatives by z, from differences that move coordinates by `reach` of their sizes.
     pub(crate) fn by_places(&mut self, reach: T) -> Result<Slopes<T>, LinearError> {
         let mut change = vec![T::ZERO; self.tangent.n_freedoms()];
         self.by_each(reach, Self::flat, |field, j, z| {
@@ -225,12 +226,13 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'a, T, M, S> {
         })
     }
 
-    /// Slopes by z', by differences of velocities.
+    /// Returns the derivatives by z', from differences of velocities.
     fn by_speeds(&mut self, reach: T) -> Result<Slopes<T>, LinearError> {
         self.by_each(reach, |_, _, h| Ok(h), Self::hurried)
     }
 
-    /// Slopes by what `accelerations` are given of each freedom; `lengths` are those of differences, given the longest one.
+    /// Returns the derivatives by each freedom of the function `accelerations`. `lengths` gives the length of a difference from the longest
+    /// one.
     fn by_each(
         &mut self,
         reach: T,
@@ -255,26 +257,26 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'a, T, M, S> {
         Ok(Slopes { forces, signals, outputs })
     }
 
-    /// The outputs at the state as last evaluated; none where nothing measures.
+    /// Returns the outputs at the last evaluated state; empty where no outputs are measured.
     fn measured(&mut self) -> Result<Vec<T>, LinearError> {
         let motion = [&self.q[..], &self.v, &self.a, &self.lambda];
         let at = (self.model, &self.w.terms);
         self.watch.as_mut().map_or(Ok(Vec::new()), |watch| watch.outputs(at, motion))
     }
 
-    /// Accelerations, the rates of the states of signals, and the outputs, as last evaluated.
+    /// Appends to the accelerations the rates of the states of signals and the outputs, at the last evaluation.
     pub(crate) fn with_the_rest(&mut self, mut answer: Vec<T>) -> Result<Vec<T>, LinearError> {
         answer.extend(self.signal_rates());
         answer.extend(self.measured()?);
         Ok(answer)
     }
 
-    /// Rounding to be expected in a stiffness that was found so [1/s^2].
+    /// Returns the rounding error to be expected in a stiffness from such differences [1/s^2].
     pub(crate) fn noise(&self, stiffness: &[T]) -> T {
         T::EPSILON * T::from_f64(NOISE) * (norm_inf(stiffness) + self.lively / self.shortest)
     }
 
-    /// A difference of a freedom within which the constraints are flat, no longer than `h`.
+    /// Returns a difference of a freedom, not longer than `h`, within which the constraints are nearly flat.
     fn flat(&mut self, freedom: usize, mut h: T) -> Result<T, LinearError> {
         let reach = h * self.w.extent(self.tangent.direction(freedom));
         let flat = (reach * T::from_f64(FLAT)).min(T::from_f64(CURVED));
@@ -296,26 +298,26 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'a, T, M, S> {
         Err(LinearError::Singular { freedom })
     }
 
-    /// z'' at the state itself, with the velocity `v`.
+    /// Returns z'' at the position of the state, with the velocity `v`.
     pub(crate) fn at_rest_of(&mut self, v: &[T]) -> Result<Vec<T>, LinearError> {
         self.v.copy_from_slice(v);
         self.acceleration()
     }
 
-    /// Back to the position of the state, for velocities to be changed there.
+    /// Returns to the position `q` and factors there, for differences of velocities.
     pub(crate) fn return_to(&mut self, q: &[T]) -> Result<(), LinearError> {
         self.q.copy_from_slice(q);
         self.close()?;
         self.factor()
     }
 
-    /// z'' at the state's own velocity, where the position is the state's.
+    /// Returns z'' at the velocity of the state, where the position is that of the state.
     pub(crate) fn acceleration_at_start(&mut self) -> Result<Vec<T>, LinearError> {
         let v = self.start.v.clone();
         self.at_rest_of(&v)
     }
 
-    /// Returns how far a change of z moves coordinates, in their sizes [-].
+    /// Returns how far a change of z moves coordinates, relative to their sizes [-].
     pub(crate) fn extent(&self, change: &[T]) -> T {
         let mut way = vec![T::ZERO; self.w.n];
         for (j, &z) in change.iter().enumerate() {
@@ -324,7 +326,8 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'a, T, M, S> {
         self.w.extent(&way)
     }
 
-    /// Changes z and closes the constraints: how far coordinates moved in all, how far to close, and what of this is rounding, in their sizes.
+    /// Changes z and closes the constraints. Returns the total displacement, the displacement that closes, and its rounding error, relative
+    /// to the sizes of coordinates.
     fn shifted(&mut self, change: &[T]) -> Result<[T; 3], LinearError> {
         self.q.copy_from_slice(&self.start.q);
         for (j, &z) in change.iter().enumerate() {
@@ -343,11 +346,11 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'a, T, M, S> {
         Ok([extent(&self.start.q), extent(&open), rounding * T::from_f64(ROUNDED)])
     }
 
-    /// z'' with z changed.
+    /// Returns z'' after a change of z.
     pub(crate) fn displaced(&mut self, change: &[T]) -> Result<Vec<T>, LinearError> {
         let [way, bend, least] = self.shifted(change)?;
         self.v.copy_from_slice(&self.start.v);
-        // Of second order in z, unless a row is next to being dependent.
+        // The displacement that closes is of second order in z, unless a row is close to dependence.
         if bend > least + way * T::from_f64(CURVED) {
             let freedom = change.iter().position(|&z| z != T::ZERO).unwrap_or(0);
             return Err(LinearError::Singular { freedom });
@@ -356,7 +359,7 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'a, T, M, S> {
         self.acceleration()
     }
 
-    /// z'' with one z' changed.
+    /// Returns z'' after a change of one z'.
     fn hurried(&mut self, freedom: usize, z: T) -> Result<Vec<T>, LinearError> {
         self.v.copy_from_slice(&self.start.v);
         for (v, &b) in self.v.iter_mut().zip(self.tangent.direction(freedom)) {
@@ -365,7 +368,7 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'a, T, M, S> {
         self.acceleration()
     }
 
-    /// Moves `q` onto the constraints without changing z; the terms are those of `q` then.
+    /// Moves `q` onto the constraints without a change of z; the terms are then evaluated at `q`.
     pub(crate) fn close(&mut self) -> Result<(), LinearError> {
         let n = self.w.n;
         let floor = (T::ONE + self.w.extent(&self.q[..n])) * T::EPSILON;
@@ -375,7 +378,7 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'a, T, M, S> {
             let violation = self.w.openness(&self.w.terms.phi);
             let is_stalled = last.is_some_and(|last| violation > last * T::HALF);
             stalls = if is_stalled { stalls + 1 } else { 0 };
-            // the height of a large wheel is open by what its directions were, once they are of unit length
+            // the height of a large wheel still has the error of its directions in the sweep that makes them of unit length
             let is_last = violation <= floor * T::from_f64(STALLED) || stalls > 1;
             if is_stalled && is_last || violation == T::ZERO {
                 break;
@@ -396,7 +399,7 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'a, T, M, S> {
         result.map_err(|error| LinearError::NoInertia { unknown: error.unknown })
     }
 
-    /// z'' at (q, v), v moved onto the constraints first; the matrix is factored at q.
+    /// Returns z'' at (q, v), after v is moved onto the constraints. Needs the matrix factored at q.
     fn acceleration(&mut self) -> Result<Vec<T>, LinearError> {
         let (n, m) = (self.w.n, self.w.m);
         self.model.evaluate_phi_t(&self.q, &mut self.w.terms);
@@ -417,8 +420,9 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'a, T, M, S> {
         let mut a = vec![T::ZERO; self.model.n_extended()];
         let (mut lambda, mut residual) = (vec![T::ZERO; m], vec![T::ZERO; n]);
         let (mut last, mut open, mut left) = (None, T::ZERO, T::ZERO);
-        // Corrections: each removes what rounding and the regularisation of the rows left. The first is the answer. Near an equilibrium it
-        // is small, and what the second removes of coordinates without mass, which carry forces through their rows alone, may be as large.
+        // Each correction removes the error that rounding and the regularisation of the rows left. The first correction is the answer itself.
+        // Near an equilibrium it is small. Coordinates without mass transmit forces through their rows alone, so that the second correction
+        // may be as large.
         for sweep in 0..SWEEPS {
             self.w.residual(self.model, Some(&a), &lambda, &mut residual);
             self.model.multiply_jacobian(&self.w.terms, &a, &mut rates);
@@ -449,7 +453,7 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'a, T, M, S> {
             self.w.residual(self.model, Some(&a), &lambda, &mut residual);
             self.lively = self.w.liveliness(self.model);
         }
-        // What rounding leaves of a coordinate with hardly any inertia is no fault; rows that stay open are.
+        // A rounding error in a coordinate with hardly any inertia is allowed; a row that remains violated is not.
         if !(open <= self.lively.max(self.w.extent(&a[..n])) * T::EPSILON.sqrt()) {
             return Err(LinearError::NotSettled { left: left.to_f64() });
         }

@@ -1,10 +1,10 @@
-//! Dense matrices of any size, as the analyses of a mechanism need them.
+//! Dense matrices of any size for the analyses of a mechanism.
 
 use alloc::vec;
 use alloc::vec::Vec;
 use core::ops::{Index, IndexMut};
 
-/// A matrix, column after column.
+/// A dense matrix, stored column by column.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Matrix {
     n_rows: usize,
@@ -13,13 +13,13 @@ pub struct Matrix {
 }
 
 impl Matrix {
-    /// Matrix of zeros alone.
+    /// Creates a matrix of zeros.
     #[must_use]
     pub fn zeros(n_rows: usize, n_columns: usize) -> Self {
         Self { n_rows, n_columns, entries: vec![0.0; n_rows * n_columns] }
     }
 
-    /// Ones on the diagonal; it need not be square.
+    /// Creates a matrix with ones on the diagonal; it need not be square.
     #[must_use]
     pub fn identity(n_rows: usize, n_columns: usize) -> Self {
         let mut all = Self::zeros(n_rows, n_columns);
@@ -27,7 +27,7 @@ impl Matrix {
         all
     }
 
-    /// Makes a matrix from its entries by row and column.
+    /// Creates a matrix from a function of row and column.
     pub fn from_fn(n_rows: usize, n_columns: usize, entry: impl Fn(usize, usize) -> f64) -> Self {
         let columns = 0..n_columns;
         let entries = columns.flat_map(|j| (0..n_rows).map(move |i| (i, j)));
@@ -52,18 +52,18 @@ impl Matrix {
         &self.entries[j * self.n_rows..][..self.n_rows]
     }
 
-    /// Column `j`, to be changed.
+    /// Mutable column `j` of the matrix.
     pub(crate) fn column_mut(&mut self, j: usize) -> &mut [f64] {
         &mut self.entries[j * self.n_rows..][..self.n_rows]
     }
 
-    /// Columns `i < j`, to be changed.
+    /// Mutable columns `i < j` of the matrix.
     pub(crate) fn two_columns(&mut self, i: usize, j: usize) -> (&mut [f64], &mut [f64]) {
         let (low, high) = self.entries.split_at_mut(j * self.n_rows);
         (&mut low[i * self.n_rows..][..self.n_rows], &mut high[..self.n_rows])
     }
 
-    /// The columns from number `from` on.
+    /// Returns the columns from number `from` to the last.
     #[must_use]
     pub fn columns_from(&self, from: usize) -> Self {
         Self {
@@ -73,7 +73,7 @@ impl Matrix {
         }
     }
 
-    /// Rows and columns exchanged.
+    /// Returns the transposed matrix, with rows and columns exchanged.
     #[must_use]
     pub fn transpose(&self) -> Self {
         Self::from_fn(self.n_columns, self.n_rows, |i, j| self[(j, i)])
@@ -82,7 +82,7 @@ impl Matrix {
     /// Product A B of two matrices.
     ///
     /// # Panics
-    /// If B has not as many rows as A has columns.
+    /// If the number of rows of B differs from the number of columns of A.
     #[must_use]
     pub fn times(&self, other: &Self) -> Self {
         assert_eq!(self.n_columns, other.n_rows, "rows of the right factor");
@@ -108,13 +108,13 @@ impl Matrix {
         Self { entries: pairs.map(|(a, b)| a - b).collect(), ..*self }
     }
 
-    /// Largest size of an entry; nothing where one is not finite.
+    /// Returns the largest absolute value of an entry; `None` if an entry is not finite.
     pub(crate) fn largest(&self) -> Option<f64> {
         let is_finite = self.entries.iter().all(|x| x.is_finite());
         is_finite.then(|| self.entries.iter().fold(0.0, |l: f64, x| l.max(x.abs())))
     }
 
-    /// Every entry times a number.
+    /// Multiplies every entry by a number.
     pub(crate) fn scale(&mut self, factor: f64) {
         self.entries.iter_mut().for_each(|x| *x *= factor);
     }
@@ -134,14 +134,14 @@ impl IndexMut<(usize, usize)> for Matrix {
     }
 }
 
-/// y ← y + s x.
+/// Adds a multiple of a vector: y ← y + s x.
 pub(crate) fn add(y: &mut [f64], s: f64, x: &[f64]) {
     for (y, x) in y.iter_mut().zip(x) {
         *y += s * x;
     }
 }
 
-/// xᵀ y, in four sums.
+/// Returns the scalar product xᵀ y, summed in four partial sums.
 pub(crate) fn dot(x: &[f64], y: &[f64]) -> f64 {
     let (x_four, y_four) = (x.as_chunks::<4>(), y.as_chunks::<4>());
     let mut sums = [0.0; 4];

@@ -1,13 +1,15 @@
-//! The static equilibrium nearest to a state, stable or not, by Newton's method in independent coordinates.
+//! The static equilibrium that Newton's method finds from a state, stable or not, in independent coordinates.
 //!
 //! ```text
 //! K_r d = z'',   q <- q + x B d, closed,   x = 1, 1/2, 1/4, ...   until |K_r^-1 z''(q)| <= (1 - x/4) |d|
 //! ```
 //!
-//! K_r are differences of the equations of motion, as in [`linearise`](crate::linearise). The tangents of effects leave out what
-//! would make the matrix of a step indefinite, and unstable equilibria depend on just that. The test of a step by its own matrix (P.
-//! Deuflhard, Numer. Math. 22, 1974) depends on no unit. Directions without stiffness keep their place where no force acts. Where one
-//! does, it moves them by a fifth of the scene's size at most, to where it finds a stop.
+//! K_r is computed by differences of the equations of motion, as in [`linearise`](crate::linearise). The effects' tangents leave out terms
+//! that would make the matrix of a step indefinite, but unstable equilibria depend on these terms. A step is tested by its own matrix (P.
+//! Deuflhard, Numer. Math. 22, 1974), which depends on no unit.
+//!
+//! Directions without stiffness keep their position where no force acts. A force moves them by at most a fifth of the scene's size in a step,
+//! until a stop holds them.
 
 use crate::equilibrium::{Equilibrium, Search};
 use crate::error::{EquilibriumError, LinearError};
@@ -19,23 +21,23 @@ use alloc::vec::Vec;
 use mbs_core::model::{Model, State};
 use mbs_core::{Real, SymmetricSolver};
 
-/// Longest step, in sizes of coordinates [-]: the stiffness changes with turns. Chosen, not tuned.
+/// Longest step, in sizes of coordinates [-]. A longer one would rotate bodies and change the stiffness. Chosen, not tuned.
 const LONGEST: f64 = 0.2;
-/// Stiffness of a direction that has none, in units of its rounding [-]. A force that is no rounding makes a long step there, and
-/// rounding one of 1e-9 of the scene's size.
+/// Stiffness that is assumed for a direction without any, in units of its rounding error [-]. A real force then gives a long step, and a
+/// rounding error gives a step of 1e-9 of the scene's size.
 const NOISE: f64 = 1e4;
-/// Most halvings of a step before the search ends [-]. Chosen, not tuned.
+/// Halvings of a step before the search ends, at most [-]. Chosen, not tuned.
 const HALVINGS: u32 = 40;
-/// Longest step that is rounding, in units of rounding of the scene's size [-]. Chosen, not tuned.
+/// Longest step that counts as rounding error, in units of EPSILON times the scene's size [-]. Chosen, not tuned.
 const NOWHERE: f64 = 64.0;
-/// Least fraction of a step by which the next one must be shorter [-], for a step to be taken. Chosen, not tuned.
+/// Fraction of a step by which the next one must be shorter, for the step to be accepted [-]. Chosen, not tuned.
 const PROGRESS: f64 = 0.25;
 
 /// Moves `s` to the static equilibrium that Newton's method finds from it, stable or not.
 ///
-/// What is written into the state is as in [`equilibrium`](crate::equilibrium()).
+/// The state is written as by [`equilibrium`](crate::equilibrium()).
 ///
-/// Cost: 4 f + 2 factorisations for each of about five steps, f the freedoms; allocates.
+/// Cost: 4 f + 2 factorisations for each of about five steps, where f is the number of freedoms. Allocates.
 ///
 /// # Errors
 /// [`EquilibriumError`]; the state is then unchanged.
@@ -63,7 +65,7 @@ pub fn equilibrium_near<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     Ok(Equilibrium { iterations, ..found })
 }
 
-/// One step from a state: positions and measured angles at its end, and its size.
+/// Makes one step from a state. Returns positions and measured angles at its end, and its size.
 fn newton<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     model: &M,
     s: &State<T>,
@@ -79,7 +81,7 @@ fn newton<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     let mut way = matrix.solve(&acceleration);
     let size = field.extent(&way);
     if !(size > T::EPSILON.sqrt()) {
-        // The last step, which rounding need not leave the next one shorter for.
+        // The last step is accepted without a test: rounding errors may prevent that the next one is shorter.
         field.displaced(&way).map_err(failed)?;
         model.remember(&field.q, &field.w.terms, &mut memory);
         return Ok((if size.is_finite() { field.q } else { q }, memory, T::ZERO));

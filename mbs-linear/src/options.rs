@@ -3,22 +3,23 @@
 use mbs_core::Real;
 use mbs_core::step::OptionError;
 
-/// Choices for the search of an equilibrium.
+/// Options of the search for an equilibrium.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Options<T> {
     /// Largest residual force that counts as balanced, relative to the largest sum of absolute forces on a coordinate [-].
-    /// The search continues to machine precision where it can.
+    /// The search continues to machine precision if steps still reduce the forces.
     pub tolerance: T,
-    /// Number of factorisations allowed.
+    /// Factorisations of a search at most; it fails if they are not enough.
     pub max_factorizations: u32,
 }
 
 impl<T: Real> Default for Options<T> {
-    /// Default tolerance of 1e-9 (f32: 1e-4), at most 2000 factorisations: a fall over many times the scene's length ends before.
+    /// Returns the defaults: tolerance 1e-9 (f32: 1e-4), at most 2000 factorisations. Even a fall over many times the scene's length needs
+    /// fewer.
     fn default() -> Self {
         /// Tolerance of forces [-]. Chosen, not tuned.
         const TOLERANCE: f64 = 1e-9;
-        /// Least tolerance, in units of rounding [-]: it counts in single precision alone. Chosen, not tuned.
+        /// Least tolerance, in units of EPSILON [-]. It has an effect in single precision only. Chosen, not tuned.
         const ROUNDINGS: f64 = 1e3;
         Self {
             tolerance: T::from_f64(TOLERANCE).max(T::EPSILON * T::from_f64(ROUNDINGS)),
@@ -43,17 +44,18 @@ impl<T: Real> Options<T> {
     }
 }
 
-/// Choices for a linearisation.
+/// Options of a linearisation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LinearOptions<T> {
-    /// Largest change of a coordinate in a difference, relative to the scene's length [-]; of a velocity, the same per second.
+    /// Largest change of a coordinate in a difference, relative to the scene's length [-]. Velocities change by the same amount per second.
     pub step: T,
 }
 
 impl<T: Real> Default for LinearOptions<T> {
-    /// Default step of 1e-4 (f32: 1e-2): the fourth power of it, the error of the differences, is below rounding in smooth forces.
+    /// Returns the default step of 1e-4 (f32: 1e-2). The error of the differences, its fourth power, is below rounding errors for smooth
+    /// forces.
     fn default() -> Self {
-        /// Difference of coordinates in double precision [-]: its fourth power is rounding.
+        /// Difference of coordinates in double precision [-]: its fourth power is at machine precision.
         const STEP: f64 = 1e-4;
         Self { step: T::from_f64(STEP).max(T::from_f64(0.5) * T::EPSILON.sqrt().sqrt()) }
     }

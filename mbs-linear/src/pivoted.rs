@@ -1,4 +1,4 @@
-//! Square matrices that may have directions without stiffness.
+//! Square matrices in which some directions may have no stiffness.
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -7,24 +7,24 @@ use mbs_core::Real;
 /// A square matrix after elimination with complete pivoting.
 pub(crate) struct Pivoted<T> {
     n: usize,
-    /// L and U, column by column, in the order of the pivots.
+    /// Factors L and U, column by column, in the order of the pivots.
     lu: Vec<T>,
     rows: Vec<usize>,
     columns: Vec<usize>,
     rank: usize,
-    /// Number that stands on the diagonal from the rank on.
+    /// Diagonal entry for the directions that were not eliminated.
     least: T,
 }
 
 impl<T: Real> Pivoted<T> {
-    /// Eliminates until all that is left is no larger than `least`.
+    /// Eliminates until the remaining entries are at most `least`.
     pub(crate) fn new(n: usize, lu: Vec<T>, least: T) -> Self {
         let order = || (0..n).collect::<Vec<usize>>();
         let mut new = Self { n, lu, rows: order(), columns: order(), rank: 0, least };
         while new.rank < n && new.eliminate() {
             new.rank += 1;
         }
-        // What is left stands on its own diagonal.
+        // The remaining rows and columns are paired so that the directions keep their order.
         for k in new.rank..n {
             let first = |order: &[usize]| (k..n).min_by_key(|&i| order[i]).unwrap_or(k);
             let (row, column) = (first(&new.rows), first(&new.columns));
@@ -33,7 +33,7 @@ impl<T: Real> Pivoted<T> {
         new
     }
 
-    /// Exchanges a row and a column with those of place `k`.
+    /// Exchanges a row and a column with those at position `k`.
     fn swap(&mut self, k: usize, row: usize, column: usize) {
         let n = self.n;
         for j in 0..n {
@@ -46,7 +46,7 @@ impl<T: Real> Pivoted<T> {
         self.columns.swap(k, column);
     }
 
-    /// Takes the largest pivot that is left, if it is large enough.
+    /// Eliminates with the largest remaining pivot, if it is large enough. Returns whether it was.
     fn eliminate(&mut self) -> bool {
         let (n, rank) = (self.n, self.rank);
         let (mut pivot, mut size) = ((rank, rank), T::ZERO);
@@ -71,7 +71,7 @@ impl<T: Real> Pivoted<T> {
         true
     }
 
-    /// x with A x = b, where a direction that was not eliminated has `least` for its stiffness.
+    /// Solves A x = b, where a direction that was not eliminated has the stiffness `least`.
     pub(crate) fn solve(&self, b: &[T]) -> Vec<T> {
         let (n, rank) = (self.n, self.rank);
         let mut y: Vec<T> = self.rows.iter().map(|&i| b[i]).collect();
@@ -106,7 +106,7 @@ mod tests {
         let a = vec![0.0, 2.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1e-20];
         let matrix = Pivoted::new(3, a, 0.25);
         assert_eq!(matrix.solve(&[4.0, 3.0, 5.0]), [1.5, 4.0, 20.0]);
-        // The middle direction is left over.
+        // The middle direction is not eliminated.
         let a = vec![0.0, 0.0, 2.0, 0.0, 1e-20, 0.0, 1.0, 0.0, 0.0];
         let matrix = Pivoted::new(3, a, 0.25);
         assert_eq!(matrix.solve(&[4.0, 9.0, 6.0]), [3.0, 36.0, 4.0]);

@@ -5,8 +5,8 @@
 //! d/dt (z, z', x) = A (z, z', x) + B u,   y = C (z, z', x) + D u:   B = [0; df/du; dg/du],  C = dh/d(z, z', x),  D = dh/du
 //! ```
 //!
-//! Derivatives are differences of fourth order, taken with those of A. The value of a guide moves the constraints: positions are closed
-//! again without a change of z, then velocities, then accelerations. Its rate and its acceleration are inputs of their own.
+//! Derivatives are differences of fourth order, as those of A. The value of a guide moves the constraints: positions are closed again without
+//! a change of z, then velocities, then accelerations. The rate and the acceleration of a guide are separate inputs.
 
 use crate::error::LinearError;
 use crate::linear::Linear;
@@ -20,20 +20,21 @@ use core::fmt;
 use mbs_core::model::{Model, State};
 use mbs_core::{Real, SymmetricSolver};
 
-/// Inputs and outputs that are asked for.
+/// Inputs and outputs that a linearisation includes.
 pub struct Ports<'a, T> {
-    /// The place of each input among [`State::inputs`]: see [`Prescribed`](mbs_core::inputs::Prescribed).
+    /// The index of each input among [`State::inputs`]: see [`Prescribed`](mbs_core::inputs::Prescribed).
     pub inputs: &'a [usize],
-    /// Measure of the outputs, which always gives as many numbers.
+    /// Measure of the outputs; it must always return the same number of values.
     pub outputs: &'a mut OutputMeasure<'a, T>,
-    /// Coordinates x in place of z: of dy/dz, p x f, it makes dx/dz, f x f, both column by column; nothing where no x determine z. Without
-    /// it they are z.
+    /// Coordinates x that replace z. The function gets dy/dz (p x f) and returns dx/dz (f x f), both column by column, or `None` where no
+    /// outputs determine z. Without it the coordinates are z.
     ///
-    /// Slopes are then differences along x themselves: what a change of one x does small is not the difference of large ones by z.
+    /// Derivatives are then differences along x itself. This matters where a change of one x has a small effect: as a difference of large
+    /// effects of several z it would lose digits.
     pub coordinates: Option<&'a mut CoordinateChoice<'a, T>>,
 }
 
-/// Chooses coordinates by the slopes of outputs: see [`Ports::coordinates`].
+/// Function that chooses coordinates from the derivatives of outputs: see [`Ports::coordinates`].
 pub type CoordinateChoice<'a, T> = dyn FnMut(&[T]) -> Option<Vec<T>> + 'a;
 
 impl<T> fmt::Debug for Ports<'_, T> {
@@ -47,18 +48,18 @@ impl<T> fmt::Debug for Ports<'_, T> {
 pub struct LinearPorts<T> {
     /// Number of inputs m.
     pub n_inputs: usize,
-    /// The outputs at the state, p numbers.
+    /// Values of the outputs at the state, p numbers.
     pub values: Vec<T>,
-    /// d(z'', x')/du, (f + s) x m for s states x of signals.
+    /// Derivatives d(z'', x')/du, (f + s) x m for s states x of signals.
     pub forces: Vec<T>,
-    /// dy/d(z, z', x), p x (2 f + s).
+    /// Derivatives dy/d(z, z', x), p x (2 f + s).
     pub outputs: Vec<T>,
-    /// dy/du, p x m.
+    /// Feedthrough dy/du, p x m.
     pub feedthrough: Vec<T>,
 }
 
 impl<T: Real> LinearPorts<T> {
-    /// B of d/dt (z, z', x) = A (z, z', x) + B u, (2 f + s) x m, for a motion with `n_freedoms`, column by column.
+    /// Matrix B of d/dt (z, z', x) = A (z, z', x) + B u, (2 f + s) x m, for a motion with `n_freedoms`, column by column.
     #[must_use]
     pub fn input_matrix(&self, n_freedoms: usize) -> Vec<T> {
         let rows = self.forces.len() / self.n_inputs.max(1);
@@ -73,19 +74,19 @@ impl<T: Real> LinearPorts<T> {
 
 /// Linearises as [`linearise`](crate::linearise()) does, with inputs and outputs.
 ///
-/// With [`coordinates`](Ports::coordinates) z stands for what they choose, in all that is given; inertia is then no unit matrix.
+/// With [`coordinates`](Ports::coordinates), z means the chosen coordinates in all results; the inertia is then not the unit matrix.
 ///
-/// At [`Instant::Rest`] rates and accelerations of guides are zero at the state, and derivatives by them are taken about zero.
+/// At [`Instant::Rest`] rates and accelerations of guides are zero at the state, and derivatives by them are taken at zero.
 ///
-/// Cost: that of [`linearise`](crate::linearise()) with a measurement at each evaluation, 6 evaluations for each input, and 5
-/// factorisations for one that moves a guide. Where coordinates are chosen, 4 f factorisations more; allocates.
+/// Cost: that of [`linearise`](crate::linearise()) with a measurement at each evaluation, and 6 evaluations for each input. An input that
+/// moves a guide adds 5 factorisations. Chosen coordinates add 4 f factorisations. Allocates.
 ///
 /// # Errors
-/// As [`linearise`](crate::linearise()), and what `ports.outputs` answers with; [`LinearError::Singular`] where no coordinates are
-/// chosen. A guide whose value cannot be changed, as joints hold its coordinate too, is [`LinearError::NotClosed`].
+/// Errors of [`linearise`](crate::linearise()) and of `ports.outputs`; [`LinearError::Singular`] where no coordinates are chosen.
+/// [`LinearError::NotClosed`] where a guide's value cannot be changed, because joints hold its coordinate too.
 ///
 /// # Panics
-/// If a place is none of a state's inputs.
+/// If an index is not one of the state's inputs.
 pub fn linearise_ports<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     model: &'a M,
     how: (Instant, &LinearOptions<T>),
@@ -108,11 +109,11 @@ pub fn linearise_ports<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     Ok((linear, LinearPorts { n_inputs, values, forces, outputs, feedthrough }))
 }
 
-/// Largest factor by which the difference of an input grows, where it hardly moves the mechanism [-]. Chosen, not tuned.
+/// Largest factor by which the difference of an input is made longer, where the input hardly moves the mechanism [-]. Chosen, not tuned.
 const MOST_GROWTH: f64 = 1e4;
 
 impl<T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'_, T, M, S> {
-    /// Slopes of (z'', x') and of the outputs by the inputs at these places.
+    /// Returns the derivatives of (z'', x') and of the outputs by the inputs at `places`.
     fn by_inputs(
         &mut self,
         instant: Instant,
@@ -131,7 +132,7 @@ impl<T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'_, T, M, S> {
                 let answer = driven.acceleration(self, change)?;
                 self.with_the_rest(answer)
             })?;
-            // the next input begins from the state itself
+            // the next input starts from the state itself
             driven.acceleration(self, T::ZERO)?;
             forces.extend_from_slice(&slope[..rows]);
             outputs.extend_from_slice(&slope[rows..]);
@@ -140,20 +141,20 @@ impl<T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'_, T, M, S> {
     }
 }
 
-/// An input that is changed.
+/// An input that is changed for a difference.
 struct Driven<'a, T> {
     place: usize,
     instant: Instant,
-    /// The guides as the state's own inputs have them.
+    /// Values, rates and accelerations of the guides at the state.
     held: &'a [[T; 3]],
-    /// Whether the input changes value, rate and acceleration of a guide, each by itself.
+    /// Whether the input changes the value, the rate and the acceleration of a guide.
     changed: [bool; 3],
-    /// Are positions closed with it?
+    /// Are the present positions closed with a change of this input?
     is_moved: bool,
 }
 
 impl<T: Real> Driven<'_, T> {
-    /// Sets the input to its value and a change.
+    /// Sets the input to its value plus a change.
     fn set<M: Model<T>, S: SymmetricSolver<T>>(
         &mut self,
         field: &mut Field<'_, T, M, S>,
@@ -177,7 +178,7 @@ impl<T: Real> Driven<'_, T> {
         }
     }
 
-    /// z'' with the input changed, z and z' as they are.
+    /// Returns z'' with the input changed, at unchanged z and z'.
     fn acceleration<M: Model<T>, S: SymmetricSolver<T>>(
         &mut self,
         field: &mut Field<'_, T, M, S>,
@@ -192,7 +193,7 @@ impl<T: Real> Driven<'_, T> {
         field.acceleration_at_start()
     }
 
-    /// The difference of the input that moves coordinates, velocities, or accelerations by `reach` of their sizes.
+    /// Returns the difference of the input that moves coordinates, velocities or accelerations by `reach` of their sizes.
     fn difference<M: Model<T>, S: SymmetricSolver<T>>(
         &mut self,
         field: &mut Field<'_, T, M, S>,

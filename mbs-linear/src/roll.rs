@@ -1,10 +1,11 @@
-//! Steps of a search roll: what a step slips is taken back.
+//! Rolling in the steps of a search: slip of a rolling contact in a step is removed.
 //!
 //! ```text
 //! slip = integral of J dq over the rows of velocities:   S_1 = J(q_1/2) (q_1 - q_0),   S_2 the same over both halves,   (4 S_2 - S_1) / 3
 //! ```
 //!
-//! Midpoints are closed. Of a wheel that turns by a in a step, this is off by 1.3e-4 a^5 of its radius.
+//! The constraints are closed at the midpoints. For a wheel that rotates by an angle a in a step, the computed slip has an error of 1.3e-4
+//! a^5 of its radius.
 
 use crate::equilibrium::Search;
 use alloc::vec;
@@ -12,20 +13,21 @@ use alloc::vec::Vec;
 use mbs_core::model::Model;
 use mbs_core::{Real, SymmetricSolver};
 
-/// Longest step of what rolls, in sizes of coordinates [-]: slips of 2e-7 of it are not seen.
+/// Longest step with rolling contacts, in sizes of coordinates [-]. The computed slip then has an error of 2e-7 of the step.
 const LONGEST: f64 = 0.2;
-/// Most sweeps that take a slip back [-]: each leaves a tenth of it or less. Chosen, not tuned.
+/// Sweeps that remove slip, at most [-]: each leaves a tenth of it or less. Chosen, not tuned.
 const SWEEPS: u32 = 20;
-/// Slip that is rounding, in units of rounding of a row [-]. Chosen, not tuned.
+/// Slip that counts as rounding error, in units of the rounding error of a row [-]. Chosen, not tuned.
 const ROUNDINGS: f64 = 64.0;
 
 impl<T: Real, M: Model<T>, S: SymmetricSolver<T>> Search<'_, T, M, S> {
-    /// Is a step of this `size` too long for what rolls?
+    /// Is a step of this `size` too long for a rolling contact?
     pub(crate) fn is_too_long_to_roll(&self, size: T) -> bool {
         self.model.has_velocity_rows() && size > T::from_f64(LONGEST)
     }
 
-    /// Moves `next` so that the way from `q` rolls; both are closed, and the terms are those of `next` then. Does it?
+    /// Moves `next` so that the path from `q` has no slip. Returns whether it succeeded. Both ends are closed, and the terms are those at
+    /// `next`.
     pub(crate) fn roll(&mut self) -> bool {
         if !self.model.has_velocity_rows() {
             return true;
@@ -52,7 +54,7 @@ impl<T: Real, M: Model<T>, S: SymmetricSolver<T>> Search<'_, T, M, S> {
         false
     }
 
-    /// Slip of the way from `q` to `next`, row by row; zero in other rows. Nothing where a midpoint cannot be closed.
+    /// Returns the slip along the path from `q` to `next`, row by row; zero in rows of positions. `None` if a midpoint cannot be closed.
     fn slip(&mut self) -> Option<Vec<T>> {
         let (from, to) = (self.q.clone(), self.next.clone());
         let middle = self.between(&from, &to)?;
@@ -70,7 +72,7 @@ impl<T: Real, M: Model<T>, S: SymmetricSolver<T>> Search<'_, T, M, S> {
         Some(slip.collect())
     }
 
-    /// The middle between two positions, closed, with the terms there.
+    /// Returns the middle between two positions, with the constraints closed, and evaluates the terms there.
     fn between(&mut self, from: &[T], to: &[T]) -> Option<Vec<T>> {
         for (middle, (&from, &to)) in self.next.iter_mut().zip(from.iter().zip(to)) {
             *middle = (from + to) * T::HALF;
@@ -79,7 +81,7 @@ impl<T: Real, M: Model<T>, S: SymmetricSolver<T>> Search<'_, T, M, S> {
         self.close().then(|| self.next.clone())
     }
 
-    /// J (to - from) with the rows of the terms at hand.
+    /// Returns J (to - from), with the rows of the last evaluated terms.
     fn along(&self, from: &[T], to: &[T]) -> Vec<T> {
         let way: Vec<T> = to.iter().zip(from).map(|(&to, &from)| to - from).collect();
         let mut rates = vec![T::ZERO; self.w.m];

@@ -1,4 +1,4 @@
-//! States of signals in a linearisation.
+//! Matrices of the states of signals in a linearisation.
 
 use alloc::vec::Vec;
 
@@ -7,8 +7,8 @@ use alloc::vec::Vec;
 pub struct LinearSignals<T> {
     /// Number of states s.
     pub n: usize,
-    /// dz''/dx, f x s.
+    /// Derivatives dz''/dx, f x s.
     pub forces: Vec<T>,
-    /// dx'/d(z, z', x), s x (2 f + s).
+    /// Derivatives dx'/d(z, z', x), s x (2 f + s).
     pub rates: Vec<T>,
 }

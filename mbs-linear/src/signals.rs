@@ -18,8 +18,8 @@ use mbs_core::model::{Model, State};
 use mbs_core::{Real, SymmetricSolver};
 
 impl<T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'_, T, M, S> {
-    /// The part of signals with their `rates` by coordinates and velocities, and the slopes of outputs by them: by differences that move
-    /// states by `reach` of their sizes.
+    /// Returns the matrices of the states of signals, with their `rates` by coordinates and velocities, and the derivatives of outputs by
+    /// these states. Differences move the states by `reach` of their sizes.
     pub(crate) fn signals(
         &mut self,
         reach: T,
@@ -44,29 +44,29 @@ impl<T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'_, T, M, S> {
         Ok((all, outputs))
     }
 
-    /// x' as last evaluated.
+    /// Returns the rates x' of the states of signals at the last evaluation.
     pub(crate) fn signal_rates(&self) -> Vec<T> {
         let states = &self.w.terms.signals[..self.model.n_signal_states()];
         states.iter().map(|[_, rate]| *rate).collect()
     }
 }
 
-/// Steps at most until the states of signals rest [-]: one or two where signals are linear. Chosen, not tuned.
+/// Steps until the states of signals are at rest, at most [-]: one or two where signals are linear. Chosen, not tuned.
 const STEPS: u32 = 20;
-/// Change of the states that is rest, relative to them or to one [-]: differences give ten digits.
+/// Change of the states at which they count as at rest, relative to their size or to one [-]: differences give ten digits.
 const RESTING: f64 = 1e-9;
-/// Part of the rates that no change of the states takes away, and that is none [-]: differences give ten digits.
+/// Fraction of the rates that no change of the states can remove, and that is tolerated [-]: differences give ten digits.
 const LEFT: f64 = 1e-6;
-/// Slope of the rates that is rounding, relative to the largest [-]. Chosen, not tuned.
+/// Derivative of the rates that counts as zero, relative to the largest one [-]. Chosen, not tuned.
 const NO_SLOPE: f64 = 1e-12;
 
-/// Moves the states of signals and the mechanism, which is in equilibrium with them as they are, to where these states rest too:
-/// what is integrated is zero, and lags have caught up. Nothing without states.
+/// Moves the mechanism and the states of signals to an equilibrium in which these states are at rest too: inputs of integrals are zero, and
+/// lags have reached their inputs. The mechanism must be at equilibrium with the present states. Does nothing without states.
 ///
-/// Cost: a linearisation and a search near the state for each step.
+/// Cost: a linearisation and a search for an equilibrium in each step.
 ///
 /// # Errors
-/// [`EquilibriumError::SignalsMove`] where they find no rest, or that of a search; the state is then not to be used.
+/// [`EquilibriumError::SignalsMove`] if the states do not come to rest, or the error of a search. The state is then undefined.
 pub fn rest_signals<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     model: &M,
     options: &Options<T>,
@@ -96,8 +96,8 @@ pub fn rest_signals<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
 }
 
 impl<T: Real> Linear<T> {
-    /// The change of the signals' states that takes these rates to zero, while the mechanism stays in equilibrium: z = K^-1 (df/dx) x.
-    /// `None` where no change does.
+    /// Returns the change of the signals' states that makes the rates zero, while the mechanism stays in equilibrium: z = K^-1 (df/dx) x.
+    /// `None` if no change does.
     fn rest(&self, rates: &[T]) -> Option<Vec<T>> {
         let (f, n, of) = (self.n_freedoms, self.signals.n, &self.signals);
         let stiffness = Pivoted::new(f, self.stiffness.clone(), self.noise);

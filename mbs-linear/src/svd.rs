@@ -6,8 +6,8 @@
 //! A = U Σ Vᵀ,   σ₁ ≥ σ₂ ≥ … ≥ 0,   U = U₁ S …,   V = V₁ T …
 //! ```
 //!
-//! U and V are products of reflections and rotations, so that they are orthogonal to rounding whatever the rank. An entry of B
-//! below ε ‖B‖ is taken as zero: all singular values have an error of a small multiple of ε σ₁.
+//! U and V are products of reflections and rotations, so that they are orthogonal to machine precision, whatever the rank. An entry of B
+//! below ε ‖B‖ counts as zero, so that all singular values have an error of a small multiple of ε σ₁.
 
 use crate::matrix::{Matrix, add, dot};
 use alloc::vec;
@@ -17,21 +17,21 @@ use mbs_core::Real;
 /// Singular values with their vectors.
 #[derive(Debug, Clone)]
 pub struct Svd {
-    /// Left vectors as columns.
+    /// Left singular vectors as columns.
     pub u: Matrix,
-    /// Singular values, from the largest to the smallest: as many as the shorter side is long.
+    /// Singular values in descending order, as many as the smaller dimension of the matrix.
     pub sigma: Vec<f64>,
-    /// Right vectors as columns.
+    /// Right singular vectors as columns.
     pub v: Matrix,
 }
 
-/// Most sweeps for each singular value; two are usual.
+/// Sweeps for each singular value, at most; two are usual.
 const MAX_SWEEPS: usize = 60;
 
-/// Sum of squares that is zero beside a matrix of order one [-]: above 1e-308, where numbers lose digits.
+/// Sum of squares that counts as zero relative to a matrix of order one [-]. It is above 1e-308, where numbers lose digits.
 const TINY: f64 = 1e-280;
 
-/// Singular vectors that are wanted.
+/// Singular vectors that a caller requires.
 #[derive(Clone, Copy)]
 enum Vectors {
     None,
@@ -40,7 +40,8 @@ enum Vectors {
 }
 
 impl Svd {
-    /// Decomposition with all vectors: U and V are square. Nothing where an entry is not finite, or the iteration does not converge.
+    /// Decomposes a matrix with all vectors: U and V are square. Returns `None` if an entry is not finite, or the iteration does not
+    /// converge.
     ///
     /// Cost: about 4 m² n + 20 m n² operations for m ≥ n.
     #[must_use]
@@ -48,7 +49,7 @@ impl Svd {
         of(matrix, Vectors::All)
     }
 
-    /// With as many vectors on both sides as there are singular values. Nothing where [`Svd::new`] gives nothing.
+    /// Decomposes a matrix with one vector on each side for each singular value. Returns `None` where [`Svd::new`] does.
     ///
     /// Cost: about 20 m n² operations for m ≥ n.
     #[must_use]
@@ -57,7 +58,7 @@ impl Svd {
     }
 }
 
-/// Singular values alone, falling. Nothing where [`Svd::new`] gives nothing.
+/// Returns the singular values alone, in descending order. Returns `None` where [`Svd::new`] does.
 ///
 /// Cost: about 4 m n² operations for m ≥ n.
 #[must_use]
@@ -80,7 +81,7 @@ fn of(matrix: &Matrix, vectors: Vectors) -> Option<Svd> {
 fn tall(mut a: Matrix, vectors: Vectors) -> Option<Svd> {
     let (m, n) = (a.n_rows(), a.n_columns());
     let largest = a.largest()?;
-    // Entries of order one: a power of two, so that nothing is rounded.
+    // Scaled to entries of order one by a power of two, so that nothing is rounded.
     let scale = if largest > 0.0 { power_of_two(largest) } else { 1.0 };
     a.scale(1.0 / scale);
     let reduced = Bidiagonal::of(&mut a);
@@ -94,12 +95,12 @@ fn tall(mut a: Matrix, vectors: Vectors) -> Option<Svd> {
     Some(chase.sorted(scale))
 }
 
-/// The power of two at or below `x`, or the least whose reciprocal is finite.
+/// Returns the largest power of two up to `x`, or the smallest whose reciprocal is finite.
 fn power_of_two(x: f64) -> f64 {
     f64::from_bits(x.to_bits() & (0x7FF << 52)).max(f64::MIN_POSITIVE)
 }
 
-/// d and e of B, and what it takes to apply the reflections: those from the left lie below the diagonal of A.
+/// Diagonals d and e of B, with the reflections: the vectors of those from the left are below the diagonal of A.
 struct Bidiagonal {
     d: Vec<f64>,
     e: Vec<f64>,
@@ -108,7 +109,7 @@ struct Bidiagonal {
 }
 
 impl Bidiagonal {
-    /// Bidiagonal matrix B of A; vectors of the reflections from the left stay in the columns of A.
+    /// Computes the bidiagonal matrix B of A. The vectors of the reflections from the left replace the columns of A.
     fn of(a: &mut Matrix) -> Self {
         let (m, n) = (a.n_rows(), a.n_columns());
         let mut all = Self { d: Vec::new(), e: Vec::new(), beta: Vec::new(), rows: Vec::new() };
@@ -142,7 +143,7 @@ impl Bidiagonal {
         all
     }
 
-    /// The first columns of U₁.
+    /// Returns the first columns of U₁, the product of the reflections from the left.
     fn left(&self, a: &Matrix, n_columns: usize) -> Matrix {
         let mut u = Matrix::identity(a.n_rows(), n_columns);
         for (k, &beta) in self.beta.iter().enumerate().rev() {
@@ -153,7 +154,7 @@ impl Bidiagonal {
         u
     }
 
-    /// Product V₁ of the reflections from the right.
+    /// Returns V₁, the product of the reflections from the right.
     fn right(&self) -> Matrix {
         let n = self.d.len();
         let mut v = Matrix::identity(n, n);
@@ -166,7 +167,7 @@ impl Bidiagonal {
     }
 }
 
-/// x becomes the vector of the reflection that takes it to its first axis; β, and the entry that is left there.
+/// Overwrites x by the vector of the reflection that maps x to the first axis. Returns β and the first entry of the image.
 fn reflection(x: &mut [f64]) -> (f64, f64) {
     let Some((&first, rest)) = x.split_first() else { return (0.0, 0.0) };
     let rest = dot(rest, rest);
@@ -179,7 +180,7 @@ fn reflection(x: &mut [f64]) -> (f64, f64) {
     (2.0 / (x[0] * x[0] + rest), left)
 }
 
-/// y ← y − β x (xᵀ y).
+/// Reflects a vector: y ← y − β x (xᵀ y).
 fn reflect(beta: f64, x: &[f64], y: &mut [f64]) {
     if beta != 0.0 {
         let share = beta * dot(x, y);
@@ -187,13 +188,13 @@ fn reflect(beta: f64, x: &[f64], y: &mut [f64]) {
     }
 }
 
-/// c, s and r with c f + s g = r and c g − s f = 0.
+/// Returns the rotation c, s and the length r with c f + s g = r and c g − s f = 0.
 fn rotation(f: f64, g: f64) -> (f64, f64, f64) {
     let r = libm::hypot(f, g);
     if r == 0.0 { (1.0, 0.0, 0.0) } else { (f / r, g / r, r) }
 }
 
-/// Columns i and j become c xᵢ + s xⱼ and c xⱼ − s xᵢ.
+/// Rotates columns i and j into c xᵢ + s xⱼ and c xⱼ − s xᵢ.
 fn rotate(x: &mut Matrix, (i, j): (usize, usize), (c, s): (f64, f64)) {
     let (x, y) = x.two_columns(i, j);
     for (x, y) in x.iter_mut().zip(y) {
@@ -201,7 +202,7 @@ fn rotate(x: &mut Matrix, (i, j): (usize, usize), (c, s): (f64, f64)) {
     }
 }
 
-/// B on its way to a diagonal: e_k stands right of d_k.
+/// Bidiagonal matrix B during the iteration; e_k is to the right of d_k.
 struct Chase {
     d: Vec<f64>,
     e: Vec<f64>,
@@ -230,7 +231,7 @@ impl Chase {
         Some(())
     }
 
-    /// The first row of the last block, in which neither d (but the last) nor e is zero.
+    /// Returns the first row of the last block. In a block no e is zero, and no d except possibly the last.
     fn block(&mut self, high: usize, zero: f64) -> usize {
         for low in (1..=high).rev() {
             if self.e[low - 1].abs() <= zero {
@@ -245,7 +246,7 @@ impl Chase {
         0
     }
 
-    /// With d_k = 0 rotations of row k with those below it make e_k zero.
+    /// Makes e_k zero, for d_k = 0, by rotations of row k with the rows below.
     fn clear_row(&mut self, k: usize, high: usize) {
         self.d[k] = 0.0;
         let mut left = core::mem::take(&mut self.e[k]);
@@ -260,7 +261,7 @@ impl Chase {
         }
     }
 
-    /// A step of the QR iteration on rows low to high.
+    /// Makes one step of the QR iteration on rows low to high.
     fn sweep(&mut self, low: usize, high: usize) {
         // (d² − μ) / d and e, the first column of BᵀB − μ
         let (mut f, mut g) = (self.d[low] - self.shift(low, high) / self.d[low], self.e[low]);
@@ -287,18 +288,18 @@ impl Chase {
         }
     }
 
-    /// Shift μ of the iteration: that eigenvalue of the last two rows of BᵀB which is nearer to its last entry.
+    /// Returns the shift μ of the iteration: the eigenvalue of the last two rows of BᵀB that is closer to their last entry.
     fn shift(&self, low: usize, high: usize) -> f64 {
         let before = if high - 1 > low { self.e[high - 2] } else { 0.0 };
         let (d, e) = (self.d[high - 1], self.e[high - 1]);
         let (first, last) = (d * d + before * before, self.d[high] * self.d[high] + e * e);
         let half = (first - last) / 2.0;
         let beside = d * e;
-        // half is the difference of both, beside is not zero: d and e are not.
+        // `half` may be zero, but `beside` is not, because d and e are not; so the denominator is not zero.
         last - beside / (half + libm::hypot(half, beside).copysign(half)) * beside
     }
 
-    /// Singular values without their signs, the largest first.
+    /// Returns the singular values as positive numbers in descending order, with their vectors.
     fn sorted(mut self, scale: f64) -> Svd {
         let n = self.d.len();
         for k in 0..n {

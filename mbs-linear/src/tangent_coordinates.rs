@@ -1,4 +1,4 @@
-//! Independent coordinates about a position: an orthonormal split of the coordinates by the Jacobian there.
+//! Independent coordinates at a position, from an orthonormal split of the coordinates by the Jacobian there.
 //!
 //! ```text
 //! J^T P = [ Q1  Q2 ] [ R11  R12 ]      Householder QR with column pivoting on rows of unit length
@@ -7,10 +7,10 @@
 //! z = L^T Q2^T (q - q0),   z' = L^T Q2^T q',   z'' = L^T Q2^T q'',      B^T M B = 1
 //! ```
 //!
-//! Coordinates count in their sizes, q = S x with S the scene's length for points and one for directions. The formulas are in x, with
-//! J S and S M S, and the split does not depend on the unit of length.
+//! Coordinates are scaled by their sizes: q = S x, where S is the scene's length for points and one for directions. The formulas are in x,
+//! with J S and S M S. So the split does not depend on the unit of length.
 //!
-//! With the inertia a unit matrix the stiffness of conservative forces is symmetric and eigenvalues are well conditioned.
+//! The inertia is a unit matrix. So the stiffness of conservative forces is symmetric, and eigenvalues are well conditioned.
 
 use crate::pivoted::Pivoted;
 use alloc::vec;
@@ -21,31 +21,31 @@ use mbs_core::Real;
 #[derive(Debug, Clone)]
 pub(crate) struct TangentCoordinates<T> {
     n: usize,
-    /// Independent rows in the order of their pivots, and the length of each.
+    /// Independent rows in the order of their pivots, and the length of each row.
     rows: Vec<usize>,
     lengths: Vec<T>,
-    /// Q, n x n: Q1 then Q2.
+    /// Orthogonal matrix Q = (Q1, Q2), n x n.
     q: Vec<T>,
-    /// R11, r x r, upper triangle.
+    /// Upper triangle R11, r x r.
     r: Vec<T>,
-    /// L, f x f, lower triangle.
+    /// Lower triangle L, f x f.
     l: Vec<T>,
-    /// S, the sizes of the coordinates.
+    /// Sizes S of the coordinates.
     sizes: Vec<T>,
-    /// S B, n x f.
+    /// Basis S B, n x f.
     pub(crate) basis: Vec<T>,
-    /// dx/dz, f x f, of coordinates x that stand for z; then the basis is S B (dx/dz)^-1.
+    /// Derivatives dx/dz (f x f) of chosen coordinates x that replace z; the basis is then S B (dx/dz)^-1.
     chosen: Option<Vec<T>>,
 }
 
-/// Inertia of a column that has none, relative to the largest [-]: what rounding leaves of it. Chosen, not tuned.
+/// Inertia, relative to the largest one, up to which a direction counts as without inertia [-]: a rounding error. Chosen, not tuned.
 const NO_INERTIA: f64 = 1e-13;
 
 impl<T: Real> TangentCoordinates<T> {
-    /// Splits by `jacobian`, row by row (m rows of n); `mass` multiplies a vector of n by M. Rows of velocities, `is_late`, are taken after
-    /// all others: where they depend on rows of positions, those are the ones that positions are closed by.
+    /// Splits the coordinates by `jacobian`, given row by row (m rows of n); `mass` multiplies a vector of n by M. Rows of velocities,
+    /// `is_late`, are eliminated after all others. Where they depend on rows of positions, positions are then closed by the latter.
     ///
-    /// Fails with the index of the freedom without inertia.
+    /// Fails with the index of a freedom without inertia.
     pub(crate) fn new(
         sizes: &[T],
         (mut jacobian, is_late): (Vec<T>, impl Fn(usize) -> bool),
@@ -87,7 +87,7 @@ impl<T: Real> TangentCoordinates<T> {
         Ok(Self { n, rows, lengths, q, r, l, sizes, basis, chosen })
     }
 
-    /// Takes coordinates x in place of z, by dx/dz, f x f, which is regular.
+    /// Replaces z by coordinates x, given by a regular matrix dx/dz, f x f.
     pub(crate) fn choose(&mut self, slopes: Vec<T>) {
         let (n, f) = (self.n, self.n_freedoms());
         let matrix = Pivoted::new(f, slopes.clone(), T::ZERO);
@@ -107,7 +107,7 @@ impl<T: Real> TangentCoordinates<T> {
         self.n - self.rows.len()
     }
 
-    /// x -= the smallest d with J0 d = b on the independent rows.
+    /// Subtracts from x the smallest d with J0 d = b on the independent rows.
     pub(crate) fn correct(&self, b: &[T], x: &mut [T]) {
         let rank = self.rows.len();
         let mut y = vec![T::ZERO; rank];
@@ -127,7 +127,7 @@ impl<T: Real> TangentCoordinates<T> {
         }
     }
 
-    /// z of a vector q of n: L^T Q2^T S^-1 q; x where it was chosen.
+    /// Returns z of a vector q of n numbers, L^T Q2^T S^-1 q, or the chosen x.
     pub(crate) fn reduce(&self, q: &[T]) -> Vec<T> {
         let (rank, f) = (self.rows.len(), self.n_freedoms());
         let x: Vec<T> = q.iter().zip(&self.sizes).map(|(&q, &size)| q / size).collect();
@@ -141,7 +141,7 @@ impl<T: Real> TangentCoordinates<T> {
         x
     }
 
-    /// Direction of one freedom: a column of S B.
+    /// Direction of a freedom in the coordinates: a column of S B.
     pub(crate) fn direction(&self, freedom: usize) -> &[T] {
         column(&self.basis, self.n, freedom)
     }
@@ -155,8 +155,8 @@ fn dot<T: Real>(a: &[T], b: &[T]) -> T {
     a.iter().zip(b).fold(T::ZERO, |sum, (&x, &y)| sum + x * y)
 }
 
-/// Rows chosen, those that are not `is_late` first, their lengths, Q and R11. Rows that are shorter than max(n, m) eps^(2/3) of the largest
-/// after elimination depend on the others.
+/// Returns the independent rows, those that are not `is_late` first, with their lengths, Q and R11. A row depends on the others if after
+/// elimination it is shorter than max(n, m) EPSILON^(2/3) of the largest one.
 fn factor<T: Real>(
     n: usize,
     jacobian: &mut [T],
@@ -208,7 +208,7 @@ fn factor<T: Real>(
         for &row in &order[rank..] {
             reflect(&mut jacobian[row * n + rank..(row + 1) * n]);
         }
-        // Q <- Q H: every row of Q is reflected.
+        // Q <- Q H reflects every row of Q.
         for i in 0..n {
             let mut line: Vec<T> = (rank..n).map(|j| q[j * n + i]).collect();
             reflect(&mut line);
@@ -225,7 +225,7 @@ fn factor<T: Real>(
     (order, lengths, q, r)
 }
 
-/// Cube root of a positive number by Newton's method: the scalar trait has none.
+/// Returns the cube root of a positive number by Newton's method, because the scalar trait has none.
 fn cube_root(x: f64) -> f64 {
     let mut y = 1.0;
     for _ in 0..200 {
@@ -234,7 +234,7 @@ fn cube_root(x: f64) -> f64 {
     y
 }
 
-/// L of a symmetric matrix whose lower triangle is given, in place.
+/// Computes L of a symmetric matrix in place; the lower triangle is given.
 fn cholesky<T: Real>(a: &mut [T], f: usize) -> Result<(), usize> {
     let largest = (0..f).fold(T::ZERO, |most, j| most.max(a[j * f + j]));
     for j in 0..f {
@@ -261,7 +261,7 @@ mod tests {
 
     #[test]
     fn a_repeated_row_leaves_the_split_as_it_is() {
-        // x + y = 0 twice and z = 0 in four coordinates, mass diag(1, 3, 1, 4): freedoms x - y with mass 4/2 and w.
+        // x + y = 0 twice and z = 0 in four coordinates, mass diag(1, 3, 1, 4): the freedoms are x - y with mass 4/2, and w.
         let jacobian = vec![1.0, 1.0, 0.0, 0.0, 2.0, 2.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0];
         let mass = |x: &[f64]| vec![x[0], 3.0 * x[1], x[2], 4.0 * x[3]];
         let tangent = TangentCoordinates::new(&[1.0; 4], (jacobian, |_| false), mass)
@@ -277,7 +277,7 @@ mod tests {
             let z = tangent.reduce(b);
             assert!((z[j] - 1.0).abs() < 1e-14 && z[1 - j].abs() < 1e-14, "{z:?}");
         }
-        // The smallest change that closes x + y = 0.2 and z = 0.5.
+        // Subtracts the smallest change that closes x + y = 0.2 and z = 0.5.
         let mut x = [0.0; 4];
         tangent.correct(&[0.2, 0.4, 0.5], &mut x);
         let wanted = [-0.1, -0.1, -0.5, 0.0];

@@ -5,10 +5,10 @@ use alloc::vec::Vec;
 use mbs_core::Real;
 use mbs_core::model::{Model, State, Terms};
 
-/// Measures outputs at a state: q, v, a, multipliers (`reaction`), measured angles, signals and inputs are those of one instant.
+/// Measures outputs at a state; q, v, a, multipliers (`reaction`), measured angles, signals and inputs belong to the same instant.
 pub type OutputMeasure<'a, T> = dyn FnMut(&State<T>) -> Result<Vec<T>, LinearError> + 'a;
 
-/// Measure of the outputs, and the state that it is shown.
+/// Measure of the outputs, and the state that is passed to it.
 pub(crate) struct Watch<'a, T> {
     measure: &'a mut OutputMeasure<'a, T>,
     state: State<T>,
@@ -18,20 +18,20 @@ pub(crate) struct Watch<'a, T> {
 pub(crate) type Motion<'a, T> = [&'a [T]; 4];
 
 impl<'a, T: Real> Watch<'a, T> {
-    /// Begins at a state.
+    /// Creates a watch that starts from a state.
     pub(crate) fn new(measure: &'a mut OutputMeasure<'a, T>, s: &State<T>) -> Self {
         let mut state = s.clone();
         state.q_low.fill(T::ZERO);
         Self { measure, state }
     }
 
-    /// Sets the input at a place.
+    /// Sets the input with index `place`.
     pub(crate) fn set_input(&mut self, place: usize, value: T) {
         self.state.inputs[place] = value;
         self.state.applied[place] = value;
     }
 
-    /// The outputs where the model moves so, with its terms as last evaluated there.
+    /// Returns the outputs for this motion; the terms are those evaluated for it.
     pub(crate) fn outputs(
         &mut self,
         (model, terms): (&impl Model<T>, &Terms<T>),

@@ -1,16 +1,15 @@
-//! Scratch of both analyses: the saddle matrix of a model with weights, its factor, and sums of forces.
+//! Workspace of both analyses: the saddle matrix of a model with weights, its factor, and sums of forces.
 //!
 //! ```text
 //! [ M + s (K + K_geo(lambda))   J^T   ] ( d )     ( b )
 //! [ J                          -delta ] ( e )  =  ( c ),      delta_k = 1e-9 J_k J_k^T / W_k,   W_k = max W_uu, J_ku != 0
 //! ```
 //!
-//! Coordinates count in their sizes, which are the scene's length for a point's and one for a direction's: nothing depends on the
-//! unit of length.
+//! Coordinates are scaled by their sizes: the scene's length for points, one for directions. So no result depends on the unit of length.
 //!
-//! delta lets rows repeat each other; what it leaves open is removed by iteration of the multipliers, so that no result
-//! depends on it. W_k is the heaviest coordinate of the row, so that delta is small beside the compliance of the row in
-//! every mechanism. One taken from massless coordinates would leave their rows open by more than an iteration removes.
+//! delta allows redundant rows. Iteration of the multipliers removes the violation that delta leaves, so that no result depends on it. W_k is
+//! the largest mass among the coordinates of the row. So delta is small relative to the compliance of the row in every mechanism. A W_k of
+//! coordinates without mass would make the violation larger than the iteration can remove.
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -21,25 +20,25 @@ use mbs_core::{BlockSource, FactorError, Real, SymmetricSolver};
 
 /// Compliance δ of a constraint, relative to the compliance of its row [-]. Chosen, not tuned.
 const DELTA: f64 = 1e-9;
-/// Least mass of a coordinate that counts, relative to the largest [-]: an inverse mass stays finite. Chosen, not tuned.
+/// Least mass of a coordinate, relative to the largest, that counts in a comparison [-]: an inverse mass stays finite. Chosen, not tuned.
 const LIGHT: f64 = 1e-6;
 
-/// Scratch over a solver `S` that was analysed for the [`Saddle`] of the model.
+/// Workspace over a solver `S` that was analysed for the [`Saddle`] of the model.
 #[derive(Debug, Clone)]
 pub struct Workspace<T, S> {
     pub(crate) solver: S,
     saddle: Saddle,
     pub(crate) terms: Terms<T>,
     jacobian: Vec<T>,
-    /// Size of each coordinate in the scene [m or -], and what a coordinate of its size moves of each row at most.
+    /// Size of each coordinate in the scene [m or -], and the largest change of each row by a displacement of a coordinate by its size.
     pub(crate) sizes: Vec<T>,
     row_sizes: Vec<T>,
     delta: Vec<T>,
     diagonal: Vec<T>,
-    /// One block, Jacobian or residual of an element.
+    /// Scratch for a block, a Jacobian or a residual of one element.
     local: Vec<T>,
     scaled: Vec<T>,
-    /// Right-hand side, then solution, of coordinates and multipliers, n + m.
+    /// Right-hand side, then solution: n coordinates, then m multipliers.
     pub(crate) f: Vec<T>,
     scratch: Vec<T>,
     pub(crate) n: usize,
@@ -47,7 +46,7 @@ pub struct Workspace<T, S> {
 }
 
 impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
-    /// Prepares the scratch for `model`.
+    /// Creates the workspace for `model`.
     pub fn new(model: &impl Model<T>, solver: S) -> Self {
         let (n, m) = (model.n_unknowns(), model.n_constraints());
         let saddle = Saddle::new(model);
@@ -72,7 +71,7 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
         }
     }
 
-    /// Factors the saddle matrix at the terms as last evaluated at `q`, with the weight `s` [s^2] of the stiffness.
+    /// Factors the saddle matrix at the last evaluated terms, those at `q`, with the weight `s` [s^2] of the stiffness.
     pub(crate) fn factor<M: Model<T>>(
         &mut self,
         model: &M,
@@ -119,33 +118,34 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
         self.solver.factor(&Curved { system, at: geometric.map(|lambda| (q, lambda)) })
     }
 
-    /// (d, e) = (saddle matrix)^-1 (b, c), all in `f`.
+    /// Solves with the saddle matrix, (d, e) = (saddle matrix)^-1 (b, c), in place in `f`.
     pub(crate) fn solve(&mut self) {
         self.solver.solve(&mut self.f, &mut self.scratch);
     }
 
-    /// The diagonal of M + s (K + K_geo) as last factored, as work along the coordinates' sizes [J s^2 / s^2].
+    /// The diagonal of M + s (K + K_geo) at the last factorisation, times the squared sizes of the coordinates [J s^2].
     pub(crate) fn diagonal(&self) -> &[T] {
         &self.diagonal
     }
 
-    /// Returns how far coordinates move, in their sizes [-].
+    /// Returns the largest displacement of a coordinate relative to its size [-].
     pub(crate) fn extent(&self, x: &[T]) -> T {
         let ratios = x.iter().zip(&self.sizes).map(|(&x, &size)| x / size);
         largest_of(ratios)
     }
 
-    /// The work of forces along coordinates' sizes, at most [J].
+    /// Returns the largest work of a force along the size of its coordinate [J].
     pub(crate) fn work(&self, force: &[T]) -> T {
         largest_of(force.iter().zip(&self.sizes).map(|(&f, &size)| f * size))
     }
 
-    /// Returns how far rows are off, as a coordinate of its size would move them [-]. Rows are as last factored.
+    /// Returns the largest violation of a row, relative to the change of the row by a coordinate's size [-]. Rows are those of the last
+    /// factorisation.
     pub(crate) fn openness(&self, rows: &[T]) -> T {
         largest_of(rows.iter().zip(&self.row_sizes).map(|(&x, &size)| x / size))
     }
 
-    /// residual = M a + J^T lambda - Q; returns the largest sum of absolute parts, as work along a coordinate's size [J].
+    /// Evaluates residual = M a + J^T lambda - Q. Returns the largest sum of absolute terms, as work along a coordinate's size [J].
     pub(crate) fn residual<M: Model<T>>(
         &mut self,
         model: &M,
@@ -175,8 +175,8 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
         self.work(&self.diagonal)
     }
 
-    /// The largest acceleration that the parts of the last residual would give alone, in sizes [1/s^2]: what rounding is relative to.
-    /// Coordinates with little mass are left out.
+    /// Returns the largest acceleration that a single term of the last residual would cause, in sizes of coordinates [1/s^2]. Rounding errors
+    /// are relative to it. Coordinates with little mass are left out.
     pub(crate) fn liveliness<M: Model<T>>(&mut self, model: &M) -> T {
         let forces = self.diagonal.clone();
         let tangent =
@@ -190,7 +190,7 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
     }
 }
 
-/// A saddle system with the second derivatives of its rows at positions and multipliers, where these are given.
+/// A saddle system, to which the second derivatives of its rows are added if positions and multipliers are given.
 struct Curved<'a, T, M> {
     system: SaddleSystem<'a, T, M>,
     at: Option<(&'a [T], &'a [T])>,
@@ -203,7 +203,7 @@ impl<T: Real, M: Model<T>> BlockSource<T> for Curved<'_, T, M> {
         let weights = (lambda, self.system.tangent.stiffness);
         let curvature = model.row_curvature(q, self.system.terms, weights, element);
         let (k, rows) = (model.clique(element).len(), model.rows(element).len());
-        // columns of the coordinates are longer here by the rows
+        // a column of the block has additional entries for the rows
         let (mut from, mut to) = (0, 0);
         for length in (1..=k).rev().take_while(|_| !curvature.is_empty()) {
             let column = block[to..to + length].iter_mut();
@@ -217,19 +217,19 @@ impl<T: Real, M: Model<T>> BlockSource<T> for Curved<'_, T, M> {
     }
 }
 
-/// x_u *= a_u b_u.
+/// Multiplies each entry: x_u *= a_u b_u.
 fn weigh<T: Real>(a: &[T], b: &[T], x: &mut [T]) {
     for (x, (&a, &b)) in x.iter_mut().zip(a.iter().zip(b)) {
         *x *= a * b;
     }
 }
 
-/// The largest absolute value, or a NaN.
+/// Returns the largest absolute value, or a NaN if there is one.
 fn largest_of<T: Real>(x: impl Iterator<Item = T>) -> T {
     x.fold(T::ZERO, |most, x| if x.abs() <= most || !(most >= T::ZERO) { most } else { x.abs() })
 }
 
-/// The diagonal of the sum of all blocks.
+/// Computes the diagonal of the sum of all blocks.
 fn sum_diagonal<T: Real, M: Model<T>>(
     model: &M,
     terms: &Terms<T>,

@@ -1,10 +1,10 @@
-//! Against cases by hand, closed forms, and the characteristic polynomial of matrices of many kinds.
+//! Eigenvalues compared with cases by hand, with closed forms, and with the characteristic polynomial of matrices of many kinds.
 
 use super::eigenvalues;
 use alloc::vec;
 use alloc::vec::Vec;
 
-/// xorshift64*, in (-1, 1).
+/// Generator of pseudo-random numbers in (-1, 1), the same on every machine (xorshift64*).
 struct Random(u64);
 
 impl Random {
@@ -26,7 +26,7 @@ fn from_fn(n: usize, entry: impl Fn(usize, usize) -> f64) -> Vec<f64> {
     (0..n * n).map(|k| entry(k % n, k / n)).collect()
 }
 
-/// State matrix [0 1; −K −C].
+/// Returns the state matrix [0 1; −K −C].
 fn state_matrix(
     f: usize,
     k: impl Fn(usize, usize) -> f64,
@@ -43,7 +43,7 @@ fn apart(a: [f64; 2], b: [f64; 2]) -> f64 {
     (a[0] - b[0]).hypot(a[1] - b[1])
 }
 
-/// Each of ours has one of theirs within `near`, and each of theirs one of ours.
+/// Checks that the values match in pairs: each of `ours` has one of `theirs` within `near`.
 fn same(name: &str, ours: &[[f64; 2]], theirs: &[[f64; 2]], near: impl Fn([f64; 2]) -> f64) {
     assert_eq!(ours.len(), theirs.len(), "{name}");
     let mut left = theirs.to_vec();
@@ -56,10 +56,10 @@ fn same(name: &str, ours: &[[f64; 2]], theirs: &[[f64; 2]], near: impl Fn([f64; 
     }
 }
 
-/// Has the characteristic polynomial of the matrix: Π (λ − z) = det(A − z) about the circle |z| = 2 ‖A‖.
+/// Checks the eigenvalues by the characteristic polynomial: Π (λ − z) = det(A − z) on the circle |z| = 2 ‖A‖.
 ///
-/// Elimination is as exact there as rounding, without exchanges of rows, and a λ that is off by δ changes the product by δ / |λ − z|: all are
-/// right within about 50 n ε ‖A‖.
+/// Elimination without exchanges of rows is accurate there to machine precision. An error δ of λ changes the product by δ / |λ − z|. So all
+/// eigenvalues are right within about 50 n ε ‖A‖.
 fn checked(name: &str, n: usize, a: &[f64]) {
     let ours = eigenvalues(n, a).unwrap_or_else(|| panic!("{name}, {n}: does not converge"));
     let conjugate = |i: usize| ours[i][1] == 0.0 || ours.contains(&[ours[i][0], -ours[i][1]]);
@@ -89,7 +89,7 @@ fn over(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
     times(a, [b[0], -b[1]]).map(|x| x / size / size)
 }
 
-/// Pivots of A − z without exchanges of rows.
+/// Returns the pivots of A − z, without exchanges of rows.
 fn pivots(n: usize, a: &[f64], z: [f64; 2]) -> Vec<[f64; 2]> {
     let mut rows: Vec<[f64; 2]> = (0..n * n).map(|k| [a[k % n * n + k / n], 0.0]).collect();
     for i in 0..n {
@@ -110,7 +110,7 @@ fn pivots(n: usize, a: &[f64], z: [f64; 2]) -> Vec<[f64; 2]> {
     (0..n).map(|i| rows[i * n + i]).collect()
 }
 
-/// The n roots of x^n = c.
+/// Returns the n roots of x^n = c.
 fn roots(n: usize, c: f64) -> Vec<[f64; 2]> {
     #[allow(clippy::cast_precision_loss, reason = "small counts")]
     let root = |k: usize| {
@@ -120,7 +120,7 @@ fn roots(n: usize, c: f64) -> Vec<[f64; 2]> {
     (0..n).map(root).collect()
 }
 
-/// Has these eigenvalues, within a share of the largest.
+/// Checks for the expected eigenvalues, within `share` times the largest one.
 fn has(name: &str, n: usize, a: &[f64], expected: &[[f64; 2]], share: f64) {
     let ours = eigenvalues(n, a).unwrap_or_else(|| panic!("{name}, {n}: does not converge"));
     let largest = expected.iter().fold(0.0, |most: f64, x| most.max(x[0].hypot(x[1])));
@@ -131,11 +131,11 @@ fn has(name: &str, n: usize, a: &[f64], expected: &[[f64; 2]], share: f64) {
 fn eigenvalues_by_hand() {
     assert!(eigenvalues::<f64>(0, &[]).unwrap().is_empty());
     assert_eq!(eigenvalues(1, &[-3.5]).unwrap(), [[-3.5, 0.0]]);
-    // an undamped mass on a spring:   ± i ω
+    // an undamped mass on a spring has   ± i ω
     assert_eq!(eigenvalues(2, &[0.0, -9.0, 1.0, 0.0]).unwrap(), [[0.0, 3.0], [0.0, -3.0]]);
-    // a free one:   0 twice
+    // a free mass has   0 twice
     assert_eq!(eigenvalues(2, &[0.0, 0.0, 1.0, 0.0]).unwrap(), [[0.0; 2]; 2]);
-    // damped far beyond oscillation, [0 1; −1 −c]:   −1/c − 1/c³ and −c + 1/c
+    // a strongly overdamped mass, [0 1; −1 −c], has   −1/c − 1/c³ and −c + 1/c
     for c in [1e6_f64, 1e9] {
         let ours = eigenvalues(2, &[0.0, -1.0, 1.0, -c]).unwrap();
         let slow = -1.0 / c - c.powi(-3);
@@ -143,7 +143,7 @@ fn eigenvalues_by_hand() {
             4.0 * f64::EPSILON * v[0].abs()
         });
     }
-    // [2 1; 1 2]:   3 and 1
+    // [2 1; 1 2] has   3 and 1
     assert_eq!(eigenvalues(2, &[2.0, 1.0, 1.0, 2.0]).unwrap(), [[3.0, 0.0], [1.0, 0.0]]);
 }
 
@@ -165,7 +165,7 @@ fn eigenvalues_beyond_the_numbers_are_none() {
 
 #[test]
 fn single_precision_finds_soft_and_stiff_springs_apart() {
-    // [0 1; −K 0], K = diag(1e14, 1e-12): squares of the softer one's entries are below the least number
+    // [0 1; −K 0], K = diag(1e14, 1e-12): squares of the soft spring's entries underflow in single precision
     let a =
         [0.0, 0.0, -1e14, 0.0, 0.0, 0.0, 0.0, -1e-12, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0_f32];
     let mut found: Vec<f32> = eigenvalues(4, &a).unwrap().iter().map(|x| x[1]).collect();
@@ -200,7 +200,7 @@ fn stiff_and_soft_springs_on_the_same_coordinates_are_found() {
     }
 }
 
-/// ± i ω of undamped springs, as exact as K is known: δ(ω²) ≤ c ε ω²max, and δω = δ(ω²) / 2ω, at most its root.
+/// Checks the eigenvalues ± i ω of undamped springs, as exact as K allows: δ(ω²) ≤ c ε ω²max, and δω = δ(ω²) / 2ω, at most √δ(ω²).
 fn sprung(name: &str, squares: &[f64], k: impl Fn(usize, usize) -> f64) {
     let f = squares.len();
     let ours = eigenvalues(2 * f, &state_matrix(f, k, |_, _| 0.0));
@@ -252,7 +252,7 @@ fn repeated_and_defective_eigenvalues_are_found() {
         has("Jordan", n, &from_fn(n, |i, j| 2.0 * unit(i, j) + next(i, j)), &all(2.0), 1e-15);
         let lower = from_fn(n, |i, j| 2.0 * unit(i, j) + next(j, i));
         has("Jordan, lower", n, &lower, &all(2.0), 1e-15);
-        // turned, an n-fold eigenvalue is known within ε^(1/n)
+        // after a rotation, an n-fold eigenvalue is determined within ε^(1/n) only
         let x = random.square(n);
         let norm: f64 = x.iter().map(|x| x * x).sum();
         let jordan = |i: usize, j: usize| unit(i, j) + next(i, j);
@@ -276,7 +276,7 @@ fn cycles_and_companions_have_their_roots() {
     let c = 1.774_809_211_101_797_7;
     let mut random = Random(9);
     for n in 2..=40 {
-        // a cycle: shifts from the last rows alone would turn it for ever
+        // a cyclic permutation: without exceptional shifts the iteration would not change it
         let cycle = from_fn(n, |i, j| f64::from(u8::from((j + 1) % n == i)));
         has("cycle", n, &cycle, &roots(n, 1.0), 1e-13);
         let back = from_fn(n, |i, j| f64::from(u8::from((i + 1) % n == j)));
@@ -290,7 +290,7 @@ fn cycles_and_companions_have_their_roots() {
             if i == 0 && j + 1 == n { c } else { f64::from(u8::from(i == j + 1)) }
         };
         has("root", n, &from_fn(n, far), &roots(n, c), 1e-13);
-        // pairs that hang together by little: the shifts of any two rows are ± 1
+        // weakly coupled pairs: the shifts from any two rows are ± 1
         if n.is_multiple_of(2) {
             let pair = |i: usize, j: usize| f64::from(u8::from(i / 2 == j / 2 && i != j));
             for eta in [1e-3, 1e-6, 1e-9] {
@@ -309,7 +309,7 @@ fn cycles_and_companions_have_their_roots() {
 
 #[test]
 fn motions_have_the_frequencies_of_their_springs() {
-    // a chain of masses between walls:   ω_k² = 2 k (1 − cos(k π / (f + 1))),   times k up to 1e10, no damping
+    // a chain of masses between walls has   ω_k² = 2 k (1 − cos(k π / (f + 1))),   times k up to 1e10, no damping
     for f in [1, 2, 3, 8, 25] {
         for k in [1e-4, 1.0, 1e10] {
             let spring = |i: usize, j: usize| match i.abs_diff(j) {
@@ -328,7 +328,7 @@ fn motions_have_the_frequencies_of_their_springs() {
             same("chain", &ours, &expected, |_| 1e-13 * (4.0 * k).sqrt());
         }
     }
-    // alone, each is found to its own digits:   stiffness of 1e10, 1 and 0, the last one damped
+    // without coupling each eigenvalue has full relative accuracy:   stiffness of 1e10, 1 and 0, the last coordinate damped
     let (k, c) = ([1e10, 1.0, 0.0, 0.0], [0.0, 0.0, 0.0, 3.0]);
     let diagonal = |of: [f64; 4]| move |i: usize, j: usize| if i == j { of[i] } else { 0.0 };
     let ours = eigenvalues(8, &state_matrix(4, diagonal(k), diagonal(c))).unwrap();
@@ -336,7 +336,7 @@ fn motions_have_the_frequencies_of_their_springs() {
     let expected =
         [[0.0, 1e5], [0.0, -1e5], [0.0, 1.0], [0.0, -1.0], zero, zero, zero, [-3.0, 0.0]];
     same("alone", &ours, &expected, |value| 1e-14 * value[0].hypot(value[1]));
-    // turned into each other, and damped at random
+    // coupled by random matrices, and with random damping
     let mut random = Random(17);
     for f in 1..=15 {
         let (x, y) = (random.square(f), random.square(f));

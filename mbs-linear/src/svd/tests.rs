@@ -1,11 +1,11 @@
-//! Against cases by hand; and matrices of many kinds are put together again, by factors that are orthogonal.
+//! Singular values compared with cases by hand, and matrices of many kinds recomposed from orthogonal factors.
 
 use super::{Svd, singular_values};
 use crate::matrix::Matrix;
 use alloc::format;
 use alloc::vec::Vec;
 
-/// xorshift64*, in (-1, 1).
+/// Generator of pseudo-random numbers in (-1, 1), the same on every machine (xorshift64*).
 struct Random(u64);
 
 impl Random {
@@ -26,7 +26,7 @@ impl Random {
         all
     }
 
-    /// Rank at most `r`, exactly so as its factors are integers.
+    /// Returns a matrix of rank at most `r`; the product is exact, because its factors are integers.
     fn of_rank(&mut self, m: usize, n: usize, r: usize) -> Matrix {
         let rounded = |x: Matrix| {
             Matrix::from_fn(x.n_rows(), x.n_columns(), |i, j| (5.0 * x[(i, j)]).round())
@@ -34,21 +34,21 @@ impl Random {
         rounded(self.matrix(m, r)).times(&rounded(self.matrix(r, n)))
     }
 
-    /// Entries of sizes 10^-12 to 10^12.
+    /// Returns a matrix with entries of sizes 10^-12 to 10^12.
     fn graded(&mut self, m: usize, n: usize) -> Matrix {
         let all = self.matrix(m, n);
         let power: Vec<f64> = (0..m * n).map(|_| 12.0 * self.draw()).collect();
         Matrix::from_fn(m, n, |i, j| all[(i, j)] * 10.0_f64.powf(power[j * m + i]))
     }
 
-    /// Few of the entries, as in the rows of joints.
+    /// Returns a sparse matrix with a fifth of the entries, similar to the rows of joints.
     fn sparse(&mut self, m: usize, n: usize) -> Matrix {
         let (all, kept) = (self.matrix(m, n), self.matrix(m, n));
         Matrix::from_fn(m, n, |i, j| if kept[(i, j)].abs() < 0.2 { all[(i, j)] } else { 0.0 })
     }
 }
 
-/// Rounding that a decomposition of m + n rows and columns may leave, over the largest entry or value [-].
+/// Returns the rounding error allowed for a decomposition, relative to the largest entry or value [-].
 fn rounding(a: &Matrix) -> f64 {
     #[allow(clippy::cast_precision_loss, reason = "a count")]
     let size = (a.n_rows() + a.n_columns()) as f64;
@@ -77,7 +77,7 @@ fn checked(name: &str, a: &Matrix) {
     assert_eq!(thin.sigma, all.sigma, "{name}");
     assert_eq!(singular_values(a).expect("as with vectors"), all.sigma, "{name}");
 
-    // Uᵀ U = 1,   Vᵀ V = 1,   U Σ Vᵀ = A:   then Σ holds the singular values of A, as exact as these three (Weyl's inequality)
+    // Uᵀ U = 1,   Vᵀ V = 1,   U Σ Vᵀ = A:   so Σ contains the singular values of A, as accurately as these three equations hold (Weyl)
     let within = rounding(a);
     for x in [&all.u, &all.v, &thin.u, &thin.v] {
         assert!(is_orthogonal(x, within), "{name}: orthogonal");
@@ -97,7 +97,7 @@ fn checked(name: &str, a: &Matrix) {
 
 #[test]
 fn singular_values_by_hand() {
-    // 3, 4 in the first column:   σ = 5
+    // a column (3, 4):   σ = 5
     let column = Matrix::from_fn(2, 1, |i, _| [3.0, 4.0][i]);
     assert!((singular_values(&column).unwrap()[0] - 5.0).abs() < 1e-15);
     // [1 1; 0 1]:   σ² = (3 ± √5) / 2,   σ is the golden ratio and its inverse
@@ -105,7 +105,7 @@ fn singular_values_by_hand() {
     let sigma = singular_values(&shear).unwrap();
     let golden = f64::midpoint(1.0, 5.0_f64.sqrt());
     assert!((sigma[0] - golden).abs() < 1e-15 && (sigma[1] - 1.0 / golden).abs() < 1e-15);
-    // ones alone:   σ₁² = m n
+    // all entries one:   σ₁² = m n
     let sigma = singular_values(&Matrix::from_fn(3, 5, |_, _| 1.0)).unwrap();
     assert!((sigma[0] - 15.0_f64.sqrt()).abs() < 4e-15 && sigma[1] < 1e-15 && sigma[2] < 1e-15);
 }
@@ -156,9 +156,9 @@ fn matrices_of_special_kinds_are_put_together_again() {
     for n in 1..=40 {
         checked("zeros", &Matrix::zeros(n, n + 2));
         checked("identity", &Matrix::identity(n + 3, n));
-        // one value n times:   Q
+        // one singular value n times:   an orthogonal matrix
         checked("orthogonal", &Svd::new(&random.matrix(n, n)).unwrap().u);
-        // two values n / 2 times
+        // two singular values, each n / 2 times
         let q = Svd::new(&random.matrix(n, n)).unwrap();
         let two = Matrix::from_fn(n, n, |i, j| q.u[(i, j)] * if j % 2 == 0 { 3.0 } else { 1e-9 });
         checked("repeated", &two.times(&q.v.transpose()));
@@ -175,7 +175,7 @@ fn matrices_of_special_kinds_are_put_together_again() {
         #[allow(clippy::cast_precision_loss, reason = "a small count")]
         let hilbert = |i: usize, j: usize| 1.0 / (i + j + 1) as f64;
         checked("Hilbert", &Matrix::from_fn(n, n, hilbert));
-        // rows written twice
+        // every row twice
         let once = random.sparse(n, n + 4);
         checked("twice", &Matrix::from_fn(2 * n, n + 4, |i, j| once[(i % n, j)]));
         for scale in [1e-300, 1e-160, 1e160, 1e300] {

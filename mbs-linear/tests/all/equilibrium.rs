@@ -1,13 +1,13 @@
-//! Equilibria against those done by hand, and the failures.
+//! Equilibria compared with those computed by hand, and the errors of failed searches.
 
 use crate::common::Case;
 use core::f64::consts::{FRAC_PI_2, PI};
 use mbs_linear::EquilibriumError;
 
-/// Ten digits of the scene's length: Newton's method ends at rounding, and the soft directions of these scenes lose few.
+/// Allowed difference, relative to the scene's length [-]. Newton's method ends at machine precision, and these scenes lose few digits.
 const CLOSE: f64 = 1e-10;
 
-/// A rod of 1 m and 1 kg on a pivot, turned by `angle` from hanging.
+/// Returns a rod of 1 m and 1 kg on a pivot, rotated by `angle` [rad] from the hanging position.
 fn pendulum(angle: f64) -> String {
     format!(
         "[scene]\ndimension = 2\ngravity = [0.0, -9.81]\nduration = 1.0\n\n\
@@ -39,7 +39,7 @@ fn an_upright_pendulum_stays_and_is_called_unstable() {
     assert!(case.point(0, [0.0, -1.0, 0.0])[1] > 0.999_999);
 }
 
-/// A mass of 2 kg that slides along y on a spring of 300 N/m, free length 1 m, beside a body that nothing holds along x.
+/// A mass of 2 kg that slides along y on a spring of 300 N/m with a free length of 1 m, and a body that is free along x.
 const SPRING: &str = r#"
 [scene]
 dimension = 2
@@ -116,7 +116,7 @@ fn without_forces_everything_is_balanced() {
     assert_eq!((found.unstable, found.neutral, found.iterations), (0, 6, 0));
 }
 
-/// A spatial scene settles to rounding, and nothing grows from there.
+/// Checks that a spatial scene settles to machine precision in a stable equilibrium.
 fn hangs(text: &str) {
     let mut case = Case::<3>::new(text);
     let found = case.settle().unwrap_or_else(|e| panic!("{e}"));
@@ -126,7 +126,7 @@ fn hangs(text: &str) {
 
 #[test]
 fn redundant_joints_do_not_matter() {
-    // Four revolute joints in space around a parallelogram: three equations repeat others.
+    // Four parallel revolute joints in space around a parallelogram: three equations are redundant.
     hangs(include_str!("../../../scenes/spatial-four-bar.toml"));
 }
 
@@ -137,8 +137,8 @@ fn a_chain_in_space_hangs_down() {
 
 #[test]
 fn a_tree_of_springs_settles_where_nothing_grows() {
-    // The tangent of its torsion springs leaves the turning of their axes out, so that signs of the tangent say too much:
-    // eigenvalues of the equations of motion are asked instead.
+    // The tangent of its torsion springs leaves out the rotation of their axes, so that its signs may show instability wrongly. So the
+    // eigenvalues of the equations of motion are checked instead.
     let mut case = Case::<3>::new(include_str!("../../../scenes/tree-30.toml"));
     let found = case.settle().unwrap_or_else(|e| panic!("{e}"));
     assert!(found.relative < 1e-12, "{found:?}");
@@ -163,11 +163,11 @@ fn single_precision_balances_to_its_own_rounding() {
     assert!(found.relative < 1e-6 && found.unstable == 0, "{found:?}");
     let at = mbs_core::scene::BodyId::Body(0);
     let tip = model.point(at, [0.0, -1.0, 0.0]).value(&state.q);
-    // A thousand roundings: the search ends where the force is rounding, and K is of order one.
+    // The limit is a thousand times EPSILON [m]: the search ends where the force is a rounding error, and K is of order one.
     assert!(tip[0].abs() < 1e-4, "{tip:?}");
 }
 
-/// A block of 5 kg on a pad of 20,000 N/m that it touches at the start.
+/// A block of 5 kg that touches a pad of 20,000 N/m at the start.
 const PAD: &str = include_str!("../../../mbs/tests/field/02-pad.toml");
 /// A block of 5 kg on the same pad, with a spring of 1 N/m beside it.
 const PAD_WITH_SPRING: &str = include_str!("../../../mbs/tests/field/02-pad-with-spring.toml");
@@ -186,7 +186,7 @@ fn the_search_does_not_go_through_a_stop() {
     }
 }
 
-/// A slide in space on one spring, no gravity: the forces vanish together with all that they could be compared with.
+/// A slide in space on one spring without gravity: all forces vanish together, so that none remains to compare with.
 const SLIDE: &str = include_str!("../../../mbs/tests/field/05-slide-on-a-spring.toml");
 
 #[test]
@@ -217,14 +217,14 @@ fn near_the_start_newtons_method_finds_what_no_search_downwards_does() {
         let y = case.point(0, [0.0, 0.4, 0.0])[1] - 0.4;
         assert!((y + 5.0 * 9.81 / 20_000.0).abs() < CLOSE, "{height}: {y}");
     }
-    // High above the pad nothing holds it.
+    // A block high above the pad has no equilibrium close by.
     let mut case = Case::<2>::new(&format!("{PAD}\n[[initial]]\njoint = \"post\"\nvalue = 3.0\n"));
     assert_eq!(case.approach(), Err(EquilibriumError::NotNear));
 }
 
 #[test]
 fn the_search_does_not_slip_past_a_stop_beside_its_way() {
-    // The pad's place on the ground 1 mm and 0.1 m beside the block's way: its force turns aside as the block comes down.
+    // The pad's point on the ground is 1 mm and 0.1 m beside the block's path, so that its force rotates as the block comes down.
     for aside in [0.001, 0.1] {
         for height in [0.0, 0.001, 0.3, 7.0] {
             let text = PAD.replace(
@@ -235,7 +235,7 @@ fn the_search_does_not_slip_past_a_stop_beside_its_way() {
             let mut case = Case::<2>::new(&text);
             case.settle().unwrap_or_else(|e| panic!("{aside} {height}: {e}"));
             let y = case.point(0, [0.0, 0.4, 0.0])[1];
-            // The pad's force has the part y / length along the way.
+            // The fraction y / length of the pad's force acts along the path.
             let (free, length) = (0.4_f64.hypot(aside), y.hypot(aside));
             let carried = 20_000.0 * (free - length) * y / length;
             assert!(y > 0.38 && (carried - 5.0 * 9.81).abs() < 1e-6, "{aside} {height}: {y}");

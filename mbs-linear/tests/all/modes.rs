@@ -1,9 +1,10 @@
-//! Eigenvalues against closed forms.
+//! Eigenvalues of linearised mechanisms compared with closed forms.
 
 use crate::common::Case;
 use mbs_linear::{Instant, LinearError};
 
-/// Differences of fourth order at 1e-4 leave rounding alone: about 1e-11 of these frequencies. What is asked for is 1e-8.
+/// Allowed relative difference [-]. Differences of fourth order at 1e-4 leave rounding errors alone, about 1e-11 of these frequencies. The
+/// requirement is 1e-8.
 const SAME: f64 = 1e-9;
 
 fn near(a: f64, b: f64) -> bool {
@@ -46,7 +47,7 @@ fn an_upright_pendulum_falls_at_the_same_rate() {
     assert!(near(values[0].0.abs(), w) && near(values[0].0 + values[1].0, 0.0), "{values:?}");
 }
 
-/// Two bobs in a row; `turn` turns everything, with the bodies in either order.
+/// Returns a double pendulum, rotated by `turn` [rad], with the bodies in either order.
 fn double(turn: f64, is_reversed: bool) -> String {
     let at = |y: f64| format!("[{}, {}]", -y * turn.sin(), y * turn.cos());
     let body = |name: &str, y| {
@@ -80,7 +81,7 @@ fn a_double_pendulum_has_its_two_frequencies_however_it_is_turned_and_described(
     }
 }
 
-/// Mass on a spring and a damper along y.
+/// Returns a mass on a spring and a damper along y.
 fn sprung(stiffness: f64, damping: f64) -> String {
     scene(
         2,
@@ -112,7 +113,7 @@ fn spring_mass_and_damper_below_and_above_critical_damping() {
 
 #[test]
 fn a_thin_rod_on_a_spring_beside_its_line_swings_as_its_energy_says() {
-    // The spring holds the rod level at 0.1 m above its line, where a direction without mass carries its force.
+    // The spring holds the rod horizontal, attached 0.1 m above its line. A direction without mass transmits the spring's force there.
     // V'' = k l'^2 + F l'',   l' = -1/2,   l l'' = 0.1^2 + 0.5^2 + 0.9 0.1 - l'^2,   I = m/3
     let (m, k, g) = (6.0_f64, 1000.0, 9.81);
     let force = m * g;
@@ -160,9 +161,9 @@ fn a_hanging_parallelogram_is_one_pendulum() {
 
 #[test]
 fn a_four_bar_held_by_a_spring_is_the_pendulum_done_by_hand() {
-    // The parallelogram above, standing at the angle a from +x on a torsion spring k about the first pivot, free at a = pi/2:
+    // The parallelogram above, with its cranks at the angle a from +x. A torsion spring k at the first pivot is relaxed at a = pi/2:
     // V = 2 g sin a + k (a - pi/2)^2 / 2,  equilibrium 2 g cos a + k (a - pi/2) = 0,  I omega^2 = k - 2 g sin a.
-    // With k = 30 > 2 g upright is stable; gravity along x tilts it: V gains 2 g_x cos a.
+    // With k = 30 > 2 g the upright position is stable. Gravity along x tilts it and adds 2 g_x cos a to V.
     let (k, g, gx) = (30.0, 9.81, 3.0);
     let text =
         include_str!("../../../scenes/four-bar.toml").replace("[0.0, -9.81]", "[-3.0, -9.81]");
@@ -200,7 +201,7 @@ at = [0.0, 0.0, 0.0]
 "#;
     let mut case = Case::<3>::new(&scene(3, "[0.0, 0.0, -9.81]", rod));
     let found = case.settle().expect("it hangs");
-    // Moments of inertia about the ball: + m l^2; turning about the vertical is neutral.
+    // Moments of inertia about the ball joint have + m l^2; the rotation about the vertical is neutral.
     assert_eq!((found.unstable, found.neutral), (0, 1));
     let values = case.eigenvalues(Instant::Rest);
     let swings: Vec<f64> = values.iter().map(|x| x.1).filter(|w| *w > 1e-2).collect();
@@ -208,7 +209,7 @@ at = [0.0, 0.0, 0.0]
     assert!(swings.len() == 2 && swings.iter().zip(wanted).all(|(a, b)| near(*a, b)), "{values:?}");
 }
 
-/// A cart of 5 kg on a rail, driving at 20 m/s, with a bob of 2 kg on a bar of 0.7 m; `drag` is a damper to a far wall.
+/// A cart of 5 kg on a rail at 20 m/s, with a bob of 2 kg on a bar of 0.7 m.
 const CART: &str = r#"
 [[body]]
 name = "cart"
@@ -253,7 +254,7 @@ fn a_cart_that_drives_has_the_modes_of_one_that_stands() {
         let values = case.eigenvalues(instant);
         let last = values.last().expect("there are modes");
         assert!(last.0.abs() < SAME && near(last.1, w), "{instant:?}: {values:?}");
-        // Along the rail the eigenvalue is zero twice: rounding alone, and told as such.
+        // Along the rail the eigenvalue is zero twice: the computed values are rounding errors, and `noise` covers them.
         let zero = (1e3 * linear.noise).sqrt();
         assert!(zero < 1e-2 * w, "{zero}");
         assert!(values[..values.len() - 1].iter().all(|x| x.0.hypot(x.1) < zero), "{values:?}");
@@ -265,13 +266,13 @@ fn a_mechanism_that_turns_says_that_its_eigenvalues_hold_for_an_instant() {
     let turning = format!("{BOB}\n[[initial]]\njoint = \"pivot\"\nrate = 3.0\n");
     let mut case = Case::<2>::new(&scene(2, "[0.0, -9.81]", &turning));
     let linear = case.linear(Instant::Motion).expect("it is regular");
-    // The unit vector of the bar is held by a row of its own: its centripetal acceleration is the square of the rate.
+    // A constraint row keeps the bar's unit vector at unit length: its centripetal acceleration is the square of the rate.
     assert!((linear.turning - 9.0).abs() < 1e-9, "centripetal: {}", linear.turning);
 }
 
 #[test]
 fn a_singular_position_has_no_linearisation() {
-    // The parallelogram lying flat: its two branches cross there, and most tangents lead off the constraints.
+    // The parallelogram is flat, where its two branches cross and most tangent directions violate the constraints.
     let text = include_str!("../../../scenes/four-bar.toml")
         .replace("[0.0, 1.0]", "[1.0, 0.0]")
         .replace("[1.0, 1.0]", "[2.0, 0.0]")
@@ -283,7 +284,7 @@ fn a_singular_position_has_no_linearisation() {
     assert!(is_refused, "{error:?}");
 }
 
-/// Two bobs on bars of different lengths, joined by a coupler without mass that lies level.
+/// Returns two bobs on bars of different lengths, joined by a horizontal coupler without mass.
 fn coupled([m1, l1]: [f64; 2], [m2, l2]: [f64; 2]) -> String {
     let bob = |name: &str, x: f64, m: f64| {
         format!("[[body]]\nname = \"{name}\"\nmass = {m}\ncenter = [{x}, 0.0]\ninertia = 0.0\n\n")

@@ -1,10 +1,10 @@
-//! Inputs and outputs of a linearisation against closed forms.
+//! Inputs and outputs of a linearisation compared with closed forms.
 
 use crate::common::Case;
 use mbs_core::model::State;
 use mbs_linear::{Instant, Linear, LinearOptions, LinearPorts, Ports, linearise_ports};
 
-/// Differences of fourth order at 1e-4 leave rounding alone: about 1e-11 of these numbers.
+/// Allowed relative difference [-]. Differences of fourth order at 1e-4 leave rounding errors alone, about 1e-11 of these numbers.
 const SAME: f64 = 1e-9;
 
 fn assert_near(name: &str, found: f64, expected: f64) {
@@ -26,7 +26,7 @@ fn linearised<const D: usize>(
     linearise_ports(&case.model, how, &case.state, &mut case.w, ports).expect("regular")
 }
 
-/// A mass of 2 kg on a spring and a damper along x, with a force along x that is an input.
+/// A mass of 2 kg on a spring and a damper along x, with a force along x as an input.
 const PUSHED: &str = r#"
 [scene]
 dimension = 2
@@ -66,7 +66,7 @@ fn a_force_on_a_sprung_mass_accelerates_it_by_its_inverse_mass() {
     let (linear, ports) = linearised(&mut case, Instant::Rest, &[0, 1], measure);
     assert_eq!((linear.n_freedoms, ports.values.len()), (1, 3));
     let to_x = ports.outputs[0];
-    // z = x sqrt(m), and x'' = -k/m x - c/m x' + u/m; across the slide nothing moves
+    // z = x sqrt(m), and x'' = -k/m x - c/m x' + u/m; orthogonal to the slide nothing moves
     assert_near("dx/dz", to_x.abs(), 0.5_f64.sqrt());
     assert_near("dx''/dz", ports.outputs[2], -25.0 * to_x);
     assert_near("dx'/dz'", ports.outputs[4], to_x);
@@ -77,11 +77,11 @@ fn a_force_on_a_sprung_mass_accelerates_it_by_its_inverse_mass() {
         assert_near("D", ports.feedthrough[k], expected);
     }
     assert_eq!(ports.input_matrix(1), [0.0, ports.forces[0], 0.0, ports.forces[1]]);
-    // the same motion as without ports
+    // the linearised motion is the same as without ports
     assert_eq!(case.linear(Instant::Rest), Ok(linear));
 }
 
-/// A cart of 2 kg that a guide moves along x, with a bob of 3 kg at 0.7 m below it.
+/// A cart of 2 kg that a guide moves along x, with a bob of 3 kg at 0.7 m below the cart.
 const GUIDED: &str = r#"
 [scene]
 dimension = 2
@@ -131,7 +131,7 @@ fn a_guided_cart_swings_its_bob_by_its_acceleration_alone() {
     for instant in [Instant::Rest, Instant::Motion] {
         let (linear, ports) = linearised(&mut case, instant, &[0, 1, 2], measure);
         assert_eq!(linear.n_freedoms, 1);
-        // y = C (z, z') + D u with x the bob's place from the cart: x'' = -g/l x - u''
+        // y = C (z, z') + D u, with x the position of the bob relative to the cart: x'' = -g/l x - u''
         let x = |column: &[f64]| [column[1], column[3], column[5]];
         let [by_z, by_rate] = [&ports.outputs[..6], &ports.outputs[6..]].map(x);
         for k in 0..3 {
@@ -140,7 +140,7 @@ fn a_guided_cart_swings_its_bob_by_its_acceleration_alone() {
                 assert_near("cart", of_cart[j], if k == expected { 1.0 } else { 0.0 });
             }
             let [place, rate, acceleration] = x(of_cart);
-            // what z and z' make of the place and the rate is taken out
+            // the effects of z and z' on position and rate are subtracted
             let (z, z_t) = (place / by_z[0], (rate - by_z[1] * place / by_z[0]) / by_rate[1]);
             let left = acceleration - by_z[2] * z - by_rate[2] * z_t;
             assert_near("x'' by u", left, if k == 2 { -1.0 } else { 0.0 });

@@ -1,4 +1,4 @@
-//! Scenes, their equilibria and eigenvalues for the tests.
+//! Scenes with their equilibria and eigenvalues, for the tests of this crate.
 
 use mbs_core::model::State;
 use mbs_core::natural::NaturalModel;
@@ -25,13 +25,13 @@ impl<const D: usize> Case<D> {
         Self { model, state, w }
     }
 
-    /// Moves to the equilibrium at rest.
+    /// Moves the mechanism to the equilibrium at rest.
     pub(crate) fn settle(&mut self) -> Result<Equilibrium<f64>, EquilibriumError> {
         self.state.v.fill(0.0);
         equilibrium(&self.model, &Options::default(), &mut self.state, &mut self.w)
     }
 
-    /// Moves to the equilibrium that Newton's method finds, at rest.
+    /// Moves the mechanism to the equilibrium at rest that Newton's method finds.
     pub(crate) fn approach(&mut self) -> Result<Equilibrium<f64>, EquilibriumError> {
         self.state.v.fill(0.0);
         equilibrium_near(&self.model, &Options::default(), &mut self.state, &mut self.w)
@@ -42,7 +42,7 @@ impl<const D: usize> Case<D> {
         linearise(&self.model, how, &self.state, &mut self.w)
     }
 
-    /// Eigenvalues with their imaginary part, if any, positive; sorted by size, then by real part.
+    /// Returns the eigenvalues (real, imaginary) with an imaginary part of zero or more, sorted by size, then by real part.
     pub(crate) fn eigenvalues(&mut self, instant: Instant) -> Vec<(f64, f64)> {
         let linear = self.linear(instant).unwrap_or_else(|e| panic!("{e}"));
         let (n, a) = (linear.order(), linear.state_matrix());
@@ -53,7 +53,7 @@ impl<const D: usize> Case<D> {
         all
     }
 
-    /// A material point of a body.
+    /// Returns the position of a material point of a body.
     pub(crate) fn point(&self, body: usize, at: [f64; 3]) -> [f64; D] {
         self.model.point(BodyId::Body(body), at).value(&self.state.q).into()
     }
