@@ -1,12 +1,12 @@
-//! Fronts of an indefinite factorisation, task by task: what each task has factored, with the pivots that were delayed to it.
+//! Fronts of an indefinite factorisation, task by task, including the pivots that were delayed to each task.
 //!
 //! ```text
-//! front = elements + updates of its children + unknowns its children could not eliminate      delayed ones come first
+//! front = elements + updates of its children + unknowns that its children could not eliminate, which come first
 //! ```
 //!
-//! A task owns its numbers, which grow by what is delayed; those of the tasks below are read when they have ended. An unknown is
-//! known by its place in the storage of a vector. That of a delayed one is in the storage of a task below, which belongs to
-//! every task that it can come to.
+//! No other task writes the numbers of a task; they grow with the delayed pivots. Numbers of tasks below are read after these tasks have
+//! ended. An unknown is identified by its index in the storage of a vector. A delayed unknown keeps its index, which belongs to a task
+//! below. Every task to which the unknown can be delayed may access that part of the storage.
 
 use crate::front::{Front, column};
 use crate::part;
@@ -16,18 +16,18 @@ use crate::tasks::{Owned, Task};
 use mbs_math::dense::front::{self, Places, Tally, Thresholds};
 use mbs_math::{Real, Team};
 
-/// A plan with what delayed pivots need.
+/// A plan with additional data for delayed pivots.
 #[derive(Debug, Clone)]
 pub(crate) struct Layout {
     pub(crate) plan: Plan,
-    /// The unknown at each place of the storage of a vector.
+    /// The unknown at each index of the storage of a vector.
     pub(crate) unknown_at: Vec<u32>,
-    /// Start of the block of each element, and the end of all.
+    /// Start of the block of each element, and the end of the last one.
     pub(crate) block_starts: Vec<usize>,
     task_of_front: Vec<u32>,
-    /// The fronts that each front receives updates from, in the order of `plan.children`.
+    /// The fronts from which each front receives updates, in the order of `plan.children`.
     children: Vec<u32>,
-    /// For each child the rows of its parent at which its remaining unknowns stand, and where they begin.
+    /// For each child, the rows of its parent for its remaining unknowns, and where each list starts.
     maps: Vec<u32>,
     map_starts: Vec<usize>,
 }
@@ -60,12 +60,12 @@ impl Layout {
         Self { plan, unknown_at, block_starts, task_of_front, children, maps, map_starts }
     }
 
-    /// Room for what every task will factor, as planned and as much again as its pivots may be delayed once.
+    /// Allocates memory for the factored fronts of every task: as planned, and as much again for delayed pivots.
     pub(crate) fn shares<T: Real>(&self) -> Vec<Share<T>> {
         let block = self.plan.n_block;
         let share = |task: &Task| {
             let fronts = &self.plan.fronts[task.fronts.clone()];
-            // A delayed unknown lengthens every column of the front that it comes to.
+            // A delayed unknown adds an entry to every column of the front that receives it.
             let numbers = fronts.iter().map(|s| column(s.f, s.f) + 2 * s.f + 1).sum();
             let rows = fronts.iter().map(|s| s.f).sum::<usize>() + task.places.len();
             Share {
@@ -83,7 +83,7 @@ impl Layout {
     }
 }
 
-/// The rows of `front` at which the remaining unknowns of its child stand.
+/// Returns the rows of `front` that correspond to the remaining unknowns of its child.
 fn child_rows<'a>(
     plan: &'a Plan,
     front: &'a Front,
@@ -99,7 +99,7 @@ fn child_rows<'a>(
     })
 }
 
-/// Place of a front, and the number of its pivots.
+/// Storage offsets of a front, its size, and its number of pivots.
 #[derive(Debug, Clone, Copy, Default)]
 struct Stretch {
     offset: usize,
@@ -108,21 +108,21 @@ struct Stretch {
     n_pivots: usize,
 }
 
-/// Departures from the plan in the last factorisation.
+/// Departures from the plan in the last factorisation, by delayed pivots.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Delays {
-    /// Unknowns that a front passed on to its parent, counted once for every front.
+    /// Unknowns that a front passed on to its parent, counted for every front.
     pub delayed: usize,
     /// Delayed unknowns that one task passed on to another.
     pub between_tasks: usize,
     /// Unknowns of the largest front.
     pub largest_front: usize,
-    /// Numbers stored for all fronts.
+    /// Numbers stored for all fronts together.
     pub stored: usize,
 }
 
 impl Delays {
-    /// Delays of both together.
+    /// Returns the sum of the delays of two tasks.
     pub(crate) fn with(self, other: Self) -> Self {
         Self {
             delayed: self.delayed + other.delayed,
@@ -136,14 +136,14 @@ impl Delays {
 /// Factored fronts of one task.
 #[derive(Debug, Clone)]
 pub(crate) struct Share<T> {
-    /// One for each of its fronts.
+    /// Storage of each of its fronts.
     stretches: Vec<Stretch>,
     numbers: Vec<T>,
-    /// The unknowns of its fronts in the order of their rows, as places in the storage of a vector.
+    /// Unknowns of its fronts in the order of their rows, as indices in the storage of a vector.
     order: Vec<u32>,
-    /// The sums that their diagonals are made of, beside `order`: of rows that are not eliminated here the part of here.
+    /// Sum of absolute terms of each diagonal entry, in the order of `order`; for rows that a later front eliminates, the part from here.
     size: Vec<T>,
-    /// Whether a pivot is the first of a pair, beside `order`.
+    /// Whether a pivot is the first of a 2x2 pivot, in the order of `order`.
     pairs: Vec<bool>,
     /// Scratch for one scaled block.
     block: Vec<T>,
@@ -151,7 +151,7 @@ pub(crate) struct Share<T> {
     pub(crate) delays: Delays,
 }
 
-/// The shares of neighbouring tasks with all below.
+/// Factored fronts of neighbouring tasks with all tasks below.
 pub(crate) struct Shares<'a, T>(pub(crate) &'a mut [Share<T>]);
 
 impl<T: Send> Owned for Shares<'_, T> {
@@ -161,7 +161,7 @@ impl<T: Send> Owned for Shares<'_, T> {
     }
 }
 
-/// Everything that a factorisation reads.
+/// Data that a factorisation reads.
 #[derive(Debug)]
 pub(crate) struct Job<'a, T, W> {
     pub(crate) layout: &'a Layout,
@@ -169,13 +169,13 @@ pub(crate) struct Job<'a, T, W> {
     pub(crate) thresholds: &'a Thresholds<T>,
     /// Blocks of all elements.
     pub(crate) blocks: &'a [T],
-    /// S, and the largest entry of each row of S T S, by unknown.
+    /// Scale S, and the largest entry of each row of S T S, by unknown.
     pub(crate) scale: &'a [T],
     pub(crate) rows: &'a [T],
 }
 
 impl<T: Real, W: Team> Job<'_, T, W> {
-    /// Factors task `at` after those below; `shares` are theirs and its own.
+    /// Factors task `at` after the tasks below; `shares` are those of all these tasks.
     pub(crate) fn factor_task(&self, at: usize, shares: &mut [Share<T>]) {
         let Some((own, below)) = shares.split_last_mut() else { return };
         let tasks = &self.layout.plan.tasks;
@@ -193,7 +193,7 @@ impl<T: Real, W: Team> Job<'_, T, W> {
         own.delays.stored = used.0;
     }
 
-    /// S_e T_e S_e of one element.
+    /// Returns the scaled block S_e T_e S_e of one element.
     #[inline(always)]
     fn scale_block<'a>(&self, e: usize, block: &'a mut [T]) -> &'a [T] {
         let layout = self.layout;
@@ -214,7 +214,7 @@ impl<T: Real, W: Team> Job<'_, T, W> {
     }
 }
 
-/// Results of a task that are read when its fronts are done.
+/// Results of a finished task, for the fronts of the task above.
 #[derive(Debug)]
 struct Done<'a, T> {
     stretches: &'a [Stretch],
@@ -224,7 +224,7 @@ struct Done<'a, T> {
 }
 
 impl<T: Real> Share<T> {
-    /// Assembles and eliminates front `s`; `used` are the places taken of the two stores, before and after.
+    /// Assembles and eliminates front `s`. `used` are the used lengths of numbers and of names; returns both with this front added.
     fn eliminate<W: Team>(
         &mut self,
         job: &Job<'_, T, W>,
@@ -269,7 +269,7 @@ impl<T: Real> Share<T> {
         end
     }
 
-    /// Sums elements and children into the front of `f` unknowns at `used`, `delayed` of them not planned, and names its rows.
+    /// Assembles elements and children into the front of `f` unknowns at `used`, of which `delayed` are not planned, and sets its rows.
     fn assemble<W: Team>(
         &mut self,
         job: &Job<'_, T, W>,
@@ -323,7 +323,7 @@ impl<T: Real> Share<T> {
         }
     }
 
-    /// Makes room for this many numbers and names. Allocates only where more is required than ever before.
+    /// Reserves memory for so many numbers and names. Allocates only if more is required than ever before.
     fn reserve(&mut self, (numbers, names): (usize, usize)) {
         if self.numbers.len() < numbers {
             self.numbers.resize(numbers, T::ZERO);
@@ -337,7 +337,7 @@ impl<T: Real> Share<T> {
 }
 
 impl Layout {
-    /// The task of child `c` of the plan, and which of its fronts it is.
+    /// Returns the task of child `c` of the plan, and the index of the child among the fronts of that task.
     fn place_of_child(&self, c: usize) -> (usize, usize) {
         let s = self.children[c] as usize;
         let task = self.task_of_front[s] as usize;
@@ -346,8 +346,8 @@ impl Layout {
 }
 
 impl<T: Real> Done<'_, T> {
-    /// Adds the update of child `c` of the plan, the front `local` of its task, into the front (a, order, size) above it. Its
-    /// delayed unknowns come to the places from `place` on, of the `delayed` ones. Returns the place after them.
+    /// Adds the update of child `c` of the plan, the front `local` of its task, into the front (a, order, size) above. Its delayed unknowns
+    /// come to the rows from `place` on, among the `delayed` ones. Returns the row after them.
     fn add(
         &self,
         layout: &Layout,
@@ -382,12 +382,12 @@ impl<T: Real> Done<'_, T> {
     }
 }
 
-/// The numbers of a factorisation that the sweeps read.
+/// Factored fronts that the sweeps of a solution read.
 #[derive(Debug)]
 pub(crate) struct Factor<'a, T> {
     pub(crate) layout: &'a Layout,
     pub(crate) shares: &'a [Share<T>],
-    /// Whether D has a part in the backward sweep.
+    /// Does the backward sweep divide by D?
     pub(crate) is_divided: bool,
 }
 

@@ -1,18 +1,18 @@
-//! Nested dissection of the graph of nodes, top levels only: halves that do not meet may be eliminated at the same time.
+//! Nested dissection of the graph of nodes, for the upper levels: separated halves may be eliminated at the same time.
 //!
 //! ```text
 //! part = left + separator + right,   no edge between left and right      order: left, right, separator
 //! ```
 //!
-//! Halves come from levels of breadth-first search from a node far out (George 1973); parts of the last level are ordered by
-//! minimum degree. On a chain one cut costs nothing, every further one makes fronts of three links out of fronts of two.
+//! Halves result from the levels of a breadth-first search that starts at a peripheral node (George 1973). Parts of the last level are
+//! ordered by minimum degree. On a chain, one cut adds no work. Every further cut replaces fronts of two links by fronts of three.
 
 use crate::graph::{Lists, index, minimum_degree, neighbours};
 
-/// Least weight of a half, relative to its part [-], where there is such a cut. Chosen, not tuned.
+/// Least weight of a half relative to its part [-], where such a cut exists. Chosen, not tuned.
 const LEAST_HALF: f64 = 0.3;
 
-/// Place of each node after `depth` levels of cuts.
+/// Returns the position of each node after `depth` levels of dissection.
 pub(crate) fn dissected(elements: &Lists, weight: &[usize], depth: u32) -> Vec<u32> {
     let n = weight.len();
     let mut cutter = Cutter {
@@ -34,7 +34,7 @@ pub(crate) fn dissected(elements: &Lists, weight: &[usize], depth: u32) -> Vec<u
     place
 }
 
-/// A node that the search at hand has not come to.
+/// Level of a node that the current search has not reached.
 const UNSEEN: u32 = u32::MAX;
 
 struct Cutter<'a> {
@@ -42,13 +42,13 @@ struct Cutter<'a> {
     weight: &'a [usize],
     /// Level of each node in the last search of its part.
     level: Vec<u32>,
-    /// Part that each node belongs to.
+    /// Index of the part that each node belongs to.
     part: Vec<u32>,
     n_parts: u32,
 }
 
 impl Cutter<'_> {
-    /// Appends the nodes of a part to the order; stretches that are not cut further go to `leaves`.
+    /// Appends the nodes of a part to the order; ranges that are not divided further are added to `leaves`.
     fn order(
         &mut self,
         part: Vec<u32>,
@@ -74,10 +74,10 @@ impl Cutter<'_> {
         order.extend(separator);
     }
 
-    /// Two halves and what separates them; nothing for a part that is too small or too dense to be cut.
+    /// Divides a part into two halves and a separator; `None` if the part is too small or too dense.
     fn halves(&mut self, part: &[u32]) -> Option<[Vec<u32>; 3]> {
         let (&first, id) = (part.first()?, self.part[*part.first()? as usize]);
-        // The last node of a search is far out; twice is far enough.
+        // The last node of a search is peripheral; two searches are enough.
         let mut from = first;
         for _ in 0..2 {
             self.forget(part);
@@ -85,7 +85,7 @@ impl Cutter<'_> {
         }
         self.forget(part);
         let mut seen = self.search(from, id, 0);
-        // What does not hang together follows level by level: cuts between components are free.
+        // Unconnected components follow level by level; cuts between them need no separator.
         for &v in part {
             if self.level[v as usize] == UNSEEN {
                 let next = self.level[*seen.last()? as usize] + 2;
@@ -115,7 +115,7 @@ impl Cutter<'_> {
         }
     }
 
-    /// Nodes of part `id` that hang together with `from`, breadth first, which is on `level`.
+    /// Returns the nodes of part `id` that are connected with `from`, breadth first; `from` has the given `level`.
     fn search(&mut self, from: u32, id: u32, level: u32) -> Vec<u32> {
         let mut seen = vec![from];
         self.level[from as usize] = level;
@@ -134,7 +134,7 @@ impl Cutter<'_> {
         seen
     }
 
-    /// The lightest level with enough on either side, the one nearest to the middle among equals.
+    /// Returns the level of least weight with enough on both sides; among equal ones that closest to the middle.
     fn best_level(&self, seen: &[u32]) -> Option<u32> {
         let mut by_level = vec![0_usize; self.level[*seen.last()? as usize] as usize + 1];
         for &v in seen {
@@ -158,11 +158,11 @@ impl Cutter<'_> {
     }
 }
 
-/// Nodes that represent all that is eliminated later [-]: with enough of them minimum degree leaves their neighbours to the end. Chosen, not
+/// Number of nodes that represent all later unknowns [-]. With enough of them, minimum degree places their neighbours last. Chosen, not
 /// tuned.
 const LATER: u32 = 8;
 
-/// Orders stretches of the order among themselves by minimum degree; what meets a later stretch comes late.
+/// Orders each leaf of the order by minimum degree; nodes with neighbours in a later leaf come late.
 fn order_leaves(elements: &Lists, order: &mut [u32], leaves: &[(usize, usize)]) {
     let n = order.len();
     let mut leaf = vec![0; n];
@@ -172,7 +172,7 @@ fn order_leaves(elements: &Lists, order: &mut [u32], leaves: &[(usize, usize)]) 
             (leaf[v as usize], number[v as usize]) = (l, index(k));
         }
     }
-    // The elements of each stretch, of which its own nodes count, and whether there are later ones.
+    // The elements of each leaf, with its nodes only, and with representatives of later leaves.
     let mut lists: Vec<Lists> = leaves.iter().map(|_| Lists::with_capacity(0)).collect();
     for e in 0..elements.len() {
         let mut owners: Vec<usize> = elements.get(e).iter().map(|&v| leaf[v as usize]).collect();

@@ -1,4 +1,4 @@
-//! One dense step of the elimination: what it eliminates, and where its numbers stand.
+//! One dense step of the elimination: its pivots, its parts and its storage.
 
 pub(crate) use mbs_math::dense::front::column;
 use std::ops::Range;
@@ -8,30 +8,30 @@ use std::ops::Range;
 pub(crate) enum FrontInit {
     /// Zeros.
     Zeros,
-    /// The block of its first element, which has all its unknowns in its order.
+    /// The block of the first element, which has all unknowns of the front in the same order.
     Written,
-    /// The block of its first element, which has all its unknowns in another order.
+    /// The block of the first element, which has all unknowns of the front in another order.
     Permuted,
-    /// Zeros, for elements that are all small: they are added together.
+    /// Zeros, followed by elements that are all small and are added together.
     Gathered,
 }
 
 /// One dense step of the elimination.
 #[derive(Debug, Clone)]
 pub(crate) struct Front {
-    /// Number of unknowns eliminated here.
+    /// Number of unknowns that the front eliminates.
     pub(crate) p: usize,
-    /// Unknowns of the front.
+    /// Number of unknowns of the front.
     pub(crate) f: usize,
-    /// Start in the array of all fronts.
+    /// Offset of the front in the array of all fronts.
     pub(crate) offset: usize,
-    /// Place of the first pivot in the elimination order.
+    /// Position of the first pivot in the elimination order.
     pub(crate) first: usize,
-    /// Places of the remaining rows in the list of all rows.
+    /// Range of the remaining rows in the list of all rows.
     pub(crate) rows: Range<usize>,
-    /// How its first numbers come.
+    /// Initial content of the front.
     pub(crate) init: FrontInit,
-    /// Place of the first pivot in the own vector of its task.
+    /// Index of the first pivot in the vector of its task.
     pub(crate) at: usize,
     /// Range of its elements in the list of all elements.
     pub(crate) elements: Range<usize>,

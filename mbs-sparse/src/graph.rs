@@ -1,15 +1,15 @@
-//! From cliques to a small graph and its order: unknowns with the same elements become one node.
+//! Graph of the cliques and its elimination order. Unknowns in the same elements form one node.
 //!
 //! ```text
 //! u ~ v  when  { e : u in clique e } = { e : v in clique e }      (such unknowns have equal columns in the pattern)
-//! nodes = classes of ~,   edges = pairs of nodes that meet in an element,   order = approximate minimum degree
+//! nodes = classes of ~,   edges = pairs of nodes in a common element,   order = approximate minimum degree
 //! ```
 //!
-//! The classes come from refining one class by every clique in turn, which is exact and linear in the cliques' length.
+//! The classes result from splitting one class by every clique in turn. This is exact, and linear in the length of the cliques.
 
 use mbs_math::Cliques;
 
-/// Lists of indices, one after the other: list `i` is `items[start[i]..start[i + 1]]`.
+/// Lists of indices in one array: list `i` is `items[start[i]..start[i + 1]]`.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Lists {
     pub(crate) start: Vec<usize>,
@@ -17,14 +17,14 @@ pub(crate) struct Lists {
 }
 
 impl Lists {
-    /// No lists yet, room for `n_lists` of them.
+    /// Creates an empty collection with memory for `n_lists` lists.
     pub(crate) fn with_capacity(n_lists: usize) -> Self {
         let mut start = Vec::with_capacity(n_lists + 1);
         start.push(0);
         Self { start, items: Vec::new() }
     }
 
-    /// Ends the list whose items were pushed last.
+    /// Ends the list of the last pushed items.
     pub(crate) fn close(&mut self) {
         self.start.push(self.items.len());
     }
@@ -39,7 +39,7 @@ impl Lists {
         &self.items[self.start[i]..self.start[i + 1]]
     }
 
-    /// For each value `< n` the lists that hold it, ascending.
+    /// Returns for each value `< n` the lists that contain it, in ascending order.
     pub(crate) fn transposed(&self, n: usize) -> Self {
         let mut start = vec![0; n + 1];
         for &item in &self.items {
@@ -60,7 +60,7 @@ impl Lists {
     }
 }
 
-/// `i` as a stored index.
+/// Converts `i` to a stored index.
 ///
 /// # Panics
 /// When there are more than 2^32 - 1 unknowns or elements.
@@ -68,7 +68,7 @@ pub(crate) fn index(i: usize) -> u32 {
     u32::try_from(i).expect("at most 2^32 - 1 unknowns and elements")
 }
 
-/// The cliques as lists, checked.
+/// Copies the cliques to lists and checks them.
 ///
 /// # Panics
 /// When a clique names an unknown outside `0..n` or names one twice.
@@ -88,12 +88,12 @@ pub(crate) fn checked_cliques(cliques: &impl Cliques) -> Lists {
     lists
 }
 
-/// Node of each unknown, nodes numbered by their first unknown, and the number of nodes. Unknowns from `n_primal` on are
-/// not in one node with those before.
+/// Returns the node of each unknown and the number of nodes, which are numbered by their first unknown. Unknowns from `n_primal` on are never
+/// in one node with those before.
 pub(crate) fn nodes(cliques: &Lists, n: usize, n_primal: usize) -> (Vec<u32>, usize) {
     let mut class = vec![0_u32; n];
     let mut n_classes = 1;
-    // The class into which `split_by[c]`, the last clique that met class c, moved its members.
+    // `split_into[c]` is the class to which the last clique with members of class c, `split_by[c]`, moved them.
     let mut split_into = vec![0_u32];
     let mut split_by = vec![usize::MAX];
     let multipliers: Vec<u32> = (n_primal..n).map(index).collect();
@@ -111,7 +111,7 @@ pub(crate) fn nodes(cliques: &Lists, n: usize, n_primal: usize) -> (Vec<u32>, us
             class[u as usize] = split_into[c];
         }
     }
-    // Unknowns of no element are in class 0 and are no neighbours of each other: a node each.
+    // Unknowns of no element are in class 0 and are not neighbours, so each becomes a node.
     let mut node_of_class = vec![u32::MAX; n_classes];
     let mut n_nodes = 0;
     for c in &mut class {
@@ -125,7 +125,7 @@ pub(crate) fn nodes(cliques: &Lists, n: usize, n_primal: usize) -> (Vec<u32>, us
     (class, n_nodes)
 }
 
-/// The distinct nodes of every element.
+/// Returns the distinct nodes of every element.
 pub(crate) fn elements_by_node(cliques: &Lists, node: &[u32], n_nodes: usize) -> Lists {
     let mut last_seen = vec![usize::MAX; n_nodes];
     let mut lists = Lists::with_capacity(cliques.len());
@@ -142,12 +142,12 @@ pub(crate) fn elements_by_node(cliques: &Lists, node: &[u32], n_nodes: usize) ->
     lists
 }
 
-/// Place of each node in an elimination order of small fill.
+/// Returns the position of each node in an elimination order of small fill.
 pub(crate) fn minimum_degree(elements: &Lists, n_nodes: usize) -> Vec<u32> {
     ordered_by_amd(&neighbours(elements, n_nodes), n_nodes)
 }
 
-/// The nodes that each node meets in an element, ascending.
+/// Returns the nodes that have a common element with each node, in ascending order.
 pub(crate) fn neighbours(elements: &Lists, n_nodes: usize) -> Lists {
     let of_node = elements.transposed(n_nodes);
     let mut last_seen = vec![usize::MAX; n_nodes];
@@ -169,9 +169,9 @@ pub(crate) fn neighbours(elements: &Lists, n_nodes: usize) -> Lists {
     neighbours
 }
 
-/// Place of each node when nodes of multipliers follow right after the last of the other nodes that they meet. Those are placed
-/// by `order`, which is given their elements and weights. A pivot that multipliers before them leave is then never lost for
-/// want of a coordinate.
+/// Returns the position of each node, with nodes of multipliers right after the last other node with which they share an element. `order`
+/// places the other nodes, from their elements and weights. The coordinates of a multiplier's row are then eliminated before it, so that its
+/// pivot is not zero for lack of a coordinate.
 pub(crate) fn multipliers_after(
     elements: &Lists,
     (weight, is_multiplier): (&[usize], &[bool]),
@@ -213,7 +213,7 @@ pub(crate) fn multipliers_after(
     place
 }
 
-/// Place of each node by approximate minimum degree.
+/// Returns the position of each node by approximate minimum degree.
 ///
 /// # Panics
 /// Never: the lists name nodes `< n_nodes`, each list is ascending, and the diagonal is in the pattern, which `amd` counts on in debug

@@ -1,4 +1,4 @@
-//! L D L^T of a symmetric indefinite sum of blocks, front by front, with pivots of one and two unknowns and delayed pivots.
+//! Factorisation L D L^T of a symmetric indefinite sum of blocks, front by front, with 1x1 and 2x2 pivots and delayed pivots.
 //!
 //! ```text
 //! front_s = sum of S_e T_e S_e of its elements + updates of its children + unknowns its children could not eliminate
@@ -6,15 +6,15 @@
 //!           [ L_21  I ] [     U  ] [         I      ]          U: update for the parent, what was delayed comes first
 //! ```
 //!
-//! The method of Duff and Reid (ACM TOMS 9, 1983). Delayed unknowns come before the planned ones of a front, so that the
-//! maps of the analysis hold for its tail. A factorisation without delays runs through frozen maps only. A root takes every
-//! pivot that is more than rounding; what it must leave over is singular and named.
+//! The method is that of Duff and Reid (ACM TOMS 9, 1983). Delayed unknowns come before the planned ones of a front, so that the index maps
+//! of the analysis remain valid for the planned part. A factorisation without delays uses only these maps. A root accepts every pivot above
+//! rounding errors. If an unknown remains, the matrix is singular, and the error names the unknown.
 //!
-//! Subtrees are tasks for a [`Team`], as those of [`Multifrontal`](crate::Multifrontal). What a task delays comes to the task
-//! above it in the order of the plan, so that pivots and bits are the same for every team.
+//! Subtrees are tasks for a [`Team`], as those of [`Multifrontal`](crate::Multifrontal). Delayed pivots of a task come to the task above in
+//! the order of the plan. Therefore pivots and bits of the result are the same for every team.
 //!
-//! Multipliers ([`Cliques::n_primal`]) are placed right after the last coordinate of their elements. Then no pivot is delayed
-//! as long as the coordinates have mass, apart from threshold tests that fail by the numbers.
+//! Multipliers ([`Cliques::n_primal`]) are placed right after the last coordinate of their elements. If the coordinates have mass, a pivot is
+//! then delayed only where a threshold test fails for the numbers at hand.
 
 use crate::delayed::{Delays, Factor, Job, Layout, Share, Shares};
 use crate::options::{Counters, Options};
@@ -30,16 +30,16 @@ use std::convert::Infallible;
 
 /// Multifrontal L D L^T with pivoting: analysed once, factored many times, by one thread or by a team.
 ///
-/// Storage for the planned fronts, and as much again as their pivots may be delayed once, is reserved by the analysis. A
-/// factorisation that delays more than any before lets it grow, and the next one of the same kind allocates nothing.
+/// The analysis reserves memory for the planned fronts, and as much again for delayed pivots. A factorisation with more delays than any
+/// before enlarges the memory. The next one with as many delays allocates nothing.
 #[derive(Debug, Clone)]
 pub struct Indefinite<T: Real, W: Team = Alone> {
     layout: Layout,
     team: W,
     thresholds: Thresholds<T>,
-    /// All blocks of the last factorisation.
+    /// Blocks of all elements in the last factorisation.
     blocks: Vec<T>,
-    /// S, and the largest entry of each row of S T S, by unknown.
+    /// Scale S, and the largest entry of each row of S T S, by unknown.
     scale: Vec<T>,
     rows: Vec<T>,
     diagonal: Vec<T>,
@@ -51,7 +51,7 @@ pub struct Indefinite<T: Real, W: Team = Alone> {
 }
 
 impl<T: Real> Indefinite<T> {
-    /// Orders the unknowns, finds the fronts and freezes every index map. Of `options` all but the choice of pivots counts.
+    /// Orders the unknowns, finds the fronts and fixes all index maps. All of `options` is used except the choice of pivots.
     ///
     /// # Panics
     /// When a clique names an unknown that does not exist, or one unknown twice; with more than 2^32 - 1 unknowns,
@@ -62,8 +62,7 @@ impl<T: Real> Indefinite<T> {
 }
 
 impl<T: Real, W: Team> Indefinite<T, W> {
-    /// Analyses the cliques as [`analyse`](Indefinite::analyse) does, for a team. What the solver computes has the same bits whatever the
-    /// team.
+    /// Analyses the cliques as [`analyse`](Indefinite::analyse) does, for a team. The results have the same bits for every team.
     ///
     /// # Panics
     /// As [`analyse`](Indefinite::analyse).
@@ -71,7 +70,7 @@ impl<T: Real, W: Team> Indefinite<T, W> {
         Self::laid_out(team, Layout::new(plan(cliques, options)), Thresholds::default())
     }
 
-    /// Returns the same analysis for another team; what was factored is lost.
+    /// Returns the same analysis for another team; the factorisation is lost.
     pub fn with_team<V: Team>(self, team: V) -> Indefinite<T, V> {
         Indefinite::laid_out(team, self.layout, self.thresholds)
     }
@@ -94,28 +93,28 @@ impl<T: Real, W: Team> Indefinite<T, W> {
         }
     }
 
-    /// Replaces the thresholds of the pivots.
+    /// Sets other thresholds for the pivots.
     #[must_use]
     pub fn with_thresholds(self, thresholds: Thresholds<T>) -> Self {
         Self { thresholds, ..self }
     }
 
-    /// The exact sizes of this analysis, as planned without delays.
+    /// Exact sizes of this analysis, as planned without delays.
     pub fn counters(&self) -> Counters {
         self.layout.plan.counters
     }
 
-    /// Subtrees that may be worked on at the same time: more threads than that find nothing to do. `≥ 1` where there are unknowns.
+    /// Number of subtrees that can be worked on at the same time; more threads have no work. `≥ 1` where there are unknowns.
     pub fn n_branches(&self) -> usize {
         self.layout.plan.tasks.n_leaves()
     }
 
-    /// Departures from the plan in the last factorisation.
+    /// Departures from the plan in the last factorisation, by delayed pivots.
     pub fn delays(&self) -> Delays {
         self.delays
     }
 
-    /// Takes the blocks over and finds the scaling.
+    /// Copies the blocks and computes the scaling.
     fn gather<S: BlockSource<T>>(&mut self, source: &S) {
         let (team, cliques) = (&self.team, &self.layout.plan.cliques);
         let starts = &self.layout.block_starts;
@@ -136,7 +135,7 @@ impl<T: Real, W: Team> Indefinite<T, W> {
         measure(&self.scale, &mut self.rows);
     }
 
-    /// Factored fronts for sweeps, with or without D.
+    /// Returns the factored fronts for sweeps, with or without a division by D.
     fn vectors(&self, is_divided: bool) -> Vectors<'_, W, Factor<'_, T>> {
         let fronts = Factor { layout: &self.layout, shares: &self.shares, is_divided };
         Vectors { plan: &self.layout.plan, team: &self.team, fronts }
@@ -144,8 +143,8 @@ impl<T: Real, W: Team> Indefinite<T, W> {
 }
 
 impl<T: Real, W: Team> SymmetricSolver<T> for Indefinite<T, W> {
-    /// Factors the blocks of the source. Cost: that of the fronts as planned, more where pivots are delayed; four passes over the blocks
-    /// for the scaling.
+    /// Factors the blocks of the source. Cost: that of the planned fronts, more where pivots are delayed, and four passes over the blocks for
+    /// the scaling.
     fn factor<S: BlockSource<T>>(&mut self, source: &S) -> Result<(), FactorError> {
         self.gather(source);
         let job = Job {

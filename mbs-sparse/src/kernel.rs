@@ -6,15 +6,14 @@
 //!                                                                   U    = A_22 - L_21 D L_21^T
 //! ```
 //!
-//! No closures over arrays here: whether they are inlined depends on the number of codegen units of the build.
-//! The triangle that remains is a packed front itself, so the next block starts from there. Block sizes are known to
-//! the compiler; the diagonal of L_11 holds 1 / d.
+//! Closures over arrays are avoided here, since their inlining depends on the number of codegen units of the build. The remaining triangle is
+//! a packed front again, and the next block starts with it. Block sizes are known to the compiler. The diagonal of L_11 contains 1 / d.
 
 use crate::front::column;
 use mbs_math::Real;
 use mbs_math::dense::panel::subtract_products;
 
-/// Most pivots eliminated together [-]: each column is read and written once for all of them. Chosen, not tuned.
+/// Pivots that are eliminated together, at most [-]: each column is then read and written once for all of them. Chosen, not tuned.
 pub(crate) const BLOCK: usize = 6;
 
 /// A pivot that is not positive: its column in the front and its value.
@@ -55,8 +54,8 @@ pub(crate) fn eliminate<T: Real>(
     }
 }
 
-/// Eliminates the first `P` unknowns of a packed front. The compiler knows all sizes for the numbers of further rows that bodies
-/// of two or three coordinates a point leave most often.
+/// Eliminates the first `P` unknowns of a packed front. For the most frequent numbers of further rows, from bodies with two or three
+/// coordinates per point, all sizes are known to the compiler.
 #[inline(always)]
 fn block<T: Real, const P: usize>(a: &mut [T], d: &mut [T], f: usize) -> Result<(), BadPivot<T>> {
     match f - P {
@@ -123,8 +122,7 @@ fn block_sized<T: Real, const P: usize>(
     Ok(())
 }
 
-/// Factors the first `P` rows of the columns of a front of `f` unknowns; the result holds L_11, `l[column][row]`, and 1 / d on
-/// its diagonal.
+/// Factors the first `P` rows of the columns of a front of `f` unknowns. Returns L_11 as `l[column][row]`, with 1 / d on its diagonal.
 #[inline(always)]
 fn factor_diagonal_block<T: Real, const P: usize>(
     panel: &mut [T],
@@ -156,7 +154,7 @@ fn factor_diagonal_block<T: Real, const P: usize>(
     Ok(l)
 }
 
-/// Turns rows `i`, ..., `i + R - 1` of A_21, whose columns begin at `starts`, into rows of L_21.
+/// Converts rows `i`, ..., `i + R - 1` of A_21, whose columns begin at `starts`, into rows of L_21.
 #[inline(always)]
 fn divide_rows<T: Real, const P: usize, const R: usize>(
     panel: &mut [T],
@@ -184,7 +182,7 @@ fn divide_rows<T: Real, const P: usize, const R: usize>(
     }
 }
 
-/// 1 / pivot, if the pivot is positive and finite.
+/// Returns 1 / pivot if the pivot is positive and finite.
 #[inline(always)]
 pub(crate) fn checked_inverse<T: Real>(pivot: T, column: usize) -> Result<T, BadPivot<T>> {
     if pivot > T::ZERO && pivot.is_finite() {

@@ -1,4 +1,4 @@
-//! L D L^T of a sum of element blocks, front by front; no matrix of all unknowns is ever formed. Subtrees are tasks for a [`Team`].
+//! Factorisation L D L^T of a sum of element blocks, front by front, without a matrix of all unknowns. Subtrees are tasks for a [`Team`].
 //!
 //! ```text
 //! front_s = sum of elements whose first unknown it eliminates + sum of updates of its children
@@ -20,23 +20,22 @@ pub struct Multifrontal<T: Real, W: Team = Alone> {
     plan: Plan,
     pivoting: Pivoting,
     team: W,
-    /// All fronts, with room for a block beside those of each task.
+    /// All fronts, with space for one block for each task.
     fronts: Vec<T>,
     pivots: Vec<T>,
-    /// Unknowns in the order in which they were eliminated last.
+    /// Unknowns in the elimination order of the last factorisation.
     order: Vec<u32>,
-    /// Whether there is one front, in the given order and without pivoting.
+    /// Is there one front only, in the given order and without pivoting?
     is_one_block: bool,
-    /// For each pivot its row in its front before the swaps of [`Pivoting::Diagonal`].
+    /// For each pivot the row of its front from which [`Pivoting::Diagonal`] took it.
     taken: Vec<u32>,
     residuals: Scatter<T>,
 }
 
 impl<T: Real> Multifrontal<T> {
-    /// Orders the unknowns, finds the fronts and freezes every index map.
+    /// Orders the unknowns, finds the fronts and fixes all index maps.
     ///
-    /// Cost: near linear in the sum of the squares of the cliques' lengths plus the entries of L; the only place that
-    /// allocates.
+    /// Cost: nearly linear in the sum of the squared lengths of the cliques plus the entries of L. Nothing is allocated later.
     ///
     /// # Panics
     /// When a clique names an unknown that does not exist, or one unknown twice; with more than 2^32 - 1 unknowns,
@@ -47,8 +46,7 @@ impl<T: Real> Multifrontal<T> {
 }
 
 impl<T: Real, W: Team> Multifrontal<T, W> {
-    /// Analyses the cliques as [`analyse`](Multifrontal::analyse) does, for a team. What the solver computes has the same bits whatever
-    /// the team.
+    /// Analyses the cliques as [`analyse`](Multifrontal::analyse) does, for a team. The results have the same bits for every team.
     ///
     /// # Panics
     /// As [`analyse`](Multifrontal::analyse).
@@ -56,7 +54,7 @@ impl<T: Real, W: Team> Multifrontal<T, W> {
         Self::planned(team, plan(cliques, options), options.pivoting)
     }
 
-    /// Returns the same analysis for another team; what was factored is lost.
+    /// Returns the same analysis for another team; the factorisation is lost.
     pub fn with_team<V: Team>(self, team: V) -> Multifrontal<T, V> {
         Multifrontal::planned(team, self.plan, self.pivoting)
     }
@@ -76,24 +74,24 @@ impl<T: Real, W: Team> Multifrontal<T, W> {
         }
     }
 
-    /// The exact sizes of this analysis.
+    /// Exact sizes of this analysis.
     pub fn counters(&self) -> Counters {
         self.plan.counters
     }
 
-    /// Subtrees that may be worked on at the same time: more threads than that find nothing to do. `≥ 1` where there are unknowns.
+    /// Number of subtrees that can be worked on at the same time; more threads have no work. `≥ 1` where there are unknowns.
     pub fn n_branches(&self) -> usize {
         self.plan.tasks.n_leaves()
     }
 
-    /// Both sweeps on a vector in the storage of the tasks, of which `x` is the right-hand side.
+    /// Makes both sweeps with the right-hand side `x`; the solution is left in `storage`, in the order of the tasks.
     fn sweep(&self, x: &[T], storage: &mut [T]) {
         let fronts = Factor { plan: &self.plan, fronts: &self.fronts, taken: &self.taken };
         let vectors = Vectors { plan: &self.plan, team: &self.team, fronts };
         vectors.solve(x, storage);
     }
 
-    /// A vector in the order of the unknowns from the storage of the tasks.
+    /// Copies a vector from the storage of the tasks to the order of the unknowns.
     fn gather(&self, storage: &[T], x: &mut [T]) {
         on_stretches(&self.team, [x], |first, [x]| {
             for (x, &at) in x.iter_mut().zip(&self.plan.tasks.stored_at[first..]) {
@@ -104,7 +102,7 @@ impl<T: Real, W: Team> Multifrontal<T, W> {
 }
 
 impl<T: Real, W: Team> SpdSolver<T> for Multifrontal<T, W> {
-    /// Fails with the first pivot that is zero, negative, infinite or not a number.
+    /// Factors the blocks of the source. Fails with the first pivot that is zero, negative, infinite or not a number.
     fn factor<S: BlockSource<T>>(&mut self, source: &S) -> Result<(), FactorError> {
         let numbers = Numbers {
             fronts: &mut self.fronts,

@@ -5,25 +5,26 @@
 //!     sum_{k=0}^{p-1}  1 + c + c (c + 1),   c = f - k - 1   (one division, c scalings, c (c + 1) / 2 multiply-subtracts)
 //! ```
 
-/// How pivots are chosen among the unknowns that a front may eliminate.
+/// Choice of pivots among the unknowns that a front may eliminate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Pivoting {
-    /// In the order of the analysis. Enough for every positive definite matrix, and the fastest.
+    /// In the order of the analysis. This is the fastest choice, and sufficient for positive definite matrices.
     #[default]
     None,
-    /// The largest remaining diagonal of the front first: smaller growth of rounding in badly scaled matrices.
+    /// The largest remaining diagonal of the front first. This reduces the growth of rounding errors in badly scaled matrices.
     Diagonal,
 }
 
-/// In which order unknowns are eliminated. No number depends on it but by rounding.
+/// Order in which unknowns are eliminated. It changes results by rounding errors only.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Ordering {
-    /// Order of minimum degree; where that leaves little to do at the same time, a dissection that costs at most a tenth more.
+    /// Minimum degree; if that order gives threads little work, a dissection that costs at most a tenth more.
     #[default]
     Chosen,
     /// Order of approximate minimum degree: the least work for one thread.
     MinimumDegree,
-    /// This many levels of cuts in half, parts by minimum degree: most to do at the same time, on chains up to two and a half times the work.
+    /// Dissection with this many levels, and minimum degree within the parts. Gives threads the most work; costs up to 2.5 times as much on
+    /// chains.
     Dissection(u32),
 }
 
@@ -32,45 +33,47 @@ pub enum Ordering {
 pub struct Options {
     /// Choice of pivots inside each front.
     pub pivoting: Pivoting,
-    /// Systems of at most this many unknowns are one dense front in the given order.
+    /// Number of unknowns up to which a system is one dense front in the given order.
     pub dense_up_to: usize,
     /// Order in which unknowns are eliminated.
     pub ordering: Ordering,
-    /// Trees of fronts are cut into tasks of about this many nanoseconds of factorisation; `u64::MAX`: never. The sums of a
-    /// solution depend on it, and never on who works on the tasks.
+    /// Target time of the factorisation of a task [ns]; `u64::MAX` makes a single task. The rounding of a solution depends on the division into
+    /// tasks, but never on the threads that do them.
     pub grain: u64,
 }
 
 impl Default for Options {
-    /// Options without pivoting; one dense front up to 8 unknowns. Measured on chains of 4, 6 and 12 unknowns an element. Dense is 8 %
-    /// faster at n = 6, equal at 8 and 9, and 6 to 13 % slower at 12. It takes 1.5 to 1.7 times as long at 24.
+    /// Returns the defaults: no pivoting, one dense front up to 8 unknowns, tasks of 5 microseconds.
+    ///
+    /// The limit of 8 was measured on chains of 4, 6 and 12 unknowns per element. A dense front is 8 % faster at n = 6, equal at 8 and 9, and
+    /// 6 to 13 % slower at 12. At 24 it takes 1.5 to 1.7 times as long.
     fn default() -> Self {
         Self { pivoting: Pivoting::None, dense_up_to: 8, ordering: Ordering::Chosen, grain: 5_000 }
     }
 }
 
-/// Exact sizes of one analysis; times are measured from outside.
+/// Exact sizes of one analysis; times are not included.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Counters {
     /// Number of unknowns n.
     pub n: usize,
     /// Number of elements analysed.
     pub n_elements: usize,
-    /// Number of fronts, dense matrices that are factored one after the other.
+    /// Number of fronts: dense matrices that are factored one after another.
     pub n_fronts: usize,
     /// Unknowns of the largest front.
     pub largest_front: usize,
-    /// Entries of L, diagonal included, with the zeros that merging of fronts adds.
+    /// Entries of L, including the diagonal, and the zeros from merged fronts.
     pub nonzeros: usize,
-    /// Numbers stored for all fronts, factor and updates.
+    /// Numbers stored for all fronts: factors and updates.
     pub stored: usize,
     /// Additions, multiplications and divisions of one factorisation, without the assembly.
     pub flops: u64,
-    /// Additions that carry the updates of fronts into their parents.
+    /// Additions of updates into parent fronts.
     pub extend_adds: u64,
-    /// Tasks that the tree of fronts is cut into.
+    /// Number of tasks into which the tree of fronts is divided.
     pub n_tasks: usize,
-    /// Time of all fronts over that of the longest way from a leaf to a root, as estimated: no team is faster than that.
+    /// Ratio of the time of all fronts to that of the longest path from a leaf to a root, estimated [-]. No team is faster by more.
     pub parallelism: f64,
 }
 

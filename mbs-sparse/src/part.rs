@@ -1,42 +1,42 @@
-//! Parts of a front, elements and updates of children: where each lands, and how it is added.
+//! Parts of a front (elements and updates of children): the position of each in the front, and its addition.
 //!
-//! Most parts have one of a few sizes, multiples of the two or three coordinates of a point. With these the compiler knows
-//! the lengths of all loops, which are too short to pay for anything else.
+//! Most parts have one of a few sizes, multiples of the two or three coordinates of a point. For these the lengths of all loops are
+//! constants. The loops are short, so that the overhead of variable lengths would dominate.
 
 use crate::front::column;
 use crate::graph::index;
 use mbs_math::Real;
 
-/// Place of a packed triangle of k unknowns in a packed front of f unknowns.
+/// Position of a packed triangle of k unknowns in a packed front of f unknowns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Place {
-    /// Unknown i at row `f - k + i`: one stretch, from this offset to the end of the front.
+    /// Unknown i is row `f - k + i`: one contiguous range, from this offset to the end of the front.
     Tail(u32),
-    /// Unknown i at row `first + i`: one stretch for every column.
+    /// Unknown i is row `first + i`: one contiguous range for every column.
     Shifted(u32),
-    /// Entry t at `targets[start + t]`.
+    /// Entry t is added at `targets[start + t]`.
     Scattered(u32),
 }
 
 /// One element or one child update that is added into a front.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Part {
-    /// Number of the element; of a child, the start of its update in the array of all fronts.
+    /// Index of the element; for a child, the start of its update in the array of all fronts.
     pub(crate) source: usize,
     /// Unknowns of the part.
     pub(crate) size: u32,
-    /// Place of the unknowns in the front.
+    /// Position of the unknowns in the front.
     pub(crate) place: Place,
 }
 
 impl Part {
-    /// Numbers of its packed triangle.
+    /// Returns the number of entries of its packed triangle.
     #[inline(always)]
     pub(crate) fn len(&self) -> usize {
         triangle(self.size as usize)
     }
 
-    /// Targets of the entries of a scattered part, and of the scattered parts after it; of any other part nothing.
+    /// Returns the targets of a scattered part, followed by those of later parts; empty for any other part.
     #[inline(always)]
     pub(crate) fn targets<'a>(&self, all: &'a [u32]) -> &'a [u32] {
         match self.place {
@@ -46,13 +46,13 @@ impl Part {
     }
 }
 
-/// Numbers of a packed triangle of `size` unknowns.
+/// Returns the number of entries of a packed triangle of `size` unknowns.
 #[inline(always)]
 pub(crate) fn triangle(size: usize) -> usize {
     size * (size + 1) / 2
 }
 
-/// Most unknowns of a part that is added number by number [-]: a test of its structure costs as much. Chosen, not tuned.
+/// Unknowns of the largest part that is added entry by entry [-]: a test of its structure would cost as much. Chosen, not tuned.
 pub(crate) const SMALL: usize = 4;
 
 /// Finds the cheapest description of the map `map` into a front of `f` unknowns.
@@ -95,7 +95,7 @@ pub(crate) fn add<T: Real>(a: &mut [T], f: usize, part: &Part, targets: &[u32], 
     }
 }
 
-/// Adds a part of `K` unknowns at rows `first`, ...; `K` = 0: of `k`, known at run time only.
+/// Adds a part of `K` unknowns at rows `first`, ...; for `K` = 0 the size is `k`, known at run time only.
 #[inline(never)]
 fn add_shifted<T: Real, const K: usize>(
     a: &mut [T],
@@ -115,7 +115,7 @@ fn add_shifted<T: Real, const K: usize>(
     }
 }
 
-/// Adds each number at its target.
+/// Adds each entry at its target.
 #[inline(always)]
 pub(crate) fn scatter<T: Real>(a: &mut [T], targets: &[u32], from: &[T]) {
     to_targets(a, targets, from, |to, x| *to += x);
@@ -127,7 +127,7 @@ pub(crate) fn permute<T: Real>(a: &mut [T], targets: &[u32], from: &[T]) {
     to_targets(a, targets, from, |to, x| *to = x);
 }
 
-/// Brings each number to its target, by threes: the numbers of a triangle are a multiple of three most often.
+/// Applies `put` to each entry and its target, three at a time, because most triangles have a multiple of three entries.
 #[inline(always)]
 fn to_targets<T: Real>(a: &mut [T], targets: &[u32], from: &[T], put: impl Fn(&mut T, T)) {
     let (threes, rest) = from.as_chunks::<3>();

@@ -1,4 +1,4 @@
-//! Partial L D L^T of one packed front, largest remaining diagonal first.
+//! Partial L D L^T of one packed front, with the largest remaining diagonal first.
 //!
 //! ```text
 //! for k = 0, ..., p - 1:    q = argmax_{k <= i < p} a_ii,   swap rows and columns k and q
@@ -10,8 +10,8 @@ use crate::kernel::{BadPivot, checked_inverse};
 use mbs_math::Real;
 use mbs_math::dense::front::swap;
 
-/// Eliminates the first `d.len()` unknowns of the packed front `a` of `f` unknowns; `taken[k]` receives the row
-/// that became pivot `k`. On failure the row at fault is in `taken` too.
+/// Eliminates the first `d.len()` unknowns of the packed front `a` of `f` unknowns. `taken[k]` receives the row that became pivot `k`; after
+/// a failure also the row of the failed pivot.
 pub(crate) fn eliminate_largest<T: Real>(
     a: &mut [T],
     d: &mut [T],
@@ -48,7 +48,7 @@ pub(crate) fn eliminate_largest<T: Real>(
     Ok(())
 }
 
-/// Row of the largest diagonal among `k..p`.
+/// Returns the row of the largest diagonal among `k..p`.
 fn largest_diagonal<T: Real>(a: &[T], f: usize, k: usize, p: usize) -> usize {
     let mut q = k;
     for i in k + 1..p {

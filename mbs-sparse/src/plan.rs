@@ -1,7 +1,7 @@
-//! Everything a factorisation needs to know before it sees a number: fronts, their storage and all index maps.
+//! Result of the analysis, without any numbers of the matrix: fronts, their storage and all index maps.
 //!
-//! A front of p pivots and f unknowns is a lower triangle packed by columns. Its first p columns become columns of L,
-//! the rest is its update for the parent and stays where it is: every front owns one stretch of one array.
+//! A front of p pivots and f unknowns is a lower triangle, packed by columns. Its first p columns become columns of L. The remaining columns
+//! become the update for the parent, in the same memory. The fronts are consecutive parts of one array.
 //!
 //! ```text
 //! column j of a front starts at   j f - j (j - 1) / 2   and holds rows j, ..., f - 1
@@ -17,25 +17,25 @@ use crate::tree::{self, Fronts};
 use mbs_math::Cliques;
 use std::collections::HashMap;
 
-/// The result of the analysis.
+/// Fronts, tasks and index maps of a factorisation.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Plan {
     pub(crate) fronts: Vec<Front>,
     pub(crate) elements: Vec<Part>,
     pub(crate) children: Vec<Part>,
-    /// Targets of scattered parts, as offsets in their front.
+    /// Targets of the entries of scattered parts, as offsets in their front.
     pub(crate) targets: Vec<u32>,
-    /// Elimination places of the remaining rows of all fronts.
+    /// Positions, in the elimination order, of the remaining rows of all fronts.
     pub(crate) rows: Vec<u32>,
-    /// Tasks that may be done at the same time.
+    /// Tasks that threads may do at the same time.
     pub(crate) tasks: Tasks,
-    /// Unknown at each place of the elimination.
+    /// Unknown at each position of the elimination order.
     pub(crate) order: Vec<u32>,
-    /// Whether `order` is 0, 1, 2, ...
+    /// Is `order` 0, 1, 2, ...?
     pub(crate) is_natural: bool,
     pub(crate) cliques: Lists,
     pub(crate) largest_clique: usize,
-    /// Numbers of the largest block, or of small ones that are added together.
+    /// Size of the largest block, or of the small blocks that are added together in one front.
     pub(crate) n_block: usize,
     pub(crate) counters: Counters,
 }
@@ -61,21 +61,21 @@ pub(crate) fn plan(cliques: &impl Cliques, options: Options) -> Plan {
     Planner::new(cliques, &node, &fronts, options.grain as f64).finish(&fronts)
 }
 
-/// Largest work of a dissection that is taken, relative to minimum degree [-]: what one thread loses. Chosen, not tuned.
+/// Largest work of a dissection that is accepted, relative to minimum degree [-]. It limits the loss for one thread. Chosen, not tuned.
 const MORE_WORK: f64 = 1.1;
-/// Ratio of a tree's work to its longest path from which it is not cut [-]: as many threads have work. Chosen, not tuned.
+/// Ratio of a tree's work to its longest path from which no dissection is tried [-]: so many threads have work. Chosen, not tuned.
 const ROOM: f64 = 32.0;
-/// Most levels of cuts that are tried [-]: 64 parts. Chosen, not tuned.
+/// Levels of dissection that are tried, at most [-]: 64 parts. Chosen, not tuned.
 const MOST_LEVELS: u32 = 6;
 
-/// Fronts in the order that the options ask for. What is chosen follows from the structure alone.
+/// Returns the fronts in the order that the options require. The choice depends on the structure alone.
 fn ordered(
     elements: &Lists,
     (weight, is_multiplier): (&[usize], &[bool]),
     options: Options,
 ) -> Fronts {
     let grain = options.grain as f64;
-    // No cut: minimum degree.
+    // Depth zero is minimum degree without dissection.
     let dissected = |depth| {
         let order = |elements: &Lists, weight: &[usize]| match depth {
             0 => graph::minimum_degree(elements, weight.len()),
@@ -106,7 +106,7 @@ fn ordered(
     best
 }
 
-/// One front for all unknowns, if there are any.
+/// Returns one front for all unknowns, or none without unknowns.
 fn one_front(n: usize) -> Fronts {
     let mut fronts = Fronts {
         pivots: Lists::with_capacity(1),
@@ -124,21 +124,21 @@ fn one_front(n: usize) -> Fronts {
     fronts
 }
 
-/// State of turning fronts of nodes into fronts of unknowns with all their maps.
+/// State of the conversion of fronts of nodes into fronts of unknowns with all maps.
 struct Planner {
     plan: Plan,
-    /// Place of each unknown in the elimination.
+    /// Position of each unknown in the elimination order.
     place: Vec<u32>,
-    /// Row of each place in the front at hand.
+    /// Row of each position in the current front.
     row: Vec<u32>,
     /// The elements of each front.
     elements_of: Lists,
-    /// Place of targets that occur again: most fronts of a mechanism are like another one.
+    /// Start of target lists that occur again: most fronts of a mechanism have the pattern of another one.
     known: HashMap<Vec<u32>, usize>,
 }
 
 impl Planner {
-    /// Numbers the unknowns and sizes the fronts.
+    /// Numbers the unknowns and computes the sizes of the fronts.
     fn new(cliques: Lists, node: &[u32], fronts: &Fronts, grain: f64) -> Self {
         let n = node.len();
         let n_fronts = fronts.parent.len();
@@ -152,7 +152,7 @@ impl Planner {
             for &v in fronts.pivots.get(s) {
                 plan.order.extend_from_slice(unknowns.get(v as usize));
             }
-            // Ascending unknowns keep the maps of ascending cliques ascending.
+            // With ascending unknowns, the maps of ascending cliques are ascending too.
             plan.order[first..].sort_unstable();
             for k in first..plan.order.len() {
                 place[plan.order[k] as usize] = index(k);
@@ -213,7 +213,7 @@ impl Planner {
         plan
     }
 
-    /// Appends the elements of front `s`; one that has all its unknowns comes first, and is written, not added.
+    /// Appends the elements of front `s`. An element with all unknowns of the front comes first; its block is written rather than added.
     fn add_elements(&mut self, s: usize, f: usize) {
         let (from, targets) = (self.plan.elements.len(), self.plan.targets.len());
         for &e in self.elements_of.get(s) {
@@ -260,7 +260,7 @@ impl Planner {
 }
 
 impl Plan {
-    /// Numbers of the largest block, or of the small ones of one front.
+    /// Returns the size of the largest block, or of the small blocks of one front together.
     fn largest_blocks(&self, elements_of: &Lists) -> usize {
         let sizes =
             |s: usize| elements_of.get(s).iter().map(|&e| self.cliques.get(e as usize).len());
@@ -269,7 +269,7 @@ impl Plan {
         gathered.max(triangle(self.largest_clique))
     }
 
-    /// Places fronts and unknowns in the storage, task by task.
+    /// Assigns storage to fronts and unknowns, task by task.
     fn place_fronts(&mut self, place: &[u32]) {
         let mut stored_at_place = vec![0; place.len()];
         for task in &self.tasks.list {
@@ -287,7 +287,7 @@ impl Plan {
     }
 }
 
-/// Lets parts whose targets begin with place `from` have those of earlier ones, where they are the same.
+/// Replaces targets from index `from` on by equal ones of an earlier front, where these exist.
 fn share(
     known: &mut HashMap<Vec<u32>, usize>,
     from: usize,
@@ -309,7 +309,7 @@ fn share(
     }
 }
 
-/// Work of all fronts over that of the longest way up.
+/// Returns the ratio of the work of all fronts to that of the longest path to a root.
 fn parallelism(fronts: &Fronts) -> f64 {
     let mut longest = fronts.work.clone();
     let mut most = 0.0_f64;
@@ -325,7 +325,7 @@ fn parallelism(fronts: &Fronts) -> f64 {
     if most > 0.0 { all / most } else { 1.0 }
 }
 
-/// The elements of each front: an element goes where its first unknown is eliminated.
+/// Returns the elements of each front: an element belongs to the front that eliminates its first unknown.
 fn elements_by_front(cliques: &Lists, place: &[u32], front_of: &[u32], n_fronts: usize) -> Lists {
     let mut firsts = Lists::with_capacity(cliques.len());
     for e in 0..cliques.len() {
@@ -336,7 +336,7 @@ fn elements_by_front(cliques: &Lists, place: &[u32], front_of: &[u32], n_fronts:
     firsts.transposed(n_fronts)
 }
 
-/// The children of each front, ascending.
+/// Returns the children of each front in ascending order.
 fn children(parent: &[u32]) -> Lists {
     let mut lists = Lists::with_capacity(parent.len());
     for &parent in parent {

@@ -1,39 +1,39 @@
-//! Values that elements write for their unknowns, brought together by unknown: by one thread or by several, the same bits.
+//! Sums, by unknown, of values that elements write for their unknowns: the same bits by one thread and by several.
 //!
 //! ```text
-//! elements   [ stretch 1 | stretch 2 | ... ]        unknowns   [ first met in stretch 1 | in stretch 2 | ... ]
-//! a stretch joins what is for unknowns first met in it, and keeps what is for earlier ones; then each takes what was kept for it
+//! elements   [ stretch 1 | stretch 2 | ... ]        unknowns   [ first used in stretch 1 | in stretch 2 | ... ]
+//! a stretch sums values of unknowns first used in it, and stores those of earlier unknowns; then the stored values are added
 //! ```
 //!
-//! Values of one unknown meet in the order of the elements: those of the stretch where it is first met come before all others.
+//! The values of one unknown are summed in the order of the elements, because the stretch that uses it first comes before all others.
 
 use crate::graph::{Lists, index};
 use crate::plan::Plan;
 use mbs_math::blocks::combine;
 use mbs_math::{BlockSource, Real, Team};
 
-/// Elements of a stretch [-]: some microseconds of work.
+/// Elements of a stretch [-]: work of some microseconds.
 const ELEMENTS: usize = 128;
 
-/// Room for the values, and where the elements are cut.
+/// Scratch for the values, and the division of the elements into stretches.
 #[derive(Debug, Clone)]
 pub(crate) struct Scatter<T> {
-    /// Values of one element; of a team those that are kept, and room for an element of each stretch.
+    /// Values of one element; for a team the stored values, and scratch for an element of each stretch.
     values: Vec<T>,
-    /// Nothing for one thread.
+    /// Division for a team; `None` for one thread.
     cuts: Option<Cuts>,
 }
 
-/// Cuts of the elements for a team.
+/// Division of the elements into stretches for a team.
 #[derive(Debug, Clone)]
 struct Cuts {
-    /// First element, first unknown and first kept value of each stretch, and the ends.
+    /// First element, first unknown and first stored value of each stretch, and the ends.
     marks: Vec<[usize; 3]>,
-    /// For each stretch the unknowns first met in it for which others keep values.
+    /// For each stretch, those of its unknowns for which later stretches store values.
     incoming: Lists,
-    /// Beside them, which values.
+    /// Index of the stored value for each entry of `incoming`.
     kept: Vec<u32>,
-    /// Unknowns of the largest element.
+    /// Number of unknowns of the largest element.
     largest: usize,
 }
 
@@ -53,7 +53,7 @@ impl Cuts {
             met = met.max(unknowns().max().map_or(0, |u| u + 1));
         }
         cuts.marks.push([cliques.len(), n, kept_for.len()]);
-        // The values for one stretch stay in their order.
+        // The stable sort keeps the order of the values for one stretch.
         kept_for.sort_by_key(|&(owner, ..)| owner);
         let mut rest = kept_for.iter().peekable();
         for owner in 0..cuts.n_stretches() {
@@ -76,7 +76,7 @@ impl Cuts {
 }
 
 impl<T: Real> Scatter<T> {
-    /// Room for the elements of `plan`.
+    /// Creates the scratch for the elements of `plan`.
     pub(crate) fn new(team: &impl Team, plan: &Plan) -> Self {
         let (cliques, largest) = (&plan.cliques, plan.largest_clique);
         let is_cut = team.size() > 1 && cliques.len() > 0;
@@ -85,7 +85,7 @@ impl<T: Real> Scatter<T> {
         Self { values: vec![T::ZERO; n], cuts }
     }
 
-    /// `out[u]` = zero joined with what every element writes for u, in the order of the elements.
+    /// Sets `out[u]` to zero, joined with the values of all elements for u, in the order of the elements.
     #[inline(always)]
     pub(crate) fn combine<W: Team>(
         &mut self,
@@ -106,7 +106,7 @@ impl<T: Real> Scatter<T> {
         work.take(team, all, kept, out);
     }
 
-    /// The residuals of all elements, summed.
+    /// Sums the residuals of all elements.
     pub(crate) fn sum<W: Team, S: BlockSource<T>>(
         &mut self,
         team: &W,
@@ -122,7 +122,7 @@ impl<T: Real> Scatter<T> {
     }
 }
 
-/// Work of a team.
+/// Data for the work of a team.
 struct Work<'a, F, J> {
     cuts: &'a Cuts,
     cliques: &'a Lists,
@@ -131,7 +131,7 @@ struct Work<'a, F, J> {
 }
 
 impl<F, J> Work<'_, F, J> {
-    /// The elements of stretches `from..to`.
+    /// Evaluates the elements of stretches `from..to`.
     fn stretches<T: Real, W: Team>(
         &self,
         team: &W,
@@ -171,7 +171,7 @@ impl<F, J> Work<'_, F, J> {
         }
     }
 
-    /// Joins what is kept for the unknowns of stretches `from..to`.
+    /// Joins the stored values with those of the unknowns of stretches `from..to`.
     fn take<T: Real, W: Team>(
         &self,
         team: &W,

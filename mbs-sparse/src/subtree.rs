@@ -1,12 +1,12 @@
-//! Numbers that a task and those below it own, and the work on them: factorisation and the two sweeps, task by task.
+//! Factorisation and the two sweeps, task by task, with the numbers that belong to a task and those below it.
 //!
 //! ```text
-//! factor:    tasks below (at the same time, each on its own part of the numbers), then the own fronts in order
-//! forward:   tasks below, then what they leave for the own rows is added in their order, then the own fronts
-//! backward:  the own fronts from the last to the first, then what tasks below need to know is handed down
+//! factor:    tasks below (at the same time, each with its part of the numbers), then the fronts of the task in order
+//! forward:   tasks below, then the addition of their results in order, then the fronts of the task
+//! backward:  the fronts of the task in reverse order, then the solved unknowns are passed to the tasks below
 //! ```
 //!
-//! Every sum has one order, that of the plan. Parts are cut with `split_at_mut`, so two tasks cannot meet in a number.
+//! Every sum has one order, that of the plan. Parts are divided with `split_at_mut`, so that two tasks cannot access the same number.
 
 use crate::front::{Front, FrontInit, column};
 use crate::kernel::{self, BadPivot};
@@ -19,18 +19,18 @@ use crate::tasks::{Owned, Storage, Task};
 use mbs_math::{BlockSource, FactorError, Real, Team};
 use std::convert::Infallible;
 
-/// The numbers of a factorisation that belong to neighbouring tasks with all below.
+/// Numbers of a factorisation that belong to neighbouring tasks with all tasks below.
 #[derive(Debug)]
 pub(crate) struct Numbers<'a, T> {
     pub(crate) fronts: &'a mut [T],
     pub(crate) pivots: &'a mut [T],
     pub(crate) order: &'a mut [u32],
-    /// Rows that became pivots, as many as `order`, or empty without pivoting.
+    /// Rows that became pivots, as many as `order`; empty without pivoting.
     pub(crate) taken: &'a mut [u32],
 }
 
 impl<'a, T: Real> Numbers<'a, T> {
-    /// Cuts after this many numbers and places.
+    /// Divides the numbers after so many numbers of fronts and positions.
     fn split_at(self, numbers: usize, places: usize) -> (Self, Self) {
         let (fronts, fronts_right) = self.fronts.split_at_mut(numbers);
         let (pivots, pivots_right) = self.pivots.split_at_mut(places);
@@ -47,13 +47,13 @@ impl<'a, T: Real> Numbers<'a, T> {
         )
     }
 
-    /// Lends the same numbers for a while.
+    /// Borrows the same numbers again.
     fn lent(&mut self) -> Numbers<'_, T> {
         let Numbers { fronts, pivots, order, taken } = self;
         Numbers { fronts, pivots, order, taken }
     }
 
-    /// Assembles and factors everything.
+    /// Assembles and factors all fronts.
     pub(crate) fn factor<W: Team, S: BlockSource<T>>(
         self,
         how: (&Plan, Pivoting),
@@ -66,7 +66,7 @@ impl<'a, T: Real> Numbers<'a, T> {
         })
     }
 
-    /// Factors a task's numbers: those of tasks below, then its own fronts.
+    /// Factors the fronts of the tasks below, then those of the task itself.
     fn factor_task<W: Team, S: BlockSource<T>>(
         mut self,
         how: (&Plan, Pivoting),
@@ -105,7 +105,7 @@ impl<T: Real> Owned for Numbers<'_, T> {
     }
 }
 
-/// Sums elements and updates of children into a front; `fronts` begins at place `start` of all numbers.
+/// Assembles elements and updates of children into a front; `fronts` begins at index `start` of all numbers.
 #[inline(always)]
 fn assemble<T: Real, S: BlockSource<T>>(
     plan: &Plan,
@@ -176,13 +176,13 @@ fn eliminate<T: Real>(
     })
 }
 
-/// The fronts of a factorisation, as the sweeps of a solution go through them.
+/// Fronts of a factorisation, as visited by the sweeps of a solution.
 pub(crate) trait Sweep<T>: Sync {
-    /// Front `s` of a task in one of the sweeps, in the storage of the task with all below.
+    /// Visits front `s` of a task in a sweep; `storage` is that of the task with all tasks below.
     fn visit(&self, s: usize, task: &Task, storage: &mut [T], direction: Direction);
 }
 
-/// A factorisation and who solves with it.
+/// A factorisation with the team that solves with it.
 #[derive(Debug)]
 pub(crate) struct Vectors<'a, W, F> {
     pub(crate) plan: &'a Plan,
@@ -190,7 +190,7 @@ pub(crate) struct Vectors<'a, W, F> {
     pub(crate) fronts: F,
 }
 
-/// The two sweeps of a solution.
+/// Direction of a sweep: forward elimination or back-substitution.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Direction {
     Forward,
@@ -198,7 +198,7 @@ pub(crate) enum Direction {
 }
 
 impl<W: Team, F> Vectors<'_, W, F> {
-    /// Both sweeps on the right-hand side `x`, in the storage of all tasks.
+    /// Makes both sweeps with the right-hand side `x`, in the storage of all tasks.
     pub(crate) fn solve<T: Real>(&self, x: &[T], storage: &mut [T])
     where
         F: Sweep<T>,
@@ -207,7 +207,7 @@ impl<W: Team, F> Vectors<'_, W, F> {
         self.backward_all(&self.plan.tasks.roots, storage, None);
     }
 
-    /// The neighbouring tasks of a list.
+    /// Makes the forward sweep of the neighbouring tasks of a list.
     fn forward_all<T: Real>(&self, list: &[u32], x: &[T], storage: &mut [T])
     where
         F: Sweep<T>,
@@ -219,7 +219,7 @@ impl<W: Team, F> Vectors<'_, W, F> {
         let Ok(()) = self.plan.tasks.each(self.team, list, Storage(storage), &work);
     }
 
-    /// The neighbouring tasks of a list; `above` is the own vector of the task above them.
+    /// Makes the backward sweep of the neighbouring tasks of a list; `above` is the vector of the task above.
     pub(crate) fn backward_all<T: Real>(&self, list: &[u32], storage: &mut [T], above: Option<&[T]>)
     where
         F: Sweep<T>,
@@ -277,7 +277,7 @@ impl<W: Team, F> Vectors<'_, W, F> {
     }
 }
 
-/// The numbers of a factorisation that the sweeps read.
+/// Factored fronts that the sweeps of a solution read.
 #[derive(Debug)]
 pub(crate) struct Factor<'a, T> {
     pub(crate) plan: &'a Plan,
@@ -298,7 +298,7 @@ impl<T: Real> Sweep<T> for Factor<'_, T> {
                 Direction::Backward => sweep::backward(a, own, (at, p), rows),
             };
         };
-        // The pivots were swapped: they stand in the order of the analysis above and below the front alone.
+        // Within the front the pivots are in swapped order, outside it in the order of the analysis.
         match direction {
             Direction::Forward => {
                 let (own, scratch) = own.split_at_mut(own.len() - p);
@@ -323,7 +323,7 @@ impl<T: Real> Sweep<T> for Factor<'_, T> {
 }
 
 impl Task {
-    /// Place of what the task leaves for rows further up, in a storage that begins at `start`.
+    /// Returns the index of the task's results for rows further up, in a storage that begins at `start`.
     fn outer_vector(&self, start: usize) -> usize {
         self.vector[1] + self.places.len() - start
     }

@@ -5,14 +5,14 @@
 //! backward:   y_1 <- L_11^-T (D^-1 y_1 - L_21^T y_2)
 //! ```
 //!
-//! The pivots of a front stand together in `y`, its other unknowns where `rows` says; L_11 has 1 / d on its diagonal.
+//! The pivots of a front are contiguous in `y`; `rows` has the indices of its other unknowns. L_11 has 1 / d on its diagonal.
 
 use crate::front::column;
 use crate::kernel::BLOCK;
 use mbs_math::Real;
 use mbs_math::dense::panel::subtract;
 
-/// Forward sweep through the packed front `a` that eliminates `p` unknowns, from place `first` of `y` on.
+/// Makes the forward sweep through the packed front `a`, which eliminates `p` unknowns, from index `first` of `y` on.
 pub(crate) fn forward<T: Real>(mut a: &[T], y: &mut [T], (first, p): (usize, usize), rows: &[u32]) {
     let (mut at, mut more) = (first, p);
     while more > BLOCK {
@@ -32,7 +32,7 @@ pub(crate) fn forward<T: Real>(mut a: &[T], y: &mut [T], (first, p): (usize, usi
     }
 }
 
-/// Backward sweep through the front, likewise; the unknowns at `rows` are known.
+/// Makes the backward sweep through the packed front `a`; the unknowns at `rows` are known.
 pub(crate) fn backward<T: Real>(a: &[T], y: &mut [T], (first, p): (usize, usize), rows: &[u32]) {
     let f = p + rows.len();
     let mut k = p - p % BLOCK;
@@ -52,7 +52,7 @@ pub(crate) fn backward<T: Real>(a: &[T], y: &mut [T], (first, p): (usize, usize)
     }
 }
 
-/// Forward sweep through one block of `P` pivots from place `at` on, after which `more` stand.
+/// Makes the forward sweep through one block of `P` pivots from index `at` on; `more` pivots follow it.
 #[inline(never)]
 fn forward_block<T: Real, const P: usize>(
     a: &[T],
@@ -62,7 +62,7 @@ fn forward_block<T: Real, const P: usize>(
 ) {
     let columns: [&[T]; P] = columns(a, P + more + rows.len());
     let (y1, after) = y[at..at + P + more].split_at_mut(P);
-    // Row by row, what came last is used last: nothing waits for more than one product.
+    // Within a row the last computed value is used last, so that each operation waits for one product only.
     let mut v = [T::ZERO; P];
     for i in 0..P {
         let mut sum = y1[i];
@@ -97,7 +97,7 @@ fn forward_block<T: Real, const P: usize>(
     }
 }
 
-/// Subtracts the products of the next `C` rows of L_21, which it takes off the columns.
+/// Subtracts the products of the next `C` rows of L_21, and removes these rows from `columns`.
 #[inline(always)]
 fn spread<T: Real, const P: usize, const C: usize>(
     columns: &mut [&[T]; P],
@@ -118,7 +118,7 @@ fn spread<T: Real, const P: usize, const C: usize>(
     }
 }
 
-/// Backward sweep through one block of `P` pivots from place `at` on, after which `more` stand.
+/// Makes the backward sweep through one block of `P` pivots from index `at` on; `more` pivots follow it.
 #[inline(never)]
 fn backward_block<T: Real, const P: usize>(
     a: &[T],
@@ -156,7 +156,8 @@ fn backward_block<T: Real, const P: usize>(
     }
 }
 
-/// Both sweeps through a packed front that eliminates all its unknowns, if there are at most [`BLOCK`]; else `false`.
+/// Makes both sweeps through a packed front that eliminates all its unknowns. Returns `false`, without work, for more than [`BLOCK`]
+/// unknowns.
 #[inline(always)]
 pub(crate) fn solve_small<T: Real>(a: &[T], y: &mut [T]) -> bool {
     match y.len() {
@@ -171,7 +172,7 @@ pub(crate) fn solve_small<T: Real>(a: &[T], y: &mut [T]) -> bool {
     true
 }
 
-/// Both sweeps through one block without further rows.
+/// Makes both sweeps through one block without further rows.
 #[inline(always)]
 fn solve_block<T: Real, const P: usize>(a: &[T], y: &mut [T]) {
     let columns: [&[T]; P] = columns(&a[..column(P, P)], P);
@@ -196,7 +197,7 @@ fn solve_block<T: Real, const P: usize>(a: &[T], y: &mut [T]) {
     y.copy_from_slice(&v);
 }
 
-/// The first `P` columns of a packed triangle of `f` unknowns.
+/// Returns the first `P` columns of a packed triangle of `f` unknowns.
 #[inline(always)]
 fn columns<T, const P: usize>(mut a: &[T], f: usize) -> [&[T]; P] {
     let mut columns: [&[T]; P] = [&a[..0]; P];

@@ -1,13 +1,13 @@
-//! The tree of fronts cut into tasks: subtrees that threads may work on at the same time.
+//! The tree of fronts divided into tasks: subtrees that threads may work on at the same time.
 //!
 //! ```text
-//! a task = neighbouring subtrees of little work, or the fronts from a fork of the tree up to the next one, with the tasks below
-//! own storage of a task:  numbers  [ its fronts | one block ]        vector  [ its places | rows further up | pivots of one front ]
-//! storage of a task with all below:  [ of its children, in order | own ]
+//! a task = neighbouring small subtrees, or the fronts from a fork of the tree up to the next fork, with the tasks below it
+//! storage of a task alone:   numbers  [ its fronts | one block ]       vector  [ its pivots | rows further up | pivots of one front ]
+//! storage of a task and all below:  [ of its children, in order | of the task alone ]
 //! ```
 //!
-//! Where the tree is cut follows from its structure and [`Options::grain`](crate::Options::grain) alone, never from the number
-//! of threads. Children come together in their order. A plan that is one task is worked through front by front.
+//! The division into tasks follows from the structure of the tree and [`Options::grain`](crate::Options::grain) alone, never from the number
+//! of threads. Results of children are added in their order. A plan with one task is worked through front by front.
 
 use crate::front::{Front, column};
 use crate::graph::{Lists, index};
@@ -15,56 +15,56 @@ use crate::tree::NONE;
 use mbs_math::Team;
 use std::ops::Range;
 
-/// Most tasks above a task [-], as each takes room on the stack of a thread. Chosen, not tuned.
+/// Levels of tasks at most [-]: each level needs space on the stack of a thread. Chosen, not tuned.
 const DEEPEST: usize = 100;
 
-/// A part of the tree of fronts.
+/// A part of the tree of fronts that one thread works through.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Task {
-    /// The fronts it works through itself, after its children.
+    /// Fronts of the task itself, after those of its children.
     pub(crate) fronts: Range<usize>,
-    /// Places of their pivots in the order of elimination.
+    /// Positions of their pivots in the elimination order.
     pub(crate) places: Range<usize>,
-    /// First place of the task with all below, and the first of those tasks.
+    /// First position of the task with all tasks below, and the first of those tasks.
     pub(crate) first_place: usize,
     pub(crate) first_task: usize,
-    /// Rows further up that its fronts and children touch, as places, ascending: a stretch of the list of all.
+    /// Range in the list of outer rows: rows of later tasks in which its fronts and children have entries, as ascending positions.
     pub(crate) outer: Range<usize>,
-    /// Places in the storage of numbers: where that of all below begins, where its own begins, and the end.
+    /// Storage of numbers: start for the task with all below, start for the task alone, and end.
     pub(crate) numbers: [usize; 3],
-    /// Storage of a vector, likewise.
+    /// Storage of a vector: start for the task with all below, start for the task alone, and end.
     pub(crate) vector: [usize; 3],
-    /// When its factorisation with all below would begin and end if one thread did all tasks in turn, as estimated [ns].
+    /// Estimated begin and end of its factorisation, with all below, if one thread did all tasks in turn [ns].
     pub(crate) work: [f64; 2],
 }
 
-/// All tasks, children before parents.
+/// All tasks of a tree; children come before parents.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Tasks {
     pub(crate) list: Vec<Task>,
-    /// The tasks below each task, in order.
+    /// The tasks directly below each task, in order.
     pub(crate) children: Lists,
-    /// Tasks that are below none.
+    /// Tasks that have no task above.
     pub(crate) roots: Vec<u32>,
-    /// Outer rows of all tasks, as places.
+    /// Outer rows of all tasks, as positions in the elimination order.
     pub(crate) outer: Vec<u32>,
-    /// Beside them, where they stand in the own vector of the task above.
+    /// For each outer row, its index in the vector of the task above.
     pub(crate) targets: Vec<u32>,
-    /// Rows of all fronts, as places in the own vector of their task; beside `Plan::rows`.
+    /// For each entry of `Plan::rows`, the index of the row in the vector of its task.
     pub(crate) rows: Vec<u32>,
-    /// For each unknown its place in the storage of a vector.
+    /// For each unknown its index in the storage of a vector.
     pub(crate) stored_at: Vec<u32>,
-    /// Numbers and places of a vector that are stored.
+    /// Sizes of the storage: of all numbers, and of a vector.
     pub(crate) sizes: [usize; 2],
 }
 
-/// Data that belong to neighbouring tasks with all below them.
+/// Data that belong to neighbouring tasks with all tasks below them.
 pub(crate) trait Owned: Send + Sized {
-    /// Parts of the tasks before `cut`, and of the rest; the first of all is `begin`.
+    /// Divides the data into those of the tasks before `cut` and the rest; `begin` is the first task of all.
     fn cut(self, begin: &Task, cut: &Task) -> (Self, Self);
 }
 
-/// Part of the storage of a vector.
+/// Part of the storage of a vector that belongs to some tasks.
 pub(crate) struct Storage<'a, T>(pub(crate) &'a mut [T]);
 
 impl<T: Send> Owned for Storage<'_, T> {
@@ -75,17 +75,17 @@ impl<T: Send> Owned for Storage<'_, T> {
 }
 
 impl Tasks {
-    /// Tasks with none below them: as many may be worked on at the same time.
+    /// Number of tasks with none below them: so many can be worked on at the same time.
     pub(crate) fn n_leaves(&self) -> usize {
         (0..self.list.len()).filter(|&task| self.below(task).is_empty()).count()
     }
 
-    /// The tasks below `task`.
+    /// Returns the tasks directly below `task`.
     pub(crate) fn below(&self, task: usize) -> &[u32] {
         self.children.get(task)
     }
 
-    /// Cuts a list of neighbouring tasks, two or more, where each side has about half of the work.
+    /// Divides a list of two or more neighbouring tasks so that each part has about half of the work.
     pub(crate) fn halves<'a>(&self, list: &'a [u32]) -> (&'a [u32], &'a [u32]) {
         let work = |t: &u32| self.list[*t as usize].work;
         let ends = work(&list[0])[0] + work(&list[list.len() - 1])[1];
@@ -93,10 +93,10 @@ impl Tasks {
         list.split_at(cut.clamp(1, list.len() - 1))
     }
 
-    /// Does `work` for neighbouring tasks, each with what it owns of `all`, by halves of the list.
+    /// Calls `work` for neighbouring tasks, each with its part of `all`, by recursive division of the list.
     ///
     /// # Errors
-    /// The first in the order of the list.
+    /// The first error in the order of the list.
     pub(crate) fn each<W: Team, P: Owned, E: Send>(
         &self,
         team: &W,
@@ -118,8 +118,8 @@ impl Tasks {
         }
     }
 
-    /// Gives every task room for a front of all its unknowns: as many as delayed pivots can make of one. `order` has the unknown
-    /// at each place.
+    /// Enlarges the storage of every task for a front of all its unknowns, the largest that delayed pivots can cause. `order` has the unknown
+    /// at each position.
     pub(crate) fn widen(&mut self, order: &[u32]) {
         let mut end = 0;
         for at in 0..self.list.len() {
@@ -138,7 +138,7 @@ impl Tasks {
     }
 }
 
-/// Cuts the tree into tasks. `work` is the time of each front [ns], `grain` what a task should take at least.
+/// Divides the tree into tasks. `work` is the time of each front [ns], `grain` the least time of a task.
 pub(crate) fn tasks(
     (fronts, parent): (&[Front], &[u32]),
     all_rows: &[u32],
@@ -173,10 +173,10 @@ pub(crate) fn tasks(
     tasks
 }
 
-/// State of cutting a tree.
+/// State of the division of a tree.
 struct Cutter<'a> {
     children: Lists,
-    /// First front of the subtree of each front, and its work [ns].
+    /// First front of the subtree of each front, and the work of the subtree [ns].
     first: Vec<usize>,
     total: Vec<f64>,
     grain: f64,
@@ -209,7 +209,7 @@ impl<'a> Cutter<'a> {
         index(self.cut.len() - 1)
     }
 
-    /// Tasks for the subtrees of neighbouring siblings: small ones together.
+    /// Makes tasks of the subtrees of neighbouring siblings; small subtrees form one task.
     fn siblings(&mut self, roots: &[usize], depth: usize) -> Vec<u32> {
         let (mut made, mut from, mut gathered) = (Vec::new(), None, 0.0);
         for (i, &root) in roots.iter().enumerate() {
@@ -231,7 +231,7 @@ impl<'a> Cutter<'a> {
         made
     }
 
-    /// The task that ends with front `root`: down to the next fork into parts that are worth it.
+    /// Makes the task that ends with front `root` and reaches down to the next fork with enough work on two sides.
     fn subtree(&mut self, root: usize, depth: usize) -> u32 {
         let mut low = root;
         loop {
@@ -241,7 +241,7 @@ impl<'a> Cutter<'a> {
             };
             let light: f64 = light.iter().map(|&c| self.total[c]).sum();
             if light > self.grain {
-                // All fronts from `low` on are this task's own; what is below begins before it.
+                // All fronts from `low` on belong to this task; those of the tasks below come before it.
                 debug_assert!(kids.iter().all(|&c| self.parent[c] as usize == low));
                 let below = self.siblings(&kids, depth + 1);
                 return self.push(low..root + 1, below);
@@ -255,7 +255,7 @@ impl<'a> Cutter<'a> {
 }
 
 impl Tasks {
-    /// Storage and rows of task `at`, when those of its children are known.
+    /// Lays out the storage and rows of task `at`. Needs those of its children.
     fn lay_out(&mut self, at: usize, fronts: &[Front], all_rows: &[u32], largest_block: usize) {
         let own = &fronts[self.list[at].fronts.clone()];
         let (first, last) = (own[0].first, &own[own.len() - 1]);

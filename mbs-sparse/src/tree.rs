@@ -1,4 +1,4 @@
-//! Elimination tree of the nodes, and the fronts that result from merging nodes upwards.
+//! Elimination tree of the nodes, and the fronts that result from merging nodes with their parents.
 //!
 //! ```text
 //! rows(v)   = ( union of elements whose first node is v,  and of rows(c), c child of v )  without v
@@ -6,20 +6,20 @@
 //! a front merged into its parent:   p = p_child + p_parent,   f = p_child + f_parent
 //! ```
 //!
-//! A child is merged when the zeros it brings cost less than the pass of its update to the parent.
+//! A child is merged if the zeros that it adds cost less than passing its update to the parent.
 
 use crate::graph::Lists;
 
-// Only ratios matter. Tried on chains of 4, 6, 12 and 13 unknowns an element: (0.25, 1.5, 20) changes nothing, (0.15, 1, 40) makes the
-// chain of 4 one fifth slower. (0.12, 1, 80) makes every chain slower by a sixth or more.
+// Only ratios of these times matter. They were tried on chains of 4, 6, 12 and 13 unknowns per element. (0.25, 1.5, 20) changes nothing;
+// (0.15, 1, 40) makes the chain of 4 one fifth slower. (0.12, 1, 80) makes every chain slower by a sixth or more.
 
 /// Time of one multiply-subtract in a front [ns].
 const MULTIPLY_SUBTRACT: f64 = 0.25;
-/// Time to carry one number of an update into the parent [ns].
+/// Time to add one number of an update into the parent [ns].
 const EXTEND_ADD: f64 = 0.6;
-/// Time that every front costs whatever its size [ns].
+/// Constant time of every front, whatever its size [ns].
 const FRONT: f64 = 20.0;
-/// Marks the absence of a parent.
+/// Index that stands for no parent.
 pub(crate) const NONE: u32 = u32::MAX;
 
 /// The fronts in an order where children precede parents.
@@ -31,12 +31,12 @@ pub(crate) struct Fronts {
     pub(crate) rows: Lists,
     /// Parent of each front, or [`NONE`].
     pub(crate) parent: Vec<u32>,
-    /// Time that each front takes [ns], roughly.
+    /// Estimated time of each front [ns].
     pub(crate) work: Vec<f64>,
 }
 
-/// Builds the fronts for nodes of `weight` unknowns eliminated at `place`. A tree of more work than `grain` [ns] has the heaviest
-/// child of every front first, so that what goes up from it to the next fork stands together.
+/// Builds the fronts for nodes of `weight` unknowns eliminated at `place`. In a tree with more work than `grain` [ns], the heaviest child of
+/// every front comes first, so that the path from it up to the next fork is contiguous.
 pub(crate) fn fronts(elements: &Lists, place: &[u32], weight: &[usize], grain: f64) -> Fronts {
     let n = place.len();
     let mut at = vec![0_u32; n];
@@ -50,7 +50,7 @@ pub(crate) fn fronts(elements: &Lists, place: &[u32], weight: &[usize], grain: f
     let (representative, sizes) = merged(&rows, &parent, size);
     let work: Vec<f64> = sizes.iter().map(|&(p, f)| time(p, f)).collect();
 
-    // Parent of each surviving front, by the front that swallowed the parent.
+    // Parent of each remaining front: the front into which its parent was merged.
     let above: Vec<u32> = (0..n)
         .map(|v| if parent[v] == NONE { NONE } else { representative[parent[v] as usize] })
         .collect();
@@ -96,7 +96,7 @@ pub(crate) fn fronts(elements: &Lists, place: &[u32], weight: &[usize], grain: f
     Fronts { pivots, rows: kept, parent, work }
 }
 
-/// rows(v) for every place v of the elimination, as places.
+/// Returns rows(v) for every position v of the elimination, as positions.
 fn structure(elements: &Lists, place: &[u32]) -> Lists {
     let n = place.len();
     let mut first_here = chains(n);
@@ -136,8 +136,8 @@ fn structure(elements: &Lists, place: &[u32]) -> Lists {
     rows
 }
 
-/// Merges fronts up the tree. For each node the result names the node whose front eliminates it, with the pivots and the unknowns of that
-/// front.
+/// Merges fronts with their parents. Returns for each node the node whose front eliminates it, and the numbers of pivots and of unknowns of
+/// that front.
 fn merged(
     rows: &Lists,
     parent: &[u32],
@@ -150,7 +150,7 @@ fn merged(
         .collect();
     let mut into: Vec<u32> = (0..n).map(crate::graph::index).collect();
     for child in 0..n {
-        // A node is visited after all its own children, and before its parent.
+        // A node is visited after all its children, and before its parent.
         let Some(&above) = parent.get(child).filter(|&&above| above != NONE) else { continue };
         let above_at = above as usize;
         if is_merge_cheaper((p[child], f[child]), (p[above_at], f[above_at])) {
@@ -171,7 +171,7 @@ pub(crate) fn time(p: usize, f: usize) -> f64 {
     work(p, f) * MULTIPLY_SUBTRACT + carried * EXTEND_ADD + FRONT
 }
 
-/// Whether a child front (pivots, size) costs less inside its parent than beside it.
+/// Does a child front (pivots, size) cost less merged into its parent than separate?
 fn is_merge_cheaper(child: (usize, usize), parent: (usize, usize)) -> bool {
     let update = child.1 - child.0;
     let together = work(child.0 + parent.0, child.0 + parent.1);
@@ -180,12 +180,13 @@ fn is_merge_cheaper(child: (usize, usize), parent: (usize, usize)) -> bool {
     (together - apart) * MULTIPLY_SUBTRACT < carried * EXTEND_ADD + FRONT
 }
 
-/// Multiply-subtracts of `p` pivots in a front of `f` unknowns, with those of the two triangular sweeps.
+/// Returns the multiply-subtracts of `p` pivots in a front of `f` unknowns, including the two triangular sweeps.
 fn work(p: usize, f: usize) -> f64 {
     (0..p).map(|k| ((f - k) * (f - k + 5)) as f64 / 2.0).sum()
 }
 
-/// Surviving fronts with children before parents, each subtree together; with the `total` work of subtrees the largest first.
+/// Returns the remaining fronts with children before parents and each subtree contiguous; given the `total` work, the largest subtree is
+/// first.
 fn postorder(representative: &[u32], above: &[u32], total: Option<&Vec<f64>>) -> Vec<u32> {
     let n = representative.len();
     let mut children = chains(n);
@@ -196,7 +197,7 @@ fn postorder(representative: &[u32], above: &[u32], total: Option<&Vec<f64>>) ->
             above => children.push(above as usize, v, n),
         }
     }
-    // A parent before its children, last child first; read backwards it is the postorder.
+    // The list has parents before children, with the last child first; reversed it is the postorder.
     let mut order = Vec::with_capacity(n);
     let mut open = roots;
     open.reverse();
@@ -205,7 +206,7 @@ fn postorder(representative: &[u32], above: &[u32], total: Option<&Vec<f64>>) ->
         let from = open.len();
         open.extend(children.iter(v));
         if let Some(total) = total {
-            // Read backwards, the one visited last comes first.
+            // The list is reversed afterwards, so the last child becomes the first.
             let heaviest =
                 (from..open.len()).max_by(|&a, &b| total[open[a]].total_cmp(&total[open[b]]));
             if let Some(heaviest) = heaviest {
@@ -217,19 +218,19 @@ fn postorder(representative: &[u32], above: &[u32], total: Option<&Vec<f64>>) ->
     order
 }
 
-/// For each of a number of owners a chain of members, newest first.
+/// Linked lists of members for a number of owners, the newest member first.
 struct Chains {
     head: Vec<usize>,
     next: Vec<usize>,
 }
 
-/// No members for any of `n` owners.
+/// Creates empty lists for `n` owners.
 fn chains(n: usize) -> Chains {
     Chains { head: vec![usize::MAX; n], next: Vec::new() }
 }
 
 impl Chains {
-    /// Puts `member`, one of `n_members`, in front of the chain of `owner`.
+    /// Adds `member`, one of `n_members`, at the front of the list of `owner`.
     fn push(&mut self, owner: usize, member: usize, n_members: usize) {
         if self.next.is_empty() {
             self.next = vec![usize::MAX; n_members];
@@ -237,7 +238,7 @@ impl Chains {
         self.next[member] = std::mem::replace(&mut self.head[owner], member);
     }
 
-    /// The members of `owner`.
+    /// Iterates over the members of `owner`.
     fn iter(&self, owner: usize) -> impl Iterator<Item = usize> + '_ {
         let some = |i: usize| (i != usize::MAX).then_some(i);
         std::iter::successors(some(self.head[owner]), move |&i| some(self.next[i]))

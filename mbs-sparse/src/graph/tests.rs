@@ -1,9 +1,9 @@
-//! Orders of approximate minimum degree, the same place for every node as another program gives it: the numbers below sum up the orders that
-//! faer 0.24 gives for the same graphs (`sparse::linalg::amd::order` with its usual control).
+//! Orders by approximate minimum degree are those of another program. The hashes below are those of the orders that faer 0.24 gives for the
+//! same graphs (`sparse::linalg::amd::order` with its default control).
 
 use super::{Lists, index, minimum_degree, neighbours, ordered_by_amd};
 
-/// A running sum of orders: FNV-1a over their places.
+/// A running hash of orders: FNV-1a over the positions.
 struct Orders(u64);
 
 impl Orders {
@@ -39,7 +39,7 @@ fn draw(state: &mut u64, n: usize) -> usize {
     (state.wrapping_mul(0x2545_F491_4F6C_DD1D) >> 33) as usize % n
 }
 
-/// `n_elements` elements of up to `largest` nodes each, within reach of a first one.
+/// Returns `n_elements` elements of up to `largest` nodes each, within a distance `reach` of a first node.
 fn random(
     state: &mut u64,
     n: usize,
@@ -69,7 +69,7 @@ fn orders_of_random_graphs_are_those_of_another_program() {
     for n in (1..60).chain([97, 200, 431, 1000, 2000]) {
         for share in [0, 1, 2, 5] {
             for shape in [[2, n], [2, 4], [4, 10], [12, 30], [6, n], [3, 40]] {
-                // half as many elements as nodes leave parts unconnected
+                // with half as many elements as nodes, some parts remain unconnected
                 let elements = random(&mut state, n, n * share / 2, shape);
                 orders.of(&format!("random {share} {shape:?}"), &elements, n);
             }

@@ -1,4 +1,4 @@
-//! After the analysis nothing allocates: a counting allocator sees zero calls in factor, solve and assemble.
+//! No memory is allocated after the analysis: a counting allocator counts zero calls in `factor`, `solve` and `assemble`.
 
 use crate::common::{Saddle, Sum};
 use mbs_sparse::{Indefinite, Multifrontal, Options, Pivoting, SpdSolver, SymmetricSolver};
@@ -29,7 +29,7 @@ fn factor_solve_and_assemble_do_not_allocate() {
     }
 }
 
-/// Allocations of a factorisation with everything that may follow it.
+/// Returns the allocations of a factorisation and of all calls that may follow it.
 fn allocations_of(solver: &mut Indefinite<f64>, saddle: &Saddle) -> u64 {
     let n = saddle.sum.n;
     let (mut x, mut b, mut scratch) = (vec![0.0; n], vec![1.0; n], vec![0.0; solver.n_scratch()]);
@@ -54,7 +54,7 @@ fn a_saddle_without_delays_never_allocates() {
 
 #[test]
 fn a_saddle_with_delays_allocates_at_most_once() {
-    // Not told which unknowns are multipliers, the analysis places them too early.
+    // Since the analysis does not know which unknowns are multipliers, it places them too early.
     let mut saddle = Saddle::chain((60, 12, 6), 5, 3);
     saddle.n_primal = saddle.sum.n;
     let mut solver = Indefinite::<f64>::analyse(&saddle, Options::default());

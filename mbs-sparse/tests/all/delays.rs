@@ -1,10 +1,10 @@
-//! Indefinite systems cut into tasks, where pivots are delayed from task to task: the same bits whoever works on them.
+//! Indefinite systems divided into tasks, with pivots delayed from task to task: the bits are the same for every team.
 
 use crate::common::{Forking, Saddle};
 use mbs_sparse::{Alone, Indefinite, Options, Ordering, SymmetricSolver, Team};
 
-/// Saddles whose multipliers are named, and the same whose multipliers the analysis does not know: it places many before their
-/// coordinates, so that their pivots are delayed.
+/// Returns saddle systems with known multipliers, and the same ones with multipliers unknown to the analysis. In the latter many multipliers
+/// are placed before their coordinates, so that their pivots are delayed.
 fn saddles() -> Vec<(String, Saddle)> {
     let mut light = Saddle::chain((20, 9, 3), 3, 5);
     light.remove_mass(|u| u % 6 == 4);
@@ -29,9 +29,9 @@ fn options() -> impl Iterator<Item = Options> {
     })
 }
 
-/// Everything that a factorisation tells.
+/// All results of a factorisation.
 struct Factored {
-    /// Residual, solution, null vector and ratio of the weakest pivot.
+    /// Residual, solution, null vector, and ratio of the weakest pivot.
     numbers: [Vec<f64>; 4],
     weakest: u32,
     delayed: usize,
@@ -69,13 +69,13 @@ fn tasks_of_any_size_give_the_solution_and_a_team_its_bits() {
     for (name, saddle) in saddles() {
         for options in options() {
             let one = factored(Alone, &saddle, options);
-            // A chain without cuts has no forks.
+            // A chain without dissection has no forks.
             let is_cut = options.grain == 0 && options.ordering == Ordering::Dissection(3);
             assert!(!is_cut || one.n_tasks > 4, "{name}: {}", one.n_tasks);
             delayed_between_tasks += one.between_tasks;
             let [f, x, ..] = &one.numbers;
             let largest = |v: &[f64]| v.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
-            // Entries are at most of order 10, the largest solution sets what rounding leaves.
+            // Entries are of order 10 at most; the largest value of the solution determines the rounding error.
             let size = largest(f) + 10.0 * largest(x);
             for (b, f) in saddle.sum.times(x).iter().zip(f) {
                 assert!((b - f).abs() < 1e-11 * size, "{name}, {options:?}");

@@ -1,4 +1,4 @@
-//! Matrices that are not positive definite are named, never solved: the error carries the unknown and its pivot.
+//! Matrices that are not positive definite are refused: the error has the unknown and its pivot.
 
 use crate::common::Sum;
 use mbs_sparse::{FactorError, Multifrontal, Options, Pivoting, SpdSolver};

@@ -1,5 +1,5 @@
-//! Saddle systems against a dense solution: multipliers without diagonal, coordinates without mass, delayed pivots, and
-//! singular matrices that are named.
+//! Saddle systems compared with a dense solution: multipliers without diagonal, coordinates without mass, delayed pivots, and singular
+//! matrices, for which the error names an unknown.
 
 use crate::common::{Random, Saddle, Sum};
 use mbs_math::blocks::Inertia;
@@ -8,11 +8,11 @@ use mbs_math::dense::front::Thresholds;
 use mbs_sparse::{Indefinite, Options, Real, SymmetricSolver};
 use proptest::prelude::*;
 
-/// Residuals of a stable factorisation, relative to |T| |x|: rounding times growth, with room for 100 unknowns.
+/// Allowed residual of a stable factorisation, relative to |T| |x| [-]: EPSILON times growth, with a margin for 100 unknowns.
 const BACKWARD: f64 = 1e-12;
-/// Residuals of a stable factorisation in single precision, relative to |T| |x|.
+/// Allowed residual of a stable factorisation in single precision, relative to |T| |x| [-].
 const BACKWARD_F32: f64 = 5e-4;
-/// Components of a null vector, from a pivot of some units of rounding.
+/// Allowed error of the components of a null vector [-], which comes from a pivot of some units of rounding.
 const NULL: f64 = 1e-10;
 
 fn every_option() -> [Options; 2] {
@@ -23,7 +23,7 @@ fn norm(x: &[f64]) -> f64 {
     x.iter().fold(0.0, |m: f64, x| m.max(x.abs()))
 }
 
-/// The largest row sum of |T|.
+/// Returns the largest row sum of |T|.
 fn norm_of(saddle: &Saddle) -> f64 {
     let t = saddle.sum.dense();
     let n = saddle.sum.n;
@@ -35,7 +35,7 @@ fn right_hand_side(n: usize) -> Vec<f64> {
     (0..n).map(|_| random.next()).collect()
 }
 
-/// |b - T x| / (|T| |x| + |b|)
+/// Returns the backward error |b - T x| / (|T| |x| + |b|).
 fn backward_error(saddle: &Saddle, x: &[f64], b: &[f64]) -> f64 {
     let product = saddle.sum.times(x);
     let r: Vec<f64> = b.iter().zip(&product).map(|(b, p)| b - p).collect();
@@ -114,7 +114,7 @@ fn a_regular_saddle_delays_nothing() {
 
 #[test]
 fn coordinates_without_mass_that_rows_determine_are_solved() {
-    // Every fourth coordinate loses its block; the rows of its element hold it.
+    // Every fourth coordinate loses its mass; the rows of its element determine it.
     for rows in [2, 3] {
         let mut saddle = Saddle::chain((20, 9, 3), rows, 5);
         saddle.remove_mass(|u| u % 6 == 4);
@@ -124,7 +124,7 @@ fn coordinates_without_mass_that_rows_determine_are_solved() {
 
 #[test]
 fn a_chain_of_pairs_without_diagonal_is_solved_by_pairs() {
-    // [0 1; 1 0] couplings in a row: no diagonal anywhere.
+    // The blocks [0 1; 1 0] form a chain without any diagonal entry.
     let n = 40;
     let cliques = (0..n - 1).map(|i| vec![i, i + 1]).collect();
     let blocks = (0..n - 1).map(|i| vec![0.0, if i % 2 == 0 { 1.0 } else { 0.7 }, 0.0]).collect();
@@ -153,7 +153,7 @@ fn a_row_given_twice_is_named_whatever_the_scale() {
                 assert_eq!(error.unknown, solver.weakest().unknown);
                 let (mut x, mut scratch) = (vec![0.0; saddle.sum.n], vec![0.0; solver.n_scratch()]);
                 solver.null_vector(&mut x, &mut scratch);
-                // x = (0, ..., 1, ..., -factor or -1/factor): first + factor copy, relative to the named one.
+                // The null vector has a one at the named row, -factor or -1/factor at the other row of the pair, and zeros elsewhere.
                 let scale = norm(&x);
                 let product = norm(&saddle.sum.times(&x)) / scale.min(1.0);
                 assert!(product < NULL * norm_of(&saddle), "{product:e}");
@@ -178,7 +178,7 @@ fn a_row_that_three_others_add_up_to_is_refused() {
 #[test]
 fn a_coordinate_that_nothing_determines_is_named() {
     let mut saddle = Saddle::chain((8, 6, 2), 1, 5);
-    // Only coordinate 9 is in element 2 alone and in no row of it.
+    // Coordinate 9 is in element 2 only, and in no row of it.
     saddle.remove_mass(|u| u == 9);
     saddle.clear_rows_at(9);
     for options in every_option() {
@@ -198,7 +198,7 @@ fn almost_dependent_rows_show_in_the_weakest_pivot() {
         let mut solver = Indefinite::<f64>::analyse(&saddle, Options::default());
         solver.factor(&saddle).unwrap_or_else(|e| panic!("{turn}: {e}"));
         let weakest = solver.weakest();
-        // The pivot goes with the square of the angle between the rows.
+        // The pivot is proportional to the square of the angle between the rows.
         assert!(weakest.ratio < 3.0 * turn * turn && weakest.ratio > 1e-4 * turn * turn);
         assert!(weakest.ratio < last && [first, copy].contains(&weakest.unknown));
         last = weakest.ratio;

@@ -1,12 +1,13 @@
-//! The multifrontal solution against a dense one: ||x - x_dense|| small for every shape of the graph.
+//! The multifrontal solution compared with a dense one, for every kind of graph.
 
 use crate::common::{Random, Sum, dense_solve};
 use mbs_sparse::{Multifrontal, Options, Pivoting, SpdSolver};
 use proptest::prelude::*;
 
-/// Solutions agree to this many times the largest entry: condition below 1e3 times eps, with room for 100 unknowns.
+/// Allowed difference of two solutions, relative to the largest entry [-]: a condition below 1e3 times EPSILON, with a margin for 100
+/// unknowns.
 const AGREE: f64 = 1e-11;
-/// Solutions in single precision agree to this many times the largest entry.
+/// Allowed difference of two solutions in single precision, relative to the largest entry [-].
 const AGREE_F32: f64 = 2e-3;
 
 fn right_hand_side(n: usize) -> Vec<f64> {
@@ -43,7 +44,7 @@ fn assert_agrees_with_dense(sum: &Sum) {
     }
 }
 
-/// Random cliques of up to five unknowns; every unknown is in one at least.
+/// Returns random cliques of up to five unknowns; every unknown is in at least one.
 fn random_cliques(n: usize, n_elements: usize, seed: u64) -> Vec<Vec<u32>> {
     let mut random = Random(seed);
     let mut cliques: Vec<Vec<u32>> = (0..n as u32).map(|u| vec![u]).collect();

@@ -1,4 +1,4 @@
-//! Refined solutions against known ones and against a factor in double-double, over conditions that `f64` cannot bear.
+//! Refined solutions compared with known ones and with a factor in double-double, for condition numbers that are too large for `f64`.
 //!
 //! ```text
 //! T = sum of random blocks of order one + s sum_k g_k g_k^T,   fewer g than unknowns: cond(T) about s
@@ -10,7 +10,7 @@ use mbs_math::real::DoubleDouble as Pair;
 use mbs_math::refined::{ALL, Refined, RefinementError};
 use mbs_sparse::{BlockSource, Cliques, Multifrontal, Options, Real, SpdSolver};
 
-/// Masses, and rows with a penalty.
+/// Blocks of masses, and rows with a penalty.
 struct Stiff {
     masses: Sum,
     rows: Vec<(Vec<u32>, Vec<f64>)>,
@@ -18,7 +18,7 @@ struct Stiff {
 }
 
 impl Stiff {
-    /// `length` masses in a row, and between neighbours two rows.
+    /// Creates a chain of `length` masses, with two rows between neighbours.
     fn chain(length: usize, penalty: f64, seed: u64) -> Self {
         let masses = Sum::chain(length, 6, 2);
         let mut random = Random(seed);
@@ -28,7 +28,7 @@ impl Stiff {
         Self { masses, rows, penalty }
     }
 
-    /// Returns the same sum with other names of the unknowns, and its elements in another order.
+    /// Returns the same sum with renumbered unknowns, and its elements in another order.
     fn renamed(&self, names: &[u32]) -> Self {
         let rename = |clique: &Vec<u32>| clique.iter().map(|&u| names[u as usize]).collect();
         let mut masses = self.masses.clone();
@@ -40,7 +40,7 @@ impl Stiff {
         Self { masses, rows, penalty: self.penalty }
     }
 
-    /// T x, with the digits of a pair.
+    /// Returns T x with the digits of a double-double number.
     fn times(&self, x: &[Pair]) -> Vec<Pair> {
         let mut b = vec![Pair::ZERO; x.len()];
         for e in 0..self.n_elements() {
@@ -117,7 +117,7 @@ fn solve(solver: &Solver, b: &[Pair]) -> (Vec<Pair>, Result<u32, RefinementError
     (x, told)
 }
 
-/// Largest distance beside the largest entry.
+/// Returns the largest difference relative to the largest entry.
 fn distance(a: &[Pair], b: &[Pair]) -> f64 {
     let size = |x: Pair| x.to_f64().abs();
     let whole = b.iter().fold(0.0, |most: f64, &x| most.max(size(x)));
@@ -129,7 +129,7 @@ fn known(n: usize) -> Vec<Pair> {
     (0..n).map(|_| Pair::from_f64(random.next()) / Pair::from_f64(3.0)).collect()
 }
 
-/// Error allowed to a backward stable solution in pairs: condition times epsilon, with room for the size of the sum.
+/// Returns the error allowed for a backward stable solution in double-double: condition times EPSILON, with a margin for the size of the sum.
 fn bound(penalty: f64) -> f64 {
     100.0 * penalty * Pair::EPSILON.to_f64()
 }
@@ -182,7 +182,7 @@ fn names_of_unknowns_and_the_order_of_elements_do_not_matter() {
     let penalty = 1e10;
     let sum = Stiff::chain(12, penalty, 3);
     let n = sum.n_unknowns();
-    // 7 and n have no common divisor.
+    // 7 and n are coprime, so that `names` is a permutation.
     assert_ne!(n % 7, 0);
     let names: Vec<u32> = (0..n).map(|u| ((7 * u + 3) % n) as u32).collect();
     let other = sum.renamed(&names);
@@ -213,7 +213,7 @@ fn one_correction_has_the_digits_of_the_factor_and_too_few_are_said_to_be() {
     let b = sum.times(&x);
     let (got, told) = solve(&refined(&sum, 1), &b);
     let off = distance(&got, &x);
-    // Condition 1e6 times the epsilon of f64, and not all of it by luck.
+    // The error is about the condition 1e6 times EPSILON of `f64`; a smaller one by chance is excluded.
     assert!(told == Ok(1) && (1e-17..1e-8).contains(&off), "{told:?} {off:e}");
 
     let solver = refined(&sum, 2);

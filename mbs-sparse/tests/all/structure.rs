@@ -1,17 +1,17 @@
-//! Promises of the analysis: an order that is a permutation, and pivots that belong to it. Fill and fronts grow with the size of the model and no
-//! faster.
+//! Properties of the analysis: the order is a permutation, and the pivots belong to it. Fill and fronts do not grow faster than the size of
+//! the model.
 
 use crate::common::{Random, Sum};
 use mbs_sparse::{Counters, Multifrontal, Options, Pivoting, SpdSolver};
 
-/// Pivots are sums of a hundred products at most.
+/// Allowed relative difference of pivots, which are sums of a hundred products at most [-].
 const ROUNDING: f64 = 1e-11;
 
 fn counters(sum: &Sum) -> Counters {
     Multifrontal::<f64>::analyse(sum, Options::default()).counters()
 }
 
-/// Pivots of the dense elimination of `t` in the order `order`.
+/// Returns the pivots of the dense elimination of `t` in the order `order`.
 fn dense_pivots(t: &[f64], order: &[u32]) -> Vec<f64> {
     let n = order.len();
     let mut a: Vec<f64> =
@@ -66,7 +66,7 @@ fn a_dense_front_counts_its_textbook_flops() {
 
 #[test]
 fn a_chain_has_no_fill() {
-    // 19 fronts of 6 pivots and 12 unknowns, one of 12 pivots: the entries of the blocks and no other.
+    // 19 fronts of 6 pivots and 12 unknowns, and one of 12 pivots: L has the entries of the blocks and no others.
     let c = counters(&Sum::chain(20, 12, 6));
     assert_eq!((c.n, c.n_fronts, c.largest_front), (126, 20, 12));
     assert_eq!(c.nonzeros, 19 * (21 + 36) + 78);

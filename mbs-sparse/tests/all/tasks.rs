@@ -1,4 +1,4 @@
-//! Trees of fronts cut into tasks: the same solution, and the same bits whoever works on them.
+//! Trees of fronts divided into tasks: the solution is right, and its bits are the same for every team.
 
 use crate::common::{Forking, Sum};
 use mbs_sparse::{Alone, Multifrontal, Options, Ordering, Pivoting, SpdSolver, Team};
@@ -15,7 +15,7 @@ fn sums() -> Vec<(&'static str, Sum)> {
     ]
 }
 
-/// Residual, solution and pivots of one factorisation.
+/// Returns the number of tasks, and the residual, solution and pivots of one factorisation.
 fn solved<W: Team>(team: W, sum: &Sum, options: Options) -> (usize, [Vec<f64>; 3]) {
     let mut solver = Multifrontal::<f64, W>::on(team, sum, options);
     let mut f = vec![0.0; sum.n];
@@ -47,7 +47,7 @@ fn tasks_of_any_size_give_the_solution_of_the_sum() {
             let is_cut = options.grain <= 300 && !is_chain;
             assert!(!is_cut || n_tasks > 4, "{name}: {n_tasks}");
             assert!(options.grain < u64::MAX || n_tasks == 1, "{name}");
-            // Blocks k 1 + sum g g^T have condition numbers below a hundred.
+            // Blocks k I + sum g g^T have condition numbers below a hundred.
             let largest = f.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
             for (b, f) in sum.times(&x).iter().zip(&f) {
                 assert!((b - f).abs() < 1e-12 * largest, "{name}, {options:?}");

@@ -1,8 +1,8 @@
-//! A team for tests.
+//! A thread team for the tests of this crate.
 
 use mbs_sparse::Team;
 
-/// Two threads at every fork, in an order that changes from run to run.
+/// Team with two threads at every fork, whose order of execution changes from run to run.
 #[derive(Debug, Clone)]
 pub(crate) struct Forking;
 

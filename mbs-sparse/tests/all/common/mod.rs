@@ -1,4 +1,4 @@
-//! Sums of random blocks for the tests, and a dense L D L^T to compare with.
+//! Sums of random blocks for the tests, and a dense L D L^T for comparison.
 //!
 //! ```text
 //! T_e = sum_i g_i g_i^T + k I ,   g_i with k random entries in [-1, 1]: positive definite
@@ -13,7 +13,7 @@ pub(crate) use forking::Forking;
 use mbs_sparse::{BlockSource, Cliques, Real};
 pub(crate) use saddle::Saddle;
 
-/// A sum of blocks with its own numbers.
+/// A sum of blocks, stored by element.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Sum {
     pub(crate) n: usize,
@@ -22,7 +22,7 @@ pub(crate) struct Sum {
     pub(crate) residuals: Vec<Vec<f64>>,
 }
 
-/// Numbers in [-1, 1] from a linear congruence: the same on every machine.
+/// Generator of pseudo-random numbers in [-1, 1] by a linear congruence, the same on every machine.
 #[derive(Debug, Clone)]
 pub(crate) struct Random(pub(crate) u64);
 
@@ -39,7 +39,7 @@ impl Random {
 }
 
 impl Sum {
-    /// Random positive definite blocks on the given cliques.
+    /// Creates random positive definite blocks on the given cliques.
     pub(crate) fn random(n: usize, cliques: Vec<Vec<u32>>, seed: u64) -> Self {
         let mut random = Random(seed);
         let blocks = cliques.iter().map(|c| random_block(c.len(), &mut random)).collect();
@@ -47,14 +47,14 @@ impl Sum {
         Self { n, cliques, blocks, residuals }
     }
 
-    /// `length` elements of `size` unknowns, neighbours share `overlap` of them.
+    /// Creates a chain of `length` elements of `size` unknowns; neighbours have `overlap` unknowns in common.
     pub(crate) fn chain(length: usize, size: usize, overlap: usize) -> Self {
         let pitch = size - overlap;
         let clique = |e: usize| (0..size).map(|i| (e * pitch + i) as u32).collect();
         Self::random(length * pitch + overlap, (0..length).map(clique).collect(), 1)
     }
 
-    /// `branches` chains of `length` elements of 12 unknowns overlapping by 6, that meet at a hub of 12.
+    /// Creates a star: `branches` chains of `length` elements of 12 unknowns, overlapping by 6, at a common hub of 12 unknowns.
     pub(crate) fn star(branches: usize, length: usize) -> Self {
         let mut cliques = vec![(0..12).collect::<Vec<u32>>()];
         let mut n = 12_u32;
@@ -71,7 +71,7 @@ impl Sum {
         Self::random(n as usize, cliques, 2)
     }
 
-    /// A grid of nodes of `size` unknowns, an element for each pair of neighbours.
+    /// Creates a grid of nodes of `size` unknowns, with an element for each pair of neighbours.
     pub(crate) fn grid(rows: usize, columns: usize, size: usize) -> Self {
         let node =
             |r: usize, c: usize| (0..size).map(move |i| ((r * columns + c) * size + i) as u32);
@@ -89,7 +89,7 @@ impl Sum {
         Self::random(rows * columns * size, cliques, 3)
     }
 
-    /// A binary tree of nodes of `size` unknowns, an element for each node with the one above.
+    /// Creates a binary tree of nodes of `size` unknowns, with an element for each node and its parent.
     pub(crate) fn tree(levels: u32, size: usize) -> Self {
         let n_nodes = (1_usize << levels) - 1;
         let node = |v: usize| (v * size..(v + 1) * size).map(|u| u as u32);
@@ -97,7 +97,7 @@ impl Sum {
         Self::random(n_nodes * size, cliques, 4)
     }
 
-    /// Chains of elements of 12 unknowns that do not meet.
+    /// Creates unconnected chains of elements of 12 unknowns.
     pub(crate) fn forest(chains: usize, length: usize) -> Self {
         let pitch = 6 * length + 6;
         let mut cliques = Vec::new();
@@ -109,7 +109,7 @@ impl Sum {
         Self::random(chains * pitch, cliques, 5)
     }
 
-    /// The full matrix, row by row.
+    /// Returns the full matrix, row by row.
     pub(crate) fn dense(&self) -> Vec<f64> {
         let mut t = vec![0.0; self.n * self.n];
         for (clique, block) in self.cliques.iter().zip(&self.blocks) {
@@ -127,7 +127,7 @@ impl Sum {
         t
     }
 
-    /// T x, element by element.
+    /// Returns the product T x, element by element.
     pub(crate) fn times(&self, x: &[f64]) -> Vec<f64> {
         let mut b = vec![0.0; self.n];
         for (clique, block) in self.cliques.iter().zip(&self.blocks) {
@@ -146,7 +146,7 @@ impl Sum {
     }
 }
 
-/// A random positive definite block of `k` unknowns, packed.
+/// Returns a random positive definite block of `k` unknowns, packed.
 fn random_block(k: usize, random: &mut Random) -> Vec<f64> {
     let g: Vec<f64> = (0..k * k).map(|_| random.next()).collect();
     let mut block = Vec::new();
@@ -159,7 +159,7 @@ fn random_block(k: usize, random: &mut Random) -> Vec<f64> {
     block
 }
 
-/// Solves by dense L D L^T in the given order; the slow and obvious way.
+/// Solves by dense L D L^T in the given order, for comparison.
 pub(crate) fn dense_solve(t: &[f64], b: &[f64]) -> Vec<f64> {
     let n = b.len();
     let (mut a, mut x) = (t.to_vec(), b.to_vec());

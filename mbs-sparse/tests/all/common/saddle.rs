@@ -1,4 +1,4 @@
-//! Random saddle systems [[W, J^T], [J, 0]] as sums of elements with rows of their own.
+//! Random saddle systems [[W, J^T], [J, 0]] as sums of elements with constraint rows.
 
 use super::{Random, Sum};
 use mbs_sparse::{BlockSource, Cliques, Real};
@@ -10,14 +10,14 @@ pub(crate) struct Saddle {
     pub(crate) n_primal: usize,
 }
 
-/// Place of (row, col), in any order, in a packed block of k unknowns.
+/// Returns the index of (row, col), in any order, in a packed block of k unknowns.
 fn packed(k: usize, row: usize, col: usize) -> usize {
     let (row, col) = (row.max(col), row.min(col));
     col * (2 * k + 1 - col) / 2 + row - col
 }
 
 impl Saddle {
-    /// Every element of `sum` gets so many random rows over its coordinates.
+    /// Adds `rows` random rows over its coordinates to every element of `sum`.
     fn with_rows(sum: Sum, rows: usize, seed: u64) -> Self {
         let n_primal = sum.n;
         let mut saddle = Self { sum, n_primal };
@@ -32,7 +32,7 @@ impl Saddle {
         saddle
     }
 
-    /// A chain of (length, size, overlap) with so many rows in each element.
+    /// Creates a chain of (length, size, overlap) with `rows` rows in each element.
     pub(crate) fn chain(
         (length, size, overlap): (usize, usize, usize),
         rows: usize,
@@ -41,12 +41,12 @@ impl Saddle {
         Self::with_rows(Sum::chain(length, size, overlap), rows, seed)
     }
 
-    /// A star of chains with so many rows in each element.
+    /// Creates a star of chains with `rows` rows in each element.
     pub(crate) fn star(branches: usize, length: usize, rows: usize) -> Self {
         Self::with_rows(Sum::star(branches, length), rows, 3)
     }
 
-    /// Adds one row, in the order of the clique of element `e`, and names its multiplier.
+    /// Adds a row, in the order of the clique of element `e`, and returns its multiplier.
     fn add_row(&mut self, e: usize, row: &[f64]) -> u32 {
         let (k, old) = (self.sum.cliques[e].len(), self.sum.blocks[e].clone());
         let mut block = Vec::new();
@@ -63,7 +63,7 @@ impl Saddle {
         multiplier
     }
 
-    /// The rows of element `e`: each multiplier with its entries in the order of the clique, zero at multipliers.
+    /// Returns the rows of element `e`: each multiplier with its entries in the order of the clique, zero at multipliers.
     fn rows_of(&self, e: usize) -> Vec<(u32, Vec<f64>)> {
         let clique = &self.sum.cliques[e];
         let k = clique.len();
@@ -77,14 +77,14 @@ impl Saddle {
             .collect()
     }
 
-    /// Gives the first row of element `e` once more, times `factor`; names both multipliers.
+    /// Adds a copy of the first row of element `e`, times `factor`. Returns both multipliers.
     pub(crate) fn repeat_row(&mut self, e: usize, factor: f64) -> (u32, u32) {
         let (first, row) = self.rows_of(e).swap_remove(0);
         let row: Vec<f64> = row.iter().map(|x| x * factor).collect();
         (first, self.add_row(e, &row))
     }
 
-    /// Adds the sum of all rows of element `e` as a row; names all multipliers concerned.
+    /// Adds the sum of all rows of element `e` as a row. Returns all multipliers of the element.
     pub(crate) fn add_sum_of_rows(&mut self, e: usize) -> Vec<u32> {
         let rows = self.rows_of(e);
         let k = self.sum.cliques[e].len();
@@ -94,7 +94,7 @@ impl Saddle {
         names
     }
 
-    /// Adds `angle` to the first entry of a row and takes it from the second.
+    /// Rotates a row: adds `angle` to its first entry and subtracts it from the second one.
     pub(crate) fn turn_row(&mut self, multiplier: u32, angle: f64) {
         for (clique, block) in self.sum.cliques.iter().zip(&mut self.sum.blocks) {
             if let Some(i) = clique.iter().position(|&u| u == multiplier) {
@@ -130,7 +130,7 @@ impl Saddle {
         }
     }
 
-    /// Takes a coordinate out of all rows.
+    /// Sets the entries of a coordinate in all rows to zero.
     pub(crate) fn clear_rows_at(&mut self, coordinate: u32) {
         for (clique, block) in self.sum.cliques.iter().zip(&mut self.sum.blocks) {
             let k = clique.len();
@@ -155,7 +155,7 @@ impl Saddle {
         self
     }
 
-    /// Returns the same matrix with every clique written backwards.
+    /// Returns the same matrix with every clique in reverse order.
     pub(crate) fn with_turned_cliques(&self) -> Self {
         let mut turned = self.clone();
         for (clique, block) in turned.sum.cliques.iter_mut().zip(&mut turned.sum.blocks) {
