@@ -4,7 +4,7 @@
 //! T = M + damping C + stiffness K + J^T s J,      f = M x + J^T mu - force Q
 //! ```
 //!
-//! The rows J' that a matrix was factored with are kept beside the factor: projections and later corrections may use both.
+//! The rows J' that the factored matrix was made from are stored beside the factor. Projections and later corrections may use either J or J'.
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -13,27 +13,27 @@ use mbs_core::model::{Load, Model, System, Tangent, Terms};
 use mbs_core::step::Counts;
 use mbs_core::{FactorError, Real, SpdSolver};
 
-/// Matrix, right-hand side and terms of a model.
+/// Matrix of a step with its factor, right-hand side and terms of the model.
 #[derive(Debug, Clone)]
 pub(crate) struct Equations<T, S> {
     pub(crate) solver: S,
     pub(crate) terms: Terms<T>,
-    /// Right-hand side f, then minus the correction, n.
+    /// Right-hand side f before a solution, minus the correction after it; one number for each unknown.
     pub(crate) f: Vec<T>,
-    /// Multipliers mu of a residual, or a product of the Jacobian, m.
+    /// Multipliers mu of a residual, or a product of the Jacobian; one number for each row.
     pub(crate) mu: Vec<T>,
-    /// The Jacobian J' that the factored matrix was made with.
+    /// The Jacobian J' from which the factored matrix was made.
     factored_rows: Vec<T>,
-    /// Stiffness and damping of each scalar measure in it.
+    /// Stiffness and damping of each scalar measure in the factored matrix.
     pub(crate) factored_laws: Vec<[T; 2]>,
-    /// Room for a vector, extended, and what the solver needs.
+    /// Scratch for an extended vector, and scratch of the solver.
     room: Vec<T>,
     scratch: Vec<T>,
     pub(crate) counts: Counts,
 }
 
 impl<T: Real, S: SpdSolver<T>> Equations<T, S> {
-    /// For `model` with its `terms`, with a solver analysed for its cliques.
+    /// Creates the equations for `model` with its `terms`, and with a solver analysed for its cliques.
     pub(crate) fn new(model: &impl Model<T>, terms: Terms<T>, solver: S) -> Self {
         let zeros = |n| vec![T::ZERO; n];
         Self {
@@ -49,7 +49,7 @@ impl<T: Real, S: SpdSolver<T>> Equations<T, S> {
         }
     }
 
-    /// Factors T with these weights of stiffness and damping, penalties s, and multipliers of the geometric stiffness.
+    /// Factors T with the given weights of stiffness and damping, the penalties s, and the multipliers of the geometric stiffness.
     pub(crate) fn factor<M: Model<T>>(
         &mut self,
         model: &M,
@@ -67,7 +67,7 @@ impl<T: Real, S: SpdSolver<T>> Equations<T, S> {
         self.solver.factor(&System { model, terms: &self.terms, tangent, load })
     }
 
-    /// Factors W = M + J^T s J.
+    /// Factors the projection matrix W = M + J^T s J.
     pub(crate) fn factor_mass<M: Model<T>>(
         &mut self,
         model: &M,
@@ -76,13 +76,13 @@ impl<T: Real, S: SpdSolver<T>> Equations<T, S> {
         self.factor(model, (T::ZERO, T::ZERO), penalty, None)
     }
 
-    /// f = T^-1 f.
+    /// Solves in place with the factor: f = T^-1 f.
     pub(crate) fn solve(&mut self) {
         self.counts.solves += 1;
         self.solver.solve(&mut self.f, &mut self.scratch);
     }
 
-    /// f = M x + J^T mu - force Q.
+    /// Assembles the residual f = M x + J^T mu - force Q.
     pub(crate) fn assemble<M: Model<T>>(&mut self, model: &M, mass: Option<&[T]>, force: T) {
         let load = Load { mass, multipliers: Some(&self.mu), force };
         let (zero, penalty) = (T::ZERO, &[][..]);
@@ -90,20 +90,20 @@ impl<T: Real, S: SpdSolver<T>> Equations<T, S> {
         self.solver.assemble(&System { model, terms: &self.terms, tangent, load }, &mut self.f);
     }
 
-    /// mu = J f.
+    /// Multiplies by the Jacobian: mu = J f.
     pub(crate) fn multiply_correction<M: Model<T>>(&mut self, model: &M) {
         self.room[..self.f.len()].copy_from_slice(&self.f);
         model.multiply_jacobian(&self.terms, &self.room, &mut self.mu);
     }
 
-    /// Does `work` with the rows J' of the factor in place of J.
+    /// Runs `work` with the rows J' of the factor in place of J.
     pub(crate) fn with_factored_rows(&mut self, work: impl FnOnce(&mut Self)) {
         swap(&mut self.terms.jacobian, &mut self.factored_rows);
         work(self);
         swap(&mut self.terms.jacobian, &mut self.factored_rows);
     }
 
-    /// Sets f aside while `work` makes another one; f is then the sum of both.
+    /// Stores f while `work` makes another residual, then sets f to the sum of both.
     pub(crate) fn add_to_residual<M: Model<T>>(&mut self, model: &M, work: impl FnOnce(&mut Self)) {
         let n = self.f.len();
         self.room[..n].copy_from_slice(&self.f);

@@ -1,4 +1,4 @@
-//! The formulations of this crate behind the common trait: [`Augmented`].
+//! Common trait of formulations for this crate: [`Augmented`].
 
 use crate::history::History as OfWorkspace;
 use crate::index_change::{ConstraintIndex, IndexChange, IndexHistory};
@@ -16,14 +16,14 @@ use mbs_core::step::{OptionError, Step, StepError, StepReport};
 use mbs_core::team::Team;
 use mbs_core::{Real, SpdSolver, with_team};
 
-/// Form of the equations that is stepped, with its options.
+/// Form of the equations that the steps solve, with its options.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Form<T> {
     /// Index-1 form, with its options.
     Index1(Options<T>),
     /// Index-3 form, with its options.
     Index3(Options<T>),
-    /// Index-3 for long steps, index-1 for short ones.
+    /// Index-3 for long steps and index-1 for short ones.
     MultiIndex(IndexChange<T>),
 }
 
@@ -61,7 +61,7 @@ impl<T: Real> Form<T> {
     }
 }
 
-/// An augmented Lagrangian formulation over a solver `S`, whose steps a team `W` shares.
+/// An augmented Lagrangian formulation over a solver `S`; the threads of a team `W` share the work of its steps.
 #[derive(Debug, Clone)]
 pub struct Augmented<T, S, W> {
     form: Form<T>,
@@ -70,7 +70,7 @@ pub struct Augmented<T, S, W> {
 }
 
 impl<T: Real, S: SpdSolver<T>, W: Team> Augmented<T, S, W> {
-    /// A formulation of `model`, with a solver analysed for its cliques.
+    /// Creates a formulation of `model`, with a solver analysed for its cliques.
     ///
     /// # Errors
     /// [`OptionError`] for an option out of range.
@@ -84,7 +84,7 @@ impl<T: Real, S: SpdSolver<T>, W: Team> Augmented<T, S, W> {
         Ok(Self { form, workspace: Box::new(Workspace::new(model, solver)), team })
     }
 
-    /// Steps in another form, or with other options, from now on.
+    /// Sets another form, or other options, for the next steps.
     ///
     /// # Errors
     /// [`OptionError`] for an option out of range; nothing is changed then.
@@ -225,7 +225,7 @@ impl<T: Real, S, W: Team, const D: usize> Describe<T, D> for Augmented<T, S, W> 
     }
 }
 
-/// Over all that is remembered.
+/// Passes all that the next step continues from to a visitor.
 fn walk<T: Real>(
     own: &mut OfWorkspace<T>,
     form: &mut Form<T>,

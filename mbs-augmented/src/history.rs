@@ -1,4 +1,4 @@
-//! State of a workspace that the next step continues from, to look at and to restore.
+//! State of a workspace that the next step continues from, to read and to restore.
 
 use alloc::vec::Vec;
 use mbs_core::step::Counts;
@@ -6,14 +6,14 @@ use mbs_core::step::Counts;
 /// State of a [`Workspace`](crate::Workspace) that the next step continues from.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct History<T> {
-    /// Factor on the penalty, as it has adapted [-].
+    /// Factor on the penalty, adapted from step to step [-].
     pub penalty_factor: T,
-    /// Factor on the penalty since a step failed, else one [-].
+    /// Factor on the penalty after a step has failed; one before [-].
     pub penalty_strength: T,
-    /// Ratio of the most weakly determined combination of constraints before and after one correction [-].
+    /// Contraction of the weakest combination of constraints in one correction [-].
     pub contraction: T,
-    /// Combination of constraints that is most weakly determined, m.
+    /// Most weakly determined combination of constraints, one weight for each row.
     pub weakest_combination: Vec<T>,
-    /// Counts of the work for a change of index, which the report of no step contains yet.
+    /// Counts of the work for a change of index that no report of a step contains yet.
     pub settled: Counts,
 }

@@ -7,9 +7,9 @@
 //! T d = -f,   a += d,   q* += d/a',   v* += v' d/a',   lambda <- lambda + alpha phi'' [P1 (7), (34)]
 //! ```
 //!
-//! Differs from the source: positions and velocities are projected within the iteration, in correction form. Multipliers start
-//! from the last step; alpha is in proportion to the mass and does not grow with 1/dt^2. Iterated to convergence with the
-//! projections after the step, as published, the method fails at the first singular position.
+//! The method differs from the published one. Positions and velocities are projected within the iteration, in correction form. Multipliers
+//! start from the last step. alpha is proportional to the mass and does not grow with 1/dt^2. With the published order, which projects after
+//! the converged iteration, the method fails at the first singular position.
 
 mod constrain;
 
@@ -23,13 +23,13 @@ use mbs_core::step::{Step, StepError, StepReport, Stop, largest, largest_or_nan}
 use mbs_core::team::{add_product, norm_inf, set_sum, subtract};
 use mbs_core::{Real, SpdSolver};
 
-/// Iterations that are made where what is left is not small after those allowed, as a multiple of them [-]: of friction, or of stiff effects
-/// that are let go.
+/// Multiple of the allowed iterations that are made while the last correction is not small [-]. Friction, and stiff effects that are
+/// released, need them.
 const HARD: u32 = 8;
-/// Largest correction that may be left where corrections stop shrinking, or after the allowed iterations [accelerations]: a joint that sticks and
-/// slips leaves that much.
+/// Largest correction at which an iteration without convergence is accepted, relative to the accelerations [-]. A joint that sticks and slips
+/// leaves corrections of this size.
 const ACCEPTED: f64 = 1e-2;
-/// Corrections of [`settle`] at most [-]: the first leaves 1e-6 of an acceleration, the others go to rounding.
+/// Corrections of [`settle`] at most [-]. The first one leaves 1e-6 of an acceleration, the others reduce it to machine precision.
 const MAX_SETTLING: u32 = 12;
 
 /// Advances `s` by one [`Step`].
@@ -56,7 +56,7 @@ pub fn step<T: Real, M: Model<T>, S: SpdSolver<T>>(
     })
 }
 
-/// The iteration for the accelerations, whose last ones have this `size`. Returns what is reported of it.
+/// Iterates on the accelerations; `size` is that of the last step's accelerations. Returns the report of the iteration.
 fn iterate<T: Real, M: Model<T>, S: SpdSolver<T>>(
     model: &M,
     (rule, size, length): (&Rule<T>, T, T),
@@ -66,8 +66,8 @@ fn iterate<T: Real, M: Model<T>, S: SpdSolver<T>>(
 ) -> Result<(u32, T, Stop), StepError> {
     let moved = norm_inf(model.team(), &s.v) / rule.dt * T::EPSILON;
     let goal = size.max(moved) * options.tolerance;
-    // What no longer shrinks, or is left after few iterations, is enough where it is small beside the accelerations or in the
-    // coordinates.
+    // A correction that no longer shrinks, or that remains after the allowed iterations, is accepted if it is small relative to the
+    // accelerations or to the coordinates.
     let digits = length * options.tolerance * rule.acceleration;
     let enough = |w: &Workspace<T, S>| {
         size.max(norm_inf(model.team(), &w.end.a)) * T::from_f64(ACCEPTED) + digits
@@ -98,8 +98,7 @@ fn iterate<T: Real, M: Model<T>, S: SpdSolver<T>>(
     Ok((iterations, correction, stop.unwrap_or(Stop::Tolerance)))
 }
 
-/// Makes velocities, accelerations and multipliers consistent at the present positions [P2 (5)]: what a change of index begins
-/// with. Positions stay.
+/// Makes velocities, accelerations and multipliers consistent at the present positions [P2 (5)], before a change of index. Positions stay.
 ///
 /// Cost: one or two factorisations and a few solutions; no allocation.
 ///
@@ -112,7 +111,7 @@ pub fn settle<T: Real, M: Model<T>, S: SpdSolver<T>>(
     s: &mut State<T>,
     w: &mut Workspace<T, S>,
 ) -> Result<(), StepError> {
-    // A step of no length: nothing moves, and stiffness and damping have no part in the matrix.
+    // With a step of zero length nothing moves, and stiffness and damping do not enter the matrix.
     let zero = T::ZERO;
     let rule =
         Rule { dt: zero, velocity: zero, acceleration: T::ONE, auxiliary: zero, alpha_f: zero };
@@ -143,7 +142,7 @@ pub fn settle<T: Real, M: Model<T>, S: SpdSolver<T>>(
     Ok(())
 }
 
-/// Accelerations and multipliers at the terms in hand.
+/// Solves for accelerations and multipliers at the terms as evaluated.
 fn settle_accelerations<T: Real, M: Model<T>, S: SpdSolver<T>>(
     model: &M,
     length: T,
@@ -169,7 +168,7 @@ fn settle_accelerations<T: Real, M: Model<T>, S: SpdSolver<T>>(
     Err(StepError::NotConverged { iterations, correction, unknown })
 }
 
-/// Accelerations and multipliers of the last step are the first guess.
+/// Begins a step with the accelerations and multipliers of the last step as first guess.
 fn begin<T: Real, M: Model<T>, S: SpdSolver<T>>(
     model: &M,
     (rule, is_far): (&Rule<T>, bool),
@@ -183,14 +182,14 @@ fn begin<T: Real, M: Model<T>, S: SpdSolver<T>>(
     model.set_inputs(s.t + rule.dt, s, &mut w.equations.terms);
 }
 
-/// One correction of the accelerations at (q, v); returns its size [m/s^2].
+/// Makes one correction of the accelerations at (q, v). Returns its size [m/s^2].
 fn newton<T: Real, M: Model<T>, S: SpdSolver<T>>(
     model: &M,
     rule: &Rule<T>,
     w: &mut Workspace<T, S>,
 ) -> Result<T, StepError> {
     if model.has_forces() {
-        // With stiffness or damping the matrix of the accelerations is not that of the projections.
+        // The projections use the factor of the mass alone, so stiffness and damping need another factor.
         w.end.evaluate_forces(model, &mut w.equations.terms);
         w.factor(model, rule, false)?;
     }
@@ -198,7 +197,7 @@ fn newton<T: Real, M: Model<T>, S: SpdSolver<T>>(
     correct(model, w)
 }
 
-/// One correction of accelerations and multipliers with the matrix in hand; returns its size [m/s^2].
+/// Makes one correction of accelerations and multipliers with the present factor. Returns its size [m/s^2].
 fn correct<T: Real, M: Model<T>, S: SpdSolver<T>>(
     model: &M,
     w: &mut Workspace<T, S>,

@@ -7,11 +7,13 @@
 //! T d = -f,   q += d,   v += v' d,   a += a' d                                       [P3 (8), (4), (5)]
 //! ```
 //!
-//! Differs from the source: unknowns are increments. s is in proportion to the mass, so that conditioning does not depend on the step. Where
-//! the constraints do not determine all of lambda, its start value is filtered, lambda <- s J T^-1 J^T lambda. Projections are in correction
-//! form, by one sweep where nothing but constraints acts. A factor is reused while laws are like those that were factored, with its own rows
-//! J' beside s phi and lambda <- lambda + s (phi + J' d). Where effects act a part of the first correction may be left. docs/INDEX3.md
-//! derives these; the published forms are in [`printed`](crate::printed).
+//! The method differs from the published one. Unknowns are increments. s is proportional to the mass, so that the condition of T does not
+//! depend on the step. Where the constraints do not determine all of lambda, its start value is filtered: lambda <- s J T^-1 J^T lambda.
+//! Projections are in correction form, and one sweep is enough where only constraints act.
+//!
+//! A factor is reused while stiffness and damping are close to those that were factored. The term s phi then uses the factored rows J', and
+//! multipliers grow by lambda <- lambda + s (phi + J' d). Where effects act, a fraction of the first correction may be left. docs/INDEX3.md
+//! derives these differences. The published forms are in [`printed`](crate::printed).
 
 mod project;
 
@@ -30,8 +32,8 @@ use project::project;
 
 /// Advances `s` by one [`Step`].
 ///
-/// Cost: about three evaluations, a factorisation and five back-substitutions where nothing but constraints acts and all of them
-/// are well determined; else two factorisations and eight back-substitutions or more. No allocation.
+/// Cost where only constraints act and all are well determined: about three evaluations, a factorisation and five back-substitutions. In
+/// other steps: two factorisations and eight back-substitutions or more. No allocation.
 ///
 /// # Errors
 /// [`StepError`]; the state is then unchanged.
@@ -49,8 +51,8 @@ pub fn step<T: Real, M: Model<T>, S: SpdSolver<T>>(
     })
 }
 
-/// q, v, a and lambda at the end of the step, where the equations of motion and phi = 0 hold. Returns what is reported of the iteration, and
-/// the sum of the corrections since the factor.
+/// Solves for q, v, a and lambda at the end of the step, where the equations of motion and phi = 0 hold. Returns the report of the iteration,
+/// and the sum of the corrections since the last factorisation [m].
 pub(crate) fn solve<T: Real, M: Model<T>, S: SpdSolver<T>>(
     model: &M,
     (rule, length): (&Rule<T>, T),
@@ -59,7 +61,7 @@ pub(crate) fn solve<T: Real, M: Model<T>, S: SpdSolver<T>>(
     w: &mut Workspace<T, S>,
 ) -> Result<((u32, T, Stop), T), StepError> {
     let scale = step_scale(model.team(), rule.dt, &s.a[..w.equations.f.len()]);
-    // q, v, a by the rule and lambda by extrapolation, and all that depends on them
+    // predict q, v, a by the rule and lambda by extrapolation, then evaluate the terms there
     let inverse = T::ONE / rule.acceleration;
     w.begin(model, (options.penalty, inverse, w.adaptation.carried(w.scale.factor)));
     w.end.predict(model, (rule, inverse, is_far(scale, length)), s);
@@ -72,12 +74,12 @@ pub(crate) fn solve<T: Real, M: Model<T>, S: SpdSolver<T>>(
     if has_loose_rows(model, (options, start), w) {
         filter(model, &mut w.equations, (&w.scale.weights, &mut w.lambda));
     }
-    // the accelerations leave the unit of the iteration
+    // the iteration has a/a' as its unknown: multiply by a'
     w.end.scale_accelerations(model, rule.acceleration);
     Ok(done)
 }
 
-/// Runs the Newton loop. Returns what is reported of it, and the sum of the corrections since the factor.
+/// Runs the Newton loop. Returns its report, and the sum of the corrections since the last factorisation [m].
 fn iterate<T: Real, M: Model<T>, S: SpdSolver<T>>(
     model: &M,
     (rule, mut newton): (&Rule<T>, Newton<T>),
@@ -86,7 +88,7 @@ fn iterate<T: Real, M: Model<T>, S: SpdSolver<T>>(
     w: &mut Workspace<T, S>,
 ) -> Result<((u32, T, Stop), T), StepError> {
     let inverse = T::ONE / rule.acceleration;
-    // with a fixed alpha multipliers grow as published
+    // with a fixed alpha, multipliers grow by alpha phi, as published
     let is_balanced = matches!(options.penalty, Penalty::Scaled(_));
     let rule_of_stop = StopRule::new(model, options, is_balanced);
     let mut reuse = FactorReuse::new(is_balanced, rule_of_stop.is_tolerance_alone());
@@ -106,7 +108,8 @@ fn iterate<T: Real, M: Model<T>, S: SpdSolver<T>>(
         }
 
         // f = M a/a' + J^T (s phi + lambda/a') - Q/a'   [P3 (9)]
-        // at predicted positions what contradicts others does not show apart from what is determined: the next correction makes up for it
+        // At predicted positions the contradiction of dependent rows cannot be separated from the determined part. The multipliers then stay,
+        // and the next correction updates them.
         let is_predicted = newton.iterations == 0 && has_loose_rows(model, (options, start), w);
         let Workspace { equations: eq, end, lambda, scale, .. } = w;
         if is_reused && is_balanced {
@@ -148,8 +151,8 @@ fn iterate<T: Real, M: Model<T>, S: SpdSolver<T>>(
     Err(newton.failure(&w.equations.f))
 }
 
-/// With the first factor of a step: raises penalties for the weakest combination of constraints, or removes from the multipliers what none
-/// determines.
+/// Adapts penalties and multipliers with the first factor of a step. Raises penalties for the weakest combination of constraints, and removes
+/// the part of the multipliers that no constraint determines.
 fn adapt<T: Real, M: Model<T>, S: SpdSolver<T>>(
     model: &M,
     rule: &Rule<T>,
@@ -166,7 +169,7 @@ fn adapt<T: Real, M: Model<T>, S: SpdSolver<T>>(
     Ok(())
 }
 
-/// Is there, or may there be, a part of the multipliers that no constraint determines, and that is to be removed?
+/// Must multipliers be filtered, because constraints may leave a part of them undetermined?
 fn is_filtered<T: Real, S: SpdSolver<T>>(
     (options, start): (&Options<T>, MultiplierStart),
     w: &Workspace<T, S>,
@@ -176,12 +179,14 @@ fn is_filtered<T: Real, S: SpdSolver<T>>(
     start == Filtered && !is_well_conditioned
 }
 
-/// May rows of velocities depend on others, as those of two wheels on one axle?
+/// May rows of velocities depend on other rows, such as those of two wheels on one axle?
 ///
-/// Then phi = h/2 J v of these rows contradicts the others by what the rule errs by, h^3, which no correction takes back. Each adds s times it
-/// to the multipliers that nothing determines, which act where rows have turned since. So they are filtered after each correction. And rows
-/// depend on each other where positions are closed: before, the combination looks weak, not lost. So the matrix is factored anew after the
-/// first correction, and penalties are not raised for it.
+/// For these rows phi = h/2 J v contradicts the other rows by the rule's error of order h^3, which no correction removes. Each correction
+/// adds s times this error to multipliers that no constraint determines. Such multipliers act on the motion once the rows have rotated. So
+/// multipliers are filtered after each correction.
+///
+/// Rows depend on each other exactly only at positions that satisfy the constraints. At predicted positions the combination looks weak. So
+/// the matrix is factored again after the first correction, and penalties are not raised for the combination.
 fn has_loose_rows<T: Real, M: Model<T>, S: SpdSolver<T>>(
     model: &M,
     how: (&Options<T>, MultiplierStart),

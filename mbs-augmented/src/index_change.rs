@@ -1,8 +1,8 @@
 //! Choice of the index in which a step is made [P2 4, 5].
 //!
-//! Index-3 for long steps, index-1 for short ones. It changes from 3 to 1 where the step falls below a threshold, or where several
-//! reductions in a row have not helped. It changes back where it grows beyond twice the threshold. Before each change velocities,
-//! accelerations and multipliers are made consistent at the present positions [P2 (5)].
+//! Long steps are made in index-3, short steps in index-1. The index changes from 3 to 1 where the step falls below a threshold, or where
+//! several reductions of one step have not helped. It changes back where the step grows beyond twice the threshold. Before each change
+//! velocities, accelerations and multipliers are made consistent at the present positions [P2 (5)].
 
 use crate::options::Options;
 use crate::workspace::Workspace;
@@ -11,7 +11,7 @@ use mbs_core::model::{Model, State};
 use mbs_core::step::{Step, StepError, StepReport};
 use mbs_core::{Real, SpdSolver};
 
-/// Index of the equations that are stepped.
+/// Index of the equations of motion that a step solves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ConstraintIndex {
     /// Index-1, in which accelerations are constrained.
@@ -25,19 +25,19 @@ pub enum ConstraintIndex {
 pub struct IndexHistory<T> {
     /// Index of the present equations.
     pub index: ConstraintIndex,
-    /// Changes of it so far.
+    /// Changes of index so far.
     pub changes: u32,
     /// Length of the last trial [s].
     pub tried: T,
-    /// Length of the last step that was kept [s].
+    /// Length of the last accepted step [s].
     pub last: T,
 }
 
-/// Step below which steps are made in index-1 [s]: the multipliers of index-3 lose alpha phi to rounding there.
+/// Step below which steps are made in index-1 [s]. In shorter steps of index-3, alpha phi is lost to rounding beside the multipliers.
 const THRESHOLD: f64 = 1e-4;
-/// Multiple of the threshold beyond which steps are made in index-3 again [-]: one doubling, so that the index does not change with each step.
+/// Multiple of the threshold beyond which steps are made in index-3 again [-]. The factor of two prevents a change of index in every step.
 const HYSTERESIS: f64 = 2.0;
-/// Reductions of one step in a row after which index-1 is tried [-]: by halves, a sixteenth of the step did not help.
+/// Reductions of one step in a row after which index-1 is tried [-]. With halvings, the step is then a sixteenth of the first trial.
 const MAX_REDUCTIONS: u32 = 4;
 
 /// Options of index-1 and index-3, with the rule that changes between the two forms.
@@ -47,22 +47,22 @@ pub struct IndexChange<T> {
     pub index1: Options<T>,
     /// Options of steps in index-3.
     pub index3: Options<T>,
-    /// Shorter steps are made in index-1 [s].
+    /// Step below which steps are made in index-1 [s].
     pub threshold: T,
-    /// Times the threshold, beyond which steps are made in index-3 again.
+    /// Multiple of the threshold beyond which steps are made in index-3 again [-].
     pub hysteresis: T,
-    /// Reductions of one step in a row after which index-1 is tried, whatever the step (the flowchart's maxite).
+    /// Reductions of one step in a row after which index-1 is tried at any step (`maxite` in the flowchart of P2).
     pub max_reductions: u32,
     /// Index of the present equations.
     index: ConstraintIndex,
     changes: u32,
-    /// The last trial, and the last step that was kept [s].
+    /// Lengths of the last trial and of the last accepted step [s].
     tried: T,
     last: T,
 }
 
 impl<T: Real> IndexChange<T> {
-    /// Creates the rule, which begins in index-3; threshold 1e-4 s, hysteresis 2, at most 4 reductions.
+    /// Creates the rule, which starts in index-3. The threshold is 1e-4 s, the hysteresis 2, and at most 4 reductions are made.
     #[must_use]
     pub fn new(index1: Options<T>, index3: Options<T>) -> Self {
         Self {
@@ -111,8 +111,9 @@ impl<T: Real> IndexChange<T> {
         (self.index, self.changes, self.tried, self.last) = (index, changes, tried, last);
     }
 
-    /// Chooses the index for a trial after `reductions` of it in a row. Where the state cannot be made
-    /// consistent the index stays, and the workspace goes back to what it saved. Returns whether it changed, and the state with it.
+    /// Chooses the index for a trial step, after `reductions` of the step in a row. Returns whether the index changed, and the state with it.
+    ///
+    /// Where the state cannot be made consistent, the index stays and the workspace is restored to its saved state.
     pub fn prepare<M: Model<T>, S: SpdSolver<T>>(
         &mut self,
         model: &M,
@@ -144,17 +145,17 @@ impl<T: Real> IndexChange<T> {
         true
     }
 
-    /// A trial of length `h` [s] has come to its end.
+    /// Records that a trial step of length `h` [s] has ended.
     pub fn tried(&mut self, h: T) {
         self.tried = h;
     }
 
-    /// The last trial is accepted: the next step may be longer than it.
+    /// Accepts the last trial step. A later trial that is longer counts as grown.
     pub fn accept(&mut self) {
         self.last = self.tried;
     }
 
-    /// One step in the present index.
+    /// Makes one step in the present index.
     ///
     /// # Errors
     /// [`StepError`]; the state is then unchanged.

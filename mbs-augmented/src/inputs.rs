@@ -1,4 +1,4 @@
-//! Inputs that were set since the last step, taken into the state that the next one begins with.
+//! Response of the state to inputs that were set since the last step, before the next step begins.
 
 use crate::options::Options;
 use crate::workspace::Workspace;
@@ -11,7 +11,7 @@ use mbs_core::{Real, SpdSolver};
 impl<T: Real, S: SpdSolver<T>> InputResponse<T> for Workspace<T, S> {
     type Options = Options<T>;
 
-    /// Finds what the loads change with the penalties of index-1.
+    /// Solves for the changes of accelerations and multipliers that changed loads cause, with the penalties of index-1.
     ///
     /// ```text
     /// (M + J^T s J) d = M da + J^T (dl + s J da) - dQ,   da -= d,   dl += s J da

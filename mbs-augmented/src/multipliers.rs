@@ -1,4 +1,4 @@
-//! Multipliers of a step: where they start, how they grow in the iteration, and what reactions are made of.
+//! Multipliers of a step: their start values, their update in the iteration, and their balance with the accelerations, which gives reactions.
 //!
 //! ```text
 //! start:    lambda = 2 lambda_n - lambda_(n-1)   [P3 (3)],   then lambda <- s J T^-1 J^T lambda
@@ -14,16 +14,16 @@ use mbs_core::{Real, SpdSolver};
 /// Start of the multipliers of a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum MultiplierStart {
-    /// Extrapolated from the last two steps [P3 (3)], less what no constraint determines, which would grow from step to step.
+    /// Extrapolated from the last two steps [P3 (3)], then filtered. The part that no constraint determines would grow from step to step.
     Filtered,
-    /// Extrapolated alone, and not filtered.
+    /// Extrapolated from the last two steps, and not filtered.
     Extrapolated,
     /// Multipliers of zero [P1 (16)].
     Zero,
 }
 
 impl MultiplierStart {
-    /// lambda at the end of a step of `dt` [s], times `unit`.
+    /// Sets lambda at the end of a step of `dt` [s], times `unit`.
     pub(crate) fn set<T: Real, M: Model<T>>(
         self,
         model: &M,
@@ -42,7 +42,8 @@ impl MultiplierStart {
     }
 }
 
-/// lambda <- s J' T^-1 J'^T lambda: removes what no constraint of the factored rows J' determines. Needs T factored. Cost: one solve.
+/// Filters multipliers: lambda <- s J' T^-1 J'^T lambda removes the part that no constraint of the factored rows J' determines. Needs T
+/// factored. Cost: one solve.
 pub(crate) fn filter<T: Real, M: Model<T>, S: SpdSolver<T>>(
     model: &M,
     equations: &mut Equations<T, S>,
@@ -57,7 +58,7 @@ pub(crate) fn filter<T: Real, M: Model<T>, S: SpdSolver<T>>(
     set_product(model.team(), lambda, (s, &equations.mu));
 }
 
-/// lambda <- lambda + s (phi + J' d) with d = -f: the multipliers that are in balance with the correction. Cost: a product of the Jacobian.
+/// Updates multipliers to balance the correction d = -f: lambda <- lambda + s (phi + J' d). Cost: a product of the Jacobian.
 pub(crate) fn update_multipliers<T: Real, M: Model<T>, S: SpdSolver<T>>(
     model: &M,
     equations: &mut Equations<T, S>,
@@ -73,11 +74,11 @@ pub(crate) fn update_multipliers<T: Real, M: Model<T>, S: SpdSolver<T>>(
     });
 }
 
-/// sigma <- sigma - s J T^-1 (M a + J^T (lambda + sigma) - Q): multipliers in balance with the projected accelerations `a`; `lambda` times
-/// `unit`. Needs T factored. Cost: one solve.
+/// Balances multipliers with the projected accelerations `a`: sigma <- sigma - s J T^-1 (M a + J^T (lambda + sigma) - Q), with `lambda` in
+/// parts of `unit`. Needs T factored. Cost: one solve.
 ///
-/// What the last correction left stands in lambda, and with it in the power of guides. Where multipliers grow as published, it is alpha times
-/// the rounding of phi (4e-4 N for 1 kg at 1 ms).
+/// lambda contains the error of the last correction, and so would the power of guides. Where multipliers grow as published, this error is
+/// alpha times the rounding error of phi (4e-4 N for 1 kg at a step of 1 ms).
 pub(crate) fn balance<T: Real, M: Model<T>, S: SpdSolver<T>>(
     model: &M,
     equations: &mut Equations<T, S>,

@@ -1,4 +1,4 @@
-//! The penalties of a step: in proportion to effective masses, and raised where the constraints lose a direction.
+//! The penalties of a step: proportional to effective masses, and raised where a combination of constraints is weakly determined.
 //!
 //! ```text
 //! s_k = c m_k,      m_k = 1 / (J M^-1 J^T)_kk
@@ -13,40 +13,43 @@ use mbs_core::model::{Model, Terms};
 use mbs_core::team::{Team, add, norm_inf, on_stretches, sum};
 use mbs_core::{FactorError, Real, SpdSolver};
 
-/// Largest part that one correction may leave of the multiplier of the weakest combination of constraints [-]. Two corrections then leave
-/// 1e-5 of an extrapolated multiplier, below what the rule errs by.
+/// Largest contraction of the weakest combination of constraints: the fraction of its multiplier that one correction leaves [-]. Two
+/// corrections then leave 1e-5 of an extrapolated multiplier, which is below the truncation error of the rule.
 const MAX_CONTRACTION: f64 = 0.003;
-/// Contraction up to which a combination counts as well determined [-]: a third of the largest, so that others are looked for in time.
+/// Contraction up to which a combination counts as well determined [-]. It is a third of the largest one, so that a search for other
+/// combinations begins in time.
 const WELL_DETERMINED: f64 = 0.001;
-/// Contraction below which raised penalties fall again, in parts of the largest [-]: a decade of room against raising them at once.
+/// Contraction below which raised penalties fall again, relative to the largest contraction [-]. A decade of distance prevents that they are
+/// raised again at once.
 const FALLING: f64 = 0.1;
-/// Factor on raised penalties in each step in which they may fall [-]: back from 1e8 in fourteen steps.
+/// Factor on raised penalties in each step in which they may fall [-]. A penalty factor of 1e8 is back at one after fourteen steps.
 const FALL: f64 = 0.25;
-/// Largest penalty, times EPSILON [effective masses]: above, rounding of T^-1 looks like a lost direction.
+/// Largest penalty, times EPSILON [effective masses]. Above it, the rounding errors of T^-1 look like a lost direction.
 const MAX_PENALTY: f64 = 0.2;
-/// Factor on penalties that were too small for a step [-]. The middle, in digits, between those of regular motion and the largest: arms of
-/// parts without mass that friction holds take 100 times or more, an arm of light rotors in a singular position 10,000 times. A power of two.
+/// Factor on penalties that were too small for a step [-], a power of two. On a logarithmic scale it is midway between the penalties of
+/// regular motion and the largest ones. Arms of parts without mass that friction holds need a factor of 100 or more. An arm of light rotors
+/// in a singular position needs 10,000.
 const STRENGTHENED: f64 = 16_384.0;
-/// Least factor on penalties that are lowered after T was not positive definite [-]: four binary digits at a time.
+/// Smallest factor by which penalties are lowered at once, after T was not positive definite [-]: four binary digits.
 const LOWERING: f64 = 1.0 / 16.0;
 
 /// The penalties of a step.
 #[derive(Debug, Clone)]
 pub(crate) struct PenaltyScale<T> {
-    /// s of each row [kg], m.
+    /// Penalty s of each row [kg].
     pub(crate) weights: Vec<T>,
-    /// Effective mass m_k of each row in the reference configuration [kg], m.
+    /// Effective mass m_k of each row in the reference configuration [kg].
     masses: Vec<T>,
-    /// c as the options have it, or one for a fixed alpha [effective masses].
+    /// Penalty c from the options, or one for a fixed alpha [effective masses].
     base: T,
-    /// Factor on it, as it has adapted [-].
+    /// Factor on the penalty, adapted from step to step [-].
     pub(crate) factor: T,
-    /// Factor on it since a step failed, else one [-].
+    /// Factor on the penalty after a step has failed; one before [-].
     pub(crate) strength: T,
 }
 
 impl<T: Real> PenaltyScale<T> {
-    /// For `model`, whose `terms` are those of the reference configuration.
+    /// Creates the penalties for `model`, whose `terms` are those of the reference configuration.
     pub(crate) fn new(model: &impl Model<T>, terms: &Terms<T>) -> Self {
         let mut masses = vec![T::ZERO; model.n_constraints()];
         model.effective_masses(terms, &mut masses);
@@ -54,7 +57,7 @@ impl<T: Real> PenaltyScale<T> {
         Self { weights, masses, base, factor, strength }
     }
 
-    /// The penalties that a step begins with, raised by `factor`; a fixed alpha times `unit`.
+    /// Sets the penalties at the start of a step: scaled ones times `factor`, a fixed alpha times `unit`.
     pub(crate) fn begin<M: Model<T>>(
         &mut self,
         model: &M,
@@ -73,7 +76,7 @@ impl<T: Real> PenaltyScale<T> {
         });
     }
 
-    /// 1/2 x^T s x [P2 (29)].
+    /// Returns the energy of the penalties, 1/2 x^T s x [P2 (29)].
     pub(crate) fn energy<W: Team>(&self, team: &W, x: &[T]) -> T {
         let part = |from: usize, to: usize| {
             let pairs = x[from..to].iter().zip(&self.weights[from..to]);
@@ -88,20 +91,20 @@ impl<T: Real> PenaltyScale<T> {
         self.factor *= by;
     }
 
-    /// Multiplies the penalties of rows of velocities.
+    /// Multiplies the penalties of the rows that constrain velocities.
     pub(crate) fn scale_velocity_rows(&mut self, model: &impl Model<T>, by: T) {
         let rows = self.weights.iter_mut().enumerate();
         rows.filter(|(row, _)| model.is_velocity_row(*row)).for_each(|(_, s)| *s *= by);
     }
 
-    /// Penalties were too small for a step: those in proportion to masses are larger from now on. Returns whether they were not before.
+    /// Makes the scaled penalties larger from now on, because they were too small for a step. Returns false if they were already larger.
     pub(crate) fn strengthen(&mut self) -> bool {
         let was_strengthened = self.strength > T::ONE;
         self.strength = T::from_f64(STRENGTHENED);
         !was_strengthened
     }
 
-    /// Takes raised penalties back; returns whether there were any.
+    /// Resets raised penalties to those of the options. Returns whether any were raised.
     pub(crate) fn restore(&mut self) -> bool {
         let was_raised = self.factor > T::ONE;
         if was_raised {
@@ -115,8 +118,8 @@ impl<T: Real> PenaltyScale<T> {
         T::from_f64(MAX_PENALTY) / T::EPSILON / (self.factor * self.base)
     }
 
-    /// Raises the penalties so that what leaves `contraction` leaves the largest one allowed, by rho / (1 - rho) / [`MAX_CONTRACTION`], as
-    /// far as there is room. Returns whether they changed.
+    /// Raises the penalties by rho / (1 - rho) / [`MAX_CONTRACTION`], where rho is `contraction`. A correction then leaves the largest
+    /// allowed fraction. The factor ends at the largest allowed penalty. Returns whether the penalties changed.
     pub(crate) fn raise(&mut self, contraction: T) -> bool {
         let rho = contraction.min(T::ONE);
         let growth = rho / (T::ONE - rho).max(T::EPSILON) / T::from_f64(MAX_CONTRACTION);
@@ -127,8 +130,8 @@ impl<T: Real> PenaltyScale<T> {
         growth > T::ONE
     }
 
-    /// Factors W = M + J^T s J, whose penalties may have been raised. Where they are too large for the digits there are, so that the mass is
-    /// lost beside them, they are lowered until W is positive definite.
+    /// Factors W = M + J^T s J. Raised penalties may be so large that the mass is lost to rounding beside them. They are then lowered until W
+    /// is positive definite.
     pub(crate) fn factor<M: Model<T>, S: SpdSolver<T>>(
         &mut self,
         model: &M,
@@ -145,19 +148,19 @@ impl<T: Real> PenaltyScale<T> {
     }
 }
 
-/// Follows the weakest combination of constraints from step to step.
+/// Estimate of the weakest combination of constraints, continued from step to step.
 #[derive(Debug, Clone)]
 pub(crate) struct PenaltyAdaptation<T> {
-    /// Weakest combination u, of which one correction leaves most, m.
+    /// Weakest combination u: the one of which a correction leaves the largest fraction; one weight for each row.
     pub(crate) weakest_combination: Vec<T>,
-    /// Part rho of the weakest combination that one correction left in the last step [-].
+    /// Fraction rho of the weakest combination that one correction left in the last step [-].
     pub(crate) contraction: T,
-    /// Combination of all rows that is added to the weakest one where that is well determined, so that no combination stays out of sight, m.
+    /// Fixed combination of all rows, added to a well-determined u so that the iteration can find any other one.
     probe_seed: Vec<T>,
 }
 
 impl<T: Real> PenaltyAdaptation<T> {
-    /// Begins with a combination of all `m` rows.
+    /// Starts from a combination of all `m` rows.
     pub(crate) fn new(m: usize) -> Self {
         Self {
             weakest_combination: vec![T::ONE; m],
@@ -166,21 +169,23 @@ impl<T: Real> PenaltyAdaptation<T> {
         }
     }
 
-    /// Returns the factor that a step begins with: a raised factor falls where the last step determined all combinations well.
+    /// Returns the penalty factor at the start of a step. A raised factor falls where the last step determined all combinations well.
     pub(crate) fn carried(&self, factor: T) -> T {
         let is_falling = self.contraction < T::from_f64(FALLING * MAX_CONTRACTION);
         if is_falling { (factor * T::from_f64(FALL)).max(T::ONE) } else { factor }
     }
 
-    /// Are all combinations of multipliers well determined, by penalties that are not raised?
+    /// Are penalties not raised, and does one correction leave little of every combination of multipliers?
     pub(crate) fn is_well_conditioned(&self, scale: &PenaltyScale<T>) -> bool {
         scale.factor <= T::ONE && self.contraction <= T::from_f64(WELL_DETERMINED)
     }
 
-    /// Makes one power iteration for the weakest combination u of constraints, from the last step's, or where that is well determined from
-    /// it and a part of all. Raises the penalties until a correction leaves at most [`MAX_CONTRACTION`] of it, unless there are rows of
-    /// velocities: at predicted positions these look weak where they are lost. A combination that no allowed penalty determines is
-    /// redundant and left.
+    /// Makes one power iteration for the weakest combination u of constraints, starting from that of the last step. A well-determined u first
+    /// gets a part of all rows, so that other combinations can be found.
+    ///
+    /// Raises the penalties until a correction leaves at most [`MAX_CONTRACTION`] of u. In two cases they are not raised. First, a combination
+    /// that no allowed penalty determines is redundant. Second, if the model has rows of velocities, a redundant combination looks
+    /// weak rather than redundant at predicted positions.
     ///
     /// Returns whether the penalties changed, so that T must be factored anew. Needs T factored. Cost: one solve.
     pub(crate) fn adapt_penalty<M: Model<T>, S: SpdSolver<T>>(
@@ -217,13 +222,14 @@ impl<T: Real> PenaltyAdaptation<T> {
             u.fill(T::ZERO);
         }
         let most = T::from_f64(MAX_CONTRACTION);
-        // What even the largest penalty cannot determine is redundant, or so near a singular position that nothing is lost.
+        // Not weak: a combination that even the largest penalty cannot determine. It is redundant, or so close to a singular position that its
+        // loss does no harm.
         let is_weak = rho > most && rho / (T::ONE - rho).max(T::EPSILON) < scale.room() * most;
         is_weak && !model.has_velocity_rows() && scale.raise(rho)
     }
 }
 
-/// A part of all combinations, up to a half of each row, always the same: none is out of sight by symmetry.
+/// Returns a fixed pseudo-random combination of all rows, up to one half for each row. No combination is orthogonal to it by symmetry.
 fn probe_seed<T: Real>(m: usize) -> Vec<T> {
     let mut seed = 1_u32;
     let next = |_| {

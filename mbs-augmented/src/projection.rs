@@ -7,13 +7,18 @@
 //! reused:  T' d = -J'^T s r,                          x += d,   sigma += s (r + J' d),      T' = M + J'^T s J'
 //! ```
 //!
-//! [P1 (11)-(14), (17)-(19)] solve for x itself, which loses cond(W) eps at every step; the correction does not. A sweep leaves
-//! 1 / (1 + s sigma^2 / m) of a violation in a direction with singular value sigma; it is repeated until the level is reached. Any factored
-//! matrix near W will do: the fixed point does not depend on it.
+//! The published projections [P1 (11)-(14), (17)-(19)] solve for x itself and lose cond(W) EPSILON of x in each step. The correction form
+//! solves for x - x*. It loses no such digits, because the correction is small.
 //!
-//! Reused are the rows J' of a factor that was made nearby. With J^T on the right d has a part s (J - J')^T r / m along free directions,
-//! which s multiplies and only a second sweep takes back. With J'^T it has none. What is left is r times what the penalties leave and times
-//! the turn of the rows, and d is orthogonal to directions that are off by the turn. So the factor has to be from before a small correction.
+//! A sweep is one solution with one correction. In a direction in which J has the singular value c, it reduces a violation to the
+//! fraction 1 / (1 + s c^2 / m). Sweeps are repeated until the violation is below the limit of the level. A factored matrix close to W
+//! serves as well, because the fixed point of the sweeps does not depend on the matrix.
+//!
+//! A reused sweep takes the rows J' of the factor, which was made before the last small correction. With J^T on the right-hand side, d would
+//! get the part s (J - J')^T r / m along free directions. The penalty s amplifies that part, and only a second sweep would remove it. With
+//! J'^T on the right-hand side d has no such part. The sweep then leaves two parts of the violation r: the fraction that the penalties leave,
+//! and a fraction as large as the rotation of the rows. d is mass-orthogonal to directions that are off by the same rotation. Therefore the
+//! factor may be older by a small correction only.
 
 use crate::equations::Equations;
 use crate::penalty::PenaltyScale;
@@ -25,29 +30,30 @@ use mbs_core::step::StepError;
 use mbs_core::team::{add_product, norm_inf, on_stretches, set_product, set_sum, subtract, sum};
 use mbs_core::{Real, SpdSolver};
 
-/// Violation of velocities, and of accelerations, that a projection within a step may leave [EPSILON of what it is compared with]. It is
-/// 2^13, and 2^21 for accelerations, which enter the motion times the square of the step.
+/// Violation of velocities, and of accelerations, that a projection within a step may leave [EPSILON of the size of the vector]. The
+/// values are 2^13 for velocities and 2^21 for accelerations. Accelerations may be less exact, because the motion has them times the square
+/// of the step.
 const LEFT: [f64; 2] = [8_192.0, 2_097_152.0];
-/// Part of a violation up to which a reused sweep is repeated [-]. Slower ones are followed by sweeps with the rows of now, which cost a
-/// factorisation's worth of residuals but lose nothing to the turn of the rows.
+/// Contraction up to which a reused sweep is repeated [-]. After a slower sweep, sweeps with the present rows follow. They cost a
+/// factorisation's worth of residuals, but their contraction does not depend on the rotation of the rows.
 const SLOW_REUSED: f64 = 0.01;
-/// Parts of a violation between which what a sweep leaves is shortened by scaling its correction [-]. Below the first there is nothing to
-/// gain; above the second directions differ too much in what is left of them.
+/// Contractions of a sweep between which its correction is scaled to reduce the violation further [-]. Below the first value there is nothing
+/// to gain. Above the second one, the contraction differs too much between directions for one common scale.
 const SCALED: [f64; 2] = [0.01, 0.7];
-/// Part of a violation above which a sweep is slow, so that penalties are raised for it [-]: ten sweeps would make ten digits.
+/// Contraction above which a sweep is slow and penalties are raised [-]. At this contraction ten sweeps reduce a violation by ten digits.
 const SLOW_CONTRACTION: f64 = 0.1;
 
-/// With which matrix and rows velocities and accelerations are projected.
+/// Matrix and constraint rows with which velocities and accelerations are projected.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum ProjectionStrategy {
-    /// Constraint rows at the present positions, with a matrix that is factored from them.
+    /// Constraint rows at the present positions, with a matrix that is factored from these rows.
     Exact,
-    /// The factor that there is, with the rows that it was made with.
+    /// The last factor of the step, with the rows from which it was made.
     Reused,
 }
 
 impl ProjectionStrategy {
-    /// The limits of a step's projection: sweeps are repeated down to rounding only where constraints act alone.
+    /// Returns the limits of a step's projection. Sweeps are repeated down to machine precision only where no effect acts.
     pub(crate) fn limits<T: Real, M: Model<T>>(
         self,
         model: &M,
@@ -66,11 +72,11 @@ impl ProjectionStrategy {
 /// Scratch memory of projections.
 #[derive(Debug, Clone)]
 pub(crate) struct Projection<T> {
-    /// x - x*, extended.
+    /// Sum of the corrections, x - x*; an extended vector, which includes known coordinates.
     pub(crate) change: Vec<T>,
-    /// Multipliers of the projection, m.
+    /// Multipliers sigma of the projection, one for each row.
     pub(crate) sigma: Vec<T>,
-    /// r = J x + b, m.
+    /// Violation r = J x + b, one number for each row.
     pub(crate) rates: Vec<T>,
 }
 
@@ -82,7 +88,7 @@ impl<T: Real> Projection<T> {
     }
 }
 
-/// Projection of x on its level, with the equations and penalties of the step.
+/// Projection of x onto its constraint level, with the equations and penalties of the step.
 #[derive(Debug)]
 pub(crate) struct Projector<'a, T, M, S> {
     pub(crate) model: &'a M,
@@ -94,9 +100,10 @@ pub(crate) struct Projector<'a, T, M, S> {
 }
 
 impl<T: Real, M: Model<T>, S: SpdSolver<T>> Projector<'_, T, M, S> {
-    /// Projects x by the rows of now; the multipliers are left in `sigma`. Returns the violation left.
+    /// Projects x with the present rows and leaves the multipliers in `sigma`. Returns the remaining violation.
     ///
-    /// Sweeps at least once unless the level holds already, until the violation is `enough`, or stops shrinking below `limit`.
+    /// At least one sweep is made, unless the violation is at most `goal` from the start. Sweeps end when the violation is at most `enough`,
+    /// or when it is below `limit` and stops shrinking.
     ///
     /// Cost: a solve, a residual and a product of the Jacobian for each sweep.
     pub(crate) fn project(
@@ -108,10 +115,12 @@ impl<T: Real, M: Model<T>, S: SpdSolver<T>> Projector<'_, T, M, S> {
         self.continue_from(0, limits, max_sweeps)
     }
 
-    /// Projects x by the rows of the factor, once unless the violation is at most `goal`. Repeats while sweeps of this kind shrink it until
-    /// it is `enough`, else goes by the rows of now. The multipliers of accelerations are left in `sigma`. Returns the violation left.
+    /// Projects x with the rows of the factor. No sweep is made where the violation is at most `goal` from the start.
     ///
-    /// Cost: a solve and three products of the Jacobian for each sweep, of which there is mostly one.
+    /// Sweeps are repeated until the violation is at most `enough`. After a slow sweep, sweeps with the present rows follow. The multipliers
+    /// of accelerations are left in `sigma`. Returns the remaining violation.
+    ///
+    /// Cost: a solve and three products of the Jacobian for each sweep. Usually one sweep is enough.
     pub(crate) fn project_reused(
         mut self,
         limits: ResidualLimits<T>,
@@ -121,7 +130,7 @@ impl<T: Real, M: Model<T>, S: SpdSolver<T>> Projector<'_, T, M, S> {
         self.begin();
         let mut violation = self.violation();
         let (mut sweeps, mut most) = (0, goal);
-        // a NaN is no violation that may be left
+        // written with `!`, so that a violation of NaN is not accepted
         while !(violation <= most) {
             most = enough;
             self.sweep_reused();
@@ -139,13 +148,13 @@ impl<T: Real, M: Model<T>, S: SpdSolver<T>> Projector<'_, T, M, S> {
         Ok(violation)
     }
 
-    /// sigma = 0, x = x*.
+    /// Begins a projection: sigma = 0, x = x*.
     pub(crate) fn begin(&mut self) {
         self.scratch.sigma.fill(T::ZERO);
         self.scratch.change.fill(T::ZERO);
     }
 
-    /// Sweeps by the rows of now, after `done` others.
+    /// Sweeps with the present rows, after `done` sweeps of the other kind.
     fn continue_from(
         &mut self,
         done: u32,
@@ -182,14 +191,14 @@ impl<T: Real, M: Model<T>, S: SpdSolver<T>> Projector<'_, T, M, S> {
         Err(self.level.violated(violation, &self.scratch.rates))
     }
 
-    /// r = J x + b; returns its largest absolute value.
+    /// Evaluates r = J x + b. Returns its largest absolute value.
     #[inline(always)]
     pub(crate) fn violation(&mut self) -> T {
         let (terms, rates) = (&self.equations.terms, &mut self.scratch.rates);
         self.level.violation(self.model, terms, self.x, rates)
     }
 
-    /// One sweep by the rows of now; as long as nothing `is_changed` the mass has no part in it.
+    /// Makes one sweep with the present rows. The mass enters the right-hand side only once x differs from x* (`is_changed`).
     pub(crate) fn sweep(&mut self, is_changed: bool) {
         let Projection { change, sigma, rates } = &*self.scratch;
         set_sum(self.model.team(), &mut self.equations.mu, sigma, (&self.scale.weights, rates));
@@ -198,7 +207,7 @@ impl<T: Real, M: Model<T>, S: SpdSolver<T>> Projector<'_, T, M, S> {
         self.take();
     }
 
-    /// One sweep by the rows of the factor.
+    /// Makes one sweep with the rows of the factor.
     fn sweep_reused(&mut self) {
         let (model, team, s) = (self.model, self.model.team(), &self.scale.weights);
         let Projection { sigma, rates, .. } = &mut *self.scratch;
@@ -213,7 +222,7 @@ impl<T: Real, M: Model<T>, S: SpdSolver<T>> Projector<'_, T, M, S> {
         self.take();
     }
 
-    /// x += d and change += d with d = -f.
+    /// Applies the last correction d = -f: x += d and change += d.
     fn take(&mut self) {
         let (n, f) = (self.equations.f.len(), &self.equations.f);
         let vectors = [&mut self.x[..n], &mut self.scratch.change[..n]];
@@ -226,9 +235,10 @@ impl<T: Real, M: Model<T>, S: SpdSolver<T>> Projector<'_, T, M, S> {
         });
     }
 
-    /// x += k d, sigma += k s r for the last sweep by the rows of now. With the factor of W, and in balance before it, they are in balance,
-    /// M d + J^T s r = 0, and stay so. With a factor from nearby what is off grows by 1 + k in a first sweep, and what a later one found
-    /// stays by k. Needs the violation before it in `mu`. Returns the violation left.
+    /// Scales the last sweep with the present rows: x += k d, sigma += k s r. Returns the remaining violation.
+    ///
+    /// With the factor of W, d and the multipliers are in balance, M d + J^T s r = 0, for every k. With another factor the imbalance is
+    /// small: a first sweep scales it by 1 + k, and later sweeps keep a fraction k of it. Needs the violation before the sweep in `mu`.
     fn scale_last(&mut self) -> T {
         let Projection { sigma, rates, .. } = &mut *self.scratch;
         subtract(self.model.team(), &mut self.equations.mu, rates);
@@ -242,8 +252,10 @@ impl<T: Real, M: Model<T>, S: SpdSolver<T>> Projector<'_, T, M, S> {
         self.scale_correction(k)
     }
 
-    /// After the first sweep by the rows of the factor x += k d, sigma += k sigma with the best k. d is short by what the penalties leave,
-    /// much the same part in all rows. Needs the last `f` = -d, of accelerations with J' f in `mu`. Returns the violation left.
+    /// Scales the first sweep with the rows of the factor by the best k: x += k d, sigma += k sigma. Returns the remaining violation.
+    ///
+    /// The scaling helps because d is too short by nearly the same fraction in all rows. Needs the last `f` = -d, and for accelerations J' f
+    /// in `mu`.
     fn scale_first(&mut self) -> T {
         if self.level == ConstraintLevel::Velocity {
             self.equations.multiply_correction(self.model);
@@ -256,7 +268,8 @@ impl<T: Real, M: Model<T>, S: SpdSolver<T>> Projector<'_, T, M, S> {
         self.scale_correction(k)
     }
 
-    /// x += k d, r += k J d for the last sweep. Needs `f` = -d, which is lost, and J f in `mu`. Returns the violation left.
+    /// Applies a scaled correction: x += k d, r += k J d. Needs `f` = -d, which it overwrites, and J f in `mu`. Returns the remaining
+    /// violation.
     fn scale_correction(&mut self, k: T) -> T {
         let (team, mu) = (self.model.team(), &self.equations.mu);
         on_stretches(team, [&mut self.scratch.rates], |first, [rates]| {
@@ -270,7 +283,7 @@ impl<T: Real, M: Model<T>, S: SpdSolver<T>> Projector<'_, T, M, S> {
     }
 }
 
-/// The k with which a further k d leaves least of a violation r; zero where d does nothing.
+/// Returns the k with which a further correction k d leaves the smallest violation |r + k J d|. Returns zero where J d = 0.
 ///
 /// ```text
 /// k = -(r . J d) / (J d . J d),      mu = -J d

@@ -1,4 +1,4 @@
-//! Scratch of a step, made once: the equations, the end of the step, and a policy's own each.
+//! Workspace of a step, made once: the equations, the end of the step, and the scratch of each policy.
 
 use crate::equations::Equations;
 use crate::history::History;
@@ -14,26 +14,26 @@ use mbs_core::model::{Model, State, Terms};
 use mbs_core::step::{Counts, OptionError, StepReport, Stop};
 use mbs_core::{Real, SpdSolver};
 
-/// Scratch of the augmented Lagrangian steps over a solver `S`. Nothing is allocated after [`Workspace::new`].
+/// Workspace of the augmented Lagrangian steps over a solver `S`. Nothing is allocated after [`Workspace::new`].
 #[derive(Debug, Clone)]
 pub struct Workspace<T, S> {
     pub(crate) equations: Equations<T, S>,
-    /// The end of the step, with a/a' (index-3) or a (index-1).
+    /// The end of the step, whose accelerations are a/a' in index-3 and a in index-1.
     pub(crate) end: StepEnd<T>,
-    /// lambda / a' (index-3) or lambda (index-1), m.
+    /// Multipliers, one for each row: lambda / a' in index-3, lambda in index-1.
     pub(crate) lambda: Vec<T>,
     pub(crate) scale: PenaltyScale<T>,
     pub(crate) adaptation: PenaltyAdaptation<T>,
     pub(crate) projection: Projection<T>,
-    /// Energy that the penalties held after the first correction [J].
+    /// Energy of the penalties after the first correction [J].
     pub(crate) penalty_energy: T,
-    /// Counts of a change of index before the step.
+    /// Counts of the work for a change of index before the step.
     pub(crate) settled: Counts,
     saved: History<T>,
 }
 
 impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
-    /// Scratch for `model`, with a solver analysed for its cliques.
+    /// Creates a workspace for `model`, with a solver analysed for its cliques.
     pub fn new(model: &impl Model<T>, solver: S) -> Self {
         let m = model.n_constraints();
         let mut terms = model.terms();
@@ -56,7 +56,7 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
         this
     }
 
-    /// Saves what the last step leaves for the next one, so that a trial of that can be undone.
+    /// Saves the data that the last step leaves for the next one, so that a trial step can be undone.
     pub fn save(&mut self) {
         self.saved.penalty_factor = self.scale.factor;
         self.saved.penalty_strength = self.scale.strength;
@@ -64,7 +64,7 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
         self.saved.weakest_combination.copy_from_slice(&self.adaptation.weakest_combination);
     }
 
-    /// Restores what was saved: a trial leaves no trace.
+    /// Restores the saved data, which undoes a trial step.
     pub fn restore(&mut self) {
         self.scale.factor = self.saved.penalty_factor;
         self.scale.strength = self.saved.penalty_strength;
@@ -72,8 +72,8 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
         self.adaptation.weakest_combination.copy_from_slice(&self.saved.weakest_combination);
     }
 
-    /// A step failed for penalties that may be too small: makes those in proportion to masses larger from now on, until it is
-    /// [`restore`](Self::restore)d. Returns whether they were not before.
+    /// Makes penalties that are proportional to masses larger until a [`restore`](Self::restore). Call it after a step failed, since its
+    /// penalties may be too small. Returns false if they were already larger.
     pub fn strengthen(&mut self) -> bool {
         self.scale.strengthen()
     }
@@ -91,7 +91,7 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
         }
     }
 
-    /// Restores the history of the same model; returns whether it is one, by its length. Else nothing is changed.
+    /// Restores a history of the same model. Returns false, and changes nothing, if its length does not fit.
     pub fn set_history(&mut self, history: &History<T>) -> bool {
         let PenaltyAdaptation { weakest_combination, contraction, .. } = &mut self.adaptation;
         if history.weakest_combination.len() != weakest_combination.len() {
@@ -104,12 +104,12 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
         true
     }
 
-    /// The terms as last evaluated.
+    /// The terms of the model as last evaluated.
     pub fn terms(&self) -> &Terms<T> {
         &self.equations.terms
     }
 
-    /// Terms as last evaluated, to be put back.
+    /// Terms as last evaluated, for a caller that restores them.
     pub fn terms_mut(&mut self) -> &mut Terms<T> {
         &mut self.equations.terms
     }
@@ -119,7 +119,7 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
         &self.equations.solver
     }
 
-    /// Begins a step with no counts, penalties raised by `factor`, and a fixed alpha times `unit`.
+    /// Begins a step: sets counts to zero, multiplies scaled penalties by `factor`, and a fixed alpha by `unit`.
     pub(crate) fn begin<M: Model<T>>(
         &mut self,
         model: &M,
@@ -129,7 +129,7 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
         self.scale.begin(model, (penalty, unit, factor));
     }
 
-    /// phi, J and forces at the end of the step as it is.
+    /// Evaluates phi, J and forces at the present end of the step.
     pub(crate) fn evaluate<M: Model<T>>(
         &mut self,
         model: &M,
@@ -141,7 +141,7 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
         self.end.evaluate_forces(model, &mut self.equations.terms);
     }
 
-    /// T, with the geometric stiffness where it is asked for and leaves T positive definite.
+    /// Factors the tangent T. It contains the geometric stiffness if that is required and T stays positive definite.
     pub(crate) fn factor<M: Model<T>>(
         &mut self,
         model: &M,
@@ -156,7 +156,7 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
         equations.factor(model, weights, s, None)
     }
 
-    /// W = M + J^T s J, factored.
+    /// Factors the projection matrix W = M + J^T s J.
     pub(crate) fn factor_mass<M: Model<T>>(
         &mut self,
         model: &M,
@@ -164,7 +164,7 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
         self.equations.factor_mass(model, &self.scale.weights)
     }
 
-    /// Projects velocities or accelerations.
+    /// Returns the projector of velocities or accelerations.
     pub(crate) fn projector<'a, M: Model<T>>(
         &'a mut self,
         model: &'a M,
@@ -201,7 +201,7 @@ impl<T: Real, S: SpdSolver<T>> StepScratch<T> for Workspace<T, S> {
         commit(model, (rule, compensated), &self.end, multipliers, terms, s);
     }
 
-    /// Returns the report of a step, with the change of index before it.
+    /// Returns the report of a step, including the work of a change of index before it.
     fn report(&mut self, newton: (u32, T, Stop), violation: [T; 3]) -> StepReport<T> {
         let (settled, counts) = (take(&mut self.settled), self.equations.counts);
         let counts = Counts {

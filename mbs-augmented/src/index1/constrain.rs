@@ -1,4 +1,4 @@
-//! Positions and velocities on their constraints, within an iteration of index-1.
+//! Projection of positions and velocities onto their constraints, within an iteration of index-1.
 
 use crate::options::Options;
 use crate::workspace::Workspace;
@@ -9,20 +9,21 @@ use mbs_core::step::StepError;
 use mbs_core::team::{norm_inf, on_stretches, set_product, subtract};
 use mbs_core::{Real, SpdSolver};
 
-/// Violation that rounding leaves of the constraints, for which penalties are not raised [EPSILON of what their coordinates went]: six binary
-/// digits.
+/// Violation of constraints that rounding errors cause [EPSILON of the displacement of the coordinates]: six binary digits. Penalties are not
+/// raised for it.
 const ROUNDING: f64 = 64.0;
-/// Part of a violation of positions that a slow sweep leaves, for which penalties are raised [-]: ten sweeps would make ten digits.
+/// Contraction of a violation of positions above which penalties are raised [-]. At this contraction ten sweeps reduce it by ten digits.
 const SLOW_CONTRACTION: f64 = 0.1;
-/// Slow sweeps until rows of velocities give way [-]: where they depend on no others, raised penalties leave no second one.
+/// Slow sweeps after which the penalties of rows of velocities are lowered [-]. Where these rows depend on no others, raised penalties
+/// prevent a second slow sweep.
 const SLOW_SWEEPS: u32 = 1;
-/// Factor on penalties of rows of velocities that give way to rows of positions [-]: what a sweep leaves of these, and enough to hold the rest.
-/// A power of two, which takes no digits.
+/// Factor on lowered penalties of rows of velocities [-]. It is the contraction of rows of positions against them, and still enforces the
+/// independent rows. A power of two costs no digits.
 const LOOSE: f64 = 1.0 / 8_192.0;
-/// Part of a violation of positions that a sweep leaves which is of no use [-].
+/// Contraction of a violation of positions above which a sweep is useless [-].
 const USELESS: f64 = 0.9;
 
-/// q, v from the accelerations by the integrator, projected; the matrix W at q is left factored. Returns |phi'|.
+/// Integrates the accelerations to q and v and projects both. Leaves the matrix W at q factored. Returns |phi'|, the violation of velocities.
 pub(super) fn constrain<T: Real, M: Model<T>, S: SpdSolver<T>>(
     model: &M,
     (rule, length, is_first): (&Rule<T>, T, bool),
@@ -51,7 +52,7 @@ pub(super) fn constrain<T: Real, M: Model<T>, S: SpdSolver<T>>(
     velocities(model, (length, is_first), options, w)
 }
 
-/// Projects the velocities at q with W factored there, which is left so. Returns |phi'|.
+/// Projects the velocities at q with the factor of W, and leaves W factored. Returns |phi'|, the violation of velocities.
 pub(super) fn velocities<T: Real, M: Model<T>, S: SpdSolver<T>>(
     model: &M,
     (length, is_first): (T, bool),
@@ -71,14 +72,15 @@ pub(super) fn velocities<T: Real, M: Model<T>, S: SpdSolver<T>>(
     Ok(left)
 }
 
-/// W d = -J^T s phi,   q += d: until phi is at rounding.
+/// Projects the positions by W d = -J^T s phi, q += d, until phi is at machine precision.
 ///
-/// Rows of velocities are zero here, and may depend on rows of positions, as of two wheels on one axle. A sweep then closes its share of a
-/// joint alone. Where that is slow such rows give way: the correction, of third order in the step, slips.
+/// Rows of velocities have phi = 0 here. They may depend on rows of positions, such as those of two wheels on one axle. A sweep then closes
+/// only a fraction of a joint's violation. Where that is slow, the penalties of rows of velocities are lowered. These rows then slip by the
+/// correction, which is of third order in the step.
 ///
-/// Every sweep begins from where the last one ended. The multipliers of all together, as [P1 (8)-(10)] carries them, would make the whole way
-/// orthogonal, not each part of it. That differs by the square of the way. As their rows turn they push light pieces off, the more the
-/// heavier those are that they carry.
+/// Every sweep starts from the positions of the last sweep, with multipliers of zero. The published method [P1 (8)-(10)] accumulates the
+/// multipliers of all sweeps, which makes the total correction orthogonal rather than each part of it. The difference is of second order in
+/// the correction. As the rows rotate, accumulated multipliers would push light bodies away, the more the heavier the bodies that they carry.
 fn positions<T: Real, M: Model<T>, S: SpdSolver<T>>(
     model: &M,
     length: T,
@@ -88,7 +90,7 @@ fn positions<T: Real, M: Model<T>, S: SpdSolver<T>>(
 ) -> Result<(), StepError> {
     let limits = ResidualLimits::of_positions(length, options.tolerance, options.compensated);
     w.end.evaluate(model, options.compensated, s, &mut w.equations.terms);
-    // Directions are numbers without a unit: in a scene of a millimetre they go further than the places.
+    // Components of directions have no unit. In a scene of a millimetre they change by more than the points do.
     let moved = norm_inf(model.team(), w.end.moved()).max(length * T::EPSILON);
     let moved = if options.compensated { moved } else { length.max(T::ONE) };
     let rounding = moved * T::EPSILON * T::from_f64(ROUNDING);
@@ -116,7 +118,8 @@ fn positions<T: Real, M: Model<T>, S: SpdSolver<T>>(
             is_loosened = true;
             continue;
         }
-        // The heights of a third and a fourth wheel contradict the rows of unit lengths until these hold, by a half or less from sweep to sweep.
+        // With three or more wheels, rows of heights contradict the rows of unit lengths until these hold. That violation halves, or better,
+        // in each sweep.
         let is_slow = is_slow && !(is_loosened && contraction < T::HALF);
         let is_raised = is_slow && w.scale.raise(contraction);
         if contraction > T::from_f64(USELESS) && !is_raised {
@@ -126,7 +129,8 @@ fn positions<T: Real, M: Model<T>, S: SpdSolver<T>>(
     if is_loosened {
         w.scale.scale_velocity_rows(model, T::ONE / T::from_f64(LOOSE));
     }
-    // What is almost lost is enforced on positions only: velocities and accelerations would grow like 1 / sigma there.
+    // The raised penalties enforce an almost lost direction on positions only. Velocities and accelerations would grow like 1 / sigma there,
+    // with sigma the smallest singular value of J.
     if w.scale.restore() || is_loosened {
         w.factor_mass(model)?;
     }

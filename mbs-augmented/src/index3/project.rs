@@ -1,4 +1,4 @@
-//! The projections of a step in index-3: with which factor, rows and penalties velocities and accelerations are projected.
+//! Projections of velocities and accelerations at the end of a step in index-3: choice of factor, rows and penalties.
 
 use crate::multipliers::balance;
 use crate::options::Options;
@@ -11,33 +11,34 @@ use mbs_core::step::StepError;
 use mbs_core::team::norm_inf;
 use mbs_core::{Real, SpdSolver};
 
-/// Penalty factor above which penalties are taken back before velocities and accelerations are projected [-]. Below it what is almost lost
-/// is enforced no more than a hundred times as much as anything else.
+/// Penalty factor above which penalties are reset before velocities and accelerations are projected [-]. Below it, an almost lost direction
+/// is enforced at most a hundred times as strongly as others.
 const MAX_FACTOR_OF_PROJECTION: f64 = 100.0;
-/// Corrections since the factor was made up to which a reused projection may use it [scene's length]. Rows have turned by 1e-7 then, and
-/// s times a tenth of that of a violation goes along free directions.
+/// Sum of corrections since the factorisation up to which a projection may reuse the factor [length of the scene]. Rows have then rotated by
+/// 1e-7 at most.
 const MAX_TURN_OF_ROWS: f64 = 1e-7;
 
-/// Projects velocities and accelerations, `since` the corrections after the factor. Returns the violation of the three levels.
+/// Projects velocities and accelerations; `since` is the sum of corrections since the factorisation. Returns the violation of the three
+/// levels.
 pub(super) fn project<T: Real, M: Model<T>, S: SpdSolver<T>>(
     model: &M,
     (rule, since, length): (&Rule<T>, T, T),
     options: &Options<T>,
     w: &mut Workspace<T, S>,
 ) -> Result<[T; 3], StepError> {
-    // Where only constraints act, and all are well determined, T differs from M + J^T s J by little, and its rows serve for those of now.
+    // Where only constraints act and all are well determined, T is close to M + J^T s J, and its rows are close to the present ones.
     let is_reusable = options.adaptive_penalty
         && !model.has_forces()
         && w.adaptation.is_well_conditioned(&w.scale);
     let strategy = if is_reusable { Reused } else { Exact };
-    // A combination of constraints that is almost lost must not be enforced on velocities and accelerations beyond need: they
-    // would grow like 1 / sigma there.
+    // A combination of constraints that is almost lost must not be enforced too strongly on velocities and accelerations. They would grow
+    // like 1 / sigma there, with sigma the smallest singular value of J.
     let raised = w.scale.factor;
     if raised > T::from_f64(MAX_FACTOR_OF_PROJECTION) {
         w.scale.scale(T::ONE / raised);
     }
-    // With rows of now and a factor that has others, s times their turn of a violation would go along free directions. With a factor
-    // that has stiffness and damping, their part of the mass would.
+    // An exact projection needs a new factor. If the factor had other rows than the right-hand side, s times their difference would move x
+    // along free directions. Stiffness and damping in the factor would do so in proportion to the mass.
     match strategy {
         Exact => w.factor_mass(model)?,
         Reused if since > length * T::from_f64(MAX_TURN_OF_ROWS) => {
@@ -58,7 +59,7 @@ pub(super) fn project<T: Real, M: Model<T>, S: SpdSolver<T>>(
     Ok([norm_inf(model.team(), &w.terms().phi), velocity, acceleration])
 }
 
-/// Projects velocities or accelerations. Returns the violation left.
+/// Projects velocities or accelerations onto one level. Returns the remaining violation.
 fn project_level<T: Real, M: Model<T>, S: SpdSolver<T>>(
     model: &M,
     (level, strategy): (ConstraintLevel, ProjectionStrategy),

@@ -1,14 +1,16 @@
-//! When the factor of an earlier correction serves again, and the residual for it.
+//! Reuse of the factor of an earlier correction, and the residual that such a correction needs.
 //!
 //! ```text
 //! T' d = -(M a + J^T lambda - Q) / a' - J'^T s phi,     T' = M + J'^T s J' + ...
 //! ```
 //!
-//! With a symmetric tangent corrections of a vehicle shrink to a tenth or less each, with a new factor or with the first. A tire's
-//! side force turns with its wheel, and nothing of that is symmetric. That a factor serves on takes two things. s phi goes by the rows
-//! of the factor, which answer it with a correction across the motion alone. And multipliers grow by s (phi + J' d), which is what the
-//! correction is in balance with, and not by s phi after it [P3 (2)]. That has the square of the correction in it. The next
-//! correction would have to take it back while s phi asks for it once more, and once the rows have turned it acts along the motion.
+//! With a symmetric tangent, corrections of a vehicle shrink to a tenth or less each, with a new factor or with the first one. (The side
+//! force of a tire turns with its wheel, and the tangent leaves out its unsymmetric part.) Two changes of the iteration make reuse possible.
+//!
+//! First, s phi uses the rows J' of the factor, so that the resulting correction has no part along the motion. Second, multipliers grow by s
+//! (phi + J' d), which balances the correction, and not by s phi after the correction [P3 (2)]. The published growth contains the square of
+//! the correction. The next correction would have to remove it while s phi enforces it again. Once the rows have rotated, it acts along the
+//! motion.
 
 use crate::equations::Equations;
 use mbs_core::implicit::Newton;
@@ -17,37 +19,37 @@ use mbs_core::model::Model;
 use mbs_core::team::set_product;
 use mbs_core::{Real, SpdSolver};
 
-/// Contraction of corrections up to which a factor is kept, where the iteration ends below the truncation error [-]: a new factor costs two
-/// iterations, which contract to 0.04 by then.
+/// Contraction of corrections up to which a factor is reused, where the iteration ends below the truncation error [-]. A new factor costs as
+/// much as two iterations, which contract to 0.04.
 const MAX_CONTRACTION: f64 = 0.2;
-/// Contraction of corrections up to which a factor is kept where the tolerance alone ends the iteration [-]. A new factor takes in nearly all
-/// of what constraints alone leave.
+/// Contraction of corrections up to which a factor is reused, where the tolerance alone ends the iteration [-]. A new factor removes nearly
+/// all of the error where only constraints act.
 const MAX_CONTRACTION_TO_TOLERANCE: f64 = 1e-3;
-/// Change of a law's tangent up to which its factor serves [-]: a tenth of it then shrinks corrections to a tenth.
+/// Relative change of a law's tangent up to which its factor is reused [-]. A change of a tenth makes corrections shrink to a tenth.
 const MAX_TANGENT_CHANGE: f64 = 0.1;
-/// Tangents below this times the largest are not looked at [-]: what they change is a thousandth of a correction.
+/// Ratio to the largest tangent below which a law's tangent is not compared [-]. A change of it affects a correction by a thousandth.
 const NEGLIGIBLE_TANGENT: f64 = 1e-3;
 
-/// When the factor of a step is made anew.
+/// Rule that decides when the matrix of a step is factored again.
 #[derive(Debug)]
 pub(crate) struct FactorReuse<T> {
-    /// Do multipliers grow by what a correction is in balance with, and not as published?
+    /// Do multipliers grow by s (phi + J' d), in balance with the correction, instead of as published?
     is_balanced: bool,
-    /// Contraction of corrections up to which a factor is kept [-].
+    /// Contraction of corrections up to which a factor is reused [-].
     max_contraction: T,
     /// Sum of the corrections since the matrix was factored [m].
     pub(crate) since: T,
 }
 
 impl<T: Real> FactorReuse<T> {
-    /// Before the first correction.
+    /// Creates the rule before the first correction of a step.
     pub(crate) fn new(is_balanced: bool, ends_at_tolerance: bool) -> Self {
         let most = if ends_at_tolerance { MAX_CONTRACTION_TO_TOLERANCE } else { MAX_CONTRACTION };
         Self { is_balanced, max_contraction: T::from_f64(most), since: T::ZERO }
     }
 
-    /// May the next correction be made with the factor there is? It is one of the matrix as it was while laws are like those that were
-    /// factored. Rows that have turned since cost little, for its residual takes s phi by the rows that it was made with.
+    /// May the next correction use the present factor? It may while the tangents of the laws are close to those that were factored, and while
+    /// corrections shrink. A rotation of the rows has little effect, because the residual takes s phi with the factored rows.
     pub(crate) fn can_reuse<S: SpdSolver<T>>(
         &self,
         newton: &Newton<T>,
@@ -64,8 +66,8 @@ impl<T: Real> FactorReuse<T> {
     }
 }
 
-/// Are the laws' tangents nearly those of the factored matrix? A wheel that has left its road, or a stop that was met, is another law.
-/// Stiffness and damping are looked at, of lengths and angles by the same measure; not what a tension adds across its line.
+/// Are the laws' tangents close to those in the factored matrix? They are not after a wheel has left the road, or after a contact with a
+/// stop. Stiffness and damping of lengths and angles are compared on one scale. The geometric stiffness of a tension is not compared.
 fn has_like_laws<T: Real, S: SpdSolver<T>>(rule: &Rule<T>, equations: &Equations<T, S>) -> bool {
     let weight = |[stiffness, damping]: [T; 2]| stiffness + damping * rule.velocity;
     let (mut largest, mut change) = (T::ZERO, T::ZERO);
@@ -80,7 +82,7 @@ fn has_like_laws<T: Real, S: SpdSolver<T>>(rule: &Rule<T>, equations: &Equations
     !(change > largest * T::from_f64(NEGLIGIBLE_TANGENT))
 }
 
-/// f = M a + J^T lambda - force Q + J'^T s phi: the residual of a step for a factor that is kept. Cost: two residuals.
+/// Assembles the residual for a reused factor: f = M a + J^T lambda - force Q + J'^T s phi. Cost: two residuals.
 pub(crate) fn residual_with_reused_jacobian<T: Real, M: Model<T>, S: SpdSolver<T>>(
     model: &M,
     equations: &mut Equations<T, S>,

@@ -1,4 +1,4 @@
-//! Policies of Newton's iteration: when a factor serves again, and when what is left is below what the rule itself errs by.
+//! Policies of Newton's iteration: when a factor is reused, and when the remaining correction is below the truncation error.
 
 mod factor_reuse;
 mod stop;

@@ -1,4 +1,4 @@
-//! When what is left of a correction is small beside what the rule itself errs by.
+//! Stop of the iteration where the remaining correction is small relative to the truncation error of the rule.
 //!
 //! ```text
 //! first correction = (h^2/4) (a_(n+1) - a_n), three times the local error of the trapezoidal rule
@@ -9,19 +9,20 @@ use mbs_core::Real;
 use mbs_core::implicit::Newton;
 use mbs_core::model::Model;
 
-/// Least contraction of the next correction that is counted on, however much the last one shrank [-]: a kept factor leaves a tenth.
+/// Smallest contraction that is assumed for the next correction, even if the last one shrank more [-]. A reused factor leaves a tenth.
 const MIN_CONTRACTION: f64 = 0.1;
 
-/// Ends an iteration below the truncation error.
+/// Rule that ends an iteration below the truncation error.
 #[derive(Debug)]
 pub(crate) struct StopRule<T> {
-    /// Share of the first correction that may be left [-]; zero where the tolerance alone ends the iteration.
+    /// Fraction of the first correction that may be left [-]. Zero where the tolerance alone ends the iteration.
     truncation_share: T,
 }
 
 impl<T: Real> StopRule<T> {
-    /// The tolerance alone ends the iteration where constraints act alone: first corrections go mostly across the motion there, so that
-    /// ratios to them say nothing of the error along it. So it does where multipliers grow as published, with a fixed alpha.
+    /// Creates the rule for a step. The tolerance alone ends the iteration where only constraints act. First corrections are then mainly
+    /// across the motion, so that a ratio to them says nothing of the error along the motion. It also does with a fixed alpha, where
+    /// multipliers grow as published.
     pub(crate) fn new<M: Model<T>>(model: &M, options: &Options<T>, is_balanced: bool) -> Self {
         let is_on = is_balanced && model.has_forces();
         Self { truncation_share: if is_on { options.truncation_share } else { T::ZERO } }
@@ -32,7 +33,7 @@ impl<T: Real> StopRule<T> {
         !(self.truncation_share > T::ZERO)
     }
 
-    /// Is what the last correction leaves below the part of the first one that may be left?
+    /// Is the predicted next correction below the allowed fraction of the first one?
     pub(crate) fn is_below_truncation(&self, newton: &Newton<T>) -> bool {
         let [before, last] = newton.corrections;
         let contraction = (last / before).max(T::from_f64(MIN_CONTRACTION));

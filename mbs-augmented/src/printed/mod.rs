@@ -1,4 +1,4 @@
-//! Index-3 as publications 1 and 3 have it: fixed alpha, plain arithmetic, projections without a level.
+//! Index-3 as published in P1 and P3: fixed alpha, plain arithmetic, and a fixed number of sweeps in each projection.
 //!
 //! ```text
 //! M q'' + J^T (alpha phi + lambda) = Q,      lambda <- lambda + alpha phi              [P3 (1), (2)]
@@ -6,7 +6,7 @@
 //! publication 3: lambda extrapolated [P3 (3)], then T x = (T - J^T s J) x* - J^T s b   [P3 (11), (12)]
 //! ```
 //!
-//! For comparison alone: the small steps in which these lose their digits are what the formulation of [`index3`](crate::index3) is for.
+//! These forms serve for comparison only. They lose their digits in small steps, for which [`index3`](crate::index3) is made.
 
 mod projection;
 
@@ -22,10 +22,10 @@ use mbs_core::team::norm_inf;
 use mbs_core::{Real, SpdSolver};
 use projection::{Published, project};
 
-/// Iterations of a step [-]: those of the published tables end well before.
+/// Iterations of a step at most [-]. The steps of the published tables need far fewer.
 const MAX_ITERATIONS: u32 = 20;
 
-/// Choices for a step as published.
+/// Options of a step as published.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Options<T> {
     /// Time integrator of the steps.
@@ -39,14 +39,14 @@ pub struct Options<T> {
 }
 
 impl<T: Real> Options<T> {
-    /// Trapezoidal rule, the tolerance of [`Options::index3`](crate::Options::index3), 20 iterations.
+    /// Creates options: trapezoidal rule, the tolerance of [`Options::index3`](crate::Options::index3), 20 iterations.
     #[must_use]
     pub fn new(alpha: T) -> Self {
         let crate::Options { integrator, tolerance, .. } = crate::Options::index3();
         Self { integrator, alpha, tolerance, max_iterations: MAX_ITERATIONS }
     }
 
-    /// Returns these options as options of the formulation that has all strategies, with every strategy off.
+    /// Returns these options for the solver of `index3`, with all its additions to the published method switched off.
     fn of_index3(&self) -> crate::Options<T> {
         let Self { integrator, alpha, tolerance, max_iterations } = *self;
         crate::Options {
@@ -62,7 +62,7 @@ impl<T: Real> Options<T> {
     }
 }
 
-/// One step as in publication 1.
+/// Makes one step as in publication 1.
 ///
 /// # Errors
 /// [`StepError`]; the state is then unchanged.
@@ -76,7 +76,7 @@ pub fn publication1<T: Real, M: Model<T>, S: SpdSolver<T>>(
     published(model, step, options, (MultiplierStart::Zero, Published::ByMass), s, w)
 }
 
-/// One step as in publication 3.
+/// Makes one step as in publication 3.
 ///
 /// # Errors
 /// [`StepError`]; the state is then unchanged.
@@ -104,7 +104,7 @@ fn published<T: Real, M: Model<T>, S: SpdSolver<T>>(
         let unit = rule.acceleration;
         let mut violation = [norm_inf(model.team(), &w.terms().phi), T::ZERO, T::ZERO];
         if projection == Published::ByMass {
-            // W = M + J^T alpha J with alpha as it is: the penalty of the iteration is alpha / a'
+            // W = M + J^T alpha J needs alpha itself; the weights of the iteration are alpha / a'
             w.scale.weights.iter_mut().for_each(|s| *s *= unit);
         }
         for (k, level) in [(1, ConstraintLevel::Velocity), (2, ConstraintLevel::Acceleration)] {

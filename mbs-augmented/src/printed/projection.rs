@@ -1,4 +1,4 @@
-//! The projections of publications 1 and 3, a fixed number of sweeps each.
+//! The projections of publications 1 and 3, each with a fixed number of sweeps.
 
 use crate::equations::Equations;
 use crate::projection::{Projection, Projector};
@@ -6,12 +6,12 @@ use mbs_core::implicit::ConstraintLevel;
 use mbs_core::model::Model;
 use mbs_core::{Real, SpdSolver};
 
-/// With which matrix a vector is projected.
+/// Matrix with which a vector is projected.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Published {
     /// W = M + J^T alpha J [P1 (13), (19)].
     ByMass,
-    /// The tangent T as the iteration leaves it [P3 (11), (12)].
+    /// The tangent T of the last iteration [P3 (11), (12)].
     ByTangent,
 }
 
@@ -22,7 +22,7 @@ pub(super) enum Published {
 /// T x = (T - J^T s J) x* - J^T s b,   that is   T (x - x*) = -J^T s (J x* + b)
 /// ```
 ///
-/// The first solves for x itself and so loses cond(W) eps each time. Returns the violation left, whatever it is.
+/// The first form solves for x itself and so loses cond(W) EPSILON of x each time. Returns the remaining violation, which has no limit.
 pub(super) fn project<T: Real, M: Model<T>, S: SpdSolver<T>>(
     mut p: Projector<'_, T, M, S>,
     by: Published,

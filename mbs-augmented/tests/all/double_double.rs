@@ -1,4 +1,4 @@
-//! The trapezoidal rule in double-double: without rounding its error is a series in the step, which extrapolation takes away.
+//! The trapezoidal rule in double-double. Without rounding, its error is a power series in the step, which extrapolation removes.
 #![allow(clippy::print_stdout, reason = "what is measured is shown with --nocapture")]
 
 use mbs_augmented::{Options, Penalty, Workspace, index3};
@@ -17,7 +17,7 @@ fn pair(text: &str) -> Pair {
 fn ends(scene: &Scene<Pair>, times: &[u32], n: u32) -> Vec<[Pair; 4]> {
     let (model, mut state) = start_in::<Pair, 2>(scene);
     let mut workspace = Workspace::new(&model, solver(&model));
-    // Large enough that the position decides, not the penalty, what a step near a singular position does.
+    // The penalty is so large that it does not affect a step that ends close to a singular position.
     let options = Options {
         penalty: Penalty::Scaled(Pair::from_f64(1e10)),
         adaptive_penalty: false,
@@ -44,7 +44,7 @@ fn ends(scene: &Scene<Pair>, times: &[u32], n: u32) -> Vec<[Pair; 4]> {
     ends
 }
 
-/// Extrapolates values of runs in n steps to steps of no length, where the error is a series in all powers of 1/n.
+/// Extrapolates values of runs with n steps to zero step length, for an error that is a series in all powers of 1/n.
 fn extrapolated(values: &[(u32, Pair)]) -> Pair {
     let mut row: Vec<Pair> = Vec::new();
     for (j, &(n, value)) in values.iter().enumerate() {
@@ -60,11 +60,11 @@ fn extrapolated(values: &[(u32, Pair)]) -> Pair {
     row.pop().expect("a value")
 }
 
-/// Position [m] and velocity [m/s] of the first crank's end at a time [s], on the branch where all cranks stay parallel: elliptic
-/// functions. Before each of them what extrapolation may be off by.
+/// Exact position [m] and velocity [m/s] of the first crank's end at a time [s], by elliptic functions, while all cranks stay parallel. Each
+/// value follows the allowed error of the extrapolated one.
 type Exact = (u32, [(&'static str, &'static str); 4]);
 
-/// Holds extrapolated runs with these numbers of steps in a second against what is exact.
+/// Compares extrapolated runs with the exact values. `counts` are the numbers of steps per second.
 fn hold(counts: &[u32], exact: &[Exact]) {
     let mut scene = file_in("two-four-bars");
     let Quantity::Position { body, at } = scene.outputs[0].quantity else { panic!("a position") };
@@ -83,12 +83,12 @@ fn hold(counts: &[u32], exact: &[Exact]) {
     }
 }
 
-/// At 1 s the cranks have passed their singular position once. No run has a step that ends next to it: what that step leaves
-/// undecided would be seen in the 15th digit.
+/// At 1 s the cranks have passed their singular position once. No run has a step that ends close to it, where the result would be
+/// undetermined in the 15th digit.
 #[test]
 fn extrapolated_index_3_has_the_digits_of_the_elliptic_functions_on_two_four_bars() {
     let exact = [
-        // The last but two of the digits given, 20 and 19.
+        // The exact values have 20 and 19 digits; the limits compare up to the third last one.
         ("1e-18", "-.19502030194943509364"),
         ("1e-17", "-.9807992056621738326"),
         ("1e-17", "-6.6766780368811580662"),
@@ -97,8 +97,9 @@ fn extrapolated_index_3_has_the_digits_of_the_elliptic_functions_on_two_four_bar
     hold(&[100, 200, 300, 400, 500, 600, 700, 800, 900, 1000], &[(1, exact)]);
 }
 
-/// Ten singular positions later. Steps of 1/300 and 1/700 s end next to one; those between them are near each other, so that
-/// extrapolation multiplies the last digits of each run by 2e6, and what is left of the series grows with time.
+/// After 10 s the cranks have passed ten singular positions. Runs with 300 and 700 steps per second are left out, since steps of these end close
+/// to one. The remaining step lengths are similar, so that extrapolation multiplies the last digits of each run by 2e6. The remaining terms
+/// of the series also grow with time.
 #[test]
 fn extrapolated_index_3_has_15_digits_after_ten_singular_positions() {
     let at_5 = [

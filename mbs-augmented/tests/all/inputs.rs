@@ -1,4 +1,4 @@
-//! Inputs belong to the state: one model serves states with different inputs, in threads of their own.
+//! Inputs are part of the state: one model serves states with different inputs, each in its own thread.
 
 use mbs_augmented::{Options, Step, Workspace, index3};
 use mbs_core::model::State;
@@ -7,7 +7,7 @@ use mbs_core::scene::{Effect, JointId, JointTorque, Motion, Scene, Signal};
 use mbs_core::step::InputError;
 use mbs_testkit::{file, solver, start};
 
-/// A four-bar linkage whose crank is guided and whose coupler is turned, by inputs.
+/// A four-bar linkage with inputs for the guide of the crank and for a torque on the coupler.
 fn scene() -> Scene<f64> {
     let mut scene = file("guided-four-bar");
     scene.guides[0].law = Motion::Input([0.0, 0.0, 2.0]);
@@ -19,7 +19,7 @@ fn scene() -> Scene<f64> {
     scene
 }
 
-/// The state after 100 steps in which the guide's acceleration [rad/s^2] and the torque [N m] are set.
+/// Returns the state after 100 steps with the given acceleration of the guide [rad/s^2] and torque [N m].
 fn stepped(
     model: &NaturalModel<f64, 2>,
     mut state: State<f64>,

@@ -1,4 +1,4 @@
-//! Changes that leave a motion as it is: axes, the order of bodies, the order in a joint, the precision; and bodies at rest.
+//! Invariance of a motion under changes of axes, of the order of bodies or in a joint, and of precision; and bodies that stay at rest.
 
 use mbs_augmented::{Options, Workspace, index1, index3};
 use mbs_core::Real;
@@ -10,9 +10,9 @@ use mbs_testkit::retell::{reorder, turn_scene, turned};
 use mbs_testkit::scenes::{CHAIN, DOUBLE, REDUNDANT, TOP, TWO_FOUR_BARS};
 use mbs_testkit::{named_centres, scene, scene_in, solver, start, start_in};
 
-/// Growth of rounding over some hundred steps of a regular motion, in metres.
+/// Growth of rounding errors over some hundred steps of a regular motion [m].
 const ROUNDING: f64 = 1e-9;
-/// Error that single precision may cause in half a second, in metres.
+/// Error that single precision may cause in half a second [m].
 const SINGLE: f64 = 1e-3;
 
 fn run<T: Real, const D: usize>(
@@ -106,7 +106,7 @@ fn single_precision_stays_near_double_precision() {
     same(&named_centres(&single, &model, &state), &expected, SINGLE);
 }
 
-/// Hanging, standing and floating scenes that do not move.
+/// Scenes at equilibrium: hanging, standing and floating bodies.
 const AT_REST: [&str; 4] = [
     "[scene]\nname = \"hanging rod\"\ndimension = 2\ngravity = [3.0, -4.0]\nduration = 1.0\n[[body]]\nname = \"x\"\nrod = { from = [0.0, 0.0], to = [0.6, -0.8] }\nmass = 1.3\n[[joint]]\nname = \"j\"\nkind = \"revolute\"\nbodies = [\"ground\", \"x\"]\nat = [0.0, 0.0]\n",
     "[scene]\nname = \"hanging chain\"\ndimension = 2\ngravity = [0.0, -9.81]\nduration = 1.0\n[[body]]\nname = \"x\"\nrod = { from = [0.1, 0.0], to = [0.1, -0.7] }\nmass = 1.3\n[[body]]\nname = \"y\"\nrod = { from = [0.1, -0.7], to = [0.1, -1.3] }\nmass = 0.7\n[[joint]]\nname = \"j\"\nkind = \"revolute\"\nbodies = [\"ground\", \"x\"]\nat = [0.1, 0.0]\n[[joint]]\nname = \"k\"\nkind = \"revolute\"\nbodies = [\"x\", \"y\"]\nat = [0.1, -0.7]\n",
@@ -150,7 +150,7 @@ fn index1_holds_what_is_at_rest_too() {
 
 #[test]
 fn two_four_bars_pass_their_singular_positions() {
-    // Twice the error of 8.3e-4 J that the trapezoidal rule makes at this step.
+    // Limit [J]: twice the trapezoidal rule's error of 8.3e-4 J at this step.
     const ENERGY: f64 = 1.7e-3;
     let scene = scene(&TWO_FOUR_BARS);
     let energy = |steps| {

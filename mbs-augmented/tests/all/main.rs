@@ -1,4 +1,4 @@
-//! The tests of this crate, in one program: each program would compile the same solvers anew. `cargo test -p mbs-augmented invariants::` runs one module.
+//! All tests of this crate in one program, so that the solvers are compiled once. `cargo test -p mbs-augmented invariants::` runs one module.
 
 mod allocation;
 mod double_double;

@@ -1,4 +1,4 @@
-//! The change between index-3 and index-1: consistency, and when it comes.
+//! Changes between index-3 and index-1: the state stays consistent, and the change comes at the right step.
 
 use mbs_augmented::{ConstraintIndex, IndexChange, Options, Workspace, index1, index3};
 use mbs_core::SpdSolver;
@@ -31,7 +31,7 @@ impl<const D: usize> Bench<D> {
         }
     }
 
-    /// The largest |M a + J^T lambda - Q|.
+    /// Returns the largest component of |M a + J^T lambda - Q| [N].
     fn imbalance(&mut self) -> f64 {
         let Self { model, state: s, .. } = self;
         let mut terms = model.terms();
@@ -54,8 +54,8 @@ impl<const D: usize> Bench<D> {
     }
 }
 
-/// Checks that a change of index moves little. Index-3 leaves multipliers that balance its iteration to 1e-10 of the accelerations. Masses of
-/// tens of kilograms and accelerations of a hundred metres per second squared multiply that.
+/// Checks that a change of index moves little. The multipliers of index-3 balance its iteration to 1e-10 of the accelerations. Masses of tens
+/// of kilograms and accelerations of a hundred metres per second squared multiply this error.
 fn check_settling<const D: usize>(name: &str, h: f64, force: f64) {
     let mut bench = Bench::<D>::new(name);
     bench.index3(h, 200);
@@ -76,7 +76,8 @@ fn check_settling<const D: usize>(name: &str, h: f64, force: f64) {
 
 #[test]
 fn a_change_of_index_moves_neither_positions_nor_energy_and_leaves_equations_in_balance() {
-    // The share by which multipliers move: in index-3 they are those of the middle of the iteration, second order in the step.
+    // The third argument limits the relative change of the multipliers. Those of index-3 come from inside the iteration, with an error of
+    // second order in the step.
     check_settling::<2>("double-pendulum", 1e-4, 1e-5);
     check_settling::<2>("slider-crank", 1e-4, 1e-5);
     check_settling::<3>("iltis-suspension-halved", 1e-4, 1e-3);
@@ -98,7 +99,7 @@ fn short_steps_are_made_in_index_1_and_long_ones_in_index_3_with_room_between() 
     assert_eq!(index_at(&mut change, 0.9e-4, 0), (ConstraintIndex::One, true));
     assert_eq!(index_at(&mut change, 1.9e-4, 0), (ConstraintIndex::One, false));
     assert_eq!(index_at(&mut change, 2.1e-4, 0), (ConstraintIndex::Three, true));
-    // Reductions that do not help lead to index-1 at any step; back only once it grows again.
+    // Repeated reductions lead to index-1 at any step; the index changes back only once the step grows again.
     assert_eq!(index_at(&mut change, 1e-3, 3), (ConstraintIndex::Three, false));
     assert_eq!(index_at(&mut change, 5e-4, 4), (ConstraintIndex::One, true));
     assert_eq!(index_at(&mut change, 5e-4, 0), (ConstraintIndex::One, false));

@@ -1,4 +1,4 @@
-//! Results of each strategy of index-3, by a closed form or by exact counts: docs/INDEX3.md names the tests.
+//! Each strategy of index-3, compared with a closed form or with exact counts; docs/INDEX3.md names these tests.
 #![allow(clippy::print_stdout, reason = "what is measured is shown with --nocapture")]
 
 use mbs_augmented::{Options, Workspace, index3};
@@ -11,7 +11,7 @@ use mbs_testkit::{dot, file, in_null_space, invariant, jacobian, solver, start};
 
 type Work = Workspace<f64, Multifrontal<f64>>;
 
-/// Makes `n` steps of `dt` [s]; returns iterations, factorisations and solutions.
+/// Makes `n` steps of `dt` [s]. Returns the numbers of iterations, factorisations and solutions.
 fn run<const D: usize>(
     scene: &Scene<f64>,
     (dt, n): (f64, u32),
@@ -33,7 +33,8 @@ fn run<const D: usize>(
     counts
 }
 
-/// Contraction of a correction with one row: s = c m, so that (1 + s J M^-1 J^T)^-1 = 1 / (1 + c). The predicted row is longer by 1e-6.
+/// Contraction of a correction with one row: with s = c m, (1 + s J M^-1 J^T)^-1 = 1 / (1 + c). The predicted row is longer by 1e-6 of its
+/// length.
 #[test]
 fn a_correction_leaves_one_part_in_1_plus_c_whatever_mass_and_step() {
     let mut scene = file("simple-pendulum");
@@ -48,7 +49,8 @@ fn a_correction_leaves_one_part_in_1_plus_c_whatever_mass_and_step() {
     }
 }
 
-/// A step of 1/700 s ends so near to a singular position that the penalties of regular motion leave its multiplier: no correction shrinks.
+/// With steps of 1/700 s one step ends close to a singular position. There the penalties of regular motion do not determine a multiplier, and
+/// corrections do not shrink.
 #[test]
 fn steps_that_end_next_to_a_singular_position_converge_with_penalties_raised_for_it() {
     let mut factor = 0.0_f64;
@@ -59,8 +61,8 @@ fn steps_that_end_next_to_a_singular_position_converge_with_penalties_raised_for
     assert!(factor > 1e3, "{factor:e}");
 }
 
-/// Difference of the energy's error between the two strategies of projection, for the double pendulum at 1e-2 s, relative [-]. The energy is off
-/// by 4e-3 J, and by 6e-4 of that with a reused factor from before a large correction.
+/// Relative difference of the energy error between the two strategies of projection, for the double pendulum at 1e-2 s [-]. The energy error
+/// is 4e-3 J. With a factor from before a large correction, it would differ by 6e-4 of that.
 const SAME_ENERGY: f64 = 1e-6;
 
 #[test]
@@ -79,9 +81,9 @@ fn a_reused_factor_projects_as_an_exact_one_does() {
     assert!((reused - exact).abs() < SAME_ENERGY * exact.abs(), "{reused:e} J, {exact:e} J");
 }
 
-/// A step under constraints alone has one factor, for two corrections, the probe of the penalties and both projections. With a factor for each
-/// correction, or one for the projections, it has two. Multipliers from zero take a third correction. On the two four-bars velocities would be
-/// swept twice if the first sweep were not scaled.
+/// A step under constraints alone has one factor. It serves two corrections, the power iteration for the penalties and both projections. A
+/// factor for each correction, or an extra one for the projections, would make two factors. Multipliers that start from zero would need a
+/// third correction. On the two four-bars, velocities would need two sweeps if the first sweep were not scaled.
 #[test]
 fn a_step_under_constraints_alone_has_one_factor_two_corrections_and_a_sweep_at_each_level() {
     let counts = |name| run::<2>(&file(name), (1e-3, 100), &Options::index3(), |_, _, _| {});
@@ -89,11 +91,12 @@ fn a_step_under_constraints_alone_has_one_factor_two_corrections_and_a_sweep_at_
     assert_eq!(counts("two-four-bars"), [200, 100, 500]);
 }
 
-/// A step under effects has two factors, one for its corrections and one of the mass for its projections. Steps in which wheels
-/// meet the bump are the exception: laws are others there. Corrections end below what the rule errs by: to the tolerance they are 273.
+/// A step under effects has two factors: one for its corrections, and one of the mass for its projections. Steps in which wheels reach the
+/// bump have more, because the tangents of the tires change there. Corrections end below the truncation error of the rule. With the tolerance
+/// alone there would be 273 corrections.
 ///
-/// The vehicle is the same on both sides. Only rounding leads it off its plane, unless a projection is not orthogonal in the mass: with the
-/// factor of the corrections it is off by 1e-5 m.
+/// The vehicle and its motion are symmetric. Only rounding errors move it off its plane, unless a projection is not orthogonal in the mass.
+/// With projections by the factor of the corrections it moves off by 1e-5 m.
 #[test]
 fn a_vehicle_meets_a_bump_in_few_factors_and_stays_in_its_plane() {
     let mut off = 0.0_f64;
@@ -106,8 +109,8 @@ fn a_vehicle_meets_a_bump_in_few_factors_and_stays_in_its_plane() {
     assert_eq!(counts, [233, 142, 706]);
 }
 
-/// The part of the multipliers that no motion determines, J^T x = 0, orthogonal in 1 / s to those that do: extrapolated alone it grows to
-/// nearly all of them.
+/// Multipliers x with J^T x = 0 are not determined by the motion. Without the filter, extrapolation lets them grow to nearly all of the
+/// multipliers. They are measured as the part orthogonal, in the metric 1 / s, to the determined ones.
 #[test]
 fn multipliers_that_no_constraint_determines_do_not_grow() {
     let mut most = 0.0_f64;
