@@ -1,4 +1,4 @@
-//! The null-space basis and what is projected on it, element by element.
+//! The null-space basis R, and products with R that are summed element by element.
 //!
 //! ```text
 //! R = [R_d; 1],   R_d = -J_d^-1 J_i                            [P1 (21)]
@@ -14,18 +14,18 @@ use alloc::vec::Vec;
 use mbs_core::model::{Model, System};
 use mbs_core::{BlockSource, Real};
 
-/// R_d by rows in the order of elimination, with scratch for one element.
+/// Rows R_d of the basis in the order of elimination, with scratch for one element.
 #[derive(Debug, Clone)]
 pub(crate) struct Basis<T> {
     f: usize,
     rows: Vec<T>,
     block: Vec<T>,
-    /// P_e R and T_e P_e R over the columns that are not zero, and those columns.
+    /// Products P_e R and T_e P_e R over the columns that are not zero, and the numbers of these columns.
     local: Vec<T>,
     product: Vec<T>,
     columns: Vec<u32>,
     sums: Vec<T>,
-    /// C = M R at the middle of the step, a row for each unknown.
+    /// Matrix C = M R at the middle of the step, one row for each unknown.
     chart: Vec<T>,
 }
 
@@ -45,7 +45,7 @@ impl<T: Real> Basis<T> {
         }
     }
 
-    /// R at the matrix that was factored last. Returns its largest entry in the scaling of the choice.
+    /// Evaluates R for the last factored matrix. Returns its largest entry in the scaling of the choice.
     pub(crate) fn evaluate(&mut self, elimination: &Elimination<T>) -> T {
         elimination.write_basis(&mut self.rows);
         let mut largest = T::ZERO;
@@ -58,7 +58,7 @@ impl<T: Real> Basis<T> {
         largest
     }
 
-    /// x = R d over the unknowns.
+    /// Expands independent increments: x = R d over all unknowns.
     pub(crate) fn expand(&self, elimination: &Elimination<T>, d: &[T], x: &mut [T]) {
         for (k, &column) in elimination.dependent().iter().enumerate() {
             let row = &self.rows[k * self.f..(k + 1) * self.f];
@@ -69,7 +69,7 @@ impl<T: Real> Basis<T> {
         }
     }
 
-    /// h = R^T T R, the lower triangle.
+    /// Projects a matrix: h = R^T T R, the lower triangle.
     pub(crate) fn project<M: Model<T>>(
         &mut self,
         elimination: &Elimination<T>,
@@ -92,7 +92,7 @@ impl<T: Real> Basis<T> {
         }
     }
 
-    /// P_e R and T_e P_e R over the columns that are not zero; their numbers of rows and columns. `None`: T_e is zero.
+    /// Evaluates P_e R and T_e P_e R over the columns that are not zero. Returns their numbers of rows and columns; `None` where T_e is zero.
     fn multiply_element<M: Model<T>>(
         &mut self,
         elimination: &Elimination<T>,
@@ -112,7 +112,7 @@ impl<T: Real> Basis<T> {
         Some((k, c))
     }
 
-    /// C = M R with the mass blocks of `system`.
+    /// Sets C = M R from the mass blocks of `system`.
     pub(crate) fn set_chart<M: Model<T>>(
         &mut self,
         elimination: &Elimination<T>,
@@ -130,7 +130,7 @@ impl<T: Real> Basis<T> {
         }
     }
 
-    /// y = C^T x.
+    /// Evaluates tangent coordinates: y = C^T x.
     pub(crate) fn chart(&self, x: &[T], y: &mut [T]) {
         y.fill(T::ZERO);
         for (row, &x) in self.chart.chunks_exact(self.f.max(1)).zip(x) {
@@ -140,7 +140,7 @@ impl<T: Real> Basis<T> {
         }
     }
 
-    /// g = C^T R.
+    /// Evaluates the matrix g = C^T R.
     pub(crate) fn chart_basis(&self, elimination: &Elimination<T>, g: &mut General<T>) {
         let f = self.f;
         for (i, &u) in elimination.independent().iter().enumerate() {
@@ -156,7 +156,7 @@ impl<T: Real> Basis<T> {
         }
     }
 
-    /// The rows of R of a clique over the columns that are not zero there: ascending columns, rows of as many numbers.
+    /// Gathers the rows of R for the unknowns of a clique, over the columns that are not zero there: ascending columns, then row by row.
     fn pick(&mut self, elimination: &Elimination<T>, clique: &[u32]) {
         let (rank, f, rows) = (elimination.rank(), self.f, &self.rows);
         let entry = |unknown: u32, column: usize| {
@@ -184,7 +184,7 @@ impl<T: Real> Basis<T> {
     }
 }
 
-/// y = A x with A a packed lower triangle, x and y by rows of c numbers.
+/// Multiplies y = A x, with A a packed lower triangle of a symmetric matrix, and x and y in rows of c numbers.
 fn multiply<T: Real>(a: &[T], x: &[T], y: &mut [T], c: usize) {
     y.fill(T::ZERO);
     let mut at = 0;
@@ -201,7 +201,7 @@ fn multiply<T: Real>(a: &[T], x: &[T], y: &mut [T], c: usize) {
     }
 }
 
-/// y += s x, over the length of y.
+/// Adds a multiple: y += s x, over the length of y.
 fn add_multiple<T: Real>(s: T, x: &[T], y: &mut [T]) {
     if s != T::ZERO {
         for (y, &x) in y.iter_mut().zip(x) {

@@ -11,7 +11,7 @@ use mbs_core::step::StepError;
 use mbs_core::{FactorError, Real};
 
 impl<T: Real> Workspace<T> {
-    /// C = M R at the middle of the predicted motion, which is left in `dq`.
+    /// Sets C = M R at the middle of the predicted motion; `dq` is left at the middle.
     pub(crate) fn set_chart<M: Model<T>>(
         &mut self,
         model: &M,
@@ -32,7 +32,7 @@ impl<T: Real> Workspace<T> {
         Ok(())
     }
 
-    /// C^T of the predicted increment, velocity and acceleration.
+    /// Evaluates C^T of the predicted increment, velocity and acceleration.
     pub(crate) fn predict_chart(&mut self) {
         let [dq, v, a] = &mut self.predicted;
         self.basis.chart(&self.dq, dq);
@@ -40,7 +40,7 @@ impl<T: Real> Workspace<T> {
         self.basis.chart(&self.a, a);
     }
 
-    /// d = C^T (q - q_p) into `measured`, and C^T R factored.
+    /// Evaluates d = C^T (q - q_p) into `measured`, and factors C^T R.
     pub(crate) fn turn_to_chart(&mut self) -> Result<(), StepError> {
         self.basis.chart_basis(&self.elimination, &mut self.turn);
         self.turn.factor().map_err(|i| {

@@ -1,11 +1,11 @@
-//! The small dense matrices of the independent coordinates: a symmetric one for mbs-core's solver, and A = L U with row pivoting.
+//! Dense matrices for the independent coordinates: a symmetric one for mbs-core's solver, and A = L U with row pivoting.
 
 use alloc::vec;
 use alloc::vec::Vec;
 use mbs_core::dense::front::column;
 use mbs_core::{BlockSource, Cliques, Real};
 
-/// A symmetric positive definite matrix of size f, for the solver of mbs-core: one element that couples all.
+/// A symmetric positive definite matrix of size f, given to mbs-core's solver as one element that couples all unknowns.
 #[derive(Debug, Clone)]
 pub(crate) struct Symmetric<T> {
     clique: Vec<u32>,
@@ -23,7 +23,7 @@ impl<T: Real> Symmetric<T> {
         self.values.fill(T::ZERO);
     }
 
-    /// The entry at (row, col), row >= col.
+    /// Returns the entry at (row, col), where row >= col.
     #[inline]
     pub(crate) fn at(&mut self, row: usize, col: usize) -> &mut T {
         &mut self.values[column(self.clique.len(), col) + row - col]
@@ -51,12 +51,12 @@ impl<T: Real> BlockSource<T> for Symmetric<T> {
     }
 }
 
-/// A matrix of size f, then its factors, row by row.
+/// A square matrix of size f, then its factors, row by row.
 #[derive(Debug, Clone)]
 pub(crate) struct General<T> {
     size: usize,
     pub(crate) values: Vec<T>,
-    /// The row that was swapped with each row.
+    /// For each row, the row with which it was swapped.
     swaps: Vec<usize>,
 }
 
@@ -65,10 +65,10 @@ impl<T: Real> General<T> {
         Self { size, values: vec![T::ZERO; size * size], swaps: vec![0; size] }
     }
 
-    /// P A = L U in place. Cost: f^3 / 3 products.
+    /// Factors P A = L U in place. Cost: f^3 / 3 products.
     ///
     /// # Errors
-    /// The first column without a pivot.
+    /// The index of the first column without a pivot.
     pub(crate) fn factor(&mut self) -> Result<(), usize> {
         let n = self.size;
         for k in 0..n {
@@ -100,7 +100,7 @@ impl<T: Real> General<T> {
         Ok(())
     }
 
-    /// x = A^-1 x.
+    /// Solves in place: x = A^-1 x.
     pub(crate) fn solve(&self, x: &mut [T]) {
         let n = self.size;
         for (k, &swap) in self.swaps.iter().enumerate() {

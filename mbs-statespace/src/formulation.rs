@@ -1,4 +1,4 @@
-//! The formulation of this crate behind the common trait: [`StateSpace`].
+//! Common trait of formulations for this crate: [`StateSpace`].
 
 use crate::history::History as OfWorkspace;
 use crate::options::Options;
@@ -21,7 +21,7 @@ pub struct StateSpace<T> {
 }
 
 impl<T: Real> StateSpace<T> {
-    /// A formulation of `model`; `start` is a consistent state, and the rank of its constraints is the rank that stands.
+    /// Creates a formulation of `model`. `start` is a consistent state, and the rank of its constraints must not change in later steps.
     ///
     /// # Errors
     /// [`OptionError`] for an option out of range.
@@ -34,7 +34,7 @@ impl<T: Real> StateSpace<T> {
         Ok(Self { options, workspace: Box::new(Workspace::new(model, start)) })
     }
 
-    /// Steps with other options from now on.
+    /// Sets other options for the next steps.
     ///
     /// # Errors
     /// [`OptionError`] for an option out of range; nothing is changed then.
@@ -92,7 +92,7 @@ impl<T: Real, const D: usize> Trials<T, D> for StateSpace<T> {}
 
 impl<T: Real, const D: usize> Describe<T, D> for StateSpace<T> {}
 
-/// Over all that is remembered.
+/// Passes all that the next step continues from to a visitor.
 fn walk<T: Real>(
     own: &mut OfWorkspace<T>,
     terms: &mut Terms<T>,

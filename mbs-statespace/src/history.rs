@@ -1,4 +1,4 @@
-//! State that one step leaves for the next beside that of the model: the choice of independent coordinates, and how good it was.
+//! State that a step leaves for the next one besides the model's state: the choice of independent coordinates, and its quality.
 
 use crate::elimination::Order;
 use crate::workspace::Workspace;
@@ -7,15 +7,15 @@ use mbs_core::Real;
 /// State of a [`Workspace`] that the next step continues from.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct History<T> {
-    /// The pivots that are kept.
+    /// Order of the reused pivots.
     pub order: Order<T>,
-    /// Smallest pivot at the start, or the largest of the smallest ones at later choices [-].
+    /// Smallest pivot at the start; or at a later choice, where that was larger [-].
     pub usual: T,
-    /// Largest entry of R at the last choice; zero: not known yet [-].
+    /// Largest entry of R at the last choice [-]; zero while unknown.
     pub first_basis: T,
-    /// The next step chooses anew.
+    /// Does the next step choose independent coordinates again?
     pub is_stale: bool,
-    /// Choices since the start.
+    /// Choices of independent coordinates since the start.
     pub choices: u32,
 }
 
@@ -27,8 +27,8 @@ impl<T: Real> Workspace<T> {
         History { order: self.elimination.order(), usual, first_basis, is_stale, choices }
     }
 
-    /// Restores the history of the same model. Returns whether it is one; else nothing is changed but, at most, that the next
-    /// step chooses anew.
+    /// Restores a history of the same model. Returns false if it does not fit. Then nothing changes, or the next step chooses independent
+    /// coordinates again.
     pub fn set_history(&mut self, history: &History<T>) -> bool {
         let is_ours = history.is_stale || history.order.pivots.len() == self.rank;
         if !is_ours || !self.elimination.set_order(&history.order) {

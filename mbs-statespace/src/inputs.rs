@@ -1,4 +1,4 @@
-//! Inputs that were set since the last step, taken into the state that the next one begins with.
+//! Response of the state to inputs that were set since the last step, before the next step begins.
 
 use crate::options::Options;
 use crate::pivots::select_pivots;
@@ -11,7 +11,7 @@ use mbs_core::{Real, SpdSolver};
 impl<T: Real> InputResponse<T> for Workspace<T> {
     type Options = Options<T>;
 
-    /// Finds what the loads change in the independent coordinates.
+    /// Solves for the changes of accelerations and multipliers that changed loads cause, in the independent coordinates.
     ///
     /// ```text
     /// R^T M R y = R^T dQ,   da = R y,   J_d^T dl = (dQ - M da)_d
@@ -33,7 +33,7 @@ impl<T: Real> InputResponse<T> for Workspace<T> {
         w.a.fill(T::ZERO);
         w.dq.fill(T::ZERO);
 
-        // -dQ = -Q(u) + Q(u_n), kept in the place of velocities
+        // -dQ = -Q(u) + Q(u_n), stored in the vector of velocities
         let before = load_at(model, (s, s.t), false, &mut w.terms);
         w.move_to(model, s)?;
         w.basis.evaluate(&w.elimination);

@@ -6,21 +6,21 @@ use alloc::vec::Vec;
 use mbs_core::Real;
 use mbs_core::model::{Model, Tangent, Terms};
 
-/// J by rows, without the entries that are always zero.
+/// The matrix J by rows, without the entries that are always zero.
 #[derive(Debug, Clone)]
 pub(crate) struct Jacobian<T> {
     starts: Vec<u32>,
     columns: Vec<u32>,
-    /// Place of each entry in its element's rows.
+    /// Index of each entry in the rows of its element.
     sources: Vec<u32>,
     pub(crate) values: Vec<T>,
-    /// The rows of one element.
+    /// Scratch for the rows of one element.
     rows: Vec<T>,
 }
 
 impl<T: Real> Jacobian<T> {
-    /// The pattern of `model`: what is not zero at one of two random configurations, since an entry that vanishes at both
-    /// vanishes everywhere but by a chance of no measure. Rows of curves that are level over a range have all entries.
+    /// Creates the pattern of `model`: the entries that are not zero at one of two random configurations. An entry that vanishes at both
+    /// vanishes everywhere, except with probability zero. Rows of curves, which may be flat over a range, keep all entries.
     pub(crate) fn new(model: &impl Model<T>) -> Self {
         let size = |e| model.rows(e).len() * model.clique(e).len();
         let largest = (0..model.n_elements()).map(size).max().unwrap_or(0);
@@ -64,9 +64,9 @@ impl<T: Real> Jacobian<T> {
         new
     }
 
-    /// Notes the filled entries row by row.
+    /// Stores the pattern of the filled entries, row by row.
     fn note(&mut self, model: &impl Model<T>, is_filled: &[bool]) {
-        // Element, place of its first row in `is_filled`, and row within the element.
+        // Element, index of its first entry in `is_filled`, and row within the element.
         let mut homes = vec![(0, 0, 0); model.n_constraints()];
         let mut at = 0;
         for e in 0..model.n_elements() {
@@ -92,7 +92,7 @@ impl<T: Real> Jacobian<T> {
         Pattern { n_columns, starts: self.starts.clone(), columns: self.columns.clone() }
     }
 
-    /// The numbers of J as last evaluated in `terms`.
+    /// Gathers the numbers of J as last evaluated in `terms`.
     pub(crate) fn gather(&mut self, model: &impl Model<T>, terms: &Terms<T>) {
         for e in 0..model.n_elements() {
             let range = model.rows(e);
@@ -108,7 +108,7 @@ impl<T: Real> Jacobian<T> {
         }
     }
 
-    /// x += J^T y.
+    /// Adds a product with the transpose: x += J^T y.
     pub(crate) fn add_transposed(&self, y: &[T], x: &mut [T]) {
         for (row, &y) in y.iter().enumerate() {
             let entries = self.starts[row] as usize..self.starts[row + 1] as usize;
@@ -119,10 +119,10 @@ impl<T: Real> Jacobian<T> {
     }
 }
 
-/// Least mass of an unknown that counts, relative to the largest [-]: an inverse mass stays finite. Chosen, not tuned.
+/// Least mass of an unknown in the scaling, relative to the largest [-]. It keeps the inverse mass finite. Chosen, not tuned.
 const LIGHT: f64 = 1e-6;
 
-/// 1 / sqrt(diagonal of M): light unknowns come first when dependent ones are selected.
+/// Returns the column scales 1 / sqrt(diagonal of M), by which light unknowns become dependent first.
 pub(crate) fn column_scales<T: Real>(model: &impl Model<T>) -> Vec<T> {
     let mut diagonal = vec![T::ZERO; model.n_unknowns()];
     let (terms, mut block) = (model.terms(), vec![T::ZERO; largest_block(model)]);
@@ -141,13 +141,13 @@ pub(crate) fn column_scales<T: Real>(model: &impl Model<T>) -> Vec<T> {
     diagonal.iter().map(|&d| T::ONE / d.max(floor).sqrt()).collect()
 }
 
-/// Places of the largest packed block of an element.
+/// Returns the number of entries in the largest packed block of an element.
 pub(crate) fn largest_block<T: Real>(model: &impl Model<T>) -> usize {
     let size = |e| model.clique(e).len() * (model.clique(e).len() + 1) / 2;
     (0..model.n_elements()).map(size).max().unwrap_or(0)
 }
 
-/// Random numbers in (-1/2, 1/2), the same on every machine.
+/// Generator of pseudo-random numbers in (-1/2, 1/2), the same on every machine.
 struct Random(u32);
 
 impl Random {

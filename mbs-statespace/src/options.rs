@@ -4,20 +4,20 @@ use mbs_core::Real;
 use mbs_core::integrator::Integrator;
 use mbs_core::step::OptionError;
 
-/// Choices for a step.
+/// Options of a step in state space.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Options<T> {
     /// Time integrator, applied to z.
     pub integrator: Integrator<T>,
-    /// Choice of the coordinates z.
+    /// Kind of the independent coordinates z.
     pub coordinates: Coordinates,
-    /// A correction below this times the displacement that accelerations cause in the step is small [-].
+    /// Tolerance of the iterations, relative to the displacement by accelerations in a step [-].
     pub tolerance: T,
     /// Newton iterations allowed in one step.
     pub max_iterations: u32,
-    /// When independent coordinates are chosen anew.
+    /// Condition on which independent coordinates are chosen again.
     pub pivot_change: PivotChange,
-    /// Put the geometric stiffness of the constraints, the curvature of their surface, into the tangent; P1 (44) has none.
+    /// Adds the geometric stiffness of the constraints to the tangent; P1 (44) has none. It is the curvature of the constraint surface.
     pub geometric_stiffness: bool,
 }
 
@@ -25,27 +25,27 @@ pub struct Options<T> {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Coordinates {
     /// Coordinates in the tangent plane of the constraints at the middle of the step, orthogonal in the metric of the mass:
-    /// z = C^T q, C = M R there. The motion does not depend on which columns are independent.
+    /// z = C^T q with C = M R there. The motion does not depend on the choice of independent columns.
     Tangent,
-    /// The independent columns themselves [P1 (40)]. The motion depends on them within the error of the integrator.
+    /// The independent columns themselves [P1 (40)]. The motion depends on their choice within the error of the integrator.
     Chosen,
 }
 
-/// When independent coordinates are chosen anew, always between steps.
+/// Condition on which independent coordinates are chosen again, always between steps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PivotChange {
-    /// When a pivot fell below a hundredth of what it was, R grew above 10, or the position problem took more than 4 iterations.
+    /// When a pivot fell to a hundredth of its size at the choice, R grew above 10, or the position problem took more than 4 iterations.
     WhenNeeded,
-    /// Always, at every step.
+    /// Always, before every step.
     EveryStep,
 }
 
 impl<T: Real> Default for Options<T> {
-    /// The trapezoidal rule, tolerance 1e-10, at most 20 iterations.
+    /// Returns the defaults: trapezoidal rule, tolerance 1e-10, at most 20 iterations.
     fn default() -> Self {
         /// Tolerance of corrections [-].
         const TOLERANCE: f64 = 1e-10;
-        /// Least tolerance, in units of rounding [-]: it counts in single precision alone. Chosen, not tuned.
+        /// Least tolerance, in units of EPSILON [-]. It has an effect in single precision only. Chosen, not tuned.
         const ROUNDINGS: f64 = 64.0;
         Self {
             integrator: Integrator::trapezoidal(),

@@ -5,9 +5,9 @@ use mbs_core::Real;
 use mbs_core::model::{Model, State};
 use mbs_core::step::StepError;
 
-/// Chooses independent coordinates at the start of the step. The rank found at the start of the motion must stand.
+/// Chooses independent coordinates at the start of a step. Fails if the rank differs from that at the start of the motion.
 ///
-/// Rank is a matter of positions that fulfil the constraints: elsewhere rows that repeat each other need not.
+/// The choice needs positions that satisfy the constraints, because redundant rows depend on each other only there.
 pub(crate) fn select_pivots<T: Real, M: Model<T>>(
     model: &M,
     s: &State<T>,

@@ -6,8 +6,8 @@
 //! J a + bias = 0:      J_d d = -(J a + bias),   a_d += d
 //! ```
 //!
-//! The last is a = R z'' + R' z' [P1 (22)] without R': one back-substitution. All are in correction form, with phi by increments, so
-//! that all three levels hold to rounding.
+//! The last problem gives a = R z'' + R' z' [P1 (22)] without forming R', by one back-substitution. All three problems are in correction
+//! form, with phi by increments. Therefore the constraints hold to machine precision in positions, velocities and accelerations.
 
 use crate::options::{Coordinates, Options};
 use crate::workspace::Workspace;
@@ -18,30 +18,32 @@ use mbs_core::integrator::Rule;
 use mbs_core::model::{Model, State};
 use mbs_core::step::{StepError, largest, largest_or_nan};
 
-/// Most iterations of the position problem [-]: with a contraction of 1/4 eight leave 1e-5 of the first correction. Chosen, not tuned.
+/// Iterations of the position problem at most [-]. With a contraction of 1/4, eight iterations leave 1e-5 of the first correction. Chosen,
+/// not tuned.
 const MAX_POSITIONS: u32 = 8;
-/// Iterations beyond which other independent coordinates are selected [-]. Chosen, not tuned.
+/// Iterations of the position problem above which other independent coordinates are selected [-]. Chosen, not tuned.
 const MANY_POSITIONS: u32 = 4;
-/// Largest ratio of two Newton corrections [-], at which the solution is the one that belongs to the prediction (Newton and Kantorovich: the
-/// branch is certain up to 1/2).
+/// Largest ratio of two successive Newton corrections [-]. Up to it the solution is the one closest to the prediction. The theorem of Newton
+/// and Kantorovich makes the branch certain up to 1/2.
 const CONTRACTION: f64 = 0.25;
-/// Ratio of a pivot to itself at the selection, below which other independent coordinates are selected [-]. Chosen, not tuned.
+/// Ratio of a pivot to its size at the selection, below which other independent coordinates are selected [-]. Chosen, not tuned.
 const DECAY: f64 = 1e-2;
-/// Largest entry of R, above which, and above twice that at the selection, other independent coordinates are selected [-]. Chosen, not tuned.
+/// Largest entry of R above which other independent coordinates are selected, if it is also twice that at the selection [-]. Chosen, not
+/// tuned.
 const LARGE_BASIS: f64 = 10.0;
-/// Correction that is rounding, in units of rounding of the displacement over the smallest pivot [-]. Chosen, not tuned.
+/// Correction that counts as rounding error, in units of EPSILON times the displacement over the smallest pivot [-]. Chosen, not tuned.
 const LOST: f64 = 16.0;
-/// Correction that is rounding, in units of rounding of the scene's length [-]. Chosen, not tuned.
+/// Correction that counts as rounding error, in units of EPSILON times the scene's length [-]. Chosen, not tuned.
 const PLACE_ROUNDINGS: f64 = 4.0;
-/// Correction at which positions that come no nearer have arrived away from singular positions, in units of rounding of the scene's length
-/// [-]: rounding of a user-defined relation of angles of a thousand turns.
+/// Correction at which a position problem that no longer converges is solved, away from singular positions [EPSILON of the scene's length].
+/// It is the rounding error of a user-defined relation of angles of a thousand turns.
 const STALLED: f64 = 1024.0;
-/// Ratio of the smallest pivot to its usual size, below which a singular position is near [-]. Chosen, not tuned.
+/// Ratio of the smallest pivot to its usual size, below which a singular position is close [-]. Chosen, not tuned.
 const NEAR_SINGULAR: f64 = 0.1;
 
 impl<T: Real> Workspace<T> {
-    /// Positions, velocities and accelerations on their constraints that have the wanted z, z', z''; J is left factored and
-    /// R evaluated at the position.
+    /// Solves for positions, velocities and accelerations on their constraints that have the required z, z' and z''. Leaves J factored and R
+    /// evaluated at the position.
     pub(crate) fn place<M: Model<T>>(
         &mut self,
         model: &M,
@@ -74,7 +76,7 @@ impl<T: Real> Workspace<T> {
         Ok(())
     }
 
-    /// R, and whether it has grown.
+    /// Evaluates R and checks whether its entries have grown too large.
     fn evaluate_basis(&mut self) {
         let largest = self.basis.evaluate(&self.elimination);
         if self.first_basis == T::ZERO {
@@ -83,7 +85,7 @@ impl<T: Real> Workspace<T> {
         self.is_stale |= largest > T::from_f64(LARGE_BASIS).max(T::TWO * self.first_basis);
     }
 
-    /// phi, J and its factors at q_n + dq.
+    /// Evaluates phi and J at q_n + dq and factors J.
     pub(crate) fn move_to<M: Model<T>>(
         &mut self,
         model: &M,
@@ -95,7 +97,7 @@ impl<T: Real> Workspace<T> {
         self.check_pivots()
     }
 
-    /// phi and J at q_n + dq.
+    /// Evaluates phi and J at q_n + dq.
     pub(crate) fn evaluate<M: Model<T>>(&mut self, model: &M, s: &State<T>) {
         for i in 0..model.n_unknowns() {
             self.q[i] = s.q[i] + self.dq[i];
@@ -104,10 +106,10 @@ impl<T: Real> Workspace<T> {
         self.jacobian.gather(model, &self.terms);
     }
 
-    /// Looks at the pivots: decayed ones ask for another choice, lost ones stop the step.
+    /// Checks the sizes of the pivots. Smaller pivots cause another selection, and a lost pivot fails the step.
     ///
-    /// On the branch, rounding of v is eps / sigma and that of a is eps / sigma^2 where sigma is the smallest pivot. Below
-    /// eps^(1/4) accelerations would keep less than half of their digits.
+    /// With sigma the smallest pivot, rounding errors of v are EPSILON / sigma and those of a are EPSILON / sigma^2. Below EPSILON^(1/4)
+    /// accelerations would have less than half of their digits.
     pub(crate) fn check_pivots(&mut self) -> Result<(), StepError> {
         self.pivots = self.elimination.pivots();
         self.is_stale |= self.pivots.decay < T::from_f64(DECAY);
@@ -117,7 +119,7 @@ impl<T: Real> Workspace<T> {
         Ok(())
     }
 
-    /// Chooses pivots for J as it was gathered last.
+    /// Chooses pivots for the last gathered J.
     ///
     /// # Errors
     /// [`StepError::RankLost`] when the rank is not that of the start.
@@ -178,7 +180,7 @@ impl<T: Real> Workspace<T> {
         self.pivots.smallest < self.usual * T::from_f64(NEAR_SINGULAR)
     }
 
-    /// Positions that are not certain: near a singular position for its sake, elsewhere for the length of the step.
+    /// Returns the error for positions whose branch is not certain: lost rank close to a singular position, no convergence elsewhere.
     fn lost_branch(&self, iterations: u32, correction: T) -> StepError {
         if self.is_near_singular() {
             return self.rank_lost();
@@ -187,7 +189,7 @@ impl<T: Real> Workspace<T> {
         StepError::NotConverged { iterations, correction, unknown }
     }
 
-    /// rates = J v + phi_t; returns the largest.
+    /// Evaluates rates = J v + phi_t. Returns the largest absolute value.
     pub(crate) fn velocity_rates<M: Model<T>>(&mut self, model: &M) -> T {
         model.multiply_jacobian(&self.terms, &self.v, &mut self.rates);
         if model.has_guides() {
@@ -196,7 +198,7 @@ impl<T: Real> Workspace<T> {
         norm_inf(&self.rates)
     }
 
-    /// rates = J a + bias; returns the largest.
+    /// Evaluates rates = J a + bias. Returns the largest absolute value.
     pub(crate) fn acceleration_rates<M: Model<T>>(&mut self, model: &M) -> T {
         model.multiply_jacobian(&self.terms, &self.a, &mut self.rates);
         add(&self.terms.phi_bias, &mut self.rates);
@@ -210,7 +212,7 @@ fn add<T: Real>(x: &[T], y: &mut [T]) {
     }
 }
 
-/// y += x over the dependent unknowns.
+/// Adds x to y at the dependent unknowns.
 fn add_dependent<T: Real>(dependent: &[u32], x: &[T], y: &mut [T]) {
     for &u in dependent {
         y[u as usize] += x[u as usize];

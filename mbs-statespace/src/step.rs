@@ -8,9 +8,9 @@
 //! J_d^T lambda = (Q - M a)_d                                                                   [P1 (3)]
 //! ```
 //!
-//! Differs from the source: unknowns are increments; a replaces R z'' + R' z', so R' is never formed. The tangent has the
-//! geometric stiffness, the curvature of the surface on which R lives, which makes Newton quadratic but for velocity terms.
-//! Without it (an option) it is the published one. f is evaluated as (M a - Q)_i + J_i^T lambda, the same without R.
+//! The method differs from the published one. Unknowns are increments. a replaces R z'' + R' z', so R' is never formed. The tangent contains
+//! the geometric stiffness, which is the curvature of the constraint surface. Newton's method then converges quadratically except for
+//! velocity terms. An option leaves it out, as published. f is evaluated as (M a - Q)_i + J_i^T lambda, which equals R^T (M a - Q).
 
 use crate::options::{Coordinates, Options, PivotChange};
 use crate::pivots::select_pivots;
@@ -26,21 +26,21 @@ use mbs_core::step::{
 };
 use mbs_core::{FactorError, Real, SpdSolver};
 
-/// Largest constraint residual of velocities and accelerations, relative to their size [-]: more is a violation. Chosen, not tuned.
+/// Constraint residual of velocities and accelerations that counts as a violation, relative to their size [-]. Chosen, not tuned.
 const VIOLATION: f64 = 5e-10;
-/// Least residual that is a violation, in units of rounding [-]: it counts in single precision alone. Chosen, not tuned.
+/// Least residual that counts as a violation, in units of EPSILON [-]. It has an effect in single precision only. Chosen, not tuned.
 const VIOLATION_ROUNDINGS: f64 = 1024.0;
-/// Correction that is rounding, in units of rounding of the displacement and of the scene's length [-]. Chosen, not tuned.
+/// Corrections that count as rounding errors, in units of EPSILON times the displacement and times the scene's length [-]. Chosen, not tuned.
 const NOISE: [f64; 2] = [64.0, 4.0];
-/// Correction with which a step may end after all iterations, relative to the displacement by accelerations [-]. Chosen, not tuned.
+/// Correction with which a step may end after the allowed iterations, relative to the displacement by accelerations [-]. Chosen, not tuned.
 const ENOUGH: f64 = 1e-6;
 
 /// Advances `s` by one [`Step`].
 ///
-/// Fails at singular positions with [`StepError::RankLost`], which names a row that takes part.
+/// A step fails at singular positions with [`StepError::RankLost`], which names one of the dependent rows.
 ///
-/// Cost: for each iteration one or two evaluations and sparse factorisations of J, three sparse solves. Besides, n f
-/// entries of R and a dense factorisation of size f, the number of freedoms. No allocation.
+/// Cost for each iteration: one or two evaluations and sparse factorisations of J, and three sparse solves. Besides, n f
+/// entries of R and a dense factorisation of size f, where f is the number of freedoms. No allocation.
 ///
 /// # Errors
 /// [`StepError`]; the state is then unchanged.
@@ -78,10 +78,10 @@ pub fn step<T: Real, M: Model<T>>(
     Ok(StepReport::of_newton(newton, w.counts, violation))
 }
 
-/// Iterations, the last correction and what ended it; and the violations that are left.
+/// Report of the iteration (iterations, last correction, reason of its end), and the violations that remain.
 type Done<T> = ((u32, T, Stop), [T; 3]);
 
-/// The step with the independent coordinates in hand or, if `is_new`, with others.
+/// Tries the step with the present independent coordinates or, if `is_new`, with newly selected ones.
 fn attempt<T: Real, M: Model<T>>(
     model: &M,
     (rule, length): (&Rule<T>, T),
@@ -112,7 +112,7 @@ fn attempt<T: Real, M: Model<T>>(
     Ok((newton, violation))
 }
 
-/// The predicted increment, velocity and acceleration of all unknowns.
+/// Predicts the increment, velocity and acceleration of all unknowns.
 fn predict<T: Real, M: Model<T>>(
     model: &M,
     (rule, length): (&Rule<T>, T),
@@ -128,7 +128,7 @@ fn predict<T: Real, M: Model<T>>(
     }
 }
 
-/// The Newton loop in the independent coordinates. Leaves q, v, a consistent and lambda in balance with them.
+/// Runs the Newton loop in the independent coordinates. Leaves q, v and a consistent, and lambda in balance with them.
 fn iterate<T: Real, M: Model<T>>(
     model: &M,
     (rule, length): (&Rule<T>, T),
@@ -154,7 +154,7 @@ fn iterate<T: Real, M: Model<T>>(
         }
         SpdSolver::solve(&w.solver, &mut w.d, &mut w.wanted);
 
-        // z += d,  z' += v' d,  z'' += a' d   [P1 (40)]; the dependent ones follow along R
+        // z += d,  z' += v' d,  z'' += a' d   [P1 (40)]; the dependent unknowns change by R d
         w.basis.expand(&w.elimination, &w.d, &mut w.change);
         for i in 0..n {
             w.dq[i] += w.change[i];
@@ -184,7 +184,7 @@ fn iterate<T: Real, M: Model<T>>(
     Err(StepError::NotConverged { iterations, correction, unknown })
 }
 
-/// f = (M a - Q)_i + J_i^T lambda into `d`, with J_d^T lambda = (Q - M a)_d   [P1 (43)]
+/// Writes f = (M a - Q)_i + J_i^T lambda into `d`, with J_d^T lambda = (Q - M a)_d   [P1 (43)].
 fn residual<T: Real, M: Model<T>>(model: &M, w: &mut Workspace<T>) {
     if model.has_forces() {
         model.evaluate_forces(&w.q, &w.v, &mut w.terms);
@@ -197,7 +197,7 @@ fn residual<T: Real, M: Model<T>>(model: &M, w: &mut Workspace<T>) {
     }
 }
 
-/// Residual or correction in `d` must be finite.
+/// Fails if the residual or correction in `d` is not finite.
 fn check_finite<T: Real>(w: &Workspace<T>) -> Result<(), StepError> {
     if norm_inf(&w.d).is_finite() {
         return Ok(());
@@ -206,7 +206,7 @@ fn check_finite<T: Real>(w: &Workspace<T>) -> Result<(), StepError> {
     Err(StepError::NotFinite { unknown })
 }
 
-/// R^T (M + (v'/a') C + (1/a') (K + K_geo(lambda))) R, factored; K_geo is left out where it makes it indefinite.
+/// Factors R^T (M + (v'/a') C + (1/a') (K + K_geo(lambda))) R. K_geo is left out where it makes the matrix indefinite.
 fn factor<T: Real, M: Model<T>>(
     model: &M,
     rule: &Rule<T>,
@@ -239,7 +239,7 @@ fn factor<T: Real, M: Model<T>>(
     Err(StepError::Singular(failure))
 }
 
-/// Is this correction the last one? Estimated from the last two.
+/// Decides from the last two corrections whether the iteration ends.
 fn stopping<T: Real>((correction, last): (T, T), (goal, noise): (T, T)) -> Option<Stop> {
     if correction <= goal {
         return Some(Stop::Converged);
@@ -254,7 +254,7 @@ fn stopping<T: Real>((correction, last): (T, T), (goal, noise): (T, T)) -> Optio
     }
 }
 
-/// The violations of all rows, the dropped ones too: a dropped row that does not hold has become independent.
+/// Checks the violations of all rows. A dropped row that is violated has become independent.
 fn check_violation<T: Real, M: Model<T>>(
     model: &M,
     length: T,

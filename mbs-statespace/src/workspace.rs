@@ -1,4 +1,4 @@
-//! Scratch of a step, made once at a start state, which also fixes the rank.
+//! Workspace of a step, made once at a start state, which also determines the rank.
 
 use crate::basis::Basis;
 use crate::dense::{General, Symmetric};
@@ -11,10 +11,9 @@ use mbs_core::dense::Dense;
 use mbs_core::model::{Load, Model, State, Terms};
 use mbs_core::step::Counts;
 
-/// Scratch of the state-space step, with the independent coordinates that are chosen at present.
+/// Workspace of the state-space step, with the present independent coordinates.
 ///
-/// A step allocates nothing while the factors of a new choice fit into twice the room of the first; a choice that needs more
-/// grows the store once.
+/// A step allocates nothing while the factors of a new choice fit into twice the memory of the first ones. A larger choice allocates once.
 #[derive(Debug, Clone)]
 pub struct Workspace<T> {
     pub(crate) terms: Terms<T>,
@@ -23,45 +22,46 @@ pub struct Workspace<T> {
     pub(crate) basis: Basis<T>,
     pub(crate) tangent: Symmetric<T>,
     pub(crate) solver: Dense<T>,
-    /// Matrix C^T R, factored.
+    /// Matrix C^T R of the tangent coordinates, factored.
     pub(crate) turn: General<T>,
-    /// C^T x of the predicted dq, v, a, and what is wanted of x now, f each.
+    /// Tangent coordinates, f numbers each: C^T x of the predicted dq, v and a; then the correction towards the required C^T x, and
+    /// d = C^T (q - q_p).
     pub(crate) predicted: [Vec<T>; 3],
     pub(crate) wanted: Vec<T>,
     pub(crate) measured: Vec<T>,
-    /// q_(n+1) - q_n and q_(n+1), v, a, extended.
+    /// Increment q_(n+1) - q_n, then q_(n+1), v and a; extended vectors, which include known coordinates.
     pub(crate) dq: Vec<T>,
     pub(crate) q: Vec<T>,
     pub(crate) v: Vec<T>,
     pub(crate) a: Vec<T>,
-    /// A correction of all unknowns, extended; forces and M a, n.
+    /// A correction (an extended vector), and the balance M a - Q for each unknown.
     pub(crate) change: Vec<T>,
     pub(crate) balance: Vec<T>,
-    /// Over the independent coordinates: residual, then correction.
+    /// Residual, then correction, of the independent coordinates.
     pub(crate) d: Vec<T>,
-    /// Multipliers, the same over a', and rates, m.
+    /// Multipliers, multipliers over a', and residuals of velocities or accelerations, for each row.
     pub(crate) lambda: Vec<T>,
     pub(crate) mu: Vec<T>,
     pub(crate) rates: Vec<T>,
-    /// Over the dependent unknowns; one element.
+    /// Scratch for the dependent unknowns, and scratch for one element.
     scratch: Vec<T>,
     local: Vec<T>,
-    /// Rank and smallest pivot at the start.
+    /// Rank at the start, and the largest of the smallest pivots at all choices so far.
     pub(crate) rank: usize,
     pub(crate) usual: T,
     pub(crate) pivots: Pivots<T>,
-    /// Largest entry of R at the last choice; zero: not known yet.
+    /// Largest entry of R at the last choice; zero while unknown.
     pub(crate) first_basis: T,
-    /// The next step chooses anew.
+    /// Does the next step choose independent coordinates again?
     pub(crate) is_stale: bool,
-    /// Counts within a step.
+    /// Counts of factorisations and solves within a step.
     pub(crate) counts: Counts,
-    /// Choices since the start.
+    /// Choices of independent coordinates since the start.
     pub(crate) choices: u32,
 }
 
 impl<T: Real> Workspace<T> {
-    /// Creates the scratch for `model`; `start` is a consistent state, and the rank of its constraints is the rank that stands.
+    /// Creates the workspace for `model`. `start` is a consistent state, and the rank of its constraints must not change in later steps.
     pub fn new(model: &impl Model<T>, start: &State<T>) -> Self {
         let (n, e, m) = (model.n_unknowns(), model.n_extended(), model.n_constraints());
         let zeros = |k| vec![T::ZERO; k];
@@ -109,17 +109,17 @@ impl<T: Real> Workspace<T> {
         }
     }
 
-    /// The terms as last evaluated.
+    /// The terms of the model as last evaluated.
     pub fn terms(&self) -> &Terms<T> {
         &self.terms
     }
 
-    /// Terms as last evaluated, to be put back.
+    /// Terms as last evaluated, for a caller that restores them.
     pub fn terms_mut(&mut self) -> &mut Terms<T> {
         &mut self.terms
     }
 
-    /// Elimination of the constraints: rank, independent and dependent coordinates, rows that were dropped.
+    /// Elimination of the constraints: rank, independent and dependent coordinates, dropped rows.
     pub fn elimination(&self) -> &Elimination<T> {
         &self.elimination
     }
@@ -129,7 +129,7 @@ impl<T: Real> Workspace<T> {
         self.choices
     }
 
-    /// change_d = -J_d^-1 rates, the other places left.
+    /// Solves change_d = -J_d^-1 rates; other entries of `change` stay.
     pub(crate) fn solve(&mut self) {
         self.counts.solves += 1;
         for r in &mut self.rates {
@@ -138,7 +138,7 @@ impl<T: Real> Workspace<T> {
         self.elimination.solve(&self.rates, &mut self.change, &mut self.scratch);
     }
 
-    /// lambda from J_d^T lambda = -balance_d; zero on dropped rows.
+    /// Solves J_d^T lambda = -balance_d for the multipliers, which are zero on dropped rows.
     pub(crate) fn solve_transposed(&mut self) {
         self.counts.solves += 1;
         self.elimination.solve_transposed(&self.balance, &mut self.lambda, &mut self.scratch);
@@ -147,7 +147,7 @@ impl<T: Real> Workspace<T> {
         }
     }
 
-    /// balance = M a - force Q, element by element.
+    /// Evaluates balance = M a - force Q, element by element.
     pub(crate) fn balance(&mut self, model: &impl Model<T>, force: T) {
         self.balance.fill(T::ZERO);
         let load = Load { mass: Some(&self.a[..]), multipliers: None, force };

@@ -1,4 +1,4 @@
-//! The choice of pivots: Markowitz' count among the entries that are large in what is left of the whole matrix.
+//! Choice of pivots: Markowitz' count among the entries that are large relative to the remaining matrix.
 //!
 //! ```text
 //! s = D J E,   D: rows of unit length,   E: column scales
@@ -6,21 +6,21 @@
 //! rank: the pivots until max|s| <= max(m, n) eps^(5/8)
 //! ```
 //!
-//! Comparing with all that is left, and not with one row or column, is what reveals the rank. The matrix is a list of entries
-//! linked along rows and columns. An entry counts in the pattern even where its number is zero, so the
-//! order found holds for other numbers too.
+//! A threshold relative to the whole remaining matrix, rather than to one row or column, reveals the rank. The matrix is a list of entries
+//! linked along rows and columns. An entry belongs to the pattern even where its number is zero. Therefore the order found is valid for other
+//! numbers too.
 
 use super::pattern::{Pattern, index};
 use alloc::vec;
 use alloc::vec::Vec;
 use mbs_core::Real;
 
-/// Rows that are searched for one pivot.
+/// Number of rows that are searched for one pivot [-].
 const SEARCHED: usize = 6;
-/// No entry, no row, no column.
+/// Index that stands for no entry, no row and no column.
 pub(super) const NONE: u32 = u32::MAX;
 
-/// One entry of the matrix that is eliminated.
+/// One entry of the matrix during elimination.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Entry<T> {
     pub(super) row: u32,
@@ -30,21 +30,21 @@ pub(super) struct Entry<T> {
     next_in_column: u32,
 }
 
-/// Scratch of a choice.
+/// Scratch memory of a choice of pivots.
 #[derive(Debug, Clone)]
 pub(super) struct Chooser<T> {
     pub(super) entries: Vec<Entry<T>>,
     pub(super) row_heads: Vec<u32>,
     column_heads: Vec<u32>,
-    /// Entries left in each row and column.
+    /// Remaining entries in each row and column.
     row_counts: Vec<u32>,
     column_counts: Vec<u32>,
-    /// Size of the largest entry left in each row.
+    /// Size of the largest remaining entry in each row.
     row_sizes: Vec<T>,
-    /// The step at which a row or column was eliminated.
+    /// The elimination step of each row and column.
     pub(super) row_steps: Vec<u32>,
     pub(super) column_steps: Vec<u32>,
-    /// Entry of the row at hand in each column.
+    /// Entry of the current row in each column.
     at: Vec<u32>,
 }
 
@@ -94,7 +94,7 @@ impl<T: Real> Chooser<T> {
         }
     }
 
-    /// The next entry along a row, from its head or after an entry.
+    /// Returns the entry at an index with this index; none at the end of a row's list.
     pub(super) fn along(&self, at: u32) -> Option<(u32, Entry<T>)> {
         (at != NONE).then(|| (at, self.entries[at as usize]))
     }
@@ -111,7 +111,7 @@ impl<T: Real> Chooser<T> {
         self.row_sizes[row] = size;
     }
 
-    /// The largest entry left: its row and size.
+    /// Returns the row and size of the largest remaining entry.
     pub(super) fn rest(&self) -> (u32, T) {
         let mut best = (0, T::ZERO);
         for (r, (&size, &step)) in self.row_sizes.iter().zip(&self.row_steps).enumerate() {
@@ -122,7 +122,7 @@ impl<T: Real> Chooser<T> {
         best
     }
 
-    /// The next pivot, an entry of at least the size `least` that makes few new ones.
+    /// Returns the next pivot: an entry of at least the size `least` that creates few new entries.
     pub(super) fn pivot(&self, least: T, (row_scales, column_scales): (&[T], &[T])) -> Option<u32> {
         let is_open = |r: usize| self.row_steps[r] == NONE && self.row_sizes[r] >= least;
         let open = || (0..self.row_sizes.len()).filter(|&r| is_open(r));
@@ -147,7 +147,7 @@ impl<T: Real> Chooser<T> {
         best.map(|(_, _, at)| at)
     }
 
-    /// The entry that is left at a place.
+    /// Returns the remaining entry at a row and column.
     pub(super) fn entry(&self, row: u32, column: u32) -> Option<u32> {
         let mut next = self.row_heads[row as usize];
         while let Some((at, e)) = self.along(next) {
@@ -159,7 +159,7 @@ impl<T: Real> Chooser<T> {
         None
     }
 
-    /// Subtracts the pivot's row from every row that has its column.
+    /// Subtracts a multiple of the pivot's row from every row with an entry in the pivot's column.
     pub(super) fn eliminate(
         &mut self,
         pivot: u32,
@@ -187,7 +187,7 @@ impl<T: Real> Chooser<T> {
         }
     }
 
-    /// row r -= factor * row p, over the columns left.
+    /// Subtracts rows, row r -= factor * row p, over the remaining columns.
     fn subtract(&mut self, p: usize, r: usize, factor: T) {
         let mut next = self.row_heads[r];
         while let Some((at, e)) = self.along(next) {
@@ -214,7 +214,7 @@ impl<T: Real> Chooser<T> {
     }
 }
 
-/// Entries of the scaled matrix at most this large are nothing: max(m, n) eps^(5/8).
+/// Returns the size up to which entries of the scaled matrix count as zero: max(m, n) EPSILON^(5/8).
 pub(crate) fn rank_tolerance<T: Real>(size: usize) -> T {
     let eighth = T::EPSILON.sqrt().sqrt().sqrt();
     let square = eighth * eighth;

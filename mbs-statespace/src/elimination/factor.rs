@@ -1,13 +1,12 @@
-//! The arithmetic in the order that was chosen: factors, solutions, and the basis of the null space.
+//! Arithmetic in the chosen order: factors, solutions, and the basis of the null space.
 
 use super::{Elimination, Pivots};
 use mbs_core::Real;
 
 impl<T: Real> Elimination<T> {
-    /// Factors the matrix `values` in the order chosen last. Allocates nothing.
+    /// Factors the matrix `values` in the last chosen order. Allocates nothing.
     ///
-    /// The rows that were dropped have no part in it. A pivot that became zero makes the factors infinite: look at
-    /// [`pivots`](Self::pivots) before using them.
+    /// Dropped rows are not used. A pivot that has become zero makes the factors infinite: check [`pivots`](Self::pivots) before using them.
     pub fn refactor(&mut self, values: &[T]) {
         self.inverses.clear();
         for k in 0..self.rank {
@@ -38,13 +37,13 @@ impl<T: Real> Elimination<T> {
         }
     }
 
-    /// The size of pivot k in the scaled matrix.
+    /// Returns the size of pivot k in the scaled matrix.
     fn scaled_pivot(&self, k: usize) -> T {
         let (row, column) = (self.rows[k] as usize, self.unknowns[k] as usize);
         self.row_scales[row] * self.column_scales[column] / self.inverses[k].abs()
     }
 
-    /// Notes the pivots as those of the choice.
+    /// Stores the sizes of the pivots at the choice.
     pub(super) fn note_pivots(&mut self) {
         self.chosen.clear();
         for k in 0..self.rank {
@@ -52,7 +51,7 @@ impl<T: Real> Elimination<T> {
         }
     }
 
-    /// Returns the quality of the pivots of the last factorisation; NaN counts as zero.
+    /// Returns the quality of the pivots of the last factorisation. A NaN counts as zero.
     #[must_use]
     pub fn pivots(&self) -> Pivots<T> {
         let mut found = Pivots { smallest: T::ONE, row: 0, decay: T::ONE };
@@ -67,8 +66,8 @@ impl<T: Real> Elimination<T> {
         found
     }
 
-    /// x_d = J_d^-1 b: `b` over the rows (read at the pivot rows), `x` over the columns (written at the dependent ones).
-    /// `scratch` has r places or more.
+    /// Solves J_d x_d = b. `b` has an entry for each row and is read at the pivot rows. `x` has an entry for each column and is written at
+    /// the dependent ones. `scratch` has r entries or more.
     pub fn solve(&self, b: &[T], x: &mut [T], scratch: &mut [T]) {
         let y = &mut scratch[..self.rank];
         for k in 0..self.rank {
@@ -87,8 +86,8 @@ impl<T: Real> Elimination<T> {
         }
     }
 
-    /// J_d^T y = b: `b` over the columns (read at the dependent ones), `y` over the rows (zero at the dropped ones).
-    /// `scratch` has r places or more.
+    /// Solves J_d^T y = b. `b` has an entry for each column and is read at the dependent ones. `y` has an entry for each row, zero at the
+    /// dropped ones. `scratch` has r entries or more.
     pub fn solve_transposed(&self, b: &[T], y: &mut [T], scratch: &mut [T]) {
         let x = &mut scratch[..self.rank];
         for k in 0..self.rank {
@@ -115,8 +114,8 @@ impl<T: Real> Elimination<T> {
         }
     }
 
-    /// The rows of R of the dependent columns, -J_d^-1 J_i: r rows of n - r numbers, in the order of elimination
-    /// [P1 (21)]. Back-substitution of U alone, as L stands on both sides.
+    /// Writes the rows of R of the dependent columns, -J_d^-1 J_i [P1 (21)]: r rows of n - r numbers, in the order of elimination. A
+    /// back-substitution with U is enough, because L is a factor of both J_d and J_i.
     pub fn write_basis(&self, basis: &mut [T]) {
         let f = self.pattern.n_columns - self.rank;
         for k in (0..self.rank).rev() {

@@ -1,4 +1,4 @@
-//! Sparse Gaussian elimination of a rectangular matrix, with pivots chosen once and kept for many numbers.
+//! Sparse Gaussian elimination of a rectangular matrix. Pivots are chosen once and reused for many matrices of the same pattern.
 //!
 //! ```text
 //! J = [J_d J_i] (columns),   J_d = L U on the r pivot rows,   the other rows of J repeat them
@@ -23,14 +23,14 @@ use pattern::index;
 pub use order::Order;
 pub use pattern::Pattern;
 
-/// Quality of the pivots, sized as in the matrix with rows of unit length and scaled columns.
+/// Quality of the pivots, measured in the matrix with rows of unit length and scaled columns.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pivots<T> {
     /// Size of the smallest pivot.
     pub smallest: T,
     /// Row of the smallest pivot.
     pub row: u32,
-    /// The smallest ratio of a pivot to itself at the last choice.
+    /// The smallest ratio of a pivot to its size at the last choice [-].
     pub decay: T,
 }
 
@@ -39,39 +39,39 @@ pub struct Pivots<T> {
 pub struct PivotSelection<T> {
     /// Rank r of the matrix.
     pub rank: usize,
-    /// The last pivot accepted: its row and its size in the scaled matrix.
+    /// Row of the last accepted pivot, and its size in the scaled matrix.
     pub last: (u32, T),
-    /// The largest entry that no pivot removed, and its row; zero where no row is left.
+    /// Row and size of the largest entry that remains after all pivots; zero where no row remains.
     pub rest: (u32, T),
 }
 
-/// An elimination of matrices of one pattern. See the module.
+/// An elimination of matrices of one pattern, described in this module's documentation.
 #[derive(Debug, Clone)]
 pub struct Elimination<T> {
     pattern: Pattern,
     rank: usize,
-    /// Pivot rows in the order of elimination, then the rows that were dropped.
+    /// Pivot rows in the order of elimination, then the dropped (redundant) rows.
     rows: Vec<u32>,
     /// Dependent columns in the order of elimination, then the independent ones, ascending.
     unknowns: Vec<u32>,
-    /// Place of each column in `unknowns`.
+    /// Index of each column in `unknowns`.
     places: Vec<u32>,
-    /// L without its unit diagonal, row by row; columns by place.
+    /// Factor L without its unit diagonal, row by row; columns by place in `unknowns`.
     lower: Triangle<T>,
-    /// U without its diagonal, row by row, the independent columns included; columns by place.
+    /// Factor U without its diagonal, row by row, including the independent columns; columns by place in `unknowns`.
     upper: Triangle<T>,
-    /// 1 / pivot, r.
+    /// Inverses 1 / pivot of all pivots.
     inverses: Vec<T>,
-    /// Scales of rows and columns at the last choice, and the pivots there in that scaling.
+    /// Scales of rows and columns at the last choice, and the sizes of the scaled pivots there.
     row_scales: Vec<T>,
     column_scales: Vec<T>,
     chosen: Vec<T>,
-    /// One row, by place.
+    /// Scratch for one row, by place in `unknowns`.
     work: Vec<T>,
     chooser: Chooser<T>,
 }
 
-/// A sparse triangle, row by row.
+/// A sparse triangular matrix, stored row by row.
 #[derive(Debug, Clone, Default)]
 struct Triangle<T> {
     starts: Vec<u32>,
@@ -101,12 +101,12 @@ impl<T: Real> Triangle<T> {
 }
 
 impl<T: Real> Elimination<T> {
-    /// Room for matrices of `pattern`; nothing is chosen yet (rank zero).
+    /// Creates an elimination for matrices of `pattern`. Its rank is zero until pivots are chosen.
     ///
-    /// Columns are chosen after scaling by `column_scales`: the larger its scale, the sooner a column becomes dependent.
+    /// Columns are compared after scaling by `column_scales`: a column with a larger scale becomes dependent earlier.
     ///
     /// # Panics
-    /// When `column_scales` has not one place for each column.
+    /// When the length of `column_scales` is not the number of columns.
     #[must_use]
     pub fn new(pattern: Pattern, column_scales: Vec<T>) -> Self {
         let (m, n) = (pattern.n_rows(), pattern.n_columns);
@@ -148,7 +148,7 @@ impl<T: Real> Elimination<T> {
     pub fn pivot_rows(&self) -> &[u32] {
         &self.rows[..self.rank]
     }
-    /// The rows that repeat the others.
+    /// The redundant rows, which depend on the pivot rows.
     #[must_use]
     pub fn dropped_rows(&self) -> &[u32] {
         &self.rows[self.rank..]
@@ -163,7 +163,7 @@ impl<T: Real> Elimination<T> {
     pub fn independent(&self) -> &[u32] {
         &self.unknowns[self.rank..]
     }
-    /// Place of a column: `k < r` is the k-th dependent one, `r + i` the i-th independent one.
+    /// Place of a column in the order: `k < r` is the k-th dependent one, `r + i` the i-th independent one.
     #[inline]
     #[must_use]
     pub fn place(&self, column: usize) -> usize {
@@ -181,7 +181,7 @@ impl<T: Real> Elimination<T> {
         self.lower.places.len() + self.upper.places.len() + self.rank
     }
 
-    /// Makes room for factors of `entries` numbers, so that later choices need not grow the store.
+    /// Reserves memory for factors of `entries` numbers, so that later choices need not allocate.
     pub fn reserve(&mut self, entries: usize) {
         let m = self.pattern.n_rows();
         self.lower.reserve(m, entries);

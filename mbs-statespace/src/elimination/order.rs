@@ -1,4 +1,4 @@
-//! The order of an elimination as plain data, and an elimination in an order that is given.
+//! The order of an elimination as plain data, and an elimination in a given order.
 
 use super::Elimination;
 use super::pattern::index;
@@ -6,19 +6,19 @@ use alloc::vec;
 use alloc::vec::Vec;
 use mbs_core::Real;
 
-/// An order of elimination, with what its pivots were when they were chosen.
+/// An order of elimination, with the sizes of its pivots at the choice.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Order<T> {
-    /// Row and column of each pivot, r.
+    /// Row and column of each pivot.
     pub pivots: Vec<[u32; 2]>,
-    /// Scale of each row, m.
+    /// Scale of each row in the choice.
     pub row_scales: Vec<T>,
-    /// Size of each pivot in the scaled matrix, r.
+    /// Size of each pivot in the scaled matrix.
     pub sizes: Vec<T>,
 }
 
 impl<T: Real> Elimination<T> {
-    /// The order chosen last.
+    /// Returns the last chosen order.
     #[must_use]
     pub fn order(&self) -> Order<T> {
         let pivots = self.pivot_rows().iter().zip(self.dependent());
@@ -29,8 +29,8 @@ impl<T: Real> Elimination<T> {
         }
     }
 
-    /// Takes an order that another elimination of the same pattern has chosen; the factors are then those of the next
-    /// [`refactor`](Self::refactor). Says whether the order is one of this pattern; else nothing is changed.
+    /// Sets an order that another elimination of the same pattern has chosen. Call [`refactor`](Self::refactor) for the factors. Returns
+    /// false, and changes nothing, if the order does not fit the pattern.
     ///
     /// Cost: the elimination once. Allocates.
     pub fn set_order(&mut self, order: &Order<T>) -> bool {
@@ -39,7 +39,7 @@ impl<T: Real> Elimination<T> {
         if row_scales.len() != m || sizes.len() != rank || !are_distinct(pivots, [m, n]) {
             return false;
         }
-        // What is an entry depends on the pattern alone: any numbers will do.
+        // The entries depend on the pattern alone, so any numbers serve here.
         let ones = vec![T::ONE; self.pattern.columns.len()];
         let (chooser, scales) = (&mut self.chooser, (&row_scales[..], &self.column_scales[..]));
         chooser.load(&self.pattern, &ones);
@@ -61,7 +61,7 @@ impl<T: Real> Elimination<T> {
     }
 }
 
-/// Is no row and no column there twice, and none beyond the matrix?
+/// Does every row and column occur at most once, and lie within the matrix?
 fn are_distinct(pivots: &[[u32; 2]], sizes: [usize; 2]) -> bool {
     [0, 1].into_iter().all(|side| {
         let mut is_taken = vec![false; sizes[side]];

@@ -2,12 +2,12 @@
 
 use alloc::vec::Vec;
 
-/// The pattern of a sparse matrix, row by row. The numbers stand in a slice of their own, in the same order.
+/// The pattern of a sparse matrix, row by row. The numbers of a matrix are a separate slice in the same order.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Pattern {
     /// Number of columns n.
     pub n_columns: usize,
-    /// Starts of the rows in `columns`, and the end of the last row: m + 1 places.
+    /// Index of each row's first entry in `columns`, and the end of the last row: m + 1 numbers.
     pub starts: Vec<u32>,
     /// The columns of the entries, distinct within a row.
     pub columns: Vec<u32>,
@@ -20,7 +20,7 @@ impl Pattern {
         self.starts.len().saturating_sub(1)
     }
 
-    /// The places of the entries of `row`.
+    /// Range of the entries of `row` in `columns`.
     #[inline]
     #[must_use]
     pub fn row(&self, row: usize) -> core::ops::Range<usize> {
@@ -28,7 +28,7 @@ impl Pattern {
     }
 }
 
-/// Returns a count as u32: it fits, since more than 4e9 entries do not fit a memory.
+/// Converts a count to u32. It fits, because a matrix of more than 4e9 entries exceeds the memory.
 pub(super) fn index(i: usize) -> u32 {
     u32::try_from(i).unwrap_or(u32::MAX)
 }

@@ -1,18 +1,18 @@
-//! Pivots selected for a matrix, and the patterns of its factors read off them.
+//! Selection of pivots for a matrix, and the patterns of the resulting factors.
 
 use super::choose::{NONE, rank_tolerance};
 use super::pattern::index;
 use super::{Elimination, PivotSelection};
 use mbs_core::Real;
 
-/// Least ratio u of a pivot to the largest remaining entry [-]: multipliers stay below 1/u. Chosen, not tuned.
+/// Least ratio u of a pivot to the largest remaining entry [-]. Entries of L stay below 1/u. Chosen, not tuned.
 const THRESHOLD: f64 = 0.3;
 
 impl<T: Real> Elimination<T> {
-    /// Chooses pivots for the matrix `values` and notes the order; the factors are then those of [`refactor`](Self::refactor).
+    /// Chooses pivots for the matrix `values` and stores the order. Call [`refactor`](Self::refactor) for the factors.
     ///
-    /// Cost: the elimination once, and for each pivot a look at every row. Allocates only when the factors need more than
-    /// was reserved.
+    /// Cost: one elimination, and for each pivot a comparison of all rows. Allocates only when the factors need more memory than was
+    /// reserved.
     pub fn select_pivots(&mut self, values: &[T]) -> PivotSelection<T> {
         let (m, n) = (self.pattern.n_rows(), self.pattern.n_columns);
         self.scale_rows(values);
@@ -49,7 +49,7 @@ impl<T: Real> Elimination<T> {
         PivotSelection { rank, last, rest }
     }
 
-    /// The rows and columns that are left after the pivots, and the patterns of the factors.
+    /// Completes the order with the remaining rows and columns, and stores the patterns of the factors.
     pub(super) fn close_order(&mut self) {
         let (m, n, chooser) = (self.pattern.n_rows(), self.pattern.n_columns, &self.chooser);
         self.rows.extend((0..m).filter(|&r| chooser.row_steps[r] == NONE).map(index));
@@ -60,7 +60,7 @@ impl<T: Real> Elimination<T> {
         self.note_order();
     }
 
-    /// Scales the rows by D: rows of D J E have unit length; rows of zeros are left.
+    /// Sets the row scales D, with which rows of D J E have unit length. Rows of zeros have the scale one.
     fn scale_rows(&mut self, values: &[T]) {
         for (r, scale) in self.row_scales.iter_mut().enumerate() {
             let square = self.pattern.row(r).fold(T::ZERO, |sum, t| {
@@ -71,7 +71,7 @@ impl<T: Real> Elimination<T> {
         }
     }
 
-    /// The patterns of L and U, read off the eliminated entries.
+    /// Stores the patterns of L and U from the eliminated entries.
     fn note_order(&mut self) {
         self.lower.clear();
         self.upper.clear();

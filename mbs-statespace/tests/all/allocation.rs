@@ -1,5 +1,5 @@
-//! After [`Workspace::new`] nothing allocates: a counting allocator sees zero calls in a step, with effects and guides, and
-//! when independent columns are chosen anew.
+//! No step allocates memory after [`Workspace::new`]: a counting allocator counts zero calls, with effects and guides, and with new choices
+//! of independent columns.
 
 use crate::common::Bench;
 use mbs_statespace::PivotChange;

@@ -1,11 +1,11 @@
-//! The elimination against dense matrices: rank, solutions, null space, frozen pivots, and what stays independent.
+//! The elimination compared with dense matrices: rank, solutions, null space, reused pivots, and the independent columns.
 
 use mbs_statespace::elimination::{Elimination, Pattern};
 
-/// Rounding of some ten operations on numbers of order one, with pivots of 0.3 or more.
+/// Rounding errors of about ten operations on numbers of order one, with pivots of 0.3 or more.
 const ROUNDING: f64 = 1e-12;
 
-/// Pseudorandom numbers in [-1, 1], the same on every machine (xorshift64*).
+/// Generator of pseudo-random numbers in [-1, 1], the same on every machine (xorshift64*).
 struct Random(u64);
 
 impl Random {
@@ -21,7 +21,7 @@ impl Random {
     }
 }
 
-/// A sparse m x n matrix, row by row with its columns.
+/// A sparse m x n matrix, stored as rows of (column, value) pairs.
 #[derive(Clone)]
 struct Sparse {
     n: usize,
@@ -29,7 +29,7 @@ struct Sparse {
 }
 
 impl Sparse {
-    /// `independent` random rows, then sums of two of them with random factors.
+    /// Creates `independent` random rows, then `repeated` sums of two of them with random factors.
     fn random(random: &mut Random, n: usize, independent: usize, repeated: usize) -> Self {
         let mut rows = Vec::new();
         for _ in 0..independent {
@@ -85,7 +85,7 @@ impl Sparse {
         x
     }
 
-    /// Rank by dense Gauss-Jordan elimination with complete pivoting on rows of unit length.
+    /// Computes the rank by dense Gauss-Jordan elimination with complete pivoting, on rows of unit length.
     fn rank(&self) -> usize {
         let mut a: Vec<Vec<f64>> = vec![vec![0.0; self.n]; self.rows.len()];
         for (to, row) in a.iter_mut().zip(&self.rows) {
@@ -123,7 +123,7 @@ fn norm(x: &[f64]) -> f64 {
     x.iter().fold(0.0, |a, b| a.max(b.abs()))
 }
 
-/// J R = 0 over all rows, R the identity on the independent columns, and the two solutions of the dependent ones.
+/// Checks J R = 0 over all rows, the identity of R on the independent columns, and the two solutions with J_d.
 fn check(matrix: &Sparse, e: &Elimination<f64>, random: &mut Random) {
     let (n, m, r) = (matrix.n, matrix.rows.len(), e.rank());
     let f = n - r;
@@ -185,7 +185,7 @@ fn frozen_pivots_serve_other_numbers_of_the_pattern_even_where_some_were_zero() 
         if matrix.rank() < matrix.rows.len() {
             continue;
         }
-        // The choice sees zeros at a third of the places that its pivots leave.
+        // In the matrix that the pivots are chosen for, a third of the entries other than the first of each row are zero.
         let mut thin = matrix.clone();
         for entry in thin.rows.iter_mut().flat_map(|row| row.iter_mut().skip(1)) {
             if random.below(3) == 0 {
@@ -208,7 +208,7 @@ fn frozen_pivots_serve_other_numbers_of_the_pattern_even_where_some_were_zero() 
 
 #[test]
 fn light_columns_become_dependent() {
-    // x + y = 0 with masses 100 and 1: the light y follows.
+    // x + y = 0 with masses 100 and 1: the light y becomes dependent.
     let pattern = Pattern { n_columns: 2, starts: vec![0, 2], columns: vec![0, 1] };
     let mut e = Elimination::new(pattern, vec![0.1, 1.0]);
     e.select_pivots(&[1.0, 1.0]);
@@ -217,7 +217,7 @@ fn light_columns_become_dependent() {
 
 #[test]
 fn pivots_show_how_near_a_matrix_is_to_losing_rank() {
-    // [1 1; 1 1+e]: e is what the second row adds.
+    // In [1 1; 1 1+e] the second row adds e to the first one.
     let pattern = Pattern { n_columns: 2, starts: vec![0, 2, 4], columns: vec![0, 1, 0, 1] };
     let mut e = Elimination::new(pattern, vec![1.0; 2]);
     assert_eq!(e.select_pivots(&[1.0, 1.0, 1.0, -1.0]).rank, 2);

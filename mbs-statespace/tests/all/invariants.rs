@@ -1,4 +1,4 @@
-//! Changes that leave a motion as it is: the choice of independent columns, axes, precision; and what must hold at every step.
+//! Invariance of a motion under the choice of independent columns, axes and precision, and conditions that hold at every step.
 
 use crate::common::Bench;
 use mbs_core::model::Model;
@@ -8,10 +8,10 @@ use mbs_testkit::retell::{turn_scene, turned};
 use mbs_testkit::scenes::{CHAIN, DOUBLE, GUIDED, REDUNDANT, SLIDER, TOP, TWO_FOUR_BARS};
 use mbs_testkit::{PLANAR, SPATIAL, apart, scene, scene_in};
 
-/// Growth of rounding over some hundred steps of a regular motion [m].
+/// Growth of rounding errors over some hundred steps of a regular motion [m].
 const ROUNDING: f64 = 1e-9;
 
-/// Largest entry of J R over all rows, the dropped ones too, and of R.
+/// Returns the largest entries of J R, over all rows including the dropped ones, and of R.
 fn null_space_error<const D: usize>(bench: &Bench<f64, D>) -> (f64, f64) {
     let (model, e) = (&bench.model, bench.w.elimination());
     let f = e.independent().len();
@@ -54,7 +54,7 @@ fn the_basis_spans_the_null_space_of_all_rows() {
 fn check_rechoice<const D: usize>(text: &str, dt: f64, steps: u32) {
     let mut plain = Bench::<f64, D>::new(text);
     let mut forced = Bench::<f64, D>::new(text);
-    // Iterated to rounding, or each step would keep a tolerance of its own.
+    // The tolerance is machine precision, since otherwise each step would leave an error that depends on the choice.
     (plain.options.tolerance, forced.options.tolerance) = (1e-14, 1e-14);
     forced.options.pivot_change = PivotChange::EveryStep;
     let (mut sets, mut last) = (0, Vec::new());
@@ -125,7 +125,7 @@ fn all_three_levels_hold_to_rounding_after_every_step() {
 
 #[test]
 fn a_stiff_spring_takes_few_iterations() {
-    // A rod of 1 kg held by 1e7 N/m at its end: 1.3 ms a period, so that a step of 1 ms is most of one.
+    // A rod of 1 kg on a spring of 1e7 N/m at its end has a period of 1.3 ms, little more than a step of 1 ms.
     let text = "[scene]\nname = \"stiff\"\ndimension = 2\ngravity = [0.0, -9.81]\nduration = 1.0\n[[body]]\nname = \"x\"\nrod = { from = [0.0, 0.0], to = [1.0, 0.0] }\nmass = 1.0\n[[joint]]\nname = \"j\"\nkind = \"revolute\"\nbodies = [\"ground\", \"x\"]\nat = [0.0, 0.0]\n[[effect]]\nkind = \"spring-damper\"\nbodies = [\"ground\", \"x\"]\npoints = [[1.0, 1.0], [1.0, 0.0]]\nstiffness = 1e7\nfree_length = 1.0001\n";
     for dt in [1e-2, 1e-3] {
         let mut bench = Bench::<f64, 2>::new(text);
@@ -134,7 +134,7 @@ fn a_stiff_spring_takes_few_iterations() {
             let report = bench.try_step(dt).unwrap();
             assert!(report.iterations <= 4, "{} iterations at {dt}", report.iterations);
         }
-        // A hundredth of the 0.05 J that were stored.
+        // The limit is a hundredth of the 0.05 J stored in the spring.
         let error = (bench.invariant() - start).abs();
         assert!(error < 5e-4, "{dt}: {error:e} J");
     }
@@ -153,7 +153,7 @@ fn the_geometric_stiffness_saves_iterations_and_changes_nothing_else() {
     };
     let ((with, q), (without, printed)) = (run(true), run(false));
     assert!(with < without, "{with} {without}");
-    // Both stop at 1e-10 of the step's displacement of 1e-4 m.
+    // The iterations of both end at 1e-10 of the step's displacement of 1e-4 m.
     assert!(apart(&q, &printed) < 1e-9);
 }
 
@@ -164,7 +164,7 @@ fn a_fully_guided_mechanism_has_no_unknowns() {
     for _ in 0..1000 {
         assert_eq!(bench.try_step(1e-3).unwrap().iterations, 0);
     }
-    // Work of the guide: what the energies gained.
+    // The work of the guide equals the gain of kinetic and potential energy.
     let start = Bench::<f64, 2>::new(&GUIDED).invariant();
     let error = (bench.invariant() - start).abs();
     assert!(error < 5e-6, "{error:e} J: the trapezoidal rule in time");
@@ -176,7 +176,7 @@ fn a_start_at_the_singular_position_is_refused() {
     let text = &TWO_FOUR_BARS;
     let mut bench = Bench::<f64, 2>::new(text);
     let (usual, n) = (bench.w.elimination().rank(), bench.model.n_unknowns());
-    // The ends of the cranks, which are the unknowns, turned by a quarter.
+    // The unknowns are the ends of the cranks; they are turned by a quarter turn.
     for x in bench.state.q[..n].chunks_exact_mut(2) {
         (x[0], x[1]) = (x[0] + 1.0, 0.0);
     }
@@ -193,7 +193,7 @@ fn a_start_at_the_singular_position_is_refused() {
 
 #[test]
 fn single_precision_stays_near_double_precision() {
-    // What single precision may lose in half a second [m].
+    // Error that single precision may cause in half a second [m].
     const SINGLE: f64 = 1e-3;
     let mut double = Bench::<f64, 2>::new(&DOUBLE);
     double.run(2e-3, 250);

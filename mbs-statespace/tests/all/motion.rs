@@ -1,4 +1,4 @@
-//! Motions against closed forms, the tables of the report, and the index-3 augmented Lagrangian.
+//! Motions compared with closed forms, with the tables of the report, and with the index-3 augmented Lagrangian.
 
 use crate::common::Bench;
 use mbs_core::integrator::Integrator;
@@ -8,7 +8,7 @@ use mbs_testkit::scenes::{
 };
 use mbs_testkit::{PLANAR, SPATIAL, apart, retell, scene};
 
-/// A mass on a bar of 1 m after 1 s from the horizontal, by elliptic functions [m].
+/// Position of a mass on a bar of 1 m, 1 s after its release from the horizontal, by elliptic functions [m].
 const PENDULUM_AT_ONE: [f64; 2] = [-0.986_291_751_132, -0.165_010_853_126];
 
 const PENDULUM: &str = "[scene]\nname = \"pendulum\"\ndimension = 2\ngravity = [0.0, -9.81]\nduration = 1.0\n[[body]]\nname = \"bob\"\nmass = 1.0\ncenter = [1.0, 0.0]\ninertia = 0.0\n[[joint]]\nname = \"pivot\"\nkind = \"revolute\"\nbodies = [\"ground\", \"bob\"]\nat = [0.0, 0.0]\n";
@@ -36,7 +36,7 @@ fn every_integrator_is_of_second_order_on_the_pendulum_in_both_coordinates() {
                 })
             };
             let ratio = error(1e-3) / error(5e-4);
-            // Chosen columns change at another place of the motion when the step changes, and the error with them.
+            // With chosen columns, a change of columns falls on another position when the step changes, and the error changes with it.
             let width = if coordinates == Coordinates::Tangent { 0.05 } else { 0.5 };
             assert!((ratio - 4.0).abs() < width, "{coordinates:?} {integrator:?}: {ratio}");
         }
@@ -55,14 +55,14 @@ fn largest_energy_error(text: &str, dt: f64, duration: f64) -> f64 {
 
 #[test]
 fn double_pendulum_keeps_its_energy_as_the_trapezoidal_rule_can() {
-    // [J] over 10 s: what the trapezoidal rule leaves in natural coordinates; the report's state space has 2.9e-1, 4.8e-3, 4.3e-5.
+    // Energy errors of the trapezoidal rule in natural coordinates over 10 s [J]. The report's state space has 2.9e-1, 4.8e-3, 4.3e-5.
     for (dt, limit) in [(1e-2, 4.645e-1), (1e-3, 4.636e-3), (1e-4, 4.335e-5)] {
         let error = largest_energy_error(&DOUBLE, dt, 10.0);
         assert!(error <= limit, "{dt}: {error:e} J");
     }
 }
 
-/// State space and index-3 may differ by ten times the larger of their own errors, estimated from dt and dt / 2.
+/// Checks that state space and index-3 agree within ten times the larger of their errors, which are estimated from runs with dt and dt / 2.
 fn agrees<const D: usize>(text: &str, dt: f64, steps: u32) {
     let mut coarse = Bench::<f64, D>::new(text);
     coarse.run(dt, steps);
@@ -73,9 +73,9 @@ fn agrees<const D: usize>(text: &str, dt: f64, steps: u32) {
     let error = apart(ours, finer).max(apart(&theirs.q, &their_finer.q)) * 4.0 / 3.0;
     let difference = apart(ours, &theirs.q);
     let name = &coarse.scene.name;
-    // 1e-12: both formulations leave rounding in their positions, and a guided mechanism has no other error.
+    // The term 1e-12 covers rounding errors of the positions: a guided mechanism has no other error.
     assert!(difference <= 10.0 * error + 1e-12, "{name}: {difference:e} against {error:e}");
-    // Not by chance: the error is small enough to show a wrong motion.
+    // The error must be small enough that a wrong motion would be detected.
     assert!(error < 0.02, "{name}: error {error:e}");
 }
 
@@ -96,8 +96,8 @@ fn scenes_move_as_in_the_index3_augmented_lagrangian() {
 
 #[test]
 fn work_and_reactions_are_those_of_index3() {
-    // A driven mechanism with dampers: the ledger and the multipliers of its guides, at a step where both methods' error is
-    // 1e-5 of their size.
+    // A driven mechanism with dampers. The energy balance and the guides' multipliers are compared, at a step where the error of both methods
+    // is 1e-5 of their size.
     let text = PLANAR;
     let mut bench = Bench::<f64, 2>::new(text);
     let (dt, steps) = (2e-4, 500);
@@ -121,14 +121,15 @@ fn the_redundant_spatial_four_bar_moves_like_the_planar_one() {
     plane.run(dt, steps);
     let (space, plane) = (space.centers(&space.state), plane.centers(&plane.state));
     for ((name, a), (_, b)) in space.iter().zip(&plane) {
-        // Both integrate in the metric of the mass, which is the same: only rounding differs, grown in a thousand steps.
+        // Both integrate in the metric of the mass, which is the same in both. Only rounding errors differ, after growing for a thousand
+        // steps.
         let [x, y, off] = retell::in_plane(*a);
         let difference = apart(&[x, y], &b[..2]).max(off.abs());
         assert!(difference < 1e-9, "{name}: {a:?} {b:?} {difference:e}");
     }
 }
 
-/// A frame moved by the angle, length and twist of a link (Denavit and Hartenberg): its rows, the place last.
+/// Returns a frame moved by the angle, length and twist of a link (Denavit and Hartenberg): three axes, then the origin.
 fn along([x, y, z, p]: [[f64; 3]; 4], angle: f64, length: f64, twist: f64) -> [[f64; 3]; 4] {
     let mix = |a: f64, u: [f64; 3], b: f64, v: [f64; 3]| [0, 1, 2].map(|i| a * u[i] + b * v[i]);
     let (s, c) = angle.sin_cos();
@@ -137,7 +138,7 @@ fn along([x, y, z, p]: [[f64; 3]; 4], angle: f64, length: f64, twist: f64) -> [[
     [new_x, mix(c, across, s, z), mix(-s, across, c, z), mix(1.0, p, length, new_x)]
 }
 
-/// Bennett's linkage: four hinges whose axes are neither parallel nor meet, and yet one freedom. Opposite links are alike.
+/// Returns Bennett's linkage: four hinges whose axes are neither parallel nor intersect, with one freedom. Opposite links are equal.
 fn bennett() -> String {
     let (a, alpha, beta, angle) = (1.0_f64, 0.6_f64, 1.1_f64, 0.8_f64);
     let b = a * beta.sin() / alpha.sin();
@@ -172,14 +173,14 @@ fn bennetts_linkage_keeps_the_rank_of_its_start() {
     assert!(!bench.w.elimination().dropped_rows().is_empty(), "its hinges are redundant");
     bench.options.pivot_change = mbs_statespace::PivotChange::EveryStep;
     for _ in 0..1000 {
-        // The dropped rows are met too: the linkage moves because its lengths are what they are, to rounding.
+        // The dropped rows hold too, although only the exact lengths of the links allow the motion.
         let report = bench.try_step(1e-3).unwrap();
         assert!(report.violation[0] < 1e-13, "{:?}", report.violation);
     }
     agrees::<3>(&text, 1e-3, 1000);
 }
 
-/// Passages of the singular position end on the right branch or in the typed error, whatever the step.
+/// Steps through the singular position end on the right branch or with the typed error, for every step length.
 #[test]
 fn two_four_bars_pass_on_the_right_branch_or_say_that_they_cannot() {
     let (mut passed, mut refused) = (0, 0);
@@ -195,13 +196,13 @@ fn two_four_bars_pass_on_the_right_branch_or_say_that_they_cannot() {
                 outcome = Err(error);
                 break;
             }
-            // Both outer cranks stand at the same height on the symmetric branch [m].
+            // Both outer cranks have the same height on the symmetric branch [m].
             let centers = bench.centers(&bench.state);
             let heights: Vec<f64> =
                 centers.iter().filter(|c| c.0.starts_with("crank")).map(|c| c.1[1]).collect();
             assert!((heights[0] - heights[2]).abs() < 1e-9, "dt {dt}: {heights:?}");
         }
-        // The rule leaves 820 J/s^2 dt^2; twice that.
+        // The rule's error is 820 J/s^2 dt^2; the limit is twice as large.
         let error = (bench.invariant() - start).abs();
         assert!(error < 1640.0 * dt * dt + 1e-9, "dt {dt}: {error:e} J");
         match outcome {
@@ -209,7 +210,7 @@ fn two_four_bars_pass_on_the_right_branch_or_say_that_they_cannot() {
             Err(StepError::RankLost { row, pivot }) => {
                 refused += 1;
                 assert!((row as usize) < 5 && pivot < 1e-3, "row {row}, pivot {pivot}");
-                // Only at the horizontal.
+                // A refusal occurs only close to the horizontal position of the cranks.
                 assert!(bench.centers(&bench.state)[0].1[1].abs() < 0.3, "dt {dt}");
             }
             Err(error) => assert!(dt > 0.01, "dt {dt}: {error}"),
@@ -220,12 +221,12 @@ fn two_four_bars_pass_on_the_right_branch_or_say_that_they_cannot() {
 
 #[test]
 fn two_four_bars_reach_ten_seconds_exactly() {
-    // The first crank's end at 10 s [m], exact (in the scene's own words).
+    // Exact position of the first crank's end at 10 s [m], as the scene file states it.
     const END: [f64; 2] = [0.328_458_111_540_815_4, 0.944_518_538_178_601];
     let mut bench = Bench::<f64, 2>::new(&TWO_FOUR_BARS);
     bench.run(1e-3, 10_000);
     let center = bench.centers(&bench.state)[2].1;
     let end = [2.0 * center[0], 2.0 * center[1]];
-    // The trapezoidal rule's own error at this step is 4.8e-5 m.
+    // The trapezoidal rule's error at this step is 4.8e-5 m.
     assert!(apart(&end, &END) < 6e-5, "{end:?}");
 }

@@ -9,7 +9,7 @@ use mbs_core::step::Step;
 use mbs_statespace::{Options, StepError, StepReport, Workspace, step};
 use mbs_testkit::{invariant, named_centres, scene_in, solver, start_in};
 
-/// A mechanism that runs.
+/// A mechanism with its state and workspace.
 pub(crate) struct Bench<T: Real, const D: usize> {
     pub(crate) scene: Scene<T>,
     pub(crate) model: NaturalModel<T, D>,
@@ -42,7 +42,7 @@ impl<T: Real, const D: usize> Bench<T, D> {
         }
     }
 
-    /// The state after `steps` steps of index-3.
+    /// Returns the state after `steps` steps of index-3.
     #[track_caller]
     pub(crate) fn index3(&self, dt: f64, steps: u32) -> State<T> {
         let mut w = mbs_augmented::Workspace::new(&self.model, solver(&self.model));
@@ -56,12 +56,12 @@ impl<T: Real, const D: usize> Bench<T, D> {
         state
     }
 
-    /// T + V - work [J].
+    /// Returns the energy invariant T + V - work [J].
     pub(crate) fn invariant(&self) -> T {
         invariant(&self.model, &self.state)
     }
 
-    /// The centres of the bodies, by name.
+    /// Returns the centres of mass of the bodies, by name.
     pub(crate) fn centers(&self, state: &State<T>) -> Vec<(String, [f64; 3])> {
         named_centres(&self.scene, &self.model, state)
     }
