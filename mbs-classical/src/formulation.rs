@@ -1,4 +1,4 @@
-//! The formulation of this crate behind the common trait: [`Classical`], in index-3.
+//! Common trait of formulations for this crate: [`Classical`], in index-3.
 
 use crate::index3;
 use crate::options::Options;
@@ -14,7 +14,7 @@ use mbs_core::step::{OptionError, Step, StepError, StepReport};
 use mbs_core::team::Team;
 use mbs_core::{Cliques, Real, SymmetricSolver, with_team};
 
-/// The index-3 classical Lagrangian over a solver `S`, whose steps a team `W` shares.
+/// The index-3 classical Lagrangian over a solver `S`; the threads of a team `W` share the work of its steps.
 #[derive(Debug, Clone)]
 pub struct Classical<T, S, W> {
     options: Options<T>,
@@ -23,7 +23,7 @@ pub struct Classical<T, S, W> {
 }
 
 impl<T: Real, S: SymmetricSolver<T>, W: Team> Classical<T, S, W> {
-    /// A formulation of `model`, with a solver analysed for its [`Saddle`](crate::Saddle).
+    /// Creates a formulation of `model`, with a solver analysed for its [`Saddle`](crate::Saddle).
     ///
     /// # Errors
     /// [`OptionError`] for an option out of range.
@@ -37,7 +37,7 @@ impl<T: Real, S: SymmetricSolver<T>, W: Team> Classical<T, S, W> {
         Ok(Self { options, workspace: Box::new(Workspace::new(model, solver)), team })
     }
 
-    /// Steps with other options from now on.
+    /// Sets other options for the next steps.
     ///
     /// # Errors
     /// [`OptionError`] for an option out of range; nothing is changed then.
@@ -107,7 +107,7 @@ impl<T: Real, S, W: Team, const D: usize> Describe<T, D> for Classical<T, S, W> 
         self.team.size()
     }
 
-    /// Unknowns are coordinates, then multipliers.
+    /// Returns the owner of an unknown. The unknowns are the coordinates, then the multipliers.
     fn owner_of_unknown(&self, model: &NaturalModel<T, D>, unknown: usize) -> Owner {
         match unknown.checked_sub(model.n_unknowns()) {
             Some(row) => model.owner_of_row(row),
@@ -116,7 +116,7 @@ impl<T: Real, S, W: Team, const D: usize> Describe<T, D> for Classical<T, S, W> 
     }
 }
 
-/// Over all that is remembered.
+/// Passes all that the next step continues from to a visitor.
 fn walk<T: Real>(terms: &mut Terms<T>, book: &mut Book<'_, T>) -> Restored {
     book.kind(1)?;
     book.laws(terms)

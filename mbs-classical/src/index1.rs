@@ -5,15 +5,15 @@
 //! [ J   0  ] ( lambda ) = ( -bias - 2 alpha phi' - beta^2 phi   )          [P1 (4)]; alpha = beta = 0 unless stabilised
 //! ```
 //!
-//! solved together with the integrator by corrections with W = M + (v'/a') C + (1/a') K in place of M:
+//! The system is solved together with the integrator, by corrections with W = M + (v'/a') C + (1/a') K in place of M:
 //!
 //! ```text
 //! [ W  J^T    ] ( d        )     ( M a + J^T lambda - Q               )
 //! [ J  -delta ] ( d_lambda ) = - ( J a + bias + 2 alpha phi' + beta^2 phi ),    a += d,  q += d/a',  v += v' d/a'
 //! ```
 //!
-//! Differs from the source: the published system is solved once per evaluation, here the corrections of an implicit rule. The
-//! position projection is mass-orthogonal in correction form, as those of velocities and accelerations.
+//! The method differs from the published one, which solves the system once per evaluation. Here an implicit rule is solved by corrections.
+//! The projection of positions is mass-orthogonal and in correction form, like those of velocities and accelerations.
 
 use crate::options::{Options, Stabilisation};
 use crate::workspace::{Mass, Workspace};
@@ -24,17 +24,17 @@ use mbs_core::step::{Step, StepError, StepReport, Stop, step_scale};
 use mbs_core::team::{norm_inf, on_stretches};
 use mbs_core::{Real, SymmetricSolver};
 
-/// Part of a violation of positions that a sweep leaves which is of no use [-].
+/// Contraction of a violation of positions above which a sweep is useless [-].
 const USELESS: f64 = 0.9;
 
 /// Advances `s` by one [`Step`].
 ///
-/// Cost: an evaluation, a factorisation and a solution for each iteration, three to five are usual; with projection one or two
-/// factorisations and about six solutions more. No allocation.
+/// Cost for each iteration: an evaluation, a factorisation and a solution; three to five iterations are usual. A projection adds one or two
+/// factorisations and about six solutions. No allocation.
 ///
 /// # Errors
-/// [`StepError`]; the state is then unchanged. [`StepError::RankLost`] names a row that depends on others: redundant joints,
-/// or a singular position.
+/// [`StepError`]; the state is then unchanged. [`StepError::RankLost`] names a row that depends on other rows, because of redundant joints or
+/// at a singular position.
 pub fn step<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     model: &M,
     step: Step<T>,
@@ -62,7 +62,7 @@ pub fn step<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     })
 }
 
-/// Violations of the three levels that the iteration left; multipliers are in `mu`.
+/// Returns the violations of the three levels after the iteration, and copies the multipliers to `mu`.
 fn violations<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     model: &M,
     w: &mut Workspace<T, S>,
@@ -75,7 +75,7 @@ fn violations<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     Ok([norm_inf(model.team(), &w.terms.phi), velocity, acceleration])
 }
 
-/// phi, J, phi_t, bias and forces at the current q, v.
+/// Evaluates phi, J, phi_t, bias and forces at the present q and v.
 fn evaluate<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     model: &M,
     options: &Options<T>,
@@ -89,7 +89,7 @@ fn evaluate<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     model.evaluate_bias(&w.end.q, &w.end.v, &mut w.terms);
 }
 
-/// rates = J a + bias + 2 alpha (J v + phi_t) + beta^2 phi
+/// Evaluates rates = J a + bias + 2 alpha (J v + phi_t) + beta^2 phi.
 fn demand<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     model: &M,
     stabilisation: Stabilisation<T>,
@@ -109,7 +109,7 @@ fn demand<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     }
 }
 
-/// Corrections of accelerations and multipliers. Returns what is reported of them, as corrections of the coordinates.
+/// Iterates on accelerations and multipliers. Returns the report of the iteration, whose corrections are those of the coordinates.
 fn iterate<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     model: &M,
     (rule, mut newton): (&Rule<T>, Newton<T>),
@@ -137,8 +137,8 @@ fn iterate<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     w.exhausted(model, &newton)
 }
 
-/// Moves q onto phi = 0, and v by the integrator's relation, so that both describe the same motion. The matrix at the new q is
-/// left factored.
+/// Projects q onto phi = 0 and moves v by the integrator's relation, so that both describe the same motion. Leaves the matrix at the new q
+/// factored.
 fn positions<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     model: &M,
     rule: &Rule<T>,
@@ -177,7 +177,7 @@ fn positions<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     limits.check_positions(violation, T::ZERO, &w.terms.phi)
 }
 
-/// The saddle matrix at the current terms.
+/// Factors the saddle matrix at the present terms.
 fn factor<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     model: &M,
     rule: &Rule<T>,

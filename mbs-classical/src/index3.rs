@@ -9,9 +9,9 @@
 //! then J v + phi_t = 0 and J a + bias = 0 with the same matrix                        [P3 (21), (22)]
 //! ```
 //!
-//! Differs from the source: unknowns are increments. The unknown multipliers are lambda/a' and phi is not scaled, so that the
-//! matrix does not depend on the step but for forces. The start value of lambda is extrapolated; projections are in correction
-//! form. The geometric stiffness, which the print neglects, is in W; delta is zero unless regularised.
+//! The method differs from the published one. Unknowns are increments. The multipliers are lambda/a' and phi is not scaled, so that without
+//! forces the matrix does not depend on the step. The start value of lambda is extrapolated. Projections are in correction form. W contains
+//! the geometric stiffness, which the publication neglects. delta is zero unless the option sets it.
 
 use crate::options::Options;
 use crate::workspace::{Mass, Workspace};
@@ -22,17 +22,17 @@ use mbs_core::step::{Step, StepError, StepReport, Stop, step_scale};
 use mbs_core::team::on_stretches;
 use mbs_core::{Real, SymmetricSolver};
 
-/// The last correction from which the matrix is factored anew for the projections [scene's length]: half of the digits that they look for.
+/// Last correction above which the matrix is factored again for the projections [length of the scene]. Its square is at machine precision.
 const MAX_CORRECTION_OF_FACTOR: f64 = 1e-7;
 
 /// Advances `s` by one [`Step`].
 ///
-/// Cost: two or three evaluations, factorisations and solutions for the motion, three to five solutions for the projections;
-/// no allocation.
+/// Cost: two or three evaluations, factorisations and solutions for the motion, and three to five solutions for the projections. No
+/// allocation.
 ///
 /// # Errors
-/// [`StepError`]; the state is then unchanged. [`StepError::RankLost`] names a row that depends on others: redundant joints,
-/// or a singular position.
+/// [`StepError`]; the state is then unchanged. [`StepError::RankLost`] names a row that depends on other rows, because of redundant joints or
+/// at a singular position.
 pub fn step<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     model: &M,
     step: Step<T>,
@@ -47,10 +47,10 @@ pub fn step<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
         let newton = Newton::new((scale, options.tolerance, length));
         let newton = iterate(model, (rule, newton), options, s, w)?;
 
-        // The accelerations leave the unit of the iteration.
+        // The iteration has a/a' as its unknown: multiply by a'.
         let unit = rule.acceleration;
         w.end.scale_accelerations(model, unit);
-        // The factor belongs to the configuration before the last correction: near enough when that was small.
+        // The factor belongs to the configuration before the last correction, which is close enough if that correction was small.
         if newton.1 > length * T::from_f64(MAX_CORRECTION_OF_FACTOR) {
             factor(model, rule, options, w)?;
         }
@@ -60,7 +60,7 @@ pub fn step<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     })
 }
 
-/// q, v, a and lambda at the end of the step by extrapolation, and everything evaluated there.
+/// Predicts q, v, a and lambda at the end of the step and evaluates all terms there.
 fn predict<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     model: &M,
     (rule, is_far): (&Rule<T>, bool),
@@ -82,7 +82,7 @@ fn predict<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     w.end.evaluate_rates(model, rule, &mut w.terms);
 }
 
-/// Runs the Newton loop. Returns what is reported of it.
+/// Runs the Newton loop. Returns the report of the iteration.
 fn iterate<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     model: &M,
     (rule, mut newton): (&Rule<T>, Newton<T>),
@@ -119,8 +119,8 @@ fn iterate<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     w.exhausted(model, &newton)
 }
 
-/// lambda <- 1/delta J T^-1 J^T lambda, T = W + J^T J / delta: removes what redundant constraints cannot feed, and what would
-/// grow with the rounding of phi.
+/// Filters multipliers: lambda <- 1/delta J T^-1 J^T lambda, T = W + J^T J / delta. Removes the part that redundant constraints leave
+/// undetermined, which would grow with the rounding errors of phi.
 fn filter<T: Real, M: Model<T>, S: SymmetricSolver<T>>(model: &M, w: &mut Workspace<T, S>) {
     w.mu.copy_from_slice(&w.lambda);
     w.assemble(model, Mass::None, T::ZERO, false);
@@ -129,7 +129,7 @@ fn filter<T: Real, M: Model<T>, S: SymmetricSolver<T>>(model: &M, w: &mut Worksp
     w.lambda.copy_from_slice(&w.f[n..]);
 }
 
-/// The saddle matrix, with the geometric stiffness where it leaves W positive on the motions that the constraints allow.
+/// Factors the saddle matrix. It contains the geometric stiffness if W stays positive on the motions that the constraints allow.
 fn factor<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     model: &M,
     rule: &Rule<T>,

@@ -1,4 +1,4 @@
-//! Inputs that were set since the last step, taken into the state that the next one begins with.
+//! Response of the state to inputs that were set since the last step, before the next step begins.
 
 use crate::options::Options;
 use crate::workspace::{Mass, Workspace};
@@ -11,7 +11,7 @@ use mbs_core::{Real, SymmetricSolver};
 impl<T: Real, S: SymmetricSolver<T>> InputResponse<T> for Workspace<T, S> {
     type Options = Options<T>;
 
-    /// Finds what the loads change with the saddle matrix of masses.
+    /// Solves for the changes of accelerations and multipliers that changed loads cause, with the saddle matrix of the masses.
     ///
     /// ```text
     /// [ M  J^T    ] ( da )   ( dQ )

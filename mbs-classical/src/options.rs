@@ -4,21 +4,22 @@ use mbs_core::Real;
 use mbs_core::integrator::Integrator;
 use mbs_core::step::OptionError;
 
-/// Tolerance of the iterations [displacement by accelerations in a step]: below it a correction is at the rounding of forces in most scenes.
+/// Tolerance of the iterations, relative to the displacement by accelerations in a step [-]. Corrections below it are rounding errors of the
+/// forces in most scenes.
 const TOLERANCE: f64 = 1e-10;
-/// The least tolerance [EPSILON]: six binary digits are left to rounding.
+/// The least tolerance [EPSILON]: six binary digits are left for rounding errors.
 const MIN_TOLERANCE: f64 = 64.0;
-/// Most iterations of a step [-]: regular steps need two or three.
+/// Iterations of a step at most [-]: regular steps need two or three.
 const MAX_ITERATIONS: u32 = 20;
-/// Sweeps of a projection [-]: one is exact but for a factor of a near configuration and for delta.
+/// Sweeps of a projection at most [-]. One sweep is exact unless the factor is from another configuration or delta is not zero.
 const MAX_SWEEPS: u32 = 12;
-/// Weakest pivot of rows that count as independent [part of what the pivot is the sum of]: within 1e-6 rad of being dependent, as it goes
-/// with the square.
+/// Weakest pivot of independent rows, relative to the sum of absolute values that the pivot is computed from [-]. Pivots are proportional to
+/// the square of the angle between rows, so rows within 1e-6 rad of dependence are refused.
 const RANK: f64 = 1e-12;
-/// The least of these [EPSILON]: what cancellation leaves in a row of some hundred entries.
+/// The least limit of the weakest pivot [EPSILON]: the cancellation error in a row of some hundred entries.
 const MIN_RANK: f64 = 300.0;
 
-/// Choices for a step.
+/// Options of a step in either index.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Options<T> {
     /// Time integrator of the steps.
@@ -27,31 +28,34 @@ pub struct Options<T> {
     pub tolerance: T,
     /// Iterations allowed in one step.
     pub max_iterations: u32,
-    /// Sweeps of a projection after which its level must be reached.
+    /// Sweeps of a projection at most; the step fails if the violation is too large after them.
     pub max_sweeps: u32,
-    /// The constraints count as having lost rank when the weakest pivot of the equilibrated saddle matrix is below this times
-    /// what it is the sum of [-]. It goes with the square of the sine of the angle between a row and the others: the default
-    /// of 1e-12 refuses rows within 1e-6 rad of being dependent. Farther off, a step that may leave its branch is refused too.
+    /// Ratio of the weakest pivot of the equilibrated saddle matrix, to the sum of absolute values that it is computed from, below which rank
+    /// is lost [-].
+    ///
+    /// The ratio is proportional to the square of the sine of the angle between a row and the other rows. The default of 1e-12 refuses rows
+    /// within 1e-6 rad of dependence. At larger angles, a step that may leave its branch is refused too.
     pub rank: T,
-    /// delta on the diagonal of the rows, in units of 1 / (effective mass of the row) [-]; the multipliers are iterated
-    /// (proximal shift), so that the solution is the exact one. Tolerates redundant rows at the price of a few sweeps more;
-    /// 1e-8 does. It does not help through singular positions, which are passed best without. `None`: zero, and lost rank is
-    /// an error.
+    /// Regularisation delta on the diagonal of the constraint rows, in units of 1 / (effective mass of the row) [-]. A value of 1e-8 allows
+    /// redundant rows, at the cost of a few more sweeps.
+    ///
+    /// The multipliers are iterated (proximal point method), so that delta does not change the solution. Steps through singular positions are
+    /// better without it. `None` sets delta to zero, and lost rank is then an error.
     pub regularisation: Option<T>,
     /// Method that keeps index-1 on its constraints.
     pub stabilisation: Stabilisation<T>,
-    /// Put the geometric stiffness of the constraints into the tangent of index-3.
+    /// Adds the geometric stiffness of the constraints to the tangent of index-3.
     pub geometric_stiffness: bool,
-    /// Evaluate phi by increments and carry q as a compensated pair.
+    /// Evaluates phi by increments and stores q as a compensated pair.
     pub compensated: bool,
 }
 
 /// Method that keeps index-1 on its constraints.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Stabilisation<T> {
-    /// No method of stabilisation: phi grows with time.
+    /// No stabilisation: the violation phi grows with time.
     None,
-    /// phi'' + 2 alpha phi' + beta^2 phi = 0 instead of phi'' = 0 (Baumgarte, 1972).
+    /// Baumgarte's stabilisation: phi'' + 2 alpha phi' + beta^2 phi = 0 instead of phi'' = 0 (Baumgarte, 1972).
     Baumgarte {
         /// Damping of the violation [1/s].
         alpha: T,

@@ -5,9 +5,9 @@
 //! [ J  -delta ] ( d_sigma ) = - ( J x + b                ),     x += d,   sigma += d_sigma
 //! ```
 //!
-//! [P3 (21), (22)] solve for x itself with the weight W; the correction loses no digits to the condition of the matrix. The
-//! first sweep is the published projection. The next ones make it orthogonal in the mass, whatever forces are in W, and remove
-//! what a factor of a near configuration or delta left.
+//! The published projections [P3 (21), (22)] solve for x itself with the weight W. The correction form loses no digits to the condition of
+//! the matrix. The first sweep is the published projection. Further sweeps make it orthogonal in the mass, whatever forces W contains. They
+//! also remove the error that delta leaves, and that of a factor from another configuration.
 
 use crate::workspace::{Mass, Workspace};
 use mbs_core::implicit::{ConstraintLevel, ResidualLimits};
@@ -16,12 +16,12 @@ use mbs_core::step::StepError;
 use mbs_core::team::{norm_inf, on_stretches, subtract};
 use mbs_core::{Real, SymmetricSolver};
 
-/// Part of the first correction below which the next ones change the orthogonality of a projection no more [-]: three digits of a correction
-/// that is small itself.
+/// Ratio to the first correction below which a correction no longer matters to the orthogonality of a projection [-]. Three digits of a small
+/// correction are enough.
 const ORTHOGONAL: f64 = 1e-3;
 
 impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
-    /// rates = J x + b of the level; returns their largest absolute value.
+    /// Evaluates rates = J x + b of the level. Returns the largest absolute value.
     pub(crate) fn violation<M: Model<T>>(&mut self, model: &M, level: ConstraintLevel) -> T {
         let x = match level {
             ConstraintLevel::Velocity => &self.end.v,
@@ -30,8 +30,8 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
         level.violation(model, &self.terms, x, &mut self.rates)
     }
 
-    /// Projects v, then a (unscaled), and balances the multipliers `unit` lambda with a; they are left in `mu`. Returns the
-    /// violation left at each level. The matrix is factored near q.
+    /// Projects v, then a (unscaled), and balances the multipliers `unit` lambda with a; they are left in `mu`. Returns the violation of each
+    /// level. Needs the matrix factored at a configuration close to q.
     pub(crate) fn project_velocities_and_accelerations<M: Model<T>>(
         &mut self,
         model: &M,
@@ -49,10 +49,10 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
         Ok([norm_inf(model.team(), &self.terms.phi), velocity, acceleration])
     }
 
-    /// Projects v or a; the multipliers are left in `sigma`. Returns the violation left.
+    /// Projects v or a and leaves the multipliers in `sigma`. Returns the remaining violation.
     ///
-    /// Sweeps until the violation is at most `goal`, or stops shrinking below `limit`, and corrections have become small
-    /// beside the first one, or stop shrinking.
+    /// Sweeps end when two conditions hold. First, the violation is at most `goal`, or it is below `limit` and no longer shrinks. Second,
+    /// corrections are small relative to the first one, or they no longer shrink.
     fn project<M: Model<T>>(
         &mut self,
         model: &M,
@@ -93,8 +93,8 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
         Err(level.violated(violation, &self.rates))
     }
 
-    /// One sweep on the violation in `rates`; as long as nothing `is_changed` mass and sigma have no part in it. The
-    /// correction is left in `f`, to be subtracted.
+    /// Makes one sweep for the violation in `rates`. The mass and sigma enter the right-hand side only once x differs from x* (`is_changed`).
+    /// Leaves the negative correction in `f`.
     pub(crate) fn sweep<M: Model<T>>(&mut self, model: &M, is_changed: bool) {
         self.mu.copy_from_slice(&self.sigma);
         self.assemble(model, if is_changed { Mass::Change } else { Mass::None }, T::ZERO, true);
@@ -104,7 +104,7 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
         subtract(model.team(), &mut self.sigma, d_sigma);
     }
 
-    /// mu = the multipliers for which M a + J^T mu - Q is smallest (in the metric W^-1): one solution from those at hand.
+    /// Solves for the multipliers mu that minimise M a + J^T mu - Q in the metric W^-1, by one solution that starts from the present ones.
     ///
     /// ```text
     /// [ W  J^T    ] ( d )     ( M a + J^T mu - Q )

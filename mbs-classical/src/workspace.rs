@@ -1,4 +1,4 @@
-//! Scratch of a step, made once: the saddle system, its factor, and what its failure means.
+//! Workspace of a step, made once: the saddle system, its factor, and the diagnosis of failed factorisations.
 
 use crate::options::Options;
 use alloc::vec;
@@ -11,8 +11,8 @@ use mbs_core::step::{Counts, OptionError, StepError, StepReport, Stop, largest};
 use mbs_core::team::{norm_inf, on_elements, subtract};
 use mbs_core::{FactorError, Real, SymmetricSolver};
 
-/// Scratch of the classical steps over a solver `S`. Nothing is allocated after [`Workspace::new`], but for what the solver
-/// needs when it delays more pivots than ever before.
+/// Workspace of the classical steps over a solver `S`. After [`Workspace::new`] only the solver may allocate, when it delays more pivots than
+/// ever before.
 #[derive(Debug, Clone)]
 pub struct Workspace<T, S> {
     solver: S,
@@ -20,46 +20,46 @@ pub struct Workspace<T, S> {
     pub(crate) terms: Terms<T>,
     /// Jacobian rows of all elements.
     jacobian: Vec<T>,
-    /// The end of the step, with a/a' (index-3) or a (index-1).
+    /// The end of the step, whose accelerations are a/a' in index-3 and a in index-1.
     pub(crate) end: StepEnd<T>,
-    /// x - x* of a projection, extended.
+    /// Sum of the corrections of a projection, x - x*; an extended vector, which includes known coordinates.
     pub(crate) change: Vec<T>,
-    /// Right-hand side, then correction, of coordinates and multipliers, n + m.
+    /// Right-hand side, then correction: n coordinates, then m multipliers.
     pub(crate) f: Vec<T>,
     scratch: Vec<T>,
-    /// Null vector of the matrix: what the weakest pivot leaves undetermined, n + m.
+    /// Null vector of the matrix for its weakest pivot: n coordinates, then m multipliers.
     null: Vec<T>,
-    /// lambda / a' (index-3) or lambda (index-1), m.
+    /// Multipliers, one for each row: lambda / a' in index-3, lambda in index-1.
     pub(crate) lambda: Vec<T>,
     pub(crate) sigma: Vec<T>,
     pub(crate) mu: Vec<T>,
     pub(crate) rates: Vec<T>,
-    /// J^T mu and |J|^T |mu|, 2 n.
+    /// Products J^T mu and |J|^T |mu|, one after the other.
     sums: Vec<T>,
-    /// delta of each row, m, or nothing.
+    /// Regularisation delta of each row; empty where delta is zero.
     delta: Vec<T>,
     masses: Vec<T>,
     pub(crate) n: usize,
     pub(crate) counts: Counts,
 }
 
-/// Weakest pivot below which a singular position may be near [part of what the pivot is the sum of]. It goes with the square of the
-/// distance, so that this is within 0.03 rad.
+/// Ratio of the weakest pivot below which a singular position may be close [-]. The ratio is that of the option `rank`. It is proportional to
+/// the square of the distance, so this value is reached within 0.03 rad.
 const MAX_PIVOT_OF_BRANCH: f64 = 1e-3;
-/// Cancellation in J^T mu below which rows are nearly dependent [part of the sum of its parts]. It is of order one where the tangent is only
-/// badly scaled, as by a fast spin; zero in the singular position.
+/// Ratio |J^T mu| / (|J|^T |mu|) below which rows are nearly dependent [-]. It is zero in a singular position. It is of order one where the
+/// tangent is only badly scaled, for instance by a fast spin.
 const MAX_CANCELLATION: f64 = 0.1;
-/// Weakest pivot below which lost rank explains why an iteration does not converge [part of what the pivot is the sum of]: within 0.01 rad of
-/// a singular position.
+/// Ratio of the weakest pivot below which lost rank explains why an iteration does not converge [-]. It is reached within 0.01 rad of a
+/// singular position.
 const MAX_PIVOT_OF_FAILURE: f64 = 1e-4;
-/// Part of the largest multiplier in a null vector from which a row takes part in the dependence [-]: three digits are more than rounding
-/// leaves in it.
+/// Ratio to the largest multiplier of a null vector above which a row belongs to the dependent ones [-]. Rounding errors of a null vector are
+/// smaller.
 const MIN_PART_OF_ROW: f64 = 1e-3;
-/// Distances of two branches, as a multiple of which a correction is compared with the weakest pivot [-]: a step that goes a quarter of the
-/// way may end on either.
+/// Factor on a correction when it is compared with the distance of two branches [-]. A correction larger than a quarter of the distance may
+/// end on either branch.
 const BRANCH_DISTANCE: f64 = 4.0;
 
-/// Vector that stands at M in a residual.
+/// Vector that M multiplies in a residual.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Mass {
     None,
@@ -68,7 +68,7 @@ pub(crate) enum Mass {
 }
 
 impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
-    /// Scratch for `model`, with a solver analysed for its [`Saddle`].
+    /// Creates a workspace for `model`, with a solver analysed for its [`Saddle`].
     pub fn new(model: &impl Model<T>, solver: S) -> Self {
         let (n, e, m) = (model.n_unknowns(), model.n_extended(), model.n_constraints());
         let zeros = |k| vec![T::ZERO; k];
@@ -99,17 +99,17 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
             n,
             counts: Counts::default(),
         };
-        // The first factorisation shows the solver how many pivots it delays; whether it succeeds does not matter here.
+        // The first factorisation shows the solver how many pivots it delays, so that memory is reserved. Its success does not matter here.
         let _ = this.factor(model, (T::ZERO, T::ZERO), false, T::ZERO);
         this
     }
 
-    /// The terms as last evaluated.
+    /// The terms of the model as last evaluated.
     pub fn terms(&self) -> &Terms<T> {
         &self.terms
     }
 
-    /// Terms as last evaluated, to be put back. A step leaves nothing else for the next one beside the state.
+    /// Terms as last evaluated, for a caller that restores them. Besides the state, a step leaves nothing else for the next one.
     pub fn terms_mut(&mut self) -> &mut Terms<T> {
         &mut self.terms
     }
@@ -119,7 +119,7 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
         &self.solver
     }
 
-    /// Starts a step with no counts, and delta from its option.
+    /// Begins a step: sets counts to zero, and delta from its option.
     pub(crate) fn begin(&mut self, regularisation: Option<T>) {
         self.counts = Counts::default();
         self.delta.clear();
@@ -128,20 +128,20 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
         }
     }
 
-    /// q += x d,   v += y d,   a += d,   lambda += d_lambda   with (d, d_lambda) = -f
+    /// Applies corrections: q += x d, v += y d, a += d, lambda += d_lambda, with (d, d_lambda) = -f.
     pub(crate) fn correct<M: Model<T>>(&mut self, model: &M, weights: (T, T)) {
         let (d, d_lambda) = self.f.split_at(self.n);
         self.end.correct(model, weights, d);
         subtract(model.team(), &mut self.lambda, d_lambda);
     }
 
-    /// phi and J at the current q, and forces at the current q, v.
+    /// Evaluates phi and J at the present q, and forces at the present q and v.
     pub(crate) fn evaluate<M: Model<T>>(&mut self, model: &M, compensated: bool, s: &State<T>) {
         self.end.evaluate(model, compensated, s, &mut self.terms);
         self.end.evaluate_forces(model, &mut self.terms);
     }
 
-    /// Factors the saddle matrix with the given weights of stiffness and damping. Rank must not fall below `rank`.
+    /// Factors the saddle matrix with the given weights of stiffness and damping. Fails if the weakest pivot's ratio is below `rank`.
     pub(crate) fn factor<M: Model<T>>(
         &mut self,
         model: &M,
@@ -173,7 +173,7 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
                 let error = FactorError { unknown: weakest.unknown, pivot: weakest.ratio };
                 match self.diagnose(model, error) {
                     lost @ StepError::RankLost { .. } => Err(lost),
-                    // A coordinate that is almost without inertia is no matter of rank.
+                    // A coordinate almost without inertia has a weak pivot too, but no rank is lost.
                     _ => Ok(()),
                 }
             }
@@ -181,13 +181,13 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
         }
     }
 
-    /// Is W positive where J x = 0?
+    /// Is W positive on the motions with J x = 0?
     pub(crate) fn is_positive(&self) -> bool {
         self.solver.inertia().negative == self.lambda.len()
     }
 
-    /// Diagnoses a weak pivot: x with T x = 0 lies in the multipliers when rows depend on each other, else in coordinates that nothing
-    /// determines. Of dependent rows one of a joint is named, if there is one.
+    /// Diagnoses a weak pivot by a null vector x of the matrix. If rows depend on each other, x consists of multipliers, and one of the rows
+    /// is named, a joint's row if possible. Otherwise x consists of coordinates that nothing determines.
     fn diagnose<M: Model<T>>(&mut self, model: &M, error: FactorError) -> StepError {
         if !error.pivot.is_finite() {
             return StepError::NotFinite { unknown: error.unknown.min(self.last_coordinate()) };
@@ -209,17 +209,17 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
         StepError::RankLost { row: u32::try_from(row).unwrap_or(u32::MAX), pivot: error.pivot }
     }
 
-    /// Does the null vector, with a one at `unknown`, show rows that depend on each other, or nearly do? Pivots are measured by inertias: a light
-    /// piece that carries heavy ones makes them small too, and so does a coordinate that nothing determines.
+    /// Does the null vector, with a one at `unknown`, show dependent or nearly dependent rows? A small pivot alone does not show it. Pivots
+    /// are also small for a light body that carries heavy ones, and for a coordinate that nothing determines.
     fn has_dependent_rows<M: Model<T>>(&mut self, model: &M, unknown: u32) -> bool {
         let most = norm_inf(model.team(), &self.null[self.n..]);
         let has_rows = unknown as usize >= self.n || most > T::EPSILON.sqrt();
         has_rows && !(self.cancellation(model) > T::from_f64(MAX_CANCELLATION))
     }
 
-    /// Near a singular position two branches cross, as far from each other as the mechanism is from it. The correction of the
-    /// coordinates in `f` must be small beside that distance in the direction in which they part, else the branch is a
-    /// matter of luck.
+    /// Checks that a correction cannot change the branch. Two branches cross at a singular position, and their distance equals that of the
+    /// mechanism from the position. The correction in `f`, along the direction in which the branches differ, must be small relative to this
+    /// distance.
     ///
     /// ```text
     /// x with T x = 0 nearly,   part = (x.d / x.x) |x|_max,   (4 part / length)^2 <= weakest pivot
@@ -253,8 +253,8 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
         Ok(())
     }
 
-    /// |J^T mu| / (|J|^T |mu|), each summed over the coordinates, of the multipliers in the null vector: small where rows are
-    /// dependent or nearly so.
+    /// Returns the cancellation |J^T mu| / (|J|^T |mu|), each summed over the coordinates, for the multipliers mu of the null vector. It is
+    /// small where rows are dependent or nearly so.
     fn cancellation<M: Model<T>>(&mut self, model: &M) -> T {
         let (sums, sizes) = self.sums.split_at_mut(self.n);
         sums.fill(T::ZERO);
@@ -274,8 +274,8 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
         sum(sums) / sum(sizes).max(T::EPSILON)
     }
 
-    /// The allowed iterations are used: the last correction is small beside the displacement of the step, or the iteration did not
-    /// converge, near a singular position for want of rank.
+    /// Ends an iteration after the allowed number of corrections. The result is accepted if the last correction is small relative to the
+    /// displacement of the step. Otherwise the error is lost rank close to a singular position, and no convergence elsewhere.
     pub(crate) fn exhausted<M: Model<T>>(
         &mut self,
         model: &M,
@@ -298,13 +298,13 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
         u32::try_from(self.n.saturating_sub(1)).unwrap_or(u32::MAX)
     }
 
-    /// (f, rates) = T^-1 (f, rates), both in `f`.
+    /// Solves in place with the factor: `f` = T^-1 (f, rates).
     pub(crate) fn solve(&mut self) {
         self.counts.solves += 1;
         self.solver.solve(&mut self.f, &mut self.scratch);
     }
 
-    /// f = (M x + J^T mu - force Q, rates), rates as they are or zero.
+    /// Assembles f = (M x + J^T mu - force Q, rates); the second part is zero unless `has_rates`.
     pub(crate) fn assemble<M: Model<T>>(
         &mut self,
         model: &M,

@@ -1,4 +1,4 @@
-//! After [`Workspace::new`] nothing allocates: a counting allocator sees zero calls in a step, with effects and guides.
+//! No step allocates memory after [`Workspace::new`]: a counting allocator counts zero calls, with effects and guides.
 
 use crate::common::{Index, Run};
 use mbs_classical::{Options, Stabilisation, Workspace};

@@ -1,4 +1,4 @@
-//! Motions with closed forms: order of convergence, energy, reactions, drift, singular positions.
+//! Motions compared with closed forms: order of convergence, energy, reactions, drift of the constraints, singular positions.
 
 use crate::common::{Index, Run};
 use mbs_classical::{OptionError, Options, Stabilisation, StepError};
@@ -8,14 +8,14 @@ use mbs_core::scene::BodyId;
 use mbs_testkit::scene;
 use mbs_testkit::scenes::{DOUBLE, SIMPLE, TWO_FOUR_BARS};
 
-/// Energy errors of the trapezoidal rule on the double pendulum over 10 s [s, J].
+/// Steps [s] and energy errors [J] of the trapezoidal rule on the double pendulum over 10 s.
 const DOUBLE_ENERGY: [(f64, f64); 3] = [(1e-2, 4.645e-1), (1e-3, 4.636e-3), (1e-4, 4.335e-5)];
-/// How much more than the rule's own error a run may show.
+/// Allowed ratio of a run's error to the error of the rule [-].
 const ROOM: f64 = 1.02;
-/// End of the first crank of the two four-bars after 10 s, exact.
+/// Exact position of the end of the first crank of the two four-bars after 10 s [m].
 const CRANK: [f64; 2] = [0.328_458_111_540_815_4, 0.944_518_538_178_601];
 
-/// Largest deviation of the energy invariant over so many seconds [J].
+/// Returns the largest deviation of the energy invariant over `seconds` [J].
 fn energy_error<const D: usize>(mut run: Run<f64, D>, dt: f64, seconds: f64) -> f64 {
     let start = run.invariant();
     let mut worst: f64 = 0.0;
@@ -28,7 +28,7 @@ fn energy_error<const D: usize>(mut run: Run<f64, D>, dt: f64, seconds: f64) -> 
 
 #[test]
 fn both_forms_are_of_second_order_on_the_pendulum() {
-    // After 1 s the mass is here, by elliptic functions.
+    // The exact position of the mass after 1 s, by elliptic functions [m].
     let exact = [0.986_291_751_131_875_3_f64, -0.165_010_853_125_541_2];
     for index in [Index::One, Index::Three] {
         let error = |dt: f64, n: usize| {
@@ -135,7 +135,7 @@ fn the_reaction_of_a_pendulum_is_the_tension_of_its_bar() {
     }
 }
 
-/// Largest |phi| of the double pendulum over 10 s at 1 ms with one of the stabilisations.
+/// Returns the largest |phi| and energy error of the double pendulum over 10 s at 1 ms, with the given stabilisation.
 fn drift(stabilisation: Stabilisation<f64>) -> (f64, f64) {
     let mut run = Run::<f64, 2>::new(&scene(&DOUBLE), Index::One);
     run.options = Options { stabilisation, ..Options::index1() };
@@ -172,7 +172,7 @@ fn index3_passes_the_singular_positions_on_the_right_branch_or_says_that_it_cann
             Ok(()) => {
                 let [x, y, _] = run.points()[0];
                 let error = (2.0 * x - CRANK[0]).hypot(2.0 * y - CRANK[1]);
-                // The trapezoidal rule's own: 211 dt^2 at 2e-2, 66 dt^2 at 1e-2, 24 dt^2 at 1e-3.
+                // The error of the trapezoidal rule is 211 dt^2 at 2e-2 s, 66 dt^2 at 1e-2 s and 24 dt^2 at 1e-3 s.
                 assert!(error < 250.0 * dt * dt, "{dt}: {error:e} m");
                 passed += 1;
             }
@@ -204,7 +204,7 @@ fn index1_at_a_singular_position_is_right_or_refused() {
                 Err(other) => panic!("{dt}: {other}"),
             }
         }
-        // The crank of the motion wanted is here at time t: all cranks parallel.
+        // On the expected branch all cranks stay parallel.
         let points = run.points();
         assert!((points[0][1] - points[2][1]).abs() < 1e-9, "{dt}: the cranks left each other");
     }
@@ -213,7 +213,7 @@ fn index1_at_a_singular_position_is_right_or_refused() {
 #[test]
 fn a_step_onto_the_singular_position_is_refused_and_changes_nothing() {
     let mut run = Run::<f64, 2>::new(&scene(&TWO_FOUR_BARS), Index::Three).steps(1e-3, 714);
-    // The step that ends with the cranks horizontal, by the secant rule.
+    // The secant rule finds the step that ends with horizontal cranks.
     let height = |run: &mut Run<f64, 2>, dt: f64| {
         let before = run.state.clone();
         let result = run.step(dt);

@@ -1,5 +1,4 @@
-//! Against the augmented Lagrangian, which solves the same equations of a step in another way; and what must not change a
-//! motion.
+//! Comparison with the augmented Lagrangian, which solves the same equations of a step in another way, and invariances of a motion.
 
 use crate::common::{Index, Run, distance};
 use mbs_classical::{Options, StepError};
@@ -12,12 +11,12 @@ use mbs_testkit::scenes::{
 };
 use mbs_testkit::{PLANAR, SPATIAL, centres, scene, scene_in, solver, start};
 
-/// Two converged solutions of the same step equations, over some hundred steps of a regular motion [m].
+/// Allowed difference of two solutions of the same step equations, over some hundred steps of a regular motion [m].
 const SAME: f64 = 1e-9;
-/// Two converged solutions of the same step equations where rounding grows with the motion, or a residue of the projections differs [m].
+/// Allowed difference [m] where rounding errors grow with the motion, or where the projections leave different residuals.
 const NEAR: f64 = 1e-7;
 
-/// Centres, work and reactions of the augmented Lagrangian after so many steps.
+/// Returns the centres of mass and the work after `n` steps of the augmented Lagrangian.
 fn augmented<const D: usize>(scene: &Scene<f64>, dt: f64, n: usize) -> (Vec<[f64; 3]>, f64) {
     let (model, mut state) = start::<D>(scene);
     let mut w = mbs_augmented::Workspace::new(&model, solver(&model));
@@ -64,7 +63,7 @@ fn index3_moves_alike_with_every_effect_and_guide() {
         let (points, work) = augmented::<D>(&scene, 1e-3, 100);
         let off = distance(&run.points(), &points);
         assert!(off < NEAR, "{}: {off:e} m", scene.name);
-        // Reactions here balance the forces at the projected velocities, which changes work by 8 to 20 dt^2.
+        // Here reactions balance the forces at the projected velocities, which changes the work by 8 to 20 dt^2.
         assert!(
             (run.state.work - work).abs() < 4e-5,
             "{}: {} J, {work} J",
@@ -90,7 +89,7 @@ fn index1_is_as_near_to_index3_as_their_steps_are_to_the_motion() {
     }
 }
 
-/// A planar four-bar whose coupler has no mass, and a hanging chain that ends in a rod without inertia of its own.
+/// A planar four-bar linkage whose coupler has neither mass nor inertia.
 const MASSLESS: &str = "[scene]\nname = \"massless link\"\ndimension = 2\ngravity = [0.0, -9.81]\nduration = 1.0\n[[body]]\nname = \"left\"\nmass = 1.0\ncenter = [0.0, 0.5]\ninertia = 0.1\n[[body]]\nname = \"right\"\nmass = 1.0\ncenter = [1.0, 0.5]\ninertia = 0.1\n[[body]]\nname = \"link\"\nmass = 0.0\ncenter = [0.5, 1.0]\ninertia = 0.0\n[[joint]]\nname = \"a\"\nkind = \"revolute\"\nbodies = [\"ground\", \"left\"]\nat = [0.0, 0.0]\n[[joint]]\nname = \"b\"\nkind = \"revolute\"\nbodies = [\"ground\", \"right\"]\nat = [1.0, 0.0]\n[[joint]]\nname = \"c\"\nkind = \"revolute\"\nbodies = [\"left\", \"link\"]\nat = [0.0, 1.0]\n[[joint]]\nname = \"d\"\nkind = \"revolute\"\nbodies = [\"link\", \"right\"]\nat = [1.0, 1.0]\n[[initial]]\njoint = \"a\"\nvalue = 0.4\nrate = 2.0\n";
 
 #[test]
@@ -107,7 +106,7 @@ fn redundant_constraints_are_refused_by_name_and_nothing_changed() {
         let error = run.step(1e-3).expect_err("three conditions are redundant");
         let StepError::RankLost { row, pivot } = error else { panic!("{error}") };
         assert!(pivot.abs() < 1e-12, "{pivot:e}");
-        // Points and axes are shared: all rows that are left belong to the three bodies of the loop.
+        // Joints share points and axes, so the remaining rows belong to the three bodies of the loop.
         let owner = Model::<f64>::owner_of_row(&run.model, row as usize);
         assert!(matches!(owner, Owner::Body(0..=2)), "{owner:?}");
         assert_eq!(run.state, before);
@@ -155,7 +154,7 @@ fn a_turned_scene_moves_alike() {
 
 #[test]
 fn single_precision_stays_near_double_precision() {
-    // What single precision may lose in half a second [m].
+    // Error that single precision may cause in half a second [m].
     const SINGLE: f64 = 1e-3;
     let expected = Run::<f64, 2>::new(&scene(&DOUBLE), Index::Three).steps(2e-3, 250).points();
     let found = Run::<f32, 2>::new(&scene_in(&DOUBLE), Index::Three).steps(2e-3, 250).points();

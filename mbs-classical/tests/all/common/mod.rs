@@ -1,4 +1,4 @@
-//! Runs for the tests.
+//! Runs of scenes for the tests of this crate.
 
 use mbs_classical::{Options, Saddle, StepError, StepReport, Workspace};
 use mbs_core::Real;
@@ -9,14 +9,14 @@ use mbs_core::step::Step;
 use mbs_sparse::Indefinite;
 use mbs_testkit::{apart, centres, invariant, start_in};
 
-/// Which formulation of this crate.
+/// Formulation of this crate that a run uses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Index {
     One,
     Three,
 }
 
-/// A model in motion.
+/// A scene with its model, state and options.
 pub(crate) struct Run<T: Real, const D: usize> {
     pub(crate) scene: Scene<T>,
     pub(crate) model: NaturalModel<T, D>,
@@ -55,7 +55,7 @@ impl<T: Real, const D: usize> Run<T, D> {
         }
     }
 
-    /// So many steps, none of which may fail.
+    /// Makes `n` steps, none of which may fail.
     #[track_caller]
     pub(crate) fn steps(mut self, dt: f64, n: usize) -> Self {
         for i in 0..n {
@@ -64,18 +64,18 @@ impl<T: Real, const D: usize> Run<T, D> {
         self
     }
 
-    /// Kinetic and potential energy less the work done on the mechanism [J].
+    /// Returns the energy invariant: kinetic and potential energy less the work done on the mechanism [J].
     pub(crate) fn invariant(&self) -> f64 {
         invariant(&self.model, &self.state).to_f64()
     }
 
-    /// Centres of mass of all bodies.
+    /// Returns the centres of mass of all bodies.
     pub(crate) fn points(&self) -> Vec<[f64; 3]> {
         centres(&self.scene, &self.model, &self.state)
     }
 }
 
-/// The largest distance between two lists of points along an axis.
+/// Returns the largest distance of two lists of points along a coordinate axis.
 pub(crate) fn distance(a: &[[f64; 3]], b: &[[f64; 3]]) -> f64 {
     apart(a.as_flattened(), b.as_flattened())
 }
