@@ -1,31 +1,33 @@
-//! A null space split into independent groups of joints.
+//! Splitting of a null space into independent groups of joints.
 //!
 //! ```text
 //! P = N Nᵀ,   P_ij: the block of joints i and j
 //! ```
 //!
-//! N has orthonormal columns, so P is the orthogonal projector on the null space V and does not depend on the basis. V is a
-//! direct sum of spaces on disjoint sets of joints exactly if P is block diagonal over these sets. Then the projector
-//! on the sum is the sum of the projectors, and the other way round P V = V splits. So the finest such sets are the connected
-//! components of the graph whose edges are the blocks P_ij ≠ 0. Turning or scaling the axes of a joint's rows turns its blocks.
+//! N has orthonormal columns, so P is the orthogonal projector on the null space V and does not depend on the basis. Let the joints be
+//! divided into disjoint sets. V is a direct sum of spaces on these sets exactly if P is block diagonal over them. (The projector on a direct
+//! sum of such spaces is the sum of their projectors. Conversely, a block diagonal P splits V = P V.)
+//!
+//! So the finest sets are the connected components of the graph with an edge for each block P_ij ≠ 0. A rotation or scaling of the axes of a
+//! joint's rows rotates or scales the blocks, and does not change the sets.
 
 use super::linkage::Jacobian;
 use mbs_core::cluster::root;
 use mbs_linear::{Matrix, singular_values};
 
-/// Largest entry of P that is zero [-]: what rounding of σ > 1e-9 leaves.
+/// Largest entry of P that counts as zero [-]: the rounding errors for singular values above 1e-9.
 pub(crate) const ZERO: f64 = 1e-7;
 
-/// Group: places of its joints in the part, and the dimension of its null space.
+/// Group of joints that depend on each other, and the dimension of its null space.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Group {
-    /// Places of its joints in the part.
+    /// Indices of its joints within the part.
     pub places: Vec<usize>,
-    /// Dimension of its null space.
+    /// Dimension of the null space of the group: its number of redundant equations.
     pub redundant: usize,
 }
 
-/// All groups of a null space. Cost: m² k operations.
+/// Returns all groups of a null space. Cost: m² k operations.
 pub fn groups(jacobian: &Jacobian, null: &Matrix) -> Vec<Group> {
     let p = null.times(&null.transpose());
     let rows = &jacobian.rows;
@@ -59,7 +61,7 @@ pub fn groups(jacobian: &Jacobian, null: &Matrix) -> Vec<Group> {
     found.into_iter().map(group).collect()
 }
 
-/// Dimension of the column space of a matrix whose entries are of order one or zero.
+/// Returns the dimension of the column space of a matrix whose entries are of order one or zero.
 pub(crate) fn dimension(matrix: &Matrix) -> usize {
     let sigma = singular_values(matrix).unwrap_or_default();
     sigma.iter().filter(|&&s| s > ZERO).count()

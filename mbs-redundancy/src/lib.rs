@@ -24,5 +24,5 @@ pub use rank::{Rank, UNCERTAIN};
 pub use remedy::{JointChange, Remedy};
 pub use sets::{Diagnosis, Member, Set, diagnose};
 
-/// Vectors of space in double precision.
+/// Vectors of three components in double precision.
 type Vector = mbs_core::algebra::Vector<f64, 3>;

@@ -1,4 +1,4 @@
-//! One joint as rows on the twists of its bodies.
+//! One joint as constraint rows on the twists of its bodies.
 
 use super::Vector;
 use mbs_core::outputs::{JointWrenches, Wrench};
@@ -22,7 +22,7 @@ impl Link {
         Self { joint: joint.clone(), is_guided, transmission }
     }
 
-    /// Number of the joint's rows that are those of guides; they are the last ones.
+    /// Returns the number of rows of the joint's guides; they are the last rows.
     pub(crate) fn n_guided(&self) -> usize {
         self.transmission.n_guided()
     }
@@ -31,7 +31,7 @@ impl Link {
         self.transmission.n_directions()
     }
 
-    /// Returns the directions of the joint at a pose; moments are unit forces at `length` [m].
+    /// Returns the directions (wrenches) of the joint's rows at a pose; moments are unit forces at the lever `length` [m].
     pub(crate) fn wrenches(&self, at: &Poses, length: f64) -> Vec<Wrench<f64>> {
         let turned = self.joint.bodies.map(|body| pose(at, body).rotation);
         let mut all = Vec::with_capacity(self.n_rows());
@@ -43,14 +43,14 @@ impl Link {
         all
     }
 
-    /// Returns the place of the joint on its first or second body [m].
+    /// Returns the position of the joint's point on its first or second body [m].
     pub(crate) fn place(&self, at: &Poses, i: usize) -> Vector {
         let reference = Vector::from(self.joint.points[i]);
         pose(at, self.joint.bodies[i]).point(&reference)[0]
     }
 }
 
-/// The pose of a body; the ground stays.
+/// Returns the pose of a body; the ground has the pose at rest.
 pub(crate) fn pose(at: &Poses, body: BodyId) -> RigidMotion<f64> {
     match body {
         BodyId::Ground => RigidMotion::at_rest(Vector::zeros()),

@@ -1,12 +1,12 @@
-//! Joints as rows on the twists of whole bodies: nothing is shared, so that no redundancy hides.
+//! Joints as constraint rows on the twists of rigid bodies. Bodies share no points or axes here, so every redundancy becomes visible.
 //!
 //! ```text
 //! row of direction (f, m) at the joint's place p:   f·(v₂(p) − v₁(p)) + m·(ω₂ − ω₁) = 0
 //! on a body with centre c, unknowns (v, ℓ ω):       ± [f;  (m + (p − c) × f) / ℓ]
 //! ```
 //!
-//! ℓ is the size of the part that the joint belongs to, and moments are unit forces at the lever ℓ. So all rows and columns
-//! are of order one whatever the unit of length. Masses are outside: rank is a matter of geometry, and bodies may have none.
+//! ℓ is the length of the part that the joint belongs to, and moments are unit forces at the lever ℓ. So all rows and columns are of order
+//! one, whatever the unit of length. Masses do not enter: rank depends on geometry alone, and bodies may have no mass.
 
 use super::Vector;
 use super::link::{Link, Poses};
@@ -26,22 +26,22 @@ pub fn reference(scene: &Scene<f64>) -> Vec<RigidMotion<f64>> {
     (0..scene.bodies.len()).map(|b| RigidMotion::at_rest(mass_properties(scene, b).1)).collect()
 }
 
-/// A scene as bodies with six (three) freedoms each and joints that take some of them.
+/// A scene as bodies with six freedoms each (three in a plane), and joints that constrain some of these.
 #[derive(Debug, Clone)]
 pub struct Linkage {
     pub(crate) dimension: Dimension,
     pub(crate) n_bodies: usize,
-    /// Turns of point masses, which are none: no joint has a row for them.
+    /// Number of rotational freedoms of point masses. No joint has a row for them.
     n_idle: usize,
     pub(crate) links: Vec<Link>,
-    /// Parts within which joints can depend on each other: see [`Part`].
+    /// Parts of the mechanism; only joints of the same part can depend on each other, see [`Part`].
     pub parts: Vec<Part>,
 }
 
 /// Rows of a part on the twists of its bodies.
 #[derive(Debug, Clone)]
 pub struct Jacobian {
-    /// One row per direction, six (three) columns per body.
+    /// Matrix with one row per direction, and six columns per body (three in a plane).
     pub matrix: Matrix,
     /// Rows of each joint, in the order of [`Part::joints`].
     pub rows: Vec<Range<usize>>,
@@ -50,7 +50,7 @@ pub struct Jacobian {
 }
 
 impl Linkage {
-    /// Takes a scene that passed its check. Cost: in proportion to bodies and joints.
+    /// Creates the linkage of a scene that passed its check. Cost: proportional to the number of bodies and joints.
     #[must_use]
     pub fn new(scene: &Scene<f64>) -> Self {
         let scene = &*aligned(scene);
@@ -70,7 +70,7 @@ impl Linkage {
         linkage
     }
 
-    /// Freedoms of a body without joints.
+    /// Number of freedoms of a body without joints.
     #[must_use]
     pub fn freedoms(&self) -> usize {
         match self.dimension {
@@ -79,7 +79,7 @@ impl Linkage {
         }
     }
 
-    /// Returns the range of a body's freedoms that turn it.
+    /// Returns the range of the rotational freedoms among a body's freedoms.
     pub(crate) fn turns(&self) -> Range<usize> {
         match self.dimension {
             Dimension::Planar => 2..3,
@@ -87,14 +87,14 @@ impl Linkage {
         }
     }
 
-    /// Rows of all joints, and freedoms of all bodies; point masses do not turn.
+    /// Returns the number of rows of all joints, and of freedoms of all bodies. Point masses have no rotational freedoms.
     #[must_use]
     pub fn sizes(&self) -> [usize; 2] {
         let rows = self.links.iter().map(Link::n_rows).sum();
         [rows, self.n_bodies * self.freedoms() - self.n_idle]
     }
 
-    /// Equations of a joint; with its guide's.
+    /// Returns the number of equations of a joint, including those of its guide.
     ///
     /// # Panics
     /// If there is no such joint.
@@ -103,7 +103,7 @@ impl Linkage {
         self.links[joint].n_rows()
     }
 
-    /// The kind of a joint.
+    /// Returns the kind of a joint.
     ///
     /// # Panics
     /// If there is no such joint.
@@ -112,13 +112,13 @@ impl Linkage {
         self.links[joint].joint.kind
     }
 
-    /// The rows of a part at a pose.
+    /// Returns the rows of a part at a pose.
     #[must_use]
     pub fn jacobian(&self, part: &Part, at: &Poses) -> Jacobian {
         self.jacobian_of(part, &part.joints.iter().map(|&j| &self.links[j]).collect::<Vec<_>>(), at)
     }
 
-    /// Returns the rows of a part at a pose, with other joints in the places of those of the part.
+    /// Returns the rows of a part at a pose, with the given links in place of those of the part.
     pub(crate) fn jacobian_of(&self, part: &Part, links: &[&Link], at: &Poses) -> Jacobian {
         let f = self.freedoms();
         let (mut rows, mut wrenches) = (Vec::new(), Vec::new());
@@ -146,7 +146,7 @@ impl Linkage {
         Jacobian { matrix, rows, wrenches }
     }
 
-    /// Returns the components that count of a force and a moment: [Fx, Fy, Mz] or all six.
+    /// Returns the components of a force and a moment that the dimension has: [Fx, Fy, Mz] or all six.
     pub(crate) fn components(&self, force: &Vector, moment: &Vector) -> [f64; 6] {
         match self.dimension {
             Dimension::Planar => [force[0], force[1], moment[2], 0.0, 0.0, 0.0],
@@ -154,7 +154,7 @@ impl Linkage {
         }
     }
 
-    /// The bodies of a part moved by small twists (v, ℓ ω).
+    /// Moves the bodies of a part by small twists (v, ℓ ω).
     pub(crate) fn moved(&self, part: &Part, at: &mut Poses, twists: &[f64]) {
         for (&b, x) in part.bodies.iter().zip(twists.chunks_exact(self.freedoms())) {
             let (v, turn) = match self.dimension {

@@ -1,13 +1,13 @@
-//! Loops of a mechanism, the branch on which each was put together, and how far it is from another one.
+//! Closed loops of a mechanism, the branch in which each is assembled, and its distance to another branch.
 //!
 //! ```text
 //! three successive places A, B, C of a loop, a the axis at B, x̄ the part of x across a:
 //! turn = atan2(a·(AB × BC), AB̄·BC̄)      its sign is the branch, min(|turn|, π − |turn|) the distance to a straight line
 //! ```
 //!
-//! In a straight line the two branches of a triangle meet. Where a part has one freedom, its motion says more: with J u = 0 the
-//! share of joint j is how fast it moves beside the fastest one. Driven at a joint whose share is zero the part stands at a dead
-//! point, and passes from one branch to the other there.
+//! The two branches of a triangle meet where its three points are in a straight line. A part with one freedom has a single motion u
+//! with J u = 0. The drive ratio of joint j is then its rate relative to the fastest joint. A part that is driven at a joint with a ratio
+//! of zero is at a dead point, where it can change from one branch to the other.
 
 use super::Vector;
 use super::link::{Poses, pose};
@@ -18,19 +18,19 @@ use mbs_core::algebra::cross;
 use mbs_core::scene::{BodyId, Dimension, Freedom, Rotation, Translation};
 use std::collections::VecDeque;
 
-/// A corner of a loop.
+/// A corner of a closed loop.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Corner {
-    /// The joint in it.
+    /// Index of the joint at the corner.
     pub joint: usize,
-    /// Signed angle by which the loop turns there about the joint's axis [rad]; without a sign at a joint without an axis.
+    /// Signed angle of the corner about the joint's axis [rad]; not signed at a joint without an axis.
     pub turn: f64,
-    /// Has the turn a sign that a motion keeps?
+    /// Is the sign of the angle preserved by a motion?
     pub has_sign: bool,
 }
 
 impl Corner {
-    /// Angle to the nearest straight line through the three places [rad].
+    /// Returns the angle to the nearest configuration with the three points in a straight line [rad].
     #[must_use]
     pub fn distance(&self) -> f64 {
         self.turn.abs().min(core::f64::consts::PI - self.turn.abs())
@@ -40,14 +40,14 @@ impl Corner {
 /// Closed loop of joints.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Loop {
-    /// Joints of the loop, in order round it, beginning with the first in the scene.
+    /// Joints of the loop in their cyclic order, beginning with the first in the scene.
     pub joints: Vec<usize>,
-    /// Corners where three places form a triangle: at revolute, spherical and universal joints.
+    /// Corners at revolute, spherical and universal joints, where three points form a triangle.
     pub corners: Vec<Corner>,
 }
 
-/// Shortest loops of a linkage at a pose: as many as are independent, each closed by one joint over a tree that is laid out from
-/// the ground breadth first. Cost: for each loop the bodies of its part.
+/// Returns the shortest independent loops of a linkage at a pose. A spanning tree is built breadth first from the ground, and each joint
+/// outside it closes one loop. Cost: for each loop, proportional to the bodies of its part.
 #[must_use]
 pub fn loops(linkage: &Linkage, at: &Poses) -> Vec<Loop> {
     let parts = linkage.parts.iter().filter(|part| part.has_loop());
@@ -55,7 +55,7 @@ pub fn loops(linkage: &Linkage, at: &Poses) -> Vec<Loop> {
     joints.map(|joints| Loop { corners: corners(linkage, at, &joints), joints }).collect()
 }
 
-/// The loops of a part as joints in order.
+/// Returns the loops of a part, each as a list of joints in cyclic order.
 fn cycles(linkage: &Linkage, part: &Part) -> Vec<Vec<usize>> {
     let node = |body: BodyId| match body {
         BodyId::Ground => part.bodies.len(),
@@ -98,7 +98,7 @@ fn cycles(linkage: &Linkage, part: &Part) -> Vec<Vec<usize>> {
             first.pop();
             second.pop();
         }
-        // From the closing joint up one branch and down the other.
+        // The loop runs from the closing joint up one branch of the tree and down the other.
         let mut round: Vec<usize> =
             [j].into_iter().chain(second).chain(first.into_iter().rev()).collect();
         let least = (0..round.len()).min_by_key(|&i| round[i]).unwrap_or(0);
@@ -108,7 +108,7 @@ fn cycles(linkage: &Linkage, part: &Part) -> Vec<Vec<usize>> {
     part.joints.iter().filter(|&&j| !in_tree(j)).map(close).collect()
 }
 
-/// Corners at joints whose places mean something: a slide's place is anywhere along it.
+/// Returns the corners at joints with a fixed point; the point of a sliding joint is arbitrary along its axis.
 fn corners(linkage: &Linkage, at: &Poses, joints: &[usize]) -> Vec<Corner> {
     let mut stations: Vec<(usize, Vector)> = Vec::new();
     let n = joints.len();
@@ -116,7 +116,7 @@ fn corners(linkage: &Linkage, at: &Poses, joints: &[usize]) -> Vec<Corner> {
         let link = &linkage.links[j];
         let kind = link.joint.kind;
         if kind.is_link() {
-            // Both ends, the one at the body shared with the joint before it first.
+            // Both points of a link, first the one on the body shared with the joint before.
             let before = linkage.links[joints[(i + n - 1) % n]].joint.bodies;
             let is_forward = before.contains(&link.joint.bodies[0]);
             let ends = if is_forward { [0, 1] } else { [1, 0] };
@@ -137,7 +137,7 @@ fn corners(linkage: &Linkage, at: &Poses, joints: &[usize]) -> Vec<Corner> {
     (0..m).filter_map(corner).collect()
 }
 
-/// Length that is none, relative to the sum of two neighbouring ones [-]: it has no direction. Chosen, not tuned.
+/// Distance of two points that counts as zero, relative to the sum of two neighbouring distances [-]. It has no direction. Chosen, not tuned.
 const NO_LENGTH: f64 = 1e-9;
 
 fn turn(linkage: &Linkage, at: &Poses, joint: usize, [to, from]: [Vector; 2]) -> Option<Corner> {
@@ -160,16 +160,17 @@ fn turn(linkage: &Linkage, at: &Poses, joint: usize, [to, from]: [Vector; 2]) ->
     Some(Corner { joint, turn: sine.atan2(to.dot(&from)), has_sign: axis.is_some() })
 }
 
-/// Share of a joint in the motion of its part.
+/// Rate of a joint in the motion of its part.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Drive {
     /// Index of the joint.
     pub joint: usize,
-    /// Rate of the joint over that of the fastest joint of the part, with the sign of the common motion [-]. Angles count at the part's length.
+    /// Ratio of the joint's rate to that of the fastest joint of the part, with the sign of the common motion [-]. Angles are multiplied by
+    /// the part's length.
     pub share: f64,
 }
 
-/// Shares of the joints of a part with one freedom at a pose; empty with any other number of freedoms.
+/// Returns the rates of the joints of a part with one freedom at a pose; empty for any other number of freedoms.
 #[must_use]
 pub fn drives(linkage: &Linkage, part: &Part, at: &Poses, rank: &Rank) -> Vec<Drive> {
     if rank.free.n_columns() != 1 {

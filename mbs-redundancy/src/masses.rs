@@ -1,10 +1,10 @@
-//! Motions that the joints allow and no mass resists.
+//! Motions that the joints allow and that have no kinetic energy.
 //!
 //! ```text
 //! J V = 0,   R = [√m (c-rows of V);  √I R_bᵀ (ω-rows of V)],   massless motions: the null space of R
 //! ```
 //!
-//! R is scaled by the mean mass of the bodies and their size, so that the rank does not depend on units.
+//! R is scaled by the mean mass and mean inertia of the bodies, so that the rank does not depend on units.
 
 use super::Vector;
 use super::link::Poses;
@@ -18,23 +18,23 @@ use mbs_linear::{Matrix, Svd};
 /// A motion without kinetic energy.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Massless {
-    /// Bodies that move in it.
+    /// Bodies that take part in the motion.
     pub bodies: Vec<usize>,
-    /// Is it the turning of slender rods about themselves, and nothing else? Such a spin has no effect.
+    /// Is the motion only the rotation of slender rods about their axes? Such a spin affects nothing else.
     pub is_idle_spin: bool,
 }
 
-/// Most columns of a part that is decomposed, for the time that it takes. Chosen, not tuned.
+/// Number of columns of the largest part that is decomposed, which limits the time. Chosen, not tuned.
 const LARGEST: usize = 600;
-/// Largest entry of a unit vector that is zero [-]. Chosen, not tuned.
+/// Largest entry of a unit vector that counts as zero [-]. Chosen, not tuned.
 const ZERO: f64 = 1e-6;
-/// Root of the largest energy that is none, relative to the mean body's [-]: R holds roots of masses. Chosen, not tuned.
+/// Root of the largest energy that counts as zero, relative to the mean body's energy [-]; R contains roots of masses. Chosen, not tuned.
 const LEAST: f64 = 1e-7;
 
-/// Massless motions of a scene at a pose; `None` where it is too large. Spins of rods come first, each alone.
+/// Returns the massless motions of a scene at a pose; `None` where a part is too large. Spins of rods come first, one motion for each rod.
 ///
-/// Cost: two decompositions of the rows of all joints, where some body has a direction without inertia; else in proportion to
-/// the bodies.
+/// Cost: two decompositions of the rows of all joints, if some body has a direction without inertia. Otherwise proportional to the number of
+/// bodies.
 #[must_use]
 pub fn massless(scene: &Scene<f64>, linkage: &Linkage, at: &Poses) -> Option<Vec<Massless>> {
     let n = scene.bodies.len();
@@ -60,7 +60,7 @@ pub fn massless(scene: &Scene<f64>, linkage: &Linkage, at: &Poses) -> Option<Vec
     Some(classified(scene, linkage, at, &motions))
 }
 
-/// √M of a body as a 6 x 6 matrix on (v, ω) in global axes.
+/// Returns √M of a body as a 6 x 6 matrix on (v, ω) in global axes.
 fn roots(scene: &Scene<f64>, body: usize, at: &Poses) -> Matrix {
     let (mass, _, inertia) = mass_properties(scene, body);
     let turned = at[body].rotation * inertia * at[body].rotation.transpose();
@@ -79,7 +79,7 @@ fn roots(scene: &Scene<f64>, body: usize, at: &Poses) -> Matrix {
     root
 }
 
-/// Mean mass and inertia of those that have some; one where none has.
+/// Returns the mean mass and mean inertia of the bodies that have any; one where no body has.
 fn mean(scene: &Scene<f64>) -> [f64; 2] {
     let bodies: Vec<_> = (0..scene.bodies.len()).map(|b| mass_properties(scene, b)).collect();
     let mean = |values: Vec<f64>| {
@@ -92,7 +92,7 @@ fn mean(scene: &Scene<f64>) -> [f64; 2] {
     [mean(masses), mean(inertias)]
 }
 
-/// Root of the energy of the free motions, one row per direction of a body.
+/// Returns the root of the energy of the free motions: one row for each direction of a body, one column for each motion.
 fn energy(roots: &[Matrix], linkage: &Linkage, free: &Matrix, scale: [f64; 2]) -> Matrix {
     let f = linkage.freedoms();
     let place = |i: usize| if f == 6 { i } else { [0, 1, 5][i] };
@@ -103,7 +103,7 @@ fn energy(roots: &[Matrix], linkage: &Linkage, free: &Matrix, scale: [f64; 2]) -
     })
 }
 
-/// Basis of the null space of R.
+/// Returns a basis of the null space of R.
 fn cut(r: &Matrix) -> Option<Matrix> {
     if r.n_columns() == 0 {
         return Some(Matrix::zeros(0, 0));
@@ -112,7 +112,7 @@ fn cut(r: &Matrix) -> Option<Matrix> {
     Some(v.columns_from(sigma.iter().filter(|&&s| s > LEAST).count()))
 }
 
-/// Idle spins of rods, and what is left of the motions besides.
+/// Separates the idle spins of rods from the other massless motions.
 fn classified(
     scene: &Scene<f64>,
     linkage: &Linkage,
@@ -124,7 +124,7 @@ fn classified(
     let mut spins = Vec::new();
     for (b, body) in scene.bodies.iter().enumerate() {
         if body.is_point() {
-            // it does not turn at all
+            // a point mass has no rotation
             spins.extend(linkage.turns().map(|turn| {
                 let mut spin = Matrix::zeros(scene.bodies.len() * f, 1);
                 spin[(b * f + turn, 0)] = 1.0;
@@ -139,7 +139,7 @@ fn classified(
         let d = d / d.norm();
         let mut spin = Matrix::zeros(scene.bodies.len() * f, 1);
         (0..3).for_each(|i| spin[(b * f + 3 + i, 0)] = d[i]);
-        // A spin is idle if it is one of the motions.
+        // A spin is idle if it is one of the massless motions.
         let left = spin.minus(&motions.times(&motions.transpose().times(&spin)));
         if (0..left.n_rows()).all(|i| left[(i, 0)].abs() <= ZERO) {
             found.push(Massless { bodies: vec![b], is_idle_spin: true });

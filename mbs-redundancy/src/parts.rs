@@ -1,8 +1,8 @@
-//! Parts of a mechanism that share no loop: rows of different parts never depend on each other.
+//! Parts of a mechanism that have no common loop: rows of different parts never depend on each other.
 //!
-//! The graph has a node for each body and one for the ground, an edge for each joint that has rows. Its biconnected components
-//! (Hopcroft and Tarjan 1973) are the parts. Joints that hold a force among themselves with all bodies at rest form loops, and a
-//! loop stays within one component. A part of one joint is a bridge and always sound.
+//! The graph has a node for each body and one for the ground, and an edge for each joint that has rows. Its biconnected components (Hopcroft
+//! and Tarjan 1973) are the parts. Joints that can carry internal forces with all bodies at rest form loops, and a loop lies within one
+//! component. A part with one joint is a bridge of the graph and never has dependent rows.
 
 use super::link::{Link, Poses, pose};
 use mbs_core::algebra::norm;
@@ -11,23 +11,23 @@ use mbs_core::scene::BodyId;
 /// Joints that may depend on each other, with the bodies between them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Part {
-    /// Indices of the joints, rising.
+    /// Indices of the joints, in ascending order.
     pub joints: Vec<usize>,
-    /// Indices of the bodies, rising; the ground is not among them.
+    /// Indices of the bodies, in ascending order, without the ground.
     pub bodies: Vec<usize>,
-    /// Length of the part [m]: the largest distance of a joint's place from the centre of one of its bodies; one if all coincide.
+    /// Length of the part [m]: the largest distance of a joint's point from the centre of one of its bodies; one if all distances are zero.
     pub length: f64,
 }
 
 impl Part {
-    /// Has it a loop? Else it is a single joint.
+    /// Does the part contain a loop? If not, it is a single joint.
     #[must_use]
     pub fn has_loop(&self) -> bool {
         self.joints.len() > 1
     }
 }
 
-/// Returns the parts of `n` bodies and their links. Cost: in proportion to bodies and joints.
+/// Returns the parts of `n` bodies and their links. Cost: proportional to the number of bodies and joints.
 pub(crate) fn parts(n: usize, links: &[Link], at: &Poses) -> Vec<Part> {
     let node = |body: BodyId| match body {
         BodyId::Ground => n,
@@ -77,16 +77,16 @@ fn part(links: &[Link], joints: Vec<usize>, at: &Poses) -> Part {
 }
 
 struct Search {
-    /// Edges of each node: neighbour and joint.
+    /// Edges of each node, as pairs of neighbour and joint.
     edges: Vec<Vec<(usize, usize)>>,
     depth: Vec<usize>,
-    /// Least depth that the subtree of a node reaches by one edge back.
+    /// Least depth that the subtree of a node reaches by one back edge.
     low: Vec<usize>,
     stack: Vec<usize>,
     found: Vec<Vec<usize>>,
 }
 
-/// A node on the way: itself, the edge it was reached by, edges already followed, edges stacked before it.
+/// A node on the current path: its number, the edge that led to it, the number of edges followed, and the edges stacked before it.
 struct Visit {
     node: usize,
     by: Option<usize>,
@@ -95,7 +95,7 @@ struct Visit {
 }
 
 impl Search {
-    /// Depth first, without recursion: chains may have thousands of bodies.
+    /// Searches depth first, without recursion, because chains may have thousands of bodies.
     fn from(&mut self, root: usize) {
         self.depth[root] = 0;
         let mut way = vec![Visit { node: root, by: None, next: 0, below: 0 }];

@@ -1,8 +1,8 @@
-//! Is a dependency there in every position, or only in this one?
+//! Test whether a dependency holds in every position or only in the present one.
 //!
-//! The part is perturbed along a random admissible motion and brought back onto its joints by Levenberg and Marquardt's method. Its
-//! damping is |r|: convergence is quadratic though rows repeat each other (Yamashita and Fukushima 2001). Dependent in every
-//! position thus reached: structural. Independent there: the first position is singular.
+//! The part is displaced along a random admissible motion and then brought back onto its joints by the method of Levenberg and Marquardt.
+//! With a damping of |r| it converges quadratically even if rows are redundant (Yamashita and Fukushima 2001). A dependency is structural if
+//! it holds in all positions reached. If it does not, the present position is singular.
 
 use super::link::Poses;
 use super::linkage::Linkage;
@@ -15,35 +15,36 @@ use mbs_linear::{Matrix, Svd};
 mbs_core::named! {
     /// Nature of a dependency: the positions in which it holds.
     pub enum Nature {
-        /// In every position near by: the mechanism is built so.
+        /// In every position close by: the dependency follows from the design of the mechanism.
         Structural = "structural",
-        /// In this position alone: it is singular.
+        /// In this position alone, which is singular.
         Singular = "singular-position",
-        /// Some of it in every position, more in this one.
+        /// A part of the dependency in every position, and more in this one.
         Both = "both",
-        /// Nature that is not known: nothing can move.
+        /// Nature that cannot be found, because nothing can move.
         Rigid = "rigid",
-        /// Nature that was not tried: too large, or no position near by was found.
+        /// Nature that was not examined: the part is too large, or no position close by was found.
         Untried = "untried",
     }
 }
 
-/// Perturbations in different directions. Chosen, not tuned.
+/// Number of perturbations in different directions. Chosen, not tuned.
 const PERTURBATIONS: u64 = 3;
-/// Size of a perturbation, in radians and in lengths of the part [-]. Chosen, not tuned: half of it is tried next.
+/// Size of a perturbation, in radians and in lengths of the part [-]. After a failure half of it is tried. Chosen, not tuned.
 const PERTURBATION: f64 = 0.1;
-/// Least distance of a perturbed pose from the first one, relative to the perturbation [-]: closer ones are the same. Chosen, not tuned.
+/// Least distance of a perturbed pose from the present one, relative to the perturbation [-]. Closer poses count as the same. Chosen, not
+/// tuned.
 const LEAST_DISTANCE: f64 = 1e-2;
-/// Most sweeps back onto the joints. Chosen, not tuned.
+/// Sweeps back onto the joints at most [-]. Chosen, not tuned.
 const MAX_SWEEPS: usize = 60;
-/// Residual that meets the joints, relative to the part's length [-]. Chosen, not tuned.
+/// Residual below which the joints are satisfied, relative to the part's length [-]. Chosen, not tuned.
 const MET: f64 = 1e-13;
-/// Residual that is accepted when it does not fall any more, relative to the part's length [-]. Chosen, not tuned.
+/// Residual that is accepted when it no longer falls, relative to the part's length [-]. Chosen, not tuned.
 const ACCEPTED: f64 = 1e-11;
-/// Most entries of a matrix that is decomposed here, for the time that it takes. Chosen, not tuned.
+/// Number of entries of the largest matrix that is decomposed here, which limits the time. Chosen, not tuned.
 const LARGEST: usize = 100_000;
 
-/// Positions near `at` that meet the joints of a part; empty where there is none.
+/// Returns positions close to `at` that satisfy the joints of a part; `None` where the part is too large, empty where none is found.
 pub(crate) fn neighbours(
     linkage: &Linkage,
     part: &Part,
@@ -61,7 +62,7 @@ pub(crate) fn neighbours(
         let weights: Vec<f64> = (0..rank.free.n_columns()).map(|_| draw(&mut random)).collect();
         let mut twist = combine(&rank.free, &weights);
         let largest = twist.iter().fold(0.0_f64, |l, x| l.max(x.abs()));
-        // What fails is tried again with half of it.
+        // Further trials use half of the perturbation or less.
         let size = PERTURBATION * part.length / (1 + kick / PERTURBATIONS) as f64;
         twist.iter_mut().for_each(|x| *x *= size / largest);
         let mut there = at.to_vec();
@@ -75,7 +76,7 @@ pub(crate) fn neighbours(
     Some(found)
 }
 
-/// Brings poses onto the joints of a part; says whether that was reached.
+/// Moves poses onto the joints of a part. Returns whether the joints are satisfied.
 fn close(linkage: &Linkage, part: &Part, met: &Poses, at: &mut [RigidMotion<f64>]) -> bool {
     let measure = |at: &Poses| -> Vec<f64> {
         let links = part.joints.iter().map(|&j| &linkage.links[j]);
@@ -110,7 +111,7 @@ fn close(linkage: &Linkage, part: &Part, met: &Poses, at: &mut [RigidMotion<f64>
     false
 }
 
-/// Largest way of a centre, or turn times the part's length [m].
+/// Returns the largest displacement of a centre, or rotation times the part's length [m].
 fn distance(part: &Part, from: &Poses, to: &Poses) -> f64 {
     let of = |&b: &usize| {
         let way = (to[b].position - from[b].position).norm();
@@ -126,7 +127,7 @@ fn combine(basis: &Matrix, weights: &[f64]) -> Vec<f64> {
     (0..basis.n_rows()).map(entry).collect()
 }
 
-/// xorshift64*, in (-1, 1): the same on every machine.
+/// Draws a pseudo-random number in (-1, 1), the same on every machine (xorshift64*).
 fn draw(state: &mut u64) -> f64 {
     *state ^= *state >> 12;
     *state ^= *state << 25;

@@ -1,4 +1,4 @@
-//! Rank by singular values, with its gap.
+//! Rank of a matrix by its singular values, with the gap between them.
 //!
 //! ```text
 //! J = U Σ Vᵀ,   r = #{σ > max(m, n) ε^(2/3) σ₁},   gap = σ_r / σ_(r+1)
@@ -9,26 +9,27 @@ use mbs_linear::{Matrix, Svd};
 
 /// Ratio of neighbouring singular values below which a rank is uncertain [-]. Chosen, not tuned.
 pub const UNCERTAIN: f64 = 1e3;
-/// Singular value that is suspicious, relative to the largest [-]: numbers of a file have six digits or more.
+/// Singular value up to which a row is suspected to be dependent, relative to the largest value [-]. Numbers of a file have six digits or
+/// more.
 const ALMOST: f64 = 1e-6;
 
-/// Rank of a matrix, and what it leaves open.
+/// Rank of a matrix, with its null spaces.
 #[derive(Debug, Clone)]
 pub struct Rank {
     /// Number of rows, number of columns, and rank.
     pub sizes: [usize; 3],
-    /// All singular values, falling [-].
+    /// All singular values in descending order [-].
     pub sigma: Vec<f64>,
     /// Orthonormal basis of the left null space: one column per redundant row.
     pub null: Matrix,
     /// Orthonormal basis of the right null space: one column per freedom.
     pub free: Matrix,
-    /// Left singular vectors, to which the null space belongs.
+    /// Left singular vectors; the last ones span the left null space.
     left: Matrix,
 }
 
 impl Rank {
-    /// Computes the rank of a matrix. Nothing where its singular values do not converge, as with numbers that are not finite.
+    /// Computes the rank of a matrix. Returns `None` if its singular values do not converge, for instance where entries are not finite.
     ///
     /// Cost: about 20 m n min(m, n) operations.
     #[must_use]
@@ -45,13 +46,13 @@ impl Rank {
         Some(Self { sizes: [m, n, rank], sigma, null, free, left })
     }
 
-    /// Rows that follow from others.
+    /// Returns the number of rows that depend on others.
     #[must_use]
     pub fn redundant(&self) -> usize {
         self.sizes[0] - self.sizes[2]
     }
 
-    /// σ_r / σ_(r+1) [-]; where every row counts, σ_r over the threshold.
+    /// Returns the gap σ_r / σ_(r+1) [-]; where all rows are independent, σ_r over the threshold.
     #[must_use]
     pub fn gap(&self) -> f64 {
         let [m, n, rank] = self.sizes;
@@ -63,7 +64,7 @@ impl Rank {
         }
     }
 
-    /// Smallest singular value that counts, over the largest [-]: how far the rows are from depending on each other.
+    /// Returns the smallest nonzero singular value relative to the largest one [-]. It measures how far the rows are from dependence.
     #[must_use]
     pub fn least(&self) -> f64 {
         match self.sizes[2].checked_sub(1) {
@@ -72,7 +73,7 @@ impl Rank {
         }
     }
 
-    /// The combination of rows that belongs to singular value number `i`, a unit vector.
+    /// Returns the left singular vector of singular value number `i`: a combination of rows, of unit length.
     ///
     /// # Panics
     /// If there is no such value.
@@ -81,7 +82,7 @@ impl Rank {
         self.left.column(i).to_vec()
     }
 
-    /// The left null space as it would be if the suspicious singular values were zero; nothing where none is.
+    /// Returns the left null space with all suspected singular values counted as zero; `None` where none is suspected.
     #[must_use]
     pub fn almost_null(&self) -> Option<Matrix> {
         let rank = self.sizes[2];

@@ -1,4 +1,4 @@
-//! The fewest joints to change so that nothing depends any more and nothing else moves.
+//! Search for the fewest joints whose change makes all equations independent and leaves the motion as it is.
 //!
 //! ```text
 //! a joint of another kind transmits W' ⊂ W;   C: the directions of W that it gives up
@@ -6,9 +6,9 @@
 //! mended without new freedoms  ⇔  C N has independent rows (each takes a redundancy) and as many as columns
 //! ```
 //!
-//! Combinations of one, two and three joints are tried in the order of the scene. Where more are needed, joints are taken one by
-//! one, each as large a step as there is. What is found is tested on the joints themselves: their rank must be the same, and all
-//! their rows must count.
+//! Combinations of one, two and three joints are tried in the order of the scene. Where more are needed, joints are changed one after
+//! another, each time the one that removes most redundancies. The result is checked with the changed joints: the rank must be the same, and
+//! all rows must be independent.
 
 use super::Vector;
 use super::decompose::{Group, ZERO, dimension};
@@ -20,12 +20,12 @@ use mbs_core::outputs::Wrench;
 use mbs_core::scene::{Axis, BodyId, Dimension, Freedom, Joint, JointKind};
 use mbs_linear::Matrix;
 
-/// One joint with another kind.
+/// Change of a joint to another kind.
 #[derive(Debug, Clone, PartialEq)]
 pub struct JointChange {
     /// Index of the joint.
     pub joint: usize,
-    /// New kind of the joint; `Free`: leave it out.
+    /// New kind of the joint; `Free` removes the joint.
     pub kind: JointKind,
     /// The second axis that a universal joint needs, in the reference configuration.
     pub axis: Option<[f64; 3]>,
@@ -34,15 +34,15 @@ pub struct JointChange {
 /// Changes that make all equations of a set independent and leave the motion as it is.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Remedy {
-    /// One change per joint.
+    /// Changes of joints, one for each joint.
     pub changes: Vec<JointChange>,
-    /// A body that is left out, with the joints above.
+    /// A body to remove, together with the joints above.
     pub body: Option<usize>,
-    /// Was every smaller number of joints tried in vain?
+    /// Is it certain that no smaller number of joints suffices?
     pub is_smallest: bool,
 }
 
-/// A change, and what it takes from the null space: one row per direction given up.
+/// A change of a joint, with its effect on the null space: one row for each direction that the new joint no longer transmits.
 struct Choice {
     change: JointChange,
     link: Link,
@@ -50,10 +50,10 @@ struct Choice {
     taken: Vec<Vec<f64>>,
 }
 
-/// Most combinations of joints that are tried, for the time that it takes. Chosen, not tuned.
+/// Number of combinations of joints that are tried at most, which limits the time. Chosen, not tuned.
 const MOST_TRIED: usize = 200_000;
 
-/// Searches a remedy for a group of dependent joints at a position.
+/// Searches for a remedy of a group of dependent joints at a position.
 pub(crate) fn remedy(
     linkage: &Linkage,
     (part, at): (&Part, &Poses),
@@ -79,7 +79,7 @@ pub(crate) fn remedy(
         .or_else(|| verified(greedy(&options, k)?, false))
 }
 
-/// A body that can be left out with all its joints: a third crank of a parallelogram carries nothing that others do not.
+/// Returns a body that can be removed with all its joints, such as the third crank of a parallelogram.
 fn without_a_body(linkage: &Linkage, (part, at): (&Part, &Poses), group: &Group) -> Option<Remedy> {
     let links: Vec<(usize, &Link)> =
         group.places.iter().map(|&i| (part.joints[i], &linkage.links[part.joints[i]])).collect();
@@ -125,8 +125,8 @@ fn index(body: BodyId) -> Option<usize> {
     if let BodyId::Body(b) = body { Some(b) } else { None }
 }
 
-/// The gentler kinds that a joint may be replaced by, those with the fewest freedoms first: they let move what it does and more, about the
-/// axes that it has. A second axis to turn about is found.
+/// Returns the joint kinds with more freedom that may replace a joint, those with the fewest freedoms first. They allow its motions and more,
+/// about the same axes. A second axis of rotation is found later, where the new kind needs one.
 fn gentler(joint: &Joint<f64>, dimension: Dimension) -> Vec<JointKind> {
     let own = joint.kind.freedoms(dimension);
     let fits = |kind: &JointKind| {
@@ -140,7 +140,7 @@ fn gentler(joint: &Joint<f64>, dimension: Dimension) -> Vec<JointKind> {
         let is_placed = (!needed[0] || joint.axes[0].is_some()) && (!needed[1] || is_found);
         let is_allowed = dimension == Dimension::Spatial || !kind.is_spatial_only();
         let is_joint = !joint.kind.is_link() && !kind.is_link();
-        // a bearing is not replaced by what neither holds its place nor its axis
+        // a new kind must keep the joint's translation or its rotation: otherwise it would not be a similar joint
         let is_near = kind.translation(dimension) == joint.kind.translation(dimension)
             || kind.rotation(dimension) == joint.kind.rotation(dimension);
         let is_gentler = is_joint
@@ -154,7 +154,7 @@ fn gentler(joint: &Joint<f64>, dimension: Dimension) -> Vec<JointKind> {
     kinds
 }
 
-/// Does the kind turn about a second axis?
+/// Does the joint kind rotate about a second axis?
 fn takes_second_axis(kind: JointKind, dimension: Dimension) -> bool {
     kind.freedoms(dimension).contains(&Freedom::Turn(Axis::Second))
 }
@@ -181,7 +181,7 @@ fn options_of(
         if axis.is_some() {
             joint.axes[1] = axis;
         }
-        // A guide needs the coordinates that it drives.
+        // A guided joint is not changed, because its guide needs the coordinates.
         if link.is_guided {
             continue;
         }
@@ -194,7 +194,7 @@ fn options_of(
             (0..null.n_columns()).map(entry).collect::<Vec<f64>>()
         });
         let taken: Vec<_> = rows.collect();
-        // Directions given up that are determined would leave a new freedom.
+        // If a direction that the new joint gives up is determined, its loss would add a freedom.
         if !taken.is_empty() && independent(&taken) {
             options.push(Choice {
                 change: JointChange { joint: index, kind, axis },
@@ -207,7 +207,7 @@ fn options_of(
     options
 }
 
-/// The direction of the moment that is most open at a joint, in the reference configuration.
+/// Returns the direction in which the joint's reaction moment is most undetermined, in the reference configuration.
 fn open_moment(
     link: &Link,
     at: &Poses,
@@ -225,7 +225,7 @@ fn open_moment(
     (size > ZERO).then(|| (turned.transpose() * largest / size).into())
 }
 
-/// An orthonormal basis of what `own` spans and `kept` does not, in weights of `own`.
+/// Returns an orthonormal basis of the directions in the span of `own` that are orthogonal to `kept`, as weights of `own`.
 fn given_up(
     linkage: &Linkage,
     length: f64,
@@ -234,7 +234,7 @@ fn given_up(
 ) -> Vec<Vec<f64>> {
     let entries = |w: &Wrench<f64>| linkage.components(&w.force, &(w.moment / length));
     let own: Vec<[f64; 6]> = own.iter().map(entries).collect();
-    // The directions of a joint are orthonormal, so that weights are products.
+    // The directions of a joint are orthonormal, so that scalar products are the weights.
     let weights = |w: &Wrench<f64>| {
         let x = entries(w);
         own.iter().map(|o| o.iter().zip(&x).map(|(a, b)| a * b).sum()).collect::<Vec<f64>>()
@@ -255,7 +255,7 @@ fn independent(rows: &[Vec<f64>]) -> bool {
     dimension(&stacked(&rows.iter().collect::<Vec<_>>())) == rows.len()
 }
 
-/// The first combination of one, two or three joints that takes all k redundancies.
+/// Returns the first combination of one, two or three changes that removes all k redundancies.
 fn search(options: &[Choice], k: usize) -> Option<Vec<usize>> {
     let mut tried = 0;
     for size in 1..=3 {
@@ -297,13 +297,13 @@ fn extend(
     None
 }
 
-/// Returns the number of redundancies that some changes take together.
+/// Returns the number of redundancies that several changes remove together.
 fn takes(options: &[Choice], chosen: &[usize]) -> usize {
     let rows: Vec<&Vec<f64>> = chosen.iter().flat_map(|&i| &options[i].taken).collect();
     dimension(&stacked(&rows))
 }
 
-/// Joint by joint, each time the change that takes most and leaves no freedom.
+/// Adds changes one after another, each time the one that removes most redundancies and adds no freedom.
 fn greedy(options: &[Choice], k: usize) -> Option<Vec<usize>> {
     let mut chosen = Vec::new();
     let mut taken = 0;
@@ -321,7 +321,7 @@ fn greedy(options: &[Choice], k: usize) -> Option<Vec<usize>> {
     Some(chosen)
 }
 
-/// The rank with the changes made, over the joints of the group: the same, and of all rows.
+/// Checks the changes by the rank over the joints of the group: it must stay the same, and all rows must be independent.
 fn holds(linkage: &Linkage, (part, at): (&Part, &Poses), group: &Group, found: &[&Choice]) -> bool {
     let rank = |changed: bool| {
         let link = |&place: &usize| {

@@ -1,11 +1,11 @@
-//! Residuals of the joints at a pose, one number for each row; the derivative of each along a twist is the row.
+//! Residuals of the joints at a pose, one for each row; the derivative of a residual along a twist is the product of its row with the twist.
 //!
 //! ```text
 //! force f:   f·(p₂ − p₁)   (distance: length − L)
 //! moment m:  m·e,   e = a₁ × a₂ (common axis),   ½ Σ u₁ₖ × u₂ₖ (no turning, or a guide's angle),   −(a·b − cos) n (universal)
 //! ```
 //!
-//! Angles are counted from a pose that meets the joints: guides stay where they stood.
+//! Angles are relative to a pose that satisfies the joints, so that guides keep their values.
 
 use super::Vector;
 use super::link::{Link, Poses, pose};
@@ -13,7 +13,7 @@ use super::parts::Part;
 use mbs_core::algebra::{cross, norm, rotation_vector};
 use mbs_core::scene::{Axis, Dimension, Freedom, Rotation};
 
-/// Residuals of a joint's rows [m, and angles times the part's length]; `met` is a pose that meets them.
+/// Returns the residuals of a joint's rows [m], with angles times the part's length. `met` is a pose that satisfies the joints.
 pub(crate) fn residuals(
     link: &Link,
     (part, dimension): (&Part, Dimension),
@@ -30,12 +30,12 @@ pub(crate) fn residuals(
             let is_distance = link.joint.kind.is_link();
             return match (is_guide, is_distance, i) {
                 (false, true, 0) => norm(&now) - norm(&then),
-                // A guide's slide, and that of a hinged link along its hinge, stay as they were.
+                // The slide of a guide keeps its value, and so does that of a hinged link along its hinge.
                 (true, ..) | (false, true, _) => {
                     let number = i.saturating_sub(guide);
                     w.force.dot(&now) - along(link, (dimension, number), met, &then)
                 }
-                // The places coincide, or slide along what f is across.
+                // The joint's points coincide, or differ only along directions orthogonal to f.
                 _ => w.force.dot(&now),
             };
         }
@@ -44,25 +44,25 @@ pub(crate) fn residuals(
     wrenches.iter().enumerate().map(row).collect()
 }
 
-/// Offset p₂ − p₁ of the places of a joint.
+/// Returns the offset p₂ − p₁ of the joint's points on its two bodies [m].
 fn offset(link: &Link, at: &Poses) -> Vector {
     link.place(at, 1) - link.place(at, 0)
 }
 
-/// The slide of a pose along the axis of a coordinate, which a guide drives, or along that of the hinge.
+/// Returns the component of `offset` along the axis of a coordinate that a guide drives, or along the axis of the hinge.
 fn along(link: &Link, (dimension, number): (Dimension, usize), at: &Poses, offset: &Vector) -> f64 {
     let driven = link.joint.kind.freedom(dimension, number).and_then(Freedom::axis);
     let axis = link.joint.direction(driven.unwrap_or(Axis::First));
     (pose(at, link.joint.bodies[0]).rotation * axis).dot(offset)
 }
 
-/// The angle by which the bodies are turned against what the joint allows.
+/// Returns the rotation of the second body relative to the first that the joint does not allow.
 fn turned(link: &Link, dimension: Dimension, met: &Poses, at: &Poses, is_guide: bool) -> Vector {
     let [first, second] = link.joint.bodies.map(|body| pose(at, body).rotation);
     match link.joint.kind.rotation(dimension) {
         _ if is_guide => {
             let [first_met, second_met] = link.joint.bodies.map(|body| pose(met, body).rotation);
-            // What the relative rotation has changed by, in present axes of the first body.
+            // The change of the relative rotation since `met`, in present axes of the first body.
             let change = first * (first_met.transpose() * second_met);
             rotation_vector(&(second * change.transpose()))
         }

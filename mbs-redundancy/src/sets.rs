@@ -1,4 +1,4 @@
-//! Dependent sets of joints, with what each joint of them leaves open.
+//! Sets of dependent joints, and the components of each joint's reaction that are undetermined.
 
 use super::decompose::{Group, ZERO, dimension, groups};
 use super::link::Poses;
@@ -15,50 +15,50 @@ use mbs_linear::Matrix;
 pub struct Member {
     /// Index of the joint.
     pub joint: usize,
-    /// Directions of its reaction that nothing determines: forces, moments about its place, and both together.
+    /// Numbers of directions of the reaction that nothing determines: of forces, of moments about the joint's point, and of both together.
     pub open: [usize; 3],
-    /// Whether each component of the joint's reaction is determined: [Fx, Fy, Mz], or all six, in global axes.
+    /// Whether each component of the joint's reaction is determined, in global axes: [Fx, Fy, Mz] in a plane, else all six.
     pub is_unique: Vec<bool>,
     /// Is its guide among the dependent equations?
     pub guide: bool,
 }
 
-/// Joints whose equations depend on each other, none of which can be left out of the set.
+/// Minimal set of joints whose equations depend on each other: without any of them the others would not.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Set {
     /// Joints of the set, in the order of the scene.
     pub members: Vec<Member>,
-    /// Number of equations that follow from the others.
+    /// Number of redundant equations, which follow from the others.
     pub redundant: usize,
-    /// In every position, or in this one.
+    /// Positions in which the dependency holds: all, or only this one.
     pub nature: Nature,
-    /// Does it follow to the last digits? Else almost: it would if the numbers of the scene had some digits more, or less.
+    /// Do the equations depend on each other to machine precision? If not, they nearly do, possibly because of rounded numbers in the scene.
     pub is_exact: bool,
-    /// The largest singular value that was taken as zero, over the largest [-].
+    /// The largest singular value that counts as zero, relative to the largest one [-].
     pub sigma: f64,
-    /// Remedy that would mend the set, where one was found.
+    /// Changes that would remove the dependency, where some were found.
     pub remedy: Option<Remedy>,
 }
 
 /// Diagnosis of the joints of a scene at a position.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Diagnosis {
-    /// Equations of all joints, freedoms of all bodies without joints, rank.
+    /// Number of equations of all joints, number of freedoms of all bodies without joints, and rank.
     pub sizes: [usize; 3],
-    /// Smallest gap between singular values that count and those that do not [-].
+    /// Smallest gap between nonzero singular values and those that count as zero [-].
     pub gap: f64,
-    /// Smallest singular value that counts, over the largest of its part [-].
+    /// Smallest singular value that counts as nonzero, relative to the largest one of its part [-].
     pub least: f64,
     /// Dependent sets, in the order of their first joints.
     pub sets: Vec<Set>,
-    /// Parts that are too large to be looked at, by their first joints.
+    /// First joint of each part that is too large for an analysis.
     pub too_large: Vec<usize>,
 }
 
-/// Most entries of a matrix whose singular values are taken: some ten seconds.
+/// Number of entries of the largest matrix whose singular values are computed, which takes some ten seconds.
 const LARGEST: usize = 4_000_000;
 
-/// Finds the dependent sets of a mechanism at a position that meets its joints.
+/// Diagnoses the dependent sets of a mechanism at a position that satisfies its joints.
 ///
 /// Cost: about 20 m n² operations for a part of m equations and n freedoms, ten times as many where it has dependent sets.
 #[must_use]
@@ -89,7 +89,7 @@ pub fn diagnose(linkage: &Linkage, at: &Poses) -> Diagnosis {
     all
 }
 
-/// A part with its rank.
+/// A part of the mechanism with its rows and their rank.
 struct Found<'a> {
     linkage: &'a Linkage,
     part: &'a Part,
@@ -141,7 +141,7 @@ impl Found<'_> {
         }
     }
 
-    /// Finds the nature of a group by the rank of its rows alone, at other positions.
+    /// Determines the nature of a group from the rank of its rows alone, at other positions.
     fn nature(&self, group: &Group, near: &[Vec<RigidMotion<f64>>]) -> Nature {
         if self.rank.free.n_columns() == 0 {
             return Nature::Rigid;
@@ -162,7 +162,7 @@ impl Found<'_> {
         }
     }
 
-    /// Returns a joint with what its reaction leaves open: the span of its wrenches in the null space.
+    /// Returns a joint with the undetermined part of its reaction, which is the span of its wrenches in the null space.
     fn member(&self, place: usize, null: &Matrix) -> Member {
         let Jacobian { rows, wrenches, .. } = &self.jacobian;
         let joint = self.part.joints[place];
