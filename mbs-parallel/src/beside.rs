@@ -1,4 +1,4 @@
-//! A job on a thread of its own, looked at while it goes.
+//! A job on a separate thread, with regular calls on the calling thread until it ends.
 
 use crate::ensemble::Panicked;
 use core::ops::ControlFlow;
@@ -7,18 +7,19 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::thread;
 
-/// Stack of the thread of a job [bytes]: that of a process's first thread on most systems.
+/// Stack size of the thread of a job [bytes]: that of the first thread of a process on most systems.
 const STACK: usize = 8 << 20;
 
 /// Result of a job, or its panic.
 type Done<R> = Result<R, Panicked>;
 
-/// Does a job on a thread of its own, and calls `look` on this one once in a `period` until it is done. A job that panics is a result too.
+/// Runs a job on a separate thread, and calls `look` on the calling thread once in each `period` until the job ends. A job that panics gives
+/// a result too.
 ///
-/// Cost: a thread; the end of the job is seen at once.
+/// Cost: a thread. The end of the job is noticed at once.
 ///
 /// # Errors
-/// [`Panicked`]: what the job said, or that the system gives no thread.
+/// [`Panicked`] with the message of the job's panic, or with the message that the system gives no thread.
 ///
 /// ```
 /// use core::time::Duration;
@@ -42,7 +43,7 @@ pub fn beside<R: Send>(
     })
 }
 
-/// Does a job as [`beside`] does, but a `look` that breaks leaves the job to itself. The job then ends on its own, and what it gives is lost.
+/// Runs a job as [`beside`] does, but leaves the job when `look` breaks. The job then ends without a caller, and its result is lost.
 ///
 /// # Errors
 /// As for [`beside`].
@@ -63,12 +64,12 @@ pub fn apart<R: Send + 'static>(
     wait(&receiver, period, look).transpose()
 }
 
-/// A job that sends what it gave, and where that arrives.
+/// Returns a job that sends its result, and the receiver of the result.
 fn reported<R: Send>(job: impl FnOnce() -> R + Send) -> (impl FnOnce() + Send, Receiver<Done<R>>) {
     let (sender, receiver) = channel();
     let job = move || {
         let done = catch_unwind(AssertUnwindSafe(job)).map_err(Panicked::new);
-        // perhaps it was left
+        // the receiver is gone if the caller has left the job
         let _ = sender.send(done);
     };
     (job, receiver)
@@ -86,7 +87,7 @@ fn gone() -> Panicked {
     Panicked::new(Box::new("the job gave no result"))
 }
 
-/// Waits for a job and looks meanwhile; nothing where a look breaks.
+/// Waits for a job and calls `look` regularly. Returns `None` if `look` breaks.
 fn wait<R>(
     receiver: &Receiver<Done<R>>,
     period: Duration,

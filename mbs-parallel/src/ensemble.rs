@@ -1,4 +1,4 @@
-//! Ensembles of independent jobs over threads, with results to one sink.
+//! Ensembles of independent jobs on several threads, with one sink for the results.
 
 #[cfg(test)]
 mod tests;
@@ -12,18 +12,18 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc;
 
-/// A pool of threads for ensembles; its own, never rayon's global one.
+/// A pool of threads for ensembles, separate from rayon's global pool.
 #[derive(Debug)]
 pub struct Ensemble {
     pool: ThreadPool,
     threads: NonZeroUsize,
 }
 
-/// The system gave no threads.
+/// Error of an operating system that gave no threads.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum EnsembleError {
-    /// This many threads could not be started.
+    /// So many threads could not be started.
     Threads(NonZeroUsize),
 }
 
@@ -32,9 +32,9 @@ pub enum EnsembleError {
 pub struct Panicked(String);
 
 impl Ensemble {
-    /// Starts `threads` threads, or as many as there are processors for this process. One thread takes the same path as many.
+    /// Starts `threads` threads; by default one for each processor of this process. One thread runs the same code as many.
     ///
-    /// Cost: the threads stand by until the ensemble is dropped, without load.
+    /// Cost: the threads exist until the ensemble is dropped, and wait without load.
     ///
     /// # Errors
     /// [`EnsembleError::Threads`] when the system gives fewer.
@@ -46,18 +46,17 @@ impl Ensemble {
         Ok(Self { pool, threads })
     }
 
-    /// Threads that jobs run on.
+    /// Number of threads that run jobs.
     #[must_use]
     pub fn threads(&self) -> NonZeroUsize {
         self.threads
     }
 
-    /// Runs `job(i)` for every `i` in `jobs`, and hands each result to `sink` in the order of completion.
+    /// Runs `job(i)` for every `i` in `jobs`, and passes each result to `sink` in the order of completion.
     ///
-    /// Jobs begin in the order of the list: each thread takes the next one when it has finished its last. `sink` is called on
-    /// the calling thread, which runs no job. When it breaks, no further job begins, and the results of those under way are
-    /// dropped. A job that panics is a result too; whatever it left behind must not be seen by others, so jobs should share
-    /// only what they do not change.
+    /// Jobs begin in the order of the list: each thread takes the next job when its last one has ended. `sink` is called on the calling
+    /// thread, which runs no job. When `sink` breaks, no further job begins, and the results of running jobs are dropped. A panic of a job is
+    /// a result too. Such a job may leave data half-changed, so jobs should share only data that they do not change.
     ///
     /// Cost: one atomic addition and one message for each job.
     pub fn run<R: Send>(
@@ -89,14 +88,14 @@ impl Ensemble {
     }
 }
 
-/// Processors that this process may use; one where the system does not say.
+/// Returns the number of processors that this process may use; one where the system does not report it.
 #[must_use]
 pub fn available() -> NonZeroUsize {
     std::thread::available_parallelism().unwrap_or(NonZeroUsize::MIN)
 }
 
 impl Panicked {
-    /// Takes the words of a panic; those of [`panic!`] are texts.
+    /// Extracts the message of a panic; messages of [`panic!`] are texts.
     pub(crate) fn new(payload: Box<dyn Any + Send>) -> Self {
         let text = payload.downcast_ref::<&str>().map(|text| (*text).to_owned());
         let text = text.or_else(|| payload.downcast_ref::<String>().cloned());

@@ -7,10 +7,10 @@ pub mod team;
 pub use beside::{apart, beside};
 pub use team::{Pool, ThreadTeam, Threads};
 
-/// Most threads of a team: those beyond the processors wait for each other.
+/// Returns the largest allowed number of threads of a team. More threads than processors would wait for each other.
 #[must_use]
 pub fn most_threads() -> usize {
-    /// Threads that are allowed on any machine, so that a small one shows what a larger one does. Chosen, not tuned.
+    /// Number of threads that is allowed on any machine, so that a small machine can run the setup of a larger one. Chosen, not tuned.
     const ALWAYS: usize = 8;
     ensemble::available().get().max(ALWAYS)
 }

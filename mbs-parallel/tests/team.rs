@@ -1,11 +1,11 @@
-//! Teams: every piece of work is done once, panics come through, and nothing is left behind.
+//! Tests of teams: every piece of work is done once, panics reach the caller, and no work remains.
 
 use mbs_math::team::{self, Alone, Team};
 use mbs_parallel::{Pool, ThreadTeam, Threads};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Any of the teams.
+/// Either kind of team.
 #[derive(Debug)]
 enum Any {
     Threads(Threads),
@@ -35,14 +35,14 @@ fn teams() -> Vec<Any> {
     let teams = [2, 3, 8].map(|n| Threads::ThreadTeam(ThreadTeam::new(n).expect("threads")));
     let threads = [Threads::One].into_iter().chain(teams);
     let mut teams: Vec<Any> = threads.map(Any::Threads).collect();
-    // Rayon's locks are in the standard library, which `cargo xtask races` cannot watch.
+    // The race detector of `cargo xtask races` does not see rayon's locks, which are in the standard library.
     if option_env!("MBS_SANITIZED").is_none() {
         teams.extend([1, 2, 3].map(|n| Any::Pool(Pool::new(n).expect("threads"))));
     }
     teams
 }
 
-/// A binary tree of forks of so many levels; the leaves are counted and their numbers summed.
+/// Runs a binary tree of forks with `level` levels. Counts the leaves and returns the sum of their numbers.
 fn forks(team: &impl Team, level: u32, number: u64, leaves: &AtomicUsize) -> u64 {
     if level == 0 {
         leaves.fetch_add(1, Ordering::Relaxed);
@@ -57,7 +57,7 @@ fn forks(team: &impl Team, level: u32, number: u64, leaves: &AtomicUsize) -> u64
 
 #[test]
 fn every_leaf_of_nested_forks_is_run_once() {
-    // More forks than the queue of a thread team has places. Leaves are numbered 2^12 .. 2^13.
+    // There are more forks than the queue of a thread team can hold. Leaves have the numbers 2^12 .. 2^13.
     for team in teams() {
         for _ in 0..20 {
             let leaves = AtomicUsize::new(0);
@@ -101,7 +101,7 @@ fn a_panic_on_either_side_reaches_the_caller_and_the_team_works_on() {
             };
             let result = catch_unwind(AssertUnwindSafe(|| team.join(|| act(0), || act(1))));
             assert!(result.is_err(), "{team:?}");
-            // A side that does not panic may or may not have begun; it never runs after the caller went on.
+            // A side that does not panic may or may not have begun. It must not run after `join` has returned.
             let before = done.load(Ordering::Relaxed);
             let leaves = AtomicUsize::new(0);
             assert_eq!(forks(&team, 6, 1, &leaves), (64..128).sum::<u64>());
@@ -178,7 +178,7 @@ fn vectors_and_sums_have_the_bits_of_one_thread() {
         team::sum(team, x.len(), |from, to| x[from..to].iter().fold(0.0, |sum, x| sum + x * x))
     };
     let expected = dot(&Any::Threads(Threads::One));
-    // Against the sum in order: rounding of 1e5 additions of up to 1e6.
+    // The tolerance against the sum in order covers rounding errors of 1e5 additions of values up to 1e6.
     let plain: f64 = x.iter().map(|x| x * x).sum();
     assert!((expected - plain).abs() < 1e-12 * plain);
     for team in teams() {

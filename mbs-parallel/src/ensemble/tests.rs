@@ -1,10 +1,10 @@
-//! Order, panics, stops and counts of an ensemble.
+//! Tests of an ensemble: order of jobs, panics, early ends and counts.
 
 use super::*;
 use std::collections::BTreeMap;
 use std::thread::{ThreadId, current};
 
-/// Numbers of threads that are tried.
+/// Numbers of threads that the tests use.
 const THREADS: [usize; 4] = [1, 2, 3, 8];
 
 fn ensemble(threads: usize) -> Ensemble {

@@ -1,4 +1,4 @@
-//! A closure on the stack of one thread that another thread may run: the one place of this crate with `unsafe`.
+//! A closure on the stack of one thread that another thread may run: the only module of this crate with `unsafe`.
 //!
 //! ```text
 //! owner:   Job on its stack -> Handle into a queue ... waits until the job is done ... takes the panic, if any
@@ -8,22 +8,21 @@
 //! # Proof
 //!
 //! 1. *A handle never outlives its job.* [`Job::with_handle`] is the only way to make one. It gives the handle to `lend`, and
-//!    does not return (nor unwind) before `is_done` is true. A handle is consumed by [`Handle::run`], which is the last to touch
-//!    the job: its last access is the store to `done`. A handle that is dropped instead of run would make the owner wait for
-//!    ever, which is no memory fault. `lend` gets handles back that no thread took ([`ThreadTeam`](super::ThreadTeam) pops until all are run).
-//! 2. *No two threads touch closure or panic at the same time.* Before the handle is made only the owner can name the job. Then the
-//!    owner reads nothing but `done` until it is true; the handle is neither `Clone` nor `Copy`, so there is one runner. The
-//!    runner's writes happen before its `Release` store of `done`; the owner's `Acquire` load that sees it happens before its
-//!    read of the panic. The queue's own synchronisation orders the making of the job before the run.
-//! 3. *Sending is sound.* The closure is `Send` (bound of [`Job::with_handle`]) and so is a panic's payload. A handle, which is
-//!    no more than the right to run the one and leave the other, may go to another thread.
-//! 4. *No unwinding through foreign frames.* The closure runs under `catch_unwind`; a panic is kept, and is resumed by the
-//!    owner.
-//! 5. *Lifetimes.* A handle forgets how long the closure may be borrowed; by point 1 it is run while the owner waits, and
-//!    so within that time.
+//!    neither returns nor unwinds before `is_done` is true. [`Handle::run`] consumes the handle, and its last access to the job
+//!    is the store to `done`. If a handle were dropped instead of run, the owner would wait for ever, which is no memory fault.
+//!    `lend` gets back the handles that no thread took ([`ThreadTeam`](super::ThreadTeam) pops until all are run).
+//! 2. *No two threads access closure or panic at the same time.* Before the handle is made, only the owner can name the job. Then
+//!    the owner reads nothing but `done` until it is true. The handle is neither `Clone` nor `Copy`, so there is one runner. The
+//!    runner's writes happen before its `Release` store of `done`. The owner's `Acquire` load that sees the store happens before
+//!    its read of the panic. The synchronisation of the queue orders the creation of the job before the run.
+//! 3. *Sending is sound.* The closure is `Send` (bound of [`Job::with_handle`]), and so is the payload of a panic. A handle is
+//!    only the right to run the closure and to store the payload, so it may go to another thread.
+//! 4. *No unwinding through foreign frames.* The closure runs under `catch_unwind`. A panic is stored, and the owner resumes it.
+//! 5. *Lifetimes.* A handle does not have the lifetime of the closure's borrows. By point 1 it is run while the owner waits, and
+//!    so within that lifetime.
 //!
-//! The closure is dynamic, so that a fork is one function for all the work there is. It is called where another thread waits,
-//! which takes longer than a virtual call.
+//! The closure is a trait object, so that one function makes the forks of all kinds of work. The virtual call takes less time than
+//! the wait of another thread.
 
 #![allow(unsafe_code, reason = "the proof is above")]
 
@@ -35,14 +34,14 @@ use std::sync::atomic::{AtomicBool, Ordering};
 /// Closure that a job runs.
 type Work<'a> = &'a mut (dyn FnMut() + Send);
 
-/// A closure that waits to be run, once.
+/// A closure that waits to be run once.
 pub(super) struct Job<'a> {
     work: UnsafeCell<Work<'a>>,
     panic: UnsafeCell<Option<Box<dyn Any + Send>>>,
     done: AtomicBool,
 }
 
-/// The right, and the duty, to run a job.
+/// The right and the duty to run a job.
 #[derive(Debug)]
 pub(super) struct Handle(*const ());
 
@@ -52,7 +51,7 @@ unsafe impl Send for Handle {}
 impl Handle {
     /// Runs the job and marks it done.
     pub(super) fn run(self) {
-        // SAFETY: points 1 and 5: the job is alive until `done` is stored, which is the last that happens here.
+        // SAFETY: points 1 and 5: the job is alive until `done` is stored, which is the last action here.
         let job = unsafe { &*self.0.cast::<Job<'_>>() };
         // SAFETY: point 2: the owner touches nothing but `done` meanwhile, and there is one runner.
         let (work, panic) = unsafe { (&mut *job.work.get(), &mut *job.panic.get()) };
@@ -61,7 +60,7 @@ impl Handle {
     }
 }
 
-/// Shows whether a job is done.
+/// Shows the owner of a job whether it is done.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Done<'a>(&'a AtomicBool);
 
@@ -72,8 +71,8 @@ impl Done<'_> {
 }
 
 impl<'a> Job<'a> {
-    /// Makes a job of `work`, hands it to `lend`, and returns when it is done. `lend` must see to it that the handle is run by
-    /// somebody, and should return when it is. What it returns is passed on, and so is a panic of either.
+    /// Makes a job of `work`, passes its handle to `lend`, and returns when the job is done. `lend` must ensure that some thread runs the
+    /// handle, and should return after that. Its return value is passed on, and so is a panic of `work` or of `lend`.
     pub(super) fn with_handle<R>(work: Work<'a>, lend: impl FnOnce(Handle, Done<'_>) -> R) -> R {
         let job = Self {
             work: UnsafeCell::new(work),

@@ -1,7 +1,7 @@
-//! Teams of threads for the work of one step: [`Pool`] on rayon, [`ThreadTeam`] with a queue of crossbeam, and [`Threads`], a thread team
-//! or none, chosen at run time.
+//! Teams of threads for the work of one step. [`Pool`] uses rayon, [`ThreadTeam`] a queue of crossbeam, and [`Threads`] is a thread team or
+//! the caller's thread, chosen at run time.
 //!
-//! All of them give the same bits: how work is cut is none of their business ([`mbs_math::team`]).
+//! All of them give the same bits, because the division of work does not depend on the team ([`mbs_math::team`]).
 
 mod job;
 mod pool;
@@ -18,12 +18,12 @@ pub enum Threads {
     /// The caller's thread alone.
     #[default]
     One,
-    /// Threads that wait for work awake.
+    /// Threads that wait actively for work.
     ThreadTeam(ThreadTeam),
 }
 
 impl Threads {
-    /// The caller's thread for `n` = 1 (or 0), a [`ThreadTeam`] of n for more.
+    /// Creates the caller's thread alone for `n` = 1 (or 0), a [`ThreadTeam`] of `n` threads for more.
     ///
     /// # Errors
     /// When the operating system gives no threads.

@@ -1,19 +1,19 @@
-//! A team on rayon.
+//! Thread team on a pool of rayon.
 
 use mbs_math::team::Team;
 use std::sync::Arc;
 
-/// Threads of a rayon pool of its own; the program's global pool is left alone.
+/// Threads of a separate rayon pool; the global pool of the program is not used.
 ///
-/// A step called from outside the pool enters and leaves it at every fork, which takes microseconds: run all steps inside
-/// [`Pool::enter`].
+/// A step that is called from outside the pool enters and leaves the pool at every fork, which takes microseconds. Run all steps inside
+/// [`Pool::enter`] instead.
 #[derive(Debug, Clone)]
 pub struct Pool {
     pool: Arc<rayon::ThreadPool>,
 }
 
 impl Pool {
-    /// `n` threads, at least one.
+    /// Creates a pool of `n` threads, at least one.
     ///
     /// # Errors
     /// When the operating system gives no threads.
@@ -22,7 +22,7 @@ impl Pool {
         Ok(Self { pool: Arc::new(pool.map_err(std::io::Error::other)?) })
     }
 
-    /// Runs `work` on one of the threads.
+    /// Runs `work` on one of the threads of the pool.
     pub fn enter<R: Send>(&self, work: impl FnOnce() -> R + Send) -> R {
         self.pool.install(work)
     }

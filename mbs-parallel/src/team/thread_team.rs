@@ -1,11 +1,11 @@
-//! A team with one queue of forks: threads wait awake for a while, so that work changes hands in less than a microsecond.
+//! A team with one queue of forks. Threads wait actively for a while, so that another thread takes work in less than a microsecond.
 //!
 //! ```text
 //! spare = threads without work - forks in the queue           a fork is made only while spare > 0
 //! ```
 //!
-//! Two pieces of work are done one after the other by the thread that has them, unless another one waits. So a thread stays
-//! with the numbers that it has in its cache, and a fork that no thread takes costs a nanosecond.
+//! Unless another thread waits, a thread does both pieces of a fork one after the other. It then continues with the numbers in its cache, and
+//! such a fork costs a nanosecond.
 
 use super::job::{Handle, Job};
 use crossbeam_queue::ArrayQueue;
@@ -17,34 +17,34 @@ use std::sync::atomic::{AtomicBool, AtomicIsize, AtomicUsize, Ordering};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-/// Most forks that wait at the same time; a fork that finds no place is run by the one that made it. Chosen, not tuned.
+/// Forks that wait at the same time, at most. A fork beyond that is run by the thread that made it. Chosen, not tuned.
 const PLACES: usize = 1024;
-/// Time for which a thread without work stays awake: longer than the time between two steps.
+/// Time for which a thread without work waits actively: longer than the time between two steps.
 const AWAKE: Duration = Duration::from_micros(200);
-/// Longest sleep of a thread. No result depends on its waking up: a thread that forks works too.
+/// Longest sleep of a thread. No result depends on its wake-up, because a thread that forks works too.
 const ASLEEP: Duration = Duration::from_millis(20);
 
 /// The caller's thread and others that help it, until the last clone is dropped.
 ///
-/// Meant for steps that follow one another closely: threads burn time while they wait awake. For work that comes now and then
-/// take [`Pool`](super::Pool).
+/// A thread team suits steps that follow one another closely, since threads use processor time while they wait actively. For occasional work
+/// use [`Pool`](super::Pool).
 #[derive(Debug, Clone)]
 pub struct ThreadTeam {
     shared: Arc<Shared>,
     hands: Arc<Hands>,
 }
 
-/// State that all threads of a thread team share.
+/// State that all threads of a team use.
 #[derive(Debug)]
 struct Shared {
     forks: ArrayQueue<Handle>,
     is_over: AtomicBool,
-    /// Threads without work less forks in the queue: a fork that an idle thread takes changes nothing.
+    /// Threads without work minus forks in the queue. The number stays the same when an idle thread takes a fork.
     spare: CachePadded<AtomicIsize>,
     n_asleep: CachePadded<AtomicUsize>,
 }
 
-/// Threads that help the caller, and what wakes them.
+/// Threads that help the caller, and their wakers.
 #[derive(Debug)]
 struct Hands {
     shared: Arc<Shared>,
@@ -53,7 +53,7 @@ struct Hands {
 }
 
 impl ThreadTeam {
-    /// The caller and `n` - 1 threads more.
+    /// Starts a team of the caller and `n` - 1 more threads.
     ///
     /// # Errors
     /// When the operating system gives no threads.
@@ -83,7 +83,7 @@ impl Drop for Hands {
         self.shared.is_over.store(true, Ordering::Release);
         self.wakers.iter().for_each(Unparker::unpark);
         for thread in self.threads.drain(..) {
-            // Jobs catch their panics, so a thread has none of its own to report.
+            // Jobs catch their panics, so the thread itself cannot have panicked.
             let _ = thread.join();
         }
     }
@@ -99,12 +99,12 @@ impl Shared {
     }
 }
 
-/// The life of a thread that helps.
+/// Body of a helping thread: runs forks until the team is dropped.
 fn help(shared: &Shared, parker: &Parker) {
     let mut idle_since = None;
     shared.spare.fetch_add(1, Ordering::Relaxed);
     while !shared.is_over.load(Ordering::Acquire) {
-        // A hundred looks at the queue for one at the clock.
+        // The queue is checked a hundred times for each reading of the clock.
         for _ in 0..100 {
             if shared.run_one() {
                 idle_since = None;
@@ -149,7 +149,7 @@ impl Team for ThreadTeam {
     }
 }
 
-/// A piece of work, and its result once it has been run: small code, since there is a copy for each kind of work.
+/// A piece of work, then its result. The type is small code, because there is a copy for each kind of work.
 enum Piece<F, R> {
     Waits(F),
     Runs,
@@ -166,7 +166,7 @@ impl<R, F: FnOnce() -> R> Piece<F, R> {
 }
 
 impl ThreadTeam {
-    /// Puts `b` into the queue and runs `a`; both have been run when it returns.
+    /// Puts `b` into the queue and runs `a`. Both have been run when it returns.
     #[inline(never)]
     fn fork(&self, a: &mut (dyn FnMut() + Send), b: &mut (dyn FnMut() + Send)) {
         let shared = &*self.shared;
@@ -179,17 +179,17 @@ impl ThreadTeam {
             if shared.n_asleep.load(Ordering::SeqCst) > 0 {
                 self.hands.wakers.iter().for_each(Unparker::unpark);
             }
-            // What waits must be run even if `a` panics.
+            // The queued work must be run even if `a` panics.
             let result = std::panic::catch_unwind(std::panic::AssertUnwindSafe(a));
             if !done.is_done() {
-                // Now this thread has no work either.
+                // From here on this thread has no work either.
                 shared.spare.fetch_add(1, Ordering::Relaxed);
                 let backoff = Backoff::new();
                 while !done.is_done() {
                     if shared.run_one() {
                         continue;
                     }
-                    // Another thread runs it.
+                    // Another thread runs the queued work.
                     if backoff.is_completed() { std::thread::yield_now() } else { backoff.snooze() }
                 }
                 shared.spare.fetch_sub(1, Ordering::Relaxed);
