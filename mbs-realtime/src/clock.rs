@@ -1,16 +1,16 @@
-//! The clock that a loop is paced by: a trait, so that tests bring one of their own.
+//! Clock of a paced loop: a trait, so that tests can use another clock.
 
 use std::time::{Duration, Instant};
 
-/// A clock that never goes back, and ways to wait for it.
+/// A clock that never goes back, with two ways to wait.
 pub trait Clock {
-    /// Time since some instant that stays the same.
+    /// Returns the time since a fixed instant.
     fn now(&self) -> Duration;
 
-    /// Gives the processor away for at least `time`; it may take longer to come back.
+    /// Gives the processor to others for at least `time`; the wake-up may come later.
     fn sleep(&mut self, time: Duration);
 
-    /// One turn of waiting awake.
+    /// Makes one pass of an active wait.
     fn pause(&mut self);
 }
 
@@ -28,7 +28,7 @@ impl<C: Clock + ?Sized> Clock for &mut C {
     }
 }
 
-/// The monotonic clock of the system, from when it was made.
+/// The monotonic clock of the system; zero is the time of its creation.
 #[derive(Debug, Clone, Copy)]
 pub struct SystemClock(Instant);
 
@@ -60,7 +60,7 @@ impl Clock for SystemClock {
     }
 }
 
-/// Waits until `target`, asleep until `awake` before it, then awake. Returns at once when it is past.
+/// Waits until `target`: asleep until `awake` before it, then actively. Returns at once if it is past.
 pub fn wait_until(clock: &mut impl Clock, target: Duration, awake: Duration) {
     let rest = target.saturating_sub(clock.now());
     if rest > awake {

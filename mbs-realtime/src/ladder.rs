@@ -1,4 +1,4 @@
-//! Level at which the next task runs: down after an overrun, up after a quiet time, with hysteresis.
+//! Level at which the next task runs: it goes down after an overrun and up after a quiet time, with hysteresis.
 //!
 //! ```text
 //! down: the task was late and took longer than a period, or more than `patience` tasks in a row were late
@@ -6,7 +6,7 @@
 //! f:    doubled, up to 64, by a fall that comes before a rise has lasted as long as the quiet time; 1 again after one that has
 //! ```
 //!
-//! A task that is late only because it began late says nothing of its own level: the debt is caught up.
+//! A task that is late only because it began late does not show that its level is too high: the delay is reduced by shorter tasks.
 
 use crate::log::Action;
 use std::time::Duration;
@@ -14,25 +14,25 @@ use std::time::Duration;
 /// Largest ratio of the quiet time to the requested one [-]: six doublings. Chosen, not tuned.
 const MOST_TIMES: u32 = 64;
 
-/// When a loop that was degraded comes back up.
+/// Condition on which a degraded loop goes up a level.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Recovery {
-    /// Tasks in a row that must be in time and light. `≥ 1`.
+    /// Number of successive tasks that must be in time and light. `≥ 1`.
     pub tasks: u32,
-    /// A task is light that takes at most this percentage of a period. `1 ..= 100`.
+    /// Duration up to which a task is light, in percent of a period. `1 ..= 100`.
     pub percent: u32,
-    /// Late tasks in a row, each shorter than a period, after which the level goes down nevertheless: the debt does not shrink.
+    /// Number of successive late tasks, each shorter than a period, after which the level goes down anyway, since the delay does not shrink.
     pub patience: u32,
 }
 
 impl Default for Recovery {
-    /// 500 tasks of at most 70 % of a period; patience 10.
+    /// Returns 500 tasks of at most 70 % of a period, with a patience of 10 tasks.
     fn default() -> Self {
         Self { tasks: 500, percent: 70, patience: 10 }
     }
 }
 
-/// Level on which the loop stands, and the counts that move it.
+/// Present level of a loop, and the counts that change it.
 #[derive(Debug, Clone)]
 pub(crate) struct DegradationLadder {
     quiet: Recovery,
@@ -43,12 +43,12 @@ pub(crate) struct DegradationLadder {
     quiet_in_row: u64,
     /// Factor f of the quiet time [-].
     times: u32,
-    /// Tasks since the last rise, until it has proved itself.
+    /// Tasks since the last rise; `None` once the rise has lasted as long as the quiet time.
     since_rise: Option<u64>,
 }
 
 impl DegradationLadder {
-    /// Makes a ladder of `levels` `≥ 1` levels: 0 is everything, `levels − 1` the least.
+    /// Creates a ladder of `levels` `≥ 1` levels: 0 is everything, `levels − 1` the least.
     pub(crate) fn new(quiet: Recovery, period: Duration, levels: usize) -> Self {
         Self {
             quiet,
@@ -66,7 +66,7 @@ impl DegradationLadder {
         self.level
     }
 
-    /// Counts a task, and returns what is done about it, if anything.
+    /// Counts a task on the ladder. Returns the action after it, if there is one.
     pub(crate) fn after(&mut self, is_late: bool, duration: Duration) -> Option<Action> {
         self.watch_rise();
         if is_late { Some(self.late(duration)) } else { self.in_time(duration) }
@@ -100,7 +100,7 @@ impl DegradationLadder {
         Some(Action::Up { to: self.level })
     }
 
-    /// A rise that has lasted as long as the quiet time before it has proved itself.
+    /// Accepts a rise that has lasted as long as the quiet time, and resets the factor f to one.
     fn watch_rise(&mut self) {
         let needed = self.needed();
         if let Some(tasks) = &mut self.since_rise {

@@ -1,23 +1,23 @@
-//! Events out of the ordinary: overruns and changes of level, in bounded memory.
+//! Log of overruns and changes of level, in bounded memory.
 
 use std::time::Duration;
 
 /// Action after a task that was late, or after which the level changed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Action {
-    /// Late task that was finished; the next began at once.
+    /// Late task that was finished; the next one began at once.
     Finished,
-    /// Late task whose result was held back for this many periods.
+    /// Late task whose result was held until the end of a period.
     Held {
-        /// Periods in which the last result stood on.
+        /// Number of periods in which the result before remained valid.
         periods: u64,
     },
-    /// Late task, after which the next one runs at this level.
+    /// Late task, after which the level goes down to this one.
     Down {
         /// Level of the next task.
         to: usize,
     },
-    /// In time, and quiet for long enough; the next one runs at this level.
+    /// Task at the end of a quiet time, after which the level goes up to this one.
     Up {
         /// Level of the next task.
         to: usize,
@@ -27,21 +27,21 @@ pub enum Action {
 /// A task that was late, or after which the level changed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Entry {
-    /// Number of the task, from 0.
+    /// Index of the task, from 0.
     pub task: u64,
-    /// When it ended, since the loop began.
+    /// Time of the task's end, from the begin of the loop.
     pub at: Duration,
     /// Duration of the task.
     pub duration: Duration,
-    /// Time by which the task missed its deadline; zero where it did not.
+    /// Time by which the task missed its deadline; zero if it was in time.
     pub late: Duration,
-    /// The level at which it ran.
+    /// Level at which the task ran.
     pub level: usize,
-    /// Action that was taken.
+    /// Action after the task.
     pub action: Action,
 }
 
-/// The first entries, and how many more there were.
+/// The first entries, and the number of further ones.
 #[derive(Debug, Clone)]
 pub(crate) struct Log {
     pub(crate) entries: Vec<Entry>,
@@ -54,7 +54,7 @@ impl Log {
         Self { entries: Vec::with_capacity(capacity), left_out: 0, capacity }
     }
 
-    /// Takes one more entry, without allocation.
+    /// Adds an entry without allocation, or counts it if the log is full.
     pub(crate) fn take(&mut self, entry: Entry) {
         if self.entries.len() < self.capacity {
             self.entries.push(entry);

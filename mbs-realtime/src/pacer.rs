@@ -1,4 +1,4 @@
-//! Loop of tasks one period apart, and what happens when one is late.
+//! Loop of tasks one period apart, with a policy for late tasks.
 //!
 //! ```text
 //! task k: planned begin r_k, deadline d_k = r_k + P, end e_k;  late where e_k > d_k
@@ -17,35 +17,35 @@ use std::time::Duration;
 /// Policy for a task that ends after its deadline.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Overrun {
-    /// The late result is published as soon as it is there, and the next task begins at once. The schedule stays: tasks that are
-    /// shorter than a period catch the debt up, however large it is, and no task is left out.
+    /// The late result is published at once, and the next task begins at once. The schedule does not change. Tasks that are shorter than a
+    /// period reduce the delay until it is gone, and no task is left out.
     #[default]
     Finish,
-    /// The late result is published at the next boundary of a period, and the next task begins there; until then the last result
-    /// stands. The schedule is put off by these periods and they are not caught up: no task is left out, but each comes later.
+    /// The late result is published at the next end of a period, and the next task begins there. Until then the last result remains valid.
+    /// The schedule is shifted by these periods for good: no task is left out, but each comes later.
     Hold,
-    /// The loop continues as with [`Finish`](Self::Finish), and the level goes down one step of the ladder; it comes back up as
-    /// [`Recovery`] says.
+    /// The loop continues as with [`Finish`](Self::Finish), and the level goes down one step of the ladder. [`Recovery`] decides when it goes
+    /// up again.
     Degrade,
 }
 
-/// Pace of a loop: its period, and what becomes of late tasks.
+/// Pace of a loop: its period, and its policy for late tasks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Pace {
-    /// From the planned begin of a task to that of the next. `> 0`.
+    /// Time from the planned begin of a task to that of the next one. `> 0`.
     pub period: Duration,
     /// Policy for a task that is late.
     pub overrun: Overrun,
-    /// The loop waits asleep until so long before a begin, then awake: systems wake sleepers late. Zero: asleep only.
+    /// Time before a begin for which the loop waits actively rather than asleep, since systems wake sleepers late. Zero: asleep only.
     pub awake: Duration,
-    /// When a degraded loop comes back up.
+    /// Condition on which a degraded loop goes up a level.
     pub quiet: Recovery,
-    /// Entries of the log at most; those beyond are counted.
+    /// Entries of the log at most; further ones are only counted.
     pub log: usize,
 }
 
 impl Pace {
-    /// Finishes late tasks, is awake for 0.1 ms, and keeps 1000 entries.
+    /// Returns the defaults: late tasks are finished, the loop waits actively for 0.1 ms, and the log has 1000 entries.
     #[must_use]
     pub fn every(period: Duration) -> Self {
         Self {
@@ -58,15 +58,15 @@ impl Pace {
     }
 }
 
-/// A pace that is none.
+/// Error of a pace with an option out of range.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum PaceError {
     /// The period is zero.
     NoPeriod,
-    /// There is no level, not even that of everything.
+    /// The number of levels is zero, although level 0 always exists.
     NoLevel,
-    /// A quiet time of no task, or a share of a period that is not from 1 to 100 percent.
+    /// The quiet time has no task, or its percentage of a period is not from 1 to 100.
     NoQuiet,
 }
 
@@ -82,28 +82,28 @@ impl core::fmt::Display for PaceError {
 
 impl core::error::Error for PaceError {}
 
-/// The work of one period.
+/// Number and level of the task of one period.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Task {
     /// Number of the task, from 0.
     pub index: u64,
-    /// The level of the ladder at which it is to run: 0 is everything.
+    /// The level of the ladder at which the task is to run: 0 is everything.
     pub level: usize,
 }
 
-/// Work that a loop paces, one task for each period.
+/// Work of a paced loop, one task for each period.
 pub trait Work {
-    /// Error that keeps the work from continuing.
+    /// Error after which the work cannot continue.
     type Error;
 
-    /// The work of one period: read inputs, step. `Break` ends the loop after this task.
+    /// Does the work of one period: read inputs, step. `Break` ends the loop after this task.
     ///
     /// # Errors
-    /// What keeps it from continuing; the loop ends then.
+    /// The error after which the work cannot continue; the loop then ends.
     fn step(&mut self, task: Task) -> Result<ControlFlow<()>, Self::Error>;
 
-    /// Publishes the result of a task, which becomes valid now: write outputs. Called once for each task, at the end of its period, or as the
-    /// policy says.
+    /// Publishes the result of a task, which becomes valid at this time: write outputs. It is called once for each task, at the end of its
+    /// period, or later as the policy for late tasks says.
     fn publish(&mut self, task: Task) {
         let _ = task;
     }
@@ -117,7 +117,7 @@ impl<E, F: FnMut(Task) -> Result<ControlFlow<()>, E>> Work for F {
     }
 }
 
-/// A loop with everything that it measures, allocated before it begins.
+/// A paced loop with all its measures, allocated before it begins.
 #[derive(Debug, Clone)]
 pub struct Pacer {
     pace: Pace,
@@ -137,7 +137,7 @@ pub struct Pacer {
 }
 
 impl Pacer {
-    /// A loop over work that has `levels` levels; 1: there is nothing to degrade to.
+    /// Creates a loop for work with `levels` levels. With one level there is nothing to degrade to.
     ///
     /// # Errors
     /// [`PaceError`].
@@ -170,14 +170,14 @@ impl Pacer {
         })
     }
 
-    /// Does at most `tasks` tasks, the first at once, and returns when the last result is published.
+    /// Does at most `tasks` tasks, the first one at once, and returns when the last result is published.
     ///
-    /// A task that fails is not counted. A loop may be run again: its measures add up, its log continues, its level stays.
+    /// A task that fails is not counted. A loop may be run again: its measures add up, its log continues, and its level stays.
     ///
-    /// Cost of a task beside its work: two or three readings of the clock, and some hundred operations; no allocation.
+    /// Cost of a task in addition to its work: two or three readings of the clock, and some hundred operations; no allocation.
     ///
     /// # Errors
-    /// That of the work.
+    /// The error of the work.
     pub fn run<W: Work>(
         &mut self,
         tasks: u64,
@@ -229,7 +229,7 @@ impl Pacer {
         Ok(())
     }
 
-    /// Counts and measures of a task.
+    /// Counts a task and records its measures.
     fn count(&mut self, task: Task, duration: Duration, (deadline, end): (Duration, Duration)) {
         self.tasks += 1;
         if let Some(n) = self.at_level.get_mut(task.level) {
@@ -240,7 +240,7 @@ impl Pacer {
         self.margin.take(nanos(deadline) - nanos(end));
     }
 
-    /// Returns what is done about a task, late or not, and logs it where it is out of the ordinary.
+    /// Returns the action after a task, and logs the task if it was late or changed the level.
     fn after(&mut self, task: Task, late: Duration, duration: Duration) -> Option<Action> {
         let is_late = !late.is_zero();
         let action = match self.pace.overrun {
@@ -264,7 +264,7 @@ impl Pacer {
         action
     }
 
-    /// Returns ⌈late / P⌉, the number of periods.
+    /// Returns ⌈late / P⌉, the number of periods of a delay.
     fn periods(&self, late: Duration) -> u64 {
         u64::try_from(late.as_nanos().div_ceil(self.pace.period.as_nanos())).unwrap_or(u64::MAX)
     }
@@ -275,13 +275,13 @@ impl Pacer {
         &self.pace
     }
 
-    /// The level at which the next task runs.
+    /// Level at which the next task runs.
     #[must_use]
     pub fn level(&self) -> usize {
         self.ladder.level()
     }
 
-    /// Returns what was measured so far. Sorts: not for within the loop.
+    /// Returns the measures so far. It sorts the samples, so do not call it within the loop.
     #[must_use]
     pub fn report(&self) -> Report {
         let simulated = times(self.pace.period, self.tasks);
@@ -305,7 +305,7 @@ impl Pacer {
     }
 }
 
-/// Returns n P, the time of n periods.
+/// Returns the time n P of n periods.
 fn times(period: Duration, n: u64) -> Duration {
     let nanos = period.as_nanos().saturating_mul(u128::from(n));
     Duration::from_nanos(u64::try_from(nanos).unwrap_or(u64::MAX))

@@ -1,10 +1,10 @@
-//! Measures of a paced loop.
+//! Measures of a paced loop: times, margins and counts.
 
 use crate::log::Entry;
 use crate::sample::{Sample, nearest_rank};
 use std::time::Duration;
 
-/// Half, 99 of 100, and all of some times are not longer than these.
+/// Percentiles of some times: half, 99 of 100, and all of them are not longer than these.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Spread {
     /// Median of the times.
@@ -15,12 +15,12 @@ pub struct Spread {
     pub max: Duration,
 }
 
-/// Time left until the deadline [s]; negative where it was missed.
+/// Time left until the deadline [s]; negative after a missed deadline.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Margin {
-    /// Least of the margins.
+    /// Smallest of the margins.
     pub least: f64,
-    /// 99 of 100 were larger, or equal.
+    /// First percentile: 99 of 100 margins are at least as large.
     pub p1: f64,
     /// Median of the margins.
     pub p50: f64,
@@ -28,37 +28,37 @@ pub struct Margin {
 
 /// Measures of a loop so far.
 ///
-/// Percentiles are exact up to 65,536 tasks; of longer loops they are those of every second task, fourth, and so on. Extremes and
-/// counts are of all.
+/// Percentiles are exact up to 65,536 tasks. For longer loops they are those of every second task, every fourth, and so on. Extremes and
+/// counts include all tasks.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Report {
-    /// Tasks that were done.
+    /// Number of tasks done.
     pub tasks: u64,
-    /// Delays with which tasks began; tasks that the one before delayed are not counted.
+    /// Delays of the begins of tasks; a delay caused by the task before is not included.
     pub jitter: Spread,
     /// Durations of tasks, from their begin to their end.
     pub duration: Spread,
-    /// Time left until the deadlines.
+    /// Margins: times left until the deadlines.
     pub margin: Margin,
-    /// Tasks that ended after their deadline.
+    /// Number of tasks that ended after their deadline.
     pub overruns: u64,
-    /// The longest of their delays.
+    /// Longest delay after a deadline.
     pub latest: Duration,
-    /// Overruns and changes of level, the first ones.
+    /// The first overruns and changes of level.
     pub log: Vec<Entry>,
-    /// Number of overruns and changes of level beyond the listed ones.
+    /// Number of overruns and changes of level that the log does not contain.
     pub log_left_out: u64,
-    /// Tasks at each level.
+    /// Number of tasks at each level.
     pub at_level: Vec<u64>,
-    /// Periods by which the schedule was put off ([`Hold`](crate::Overrun::Hold)).
+    /// Number of periods by which the schedule was shifted ([`Hold`](crate::Overrun::Hold)).
     pub skipped: u64,
-    /// Delay of the last result behind the clock: what was put off, and how late it was.
+    /// Delay of the last result relative to the clock: the shift of the schedule plus the delay of its task.
     pub behind: Duration,
-    /// From the begin of the first task to the end of the last.
+    /// Time from the begin of the first task to the end of the last one.
     pub elapsed: Duration,
-    /// The time of the tasks alone.
+    /// Time of the tasks alone, without waiting.
     pub busy: Duration,
-    /// Tasks × period / busy: how many times faster than real time the work is.
+    /// Ratio tasks × period / busy: how many times faster than real time the work is [-].
     pub real_time_factor: f64,
 }
 
@@ -70,7 +70,7 @@ impl Report {
     }
 }
 
-/// Percentiles of times that are not negative.
+/// Returns percentiles of times that are not negative.
 pub(crate) fn spread(sample: &Sample) -> Spread {
     let Some((sorted, [_, max])) = sample.sorted() else { return Spread::default() };
     let time = |nanos: i64| Duration::from_nanos(u64::try_from(nanos).unwrap_or(0));
@@ -78,7 +78,7 @@ pub(crate) fn spread(sample: &Sample) -> Spread {
     Spread { p50: of(50), p99: of(99), max: time(max) }
 }
 
-/// Least value and percentiles of margins.
+/// Returns the smallest value and percentiles of margins.
 pub(crate) fn margin(sample: &Sample) -> Margin {
     let Some((sorted, [least, _])) = sample.sorted() else { return Margin::default() };
     #[allow(clippy::cast_precision_loss, reason = "nanoseconds of some months")]

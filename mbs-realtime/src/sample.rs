@@ -1,4 +1,4 @@
-//! Times of a run without end in bounded memory, and their percentiles.
+//! Sample of the times of an endless run in bounded memory, and its percentiles.
 //!
 //! ```text
 //! percentile p of n sorted values: the one with index ⌊(n − 1) p / 100⌋
@@ -6,20 +6,20 @@
 
 use std::time::Duration;
 
-/// Most values that are kept: half a megabyte. Percentiles of runs that are not longer are exact.
+/// Values that are stored at most: half a megabyte. Percentiles of runs up to this length are exact.
 const CAPACITY: usize = 1 << 16;
 
-/// The value of ascending ones that `percent` of them, rounded down, do not exceed: always one of them. `None` without any.
+/// Returns the value that `percent` of the ascending values, rounded down, do not exceed. It is one of the values; `None` if there are none.
 #[must_use]
 pub fn nearest_rank<T>(sorted: &[T], percent: usize) -> Option<&T> {
     sorted.get(sorted.len().checked_sub(1)? * percent.min(100) / 100)
 }
 
-/// Nanoseconds, all of them until there are too many; then every second one, every fourth, and so on.
+/// Sample of times [ns]: all of them up to the capacity, then every second one, every fourth, and so on.
 #[derive(Debug, Clone)]
 pub(crate) struct Sample {
     kept: Vec<i64>,
-    /// Values of which one is kept.
+    /// Distance of two stored values in the series of all values [-].
     every: u64,
     seen: u64,
     range: Option<[i64; 2]>,
@@ -30,7 +30,7 @@ impl Sample {
         Self { kept: Vec::with_capacity(CAPACITY), every: 1, seen: 0, range: None }
     }
 
-    /// Takes one more value, without allocation.
+    /// Adds a value without allocation.
     pub(crate) fn take(&mut self, value: i64) {
         let [least, most] = self.range.unwrap_or([value; 2]);
         self.range = Some([least.min(value), most.max(value)]);
@@ -45,7 +45,7 @@ impl Sample {
         self.seen += 1;
     }
 
-    /// Drops every second value, the first not.
+    /// Drops every second value, but not the first one.
     fn thin(&mut self) {
         for i in 0..CAPACITY / 2 {
             self.kept[i] = self.kept[2 * i];
@@ -54,7 +54,7 @@ impl Sample {
         self.every *= 2;
     }
 
-    /// Returns what was kept, ascending, and the least and the largest of all.
+    /// Returns the stored values in ascending order, and the least and largest of all values.
     pub(crate) fn sorted(&self) -> Option<(Vec<i64>, [i64; 2])> {
         let mut sorted = self.kept.clone();
         sorted.sort_unstable();
@@ -62,7 +62,7 @@ impl Sample {
     }
 }
 
-/// Nanoseconds of a time; some three hundred years at most.
+/// Converts a time to nanoseconds; the limit is about three hundred years.
 pub(crate) fn nanos(time: Duration) -> i64 {
     i64::try_from(time.as_nanos()).unwrap_or(i64::MAX)
 }
@@ -84,13 +84,13 @@ mod tests {
         let mut sample = Sample::new();
         let n = 5 * CAPACITY as i64;
         for value in 0..n {
-            // A permutation: the order says nothing of the size.
+            // A permutation in which order and size are unrelated.
             sample.take((value * 1_000_003) % n);
         }
         let (sorted, range) = sample.sorted().expect("there are values");
         assert_eq!(range, [0, n - 1]);
         assert!(sorted.len() <= CAPACITY && sorted.len() > CAPACITY / 4);
-        // A percentile of some 40,000 spread values is within a hundredth of that of all.
+        // The percentile of about 40,000 distributed values differs from that of all values by less than a hundredth.
         let median = nearest_rank(&sorted, 50).expect("there are values");
         assert!((median - n / 2).abs() < n / 100, "{median} of {n}");
     }

@@ -1,4 +1,4 @@
-//! The loop allocates nothing, however many overruns there are.
+//! The loop allocates nothing, for any number of overruns.
 
 use crate::common::{Script, ms};
 use mbs_realtime::{Overrun, Pace, Pacer, Recovery};
@@ -6,7 +6,7 @@ use mbs_testkit::allocations;
 
 #[test]
 fn no_policy_allocates_within_the_loop() {
-    // More tasks than the samples keep, a third of them late, more than the log keeps.
+    // There are more tasks than a sample stores. A third of them is late, more than the log stores.
     const TASKS: usize = 150_000;
     for overrun in [Overrun::Finish, Overrun::Hold, Overrun::Degrade] {
         let durations = (0..TASKS).map(|k| ms(if k % 100 > 66 { 12 } else { 3 })).collect();

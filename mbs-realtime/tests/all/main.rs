@@ -1,4 +1,4 @@
-//! The tests of this crate, in one program: each program would compile the same solvers anew. `cargo test -p mbs-realtime pacing::` runs one module.
+//! All tests of this crate in one program, so that the helpers are compiled once. `cargo test -p mbs-realtime pacing::` runs one module.
 
 mod common;
 

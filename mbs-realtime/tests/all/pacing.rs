@@ -1,4 +1,4 @@
-//! Every policy on a clock that is told what time it is: scripted durations in, instants out. Nothing here takes time.
+//! Every policy on a scripted clock: the durations of tasks are given, the instants are checked, and no real time passes.
 
 use crate::common::{Script, at, ms, us};
 use mbs_realtime::{Action, Overrun, Pace, PaceError, Pacer, Recovery};
@@ -43,7 +43,7 @@ fn a_task_that_ends_exactly_at_its_deadline_is_in_time() {
         assert_eq!(script.published, [(0, ms(10)), (1, ms(20)), (2, ms(30))]);
         let report = pacer.report();
         assert!(report.held() && report.margin.least.abs() < 1e-15);
-        // One nanosecond more is not.
+        // A task that is longer by one nanosecond is late.
         let mut script = Script::new(vec![ms(10) + Duration::from_nanos(1)]);
         let mut pacer = Pacer::new(pace(overrun), 2).expect("a pace");
         let mut clock = script.clock();
@@ -55,7 +55,7 @@ fn a_task_that_ends_exactly_at_its_deadline_is_in_time() {
 #[test]
 fn finish_publishes_late_results_at_once_and_catches_the_debt_up() {
     let (script, pacer) = run(pace(Overrun::Finish), 1, &[24, 8, 8, 2, 2]);
-    // The first ends 14 late, the second 12, the third 10, the fourth 2; the fifth begins at 42 and is in time.
+    // The delays are 14, 12, 10 and 2 ms for the first four tasks; the fifth begins at 42 ms and is in time.
     assert_eq!(script.begins, at(&[0, 24, 32, 40, 42]));
     let published = [(0, ms(24)), (1, ms(32)), (2, ms(40)), (3, ms(42)), (4, ms(50))];
     assert_eq!(script.published, published);
@@ -67,7 +67,7 @@ fn finish_publishes_late_results_at_once_and_catches_the_debt_up() {
     );
     assert!(report.log.iter().all(|e| e.action == Action::Finished && e.level == 0));
     assert_eq!(report.log[1].at, ms(32));
-    // Only the first had a begin that nothing delayed.
+    // Only the first begin was not delayed by a task before.
     assert_eq!(report.jitter.max, Duration::ZERO);
     assert!((report.margin.least + 14e-3).abs() < 1e-12);
 }
@@ -75,7 +75,7 @@ fn finish_publishes_late_results_at_once_and_catches_the_debt_up() {
 #[test]
 fn hold_publishes_late_results_at_the_next_boundary_and_puts_the_schedule_off() {
     let (script, pacer) = run(pace(Overrun::Hold), 1, &[4, 24, 3, 20]);
-    // The second is due at 20, ends at 34, is held until 40; the fourth is due at 60 and ends at 70, a boundary.
+    // The second task is due at 20 ms, ends at 34 and is held until 40. The fourth is due at 60 and ends at 70, the end of a period.
     assert_eq!(script.begins, at(&[0, 10, 40, 50]));
     assert_eq!(script.published, [(0, ms(10)), (1, ms(40)), (2, ms(50)), (3, ms(70))]);
     let report = pacer.report();
@@ -111,7 +111,7 @@ fn degrade_comes_back_up_a_level_at_a_time_after_quiet_times() {
     let mut durations = vec![12, 12];
     durations.extend([2; 12]);
     let (script, pacer) = run(pace(Overrun::Degrade), 3, &durations);
-    // Two levels down; the task after is still late by the debt? It ends at 26 of 30: no. Four quiet ones for each level.
+    // Two late tasks go two levels down. The next one ends at 26 ms of 30, in time. Four quiet tasks are needed for each level up.
     assert_eq!(script.levels, [0, 1, 2, 2, 2, 2, 1, 1, 1, 1, 0, 0, 0, 0]);
     let ups: Vec<_> = pacer
         .report()
@@ -125,22 +125,22 @@ fn degrade_comes_back_up_a_level_at_a_time_after_quiet_times() {
 
 #[test]
 fn tasks_that_are_in_time_but_heavy_do_not_bring_a_level_back() {
-    // 8 of 10 ms are more than 70 percent; 7 are not.
+    // 8 of 10 ms are more than 70 percent; 7 of 10 ms are not.
     let (script, _) = run(pace(Overrun::Degrade), 2, &[12, 8, 8, 8, 8, 8, 8, 8]);
     assert_eq!(script.levels, [0, 1, 1, 1, 1, 1, 1, 1]);
     let (script, _) = run(pace(Overrun::Degrade), 2, &[12, 7, 7, 7, 7, 7]);
     assert_eq!(script.levels, [0, 1, 1, 1, 1, 0]);
-    // One heavy task begins the quiet time anew.
+    // A heavy task restarts the quiet time.
     let (script, _) = run(pace(Overrun::Degrade), 2, &[12, 7, 7, 7, 8, 7, 7, 7, 7, 7]);
     assert_eq!(script.levels, [0, 1, 1, 1, 1, 1, 1, 1, 1, 0]);
 }
 
 #[test]
 fn a_debt_alone_does_not_degrade_until_patience_ends() {
-    // One task of 41 ms leaves 31 ms of debt; those after it are late and short. Patience is three.
+    // A task of 41 ms causes a delay of 31 ms; the tasks after it are late but short. The patience is three tasks.
     let (script, _) = run(pace(Overrun::Degrade), 4, &[41, 2, 2, 2, 2, 2]);
     assert_eq!(script.levels, [0, 1, 1, 1, 1, 1]);
-    // Of a whole period each they do not catch up: down after the fourth.
+    // Tasks of a whole period each do not reduce the delay: the level goes down after the fourth.
     let (script, _) = run(pace(Overrun::Degrade), 4, &[41, 10, 10, 10, 10, 10]);
     assert_eq!(script.levels, [0, 1, 1, 1, 1, 2]);
 }
@@ -175,7 +175,7 @@ fn a_task_that_fails_ends_the_loop_and_keeps_what_was_measured() {
         let mut pacer = Pacer::new(pace(overrun), 2).expect("a pace");
         let mut clock = script.clock();
         assert_eq!(pacer.run(10, &mut clock, &mut script), Err("broken"));
-        // All four results before it are out, each at its boundary.
+        // All four results before the failure are published, each at the end of its period.
         assert_eq!(script.published.len(), 4);
         assert_eq!(script.published[3], (3, ms(40)));
         assert_eq!(pacer.report().tasks, 4);
@@ -214,7 +214,7 @@ fn sleepers_that_wake_late_are_jitter_unless_the_loop_is_awake_before() {
         pacer.report().jitter
     };
     assert_eq!((jitter(us(0)).p50, jitter(us(0)).max), (us(60), us(60)));
-    // Awake for 100 us before, it pauses for 1 us at a time.
+    // With an active wait of 100 us before a begin, the clock advances by 1 us at a time.
     assert_eq!(jitter(us(100)).max, us(0));
     assert_eq!(jitter(us(40)).max, us(20));
 }

@@ -1,4 +1,4 @@
-//! A clock that is told what time it is, and work of scripted durations that tells it.
+//! A scripted clock, and work of scripted durations that advances it.
 
 use core::cell::Cell;
 use core::ops::ControlFlow;
@@ -14,16 +14,16 @@ pub(crate) fn us(n: u64) -> Duration {
     Duration::from_micros(n)
 }
 
-/// Instants at these times in milliseconds.
+/// Returns the instants at these times [ms].
 pub(crate) fn at(times: &[u64]) -> Vec<Duration> {
     times.iter().map(|&t| ms(t)).collect()
 }
 
-/// A clock that moves when it is told to.
+/// A clock that the scripted work advances.
 #[derive(Debug)]
 pub(crate) struct ScriptedClock {
     time: Rc<Cell<Duration>>,
-    /// By how much a sleeper wakes late.
+    /// Delay with which a sleeper wakes up.
     pub(crate) oversleeps: Duration,
 }
 
@@ -41,7 +41,7 @@ impl Clock for ScriptedClock {
     }
 }
 
-/// Work that takes what its script says, and notes when it was called.
+/// Work that takes the scripted durations, and records the times of its calls.
 #[derive(Debug)]
 pub(crate) struct Script {
     time: Rc<Cell<Duration>>,
@@ -67,7 +67,7 @@ impl Script {
         }
     }
 
-    /// The clock that it moves.
+    /// Returns the clock that this work advances.
     pub(crate) fn clock(&self) -> ScriptedClock {
         ScriptedClock { time: self.time.clone(), oversleeps: Duration::ZERO }
     }
