@@ -11,7 +11,7 @@ thread_local! {
     static COUNT: Cell<u64> = const { Cell::new(0) };
 }
 
-/// Allocations of this thread so far.
+/// Returns the number of allocations of this thread so far.
 #[must_use]
 pub fn count() -> u64 {
     COUNT.with(Cell::get)
@@ -20,7 +20,7 @@ pub fn count() -> u64 {
 struct Counting;
 
 fn bump() {
-    // While a thread ends its counter is gone; nothing reads it then.
+    // When a thread ends, its counter is destroyed first; nothing reads it then.
     let _ = COUNT.try_with(|c| c.set(c.get() + 1));
 }
 

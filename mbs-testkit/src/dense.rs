@@ -1,8 +1,8 @@
-//! Dense views of a model, and vectors.
+//! Dense matrices and vectors of a model.
 
 use mbs_core::model::{Load, Model, Tangent, Terms};
 
-/// x + s y.
+/// Returns the sum x + s y.
 #[must_use]
 pub fn plus(x: &[f64], s: f64, y: &[f64]) -> Vec<f64> {
     x.iter().zip(y).map(|(x, y)| x + s * y).collect()
@@ -14,7 +14,7 @@ pub fn dot(x: &[f64], y: &[f64]) -> f64 {
     x.iter().zip(y).map(|(x, y)| x * y).sum()
 }
 
-/// The reference configuration of a model.
+/// Returns the reference configuration of a model.
 #[must_use]
 pub fn reference(model: &impl Model<f64>) -> Vec<f64> {
     let mut q = vec![0.0; model.n_extended()];
@@ -22,7 +22,7 @@ pub fn reference(model: &impl Model<f64>) -> Vec<f64> {
     q
 }
 
-/// Product J x of the Jacobian.
+/// Returns the product J x with the Jacobian.
 #[must_use]
 pub fn rates(model: &impl Model<f64>, terms: &Terms<f64>, x: &[f64]) -> Vec<f64> {
     let mut rates = vec![0.0; model.n_constraints()];
@@ -30,7 +30,7 @@ pub fn rates(model: &impl Model<f64>, terms: &Terms<f64>, x: &[f64]) -> Vec<f64>
     rates
 }
 
-/// The rows of J, each over the unknowns.
+/// Returns the rows of J over the unknowns.
 #[must_use]
 pub fn jacobian(model: &impl Model<f64>, terms: &Terms<f64>) -> Vec<Vec<f64>> {
     let (n, m) = (model.n_unknowns(), model.n_constraints());
@@ -46,7 +46,7 @@ pub fn jacobian(model: &impl Model<f64>, terms: &Terms<f64>) -> Vec<Vec<f64>> {
     rows
 }
 
-/// The sum of the residuals of all elements.
+/// Returns the sum of the residuals of all elements.
 #[must_use]
 pub fn residual(model: &impl Model<f64>, terms: &Terms<f64>, load: &Load<'_, f64>) -> Vec<f64> {
     let mut f = vec![0.0; model.n_unknowns()];
@@ -61,7 +61,7 @@ pub fn residual(model: &impl Model<f64>, terms: &Terms<f64>, load: &Load<'_, f64
     f
 }
 
-/// The sum of the blocks of all elements, dense and symmetric.
+/// Returns the sum of the blocks of all elements, dense and symmetric.
 #[must_use]
 pub fn matrix(
     model: &impl Model<f64>,
@@ -90,7 +90,7 @@ pub fn matrix(
     a
 }
 
-/// The part of x that is orthogonal to all rows, by Gram-Schmidt done twice; rows that depend on others are left out.
+/// Returns the part of x that is orthogonal to all rows, by Gram-Schmidt done twice; dependent rows are left out.
 #[must_use]
 pub fn in_null_space(rows: &[Vec<f64>], x: &[f64]) -> Vec<f64> {
     let mut basis: Vec<Vec<f64>> = Vec::new();
@@ -119,17 +119,17 @@ pub fn in_null_space(rows: &[Vec<f64>], x: &[f64]) -> Vec<f64> {
     x
 }
 
-/// The largest difference of two entries.
+/// Returns the largest difference of two entries.
 #[must_use]
 pub fn apart(x: &[f64], y: &[f64]) -> f64 {
     x.iter().zip(y).fold(0.0, |most: f64, (x, y)| most.max((x - y).abs()))
 }
 
-/// Fails unless two vectors agree within `tolerance` times one plus their size.
+/// Checks that two vectors agree within `tolerance` times one plus their size.
 ///
 /// # Panics
 ///
-/// Where they do not.
+/// If the vectors differ by more.
 #[track_caller]
 pub fn close(what: &str, x: &[f64], y: &[f64], tolerance: f64) {
     assert_eq!(x.len(), y.len(), "{what}");

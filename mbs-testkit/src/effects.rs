@@ -1,4 +1,4 @@
-//! One mechanism, and every kind of effect on it: an arm on a hinge, a slider on the arm, and two loose bodies.
+//! A mechanism with one effect of each kind: an arm on a hinge, a slider on the arm, and two free bodies.
 
 use crate::scene;
 use mbs_core::effects::{EFFECTS, Places, Row};
@@ -89,7 +89,7 @@ axis = [1.0, 0.2]
 
 const BODIES: [BodyId; 2] = [BodyId::Body(2), BodyId::Body(3)];
 
-/// The mechanism without effects, over a rising road that comes towards it.
+/// Creates the mechanism without effects, over a rising road that moves towards it.
 fn bare(dimension: Dimension) -> Scene<f64> {
     let mut scene = scene(if dimension == Dimension::Planar { PLANAR } else { SPATIAL });
     let rise = RoadFeature::Rise { start: -3.0, length: 6.0, height: 1.0, rounding: 1.0 };
@@ -100,7 +100,7 @@ fn bare(dimension: Dimension) -> Scene<f64> {
     scene
 }
 
-/// The mechanism with one effect.
+/// Creates the mechanism with one effect.
 #[must_use]
 pub fn with(dimension: Dimension, kind: EffectKind<f64>) -> Scene<f64> {
     let mut scene = bare(dimension);
@@ -108,12 +108,12 @@ pub fn with(dimension: Dimension, kind: EffectKind<f64>) -> Scene<f64> {
     scene
 }
 
-/// A place of space, in the plane without its depth.
+/// Returns a point of space; in the plane without its depth.
 fn place(dimension: Dimension, [x, y, z]: [f64; 3]) -> [f64; 3] {
     if dimension == Dimension::Planar { [x, z, 0.0] } else { [x, y, z] }
 }
 
-/// Two places on the loose bodies.
+/// Returns two points on the free bodies.
 fn points(dimension: Dimension) -> [[f64; 3]; 2] {
     [[0.2, -0.1, 1.0], [1.0, 0.5, 1.3]].map(|x| place(dimension, x))
 }
@@ -123,7 +123,7 @@ fn piece(lower: f64, upper: f64, coefficients: &[f64]) -> PolynomialPiece<f64> {
 }
 
 fn polynomial(dimension: Dimension, direction: Option<[f64; 3]>, of_rate: bool) -> EffectKind<f64> {
-    // A spring that pulls at the reference length of about a metre, a damper with a kink.
+    // The spring pulls at its reference length of about a metre; the damper has a corner.
     let pieces = if of_rate {
         vec![piece(-9.0, 0.1, &[0.0, 30.0, -0.4]), piece(0.1, 9.0, &[0.995, 20.0, 0.1])]
     } else {
@@ -139,7 +139,7 @@ fn polynomial(dimension: Dimension, direction: Option<[f64; 3]>, of_rate: bool) 
     })
 }
 
-/// A rope over both loose bodies that pulls above a length [m].
+/// Creates a rope over both free bodies that pulls above a length [m].
 fn rope(dimension: Dimension, free_length: f64) -> EffectKind<f64> {
     let [first, second] = points(dimension);
     let middle = place(dimension, [0.7, 0.1, 0.8]);
@@ -149,13 +149,13 @@ fn rope(dimension: Dimension, free_length: f64) -> EffectKind<f64> {
     EffectKind::LineSpring(LineSpring { points, stiffness, damping, free_length, pulls_only })
 }
 
-/// A bumper that begins to push after a clearance [m].
+/// Creates a bumper that begins to push after a clearance [m].
 fn bumper(dimension: Dimension, clearance: f64) -> EffectKind<f64> {
     let (bodies, points) = (BODIES, points(dimension));
     EffectKind::Bumper(Bumper { bodies, points, stiffness: 150.0, damping: 3.0, clearance })
 }
 
-/// A bushing between the loose bodies.
+/// Creates a bushing between the free bodies.
 #[must_use]
 pub fn bushing(dimension: Dimension, damping: f64) -> EffectKind<f64> {
     let damping = [1.0, 2.0, 3.0, 0.1, 0.2, 0.3].map(|c| c * damping);
@@ -163,7 +163,7 @@ pub fn bushing(dimension: Dimension, damping: f64) -> EffectKind<f64> {
     EffectKind::Bushing(Bushing { bodies: BODIES, at: points(dimension)[0], stiffness, damping })
 }
 
-/// Stops of a joint.
+/// Creates stops of a joint.
 fn limit(joint: JointId, lower: f64, upper: f64) -> EffectKind<f64> {
     EffectKind::Limit(Limit {
         joint,
@@ -191,7 +191,7 @@ fn friction(joint: JointId) -> EffectKind<f64> {
     })
 }
 
-/// A drive of the left body.
+/// Creates a speed control of the first free body.
 fn speed_hold(dimension: Dimension) -> EffectKind<f64> {
     let direction = place(dimension, [1.0, 0.1, -0.2]);
     EffectKind::SpeedHold(SpeedHold {
@@ -203,11 +203,11 @@ fn speed_hold(dimension: Dimension) -> EffectKind<f64> {
     })
 }
 
-/// A wheel that is pressed into the road by 0.1 m; `rolls` with side force in space, and resistance.
+/// Creates a tire that is pressed into the road by 0.1 m. With `rolls` it has resistance, and in space a side force.
 #[must_use]
 pub fn tire(dimension: Dimension, rolls: bool) -> EffectKind<f64> {
     let is_spatial = dimension == Dimension::Spatial;
-    // Coefficients of a tire of 60 N instead of 6 kN.
+    // Coefficients of a tire for 60 N instead of 6 kN.
     let iltis = CalspanCoefficients::<f64>::iltis();
     let [a0, a1, a2, a3, a4] = iltis.a;
     let side = CalspanCoefficients {
@@ -230,7 +230,7 @@ pub fn tire(dimension: Dimension, rolls: bool) -> EffectKind<f64> {
     })
 }
 
-/// The wheel that rolls, with force by slip: it slips where its body does not turn as a wheel.
+/// Creates a rolling tire with a longitudinal slip force; it slips because its body does not rotate like a wheel.
 fn driven(dimension: Dimension) -> EffectKind<f64> {
     let mut kind = tire(dimension, true);
     if let EffectKind::Tire(tire) = &mut kind {
@@ -239,7 +239,7 @@ fn driven(dimension: Dimension) -> EffectKind<f64> {
     kind
 }
 
-/// Friction that a table over time scales.
+/// Creates friction that is scaled by a table over time.
 fn brake(joint: JointId) -> EffectKind<f64> {
     let mut kind = friction(joint);
     if let EffectKind::Friction(friction) = &mut kind {
@@ -248,7 +248,7 @@ fn brake(joint: JointId) -> EffectKind<f64> {
     kind
 }
 
-/// Every kind of effect, with what it is.
+/// Returns every kind of effect, with a description.
 #[must_use]
 pub fn every(dimension: Dimension) -> Vec<(&'static str, EffectKind<f64>)> {
     let course = Signal::Table(vec![(0.0, [3.0, 0.0, 0.0]), (1.0, [-8.0, 0.0, 0.0])]);
@@ -287,7 +287,7 @@ pub fn every(dimension: Dimension) -> Vec<(&'static str, EffectKind<f64>)> {
     all
 }
 
-/// Examples of the kinds with a feature that are not among `all`.
+/// Returns examples of the effects with a feature that `all` does not contain.
 fn examples(
     dimension: Dimension,
     all: &[(&str, EffectKind<f64>)],

@@ -1,6 +1,5 @@
-//! Helpers that the tests of several crates share: scenes and their assembled starts, dense views of a model, and random mechanisms.
-//! Mechanisms written in another way, and an allocator that counts, are here too. They are compiled once, for doubles, so that no test
-//! program does it again.
+//! Helpers for the tests of several crates: scenes with their initial states, dense views of a model, random mechanisms, equivalent forms of
+//! mechanisms, and a counting allocator. They are compiled once, for double precision, so that no test program compiles them again.
 
 pub mod allocations;
 mod dense;

@@ -1,4 +1,4 @@
-//! Random machines with a coupling or a wheel that rolls, as a user may write them: each can be worded in several ways that mean the same.
+//! Random machines with a coupling or a rolling wheel. Each machine can be written as a scene in several equivalent ways.
 
 pub mod kinds;
 
@@ -18,16 +18,16 @@ fn plus(a: Vector, s: f64, b: Vector) -> Vector {
     [a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]]
 }
 
-/// A joint as it is drawn: its second body moves against its first along its axis, or about it.
+/// A joint of a machine: its second body moves relative to the first along the axis, or about it.
 #[derive(Debug, Clone)]
 pub struct Drawn {
     /// Name of the joint.
     pub name: &'static str,
-    /// Bodies of the joint, the first nearer to the ground.
+    /// Bodies of the joint; the first is closer to the ground.
     pub bodies: [&'static str; 2],
-    /// Is it a turn? Otherwise a slide.
+    /// Is the joint a rotation? Otherwise it is a slide.
     pub is_turn: bool,
-    /// Place of the joint.
+    /// Point of the joint [m].
     pub at: Vector,
     /// Axis of the joint.
     pub axis: Vector,
@@ -41,21 +41,21 @@ fn slide(name: &'static str, bodies: [&'static str; 2], at: Vector) -> Drawn {
     Drawn { name, bodies, is_turn: false, at, axis: [1.0, 0.0, 0.0] }
 }
 
-/// Slip of parts where they touch, by the velocities of the bodies.
+/// Slip of the parts at their contact, as a function of the velocities of the bodies [m/s].
 pub type Slip = Box<dyn Fn(&dyn Fn(&str) -> Twist) -> f64>;
 
-/// The text of a coupling, or of what rolls, in a wording.
+/// Text of a coupling, or of a rolling contact, in a wording.
 pub type Written = Box<dyn Fn(&Wording) -> String>;
 
-/// A machine, and what it has to keep at zero: how far its parts slip where they touch, by the velocities of its bodies.
+/// A machine with a coupling, and the slip that the coupling must keep at zero.
 pub struct Machine {
     /// Description of the machine.
     pub what: &'static str,
     /// Joints of the machine.
     pub joints: Vec<Drawn>,
-    /// Coupling of the machine, or what rolls.
+    /// Coupling of the machine, or its rolling contact.
     pub coupling: Written,
-    /// Slip of the parts of the machine where they touch.
+    /// Slip of the parts of the machine at their contact [m/s].
     pub slip: Slip,
 }
 
@@ -68,19 +68,19 @@ impl core::fmt::Debug for Machine {
     }
 }
 
-/// Angular velocity, and the velocity of the origin.
+/// Angular velocity, and velocity of the origin of coordinates.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Twist(pub Vector, pub Vector);
 
 impl Twist {
-    /// The velocity at a place.
+    /// Returns the velocity at a point.
     #[must_use]
     pub fn at(self, place: Vector) -> Vector {
         plus(self.1, 1.0, cross(self.0, place))
     }
 }
 
-/// Velocities of the bodies from rates of the joints as they are drawn, outward from the ground.
+/// Returns the velocities of the bodies from the rates of the joints, computed outward from the ground.
 #[must_use]
 pub fn twists(joints: &[Drawn], rates: &[f64]) -> Vec<(&'static str, Twist)> {
     let mut known = vec![("ground", Twist([0.0; 3], [0.0; 3]))];
@@ -103,40 +103,40 @@ pub fn twists(joints: &[Drawn], rates: &[f64]) -> Vec<(&'static str, Twist)> {
 
 const Z: Vector = [0.0, 0.0, 1.0];
 
-/// Ways in which a machine is worded otherwise than it is drawn.
+/// Differences between the text of a machine and its definition.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Ways {
-    /// The bodies of joints in either order.
+    /// Swaps the two bodies of joints.
     pub swaps: bool,
-    /// Axes of any length and sense.
+    /// Gives axes any length and sense.
     pub reverses: bool,
-    /// Bodies and joints in any order.
+    /// Shuffles bodies and joints.
     pub shuffles: bool,
-    /// The whole machine turned.
+    /// Rotates the whole machine.
     pub turns: bool,
-    /// Lengths in millimetres.
+    /// Writes lengths in millimetres.
     pub millimetres: bool,
 }
 
 impl Ways {
-    /// All but the unit of length.
+    /// Every difference except the unit of length.
     pub const ALL: Self =
         Self { swaps: true, reverses: true, shuffles: true, turns: true, millimetres: false };
 }
 
-/// A machine in words: joints in any order, their bodies too, axes of any length and sense, the whole turned, in another unit.
+/// Wording of a machine in a scene: order of joints and of their bodies, length and sense of axes, rotation of the machine, unit of length.
 #[derive(Debug, Clone)]
 pub struct Wording {
-    /// Units of length in a metre.
+    /// Number of length units in a metre.
     pub metre: f64,
-    /// The axes of the machine.
+    /// Axes of the rotated machine.
     axes: [Vector; 3],
-    /// Joints, each with its name, whether its bodies are swapped, and the length of its axis.
+    /// Joints: the name, whether the bodies are swapped, and the length of the axis.
     joints: Vec<(&'static str, bool, f64)>,
 }
 
 impl Wording {
-    /// Returns the wording of a machine in some ways.
+    /// Creates a random wording of a machine with the given differences.
     pub fn new(random: &mut Random, machine: &Machine, ways: Ways) -> Self {
         let unit = |a: Vector| plus([0.0; 3], 1.0 / dot(a, a).sqrt(), a);
         let mut any = || [0; 3].map(|_| random.next());
@@ -161,38 +161,38 @@ impl Wording {
         Self { metre: if ways.millimetres { 1000.0 } else { 1.0 }, axes, joints }
     }
 
-    /// A direction in the axes of the wording.
+    /// Rotates a direction into the axes of the wording.
     #[must_use]
     pub fn turned(&self, a: Vector) -> Vector {
         (0..3).fold([0.0; 3], |sum, i| plus(sum, a[i], self.axes[i]))
     }
 
-    /// A place in the axes and the unit of the wording.
+    /// Converts a point to the axes and the unit of the wording.
     #[must_use]
     pub fn place(&self, at: Vector) -> Vector {
         self.turned(at).map(|x| x * self.metre)
     }
 
-    /// A direction as it was drawn.
+    /// Converts a direction from the axes of the wording to those of the machine.
     #[must_use]
     pub fn back(&self, a: Vector) -> Vector {
         self.axes.map(|axis| dot(axis, a))
     }
 
-    /// The sign of a joint's coordinate beside that of the drawn one.
+    /// Returns the sign of a joint's coordinate relative to that of the machine's definition.
     ///
     /// # Panics
-    /// Without such a joint.
+    /// If there is no such joint.
     #[must_use]
     pub fn sense(&self, joint: &str) -> f64 {
         let (_, swap, size) = self.joints.iter().find(|(of, ..)| *of == joint).expect("a joint");
         if *swap == (*size > 0.0) { -1.0 } else { 1.0 }
     }
 
-    /// The joints in their order, each with its body; bodies by `body`, which is given the name and the joint's place.
+    /// Returns the text of the joints in their order, each with its second body. `body` writes a body, from its name and the joint's point.
     ///
     /// # Panics
-    /// Never: it has the joints of its machine.
+    /// Never: the wording has the joints of its machine.
     #[must_use]
     pub fn parts(&self, machine: &Machine, body: impl Fn(&str, Vector) -> String) -> String {
         let (mut bodies, mut joints) = (String::new(), String::new());
@@ -214,7 +214,8 @@ impl Wording {
         format!("{bodies}{joints}{}\n", (machine.coupling)(self))
     }
 
-    /// The machine with masses, weight, springs, a motor on a controller, and speeds: of the same seed the same in whatever way it is wording.
+    /// Returns a scene with masses, gravity, springs, a controlled motor and initial velocities. The motion is the same in every wording of a
+    /// seed.
     #[must_use]
     pub fn moving(&self, machine: &Machine, seed: u64) -> String {
         let outputs = machine.joints.iter().map(|joint| {
@@ -226,7 +227,7 @@ impl Wording {
         self.moving_with(machine, seed, &outputs.flatten().collect::<String>())
     }
 
-    /// The machine of [`Self::moving`] with other outputs.
+    /// Returns the scene of [`Self::moving`] with other outputs.
     #[must_use]
     pub fn moving_with(&self, machine: &Machine, seed: u64, outputs: &str) -> String {
         let m = self.metre;
@@ -260,7 +261,7 @@ impl Wording {
         )
     }
 
-    /// A body near a place, with mass and axes of inertia by its name.
+    /// Returns the text of a body near a point; its name determines mass and axes of inertia.
     fn body(&self, name: &str, at: Vector, seed: u64) -> String {
         let sum = name.bytes().fold(seed, |sum, byte| sum.wrapping_mul(31) + u64::from(byte));
         let mut random = Random::new(sum);
@@ -268,7 +269,7 @@ impl Wording {
         let center = plus(at, 0.3, [0; 3].map(|_| random.next()));
         let [a, b, c] =
             [0; 3].map(|_| mass * (0.06 + 0.02 * random.next()) * self.metre * self.metre);
-        // principal moments about the drawn axes
+        // principal moments about the axes of the machine
         let entry = |i: usize, j: usize| {
             let products = self.axes.map(|axis| axis[i] * axis[j]);
             a * products[0] + b * products[1] + c * products[2]

@@ -7,7 +7,7 @@ use mbs_core::scene::{
     BodyId, CouplingId, Dimension, EffectId, Inertia, JointId, Output, RollingId, Scene, SignalId,
 };
 
-/// All quantities of centres of mass, bodies, joints, couplings, effects and the scene, in the order of the table, but those of a run itself.
+/// Returns all quantities of bodies, joints, couplings, effects and the scene, in the order of the table, without those of a run.
 #[must_use]
 pub fn every(scene: &Scene<f64>) -> Vec<Quantity<f64>> {
     let center = |body: usize| match scene.bodies[body].inertia {
@@ -62,7 +62,7 @@ pub fn every(scene: &Scene<f64>) -> Vec<Quantity<f64>> {
     all.filter(|quantity| !quantity.components(scene).is_empty()).collect()
 }
 
-/// Makes these the outputs of a scene, by number.
+/// Sets quantities as the outputs of a scene, named by number.
 pub fn show(scene: &mut Scene<f64>, quantities: impl IntoIterator<Item = Quantity<f64>>) {
     let named = |(i, quantity)| Output::new(quantity).named(&format!("channel-{i}"));
     scene.outputs = quantities.into_iter().enumerate().map(named).collect();

@@ -1,4 +1,4 @@
-//! Random mechanisms: trees of mixed joints, and loops closed over them; the same for the same seed on every machine.
+//! Random mechanisms: trees of mixed joints, and closed loops. The same seed gives the same mechanism on every machine.
 
 use crate::scenes::empty;
 use mbs_core::scene::{
@@ -6,18 +6,18 @@ use mbs_core::scene::{
     InitialTarget, Joint, JointId, JointKind, JointLimits, Motion, Scene, SpringDamper,
 };
 
-/// A small generator of the same numbers on every machine (xorshift64*), by its state, which is not zero.
+/// Generator of pseudo-random numbers, the same on every machine (xorshift64*); its state must not be zero.
 #[derive(Debug, Clone)]
 pub struct Random(pub u64);
 
 impl Random {
-    /// Returns the generator of a seed, which may be any number.
+    /// Creates the generator of a seed, which may be any number.
     #[must_use]
     pub fn new(seed: u64) -> Self {
         Self(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1)
     }
 
-    /// The next number in [-1, 1].
+    /// Returns the next number in [-1, 1].
     #[allow(
         clippy::should_implement_trait,
         reason = "it never ends, and is asked for single numbers"
@@ -30,12 +30,12 @@ impl Random {
         bits as f64 / (1_u64 << 52) as f64 - 1.0
     }
 
-    /// Random whole number below `n`.
+    /// Returns a random whole number below `n`.
     pub fn below(&mut self, n: usize) -> usize {
         (((self.next() + 1.0) * 0.5 * n as f64) as usize).min(n - 1)
     }
 
-    /// `size` times random numbers at the first `n` of `length` places, zero at the others.
+    /// Returns a vector of `length` numbers: `size` times random numbers for the first `n`, then zeros.
     pub fn vector(&mut self, n: usize, length: usize, size: f64) -> Vec<f64> {
         (0..length).map(|i| if i < n { size * self.next() } else { 0.0 }).collect()
     }
@@ -45,7 +45,7 @@ impl Random {
         [x, y, if dimension == Dimension::Spatial { z } else { 0.0 }]
     }
 
-    /// A direction that is not almost zero.
+    /// Returns a direction whose length is not close to zero.
     fn axis(&mut self, dimension: Dimension) -> [f64; 3] {
         loop {
             let a = self.point(dimension, 1.0);
@@ -55,7 +55,7 @@ impl Random {
         }
     }
 
-    /// Principal moments that some body has.
+    /// Returns principal moments that a real body can have.
     fn inertia(&mut self, dimension: Dimension, mass: f64) -> Inertia<f64> {
         let [a, b, c] = [0; 3].map(|_| 0.02 + 0.01 * self.next()).map(|x| x * mass);
         match dimension {
@@ -80,7 +80,7 @@ const SPATIAL_KINDS: [JointKind; 6] = [
     JointKind::Cylindrical,
 ];
 
-/// A tree of `n` bodies hanging from the ground, bodies anywhere before them, in gravity, turning at the start.
+/// Creates a tree of `n` bodies in gravity with initial velocities; each is attached to the ground or to an earlier body.
 #[must_use]
 pub fn tree(seed: u64, dimension: Dimension, n: usize) -> Scene<f64> {
     let mut random = Random::new(seed);
@@ -112,14 +112,13 @@ pub fn tree(seed: u64, dimension: Dimension, n: usize) -> Scene<f64> {
     Scene { duration: 0.2, bodies, joints, initials, ..scene }
 }
 
-/// A mechanism whose joints of one coordinate are guided, each with `chances` in four; four leave none free. A guided joint
-/// has no initial value.
+/// Guides joints of one coordinate, each with the probability `chances` / 4; with four all of them. A guided joint has no initial value.
 #[must_use]
 pub fn guided(scene: Scene<f64>, seed: u64, chances: usize) -> Scene<f64> {
     guided_where(scene, seed, chances, |n| n == 1)
 }
 
-/// A mechanism as [`guided`] makes it, but of joints with several coordinates, all of which are guided.
+/// Guides joints as [`guided`] does, but those with several coordinates, all of which are guided.
 #[must_use]
 pub fn guided_whole(scene: Scene<f64>, seed: u64, chances: usize) -> Scene<f64> {
     guided_where(scene, seed, chances, |n| n > 1)
@@ -155,7 +154,7 @@ fn guided_where(
     scene
 }
 
-/// A spatial tree whose axes are those of the frame, so that many bodies share directions.
+/// Creates a spatial tree whose axes are parallel to those of the frame, so that many bodies have the same directions.
 #[must_use]
 pub fn aligned_tree(seed: u64, n: usize) -> Scene<f64> {
     let mut scene = tree(seed, Dimension::Spatial, n);
@@ -183,7 +182,7 @@ fn joint(
     let first = random.axis(dimension);
     let [needs_first, needs_second] = kind.needs_axes(dimension);
     let second = needs_second.then(|| {
-        // Across the first.
+        // Orthogonal to the first axis.
         let d = random.axis(dimension);
         [
             first[1] * d[2] - first[2] * d[1],
@@ -202,7 +201,7 @@ fn joint(
     }
 }
 
-/// Two bodies hanging from the ground by joints of one kind, the second from its joint's second body; they start at rest.
+/// Creates two bodies with joints of one kind, both at rest: a body on the ground, and a second one on it.
 #[must_use]
 pub fn of_kind(seed: u64, kind: JointKind, dimension: Dimension) -> Scene<f64> {
     let mut random = Random::new(seed ^ 0x1111);
@@ -221,7 +220,7 @@ pub fn of_kind(seed: u64, kind: JointKind, dimension: Dimension) -> Scene<f64> {
     scene
 }
 
-/// A chain on balls (pins in the plane) that a joint of one kind closes to the ground.
+/// Creates a chain of ball joints (revolute joints in the plane) that a joint of the given kind closes to the ground.
 #[must_use]
 pub fn closed_by(seed: u64, kind: JointKind, dimension: Dimension) -> Scene<f64> {
     let mut random = Random::new(seed ^ 0x2222);
@@ -247,7 +246,7 @@ pub fn closed_by(seed: u64, kind: JointKind, dimension: Dimension) -> Scene<f64>
     scene
 }
 
-/// The scene with each joint as a chain of massless bodies, one freedom on each.
+/// Replaces each joint by a chain of massless bodies with one freedom at each joint.
 #[must_use]
 pub fn split(scene: &Scene<f64>) -> Scene<f64> {
     let (mut split, dimension) = (scene.clone(), scene.dimension);
@@ -283,8 +282,8 @@ pub fn split(scene: &Scene<f64>) -> Scene<f64> {
     split
 }
 
-/// A tree with `n_loops` more joints between bodies that are no neighbours: links, and balls (pins in the plane). What they
-/// hold is not given at the start: only one joint of the tree moves, the rest follows.
+/// Creates a tree with `n_loops` closing joints between bodies that are not neighbours: links and ball joints (revolute joints in the plane).
+/// Only one joint of the tree has an initial velocity; assembly determines the rates of the others.
 #[must_use]
 pub fn loops(seed: u64, dimension: Dimension, n: usize, n_loops: usize) -> Scene<f64> {
     let mut scene = tree(seed, dimension, n);
@@ -332,8 +331,8 @@ pub fn loops(seed: u64, dimension: Dimension, n: usize, n_loops: usize) -> Scene
     scene
 }
 
-/// A tree with loops that have more freedoms than they lose, no two of them through the same joint. For places and axes drawn at
-/// random its equations are independent, by counting alone.
+/// Creates a tree with closed loops, none of which share a joint. Each loop has more freedoms than its closing joint removes. With random
+/// points and axes the equations are therefore independent.
 #[must_use]
 pub fn sound(seed: u64, dimension: Dimension, n: usize) -> Scene<f64> {
     let mut scene = tree(seed, dimension, n);
@@ -373,7 +372,7 @@ pub fn sound(seed: u64, dimension: Dimension, n: usize) -> Scene<f64> {
     scene
 }
 
-/// Joints of a tree on the way between two bodies; joint i holds body i.
+/// Returns the joints of a tree on the path between two bodies; joint i is that of body i.
 fn between(scene: &Scene<f64>, a: usize, b: usize) -> Vec<usize> {
     let up = |mut body: usize| {
         let mut way = vec![body];
@@ -392,7 +391,7 @@ fn between(scene: &Scene<f64>, a: usize, b: usize) -> Vec<usize> {
     first
 }
 
-/// A spring with a damper from the ground to the last body.
+/// Creates a spring with a damper between the ground and the last body.
 fn spring(random: &mut Random, scene: &Scene<f64>, dimension: Dimension) -> Effect<f64> {
     let last = scene.bodies.len() - 1;
     let at = plus(scene.bodies[last].center, random.point(dimension, 0.1));

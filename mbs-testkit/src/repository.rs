@@ -5,49 +5,49 @@ use mbs_core::scene::Scene;
 use mbs_scene::SceneFile;
 use std::path::{Path, PathBuf};
 
-/// Path of a scene of `scenes`.
+/// Returns the path of a scene in `scenes`.
 #[must_use]
 pub fn path(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes").join(format!("{name}.toml"))
 }
 
-/// The text of a scene of `scenes`, read when it is asked for: a package holds no file from outside its folder.
+/// Reads the text of a scene in `scenes` at run time, because a package contains no file from outside its folder.
 pub(crate) fn scene_text(name: &str) -> String {
     text_of(&path(name))
 }
 
-/// The text of a scene of `mbs/tests/field`, to be changed.
+/// Reads the text of a scene in `mbs/tests/field`, for a test that changes it.
 ///
 /// # Panics
-/// Where it is not there.
+/// If there is no such file.
 #[must_use]
 pub fn text(name: &str) -> String {
     let field = Path::new(env!("CARGO_MANIFEST_DIR")).join("../mbs/tests/field");
     text_of(&field.join(format!("{name}.toml")))
 }
 
-/// A scene of `mbs/tests/field`.
+/// Reads a scene in `mbs/tests/field`.
 #[must_use]
 pub fn field(name: &str) -> Scene<f64> {
     read(&text(name), name)
 }
 
-/// A scene from its text.
+/// Reads a scene from its text.
 ///
 /// # Panics
-/// With the fault of a text that is no scene.
+/// If the text is not a valid scene, with the fault as message.
 #[must_use]
 pub fn read(text: &str, name: &str) -> Scene<f64> {
     read_in(text, name)
 }
 
-/// A scene from its text, in numbers of a kind.
+/// Reads a scene from its text, in numbers of type `T`.
 pub(crate) fn read_in<T: Real>(text: &str, name: &str) -> Scene<T> {
     let document = SceneFile::parse(text, name).unwrap_or_else(|e| panic!("{}", e.render()));
     document.scene().unwrap_or_else(|e| panic!("{}\n{text}", e.render()))
 }
 
-/// The four-bar whose third axis is off by so many radians.
+/// Returns the four-bar linkage whose third axis is tilted by `angle` [rad].
 #[must_use]
 pub fn tilted(angle: f64) -> Scene<f64> {
     let text = text("11-axis-off-by-1e-7");

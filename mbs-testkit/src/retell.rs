@@ -1,4 +1,4 @@
-//! Mechanisms written in another way: turned as a whole, their bodies in another order.
+//! Equivalent forms of a scene: rotated as a whole, or with its bodies in another order.
 
 use mbs_core::effects::{Field, Form, SignalForm, Value};
 use mbs_core::measure::RollingInput;
@@ -17,7 +17,7 @@ fn cross(a: Vector, b: Vector) -> Vector {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
-/// A rotation about a skew axis (a unit quaternion drawn once).
+/// Rotates a vector about a fixed skew axis, by a unit quaternion.
 #[must_use]
 pub fn turned(x: Vector) -> Vector {
     let (w, u) = (0.3, [-0.5, 0.7, 0.412_310_562_561_766_1]);
@@ -26,24 +26,24 @@ pub fn turned(x: Vector) -> Vector {
     add(x, add(twice(uv, w), twice(cross(u, uv), 1.0)))
 }
 
-/// A rotation about z.
+/// Rotates a vector about z by a fixed angle.
 #[must_use]
 pub fn turned_in_plane(x: Vector) -> Vector {
     let (c, s) = (0.6, 0.8);
     [c * x[0] - s * x[1], s * x[0] + c * x[1], x[2]]
 }
 
-/// The spatial scene with everything in it turned.
+/// Returns a spatial scene with everything in it rotated.
 #[must_use]
 pub fn turn_scene(scene: &Scene<f64>) -> Scene<f64> {
     turn_by(scene, turned)
 }
 
-/// The scene with everything in it turned by `turn`, a rotation. Outputs are left out.
+/// Returns the scene with everything in it rotated by `turn`, without outputs.
 ///
 /// # Panics
 ///
-/// With an effect that has no such form.
+/// If an effect cannot be rotated.
 #[must_use]
 pub fn turn_by(scene: &Scene<f64>, turn: impl Fn(Vector) -> Vector + Copy) -> Scene<f64> {
     let mut s = scene.clone();
@@ -53,7 +53,7 @@ pub fn turn_by(scene: &Scene<f64>, turn: impl Fn(Vector) -> Vector + Copy) -> Sc
         match &mut body.inertia {
             Inertia::Spatial([xx, yy, zz, xy, yz, zx]) => {
                 let rows = [[*xx, *xy, *zx], [*xy, *yy, *yz], [*zx, *yz, *zz]];
-                // R I R^T: turn the columns, then the rows.
+                // R I R^T: rotate the columns, then the rows.
                 let columns = rows.map(turn);
                 let [a, b, c] =
                     [0, 1, 2].map(|i| turn([columns[0][i], columns[1][i], columns[2][i]]));
@@ -111,7 +111,7 @@ fn turn_term(term: &mut CouplingTerm<f64>, turn: &impl Fn(Vector) -> Vector) {
     }
 }
 
-/// The points of the lengths of a coupling.
+/// Returns the points of the lengths of a coupling.
 fn points(coupling: &mut Coupling<f64>) -> impl Iterator<Item = &mut (BodyId, Vector)> {
     coupling.terms.iter_mut().flat_map(points_of)
 }
@@ -124,7 +124,7 @@ fn points_of(term: &mut CouplingTerm<f64>) -> &mut [(BodyId, Vector)] {
 }
 
 fn turn_rolling(rolling: &mut Rolling<f64>, dimension: Dimension, turn: impl Fn(Vector) -> Vector) {
-    // a plane that is not written is level
+    // a plane that the scene does not state is horizontal
     let RollingInput { base, plane: [normal, ..], .. } = RollingInput::new(rolling, dimension);
     let level = || RollingPlane { point: base.into(), normal: normal.into() };
     let plane = rolling.plane.get_or_insert_with(level);
@@ -145,9 +145,9 @@ fn turn_initial(
 ) {
     match target {
         InitialTarget::Joint { joint, value, rate } => {
-            // Rotation vectors and angular velocities are in global axes.
+            // Rotation vectors and angular velocities are given in global axes.
             for (number, freedom) in joints[joint.index()].kind.numbered(dimension) {
-                // slides along the global axes, or a rotation vector
+                // these are slides along the global axes, or a rotation vector
                 if [Freedom::Slide(Axis::X), Freedom::Ball].contains(&freedom) {
                     for x in [value.as_mut(), rate.as_mut()].into_iter().flatten() {
                         let three = &mut x[number..number + 3];
@@ -163,11 +163,11 @@ fn turn_initial(
     }
 }
 
-/// The scene with its bodies in reverse order. Outputs are left out.
+/// Returns the scene with its bodies in reverse order, without outputs.
 ///
 /// # Panics
 ///
-/// With an effect that has no such form.
+/// If an effect is a user-defined law.
 #[must_use]
 pub fn reorder(scene: &Scene<f64>) -> Scene<f64> {
     let n = scene.bodies.len();
@@ -205,14 +205,14 @@ pub fn reorder(scene: &Scene<f64>) -> Scene<f64> {
     s
 }
 
-/// A place in the axes of scenes/spatial-four-bar.toml: two in its plane, then its normal.
+/// Converts a point to axes of scenes/spatial-four-bar.toml: two axes in the plane of the linkage, then its normal.
 #[must_use]
 pub fn in_plane(x: Vector) -> Vector {
     let axes = [[0.424, 0.768, 0.48], [-0.768, 0.024, 0.64], [0.48, -0.64, 0.6]];
     axes.map(|axis: Vector| axis[0] * x[0] + axis[1] * x[1] + axis[2] * x[2])
 }
 
-/// The scene of scenes/spatial-four-bar.toml as a planar one.
+/// Returns scenes/spatial-four-bar.toml as a planar scene.
 #[must_use]
 pub fn flattened(scene: &Scene<f64>) -> Scene<f64> {
     let mut flat = turn_by(scene, in_plane);

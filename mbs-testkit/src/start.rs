@@ -1,4 +1,4 @@
-//! Models of scenes, their assembled starts, and what is measured of a state.
+//! Models of scenes, their assembled initial states, and measures of a state.
 
 use mbs_core::model::{Model, State};
 use mbs_core::natural::NaturalModel;
@@ -7,45 +7,45 @@ use mbs_core::start::assemble;
 use mbs_core::{Cliques, Real};
 use mbs_sparse::{Multifrontal, Options};
 
-/// A model, and the consistent state that it starts from.
+/// A model with its consistent initial state.
 type Start<const D: usize> = (NaturalModel<f64, D>, State<f64>);
 
-/// [`start`] in the plane: what a static names is compiled here, and no test program compiles it again.
+/// The function [`start`] for planar scenes: this static has it compiled here, so that no test program compiles it again.
 pub static START_IN_PLANE: fn(&Scene<f64>) -> Start<2> = start::<2>;
-/// [`start`] in space.
+/// The function [`start`] for spatial scenes.
 pub static START_IN_SPACE: fn(&Scene<f64>) -> Start<3> = start::<3>;
 
-/// The model of a scene.
+/// Creates the model of a scene.
 ///
 /// # Panics
 ///
-/// Where the scene has none.
+/// If the scene has no model.
 #[must_use]
 pub fn model<const D: usize>(scene: &Scene<f64>) -> NaturalModel<f64, D> {
     NaturalModel::new(scene).unwrap_or_else(|e| panic!("{}: {e}", scene.name))
 }
 
-/// The multifrontal solver of a problem, with default options.
+/// Creates the multifrontal solver of a problem, with default options.
 #[must_use]
 pub fn solver<T: Real>(problem: &impl Cliques) -> Multifrontal<T> {
     Multifrontal::analyse(problem, Options::default())
 }
 
-/// The model of a scene and its assembled state.
+/// Creates the model of a scene and its assembled state.
 ///
 /// # Panics
 ///
-/// Where the scene has no model or no consistent state.
+/// If the scene has no model or no consistent state.
 #[must_use]
 pub fn start<const D: usize>(scene: &Scene<f64>) -> Start<D> {
     start_in(scene)
 }
 
-/// The model of a scene, and the consistent state that it starts from, in numbers of a kind.
+/// Creates the model of a scene and its assembled state, in numbers of type `T`.
 ///
 /// # Panics
 ///
-/// Where the scene has no model or no consistent state.
+/// If the scene has no model or no consistent state.
 #[must_use]
 pub fn start_in<T: Real, const D: usize>(scene: &Scene<T>) -> (NaturalModel<T, D>, State<T>) {
     let model = NaturalModel::new(scene).unwrap_or_else(|e| panic!("{}: {e}", scene.name));
@@ -54,7 +54,7 @@ pub fn start_in<T: Real, const D: usize>(scene: &Scene<T>) -> (NaturalModel<T, D
     (model, assembled.state)
 }
 
-/// Kinetic and potential energy less the work done on the mechanism [J].
+/// Returns the energy invariant: kinetic and potential energy less the work done on the mechanism [J].
 #[must_use]
 pub fn invariant<T: Real, const D: usize>(model: &NaturalModel<T, D>, state: &State<T>) -> T {
     let mut terms = model.terms();
@@ -63,7 +63,7 @@ pub fn invariant<T: Real, const D: usize>(model: &NaturalModel<T, D>, state: &St
     model.kinetic_energy(&state.v) + model.potential_energy(&state.q, &terms) - state.work
 }
 
-/// Centres of mass of all bodies [m].
+/// Returns the centres of mass of all bodies [m].
 #[must_use]
 pub fn centres<T: Real, const D: usize>(
     scene: &Scene<T>,
@@ -77,7 +77,7 @@ pub fn centres<T: Real, const D: usize>(
     (0..scene.bodies.len()).map(place).collect()
 }
 
-/// Centres of mass of all bodies [m], each with the name of its body, in the order of the names.
+/// Returns the centres of mass of all bodies [m] with the names of the bodies, sorted by name.
 #[must_use]
 pub fn named_centres<T: Real, const D: usize>(
     scene: &Scene<T>,

@@ -1,18 +1,18 @@
-//! The kinds of random machines: wheels in mesh, belts, racks, a screw, differentials, a winch, wheels that roll.
+//! Kinds of random machines: gears, belts, racks, a screw, differentials, a winch, rolling wheels.
 
 use super::{Drawn, Machine, Slip, Vector, Wording, Written, Z, dot, plus, slide, turn};
 use crate::Random;
 
-/// From one wheel to the next, and across.
+/// Direction from one wheel to the next, and the direction orthogonal to it.
 const WAY: Vector = [0.8, 0.6, 0.0];
 const ACROSS: Vector = [-0.6, 0.8, 0.0];
-/// Direction in which racks and wheels run, and up from it.
+/// Direction in which racks and wheels move, and the upward direction.
 const X: Vector = [1.0, 0.0, 0.0];
 const Y: Vector = [0.0, 1.0, 0.0];
-/// First lines of the text of a coupling.
+/// First lines of the text of every coupling.
 const LINK: &str = "[[coupling]]\nname = \"link\"";
 
-/// Sizes of two parts, and where the first stands.
+/// Radii of two parts, and the point of the first part.
 #[derive(Debug, Clone, Copy)]
 struct Parts {
     r1: f64,
@@ -21,12 +21,12 @@ struct Parts {
 }
 
 impl Parts {
-    /// A place so far from the first part.
+    /// Returns a point at a distance from the first part.
     fn apart(&self, distance: f64) -> Vector {
         plus(self.one, distance, WAY)
     }
 
-    /// Wheels of these radii in mesh, with their pitch point.
+    /// Returns the coupling of two gears with these radii, including their pitch point.
     fn in_mesh(self, head: &'static str) -> Written {
         let wheels = self.by_radii(head);
         Box::new(move |wording| {
@@ -34,7 +34,7 @@ impl Parts {
         })
     }
 
-    /// A belt on wheels of these radii.
+    /// Returns the coupling of a belt on wheels with these radii.
     fn with_strands(self, head: &'static str) -> Written {
         let wheels = self.by_radii(head);
         Box::new(move |wording| {
@@ -42,7 +42,7 @@ impl Parts {
         })
     }
 
-    /// A coupling of both parts by their radii.
+    /// Returns a coupling of both parts by their radii.
     fn by_radii(self, head: &'static str) -> Written {
         Box::new(move |wording| {
             let [r1, r2] = [self.r1, self.r2].map(|r| r * wording.metre);
@@ -55,7 +55,7 @@ impl Parts {
     }
 }
 
-/// The velocity of one body against another at a place, along a direction.
+/// Returns the relative velocity of two bodies at a point, along a direction.
 fn touching(bodies: [&'static str; 2], place: Vector, along: Vector) -> Slip {
     Box::new(move |v| {
         let [a, b] = bodies.map(|body| v(body).at(place));
@@ -63,7 +63,7 @@ fn touching(bodies: [&'static str; 2], place: Vector, along: Vector) -> Slip {
     })
 }
 
-/// Two wheels in mesh.
+/// Creates a machine with two gears.
 fn gears(of: Parts, kind: usize) -> Machine {
     let other = of.apart(of.r1 + of.r2);
     let coupling = of.by_radii("kind = \"gear\"");
@@ -101,11 +101,11 @@ fn gears(of: Parts, kind: usize) -> Machine {
     Machine { what, joints, coupling, slip }
 }
 
-/// Two wheels whose strand runs straight from rim to rim.
+/// Creates a machine with two wheels and a belt, of which one straight strand runs from rim to rim.
 fn belt(of: Parts, is_crossed: bool) -> Machine {
     let d = of.r1 + of.r2 + 0.5;
     let r2 = if is_crossed { -of.r2 } else { of.r2 };
-    // a normal to the strand, which both rims have
+    // normal of the strand, the same at both rims
     let c = (of.r1 - r2) / d;
     let n = plus(plus([0.0; 3], c, WAY), (1.0 - c * c).sqrt(), ACROSS);
     let ends = [plus(of.one, of.r1, n), plus(of.apart(d), r2, n)];
@@ -124,7 +124,7 @@ fn belt(of: Parts, is_crossed: bool) -> Machine {
     }
 }
 
-/// A pinion with a rack along x, above it or below.
+/// Creates a machine with a pinion and a rack along x, above or below the pinion.
 fn rack(of: Parts, kind: usize) -> Machine {
     let side = if kind == 0 { -of.r1 } else { of.r1 };
     let line = plus(of.one, side, Y);
@@ -154,7 +154,7 @@ fn rack(of: Parts, kind: usize) -> Machine {
     Machine { what, joints, coupling, slip: touching(["one", other], line, X) }
 }
 
-/// A screw that turns and a nut that slides.
+/// Creates a machine with a rotating screw and a sliding nut.
 fn screw(of: Parts) -> Machine {
     let lead = of.r1;
     Machine {
@@ -173,7 +173,7 @@ fn screw(of: Parts) -> Machine {
     }
 }
 
-/// Wheels beside a cage, on the frame or one of them on the cage.
+/// Creates a differential: two wheels and a cage, with both wheels on the frame or one of them on the cage.
 fn differential(of: Parts, is_on_cage: bool) -> Machine {
     let own = if is_on_cage { "cage" } else { "frame" };
     Machine {
@@ -194,14 +194,14 @@ fn differential(of: Parts, is_on_cage: bool) -> Machine {
     }
 }
 
-/// A drum and a weight on a slide, on a rope that leaves the drum at its rim.
+/// Creates a winch: a drum, and a weight on a slide, connected by a rope that leaves the drum at its rim.
 fn winch(of: Parts) -> Machine {
     let (rim, weight) = (of.apart(of.r1), plus(of.apart(of.r1), -3.0, ACROSS));
     Machine {
         what: "winch",
         joints: vec![of.one(), Drawn { axis: ACROSS, ..slide("two", ["frame", "two"], weight) }],
         coupling: Box::new(move |wording| {
-            // the line grows down from the rim as the drum turns against the sense of z
+            // the rope below the rim becomes longer as the drum rotates in the negative sense about z
             let radius = of.r1 * wording.metre * wording.sense("one");
             format!(
                 "{LINK}\nkind = \"rope\"\npoints = [{{ body = \"frame\", at = {:?} }}, {{ body = \"two\", at = {:?} }}]\n\
@@ -219,7 +219,7 @@ fn winch(of: Parts) -> Machine {
     }
 }
 
-/// A wheel that rolls without slipping: on a cart along the frame, or on an arm, on a plank that tilts.
+/// Creates a wheel that rolls without slip: on a cart along the frame, or on an arm over a tilting plank.
 fn wheel(of: Parts, is_on_plank: bool) -> Machine {
     let line = plus(of.one, -of.r1, Y);
     let (what, joints, on) = if is_on_plank {
@@ -245,12 +245,12 @@ fn wheel(of: Parts, is_on_plank: bool) -> Machine {
     Machine { what, joints, coupling, slip: touching(["one", on], line, X) }
 }
 
-/// Number of the kinds of machines that have a coupling; they come first.
+/// Number of the kinds of machines with a coupling; they come first.
 pub const COUPLED: usize = 15;
-/// Number of all kinds of machines. Those after the coupled ones roll.
+/// Number of all kinds of machines. Those after the coupled ones have a rolling contact.
 pub const KINDS: usize = 17;
 
-/// A machine of one of the kinds, with parts of random sizes, on a frame that turns on a base that slides.
+/// Creates a machine of a kind with parts of random sizes, on a rotating frame on a sliding base.
 ///
 /// # Panics
 /// Never.
