@@ -1,19 +1,20 @@
-//! The convex hull of points, as triangles.
+//! Convex hull of points, as a mesh of triangles.
 //!
-//! Each point outside is added in turn: triangles that it sees go, and it is joined to the edge of the rest (quickhull). Sides are decided without
-//! rounding, by points that are snapped to a fine grid: faces with many points of one plane need no tolerance.
+//! Each outside point is added in turn (quickhull). The triangles that the point sees are removed, and their rim is joined to the point.
+//! Sides are determined exactly, with points rounded to a fine grid. So faces with many points in one plane need no tolerance.
 
 use crate::TriangleMesh;
 use std::collections::HashMap;
 
-/// Steps of the grid along the longest side of the points. A volume of three sides has 126 bits, with a sign less than an `i128` has.
+/// Steps of the grid along the longest side of the points [-]. The product of three sides then has 126 bits, and fits into an `i128` with its
+/// sign.
 const GRID: f64 = (1_u64 << 40) as f64;
 
-/// A triangle of the hull while it grows.
+/// A triangle of the hull during its construction.
 #[derive(Debug)]
 struct Face {
     corners: [usize; 3],
-    /// Points that see it, and no face before it.
+    /// Points outside this face that are assigned to no other face.
     outside: Vec<usize>,
     is_there: bool,
 }
@@ -22,11 +23,11 @@ struct Face {
 struct Hull {
     points: Vec<[i128; 3]>,
     faces: Vec<Face>,
-    /// The face on the left of each edge, which goes round its face against the clock as seen from outside.
+    /// The face on the left of each edge. Seen from outside, the edges of a face run counterclockwise.
     edges: HashMap<[usize; 2], usize>,
 }
 
-/// The convex hull of points, its triangles turned outwards; `None` where all are in one plane.
+/// Returns the convex hull of points, with triangles oriented outwards; `None` if all points are in one plane.
 #[must_use]
 pub fn hull(points: &[[f64; 3]]) -> Option<TriangleMesh> {
     let mut hull = Hull { points: snapped(points)?, faces: Vec::new(), edges: HashMap::new() };
@@ -43,7 +44,7 @@ pub fn hull(points: &[[f64; 3]]) -> Option<TriangleMesh> {
     Some(hull.surface(points))
 }
 
-/// The points on the grid; `None` where they are one point, or not finite.
+/// Rounds the points to the grid; `None` if they are all the same, or not finite.
 fn snapped(points: &[[f64; 3]]) -> Option<Vec<[i128; 3]>> {
     let end = |axis: usize, pick: fn(f64, f64) -> f64| {
         points.iter().map(|point| point[axis]).reduce(pick).unwrap_or(0.0)
@@ -62,20 +63,20 @@ impl Hull {
         [0, 1, 2].map(|axis| self.points[a][axis] - self.points[b][axis])
     }
 
-    /// Six times the volume between a triangle and a point; above zero where the point sees it from outside.
+    /// Returns six times the volume between a triangle and a point; it is positive where the point sees the triangle from outside.
     fn volume(&self, [a, b, c]: [usize; 3], point: usize) -> i128 {
         let [u, v, w] = [b, c, point].map(|x| self.minus(x, a));
         let cross = |i: usize, j: usize| u[i] * v[j] - u[j] * v[i];
         cross(1, 2) * w[0] + cross(2, 0) * w[1] + cross(0, 1) * w[2]
     }
 
-    /// Four points that enclose a volume, as the first faces.
+    /// Returns four points that enclose a volume, and adds their faces.
     fn first(&mut self) -> Option<[usize; 4]> {
         let all = 0..self.points.len();
         let a = all.clone().min_by_key(|i| self.points[*i])?;
         let square = |x: [i128; 3]| x.iter().map(|x| x * x).sum::<i128>();
         let b = all.clone().max_by_key(|i| square(self.minus(*i, a)))?;
-        // a choice by size needs no exact numbers
+        // the choice by size needs no exact arithmetic
         let line = self.minus(b, a).map(|x| x as f64);
         let area = |i: &usize| {
             let x = self.minus(*i, a).map(|x| x as f64);
@@ -104,7 +105,7 @@ impl Hull {
         number
     }
 
-    /// Gives each point to the first of some faces that it sees; those that see none are within.
+    /// Assigns each point to the first of some faces that it sees; a point that sees none is inside the hull.
     fn assign(&mut self, points: Vec<usize>, faces: &[usize]) {
         for point in points {
             let sees = |face: &&usize| self.volume(self.faces[**face].corners, point) > 0;
@@ -114,14 +115,14 @@ impl Hull {
         }
     }
 
-    /// The farthest of the points that a face has.
+    /// Returns the farthest of the points that are assigned to a face.
     fn farthest(&self, face: usize) -> Option<usize> {
         let Face { corners, outside, is_there } = &self.faces[face];
         let far = outside.iter().filter(|_| *is_there).copied();
         far.max_by_key(|point| self.volume(*corners, *point))
     }
 
-    /// Joins a point that sees a face to the hull; the new faces.
+    /// Adds a point that sees a face to the hull. Returns the new faces.
     fn add(&mut self, point: usize, face: usize) -> Vec<usize> {
         let mut seen = vec![face];
         self.faces[face].is_there = false;
@@ -150,7 +151,7 @@ impl Hull {
         added
     }
 
-    /// The triangles with the points that they have.
+    /// Returns the triangles with the points that they use.
     fn surface(&self, points: &[[f64; 3]]) -> TriangleMesh {
         let mut mesh = TriangleMesh::default();
         let mut numbers = HashMap::new();

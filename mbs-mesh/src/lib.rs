@@ -13,42 +13,42 @@ use std::collections::HashMap;
 use std::io::{ErrorKind, Read as _};
 use std::path::Path;
 
-/// Endings of the files that are read, in small letters.
+/// Extensions of the files that can be read, in lower case.
 pub const MESH_ENDINGS: [&str; 3] = ["stl", "obj", "msh"];
-/// Most bytes of a file. Chosen, not tuned.
+/// Largest size of a file [bytes]. Chosen, not tuned.
 const MOST_BYTES: u64 = 64 << 20;
 
-/// A surface of triangles.
+/// A surface made of triangles.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct TriangleMesh {
-    /// Places; no two are the same.
+    /// Points of the surface [m or the file's unit]; no two are the same.
     pub vertices: Vec<[f64; 3]>,
-    /// The numbers of three vertices each.
+    /// Indices of the three vertices of each triangle.
     pub triangles: Vec<[usize; 3]>,
 }
 
-/// Reason why a file is no surface.
+/// Reason why a file cannot be read as a surface.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum MeshFault {
     /// The file cannot be read.
     File(ErrorKind),
-    /// The ending of the file is none of [`MESH_ENDINGS`].
+    /// The extension of the file is none of [`MESH_ENDINGS`].
     Ending,
     /// The file is too large.
     TooLarge,
-    /// The file is no text.
+    /// The file does not contain text.
     NotText,
-    /// This line, counted from 1, is none of its format.
+    /// The line with this number, counted from 1, does not follow the format.
     Line(usize),
-    /// A vertex has no three numbers.
+    /// A vertex does not have three numbers.
     Vertex,
-    /// The file ends within its numbers.
+    /// The file ends before all its numbers.
     Ends,
-    /// A count is below zero.
+    /// A count in the file is negative.
     Count,
-    /// A triangle has a vertex that is not there.
+    /// A triangle refers to a vertex that does not exist.
     Missing,
-    /// A vertex is not finite.
+    /// A coordinate of a vertex is infinite or not a number.
     NotFinite,
 }
 
@@ -72,25 +72,26 @@ impl Display for MeshFault {
 
 impl core::error::Error for MeshFault {}
 
-/// The ending of a file, in small letters; empty without one.
+/// Returns the extension of a file in lower case; empty without one.
 #[must_use]
 pub fn mesh_ending(path: &Path) -> String {
     path.extension().and_then(|x| x.to_str()).unwrap_or_default().to_ascii_lowercase()
 }
 
 impl TriangleMesh {
-    /// Reads a file.
+    /// Reads a surface from a file.
     ///
     /// # Errors
-    /// [`MeshFault`], where it cannot be read or is no surface.
+    /// [`MeshFault`] if the file cannot be read or is not a surface.
     pub fn read(path: &Path) -> Result<Self, MeshFault> {
         Self::read_parts(path, Parts::All)
     }
 
-    /// Reads a file; of an OBJ all vertices, and of the first object or group alone the triangles that MuJoCo does not lose.
+    /// Reads a surface from a file. From an OBJ file it reads all vertices, but only the triangles of the first object or group that MuJoCo
+    /// keeps.
     ///
     /// # Errors
-    /// As for [`read`](Self::read).
+    /// The errors of [`read`](Self::read).
     pub fn read_first(path: &Path) -> Result<Self, MeshFault> {
         Self::read_parts(path, Parts::First)
     }
@@ -101,13 +102,13 @@ impl TriangleMesh {
             return Err(MeshFault::Ending);
         }
         let fault = |error: std::io::Error| MeshFault::File(error.kind());
-        // a pipe would be waited for
+        // opening a pipe would block
         if !std::fs::metadata(path).map_err(fault)?.is_file() {
             return Err(MeshFault::File(ErrorKind::InvalidInput));
         }
         let mut bytes = Vec::new();
         let file = std::fs::File::open(path).map_err(fault)?;
-        // one byte more shows that there is one
+        // reading one byte more than the limit shows that the file is larger
         file.take(MOST_BYTES + 1).read_to_end(&mut bytes).map_err(fault)?;
         if bytes.len() as u64 > MOST_BYTES {
             return Err(MeshFault::TooLarge);
@@ -115,10 +116,10 @@ impl TriangleMesh {
         Self::of_parts(&bytes, &ending, parts)
     }
 
-    /// Reads the bytes of a file by its ending.
+    /// Reads a surface from the bytes of a file with this extension.
     ///
     /// # Errors
-    /// [`MeshFault`], where they are no surface.
+    /// [`MeshFault`] if they are not a surface.
     pub fn of_bytes(bytes: &[u8], ending: &str) -> Result<Self, MeshFault> {
         Self::of_parts(bytes, ending, Parts::All)
     }
@@ -137,14 +138,14 @@ impl TriangleMesh {
     }
 }
 
-/// Objects of a file that count.
+/// Objects of a file whose triangles are read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Parts {
     All,
     First,
 }
 
-/// Little-endian numbers of four bytes.
+/// Reader of little-endian numbers of four bytes.
 struct Words<'a>(&'a [u8]);
 
 impl Words<'_> {
@@ -168,7 +169,7 @@ impl Words<'_> {
     }
 }
 
-/// Vertices that are the same are one.
+/// A mesh in which equal vertices are stored once.
 #[derive(Default)]
 struct Joined {
     mesh: TriangleMesh,
@@ -177,7 +178,7 @@ struct Joined {
 
 impl Joined {
     fn vertex(&mut self, x: [f64; 3]) -> usize {
-        // both zeros are one
+        // -0 and +0 are the same
         let key = x.map(|x| (x + 0.0).to_bits());
         let next = self.mesh.vertices.len();
         let number = *self.numbers.entry(key).or_insert(next);
@@ -188,15 +189,15 @@ impl Joined {
     }
 }
 
-/// The next three words, where they are numbers.
+/// Returns the next three words as numbers; `None` if they are not numbers.
 fn coordinates<'a>(words: &mut impl Iterator<Item = &'a str>) -> Option<[f64; 3]> {
     let mut number = || words.next()?.parse().ok();
     Some([number()?, number()?, number()?])
 }
 
-/// STL: a head of 80 bytes and a count, or text.
+/// Reads an STL file: binary with a header of 80 bytes and a count, or text.
 fn stl(bytes: &[u8]) -> Result<TriangleMesh, MeshFault> {
-    /// Bytes of the head, and of each triangle.
+    /// Size of the header, and of each triangle [bytes].
     const SIZES: [usize; 2] = [80, 50];
     let mut joined = Joined::default();
     let count = bytes.get(SIZES[0]..).and_then(|rest| Words(rest).count().ok());
@@ -205,7 +206,7 @@ fn stl(bytes: &[u8]) -> Result<TriangleMesh, MeshFault> {
     if is_binary {
         for triangle in bytes[SIZES[0] + 4..].chunks_exact(SIZES[1]) {
             let mut words = Words(triangle);
-            // the normal follows from the vertices
+            // the normal is skipped, since it follows from the vertices
             words.vertex()?;
             let three = [words.vertex()?, words.vertex()?, words.vertex()?];
             let three = three.map(|x| joined.vertex(x));
@@ -229,7 +230,7 @@ fn stl(bytes: &[u8]) -> Result<TriangleMesh, MeshFault> {
     Ok(joined.mesh)
 }
 
-/// OBJ: lines `v x y z` and `f a b c ...`, of which each may be `a/b/c` and counts from 1, or from the end.
+/// Reads an OBJ file: lines `v x y z` and `f a b c ...`. A corner may be `a/b/c`; indices count from 1, negative ones from the end.
 fn obj(bytes: &[u8], parts: Parts) -> Result<TriangleMesh, MeshFault> {
     let text = core::str::from_utf8(bytes).map_err(|_| MeshFault::NotText)?;
     let (mut joined, mut numbers, mut counts) = (Joined::default(), Vec::new(), true);
@@ -265,7 +266,7 @@ fn obj(bytes: &[u8], parts: Parts) -> Result<TriangleMesh, MeshFault> {
     Ok(joined.mesh)
 }
 
-/// The older binary form of MuJoCo: four counts, vertices, normals, texture coordinates, triangles.
+/// Reads the older binary format of MuJoCo: four counts, vertices, normals, texture coordinates, triangles.
 fn msh(bytes: &[u8]) -> Result<TriangleMesh, MeshFault> {
     let mut words = Words(bytes);
     let [vertices, normals, coordinates, triangles] =

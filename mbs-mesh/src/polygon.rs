@@ -1,7 +1,8 @@
-//! Polygons of an OBJ as triangles, as MuJoCo 4.0.0 cuts them: those of four corners at the shorter diagonal, larger ones ear by ear. A larger
-//! polygon is seen along an axis of the file. What an ear is depends on the side on which an edge passes the origin, so that triangles may be lost.
+//! Triangulation of the polygons of an OBJ file, the same as that of MuJoCo 4.0.0. A polygon of four corners is cut at the shorter diagonal.
+//! A larger one is projected along an axis of the file and cut by ears. The test for an ear depends on the side on which an edge passes the
+//! origin, so that triangles may be lost.
 
-/// Corners above which MuJoCo leaves a whole polygon out [-]: measured with regular ones of 98 to 600 corners.
+/// Corners above which MuJoCo leaves out a polygon [-]: measured with regular polygons of 98 to 600 corners.
 const MOST_CORNERS: usize = 100;
 
 type Point = [f64; 3];
@@ -10,8 +11,8 @@ fn minus(a: Point, b: Point) -> Point {
     core::array::from_fn(|i| a[i] - b[i])
 }
 
-/// The triangles of a polygon of three or more corners, and the corners of what MuJoCo loses of it. Where corners are not in one plane, or dents
-/// count, a volume depends on both.
+/// Returns the triangles of a polygon of three or more corners, and the corners of the part that MuJoCo loses. Where corners are not in one
+/// plane, or dents are counted, the volume of a mesh depends on both.
 pub(crate) fn triangles(
     corners: &[usize],
     place: impl Fn(usize) -> Point,
@@ -31,13 +32,13 @@ pub(crate) fn triangles(
     }
 }
 
-/// A polygon as triangles about its first corner.
+/// Returns the triangles of a polygon about its first corner.
 pub(crate) fn fan(corners: &[usize]) -> impl Iterator<Item = [usize; 3]> + '_ {
     let (first, rest) = corners.split_first().map_or((0, &[][..]), |(first, rest)| (*first, rest));
     rest.windows(2).map(move |pair| [first, pair[0], pair[1]])
 }
 
-/// Cuts ears off until three corners are left, or a whole turn finds none.
+/// Cuts ears until three corners are left, or until one pass around the polygon finds none.
 fn ears(corners: &[usize], place: impl Fn(usize) -> Point) -> (Vec<[usize; 3]>, Vec<usize>) {
     let axes = axes_seen(corners, &place);
     let seen = |corner: usize| axes.map(|axis| place(corner)[axis] as f32);
@@ -46,7 +47,7 @@ fn ears(corners: &[usize], place: impl Fn(usize) -> Point) -> (Vec<[usize; 3]>, 
     let (mut at, mut looks, mut before) = (0, left.len(), left.len());
     while left.len() > 3 && looks > 0 {
         let n = left.len();
-        // the first turn counts its first look, later ones do not: an ear that is the last of the first turn ends the search
+        // as in MuJoCo, only the first pass counts its first trial: an ear that is found last in the first pass ends the search
         looks = if n == before { looks - 1 } else { n };
         before = n;
         at %= n;
@@ -67,7 +68,7 @@ fn ears(corners: &[usize], place: impl Fn(usize) -> Point) -> (Vec<[usize; 3]>, 
     (found, left)
 }
 
-/// The two axes across the one that is next to the normal of the first corner with an angle.
+/// Returns the two axes orthogonal to the axis closest to the normal, which is taken at the first corner with an angle.
 fn axes_seen(corners: &[usize], place: &impl Fn(usize) -> Point) -> [usize; 2] {
     let n = corners.len();
     let normal = (0..n).find_map(|i| {
@@ -88,15 +89,15 @@ fn axes_seen(corners: &[usize], place: &impl Fn(usize) -> Point) -> [usize; 2] {
     }
 }
 
-/// Does a corner turn to the side to which its first edge passes the origin, or straight on?
+/// Does the corner turn to the side on which its first edge passes the origin, or go straight on?
 fn turns_as_the_origin_is_passed([a, b, c]: [[f32; 2]; 3]) -> bool {
     let turn = (b[0] - a[0]) * (c[1] - b[1]) - (b[1] - a[1]) * (c[0] - b[0]);
     let passed = (a[0] * b[1] - a[1] * b[0]) * 0.5;
-    // a product as in the reader, for it may vanish
+    // a product as in MuJoCo's reader, since it may underflow to zero
     !(turn * passed < 0.0)
 }
 
-/// Is a place in a triangle? Asked by the edges that a ray along the first axis crosses.
+/// Is a point inside a triangle? Decided by the number of edges that a ray along the first axis crosses.
 fn is_within([x, y]: [f32; 2], triangle: [[f32; 2]; 3]) -> bool {
     let crossings = [[0, 2], [1, 0], [2, 1]].map(|ends| {
         let [a, b] = ends.map(|end| triangle[end]);

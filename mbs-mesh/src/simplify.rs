@@ -4,7 +4,7 @@ use crate::TriangleMesh;
 use std::collections::{HashMap, HashSet};
 
 impl TriangleMesh {
-    /// The mesh with the vertices of its triangles alone, in the order of their use: their numbers change little from one to the next.
+    /// Returns the mesh without unused vertices. Vertices are in the order of their use, so that successive indices differ little.
     #[must_use]
     pub fn used(&self) -> Self {
         let (mut numbers, mut vertices) = (vec![None; self.vertices.len()], Vec::new());
@@ -18,7 +18,7 @@ impl TriangleMesh {
         Self { vertices, triangles }
     }
 
-    /// The area of all triangles.
+    /// Returns the area of all triangles.
     #[must_use]
     pub fn area(&self) -> f64 {
         let of = |[a, b, c]: &[usize; 3]| {
@@ -31,8 +31,7 @@ impl TriangleMesh {
         self.triangles.iter().map(of).sum()
     }
 
-    /// Corners in one cell become their mean; triangles with fewer than three of them are left out, and so is the second of two that are the
-    /// same.
+    /// Replaces all corners in a cell by their mean. Triangles with fewer than three different corners are left out, and so are duplicates.
     ///
     /// `cell` is the width of the cells, in the unit of the vertices.
     #[must_use]

@@ -1,4 +1,4 @@
-//! The solid that triangles enclose: volume, centre and moments.
+//! Solid that the triangles of a mesh enclose: volume, centre and moments.
 
 use crate::TriangleMesh;
 use mbs_math::algebra::{Matrix, Vector, vector};
@@ -7,30 +7,31 @@ use std::collections::HashMap;
 type V3 = Vector<f64, 3>;
 type M3 = Matrix<f64, 3>;
 
-/// Rule by which the tetrahedra between a point and the triangles count.
+/// Rule by which the tetrahedra between a point and the triangles are summed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum VolumeRule {
-    /// With the sign of their volume: the enclosed volume, of a closed surface alone.
+    /// Sum with the sign of the volume: the enclosed volume, for closed surfaces only.
     Signed,
-    /// Each as a volume: the centre from the centre of the surface, the rest from that centre. Dents count too, and holes do no harm.
+    /// Sum of absolute volumes. The centre is computed from the centre of the surface, all else from that centre. Dents add volume; holes do
+    /// no harm.
     Unsigned,
-    /// None of them: the triangles are a thin shell, whose area is its size.
+    /// No tetrahedra: the triangles are a thin shell, whose area is its size.
     Shell,
 }
 
-/// The solid of a density of one, in the axes of its surface.
+/// A solid with a density of one, in the axes of its surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Solid {
-    /// Volume [m³], of a shell its area [m²]; below zero where the surface is turned inside out.
+    /// Volume [m³], or the area of a shell [m²]; negative if the surface is oriented inwards.
     pub size: f64,
     /// Centre [m].
     pub center: V3,
-    /// Tensor of inertia about the centre [m⁵], of a shell [m⁴].
+    /// Inertia tensor about the centre [m⁵], of a shell [m⁴].
     pub tensor: M3,
 }
 
 impl TriangleMesh {
-    /// The edge that no other triangle has the other way round; `None` where the surface is closed.
+    /// Returns an edge without a triangle on its other side; `None` if the surface is closed.
     #[must_use]
     pub fn open_edge(&self) -> Option<[usize; 2]> {
         let mut edges: HashMap<[usize; 2], i64> = HashMap::new();
@@ -44,14 +45,14 @@ impl TriangleMesh {
         edges.into_iter().filter(|(_, sum)| *sum != 0).map(|(edge, _)| edge).min()
     }
 
-    /// The solid that the triangles enclose. An open surface counts with its opening closed from the centre.
+    /// Returns the solid that the triangles enclose. An open surface is closed by triangles to the centre.
     #[must_use]
     pub fn solid(&self, rule: VolumeRule) -> Solid {
         let center = match rule {
             VolumeRule::Signed | VolumeRule::Unsigned => self.sums(&self.surface_center(), rule).1,
             VolumeRule::Shell => self.surface_center(),
         };
-        // about the centre that was found; the sums of volumes differ where tetrahedra are not signed, and of open surfaces
+        // about this centre: the sums depend on the point where tetrahedra are not signed, and for open surfaces
         let (size, second) = match rule {
             VolumeRule::Shell => self.areas(&center),
             _ => {
@@ -66,7 +67,7 @@ impl TriangleMesh {
         vector(self.vertices[i])
     }
 
-    /// Volume, its centre, and its second moments about a point.
+    /// Returns volume, centre, and second moments of volume about a point.
     fn sums(&self, origin: &V3, rule: VolumeRule) -> (f64, V3, M3) {
         let (mut volume, mut first, mut second) = (0.0, V3::zeros(), M3::zeros());
         for triangle in &self.triangles {
@@ -83,7 +84,7 @@ impl TriangleMesh {
         (volume, center, second)
     }
 
-    /// Area, and its second moments about a point.
+    /// Returns area, and second moments of area about a point.
     fn areas(&self, origin: &V3) -> (f64, M3) {
         let (mut area, mut second) = (0.0, M3::zeros());
         for triangle in &self.triangles {
@@ -97,7 +98,7 @@ impl TriangleMesh {
         (area, second)
     }
 
-    /// The centre of the triangles, by their areas.
+    /// Returns the centre of the surface: the mean of the triangles' centres, weighted by area.
     fn surface_center(&self) -> V3 {
         let (mut area, mut sum) = (0.0, V3::zeros());
         for triangle in &self.triangles {

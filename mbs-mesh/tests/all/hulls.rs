@@ -1,4 +1,4 @@
-//! Convex hulls of points.
+//! Convex hulls of points in a box and at random.
 
 use mbs_mesh::{TriangleMesh, VolumeRule, hull};
 
@@ -7,7 +7,7 @@ fn volume(mesh: &TriangleMesh) -> f64 {
     mesh.solid(VolumeRule::Signed).size
 }
 
-/// Points of a grid in a box of 1, 2 and 3 m, in a mixed order.
+/// Returns the points of a grid in a box of 1, 2 and 3 m, in a mixed order.
 fn grid(n: usize) -> Vec<[f64; 3]> {
     let all = n * n * n;
     let at = |i: usize| {
@@ -28,7 +28,7 @@ fn a_box_full_of_points_in_planes_and_lines_is_a_box() {
 
 #[test]
 fn a_turned_and_shifted_box_is_the_same_box() {
-    // a rotation whose rows have the length of three
+    // three times a rotation: the rows have a length of three
     let turn = [[2.0, -1.0, 2.0], [2.0, 2.0, -1.0], [-1.0, 2.0, 2.0]];
     let at = [5.0, -2.0, 0.0];
     let points = grid(6).into_iter().map(|x| {
@@ -43,7 +43,7 @@ fn a_turned_and_shifted_box_is_the_same_box() {
 fn every_point_is_within_the_hull_of_a_cloud() {
     let mut state = 5_u64;
     let mut number = || {
-        // Knuth's MMIX generator
+        // Knuth's generator of pseudo-random numbers for MMIX
         state =
             state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (state >> 33) as f64 / (1_u64 << 31) as f64

@@ -1,3 +1,3 @@
-//! The tests of this crate, in one program.
+//! All tests of this crate, in one program.
 
 mod hulls;
