@@ -1,4 +1,4 @@
-//! A checkup for people: findings in sentences, and the tables behind them.
+//! Report of a checkup: findings in sentences, and the tables with their data.
 
 use crate::report::{Report, Section, row, wrapped};
 use core::fmt::Write;
@@ -8,13 +8,13 @@ use mbs_scene::format::{counted, few, significant, size};
 use mbs_study::doctor::{Checkup, Finding, Written, labels};
 use mbs_study::redundancy::UNCERTAIN;
 
-/// Largest displacement or turn that is rounding [m or rad]. Chosen, not tuned.
+/// Displacement or rotation up to which a value counts as rounding error [m or rad]. Chosen, not tuned.
 const ROUNDING: f64 = 1e-12;
 
-/// Letters of a line of findings for a terminal.
+/// Letters of a line of findings in the terminal [-].
 const WIDTH: usize = 110;
 
-/// The page of a checkup, with the scene at its start where it has one, and its text for a terminal.
+/// Returns the page of a checkup, with a picture of the scene's start if there is one, and its text for a terminal.
 #[must_use]
 pub fn report(
     scene: &Scene<f64>,
@@ -35,7 +35,7 @@ pub fn report(
     (report, text)
 }
 
-/// The picture with the names of those joints alone that findings name.
+/// Returns the picture with the names of only those joints that findings name.
 fn with_named(mut motion: RecordedMotion, c: &Checkup) -> RecordedMotion {
     let found: Vec<&str> =
         c.findings.iter().flat_map(|f| &f.joints).map(|&j| c.joints[j].as_str()).collect();
@@ -43,7 +43,7 @@ fn with_named(mut motion: RecordedMotion, c: &Checkup) -> RecordedMotion {
     motion
 }
 
-/// The whole in a few words.
+/// Summarises the checkup by the numbers of its findings.
 fn verdict(c: &Checkup) -> String {
     let count = |severity| c.findings.iter().filter(|f| f.severity == severity).count();
     let kinds = [
@@ -60,12 +60,12 @@ fn verdict(c: &Checkup) -> String {
     if parts.is_empty() { "nothing found".to_owned() } else { parts.join(", ") }
 }
 
-/// Findings as sentences, for a terminal.
+/// Returns the findings as sentences for a terminal.
 fn sentences(c: &Checkup, line: Written<'_>) -> String {
     let mut out = String::new();
     for finding in &c.findings {
         let place = place(finding, line).map_or_else(String::new, |place| format!(", {place}"));
-        // Writing into a String has nothing to fail on.
+        // writing to a String cannot fail
         let _ = writeln!(out, "\n{}: {}{place}", finding.severity.name(), finding.code);
         let mut lines = wrapped(&finding.message, WIDTH);
         if !finding.remedy.is_empty() {
@@ -76,7 +76,7 @@ fn sentences(c: &Checkup, line: Written<'_>) -> String {
     out
 }
 
-/// `line 12`, or `FILE:12` of one that is included.
+/// Returns the place of a finding: `line 12`, or `FILE:12` in an included file.
 fn place(finding: &Finding, line: Written<'_>) -> Option<String> {
     let (entry, key) = finding.place?;
     let (file, line) = line(entry, key)?;
@@ -176,7 +176,7 @@ fn reactions(c: &Checkup) -> Section {
     Section { caption, ..Section::new("Reactions", &[], rows) }
 }
 
-/// Returns in words how many forces and moments of a joint are open, whatever the axes.
+/// Describes how many forces and moments of a joint are undetermined, independent of the axes.
 fn directions(c: &Checkup, joint: usize) -> String {
     let exact = c.joint_level.sets.iter().filter(|set| set.is_exact);
     let member = exact.flat_map(|set| &set.members).find(|m| m.joint == joint);
@@ -191,7 +191,7 @@ fn directions(c: &Checkup, joint: usize) -> String {
 }
 
 fn loops(c: &Checkup) -> Option<Section> {
-    /// Most closed loops in the table [-]: a page.
+    /// Closed loops in the table at most [-]: one page.
     const MAX_ROWS: usize = 40;
     let row = |lap: &mbs_study::redundancy::Loop| {
         let joints: Vec<&str> = lap.joints.iter().map(|&j| c.joints[j].as_str()).collect();
@@ -260,7 +260,7 @@ fn motion(c: &Checkup) -> Option<Section> {
     })
 }
 
-/// Corners that changed their side, those at the same time together.
+/// Returns the corners that changed their side; those that changed at the same time are in one row.
 fn changes(c: &Checkup, corners: &[mbs_study::doctor::LinearMotion]) -> Vec<Vec<String>> {
     let mut changed: Vec<(f64, usize)> =
         corners.iter().filter_map(|s| Some((s.changed?, s.joint))).collect();

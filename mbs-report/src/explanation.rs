@@ -1,4 +1,4 @@
-//! An explanation as tables for people.
+//! Explanation of a scene as tables.
 
 use crate::report::{Report, Section, row};
 use mbs::record::{PilotReport, Provenance};
@@ -8,7 +8,7 @@ use mbs_study::explain::{
     ControllerStep, EffectCost, EffectCosts, Explanation, LargestStep, Relative, SearchEnd, Sizes,
 };
 
-/// The tables of an explanation.
+/// Returns the tables of an explanation.
 #[must_use]
 pub fn report(explanation: &Explanation, provenance: Provenance) -> Report {
     let mut sections = vec![simulated(explanation)];
@@ -81,7 +81,7 @@ fn simulated(e: &Explanation) -> Section {
     Section::new("What is simulated", &[], rows)
 }
 
-/// Who could run the scene, and what a pilot measured of them.
+/// Returns the table of methods that can run the scene, with the measurements of a pilot.
 fn candidates(choice: &PilotReport) -> Section {
     let mut table = choice.table();
     let head = table.remove(0);
@@ -173,7 +173,7 @@ fn whole(prices: &EffectCosts) -> Section {
     }
 }
 
-/// Returns the time that watching the invariant takes, and its share of a step.
+/// Returns the time that monitoring the invariant takes, and its fraction of a step.
 fn monitor(prices: &EffectCosts) -> String {
     let Some(seconds) = prices.monitor_seconds_per_step else {
         return "not measured".to_owned();
@@ -218,7 +218,7 @@ fn price_list(title: &str, list: &[EffectCost], prices: &EffectCosts) -> Option<
     })
 }
 
-/// Every output that changes, effect by effect.
+/// Returns the table of outputs that change without an effect, effect by effect.
 fn changes(prices: &EffectCosts) -> Option<Section> {
     let of_price = |price: &EffectCost| {
         let changed = price.changes.iter().filter(|change| !change.is_rounding);
@@ -271,7 +271,7 @@ fn largest_step(found: &LargestStep) -> String {
     }
 }
 
-/// Two digits beside a decimal point where there is one.
+/// Formats a percentage with two digits, or more before the decimal point.
 fn percent(x: f64) -> String {
     let p = 100.0 * x;
     match p.abs() {
@@ -282,7 +282,7 @@ fn percent(x: f64) -> String {
 }
 
 fn counted(names: &[String]) -> String {
-    /// Most names of a list: of more, only their number is shown.
+    /// Names of a list at most [-]: of a longer list only the number is shown.
     const MAX_NAMES: usize = 12;
     match names.len() {
         0 => "none".to_owned(),

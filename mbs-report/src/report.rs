@@ -1,4 +1,4 @@
-//! Reports: titled tables, for the terminal as text and for a browser as one HTML file.
+//! Reports: titled tables, as text for the terminal and as an HTML file for a browser.
 
 use crate::page::{Page, PageSection, still_view};
 pub use crate::table::Section;
@@ -11,18 +11,18 @@ use mbs::record::{Provenance, RecordedMotion};
 pub struct Report {
     /// Title of the report.
     pub title: String,
-    /// Error of the run, if there was one.
+    /// Error that ended the run, if there was one.
     pub error: Option<String>,
     /// The tables, in order.
     pub sections: Vec<Section>,
-    /// Motion that is drawn below the first table, with the names of bodies and joints.
+    /// Motion that is drawn below the first table, with names of bodies and joints.
     pub motion: Option<RecordedMotion>,
-    /// Provenance of the report: how it was made.
+    /// Provenance of the report: program, versions and inputs.
     pub provenance: Provenance,
 }
 
 impl Report {
-    /// Returns the report as text, columns aligned.
+    /// Returns the report as text with aligned columns.
     ///
     /// # Examples
     /// ```
@@ -36,14 +36,14 @@ impl Report {
     pub fn text(&self) -> String {
         let mut out = format!("{}\n", self.title);
         for section in self.sections.iter().filter(|section| !section.is_detail) {
-            // Writing into a String has nothing to fail on.
+            // writing to a String cannot fail
             let _ = writeln!(out, "\n{}", section.title);
             section.write_text(&mut out);
         }
         out
     }
 
-    /// Returns the report as one HTML file without references to anything outside. Tables need no script; those that are folded stand last.
+    /// Returns the report as one HTML file without references to other files. Tables need no script; folded tables come last.
     #[must_use]
     pub fn page(&self) -> String {
         let error = self.error.as_ref().map(|error| PageSection::Error(format!("The run {error}")));

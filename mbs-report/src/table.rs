@@ -1,9 +1,9 @@
-//! A titled table, as text and as a card of a page.
+//! A table with a title, as text and as a card of a page.
 
 use crate::text::escape;
 use core::fmt::Write;
 
-/// Letters of a cell beyond which the cells of a row stand below each other on a narrow screen. Chosen, not tuned.
+/// Number of letters of a cell above which the cells of a row are shown below each other on a narrow screen. Chosen, not tuned.
 const MAX_CELL: usize = 60;
 
 /// Table with a title.
@@ -11,39 +11,39 @@ const MAX_CELL: usize = 60;
 pub struct Section {
     /// Title of the table.
     pub title: String,
-    /// Caption that says in one or two sentences what the numbers mean; may be empty.
+    /// Caption that explains the numbers in one or two sentences; may be empty.
     pub caption: String,
-    /// Names of the columns; empty: the first column names what the others say.
+    /// Names of the columns. If empty, the first column names the values of the others.
     pub head: Vec<String>,
     /// The cells, row by row.
     pub rows: Vec<Vec<String>>,
-    /// Bars of a column: its number, and a length from 0 to 1 for each row.
+    /// Bars in a column: the index of the column, and a length from 0 to 1 for each row.
     pub bars: Option<(usize, Vec<f64>)>,
-    /// Stands on the page only.
+    /// Is the table shown on the page only, and not in the terminal?
     pub is_detail: bool,
-    /// Is folded under its title on the page.
+    /// Is the table folded under its title on the page?
     pub is_folded: bool,
 }
 
-/// A label and its value as a row.
+/// Returns a row with a label and its value.
 pub(crate) fn row(label: &str, value: String) -> Vec<String> {
     vec![label.to_owned(), value]
 }
 
 impl Section {
-    /// A table, with the names of its columns or none.
+    /// Creates a table; `head` has the names of its columns or is empty.
     pub(crate) fn new(title: &str, head: &[&str], rows: Vec<Vec<String>>) -> Self {
         let head = head.iter().map(|&name| name.to_owned()).collect();
         Self { title: title.to_owned(), head, rows, ..Self::default() }
     }
 
-    /// Table of how something was made.
+    /// Creates the table of provenance.
     pub(crate) fn made<'a>(rows: impl Iterator<Item = [&'a str; 2]>) -> Self {
         let rows = rows.map(|[label, value]| row(label, value.to_owned()));
         Self::new("How this was made", &[], rows.collect())
     }
 
-    /// Returns the table, folded on a page.
+    /// Returns the table, marked to be folded on a page.
     pub(crate) fn folded(self) -> Self {
         Self { is_folded: true, ..self }
     }
@@ -97,7 +97,7 @@ impl Section {
         out.push_str("</section>\n");
     }
 
-    /// A cell, with the name of its column where that may stand beside it.
+    /// Returns the HTML of a cell, with the name of its column for screens where the name is shown beside it.
     fn cell(&self, (row, column): (usize, usize), text: &str, label: Option<&String>) -> String {
         let text = escape(text);
         let label = label.map_or_else(String::new, |x| format!(" data-label=\"{}: \"", escape(x)));
@@ -112,7 +112,7 @@ impl Section {
     }
 }
 
-/// A text in lines of fewer characters than a width, where its words allow.
+/// Breaks a text into lines of fewer characters than a width, where its words allow it.
 pub(crate) fn wrapped(text: &str, width: usize) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in text.split_whitespace() {

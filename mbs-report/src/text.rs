@@ -1,7 +1,7 @@
-//! Texts in HTML: templates with marks, and characters that have a meaning there.
+//! Texts in HTML: templates with marks, and escaping of special characters.
 
-/// Puts parts in the places of their marks, which stand in this order. One pass, so that what they contain is never taken for a
-/// mark.
+/// Replaces marks in a template by texts. The marks must occur in this order. There is one pass, so that a mark within an inserted text is
+/// not replaced.
 pub(crate) fn fill(template: &str, parts: &[(&str, &str)]) -> String {
     let mut out = String::new();
     let mut rest = template;

@@ -1,9 +1,9 @@
-//! The sentence under each diagram, made from its numbers.
+//! Sentence below each diagram, made from its numbers.
 
 use super::text::{seconds, short};
 use mbs_study::compare::results::{Comparison, ConvergenceMap, MethodRuns, RunEntry, Status};
 
-/// The run that stands for a method: the middle one of those completed.
+/// Returns the run that represents a method: the middle one of its completed runs.
 pub(super) fn typical(m: &MethodRuns) -> Option<&RunEntry> {
     let n = m.completed().count();
     m.completed().nth(n / 2)
@@ -118,7 +118,7 @@ pub(super) fn violation(c: &Comparison, level: usize) -> String {
     )
 }
 
-/// The largest and the smallest value of completed runs.
+/// Returns a text on the largest and the smallest value of completed runs.
 fn extremes(c: &Comparison, value: impl Fn(&RunEntry) -> Option<f64>, unit: &str) -> String {
     let runs = c.methods.iter().flat_map(|m| m.completed().map(move |run| (m, run)));
     let values: Vec<(f64, &MethodRuns, &RunEntry)> =

@@ -1,4 +1,4 @@
-//! The page of a comparison: the work-precision diagram and the ranks, all else folded.
+//! Page of a comparison: the work-precision diagram and the ranks are shown, all else is folded.
 
 use super::captions;
 use super::plots::{looks, panels};
@@ -8,11 +8,11 @@ use crate::table::Section;
 use mbs_study::compare::results::Comparison;
 use serde_json::json;
 
-/// Says how lines differ.
+/// Explanation of the look of lines.
 const KEY: &str = "Mark and colour: integrator; dash: formulation; filled: fixed steps, hollow: controlled steps; thin: single precision. \
                    Click a name to hide or show its lines in all diagrams.";
 
-/// Writes the page of a comparison that was digested: one HTML file without references to anything outside.
+/// Writes the page of an evaluated comparison: one HTML file without references to other files.
 #[must_use]
 pub fn comparison_page(comparison: &Comparison) -> String {
     let tables = Tables(comparison);

@@ -6,12 +6,12 @@ use crate::page::{Diagram, DiagramLine, Look};
 use mbs_scene::format::rounded;
 use mbs_study::compare::results::{Comparison, MethodRuns, RunEntry, Status};
 
-/// Significant digits of what is drawn: a screen resolves four.
+/// Significant digits of drawn values [-]: a screen resolves four.
 const DIGITS: usize = 5;
-/// Colours and marks of the page, and dashes: those of its style.
+/// Number of colours, marks and dashes in the style of the page [-].
 const KINDS: usize = 6;
 
-/// Looks of all methods. Single precision is hidden at first where there is double.
+/// Returns the looks of all methods. Lines in single precision are hidden at first if there are lines in double precision.
 pub(super) fn looks(comparison: &Comparison) -> Vec<Look> {
     let has_f64 = comparison.methods.iter().any(|m| m.precision == "f64");
     let [mut integrators, mut formulations] = [const { Vec::<&str>::new() }; 2];
@@ -30,7 +30,7 @@ pub(super) fn looks(comparison: &Comparison) -> Vec<Look> {
         Look {
             name: m.name.clone(),
             kind: place(&integrators, &m.integrator) % KINDS,
-            // the last one, recursive, has most lines: they are solid
+            // the last formulation, recursive, has most lines: these are solid
             dash: (formulations.len() - 1 - place(&formulations, &m.formulation)) % KINDS,
             is_filled: is_fixed,
             is_thin: is_single,
@@ -127,7 +127,7 @@ fn against_step(comparison: &Comparison, value: Value) -> Diagram {
     let lines = comparison.methods.iter().enumerate().map(|(look, m)| DiagramLine {
         look,
         points: points(m, |run| Some(run.mean_step), value),
-        // a run that stopped at once has no mean step; a fixed one has the step it was asked for
+        // a run that failed in its first step has no mean step; a run with fixed steps has the step of its setting
         failed: failed(m, |run| if m.control == "fixed" { run.setting } else { run.mean_step }),
         note: String::new(),
     });
@@ -157,7 +157,7 @@ fn setting(m: &MethodRuns, run: &RunEntry) -> String {
     }
 }
 
-/// Returns what is said of a run under the cursor.
+/// Returns the text of the tooltip of a run.
 fn tooltip(m: &MethodRuns, run: &RunEntry) -> String {
     let error = run.error.map_or("no error".to_owned(), |e| format!("error {e:.2e}"));
     let below = if run.is_below_reference { " (not resolved by the reference)" } else { "" };
@@ -171,7 +171,7 @@ fn tooltip(m: &MethodRuns, run: &RunEntry) -> String {
     )
 }
 
-/// Times of single steps, of the run of each method whose mean step is nearest to the middle one of its runs.
+/// Returns a histogram of the times of single steps, for the middle completed run of each method.
 fn histogram(comparison: &Comparison) -> Diagram {
     let line = |(look, m): (usize, &MethodRuns)| {
         let run = captions::typical(m)?;

@@ -5,7 +5,7 @@ use mbs::record::Provenance;
 use mbs_scene::format::{rounded, significant};
 use mbs_study::compare::results::{Comparison, MethodRuns, RankLevel, RunEntry, Status};
 
-/// Most failures of a method that are listed in the terminal. Chosen, not tuned.
+/// Failures of a method that are listed in the terminal, at most [-]. Chosen, not tuned.
 const MOST_SETTINGS: usize = 4;
 
 /// Returns the tables of a comparison.
@@ -14,7 +14,7 @@ pub fn report(comparison: &Comparison) -> Report {
     Tables(comparison).report()
 }
 
-/// Tables of a comparison.
+/// Tables of a comparison, for the terminal and for the page.
 pub(super) struct Tables<'a>(pub(super) &'a Comparison);
 
 impl Tables<'_> {
@@ -39,18 +39,18 @@ impl Tables<'_> {
         format!("{}: methods compared", self.0.scene)
     }
 
-    /// Returns why no rank should be trusted, if that is so.
+    /// Returns the reason why no rank is reliable, if there is one.
     pub(super) fn unverified(&self) -> Option<String> {
         let notes = self.0.notes.join("; ");
         (!self.0.reference.is_verified).then(|| format!("The reference is not verified. {notes}"))
     }
 
-    /// The ranks at each error.
+    /// Returns the tables of ranks, one for each error.
     pub(super) fn levels(&self) -> Vec<Section> {
         self.0.ranking.iter().map(Self::level).collect()
     }
 
-    /// Returns the table of what is compared, against what.
+    /// Returns the table of the methods and the reference that are compared.
     pub(super) fn basis(&self) -> Section {
         let r = &self.0.reference;
         let [compared, whole] = [self.0.compared, self.0.duration].map(significant);
@@ -150,7 +150,7 @@ impl Tables<'_> {
         section
     }
 
-    /// Failures with their reasons; those of a method that say the same share a row.
+    /// Returns the table of failures with their reasons; equal reasons of a method are in one row.
     pub(super) fn failures(&self) -> Option<Section> {
         let mut rows: Vec<Vec<String>> = Vec::new();
         for method in &self.0.methods {
@@ -175,7 +175,7 @@ impl Tables<'_> {
         (!rows.is_empty()).then(|| Section::new("Failures", &head, rows))
     }
 
-    /// Returns the table of what `auto` chooses.
+    /// Returns the table of the methods that `auto` chooses.
     pub(super) fn choices(&self) -> Option<Section> {
         let time = |x: Option<f64>| x.map_or_else(|| "-".to_owned(), seconds);
         let number = |x: Option<f64>| x.map_or_else(|| "-".to_owned(), |x| format!("{x:.1e}"));
@@ -253,7 +253,7 @@ pub(super) fn per_step(run: &RunEntry) -> f64 {
     run.iterations as f64 / run.steps.max(1) as f64
 }
 
-/// Code of a failure with its joint or body, and where it happened.
+/// Returns the code of a failure, with its joint or body and its time.
 pub(super) fn reason(run: &RunEntry) -> (String, String) {
     let Some(e) = &run.failure else { return ("failed".to_owned(), short(run.setting)) };
     let owner = e.joint.as_ref().map(|j| format!(" at joint `{j}`"));
@@ -269,7 +269,7 @@ pub(super) fn short(x: f64) -> String {
     significant(rounded(x, 3))
 }
 
-/// A time with a unit that suits it.
+/// Formats a time in a suitable unit.
 pub(super) fn seconds(t: f64) -> String {
     let (size, unit) = match t {
         t if t >= 1.0 => (t, "s"),

@@ -1,16 +1,17 @@
-//! Thinning of series so that peaks survive.
+//! Thinning of series that keeps their peaks.
 
-/// Most points of a line: more than a screen has columns for it.
+/// Points of a line at most [-]: more than a screen has columns for it.
 pub(super) const MAX_POINTS: usize = 1500;
 
-/// Indices to keep, at most `most` of them: the first, the last, and the smallest and largest value of each of `most/2 - 1` stretches.
+/// Returns the indices of the points to keep, at most `most`: the first, the last, and the smallest and largest value in each of `most/2 - 1`
+/// intervals.
 ///
-/// Values that are not finite are kept once per stretch, so that gaps survive too. Cost: one pass.
+/// One value that is not finite is kept in each interval, so that gaps remain visible. Cost: one pass.
 pub(super) fn kept(values: &[f64], most: usize) -> Vec<usize> {
     if values.len() <= most {
         return (0..values.len()).collect();
     }
-    // three indices at most per stretch: smallest, largest, first gap; and the two ends
+    // at most three indices per interval (smallest, largest, first gap), and the two ends
     let has_gaps = values.iter().any(|x| !x.is_finite());
     let n_stretches = most.saturating_sub(2).max(3) / if has_gaps { 3 } else { 2 };
     let mut indices = vec![0];
@@ -28,10 +29,10 @@ pub(super) fn kept(values: &[f64], most: usize) -> Vec<usize> {
     indices
 }
 
-/// Stretches of an upper edge. Chosen, not tuned.
+/// Intervals of an upper envelope [-]. Chosen, not tuned.
 const EDGE: usize = 240;
 
-/// Indices of the first value, of the largest of each of 240 stretches, and of the last.
+/// Returns the indices of the first value, of the largest value in each of 240 intervals, and of the last value.
 pub(super) fn envelope(values: &[f64]) -> Vec<usize> {
     if values.len() <= EDGE {
         return (0..values.len()).collect();
@@ -46,7 +47,7 @@ pub(super) fn envelope(values: &[f64]) -> Vec<usize> {
     indices
 }
 
-/// Evenly spread indices, at most `most` of them, the first and the last among them.
+/// Returns evenly distributed indices, at most `most`, including the first and the last.
 pub(super) fn spread(n: usize, most: usize) -> Vec<usize> {
     let most = most.max(2);
     if n <= most {

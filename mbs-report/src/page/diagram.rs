@@ -1,20 +1,20 @@
-//! Diagrams of points, one number over another, as they go into a pack.
+//! Diagrams of points, one quantity over another, in the form in which a pack contains them.
 
 use super::section::DiagramFrame;
 use serde::Serialize;
 
-/// Look of the lines of one kind: distinguished by mark and dash as well as by colour.
+/// Look of the lines of one kind. Lines differ by mark and dash as well as by colour.
 #[derive(Debug, Default, Serialize)]
 pub(crate) struct Look {
     pub(crate) name: String,
-    /// Number of the colour and mark.
+    /// Index of the colour and of the mark.
     pub(crate) kind: usize,
     pub(crate) dash: usize,
-    /// Are marks filled?
+    /// Are the marks of the line filled?
     pub(crate) is_filled: bool,
     pub(crate) is_thin: bool,
     pub(crate) is_shown: bool,
-    /// Names of the buttons that show the line.
+    /// Names of the buttons that show or hide the line.
     pub(crate) groups: Vec<&'static str>,
 }
 
@@ -31,33 +31,33 @@ pub(crate) struct Diagram {
     pub(crate) across: Vec<(f64, &'static str)>,
     /// Vertical lines of the diagram: value and name.
     pub(crate) upright: Vec<(f64, &'static str)>,
-    /// Side of the rail: `top` or `right`; empty: there is none.
+    /// Side of the rail for failed runs: `top` or `right`; empty without a rail.
     pub(crate) rail: &'static str,
-    /// A line through the points without marks: a histogram.
+    /// Is the line drawn without marks, for a histogram?
     pub(crate) is_plain: bool,
-    /// Marks without a line through them.
+    /// Are marks drawn without a line?
     pub(crate) is_scatter: bool,
-    /// Are the axes logarithmic, across and up?
+    /// Are the horizontal and the vertical axis logarithmic?
     pub(crate) is_log: [bool; 2],
     /// Is the diagram as wide as the page, with the keys of all lines?
     pub(crate) has_keys: bool,
 }
 
-/// Points of one look.
+/// Points of a line with one look.
 #[derive(Debug, Default, Serialize)]
 pub(crate) struct DiagramLine {
     /// Index of its look.
     pub(crate) look: usize,
-    /// Points of the line: x, y, and what is said of them.
+    /// Points of the line: x, y, and the text of the tooltip.
     pub(crate) points: Vec<(f64, f64, String)>,
-    /// Runs that stopped: x or y along the rail, and why.
+    /// Failed runs: x or y along the rail, and the reason.
     pub(crate) failed: Vec<(f64, String)>,
-    /// Note that the legend adds.
+    /// Note for the line in the legend.
     pub(crate) note: String,
 }
 
 impl Diagram {
-    /// Returns the frame of the diagram, by its number in the pack.
+    /// Returns the frame of the diagram with its index in the pack.
     pub(crate) fn frame(&self, number: usize) -> DiagramFrame {
         DiagramFrame {
             place: ("diagram", number),

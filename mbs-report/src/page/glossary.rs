@@ -1,12 +1,12 @@
-//! The terms that a page uses, from the one text of the glossary: docs/GLOSSARY.md has the same, which a test compares.
+//! Glossary terms of a page, from the text of the glossary. A test checks that docs/GLOSSARY.md has the same text.
 
 use crate::text::escape;
 use core::fmt::Write;
 
-/// The glossary as Markdown: a paragraph for each term, which begins with the term in bold.
+/// Glossary as Markdown: one paragraph for each term, with the term in bold at its beginning.
 const GLOSSARY: &str = include_str!("glossary.md");
 
-/// The terms that stand in a part of a page, as a list under a fold; nothing where there are none.
+/// Writes the terms that occur in a part of a page as a folded list; nothing if no term occurs.
 pub(super) fn write_used(body: &str, out: &mut String) {
     let text = plain(body);
     let paragraphs = GLOSSARY.split("\n\n").filter_map(|paragraph| {
@@ -16,7 +16,7 @@ pub(super) fn write_used(body: &str, out: &mut String) {
     });
     let mut terms = String::new();
     for (term, meaning) in paragraphs {
-        // Writing into a String has nothing to fail on.
+        // writing to a String cannot fail
         let _ = writeln!(terms, "<dt>{}</dt><dd>{}</dd>", escape(term), inline(meaning));
     }
     if !terms.is_empty() {
@@ -27,20 +27,20 @@ pub(super) fn write_used(body: &str, out: &mut String) {
     }
 }
 
-/// The words that a paragraph explains: all that are bold, in small letters.
+/// Returns the words that a paragraph explains: all bold ones, in lower case.
 fn names(paragraph: &str) -> impl Iterator<Item = String> {
     let bold = paragraph.split("**").skip(1).step_by(2);
     let names = bold.flat_map(|names| names.trim_end_matches('.').split(", "));
     names.map(|name| name.split_whitespace().collect::<Vec<_>>().join(" ").to_lowercase())
 }
 
-/// The text between the tags of a page, in small letters.
+/// Returns the text between the tags of a page, in lower case.
 fn plain(html: &str) -> String {
     let pieces = html.split('<').map(|piece| piece.split_once('>').map_or(piece, |(_, text)| text));
     pieces.collect::<Vec<_>>().join(" ").to_lowercase()
 }
 
-/// Does a text have a word, or its plural?
+/// Does a text contain a word or its plural?
 fn has_word(text: &str, word: &str) -> bool {
     let is_letter = |c: Option<char>| c.is_some_and(|c| c.is_alphanumeric() || c == '-');
     text.match_indices(word).any(|(at, _)| {
@@ -50,7 +50,7 @@ fn has_word(text: &str, word: &str) -> bool {
     })
 }
 
-/// A paragraph as HTML: bold words, code, and links as their text, since the files that they name are not there.
+/// Converts a paragraph to HTML: bold words, code, and the text of links (the linked files are not part of a page).
 fn inline(paragraph: &str) -> String {
     let mut text = String::new();
     for (i, piece) in paragraph.split('[').enumerate() {
@@ -98,11 +98,11 @@ mod tests {
         for term in ["Constraints", "Redundant", "index-3, index-1"] {
             assert!(found.contains(&format!("<dt>{term}</dt>")), "{term}: {found}");
         }
-        // a class is no text, and a part of a word is no word
+        // names of classes and parts of words do not count
         assert_eq!(found.matches("<dt>").count(), 3, "{found}");
         assert!(!found.contains("**") && !found.contains('`') && !found.contains(".md"));
         assert_eq!(used("<p>nothing of it</p>"), "");
-        // all of it: six kilobytes at most
+        // the whole glossary has six kilobytes at most
         assert!(used(&inline(GLOSSARY)).len() < 6000, "{}", used(&inline(GLOSSARY)).len());
     }
 }

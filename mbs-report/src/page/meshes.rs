@@ -1,4 +1,4 @@
-//! The meshes of a page: files that are read once, and corners that become one where there are too many triangles.
+//! Meshes of a page. Each file is read once, and vertices are merged where there are too many triangles.
 
 use super::pack::{Pack, ends};
 use mbs::record::{RecordedMotion, ShapeForm};
@@ -8,29 +8,29 @@ use serde_json::{Value, json};
 use std::collections::{HashMap, HashSet};
 use std::path::Path;
 
-/// Most triangles of a page [-]: they are drawn at every picture, and take a hundred kilobytes.
+/// Triangles of a page at most [-], because all are drawn in every picture. They need a hundred kilobytes.
 const MOST_TRIANGLES: usize = 20_000;
-/// Fraction of them that is enough [-]. Chosen, not tuned.
+/// Fraction of these triangles at which the search for a cell size ends [-]. Chosen, not tuned.
 const ENOUGH: f64 = 0.8;
-/// Lengths of cells that are tried [-]. Chosen, not tuned.
+/// Cell sizes that are tried [-]. Chosen, not tuned.
 const TRIALS: usize = 6;
-/// Steps of the longest side of a mesh [-]: 0.06 mm of a metre, so that most differences between corners take two bytes.
+/// Steps along the longest side of a mesh [-]: 0.06 mm for a metre. Most differences of vertices then need two bytes.
 const STEPS: f64 = 16_383.0;
-/// Files that a note names [-].
+/// Names of files in a note, at most [-].
 const NAMED: usize = 3;
 
-/// The meshes of a motion, and what the reader of a page should know of them.
+/// Meshes of a motion, and notes on them for the reader of the page.
 #[derive(Debug, Default)]
 pub(super) struct PageMeshes {
-    /// Meshes as they are drawn.
+    /// Meshes in the form in which they are drawn.
     list: Vec<TriangleMesh>,
-    /// Numbers of the meshes by their files.
+    /// Indices of the meshes by the names of their files.
     by_file: HashMap<String, usize>,
     pub(super) notes: Vec<String>,
 }
 
 impl PageMeshes {
-    /// Reads the files of all meshes that are drawn.
+    /// Reads the files of all drawn meshes.
     pub(super) fn of(motion: &RecordedMotion) -> Self {
         let (mut meshes, mut scales, mut uses) = (Self::default(), Vec::new(), Vec::new());
         let mut lost: Vec<String> = Vec::new();
@@ -75,7 +75,7 @@ impl PageMeshes {
         self.notes.push(format!("Not drawn, since it cannot be read: {count}: {named}{more}."));
     }
 
-    /// Makes corners one that lie in one cell, until there are few enough triangles; `scales` are metres for each unit of the files.
+    /// Merges vertices in a common cell until there are few enough triangles. `scales` are the lengths of the files' units [m].
     fn simplify(&mut self, scales: &[f64], uses: &[usize]) {
         let drawn = |list: &[TriangleMesh]| -> usize {
             list.iter().zip(uses).map(|(mesh, uses)| mesh.triangles.len() * uses).sum()
@@ -92,7 +92,7 @@ impl PageMeshes {
                 .sum::<f64>(),
             MOST_TRIANGLES as f64,
         );
-        // two triangles stand on each cell
+        // a surface has about two triangles for each cell
         let mut cell = (2.0 * area / most).sqrt();
         let mut best: Option<(f64, Vec<TriangleMesh>)> = None;
         for _ in 0..TRIALS {
@@ -125,13 +125,13 @@ impl PageMeshes {
         }
     }
 
-    /// The number of a file's mesh, where something of it is drawn.
+    /// Returns the index of a file's mesh, if it has triangles to draw.
     pub(super) fn number(&self, file: &str) -> Option<usize> {
         let number = *self.by_file.get(file)?;
         (!self.list[number].triangles.is_empty()).then_some(number)
     }
 
-    /// The meshes in a pack: columns of places, and of the numbers of their triangles.
+    /// Packs the meshes: columns of vertices, and of the vertex indices of their triangles.
     pub(super) fn packed(&self, pack: &mut Pack) -> Vec<Value> {
         let packed = self.list.iter().map(|mesh| {
             let column =
@@ -151,7 +151,7 @@ impl PageMeshes {
     }
 }
 
-/// The name of a file without its folders: a page goes to others.
+/// Returns the name of a file without its folders, because a page is given to others.
 fn name(file: &str) -> String {
     Path::new(file)
         .file_name()

@@ -1,7 +1,7 @@
-//! HTML pages: one self-contained file each, made of sections; and the pages of runs.
+//! HTML pages of runs and other results. Each page is one self-contained file made of sections.
 //!
-//! Style, scripts and data are inside the file; it opens from disk and asks the network for nothing. Texts and tables are HTML, so a page has
-//! its numbers without scripts.
+//! Style, scripts and data are part of the file. It opens from disk and makes no network requests. Texts and tables are HTML, so that a page
+//! shows its numbers without scripts too.
 
 mod captions;
 mod decimate;

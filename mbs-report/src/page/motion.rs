@@ -1,4 +1,4 @@
-//! The motion of a run in a pack: pictures, and what is drawn.
+//! Motion of a run in a pack: pictures over time, and the drawn shapes.
 
 use super::decimate::spread;
 use super::meshes::PageMeshes;
@@ -7,16 +7,16 @@ use super::section::PageSection;
 use mbs::record::{DrawnShape, N_POSE, RecordedMotion, ShapeForm};
 use serde_json::{Value, json};
 
-/// Step of places, relative to the scene's length [-]: a hundredth of a millimetre on a metre. A fraction of the path would jitter where
-/// the view follows a vehicle.
+/// Step of packed positions, relative to the scene's length [-]: a hundredth of a millimetre for a metre. A step relative to the length of
+/// the path would show as jitter where the view follows a vehicle.
 const PLACE_STEP: f64 = 1e-5;
-/// Step of the numbers of a quaternion [-]: a tenth of a milliradian.
+/// Step of the components of a quaternion [-]: about a tenth of a milliradian.
 const TURN_STEP: f64 = 1.0 / 16_384.0;
-/// Step of times, relative to the time of the run [-].
+/// Step of packed times, relative to the duration of the run [-].
 pub(super) const TIME_STEP: f64 = 1e-6;
 
-/// Sections of a page that show a mechanism at its start with names, notes first, and the packed data for the viewer. `None` if there is
-/// nothing to draw.
+/// Returns the sections of a page that show the start of a mechanism with names, and the packed data for the view. Notes come first. `None`
+/// if there is nothing to draw.
 pub(crate) fn still_view(motion: &RecordedMotion) -> Option<(Vec<PageSection>, String)> {
     let mut first = motion.clone();
     first.times.truncate(1);
@@ -30,7 +30,7 @@ pub(crate) fn still_view(motion: &RecordedMotion) -> Option<(Vec<PageSection>, S
     Some((sections.collect(), pack.text(json!({ "motion": motion }))))
 }
 
-/// Packs a motion with at most so many pictures, with names of bodies and joints shown or not; `None`: there is nothing to draw.
+/// Packs a motion with at most `most` pictures, with or without names of bodies and joints; `None` if there is nothing to draw.
 pub(super) fn packed(
     (motion, meshes): (&RecordedMotion, &PageMeshes),
     (most, is_named): (usize, bool),
@@ -80,7 +80,7 @@ pub(super) fn packed(
     }))
 }
 
-/// The shapes that are drawn: meshes by their numbers, and what stands in for those that cannot be read.
+/// Returns the drawn shapes: meshes by their indices, and other shapes in place of meshes that cannot be read.
 fn shapes(motion: &RecordedMotion, meshes: &PageMeshes) -> Vec<Value> {
     let number = |shape: &DrawnShape| match &shape.form {
         ShapeForm::Mesh { file, .. } => meshes.number(file),
@@ -102,7 +102,7 @@ fn shapes(motion: &RecordedMotion, meshes: &PageMeshes) -> Vec<Value> {
     shapes.collect()
 }
 
-/// Packs times [s] to a part of the time of the run.
+/// Packs times [s] with a step relative to the duration of the run.
 pub(super) fn times_of(times: &[f64], pack: &mut Pack) -> Column {
     let length = times.last().copied().unwrap_or(0.0).abs();
     let step = TIME_STEP * if length > 0.0 { length } else { 1.0 };

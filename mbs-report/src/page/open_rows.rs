@@ -1,15 +1,15 @@
-//! A table whose rows open: each has a table of its own below it, without scripts.
+//! A table whose rows can be opened without scripts: each row contains another table.
 
 use crate::table::Section;
 use crate::text::escape;
 use core::fmt::Write;
 
-/// A table whose rows open.
+/// A table whose rows can be opened.
 #[derive(Debug, Default)]
 pub(crate) struct OpenRows {
     /// Names of the columns.
     pub(crate) head: Vec<String>,
-    /// The cells of each row, and what it opens.
+    /// Cells of each row, and the table within it.
     pub(crate) rows: Vec<(Vec<String>, Section)>,
     pub(crate) caption: String,
 }
@@ -19,7 +19,7 @@ impl OpenRows {
         let cells = |cells: &[String]| {
             cells.iter().map(|cell| format!("<span>{}</span>", escape(cell))).collect::<String>()
         };
-        // Writing into a String has nothing to fail on.
+        // writing to a String cannot fail
         let _ = writeln!(
             out,
             "<div class=\"wide\"><div class=\"rows\" style=\"--n: {}\"><div class=\"row head\">{}</div>",

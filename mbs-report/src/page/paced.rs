@@ -1,14 +1,14 @@
-//! Sections of the page of a run at the pace of the clock that stand before the motion: margins and the ladder.
+//! Sections of the page of a real-time run before the motion: margins and the ladder.
 
 use super::section::PageSection;
 use crate::table::Section;
 use mbs::record::{Degraded, RealtimeSummary};
 use mbs_scene::format::{duration, few};
 
-/// The column of the ladder that has bars: the share of the periods of each level.
+/// Index of the ladder's column with bars: the fraction of the periods at each level.
 const PERIODS: usize = 3;
 
-/// Whether the deadline was held, how large the margins were, and the levels that ran.
+/// Returns the sections on the deadline, on the margins, and on the levels of the run.
 pub(super) fn sections(paced: &RealtimeSummary) -> Vec<PageSection> {
     let held = match paced.overruns {
         0 => format!("held in all {} periods", paced.periods),
@@ -84,7 +84,7 @@ fn ladder(levels: &[Degraded]) -> Section {
     table
 }
 
-/// A time, which may be negative, in one piece.
+/// Formats a time, which may be negative, without a line break.
 fn signed(t: f64) -> String {
     let time = if t < 0.0 { format!("-{}", duration(-t)) } else { duration(t) };
     time.replace(' ', "\u{a0}")

@@ -1,4 +1,4 @@
-//! Packed columns of whole numbers: what a page carries of long series, and how its script reads them.
+//! Packed columns of whole numbers: long series in the form in which a page contains them and its script reads them.
 //!
 //! ```text
 //! group     rows of several columns; the first row as it is, then the differences d to the row before
@@ -9,14 +9,14 @@
 
 use miniz_oxide::deflate::compress_to_vec;
 
-/// Level of deflate [-]: its default; the highest one takes three times as long for one percent.
+/// Compression level of deflate [-]: the default. The highest level takes three times as long for one percent less.
 const LEVEL: u8 = 6;
-/// Steps of a column that is drawn [-]: beyond what a screen resolves.
+/// Number of steps in the range of a drawn column [-]: more than a screen resolves.
 const STEPS: f64 = 65_534.0;
-/// The number in the place of one that is not finite [-].
+/// Whole number that stands for a value that is not finite [-].
 const GAP: i64 = 65_535;
 
-/// Columns that wait to be packed, group by group.
+/// Columns to be packed, group by group.
 #[derive(Debug, Default)]
 pub(crate) struct Pack {
     bytes: Vec<u8>,
@@ -24,19 +24,19 @@ pub(crate) struct Pack {
     groups: Vec<[usize; 3]>,
 }
 
-/// Place of a column, and the numbers that it stands for: `low + step * whole`. The whole number 65535 is a gap where it has one.
+/// Position of a column in a pack, and its scale: `low + step * whole`. The whole number 65535 is a gap in columns that have gaps.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub(crate) struct Column {
-    /// Number of its group.
+    /// Index of its group.
     group: usize,
-    /// Number of the column in the group.
+    /// Index of the column in the group.
     column: usize,
     low: f64,
     step: f64,
 }
 
 impl Pack {
-    /// Packs columns of equal length as one group; the number of the group.
+    /// Packs columns of equal length as one group. Returns the index of the group.
     pub(crate) fn add(&mut self, columns: &[Vec<i64>]) -> usize {
         let rows = columns.first().map_or(0, Vec::len);
         debug_assert!(columns.iter().all(|column| column.len() == rows));
@@ -56,7 +56,7 @@ impl Pack {
         self.groups.len() - 1
     }
 
-    /// Packs numbers as multiples of a step, column by column; values that are not finite become zero.
+    /// Packs numbers as multiples of a step, column by column. Values that are not finite become zero.
     pub(crate) fn fixed(&mut self, columns: &[Vec<f64>], step: f64) -> Vec<Column> {
         let whole: Vec<Vec<i64>> =
             columns.iter().map(|c| c.iter().map(|x| nearest(x / step)).collect()).collect();
@@ -64,7 +64,7 @@ impl Pack {
         (0..columns.len()).map(|column| Column { group, column, low: 0.0, step }).collect()
     }
 
-    /// Packs numbers each to 1/65534 of the range of its column; values that are not finite become gaps.
+    /// Packs numbers with a step of 1/65534 of the range of their column. Values that are not finite become gaps.
     pub(crate) fn ranged(&mut self, columns: &[Vec<f64>]) -> Vec<Column> {
         let scales: Vec<(f64, f64)> = columns.iter().map(|column| scale(column)).collect();
         let whole = |(column, (low, step)): (&Vec<f64>, &(f64, f64))| -> Vec<i64> {
@@ -77,7 +77,7 @@ impl Pack {
         scales.into_iter().enumerate().map(column).collect()
     }
 
-    /// The pack as text, behind a header that lists the groups under `groups`.
+    /// Returns the pack as text, after a header that lists the groups under `groups`.
     pub(crate) fn text(&self, mut header: serde_json::Value) -> String {
         header["groups"] = serde_json::json!(self.groups);
         let header = header.to_string();
@@ -96,23 +96,23 @@ fn nearest(x: f64) -> i64 {
     x.round() as i64
 }
 
-/// The least and the largest of the finite values.
+/// Returns the smallest and the largest of the finite values.
 pub(super) fn ends(values: &[f64]) -> Option<[f64; 2]> {
     let mut finite = values.iter().copied().filter(|x| x.is_finite());
     let first = finite.next()?;
     Some(finite.fold([first, first], |[low, high], x| [low.min(x), high.max(x)]))
 }
 
-/// The least finite value, and the range in 65534 parts.
+/// Returns the smallest finite value, and 1/65534 of the range.
 fn scale(column: &[f64]) -> (f64, f64) {
     let Some([low, high]) = ends(column) else { return (0.0, 1.0) };
     let step = high / STEPS - low / STEPS;
     (low, if step.is_finite() && step > 0.0 { step } else { 1.0 })
 }
 
-/// Bytes in base64, with padding.
+/// Encodes bytes in base64, with padding.
 pub(crate) fn base64(bytes: &[u8]) -> String {
-    /// The letters of the values 0 to 63, by RFC 4648.
+    /// Letters for the values 0 to 63, by RFC 4648.
     const LETTERS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
     for three in bytes.chunks(3) {
@@ -150,7 +150,7 @@ pub(crate) mod tests {
         bytes
     }
 
-    /// Reads a pack as the script of a page does: its header, and the whole numbers of all groups.
+    /// Reads a pack as the script of a page does. Returns its header, and the whole numbers of all groups.
     pub(crate) fn unpacked(text: &str) -> (serde_json::Value, Vec<Vec<Vec<i64>>>) {
         let bytes = decompress_to_vec(&bytes_of(text)).expect("it is deflated");
         let n = u32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]) as usize;
@@ -205,7 +205,7 @@ pub(crate) mod tests {
         for (x, whole) in column.iter().zip(&groups[0][0]) {
             #[allow(clippy::cast_precision_loss, reason = "below 65536")]
             let found = low + step * *whole as f64;
-            // half a step and rounding
+            // half a step plus rounding errors
             assert!((found - x).abs() <= 0.5001 * step && step < 2.0 / 65_000.0);
         }
         assert!(groups[0][1].iter().all(|whole| *whole == GAP));
@@ -213,7 +213,7 @@ pub(crate) mod tests {
 
     #[test]
     fn base64_is_that_of_its_standard() {
-        // the vectors of RFC 4648, section 10
+        // test vectors of RFC 4648, section 10
         for (plain, text) in
             [("", ""), ("f", "Zg=="), ("fo", "Zm8="), ("foo", "Zm9v"), ("foob", "Zm9vYg==")]
         {

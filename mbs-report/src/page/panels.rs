@@ -1,4 +1,4 @@
-//! The plots of a run: which lines share a panel, and their packed points.
+//! Plots of a run: assignment of lines to panels, and their packed points.
 
 use super::captions;
 use super::decimate::{envelope, kept};
@@ -11,26 +11,26 @@ use serde::Serialize;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 
-/// Most lines of one panel [-]: more have no colours of their own.
+/// Lines of a panel at most [-], because there are no more distinct colours.
 const MAX_LINES: usize = 6;
-/// Ranges that differ by more than this ratio have panels of their own [-]: the smaller line would look flat.
+/// Ratio of two ranges above which lines get separate panels [-], because the smaller line would look flat.
 const MAX_RATIO: f64 = 20.0;
-/// Range below which a channel stands still, relative to the largest size among channels of its unit [-]: rounding.
+/// Range below which a channel counts as constant, relative to the largest size among channels of its unit [-]: rounding errors.
 const STILL: f64 = 1e-9;
 
-/// The plots of a run, as they go into a pack.
+/// Plots of a run in the form in which a pack contains them.
 #[derive(Debug, Default)]
 pub(super) struct Panels {
     panels: Vec<Panel>,
-    /// Most points of a line.
+    /// Points of a line at most [-].
     most: usize,
-    /// Times that lines have in common, and where they are packed.
+    /// Times that several lines have in common, with their packed column.
     shared: Vec<(Vec<f64>, Column)>,
-    /// Parts that show the components of each channel, by its name.
+    /// Components of each channel in the panels, by the channel's name.
     parts: BTreeMap<String, Vec<Part>>,
 }
 
-/// Place of a component of a channel: panel and line; of one that stands still, its value.
+/// Position of a channel's component: its panel and line, or its value if it is constant.
 #[derive(Debug, Clone, Copy, Serialize)]
 #[serde(untagged)]
 enum Part {
@@ -42,21 +42,21 @@ enum Part {
 struct Panel {
     #[serde(skip)]
     frame: PlotFrame,
-    /// The owner of the lines of a vector.
+    /// Name of the vector to which all lines of the panel belong.
     #[serde(skip)]
     owner: Option<String>,
-    /// The range of its first line.
+    /// Range of the first line.
     #[serde(skip)]
     range: f64,
     title: String,
     unit: String,
-    /// Name of the quantity across where it is not time.
+    /// Name of the quantity on the horizontal axis, if it is not time.
     #[serde(skip_serializing_if = "String::is_empty")]
     across: String,
     log: bool,
     steps: bool,
     lines: Vec<Line>,
-    /// The least and the largest of all runs at each time.
+    /// Smallest and largest value of all runs at each time.
     #[serde(skip_serializing_if = "Option::is_none")]
     band: Option<Band>,
 }
@@ -77,32 +77,32 @@ struct Line {
     y: Column,
 }
 
-/// Curve that is drawn over time, or over another column.
+/// Curve over time, or over another column.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Curve<'a> {
     pub(super) name: &'a str,
     pub(super) times: &'a [f64],
-    /// Values across, where they are not times.
+    /// Values on the horizontal axis, if they are not times.
     pub(super) across: Option<&'a [f64]>,
     pub(super) values: &'a [f64],
 }
 
-/// Choice of the points of a line that are drawn.
+/// Rule that selects the points of a line that are drawn.
 #[derive(Debug, Clone, Copy)]
 enum Thinning {
     /// Peaks of both signs.
     Peaks,
-    /// Upper edge: the depth of a residual between its peaks says nothing.
+    /// Upper envelope, because the minima of a residual between its peaks have no meaning.
     Edge,
 }
 
 impl Panels {
-    /// For lines of at most so many points.
+    /// Creates panels for lines of at most `most` points.
     pub(super) fn new(most: usize) -> Self {
         Self { most, ..Self::default() }
     }
 
-    /// Panels in the pack.
+    /// Returns the panels as JSON for the pack.
     pub(super) fn json(&self) -> Value {
         serde_json::to_value(&self.panels).unwrap_or_default()
     }
@@ -131,7 +131,7 @@ impl Panels {
         Line { name: name.to_owned(), t: column, x: None, y: pack.ranged(&[y])[0] }
     }
 
-    /// A panel of curves; of a logarithmic one, of their magnitudes.
+    /// Adds a panel of curves; a logarithmic panel shows their magnitudes.
     pub(super) fn add_curves(
         &mut self,
         text: (&str, &str, String),
@@ -158,7 +158,7 @@ impl Panels {
         panel.frame.clone()
     }
 
-    /// Adds a band to a panel: times, and the least and the largest value at them. Peaks of both edges stay.
+    /// Adds a band to a panel: times, and the smallest and largest value at each time. Peaks of both edges are kept.
     pub(super) fn add_band(
         &mut self,
         frame: &PlotFrame,
@@ -172,7 +172,7 @@ impl Panels {
         self.panels[frame.panel].band = Some(Band { t, low: columns[0], high: columns[1] });
     }
 
-    /// Places of the points of two columns that stay: the peaks of both.
+    /// Returns the indices of the points that are kept for two columns: the peaks of both.
     fn kept_of_both(&self, columns: [&[f64]; 2]) -> Vec<usize> {
         let mut indices = columns.map(|column| kept(column, self.most / 2)).concat();
         indices.sort_unstable();
@@ -180,7 +180,7 @@ impl Panels {
         indices
     }
 
-    /// A line over another column: peaks of both stay.
+    /// Adds a line over another column; the peaks of both columns are kept.
     fn over(&self, (curve, across): (&Curve<'_>, &[f64]), values: &[f64], pack: &mut Pack) -> Line {
         let indices = self.kept_of_both([across, values]);
         let of = |all: &[f64]| -> Vec<f64> { indices.iter().map(|i| all[*i]).collect() };
@@ -189,8 +189,8 @@ impl Panels {
         Line { name: curve.name.to_owned(), t, x: Some(columns[0]), y: columns[1] }
     }
 
-    /// Vectors have a panel for each unit; channels of one number share a panel with others of their unit. Lines whose ranges are far apart
-    /// have panels of their own. What stands still is listed: name, value and unit.
+    /// Adds plots of channels. A vector gets a panel for each unit. Scalar channels with the same unit are drawn in one panel, unless their
+    /// ranges differ too much. Returns the frames of the plots, and the constant components with name, value and unit.
     pub(super) fn add_channels(
         &mut self,
         channels: &[ChannelSeries],
@@ -246,7 +246,7 @@ impl Panels {
         self.parts.entry(channel.to_owned()).or_default().push(part);
     }
 
-    /// Forces and moments that are channels, each with its place, and where its components are drawn.
+    /// Returns the forces and moments that are channels, with their points, and the lines of their components.
     pub(super) fn forces(&self, places: &[DrawnForce]) -> Vec<Value> {
         let force = |at: &DrawnForce| {
             let DrawnForce { point, axes } = at;
@@ -292,7 +292,7 @@ impl Panels {
         panel
     }
 
-    /// Energy, violation, iterations, steps.
+    /// Adds the plots of a run's health: energy error, violation, iterations, steps.
     pub(super) fn add_health(&mut self, record: &RunRecord, pack: &mut Pack) -> Vec<PlotFrame> {
         let first = self.panels.len();
         let peaks = |name| (name, Thinning::Peaks);
@@ -334,19 +334,19 @@ impl Panels {
     }
 }
 
-/// Returns the exponents of ten that a logarithmic axis shows, packed evenly over its decades. What is not positive is a gap.
+/// Returns the exponents of ten for a logarithmic axis, so that values are packed evenly over the decades. A value of zero or less is a gap.
 fn logarithms(values: &[f64]) -> Vec<f64> {
     values.iter().map(|x| if *x > 0.0 { x.log10() } else { f64::NAN }).collect()
 }
 
-/// Range of the finite values, and the largest size; infinite and zero where there are none.
+/// Returns the range of the finite values and the largest absolute value; infinity and zero if there are none.
 fn extent(values: &[f64]) -> (f64, f64) {
     let of = |[low, high]: [f64; 2]| (high - low, low.abs().max(high.abs()));
     ends(values).map_or((f64::INFINITY, 0.0), of)
 }
 
-/// The largest size among the channels of each unit, degrees among radians; that of angles is at least a radian, beside which rounding is
-/// nothing.
+/// Returns the largest absolute value among the channels of each unit, with degrees converted to radians. For angles it is at least one
+/// radian, so that rounding errors count as constant.
 fn sizes(channels: &[ChannelSeries]) -> BTreeMap<&str, f64> {
     let mut sizes = BTreeMap::new();
     for series in channels {

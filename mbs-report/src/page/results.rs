@@ -1,4 +1,4 @@
-//! Pages of results that were read: channels of runs over each other, and the difference of two runs.
+//! Pages of results from files: channels of several runs, and the difference of two runs.
 
 use super::decimate::MAX_POINTS;
 use super::pack::Pack;
@@ -11,15 +11,15 @@ use serde_json::{Value, json};
 
 /// Digits of the numbers in the table of peaks.
 const DIGITS: usize = 6;
-/// Panels beyond which lines have fewer points, so that the page stays below four megabytes [-].
+/// Number of panels above which lines have fewer points, so that the page is smaller than four megabytes [-].
 const MANY_PANELS: usize = 200;
 
-/// Points of a line on a page of so many panels [-].
+/// Returns the number of points of a line on a page with `n_panels` panels [-].
 fn points(n_panels: usize) -> usize {
     (MAX_POINTS * MANY_PANELS / n_panels.max(MANY_PANELS)).max(16)
 }
 
-/// A page of plots: each of these columns over time, or the second over the first, with a line for each run that has it.
+/// Writes a page of plots: each column over time, or the second over the first, with a line for each run that has the column.
 #[must_use]
 pub fn plots_page(
     runs: &[(String, ResultTable)],
@@ -38,7 +38,7 @@ pub fn plots_page(
     .html()
 }
 
-/// Plots of columns of several runs over time, each with the band of what all of them have, and their panels in the pack.
+/// Returns plots of columns of several runs over time, each with the band of all runs, and their panels for the pack.
 pub(super) fn banded_frames(
     runs: &[(String, ResultTable)],
     names: &[String],
@@ -59,7 +59,7 @@ pub(super) fn banded_frames(
     (frames, panels.json())
 }
 
-/// A plot of a column of runs over time.
+/// Returns a plot of a column of several runs over time.
 fn over_time(
     runs: &[(String, ResultTable)],
     name: &str,
@@ -79,7 +79,7 @@ fn over_time(
     panels.add_curves(text, &curves.collect::<Vec<_>>(), (is_log, ""), pack)
 }
 
-/// Plots of columns of runs, and their panels in the pack.
+/// Returns plots of columns of several runs, and their panels for the pack.
 fn plot_frames(
     runs: &[(String, ResultTable)],
     names: &[String],
@@ -117,12 +117,12 @@ fn plot_frames(
     (frames, panels.json())
 }
 
-/// The unit of a column in the first run that has it.
+/// Returns the unit of a column in the first run that has the column.
 fn unit<'a>(runs: &'a [(String, ResultTable)], name: &str) -> &'a str {
     runs.iter().find_map(|(_, run)| run.column(name)).map_or("", |column| &column.unit)
 }
 
-/// A page of the difference of two runs: the largest one, both lines of each column beside their difference, and the table of peaks.
+/// Writes a page of the difference of two runs: the largest difference, plots of each column with its difference, and the table of peaks.
 #[must_use]
 pub fn difference_page(
     runs: &[(String, ResultTable); 2],
@@ -187,7 +187,7 @@ pub fn difference_page(
     .html()
 }
 
-/// Returns notes on what is not compared.
+/// Returns notes on the columns and times that are not compared.
 fn notes(runs: &[(String, ResultTable); 2], found: &Difference) -> Vec<String> {
     let [(a, _), (b, _)] = runs;
     let mut notes = Vec::new();

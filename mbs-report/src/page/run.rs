@@ -1,4 +1,4 @@
-//! The page of a run: what stopped it, key numbers, the motion, plots, statistics, and how it was made.
+//! Page of a run: its error, key numbers, the motion, plots, statistics, and provenance.
 
 use super::decimate::MAX_POINTS;
 use super::meshes::PageMeshes;
@@ -12,13 +12,13 @@ use crate::table::{Section, row};
 use mbs::record::{RealtimeSummary, RunRecord};
 use serde_json::json;
 
-/// Most bytes of the data of a page, as text: with scripts it is below four megabytes.
+/// Size of the data of a page at most, as text [bytes]. With its scripts the page is then smaller than four megabytes.
 const MAX_PACK: usize = 3_600_000;
-/// Most pictures of the motion [-]: as many as a run records.
+/// Pictures of the motion at most [-]: as many as a run records.
 const MAX_PICTURES: usize = 600;
-/// Halvings of pictures and points of lines before what is there is taken [-].
+/// Halvings of pictures and points before the data are accepted at any size [-].
 const HALVINGS: u32 = 5;
-/// Labels of the summary that stand at the top of the page.
+/// Labels of the summary that are shown at the top of the page.
 const FIGURES: [&str; 5] = [
     "degrees of freedom",
     "time reached",
@@ -27,7 +27,7 @@ const FIGURES: [&str; 5] = [
     "largest energy error",
 ];
 
-/// Pack that the script draws, and the sections that name it.
+/// Packed data for the script, and the sections that refer to them.
 struct Drawn {
     pack: String,
     view: Option<PageSection>,
@@ -35,10 +35,10 @@ struct Drawn {
     health: Vec<PageSection>,
 }
 
-/// Writes the page of a run: one HTML file without references to anything outside.
+/// Writes the page of a run: one HTML file without references to other files.
 ///
-/// Series are thinned to at most 1500 points per line; the smallest and largest value of every stretch stay,
-/// so peaks survive. Numbers that are not finite leave gaps. Lines are drawn to 1/65000 of their range.
+/// Series are thinned to at most 1500 points per line. The smallest and largest value of every interval are kept, so that peaks remain
+/// visible. Numbers that are not finite leave gaps. Lines have a resolution of 1/65000 of their range.
 ///
 /// # Examples
 /// ```
@@ -51,7 +51,7 @@ pub fn page(record: &RunRecord) -> String {
     html(record, Vec::new())
 }
 
-/// Writes the page of a run at the pace of the clock: margins and ladder stand before the motion.
+/// Writes the page of a real-time run: margins and the ladder are shown before the motion.
 #[must_use]
 pub fn paced_page(record: &RunRecord, paced: &RealtimeSummary) -> String {
     html(record, paced::sections(paced))
@@ -103,7 +103,7 @@ fn html(record: &RunRecord, head: Vec<PageSection>) -> String {
     Page { title: record.scene.clone(), sections, pack: Some(drawn.pack) }.html()
 }
 
-/// Returns what is drawn, with half the pictures and points as often as the pack is too large; and how often that was.
+/// Returns the drawn data and the number of halvings. Pictures and points are halved until the pack is small enough.
 fn fitting(record: &RunRecord, meshes: &PageMeshes) -> (Drawn, u32) {
     let mut halvings = 0;
     loop {
@@ -142,7 +142,7 @@ fn drawn(record: &RunRecord, meshes: &PageMeshes, [pictures, points]: [usize; 2]
     Drawn { pack, view, plots, health: vec![PageSection::Plots(health)] }
 }
 
-/// Returns sentences on what the view shows that is not seen at once.
+/// Returns sentences on parts of the view that are not obvious.
 fn caption(record: &RunRecord) -> String {
     let motion = record.motion.as_ref();
     let has_traces = motion.is_some_and(|motion| !motion.traces.is_empty());

@@ -1,4 +1,4 @@
-//! A page as sections of data, and the one HTML file that they make.
+//! A page as a list of sections, and the HTML file that they form.
 
 use super::glossary;
 use super::open_rows::OpenRows;
@@ -6,15 +6,15 @@ use crate::table::Section;
 use crate::text::{escape, fill};
 use core::fmt::Write;
 
-/// The frame of all pages.
+/// HTML frame of all pages.
 const FRAME: &str = include_str!("web/frame.html");
-/// The style of all pages.
+/// Style sheet of all pages.
 const STYLE: &str = include_str!("web/style.css");
-/// The licence of three.js, which pages with a view contain.
+/// Licence of three.js, which pages with a view contain.
 const LICENCE: &str = include_str!("web/three/LICENSE");
-/// The part of three.js that pages use, deflated and in base64.
+/// Part of three.js that pages use, deflated and in base64.
 const THREE: &str = include_str!("web/three/three.txt");
-/// The scripts of all pages with a pack.
+/// Scripts of all pages with a pack.
 const SCRIPTS: [&str; 5] = [
     include_str!("web/pack.js"),
     include_str!("web/clock.js"),
@@ -32,74 +32,75 @@ const VIEW_SCRIPTS: [&str; 4] = [
 /// Script of pages with diagrams.
 const DIAGRAM_SCRIPT: &str = include_str!("web/diagram.js");
 
-/// Notes that stand open at the top of a page [-]; more are folded, so that a phone shows the motion soon. Chosen, not tuned.
+/// Notes that are shown at the top of a page [-]. Further notes are folded, so that a phone shows the motion without scrolling. Chosen, not
+/// tuned.
 const OPEN_NOTES: usize = 3;
 
-/// The keys of lines, and buttons that show some of them.
+/// HTML of the line keys, and of buttons that show groups of lines.
 const KEYS: &str =
     "<div class=\"keys\" id=\"keys\"></div><div class=\"controls\" id=\"groups\"></div>";
 
-/// Page: its title, and its sections from top to bottom.
+/// A page: its title, and its sections from top to bottom.
 #[derive(Debug, Default)]
 pub(crate) struct Page {
     pub(crate) title: String,
     pub(crate) sections: Vec<PageSection>,
-    /// The pack that the view and the plots draw, as text.
+    /// Packed data that the view and the plots draw, as text.
     pub(crate) pack: Option<String>,
 }
 
-/// Section of a page. Texts and tables are HTML without scripts; the view and the plots are drawn from the page's pack.
+/// Section of a page. Texts and tables are HTML without scripts; a script draws the view and the plots from the page's pack.
 #[derive(Debug)]
 pub(crate) enum PageSection {
-    /// Reason why there is less than was asked for.
+    /// Reason why the page has less than was required.
     Error(String),
     /// Notes for the reader.
     Notes(Vec<String>),
     /// Key numbers of the page: label and value.
     Cards(Vec<[String; 2]>),
-    /// The motion in three dimensions, with a sentence below it.
+    /// Motion in three dimensions, with a sentence below it.
     View(String),
     /// Plots over time.
     Plots(Vec<PlotFrame>),
-    /// The keys of the lines of all diagrams, where none of them has them.
+    /// Keys of the lines of all diagrams, if no diagram has them.
     Keys,
-    /// Diagrams of the page's pack.
+    /// Diagrams drawn from the page's pack.
     Diagrams(Vec<DiagramFrame>),
     /// Table with a title.
     Table(Section),
-    /// A table whose rows open.
+    /// Table whose rows can be opened.
     Rows(OpenRows),
-    /// Tables beside each other, where there is room.
+    /// Tables side by side, where the page is wide enough.
     Tables(Vec<Section>),
-    /// Sections that are folded under a title.
+    /// Folded sections under a title.
     Fold(String, Vec<Self>),
-    /// A text of lines.
+    /// Text shown line by line.
     Text(String),
 }
 
-/// Frame of a plot: what it has beside its lines.
+/// Frame of a plot: everything except its lines.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct PlotFrame {
-    /// Number of the plot among the panels of the pack.
+    /// Index of the plot among the panels of the pack.
     pub(crate) panel: usize,
     pub(crate) title: String,
     pub(crate) unit: String,
     pub(crate) caption: String,
 }
 
-/// Frame of a diagram: what it has beside its points.
+/// Frame of a diagram: everything except its points.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct DiagramFrame {
-    /// Kind of the diagram, `diagram` or `map`, and its number among those of the kind in the pack.
+    /// Kind of the diagram, `diagram` or `map`, and its index among the diagrams of the kind in the pack.
     pub(crate) place: (&'static str, usize),
     pub(crate) title: String,
     pub(crate) caption: String,
-    /// Is it as wide as the page, with the keys of all lines?
+    /// Is the diagram as wide as the page, with the keys of all lines?
     pub(crate) has_keys: bool,
 }
 
 impl Page {
-    /// The page as one HTML file without references to anything outside.
+    /// Returns the page as one HTML file without references to other files.
     pub(crate) fn html(&self) -> String {
         let title = escape(&self.title);
         let mut body = String::new();
@@ -116,7 +117,7 @@ impl Page {
                 PageSection::Fold(title, licence).write(&mut body);
             }
             let three = if has_view { THREE.trim_end() } else { "" };
-            // Writing into a String has nothing to fail on.
+            // writing to a String cannot fail
             let _ = writeln!(scripts, "<script type=\"text/plain\" id=\"pack\">{pack}</script>");
             let _ = writeln!(scripts, "<script type=\"text/plain\" id=\"three\">{three}</script>");
             let view = if has_view { VIEW_SCRIPTS.concat() } else { String::new() };
@@ -139,7 +140,7 @@ impl Page {
 }
 
 impl PageSection {
-    /// A table, under a fold with its title where it is to be folded.
+    /// Creates a section from a table, folded under its title if the table is marked so.
     pub(crate) fn of(section: Section) -> Self {
         if !section.is_folded {
             return Self::Table(section);
@@ -157,7 +158,7 @@ impl PageSection {
     }
 
     fn write(&self, out: &mut String) {
-        // Writing into a String has nothing to fail on.
+        // writing to a String cannot fail
         let _ = match self {
             Self::Error(text) => {
                 writeln!(out, "<p class=\"stopped\" role=\"alert\">{}</p>", escape(text))
@@ -212,10 +213,10 @@ impl PageSection {
     }
 }
 
-/// The first notes, and the others folded.
+/// Returns the list of notes, of which the first are shown and the others folded.
 fn list_of_notes(notes: &[String]) -> String {
     let items: Vec<_> = notes.iter().map(|note| format!("<li>{}</li>", escape(note))).collect();
-    // a fold with one note takes as much room as the note
+    // a fold with one note needs as much space as the note
     let n = if items.len() > OPEN_NOTES + 1 { OPEN_NOTES } else { items.len() };
     let (shown, more) = items.split_at(n);
     let more = match more.len() {

@@ -1,16 +1,16 @@
-//! The table of statistics on the page of a run.
+//! Table of statistics on the page of a run.
 
 use super::section::PageSection;
 use crate::table::Section;
 use mbs::record::ChannelSeries;
 use mbs::scene_file::format::significant;
 
-/// Most rows that stand open on a page [-]: a screen's height. Chosen, not tuned.
+/// Rows of the table that are shown without folding, at most [-]: the height of a screen. Chosen, not tuned.
 const MAX_OPEN: usize = 24;
-/// Digits of a time in the table: to a thousandth of a percent of a run.
+/// Digits of a time in the table [-]: a thousandth of a percent of a run.
 const TIME_DIGITS: usize = 5;
 
-/// Peaks, when they came, and root mean squares of all channels; folded where there are many.
+/// Returns the table of extremes with their times, and of root mean squares, for all channels; folded if it is long.
 pub(super) fn section(channels: &[ChannelSeries]) -> Option<PageSection> {
     let rows: Vec<_> = channels.iter().flat_map(rows).collect();
     let n = rows.len();

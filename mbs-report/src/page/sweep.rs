@@ -1,4 +1,4 @@
-//! The page of a sweep: each result over each parameter, traces of some members, and the table of members.
+//! Page of a sweep: each result over each parameter, traces of some members, and the table of members.
 
 use super::diagram::{Diagram, DiagramLine, Look};
 use super::open_rows::OpenRows;
@@ -11,18 +11,18 @@ use mbs_scene::format::{duration, few};
 use mbs_study::sweep::{Columns, Report};
 use serde_json::json;
 
-/// Diagrams that stand open on the page [-]: a screen or two.
+/// Diagrams that are not folded, at most [-]: a screen or two.
 const MAX_OPEN: usize = 12;
-/// Points of all diagrams [-]: the page then stays below four megabytes. Chosen, not tuned.
+/// Points of all diagrams at most [-], so that the page is smaller than four megabytes. Chosen, not tuned.
 const MAX_POINTS: usize = 24_000;
-/// Rows of the table of members, and cells of the tables that they open [-]: of more, the page says where the others are.
+/// Rows of the table of members at most, and cells of the tables within it [-]. Beyond these the page refers to the file with all members.
 const MAX_ROWS: [usize; 2] = [500, 24_000];
-/// Ratio of the largest to the least value beyond which a positive parameter has a logarithmic axis [-].
+/// Ratio of the largest to the smallest value above which a positive parameter has a logarithmic axis [-].
 const MANY_TIMES: f64 = 50.0;
-/// The three numbers of each column of the outputs.
+/// Names of the three numbers for each column of the outputs.
 const NUMBERS: [&str; 3] = ["at the end", "least", "largest"];
 
-/// Writes the page of a sweep: one HTML file without references to anything outside. Traces are rows of some members, by their names.
+/// Writes the page of a sweep: one HTML file without references to other files. `traces` are the results of some members, with their names.
 #[must_use]
 pub fn sweep_page(
     (title, command): (&str, &str),
@@ -69,7 +69,7 @@ pub fn sweep_page(
     Page { title: title.to_owned(), sections, pack: Some(pack.text(header)) }.html()
 }
 
-/// The members that failed, by code.
+/// Returns notes on the failed members, by error code.
 fn notes(report: &Report) -> Vec<PageSection> {
     let failures = report.failures.iter();
     let note = |(code, (count, first, message)): (&String, &(usize, usize, String))| {
@@ -87,11 +87,11 @@ fn looks() -> Vec<Look> {
         is_shown: true,
         ..Look::default()
     };
-    // a disc, a triangle that points down, one that points up
+    // a disc, a triangle that points down, a triangle that points up
     [0, 4, 2].into_iter().zip(NUMBERS).map(look).collect()
 }
 
-/// Each result over each parameter.
+/// Returns diagrams of each result over each parameter.
 fn diagrams(columns: &Columns, report: &Report) -> Vec<Diagram> {
     let header = columns.header();
     let starts: Vec<usize> = columns.channels().collect();
@@ -131,7 +131,7 @@ fn diagrams(columns: &Columns, report: &Report) -> Vec<Diagram> {
     diagrams
 }
 
-/// A row for each member: its numbers, what became of it, and the outputs at the end. It opens the rest of what is known of it.
+/// Returns a table with a row for each member: its number, parameters, status and final outputs. A row opens to all other data of the member.
 fn members(columns: &Columns, report: &Report) -> OpenRows {
     let header = columns.header();
     let mut shown = vec![0];

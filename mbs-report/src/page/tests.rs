@@ -1,4 +1,4 @@
-//! The page holds what it was given and refers to nothing outside.
+//! Tests of pages: a page contains its data and refers to nothing outside.
 
 use super::pack::tests::unpacked;
 use crate::page;
@@ -40,22 +40,22 @@ fn record() -> RunRecord {
     }
 }
 
-/// The text of a script element.
+/// Returns the text of a script element.
 fn script<'a>(html: &'a str, id: &str) -> &'a str {
     let mark = format!("id=\"{id}\">");
     let start = html.find(&mark).unwrap() + mark.len();
     &html[start..start + html[start..].find("</script>").unwrap()]
 }
 
-/// Columns of whole numbers, group by group.
+/// Columns of whole numbers, by group.
 pub(crate) type Groups = Vec<Vec<Vec<i64>>>;
 
-/// The header of a page's pack, and its columns.
+/// Returns the header of a page's pack, and its columns.
 pub(crate) fn data(html: &str) -> (serde_json::Value, Groups) {
     unpacked(script(html, "pack"))
 }
 
-/// The numbers of a column that a header names.
+/// Returns the values of a column that a header refers to.
 fn numbers(column: &serde_json::Value, groups: &Groups) -> Vec<f64> {
     let index = |key: &str| usize::try_from(column[key].as_u64().unwrap()).unwrap();
     let [low, step] = ["low", "step"].map(|key| column[key].as_f64().unwrap());
@@ -88,7 +88,7 @@ fn peaks_survive_and_gaps_are_gaps() {
     let (header, groups) = data(&page(&record()));
     let lines = header["panels"][0]["lines"].as_array().unwrap();
     let y = numbers(&lines[0]["y"], &groups);
-    // the peak is the largest value, which is the end of the range
+    // the peak is the largest value and thus the end of the column's range, which is packed exactly
     let peak = y.iter().copied().fold(0.0, f64::max);
     assert!(y.len() <= 1500 && (peak - 9.876_54).abs() < 1e-9, "{} points, {peak}", y.len());
     let gaps = &header["panels"][1]["lines"][0]["y"];
@@ -106,7 +106,7 @@ fn places_and_turns_are_those_of_the_run_to_the_steps_that_they_are_packed_by() 
     let x = numbers(&motion["places"][0], &groups);
     let z = numbers(&motion["turns"][3], &groups);
     for ((t, x), z) in times.iter().zip(x).zip(z) {
-        // half of 1e-5 of a metre, of 2^-14, and of 1e-6 of twenty seconds
+        // half of the steps: 1e-5 of a metre, 2^-14, and 1e-6 of twenty seconds
         assert!((x - t.cos()).abs() < 2e-5, "{t}");
         assert!((z - (t / 2.0).sin()).abs() < 5e-5, "{t}");
     }
@@ -184,7 +184,7 @@ fn forces_are_drawn_from_the_lines_of_their_channel() {
         let point = DrawnPoint { name: name.into(), ..DrawnPoint::default() };
         DrawnForce { point, axes: None }
     };
-    // `tip` is no force, and nothing is called `none`
+    // `tip` is not a force, and no channel has the name `none`
     record.motion.as_mut().unwrap().forces = vec![of("pin"), of("tip"), of("none")];
     let (header, groups) = data(&page(&record));
     let forces = header["motion"]["forces"].as_array().unwrap();
@@ -195,7 +195,7 @@ fn forces_are_drawn_from_the_lines_of_their_channel() {
     let times = numbers(&line["t"], &groups);
     assert!(times.len() > 100);
     for (t, force) in times.iter().zip(numbers(&line["y"], &groups)) {
-        // a part in 65534 of the range of 600 N, rows 1 ms apart
+        // a step is 1/65534 of the range of 600 N; rows are 1 ms apart
         assert!((force - 300.0 * (t + 1.0).sin()).abs() < 0.01, "{t}");
     }
 }
@@ -228,7 +228,7 @@ fn lists_of_uneven_length_do_not_panic() {
 #[test]
 fn a_page_of_noise_stays_below_four_megabytes_and_says_what_it_left_out() {
     let times: Vec<f64> = (0..1500).map(f64::from).collect();
-    // values without any order: nothing can be packed below the two bytes of a step
+    // random values: none can be packed in less than the two bytes of a step
     let noise = |seed: u32| -> Vec<f64> {
         let mut x = seed;
         let next = |_| {
@@ -248,8 +248,8 @@ fn a_page_of_noise_stays_below_four_megabytes_and_says_what_it_left_out() {
     assert!(html.contains("run.csv has all rows"));
 }
 
-/// Gaps between the rear wheels and the drawn road at a time [m], and the time of the picture [s].
-/// Gaps are negative where tires are pressed in.
+/// Returns the gaps between the rear wheels and the drawn road at a time [m], and the time of the picture [s]. A gap is negative where the
+/// tire is compressed.
 fn rear_gaps(motion: &serde_json::Value, groups: &Groups, t: f64) -> ([f64; 2], f64) {
     let times = numbers(&motion["times"], groups);
     let apart = |i: &usize| (times[*i] - t).abs();
@@ -300,10 +300,10 @@ fn the_rear_wheels_stand_on_the_drawn_road_at_the_start_and_at_the_landing_behin
     let settings = mbs::ResolvedMethod::new(&scene, &asked).expect("settings");
     let outcome = mbs::typed::run::<f64, 3>(&scene, &settings, &mut ());
     let (header, groups) = data(&page(&outcome.record(Provenance::default())));
-    // the tires carry 3593 N at rest, with 460000 N/m: 7.8 mm
+    // each tire carries 3593 N at rest and has a stiffness of 460000 N/m, which gives 7.8 mm
     let (still, _) = rear_gaps(&header["motion"], &groups, 0.0);
     assert!(still.iter().all(|gap| (gap + 0.0078).abs() < 1e-3), "{still:?}");
-    // at the landing they carry three times as much
+    // at the landing each tire carries three times this force
     let (landing, t) = rear_gaps(&header["motion"], &groups, 6.4);
     assert!(landing.iter().all(|gap| (-0.03..0.0).contains(gap)), "{landing:?} at t = {t} s");
 }
@@ -343,7 +343,7 @@ opacity = 0.5
         .filter(|shape| shape["body"] == 0 && shape["form"] != "stroke")
         .collect();
     let [shape] = boxes[..] else { panic!("{boxes:?}") };
-    // places count from the centre of mass; the second axis is the part of the given one across the first
+    // positions are relative to the centre of mass; the second axis is the part of the given axis orthogonal to the first
     assert_eq!(shape["form"], "box");
     assert_eq!(shape["at"], serde_json::json!([0.0, 0.0, 2.0]));
     assert_eq!(shape["half"], serde_json::json!([1.0, 2.0, 3.0]));
@@ -358,7 +358,7 @@ opacity = 0.5
 fn a_mesh_is_drawn_and_one_that_cannot_be_read_is_a_note_with_the_inertia_in_its_place() {
     let folder = std::env::temp_dir().join(format!("mbs-mesh-page-{}", std::process::id()));
     std::fs::create_dir_all(&folder).expect("a folder");
-    // a square of more triangles than a page has
+    // a square with more triangles than a page may have
     let n = 130;
     let corner = |i: usize| format!("v {} {} 0\n", i % n, i / n);
     let face = |i: usize| {
@@ -403,7 +403,7 @@ fn a_mesh_is_drawn_and_one_that_cannot_be_read_is_a_note_with_the_inertia_in_its
     ] {
         assert!(html.contains(note), "{note}");
     }
-    // corners of a large ground become one so far apart that nothing is left of a small part: it has its inertia, not nothing
+    // the cells for a large ground are so wide that a small part has no triangles left: it is drawn by its inertia instead
     std::fs::write(folder.join("small.obj"), "v 0 0 0\nv 0.01 0 0\nv 0 0.01 0\nf 1 2 3\n")
         .expect("a file");
     let text = "[scene]\ndimension = 3\nduration = 0.1\n".to_owned()
