@@ -1,10 +1,11 @@
-//! `cargo xtask bundle`: the part of three.js that pages contain, as one text. No build needs node: the text is in the repository.
+//! The job `cargo xtask bundle`: makes the part of three.js that pages contain, as one text. The text is in the repository, so that no
+//! build needs node.
 
 use crate::process::{root, run, target_dir};
 use std::fs;
 use std::process::{Command, ExitCode};
 
-/// Files that the bundle is made of, and the two that it leaves.
+/// Files from which the bundle is made, and the two that it writes.
 const SOURCES: [&str; 7] = [
     ".npmrc",
     "bundle.mjs",
@@ -14,10 +15,10 @@ const SOURCES: [&str; 7] = [
     "three.txt",
     "LICENSE",
 ];
-/// Files that are written back.
+/// Files that are copied back to the repository.
 const RESULTS: [&str; 2] = ["three.txt", "LICENSE"];
 
-/// Bundles it anew with the versions of its lock file. The text stays as it is where the script in it does.
+/// Makes the bundle again with the versions of its lock file. The result changes only if a source changes.
 pub fn bundle() -> ExitCode {
     match bundled() {
         Ok(()) => ExitCode::SUCCESS,
@@ -30,7 +31,7 @@ pub fn bundle() -> ExitCode {
     }
 }
 
-/// In a copy of the folder, so that no package of node comes into ours.
+/// Makes the bundle in a copy of the folder, so that no package of node is written into the repository.
 fn bundled() -> Result<(), String> {
     let here = root().join("mbs-report/src/page/web/three");
     let copy = target_dir().join("bundle");

@@ -1,4 +1,4 @@
-//! Programs that are started and waited for, and ended where they take too long.
+//! Child processes: a job starts them, waits for them, and ends them after a time limit.
 
 use crate::process;
 use std::io::{BufRead, BufReader, Read};
@@ -7,16 +7,16 @@ use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
-/// How often a program that may take too long is looked at.
+/// Time between two queries whether a program with a time limit has ended.
 const PAUSE: Duration = Duration::from_millis(2);
-/// How long a program is silent before it is asked whether it has ended. Chosen, not tuned.
+/// Time without output after which a program is queried whether it has ended. Chosen, not tuned.
 const SILENCE: Duration = Duration::from_secs(1);
 
-/// Waits for a command; `None` where it was ended after `limit`.
+/// Waits for a command; `None` if it was ended after `limit`.
 ///
 /// # Errors
 ///
-/// Why it cannot be started or waited for.
+/// The reason why it cannot be started or waited for.
 pub fn watched(command: &mut Command, limit: Option<Duration>) -> Result<Option<Output>, String> {
     let line = process::line(command);
     let failed = |e: std::io::Error| format!("`{line}`: {e}");
@@ -29,7 +29,7 @@ pub fn watched(command: &mut Command, limit: Option<Duration>) -> Result<Option<
             break;
         }
         if start.elapsed() > limit {
-            // It may have ended by itself meanwhile.
+            // an error is ignored: the child may have ended by itself
             let _ = child.kill();
             child.wait().map_err(failed)?;
             return Ok(None);
@@ -45,7 +45,7 @@ pub fn watched(command: &mut Command, limit: Option<Duration>) -> Result<Option<
 ///
 /// # Errors
 ///
-/// What it says where it fails, or that it has taken longer than `limit`.
+/// The command's error output if it fails, or that it took longer than `limit`.
 pub fn printed(command: &mut Command, limit: Duration) -> Result<String, String> {
     let Some(Output { status, stdout, stderr }) = watched(command, Some(limit))? else {
         return Err(format!("took more than {} s to prepare and to step", limit.as_secs_f64()));
@@ -61,7 +61,7 @@ pub fn printed(command: &mut Command, limit: Duration) -> Result<String, String>
 ///
 /// # Errors
 ///
-/// How it ended.
+/// The command and its exit status, if it fails.
 #[allow(clippy::print_stdout, reason = "the output is the command's")]
 pub(crate) fn shown(command: &mut Command, mut read: impl FnMut(&str)) -> Result<(), String> {
     let line = process::line(command);
@@ -77,7 +77,7 @@ pub(crate) fn shown(command: &mut Command, mut read: impl FnMut(&str)) -> Result
     if status.success() { Ok(()) } else { Err(format!("`{line}`: {status}")) }
 }
 
-/// The lines of a stream, as they come.
+/// The lines of a stream, which another thread reads as they come.
 fn lines(stream: Option<impl Read + Send + 'static>) -> Receiver<String> {
     let (sender, lines) = mpsc::channel();
     thread::spawn(move || {
@@ -94,7 +94,8 @@ fn lines(stream: Option<impl Read + Send + 'static>) -> Receiver<String> {
     lines
 }
 
-/// The next line; `None` at the end, or where the child has ended and is silent: a program that it left behind may hold the stream.
+/// The next line; `None` at the end, or when the child has ended and is silent. Another program that the child started may keep the stream
+/// open.
 fn next(lines: &Receiver<String>, child: &mut Child) -> Option<String> {
     loop {
         match lines.recv_timeout(SILENCE) {
@@ -106,12 +107,12 @@ fn next(lines: &Receiver<String>, child: &mut Child) -> Option<String> {
     }
 }
 
-/// Reads a stream to its end, so that the child never waits for us.
+/// Reads a stream to its end, so that the child is never blocked by a full pipe.
 fn drain(stream: Option<impl Read + Send + 'static>) -> JoinHandle<Vec<u8>> {
     thread::spawn(move || {
         let mut bytes = Vec::new();
         if let Some(mut stream) = stream {
-            // What has come until then is judged.
+            // an error ends the output: the text so far is used
             let _ = stream.read_to_end(&mut bytes);
         }
         bytes

@@ -1,20 +1,20 @@
-//! The command `mbs`, built as a job needs it.
+//! Builds of the command `mbs` for the jobs.
 
 use crate::process::{self, cargo, root, target_dir};
 use std::io::{IsTerminal, stderr};
 use std::path::PathBuf;
 use std::process::Command;
 
-/// How it is built, in release mode.
+/// Features of a build of the command in release mode.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Build {
-    /// Build in `f64` alone: half the work of the other, for a first run.
+    /// Build in `f64` alone, for a first run: it takes half as long as the other.
     Double,
     /// Build with all precisions.
     All,
 }
 
-/// A command of cargo on the command `mbs`, with cargo's progress when standard error is a terminal.
+/// A subcommand of cargo for the command `mbs`. It shows cargo's progress if standard error is a terminal.
 pub fn cargo_on(subcommand: &str, build: Build) -> Command {
     let mut command = cargo();
     command.args([subcommand, "--release", "--package", "mbs-cli", "--bin", "mbs"]);
@@ -29,11 +29,11 @@ pub fn cargo_on(subcommand: &str, build: Build) -> Command {
     command
 }
 
-/// Builds the command with all precisions; its path.
+/// Builds the command with all precisions. Returns its path.
 ///
 /// # Errors
 ///
-/// What cargo came to.
+/// The command of cargo and its exit status, if it fails.
 pub fn built() -> Result<PathBuf, String> {
     process::run(&mut cargo_on("build", Build::All))?;
     Ok(target_dir().join("release").join("mbs"))

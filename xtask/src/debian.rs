@@ -1,15 +1,15 @@
-//! Debian's packages, where a job may install what it needs.
+//! Installation of Debian packages on systems where a job may install packages.
 
 use crate::process::{self, output, run};
 use crate::summary::LeftOut;
 use std::fs::File;
 use std::process::Command;
 
-/// Installs them, as root on a system that has `apt-get`.
+/// Installs packages, as root on a system with `apt-get`.
 ///
 /// # Errors
 ///
-/// Why they cannot be installed.
+/// The reason why they cannot be installed.
 pub fn install(packages: &[&str]) -> Result<(), String> {
     if output(Command::new("id").arg("-u")).as_deref() != Some("0") {
         return Err("packages can be installed as root only".to_owned());
@@ -17,7 +17,7 @@ pub fn install(packages: &[&str]) -> Result<(), String> {
     if output(Command::new("apt-get").arg("--version")).is_none() {
         return Err("this system has no apt-get".to_owned());
     }
-    // One at a time: checks beside each other, in processes of their own, would find the lists locked.
+    // a lock file lets one process install at a time: checks run in parallel, and apt locks its lists
     let turn = process::target_dir().join("apt-turn");
     let turn = File::create(&turn).map_err(|e| format!("{}: {e}", turn.display()))?;
     turn.lock().map_err(|e| format!("no turn for apt-get: {e}"))?;
@@ -31,11 +31,11 @@ pub fn install(packages: &[&str]) -> Result<(), String> {
     apt(&args)
 }
 
-/// Whether a program runs here, after its package is installed where it is missing and that is possible.
+/// Checks that a program runs here. If it is missing, its package is installed where that is possible.
 ///
 /// # Errors
 ///
-/// What is missing, and why it is not installed.
+/// The missing program, and the reason why it is not installed.
 pub fn find(program: &str, package: &str) -> Result<(), LeftOut> {
     let runs = || output(Command::new(program).arg("--version")).is_some();
     if runs() {

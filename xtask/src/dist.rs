@@ -1,4 +1,4 @@
-//! `cargo xtask dist`: the files of a release in `target/dist`, each tried where no compiler is found.
+//! The job `cargo xtask dist`: makes the files of a release in `target/dist`, and tries each without a compiler.
 
 mod archive;
 mod build;
@@ -15,10 +15,10 @@ use std::path::Path;
 use std::process::{Command, ExitCode};
 use trial::{emptied, quietly};
 
-/// Name of the list of sums, as `sha256sum --check` reads it.
+/// Name of the file with the checksums, in the form that `sha256sum --check` reads.
 const SUMS: &str = "SHA256SUMS";
 
-/// Prints the sums of the files that are named, in the form of `sha256sum`.
+/// Program that prints the checksums of the named files, in the form of `sha256sum`.
 const SUM: &str = "import hashlib, pathlib, sys
 for name in sys.argv[1:]:
     print(hashlib.sha256(pathlib.Path(name).read_bytes()).hexdigest(), name, sep='  ')";
@@ -51,7 +51,7 @@ pub fn dist(options: &Options) -> ExitCode {
     summary::ended("dist", made(options).map(Outcome::Passed))
 }
 
-/// A remark on each file.
+/// Makes and tries the files. Returns a remark on each.
 fn made(options: &Options) -> Result<String, String> {
     let python =
         python::interpreter().ok_or("there is no Python of version 3.11 or later with venv")?;
@@ -81,7 +81,7 @@ fn made(options: &Options) -> Result<String, String> {
     Ok(format!("\n  {}", remarks.join("\n  ")))
 }
 
-/// The names of released files in the folder, in order: cargo has files of its own beside them.
+/// The names of released files in the folder, in order. Cargo's own files in the folder are left out.
 fn released(place: &Path) -> Result<Vec<String>, String> {
     let entries = fs::read_dir(place).map_err(|e| format!("{}: {e}", place.display()))?;
     let mut names: Vec<String> =
@@ -91,7 +91,7 @@ fn released(place: &Path) -> Result<Vec<String>, String> {
     Ok(names)
 }
 
-/// A file's name and size, and how it was tried.
+/// A file's name and size, and the result of its trial.
 fn remark(file: &Path, tried: &str) -> Result<String, String> {
     /// Bytes of a megabyte.
     const MEGABYTE: f64 = 1e6;

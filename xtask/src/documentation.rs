@@ -1,14 +1,14 @@
-//! The documentation builds without warnings, where units in brackets are no links.
+//! Check that the documentation builds without warnings, except for units in brackets.
 //!
-//! The house style writes units as `[m]` and equations as `[P3 (10)]`. rustdoc takes a lone word in brackets for a
-//! link and warns; it shows the text as written all the same. Denying warnings would forbid the style, allowing
-//! broken links would hide real ones, so the warnings are read here.
+//! Comments write units as `[m]` and equations as `[P3 (10)]`. rustdoc reads a single word in brackets as a link that does not exist. It
+//! prints a warning, and shows the text as written. So denied warnings would forbid this notation, and allowed ones would hide wrong links.
+//! This check reads the warnings and ignores those about units.
 
 use crate::process::{self, cargo};
 use crate::summary::Outcome;
 use std::process::Stdio;
 
-/// Units of one word; rustdoc does not look at `[N/m]`.
+/// Units of one word, for which rustdoc prints warnings. It ignores brackets such as `[N/m]`.
 const UNITS: [&str; 14] =
     ["m", "m²", "m³", "m⁴", "m⁵", "s", "kg", "N", "J", "W", "Hz", "rad", "Pa", "KiB"];
 
@@ -16,7 +16,7 @@ const UNITS: [&str; 14] =
 ///
 /// # Errors
 ///
-/// The warnings that are not about units, or what cargo said when it failed.
+/// The warnings that are not about units, or cargo's message if it fails.
 pub(crate) fn check() -> Result<Outcome, String> {
     let mut command = cargo();
     command.args(["doc", "--no-deps", "--workspace", "--quiet"]).env("CARGO_TERM_COLOR", "never");
@@ -33,13 +33,13 @@ pub(crate) fn check() -> Result<Outcome, String> {
     Err(format!("{} warnings\n\n{}", faults.len(), faults.join("\n\n")))
 }
 
-/// The messages that are faults: blocks of lines parted by empty ones, less units and cargo's counts.
+/// The messages that are faults: blocks of lines separated by empty lines, without those about units and without cargo's counts.
 fn faults(messages: &str) -> Vec<&str> {
     let blocks = messages.split("\n\n").map(str::trim).filter(|block| !block.is_empty());
     blocks.filter(|block| !is_harmless(block.lines().next().unwrap_or_default())).collect()
 }
 
-/// Whether a message's first line speaks of a unit, or counts the messages of a crate.
+/// Is a message's first line about a unit, or a count of the messages of a crate?
 fn is_harmless(line: &str) -> bool {
     let link = line.strip_prefix("warning: unresolved link to `");
     let word = link.and_then(|rest| rest.strip_suffix('`'));

@@ -1,4 +1,4 @@
-//! The effects that mbs-core has, as the list in its source says: names, Cargo features, modules of laws.
+//! The effects of mbs-core, read from the list in its source: names, Cargo features, modules of laws.
 
 /// Source text of the list.
 const LIST: &str = include_str!("../../mbs-core/src/effects/list.rs");
@@ -8,14 +8,14 @@ const LIST: &str = include_str!("../../mbs-core/src/effects/list.rs");
 pub struct Listed {
     /// Module of the effect in `mbs_core::effects`.
     pub module: &'static str,
-    /// The Cargo feature that brings it; `None`: every build has it.
+    /// The Cargo feature that enables the effect; `None`: every build has the effect.
     pub feature: Option<&'static str>,
-    /// Does its file bring a law?
+    /// Does the effect's file contain a law?
     pub has_law: bool,
 }
 
 impl Listed {
-    /// Cases of the effect in `counts`: a user's own law may act in two ways.
+    /// Cases of the effect in `counts`. A user-defined law has two, since it may act on a length or on a body.
     pub fn cases(self) -> Vec<String> {
         match self.module {
             "user" => vec!["own-length".to_owned(), "own-body".to_owned()],
@@ -23,7 +23,7 @@ impl Listed {
         }
     }
 
-    /// Can tables of controllers have what its feature brings: its law, or what bushings measure?
+    /// Can tables of controllers contain the effect: its law, or the measures of bushings?
     pub fn is_exported(self) -> bool {
         let is_code = self.module == "user" || self.module.starts_with("law_on");
         (self.has_law || self.module == "bushing") && !is_code
@@ -36,7 +36,7 @@ pub fn all() -> impl Iterator<Item = Listed> {
         let (_, rest) = line.trim().strip_suffix(';')?.split_once(" in ")?;
         let (module, rest) = rest.split_once(" (")?;
         let (gate, laws) = rest.split_once(')')?;
-        // `all(` is cut at its own bracket.
+        // the list `all(...)` is cut at its own closing bracket
         let feature = gate.strip_prefix("feature = \"").and_then(|name| name.strip_suffix('"'));
         let has_law = laws.contains(" tension ") || laws.contains(" body ");
         Some(Listed { module, feature, has_law })
@@ -57,17 +57,17 @@ mod tests {
         );
         assert_eq!(find("force"), Some(Listed { module: "force", feature: None, has_law: false }));
         assert!(all.len() >= 15);
-        // Each file of a kind has its line.
+        // each file of a kind has a line in the list
         let folder = crate::process::root().join("mbs-core/src/effects");
         for entry in std::fs::read_dir(folder).expect("the folder") {
             let name = entry.expect("a file").file_name().into_string().expect("a name");
-            // The folder `action` has no kinds.
+            // the folder `action` contains no kinds
             let Some(module) = name.strip_suffix(".rs") else { continue };
             let others = "mod answers apart data example field kind law list reference table";
             let is_kind = !others.split(' ').any(|other| other == module);
             assert_eq!(find(module).is_some(), is_kind, "{module} in the list of effects");
         }
-        // Each feature of the list is a feature of mbs-core, and in `effects`.
+        // each feature of the list is a feature of mbs-core, and part of its feature `effects`
         let manifest = include_str!("../../mbs-core/Cargo.toml");
         for feature in all.iter().filter_map(|listed| listed.feature) {
             assert!(manifest.contains(&format!("\n{feature} = []")), "{feature}");

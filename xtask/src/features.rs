@@ -1,4 +1,4 @@
-//! Builds that the tests of the workspace leave out: crates with sets of their features, the command in `f64` alone.
+//! Builds that the tests of the workspace do not make: crates with sets of their features, and the command in `f64` alone.
 
 use crate::process::{self, cargo, output, run};
 use crate::summary::Outcome;
@@ -9,13 +9,14 @@ use std::process::Stdio;
 /// Crates with the sets of their features.
 type Sets = [(&'static str, &'static [&'static str])];
 
-/// Sets that the check looks at: none, each feature on in one set and off in another. All features together are those of `lints` and of the tests, and
-/// the command in `f64` alone is that of `lean`. With `alloc` mbs-core takes a quarter of a minute for each set, so that crates above it have its sets.
+/// Sets of the short check: no feature, and sets in which each feature is on in one and off in another. Sets with all features are built by
+/// `lints` and the tests, and the command in `f64` alone by `lean`. With `alloc` mbs-core takes a quarter of a minute per set, so crates
+/// above it use its sets.
 const SHORT: &Sets = &[
     ("mbs-math", &["", "alloc", "f32,dd"]),
-    // Of the effects: each kind of law with tables in another set, and with it laws that share no file with it.
+    // effects: each kind of law with tables in one set, together with laws that share no file with it
     ("mbs-core", &["", "alloc", POLYNOMIAL, TIRE, OWN_LAWS, "effects"]),
-    // Of the elements: those with rows, those without, and all.
+    // elements: those with rows, those without rows, and all
     (
         "mbs-recursive",
         &[
@@ -31,7 +32,7 @@ const SHORT: &Sets = &[
         "mbs-nostd",
         &["", "mbs-core/tire", "couplings,rotors", "lines,signals,sums", "elements", "export"],
     ),
-    // The rest of lab is in `lints`.
+    // the other features of lab are checked by `lints`
     ("lab", &["jobs"]),
 ];
 
@@ -39,8 +40,8 @@ const POLYNOMIAL: &str = "alloc,polynomial,limit,bumper";
 const TIRE: &str = "alloc,tire,friction,drag";
 const OWN_LAWS: &str = "alloc,own-laws,bushing,speed-hold";
 
-/// Further sets, of the long list: each effect alone, laws that share a file, tables of functions with and without precisions, and the
-/// precisions alone.
+/// Sets of the long check: each effect alone, laws that share a file, tables of functions with and without precisions, and the precisions
+/// alone.
 const MORE: &Sets = &[
     (
         "mbs-core",
@@ -83,10 +84,10 @@ const MORE: &Sets = &[
     ("lab", &["jobs,effects"]),
 ];
 
-/// The variable that names the command in `f64` alone to its tests.
+/// The environment variable through which the tests get the path of the command in `f64` alone.
 const LEAN: &str = "MBS_LEAN";
 
-/// Checks crates with the sets of the short form, with lints where they are installed.
+/// Checks crates with the sets of the short form, with lints if they are installed.
 ///
 /// # Errors
 ///
@@ -124,11 +125,12 @@ fn check_sets(all: &Sets) -> Result<Outcome, String> {
     Ok(Outcome::Passed(remarks.collect::<Vec<_>>().join("; ")))
 }
 
-/// Tests the command in `f64` alone, which the repository's first command builds: what asks for more must be known by its exit status.
+/// Tests the command in `f64` alone, which the first command of the README builds. A request for another precision must be reported by the
+/// exit status.
 ///
 /// # Errors
 ///
-/// The build or the tests.
+/// A failure of the build or of the tests.
 pub(crate) fn lean() -> Result<Outcome, String> {
     let mbs = lean_command()?;
     let mut tests = cargo();
@@ -146,11 +148,11 @@ pub(crate) fn lean() -> Result<Outcome, String> {
     Ok(Outcome::Passed(String::new()))
 }
 
-/// Crates of the command that the profile of the tests raises above its own level.
+/// Crates of the command whose level of optimisation the profile of the tests raises.
 const RAISED: [&str; 3] = ["mbs-nostd", "mbs-scene", "mbs-steps"];
 
-/// Builds the command in `f64` alone; its path. Nothing long runs, so that all of ours is at level 0: a fifth of the work of a release. A warning
-/// fails it: no lints of the check look at this set of features.
+/// Builds the command in `f64` alone. Returns its path. Its tests are short, so all crates of the workspace are built at level 0, with a
+/// fifth of the work of a release build. A warning is a failure, since the lints do not check this set of features.
 fn lean_command() -> Result<PathBuf, String> {
     let mut build = cargo();
     build.args(["build", "--quiet", "--package", "mbs-cli", "--bin", "mbs"]);
@@ -158,7 +160,7 @@ fn lean_command() -> Result<PathBuf, String> {
     for raised in RAISED {
         build.args(["--config", &format!("profile.dev.package.{raised}.opt-level=0")]);
     }
-    // Colours would stand within the word that is looked for.
+    // colours would add characters to the words that are searched
     build.env("CARGO_PROFILE_DEV_OPT_LEVEL", "0").env("CARGO_TERM_COLOR", "never");
     build.stdin(Stdio::null());
     let line = process::line(&build);
@@ -212,7 +214,7 @@ mod tests {
         }
     }
 
-    /// Sets with features that only forward are left to the long list.
+    /// features that only enable those of other crates are checked in the long list alone
     #[test]
     fn features_that_only_forward_are_asked_for_nowhere() {
         fn text(folder: &Path) -> String {

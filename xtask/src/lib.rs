@@ -1,4 +1,5 @@
-//! Jobs of this repository: run a scene, run the tests, run every check, cross-compile the `no_std` crates; and what the jobs of `lab` share with them.
+//! Jobs of this repository: run a scene, run the tests, run every check, cross-compile the `no_std` crates. Jobs of `lab` use parts of this
+//! library.
 
 pub mod bundle;
 pub mod check;

@@ -1,4 +1,4 @@
-//! `cargo xtask package`: every crate is packaged, and what is in the packages builds.
+//! The job `cargo xtask package`: packages every crate, and builds the contents of the packages.
 
 use crate::process::{self, cargo, output, run};
 use crate::summary::{self, Outcome};
@@ -6,16 +6,16 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, ExitCode};
 
-/// Runs the check by itself.
+/// Runs only this check.
 pub fn package() -> ExitCode {
     summary::ended("package", check())
 }
 
-/// Packages all, unpacks them, and builds the command from nothing else.
+/// Packages all crates, unpacks them, and builds the command from the unpacked files alone.
 ///
 /// # Errors
 ///
-/// What cannot be packaged, unpacked or built.
+/// The first crate or command that cannot be packaged, unpacked or built.
 pub(crate) fn check() -> Result<Outcome, String> {
     let packed = process::target_dir().join("package");
     let unpacked = packed.join("unpacked");
@@ -23,7 +23,7 @@ pub(crate) fn check() -> Result<Outcome, String> {
     if packed.exists() {
         fs::remove_dir_all(&packed).map_err(io)?;
     }
-    // Not verified by cargo: it would build with what it unpacked of the same version before.
+    // without cargo's own verification: it would use unpacked packages of an earlier run with the same version
     run(cargo()
         .args(["package", "--workspace", "--no-verify", "--allow-dirty", "--quiet"])
         .current_dir(process::root()))?;
@@ -42,7 +42,7 @@ pub(crate) fn check() -> Result<Outcome, String> {
     Ok(Outcome::Passed(names.join(", ")))
 }
 
-/// Builds the unpacked command; the unpacked crates stand in for those of the registry.
+/// Builds the unpacked command with the unpacked crates in place of those of the registry.
 fn build(unpacked: &Path, names: &[String]) -> Result<(), String> {
     let (crates, members): (Vec<_>, Vec<_>) = names
         .iter()

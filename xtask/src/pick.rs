@@ -1,4 +1,4 @@
-//! `cargo xtask pick`: each package of `examples/pick` builds and runs with mbs-core and one formulation alone.
+//! The job `cargo xtask pick`: builds and runs each package of `examples/pick`, which uses mbs-core and one formulation alone.
 
 use crate::process::{self, cargo, output, run};
 use crate::summary::{self, Outcome};
@@ -7,21 +7,21 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
 
-/// Crates that must not need the others' linear algebra or threads, where they are in the workspace.
+/// Crates that must not depend on external linear algebra or threads.
 const LEAN: [&str; 3] = ["mbs-core", "mbs-recursive", "mbs-nostd"];
-/// Crates that those of [`LEAN`] must not pull in.
+/// Crates on which those of [`LEAN`] must not depend.
 const HEAVY: [&str; 2] = ["faer", "rayon"];
 
-/// Runs the check by itself.
+/// Runs only this check.
 pub fn pick() -> ExitCode {
     summary::ended("pick", check())
 }
 
-/// Runs every package, and looks at what each of them and the lean crates pull in.
+/// Runs every package, and checks the dependencies of the packages and of the lean crates.
 ///
 /// # Errors
 ///
-/// The first package that failed, or a dependency that should not be there.
+/// The first package that fails, or a dependency that is not allowed.
 pub(crate) fn check() -> Result<Outcome, String> {
     let mut names = Vec::new();
     for folder in packages(&process::root().join("examples/pick")) {
@@ -30,7 +30,7 @@ pub(crate) fn check() -> Result<Outcome, String> {
         run(on("run", &manifest).arg("--quiet"))?;
         let tree = tree(&mut on("tree", &manifest))?;
         let ours: BTreeSet<_> = tree.iter().filter(|name| name.starts_with("mbs-")).collect();
-        // All stand on mbs-math. Threads share the work of a solver, and controllers step the recursion.
+        // all depend on mbs-math; packages with threads need mbs-parallel and a solver, controllers need the recursive formulation
         let most = if tree.contains("mbs-parallel") {
             5
         } else {
@@ -54,7 +54,7 @@ pub(crate) fn check() -> Result<Outcome, String> {
     Ok(Outcome::Passed(names.join(", ")))
 }
 
-/// The folders under `folder` that hold a package, in order.
+/// The folders under `folder` that contain a package, in order.
 fn packages(folder: &Path) -> Vec<PathBuf> {
     let entries = fs::read_dir(folder).into_iter().flatten().flatten();
     let mut folders: Vec<_> = entries.map(|entry| entry.path()).collect();
@@ -63,8 +63,8 @@ fn packages(folder: &Path) -> Vec<PathBuf> {
     folders
 }
 
-/// A cargo command on one package of the workspace `examples/pick`, with its committed versions; without the network where all of
-/// them are here already. Features are those that this package alone asks for.
+/// A cargo command on one package of the workspace `examples/pick`, with the committed lock file. It works offline if all packages are
+/// here. Features are those of this package alone.
 fn on(subcommand: &str, manifest: &Path) -> Command {
     let mut probe = cargo();
     probe.args(["metadata", "--format-version", "1", "--locked", "--offline", "--manifest-path"]);
@@ -82,19 +82,19 @@ fn on(subcommand: &str, manifest: &Path) -> Command {
 ///
 /// # Errors
 ///
-/// The command, when it fails.
+/// The command, if it fails.
 fn tree(command: &mut Command) -> Result<BTreeSet<String>, String> {
     command.args(["--edges", "normal", "--prefix", "none"]);
     let text = output(command).ok_or_else(|| format!("`{}` failed", process::line(command)))?;
     Ok(names(&text))
 }
 
-/// The first words of the lines.
+/// The first word of each line of a tree, the name of a package.
 fn names(tree: &str) -> BTreeSet<String> {
     tree.lines().filter_map(|line| Some(line.split_whitespace().next()?.to_owned())).collect()
 }
 
-/// Whether a crate, or a part of its family such as `faer-traits`, is in a tree.
+/// Is a crate in a tree, or a part of its family such as `faer-traits`?
 fn is_within(name: &str, tree: &BTreeSet<String>) -> bool {
     tree.iter().any(|other| {
         other.strip_prefix(name).is_some_and(|rest| rest.is_empty() || rest.starts_with('-'))

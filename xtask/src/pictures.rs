@@ -1,19 +1,20 @@
-//! `cargo xtask pictures`: the pictures of README.md and of docs/, made by `mbs` alone: the view of a run's page, and `mbs plot`.
+//! The job `cargo xtask pictures`: makes the pictures of README.md and of docs/ by `mbs` alone, from the view of a run's page and by `mbs
+//! plot`.
 
 use crate::{command, pages, process};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode, Stdio};
 
-/// Shows the view alone, at the size of the picture, and leaves it in the page as text.
+/// Script that shows the view alone, at the size of the picture, and writes the picture into the page as text.
 const TAKE: &str = include_str!("pictures/take.js");
 
-/// Width and height of a scene's picture [pixels]: two beside each other on a phone, all below a megabyte.
+/// Width and height of a scene's picture [pixels]: two fit beside each other on a phone, and all together have less than a megabyte.
 const SMALL: [u32; 2] = [400, 240];
-/// Width and height of a picture in README.md or a guide [pixels]: as wide as the text on a forge.
+/// Width and height of a picture in README.md or a guide [pixels]: the width of the text on a code host.
 const LARGE: [u32; 2] = [720, 300];
 
-/// Views of scenes whose picture is not taken at a third of the run from the usual side: as the address of the page has them.
+/// Views of some scenes, as in the address of the page. Other scenes are shown at a third of the run from the default direction.
 const LOOKS: [(&str, &str); 5] = [
     ("iltis-stairs", "t=6.4"),
     ("iltis-stairs-stiff", "t=6.4"),
@@ -22,14 +23,14 @@ const LOOKS: [(&str, &str); 5] = [
     ("iltis-suspension-stiff", "t=3.1"),
 ];
 
-/// Views beside those of the gallery: file, scene, look.
+/// Views besides those of the gallery: file, scene, view.
 const VIEWS: [(&str, &str, &str); 3] = [
     ("iltis-stairs.png", "scenes/iltis-stairs.toml", "t=6.4"),
     ("tutorial-view.png", "mbs-scene/src/templates/crank-rocker.toml", ""),
     ("vehicle-corner.png", "mbs-scene/src/templates/double-wishbone.toml", "t=0.66"),
 ];
 
-/// A run of a template: its name in the plot, the template, words of it that are replaced.
+/// A run of a template: its name in the plot, the template, and a text with its replacement.
 type Variant = (&'static str, &'static str, [&'static str; 2]);
 
 /// Plots: file, runs, channel.
@@ -45,7 +46,7 @@ const PLOTS: [(&str, &[Variant], &str); 2] = [
     ),
 ];
 
-/// Makes all of them, or those with a word in their name.
+/// Makes all pictures, or those with one of the words in their names.
 pub fn pictures(words: &[String]) -> ExitCode {
     let result = command::built().and_then(|mbs| {
         let browser = pages::browser().ok_or("there is no chromium: it draws the view")?;
@@ -107,12 +108,12 @@ fn scenes() -> Result<Vec<String>, String> {
 }
 
 impl Maker {
-    /// Runs a scene, a file, into a folder of its own.
+    /// Runs a scene file with a folder for its results. Returns the folder.
     fn run(&self, name: &str, scene: &Path) -> Result<PathBuf, String> {
         let out = self.work.join(name);
         let mut command = Command::new(&self.mbs);
         command.arg("run").arg(scene).args(["--no-estimate", "--out"]).arg(&out);
-        // a scene may end where it shows that it must
+        // an error is ignored: some scenes stop on purpose
         let _ = process::run(command.current_dir(process::root()).stdout(Stdio::null()));
         Ok(out)
     }
@@ -140,7 +141,7 @@ impl Maker {
         Ok(bytes)
     }
 
-    /// A channel of runs over each other as SVG.
+    /// A channel of several runs in one plot, as SVG.
     fn plot(&self, file: &str, runs: &[Variant], channel: &str) -> Result<Vec<u8>, String> {
         let io = |e: std::io::Error| format!("{file}: {e}");
         let picture = self.work.join(file);

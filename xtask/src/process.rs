@@ -1,4 +1,4 @@
-//! Child processes and places: the repository root, the target folder, cargo; progress and files.
+//! Child processes, paths (the repository root, the target folder, cargo), progress and files.
 
 use std::collections::BTreeSet;
 use std::env;
@@ -11,28 +11,28 @@ use std::sync::{Mutex, PoisonError};
 
 /// The root of the repository.
 pub fn root() -> PathBuf {
-    // Cargo sets the variable for `cargo run` and `cargo test`; the built-in value serves a binary run by hand.
+    // cargo sets the variable for `cargo run` and `cargo test`; a program that is started directly uses the value of its build
     let manifest = env::var_os("CARGO_MANIFEST_DIR")
         .map_or_else(|| PathBuf::from(env!("CARGO_MANIFEST_DIR")), PathBuf::from);
     manifest.parent().map_or(manifest.clone(), Path::to_path_buf)
 }
 
-/// The folder for build products: `CARGO_TARGET_DIR`, or `target` at the root.
+/// The folder for build products: `CARGO_TARGET_DIR`, or `target` in the root.
 pub fn target_dir() -> PathBuf {
     root().join(env::var_os("CARGO_TARGET_DIR").unwrap_or_else(|| "target".into()))
 }
 
-/// The cargo that runs this job.
+/// The command of cargo by which this job was started.
 pub fn cargo() -> Command {
     Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
 }
 
-/// Builds a program as the tests are built, so that nothing is built twice for other features of what it stands on: fast, with
-/// every check of a debug build. It is named by a test of its package. A process asks cargo once for each.
+/// Builds a program with the profile and the features of the tests, so that no dependency is built twice. The program is fast, and has
+/// every check of a debug build. `test` names a test of its package. In one process each program is built once.
 ///
 /// # Errors
 ///
-/// What cargo came to.
+/// The command of cargo and its exit status, if it fails.
 pub fn tested(program: &str, test: &'static str) -> Result<PathBuf, String> {
     static BUILT: Mutex<BTreeSet<&str>> = Mutex::new(BTreeSet::new());
     let mut built = BUILT.lock().unwrap_or_else(PoisonError::into_inner);
@@ -45,11 +45,11 @@ pub fn tested(program: &str, test: &'static str) -> Result<PathBuf, String> {
     Ok(target_dir().join("debug").join(program))
 }
 
-/// Runs a command that shows its own output, and says whether it succeeded.
+/// Runs a command that shows its own output.
 ///
 /// # Errors
 ///
-/// One line that names the command and how it ended.
+/// One line with the command and its exit status, if it fails.
 pub fn run(command: &mut Command) -> Result<(), String> {
     let status = command
         .stdin(Stdio::null())
@@ -58,26 +58,27 @@ pub fn run(command: &mut Command) -> Result<(), String> {
     if status.success() { Ok(()) } else { Err(format!("`{}`: {status}", line(command))) }
 }
 
-/// The standard output of a command, trimmed; `None` when it cannot start or fails.
+/// The standard output of a command, trimmed; `None` if it cannot start or fails.
 pub fn output(command: &mut Command) -> Option<String> {
     let out = command.stdin(Stdio::null()).stderr(Stdio::null()).output().ok()?;
     let text = String::from_utf8(out.stdout).ok()?;
     out.status.success().then(|| text.trim().to_owned())
 }
 
-/// CPU time of this process, of the child processes that have ended, and of theirs [s]; `None` where the system does not say.
+/// CPU time of this process, of its ended child processes, and of theirs [s]; `None` if the system does not report it.
 pub fn cpu_seconds() -> Option<f64> {
-    // Linux counts in hundredths of a second, whatever its own clock.
+    // Linux reports hundredths of a second, independently of its own clock.
     const TICKS: f64 = 100.0;
     let stat = fs::read_to_string("/proc/self/stat").ok()?;
-    // After the name, which may hold anything but ends with the last parenthesis: the state is field 3, fields 14 to 17 are the times.
+    // fields are counted after the name, which may contain any character and ends with the last parenthesis: field 3 is the state, 14 to 17
+    // times
     let (_, fields) = stat.rsplit_once(')')?;
     let times: Vec<f64> =
         fields.split_whitespace().skip(11).take(4).filter_map(|time| time.parse().ok()).collect();
     (times.len() == 4).then(|| times.iter().sum::<f64>() / TICKS)
 }
 
-/// The commit of the repository, and whether anything was changed since; `None` where it is not asked for with git.
+/// The commit of the repository, and whether files differ from it; `None` without git.
 pub fn commit() -> Option<String> {
     let git = |arguments: &[&str]| output(Command::new("git").args(arguments).current_dir(root()));
     let hash = git(&["rev-parse", "--short", "HEAD"])?;
@@ -85,7 +86,7 @@ pub fn commit() -> Option<String> {
     Some(format!("{hash}{}", if is_changed { " and changes after it" } else { "" }))
 }
 
-/// A command as one would type it.
+/// A command as a user would type it.
 pub fn line(command: &Command) -> String {
     let program = Path::new(command.get_program());
     let name = program.file_name().unwrap_or(program.as_os_str());
@@ -93,7 +94,7 @@ pub fn line(command: &Command) -> String {
     words.map(OsStr::to_string_lossy).collect::<Vec<_>>().join(" ")
 }
 
-/// Runs a command in our place, with our input and output; its exit status.
+/// Runs a command with the standard streams of this process. Returns its exit status.
 pub fn hand_over(command: &mut Command) -> ExitCode {
     match command.status() {
         Ok(status) => exit_code(status),
@@ -104,7 +105,7 @@ pub fn hand_over(command: &mut Command) -> ExitCode {
     }
 }
 
-/// A child's exit status as our own: its code, or 128 + signal as shells have it.
+/// A child's exit status as one of this process: its code, or 128 + signal as in shells.
 pub fn exit_code(status: ExitStatus) -> ExitCode {
     #[cfg(unix)]
     let signal = std::os::unix::process::ExitStatusExt::signal(&status);
@@ -114,18 +115,18 @@ pub fn exit_code(status: ExitStatus) -> ExitCode {
     ExitCode::from(u8::try_from(code).unwrap_or(1))
 }
 
-/// Shows on a terminal what is being done, in place of what it showed before.
+/// Shows the current work on a terminal, in place of the text before.
 pub fn progress(what: &str) {
     if stderr().is_terminal() {
         eprint!("\r\x1b[K{what}");
     }
 }
 
-/// Writes a file, with its folder, and prints its path.
+/// Writes a file and its folder, and prints its path.
 ///
 /// # Errors
 ///
-/// The path, and why it cannot be written.
+/// The path, and the reason why it cannot be written.
 #[allow(clippy::print_stdout, reason = "the file is what is asked for")]
 pub fn write(path: &Path, bytes: &[u8]) -> Result<(), String> {
     let folder = path.parent().unwrap_or(path);

@@ -1,4 +1,4 @@
-//! `cargo xtask python`: the wheel of the Python package, and its tests in a clean virtual environment.
+//! The job `cargo xtask python`: builds the wheel of the Python package, and tests it in a clean virtual environment.
 
 use crate::pages;
 use crate::process::{self, output, run};
@@ -8,26 +8,26 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
 
-/// Oldest Python that the package is for.
+/// Oldest supported version of Python.
 const OLDEST: [u32; 2] = [3, 11];
 
-/// Runs the check by itself.
+/// Runs only this check.
 pub fn python() -> ExitCode {
     summary::ended("python", tests(tools(), &mut Tally::default()))
 }
 
-/// Virtual environments with what the package is built with, and with what its tests work with.
+/// Virtual environments with the tools that build the package, and with the packages that its tests use.
 #[derive(Debug)]
 pub(crate) struct Tools {
     build: PathBuf,
     tests: PathBuf,
 }
 
-/// Makes the environments; `None` without a Python that is young enough.
+/// Makes the environments; `None` without a supported version of Python.
 ///
 /// # Errors
 ///
-/// What failed first.
+/// The first command that fails.
 pub(crate) fn tools() -> Result<Option<Tools>, String> {
     let Some(python) = interpreter() else { return Ok(None) };
     let build = environment(&python, &place().join("tools"))?;
@@ -37,11 +37,11 @@ pub(crate) fn tools() -> Result<Option<Tools>, String> {
     Ok(Some(Tools { build, tests }))
 }
 
-/// Builds the wheel, as the tests of the workspace are built, and tests it with what the package works with; the tests are counted.
+/// Builds the wheel with the features of the workspace's tests, and tests it together with packages that it works with. Counts the tests.
 ///
 /// # Errors
 ///
-/// What failed first.
+/// The first command that fails.
 pub(crate) fn tests(
     tools: Result<Option<Tools>, String>,
     tally: &mut Tally,
@@ -53,7 +53,7 @@ pub(crate) fn tests(
             remedy: "On Debian, as root: `apt-get install python3 python3-venv`.".to_owned(),
         }));
     };
-    // its pictures need one; what has none says so
+    // pictures need a browser; a test without one reports that
     let _ = pages::browser();
     let wheel = wheel(&build)?;
     pip(&tests, &["--no-deps", "--force-reinstall", &wheel.display().to_string()])?;
@@ -66,7 +66,7 @@ pub(crate) fn tests(
 ///
 /// # Errors
 ///
-/// The first one that fails.
+/// The first notebook that fails.
 pub(crate) fn notebooks() -> Result<Outcome, String> {
     let tests = place().join("tested");
     pip(&tests, &["nbclient", "nbformat", "ipykernel", "matplotlib"])?;
@@ -81,7 +81,7 @@ fn place() -> PathBuf {
     process::target_dir().join("python")
 }
 
-/// A Python that is young enough and makes environments.
+/// The command of a supported Python that can make environments.
 pub(crate) fn interpreter() -> Option<String> {
     let [major, minor] = OLDEST;
     let question =
@@ -97,7 +97,7 @@ pub(crate) fn environment(python: &str, at: &Path) -> Result<PathBuf, String> {
     Ok(at.to_owned())
 }
 
-/// The Python of an environment; a test that lacks what it works with fails in it.
+/// The Python of an environment. Tests fail if a package that they use is missing there.
 pub(crate) fn in_environment(at: &Path) -> Command {
     let bin = at.join(if cfg!(windows) { "Scripts" } else { "bin" });
     let mut command = Command::new(bin.join("python"));
@@ -109,13 +109,13 @@ pub(crate) fn in_environment(at: &Path) -> Command {
 ///
 /// # Errors
 ///
-/// What pip came to.
+/// The command of pip and its exit status, if it fails.
 pub(crate) fn pip(at: &Path, words: &[&str]) -> Result<(), String> {
     let install = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check"];
     run(in_environment(at).args(install).args(words).current_dir(process::root()))
 }
 
-/// Builds the wheel with the features of the workspace's tests: what these have compiled is not compiled again.
+/// Builds the wheel with the features of the workspace's tests, so that no dependency is compiled again.
 fn wheel(tools: &Path) -> Result<PathBuf, String> {
     let wheels = place().join("wheels");
     let _ = fs::remove_dir_all(&wheels);

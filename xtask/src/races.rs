@@ -1,20 +1,20 @@
-//! `cargo xtask races`: the teams of mbs-parallel under ThreadSanitizer.
+//! The job `cargo xtask races`: runs the thread teams of mbs-parallel under ThreadSanitizer.
 
 use crate::process::{self, cargo, output, run};
 use crate::summary::{self, Outcome};
 use std::process::{Command, ExitCode};
 
-/// Stack of a thread: instrumented frames are large. In bytes.
+/// Size of a thread's stack in bytes: it is large, since instrumented functions need more.
 const STACK: &str = "67108864";
 
-/// Runs the tests of the thread team, which has the lock-free part, with every access watched.
+/// Runs the tests of the thread team, which contains the lock-free code, and detects data races.
 pub fn races() -> ExitCode {
     let remark = || Outcome::Passed("no data race in the tests of the crew".to_owned());
     summary::ended("races", watched().map(|()| remark()))
 }
 
-/// Runs the tests of the thread team under ThreadSanitizer. Sanitizers are an unstable option of the compiler, which `RUSTC_BOOTSTRAP` lets a
-/// stable one have.
+/// Runs the tests of the thread team under ThreadSanitizer. Sanitizers are an unstable option of the compiler, which `RUSTC_BOOTSTRAP`
+/// enables in a stable one.
 fn watched() -> Result<(), String> {
     let version = output(Command::new("rustc").arg("-vV")).ok_or("cannot ask `rustc -vV`")?;
     let host = host(&version).ok_or("`rustc -vV` names no host")?;

@@ -1,17 +1,17 @@
-//! `cargo xtask mbs` and `cargo xtask simulate`: the command `mbs` in release mode, with its exit status.
+//! The jobs `cargo xtask mbs` and `cargo xtask simulate`: they run the command `mbs` in release mode, and return its exit status.
 
 use crate::command::{Build, cargo_on};
 use crate::process::hand_over;
 use std::ffi::{OsStr, OsString};
 use std::process::ExitCode;
 
-/// Set for the command: it need not say which precision is missing.
+/// The environment variable that lets the command omit its message about a missing precision.
 const BUILDER: &str = "MBS_BUILDER";
-/// Exit status of the command when this build lacks a precision.
+/// Exit status of the command if its build lacks a precision.
 const UNBUILT: u8 = 3;
 
-/// Builds `mbs` with `f64` alone and runs it. Where the arguments ask for more digits or fewer, it is built with all precisions, and run
-/// again: it has done nothing before.
+/// Builds `mbs` with `f64` alone and runs it. If the arguments need another precision, `mbs` ends at once; it is then built with all
+/// precisions and run again.
 pub fn mbs(args: &[OsString]) -> ExitCode {
     let mbs = |build| {
         let mut mbs = cargo_on("run", build);

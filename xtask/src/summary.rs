@@ -1,13 +1,14 @@
-//! Summary of what ran, what was left out and how to get it: the last lines of `cargo xtask test` and `cargo xtask check`.
+//! Summary of `cargo xtask test` and `cargo xtask check`, printed at their end: checks that ran, and checks that were left out with
+//! remedies.
 
 use crate::process::cpu_seconds;
 use std::process::ExitCode;
 use std::time::Instant;
 
-/// How a check ended, when it did not fail.
+/// Outcome of a check that did not fail.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Outcome {
-    /// Check that ran and holds; a remark, possibly empty.
+    /// Check that ran and passed, with a remark, which may be empty.
     Passed(String),
     /// Check that could not run on this machine.
     LeftOut(LeftOut),
@@ -16,13 +17,13 @@ pub enum Outcome {
 /// A check that did not run.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct LeftOut {
-    /// Reason: what is missing.
+    /// Reason: the missing part.
     pub why: String,
-    /// Remedy: what to do to have it run.
+    /// Remedy: an action after which the check can run.
     pub remedy: String,
 }
 
-/// Says how a check that was asked for alone ended: here a tool that is missing is a failure.
+/// Reports the outcome of a single check. A missing tool is a failure here.
 pub fn ended(name: &str, outcome: Result<Outcome, String>) -> ExitCode {
     match outcome {
         Ok(Outcome::Passed(remark)) => {
@@ -42,45 +43,45 @@ pub fn ended(name: &str, outcome: Result<Outcome, String>) -> ExitCode {
 pub struct Ended {
     /// Name of the check.
     pub name: String,
-    /// Time by the clock [s].
+    /// Wall-clock time of the check [s].
     pub seconds: f64,
-    /// CPU time of this process and of all that it waited for [s]; `None` where the system does not say.
+    /// CPU time of this process and of its ended child processes [s]; `None` if the system does not report it.
     pub cpu: Option<f64>,
-    /// How it ended: what it found, or why it failed.
+    /// Outcome of the check, or the reason why it failed.
     pub outcome: Result<Outcome, String>,
 }
 
 /// The checks so far.
 #[derive(Debug, Default)]
 pub struct Summary {
-    /// Every check that has ended, in their order.
+    /// Every check that has ended, in the order of their ends.
     pub(crate) ended: Vec<Ended>,
     lines: Vec<String>,
     left_out: Vec<(String, LeftOut)>,
     /// Names of the checks that failed, and why.
     failures: Vec<String>,
-    /// A check that cannot run here fails.
+    /// Does a check fail if it cannot run here?
     is_strict: bool,
 }
 
-/// The seconds of a line: by the clock, and of CPU time where the system says them.
+/// The seconds of a line: wall-clock time, and CPU time if it is known.
 fn times(seconds: f64, cpu: Option<f64>) -> String {
     let cpu = cpu.map_or(String::new(), |cpu| format!(" {cpu:>7.1} s of CPU"));
     format!("{seconds:>7.1} s{cpu}")
 }
 
-/// CPU time since a count of it [s].
+/// CPU time since an earlier value of it [s].
 fn since(cpu: Option<f64>) -> Option<f64> {
     cpu.zip(cpu_seconds()).map(|(before, after)| after - before)
 }
 
 impl Summary {
-    /// A summary in which a check that cannot run here fails, or is noted.
+    /// A summary in which a check that cannot run fails (`is_strict`), or is only noted.
     pub fn new(is_strict: bool) -> Self {
         Self { is_strict, ..Self::default() }
     }
 
-    /// Runs one check and notes how it ended. One that fails does not keep the next from running: one run says all there is to mend.
+    /// Runs one check and notes its outcome. After a failure the next checks run too, so that one run shows all faults.
     pub fn check(&mut self, name: &str, job: impl FnOnce() -> Result<Outcome, String>) {
         eprintln!("== {name}");
         let (start, cpu) = (Instant::now(), cpu_seconds());
@@ -92,7 +93,7 @@ impl Summary {
         self.note(Ended { name: name.to_owned(), seconds, cpu, outcome });
     }
 
-    /// Notes how a check ended.
+    /// Notes the outcome of a check.
     pub(crate) fn note(&mut self, ended: Ended) {
         self.ended.push(ended.clone());
         let Ended { name, seconds, cpu, outcome } = ended;
@@ -113,7 +114,7 @@ impl Summary {
         }
     }
 
-    /// Notes checks that ran beside each other, list by list, and the time that all of them took together.
+    /// Notes checks that ran in parallel, list by list, and their total time.
     pub(crate) fn beside(&mut self, run: impl FnOnce() -> Vec<Ended>) {
         let (start, cpu) = (Instant::now(), cpu_seconds());
         run().into_iter().for_each(|ended| self.note(ended));
@@ -125,7 +126,7 @@ impl Summary {
     ///
     /// # Errors
     ///
-    /// What failed, and where nothing may be left out the names of the checks that could not run.
+    /// The checks that failed; in strict mode also the names of the checks that could not run.
     pub fn complete(&self) -> Result<(), String> {
         let mut failures = self.failures.clone();
         if self.is_strict && !self.left_out.is_empty() {
@@ -135,12 +136,12 @@ impl Summary {
         if failures.is_empty() { Ok(()) } else { Err(failures.join("\n")) }
     }
 
-    /// Notes a check that was not asked for.
+    /// Notes a check that was not requested.
     pub fn skip(&mut self, name: &str, why: &str) {
         self.lines.push(format!("  skipped   {name:<14} {why}"));
     }
 
-    /// Prints the summary of a job, and what failed; its exit status.
+    /// Prints the summary of a job with its failures. Returns the exit status.
     pub fn end(&self, job: &str) -> ExitCode {
         eprint!("\n{}", self.text(job));
         match self.complete() {
@@ -155,7 +156,7 @@ impl Summary {
         }
     }
 
-    /// The summary of a job as text: one line a check, then what was left out and how to get it.
+    /// The summary of a job as text: one line per check, then the checks left out with their remedies.
     pub fn text(&self, job: &str) -> String {
         let mut text = format!("{job}:\n");
         for line in &self.lines {

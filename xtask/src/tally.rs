@@ -1,25 +1,25 @@
-//! Tests counted by what their programs print: those of Rust, and pytest.
+//! Counts of tests, read from the output of Rust's test programs and of pytest.
 
 use crate::child;
 use crate::summary::Outcome;
 use std::fmt::{self, Display, Formatter};
 use std::process::Command;
 
-/// Tests that passed and that failed, and the names of the latter.
+/// Numbers of tests that passed and that failed, and names of those that failed.
 #[derive(Debug, Default, Clone, PartialEq, Eq)]
 pub(crate) struct Tally {
     passed: usize,
     failed: usize,
     names: Vec<String>,
-    /// Names of the list that is being read: the last one before a result counts.
+    /// Names of the list that is being read. A program prints its list twice; the last one before the result counts.
     listed: Vec<String>,
-    /// A program has begun and has not printed its result.
+    /// Has a program begun without a result so far?
     is_running: bool,
 }
 
-/// The name of a program that ended without a result.
+/// Text for a program that ended without a result.
 const UNFINISHED: &str = "a program of tests that ended before its result";
-/// The name of a failure that no test is named for.
+/// Text for a failure that belongs to no test.
 const OTHER: &str = "a build, or a program that ended by itself: see above";
 
 impl Tally {
@@ -36,7 +36,7 @@ impl Tally {
             self.is_running = false;
             let failed = count(result, "failed");
             self.add(count(result, "passed"), failed);
-            // Lines before these were printed by tests.
+            // earlier lines of this form were printed by tests
             let from = self.listed.len().saturating_sub(failed);
             self.names.extend(self.listed.drain(..).skip(from));
         }
@@ -53,7 +53,7 @@ impl Tally {
         }
     }
 
-    /// Closes the count of a command, which may have failed without a failed test.
+    /// Ends the count of a command. The command may have failed without a failed test.
     pub(crate) fn close(&mut self, is_failed: bool) {
         self.unfinished();
         if is_failed && self.failed == 0 {
@@ -85,18 +85,18 @@ impl Tally {
     }
 }
 
-/// The closing line of `cargo xtask test`.
+/// The last line of `cargo xtask test`.
 impl Display for Tally {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         write!(f, "{} passed, {} failed", self.passed, self.failed)
     }
 }
 
-/// Runs a command of tests, whose lines are shown and read; its count is added to `all`.
+/// Runs a command of tests. Its lines are shown and read, and its counts are added to `all`.
 ///
 /// # Errors
 ///
-/// How the command ended, and the names of the tests that failed.
+/// The command's exit status, and the names of the tests that failed.
 pub(crate) fn counted(
     command: &mut Command,
     read: fn(&mut Tally, &str),
@@ -121,7 +121,7 @@ fn count(text: &str, word: &str) -> usize {
     before.and_then(|pair| pair[0].parse().ok()).unwrap_or(0)
 }
 
-/// Whether a text is the time at the end of pytest: `3.21s`, or `61.11s (0:01:01)`.
+/// Is a text the time at the end of pytest: `3.21s`, or `61.11s (0:01:01)`?
 fn is_time(text: &str) -> bool {
     let seconds = text.split(' ').next().and_then(|word| word.strip_suffix('s'));
     seconds.is_some_and(|number| number.parse::<f64>().is_ok())

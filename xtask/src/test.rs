@@ -1,4 +1,4 @@
-//! `cargo xtask test`: the tests of every crate, of the command and of the Python package.
+//! The job `cargo xtask test`: runs the tests of every crate, of the command and of the Python package.
 
 use crate::process::{self, cargo};
 use crate::python;
@@ -8,12 +8,12 @@ use std::panic::resume_unwind;
 use std::process::{Command, ExitCode};
 use std::thread;
 
-/// The module of the rules for text, in the tests of xtask: a check by itself.
+/// The module with the rules for text, in the tests of xtask. It is a check of its own.
 pub const RULES: &str = "tidy::";
-/// The module of the documents that run, in the tests of the command: a check by itself.
+/// The module with the documents that are run, in the tests of the command. It is a check of its own.
 pub const DOCUMENTS: &str = "documents::";
 
-/// Runs the tests; the last line of standard output is their count.
+/// Runs the tests of the repository. The last line of standard output has their counts.
 #[allow(clippy::print_stdout, reason = "the count is what is asked for")]
 pub fn test(is_strict: bool) -> ExitCode {
     let mut summary = Summary::new(is_strict);
@@ -23,7 +23,7 @@ pub fn test(is_strict: bool) -> ExitCode {
     code
 }
 
-/// Runs the tests of Rust, then those of Python, whose tools are installed meanwhile; their count.
+/// Runs the tests of Rust, then those of Python, whose tools are installed at the same time. Returns their counts.
 pub(crate) fn run(summary: &mut Summary) -> Tally {
     thread::scope(|scope| {
         let tools = scope.spawn(python::tools);
@@ -35,7 +35,7 @@ pub(crate) fn run(summary: &mut Summary) -> Tally {
     })
 }
 
-/// The tests of the workspace; one that fails keeps no other from running.
+/// The command of the workspace's tests. All programs run even if one fails.
 fn of_rust() -> Command {
     let mut command = cargo();
     command.args(["test", "--workspace", "--no-fail-fast", "--"]);

@@ -1,3 +1,3 @@
-//! The rules for the text of this repository: a program of tests by itself, which the check runs apart from the others.
+//! The rules for the text of this repository. They are a test program of their own, so that the check can run them separately.
 
 mod tidy;

@@ -8,17 +8,18 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Shells that have completions.
+/// Shells with completions in the archive.
 const SHELLS: [&str; 5] = ["bash", "elvish", "fish", "powershell", "zsh"];
 
-/// Files of the repository that come with the command.
+/// Files of the repository that the archive contains.
 const FILES: [&str; 4] = ["LICENSE-APACHE", "LICENSE-MIT", "README.md", "CHANGELOG.md"];
 
-/// Most bytes of the command with all precisions: 29.6 million on 29 November 2026. Raised by hand, where what it brings is worth it.
+/// Largest size of the command with all precisions, in bytes: it had 29.6 million on 29 November 2026. The bound is raised by hand, when a
+/// larger command is worth it.
 const MOST_BYTES: u64 = 31_000_000;
 
-/// How cargo builds the command on the crates that the wheel is built on: with the package of the wheel selected too, features of
-/// dependencies are the same, and nothing is compiled twice.
+/// Packages and features with which cargo builds the command. The package of the wheel is selected too: so features of dependencies are the
+/// same in both builds, and nothing is compiled twice.
 pub(super) const SELECTION: [&str; 7] = [
     "--package",
     "mbs-cli",
@@ -29,7 +30,7 @@ pub(super) const SELECTION: [&str; 7] = [
     "mbs-cli/f32,mbs-cli/dd",
 ];
 
-/// Builds the command and packs it; the path of the archive.
+/// Builds the command and packs it. Returns the path of the archive.
 pub(super) fn made(build: &Build<'_>, place: &Path) -> Result<PathBuf, String> {
     let mut command = cargo();
     command.args(["build", "--locked", "--bin", "mbs", "--profile", build.profile]).args(SELECTION);
@@ -50,7 +51,7 @@ pub(super) fn made(build: &Build<'_>, place: &Path) -> Result<PathBuf, String> {
     Ok(place.join(archive))
 }
 
-/// Fails where a program is larger than it may be.
+/// Fails if a program is larger than `most` bytes.
 fn within(built: &Path, most: u64) -> Result<(), String> {
     let name = built.display();
     let bytes = fs::metadata(built).map_err(|e| format!("{name}: {e}"))?.len();
@@ -62,7 +63,7 @@ fn within(built: &Path, most: u64) -> Result<(), String> {
     Ok(())
 }
 
-/// Puts the command and what comes with it into a folder.
+/// Copies the command and the other files of the archive into a folder.
 fn packed(built: &Path, folder: &Path) -> Result<(), String> {
     let copy = |from: &Path| {
         let to = folder.join(from.file_name().unwrap_or_default());
@@ -83,9 +84,9 @@ fn packed(built: &Path, folder: &Path) -> Result<(), String> {
     Ok(())
 }
 
-/// Unpacks the archive into a folder and follows the README's example with it; seconds of the example.
+/// Unpacks the archive into a folder and runs the README's example with it. Returns the seconds that the example takes.
 pub(super) fn tried(archive: &Path, folder: &Path) -> Result<f64, String> {
-    // named without its folder: tar takes what stands before a colon for a machine
+    // tar gets the name without a folder: it reads text before a colon as the name of a machine
     let name = archive.file_name().unwrap_or_default().to_string_lossy();
     fs::copy(archive, folder.join(&*name)).map_err(|e| format!("{name}: {e}"))?;
     run(Command::new("tar").args(["-xzf", &name]).current_dir(folder))?;

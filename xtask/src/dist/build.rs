@@ -1,4 +1,4 @@
-//! How cargo builds what a release has.
+//! Settings with which cargo builds the files of a release.
 
 use crate::process::{output, target_dir};
 use std::env;
@@ -18,13 +18,13 @@ pub(super) struct Build<'a> {
 }
 
 impl Build<'_> {
-    /// Takes names of functions out of what a command of cargo links.
+    /// Lets cargo remove names of functions from the linked program.
     pub(super) fn strip<'a>(&self, command: &'a mut Command) -> &'a mut Command {
         let profile = self.profile.to_uppercase().replace('-', "_");
         command.env(format!("CARGO_PROFILE_{profile}_STRIP"), "symbols")
     }
 
-    /// The folder of programs.
+    /// The folder of the built programs.
     pub(super) fn folder(&self) -> PathBuf {
         let name = if self.profile == "dev" { "debug" } else { self.profile };
         target_dir().join(self.target.unwrap_or_default()).join(name)

@@ -1,4 +1,4 @@
-//! Trials of what a release has: commands that find no compiler, and what they are to leave.
+//! Trials of the files of a release: commands run without a compiler, and must write certain files.
 
 use crate::process;
 use std::env;
@@ -7,14 +7,14 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::Instant;
 
-/// A folder with nothing in it.
+/// Makes the folder empty.
 pub(super) fn emptied(folder: &Path) -> Result<PathBuf, String> {
     let _ = fs::remove_dir_all(folder);
     fs::create_dir_all(folder).map_err(|e| format!("{}: {e}", folder.display()))?;
     Ok(folder.to_owned())
 }
 
-/// Keeps a command from every other program: the search path has one folder, and no variable leads to a compiler.
+/// Lets a command find no other program: the search path has one folder, and no variable names a compiler.
 pub(super) fn apart<'a>(command: &'a mut Command, path: &Path) -> &'a mut Command {
     for (name, _) in env::vars_os() {
         let is_of_compiler = |name: &str| name.starts_with("CARGO") || name.starts_with("RUST");
@@ -29,7 +29,7 @@ pub(super) fn apart<'a>(command: &'a mut Command, path: &Path) -> &'a mut Comman
 ///
 /// # Errors
 ///
-/// The command and its outputs, where it fails.
+/// The command with its outputs, if it fails.
 pub(super) fn quietly(command: &mut Command) -> Result<String, String> {
     let line = process::line(command);
     let ended = command.stdin(Stdio::null()).output();
@@ -39,7 +39,7 @@ pub(super) fn quietly(command: &mut Command) -> Result<String, String> {
     if ended.status.success() { Ok(said) } else { Err(format!("`{line}`: {said}{error}")) }
 }
 
-/// Follows the README's example with a command; seconds that it takes.
+/// Runs the README's example with a command. Returns the seconds that it takes.
 pub(super) fn example(mbs: &Path, folder: &Path) -> Result<f64, String> {
     let clock = Instant::now();
     for words in [
@@ -57,7 +57,7 @@ pub(super) fn example(mbs: &Path, folder: &Path) -> Result<f64, String> {
     Ok(clock.elapsed().as_secs_f64())
 }
 
-/// Is the file there, with something in it?
+/// Does the file exist, with at least one byte?
 pub(super) fn is_filled(file: &Path) -> Result<(), String> {
     let is_filled = fs::metadata(file).is_ok_and(|file| file.len() > 0);
     is_filled.then_some(()).ok_or_else(|| format!("{} is missing or empty", file.display()))

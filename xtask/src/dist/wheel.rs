@@ -1,4 +1,4 @@
-//! The wheel of the Python package, for every Linux of some years, and its trial in a fresh environment.
+//! The wheel of the Python package for Linux systems with the oldest glibc that is supported, and its trial in a fresh environment.
 
 use super::build::{Build, VERSION};
 use super::trial::{apart, example, quietly};
@@ -12,13 +12,13 @@ use std::time::Instant;
 /// Newest minor version of glibc 2 that a wheel may need: that of Ubuntu 22.04, Debian 12 and RHEL 9.
 const MAX_GLIBC: u32 = 34;
 
-/// Level of compression of the wheel [-]: the highest of deflate, which every installer reads.
+/// Compression level of the wheel [-]: the highest of deflate, a method that every installer reads.
 const COMPRESSION: &str = "9";
 
-/// Program that reads the platform of a wheel from its symbols, independently of maturin.
+/// Program that determines the platform of a wheel from its symbols, independently of maturin.
 const AUDITWHEEL: &str = "auditwheel==6.8.2";
 
-/// Builds the wheel, and tests its tag; its path.
+/// Builds the wheel and checks its platform tag. Returns its path.
 pub(super) fn made(build: &Build<'_>, python: &str, place: &Path) -> Result<PathBuf, String> {
     let tools = python::environment(python, &target_dir().join("python").join("tools"))?;
     python::pip(&tools, &["--requirement", "mbs-python/tools/requirements.txt"])?;
@@ -37,7 +37,7 @@ pub(super) fn made(build: &Build<'_>, python: &str, place: &Path) -> Result<Path
     Ok(wheel)
 }
 
-/// Tests that the wheel is for a glibc that is old enough, and that its symbols say the same as its name.
+/// Checks that the wheel supports an old enough glibc, and that its symbols agree with the tag in its name.
 fn audited(wheel: &Path, tools: &Path) -> Result<(), String> {
     let name = wheel.file_name().unwrap_or_default().to_string_lossy();
     let minor = glibc(&name).ok_or_else(|| format!("{name} has no manylinux tag"))?;
@@ -60,7 +60,7 @@ fn glibc(name: &str) -> Option<u32> {
     rest.split_once('_')?.0.parse().ok()
 }
 
-/// Installs the wheel, and follows the README's example and the first one of docs/PYTHON.md; what took how long.
+/// Installs the wheel, and runs the README's example and the first one of docs/PYTHON.md. Returns the times of both.
 pub(super) fn tried(wheel: &Path, python: &str, folder: &Path) -> Result<String, String> {
     let fresh = python::environment(python, &folder.join("fresh"))?;
     let bin = fresh.join(if cfg!(windows) { "Scripts" } else { "bin" });

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-/// Modules whose functions are large and needed by many, with the crate that owns them.
+/// Modules with large functions that many crates call, each with the crate that owns it.
 pub(super) const OWNED: [(&str, &str); 4] = [
     ("mbs_core", "natural"),
     ("mbs_core", "start"),
@@ -14,9 +14,9 @@ pub(super) const OWNED: [(&str, &str); 4] = [
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub(super) struct Counts {
     pub(super) lines: u64,
-    /// Of each of [`OWNED`].
+    /// Number of lines of each module of [`OWNED`].
     pub(super) owned: [u64; OWNED.len()],
 }
 
-/// The counts of each crate of ours in both sets.
+/// The counts of each crate of the workspace, in both sets of features.
 pub(super) type Counted = [BTreeMap<String, Counts>; 2];

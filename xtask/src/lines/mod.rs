@@ -1,8 +1,9 @@
-//! `cargo xtask counts --lines`: how much code LLVM is given, crate by crate, and that large functions are compiled in their owner alone.
+//! The job `cargo xtask counts --lines`: counts the code that LLVM gets from each crate. It also checks that large functions are compiled
+//! only in the crate that owns them.
 //!
-//! LLVM is nineteen twentieths of a build, and its price is the number of lines that it is given: 45 to 50 s of CPU time a million at level 3,
-//! a sixth of that at level 0. A line is one of a function's body, before any optimisation. Each crate has a bound in docs/PROFILES.md, which
-//! is raised by hand: growth is seen on the day.
+//! LLVM takes 95 % of the time of a build, in proportion to the number of lines that it gets. A million lines take 45 to 50 s of CPU time
+//! at level 3, and a sixth of that at level 0. A line is one in the body of a function, before any optimisation. Each crate has a bound in
+//! docs/PROFILES.md. The bound is raised by hand, so that growth is seen on the day on which it occurs.
 
 mod counts;
 mod table;
@@ -22,7 +23,7 @@ use table::Table;
 /// Set of the command's features that is counted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Set {
-    /// Of the first command of README.md: `f64` alone.
+    /// Features of the first command of README.md: `f64` alone.
     First,
     /// Features of all precisions.
     All,
@@ -39,14 +40,14 @@ impl Set {
     }
 }
 
-/// Crates that have functions of those modules in a step, which no table gives.
+/// Crates whose steps call functions of those modules directly, rather than through a table.
 const STEPS: [&str; 1] = ["mbs_steps"];
 
-/// Most lines of those modules in any other crate, three precisions together: readings of a field or two, which are smaller than a call through
-/// a table. One model that is built outside its owner brings 50,000.
+/// Largest number of lines of those modules in any other crate, for three precisions together. Allowed are functions that read a field or
+/// two, since they are smaller than a call through a table. A model that is compiled outside its owner adds 50,000 lines.
 const MOST_STRAY: u64 = 14_000;
 
-/// Counts, prints the table, and with `keep` writes the counts into docs/PROFILES.md, whose bounds stay.
+/// Counts and prints the table. With `keep` it writes the counts into docs/PROFILES.md, and leaves the bounds unchanged.
 #[allow(clippy::print_stdout, reason = "the table is what this job is for")]
 pub fn lines(keep: bool) -> ExitCode {
     let counted = count(&Set::BOTH).and_then(|counts| {
@@ -61,7 +62,7 @@ pub fn lines(keep: bool) -> ExitCode {
     summary::ended("lines", counted.map(Outcome::Passed))
 }
 
-/// Counts with all precisions, and compares with the bounds as a check. The code of the first command is a part of what is counted.
+/// Counts the build with all precisions, and compares it with the bounds. This build contains the code of the first command.
 ///
 /// # Errors
 ///
@@ -73,7 +74,7 @@ pub(crate) fn check() -> Result<Outcome, String> {
     verdict(&counts, &table).map(Outcome::Passed)
 }
 
-/// Compiles sets with a compiler that counts; a set that is not asked for has no counts.
+/// Compiles sets with a compiler that counts. Other sets get no counts.
 fn count(sets: &[Set]) -> Result<Counted, String> {
     let mut counted = Counted::default();
     let asked = Set::BOTH.into_iter().zip(&mut counted).filter(|(set, _)| sets.contains(set));
@@ -106,7 +107,7 @@ fn folder(set: Set) -> PathBuf {
     target_dir().join("lines").join(format!("{}-counts", set.name()))
 }
 
-/// The totals, where all is within its bounds.
+/// The totals, if all counts are within their bounds.
 fn verdict(counted: &Counted, table: &Table) -> Result<String, String> {
     let mut faults = table.faults();
     for (name, counts) in counted.iter().flatten() {

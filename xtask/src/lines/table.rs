@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::PathBuf;
 
-/// Marks at which the table begins and ends.
+/// Marks at the beginning and at the end of the table.
 const MARKS: [&str; 2] = ["<!-- lines:begin -->\n", "<!-- lines:end -->"];
 const HEAD: &str =
     "| crate | first command | bound | all precisions | bound |\n|---|---|---|---|---|\n";
@@ -27,7 +27,7 @@ fn path() -> PathBuf {
     root().join("docs/PROFILES.md")
 }
 
-/// The text in front of the table, the table, and the text behind it.
+/// The text before the table, the table, and the text after it.
 fn parts(text: &str) -> Result<[&str; 3], String> {
     let missing = || format!("docs/PROFILES.md lacks its mark {}", MARKS[0].trim());
     let (before, rest) = text.split_once(MARKS[0]).ok_or_else(missing)?;
@@ -59,7 +59,7 @@ impl Table {
         Ok(Self(rows))
     }
 
-    /// Takes new counts; bounds stay.
+    /// Replaces the counts; the bounds do not change.
     pub(super) fn take(&mut self, counted: &Counted) {
         self.0.values_mut().for_each(|row| row.counts = [0; 2]);
         for (i, counts) in counted.iter().enumerate() {
@@ -70,7 +70,7 @@ impl Table {
         }
     }
 
-    /// Faults of the crates that are above their bound or have none.
+    /// Faults: crates above their bound, and crates without a bound.
     pub(super) fn faults(&self) -> Vec<String> {
         let fault = |(name, row): (&String, &Row)| match row.bounds {
             None => Some(format!("{name} has no bound of lines in docs/PROFILES.md")),
@@ -100,7 +100,7 @@ impl Table {
         text + &format!("| all | {} | {} | {} | {} |\n", sums[0], sums[1], sums[2], sums[3])
     }
 
-    /// Puts the table into docs/PROFILES.md.
+    /// Writes the table into docs/PROFILES.md.
     pub(super) fn write(&self) -> Result<(), String> {
         let text = fs::read_to_string(path()).map_err(|e| format!("docs/PROFILES.md: {e}"))?;
         let [before, _, after] = parts(&text)?;

@@ -1,7 +1,7 @@
-//! A compiler that counts: in place of machine code each library gives lines of LLVM's code before any optimisation.
+//! A compiler that counts: for each library it counts the lines of LLVM's code before any optimisation, and makes no machine code.
 //!
-//! Cargo starts this program in place of rustc where `RUSTC_WRAPPER` names it. What cargo only checks then also makes code, whose lines
-//! are counted and which is taken away again: no machine code is made, so that a count takes a small share of a build.
+//! Cargo starts this program instead of rustc if `RUSTC_WRAPPER` names it. Then crates that cargo would only check produce LLVM's code too.
+//! Its lines are counted, and the file is removed. A count is much faster than a build, since no machine code is made.
 
 use super::counts::{Counts, OWNED};
 use crate::process;
@@ -13,11 +13,11 @@ use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
 
-/// The folder of counts, a file for each crate; where it is set, this program is the compiler.
+/// The environment variable with the folder of counts, which gets a file for each crate. If it is set, this program acts as the compiler.
 pub(super) const FOLDER: &str = "MBS_IR_LINES";
-/// Set to keep the code as text, beside the counts.
+/// The environment variable that keeps LLVM's code as text beside the counts.
 const KEEP: &str = "MBS_IR_KEEP";
-/// How code is made: none of LLVM's passes, one file a crate, names that can be read.
+/// Flags of rustc: no passes of LLVM, one file per crate, readable names.
 const FLAGS: [&str; 8] = [
     "-C",
     "no-prepopulate-passes",
@@ -29,7 +29,7 @@ const FLAGS: [&str; 8] = [
     "symbol-mangling-version=v0",
 ];
 
-/// Compiles and counts, where cargo has started this program as its compiler.
+/// Compiles and counts, if cargo has started this program as its compiler.
 pub fn as_compiler() -> Option<ExitCode> {
     let folder = PathBuf::from(env::var_os(FOLDER)?);
     let mut args = env::args_os().skip(1);
@@ -57,7 +57,7 @@ pub fn as_compiler() -> Option<ExitCode> {
     Some(end)
 }
 
-/// The name of the library that is checked; `None` for a procedural macro, a build script, or a question of cargo's.
+/// The name of the library that is checked; `None` for a procedural macro, a build script, or a query of cargo.
 fn counted(args: &[OsString]) -> Option<String> {
     let is_checked = args.iter().any(|arg| {
         arg.to_str().is_some_and(|arg| arg.starts_with("--emit=") && !arg.contains("link"))
@@ -67,13 +67,13 @@ fn counted(args: &[OsString]) -> Option<String> {
     (is_checked && kind != "proc-macro" && kind != "bin").then(|| name.to_owned())
 }
 
-/// The word behind an option.
+/// The argument after an option.
 fn after<'a>(args: &'a [OsString], option: &str) -> Option<&'a str> {
     let at = args.iter().position(|arg| arg == option)?;
     args.get(at + 1).and_then(|word| word.to_str())
 }
 
-/// Counts the lines of the file that the compiler has written, and removes it.
+/// Counts the lines of the file that the compiler has written, and removes the file.
 fn count(args: &[OsString], crate_name: &str, folder: &Path) -> Result<(), String> {
     let out = after(args, "--out-dir").ok_or("no --out-dir")?;
     let extra = args
@@ -133,8 +133,8 @@ fn counts(path: &Path) -> std::io::Result<Counts> {
     Ok(counts)
 }
 
-/// Which of [`OWNED`] the function of a definition belongs to, by its mangled name: the first crate in it, `Cs` with a hash and the name, and
-/// the module behind it.
+/// Index in [`OWNED`] of the module that a function belongs to, by the mangled name in its definition. The module follows the first crate
+/// in the name. The crate is written as `Cs`, a hash and its name.
 fn owned(definition: &[u8]) -> Option<usize> {
     let name = String::from_utf8_lossy(definition);
     let (_, name) = name.split_once("@")?;

@@ -1,5 +1,5 @@
-//! Pages are looked at in a browser without a window, at the widths of a desk and of a phone. Faults are labels that lie over each other or are
-//! cut off, what does not answer to pointer and buttons, pictures that cannot be exported.
+//! Check of HTML pages in a browser without a window, at the widths of a desktop and of a phone. Faults are labels that overlap or are cut
+//! off, elements that do not react to pointer and buttons, and pictures that cannot be exported.
 
 use crate::debian;
 use crate::process::{self, output};
@@ -8,40 +8,40 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-/// Names that the browser goes by.
+/// Names of the browser's program on different systems.
 const BROWSERS: [&str; 4] = ["chromium", "chromium-browser", "google-chrome", "chrome"];
-/// Widths in pixels: a desk, a phone.
+/// Widths of the page in pixels: a desktop, a phone.
 const WIDTHS: [u32; 2] = [1280, 390];
-/// Colours that a reader may prefer, as the browser's own numbers.
+/// Colour schemes that a reader may prefer, with the numbers by which the browser's option sets them.
 const THEMES: [(&str, &str); 2] = [("dark", "0"), ("light", "1")];
-/// Number by which the browser takes light colours.
+/// Number by which the browser's option sets light colours.
 pub(crate) const LIGHT: &str = THEMES[1].1;
-/// Catches what a page throws, before anything of it runs.
+/// Script that records errors of a page; it runs before any other script of the page.
 const CATCH: &str = "<script>window.probeFaults = []; addEventListener(\"error\", (e) => window.probeFaults.push(e.message)); addEventListener(\"unhandledrejection\", (e) => window.probeFaults.push(String(e.reason)));</script>";
 
-/// Takes WebGL away from a page.
+/// Script that removes WebGL from a page.
 const WITHOUT_WEBGL: &str = "<script>window.probeWithoutWebGL = true; const whole = HTMLCanvasElement.prototype.getContext; HTMLCanvasElement.prototype.getContext = function (kind, ...rest) { return /webgl/.test(kind) ? null : whole.call(this, kind, ...rest); };</script>";
 
-/// A look at a page: its width in pixels, and the colours as a word and as the browser's own number.
+/// Settings of one inspection of a page: its width in pixels, and the colour scheme as a word and as the browser's number.
 type Look = (u32, (&'static str, &'static str));
 
-/// Looks of the short form: each width and each colours once.
+/// Settings of the short form: each width and each colour scheme once.
 const SHORT: [Look; 2] = [(WIDTHS[0], THEMES[0]), (WIDTHS[1], THEMES[1])];
 
-/// Makes the pages of runs, a comparison, a difference, a diagnosis and a sweep, and looks at them: at each width and in each colours once.
+/// Makes the pages of runs, a comparison, a difference, a diagnosis and a sweep. Inspects them with each width and each colour scheme once.
 ///
 /// # Errors
 ///
-/// What is wrong with a page, by its width.
+/// The faults of a page, by its width.
 pub(crate) fn check() -> Result<Outcome, String> {
     check_with(&SHORT)
 }
 
-/// Looks at the same pages at every width in all colours.
+/// Inspects the same pages at every width in all colour schemes.
 ///
 /// # Errors
 ///
-/// What is wrong with a page, by its width.
+/// The faults of a page, by its width.
 pub(crate) fn whole() -> Result<Outcome, String> {
     check_with(&all_looks())
 }
@@ -115,27 +115,27 @@ fn with_mesh(scene: &str, folder: &Path) -> Result<String, String> {
     Ok(place.display().to_string())
 }
 
-/// The browser, installed where that is possible.
+/// The name of the browser, which is installed if it is missing and if that is possible.
 pub fn browser() -> Option<&'static str> {
     let found =
         || BROWSERS.into_iter().find(|name| output(Command::new(name).arg("--version")).is_some());
     found().or_else(|| {
-        // It is asked for again in any case.
+        // an error is ignored: the browser is searched again in any case
         let _ = debian::install(&["chromium"]);
         found()
     })
 }
 
-/// Looks at a page at every width, in light and dark colours.
+/// Inspects a page at every width, in light and dark colours.
 ///
 /// # Errors
 ///
-/// What is wrong with it.
+/// The faults of the page.
 pub fn look(browser: &str, page: &Path) -> Result<(), String> {
     look_with(browser, page, (&all_looks(), ""))
 }
 
-/// Looks at a page with a script before anything of it.
+/// Inspects a page with a script that runs before all others.
 fn look_with(browser: &str, page: &Path, (looks, before): (&[Look], &str)) -> Result<(), String> {
     let place = |e: std::io::Error| format!("{}: {e}", page.display());
     let html = fs::read_to_string(page).map_err(place)?;
@@ -158,14 +158,14 @@ fn look_with(browser: &str, page: &Path, (looks, before): (&[Look], &str)) -> Re
     if faults.is_empty() { Ok(()) } else { Err(faults.join("\n")) }
 }
 
-/// Returns the report of a page. On a busy machine the browser's time may end before the page has drawn; then it is opened again.
+/// Returns the report of a page. On a busy machine the browser may end before the page is drawn. Then the page is opened again.
 fn heard(browser: &str, frame: &Path, theme: &str) -> Result<String, String> {
-    /// How often a page is opened that says nothing.
+    /// Largest number of times that a page without a report is opened.
     const TRIALS: usize = 3;
     let mut report = String::new();
     for _ in 0..TRIALS {
         report = report_in(&dom(browser, frame, theme)?);
-        // what stands in the frame before the page speaks
+        // the frame contains this text until the page writes its report
         if report != "silent" {
             break;
         }
@@ -178,7 +178,7 @@ fn with_probe(html: &str, before: &str) -> String {
     html.replacen("<head>", &format!("<head>{CATCH}{before}"), 1).replacen("</body>", &probe, 1)
 }
 
-/// Report of the probe, from the page as the browser leaves it.
+/// Report of the probe, from the page's text after its scripts.
 pub(crate) fn report_in(dom: &str) -> String {
     let text =
         dom.split_once("<pre id=\"report\">").and_then(|(_, rest)| rest.split_once("</pre>"));
@@ -186,7 +186,7 @@ pub(crate) fn report_in(dom: &str) -> String {
     text.replace("&lt;", "<").replace("&gt;", ">").replace("&amp;", "&")
 }
 
-/// The page as it is after its scripts.
+/// The text of the page after its scripts.
 pub(crate) fn dom(browser: &str, page: &Path, theme: &str) -> Result<String, String> {
     let profile = std::env::temp_dir().join(format!("xtask-pages-{}", std::process::id()));
     let mut command = Command::new(browser);
@@ -209,7 +209,7 @@ pub(crate) fn dom(browser: &str, page: &Path, theme: &str) -> Result<String, Str
     command.arg(format!("--user-data-dir={}", profile.display()));
     command.arg(format!("file://{}", absolute(page).display()));
     let out = command.stdin(Stdio::null()).output().map_err(|e| format!("{browser}: {e}"))?;
-    // No other program needs what is left of it.
+    // an error is ignored: no other program needs the profile
     let _ = fs::remove_dir_all(profile);
     Ok(String::from_utf8_lossy(&out.stdout).into_owned())
 }
@@ -218,7 +218,7 @@ fn absolute(path: &Path) -> PathBuf {
     path.canonicalize().unwrap_or_else(|_| path.to_path_buf())
 }
 
-/// Runs `mbs` as the tests have it, without its words.
+/// Runs the `mbs` that the tests build, without showing its output.
 fn mbs(arguments: &[&str]) -> Result<(), String> {
     let mut command = Command::new(process::tested("mbs", "command")?);
     command.args(arguments).current_dir(process::root()).stdout(Stdio::null());

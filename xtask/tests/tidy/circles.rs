@@ -1,7 +1,8 @@
-//! The files of a crate, and its rooms, import one way: none needs, over others, what needs itself.
+//! The imports between the files of a crate have no circles, and neither have those between its rooms.
 //!
-//! A room is a file or a folder directly below the crate's first file. What an import is stands in `imports`. Arrows between rooms that
-//! still run up are in allow.txt, as `up | CRATE: FROM -> TO | COUNT | reason`, with the number of their imports.
+//! A room is a file or a folder directly below the crate's first file. The module `imports` defines what counts as an import. Imports from
+//! one room to another are an arrow. Arrows that still make a circle are listed in allow.txt, as `up | CRATE: FROM -> TO | COUNT | reason`,
+//! with the number of their imports.
 
 use super::imports::{Imports, Sources};
 use super::language::{allowed, report_beyond};
@@ -13,10 +14,10 @@ use std::sync::LazyLock;
 use toml::Table;
 use xtask::process::root;
 
-/// For two files or rooms the imports for which one needs the other.
+/// Imports by pairs of files or rooms: the first of a pair needs the second.
 type Arrows<P> = BTreeMap<(usize, usize), P>;
 
-/// For each of `n` nodes those that it reaches.
+/// For each of `n` nodes, the nodes that it reaches along arrows.
 fn reach<P>(n: usize, arrows: &Arrows<P>) -> Vec<Vec<bool>> {
     let mut reach = vec![vec![false; n]; n];
     arrows.keys().for_each(|(from, to)| reach[*from][*to] = true);
@@ -29,7 +30,7 @@ fn reach<P>(n: usize, arrows: &Arrows<P>) -> Vec<Vec<bool>> {
     reach
 }
 
-/// The circles among `n` nodes, each as its nodes.
+/// The circles among `n` nodes, each as a list of nodes.
 fn circles<P>(n: usize, arrows: &Arrows<P>) -> Vec<Vec<usize>> {
     let reach = reach(n, arrows);
     let together = |i: usize, j: usize| reach[i][j] && reach[j][i];
@@ -37,7 +38,7 @@ fn circles<P>(n: usize, arrows: &Arrows<P>) -> Vec<Vec<usize>> {
     firsts.map(|first| (0..n).filter(|i| together(first, *i)).collect()).collect()
 }
 
-/// The circles of files of a program or library: for each its number of files, and its imports as lines of text.
+/// The circles of files in a program or library. Each has its number of files, and its imports as lines of text.
 fn circles_of_files(all: &Imports) -> Vec<(usize, Vec<String>)> {
     let circle = |files: Vec<usize>| {
         let is_in = |(from, to): &(usize, usize)| files.contains(from) && files.contains(to);
@@ -52,7 +53,7 @@ fn circles_of_files(all: &Imports) -> Vec<(usize, Vec<String>)> {
     circles(all.files.len(), &all.edges).into_iter().map(circle).collect()
 }
 
-/// The rooms of a program or library, and their arrows with each import as `file:line name`.
+/// The rooms of a program or library, and the arrows between them with each import as `file:line name`.
 struct Plan {
     rooms: Vec<String>,
     arrows: Arrows<Vec<String>>,
@@ -84,7 +85,7 @@ impl Plan {
         format!("{} -> {}", self.rooms[from], self.rooms[to])
     }
 
-    /// The circles of rooms: for each its rooms and the arrows in it with their imports.
+    /// The circles of rooms. Each has its rooms and its arrows with their imports.
     fn circles(&self) -> Vec<String> {
         let circle = |rooms: Vec<usize>| {
             let names: Vec<_> = rooms.iter().map(|room| self.rooms[*room].as_str()).collect();
@@ -100,8 +101,8 @@ impl Plan {
         circles(self.rooms.len(), &self.arrows).into_iter().map(circle).collect()
     }
 
-    /// Takes out the arrows of the list. Returned are, with their imports, those that run up: each leads to a room that needs, over others, the
-    /// one that it leaves.
+    /// Removes the arrows of the list. Returns those that close a circle, with their imports: the room at their end needs, over other
+    /// rooms, the room at their beginning.
     fn take_out(&mut self, listed: &BTreeSet<String>) -> BTreeMap<String, Vec<String>> {
         let (taken, kept): (Arrows<_>, Arrows<_>) = std::mem::take(&mut self.arrows)
             .into_iter()
@@ -112,7 +113,7 @@ impl Plan {
         up.map(|(ends, imports)| (self.arrow(ends), imports)).collect()
     }
 
-    /// The rooms floor by floor, each above all that it needs; those of circles are left over.
+    /// The rooms by floors: a room is above all rooms that it needs. Rooms in circles have no floor.
     fn floors(&self) -> String {
         let names = |rooms: &[usize]| -> String {
             rooms.iter().map(|room| self.rooms[*room].as_str()).collect::<Vec<_>>().join(", ")
@@ -149,7 +150,7 @@ impl Sources for Disk {
     }
 }
 
-/// The first files of the programs and libraries of the workspace: those of the manifests, and the usual ones.
+/// The first files of the programs and libraries in the workspace: those that manifests name, and the default ones.
 fn firsts() -> Vec<PathBuf> {
     let manifest: Table = read("Cargo.toml").parse().expect("the manifest is TOML");
     let members = manifest["workspace"]["members"].as_array().expect("a workspace has members");
@@ -196,7 +197,7 @@ fn the_files_of_a_crate_import_one_way() {
     );
 }
 
-/// Prints the plan of each crate, which `--nocapture` shows.
+/// Also prints the plan of each crate, which `--nocapture` shows.
 #[test]
 #[allow(clippy::print_stdout, reason = "the plan is shown with --nocapture")]
 fn the_rooms_of_a_crate_import_one_way() {

@@ -1,19 +1,19 @@
-//! Rules for doc comments: the first sentence of each stands alone, for a hover or a search shows nothing else.
+//! Rules for doc comments: the first sentence of each must be understandable alone, since a hover or a search shows nothing else.
 
 use super::language::report_beyond;
 use super::{crate_folders, files, name, read};
 use std::collections::BTreeMap;
 
-/// Words with which no first sentence begins: they refer to something that stands elsewhere.
+/// Words with which no first sentence begins: they refer to a text elsewhere.
 const BEGINNINGS: [&str; 20] = [
     "What", "It", "Its", "That", "Those", "The same", "Where", "As", "They", "How", "Of", "Why",
     "Which", "Whose", "Their", "These", "Both", "By", "Another", "Without",
 ];
 
-/// Least number of words in a first sentence [-]: one with fewer names its subject and says nothing of it.
+/// Least number of words in a first sentence [-]: a shorter one names its subject without a statement about it.
 const FEWEST_WORDS: usize = 4;
 
-/// The doc comments of a file as one line each, with the number of their first line.
+/// The doc comments of a file, each joined to one line, with the number of its first line.
 fn doc_comments(text: &str) -> Vec<(usize, String)> {
     let mut found: Vec<(usize, String)> = Vec::new();
     let mut continues = false;
@@ -40,7 +40,7 @@ fn first_sentence(comment: &str) -> &str {
     comment.split_at(end.map_or(comment.len(), |end| end + 1)).0
 }
 
-/// The first sentences of the doc comments of each crate for which a claim holds.
+/// The first sentences that satisfy a claim, by crate.
 fn sentences_that(holds: impl Fn(&str) -> bool) -> BTreeMap<String, Vec<String>> {
     let mut found = BTreeMap::new();
     for folder in crate_folders() {

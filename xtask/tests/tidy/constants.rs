@@ -1,18 +1,18 @@
-//! Rules for numeric constants: each has a sentence of its own, and a name that says what it is.
+//! Rules for numeric constants: each has a doc sentence, and a name that says what it is.
 
 use super::{crate_folders, files, name, read, report};
 
-/// Names that say nothing as the whole name of a constant.
+/// Words that are too vague as the complete name of a constant.
 const VAGUE: [&str; 10] =
     ["MOST", "LIMIT", "SHARE", "SAME", "NEAR", "FAR", "SLOW", "FEW", "FIRST", "CUT"];
 
-/// Words of a type that is numbers alone.
+/// Words of a type that consists of numbers alone.
 const NUMERIC: [&str; 17] = [
     "f32", "f64", "u8", "u16", "u32", "u64", "u128", "usize", "i8", "i16", "i32", "i64", "i128",
     "isize", "Duration", "Option", "static",
 ];
 
-/// Name and type of the constant that a line begins to define.
+/// Name and type of the constant whose definition begins in a line.
 fn constant(line: &str) -> Option<(&str, &str)> {
     let line = line.trim_start();
     let line = match line.strip_prefix("pub(") {
@@ -21,13 +21,13 @@ fn constant(line: &str) -> Option<(&str, &str)> {
     };
     let (name, rest) = line.strip_prefix("const ")?.split_once(": ")?;
     let is_name = name.chars().all(|c| c.is_ascii_uppercase() || c.is_ascii_digit() || c == '_');
-    // A parameter of a type or a function ends with a comma, with a default or without.
+    // a parameter of a type or a function ends with a comma
     let rest = Some(rest).filter(|rest| !rest.ends_with(','))?;
     let kind = rest.split_once(" =").map(|(kind, _)| kind).or(rest.strip_suffix(';'))?;
     is_name.then_some((name, kind))
 }
 
-/// Is a type numbers alone, or arrays and tuples of them? The length of an array may be any expression.
+/// Does a type consist of numbers alone, or arrays and tuples of numbers? The length of an array may be any expression.
 fn is_numeric(kind: &str) -> bool {
     let mut parts = kind.split(']').map(|part| part.split("; ").next().unwrap_or_default());
     let mut words = Vec::new();
@@ -36,7 +36,7 @@ fn is_numeric(kind: &str) -> bool {
     !words.is_empty() && words.iter().all(|word| NUMERIC.contains(word))
 }
 
-/// The line that opens the block around a line: an item's or a function's first line.
+/// The first line of the block around a line, such as that of an item or a function.
 fn enclosing<'a>(lines: &[&'a str], at: usize) -> &'a str {
     let indent = |line: &str| line.len() - line.trim_start().len();
     let depth = indent(lines[at]);
@@ -49,7 +49,7 @@ fn enclosing<'a>(lines: &[&'a str], at: usize) -> &'a str {
     above.find(|line| line.trim() != "where").copied().unwrap_or_default().trim_start()
 }
 
-/// The comment directly above a line: its first and its last line, without slashes. Attributes may lie between.
+/// The comment directly above a line: its first and its last line, without slashes. Attributes may be between them.
 fn comment<'a>(lines: &[&'a str], at: usize, marks: &[&str]) -> Option<[&'a str; 2]> {
     let text = |line: &&'a str| {
         marks.iter().find_map(|mark| line.trim_start().strip_prefix(mark).map(str::trim))
@@ -70,7 +70,7 @@ fn findings(text: &str) -> Vec<String> {
             add("say what it limits");
         }
         let around = enclosing(&lines, at);
-        // The trait has the sentence.
+        // constants of a trait's implementation are documented in the trait
         let is_given = around.starts_with("impl") && around.contains(" for ");
         if !is_numeric(kind) || is_given {
             continue;
@@ -79,7 +79,7 @@ fn findings(text: &str) -> Vec<String> {
             && !around.contains("fn ");
         let is_local = !line.starts_with(char::is_alphabetic) && !is_item;
         let marks: &[&str] = if is_local { &["///", "//"] } else { &["///"] };
-        // One sentence may be for all arrays of letters of a published table.
+        // one sentence may document all arrays of a published table, whose names are single letters
         let is_table =
             kind.starts_with(['[', '&']) && name.trim_end_matches(char::is_numeric).len() == 1;
         match comment(&lines, at, marks) {

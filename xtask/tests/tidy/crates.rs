@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use toml::{Table, Value};
 
-/// The tables of a manifest that hold dependencies.
+/// The tables of a manifest that contain dependencies.
 const BUILD_TABLES: [&str; 2] = ["dependencies", "build-dependencies"];
 const ALL_TABLES: [&str; 3] = ["dependencies", "build-dependencies", "dev-dependencies"];
 

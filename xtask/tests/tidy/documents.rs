@@ -5,13 +5,13 @@ use std::collections::BTreeSet;
 use toml::Table;
 use xtask::process::root;
 
-/// Markdown files at the top level that a reader expects.
+/// Markdown files that a reader expects in the root folder.
 const DOCUMENTS: [&str; 4] = ["README.md", "ARCHITECTURE.md", "CHANGELOG.md", "CONTRIBUTING.md"];
 
-/// Longest ARCHITECTURE.md, in lines: it is read in one go.
+/// Largest length of ARCHITECTURE.md, in lines: it must be short enough to be read at once.
 const MAX_ARCHITECTURE: usize = 150;
 
-/// Longest README.md, in lines: one screen.
+/// Largest length of README.md, in lines: one screen.
 const MAX_README: usize = 45;
 
 /// The names in `scenes/`, without their ending.

@@ -1,14 +1,14 @@
-//! The imports of a crate as edges between its files: each name counts for the file that defines it, through all re-exports.
+//! The imports of a crate as edges between its files. A name leads to the file that defines it, through all re-exports.
 //!
-//! A re-export is no import itself. Left out are tests and what macros define. A file that no file declares as a module is declared by a
-//! macro, as the kinds of effect are, and is read with the others. A name that a module does not show counts for its file.
+//! A re-export is not an import. Tests and definitions made by macros are left out. A file that no file declares as a module is declared by
+//! a macro, as the kinds of effect are; it is read with the others. A name that a module does not define leads to the module's file.
 
 use super::name;
 use proc_macro2::{Delimiter, TokenStream, TokenTree};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-/// Words that are followed by the name of an item.
+/// Keywords before the name of an item.
 const ITEMS: [&str; 8] = ["const", "enum", "fn", "static", "struct", "trait", "type", "union"];
 
 /// Meaning of a name in a module.
@@ -18,14 +18,14 @@ enum Name {
     Import { path: Vec<String>, is_shown: bool },
 }
 
-/// A path in code, with its line; `is_call`: it names a macro that is called.
+/// A path in code, with its line. `is_call` is true for a macro that is called.
 struct Need {
     line: usize,
     path: Vec<String>,
     is_call: bool,
 }
 
-/// A module: its file, its names, and the paths that its code has.
+/// A module: its file, its names, and the paths in its code.
 struct Module {
     file: usize,
     parent: Option<usize>,
@@ -34,33 +34,33 @@ struct Module {
     paths: Vec<Need>,
 }
 
-/// Module or file that a path leads to; nothing of another crate.
+/// Module or file to which a path leads. Paths into other crates have no target.
 #[derive(Clone, Copy, PartialEq)]
 enum Target {
     Module(usize),
     File(usize),
 }
 
-/// Source of the files of a crate: a disk, or texts of a test.
+/// Source of the files of a crate: the disk, or texts of a test.
 pub(super) trait Sources {
-    /// Returns the text of a file; `None`: there is none.
+    /// Returns the text of a file; `None` if there is no such file.
     fn text(&self, path: &Path) -> Option<String>;
 
     /// Returns the entries of a folder, in order.
     fn entries(&self, folder: &Path) -> Vec<PathBuf>;
 }
 
-/// The lines and names for which one file needs another.
+/// The lines and names by which one file needs another.
 pub(super) type Places = BTreeSet<(usize, String)>;
 
-/// The files of one program or library, from the root of the repository, and for each two the imports for which one needs the other.
+/// The files of one program or library, as paths from the root of the repository, with the imports between each two of them.
 pub(super) struct Imports {
     pub files: Vec<String>,
     pub edges: BTreeMap<(usize, usize), Places>,
 }
 
 impl Imports {
-    /// Reads the program or library with this first file.
+    /// Reads the program or library that begins with this file.
     pub(super) fn read(first: &Path, sources: &dyn Sources) -> Self {
         let (files, modules, macros) = (Vec::new(), Vec::new(), Vec::new());
         let mut all = Crate { sources, files, modules, macros };
@@ -98,7 +98,7 @@ impl Crate<'_> {
         self.add_module(tokens, self.files.len() - 1, folder, parent)
     }
 
-    /// Adds a module of items in a file; the files of its children are in `folder`.
+    /// Adds a module of items in a file. The files of its children are in `folder`.
     fn add_module(
         &mut self,
         tokens: TokenStream,
@@ -147,7 +147,7 @@ impl Crate<'_> {
         at
     }
 
-    /// Adds the modules of a folder that no item declares: a macro does.
+    /// Adds the modules of a folder that a macro declares: those that no item declares.
     fn add_made(&mut self, at: usize, folder: &Path, tests: &[String]) {
         for entry in self.sources.entries(folder) {
             let child = entry.file_stem().unwrap_or_default().to_string_lossy().into_owned();
@@ -168,7 +168,7 @@ impl Crate<'_> {
         }
     }
 
-    /// Adds an item of module `at`, which ends at a place in its tokens.
+    /// Adds an item of module `at`. Returns the place in its tokens where it ends.
     fn add_item(
         &mut self,
         at: usize,
@@ -211,7 +211,7 @@ impl Crate<'_> {
         }
     }
 
-    /// Targets of a path, seen from a module; `seen` stops imports that lead back to themselves.
+    /// Targets of a path, seen from a module. `seen` stops circular imports.
     fn resolve(&self, from: usize, path: &[String], seen: &[(usize, String)]) -> Vec<Target> {
         let mut at = vec![Target::Module(from)];
         for (i, segment) in path.iter().enumerate() {
@@ -227,7 +227,7 @@ impl Crate<'_> {
                 (Target::Module(m), name) => self.find(m, name, i > 0 && is_last, seen),
             };
             at = at.iter().flat_map(step).collect();
-            // A module has what the next segment names, where there is one.
+            // if there is a next segment, only modules can contain it
             let is_module = |target: &Target| matches!(target, Target::Module(_));
             if !is_last && at.iter().any(is_module) {
                 at.retain(is_module);
@@ -236,7 +236,7 @@ impl Crate<'_> {
         at
     }
 
-    /// Targets of a name in a module; `is_made`: a name that it does not show is made there by a macro.
+    /// Targets of a name in a module. With `is_made`, a name that is not defined there counts as made by a macro.
     fn find(
         &self,
         module: usize,
@@ -284,7 +284,7 @@ impl Crate<'_> {
         found
     }
 
-    /// Does a path begin with an item that its module imports for itself? It counts where it is imported.
+    /// Does a path begin with an item that its module imports? Such a path counts at the import.
     fn is_imported(&self, at: usize, need: &Need) -> bool {
         let is_own = |(own, what): &(String, Name)| {
             need.path.first() == Some(own) && matches!(what, Name::Import { is_shown: false, .. })
@@ -295,7 +295,7 @@ impl Crate<'_> {
                 || !self.resolve(at, &need.path[..1], &[]).iter().any(is_module))
     }
 
-    /// Files that a path in code leads to; of a call those that define the macro.
+    /// Files to which a path in code leads; for a call, the files that define the macro.
     fn files_of(&self, at: usize, need: &Need) -> Vec<usize> {
         let found = self.resolve(at, &need.path, &[]).into_iter();
         let mut files: Vec<_> = found
@@ -311,7 +311,7 @@ impl Crate<'_> {
         files
     }
 
-    /// For each two files the lines and names for which one needs the other.
+    /// The lines and names by which one file needs another, for each two files.
     fn edges(&self) -> BTreeMap<(usize, usize), Places> {
         let mut edges: BTreeMap<_, Places> = BTreeMap::new();
         for (at, module) in self.modules.iter().enumerate() {
@@ -329,7 +329,7 @@ impl Crate<'_> {
 }
 
 impl Module {
-    /// Takes a tree of imports; those that are shown on are no needs.
+    /// Adds a tree of imports. Re-exports are not needs of the file.
     fn import(&mut self, tokens: &[TokenTree], before: &[String], is_shown: bool) {
         let mut path = before.to_vec();
         for (i, token) in tokens.iter().enumerate() {
@@ -360,7 +360,7 @@ impl Module {
         if !is_shown {
             self.paths.push(Need { line, path: path.clone(), is_call: false });
         }
-        // An import of the very name, such as of a macro to show it on, leads nowhere else.
+        // an import of a name under the same path, such as a macro's re-export, leads to no other place
         if path != [seen_as.clone()] {
             self.names.push((seen_as, Name::Import { path, is_shown }));
         }

@@ -1,7 +1,7 @@
-//! Joints, effects and quantities are data: code that asks for a kind by its name forgets the next kind.
+//! Rule that joints, effects and quantities are data: code that names single kinds would ignore a new kind.
 //!
-//! A kind of effect is named in its own file, and at the doors by which scenes are built in Rust. These have a constructor for each kind:
-//! one that is forgotten is missed by who calls it, and nothing is silently wrong.
+//! A kind of effect is named in its own file, and in the files by which scenes are built in Rust. These have a constructor for each kind. A
+//! missing constructor is noticed by its caller, and gives no wrong result.
 
 use super::language::report_beyond;
 use super::{crate_folders, files, name, read, report};
@@ -15,17 +15,17 @@ const EFFECTS: &str = include_str!("../../../mbs-core/src/effects/list.rs");
 const TABLES: [(&str, &str); 2] =
     [("EffectKind", "mbs-core/src/effects/"), ("Quantity", "mbs-core/src/outputs/quantity/")];
 
-/// Files of mbs-core with constructors of effects for scenes in Rust.
+/// Files of mbs-core with constructors of effects, for scenes that are built in Rust.
 const DOORS: [&str; 3] = [
     "mbs-core/src/mechanism/build.rs",
     "mbs-core/src/mechanism/on_terms.rs",
     "mbs-core/src/mechanism/joint_limits.rs",
 ];
 
-/// Crates that are no product: they try the others, measure them, or derive the same once more.
+/// Crates that are not part of the product: they test or measure the others, or simulate independently.
 const TRIALS: [&str; 4] = ["judge/", "lab/", "mbs-testkit/", "xtask/"];
 
-/// The sources of the product, with their names: no tests, benches or examples.
+/// The sources of the product with their names, without tests, benches and examples.
 fn product() -> impl Iterator<Item = (PathBuf, String)> {
     let all = crate_folders().into_iter().flat_map(|folder| files(&folder, "rs"));
     let is_other = |name: &str| {
@@ -40,7 +40,7 @@ fn code(text: &str) -> String {
     text.lines().map(|line| line.split("//").next().unwrap_or_default().to_owned() + "\n").collect()
 }
 
-/// The text between the bracket that `text` begins with and its partner.
+/// The text between the bracket at the beginning of `text` and its closing bracket.
 fn enclosed(text: &str, [open, close]: [char; 2]) -> &str {
     let mut depth = 0_usize;
     for (at, c) in text.char_indices() {
@@ -55,7 +55,7 @@ fn enclosed(text: &str, [open, close]: [char; 2]) -> &str {
     text
 }
 
-/// The patterns of the arms of a match, from its body: those on the last line of a pattern that goes over several.
+/// The patterns of the arms of a match, from its body. Of a pattern with several lines, only the last line is returned.
 fn patterns(body: &str) -> Vec<&str> {
     let (mut depth, mut found) = (0_usize, Vec::new());
     for line in body.lines() {
@@ -70,7 +70,7 @@ fn patterns(body: &str) -> Vec<&str> {
     found
 }
 
-/// Questions of a source text about the kinds of an enum that a new kind would pass by. In tests equality and `let` may stand.
+/// Places of a source text that treat single kinds of an enum, so that a new kind would be ignored. Tests may use equality and `let`.
 fn findings(text: &str, of: &str, is_test: bool) -> Vec<String> {
     let mut found = Vec::new();
     let kind = format!("{of}::");
@@ -104,7 +104,7 @@ fn findings(text: &str, of: &str, is_test: bool) -> Vec<String> {
     found
 }
 
-/// The kinds of effect that a source text names: as variants, or as types that it imports.
+/// The kinds of effect that a source text names: as variants, or as imported types.
 fn effects_named(text: &str) -> Vec<&'static str> {
     let text = code(text);
     let of_list = EFFECTS.lines().filter_map(|line| line.trim().split_once(" in "));

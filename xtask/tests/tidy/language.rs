@@ -1,15 +1,16 @@
 //! Rules for the language (docs/NOTATION.md, second part): words that are not used, short sentences, paths and names that exist.
 //!
-//! Scope of words: every line of the Rust files in the `src` folder of each crate, identifiers split at underscores and capitals. Besides,
-//! README.md, ARCHITECTURE.md, CONTRIBUTING.md, CHANGELOG.md, the documents in `docs/`, the crates' README.md files, and the help of the
-//! command. This file is left out. Scope of sentences: README.md, the documents in `docs/` and the crates' README.md files.
+//! The rule of words is for every line of the Rust files in the `src` folder of each crate, with identifiers split at underscores and
+//! capitals. It is also for README.md, ARCHITECTURE.md, CONTRIBUTING.md, CHANGELOG.md, the documents in `docs/`, the crates' README.md
+//! files, and the help of the command. This file is left out. The rule of sentences is for README.md, the documents in `docs/` and the
+//! crates' README.md files.
 
 use super::{crate_folders, files, name, read, report};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use xtask::process::root;
 
-/// Words that no text in scope has.
+/// Words that no text may contain.
 const BANNED: [&str; 14] = [
     "told",
     "tell",
@@ -27,13 +28,13 @@ const BANNED: [&str; 14] = [
     "gone on",
 ];
 
-/// Most words of a sentence. A code span is one word.
+/// Largest number of words in a sentence. A code span is one word.
 const MAX_WORDS: usize = 25;
 
-/// Exceptions: `rule | file | what | reason`. A line that is not needed fails too, so that the list only shrinks.
+/// Exceptions: `rule | file | what | reason`. An unnecessary exception fails too, so that the list only gets shorter.
 const ALLOWED: &str = include_str!("allow.txt");
 
-/// The exceptions of a rule: the file or name they are for, and what is allowed there.
+/// The exceptions of a rule: the file or name of each, and what is allowed there.
 pub(super) fn allowed(rule: &str) -> BTreeMap<String, String> {
     let lines = ALLOWED.lines().filter(|line| !line.starts_with('#') && !line.trim().is_empty());
     let mut found = BTreeMap::new();
@@ -50,7 +51,7 @@ pub(super) fn allowed(rule: &str) -> BTreeMap<String, String> {
     found
 }
 
-/// Fails with what is found beyond the exceptions, and with exceptions for more than is found.
+/// Fails if there are more findings than the exceptions allow, or fewer.
 #[track_caller]
 pub(super) fn report_beyond(rule: &str, kind: &str, found: &BTreeMap<String, Vec<String>>) {
     let allowed = allowed(kind);
@@ -99,7 +100,7 @@ fn plain(line: &str) -> String {
     text
 }
 
-/// Is the word, or the words, in a plain line, with nothing of a word before or after it?
+/// Does a plain line contain the word or words, with no letter or digit directly before or after?
 fn has_word(line: &str, word: &str) -> bool {
     line.match_indices(word).any(|(at, _)| {
         !line[..at].ends_with(char::is_alphanumeric)
@@ -128,8 +129,8 @@ fn text_in_scope_has_no_banned_word() {
     report_beyond("Words that are banned (docs/NOTATION.md, second part)", "word", &found);
 }
 
-/// The sentences of a Markdown text with the number of their paragraph's first line. Code blocks and headings are left out, code spans are
-/// one word, each cell of a table by itself.
+/// The sentences of a Markdown text, each with the line number of its paragraph. Code blocks and headings are left out. Code spans count as
+/// one word, and each cell of a table is a paragraph.
 fn sentences(text: &str) -> Vec<(usize, String)> {
     let (mut found, mut paragraph, mut first, mut is_code) = (Vec::new(), String::new(), 0, false);
     let mut end = |paragraph: &mut String, first: usize| {
@@ -165,7 +166,7 @@ fn sentences(text: &str) -> Vec<(usize, String)> {
     found
 }
 
-/// The sentences of a paragraph. A sentence ends with a full stop, a question or an exclamation, and a space.
+/// The sentences of a paragraph. A sentence ends with a full stop, a question mark or an exclamation mark, followed by a space.
 fn split(paragraph: &str) -> Vec<String> {
     let spans = paragraph.split('`').enumerate();
     let plain: String = spans.map(|(i, part)| if i % 2 == 0 { part } else { "Code" }).collect();
@@ -224,13 +225,13 @@ fn paths_in_documents_exist() {
     report("A path in backticks exists", &findings);
 }
 
-/// Names of public types that each crate may have: they are read with the crate's name before them.
+/// Names of public types that may occur once in each crate: readers see them together with the crate's name.
 const OF_A_CRATE: [&str; 3] = ["Options", "Workspace", "History"];
 
 #[test]
 fn public_type_names_occur_once() {
     let mut owners: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
-    // of mbs-steps those types are public that mbs shows, by name or in a module
+    // types of mbs-steps are public if mbs exports them, by name or in a module
     let door = read("mbs/src/lib.rs") + &read("mbs/src/front/mod.rs");
     let uses: Vec<&str> =
         door.split("pub use ").skip(1).filter_map(|rest| rest.split(';').next()).collect();

@@ -1,4 +1,4 @@
-//! Rules for the text of this repository, as tests: what a reader relies on and no compiler checks.
+//! Rules for the text of this repository, as tests. A reader relies on them, and no compiler checks them.
 
 mod circles;
 mod comments;
@@ -29,14 +29,14 @@ fn name(path: &Path) -> String {
     path.strip_prefix(root()).unwrap_or(path).display().to_string()
 }
 
-/// The crates' folders: those at the top level that hold a `Cargo.toml`.
+/// The crates' folders: those in the root folder that contain a `Cargo.toml`.
 fn crate_folders() -> Vec<PathBuf> {
     let mut folders = entries(&root());
     folders.retain(|path| path.join("Cargo.toml").is_file());
     folders
 }
 
-/// The files under a folder whose name ends with `.ending`, in order; `target` folders are not entered.
+/// The files under a folder whose names end with `.ending`, in order. Folders named `target` are skipped.
 fn files(folder: &Path, ending: &str) -> Vec<PathBuf> {
     let mut found = Vec::new();
     for path in entries(folder) {
@@ -49,7 +49,7 @@ fn files(folder: &Path, ending: &str) -> Vec<PathBuf> {
     found
 }
 
-/// The files that declare a module whose name ends so, from the root of the repository.
+/// The files that declare a module whose name ends with `module`, as paths from the root of the repository.
 fn modules_named(module: &str) -> Vec<String> {
     let sources = crate_folders().into_iter().flat_map(|folder| files(&folder, "rs"));
     let endings = [format!("{module};"), format!("{module} {{")];
@@ -59,7 +59,7 @@ fn modules_named(module: &str) -> Vec<String> {
     sources.filter(|path| read(path).lines().any(is_one)).map(|path| name(&path)).collect()
 }
 
-/// Entries of a folder, in order; nothing when it is not there.
+/// Entries of a folder, in order; an empty list if the folder does not exist.
 fn entries(folder: &Path) -> Vec<PathBuf> {
     let mut paths: Vec<_> =
         fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path()).collect();
@@ -74,7 +74,7 @@ fn between<'a>(text: &'a str, mark: &str) -> &'a str {
     inner.unwrap_or_else(|| panic!("`{begin}` ... `{end}` is missing")).0
 }
 
-/// Fails with all findings at once.
+/// Fails with all findings in one message.
 #[track_caller]
 fn report(rule: &str, findings: &[String]) {
     assert!(findings.is_empty(), "{rule}:\n  {}", findings.join("\n  "));

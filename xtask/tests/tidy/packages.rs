@@ -1,12 +1,12 @@
-//! Rules for packages, on `cargo metadata`: licences that may be used, sources that are reached, no version twice without a reason, and
-//! what a crate that is published must say.
+//! Rules for packages, checked on `cargo metadata`: allowed licences, allowed sources, no package in two versions without a reason, and the
+//! required keys of a published crate.
 
 use super::{read, report};
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
 use xtask::process::{cargo, root};
 
-/// Licences of what is linked or built with; each may be combined with ours.
+/// Allowed licences of linked packages and of those used in builds; each can be combined with the licences of this repository.
 const LICENCES: [&str; 9] = [
     "MIT",
     "Apache-2.0",
@@ -19,11 +19,11 @@ const LICENCES: [&str; 9] = [
     "Unlicense",
 ];
 
-/// Packages that come in more than one version, and why that is left so.
+/// Packages in more than one version, each with the reason why this is accepted.
 const TWICE: [(&str, &str); 1] =
     [("glam", "optional conversions of nalgebra, never built; they are in the lock file alone")];
 
-/// Metadata of a manifest of the repository and of the versions in its lock file, by cargo; from the network what is not here yet.
+/// Metadata by cargo of a manifest of the repository with its lock file. Missing packages are downloaded.
 fn metadata(manifest: &str) -> Value {
     let ask = |more: &[&str]| {
         let mut command = cargo();
@@ -53,8 +53,8 @@ fn text<'a>(package: &'a Value, key: &str) -> &'a str {
     package[key].as_str().unwrap_or_default()
 }
 
-/// Whether an expression of SPDX allows a choice out of the list: `AND` asks for all, `OR` (formerly `/`) for one. An expression in
-/// parentheses is one of those that `AND` joins.
+/// Does an SPDX expression allow a choice from the list? `AND` requires all its parts, `OR` (formerly `/`) one of them. An expression in
+/// parentheses is a part of `AND`.
 fn is_allowed(expression: &str) -> bool {
     let one_of = |choices: &str| {
         choices.split(" OR ").any(|all| all.split(" AND ").all(|name| LICENCES.contains(&name)))
@@ -103,7 +103,7 @@ fn every_dependency_has_a_licence_and_a_source_of_the_lists() {
     report("Dependencies have a licence of the list and come from the registry", &findings);
 }
 
-/// The others are built with the versions of their lock files by the checks.
+/// Lock files of the other peers are used by the checks that build them.
 #[test]
 fn our_side_of_the_peers_has_the_versions_of_its_lock_file() {
     let metadata = metadata("lab/peers/ours/Cargo.toml");

@@ -1,12 +1,12 @@
-//! Rules for the levels of optimisation: what is published and measured is at level 3 throughout, and no crate of a step is below it;
-//! in tests, nothing that steps stand on is at level 0.
+//! Rules for the levels of optimisation. Published and measured builds are at level 3, and so is every crate whose code runs in a step. In
+//! tests, no crate that steps depend on is at level 0.
 
 use super::{read, report};
 use std::collections::{BTreeMap, BTreeSet};
 use toml::{Table, Value};
 use xtask::process::{cargo, output, root};
 
-/// Crates whose code is in a step, or is called once for each of many numbers: never below level 3 in a release build.
+/// Crates whose code runs in a step, or is called once for each of many numbers. A release build has them at level 3.
 const STEPS: [&str; 15] = [
     "amd",
     "libm",
@@ -25,7 +25,7 @@ const STEPS: [&str; 15] = [
     "mbs-steps",
 ];
 
-/// The levels of packages that a profile sets, and the profile that it inherits from.
+/// The levels of optimisation that a profile sets for packages, and the profile that it inherits from.
 fn profile(manifest: &Table, name: &str) -> (BTreeMap<String, Value>, Option<String>) {
     let profile = &manifest["profile"][name];
     let packages = profile.get("package").and_then(Value::as_table).cloned().unwrap_or_default();

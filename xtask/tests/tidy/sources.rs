@@ -2,7 +2,7 @@
 
 use super::{crate_folders, files, name, read, report};
 
-/// Longest file, in lines.
+/// Largest length of a file, in lines.
 const MAX_LINES: usize = 500;
 
 #[test]
@@ -11,7 +11,7 @@ fn every_source_file_begins_with_what_it_is() {
     for path in crate_folders().iter().flat_map(|folder| files(&folder.join("src"), "rs")) {
         let text = read(&path);
         let first = text.lines().next().unwrap_or_default();
-        // A crate's front page is its README.
+        // the doc comment of a crate may be its README
         let begins = first.starts_with("//! ") || first.starts_with("#![doc = include_str!(");
         if !begins {
             findings.push(format!("{}:1: `{first}`", name(&path)));

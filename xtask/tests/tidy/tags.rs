@@ -1,4 +1,4 @@
-//! Rules for equation tags: `[P3 (10)]` in the code has its row in docs/NOTATION.md.
+//! Rules for equation tags: each `[P3 (10)]` in the code has a row in docs/NOTATION.md.
 
 use super::{between, crate_folders, files, name, read, report};
 use std::collections::BTreeSet;
@@ -6,9 +6,9 @@ use std::collections::BTreeSet;
 /// A publication of the report and an equation in it.
 type Tag = (char, u32);
 
-/// The tags in a text such as `P1 (32), (36)` or `P3 (3)–(5)`, where a dash joins the ends of a range.
+/// The tags in a text such as `P1 (32), (36)` or `P3 (3)–(5)`, where a dash stands for a range.
 ///
-/// Text before the first publication and sections such as `P3 §2.1` give none.
+/// Text before the first publication and sections such as `P3 §2.1` contain no tags.
 fn tags(text: &str) -> Vec<Tag> {
     let mut found: Vec<Tag> = Vec::new();
     let mut publication = None;
@@ -50,7 +50,7 @@ fn bracketed(line: &str) -> Vec<Tag> {
     pieces.filter(|piece| piece.starts_with('P')).flat_map(tags).collect()
 }
 
-/// The tags that docs/NOTATION.md lists: the first cells of its index.
+/// The tags in the index of docs/NOTATION.md: its first cells.
 fn index() -> BTreeSet<Tag> {
     let notation = read("docs/NOTATION.md");
     let rows = between(&notation, "index").lines().filter_map(|line| line.strip_prefix("| P"));
