@@ -84,8 +84,9 @@ const AFTER_THE_TESTS: [Listed; 3] =
 /// now, with the features of the tests.
 const BESIDE: [&[Listed]; 3] = [
     &[("fuzz", fuzz), ("pages", pages::check), ("counts", counts)],
-    &[("check-nostd", nostd::check), ("pick", pick::check)],
+    &[("check-nostd", nostd::check)],
     &[
+        ("pick", pick::check),
         ("features", features::check),
         ("documentation", documentation::check),
         ("lines", lines::check),
