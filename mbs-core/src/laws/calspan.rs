@@ -10,8 +10,8 @@
 //!
 //! F is the normal load, a the slip angle, g the camber. Source: Frik, Leister and Schwartz, *Simulation of the IAVSD Road Vehicle
 //! Benchmark Bombardier Iltis* (1993), in the form of the open Iltis model of UCLouvain. Above F = W A2 the cornering stiffness
-//! falls to A0, for the Iltis a sixteenth of its peak. This is a property of the published formula. Mz changes its sign where |Fy|
-//! > F. The friction mu falls with the load, and would be negative above 26.5 kN for the Iltis. From 22.2 kN on, outside the range
+//! falls to A0, for the Iltis a sixteenth of its peak. This is a property of the published formula. Mz changes its sign where
+//! |Fy| > F. The friction mu falls with the load, and would be negative above 26.5 kN for the Iltis. From 22.2 kN on, outside the range
 //! of the model, it is 0.2.
 
 use super::entry::entry;

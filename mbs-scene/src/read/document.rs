@@ -6,15 +6,13 @@ use super::syntax;
 use super::texts::Texts;
 use super::tree::{self, Item, Member, Node, Span};
 use super::{Place, ReadError, ReadFault};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// A scene file: syntax tree, texts and name. Numbers are decimal text. The tree also has the parts of included files.
 #[derive(Debug, Clone, Default)]
 pub struct SceneFile {
     pub(crate) texts: Texts,
     pub(super) root: Vec<Member>,
-    /// Folder of the files that the scene may include; `None`: includes are not allowed.
-    pub(super) folder: Option<PathBuf>,
 }
 
 impl SceneFile {
@@ -33,19 +31,16 @@ impl SceneFile {
     /// # Errors
     /// The errors of [`Self::parse`], and those of the included files.
     pub fn parse_in(text: &str, file: &str, folder: &Path) -> Result<Self, ReadError> {
-        Self::parsed(text, file, Some(folder.to_owned()))
+        Self::parsed(text, file, Some(folder))
     }
 
-    pub(super) fn parsed(
-        text: &str,
-        file: &str,
-        folder: Option<PathBuf>,
-    ) -> Result<Self, ReadError> {
-        let mut texts = Texts::new(file, text, folder.clone());
+    /// Reads a text whose includes lie in a folder; `None`: includes are refused.
+    fn parsed(text: &str, file: &str, folder: Option<&Path>) -> Result<Self, ReadError> {
+        let mut texts = Texts::new(file, text, folder.map(Path::to_owned));
         let root = syntax::read(&texts, 0)?;
-        let mut root = include::resolve(&mut texts, root, folder.as_deref())?;
+        let mut root = include::resolve(&mut texts, root, folder)?;
         columns::resolve(&mut texts, &mut root)?;
-        Ok(Self { texts, root, folder })
+        Ok(Self { texts, root })
     }
 
     /// Reads the bytes of a scene file.
