@@ -9,8 +9,8 @@ use crate::summary::Outcome;
 use std::process::Stdio;
 
 /// Units of one word, for which rustdoc prints warnings. It ignores brackets such as `[N/m]`.
-const UNITS: [&str; 14] =
-    ["m", "m²", "m³", "m⁴", "m⁵", "s", "kg", "N", "J", "W", "Hz", "rad", "Pa", "KiB"];
+const UNITS: [&str; 15] =
+    ["m", "m²", "m³", "m⁴", "m⁵", "s", "kg", "N", "J", "W", "Hz", "rad", "Pa", "KiB", "ns"];
 
 /// Builds the documentation of the workspace.
 ///
