@@ -1,6 +1,6 @@
-//! Clusters of welded bodies. Bodies that never move relative to each other form one cluster. Bodies welded to the ground belong to none. A
-//! point mass on a ball joint belongs to the cluster of the body to which the joint connects it. If it has several ball joints, the first
-//! one decides.
+//! Clusters of welded bodies. Bodies that never move relative to each other form one cluster. Bodies welded to the ground belong to no
+//! cluster. A point mass on a ball joint belongs to the cluster of the body to which the joint connects it. If it has several ball joints,
+//! the first one decides.
 
 use crate::Real;
 use crate::algebra::{Matrix, Vector, cross, norm};
@@ -22,12 +22,13 @@ pub struct Cluster<T: Real> {
     pub inertia: Matrix<T, 3>,
     /// End points of the rod [m] if the cluster is one slender rod, with or without point masses on its line.
     pub rod: Option<[Vector<T, 3>; 2]>,
-    /// Does the cluster consist of point masses at one place only?
+    /// True if the cluster consists of point masses at one place only.
     pub is_point: bool,
 }
 
 impl<T: Real> Cluster<T> {
-    /// Masses on which gravity acts [kg], each with its position [m]. There is one, unless a body of the cluster has a gravity scale.
+    /// Masses on which gravity acts [kg], each with its position [m]. The list has one entry, unless a body of the cluster has a gravity
+    /// scale.
     pub fn weights(&self, scene: &Scene<T>) -> Vec<(T, Vector<T, 3>)> {
         let bodies = || self.bodies.iter().map(|&b| &scene.bodies[b]);
         if bodies().all(|body| body.gravity_scale.is_none()) {
@@ -40,7 +41,7 @@ impl<T: Real> Cluster<T> {
 /// All clusters of a scene.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Clusters<T: Real> {
-    /// Number of the cluster of each body; `None`: the body belongs to the ground.
+    /// Index of the cluster of each body; `None`: the body belongs to the ground.
     pub of_body: Vec<Option<usize>>,
     /// The clusters, in the order of their first bodies.
     pub clusters: Vec<Cluster<T>>,
@@ -56,7 +57,8 @@ impl<T: Real> Clusters<T> {
             BodyId::Ground => n,
             BodyId::Body(i) => i,
         };
-        // Does the set consist of point masses only? A ball joint holds a point mass fully, so that the point moves with the other body.
+        // True for a set that consists of point masses only. A ball joint holds a point mass fully, so that the point moves with the other
+        // body.
         let mut is_point: Vec<bool> = scene.bodies.iter().map(Body::is_point).collect();
         is_point.push(false);
         let joins = |joint: &&Joint<T>, balls: bool| {
@@ -153,14 +155,14 @@ fn rod<T: Real>(scene: &Scene<T>, bodies: &[usize]) -> Option<[Vector<T, 3>; 2]>
     points.all(|body| is_on_line(&[from, to], body.center)).then_some([from, to])
 }
 
-/// Is a point on the line of a rod, up to the square root of machine precision?
+/// True if a point is on the line of a rod, up to the square root of machine precision.
 pub fn is_on_line<T: Real>([from, to]: &[Vector<T, 3>; 2], point: [T; 3]) -> bool {
     let along = to - from;
     let off = T::EPSILON.sqrt() * along.dot(&along);
     norm(&cross(&(Vector::from(point) - from), &along)) <= off
 }
 
-/// Length of a scene [m]: the largest distance of a defining point from the first one. It is one if all points coincide.
+/// Length of a scene [m]: the largest distance of a defining point from the first defining point. It is one if all points coincide.
 pub fn scene_length<T: Real>(scene: &Scene<T>) -> T {
     let mut first: Option<Vector<T, 3>> = None;
     let mut length = T::ZERO;
@@ -183,7 +185,7 @@ pub fn scene_length<T: Real>(scene: &Scene<T>) -> T {
     if length > T::ZERO { length } else { T::ONE }
 }
 
-/// Distance of points below which they coincide, relative to the scene's length; also the angle below which directions do [-]. Chosen, not
+/// Distance below which points coincide, relative to the scene's length. Also the angle below which directions coincide [-]. Chosen, not
 /// tuned.
 pub const TOLERANCE: f64 = 1e-9;
 

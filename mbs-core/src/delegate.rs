@@ -21,7 +21,7 @@ macro_rules! delegate_cliques {
 }
 
 /// Implements methods of [`Model`](crate::model::Model) over numbers `$T` through the field `$model`. It leaves out `team`, evaluations,
-/// products and energies: those work on the whole model in every step, and a wrapper defines them.
+/// products and energies: these methods work on the whole model in every step, and a wrapper defines them.
 #[macro_export]
 macro_rules! delegate_model {
     ($T:ty, $model:ident) => {

@@ -2,18 +2,18 @@
 //!
 //! ```text
 //! lag       T x' = u - x:  x = (x_n + h/2 x'_n + h/(2 T) u) / (1 + h/(2 T))
-//! integral  x' = u:        x = x_n + h/2 (x'_n + u), within its limits; beyond one u counts only where it leads back
-//! pid       s = p e + i x + d e',  x' = e;  at the limit of s the integral stops, if e leads it further
+//! integral  x' = u:        x = x_n + h/2 (x'_n + u), within its limits; at a limit u counts only if it leads x back
+//! pid       s = p e + i x + d e',  x' = e;  if s is at its limit and e leads it further, the integral x stops
 //! ```
 //!
 //! u is the input of a signal, x its state, T its time constant and h the step. e is the target minus the measured value, s the output of
 //! the controller, and p, i, d are its gains. These formulas are the trapezoidal rule over the step h, solved for the values at its end.
-//! States of signals therefore have the order of the motion, in each iterate. With h = 0 the states stay as they are, and their rates are
-//! those of a first-order system.
+//! States of signals therefore have the same order of accuracy as the motion, in each iterate of a step. With h = 0 the states stay as they
+//! are, and their rates are those of a first-order system.
 
 use crate::Real;
 
-/// Number of the state of a controller without an integral: no state.
+/// Index of the state for a controller without an integral. It means that the controller has no state.
 pub const NO_STATE: u32 = u32::MAX;
 
 /// One operation of a list, with its target.
@@ -30,12 +30,12 @@ pub struct FeedbackStep<T> {
 pub enum FeedbackOperation<T> {
     /// Reads a measured coordinate and its rate.
     Value {
-        /// Number of the measured coordinate.
+        /// Index of the measured coordinate.
         number: u32,
     },
     /// Reads the rate of a measured coordinate.
     Rate {
-        /// Number of the measured coordinate.
+        /// Index of the measured coordinate.
         number: u32,
     },
     /// Sets a constant, with which sums and products begin.
@@ -56,7 +56,7 @@ pub enum FeedbackOperation<T> {
     Curve {
         /// Index of the source among the signals.
         from: u32,
-        /// Number of the function.
+        /// Index of the function.
         curve: u32,
     },
     /// Limits another signal to a range.
@@ -77,7 +77,7 @@ pub enum FeedbackOperation<T> {
     Lag {
         /// Index of the source among the signals.
         from: u32,
-        /// Number of the integrated state.
+        /// Index of the integrated state.
         state: u32,
         /// Time constant of the lag [s].
         time: T,
@@ -86,7 +86,7 @@ pub enum FeedbackOperation<T> {
     Integral {
         /// Index of the source among the signals.
         from: u32,
-        /// Number of the integrated state.
+        /// Index of the integrated state.
         state: u32,
         /// Limits of the integral, the lower one first. Infinite: no limit.
         limits: [T; 2],
@@ -95,7 +95,7 @@ pub enum FeedbackOperation<T> {
     Pid {
         /// Indices of the target signal and of the measured signal.
         from: [u32; 2],
-        /// Number of the integrated state; [`NO_STATE`] if the controller has no integral.
+        /// Index of the integrated state; [`NO_STATE`] if the controller has no integral.
         state: u32,
         /// Gains of the difference, of its integral and of its rate.
         gains: [T; 3],
@@ -114,15 +114,16 @@ pub enum FeedbackOperation<T> {
     Force {
         /// Index of the source among the signals.
         from: u32,
-        /// Number of the measured coordinate on which the force acts.
+        /// Index of the measured coordinate on which the force acts.
         on: u32,
     },
 }
 
-/// Derivatives of a signal by one measured coordinate and its rate. A signal of several coordinates has the derivatives by the first one.
+/// Derivatives of a signal by one measured coordinate and its rate. A signal that depends on several coordinates has only the derivatives
+/// by the first of them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CourseSlope<T> {
-    /// Number of the measured coordinate; `u32::MAX` for none.
+    /// Index of the measured coordinate; `u32::MAX` for none.
     pub of: u32,
     /// Derivative by the coordinate and by its rate.
     pub by: [T; 2],
@@ -157,7 +158,7 @@ type Signal<T> = [T; 3];
 /// States of signals at the start of the step and at this instant, each with its rate.
 #[derive(Debug)]
 pub struct SignalStates<'a, T> {
-    /// Time since the start [s]. Zero: the states are those of the start.
+    /// Time since the start of the step [s]. If it is zero, the states do not change.
     pub dt: T,
     /// States at the start.
     pub starts: &'a mut [[T; 2]],
@@ -283,7 +284,7 @@ fn integrate<T: Real>(
 }
 
 impl<T: Real> SignalStates<'_, T> {
-    /// Slope of the signal with this number.
+    /// Slope of the signal with index `number`.
     fn slope(&self, number: u32) -> CourseSlope<T> {
         self.slopes.get(number as usize).copied().unwrap_or(CourseSlope::none())
     }

@@ -1,14 +1,14 @@
-//! History of a formulation: all that it remembers from step to step, as named arrays. Checkpoints store these arrays.
+//! History of a formulation: the numbers that it remembers from step to step, as named arrays. Checkpoints store these arrays.
 //!
 //! ```text
 //! history:      remembered numbers --Book--> named arrays
-//! set_history:  named arrays --the same walk--> remembered numbers
+//! set_history:  named arrays --Book--> remembered numbers      (by the same sequence of calls)
 //! ```
 
 use crate::model::{ScalarForce, Terms};
 use alloc::vec::Vec;
 
-/// All numbers besides the state on which the next step depends, in a fixed order.
+/// All numbers on which the next step depends in addition to the state, in a fixed order.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct History<T> {
     /// Arrays of the history, in the order in which the formulation lists them.
@@ -63,7 +63,7 @@ pub enum Numbers<T> {
     },
 }
 
-/// Error: the data are no history, or one of another formulation or another model.
+/// Error: the data are no history, or the history of another formulation or another model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct RestoreError;
 

@@ -30,7 +30,7 @@ use signals::value_of;
 pub struct Prescribed<T> {
     guides: Vec<GuideInput<T>>,
     signals: SignalGraph<T>,
-    /// Number of the effect that each signal belongs to, and the signal.
+    /// Index of the effect that each signal belongs to, and the signal.
     courses: Vec<(usize, SignalInput<T>)>,
 }
 
@@ -135,12 +135,12 @@ impl<T: Real> Prescribed<T> {
         }
     }
 
-    /// Number of each guide that is an input in the scene, and its start value.
+    /// Index of each guide that is an input in the scene, and its start value.
     pub fn guide_inputs(&self) -> impl Iterator<Item = (usize, [T; 3])> + '_ {
         self.guides.iter().enumerate().filter_map(|(i, guide)| Some((i, guide.input()?)))
     }
 
-    /// Number of each effect that has an input in the scene, and its start value.
+    /// Index of each effect that has an input in the scene, and its start value.
     pub fn effect_inputs(&self) -> impl Iterator<Item = (usize, [T; 3])> + '_ {
         self.courses.iter().filter_map(|(effect, course)| Some((*effect, course.input()?)))
     }
@@ -152,12 +152,12 @@ impl<T: Real> Prescribed<T> {
         threes.chain(self.signals.inputs().iter().map(|(_, value)| *value)).collect()
     }
 
-    /// Place of the first input of an effect among the inputs of a state.
+    /// Index of the first input of an effect among the inputs of a state.
     fn first_course(&self) -> usize {
         3 * self.guide_inputs().count()
     }
 
-    /// Place of the input of `scene.effects[effect]` among a state's inputs: a force, a torque, or the argument of a user-defined law.
+    /// Indices of the input of `scene.effects[effect]` among a state's inputs: a force, a torque, or the argument of a user-defined law.
     ///
     /// # Errors
     /// [`InputError::NotAnInput`] if the effect has no input. An effect has an input if it is enabled and its signal is [`Signal::Input`].
@@ -167,7 +167,7 @@ impl<T: Real> Prescribed<T> {
         Ok(part(self.first_course() + 3 * place))
     }
 
-    /// Place of value, rate and acceleration of `scene.guides[guide]` among a state's inputs.
+    /// Indices of value, rate and acceleration of `scene.guides[guide]` among a state's inputs.
     ///
     /// # Errors
     /// [`InputError::NotAnInput`] if the guide is no input ([`Motion::Input`]).
@@ -176,7 +176,7 @@ impl<T: Real> Prescribed<T> {
         place.map(|place| part(3 * place)).ok_or(InputError::NotAnInput { number: guide })
     }
 
-    /// Place of `scene.signals[signal]` among a state's inputs.
+    /// Index of `scene.signals[signal]` among a state's inputs.
     ///
     /// # Errors
     /// [`InputError::NotAnInput`] if the signal is no input ([`SignalKind::Input`](crate::scene::SignalKind::Input)).
@@ -229,7 +229,7 @@ impl<T: Real> Prescribed<T> {
         Ok(())
     }
 
-    /// Does the input of an effect or signal differ from the applied one?
+    /// True if the input of an effect or signal differs from the applied one.
     #[must_use]
     pub fn differs(&self, inputs: &[T], applied: &[T]) -> bool {
         if inputs.is_empty() {
@@ -266,7 +266,7 @@ impl<T: Real> Prescribed<T> {
         SignalTimes::new(&self.signals, self.courses.iter().map(|(_, course)| course.course()))
     }
 
-    /// Does a signal name another signal that depends on the motion?
+    /// True if a signal names another signal that depends on the motion.
     #[must_use]
     pub fn follows_motion(&self, course: &Signal<T>) -> bool {
         let Signal::Named(of) = course else { return false };
@@ -275,7 +275,7 @@ impl<T: Real> Prescribed<T> {
 
     /// Operations that compute the signals that depend on the motion, and the signals of effects that name them.
     ///
-    /// Cost: one pass over signals and courses; allocates.
+    /// Cost: one pass over named signals and signals of effects; allocates.
     #[must_use]
     pub fn feedback(&self) -> Feedback<T> {
         let follows = |signal| self.signals.follows_motion(signal);
@@ -283,12 +283,12 @@ impl<T: Real> Prescribed<T> {
     }
 
     /// Operations that compute all signals that depend on other signals or on the motion and are not constant. The operations for signals
-    /// of effects that name a variable signal come last. These operations are for steps on tables, where functions of time and inputs are
-    /// read as they are.
+    /// of effects that name a variable signal come last. These operations are for steps on the tables of an exported model. Such steps read
+    /// functions of time and inputs directly.
     ///
-    /// States and measured coordinates have the same numbers as in [`feedback`](Self::feedback).
+    /// States and measured coordinates have the same indices as in [`feedback`](Self::feedback).
     ///
-    /// Cost: one pass over signals and courses; allocates.
+    /// Cost: one pass over named signals and signals of effects; allocates.
     #[must_use]
     pub fn program(&self) -> Feedback<T> {
         let moves = |signal| !self.signals.is_constant(signal);
@@ -335,7 +335,7 @@ impl<T: Real> Prescribed<T> {
     }
 }
 
-/// The three places of one input.
+/// The three indices of one input.
 fn part(first: usize) -> Range<usize> {
     first..first + 3
 }
@@ -418,7 +418,8 @@ impl<T: Real> GuideInput<T> {
     }
 }
 
-/// A prepared signal: a constant, names of signals, a table that is linear between its rows, or distance and speed of a moving road.
+/// A prepared signal: a constant, names of signals, a table with linear interpolation between its rows, or distance and speed of a moving
+/// road.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SignalInput<T> {
     course: Signal<T>,

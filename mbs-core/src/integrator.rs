@@ -59,7 +59,7 @@ impl<T: Real> Integrator<T> {
         Self { beta: half * half, gamma, alpha_m, alpha_f }
     }
 
-    /// Is the method of the Newmark family, where auxiliary accelerations equal the accelerations?
+    /// True if the method belongs to the Newmark family, where auxiliary accelerations equal the accelerations.
     pub fn is_newmark(&self) -> bool {
         self.alpha_m == T::ZERO && self.alpha_f == T::ZERO
     }
@@ -138,8 +138,8 @@ impl<T: Real> Rule<T> {
 /// Fraction of the scene's length above which accelerations displace a step too far for the usual prediction [-]. Chosen, not tuned.
 const FAR_SHARE: f64 = 1.0 / 64.0;
 
-/// Do accelerations displace coordinates too far for the usual prediction? `moved` is their part of the displacement in the step. The limit
-/// is half a radian or half a metre, and at least `FAR_SHARE` of the scene's length.
+/// True if accelerations displace coordinates too far for the usual prediction. `moved` is the displacement that they cause in the step.
+/// The limit is half a radian or half a metre, and at least `FAR_SHARE` times the scene's length.
 pub fn is_far<T: Real>(moved: T, length: T) -> bool {
     moved > (length * T::from_f64(FAR_SHARE)).max(T::HALF)
 }

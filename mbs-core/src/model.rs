@@ -78,7 +78,7 @@ impl<T: Real> Tangent<'_, T> {
         self.stiffness * (law.stiffness - law.transverse) + self.damping * law.damping
     }
 
-    /// Does a scalar law contribute to the tangent?
+    /// True if a scalar law contributes to the tangent.
     #[inline(always)]
     pub(crate) fn has(&self, law: &ScalarForce<T>) -> bool {
         self.weight(law) != T::ZERO || self.stiffness * law.transverse != T::ZERO
@@ -108,9 +108,9 @@ pub trait Model<T: Real>: Cliques + Sync {
     fn n_constraints(&self) -> usize;
     /// Number of values that a state remembers besides coordinates: measured angles, whole turns included.
     fn n_memory(&self) -> usize;
-    /// Does any element apply forces that change with state or time?
+    /// True if any element applies forces that change with state or time.
     fn has_forces(&self) -> bool;
-    /// Is any row driven by time?
+    /// True if any row is driven by time.
     fn has_guides(&self) -> bool;
     /// Allocates the evaluated terms and fills in all constant parts.
     fn terms(&self) -> Terms<T>;
@@ -129,11 +129,10 @@ pub trait Model<T: Real>: Cliques + Sync {
         None
     }
     /// Writes a typical size of each unknown: the scene's length [m] for a coordinate of a point, one for a component of a direction.
-    /// Unknowns over their sizes do not depend on the unit of length.
+    /// Unknowns divided by their sizes do not depend on the unit of length.
     fn write_sizes(&self, sizes: &mut [T]);
-    /// Passes to `take` where two points that repel each other come close on the straight path from `q` to `to`. Each value is a fraction
-    /// of the path. One lies just before the smallest distance. The others lie earlier, where the force is not yet perpendicular to the
-    /// path.
+    /// Passes to `take` the fractions of the straight path from `q` to `to` at which two points that repel each other come close. One
+    /// fraction is just before the smallest distance. The others are smaller: the force is not yet perpendicular to the path there.
     fn approaches(&self, q: &[T], to: &[T], take: impl FnMut(T));
     /// Writes guides and signals at time `t` into `terms`, with the inputs and remembered angles of `state`. A step calls this once.
     fn set_inputs(&self, t: T, state: &State<T>, terms: &mut Terms<T>);
@@ -148,11 +147,11 @@ pub trait Model<T: Real>: Cliques + Sync {
     fn remember(&self, q: &[T], terms: &Terms<T>, memory: &mut [T]);
     /// Evaluates phi_t at `q`. Does nothing without guides.
     fn evaluate_phi_t(&self, q: &[T], terms: &mut Terms<T>);
-    /// Does the model have velocity rows, as for rolling bodies? They restrict velocities, J v, but no position: their phi is zero.
+    /// True if the model has velocity rows, as for rolling bodies. Such rows restrict velocities, J v, but no position: their phi is zero.
     fn has_velocity_rows(&self) -> bool {
         false
     }
-    /// Is `row` a velocity row?
+    /// True if `row` is a velocity row.
     fn is_velocity_row(&self, _row: usize) -> bool {
         false
     }
@@ -169,7 +168,7 @@ pub trait Model<T: Real>: Cliques + Sync {
     fn rows(&self, element: usize) -> Range<usize>;
     /// Writes the Jacobian rows of one element, one after the other. Each row has the length and the order of the element's clique.
     fn write_jacobian(&self, terms: &Terms<T>, element: usize, rows: &mut [T]);
-    /// Can entries of a row vanish over whole ranges of a motion? Example: the curve of a coupling is level there.
+    /// True if the entries of a row can vanish over whole ranges of a motion, for example where the curve of a coupling is level.
     fn may_be_level(&self, _row: usize) -> bool {
         false
     }
@@ -181,9 +180,9 @@ pub trait Model<T: Real>: Cliques + Sync {
         element: usize,
         block: &mut [T],
     );
-    /// Second derivatives of one element that [`write_block`](Self::write_block) leaves out, for a search for equilibrium. They are those
-    /// of couplings at `q` with multipliers `lambda`, and those of sums under tension times `stiffness`. The result is packed as a block;
-    /// empty: the element has none.
+    /// Second derivatives of one element that [`write_block`](Self::write_block) leaves out, for a search for equilibrium. They belong to
+    /// couplings at `q` with multipliers `lambda`, and to sums under tension, times `stiffness`. The result is packed as a block. It is
+    /// empty if the element has no such derivatives.
     fn row_curvature(
         &self,
         _q: &[T],
@@ -193,7 +192,7 @@ pub trait Model<T: Real>: Cliques + Sync {
     ) -> RowCurvature<T> {
         Vec::new()
     }
-    /// Does an element have a block? See [`BlockSource::has_block`].
+    /// True if an element has a block. See [`BlockSource::has_block`].
     #[inline]
     fn has_block(&self, _terms: &Terms<T>, _tangent: &Tangent<'_, T>, _element: usize) -> bool {
         true
@@ -223,7 +222,8 @@ pub trait Model<T: Real>: Cliques + Sync {
     fn overturned(&self, _terms: &Terms<T>) -> Option<Owner> {
         None
     }
-    /// Error for a direction that a step `dq` makes undefined: a line's part of zero length, a twist, a disc that lies flat.
+    /// Returns an error if a step `dq` makes a direction undefined: a part of a line has zero length, a twist has no axis, or a disc lies
+    /// flat.
     fn without_direction(&self, _state: &State<T>, _dq: &[T]) -> Option<StepError> {
         None
     }
@@ -371,8 +371,8 @@ impl<T: Real> State<T> {
         }
     }
 
-    /// Overwrites this state with another one, except constants and inputs, without allocating. `n` is the number of unknowns. Both states
-    /// must be of models with the same unknowns and rows.
+    /// Overwrites this state with another state, except for constants and inputs. It does not allocate. `n` is the number of unknowns. Both
+    /// states must be of models with the same unknowns and rows.
     ///
     /// # Panics
     /// If the models differ in the number of unknowns, rows or remembered angles.

@@ -10,8 +10,8 @@ pub struct RigidMotion<T: Real> {
     pub origin: Vector<T, 3>,
     /// Present position of this material point [m].
     pub position: Vector<T, 3>,
-    /// Rotation from the reference configuration: its columns are the present directions of the body-fixed axes that were global axes
-    /// there.
+    /// Rotation from the reference configuration: its columns are the present directions of the body-fixed axes that coincide with the
+    /// global axes in the reference configuration.
     pub rotation: Matrix<T, 3>,
     /// Angular velocity in global axes [rad/s].
     pub omega: Vector<T, 3>,

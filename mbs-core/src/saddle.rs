@@ -98,11 +98,11 @@ pub struct SaddleSystem<'a, T, M> {
     pub tangent: Tangent<'a, T>,
     /// Jacobian entries of all elements, element by element.
     pub jacobian: &'a [T],
-    /// Regularisation delta of each row. Empty: zero.
+    /// Regularisation delta of each row. If the list is empty, delta is zero.
     pub delta: &'a [T],
     /// Upper part of the right-hand side, over the coordinates.
     pub load: Load<'a, T>,
-    /// Lower part of the right-hand side, of length m. Empty: zero.
+    /// Lower part of the right-hand side, of length m. If the list is empty, this part is zero.
     pub rates: &'a [T],
 }
 

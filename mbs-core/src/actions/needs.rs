@@ -19,7 +19,7 @@ pub(crate) enum Need<T> {
     Rotation(BodyId),
     /// Rotation of a body that is only measured, so that it need not be full.
     Orientation(BodyId),
-    /// Coordinates of a joint: the one with this number, or all.
+    /// Coordinates of a joint: the coordinate with this number; `None`: all coordinates.
     Coordinates(usize, Option<usize>),
 }
 

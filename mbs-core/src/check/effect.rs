@@ -66,7 +66,7 @@ pub(super) fn check<T: Real>(
     effect.check(among, place)
 }
 
-/// Checks six numbers that are not negative. In a planar scene only those along x, along y and about z may be nonzero.
+/// Checks six numbers that are not negative. In a planar scene only the numbers along x, along y and about z may be nonzero.
 fn check_six<T: Real>(field: &'static str, six: &[T; 6], place: Place) -> Result<(), SceneError> {
     six.iter().try_for_each(|x| place.not_negative(field, *x))?;
     match six[2..5].iter().find(|x| is_planar(place.dimension) && !x.is_zero()) {

@@ -1,4 +1,4 @@
-//! Checks of frames: their axes, and names that differ from those of other bodies.
+//! Checks of frames: their bodies, positions and axes. A frame may have the name of its own body, but not of another body.
 
 use crate::Real;
 use crate::mechanism::Scene;

@@ -146,7 +146,7 @@ pub(super) fn check_initials<T: Real>(scene: &Scene<T>) -> Result<(), SceneError
     Ok(())
 }
 
-/// Numbers of the initial conditions that prescribe values, rates and angular velocities, by joint or body.
+/// Indices of the initial conditions that prescribe values, rates and angular velocities, by joint or body.
 struct Seen<T> {
     value: Vec<Option<usize>>,
     rate: Vec<Option<usize>>,
@@ -179,7 +179,8 @@ fn check_initial<T: Real>(
             if let Some(numbers) = rate {
                 once(&mut seen.rate[joint.index()], i, "rate", place)?;
                 check_numbers(scene, *joint, ("rate", numbers), place)?;
-                // rates of a rotation vector are the angular velocity here; the start of the simulation compares them
+                // The rates of a rotation vector are given as the angular velocity. They are not compared here, but at the start of the
+                // simulation.
                 let kind = scene.joints[*joint].kind;
                 let rate =
                     |(i, g): (usize, &[T; 3])| kind.freedom(scene.dimension, i).map(|_| g[1]);

@@ -1,5 +1,5 @@
-//! Numbers of effects that a scene leaves out and that follow from it. Each kind of effect computes them from the mass that its coordinate
-//! moves.
+//! Open numbers of effects: a scene leaves them out, and they follow from the scene. Each kind of effect computes them from the mass that
+//! its coordinate moves.
 
 use crate::Real;
 use crate::effects::{Default, Value};

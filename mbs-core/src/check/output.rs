@@ -81,7 +81,7 @@ fn of_target<T: Real>(
     }
 }
 
-/// Checks camber and similar angles. They need a spatial scene and two directions that span a plane.
+/// Checks camber, toe and caster. These angles need a spatial scene and two directions that span a plane.
 fn of_wheel<T: Real>(
     scene: &Scene<T>,
     of: &WheelCarrier<T>,

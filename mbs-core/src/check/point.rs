@@ -171,7 +171,7 @@ impl<T: Real> Points<'_, T> {
         }
     }
 
-    /// Does an output measure this body? Otherwise it is relative to the body.
+    /// True if an output measures this body; false if the output is relative to the body.
     fn is_owner(&self, output: usize, body: BodyId) -> bool {
         use crate::scene::{RelativePoint, Target};
         match self.scene.outputs[output].quantity.target() {

@@ -98,7 +98,7 @@ fn hollow<T: Real>(feature: &RoadFeature<T>, wheel: T, place: Place) -> Result<(
         RoadFeature::Table(points) => {
             ("points", largest_curvature(points, Interpolation::Spline(TableEnds::Natural)))
         }
-        // without a wheel, corners do no harm
+        // without a wheel, corners are allowed
         RoadFeature::Shaped { shape: CurveShape::Linear, .. } if wheel.is_zero() => return Ok(()),
         RoadFeature::Shaped { shape: CurveShape::Linear, .. } => {
             return place.fault("interpolation", SceneFault::LinearTable);

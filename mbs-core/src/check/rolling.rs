@@ -9,8 +9,8 @@ use crate::scene::{Entry, Rolling, RollingKind, SceneError, SceneFault};
 
 /// Largest distance from the plane at the start that counts as contact [radii]. Chosen, not tuned: numbers in files have six digits.
 const TOUCHING: f64 = 1e-6;
-/// Largest distance from the plane that counts as contact far from the origin, in multiples of machine precision [-]. Chosen, not tuned: a
-/// few sums.
+/// Largest distance from the plane that counts as contact far from the origin, in multiples of machine precision [-]. Chosen, not tuned:
+/// the distance is computed by a few sums.
 const ROUNDINGS: f64 = 16.0;
 
 pub(super) fn check<T: Real>(scene: &Scene<T>) -> Result<(), SceneError> {

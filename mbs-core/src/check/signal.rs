@@ -50,7 +50,7 @@ fn check_rates<T: Real>(scene: &Scene<T>, order: &[usize]) -> Result<(), SceneEr
     Ok(())
 }
 
-/// Guides and couplings that follow a signal, with the signal.
+/// Entries of guides and couplings that follow a signal, each with its signal.
 fn motions<T>(scene: &Scene<T>) -> impl Iterator<Item = (Entry, SignalId)> + '_ {
     let of = |motion: Option<&Motion<T>>| match motion {
         Some(Motion::Signal(signal)) => Some(*signal),

@@ -1,4 +1,4 @@
-//! Notes on tables whose splines leave the range of their neighbouring rows, with values that no row has.
+//! Notes on tables whose splines overshoot: between two neighbouring rows the spline leaves the range of their values.
 
 use crate::Real;
 use crate::effects::Value;
@@ -184,7 +184,7 @@ impl Spline {
         Some(TableNote { entry: *entry, key, text })
     }
 
-    /// Value farthest outside the range of its two rows, its distance from the range, and the number of the first row.
+    /// Value farthest outside the range of its two rows, its distance from the range, and the index of the first row.
     fn farthest(&self) -> Option<(f64, f64, usize)> {
         let (knots, bends) = knots(&self.rows, Interpolation::Spline(self.ends), self.is_periodic);
         let mut farthest: Option<(f64, f64, usize)> = None;

@@ -1,4 +1,4 @@
-//! Driver of the step size. It tries steps, evaluates them, repeats rejected ones with a shorter length, and plans the next step.
+//! Driver of the step size. It tries steps, evaluates them, repeats rejected steps with a shorter length, and plans the next step.
 
 use super::energy::{EnergyRule, Steering};
 use super::invariant::Invariant;
@@ -9,7 +9,7 @@ use crate::step::{StepError, StepReport};
 /// Factor on the length of a failed step for its next trial [-]. Chosen, not tuned.
 const AFTER_FAILURE: f64 = 0.25;
 /// Shortest step, relative to the largest [-]. Chosen, not tuned: a run with such steps reaches [`MOST_TRIALS`] first, which corresponds to
-/// an average step of 1e-5.
+/// an average step of 1e-5 of the largest.
 const SMALLEST: f64 = 1e-10;
 /// Shortest step, in multiples of the rounding error of the time [-]. The clock then measures the step to a sixteenth of its length.
 const TIME_ROUNDINGS: f64 = 16.0;
@@ -75,9 +75,9 @@ pub struct Event {
     /// Fraction of the trial, from 0.001 to 1.05, after which the event comes. The value aims slightly past the event. It is above 1 if the
     /// trial ends just before the event, so that no tiny step must follow.
     pub share: f64,
-    /// Whether the end of the trial is close enough to the event to be accepted. The fraction is then one.
+    /// True if the end of the trial is close enough to the event to be accepted. The fraction is then one.
     pub is_landed: bool,
-    /// Whether this is no event, but a contact that began with the trial and is too stiff for its length.
+    /// True if this is not an event, but a contact that began with the trial and is too stiff for its length.
     pub is_too_stiff: bool,
     /// Index of the effect in the scene.
     pub effect: usize,
@@ -142,7 +142,7 @@ pub struct Accepted<T> {
     pub rejected: u32,
     /// Change of the energy invariant in the step [J].
     pub change: f64,
-    /// Cause that limited this step or the next one.
+    /// Cause that limited this step or the next step.
     pub limit: Limit,
     /// Whether the step reached the end of the given time.
     pub is_last: bool,
@@ -154,15 +154,15 @@ pub struct Driver<T> {
     max_step: T,
     energy: Option<Steering>,
     error: Option<(f64, StepControl<T>)>,
-    /// Length of the next trial, and of the first one [s].
+    /// Length of the next trial, and length of the first trial [s].
     next: T,
     first: T,
     /// Start of the present interval of one largest step [s], and the number of trials in it; `None` before the first trial.
     stretch: Option<(T, u32)>,
 }
 
-/// Counts a trial from time `t` [s] in the present interval, which is as long as one largest step or slightly longer. The error gives the
-/// average length of a trial [s] if too many trials are counted.
+/// Counts a trial from time `t` [s] in the present interval, which is as long as one largest step or slightly longer. If too many trials
+/// are counted, returns an error with their average length [s].
 fn count<T: Real>(stretch: &mut Option<(T, u32)>, t: T, length: T) -> Result<(), StepError> {
     let (from, trials) = stretch.get_or_insert((t, 0));
     if t - *from >= length {
@@ -189,7 +189,7 @@ pub struct DriverHistory<T> {
     pub stretch: Option<(T, u32)>,
 }
 
-/// Effort of one step: its trials so far.
+/// Record of the trials of one step so far.
 #[derive(Debug, Default)]
 struct Effort {
     rejected: u32,
@@ -238,9 +238,9 @@ impl Effort {
     }
 }
 
-/// Decision of the rules on a trial, with their memory after it.
+/// Decision of the rules on a trial, with the memory of the rules after the trial.
 struct Judgement<T> {
-    /// Factor on the length for the next step if the trial is accepted, or for its repetition.
+    /// Factor from the length of the trial to the length of the next step. If the trial is rejected, it gives the length of the repetition.
     factor: f64,
     limit: Limit,
     is_kept: bool,
@@ -387,14 +387,14 @@ impl<T: Real> Driver<T> {
         }
     }
 
-    /// Plans the next step after an accepted one of length `h`. Returns the cause that limits it.
+    /// Plans the next step after an accepted step of length `h`. Returns the cause that limits the next step.
     fn plan(&mut self, h: T, (was_cut, reductions): (bool, u32), judgement: Judgement<T>) -> Limit {
         let Judgement { factor, limit, energy, error, .. } = judgement;
         // A step after a reduction does not grow.
         let factor = if reductions > 0 { factor.min(1.0) } else { factor };
         let wish = h * T::from_f64(factor);
         if was_cut && reductions == 0 {
-            // A step that was cut short is no reason to shorten the planned one, and says little about its error.
+            // The remaining time cut this step. Its small error says little about a full step, so the planned step does not become shorter.
             self.next = self.next.max(wish).min(self.max_step);
         } else {
             (self.energy, self.error) = (energy, error);
@@ -403,7 +403,7 @@ impl<T: Real> Driver<T> {
         if self.next >= self.max_step { Limit::Largest } else { limit }
     }
 
-    /// Multiplies the step by a factor. An error says that the result is too short.
+    /// Multiplies the step by a factor. Returns an error if the result is too short.
     fn shortened(&self, (t, h): (T, T), factor: f64) -> Result<T, StepError> {
         let wish = h * T::from_f64(factor);
         let least = (self.max_step * T::from_f64(SMALLEST))

@@ -1,16 +1,17 @@
 //! Step size from the change of the energy invariant [P2 (32), (33)].
 //!
 //! ```text
-//! e = |Pi_(n+1) - Pi_n| / E,   E the energy that moves
-//! h <- eta h,   eta = (safety U / e)^(1/r)         where e > U: the step is rejected
-//!               eta = (sqrt(U L) / e)^(1/r)        where it is kept: the change stays between L and U
+//! e = |Pi_(n+1) - Pi_n| / E,   Pi: energy invariant, n: step, E: energy that moves
+//! h <- eta h,   eta = (safety U / e)^(1/r)         if e > U: the step is rejected
+//!               eta = (sqrt(U L) / e)^(1/r)        otherwise: the step is accepted, and the next change is between L and U
 //! ```
 //!
-//! Differences from the source: e is relative to the moving energy, not to the total energy with its arbitrary zero. The factor h of (33)
-//! is left out, since U and L are compared with the change in one step. An accepted step follows the rule too, whereas the source changes
-//! the step only at the limits. With changes only at the limits the step is shortened late and enlarged late. The errors of a swing forth
-//! and back then do not cancel. At the same cost the error of the invariant is two times (a suspension) to eight times (a double pendulum)
-//! larger. The published form is an option. e passes through zero between gain and loss, so larger changes are remembered for a few steps.
+//! h is the step length; the change in a step is proportional to h^r. Differences from the source: e is relative to the moving energy, not
+//! to the total energy with its arbitrary zero. The factor h of (33) is left out, since U and L are compared with the change in one step.
+//! An accepted step follows the rule too, whereas the source changes the step only at the limits. With changes only at the limits the step
+//! is shortened late and enlarged late. The errors of a swing forth and back then do not cancel. At the same cost the error of the
+//! invariant is two times (a suspension) to eight times (a double pendulum) larger. The published form is an option. e passes through zero
+//! between gain and loss, so larger changes are remembered for a few steps.
 
 /// Energy rule with its limits.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -65,7 +66,7 @@ impl EnergyRule {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Steering {
     rule: EnergyRule,
-    /// Largest recent change, faded by step and scaled to the length of the next step [-].
+    /// Largest recent change [-]. It fades from step to step and is scaled to the length of the next step.
     memory: f64,
     /// Number of consecutive changes below L.
     small: u32,

@@ -6,8 +6,8 @@
 //! ```
 //!
 //! h is the step, n the index of its beginning; beta, gamma, am and af are parameters of the integrator. The trapezoidal rule has C = 1/12
-//! and D = 0 (Zienkiewicz and Xie, Earthq. Eng. Struct. Dyn. 20 (1991) 871-887). The accelerations are the projected ones: constraint
-//! violations then do not enter the estimate.
+//! and D = 0 (Zienkiewicz and Xie, Earthq. Eng. Struct. Dyn. 20 (1991) 871-887). The accelerations a are projected onto the constraints, so
+//! that constraint violations do not enter the estimate.
 
 use crate::Real;
 use crate::integrator::Integrator;

@@ -1,13 +1,13 @@
 //! Energy invariant of a run, recorded from step to step.
 //!
 //! ```text
-//! Pi = T + V - W = constant,   W work of dampers, courses and guides                  [P2 (31)]
-//! G <- max(0, G + d(T + V) - dW)          where nothing damps:  dW what enters or leaves
-//! G <- max(0, G + d(T + V) - max(0, dW))  where dampers act
+//! Pi = T + V - W = constant,   T, V: kinetic and potential energy,  W: work of dampers, signals and guides   [P2 (31)]
+//! G <- max(0, G + d(T + V) - dW)          without dampers
+//! G <- max(0, G + d(T + V) - max(0, dW))  with dampers
 //! ```
 //!
-//! dW is the energy that enters in the step. W is a sum of powers at the ends of steps. It overestimates the work of a damper that stops a
-//! motion within a step. Pi then rises, although no energy enters. G is the energy gained without a source.
+//! d denotes the change in a step; dW is the energy that enters. W is a sum of powers at the ends of steps. It overestimates the work of a
+//! damper that stops a motion within a step. Pi then rises, although no energy enters. G is the energy gained without a source.
 
 /// Rounding error of the energy balance, in multiples of machine precision times the sum of its parts [-]. Chosen, not tuned.
 const ROUNDINGS: f64 = 64.0;
@@ -33,12 +33,12 @@ pub struct Invariant {
     line: Line,
 }
 
-/// Sums for the scatter and for the straight line through the errors.
+/// Sums for the mean square of the changes, and for the least-squares line through the errors.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 struct Line {
     n: f64,
     squares: f64,
-    /// Means of time and of error, and sums of squares and products about the means.
+    /// Means t of time and e of error. `tt` and `te` are sums of squares and products about the means.
     t: f64,
     e: f64,
     tt: f64,
@@ -146,7 +146,7 @@ impl Invariant {
         ROUNDINGS * self.epsilon * parts
     }
 
-    /// Has more energy moved so far than the rounding error of the stored energy?
+    /// True if more energy has moved so far than the rounding error of the stored energy.
     #[must_use]
     pub fn is_moving(&self) -> bool {
         self.scale(self.last) > self.stored_rounding()
@@ -157,8 +157,9 @@ impl Invariant {
         (self.last[0] + self.last[1].abs()).max(self.ground) * libm::sqrt(self.epsilon)
     }
 
-    /// Does the error of the invariant exceed `share` times the exchanged energy? A gain counts only if G exceeds the limit too: it then has
-    /// no source. An error below the rounding error of the stored energy does not count. A NaN exceeds every limit.
+    /// True if the error of the invariant exceeds `share` times the exchanged energy. A gain of energy counts only if G exceeds the limit
+    /// too: only then does the gain have no source. An error below the rounding error of the stored energy does not count. A NaN exceeds
+    /// every limit.
     #[must_use]
     pub fn is_off(&self, share: f64) -> bool {
         let limit = (share * self.turned_over()).max(self.stored_rounding());

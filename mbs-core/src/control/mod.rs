@@ -1,6 +1,7 @@
 //! Step-size control: the energy invariant, a local error estimate, and the driver that repeats steps.
 //!
-//! This module depends on no formulation: it steps a [`Stepper`]. mbs-augmented has one for its formulations, mbs one for all formulations.
+//! This module depends on no formulation: it steps a [`Stepper`]. The crate mbs-augmented implements this trait for its formulations, the
+//! crate mbs for all formulations.
 //!
 //! # Examples
 //!

@@ -1,21 +1,22 @@
-//! Answers of effects to who asks what they are like: to pictures, to the doctor, to starts, to roads, and to steps that pass friction over.
+//! Properties of effects that other modules ask for: pictures, the check for wrong units, starts, roads, and steps that skip
+//! friction.
 
 use crate::scene::{BodyId, JointId};
 
-/// Picture of an effect.
+/// Picture that represents an effect in drawings.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum EffectPicture<T> {
-    /// Nothing is drawn: the effect has no place of its own, or is seen by what it moves.
+    /// No picture: the effect has no place of its own, or the moved body shows it.
     Nothing,
-    /// A line over the [places](super::EffectKind::places) of the effect.
+    /// Line through the [places](super::EffectKind::places) of the effect.
     Line(LineLook),
-    /// A ring around a place of a body, reference configuration [m].
+    /// Ring around a place of a body, in the reference configuration [m].
     Ring(BodyId, [T; 3]),
-    /// A wheel on the road.
+    /// Wheel that touches the road.
     Wheel(RoadWheel<T>),
 }
 
-/// Look of a line that stands for an effect.
+/// Shape with which a line of an effect is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LineLook {
     /// Coil of a spring.
@@ -24,14 +25,14 @@ pub enum LineLook {
     Damper,
     /// Coil around a damper.
     CoilDamper,
-    /// Block that a bumper pushes with.
+    /// Block with which a bumper pushes.
     Bumper,
-    /// Rod of a drive, and of a law whose parts are not known.
+    /// Rod of a drive, or of a law whose parts are unknown.
     Actuator,
 }
 
 impl LineLook {
-    /// Look of a spring, a damper or both; of neither it is a coil.
+    /// Shape of a line with a spring, a damper or both. Without either it is a coil.
     pub(super) const fn of([is_spring, is_damper]: [bool; 2]) -> Self {
         match (is_spring, is_damper) {
             (true, true) => Self::CoilDamper,
@@ -41,18 +42,18 @@ impl LineLook {
     }
 }
 
-/// A wheel that touches the road.
+/// Wheel that touches the road.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RoadWheel<T> {
     /// Body that carries the wheel.
     pub body: BodyId,
     /// Centre of the wheel, reference configuration [m].
     pub center: [T; 3],
-    /// Axis of the wheel; `None`: that of its joint, or across the direction of travel.
+    /// Axis of the wheel. `None`: the axis of its joint, or the direction across the direction of travel.
     pub axis: Option<[T; 3]>,
-    /// Radius without load [m].
+    /// Radius of the unloaded wheel [m].
     pub radius: T,
-    /// Joint about which the wheel turns on the body that carries it; `None`: the wheel is fixed there.
+    /// Joint about which the wheel rotates on the body that carries it; `None`: the wheel is fixed to this body.
     pub spin: Option<JointId>,
 }
 
@@ -61,25 +62,25 @@ pub struct RoadWheel<T> {
 pub struct RotorInertia<T> {
     /// Joint that has the coordinate.
     pub joint: JointId,
-    /// Number of the coordinate; `None`: the only one.
+    /// Number of the coordinate; `None`: the joint has one coordinate.
     pub coordinate: Option<usize>,
-    /// Inertia about the coordinate [kg m^2, of a slide kg].
+    /// Inertia at the coordinate [kg m^2; for a slide kg].
     pub inertia: T,
 }
 
-/// A number of an effect whose size may show that it was written in another unit.
+/// Number of an effect whose size may show that it was written in another unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum UnitHint<T> {
-    /// Angle at a key.
+    /// Angle that is given by a key.
     Angle {
         /// Key of the number in scene files.
         key: &'static str,
         /// Number at the key [rad].
         value: T,
-        /// Joint of which the number is an angle only where that turns; `None`: it is always taken for one.
+        /// Joint on which the effect acts. The number is an angle only if the joint rotates; `None`: it is always an angle.
         of: Option<JointId>,
     },
-    /// Length without tension of a spring between two points.
+    /// Free length of a spring between two points.
     FreeLength {
         /// Key of the number in scene files.
         key: &'static str,
@@ -94,7 +95,7 @@ pub enum UnitHint<T> {
         key: &'static str,
         /// Number at the key [N/m].
         value: T,
-        /// Bodies that swing on it.
+        /// Bodies that oscillate on the stiffness.
         bodies: [BodyId; 2],
     },
 }

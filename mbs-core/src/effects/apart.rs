@@ -1,11 +1,11 @@
-//! Laws that act on one side only: where they do not act.
+//! Check of a law that acts on one side only: whether it exerts no force at a value.
 
 use super::Law;
 use crate::Real;
 
-/// Does a law act on one side only, and not at this value? Its gaps are open.
+/// True if the law acts on one side only and all its gaps are open at this value, so that it exerts no force.
 ///
-/// Cost: one look at its gaps.
+/// Cost: one evaluation of the gaps.
 #[must_use]
 pub fn is_apart<T: Real>(law: &Law<T>, value: T) -> bool {
     let gaps = law.gaps(value, T::ZERO);

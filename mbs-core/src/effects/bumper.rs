@@ -7,7 +7,7 @@ use crate::laws::entry::entry;
 use crate::laws::operations::Operations;
 use crate::laws::scalar::{ScalarForce, TensionLaw};
 
-/// Pushes where the value has fallen below `touch`.
+/// Law of a bumper, which pushes when the value is below `touch`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BumperLaw<T> {
     /// Stiffness [N/m] and damping [N s/m].

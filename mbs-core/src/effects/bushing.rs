@@ -1,6 +1,6 @@
 //! Springs and dampers along and about three axes at a place.
 
-/// Whether a build has the rotations in space that bushings act on.
+/// True if the build contains the rotations in space on which bushings act.
 pub const IS_BUILT: bool = cfg!(feature = "bushing");
 
 #[cfg(feature = "alloc")]
@@ -41,7 +41,7 @@ mod data {
                     to.act(law(5), |law| Action::Turn { bodies, law });
                 }
             } else if (3..6).any(acts) {
-                // All three: a rotation is remembered as a whole.
+                // Add all three rotations, because the state remembers them together.
                 for number in 0..3_u32 {
                     let law = law(3 + number as usize);
                     to.act(law, |law| Action::Rotation { bodies, number, law });

@@ -1,4 +1,4 @@
-//! Names with which the files of effects describe their data.
+//! Names that the files of effects use to describe their data.
 
 pub(super) use super::action::{Action, Compiler};
 pub(super) use super::answers::{EffectPicture, LineLook, RoadWheel, RotorInertia, UnitHint};
@@ -17,5 +17,5 @@ pub(super) use crate::scene::{
 };
 pub(super) use alloc::vec::Vec;
 
-/// Numbers that are zero where nothing is written.
+/// Default of numbers that are zero if the key is left out.
 pub(super) const ZERO: super::Default = Number("0");

@@ -14,7 +14,7 @@ use crate::laws::entry::entry;
 use crate::laws::operations::Operations;
 use crate::laws::scalar::ScalarForce;
 
-/// Drag of still air.
+/// Law of the drag of still air.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DragLaw<T> {
     /// Drag coefficient times area, C_d A [m^2].
@@ -25,7 +25,7 @@ pub struct DragLaw<T> {
 
 entry!(DragLaw<T> { area_coefficient, density });
 
-/// The drag's size [N] at a speed [m/s], and its derivative by the speed [N s/m]; `area_coefficient` is C_d A [m^2].
+/// Magnitude of the drag [N] at a speed [m/s], and its derivative by the speed [N s/m]; `area_coefficient` is C_d A [m^2].
 #[inline]
 pub fn drag<T: Real>(area_coefficient: T, density: T, speed: T) -> (T, T) {
     let k = area_coefficient * density * T::HALF;
@@ -94,7 +94,7 @@ mod data {
         fn dissipates(&self) -> bool {
             true
         }
-        /// Drag grows with the square of the speed: small motions do not meet it.
+        /// Drag grows with the square of the speed, so that small motions have none: returns false.
         fn rest(&mut self, _: &mut dyn FnMut(&'static str)) -> bool {
             false
         }

@@ -1,4 +1,4 @@
-//! An example of any kind, made of its fields alone: for tests and measurements that go over all kinds.
+//! Example of each kind of effect, generated from the fields of the kind, for tests and measurements of all kinds.
 
 use super::{EFFECTS, Field, Form, Sign, SignalForm, Value};
 use crate::effects::EffectKind;
@@ -11,16 +11,17 @@ use alloc::vec::Vec;
 /// Bodies, places and joint on which an example acts.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Places {
-    /// Two bodies, and a place on each, reference configuration [m].
+    /// Pair of bodies, and a place on each in the reference configuration [m].
     pub pair: ([BodyId; 2], [[f64; 3]; 2]),
-    /// A body, and a place on it [m].
+    /// Single body, and a place on it [m].
     pub body: (BodyId, [f64; 3]),
-    /// A joint with one rotation.
+    /// Joint that has one rotation.
     pub joint: JointId,
 }
 
 impl EffectKind<f64> {
-    /// An example of the kind `EFFECTS[row]`: numbers are 1 and rise by a tenth from key to key. `None` for a user's own law.
+    /// Returns an example of the kind `EFFECTS[row]`. Its first number is 1, and each further number is larger by 0.1. `None` for a
+    /// user-defined law.
     #[must_use]
     pub fn example(row: usize, places: &Places) -> Option<Self> {
         let fields = EFFECTS.get(row)?.fields;
@@ -54,7 +55,7 @@ impl EffectKind<f64> {
                 }
                 Form::Length => Value::Length(None),
                 Form::Flag => Value::Flag(false),
-                // in the plane along x, y and about z
+                // In the plane only x, y and the rotation about z are used.
                 Form::Six => Value::Six([1.0, 1.0, 0.0, 0.0, 0.0, 1.0]),
                 Form::Pieces => Value::Pieces(vec![PolynomialPiece {
                     lower: 0.0,

@@ -1,6 +1,6 @@
-//! Fields and values that describe effects. A field has a key, a form, a unit and a default; a value has one of these forms.
+//! Fields and values that describe effects. A field has a key, a form, a unit and a default; a value has one of the forms.
 //!
-//! Reader, writer, checks, documents and tests go through fields and values; none of them has a list of kinds.
+//! Reader, writer, checks, documents and tests use fields and values. None of them has a list of the kinds of effect.
 
 use crate::joint::Dimension;
 use crate::laws::code::{BodyLaw, Code, ForceLaw};
@@ -13,11 +13,11 @@ use alloc::vec::Vec;
 /// One key of an effect in scene files.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Field {
-    /// Key in scene files; of a [`Form::Signal`] the first of its four.
+    /// Key in scene files. For a [`Form::Signal`] it is the first of four keys.
     pub key: &'static str,
     /// Form of the value at the key.
     pub form: Form,
-    /// SI unit of the value; empty: none.
+    /// SI unit of the value; empty for a value without unit.
     pub unit: &'static str,
     /// Rule for a key that is left out.
     pub default: Default,
@@ -38,7 +38,7 @@ impl Field {
     }
 }
 
-/// Form of the value at a key, and what is refused there.
+/// Form of the value at a key. It also says which values are refused.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Form {
@@ -46,43 +46,43 @@ pub enum Form {
     Bodies,
     /// A body that moves.
     Body,
-    /// A joint, with the requirement on it where no coordinate is given.
+    /// Joint, with the requirement that it must satisfy if no coordinate is given.
     Joint(JointNeed),
-    /// A coordinate of the joint, by name or number from 0; `None`: the one that the joint's need means.
+    /// Coordinate of the joint, by name or by number from 0. `None`: the coordinate that the requirement on the joint determines.
     Coordinate,
-    /// The terms of a sum of joint coordinates and lengths, as those of a coupling.
+    /// Terms of a sum of joint coordinates and lengths, as in a coupling.
     Terms,
     /// A place in the reference configuration.
     Point,
-    /// Two places, one per body; with the flag they must differ.
+    /// Two places, one per body. If the Boolean is true, the places must differ.
     Points(bool),
-    /// Two or more places, each with its body: a line over them.
+    /// Line through two or more places, each with its body.
     Line,
     /// A direction.
     Axis,
     /// A direction, or none.
     MaybeAxis,
-    /// A number, with the sign that it may have.
+    /// Number, with the signs that are allowed.
     Number(Sign),
-    /// A length, or `"reference"`: that of the line in the reference configuration.
+    /// Length, or `"reference"` for the length of the line in the reference configuration.
     Length,
     /// True or false.
     Flag,
-    /// Along and about x, y, z; in the plane along x, y and about z. Not negative.
+    /// Six numbers along and about x, y, z, none of them negative. In the plane, the numbers along x and y and about z are used.
     Six,
     /// Pieces of a polynomial, `[lower, upper, c0, c1, ...]`.
     Pieces,
-    /// `value`, with `input = true` one that is set between steps, `table` over time, or `signal` by name.
+    /// Signal: `value`, `value` with `input = true` (set between steps), `table` (over time), or `signal` (by name).
     Signal(SignalForm),
     /// Axes of a vector: `"global"` or `"body"`.
     Frame,
-    /// `"none"` or `"calspan"`, with its `coefficients`.
+    /// Side force of a tire: `"none"`, or `"calspan"` with its `coefficients`.
     Side,
     /// A joint with one rotation, about which a wheel spins, or none.
     Spin,
-    /// A table with `stiffness` and `friction`, or none.
+    /// Slip of a tire: a table with `stiffness` and `friction`, or none.
     Slip,
-    /// Whether the effect has this one of the names of its kind.
+    /// Boolean that is true if the effect has this name. A kind of effect may have several names.
     Name(&'static str),
     /// A user-defined law along a line or on a joint.
     ForceLaw,
@@ -90,12 +90,12 @@ pub enum Form {
     BodyLaw,
 }
 
-/// Requirement of an effect on a joint whose coordinate is not given.
+/// Requirement of an effect on its joint, if no coordinate is given.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum JointNeed {
-    /// One rotation, or one coordinate alone.
+    /// One rotation as the coordinate. A joint without rotation must have one coordinate.
     Rotation,
-    /// One rotation, and nothing else will do.
+    /// One rotation; a joint without rotation is refused.
     Spin,
     /// One coordinate.
     Coordinate,
@@ -112,21 +112,21 @@ pub enum Sign {
     Positive,
 }
 
-/// The components of a signal.
+/// Number and meaning of the components of a signal.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SignalForm {
     /// One number.
     Scalar,
     /// A vector of the scene's dimension.
     Vector,
-    /// Numbers of a moment: one in the plane, a vector in space.
+    /// Moment: one number in the plane, a vector in space.
     Moment,
     /// Three numbers of any meaning.
     Three,
 }
 
 impl SignalForm {
-    /// Number of its components in a scene of that dimension.
+    /// Returns the number of components in a scene of this dimension.
     #[must_use]
     pub fn n_components(self, dimension: Dimension) -> usize {
         match (self, dimension) {
@@ -142,25 +142,25 @@ impl SignalForm {
 pub enum Default {
     /// The key must be written.
     Needed,
-    /// The decimal number given here; in [`Form::Six`] all six are this number.
+    /// Decimal number that is the default. For [`Form::Six`] all six numbers have this value.
     Number(&'static str),
     /// The value of an earlier key.
     As(&'static str),
     /// The decimal number times the value of an earlier key.
     Times(&'static str, &'static str),
-    /// Zero where the value of an earlier key is zero, else it must be written.
+    /// Zero if the value of an earlier key is zero. Otherwise the key must be written.
     NeededWith(&'static str),
-    /// The key must be written, but where an earlier key is true: then neither may stand beside the other.
+    /// The key must be written unless an earlier key is true. Both together are refused.
     NeededWithout(&'static str),
-    /// The value follows from the scene.
+    /// The value is computed from the scene.
     Open,
-    /// The value follows from the scene where that of an earlier key does, else it is zero.
+    /// The value is computed from the scene if the value of an earlier key is. Otherwise it is zero.
     OpenWith(&'static str),
-    /// Nothing, or the first of the words.
+    /// No value, or the first of the allowed words.
     Nothing,
 }
 
-/// The value of a field.
+/// Value of a field of an effect.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum Value<T> {
@@ -213,7 +213,7 @@ pub enum Value<T> {
 }
 
 impl<T: Clone> Value<T> {
-    /// Returns the value with every number as `f` gives it.
+    /// Returns the value with every number converted by `f`.
     pub fn map<U>(self, f: &mut impl FnMut(T) -> U) -> Value<U> {
         match self {
             Self::Bodies(bodies) => Value::Bodies(bodies),
@@ -266,7 +266,7 @@ impl<T: Clone> Value<T> {
 }
 
 impl<T> Signal<T> {
-    /// Returns the signal with every number as `f` gives it.
+    /// Returns the signal with every number converted by `f`.
     pub fn map<U>(self, f: &mut impl FnMut(T) -> U) -> Signal<U> {
         match self {
             Self::Constant(x) => Signal::Constant(x.map(f)),
@@ -279,9 +279,9 @@ impl<T> Signal<T> {
     }
 }
 
-/// The data of a kind of effect: made by [`effect!`](super::effect).
+/// Data of a kind of effect. The macro [`effect!`](super::effect) implements this trait.
 pub(crate) trait EffectData<T>: Sized {
-    /// Names of the kind in scene files; an effect has the first, unless its model says otherwise.
+    /// Names of the kind in scene files. An effect has the first name, unless its model chooses another one.
     const NAMES: &'static [&'static str];
     /// Fields of the kind, in order.
     const FIELDS: &'static [Field];
@@ -291,7 +291,7 @@ pub(crate) trait EffectData<T>: Sized {
     where
         T: Clone;
 
-    /// The effect with these values; `None` if one has another form, or the kind is not made of values.
+    /// Returns the effect with these values. `None` if a value has another form, or if the kind does not consist of values.
     fn of(values: &mut dyn Iterator<Item = Value<T>>) -> Option<Self>;
 }
 

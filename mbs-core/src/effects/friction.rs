@@ -1,14 +1,15 @@
-//! Stribeck friction, regularised: against the rate, continuous at rest.
+//! Regularised Stribeck friction, which acts against the rate and is continuous at rest.
 //!
 //! ```text
 //! f = g(r) r / sqrt(r^2 + e^2) + v r,   g = C + (S - C) / (1 + (r / r_s)^2)
 //! ```
 //!
-//! C Coulomb, S static, r_s Stribeck rate, v viscous part, e the regularisation. The fall from S to C is the rational bell in
-//! place of Stribeck's exponential, which needs no exponential function and differs from it by less than 0.21 (S - C). Friction at
-//! rest is zero: what hangs on friction creeps at a rate of about e times load over S. All power is dissipated.
+//! Here r is the rate, C Coulomb friction, S static friction, r_s the Stribeck rate, v the viscous coefficient, and e the
+//! regularisation. The fall from S to C is a rational bell. It replaces Stribeck's exponential, differs from it by less than 0.21
+//! (S - C), and needs no exponential function. At rest the friction is zero. So a load that only friction holds creeps, at a rate
+//! of about e times load over S. All power is dissipated.
 //!
-//! A signal may scale C and S: a brake, or a clutch. Below zero it counts as zero.
+//! A signal may scale C and S, as in a brake or clutch. A negative value counts as zero.
 
 use crate::Real;
 use crate::laws::LawInputs;
@@ -19,40 +20,40 @@ use crate::laws::scalar::{ScalarForce, TensionLaw};
 /// Law of regularised Stribeck friction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FrictionLaw<T> {
-    /// Friction of fast motion [N m or N].
+    /// Coulomb friction C, at high rates [N m or N].
     pub coulomb: T,
-    /// Friction of slow motion [N m or N].
+    /// Static friction S, at low rates [N m or N].
     pub r#static: T,
-    /// Rate at which half of the difference is gone [rad/s or m/s].
+    /// Rate at which friction has fallen by half the difference S - C [rad/s or m/s].
     pub stribeck: T,
-    /// Viscous part [N m s/rad or N s/m].
+    /// Viscous coefficient [N m s/rad or N s/m].
     pub viscous: T,
-    /// Rate below which friction falls with the rate [rad/s or m/s].
+    /// Rate below which friction tends to zero with the rate [rad/s or m/s].
     pub regularisation: T,
-    /// The course whose first component scales Coulomb and static friction; `None`: nothing does.
+    /// Signal whose first component scales Coulomb and static friction; `None`: they are not scaled.
     pub course: Option<u32>,
 }
 
 entry!(FrictionLaw<T> { coulomb, r#static, stribeck, viscous, regularisation, course });
 
-/// Parts of the force and the slope at a rate.
+/// Terms that the force and its slope have in common, at one rate.
 #[derive(Debug, Clone, Copy)]
 struct FrictionParts<T> {
-    /// r / sqrt(r^2 + e^2).
+    /// Regularised sign of the rate, r / sqrt(r^2 + e^2).
     share: T,
     /// sqrt(r^2 + e^2).
     root: T,
     /// Level of the friction, g [N m or N].
     level: T,
-    /// Rate by the Stribeck rate, r / r_s.
+    /// Rate relative to the Stribeck rate, r / r_s.
     s: T,
-    /// 1 / (1 + s^2).
+    /// Bell function of the rate, 1 / (1 + s^2).
     bell: T,
 }
 
 impl<T: Real> FrictionLaw<T> {
-    /// Force against the rate, and a derivative by it that does not fall below zero (where friction falls with the rate, a
-    /// tangent with its negative slope could lose definiteness).
+    /// Force against the rate, and its derivative by the rate, at least zero. A negative slope, where friction falls with the rate,
+    /// could make the tangent matrix indefinite.
     #[inline]
     pub fn force(&self, rate: T) -> (T, T) {
         let parts = self.parts(rate);
@@ -60,14 +61,14 @@ impl<T: Real> FrictionLaw<T> {
         (level * share + self.viscous * rate, self.slope_of(parts, share))
     }
 
-    /// The derivative with another share of the level, from -1 to 1, in one of the two places of r / sqrt(r^2 + e^2) in it:
+    /// Derivative of the force by the rate, in which one of the two factors r / sqrt(r^2 + e^2) is replaced by w, from -1 to 1:
     ///
     /// ```text
     /// g / sqrt(r^2 + e^2) (1 - w r / sqrt(r^2 + e^2)) + g' r / sqrt(r^2 + e^2) + v
     /// ```
     ///
-    /// With the w that the slope of the last iterate predicts, Newton's method converges from anywhere. Near the solution, where w is
-    /// that of the rate, it converges as fast (Chan, Golub and Mulet 1999).
+    /// If w comes from the slope at the last iterate, Newton's method converges from any start. Near the solution w tends to the
+    /// replaced factor, so that convergence is as fast as with the tangent (Chan, Golub and Mulet 1999).
     #[inline]
     pub fn slope(&self, rate: T, w: T) -> T {
         self.slope_of(self.parts(rate), w)
@@ -81,8 +82,8 @@ impl<T: Real> FrictionLaw<T> {
         (level / root * (T::ONE - w * share) - fall + self.viscous).max(T::ZERO)
     }
 
-    /// Share that [`slope`](Self::slope) takes where an iteration came from the rate `before` to this one: by force and slope at `before`,
-    /// within -1 and 1.
+    /// Number w of [`slope`](Self::slope) for an iteration that went from the rate `before` to `rate`. Force and slope at `before`
+    /// predict it. It is limited to -1 and 1.
     #[inline]
     pub fn foreseen(&self, rate: T, (before, force, slope): (T, T, T)) -> T {
         let level = self.parts(rate).level;
@@ -90,13 +91,13 @@ impl<T: Real> FrictionLaw<T> {
         if level > T::ZERO { (foreseen / level).max(-T::ONE).min(T::ONE) } else { T::ZERO }
     }
 
-    /// The law with both levels scaled.
+    /// Returns the law with Coulomb and static friction scaled.
     #[inline]
     fn scaled(&self, share: T) -> Self {
         Self { coulomb: self.coulomb * share, r#static: self.r#static * share, ..*self }
     }
 
-    /// The law with its levels of the moment.
+    /// Returns the law with Coulomb and static friction at the current time.
     #[inline]
     fn now(&self, law_inputs: &LawInputs<'_, T>) -> Self {
         let share = self.course.map(|course| law_inputs.course(course)[0].max(T::ZERO));
@@ -134,9 +135,9 @@ impl<T: Real> TensionLaw<T> for FrictionLaw<T> {
         self.course.is_none_or(|course| (course as usize) < n_courses)
     }
 
-    /// The slope by what the iterate `before` foresaw of its force: see [`slope`](FrictionLaw::slope). By the tangents at the ends
-    /// alone, which know nothing of the rise between them, an iteration across rest goes to and fro. An iterate without a rate is
-    /// none: the first one of a step has the tangent.
+    /// Slope that uses the force predicted by the iterate `before`: see [`slope`](FrictionLaw::slope). The tangents do not know the
+    /// steep rise between two rates of opposite sign. So an iteration with tangents alone would oscillate across rest. In the first
+    /// iteration of a step, `before` has no rate, and the tangent is used.
     #[inline]
     fn look_back(
         &self,
@@ -185,7 +186,7 @@ mod data {
         }
     }
 
-    /// Static friction is not below that of fast motion.
+    /// Checks that static friction is at least Coulomb friction.
     pub(in crate::effects) fn check_levels<T: Real>(
         [slow, fast]: [T; 2],
         place: Place,
@@ -196,12 +197,12 @@ mod data {
         place.fault("static", SceneFault::StaticBelowCoulomb([slow.to_f64(), fast.to_f64()]))
     }
 
-    /// Rate below which dry friction rises from zero; what is viscous alone rises nowhere.
+    /// Rate below which dry friction rises from zero; `None` for friction that is only viscous.
     pub(in crate::effects) fn rise<T: Real>(levels: [T; 2], regularisation: T) -> Option<T> {
         (levels[0].max(levels[1]) > T::ZERO).then_some(regularisation)
     }
 
-    /// Takes out dry friction, and says so where there is some.
+    /// Removes dry friction, and reports it to `leave` if there was any.
     pub(in crate::effects) fn leave_levels<T: Real>(
         levels: [&mut T; 2],
         leave: &mut dyn FnMut(&'static str),
@@ -213,7 +214,7 @@ mod data {
     }
 
     impl<T: Real> FrictionLaw<T> {
-        /// The law with both levels times a signal.
+        /// Returns the law with Coulomb and static friction multiplied by a signal.
         pub(in crate::effects) fn by(self, factor: &Signal<T>, to: &mut Compiler<'_, T>) -> Self {
             match factor {
                 Signal::Constant([share, ..]) => self.scaled(share.max(T::ZERO)),

@@ -6,14 +6,14 @@ use crate::laws::entry::entry;
 use crate::laws::operations::Operations;
 use crate::laws::scalar::{ScalarForce, TensionLaw};
 
-/// Added to the number of a course whose other components are its slopes [-]: the highest bit, which no number reaches.
+/// Bit that is set in the number of a signal whose second and third component are slopes [-]. No number of a signal uses this bit.
 const RESISTS: u32 = 1 << 31;
 
-/// A course's first component, with the sign of growth. Where the course follows the motion, its other components are how it resists the
-/// coordinate and the rate.
+/// Torque or force given by the first component of a signal, positive in the sense of growth. If the signal depends on the motion,
+/// its second and third component are minus the derivatives of the force by coordinate and rate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TorqueLaw {
-    /// Number of the course among those of the model, with a bit for one that follows the motion.
+    /// Number of the signal in the model. A bit is set if the signal depends on the motion.
     pub course: u32,
 }
 

@@ -1,4 +1,4 @@
-//! The enum of kinds, what each kind says of itself, and the table of all.
+//! Enum of the kinds of effect, the properties that each kind declares, and the table of all kinds.
 
 use super::action::Compiler;
 use super::{
@@ -12,22 +12,22 @@ use crate::scene::{
 };
 use alloc::vec::Vec;
 
-/// The key of springs that are slack below their free length.
+/// Key in scene files of springs that are slack below their free length.
 pub(super) const PULLS_ONLY: &str = "pulls_only";
 
 /// Model of a kind of effect: its checks, its actions and its properties.
 pub(crate) trait EffectModel<T: Real>: EffectData<T> {
     /// Law and range, in one line of Markdown.
     const LAW: &'static str;
-    /// A word, and a sentence, for a scene that has none; where that is worth one.
+    /// Short name and sentence with which a user is informed that a scene has no effect of this kind; `None`: no such information.
     const ABSENT: Option<[&'static str; 2]> = None;
-    /// Does it act on one side only, with gaps that open and close?
+    /// True if the effect acts on one side only, with gaps that open and close.
     const IS_ONE_SIDED: bool = false;
-    /// Names of its gaps, where it has more than one.
+    /// Names of the effect's gaps, if it has more than one.
     const ENDS: &'static [&'static str] = &[];
-    /// Does it stand on the scene's road?
+    /// True if the effect needs the road of the scene.
     const NEEDS_ROAD: bool = false;
-    /// May its law take different ways by its numbers? Then several states are not computed at once.
+    /// True if numbers decide which branch of the law is computed. Several states are then not computed at once.
     const HAS_BRANCHES: bool = true;
 
     /// Returns the name of the effect in scene files.
@@ -35,10 +35,10 @@ pub(crate) trait EffectModel<T: Real>: EffectData<T> {
         Self::NAMES.first().copied().unwrap_or_default()
     }
 
-    /// Refuses what single fields do not show.
+    /// Checks conditions that involve several fields or other entries of the scene.
     ///
     /// # Errors
-    /// [`SceneError`] with the key.
+    /// [`SceneError`] with the key that has the fault.
     fn check(&self, _among: Surroundings<'_, T>, _place: Place) -> Result<(), SceneError> {
         Ok(())
     }
@@ -46,33 +46,34 @@ pub(crate) trait EffectModel<T: Real>: EffectData<T> {
     /// Adds the actions of the effect.
     fn actions(&self, to: &mut Compiler<'_, T>);
 
-    /// Picture of the effect.
+    /// Returns the picture that represents the effect in drawings.
     fn drawn_as(&self) -> EffectPicture<T>;
 
-    /// Numbers whose size may show that they were written in another unit; none where every size is likely.
+    /// Returns the numbers whose size may show that they were written in another unit. Empty if every size is plausible.
     fn unit_hints(&self, joints: &[Joint<T>]) -> Vec<UnitHint<T>>;
 
-    /// Inertia of the rotor that the effect is.
+    /// Inertia that the effect adds to a joint coordinate, if it is a rotor; else `None`.
     fn rotor(&self) -> Option<RotorInertia<T>> {
         None
     }
 
-    /// Wheel by which the effect touches the road.
+    /// Wheel of the effect that touches the road; `None` if it has no wheel.
     fn road_wheel(&self) -> Option<RoadWheel<T>> {
         None
     }
 
-    /// Rate below which friction rises steeply from zero [rad/s or m/s]; `None`: none does.
+    /// Rate below which friction rises steeply from zero [rad/s or m/s]; `None` if no friction does.
     fn sticking(&self) -> Option<T> {
         None
     }
 
-    /// Number at a key that was left out and follows from the mass that the effect's coordinate moves [kg or kg m^2].
+    /// Value of a key that was left out, computed from the mass that the effect's coordinate moves [kg or kg m^2]. `None` for other
+    /// keys.
     fn open(&self, _key: &str, _mass: f64) -> Option<f64> {
         None
     }
 
-    /// Signal that the effect follows, the form of its components and their unit; `None`: it follows none.
+    /// Signal that the effect follows, with the form of its components and their unit; `None` if the effect follows no signal.
     fn signal(&self) -> Option<(Signal<T>, SignalForm, &'static str)> {
         let entries = Self::FIELDS.iter().zip(self.values());
         entries.into_iter().find_map(|(field, value)| match (field.form, value) {
@@ -81,23 +82,24 @@ pub(crate) trait EffectModel<T: Real>: EffectData<T> {
         })
     }
 
-    /// Can it store energy?
+    /// True if the effect can store energy.
     fn stores_energy(&self) -> bool {
         false
     }
 
-    /// Can it take energy out by a rate?
+    /// True if the effect can dissipate energy, as a damper does.
     fn dissipates(&self) -> bool {
         false
     }
 
-    /// Does it follow time or an input?
+    /// True if the effect depends on time or on an input.
     fn follows_time(&self) -> bool {
         let is_constant = |s: &Signal<T>| matches!(s, Signal::Constant(_));
         self.values().iter().any(|value| matches!(value, Value::Signal(s) if !is_constant(s)))
     }
 
-    /// Takes out what only motion makes, and names parts that could act at rest or on small motions about it; false: nothing stays.
+    /// Removes the parts of the effect that act only in larger motions. Calls `_leave` with the name of each removed part that
+    /// could act at rest or on small motions about it. Returns false if no part remains.
     fn rest(&mut self, _leave: &mut dyn FnMut(&'static str)) -> bool {
         true
     }
@@ -107,30 +109,30 @@ pub(crate) trait EffectModel<T: Real>: EffectData<T> {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Row {
-    /// Name of the kind's module: that of the kind in small letters.
+    /// Name of the kind's module: the name of the kind in small letters.
     pub module: &'static str,
-    /// Names of the kind in scene files; none for a law in code.
+    /// Names of the kind in scene files; empty for a law in code.
     pub names: &'static [&'static str],
     /// Fields of the kind, in order.
     pub fields: &'static [Field],
     /// Law and range, in one line of Markdown.
     pub law: &'static str,
-    /// The Cargo feature that brings its law, and whether it is on; `None`: every build has it.
+    /// Cargo feature that adds the law, and true if the feature is on. `None`: every build has the law.
     pub feature: Option<(&'static str, bool)>,
-    /// A word and a sentence for a scene that has none.
+    /// Short name and sentence with which a user is informed that a scene has no effect of this kind; `None`: no such information.
     pub absent: Option<[&'static str; 2]>,
-    /// Does it act on one side only?
+    /// True if the effect acts on one side only.
     pub is_one_sided: bool,
-    /// Names of its gaps.
+    /// Names of the effect's gaps, if it has more than one.
     pub ends: &'static [&'static str],
-    /// Does it stand on the scene's road?
+    /// True if the effect needs the road of the scene.
     pub needs_road: bool,
-    /// May its law take different ways by its numbers?
+    /// True if numbers decide which branch of the law is computed.
     pub has_branches: bool,
 }
 
 impl Row {
-    /// The row of a kind.
+    /// Returns the table row of a kind.
     pub(super) const fn of<K: EffectModel<f64>>(
         module: &'static str,
         feature: Option<(&'static str, bool)>,
@@ -151,7 +153,7 @@ impl Row {
 }
 
 impl<T: Clone> EffectKind<T> {
-    /// The places on bodies where it acts, reference configuration [m], with their keys.
+    /// Returns the places on bodies where the effect acts, in the reference configuration [m]. Each has its key and its body.
     #[must_use]
     pub fn places(&self) -> Vec<(&'static str, BodyId, [T; 3])> {
         let mut bodies = Vec::new();
@@ -185,18 +187,18 @@ impl<T: Clone> EffectKind<T> {
 /// Part of a mechanism that an effect acts on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ActsOn {
-    /// A line over two points or more, by one number.
+    /// Line over two or more points. One number measures it.
     Line,
-    /// A joint, by one number.
+    /// Joint of which one number is measured.
     Joint(JointId),
-    /// A sum of joint coordinates and lengths, by one number.
+    /// Sum of joint coordinates and lengths, which is one number.
     Sum,
-    /// One body or two, by several numbers.
+    /// One or two bodies. Several numbers measure their motion.
     Bodies,
 }
 
 impl<T: Clone> EffectKind<T> {
-    /// Is it slack on one side: is `pulls_only` set?
+    /// True if the effect is slack on one side, because `pulls_only` is set.
     fn pulls_only(&self) -> bool {
         let is_set = |(field, value): (&Field, Value<T>)| {
             field.key == PULLS_ONLY && matches!(value, Value::Flag(true))
@@ -204,7 +206,7 @@ impl<T: Clone> EffectKind<T> {
         self.row().fields.iter().zip(self.values()).any(is_set)
     }
 
-    /// Number of the joint coordinate that the effect names; `None`: it names none.
+    /// Number of the joint coordinate that the effect names; `None` if it names no coordinate.
     #[must_use]
     pub fn coordinate(&self) -> Option<usize> {
         self.values().into_iter().find_map(|value| match value {
@@ -213,13 +215,13 @@ impl<T: Clone> EffectKind<T> {
         })
     }
 
-    /// Does it act on one side only?
+    /// True if the effect acts on one side only.
     #[must_use]
     pub fn is_one_sided(&self) -> bool {
         self.row().is_one_sided || self.pulls_only()
     }
 
-    /// May its law take different ways by its numbers? Then several states are not computed at once.
+    /// True if numbers decide which branch of the law is computed. Several states are then not computed at once.
     #[must_use]
     pub fn has_branches(&self) -> bool {
         self.row().has_branches || self.pulls_only()
@@ -246,7 +248,7 @@ impl<T: Clone> EffectKind<T> {
     }
 }
 
-/// Makes the enum of kinds.
+/// Generates the enum of the kinds of effect, and its methods.
 macro_rules! kinds {
     ($($Kind:ident $module:ident $gate:tt),*) => {
         /// The kinds of effect.
@@ -265,7 +267,7 @@ macro_rules! kinds {
             }
         })*
 
-        /// Every kind of effect, in the order of the format.
+        /// Rows of all kinds of effect, in the order of the scene format.
         pub const EFFECTS: &[Row] = &[$(Row::of::<$Kind<f64>>(stringify!($module), kind::feature_of! $gate)),*];
 
         impl<T> EffectKind<T> {
@@ -277,7 +279,7 @@ macro_rules! kinds {
                 }
             }
 
-            /// The effect of the kind `EFFECTS[row]` with these values; `None` if they are not those of its fields.
+            /// Returns the effect of the kind `EFFECTS[row]` with these values; `None` if the values do not fit its fields.
             pub fn of(row: usize, values: impl IntoIterator<Item = Value<T>>) -> Option<Self> {
                 type Make<T> = fn(&mut dyn Iterator<Item = Value<T>>) -> Option<EffectKind<T>>;
                 let make: [Make<T>; EFFECTS.len()] =
@@ -285,7 +287,7 @@ macro_rules! kinds {
                 make.get(row)?(&mut values.into_iter())
             }
 
-            /// Returns an effect of the same kind with other values; `None` if they are not those of its fields.
+            /// Returns an effect of the same kind with other values; `None` if the values do not fit its fields.
             pub fn with<U>(&self, values: impl IntoIterator<Item = Value<U>>) -> Option<EffectKind<U>> {
                 let values = &mut values.into_iter();
                 match self {
@@ -293,7 +295,7 @@ macro_rules! kinds {
                 }
             }
 
-            /// The values of its fields, in their order; a user's own law has none.
+            /// Returns the values of the effect's fields, in their order. A user-defined law has no values.
             pub fn values(&self) -> Vec<Value<T>>
             where
                 T: Clone,
@@ -303,7 +305,8 @@ macro_rules! kinds {
                 }
             }
 
-            /// Returns the effect with every number as `f` gives it; `None` for a user's own law, which is code for one scalar type.
+            /// Returns the effect with every number converted by `f`; `None` for a user-defined law, which is code for one scalar
+            /// type.
             pub fn map<U>(self, f: &mut impl FnMut(T) -> U) -> Option<EffectKind<U>>
             where
                 T: Clone,
@@ -333,7 +336,7 @@ macro_rules! kinds {
                 }
             }
 
-            /// Picture of the effect.
+            /// Returns the picture that represents the effect in drawings.
             #[must_use]
             pub fn drawn_as(&self) -> EffectPicture<T> {
                 match self {
@@ -341,7 +344,8 @@ macro_rules! kinds {
                 }
             }
 
-            /// Numbers whose size may show that they were written in another unit, among the joints of the scene.
+            /// Returns the numbers whose size may show that they were written in another unit. `joints` are the joints of the
+            /// scene.
             #[must_use]
             pub fn unit_hints(&self, joints: &[Joint<T>]) -> Vec<UnitHint<T>> {
                 match self {
@@ -349,7 +353,7 @@ macro_rules! kinds {
                 }
             }
 
-            /// Inertia of the rotor that the effect is; `None`: it is none.
+            /// Inertia that the effect adds to a joint coordinate, if it is a rotor; else `None`.
             #[must_use]
             pub fn rotor(&self) -> Option<RotorInertia<T>> {
                 match self {
@@ -357,7 +361,7 @@ macro_rules! kinds {
                 }
             }
 
-            /// Wheel by which the effect touches the road; `None`: it does not.
+            /// Wheel of the effect that touches the road; `None` if it has no wheel.
             #[must_use]
             pub fn road_wheel(&self) -> Option<RoadWheel<T>> {
                 match self {
@@ -365,7 +369,7 @@ macro_rules! kinds {
                 }
             }
 
-            /// Rate below which friction rises steeply from zero [rad/s or m/s]; `None`: none does.
+            /// Rate below which friction rises steeply from zero [rad/s or m/s]; `None` if no friction does.
             #[must_use]
             pub fn sticking(&self) -> Option<T> {
                 match self {
@@ -373,8 +377,8 @@ macro_rules! kinds {
                 }
             }
 
-            /// Number at a key that was left out and follows from the mass that the effect's coordinate moves [kg or kg m^2]; `None` at
-            /// other keys.
+            /// Value of a key that was left out, computed from the mass that the effect's coordinate moves [kg or kg m^2]. `None`
+            /// for other keys.
             #[must_use]
             pub fn open(&self, key: &str, mass: f64) -> Option<f64> {
                 match self {
@@ -382,7 +386,8 @@ macro_rules! kinds {
                 }
             }
 
-            /// Signal that the effect follows, the form of its components and their unit; `None`: it follows none.
+            /// Signal that the effect follows, with the form of its components and their unit; `None` if the effect follows no
+            /// signal.
             #[must_use]
             pub fn signal(&self) -> Option<(Signal<T>, SignalForm, &'static str)> {
                 match self {
@@ -390,7 +395,7 @@ macro_rules! kinds {
                 }
             }
 
-            /// Can it store energy?
+            /// True if the effect can store energy.
             #[must_use]
             pub fn stores_energy(&self) -> bool {
                 match self {
@@ -398,7 +403,7 @@ macro_rules! kinds {
                 }
             }
 
-            /// Can it take energy out by a rate?
+            /// True if the effect can dissipate energy, as a damper does.
             #[must_use]
             pub fn dissipates(&self) -> bool {
                 match self {
@@ -406,7 +411,7 @@ macro_rules! kinds {
                 }
             }
 
-            /// Does it follow time or an input?
+            /// True if the effect depends on time or on an input.
             #[must_use]
             pub fn follows_time(&self) -> bool {
                 match self {
@@ -414,7 +419,8 @@ macro_rules! kinds {
                 }
             }
 
-            /// Takes out what only motion makes, and names parts that could act at rest or on small motions about it; false: nothing stays.
+            /// Removes the parts of the effect that act only in larger motions. Calls `leave` with the name of each removed part
+            /// that could act at rest or on small motions about it. Returns false if no part remains.
             pub fn rest(&mut self, leave: &mut dyn FnMut(&'static str)) -> bool {
                 match self {
                     $(Self::$Kind(kind) => kind.rest(leave),)*
@@ -424,7 +430,7 @@ macro_rules! kinds {
     };
 }
 
-/// The Cargo feature of a gate, and whether it is on.
+/// Converts the `cfg` gate of a kind to its Cargo feature, with true if the feature is on.
 macro_rules! feature_of {
     (all()) => {
         None

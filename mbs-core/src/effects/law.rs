@@ -1,4 +1,4 @@
-//! The laws of all effects: one along a length or about an angle, one on a body.
+//! Enums of the laws of all effects: laws along a length or about an angle, and laws on one body.
 
 use super::table;
 use crate::Real;

@@ -23,11 +23,11 @@ mod law {
     use crate::laws::scalar::ScalarForce;
     use core::marker::PhantomData;
 
-    /// A law on a body that is an object, by its number.
+    /// User-defined law on a body, given by its number.
     #[derive(Debug, Clone, Copy, PartialEq, Eq)]
     pub struct CodeBodyLaw<T> {
         number: u32,
-        /// Numbers of the signals that are its input and the time.
+        /// Number of the signal that is the input, and number of the signal that is the time.
         courses: [u32; 2],
         scalar: PhantomData<T>,
     }

@@ -21,11 +21,11 @@ mod law {
     use crate::laws::scalar::{ScalarForce, TensionLaw};
     use core::marker::PhantomData;
 
-    /// A law that is an object, by its number.
+    /// User-defined law of a line or a joint, given by its number.
     #[derive(Debug, Clone, Copy, PartialEq, Eq)]
     pub struct CodeLaw<T> {
         number: u32,
-        /// Numbers of the signals that are its input and the time.
+        /// Number of the signal that is the input, and number of the signal that is the time.
         courses: [u32; 2],
         scalar: PhantomData<T>,
     }
@@ -40,9 +40,10 @@ mod law {
         }
     }
 
-    /// Ratio of a value by which it is changed to find a slope, and the least change [m, rad]: the third root of rounding.
+    /// Relative change of a value for a difference quotient, and the smallest change [m, rad]: the third root of the rounding
+    /// error.
     const CHANGE: [f64; 2] = [6e-6, 6e-9];
-    /// Change of time by which a rate is found [s]: near the third root of rounding for times of order one.
+    /// Change of time for a difference quotient [s]: near the third root of the rounding error, for times of order one.
     const INSTANT: f64 = 1e-6;
 
     impl<T: Real> CodeLaw<T> {
@@ -90,13 +91,13 @@ mod law {
             T::from_f64(self.force(&at, law_inputs).energy)
         }
 
-        /// Power that the law does not store, with the change of its energy by time alone [W]; by central differences.
+        /// Power that the law does not store [W], with the change of its energy by time alone. It uses central differences.
         #[inline(never)]
         fn power(&self, measure: &ScalarForce<T>, law_inputs: &LawInputs<'_, T>) -> T {
             let ScalarForce { value, rate, tension, .. } = *measure;
             let at = self.measured([value, T::ZERO], law_inputs);
             let energy = |at| self.force(&at, law_inputs).energy;
-            // Where there is no energy on one side nothing is taken as stored.
+            // If the energy is not finite on one side, its slope counts as zero.
             let slope = |more: Measured, less: Measured, by: f64| {
                 Some((energy(more) - energy(less)) / by).filter(|x| x.is_finite()).unwrap_or(0.0)
             };
@@ -104,7 +105,7 @@ mod law {
             let [more, less] = [at.value + change, at.value - change];
             let [from, to] = [less, more].map(|value| Measured { value, ..at });
             let elastic = slope(to, from, more - less);
-            // The clock begins at zero.
+            // The time of a run begins at zero.
             let [late, early] = [at.time + INSTANT, (at.time - INSTANT).max(at.time.min(0.0))];
             let [from, to] = [early, late].map(|time| Measured { time, ..at });
             let given = slope(to, from, late - early);

@@ -5,7 +5,7 @@
 //! left out: stiffness m/tau^2, damping 2 m/tau     m: the mass that the coordinate moves alone, tau: 20 ms
 //! ```
 //!
-//! Spring and damper are then critically damped: what runs into a stop with rate v enters it by v tau/e.
+//! Spring and damper of a stop are critically damped. A mass with rate v at the stop compresses it by v tau/e.
 
 use crate::Real;
 use crate::laws::LawInputs;
@@ -14,7 +14,7 @@ use crate::laws::entry::entry;
 use crate::laws::operations::Operations;
 use crate::laws::scalar::{ScalarForce, TensionLaw};
 
-/// A range with stops.
+/// Law of a range with a stop at each end.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LimitLaw<T> {
     /// Lower end [rad or m].
@@ -94,7 +94,8 @@ mod data {
     use super::LimitLaw;
     use crate::effects::data::*;
 
-    /// Time in which a stop takes up a motion [s]: some steps of 1 to 5 ms, and short beside the motions of machines.
+    /// Time in which a stop brings a motion to rest [s]. It contains some steps of 1 to 5 ms, and is short compared with motions of
+    /// machines.
     const STOPPING_TIME: f64 = 0.02;
 
     effect! {
@@ -118,7 +119,8 @@ mod data {
     }
 
     impl<T: Real> Limit<T> {
-        /// Returns the coordinates of the stops, lower and upper [rad or m]. `None`: they are those of a joint's range, and the joint has none.
+        /// Returns the coordinates of the stops, lower and upper [rad or m]. `None` if they are the ends of the joint's range, and
+        /// the joint has no range.
         #[must_use]
         pub fn ends(&self, joints: &[Joint<T>]) -> Option<[T; 2]> {
             if !self.range {
@@ -128,7 +130,7 @@ mod data {
         }
     }
 
-    /// The lower end is below the upper one.
+    /// Checks that the lower end is below the upper end.
     pub(in crate::effects) fn check_range<T: Real>(
         [lower, upper]: [T; 2],
         place: Place,
@@ -160,13 +162,13 @@ mod data {
         fn drawn_as(&self) -> EffectPicture<T> {
             EffectPicture::Nothing
         }
-        /// The upper end, where the joint turns.
+        /// Hint for the upper end, which is an angle if the joint rotates.
         fn unit_hints(&self, joints: &[Joint<T>]) -> Vec<UnitHint<T>> {
             let (key, of) = (if self.range { "range" } else { "upper" }, Some(self.joint));
             let upper = self.ends(joints).map(|[_, value]| UnitHint::Angle { key, value, of });
             upper.into_iter().collect()
         }
-        /// A spring and a damper that take a motion up in their time, critically damped.
+        /// Stiffness or damping with which the stop brings a motion to rest in `STOPPING_TIME`, critically damped.
         fn open(&self, key: &str, mass: f64) -> Option<f64> {
             match key {
                 "stiffness" => Some(mass / (STOPPING_TIME * STOPPING_TIME)),

@@ -10,14 +10,14 @@ use crate::laws::operations::Operations;
 use crate::laws::scalar::{ScalarForce, TensionLaw};
 use crate::laws::{LawInputs, bumper};
 
-/// Pulls where the value has risen above `free`, never pushes: see [`contact`](crate::laws::bumper).
+/// Law of a spring that pulls when the value is above `free`, and never pushes: see [`contact`](crate::laws::bumper).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PullLaw<T> {
     /// Stiffness [N/m, N m/rad].
     pub stiffness: T,
     /// Damping [N s/m, N m s/rad].
     pub damping: T,
-    /// Value above which it pulls [m, rad].
+    /// Value above which the spring pulls [m, rad].
     pub free: T,
 }
 
@@ -93,7 +93,8 @@ mod data {
         }
     }
 
-    /// The law of a stiffness, a damping and what is free, slack below that or pushing there; none where its feature is off.
+    /// Law with this stiffness, damping and free value. With `pulls_only` it is slack below the free value. `None` if its Cargo
+    /// feature is off.
     pub(in crate::effects) fn law_of<T: Real>(
         [stiffness, damping, free]: [T; 3],
         pulls_only: bool,

@@ -1,11 +1,12 @@
-//! The kinds of effect, a file each: data and keys, checks, where it acts, and its law with tangent, numbers and bound.
+//! List of the kinds of effect. Each kind has a file with its data and keys, checks, actions, and its law with tangent, numbers and
+//! operation bound.
 //!
-//! The list below is all that the rest of the workspace knows of them. A line has a kind, its module, what its Cargo feature is
-//! (`all()`: every build has it), and the laws that the file brings with their numbers in tables of controllers: `tension` for one
-//! along a length or about an angle, `body` for one on a body. A law without its feature is in no build; an effect
-//! without it is refused by name when a model is built.
+//! The rest of the workspace knows the kinds only by the list below. A line has a kind, its module, the gate of its Cargo
+//! feature (`all()`: every build has it), and the laws of the file. `tension` is a law along a length or about an angle, and `body`
+//! is a law on one body. Each law has its number in the tables of controllers. A law whose feature is off is not compiled. An
+//! effect whose feature is off is refused when a model is built.
 
-/// Hands the list of effects to a macro of `table`.
+/// Passes the list of effects to a macro of `table`.
 macro_rules! list {
     ($then:ident) => {
         crate::effects::table::$then! {

@@ -1,5 +1,5 @@
-//! The kinds of effect, a file each: data and keys, checks, where it acts, and its law with tangent, numbers and bound. `list` has them
-//! all.
+//! Kinds of effect, one file each: data and keys, checks, actions, and the law with tangent, numbers and operation bound. The
+//! module `list` lists all kinds.
 
 #[cfg(feature = "alloc")]
 pub(crate) mod action;

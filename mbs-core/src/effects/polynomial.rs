@@ -8,12 +8,12 @@ use crate::laws::polynomial::{energy, kinks, value};
 use crate::laws::scalar::{ScalarForce, TensionLaw};
 use crate::laws::{LawInputs, Part};
 
-/// A piecewise polynomial of the value or of the rate.
+/// Law of a piecewise polynomial of the value or of the rate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct PolynomialLaw {
     /// Pieces of the polynomial.
     pub pieces: Part,
-    /// Is it a polynomial of the rate, a damper?
+    /// True if the polynomial is one of the rate, as in a damper.
     pub of_rate: bool,
 }
 
@@ -100,7 +100,7 @@ mod data {
         }
     }
 
-    /// Pieces in increasing order, without gaps, each with coefficients.
+    /// Checks that the pieces are in increasing order and without gaps, and that each has coefficients.
     pub(in crate::effects) fn check_pieces<T: Real>(
         pieces: &[PolynomialPiece<T>],
         place: Place,
@@ -129,7 +129,7 @@ mod data {
         Ok(())
     }
 
-    /// The law of these pieces, which are added to the tables.
+    /// Adds these pieces to the tables, and returns their law.
     pub(in crate::effects) fn law_of<T: Real>(
         pieces: &[PolynomialPiece<T>],
         of_rate: bool,
@@ -149,11 +149,11 @@ mod data {
         fn name(&self) -> &'static str {
             if self.of_rate { DAMPER } else { SPRING }
         }
-        /// At least one piece; each has coefficients, a range, and begins where the one before ends. Small jumps of the value between
-        /// pieces are as published data have them: they pass.
+        /// Checks that there is at least one piece. Each piece must have coefficients and a range, and begin at the end of the
+        /// piece before. Small jumps of the value between pieces are allowed, because published data have them.
         fn check(&self, _: Surroundings<'_, T>, place: Place) -> Result<(), SceneError> {
             match self.direction {
-                // a distance along a line may be zero
+                // The distance along a direction may be zero, so that the points may coincide.
                 Some(direction) => place.axis("direction", direction)?,
                 None => place.apart("points", self.points)?,
             }

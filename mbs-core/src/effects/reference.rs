@@ -1,10 +1,10 @@
-//! Checks of what an entry refers to: its bodies and its joint.
+//! Checks of the bodies and joints to which an entry refers.
 
 use super::JointNeed;
 use crate::scene::place::Place;
 use crate::scene::{BodyId, Joint, JointId, SceneError, SceneFault, Surroundings};
 
-/// The entry's two bodies exist and differ.
+/// Checks that the two bodies of an entry exist and differ.
 pub(crate) fn check_pair<T>(
     among: Surroundings<'_, T>,
     bodies: [BodyId; 2],
@@ -33,7 +33,7 @@ pub(crate) fn known_body<T>(
     Err(SceneError { entry: place.entry, field: "body", fault })
 }
 
-/// The joint that an entry is of.
+/// Returns the joint to which an entry refers.
 fn joint<'a, T>(
     among: &Surroundings<'a, T>,
     joint: JointId,
@@ -49,7 +49,8 @@ fn joint<'a, T>(
     }
 }
 
-/// The joint has the coordinate that is given, or else one alone that the need means.
+/// Checks that the joint has the given coordinate. If no coordinate is given, exactly one must satisfy the requirement of the
+/// entry.
 pub(crate) fn check_coordinate<T>(
     among: Surroundings<'_, T>,
     joint: JointId,

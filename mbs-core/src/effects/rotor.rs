@@ -1,10 +1,10 @@
-//! Inertia of a rotor that turns with a coordinate of a joint, by a ratio: that of a motor behind a gear.
+//! Inertia of a rotor whose angle is a ratio times a joint coordinate, such as that of a motor behind a gear.
 //!
 //! ```text
 //! E = inertia (ratio q')^2 / 2          nothing else: no moment on the housing but that about the joint's axis
 //! ```
 //!
-//! It is an inertia and no force: models take it from [`RotorInput`](crate::mechanism::RotorInput).
+//! A rotor is an inertia and exerts no force. Models read it from [`RotorInput`](crate::mechanism::RotorInput).
 
 #[cfg(feature = "alloc")]
 pub use data::Rotor;
@@ -28,7 +28,7 @@ mod data {
     }
 
     impl<T: Real> Rotor<T> {
-        /// Inertia that the rotor adds to that of its coordinate [kg m^2, of a slide kg].
+        /// Inertia that the rotor adds to its joint coordinate [kg m^2; for a slide kg].
         fn at_joint(&self) -> T {
             self.inertia * self.ratio * self.ratio
         }

@@ -1,11 +1,11 @@
-//! A drive that holds a speed: proportional, with a largest force.
+//! Drive that holds a speed: proportional control with a limited force.
 //!
 //! ```text
 //! F = L s(g (v0 - v) / L),   s(x) = x / sqrt(1 + x^2)
 //! ```
 //!
-//! The saturation is smooth, so that the force has a derivative everywhere; below a third of the limit it is the gain to
-//! within 5 %.
+//! F is the force, g the gain, v0 the speed to hold, v the speed and L the largest force. The saturation s is smooth, so that the
+//! force has a derivative everywhere. Below a third of the limit, the force differs from g (v0 - v) by at most 5 %.
 
 use crate::Real;
 use crate::algebra::Vector;
@@ -20,7 +20,7 @@ use crate::laws::scalar::ScalarForce;
 pub struct SpeedHoldLaw<T> {
     /// Speed to hold [m/s].
     pub speed: T,
-    /// Force per speed [N s/m].
+    /// Gain: force per difference of speed [N s/m].
     pub gain: T,
     /// Largest force [N].
     pub limit: T,
@@ -29,7 +29,7 @@ pub struct SpeedHoldLaw<T> {
 entry!(SpeedHoldLaw<T> { speed, gain, limit });
 
 impl<T: Real> SpeedHoldLaw<T> {
-    /// Force along the direction at a speed, and its negative derivative by the speed.
+    /// Force along the direction at a speed, and minus its derivative by the speed.
     #[inline]
     pub fn force(&self, speed: T) -> (T, T) {
         let x = self.gain * (self.speed - speed) / self.limit;
@@ -39,7 +39,7 @@ impl<T: Real> SpeedHoldLaw<T> {
 }
 
 impl<T: Real> WrenchesLaw<T> for SpeedHoldLaw<T> {
-    /// The force on a body along the law's direction.
+    /// Writes the force on a body along the law's direction.
     fn evaluate(&self, motion: &BodyMotion<T>, _: &LawInputs<'_, T>, out: &mut [UnitWrench<T>]) {
         let axis = Vector::<T, 3>::from(motion.axis);
         let rate = axis.dot(&Vector::from(motion.velocity));

@@ -10,7 +10,7 @@ use crate::laws::entry::entry;
 use crate::laws::operations::Operations;
 use crate::laws::scalar::{ScalarForce, TensionLaw};
 
-/// stiffness (m - free) + damping m'.
+/// Law of a spring and damper: stiffness (m - free) + damping m'.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SpringDamperLaw<T> {
     /// Stiffness [N/m, N m/rad].

@@ -1,4 +1,4 @@
-//! A wheel on the scene's road. Its law is long: [`tire`](crate::laws::tire).
+//! Wheel on the scene's road. The law is in its own file, because it is long: [`tire`](crate::laws::tire).
 
 pub use crate::laws::tire::TireLaw;
 
@@ -47,7 +47,8 @@ mod data {
         const IS_ONE_SIDED: bool = true;
         const NEEDS_ROAD: bool = true;
 
-        /// An axis where side force or rolling resistance asks for one; nothing across in the plane.
+        /// Checks that an axis is given if side force, rolling resistance or slip needs it. In the plane it refuses an axis and a
+        /// side force.
         fn check(&self, among: Surroundings<'_, T>, place: Place) -> Result<(), SceneError> {
             let side = self.side.as_ref();
             self.check_spin(among, place)?;
@@ -105,7 +106,7 @@ mod data {
         fn dissipates(&self) -> bool {
             !self.damping.is_zero()
         }
-        /// Takes out the forces of rolling: side force, rolling resistance and force by slip.
+        /// Removes the forces of rolling: side force, rolling resistance and slip force.
         fn rest(&mut self, leave: &mut dyn FnMut(&'static str)) -> bool {
             if self.side.take().is_some() {
                 leave("side force");
@@ -122,13 +123,14 @@ mod data {
     }
 
     impl<T: Real> Tire<T> {
-        /// The tire as a wheel.
+        /// Returns the wheel of the tire.
         const fn as_wheel(&self) -> RoadWheel<T> {
             let &Self { body, center, axis, radius, spin, .. } = self;
             RoadWheel { body, center, axis, radius, spin }
         }
 
-        /// The joint about which the wheel turns, and the body that turns there: not the one that carries it, unless that is fixed.
+        /// Joint about which the wheel rotates, and the rotating body. This is the joint's other body, or the carrier if the other
+        /// body is the ground.
         fn wheel<'a>(&self, among: Surroundings<'a, T>) -> Option<(&'a Joint<T>, BodyId)> {
             let joint = among.joints.get(self.spin?.index())?;
             let other = match joint.bodies {
@@ -139,7 +141,7 @@ mod data {
             Some((joint, if other == BodyId::Ground { self.body } else { other }))
         }
 
-        /// The wheel's axis, where it is left out that of its joint.
+        /// Axis of the wheel. If it is left out, the axis of the wheel's joint.
         fn wheel_axis(&self, among: Surroundings<'_, T>) -> Option<[T; 3]> {
             if self.axis.is_some() || among.dimension.count() == 2 {
                 return self.axis;
@@ -147,7 +149,7 @@ mod data {
             self.wheel(among).map(|(joint, _)| joint.direction(Axis::First).into())
         }
 
-        /// A joint of the carrier about the wheel's own axis, and slip that asks for it.
+        /// Checks the slip, and that `spin` is a joint of the carrier about the wheel's axis. A wheel with `spin` must have slip.
         fn check_spin(&self, among: Surroundings<'_, T>, place: Place) -> Result<(), SceneError> {
             if let Some(slip) = self.longitudinal {
                 place.positive("longitudinal", slip.stiffness)?;
@@ -173,7 +175,7 @@ mod data {
         }
     }
 
-    /// The formulas divide by A0, A2, A4 and the coefficient of friction.
+    /// Checks the coefficients of the side force. The formulas divide by A0, A2, A4 and the coefficient of friction.
     fn calspan<T: Real>(c: &CalspanCoefficients<T>, place: Place) -> Result<(), SceneError> {
         let rest = [c.omega, c.skid];
         for x in c.a.iter().chain(&c.b).chain(&c.trail).chain(&rest) {

@@ -1,4 +1,4 @@
-//! A law of a user's own: see [`own`](crate::laws::user).
+//! User-defined law as a plain function: see [`user`](crate::laws::user).
 
 use crate::Real;
 use crate::algebra::Vector;
@@ -9,25 +9,25 @@ use crate::laws::operations::Operations;
 use crate::laws::scalar::{ScalarForce, TensionLaw};
 use crate::laws::user::{UserBodyLaw, UserScalarLaw};
 
-/// A user's own law of a value and its rate.
+/// User-defined law of a value and its rate, with its input.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct UserScalarEntry<T> {
     /// User's law of a value and its rate.
     pub law: UserScalarLaw<T>,
-    /// Number of the signal that is its input.
+    /// Number of the signal that is the law's input.
     pub course: u32,
 }
 
-/// A user's own law on a body.
+/// User-defined law on a body, with its input.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct UserBodyEntry<T> {
     /// User's law on a body.
     pub law: UserBodyLaw<T>,
-    /// Number of the signal that is its input.
+    /// Number of the signal that is the law's input.
     pub course: u32,
 }
 
-/// Code is not made of numbers.
+/// Implements `Entry` for a law in code, which cannot be written as numbers.
 macro_rules! code {
     ($Law:ident) => {
         impl<T> Entry<T> for $Law<T> {
@@ -71,7 +71,7 @@ impl<T: Real> TensionLaw<T> for UserScalarEntry<T> {
 }
 
 impl<T: Real> WrenchesLaw<T> for UserBodyEntry<T> {
-    /// The law at a motion, with the rate of its wrench.
+    /// Writes the law's wrench for a motion, with the rate of the wrench.
     fn evaluate(
         &self,
         motion: &BodyMotion<T>,
@@ -101,16 +101,16 @@ mod data {
     use crate::effects::{EffectData, Field, SignalForm, Value};
     use crate::scene::UserLaw;
 
-    /// A law of a user's own, in code only.
+    /// User-defined law as an effect, only in scenes built in code.
     #[derive(Debug, Clone, PartialEq)]
     pub struct Own<T> {
-        /// The law and where it acts.
+        /// Law, with the place at which it acts.
         pub law: UserLaw<T>,
         /// Input of the law.
         pub course: Signal<T>,
     }
 
-    /// A law of a user's own is code: no scene file has it, and it has no values.
+    /// Data of a user-defined law. The law is code, so that no scene file contains it and it has no values.
     impl<T> EffectData<T> for Own<T> {
         const NAMES: &'static [&'static str] = &[];
         const FIELDS: &'static [Field] = &[];
@@ -164,7 +164,7 @@ mod data {
                 }
             }
         }
-        /// Nothing: its places are no values.
+        /// Returns no picture, because the places of the law are no values.
         fn drawn_as(&self) -> EffectPicture<T> {
             EffectPicture::Nothing
         }

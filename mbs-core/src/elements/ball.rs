@@ -18,7 +18,7 @@ use crate::algebra::{Vector, cross, lowered, norm, raised};
 /// Direction in each of the two bodies.
 type Pair<T, const D: usize> = [Vector<T, D>; 2];
 
-/// Values C and S of a swing, and the direction about which it grows; zero at swing zero.
+/// Values C and S of a swing, and the direction about which the swing grows. At swing zero the direction is the zero vector.
 fn swing_parts<T: Real, const D: usize>([a, b]: &Pair<T, D>) -> ([T; 2], Vector<T, 3>) {
     let across = cross(&raised(a), &raised(b));
     let s = norm(&across);
@@ -63,8 +63,8 @@ pub(crate) fn swing_rates<T: Real, const D: usize>(
     rates([c, s], [c_t, s_t], [T::TWO * a_t.dot(b_t), s_b])
 }
 
-/// Values C and S of a twist. They are linear in each pair of directions: with the rates of a pair in its place, the result is
-/// their rate.
+/// Values C and S of a twist. They are linear in each pair of directions. If the rates of a pair replace the pair, the result is
+/// the part of the rates C' and S' that this pair causes.
 pub(crate) fn twist_parts<T: Real, const D: usize>(
     [e1, e2]: &Pair<T, D>,
     [f1, f2]: &Pair<T, D>,

@@ -41,7 +41,7 @@ impl Span {
     pub fn len(self) -> usize {
         (self.end - self.start) as usize
     }
-    /// Is the span empty?
+    /// True if the span has no terms.
     #[must_use]
     pub fn is_empty(self) -> bool {
         self.start == self.end
@@ -63,7 +63,8 @@ pub fn combine<T: Real, const D: usize>(terms: &[Term<T>], e: &[T]) -> Vector<T,
     x
 }
 
-/// Adds A^T y to a Jacobian row: the gradient of x.y with respect to the entities of x.
+/// Adds A^T y to a Jacobian row, where A is the matrix of the combination x. This is the gradient of x.y with respect to the
+/// entities of x.
 #[inline(always)]
 pub(crate) fn add_gradient<T: Real, const D: usize>(
     row: &mut [T],

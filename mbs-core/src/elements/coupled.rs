@@ -297,7 +297,7 @@ pub fn value<T: Real, const D: usize>(
     base + change
 }
 
-/// Remembered angle and the difference of the angle from it. For other measures zero and the value.
+/// Remembered angle, and the difference of the current angle from it. For a measure that is no angle: zero and the value.
 pub(super) fn base_and_change<T: Real, const D: usize>(
     of: &Measurand<T>,
     at: impl Fn(Span) -> Vector<T, D>,
@@ -319,7 +319,8 @@ pub(super) fn base_and_change<T: Real, const D: usize>(
     }
 }
 
-/// The last angle, and the difference of the angle with cosine `c` and sine `s` from it. A common factor of both is allowed.
+/// Returns the last angle, and the difference of the new angle from it. `c` and `s` are cosine and sine of the new angle, times a
+/// common factor.
 fn from_last<T: Real>(last: T, [c, s]: [T; 2]) -> [T; 2] {
     let (sin, cos) = last.sin_cos();
     [last, (s * cos - c * sin).atan2(c * cos + s * sin)]
@@ -328,14 +329,14 @@ fn from_last<T: Real>(last: T, [c, s]: [T; 2]) -> [T; 2] {
 /// Least 1 + cos(swing) for which the twist is defined [-]: 1e-3 rad from half a turn. Closer to it the twist is a rounding error.
 const OPEN: f64 = 5e-7;
 
-/// Is the twist of a ball joint undefined? `one_and_cosine` is 1 + cos of its swing.
+/// True if the twist of a ball joint is undefined. `one_and_cosine` is 1 + cos of its swing.
 #[must_use]
 pub fn is_open<T: Real>(one_and_cosine: T) -> bool {
     !(one_and_cosine > T::from_f64(OPEN))
 }
 
 impl<T: Real> Measurand<T> {
-    /// Is the measure a twist that is undefined?
+    /// True if the measure is a twist that is undefined.
     pub fn is_open<const D: usize>(&self, at: impl Fn(Span) -> Vector<T, D>) -> bool {
         match *self {
             Self::Twist { first, second, .. } => {
@@ -381,14 +382,14 @@ const NO_LENGTH: f64 = 1e-18;
 /// Closest distance of two points in a step, relative to their relative path [-]. Below it the step does not resolve how they pass.
 const MEETING: f64 = 1e-2;
 
-/// Does a part of a line lose its length in a step? Either its length is zero at an end of the step, or its ends meet on the way,
-/// which reverses its direction.
+/// True if a part of a line loses its length in a step. Either its length is zero at an end of the step, or its ends meet during
+/// the step, so that its direction reverses.
 ///
 /// ```text
 /// d: vector before the step, e: after it, d': its rate:   d.e < 0,   d.d' < 0,   |d x e| <= c |d - e|^2
 /// ```
 ///
-/// `dots` are the products d.d, d.e, e.e and d.d'. Cost: ten operations.
+/// The array `dots` contains the products d.d, d.e, e.e and d.d'; c is `MEETING`. Cost: ten operations.
 pub fn has_collapsed<T: Real>(dots: [T; 4]) -> bool {
     let [dd, de, ee, shortening] = dots;
     if dd.min(ee) <= T::from_f64(NO_LENGTH) * dd.max(ee) {

@@ -115,7 +115,8 @@ pub struct Guided {
 }
 
 impl Guided {
-    /// Passes pairs of directions and their factors to `take`, from which the curvature of phi at the current guide values follows.
+    /// Passes pairs of directions with their factors to `take`. The second derivatives of phi at the current guide values follow
+    /// from them.
     #[cfg(feature = "alloc")]
     pub(crate) fn each_pair<T: Real>(
         &self,
@@ -245,8 +246,8 @@ impl Guided {
         }
     }
 
-    /// Cosine of the deviation from the guide, B.y, which is one on the path. For a rotation z_i.y_i + z_j.y_j, which is two on the
-    /// path. At half a turn it is negative in one of the rows.
+    /// Cosine of the deviation from the guide, B.y. It is one if the deviation is zero. For a rotation it is z_i.y_i + z_j.y_j,
+    /// which is two if the deviation is zero. At a deviation of half a turn it is negative in one of the rows.
     fn cosine<T: Real, const D: usize>(&self, pool: &[Term<T>], q: &[T], guides: &[[T; 3]]) -> T {
         match self.motion {
             GuidedMotion::Slide { .. } => T::ONE,
@@ -264,7 +265,7 @@ impl Guided {
         }
     }
 
-    /// Is the angle at the false root, half a turn from the guide?
+    /// True if the angle is at the false root, half a turn from the guide.
     pub fn is_opposite<T: Real, const D: usize>(
         &self,
         pool: &[Term<T>],

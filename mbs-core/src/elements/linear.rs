@@ -11,7 +11,7 @@ use crate::algebra::Vector;
 /// Element with D rows of linear dependence.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Linear {
-    /// Combination that the rows constrain to zero; constants are entities of it.
+    /// Combination that the rows constrain to zero. Constant parts are also entities of the combination.
     pub x: Span,
     /// First of the D row numbers.
     pub row: u32,

@@ -5,7 +5,8 @@
 //! grad = sum_k phi_k grad a_k                  bias = sum_k phi_k bias(a_k) + a'^T H a' - s''
 //! ```
 //!
-//! The row has the form of a [coupling](super::coupled) row: measures, their gradients and biases are the same.
+//! Here a_k is term k, phi_k is the derivative of phi by it, and H is the matrix of second derivatives. The row has the form of a
+//! [coupling](super::coupled) row: measures, their gradients and biases are the same.
 
 use super::combination::combine;
 use super::coupled::{

@@ -23,7 +23,7 @@ use crate::measure::{Moving, lies_flat, lowest_point};
 pub struct RollingRows<T: Real> {
     /// Radius of a disc or ball [m].
     pub radius: T,
-    /// Is the element a blade?
+    /// True if the element is a blade.
     pub is_blade: bool,
     /// Frame of the rolling body: its centre, or the point of a blade, and its directions along the global axes of the reference
     /// configuration.
@@ -42,7 +42,7 @@ pub struct RollingRows<T: Real> {
     pub place: Span,
 }
 
-/// A point and the directions of a body.
+/// Point and directions that are fixed in a body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct RollingFrame {
     /// Point of the frame.
@@ -72,7 +72,7 @@ impl<T: Real> Placed<T> {
         self.axes.map(|[e, e_t]| [e.dot(&x[0]), e_t.dot(&x[0]) + e.dot(&x[1])])
     }
 
-    /// Velocity of the point with these components, fixed in the frame.
+    /// Velocity of a point that is fixed in the frame, given by its components x_i along the directions e_i.
     fn velocity(&self, x: &[[T; 2]; 3]) -> Vector<T, 3> {
         let parts = self.axes.iter().zip(x);
         parts.fold(self.point[1], |sum, ([_, e_t], [x, _])| sum + e_t * *x)
@@ -92,7 +92,8 @@ struct Instant<T: Real> {
     normal: Moving<T>,
     /// Vector from the point of the plane to the lowest point.
     gap: Moving<T>,
-    /// Components of the lowest point in the body, from its centre, and in the plane, from its point.
+    /// Components of the lowest point, each with its rate. First: from the centre of the body, along the body's directions. Second:
+    /// from the point of the plane, along the directions of the plane's body.
     parts: [[[T; 2]; 3]; 2],
 }
 
@@ -122,7 +123,7 @@ impl<T: Real> RollingRows<T> {
         Instant { body, on, normal, gap, parts }
     }
 
-    /// Direction along which a velocity or height row measures; row 0 is the first.
+    /// Direction u of a row, which constrains the velocity u.s. Row 0 is the first row.
     fn direction(&self, row: usize, now: &Instant<T>) -> Moving<T> {
         if self.is_blade {
             let ([n, n_t], [d, d_t]) = (now.normal, now.body.turned(&self.axis));
@@ -184,7 +185,7 @@ impl<T: Real> RollingRows<T> {
         }
     }
 
-    /// Is the disc flat on the plane at `q`, or the blade along its normal?
+    /// True if the disc is flat on the plane at `q`, or the blade is along the normal of the plane.
     pub fn is_flat<const D: usize>(&self, pool: &[Term<T>], q: &[T]) -> bool {
         let now = self.instant::<D>(|x| [value::<T, D>(pool, x, q), Vector::zeros()]);
         lies_flat(&now.normal[0], &now.body.turned(&self.axis)[0])

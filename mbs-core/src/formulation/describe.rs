@@ -7,7 +7,8 @@ use crate::natural::NaturalModel;
 
 /// Description of a formulation: sizes, and owners of its unknowns and rows. The defaults are those of natural coordinates.
 pub trait Describe<T: Real, const D: usize> {
-    /// Numbers of coordinates, constraints and their rank at the start; `None` for formulations in natural coordinates.
+    /// Number of coordinates, number of constraints, and rank of the constraints at the start. `None` for formulations in natural
+    /// coordinates.
     fn sizes(&self) -> Option<[usize; 3]> {
         None
     }
@@ -37,7 +38,7 @@ pub trait Describe<T: Real, const D: usize> {
         model.owner_of_row(row)
     }
 
-    /// User-defined laws that the formulation uses, which note failures.
+    /// User-defined laws that the formulation uses. They record which law failed.
     fn codes<'a>(&'a self, model: &'a NaturalModel<T, D>) -> &'a Codes {
         model.codes()
     }

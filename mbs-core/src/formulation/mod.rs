@@ -111,7 +111,7 @@ pub trait Formulation<T: Real, const D: usize>:
     /// Limits an integrator with internal step control to `n` trial steps within one step.
     fn set_max_steps(&mut self, _n: u32) {}
 
-    /// Can this formulation use the state of another one, whose model may have other effects?
+    /// Checks that this formulation can use the state of another formulation, whose model may have other effects.
     ///
     /// # Errors
     /// [`SwitchError`] with the reason why not.

@@ -1,5 +1,6 @@
-//! Coordinates, velocities and accelerations at the end of a step: their prediction and their corrections. `unit` is a' of the rule, x and
-//! y are factors of the correction in position and velocity.
+//! Coordinates, velocities and accelerations at the end of a step: their prediction and their corrections. `unit` is the factor a' of the
+//! integration rule, d a correction; x and y are factors of the correction in position and velocity. The index p denotes the prediction, n
+//! the beginning of the step.
 //!
 //! ```text
 //! dq = dq_p,      v = v_p,      a = unit a_p
@@ -59,7 +60,7 @@ impl<T: Real> StepEnd<T> {
         }
     }
 
-    /// Applies the correction -`f`: dq -= x f, v -= y f, a -= f. Cost: n.
+    /// Applies the correction -`f`: dq -= x f, v -= y f, a -= f. Cost: proportional to the number of unknowns.
     #[inline]
     pub fn correct<M: Model<T>>(&mut self, model: &M, (x, y): (T, T), f: &[T]) {
         let n = self.n;

@@ -1,7 +1,7 @@
 //! Frame of an implicit step in natural coordinates: the checks, inputs and reports around the equations of a formulation.
 //!
 //! ```text
-//! checked,  inputs,  rule;   predict, iterate, project: the formulation;   rotations, lines,  state,  report
+//! check options, take inputs, rule  ->  formulation: predict, iterate, project  ->  check rotations and lines, update state, report
 //! ```
 
 use super::{InputResponse, StepEnd, check_lines, check_rotations, take_inputs};

@@ -7,15 +7,16 @@
 //!
 //! da and dl are changes of accelerations and multipliers, u the new inputs, u_n the old ones, W the work and V the potential energy. A
 //! rule computes the force at the beginning of a step from the accelerations there. With the changed accelerations an input acts in the
-//! whole next step. A jump of a signal is treated alike: u is then the signal just after the jump, u_n just before. A change of the energy
-//! stored in laws counts as work. Each formulation solves for da and dl with its own matrix.
+//! whole next step. A jump of a signal is treated in the same way: u is then the signal just after the jump, u_n just before. A change of
+//! the energy stored in laws counts as work. Each formulation solves for da and dl with its own matrix.
 
 use crate::Real;
 use crate::model::{Model, State, Terms};
 use crate::step::{StepError, largest_or_nan};
 use crate::team::norm_inf;
 
-/// Largest number of sweeps for a response [-]. The first leaves a relative error of 1e-6 or less; one or two more reach machine precision.
+/// Largest number of sweeps for a response [-]. The first sweep leaves a relative error of 1e-6 or less. One or two further sweeps reach
+/// machine precision.
 const MAX_SWEEPS: u32 = 12;
 
 /// Scratch memory of a formulation that computes the response of a state to a change of loads.
@@ -36,8 +37,8 @@ pub trait InputResponse<T: Real> {
     ) -> Result<(), StepError>;
 }
 
-/// Recomputes accelerations, multipliers and power if an input has changed since the last step. Returns whether one has. Every step calls
-/// this first. A caller that saves the state to undo a step calls it before saving.
+/// Recomputes accelerations, multipliers and power if an input has changed since the last step. Returns true if an input has changed. Every
+/// step calls this first. A caller that saves the state to undo a step calls it before saving.
 ///
 /// Cost: nothing without a change; no allocation.
 ///
@@ -74,7 +75,7 @@ pub fn pass_jump<T: Real, M: Model<T>, W: InputResponse<T>>(
     Ok(())
 }
 
-/// Do the current inputs differ from those with which the accelerations of `s` were computed?
+/// True if the current inputs differ from the inputs with which the accelerations of `s` were computed.
 #[inline]
 fn has_new_inputs<T: Real, M: Model<T>>(model: &M, s: &State<T>) -> bool {
     model.inputs().is_some_and(|inputs| inputs.differs(&s.inputs, &s.applied))

@@ -12,8 +12,8 @@ const ROUNDING: f64 = 64.0;
 /// Correction at machine precision of a state without motion [EPSILON of the coordinates]: a rounded coordinate enters a row in few
 /// products.
 const ROUNDING_AT_REST: f64 = 4.0;
-/// Number of iterations after which a slow iteration may end at machine precision or in a passage [-]. Five corrections that each shrink to
-/// a fifth gain three digits.
+/// Number of iterations after which a slow iteration may end at machine precision or near a singular position [-]. Five corrections that
+/// each shrink to a fifth gain three digits.
 const MANY: u32 = 5;
 /// Correction at which a slow iteration may end near a singular position [displacement of the step]. A combination of constraints has
 /// almost no effect there, so its multiplier cannot be improved.
@@ -56,7 +56,8 @@ impl<T: Real> Newton<T> {
     ///
     /// Machine precision refers to the increments of coordinates if these are summed (`compensated`), else to the scene's length. In
     /// equilibrium, or in uniform motion, corrections contain only rounding errors of balanced forces and of guided positions. Slow
-    /// corrections in the last digits of the coordinates are therefore accepted. So are corrections below the squared machine precision.
+    /// corrections in the last digits of the coordinates are therefore accepted. Corrections below the squared machine precision are
+    /// accepted too.
     ///
     /// # Errors
     /// [`StepError::NotFinite`].
@@ -100,8 +101,8 @@ impl<T: Real> Newton<T> {
         Ok(())
     }
 
-    /// Reason to end the iteration with the last correction, if it ends. A correction below `goal` is small; a slow one below `noise` is at
-    /// machine precision.
+    /// Reason to end the iteration with the last correction, if it ends. A correction below `goal` is small; a slow correction below
+    /// `noise` is at machine precision.
     #[inline]
     pub fn stop(&self, goal: T, noise: T) -> Option<Stop> {
         let [before, last] = self.corrections;
@@ -136,8 +137,8 @@ impl<T: Real> Newton<T> {
         (self.iterations, self.last(), stop)
     }
 
-    /// After the largest number of iterations: is the last correction small relative to the displacement of the step, though above its
-    /// tolerance?
+    /// True if, after the largest number of iterations, the last correction is small relative to the displacement of the step. It may be
+    /// above its tolerance.
     #[inline]
     pub fn is_accepted(&self) -> bool {
         self.last() <= self.scale * T::from_f64(ACCEPTED)

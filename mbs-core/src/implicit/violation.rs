@@ -16,14 +16,14 @@ const ACCEPTED: f64 = 5e-10;
 /// Accepted violation at limited precision, relative as `ACCEPTED` [EPSILON]. It allows for sums over the coordinates of a long chain of
 /// bodies.
 const ACCEPTED_ROUNDING: f64 = 1024.0;
-/// Violation of velocities at machine precision [EPSILON of the largest velocity]: some products in a row.
+/// Violation of velocities at machine precision [EPSILON of the largest velocity]: each constraint row contains a few products.
 const VELOCITY_ROUNDING: f64 = 16.0;
 /// Violation of accelerations at machine precision [EPSILON of the largest acceleration or bias]: the bias contains squares of velocities.
 const ACCELERATION_ROUNDING: f64 = 1024.0;
-/// Violation of positions at machine precision [EPSILON of the scene's length], first without, then with compensated sums. With them it is
-/// a hundredth of the last digit.
+/// Violation of positions at machine precision [EPSILON of the scene's length], first without, then with compensated sums. With compensated
+/// sums it is a hundredth of the last digit.
 const POSITION_ROUNDING: [f64; 2] = [4.0, 0.01];
-/// Accepted violation of positions if the tolerance of the step is finer [EPSILON of the scene's length].
+/// Accepted violation of positions if the tolerance of the step is smaller than this value [EPSILON of the scene's length].
 const POSITION_ACCEPTED: f64 = 256.0;
 
 /// Level of the constraints onto which a vector is projected.
@@ -57,7 +57,7 @@ impl<T: Real> ResidualLimits<T> {
         Self { goal, enough: goal, limit, size: length }
     }
 
-    /// Is `violation`, after sweeps of positions, below its limit or at most `rounding`?
+    /// Checks that `violation`, after sweeps of positions, is below its limit or at most `rounding`.
     ///
     /// # Errors
     /// [`StepError::Violated`] with the most violated row of `phi`.
@@ -70,8 +70,8 @@ impl<T: Real> ResidualLimits<T> {
 }
 
 impl ConstraintLevel {
-    /// Evaluates phi_t at q, or the bias at (q, v), and returns the limits of the violation. `length` is the scene's [m]; accelerations
-    /// must be in [m/s^2].
+    /// Evaluates phi_t at q, or the bias at (q, v), and returns the limits of the violation. `length` is the scene's length [m];
+    /// accelerations must be in [m/s^2].
     ///
     /// # Errors
     /// [`StepError::OppositeBranch`] of a guided angle, at the velocity level.
@@ -122,7 +122,7 @@ impl ConstraintLevel {
         norm_inf(model.team(), rates)
     }
 
-    /// Error of a projection that did not reach its level: `violation` is left, most of it in one of the rows of `rates`.
+    /// Error of a projection that left the violation `violation`. The error names the row with the largest of the `rates`.
     #[cold]
     pub fn violated<T: Real>(self, violation: T, rates: &[T]) -> StepError {
         let level = if self == Self::Velocity { 1 } else { 2 };

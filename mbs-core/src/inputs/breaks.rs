@@ -15,7 +15,7 @@ use alloc::vec::Vec;
 pub struct SignalTime<T> {
     /// Time of the jump or corner [s].
     pub time: T,
-    /// Does the value jump? Otherwise only the rate jumps.
+    /// True if the value jumps. Otherwise only the rate jumps.
     pub is_jump: bool,
 }
 
@@ -37,7 +37,7 @@ pub struct SignalTimes<T>(Vec<Times<T>>);
 const STRAIGHT: f64 = 1e-9;
 
 impl<T: Real> SignalTimes<T> {
-    /// Finds the times of signals, and of the tables among the force signals. Cost: one pass over them.
+    /// Finds the times of the scene's signals, and of the force signals that are tables. Cost: one pass over them.
     #[doc(hidden)]
     pub fn new<'a>(
         signals: &'a SignalGraph<T>,
@@ -51,7 +51,7 @@ impl<T: Real> SignalTimes<T> {
         Self(all.filter(|times| !times.times.is_empty()).collect())
     }
 
-    /// First time after `t` [s]; of several at the same time, a jump. Cost: a binary search for each signal with such times.
+    /// First time after `t` [s]. A jump precedes a corner at the same time. Cost: a binary search for each signal with such times.
     #[must_use]
     pub fn after(&self, t: T) -> Option<SignalTime<T>> {
         let all = self

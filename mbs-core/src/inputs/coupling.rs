@@ -42,8 +42,8 @@ impl<T: Real> CouplingInput<T> {
         slopes.fold(T::ZERO, T::max)
     }
 
-    /// Factor of a term. In a relation, times its derivative by the term in the reference configuration, unless all these
-    /// derivatives are zero.
+    /// Factor of a term. In a relation it is multiplied by the derivative of the relation by the term, in the reference
+    /// configuration. If all these derivatives are zero, the factor alone is returned.
     #[must_use]
     pub fn reference_slope(&self, term: usize) -> T {
         let factor = self.terms.get(term).map_or(T::ZERO, |term| term.factor);

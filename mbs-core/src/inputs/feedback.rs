@@ -11,7 +11,7 @@ use alloc::vec::Vec;
 pub struct Feedback<T> {
     /// Operations in the order of evaluation.
     pub steps: Vec<FeedbackStep<T>>,
-    /// Numbers that are measured.
+    /// Quantities of the motion that are measured.
     pub measured: Vec<TermInput<T>>,
     /// Start value of each state.
     pub starts: Vec<T>,
@@ -22,14 +22,14 @@ pub struct Feedback<T> {
 }
 
 impl<T: Real> Feedback<T> {
-    /// Is there no signal that depends on the motion?
+    /// True if no signal depends on the motion.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.steps.is_empty()
     }
 
-    /// Numbers of the signals in a state, each with its rate: first the signals' own states, then the signals. An evaluation sets
-    /// the rates and the signals.
+    /// Returns the numbers that a state has for the signals, each with its rate. The states of signals come first, and the signals
+    /// follow. An evaluation sets the rates and the signals.
     #[must_use]
     pub fn states(&self) -> Vec<[T; 2]> {
         let mut states: Vec<_> = self.starts.iter().map(|&start| [start, T::ZERO]).collect();
@@ -47,7 +47,7 @@ impl<T: Real> Feedback<T> {
         self.steps.push(FeedbackStep { to, operation });
     }
 
-    /// Number of a measured quantity, which is added if it is new.
+    /// Returns the number of a measured quantity. A new quantity is added.
     pub(super) fn measure(&mut self, of: TermInput<T>) -> u32 {
         let known = self.measured.iter().position(|measured| *measured == of);
         number(known.unwrap_or_else(|| {

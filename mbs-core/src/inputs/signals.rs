@@ -25,9 +25,9 @@ pub struct SignalGraph<T> {
     order: Vec<usize>,
     /// Index of each signal that is an input, and its start value.
     inputs: Vec<(usize, T)>,
-    /// Does each signal depend on the motion?
+    /// True for each signal that depends on the motion.
     follows: Vec<bool>,
-    /// Does each signal change, by itself or through its operands?
+    /// True for each signal that changes, by itself or through its operands.
     moves: Vec<bool>,
 }
 
@@ -69,7 +69,7 @@ impl<T: Real> SignalGraph<T> {
         self.nodes.len()
     }
 
-    /// Is the list of signals empty?
+    /// True if the list of signals is empty.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.nodes.is_empty()
@@ -86,7 +86,7 @@ impl<T: Real> SignalGraph<T> {
         self.nodes.iter().map(|node| (&node.kind, &node.curve))
     }
 
-    /// Is the signal constant: a constant itself, or a function of constants?
+    /// True if the signal is constant: a constant itself, or a function of constants.
     #[must_use]
     pub fn is_constant(&self, signal: SignalId) -> bool {
         !self.moves.get(signal.index()).copied().unwrap_or(false)
@@ -97,7 +97,7 @@ impl<T: Real> SignalGraph<T> {
         self.follows.iter().enumerate().filter_map(|(i, &follows)| follows.then_some(i))
     }
 
-    /// Does the signal depend on the motion, by itself or through its operands?
+    /// True if the signal depends on the motion, by itself or through its operands.
     #[must_use]
     pub fn follows_motion(&self, signal: SignalId) -> bool {
         self.follows.get(signal.index()).copied().unwrap_or(false)
@@ -144,7 +144,7 @@ fn curve<T: Real>(kind: &SignalKind<T>) -> PreparedCurve<T> {
     }
 }
 
-/// Value of a signal among the values of all; zero if there is no such signal.
+/// Value of a signal, from the list of the values of all signals. Zero if there is no such signal.
 pub(super) fn value_of<T: Real>(signal: SignalId, values: &[[T; 3]]) -> [T; 3] {
     values.get(signal.index()).copied().unwrap_or([T::ZERO; 3])
 }

@@ -204,25 +204,25 @@ impl JointKind {
         self.form().name
     }
 
-    /// Is the kind allowed in spatial scenes only?
+    /// True if the kind is allowed in spatial scenes only.
     #[must_use]
     pub const fn is_spatial_only(self) -> bool {
         self.form().planar.is_none()
     }
 
-    /// Is the kind a link between two points at a fixed distance?
+    /// True if the kind is a link between two points at a fixed distance.
     #[must_use]
     pub const fn is_link(self) -> bool {
         self.form().is_link
     }
 
-    /// Does the kind connect two bodies rigidly?
+    /// True if the kind connects two bodies rigidly.
     #[must_use]
     pub const fn is_rigid(self) -> bool {
         self.form().spatial.is_empty() && !self.is_link()
     }
 
-    /// Is the kind free of constraints?
+    /// True if the kind is free of constraints.
     #[must_use]
     pub fn is_free(self) -> bool {
         self.is_of_point() || self.n_coordinates(Dimension::Spatial) == 6
@@ -234,13 +234,13 @@ impl JointKind {
         if self.is_free() { Self::FreePoint } else { self }
     }
 
-    /// Is the second body a point mass, which has no orientation?
+    /// True if the second body is a point mass, which has no orientation.
     #[must_use]
     pub const fn is_of_point(self) -> bool {
         self.form().is_of_point
     }
 
-    /// Does the kind hold two points together and leave the rotation free?
+    /// True if the kind holds two points together and leaves the rotation free.
     #[must_use]
     pub fn is_ball(self, dimension: Dimension) -> bool {
         self.translation(dimension) == Translation::Fixed
@@ -309,7 +309,7 @@ impl JointKind {
         }
     }
 
-    /// Names of the coordinates, with their numbers.
+    /// Names of the joint coordinates, each with its index.
     pub fn coordinate_names(
         self,
         dimension: Dimension,
@@ -335,7 +335,7 @@ impl JointKind {
         given.or_else(|| self.default_coordinate(dimension))
     }
 
-    /// Number of the first turn about an axis, with the axis.
+    /// Index of the first turn about an axis, with the axis.
     #[must_use]
     pub fn turn(self, dimension: Dimension) -> Option<(usize, Axis)> {
         self.numbered(dimension).find_map(|(number, freedom)| match freedom {
@@ -344,7 +344,7 @@ impl JointKind {
         })
     }
 
-    /// Number of the first component of the rotation vector, if the kind has one.
+    /// Index of the first component of the rotation vector, if the kind has one.
     #[must_use]
     pub fn ball(self, dimension: Dimension) -> Option<usize> {
         let mut freedoms = self.numbered(dimension);
@@ -380,7 +380,7 @@ impl JointKind {
         }
     }
 
-    /// Are the first and second axis of the joint needed in a scene of that dimension?
+    /// Flags of the first and of the second axis: true if the joint needs the axis in a scene of that dimension.
     #[must_use]
     pub fn needs_axes(self, dimension: Dimension) -> [bool; 2] {
         let needs = |own| {
@@ -402,14 +402,14 @@ impl JointKind {
         }
     }
 
-    /// Is there a slide along this axis?
+    /// True if the joint slides along this axis.
     #[must_use]
     pub fn slides_along(self, axis: Axis, dimension: Dimension) -> bool {
         self.freedoms(dimension).contains(&Slide(axis))
     }
 }
 
-/// Third direction of the frame to which the two given ones belong.
+/// Third direction of the frame to which the two given directions belong.
 fn across(a: Axis, b: Axis) -> Axis {
     let frame = match a {
         First | Second | Third => [First, Second, Third],

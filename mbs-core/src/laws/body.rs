@@ -16,7 +16,8 @@ use crate::Real;
 use core::convert::Infallible;
 use core::marker::PhantomData;
 
-/// Motion of a body that a law gets, in global axes. In the plane z components of places are zero, and spin is about z.
+/// Motion of a body as a law receives it, in global axes. In the plane the z components of positions are zero, and the spin is
+/// about z.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BodyMotion<T> {
     /// Point of the body at which the law acts [m].
@@ -40,7 +41,7 @@ pub struct UnitWrench<T> {
     pub measure: ScalarForce<T>,
 }
 
-/// Writes an action to its place, if there is one.
+/// Writes an action to its place in a list. Nothing is written if the list is too short.
 #[inline(always)]
 pub(crate) fn put<T>(out: &mut [UnitWrench<T>], place: usize, action: UnitWrench<T>) {
     if let Some(to) = out.get_mut(place) {
@@ -86,7 +87,7 @@ pub trait WrenchesLaw<T: Real>: Entry<T> + Copy {
         1
     }
 
-    /// Does the law use the body's direction and spin, or give moments?
+    /// True if the law uses the body's direction and spin, or gives moments.
     fn needs_rotation(&self) -> bool {
         true
     }
@@ -116,12 +117,12 @@ pub trait WrenchesLaw<T: Real>: Entry<T> + Copy {
         0
     }
 
-    /// Does the damper of the law's contact fade in over [`FADE`](super::bumper::FADE)?
+    /// True if the damper of the law's contact fades in over [`FADE`](super::bumper::FADE).
     fn has_fade(&self) -> bool {
         false
     }
 
-    /// Gap of the law with its rate, then the position over the road and its velocity, each along the road and up.
+    /// Returns three pairs: the gap and its rate; position and velocity along the road; height and upward velocity.
     fn watch(&self, _motion: &BodyMotion<T>, _supplies: &LawInputs<'_, T>) -> [[T; 2]; 3] {
         [[T::ZERO; 2]; 3]
     }
@@ -131,7 +132,7 @@ pub trait WrenchesLaw<T: Real>: Entry<T> + Copy {
         None
     }
 
-    /// Can the law have kinks besides those of its gaps?
+    /// True if the law can have kinks besides those of its gaps.
     fn may_have_kinks(&self) -> bool {
         false
     }
@@ -144,13 +145,13 @@ pub trait WrenchesLaw<T: Real>: Entry<T> + Copy {
         T::ZERO
     }
 
-    /// Are all table entries present to which the law refers by number?
+    /// True if every signal and table entry exists to which the law refers by number.
     fn fits(&self, _supplies: &LawInputs<'_, T>, _n_courses: usize) -> bool {
         true
     }
 }
 
-/// Law that no value can have, in place of a law that is not compiled.
+/// Type without values, in place of a law that is not compiled.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NeverLaw<T>(Infallible, PhantomData<T>);
 

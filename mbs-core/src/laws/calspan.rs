@@ -38,7 +38,7 @@ pub struct Coefficients<T> {
 entry!(Coefficients<T> { a, omega, b, skid, trail });
 
 impl<T> Coefficients<T> {
-    /// Tire of the Bombardier Iltis, in numbers that are converted from doubles.
+    /// Coefficients of the tire of the Bombardier Iltis, converted from doubles by `n`.
     pub(crate) fn iltis_by(n: impl Fn(f64) -> T) -> Self {
         Self {
             a: [n(2625.0), n(14.47), n(12930.0), n(2.29), n(18175.0)],
@@ -51,7 +51,7 @@ impl<T> Coefficients<T> {
 }
 
 impl<T: Real> Coefficients<T> {
-    /// Tire of the Bombardier Iltis.
+    /// Coefficients of the tire of the Bombardier Iltis.
     #[must_use]
     pub fn iltis() -> Self {
         Self::iltis_by(T::from_f64)

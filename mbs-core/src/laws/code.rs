@@ -139,7 +139,7 @@ type Shared<L> = alloc::sync::Arc<L>;
 #[cfg(not(target_has_atomic = "ptr"))]
 type Shared<L> = &'static L;
 
-/// Law that is shared between copies. Two are equal if they share the same object.
+/// Law that copies share. Two laws are equal if they are the same object.
 pub struct Code<L: ?Sized + 'static>(Shared<L>);
 
 /// Implements the conversion of a law to a [`Code`].
@@ -185,7 +185,7 @@ impl<L: ?Sized> Deref for Code<L> {
     }
 }
 
-/// Laws of a model that are objects, by number, each with its effect or coupling. Also notes which law failed.
+/// User-defined laws of a model, by number, each with its effect or coupling. The list also records which law failed.
 #[derive(Debug)]
 pub struct Codes {
     forces: Vec<(u32, Code<dyn ForceLaw>)>,
@@ -273,7 +273,7 @@ impl Codes {
         NumberedRelation { codes: self, number }
     }
 
-    /// Evaluates a law of a line or a joint; NaN if the law fails.
+    /// Evaluates a law of a line or a joint. Returns NaN if the law fails.
     pub(crate) fn force(&self, number: u32, at: &Measured) -> Force {
         let (effect, force) = match self.forces.get(number as usize) {
             Some((effect, law)) => (*effect, law.evaluate(at)),
@@ -287,7 +287,7 @@ impl Codes {
         FAILED
     }
 
-    /// Evaluates a law on a body; `None` if the law fails.
+    /// Evaluates a law on a body. Returns `None` if the law fails.
     pub(crate) fn wrench(&self, number: u32, at: &MeasuredBody) -> Option<Wrench> {
         let (effect, law) = self.bodies.get(number as usize)?;
         let wrench = law.evaluate(at);

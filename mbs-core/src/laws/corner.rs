@@ -5,16 +5,16 @@
 //! polynomial   g = m - m_k                           m: measured value
 //! ```
 //!
-//! For the point x_k of the road, g is -D', with D half its squared distance from the centre. If D has one minimum within a wheel's
-//! reach, the nearest point is right of x_k for g > 0. The rate of the nearest point jumps where the road's curvature does, so that
-//! its coordinate is not used. The function g is linear in the centre, so that it is as smooth as the motion and can be
-//! interpolated across the kink. In hollows about as tight as the wheel, D has several minima. A kink beside the nearest point may
-//! then be found, and a step end there without need.
+//! For the point x_k of the road, g is -D', where D is half the squared distance between this point and the centre. If D has one
+//! minimum within a wheel's reach, the nearest point is right of x_k for g > 0. The coordinate of the nearest point itself is not
+//! used as g, because its rate jumps where the road's curvature jumps. The function g is linear in the centre. So g is as smooth as
+//! the motion, and can be interpolated across the kink. In a hollow about as tight as the wheel, D has several minima. A kink
+//! beside the nearest point may then be found, and a step may end there without need.
 //!
 //! A table may end with a slope, and the road then has a corner there. On a crest the nearest point stays at the corner while the
-//! centre passes between the two normals, which are two kinks. In a hollow it jumps from one side to the other where both are
-//! equally near. This is one kink, on the bisector of the angle. The road beside the corner is taken as straight, which the end of
-//! a spline is except for h'''.
+//! centre passes between the two normals of the corner. Each normal is a kink. In a hollow the nearest point jumps from one side to
+//! the other where both sides are equally near. This is one kink, on the bisector of the angle. The road beside the corner is taken
+//! as straight, which neglects the third derivative h''' of a spline.
 
 use super::{LawInputs, Part, road};
 use crate::Real;
@@ -49,7 +49,7 @@ const MAX_JUMP: f64 = 1e-6;
 
 /// Passes the kinks of a road to `take`: places where its slope or curvature jumps, feature by feature.
 ///
-/// Cost: three heights of the road for each end of a feature, once for a run.
+/// Cost: three heights of the road for each end of a feature. A run does this once.
 pub fn of_road<T: Real>(
     road: Part,
     law_inputs: &LawInputs<'_, T>,

@@ -1,4 +1,4 @@
-//! Laws as lists of numbers, by which tables of controllers are written and read.
+//! Conversion of laws to the lists of numbers in tables of controllers, and back.
 
 use super::Part;
 use crate::Real;

@@ -102,7 +102,7 @@ impl<T: Real> Feature<T> {
         }
     }
 
-    /// Upper bound of h'' between two places [1/m]; `None` if the feature is level there.
+    /// Upper bound of the second derivative h'' of the height between two places [1/m]; `None` if the feature is level there.
     pub(super) fn hollow(&self, [lower, upper]: [T; 2], knots: (&[[T; 2]], &[T])) -> Option<T> {
         let within = |start: T, length: T| start <= upper && start + length >= lower;
         match *self {
@@ -122,7 +122,8 @@ impl<T: Real> Feature<T> {
 /// Largest change of slope at the end of a table that does not count as a hollow [-].
 const LEVEL: f64 = 1e-6;
 
-/// Largest curvature at the knots of a range. If the table rises away from an end in the range, a very large number.
+/// Largest curvature of a spline at its knots in a range. If an end of the spline in the range makes a hollow corner with the level
+/// road, a very large number is returned.
 pub fn spline_hollow<T: Real>(
     table: &[[T; 2]],
     curvatures: &[T],

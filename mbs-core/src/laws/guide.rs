@@ -6,6 +6,8 @@
 //! spline  cubic through (tᵢ, gᵢ), natural or level at both ends; the end values are held outside
 //! ```
 //!
+//! A is the amplitude, f the frequency, φ the phase, r the rate, and (tᵢ, gᵢ) a row of the table.
+//!
 //! [`spline_curvatures`] or [`level_curvatures`] prepares a spline once. The caller provides the slice for the curvatures.
 
 use crate::Real;
@@ -43,7 +45,8 @@ pub fn ramp<T: Real>(rate: T, t: T) -> GuideMotion<T> {
 /// hᵢ₋₁ cᵢ₋₁ + 2 (hᵢ₋₁ + hᵢ) cᵢ + hᵢ cᵢ₊₁ = 6 ((gᵢ₊₁ − gᵢ)/hᵢ − (gᵢ − gᵢ₋₁)/hᵢ₋₁),   c₀ = cₙ = 0
 /// ```
 ///
-/// Times must increase. Cost: one tridiagonal elimination; no allocation.
+/// The time between rows i and i + 1 is hᵢ, and the second derivative at row i is cᵢ. Times must increase. Cost: one tridiagonal
+/// elimination; no allocation.
 ///
 /// # Panics
 /// If `curvature` or `scratch` is not as long as `table`.
@@ -97,7 +100,8 @@ fn begin<T: Real>(table: &[[T; 2]], curvature: &mut [T], scratch: &mut [T]) {
     scratch.fill(T::ZERO);
 }
 
-/// Eliminates the rows between the ends. Afterwards `scratch` has the upper coefficients, and `curvature` the right-hand sides.
+/// Eliminates the equations of the rows between the ends. Afterwards `scratch` has the upper coefficients, and `curvature` the
+/// right-hand sides.
 fn eliminate<T: Real>(table: &[[T; 2]], curvature: &mut [T], scratch: &mut [T]) {
     let six = T::from_f64(6.0);
     for i in 1..table.len().saturating_sub(1) {
@@ -123,7 +127,8 @@ pub fn largest_rate<T: Real>(table: &[[T; 2]], curvature: &[T]) -> T {
     })
 }
 
-/// Smooth step between two values during the time `rise` from t = 0 on, with rate and acceleration; without `rise` a jump.
+/// Returns value, rate and acceleration of a smooth step between two values. The step begins at t = 0 and takes the time `rise`. If
+/// `rise` is zero, it is a jump.
 pub fn step<T: Real>([from, to]: [T; 2], (t, rise): (T, T)) -> [T; 3] {
     if t >= rise {
         return [to, T::ZERO, T::ZERO];

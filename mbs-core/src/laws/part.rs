@@ -17,7 +17,7 @@ impl Part {
         table.get(first..first.saturating_add(self.n as usize)).unwrap_or(&[])
     }
 
-    /// Is the end of the range at most `end`?
+    /// True if the range ends at or before `end`.
     #[must_use]
     pub const fn is_within(self, end: usize) -> bool {
         (self.first as usize).saturating_add(self.n as usize) <= end

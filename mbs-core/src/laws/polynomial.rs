@@ -1,4 +1,4 @@
-//! Piecewise polynomials of a length or a rate, about the middle of each piece to avoid cancellation.
+//! Piecewise polynomials of a length or a rate. Each piece is expanded about the middle of its range to avoid cancellation.
 //!
 //! ```text
 //! p(x) = sum c_k x^k = sum d_k (x - m)^k,   m the middle of the piece
@@ -80,7 +80,7 @@ impl<T: Real> Piece<T> {
     }
 }
 
-/// Computes the energies of pieces that follow each other.
+/// Computes the energy at the middle of each piece, for a list of consecutive pieces.
 pub fn link<T: Real>(pieces: &mut [Piece<T>]) {
     let mut sum = T::ZERO;
     for piece in pieces {

@@ -136,8 +136,8 @@ const STEPS: [f64; 3] = [1e-3, 1e-5, 1e-7];
 /// Largest relative difference between a correct derivative and a difference quotient [-]. Correct ones differ by the square of the
 /// step, and a wrong formula by its own size. Chosen, not tuned.
 const AGREEMENT: f64 = 1e-3;
-/// Largest difference between a correct derivative and a difference quotient, relative to the largest derivative [-]. It matters
-/// where a derivative is zero, and its quotient only has the error of the third derivatives. Chosen, not tuned.
+/// Largest difference between a correct derivative and a difference quotient, relative to the largest derivative [-]. This limit is
+/// for derivatives that are zero. Their quotients contain only an error of the order of the third derivatives. Chosen, not tuned.
 const BESIDE_LARGEST: f64 = 1e-6;
 /// Rounding error of a value, in units of the rounding of its size [-]: a formula has a few dozen operations. Chosen, not tuned.
 const ROUNDINGS: f64 = 64.0;
@@ -199,7 +199,8 @@ fn unit(k: usize) -> [f64; MAX_ARGUMENTS] {
     core::array::from_fn(|i| if i == k { 1.0 } else { 0.0 })
 }
 
-/// Derivative along a direction by difference quotients, if none of them agrees with `given`. Returns the nearest one.
+/// Compares `given` with difference quotients along a direction. If a quotient agrees with `given`, returns `None`. Otherwise it
+/// returns the quotient nearest to `given`.
 fn differing(
     (at, along): (&[f64], &[f64]),
     given: f64,

@@ -1,4 +1,4 @@
-//! Roads: heights over x, constant across x. The heights of all features add up.
+//! Roads: heights as functions of x, equal at all y. The heights of all features add up.
 
 pub use super::feature::{Feature, Height};
 

@@ -9,11 +9,12 @@
 //! The gradient of the distance to the nearest point is the normal. So a force along the normal that depends on the distance has a
 //! potential on every road.
 //!
-//! **Result.** Newton's method solves D' = 0 within a bracket that contains a minimum of D. It starts from the point below the
-//! centre and ends in a stationary point that is at least as near. This point is the nearest if h'' d < 1 within the reach of the
-//! centre. For h'' the sum of the bounds of the road's parts is used. The circle of radius d about the centre touches the road
-//! there. It is then more curved than the road everywhere, so that the road stays below it. Scenes are refused if a feature
-//! violates h'' R < 1. So the condition covers every wheel that is pressed in, one feature at a time.
+//! **Result.** Newton's method solves D' = 0 within a bracket that contains a minimum of D. It starts from the point of the road
+//! below the centre. It ends in a stationary point that is at least as near to the centre as the start. This point is the nearest
+//! if h'' d < 1 within the reach of the centre. The proof: the circle of radius d about the centre touches the road there. It is
+//! more curved than the road everywhere, so that the road stays below it. The bound of h'' is the sum of the bounds of the road's
+//! features. Scenes are refused if a feature violates h'' R < 1 for a wheel of radius R. So the condition holds for every wheel
+//! that is pressed in, if features do not overlap.
 //!
 //! The condition fails in hollows as tight as the wheel, and for a centre far above a road. The road within the distance found so
 //! far is then divided into [`CELLS`] equal cells. Every cell whose ends show a minimum inside is searched, and the nearest minimum
@@ -40,7 +41,7 @@ pub struct RoadContact<T> {
     /// Unit normal of the road at the nearest point: along x, and up.
     pub normal: [T; 2],
     /// Second derivative h'' of the height at the nearest point [1/m]. On a sharp crest it is a large negative number, so that
-    /// [`turn`](Self::turn) is that of a point.
+    /// [`turn`](Self::turn) is 1 / distance, as for a single point.
     pub bend: T,
 }
 
@@ -61,8 +62,8 @@ pub const fn most_heights<T: Real>() -> usize {
 /// cell, an eighth of the distance wide, may be missed. Chosen, not tuned.
 pub const CELLS: u32 = 16;
 
-/// Finds the point nearest to (x, z) [m]. Cost: one height if the road is level within the centre's height above it, a few on
-/// slopes. If the point is not certainly the nearest, about forty.
+/// Finds the point of a road nearest to (x, z) [m]. Cost: one height if the road is level within the centre's height above it, and
+/// a few heights on slopes. If the point found is not certainly the nearest, about forty heights are computed.
 #[inline]
 pub fn road_contact<T: Real>(
     road: Part,
@@ -104,7 +105,7 @@ struct Search<'a, T> {
     road: Part,
     law_inputs: &'a LawInputs<'a, T>,
     center: [T; 2],
-    /// Rounding error of D' [m] and of D [m^2].
+    /// Rounding error that is allowed for D' [m] and for D [m^2].
     goal: T,
     slack: T,
 }
@@ -131,7 +132,7 @@ impl<T: Real> Search<'_, T> {
     }
 
     /// Finds a minimum of D between `near` and `far`. From `near` D falls towards `far`, and at `far` it has risen or rises again.
-    /// Steps are subtracted from `left`.
+    /// `left` is the number of steps that remain, and is reduced.
     fn settle(&self, mut near: Spot<T>, mut far: T, left: &mut usize) -> Spot<T> {
         let forward = far > near.u;
         let mut last = near;
@@ -164,8 +165,8 @@ impl<T: Real> Search<'_, T> {
         last
     }
 
-    /// Divisor of Newton's step: the second derivative D'' of half the squared distance. If it is small or negative, the value of a
-    /// straight road of the same slope.
+    /// Divisor of Newton's step: the second derivative D'' of half the squared distance. If D'' is small or negative, the D'' of a
+    /// straight road of the same slope is used.
     fn pivot(&self, height: &Height<T>) -> T {
         /// Least D'', relative to that of a straight road [-]: steps are at most ten times as long. Chosen, not tuned.
         const LEAST_PIVOT: f64 = 0.1;
@@ -174,7 +175,7 @@ impl<T: Real> Search<'_, T> {
         if full > steep * T::from_f64(LEAST_PIVOT) { full } else { steep }
     }
 
-    /// Nearest of `best` and all minima in the cells within `distance`.
+    /// Nearest point among `best` and all minima in the cells within `distance`.
     fn among(&self, mut best: Spot<T>, distance: T) -> Spot<T> {
         let width = T::TWO * distance / T::from_f64(f64::from(CELLS));
         let mut left = self.at(self.center[0] - distance);

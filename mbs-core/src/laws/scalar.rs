@@ -85,7 +85,7 @@ pub trait TensionLaw<T: Real>: Entry<T> + Copy {
         measure.damping
     }
 
-    /// Can the law act like a wall, with a force that begins at some value?
+    /// True if the law can act like a wall, with a force that begins at some value.
     fn may_push(&self) -> bool {
         false
     }
@@ -95,7 +95,7 @@ pub trait TensionLaw<T: Real>: Entry<T> + Copy {
         0
     }
 
-    /// Does the damper of the law's contact fade in over [`FADE`](super::bumper::FADE)?
+    /// True if the damper of the law's contact fades in over [`FADE`](super::bumper::FADE).
     fn has_fade(&self) -> bool {
         false
     }
@@ -105,7 +105,7 @@ pub trait TensionLaw<T: Real>: Entry<T> + Copy {
         [[T::ZERO; 2]; 2]
     }
 
-    /// Can the law have kinks besides those of its gaps?
+    /// True if the law can have kinks besides those of its gaps.
     fn may_have_kinks(&self) -> bool {
         false
     }
@@ -113,7 +113,7 @@ pub trait TensionLaw<T: Real>: Entry<T> + Copy {
     /// Passes the kinks of the law to `_take`, in any order.
     fn kinks(&self, _supplies: &LawInputs<'_, T>, _take: &mut dyn FnMut(LawCorner<T>)) {}
 
-    /// Are all table entries present to which the law refers by number?
+    /// True if every signal and table entry exists to which the law refers by number.
     fn fits(&self, _supplies: &LawInputs<'_, T>, _n_courses: usize) -> bool {
         true
     }

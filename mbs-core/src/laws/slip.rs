@@ -46,7 +46,7 @@ pub fn share<T: Real>(r: T) -> T {
     if r < three { T::ONE - r / three + r * r / (three * three * three) } else { T::ONE / r }
 }
 
-/// Derivative s'(r) over r, for r > 0.
+/// Ratio s'(r) / r of the derivative of the sliding factor and r, for r > 0.
 fn fall<T: Real>(r: T) -> T {
     let three = T::TWO + T::ONE;
     if r < three {

@@ -12,10 +12,10 @@
 //! ```
 //!
 //! The radial force is the generalised force whose work is done on the deflection x. Its main part is a force n F / cos g at the
-//! contact point. On a bend of the road with tangent t, the normal rotates as the centre moves, which adds a second part. So k x^2
-//! / 2 is its potential in every position of the wheel. The road is replaced by its tangent plane at the point nearest to the
-//! centre. On a bend this point differs from the disc's nearest point by a term of the order of the squared camber. A wheel without
-//! an axis has no camber: cos g = 1. In the plane no wheel has camber.
+//! contact point. On a bend of the road with tangent t, the normal rotates at the rate s per length of the centre's path. This adds
+//! a second part. So k x^2 / 2 is the potential of the force in every position of the wheel. The road is replaced by its tangent
+//! plane at the point nearest to the centre. On a bend this point differs from the disc's nearest point by a term of the order of
+//! the squared camber. A wheel without an axis has no camber: cos g = 1. In the plane no wheel has camber.
 //!
 //! v_x is the speed of the centre along the wheel's plane and the road. v_y is the speed across the plane of the contact point,
 //! taken as a point of the carrier. If the carrier rolls about x, the tire slides sideways on the ground, and the side force does
@@ -67,7 +67,7 @@ pub struct TireLaw<T> {
     pub travel: Option<u32>,
     /// Number of the axis that points up: 1 in the plane, 2 in space.
     pub up: usize,
-    /// Is the wheel a disc that leans with its axis? Otherwise it has no camber.
+    /// True if the wheel is a disc that leans with its axis. Otherwise it has no camber.
     pub leans: bool,
 }
 
@@ -115,13 +115,13 @@ const LEAST_WIDTH: f64 = 1e-6;
 
 /// Place of the radial force among the tire's unit wrenches.
 pub const RADIAL: usize = 0;
-/// Place of the rolling resistance among them.
+/// Place of the rolling resistance among the tire's unit wrenches.
 const ROLLING: usize = 1;
-/// Place of the side force among them.
+/// Place of the side force among the tire's unit wrenches.
 const SIDE: usize = 2;
-/// Place of the aligning torque among them.
+/// Place of the aligning torque among the tire's unit wrenches.
 const ALIGNING: usize = 3;
-/// Place of the longitudinal slip force among them.
+/// Place of the longitudinal slip force among the tire's unit wrenches.
 #[doc(hidden)]
 pub const SLIP: usize = 4;
 
@@ -313,7 +313,7 @@ impl<T: Real> WrenchesLaw<T> for TireLaw<T> {
         }
     }
 
-    /// Writes the actions, [`n_actions`](Self::n_actions) in number.
+    /// Writes the actions to `out`; their number is [`n_actions`](Self::n_actions).
     fn evaluate(
         &self,
         motion: &BodyMotion<T>,

@@ -29,7 +29,7 @@ pub trait WrenchLaw<T> {
     fn evaluate(motion: &BodyMotion<T>, input: [T; 3]) -> UnitWrench<T>;
 }
 
-/// A [`ScalarLaw`] as a value, by its functions.
+/// Value that contains the functions of a [`ScalarLaw`].
 #[derive(Clone, Copy)]
 pub struct UserScalarLaw<T> {
     pub(crate) evaluate: fn(T, T, [T; 3]) -> ScalarForce<T>,
@@ -59,7 +59,7 @@ impl<T> core::fmt::Debug for UserScalarLaw<T> {
     }
 }
 
-/// A [`WrenchLaw`] as a value, by its function.
+/// Value that contains the function of a [`WrenchLaw`].
 #[derive(Clone, Copy)]
 pub struct UserBodyLaw<T> {
     pub(crate) evaluate: fn(&BodyMotion<T>, [T; 3]) -> UnitWrench<T>,

@@ -1,7 +1,7 @@
-//! Arguments of a relation, and its derivatives there. They are kept on the stack.
+//! Arguments of a relation, and the derivatives of the relation by them. They need no allocation.
 //!
 //! ```text
-//! phi = phi(r) + g . (m - r),    r: the numbers m as doubles, g the gradient there
+//! phi = phi(r) + g . (m - r),    m: the arguments, r: the arguments rounded to double precision, g: the gradient of phi at r
 //! ```
 //!
 //! The gradient accounts for the part of an argument below double precision. Newton's method then sees no rounding error of an angle of

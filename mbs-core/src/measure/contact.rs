@@ -32,7 +32,7 @@ pub fn lowest_place<T: Real>(radius: T, normal: Vector<T, 3>, axis: Vector<T, 3>
     place
 }
 
-/// Does a disc with this axis lie flat on the plane with this normal?
+/// True if a disc with this axis lies flat on the plane with this normal.
 pub fn lies_flat<T: Real>(normal: &Vector<T, 3>, axis: &Vector<T, 3>) -> bool {
     let dot = normal.dot(axis);
     !(T::ONE - dot * dot > T::from_f64(FLAT))

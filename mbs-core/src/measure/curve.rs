@@ -56,7 +56,7 @@ pub fn spline_change<T: Real>((knots, curvature): (&[[T; 2]], &[T]), period: T, 
     if is_periodic {
         at = taken_into(x, ends[0], period);
     }
-    // Each pass ends a piece. Steps never lead over more periods than the table has pieces.
+    // Each pass ends one piece of the curve. A step never covers more periods than the table has pieces.
     for _ in 0..=2 * knots.len() {
         let is_forward = left > T::ZERO;
         if left == T::ZERO {

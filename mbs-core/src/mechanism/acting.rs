@@ -24,7 +24,7 @@ pub(crate) enum Acting {
     /// Force at the rim of a drum, where the line of a rope begins or ends on the carrier of the drum. The terms are the line and the turn
     /// of the drum.
     Drum {
-        /// Does the line end at the drum? Otherwise it begins there.
+        /// True if the line ends at the drum; false if it begins there.
         is_end: bool,
         /// Body that carries the drum.
         carrier: BodyId,

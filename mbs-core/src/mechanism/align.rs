@@ -1,7 +1,7 @@
 //! Axes in the closed loops of a scene that are almost parallel or almost perpendicular.
 //!
 //! A closed loop may need parallel axes to move: any tilt of one of them locks it. Numbers in files have six digits or more. Axes within
-//! [`MEANT`] of each other are therefore taken as parallel, and models are built with parallel ones.
+//! [`MEANT`] of each other therefore count as parallel, and models are built with exactly parallel axes.
 
 use super::Scene;
 use crate::Real;
@@ -25,7 +25,7 @@ const ROUNDINGS: f64 = 1e3;
 pub struct Tilt<T> {
     /// Index of the joint with the tilted axis.
     pub joint: usize,
-    /// Number of the axis in its joint: 0 or 1.
+    /// Index of the axis in its joint: 0 or 1.
     pub axis: usize,
     /// Index of the joint to whose axis it should be parallel or perpendicular.
     pub other: usize,

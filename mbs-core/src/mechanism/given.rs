@@ -9,7 +9,7 @@ use alloc::vec::Vec;
 
 /// Coordinates of each joint at time zero that the scene determines. A coupling with one unknown coordinate determines that coordinate.
 ///
-/// Cost: one pass over joints, guides and initial conditions, and a pass over the couplings for each round in which one was used.
+/// Cost: one pass over joints, guides and initial conditions, and one pass over the couplings for each round that determines a coordinate.
 #[must_use]
 pub fn given_values<T: Real>(scene: &Scene<T>) -> Vec<Vec<Option<T>>> {
     let open = |joint: &Joint<T>| vec![None; joint.kind.n_coordinates(scene.dimension)];
@@ -38,7 +38,7 @@ pub fn given_values<T: Real>(scene: &Scene<T>) -> Vec<Vec<Option<T>>> {
     }
 }
 
-/// Computes the one unknown coordinate of a coupling. Returns `true` if it did so or if none is unknown.
+/// Computes the only unknown coordinate of a coupling. Returns `true` if it computed the coordinate, or if no coordinate is unknown.
 fn propagated<T: Real>(
     coupling: &CouplingInput<T>,
     (values, signals): (&mut [Vec<Option<T>>], &[[T; 3]]),

@@ -1,8 +1,8 @@
 //! Two meshing wheels: their bodies, and the pitch point in the reference configuration.
 //!
 //! ```text
-//! O1 + a e:   a = D / (1 + w2/w1)     e: from the first axis to the second, D their distance
-//!                                     w: moments about one sense of the axes for an effort of one
+//! pitch point O1 + a e:  a = D / (1 + w2/w1)     O1: point on the first axis, e: unit vector to the second axis, D: distance of the axes
+//!                                                w1, w2: moments on the wheels about parallel axes of one sense, for an effort of one
 //! ```
 
 use crate::Real;
@@ -26,7 +26,8 @@ pub(crate) struct MeshedWheels<T: Real> {
 }
 
 impl<T: Real> MeshedWheels<T> {
-    /// Meshing wheels of a coupling. `None` unless its terms are two turns about parallel axes in one body, at a distance.
+    /// Meshing wheels of a coupling. `None` unless its terms are two turns about parallel axes in one body, and the distance of the axes is
+    /// not zero.
     pub(crate) fn new(scene: &Scene<T>, terms: &[CouplingTerm<T>]) -> Option<Self> {
         /// Largest sine of the angle between parallel axes [-]. Chosen, not tuned: numbers in files are rounded.
         const PARALLEL: f64 = 1e-6;

@@ -21,7 +21,7 @@ impl Effect<Number> {
     }
 
     /// Applies the law to a sum of terms instead of a joint or points. An effect without such a form does not change. A spring along a line
-    /// does not change either, since its free length is no value of a sum.
+    /// does not change either, since its free length is not a value of a sum.
     #[must_use]
     pub fn on_terms(mut self, terms: Vec<CouplingTerm<Number>>) -> Self {
         let (fields, values) = (self.kind.row().fields, self.kind.values());

@@ -11,7 +11,7 @@ pub struct RotorInput<T> {
     pub effect: usize,
     /// Index of the joint.
     pub joint: usize,
-    /// Number of the joint's coordinate.
+    /// Index of the joint's coordinate.
     pub number: usize,
     /// Inertia times the square of the gear ratio [kg m^2; kg for a slide].
     pub inertia: T,

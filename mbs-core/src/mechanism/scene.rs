@@ -45,7 +45,7 @@ pub struct Scene<T> {
     pub frames: Vec<BodyFrame<T>>,
     /// Shapes of bodies for pictures. A body without a shape is drawn by its inertia.
     pub shapes: Vec<BodyShape<T>>,
-    /// Effects of the scene. A model leaves out those with `enabled: false`.
+    /// Effects of the scene. A model leaves out effects with `enabled: false`.
     pub effects: Vec<Effect<T>>,
     /// Outputs that are recorded. Empty: every joint coordinate.
     pub outputs: Vec<Output<T>>,
@@ -85,7 +85,7 @@ impl<T: Default> Scene<T> {
 pub struct Effect<T> {
     /// Unique name among the effects (as given, or `effect-N`).
     pub name: String,
-    /// Whether the effect is in the model.
+    /// True if the effect is in the model.
     pub enabled: bool,
     /// Kind of the effect, with its data.
     pub kind: EffectKind<T>,
@@ -98,12 +98,12 @@ pub struct Output<T> {
     pub name: String,
     /// Quantity that is measured.
     pub quantity: Quantity<T>,
-    /// Body in whose axes vectors have their components; the ground for global axes. `None`: the quantity's own axes. A thin rod between
-    /// ball joints turns by the smallest rotation that carries its line.
+    /// Body in whose axes vectors have their components; the ground for global axes. `None`: the default axes of the quantity. A thin rod
+    /// between ball joints turns by the smallest rotation that carries its line.
     pub frame: Option<BodyId>,
-    /// Does the output add a column with the magnitude of each vector?
+    /// True if the output adds a column with the magnitude of each vector.
     pub magnitude: bool,
-    /// Are its angles, angular rates and angular accelerations in degrees instead of radians?
+    /// True if angles, angular rates and angular accelerations of the output are in degrees instead of radians.
     pub is_in_degrees: bool,
 }
 
@@ -125,7 +125,7 @@ impl<T> Scene<T> {
 }
 
 impl<T> Scene<T> {
-    /// Flag of each body: whether a joint or a rolling contact names it. The other bodies move freely.
+    /// Flag of each body: true if a joint or a rolling contact names the body. The other bodies move freely.
     #[must_use]
     pub fn held_bodies(&self) -> Vec<bool> {
         let mut held = alloc::vec![false; self.bodies.len()];
@@ -139,13 +139,13 @@ impl<T> Scene<T> {
 }
 
 impl<T> Scene<T> {
-    /// Is the body a point mass?
+    /// True if the body is a point mass.
     #[must_use]
     pub fn is_point(&self, body: BodyId) -> bool {
         body.index().and_then(|body| self.bodies.get(body)).is_some_and(Body::is_point)
     }
 
-    /// Does a joint measure a rotation of a point mass, which has no orientation?
+    /// True if a joint measures a rotation of a point mass, which has no orientation.
     #[must_use]
     pub fn turns_point(&self, joint: &Joint<T>) -> bool {
         joint.kind.n_rotations(self.dimension) > 0
@@ -186,7 +186,8 @@ impl<T: Clone> Scene<T> {
     }
 
     /// Adds value, rate and reaction of every joint, and the force of every enabled effect, unless an output measures them already. The
-    /// value has the name of the joint. The others add `rate`, `reaction` or `force` to the name. A number makes a name unique.
+    /// value has the name of the joint. The others add `rate`, `reaction` or `force` to the name. If a name exists already, a number is
+    /// appended.
     pub fn show_all(&mut self)
     where
         T: PartialEq,

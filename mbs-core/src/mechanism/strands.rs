@@ -1,9 +1,9 @@
 //! Strands of a belt: the two common tangents of its wheels.
 //!
 //! ```text
-//! e, p      from the first axis to the second, across them; p = n x e, n the first axis;  D: their distance
-//! m         = c e +- sqrt(1 - c^2) p,   c = (r1 - r2)/D, of a crossed belt (r1 + r2)/D
-//! P1, P2    = O1 + r1 m, O2 + r2 m, of a crossed belt O2 - r2 m:   a strand leads from the one to the other
+//! e, p      e: unit vector from the first axis to the second, perpendicular to both;  p = n x e, n: first axis;  D: distance of the axes
+//! m         = c e +- sqrt(1 - c^2) p,   c = (r1 - r2)/D, for a crossed belt (r1 + r2)/D;   r1, r2: radii
+//! P1, P2    = O1 + r1 m, O2 + r2 m, for a crossed belt O2 - r2 m:   end points of a strand;  O1, O2: points on the axes
 //! ```
 
 use super::MeshedWheels;
@@ -29,7 +29,7 @@ pub(crate) struct Strand<T: Real> {
     pub(crate) ends: [Vector<T, 3>; 2],
     /// Unit vector from the first end point to the second.
     pub(crate) along: Vector<T, 3>,
-    /// Does the tension of the strand turn the first wheel in the positive sense about the first axis?
+    /// True if the tension of the strand turns the first wheel in the positive sense about the first axis.
     pub(crate) is_about: bool,
 }
 

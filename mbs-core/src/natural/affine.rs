@@ -101,7 +101,7 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         }
     }
 
-    /// Does the body have a full rotation? A spatial rod held by ball joints has no rotation about its line.
+    /// True if the body has a full rotation. A spatial rod held by ball joints has no rotation about its line.
     #[must_use]
     pub fn has_full_rotation(&self, body: BodyId) -> bool {
         self.clusters.of(body).is_none_or(|c| self.bases[c].is_full())
@@ -118,7 +118,7 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         }
     }
 
-    /// Is the body welded to the ground?
+    /// True if the body is welded to the ground.
     #[must_use]
     pub fn is_ground(&self, body: BodyId) -> bool {
         self.clusters.of(body).is_none()

@@ -8,9 +8,12 @@
 //! point:  r = e_1                                                         M = m 1
 //! ```
 //!
+//! Here r(p) is the position of the material point p, and e_k, b_k and u are entities: points, or the direction u. M is the mass
+//! matrix, G its matrix over the entities, m the mass, c the centre of mass, and I the inertia about the origin.
+//!
 //! Entities that the body shares with others come first. The body's own point or unit vectors complete the basis. Entities on the
-//! ground are preferred, because they add no unknowns. A direction is accepted if its unit vector has at least [`INDEPENDENCE`]
-//! orthogonal to the directions accepted before.
+//! ground are preferred, because they add no unknowns. A direction is accepted only if the part of its unit vector orthogonal to
+//! the accepted directions has at least the length [`INDEPENDENCE`].
 
 use super::sharing::{Entity, EntityKind};
 use crate::Real;
@@ -18,14 +21,13 @@ use crate::algebra::{Coef, Matrix, Vector, across, cross, inverse, norm};
 use crate::cluster::Cluster;
 use alloc::vec::Vec;
 
-/// Least orthogonal part of a unit vector, against the directions before it, for which it enters a basis [-]: sin 11.5°. Chosen,
-/// not tuned.
+/// Least orthogonal part of a unit vector, relative to the directions before it, for which the vector enters a basis [-]: sin
+/// 11.5°. Chosen, not tuned.
 pub const INDEPENDENCE: f64 = 0.2;
 /// Least distance of the two points of a basis, relative to the body's size [-]: rounding errors grow by its inverse. Chosen, not
 /// tuned.
 const LEAST_ARM: f64 = 0.05;
-/// Largest coefficient that counts as a rounding error, in units of rounding of the numbers that it is the sum of [-]. Chosen, not
-/// tuned.
+/// Largest coefficient that counts as a rounding error, in units of the rounding of its summands [-]. Chosen, not tuned.
 const SNAP_ROUNDINGS: f64 = 32.0;
 /// Factor by which a later candidate must be better [-], so that rounding errors do not decide the choice. Chosen, not tuned.
 const BETTER: f64 = 1.01;
@@ -156,7 +158,7 @@ impl<T: Real> Basis<T> {
         Some(Self { entities: chosen, frame: Frame::Spatial { origin: at, inverse } })
     }
 
-    /// Does the basis describe a rotation about every axis? The bases of a rod and of a point do not.
+    /// True if the basis describes a rotation about every axis. The bases of a rod and of a point do not.
     pub(crate) fn is_full(&self) -> bool {
         !matches!(self.frame, Frame::Rod { .. } | Frame::Point)
     }
@@ -176,7 +178,7 @@ impl<T: Real> Basis<T> {
         let from = |origin: &Vector<T, 3>| {
             if is_point { (p - origin, size(p) + size(origin)) } else { (*p, size(p)) }
         };
-        // Each coefficient, with the size of the numbers that it is the sum of.
+        // Each coefficient, with the size of its summands.
         let coefs: Vec<(Coef<T>, T)> = match &self.frame {
             Frame::Point => alloc::vec![(unit, unit.re)],
             Frame::Planar { origin, second, is_point: two_points } => {
@@ -270,8 +272,8 @@ fn two_by_two<T: Real>(m: T, moment: Coef<T>, g22: Coef<T>, two_points: bool) ->
     }
 }
 
-/// Rounds a coefficient to zero if it is a rounding error relative to `size`, the size of the numbers that it is the sum of.
-/// Elements then use no coordinates without need. A coefficient that differs from one by a rounding error becomes one.
+/// Rounds a coefficient to zero if it is a rounding error relative to `size`, the size of its summands. Elements then use no
+/// coordinates without need. A coefficient that differs from one by a rounding error becomes one.
 fn snap<T: Real>(c: Coef<T>, size: T) -> Coef<T> {
     let tiny = T::EPSILON * T::from_f64(SNAP_ROUNDINGS);
     let clean = |x: T| {

@@ -16,8 +16,8 @@ use crate::model::Owner;
 use crate::scene::BodyId;
 use alloc::vec::Vec;
 
-/// Number of dependent entities in the same element as their body [-]. Each further one is a separate element, because the block of
-/// a hub with many joints would grow like the square of their number. Chosen, not tuned.
+/// Largest number of dependent entities in the same element as their body [-]. Each further entity is a separate element. Otherwise
+/// the block of a hub with many joints would grow like the square of their number. Chosen, not tuned.
 const TOGETHER: usize = 2;
 
 /// Data of a model that is being built.

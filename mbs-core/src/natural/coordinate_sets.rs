@@ -1,4 +1,5 @@
-//! Entities of a group that a row uses. Most rows use one or two points or directions.
+//! Entities of a group that a row uses. Most rows use one or two points or directions. Their products g g^T then fill a small part
+//! of a block; g is the gradient, and w a weight.
 //!
 //! ```text
 //! block += w g g^T,   g = [0 .. g_a .. 0 .. g_b .. 0]          21 numbers of 78 for two of four points in space
@@ -7,7 +8,7 @@
 use super::group::{add_squares, packed};
 use crate::Real;
 
-/// Set of the entities that a row uses: one or two entities, each given by its first column, or any of its group.
+/// Set of the entities that a row uses: one or two entities, each given by its first column, or any entities of its group.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct CoordinateSet {
     first: u8,
@@ -37,7 +38,8 @@ impl CoordinateSet {
         }
     }
 
-    /// First columns of the two entities, the lower one first. Both are equal if the row uses one entity; `None` if it may use any.
+    /// First columns of the two entities, the lower one first. Both are equal if the row uses one entity. `None` if the row may use
+    /// any.
     #[inline(always)]
     pub fn pair(self) -> Option<[usize; 2]> {
         (self != Self::ANY).then_some([self.first as usize, self.second as usize])

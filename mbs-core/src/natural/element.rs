@@ -82,7 +82,8 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         }
     }
 
-    /// Writes the block of an effect with `k` unknowns, without mass and rows. The first square is written instead of added.
+    /// Writes the block of an effect with `k` unknowns, without mass and rows. The first product g g^T is written, and the others
+    /// are added.
     #[inline(always)]
     fn write_effect_block(
         &self,

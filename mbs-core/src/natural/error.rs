@@ -13,7 +13,8 @@ pub enum ModelError {
         /// Index of the body without a basis.
         body: usize,
     },
-    /// An effect or output needs a full rotation of this body, a rod held by ball joints, which has none about its line.
+    /// An effect or output needs the full rotation of a body that is a rod held by ball joints. Such a rod has no rotation about
+    /// its line.
     NoRotation {
         /// Index of the body, a rod held by ball joints.
         body: usize,

@@ -71,8 +71,8 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
     }
 }
 
-/// Cotangents of angles between a point's path and the line to the point that it passes [-]. Passing effects are evaluated at these
-/// angles. Chosen, not tuned: powers of four from 86° to 14°.
+/// Cotangents of angles [-]: the angle is between the path of a point and the line to the point that it passes. Effects whose
+/// points pass each other are evaluated at these angles. Chosen, not tuned: powers of four from 86° to 14°.
 const OBLIQUE: [f64; 4] = [0.0625, 0.25, 1.0, 4.0];
 
 impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
@@ -149,8 +149,8 @@ impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
                 continue;
             }
             let passed = norm(&(from + way * closest)) / speed;
-            // Instants shortly before the closest point, because a force has no direction at zero distance. They include oblique
-            // lines.
+            // Times shortly before the closest approach, because a force has no direction at distance zero. At some of these times
+            // the line is oblique to the path.
             let hair = length / speed * T::EPSILON.sqrt();
             for share in OBLIQUE {
                 let before = closest - passed * T::from_f64(share) - hair;

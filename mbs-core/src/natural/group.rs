@@ -6,7 +6,7 @@ use crate::algebra::Coef;
 use crate::elements::Span;
 use crate::model::Owner;
 
-/// Element of the model, given by its parts of the tables.
+/// Element of the model, given by its ranges in the tables.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Group {
     /// Entities of the group in the slot table (extended coordinates): unknown ones first, then constants.
@@ -23,7 +23,7 @@ pub(crate) struct Group {
     pub(crate) width: u32,
     /// Matrix G of the group's mass in the coefficient table (n_unknown squared numbers); empty without mass.
     pub(crate) mass: Span,
-    /// Is a coefficient of G complex, because the mass is not on the line of two basis points?
+    /// True if a coefficient of G is complex, because the mass is not on the line of two basis points.
     pub(crate) is_mass_turned: bool,
     /// Constant mass block of the group in the block table (packed, k (k + 1) / 2 numbers); empty without mass.
     pub(crate) block: Span,
@@ -35,7 +35,7 @@ pub(crate) struct Group {
     pub(crate) dots: Span,
     /// Scalar laws of the group in the measure table; their gradients follow the constraint rows.
     pub(crate) measures: Span,
-    /// Are the measures of the group those of a law on one body?
+    /// True if the measures of the group belong to a law on one body.
     pub(crate) has_body_law: bool,
     /// Owner of the group. For merged bodies and joints, the owner of the first one.
     pub(crate) owner: Owner,

@@ -232,7 +232,7 @@ impl<T: Real, const D: usize> Layout<T, D> {
         }
     }
 
-    /// Is the row live? A row without unknowns constrains nothing.
+    /// True if the row has unknowns. A row without unknowns constrains nothing.
     fn is_live(&self, row: &RowDraft<T>) -> bool {
         row.entities().iter().any(|&e| !self.entities[e].is_constant)
     }
@@ -367,7 +367,7 @@ fn owners<T: Real>(groups: &[GroupDraft<T>], entities: &[Entity<T>]) -> Vec<Owne
     owners.into_iter().map(|owner| owner.unwrap_or(Owner::Body(0))).collect()
 }
 
-/// Is the model one dense group with all unknowns in their order?
+/// True if the model is one dense group with all unknowns in their order.
 fn is_whole<T: Real, const D: usize>(model: &NaturalModel<T, D>) -> bool {
     let [group] = &model.groups[..] else { return false };
     let clique = group.clique.of(&model.cliques);

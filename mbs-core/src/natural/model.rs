@@ -89,9 +89,9 @@ pub struct NaturalModel<T: Real, const D: usize> {
     pub(super) incidence: Incidence,
     /// Cursors at the beginning of each part, and at the end.
     pub(super) cursors: Vec<Cursor>,
-    /// Does the residual of every group fit on the stack?
+    /// True if the residual of every group fits on the stack.
     pub(super) is_small: bool,
-    /// Is the model one dense group with all unknowns in their order?
+    /// True if the model is one dense group with all unknowns in their order.
     pub(super) is_whole: bool,
 }
 

@@ -33,8 +33,8 @@ pub(super) fn carriers<T: Real>(
 }
 
 impl<T: Real, const D: usize> NaturalModel<T, D> {
-    /// Does another model have the same unknowns and constraint rows as this one, in the same order? A state of one model is then a
-    /// state of the other. This usually holds for a scene with and without one of its effects. Constants may differ.
+    /// True if another model has the same unknowns and constraint rows as this model, in the same order. A state of one model is
+    /// then a state of the other. This usually holds for a scene with and without one of its effects. Constants may differ.
     #[must_use]
     pub fn has_same_coordinates(&self, other: &Self) -> bool {
         let m = self.n_constraints();
@@ -79,8 +79,8 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         &self.clusters
     }
 
-    /// Typical size of every unknown: the scene's length for coordinates of points, one for those of directions. Coordinates
-    /// divided by their size do not depend on the unit of length, nor do masses times its square.
+    /// Typical size of every unknown: the scene's length for coordinates of points, and one for coordinates of directions. A
+    /// coordinate divided by its size does not depend on the unit of length. Neither does a mass times the square of the size.
     pub(crate) fn sizes(&self) -> Vec<T> {
         let mut sizes = alloc::vec![T::ONE; self.n_unknowns()];
         for at in self.carried.iter().filter_map(Carried::point) {

@@ -2,7 +2,7 @@
 //!
 //! A body has rows for the constant lengths and angles of its basis, at most ½ nb (nb - 1) rows for nb basis entities. A row is
 //! left out if another body has it for the same shared entities, such as the unit length of a common axis. A row is also left out
-//! if another body implies it. Such a body has all entities of the row, at least one of them dependent on its basis. Bodies are
+//! if another body implies it. Such a body has all entities of the row, and at least one of them depends on its basis. Bodies are
 //! treated in file order, but after the bodies that imply one of their rows. If a direction depends on the bases of two bodies, its
 //! unit length follows from both. The second body then leaves out the row of its basis with the largest weight in that length.
 
@@ -19,10 +19,11 @@ use alloc::vec::Vec;
 /// Chosen, not tuned.
 const WEIGHT: f64 = 0.1;
 
-/// Key of a row: two vectors, each between two entities (`zero` for directions). A length has `zero` twice in the second place.
+/// Key of a row, which is the product of two vectors. Each vector is given by two entities; the second one of a direction is
+/// `zero`. A length has the entity `zero` twice in place of the second vector.
 type Key = [usize; 4];
 
-/// Row of a basis, with its key and the places in the basis of the two vectors in it.
+/// Row of a basis, with its key and the places of its two vectors in the basis.
 #[derive(Debug)]
 struct Own<T: Real> {
     key: Key,
@@ -123,8 +124,8 @@ fn order<T: Real>(own: &[Vec<Own<T>>], implied: &BTreeMap<(usize, Key), Vec<usiz
     order
 }
 
-/// Maps each row of a cluster to the other clusters that imply it. They have all entities of the row, at least one as a dependent
-/// entity.
+/// Maps each row of a cluster to the other clusters that imply it. These clusters have all entities of the row, and at least one of
+/// the entities depends on their basis.
 fn implied_by<T: Real>(
     bases: &[Basis<T>],
     shared: &[Vec<usize>],

@@ -4,8 +4,9 @@
 //! E = inertia x'^2 / 2,   x - q = 0          inertia: the rotor's inertia times its squared ratio, x: the unknown
 //! ```
 //!
-//! Unknowns are components of vectors: x is the first component of one, and rows hold the other components at zero. The rotor's
-//! angle is ratio times x. The unknown x has the size of the joint coordinate q, so that no tolerance depends on the ratio.
+//! Unknowns are components of vectors. The unknown x is the first component of a vector, and rows hold its other components at
+//! zero. The rotor's angle is ratio times x. The unknown x has the size of the joint coordinate q, so that no tolerance depends on
+//! the ratio.
 
 use super::build::Builder;
 use super::model::{NaturalModel, NaturalRotor};

@@ -56,8 +56,8 @@ pub(crate) enum RowDraft<T: Real> {
     Rolling(Box<RollingDraft<T>>),
 }
 
-/// Rolling in terms of entities. Each frame has a point and as many directions as the space: first the rolling body's, then the
-/// other's.
+/// Rolling in terms of entities. Each frame has a point, and one direction for each dimension. The rolling body's frame comes
+/// first, then the frame of the plane's body.
 #[derive(Debug, Clone)]
 pub(crate) struct RollingDraft<T: Real> {
     pub(crate) input: RollingInput<T>,

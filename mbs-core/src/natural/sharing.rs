@@ -28,7 +28,7 @@ pub(crate) struct Entity<T: Real> {
     pub(crate) kind: EntityKind,
     /// Value in the reference configuration.
     pub(crate) at: Vector<T, 3>,
-    /// Is the entity fixed to the ground?
+    /// True if the entity is fixed to the ground.
     pub(crate) is_constant: bool,
 }
 
@@ -127,7 +127,7 @@ impl<T: Real> Table<T> {
         })
     }
 
-    /// Makes one entity of each class. If the ground is among the owners, the entity has the ground's value.
+    /// Makes an entity of each class of features. If the ground has a feature of the class, the entity has the ground's value.
     fn collect(mut self, n_clusters: usize) -> Sharing<T> {
         let mut entities: Vec<Entity<T>> = Vec::new();
         let mut of_root = alloc::vec![usize::MAX; self.features.len()];

@@ -26,7 +26,8 @@ impl SpatialIndex {
         Self { few: Vec::new(), cells: BTreeMap::new(), edge: tolerance.to_f64() * 4.0 }
     }
 
-    /// Smallest number for which `same` holds, among the points near one of `around`. `place` gives the point of a number.
+    /// Returns the smallest number of a point that is near one of the points `around` and satisfies `same`. `place` gives the point
+    /// of a number.
     pub fn first<T: Real>(
         &mut self,
         around: &[Vector<T, 3>],

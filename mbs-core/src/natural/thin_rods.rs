@@ -10,7 +10,7 @@ use crate::scene::BodyId;
 use alloc::vec;
 use alloc::vec::Vec;
 
-/// Rods of a scene that two points may describe, because nothing needs more. One pass over the scene checks every need.
+/// Rods of a scene that two points may describe, because no entry needs more. One pass over the scene checks every need.
 #[derive(Debug)]
 pub(super) struct ThinRods<T: Real> {
     /// Ends of each body that is a thin rod; `None` for other bodies.

@@ -1,7 +1,7 @@
 //! Axes in which an output has the components of its vectors.
 //!
 //! ```text
-//! x_f = R_f^T R_o x_o   (o: the body whose axes the quantity has by itself, f: the required one)
+//! x_f = R_f^T R_o x_o     o: body of the default axes, f: body of the required axes, R: rotation matrix of a body
 //! ```
 
 use super::frame::Frame;
@@ -20,7 +20,7 @@ pub(super) struct OutputAxes<T: Real, const D: usize> {
     /// Axes of the quantity before the rotation.
     own: Frame<T, D>,
     required: Frame<T, D>,
-    /// Places of the vectors among the components. Other components do not change.
+    /// Range of each vector among the components. Other components do not change.
     vectors: Vec<Range<usize>>,
 }
 

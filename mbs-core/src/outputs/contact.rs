@@ -1,9 +1,10 @@
 //! Instants at which one-sided effects begin and end contact, interpolated within steps.
 //!
 //! If a gap changes its sign over a step, the instant is the root of the cubic through values and rates at both ends. Steps of fixed length
-//! do not end there, since the laws begin and end without a jump; the instant is only recorded. Its error has two parts. One is the error
-//! of the states at both ends, divided by the speed. The other is of order h^3, from the discontinuity of the gap's third derivative. A
-//! contact between two ends of a step is not found: no force acted in it.
+//! do not end at this instant, since contact forces begin and end without a jump. The instant is only recorded. The error of the instant
+//! has two parts. One is the error of the states at both ends, divided by the speed. The other is of order h^3 for a step h, from the
+//! discontinuity of the gap's third derivative. A contact that begins and ends within one step is not found. No force acted in it, since
+//! forces are evaluated at the ends of steps.
 
 use super::cubic::Cubic;
 use super::load::{Gap, Loads, MOST_GAPS};
@@ -24,9 +25,9 @@ pub struct Instant {
     pub t: f64,
     /// Index of the effect in the scene.
     pub effect: usize,
-    /// Number of the gap: for a limit 0 at the lower end, 1 at the upper end; 0 for other effects.
+    /// Index of the gap: for a limit 0 at the lower end, 1 at the upper end; 0 for other effects.
     pub end: usize,
-    /// Does the contact begin? Otherwise it ends.
+    /// True if the contact begins; false if it ends.
     pub makes: bool,
 }
 
@@ -43,7 +44,7 @@ pub struct Contacts<T: Real, const D: usize> {
 }
 
 impl<T: Real, const D: usize> Contacts<T, D> {
-    /// Prepares the one-sided effects of a scene. Without any, nothing is evaluated.
+    /// Prepares the one-sided effects of a scene. Without one-sided effects, nothing is evaluated.
     ///
     /// # Errors
     /// [`ModelError`] as when the model is built.
@@ -97,7 +98,7 @@ impl<T: Real, const D: usize> Contacts<T, D> {
         self.t = to;
     }
 
-    /// Restores a state, with the instants recorded until then and the number of instants that were not stored.
+    /// Resumes a record at `state`. `instants` are the instants recorded so far; `left_out` is the number of instants that were not stored.
     pub fn resume(&mut self, state: &State<T>, instants: &[Instant], left_out: u64) {
         self.start(state);
         self.instants.clear();

@@ -12,18 +12,18 @@ use crate::scene::{BodyId, Joint, JointId};
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 
-/// Rotation in one step above which positions and rates are compared [rad]. If rates give x, the trapezoidal rule in natural coordinates
-/// rotates by 2 atan(x/2), which is 0.7 % less at this angle.
+/// Rotation in one step above which positions and rates are compared [rad]. If the rates give a rotation x, the trapezoidal rule in natural
+/// coordinates rotates by 2 atan(x/2). This is 0.7 % less at x = 0.3.
 const LARGE_TURN: f64 = 0.3;
-/// Largest relative difference between the rotations by positions and by rates [-]: slightly above the 0.7 % of the rule.
+/// Largest relative difference between the rotations by positions and by rates [-]: slightly above the 0.7 % of the trapezoidal rule.
 const MISFIT: f64 = 1e-2;
 
 /// One coordinate of a joint, three components of a rotation vector, or four of a quaternion.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Coordinate<T: Real, const D: usize> {
-    /// Angle of y in the frame x1, x2, times `sign`. `is_one_of_two`: the joint has two angles, as a universal joint.
+    /// Angle of y in the frame x1, x2, times `sign`. `is_one_of_two` is true if the joint has two angles, as a universal joint has.
     Angle { x1: Affine<T, D>, x2: Affine<T, D>, y: Affine<T, D>, sign: T, is_one_of_two: bool },
-    /// Slide x.y along the direction y.
+    /// Slide x.y: the component of the vector x along the unit direction y.
     Slide { x: Affine<T, D>, y: Affine<T, D> },
     /// Rotation of the second body relative to the first.
     Turn { frames: Box<[Frame<T, D>; 2]> },
@@ -115,12 +115,13 @@ impl<T: Real, const D: usize> Coordinate<T, D> {
         }
     }
 
-    /// Is it an angle, which may exceed a whole turn?
+    /// True if the coordinate is an angle, which may exceed a whole turn.
     pub(super) fn is_angle(&self) -> bool {
         matches!(self, Self::Angle { .. })
     }
 
-    /// Writes the angular velocity in axes of the first body, which predicts a rotation vector. It does nothing for other coordinates.
+    /// Writes the angular velocity in axes of the first body. The change of a rotation vector is predicted from it. Does nothing for other
+    /// coordinates.
     pub(super) fn turning(&self, q: &[T], v: &[T], out: &mut [T]) {
         if let Self::Turn { frames } = self {
             let omega = frames[1].turning(q, v) - frames[0].turning(q, v);
@@ -128,12 +129,12 @@ impl<T: Real, const D: usize> Coordinate<T, D> {
         }
     }
 
-    /// Is it a rotation vector?
+    /// True if the coordinate is a rotation vector.
     pub(super) fn is_turn(&self) -> bool {
         matches!(self, Self::Turn { .. })
     }
 
-    /// Replaces the last value by the present one, with the number of whole turns that is nearest to the `expected` value.
+    /// Replaces `last` by the present value. An angle gets the number of whole turns that brings it nearest to the `expected` value.
     pub(super) fn track(&self, q: &[T], expected: &[T], last: &mut [T]) {
         match self {
             Self::Angle { .. } => last[0] = unwrap(self.angle_at(q), expected[0]),
@@ -164,8 +165,8 @@ impl<T: Real, const D: usize> Coordinate<T, D> {
     }
 
     /// Wrench on the second body at the joint's point that does work on this coordinate alone, for an effort of one. The first body has the
-    /// opposite wrench. For a slide it is the force along it, for an angle the moment (C y x x2 - S y x x1)/r^2. It is zero for a rotation
-    /// vector.
+    /// opposite wrench. For a slide it is the force along it, for an angle the moment (C y x x2 - S y x x1)/r^2 with C = x1.y, S = x2.y and
+    /// r^2 = C^2 + S^2. It is zero for a rotation vector.
     pub(super) fn direction(&self, q: &[T]) -> Wrench<T> {
         let mut wrench = Wrench::zero();
         match self {
@@ -188,12 +189,13 @@ impl<T: Real, const D: usize> Coordinate<T, D> {
         cross(&y, &(x2 * c - x1 * s)) * (T::ONE / (c * c + s * s))
     }
 
-    /// Angle to be expected a time `dt` [s] after `last`, from the mean of the rates at both ends.
+    /// Angle that is expected a time `dt` [s] after the angle `last`. It follows from the mean of the rates at both ends of this time.
     pub(super) fn expected(last: T, [before, now]: [T; 2], dt: T) -> T {
         last + (before + now) * dt * T::HALF
     }
 
-    /// Rotation between two states by the rates, if it is large and differs from the rotation by positions.
+    /// Rotation between two states according to the rates [rad]. `None` if it is small, or if it agrees with the rotation according to
+    /// positions.
     pub(super) fn lost_turn(&self, [from, to]: [&State<T>; 2]) -> Option<T> {
         if !self.is_angle() {
             return None;
@@ -244,7 +246,7 @@ impl<T: Real, const D: usize> Coordinate<T, D> {
     /// Rate and acceleration of an angle or a slide; zero for other coordinates.
     fn motion(&self, state: &State<T>) -> [T; 2] {
         let State { q, v, a, .. } = state;
-        // x.y, its rate and its second derivative
+        // Returns x.y, its rate and its second derivative.
         let product = |x: &Affine<T, D>, y: &Affine<T, D>| {
             let ([x, xt, xtt], [y, yt, ytt]) =
                 [x, y].map(|z| [z.value(q), z.rate(v), z.rate(a)]).into();

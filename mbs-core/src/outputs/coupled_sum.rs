@@ -2,15 +2,16 @@
 //!
 //! ```text
 //! sum    = sum_k c_k f_k(m_k),   its rate sum_k c_k f_k' m_k'
-//! effort = lambda:  a term acts with w = c_k f_k' lambda;  of a relation phi(c_k m_k) with w = c_k phi_k lambda
-//! angle    moment w g on the second body, -w g on the first:  g.a = 1 about its axis, g.b = 0 about the other of two axes
-//! slide    force w d at the joint's place on the second body, -w d on the first body there
+//! effort = lambda:  a term acts with w = c_k f_k' lambda;  the term of a relation phi(c_1 m_1, ...) acts with w = c_k phi_k lambda
+//! angle    moment w g on the second body, -w g on the first:  g.a = 1 with the angle's axis a, g.b = 0 with a second axis b
+//! slide    force w d at the joint's point on the second body, -w d on the first body at this point;  d the slide's direction
 //! ball     moment w g on the second body, -w g on the first:  g of a swing or a twist
-//! length   force w n on the second point, -w n on the first:  n from the first to the second
+//! length   force w n on the second point, -w n on the first:  n the unit vector from the first to the second
 //! ```
 //!
-//! c_k are factors, f_k curves, m_k measures. lambda is the effort. For wheels with a pitch point the force of the teeth replaces the
-//! moments. For a belt with a pretension the forces of its strands do.
+//! c_k are factors, f_k curves, m_k measures. lambda is the effort. phi_k is the derivative of the relation by its argument k. For wheels
+//! with a pitch point the force of the teeth replaces the moments. For a belt with a pretension the forces of its strands replace the
+//! moments.
 
 use super::coordinate::Coordinate;
 use super::drawn_force::DrawnForce;
@@ -41,13 +42,13 @@ pub(super) struct CoupledSum<T: Real, const D: usize> {
     relation: Option<Code<dyn Relation>>,
     /// Moving bodies on which the coupling acts, in ascending order.
     bodies: Vec<usize>,
-    /// Largest force, or moment over the scene's length, of a term without a curve for an effort of one.
+    /// Largest force that a term without a curve exerts for an effort of one. A moment is divided by the scene's length.
     scale: T,
     /// Force of the teeth, which replaces the moments of the terms if the wheels have a pitch point.
     teeth: Option<Box<ToothForce<T, D>>>,
     /// Forces of the strands, which replace the moments of the terms if the belt has a pretension.
     strands: Option<Box<StrandForce<T, D>>>,
-    /// Force of a thread or drum, which replaces those of the terms if it acts elsewhere.
+    /// Force of a thread or drum. It replaces the forces of the terms if it acts at another point.
     drawn: Option<Box<DrawnForce<T, D>>>,
 }
 
@@ -68,14 +69,14 @@ pub(super) struct Part<T: Real, const D: usize> {
 
 #[derive(Debug, Clone)]
 enum PartKind<T: Real, const D: usize> {
-    /// Coordinate of a joint, with its point on the second body. For an angle: the place at which the state remembers it, and its sign
-    /// there.
+    /// Coordinate of a joint, with the joint's point on the second body. `memory` is for an angle that the state remembers: its index in
+    /// the memory of the state, and its sign there.
     Coordinate { of: Coordinate<T, D>, at: Affine<T, D>, memory: Option<(usize, T)> },
     /// Distance of two points minus their distance in the reference configuration.
     Length { points: [Affine<T, D>; 2], reference: T },
     /// Swing of a ball: the angle between a direction of the first body and one of the second.
     Swing { axes: [Affine<T, D>; 2] },
-    /// Twist of a ball: two directions perpendicular to its axis in each body, and the place at which the state remembers the angle.
+    /// Twist of a ball: two directions perpendicular to its axis in each body, and the index of the angle in the memory of the state.
     Twist { across: Box<[[Affine<T, D>; 2]; 2]>, memory: Option<usize> },
 }
 
@@ -97,7 +98,7 @@ impl<T: Real, const D: usize> CoupledSum<T, D> {
         sum
     }
 
-    /// Sum of these terms. `remembered` is the first place of their angles in the memory of the state.
+    /// Sum of these terms. `remembered` is the index of their first angle in the memory of the state.
     pub(super) fn of_terms(
         (scene, model): (&Scene<T>, &NaturalModel<T, D>),
         terms: &[TermInput<T>],
@@ -119,12 +120,13 @@ impl<T: Real, const D: usize> CoupledSum<T, D> {
         Self { terms, relation: None, bodies, scale, teeth: None, strands: None, drawn: None }
     }
 
-    /// Is the sum an angle, without slides and lengths?
+    /// True if the sum is an angle: no term is a slide or a length.
     pub(super) fn is_angle(&self) -> bool {
         self.terms.iter().flat_map(|term| &term.parts).all(Part::is_angle)
     }
 
-    /// Passes to `take` the wrenches that load bearings only, at an effort: forces that push teeth apart, and the pretension of strands.
+    /// Passes to `take` the wrenches that load bearings, but do not change the motion. They are the forces that push teeth apart at this
+    /// `effort`, and the pretension of strands.
     pub(super) fn load_bearings(
         &self,
         effort: T,
@@ -218,7 +220,8 @@ impl<T: Real, const D: usize> CoupledSum<T, D> {
 }
 
 impl<T: Real, const D: usize> SumTerm<T, D> {
-    /// Force, or moment over the scene's length, of the term for an effort of one; `slope` is the derivative of the sum by the measure.
+    /// Force of the term for an effort of one; a moment is divided by the scene's length. `slope` is the derivative of the sum by the
+    /// measure.
     fn force(&self, slope: T, model: &NaturalModel<T, D>) -> T {
         let is_angle = self.parts.iter().any(Part::is_angle);
         slope.abs() / if is_angle { model.length() } else { T::ONE }
@@ -300,7 +303,7 @@ impl<T: Real, const D: usize> Part<T, D> {
         }
     }
 
-    /// Does the state remember the measure?
+    /// True if the state remembers the measure.
     fn is_remembered(&self) -> bool {
         self.is_angle() && !matches!(self.of, PartKind::Swing { .. })
     }

@@ -5,8 +5,9 @@
 //!                                                           H01 = r^2 (3 - 2r),       H11 = r^2 (r - 1)
 //! ```
 //!
-//! g is the gap, h the step, r the fraction of the step. A band around zero belongs to neither sign. The last step may have ended in the
-//! band; the next one then leaves it to either side without a change. A contact that stays in the band is no change.
+//! g is the gap, h the step, r the fraction of the step; 0 and 1 denote the beginning and the end of the step. Values in a small band
+//! around zero have no sign. If a step begins in the band and leaves it, that is no change of sign. A contact that stays in the band is no
+//! change of sign either.
 
 use super::load::Gap;
 use crate::Real;
@@ -23,12 +24,12 @@ pub struct Cubic {
 /// Number of bisections for a root [-]: its error is then 1e-16 of the step.
 const HALVINGS: u32 = 53;
 
-/// Fraction of a step beyond its end in which a change is searched [-]. A longer trial then ends there, and no tiny step follows. Chosen,
-/// not tuned.
+/// Length beyond the end of a step in which a change is also searched, relative to the step [-]. The repeated trial is longer and ends at
+/// the change, so that no tiny step follows. Chosen, not tuned.
 const BEYOND: f64 = 0.05;
 
-/// Fraction of a step before which a change counts as one at its start [-]. A kink of a force at fraction r causes 4 r (1 - r) of the
-/// largest error. Here that is less than half a percent.
+/// Fraction of a step before which a change counts as a change at the start [-]. A kink of a force at fraction r causes 4 r (1 - r) times
+/// the error of a kink at half the step. Here this factor is below half a percent.
 pub const AT_START: f64 = 1e-3;
 
 impl Cubic {
@@ -62,7 +63,7 @@ impl Cubic {
 
     /// First fraction, from [`AT_START`] to [`BEYOND`] the end, at which the cubic has changed its sign and exceeds half the band.
     ///
-    /// Cost: about eighty operations without a change, and a bisection with one.
+    /// Cost: about eighty operations, and a bisection if there is a change.
     pub fn change(&self, band: f64) -> Option<Change> {
         let mut side = Side::of(self.at(0.0), band);
         let mut from = 0.0;
@@ -109,7 +110,7 @@ impl Cubic {
 pub struct Change {
     /// Fraction of the step at the change.
     pub share: f64,
-    /// Is the change at the end of the step, within the band?
+    /// True if the change is at the end of the step: the value at the end is within the band.
     pub lands: bool,
 }
 

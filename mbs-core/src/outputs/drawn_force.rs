@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! thread   F along the axis and -M about it on the nut, at the screw's axis; -F and M on the screw
-//! drum     T along the line on the drum, where the line leaves its carrier; about its axis w = radius T, by a couple what the arm lacks
+//! drum     T along the line, on the drum at the point where the line leaves the drum's carrier; a couple adds the rest of the moment radius T
 //! ```
 //!
 //! F and M are force and moment of the thread, T is the tension of the rope. These forces do not change the motion, since the work of the
@@ -48,8 +48,8 @@ impl<T: Real, const D: usize> DrawnForce<T, D> {
         model: &NaturalModel<T, D>,
         coupling: &Coupling<T>,
     ) -> Option<Self> {
-        // body other than the carrier; coordinate of the term with its point on the carrier; factor with the sign for the motion of this
-        // body
+        // Returns the body other than the carrier, and the coordinate of the term with its point on the carrier. The last value is the
+        // factor, with the sign for the motion of this body.
         let part = |term: usize, carrier: BodyId| {
             let of = coupling.terms[term].of.coordinate()?;
             let bodies = scene.joints[of.0.index()].bodies;
@@ -72,8 +72,8 @@ impl<T: Real, const D: usize> DrawnForce<T, D> {
         }
     }
 
-    /// Generalised force on the line's length; `None` for a thread. The caller then passes the parts of the line one after the other to
-    /// [`moved`](Self::moved).
+    /// Generalised force on the line's length; `None` for a thread. For a drum the caller passes the parts of the line one after the other
+    /// to [`moved`](Self::moved).
     pub(super) fn on_line(&self, effort: T) -> Option<T> {
         match self {
             Self::Thread { .. } => None,
@@ -81,8 +81,8 @@ impl<T: Real, const D: usize> DrawnForce<T, D> {
         }
     }
 
-    /// Moves the force at one end point of the line's parts. At the rim it acts on the drum instead of the carrier; its moment about the
-    /// drum's axis is added to `about`. `end` is the number of the end point, `ends` their count.
+    /// Moves a force on the line from the carrier to the drum if its point is at the rim. The moment of the force about the drum's axis is
+    /// added to `about`. `end` is the index of the end point among the end points of the line's parts, `ends` the number of these points.
     pub(super) fn moved(
         &self,
         (end, ends): (usize, usize),

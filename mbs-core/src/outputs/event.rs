@@ -2,29 +2,29 @@
 //!
 //! ```text
 //! gap      of bumpers, limits, tires: 0 where contact is made or broken
-//! kink     of a road under a wheel that is pressed in, and between the pieces of a polynomial spring
+//! kink     of a road under a wheel in contact, and between the pieces of a polynomial spring
 //! ```
 //!
 //! For each gap and kink, values and rates at both ends of the step give a cubic. Its first change of sign is an event, at a fraction of
 //! the step. A trial that ends within a band around zero has reached the event. The value there has neither sign, so the next step leaves
-//! the band to either side without a second event. A driver makes a trial and calls [`Events::first_event`]. Until the trial reaches the
-//! event, the driver repeats it from the same state with the reported fraction. Then it calls [`Events::accept`]. This is the secant method
-//! with a cubic instead of a line. Two or three trials are usual.
+//! the band to either side without a second event. A driver makes a trial and calls [`Events::first_event`]. Until a trial reaches the
+//! event, the driver repeats the step from the same state with the reported fraction of its length. Then the driver calls
+//! [`Events::accept`]. This is the secant method with a cubic instead of a line. Two or three trials are usual.
 //!
 //! A contact that begins with the step may be too stiff for its length. The trapezoidal rule then reverses the motion within the step, with
-//! all its energy, as if the contact had no duration. The speed alone would give the free path p = -g0' h in the step h. The rule gives
-//! p / (1 + (w h / 2)^2), where w^2 is stiffness over mass. The trial is too long if this is below four fifths of p. The reported fraction
-//! then makes w h almost one.
+//! all its energy, as if the contact had no duration. The initial rate g0' of the gap alone would give the free path p = -g0' h in the step
+//! h. The rule gives the path p / (1 + (w h / 2)^2), where w^2 is stiffness over mass. The trial is too long if this path is below four
+//! fifths of p. The reported fraction then makes w h almost one.
 //!
-//! The damper of a contact fades in over a millimetre of depth, which a fast step skips. Therefore one step, or a few equal steps, end where
-//! it has faded in. The errors of the mean forces in both halves of the fade then cancel.
+//! The damper of a contact fades in over a millimetre of depth, which a fast step skips. Therefore one step, or a few equal steps, end
+//! where the damper has faded in. The errors of the mean forces in both halves of the fade then cancel.
 //!
 //! The band is 1e-9 of the scene's length, or of a radian for angles. This is ten times the tolerance of steps. In `f32` it is 128 times
 //! machine precision. The rounding error of the time, multiplied by the rate of the gap, is added.
 //!
 //! Some kinks are not found: those of dampers, friction and user-defined laws, and those of signals. The times of signals are known
-//! beforehand ([`SignalTimes`](crate::inputs::SignalTimes)). Kinks of a road under a wheel in the air are not found either. Nor are two
-//! points of a road with equal distance from the wheel, in a hollow as narrow as the wheel.
+//! beforehand ([`SignalTimes`](crate::inputs::SignalTimes)). Kinks of a road under a wheel in the air are not found either. In a hollow as
+//! narrow as the wheel, two points of the road may have the same distance from the wheel; this kink is not found.
 
 use super::cubic::Cubic;
 use super::load::{Gap, Load, Loads, N_READING, Reading};
@@ -65,7 +65,7 @@ struct Watched<T> {
     n_gaps: usize,
     /// Depth over which the damper of the contact fades in [m or rad].
     fade: Option<f64>,
-    /// Kinks in the order of their places; several at one place of a crest from left to right.
+    /// Kinks in the order of their places. Kinks at the same place of a crest are in the order from left to right.
     kinks: Vec<LawCorner<T>>,
     reach: T,
     /// Half width of the band around zero, without the error of the time [m or rad].
@@ -91,7 +91,7 @@ const TARGET_HALF_WH: f64 = 0.45;
 const SHORT_PATH: f64 = 100.0;
 /// Tolerance of the end of a step at the depth where a damper has faded in, relative to that depth [-]. Chosen, not tuned.
 const FADE_TOLERANCE: f64 = 0.1;
-/// Largest number of equal steps that end where a damper has faded in [-]. A larger number resolves the fade anyway.
+/// Largest number of equal steps that end where a damper has faded in [-]. If more steps are necessary, they resolve the fade anyway.
 const MAX_FADE_STEPS: f64 = 4.0;
 /// Bounds of the fraction for the repetition of a step with a stiff contact [-]. The step is at least halved. Chosen, not tuned.
 const STIFF_FRACTIONS: [f64; 2] = [0.02, 0.5];
@@ -99,7 +99,7 @@ const STIFF_FRACTIONS: [f64; 2] = [0.02, 0.5];
 const TIME_ROUNDINGS: f64 = 4.0;
 
 impl<T: Real, const D: usize> Events<T, D> {
-    /// Prepares the gaps and kinks of a scene. Without any, nothing is evaluated.
+    /// Prepares the gaps and kinks of a scene. Without gaps and kinks, nothing is evaluated.
     ///
     /// Cost: an entry for each bumper, limit, tire and polynomial spring, and an entry for each kink of each tire's road.
     ///
@@ -134,7 +134,7 @@ impl<T: Real, const D: usize> Events<T, D> {
         self.trials = 0;
     }
 
-    /// First event within the trial step that ends in `state`. The beginning of the step stays the same.
+    /// First event within the trial step that ends in `state`. The stored beginning of the step does not change.
     ///
     /// Cost: as [`start`](Self::start), and about eighty operations for each gap and for each kink close to the path of a wheel in contact.
     /// Each change of sign costs a bisection of about fifty evaluations. No allocation.
@@ -213,7 +213,7 @@ impl<T: Real> Watched<T> {
         Self { effect, n_gaps, fade, kinks, reach, band, begin, end }
     }
 
-    /// Passes to `take` the first change of each gap, and of each kink within reach.
+    /// Passes to `take` the first change of sign of each gap, and of each kink within reach.
     fn crossings(&self, ([from, to], is_slow): ([f64; 2], bool), mut take: impl FnMut(Event)) {
         let (begin, end) = (&self.begin, &self.end);
         for i in 0..self.n_gaps {
@@ -249,8 +249,8 @@ impl<T: Real> Watched<T> {
         }
     }
 
-    /// Fraction of a step of length `h` [s] after which a gap closes with its rate at the beginning. It applies if a stiff contact at the
-    /// end prevents penetration: the cubic then follows the contact instead of the free path. Otherwise infinity.
+    /// Fraction of a step of length `h` [s] after which a gap closes at its initial rate. It replaces the cubic if a stiff contact at the
+    /// end prevents penetration, since the cubic then follows the contact instead of the free path. Otherwise the result is infinity.
     fn free(&self, [begin, end]: [Gap<T>; 2], h: f64) -> f64 {
         let [begin, rate, end] = [begin.value, begin.rate, end.value].map(T::to_f64);
         let on = begin + rate * h;
@@ -279,7 +279,7 @@ impl<T: Real> Watched<T> {
         Some(fading.map_or(share, |fading| fading.min(share)))
     }
 
-    /// Kinks between the two places of the wheel, and one further kink on either side.
+    /// Kinks between the two places of the wheel, extended by the reach on both sides, and one further kink on either side.
     fn near(&self) -> &[LawCorner<T>] {
         let (a, b) = (self.begin.place[0].value, self.end.place[0].value);
         let (lower, upper) = (a.min(b) - self.reach, a.max(b) + self.reach);
@@ -289,8 +289,9 @@ impl<T: Real> Watched<T> {
     }
 }
 
-/// Fraction of a step after which it ends where a damper has faded in, or after which a few equal steps do. `left` is the remaining
-/// distance, `fade` the depth of the fade, `way` the path of the step. `None` if that is not necessary.
+/// Fraction to which a step is shortened so that it ends where a damper has faded in. If one step is too short for this, a few equal steps
+/// end there. `left` is the distance to that depth, `fade` the depth itself, `way` the path of the step. `None` if the step keeps its
+/// length.
 pub fn fading(left: f64, (fade, way): (f64, f64)) -> Option<f64> {
     if left <= FADE_TOLERANCE * fade {
         return None;

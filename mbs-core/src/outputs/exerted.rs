@@ -18,7 +18,7 @@ use alloc::vec::Vec;
 #[derive(Debug, Clone)]
 pub struct EffectWrenches<T: Real, const D: usize> {
     loads: Loads<T, D>,
-    /// Number of the effect of each load.
+    /// Index of the effect of each load.
     effects: Vec<usize>,
     rotors: Vec<RotorTorque<T, D>>,
     frames: Vec<Frame<T, D>>,
@@ -58,7 +58,7 @@ impl<T: Real, const D: usize> EffectWrenches<T, D> {
         let law_inputs = self.loads.law_inputs();
         let mut sum = Wrench::zero();
         for load in self.loads_of(Some(effect)) {
-            // a load passes the wrench on the second of two bodies last
+            // A load between two bodies passes the wrench on the second body last.
             let mut last = Wrench::zero();
             let turned = |body| self.turned(body, state);
             load.apply((state, &law_inputs), &turned, &mut |(_, _, wrench)| last = wrench);
@@ -80,7 +80,7 @@ impl<T: Real, const D: usize> EffectWrenches<T, D> {
         loads.find_map(|load| load.scalar(state, &law_inputs)).unwrap_or_default()
     }
 
-    /// Is the effect present and enabled?
+    /// True if the effect exists and is enabled.
     pub(super) fn is_there(&self, effect: usize) -> bool {
         self.effects.contains(&effect)
     }
@@ -107,7 +107,8 @@ impl<T: Real, const D: usize> EffectWrenches<T, D> {
         self.loads.law_inputs().courses.get(signal).copied().unwrap_or([T::ZERO; 3])
     }
 
-    /// Energy stored in an effect [J]; for a rotor its kinetic energy. Without a number: the energy of all effects except rotors.
+    /// Energy stored in an effect [J]; for a rotor its kinetic energy. If `effect` is `None`, it is the energy of all effects except
+    /// rotors.
     pub(super) fn energy(&self, effect: Option<usize>, state: &State<T>) -> T {
         if let Some(rotor) = effect.and_then(|effect| self.rotor(effect)) {
             return rotor.kinetic_energy(state);

@@ -1,8 +1,8 @@
 //! Rotation and angular velocity of a body, computed from its directions.
 //!
 //! ```text
-//! R = [u1 u2 u3],   omega = 1/2 sum u_k x u_k',   omega' = 1/2 sum u_k x u_k''
-//! rod (d: along it, d0 in the reference configuration):
+//! R = [u1 u2 u3],   omega = 1/2 sum u_k x u_k',   omega' = 1/2 sum u_k x u_k''      u_k: direction that was axis k in the reference
+//! rod (d: unit vector along the rod, d0: d in the reference configuration):
 //!     R = the smallest rotation that carries d0 to d,   omega = d x d',   omega' = d x d''
 //! ```
 
@@ -41,8 +41,8 @@ impl<T: Real, const D: usize> Frame<T, D> {
         }
     }
 
-    /// Rotation matrix R from the reference configuration. Its columns are the present directions of the body-fixed axes that were global
-    /// axes there.
+    /// Rotation matrix R from the reference configuration. Its columns are the present directions of the body-fixed axes that coincide with
+    /// the global axes in the reference configuration.
     pub(super) fn rotation(&self, q: &[T]) -> Matrix<T, 3> {
         match self {
             Self::Planar(x) => {

@@ -2,10 +2,11 @@
 //!
 //! ```text
 //! E = 1/2 sum (m c'.c' + omega.I omega),   V = -sum s m g.c,   P = sum m c'
-//! L = sum (I omega + m (c - C) x (c' - C'))      C: the centre of mass of all
+//! L = sum (I omega + m (c - C) x (c' - C'))      C: the common centre of mass
 //! ```
 //!
-//! m is the mass, c the centre of mass, I the inertia, g gravity, and s the gravity scale of the body.
+//! E and V are kinetic and potential energy, P and L momentum and angular momentum. m is the mass of a body, c its centre of mass, I its
+//! inertia, omega its angular velocity, and s its gravity scale. g is gravity.
 
 use super::frame::Frame;
 use crate::Real;

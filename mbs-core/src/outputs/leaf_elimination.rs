@@ -8,16 +8,17 @@ use alloc::vec::Vec;
 /// Block of bodies whose equilibrium gives the wrenches of some joints and the efforts of some couplings.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Block {
-    /// Numbers of the bodies.
+    /// Indices of the bodies of the block.
     pub bodies: Vec<usize>,
-    /// Numbers of the joints.
+    /// Indices of the joints of the block.
     pub joints: Vec<usize>,
-    /// Numbers of the couplings.
+    /// Indices of the couplings of the block.
     pub couplings: Vec<usize>,
 }
 
 /// Orders joints and couplings into blocks. A joint is a pair of bodies, or `None` if it transmits nothing. A coupling is the list of
-/// bodies on which it acts. No single body determines the effort of a coupling, since a coupling may act on other bodies only.
+/// bodies on which it acts. A coupling is never solved from the equilibrium of a single body, since its effort may have no effect on that
+/// body.
 ///
 /// Cost: proportional to bodies, joints and couplings.
 pub fn eliminate_leaves<'a>(
@@ -64,8 +65,8 @@ pub fn eliminate_leaves<'a>(
     blocks
 }
 
-/// Block of all unsolved joints and couplings that are connected with `seed` through moving bodies. Couplings are numbered after the
-/// joints.
+/// Block of all unsolved joints and couplings that are connected with `seed` through moving bodies. The indices of couplings follow the
+/// indices of joints.
 fn loops(
     seed: usize,
     ends: &[Vec<usize>],

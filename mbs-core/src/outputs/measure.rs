@@ -24,8 +24,8 @@ const MISFIT: f64 = 2e-2;
 #[derive(Debug, Clone)]
 pub struct Measures<T: Real, const D: usize> {
     channels: Vec<Recorded<T, D>>,
-    /// Last values of all tracked joint coordinates, then their rates. Then their rotation since the start by the rates, then the deficit
-    /// of the rotation by positions. The last number is the time.
+    /// Memory of the tracked joint coordinates: first their last values, then their rates. Then their rotations since the start according
+    /// to the rates follow, then the deficits of their rotations according to positions. The last number is the time.
     memory: Vec<T>,
     n_values: usize,
     n_components: usize,
@@ -39,9 +39,9 @@ struct Recorded<T: Real, const D: usize> {
     n_components: usize,
     /// Axes of the output, if they differ from those of its quantity.
     axes: Option<OutputAxes<T, D>>,
-    /// Vectors among the components whose magnitudes follow the components.
+    /// Ranges of the vectors among the components. Their magnitudes follow the components.
     vectors: Vec<Range<usize>>,
-    /// Places of the values that are written in degrees.
+    /// Indices of the values that are written in degrees.
     degrees: Vec<usize>,
 }
 
@@ -112,7 +112,7 @@ impl<T: Real, const D: usize> Measures<T, D> {
         Ok(Self { channels, memory, n_values, n_components, invariant_error: T::ZERO })
     }
 
-    /// Has any state been tracked or written?
+    /// True if any state has been tracked or written.
     #[must_use]
     pub fn has_begun(&self) -> bool {
         self.memory.last().is_some_and(|time| *time >= T::ZERO)
@@ -156,10 +156,11 @@ impl<T: Real, const D: usize> Measures<T, D> {
         self.follow(state, |_, _| None, true)
     }
 
-    /// Tracks all joint coordinates to `state`, if `known` gives angles with their turns, by joint and number. Relative coordinates of a
-    /// tree know most angles. Several steps may lie between two calls: rates then do not determine the turns, and no error is returned.
+    /// Tracks all joint coordinates to `state`. `known` returns an angle with its turns, from the indices of a joint and its coordinate, if
+    /// the caller knows it. Relative coordinates of a tree contain most angles. Several steps may lie between two calls. Rates then do not
+    /// determine the turns, and no error is returned.
     pub fn track_with(&mut self, state: &State<T>, known: impl Fn(usize, usize) -> Option<T>) {
-        // Without the check there is no error to report.
+        // The argument `false` disables the check, so that no error can occur.
         let _ = self.follow(state, known, false);
     }
 

@@ -14,7 +14,7 @@ use crate::Real;
 use alloc::vec;
 use alloc::vec::Vec;
 
-/// Dense system of m equations in n unknowns, with memory for the largest one.
+/// Dense system of m equations in n unknowns, with memory for the largest system.
 #[derive(Debug, Clone)]
 pub struct MinimumNorm<T> {
     m: usize,
@@ -94,7 +94,7 @@ impl<T: Real> MinimumNorm<T> {
         norm(&self.b[self.rank..self.m])
     }
 
-    /// Is the unknown the same in all solutions?
+    /// True if the unknown is the same in all solutions.
     pub fn is_determined(&self, unknown: usize) -> bool {
         let tolerance = self.tolerance();
         let place = self.order[..self.n].iter().position(|&j| j == unknown);

@@ -2,9 +2,9 @@
 //!
 //! This module depends on no formulation and no integrator. [`Measures`] computes outputs from positions, velocities and accelerations.
 //! [`Reactions`] follow from the equilibrium of every body, with the efforts of couplings. [`EffectWrenches`] are the wrenches of effects.
-//! [`Forces`] has the reactions and effects that outputs need. [`Contacts`] records the instants at which one-sided effects begin and
-//! end contact. [`Turns`] checks whether positions determine the rotation of joints in a step. [`Events`] finds kinks of laws within a
-//! step, for steps that end there.
+//! [`Forces`] has the reactions and effects that outputs need. [`Contacts`] records the instants at which one-sided effects begin and end
+//! contact. [`Turns`] checks whether positions determine the rotation of joints in a step. [`Events`] finds kinks of laws within a step, so
+//! that the step can be repeated and end at the kink.
 
 mod axes;
 mod contact;

@@ -3,9 +3,9 @@
 //! ```text
 //! on body b, about its centre of mass c:
 //!   sum_j +-R_j + applied = [m (c'' - g);  I omega' + omega x I omega]
-//! R_j = W_j r_j       W_j: the wrenches that joint j can transmit, at its place on the second body
-//! applied             effects, rotors by their inertia, and c_k f_k' lambda of each term of a coupling, with its effort lambda unknown;
-//!                     of teeth at a pitch point what drives them apart, once lambda is known
+//! R_j = W_j r_j       W_j: unit wrenches that joint j can transmit, at its point on the second body;  r_j: their unknown magnitudes
+//! applied             wrenches of effects, inertia of rotors, and c_k f_k' lambda of each term of a coupling with the unknown effort lambda;
+//!                     once lambda is known, also the force that pushes teeth apart at a pitch point
 //! ```
 //!
 //! Welded bodies are treated like all other bodies. If the equations leave reactions open, the solution is the one of smallest norm. The
@@ -34,11 +34,11 @@ pub const LARGEST_BLOCK: usize = 400;
 
 /// Reactions of all joints of a scene at a state.
 ///
-/// Trees are solved body by body from their leaves. Each group of connected loops is one dense elimination.
+/// Trees are solved body by body from their leaves. Each group of connected loops is solved by one dense elimination.
 #[derive(Debug, Clone)]
 pub struct Reactions<T: Real, const D: usize> {
     bodies: Vec<Placed<T, D>>,
-    /// Wrench about the centre of mass of each body that its unsolved joints must supply.
+    /// Wrench that the unsolved joints of each body must supply, about the body's centre of mass.
     missing: Vec<Wrench<T>>,
     /// Joints of the scene, then its rolling contacts.
     joints: Vec<WrenchBasis<T, D>>,
@@ -56,7 +56,7 @@ pub struct Reactions<T: Real, const D: usize> {
     /// Effort of each coupling, and whether the motion determines it.
     efforts: Vec<(T, bool)>,
     residual: T,
-    /// Place of each body in the present block.
+    /// Index of each body in the present block.
     place_in_block: Vec<usize>,
 }
 
@@ -164,7 +164,7 @@ impl<T: Real, const D: usize> Reactions<T, D> {
         }
     }
 
-    /// Did the motion at the last update determine the joint's reaction? Otherwise it is the one of smallest norm.
+    /// True if the motion at the last update determined the joint's reaction. Otherwise the reaction is the one of smallest norm.
     ///
     /// # Panics
     /// If there is no such joint.
@@ -195,7 +195,7 @@ impl<T: Real, const D: usize> Reactions<T, D> {
         self.wrenches[index].force.dot(&contact.normal(&on))
     }
 
-    /// Did the motion at the last update determine the contact force? Otherwise it is the one of smallest norm.
+    /// True if the motion at the last update determined the contact force. Otherwise the force is the one of smallest norm.
     ///
     /// # Panics
     /// If there is no such rolling contact.
@@ -213,7 +213,7 @@ impl<T: Real, const D: usize> Reactions<T, D> {
         self.efforts[coupling].0
     }
 
-    /// Did the motion at the last update determine the coupling's effort? Otherwise it is the one of smallest norm.
+    /// True if the motion at the last update determined the coupling's effort. Otherwise the effort is the one of smallest norm.
     ///
     /// # Panics
     /// If there is no such coupling.

@@ -1,7 +1,7 @@
 //! Rotors at a state: the torque of their inertia on both bodies of the joint, and their kinetic energy.
 //!
 //! ```text
-//! on the coordinate   -inertia q''          E = inertia q'^2 / 2          inertia: at the joint
+//! torque -inertia q'' on the coordinate q,   kinetic energy E = inertia q'^2 / 2       inertia: at the joint, gear ratio included
 //! ```
 
 use super::coupled_sum::Part;
@@ -40,7 +40,7 @@ impl<T: Real, const D: usize> RotorTorque<T, D> {
         self.of.apply(-self.inertia * state.a[self.unknown], state, take);
     }
 
-    /// Coordinate of the joint, its rate, and the torque against its growth.
+    /// Coordinate of the joint, its rate, and the torque that opposes an increase of the coordinate.
     pub(super) fn scalar(&self, state: &State<T>) -> ScalarForce<T> {
         let [value, rate] = self.of.measure(state);
         let tension = self.inertia * state.a[self.unknown];

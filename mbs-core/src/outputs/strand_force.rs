@@ -20,7 +20,7 @@ use crate::scene::{Coupling, CouplingKind};
 #[derive(Debug, Clone)]
 pub(super) struct StrandForce<T: Real, const D: usize> {
     strands: Strands<T>,
-    /// Coordinate of the first joint, which has the axis; points of both joints on the body that carries the wheels.
+    /// Coordinate of the first joint, which gives the axis. Then the points of both joints on the body that carries the wheels.
     axis: Coordinate<T, D>,
     places: [Affine<T, D>; 2],
     /// Difference of the tensions for an effort of one.

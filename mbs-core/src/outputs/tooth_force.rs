@@ -1,9 +1,9 @@
 //! Force of the teeth of two meshing wheels at their pitch point.
 //!
 //! ```text
-//! r_k            from the axis of wheel k to the pitch point, across the axis
-//! f = w1 (n1 x r1)/|r1|^2       on the first wheel, -f on the second: moments w1 about n1, w2 about n2, as of the coupling's couples
-//! |f| tan(alpha)                drives the teeth apart: on the smaller wheel towards its axis, opposite on the other
+//! r_k            vector from the axis n_k of wheel k to the pitch point, perpendicular to the axis
+//! f = w1 (n1 x r1)/|r1|^2       on the first wheel, -f on the second: its moments w1 about n1, w2 about n2 are those of the coupling
+//! |f| tan(alpha)                pushes the teeth apart: towards the axis of the smaller wheel on that wheel, opposite on the other wheel
 //! ```
 //!
 //! alpha is the pressure angle. The force that pushes the teeth apart has no moment about the axes. It changes the loads of bearings, but

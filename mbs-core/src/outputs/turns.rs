@@ -5,8 +5,8 @@
 //! ```
 //!
 //! h is the step. Positions determine an angle up to whole turns. If the rotation in a step is below half a turn, the nearest value is
-//! correct. Otherwise it is the value nearest to the one expected from the rates. Above a third of a radian, rotations by positions and by
-//! rates must agree within one percent; otherwise the rule does not resolve the rotation.
+//! correct. Otherwise the correct value is the one nearest to the value expected from the rates. Above a third of a radian, rotations by
+//! positions and by rates must agree within one percent; otherwise the integration rule does not resolve the rotation.
 
 use super::coordinate::Coordinate;
 use crate::Real;

@@ -7,7 +7,7 @@
 //! | one turn | across its axis, in the first body; plane: none |
 //! | two turns | a x b |
 //! | ball | none |
-//! | link | along it; hinged: along the hinge a |
+//! | link | along the link; if hinged, also along the hinge axis a |
 //!
 //! a and b are the joint's axes. A guide adds the direction in which it drives: the moment about the axis, or the force along it. For a
 //! rotation vector it adds all moments.
@@ -62,7 +62,8 @@ pub struct JointWrenches<T: Real> {
     dimension: Dimension,
     translation: Translation,
     rotation: Rotation,
-    /// Directions of the first body along which forces act if the joint slides. Then directions of moments if it turns about one axis.
+    /// Directions of forces, fixed in the first body, if the joint slides. `moments` are directions of moments if the joint turns about one
+    /// axis.
     forces: Vec<Vector<T, 3>>,
     moments: Vec<Vector<T, 3>>,
     /// Axes in the first and the second body if the joint turns about two axes.
@@ -111,7 +112,7 @@ impl<T: Real> JointWrenches<T> {
         }
     }
 
-    /// Number of directions of guides; they are the last ones.
+    /// Number of directions that guides add. These directions are the last ones.
     #[must_use]
     pub fn n_guided(&self) -> usize {
         self.guided.iter().map(|(freedom, ..)| freedom.n_coordinates()).sum()
@@ -133,7 +134,8 @@ impl<T: Real> JointWrenches<T> {
         n_forces + n_moments + n_link + self.n_guided()
     }
 
-    /// Passes its directions to `take`. `places` are the joint's points on both bodies [m], `turned` the rotation matrices of the bodies.
+    /// Passes the directions of the wrenches to `take`. `places` are the joint's points on both bodies [m], `turned` the rotation matrices
+    /// of the bodies.
     pub fn directions(
         &self,
         places: impl Fn(usize) -> Vector<T, 3>,
@@ -187,7 +189,8 @@ pub(super) struct WrenchBasis<T: Real, const D: usize> {
 #[derive(Debug, Clone)]
 enum Transmission<T: Real> {
     Joint(JointWrenches<T>),
-    /// Forces at the lowest point, along the normal and in the plane. A blade transmits a force perpendicular to it in the plane.
+    /// Forces at the lowest point, along the normal and in the plane. A blade transmits a force in the plane that is perpendicular to the
+    /// blade.
     Rolling(RollingInput<T>),
 }
 
@@ -246,8 +249,8 @@ impl<T: Real, const D: usize> WrenchBasis<T, D> {
         }
     }
 
-    /// Passes its directions to `take`. `turned` are the rotation matrices of the bodies. Moments are unit forces times the scene's length,
-    /// so that all unknowns are forces.
+    /// Passes the directions of the basis to `take`. `turned` are the rotation matrices of the bodies. Moments are unit forces times the
+    /// scene's length, so that all unknowns are forces.
     pub(super) fn directions(
         &self,
         q: &[T],

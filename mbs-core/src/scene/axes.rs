@@ -56,7 +56,8 @@ impl<T: Real> Joint<T> {
         two.into_iter().flatten()
     }
 
-    /// Direction that both bodies have in common; `None` if they have none. A joint without rotation has many, and one is chosen.
+    /// Direction that both bodies have in common; `None` if there is no such direction. A joint without rotation has many, and one
+    /// is chosen.
     #[must_use]
     pub fn common_axis(&self, dimension: Dimension) -> Option<Vector<T, 3>> {
         let axis = match self.kind.rotation(dimension) {
@@ -107,13 +108,13 @@ impl<T: Real> Joint<T> {
         }
     }
 
-    /// Is the joint a link that is hinged at its first body?
+    /// True if the joint is a link that is hinged at its first body.
     #[must_use]
     pub fn is_hinged_link(&self) -> bool {
         self.kind.is_link() && self.axes[0].is_some()
     }
 
-    /// Does the joint hold this body (0 or 1) at a point only, in space, for every orientation of the body?
+    /// True if the joint, in space, holds only a point of this body (0 or 1), so that the body may have any orientation.
     #[must_use]
     pub fn is_ball_at(&self, side: usize) -> bool {
         if self.kind.is_link() {

@@ -30,7 +30,7 @@ pub struct Coupling<T> {
     pub terms: Vec<CouplingTerm<T>>,
     /// User-defined function of the terms, which is constrained in place of their sum; only in scenes built in code.
     pub relation: Option<Code<dyn Relation>>,
-    /// Value of the sum, zero in the reference configuration [unit of a factor times its coordinate].
+    /// Required value of the sum. The sum is zero in the reference configuration [unit of a factor times its coordinate].
     pub value: T,
     /// Function of time that is added to the value.
     pub motion: Option<Motion<T>>,
@@ -41,7 +41,8 @@ pub struct Coupling<T> {
     pub drawn: Option<Drawn>,
 }
 
-/// Kind of machine element that enforces the sum of a coupling. The motion does not depend on it; reactions and notes do.
+/// Kind of machine element that enforces the sum of a coupling. The motion does not depend on the kind. Reactions and the notes of
+/// a run depend on it.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub enum CouplingKind<T> {
     /// Any element, which acts along the coordinates and lengths of the coupling.
@@ -91,7 +92,7 @@ impl<T> Coupling<T> {
         self.terms.iter().find(|term| matches!(term.of, CouplingMeasure::Length { .. }))
     }
 
-    /// Does the sum of the coupling change with time?
+    /// True if the sum of the coupling changes with time.
     #[must_use]
     pub const fn is_driven(&self) -> bool {
         self.motion.is_some()
@@ -123,7 +124,7 @@ impl<T> Coupling<T> {
         Some(usize::from(drawn.kind == DrawnKind::Ratio))
     }
 
-    /// Is the sum not always zero? It then has a place after the [guides](crate::inputs::Prescribed::guides).
+    /// True if the sum is not always zero. It then has a place after the [guides](crate::inputs::Prescribed::guides).
     #[must_use]
     pub fn has_sum(&self) -> bool
     where

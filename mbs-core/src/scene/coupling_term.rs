@@ -29,7 +29,7 @@ pub enum CouplingMeasure<T> {
         /// Points of the line, reference configuration [m].
         points: Vec<(BodyId, [T; 3])>,
     },
-    /// Angle of a ball joint, zero in the reference configuration [rad]. Couplings cannot use it, and signals only the swing.
+    /// Angle of a ball joint, zero in the reference configuration [rad]. Couplings cannot use it. Signals can use only the swing.
     Ball {
         /// Joint with the ball.
         joint: JointId,

@@ -18,7 +18,7 @@ pub enum Curve<T> {
         rows: Vec<[T; 2]>,
         /// Shape of the curve between the rows.
         shape: CurveShape,
-        /// Does the curve repeat? Its last value must then equal its first.
+        /// True if the curve repeats. Its last value must then equal its first.
         periodic: bool,
     },
 }
@@ -54,7 +54,7 @@ pub enum TableEnds {
 }
 
 impl<T> Curve<T> {
-    /// Is the curve a table whose values are zero or negative, and not all zero?
+    /// True if the curve is a table whose values are zero or negative, and not all zero.
     #[must_use]
     pub fn is_below_zero(&self) -> bool
     where
@@ -66,7 +66,7 @@ impl<T> Curve<T> {
         rows.iter().all(|row| row[1] <= T::ZERO) && rows.iter().any(|row| row[1] < T::ZERO)
     }
 
-    /// Does the curve have corners, where its slope jumps?
+    /// True if the curve has corners, where its slope jumps.
     #[must_use]
     pub const fn has_corners(&self) -> bool {
         matches!(self, Self::Shaped { shape: CurveShape::Linear, .. })

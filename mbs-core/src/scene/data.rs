@@ -11,9 +11,9 @@ pub enum Start {
     /// The reference configuration with the initial conditions.
     #[default]
     Initial,
-    /// The static equilibrium found by descending the potential, a stable one, with the velocities of the initial conditions.
+    /// Stable static equilibrium, found by descent of the potential, with the velocities of the initial conditions.
     Equilibrium,
-    /// The static equilibrium close to the initial configuration, stable or not, with the velocities of the initial conditions.
+    /// Static equilibrium close to the initial configuration, stable or not, with the velocities of the initial conditions.
     EquilibriumNear,
 }
 
@@ -51,7 +51,7 @@ pub enum Inertia<T> {
 }
 
 impl<T> Body<T> {
-    /// Is the body a point mass?
+    /// True if the body is a point mass.
     #[must_use]
     pub const fn is_point(&self) -> bool {
         matches!(self.inertia, Inertia::Point)

@@ -5,16 +5,16 @@
 pub struct Drawn {
     /// Kind of the drawn coupling.
     pub kind: DrawnKind,
-    /// Does the scene say that the coupling is intended as drawn?
+    /// True if the scene states that the coupling is intended as drawn.
     pub is_stated: bool,
-    /// Result for the sum; [`Sense::Same`] before the scene is resolved.
+    /// Result of the comparison of both sums; [`Sense::Same`] before the scene is resolved.
     pub sense: Sense,
 }
 
 /// Comparison of the sum of a drawn coupling with the sum of the joint coordinates as written, which version 0.1 used.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Sense {
-    /// The sum equals that of the coordinates as written.
+    /// The sum equals the sum of the coordinates as written.
     Same,
     /// The sum differs: wheels turn in the other sense, or joints between their carriers contribute.
     Changed,
@@ -47,16 +47,16 @@ pub enum NotStrands {
 pub enum DrawnKind {
     /// Two wheels in mesh. Terms: first wheel, second wheel.
     Gear {
-        /// Is one wheel inside the other?
+        /// True if one wheel is inside the other.
         is_internal: bool,
-        /// Are the sizes radii? Otherwise they are numbers of teeth.
+        /// True if the sizes are radii. Otherwise they are numbers of teeth.
         has_radii: bool,
     },
     /// Two wheels by their ratio, which is used as written. Terms: second wheel, first wheel.
     Ratio,
     /// Belt on two wheels. Terms: first wheel, second wheel.
     Belt {
-        /// Is the belt crossed?
+        /// True if the belt is crossed.
         is_crossed: bool,
     },
     /// Rack and pinion; terms: slide of the rack, angle of the pinion.

@@ -15,9 +15,9 @@ use core::fmt::{self, Display, Formatter};
 pub enum SceneFault {
     /// A number is infinite or NaN.
     NotFinite,
-    /// A number is not positive; the number.
+    /// A number is not positive. The field is the number.
     NotPositive(f64),
-    /// A number is negative; the number.
+    /// A number is negative. The field is the number.
     Negative(f64),
     /// An axis has no direction.
     ZeroAxis,
@@ -27,9 +27,9 @@ pub enum SceneFault {
     CoincidentPoints,
     /// The two points of a joint differ, but this kind of joint has one place (scenes built in code).
     PointsDiffer,
-    /// A name is used twice; index of the first use.
+    /// A name is used twice. The field is the index of the first use.
     DuplicateName(usize),
-    /// A name is that of a body; index of the body.
+    /// A name is also the name of a body. The field is the index of the body.
     NameOfBody(usize),
     /// A name is empty, or is `ground` (a body) or `t` (an output).
     ReservedName,
@@ -41,7 +41,7 @@ pub enum SceneFault {
     InCode,
     /// Two bodies are required, but one body is named twice.
     SameBody,
-    /// A joint or effect uses the rotation of a point mass, which has none; index of the body.
+    /// A joint or effect uses the rotation of a point mass, which has none. The field is the index of the body.
     PointTurns(usize),
     /// A place on a point mass differs from the place of its mass.
     OffPoint {
@@ -50,10 +50,10 @@ pub enum SceneFault {
         /// Distance of the two places [m].
         by: f64,
     },
-    /// A principal moment of inertia is larger than the sum of the other two; both sides [kg m^2]. Welded bodies are checked
-    /// together.
+    /// A principal moment of inertia is larger than the sum of the other two. The field has the moment, then the sum [kg m^2].
+    /// Welded bodies are checked together.
     TriangleInequality([f64; 2]),
-    /// The inertia has a negative principal moment [kg m^2].
+    /// The inertia has a negative principal moment, which is the field [kg m^2].
     NegativeInertia(f64),
     /// A body without mass has inertia.
     InertiaWithoutMass,
@@ -61,9 +61,9 @@ pub enum SceneFault {
     NeedsSpatial,
     /// A shape requires a planar scene.
     NeedsPlanar,
-    /// A number is not between 0 and 1; the number.
+    /// A number is not between 0 and 1. The field is the number.
     NotAShare(f64),
-    /// A vector of a planar scene has a component out of the plane; the component.
+    /// A vector of a planar scene has a component out of the plane. The field is this component.
     OutOfPlane(f64),
     /// The form of the inertia does not fit the dimension of the scene.
     WrongDimension,
@@ -88,11 +88,11 @@ pub enum SceneFault {
     NoVector,
     /// The quantity of an output has no angle, so that its unit cannot be chosen.
     NoAngle,
-    /// The joint does not have this coordinate; number of its coordinates.
+    /// The joint does not have this coordinate. The field is the number of its coordinates.
     UnknownCoordinate(usize),
     /// The coordinate is a component of a rotation vector, which is not an independent angle.
     BallCoordinate,
-    /// The angle is one of a ball joint, but the joint has no ball.
+    /// The angle belongs to a ball joint, but the joint has no ball.
     NoBall,
     /// A coupling contains an angle of a ball joint, which only effects and signals can use.
     BallHeld,
@@ -113,9 +113,9 @@ pub enum SceneFault {
     LiesFlat,
     /// The direction of a blade is along the normal of the plane.
     AlongNormal,
-    /// A wheel or ball does not touch its plane; height of its lowest point above the plane [m].
+    /// A wheel or ball does not touch its plane. The field is the height of its lowest point above the plane [m].
     Apart(f64),
-    /// A periodic curve has different values at its ends; both values.
+    /// A periodic curve has different values at its ends. The field has both values.
     PeriodicEnds([f64; 2]),
     /// A table is linear between its rows where its accelerations are required.
     LinearTable,
@@ -123,7 +123,7 @@ pub enum SceneFault {
     NoMesh,
     /// A pretension is given for a coupling whose strands are unknown.
     NotStrands(NotStrands),
-    /// A pitch point does not divide the distance of the axes in the ratio of the factors; the right place [m].
+    /// A pitch point does not divide the distance of the axes in the ratio of the factors. The field is the right place [m].
     OffPitch([f64; 3]),
     /// A length is given for a coupling that has no lines.
     NoLine,
@@ -138,9 +138,10 @@ pub enum SceneFault {
     },
     /// A pressure angle is negative, or a quarter turn or more [rad].
     PressureAngle(f64),
-    /// The start values of the joints give another sum than the coupling; the sum that they give, and the required one.
+    /// The start values of the joints give another sum than the coupling. The field has the sum that they give, then the required
+    /// sum.
     SumAtStart([f64; 2]),
-    /// A guide needs a joint with one coordinate; number of coordinates of the joint.
+    /// A guide needs a joint with one coordinate. The field is the number of coordinates of the joint.
     NoSingleCoordinate(usize),
     /// A joint is guided in part only. Guides must cover all its coordinates, in their order.
     GuideNotWhole {
@@ -151,9 +152,9 @@ pub enum SceneFault {
     },
     /// A guide acts between bodies that are welded together.
     GuideWelded,
-    /// An effect needs a joint with one rotation; number of rotations of the joint.
+    /// An effect needs a joint with one rotation. The field is the number of rotations of the joint.
     NoSingleRotation(usize),
-    /// A number is prescribed by two entries; index of the first entry.
+    /// A number is prescribed by two entries. The field is the index of the first entry.
     GivenTwice(usize),
     /// A value of an initial condition contradicts the guide of its joint.
     Contradiction {
@@ -166,7 +167,7 @@ pub enum SceneFault {
     TableSlope {
         /// Index of the row.
         row: usize,
-        /// Is it the end of the table? Otherwise it is the beginning.
+        /// True if the row is the end of the table. Otherwise it is the beginning.
         is_end: bool,
         /// Time of the row [s].
         time: f64,
@@ -184,19 +185,19 @@ pub enum SceneFault {
     },
     /// A controller requires the rate of a signal whose rate is not known.
     SignalNoRate,
-    /// Times in a table do not increase; index of the first row that is not later than the row before.
+    /// Times in a table do not increase. The field is the index of the first row that is not later than the row before.
     TableOrder(usize),
-    /// The upper limit is not above the lower one; both limits.
+    /// The upper limit is not above the lower one. The field has both limits.
     LimitOrder([f64; 2]),
-    /// The lower end of a range is not below its upper end; both ends.
+    /// The lower end of a range is not below its upper end. The field has both ends.
     RangeOrder([f64; 2]),
-    /// A range, lower end first, is empty; both ends.
+    /// A range is empty. The field has its ends, the lower end first.
     EmptyRange([f64; 2]),
     /// A limit takes its range from the joint, which has none.
     NoRange,
     /// A stiffness is to follow from the mass that a coordinate moves, but the coordinate moves no mass or is guided.
     NoMovedMass,
-    /// Static friction is less than Coulomb friction; both forces.
+    /// Static friction is less than Coulomb friction. The field has both forces.
     StaticBelowCoulomb([f64; 2]),
     /// A polynomial has a piece without coefficients, or with too many.
     PieceCoefficients {
@@ -205,9 +206,9 @@ pub enum SceneFault {
         /// Number of its coefficients.
         found: usize,
     },
-    /// A piece of a polynomial does not end above its beginning; index of the piece.
+    /// A piece of a polynomial does not end above its beginning. The field is the index of the piece.
     PieceRange(usize),
-    /// A piece of a polynomial does not begin at the end of the piece before; index of the piece.
+    /// A piece of a polynomial does not begin at the end of the piece before. The field is the index of the piece.
     PieceGap(usize),
     /// The joint of a spinning wheel does not connect the tire's body to a wheel.
     SpinElsewhere,
@@ -215,11 +216,11 @@ pub enum SceneFault {
     SpinAxis,
     /// A rotor is on a free joint, which has no axis.
     FreeRotor,
-    /// The inertia of a rotor at its joint is zero or not a number; the inertia [kg m^2 or kg].
+    /// The inertia of a rotor at its joint is zero or not a number. The field is the inertia [kg m^2 or kg].
     RotorRatio(f64),
     /// Coefficients of a tire make its formulas divide by zero.
     CalspanRange,
-    /// Points of a road do not increase in x; index of the first point that is not beyond the point before.
+    /// Points of a road do not increase in x. The field is the index of the first point that is not beyond the point before.
     PointOrder(usize),
     /// The rounded corners of a rise overlap; lengths in [m].
     LongRounding {

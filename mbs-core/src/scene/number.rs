@@ -51,7 +51,8 @@ impl Number {
     /// Number one half, in every precision.
     pub const HALF: Self = Self { near: 0.5, source: None };
 
-    /// Number of a decimal text such as `9.81` or `1.0e-3`; `None` if the text is no number, or one that scene files must not have.
+    /// Number of a decimal text such as `9.81` or `1.0e-3`. `None` if the text is no number, or a number that scene files must not
+    /// contain.
     #[must_use]
     pub fn from_decimal(text: &str) -> Option<Self> {
         let is_digit = |c: Option<u8>| c.is_some_and(|c| c.is_ascii_digit());
@@ -90,19 +91,19 @@ impl Number {
         Self { near: 0.0, source: Some(Box::new(Source::Open)) }
     }
 
-    /// Does the number follow from the scene?
+    /// True if the number follows from the scene.
     #[must_use]
     pub fn is_open(&self) -> bool {
         matches!(self.source.as_deref(), Some(Source::Open))
     }
 
-    /// Was the number assumed instead of given?
+    /// True if the number was assumed instead of given.
     #[must_use]
     pub fn is_absent(&self) -> bool {
         matches!(self.source.as_deref(), Some(Source::Absent))
     }
 
-    /// Does the number follow from other numbers, as the default of a key may?
+    /// True if the number follows from other numbers, as the default of a key may.
     #[must_use]
     pub fn is_computed(&self) -> bool {
         matches!(self.source.as_deref(), Some(Source::Sum(..) | Source::Product(..)))
@@ -114,7 +115,7 @@ impl Number {
         self.near
     }
 
-    /// Is the number zero?
+    /// True if the number is zero.
     #[must_use]
     pub fn is_zero(&self) -> bool {
         self.near == 0.0

@@ -86,7 +86,8 @@ pub(crate) fn largest<T: Real>(v: [T; 3]) -> T {
 /// Largest |a × b| of directions that count as parallel, in units of rounding of |a| |b| [-]. Chosen, not tuned.
 const PARALLEL_ROUNDINGS: f64 = 64.0;
 
-/// Are two directions equal or opposite, within rounding errors? The largest component of a × b is compared with those of a and b.
+/// True if two directions are equal or opposite, within rounding errors. The largest component of a × b is compared with those of a
+/// and b.
 pub(crate) fn is_parallel<T: Real>(a: [T; 3], b: [T; 3]) -> bool {
     let (a, b) = (scaled(a), scaled(b));
     let cross = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
@@ -98,7 +99,7 @@ fn scaled<T: Real>(v: [T; 3]) -> [T; 3] {
     v.map(|x| x / size)
 }
 
-/// Is the scene planar?
+/// True if the scene is planar.
 pub(crate) fn is_planar(dimension: Dimension) -> bool {
     dimension == Dimension::Planar
 }

@@ -18,7 +18,7 @@ pub struct BodyShape<T> {
     pub colour: Option<[u8; 3]>,
     /// Opacity from 0 (invisible) to 1 (opaque) [-].
     pub opacity: T,
-    /// Is the shape for pictures only?
+    /// True if the shape is for pictures only.
     pub is_visual: bool,
 }
 
@@ -107,7 +107,7 @@ impl<T> ShapeKind<T> {
         }
     }
 
-    /// Can planar scenes have the form, and can spatial scenes?
+    /// Returns whether planar scenes can have the form, then whether spatial scenes can.
     #[must_use]
     pub const fn dimensions(&self) -> [bool; 2] {
         match self {

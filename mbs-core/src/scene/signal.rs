@@ -85,7 +85,7 @@ pub enum SignalKind<T> {
         rows: Vec<[T; 2]>,
         /// Interpolation between the rows.
         interpolation: Interpolation,
-        /// Does the table repeat? Its last value must then equal its first.
+        /// True if the table repeats. Its last value must then equal its first.
         periodic: bool,
     },
     /// Sine wave: offset + amplitude sin(2 pi frequency t + phase).
@@ -185,7 +185,7 @@ pub enum SignalKind<T> {
     Measure {
         /// Number that is measured. A length is the full length, not the difference from the reference configuration.
         of: CouplingMeasure<T>,
-        /// Is the rate of the number measured, and not its value?
+        /// True if the rate of the number is measured, and not its value.
         is_rate: bool,
     },
     /// First-order lag x of a signal s: time x' = s - x.
@@ -239,9 +239,9 @@ pub enum Smoothness {
 pub struct SignalBreak {
     /// Signal with the break: the examined signal, or one of its operands, direct or indirect.
     pub signal: SignalId,
-    /// Does the value jump? Otherwise only the rate jumps.
+    /// True if the value jumps. Otherwise only the rate jumps.
     pub is_jump: bool,
-    /// Does the signal depend on the motion? Its accelerations are then not known in advance, and it counts as a jump.
+    /// True if the signal depends on the motion. Its accelerations are then not known in advance, and it counts as a jump.
     pub is_feedback: bool,
     /// First time of the break [s]; `None` if it is not known in advance.
     pub time: Option<f64>,
@@ -263,7 +263,7 @@ impl<T> SignalKind<T> {
         }
     }
 
-    /// Does the signal measure the motion, or have its own state?
+    /// True if the signal measures the motion, or has its own state.
     #[must_use]
     pub const fn is_feedback(&self) -> bool {
         matches!(
@@ -272,13 +272,13 @@ impl<T> SignalKind<T> {
         )
     }
 
-    /// Does the signal change without its operands: in time, by an input, or with the motion?
+    /// True if the signal changes without its operands: in time, by an input, or with the motion.
     pub(crate) fn moves(&self) -> bool {
         let is_alone = self.operands().is_empty() && !matches!(self, Self::Constant(_));
         is_alone || self.is_feedback()
     }
 
-    /// Is the rate of the signal known, provided that the rates of its operands are?
+    /// True if the rate of the signal is known, provided that the rates of its operands are known.
     pub(crate) const fn has_rate(&self) -> bool {
         !matches!(self, Self::Measure { is_rate: true, .. } | Self::Pid { .. })
     }
@@ -458,7 +458,7 @@ pub fn signal_breaks<T: Real>(
     breaks
 }
 
-/// Finds for each signal the first one among its operands, direct or indirect, and itself for which `is_one` holds.
+/// Finds the first signal for which `is_one` holds, for each signal among itself and its direct and indirect operands.
 pub(crate) fn first_of<T>(
     signals: &[NamedSignal<T>],
     order: &[usize],

@@ -54,7 +54,8 @@ pub fn accelerations<T: Real, M: Model<T>>(
             rates[k] += terms.phi_bias[k];
             lambda[k] += penalty[k] * rates[k];
         }
-        // Compare residuals, not corrections: the second correction mainly compensates for the finite penalty of the first.
+        // Residuals are compared, not corrections, since the second correction mainly compensates for the finite penalty of the first
+        // correction.
         let left = norm_inf(&rates);
         let slower = |share: f64| last.is_some_and(|last| !(left < last * T::from_f64(share)));
         let (is_slow, stalls) = (slower(0.5), slower(STALLED));
@@ -104,7 +105,7 @@ struct Met<'a, T> {
 }
 
 impl<T: Real> Met<'_, T> {
-    /// Are the residuals acceptable, if the tilt of weakly determined rows may leave a part that grows with the accelerations `a`? The
+    /// True if the residuals are acceptable. The tilt of weakly determined rows may leave a part that grows with the accelerations `a`. The
     /// solver must have the factor of M + J^T alpha J.
     fn but_for_tilt<M: Model<T>>(
         &self,

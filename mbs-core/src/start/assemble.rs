@@ -56,9 +56,9 @@ pub fn assemble<T: Real, const D: usize, S: SpdSolver<T>>(
     Ok(Assembled { state, change, residual_before, residual, stages })
 }
 
-/// Computes velocities and accelerations at given positions, by the same rules as [`assemble`]. Velocities are those that the scene
-/// prescribes, or else the smallest ones. `state.q` must satisfy the constraints, with guides at their values of time zero; prescribed
-/// start positions are ignored. Returns the largest residuals of position, velocity and acceleration.
+/// Computes velocities and accelerations at given positions, by the same rules as [`assemble`]. Velocities satisfy the rates that the scene
+/// prescribes, and are otherwise as small as possible. `state.q` must satisfy the constraints, with guides at their values of time zero;
+/// prescribed start positions are ignored. Returns the largest residuals of position, velocity and acceleration.
 ///
 /// # Errors
 /// [`AssemblyError`] with the joint or entry that cannot be satisfied.

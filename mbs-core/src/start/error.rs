@@ -15,7 +15,7 @@ pub enum AssemblyError {
         residual: f64,
         /// Owner of the row that is not satisfied.
         owner: Owner,
-        /// Number of the `[[initial]]` entry of the row, if it has one.
+        /// Index of the `[[initial]]` entry of the row, if it has one.
         initial: Option<usize>,
         /// Value at which the coordinate of `owner` stopped on the path to its prescribed value, and that value [rad or m]. The mechanism
         /// locks there, or prescribed values contradict each other. `None` if no prescribed value was being approached.
@@ -32,7 +32,7 @@ pub enum AssemblyError {
         residual: f64,
         /// Owner of the row that is not satisfied.
         owner: Owner,
-        /// Number of the `[[initial]]` entry of the row, if it has one.
+        /// Index of the `[[initial]]` entry of the row, if it has one.
         initial: Option<usize>,
     },
     /// Accelerations are not determined: a force acts on a coordinate without inertia.

@@ -14,14 +14,15 @@ use alloc::vec::Vec;
 enum Kind<T: Real, const D: usize> {
     /// Angle of y in the frame x1, x2.
     Angle { x1: Affine<T, D>, x2: Affine<T, D>, y: Affine<T, D> },
-    /// Slide x.y of two points along a direction.
+    /// Slide x.y: the vector x between two points, times the unit direction y.
     Slide { x: Affine<T, D>, y: Affine<T, D> },
     /// Orientation of two bodies: (R a)_i . b_j, with the prescribed relative rotation R and the frames a and b. It is zero if the rotation
     /// is R.
     Orientation { first: Box<[Affine<T, D>; 3]>, second: Affine<T, D>, vector: [T; 3], i: usize },
     /// Velocity component of a point.
     PointRate { x: Affine<T, D>, axis: usize },
-    /// Component of the velocity x' = w x x of a rod's line, which has no rotation about itself.
+    /// Component of the velocity x' of a rod's line x at the angular velocity w. The velocity is the vector product of w and x. The rod has
+    /// no rotation about its line.
     Swing { x: Affine<T, D>, w: [T; 3], axis: usize },
     /// Component of the second body's angular velocity relative to the first.
     Spin {
@@ -38,7 +39,7 @@ pub(super) struct StartRow<T: Real, const D: usize> {
     /// Prescribed value, `None` if only the rate is prescribed; prescribed rate, `None` if only the value is.
     pub(super) value: Option<T>,
     pub(super) rate: Option<T>,
-    /// Number of the `[[initial]]` entry.
+    /// Index of the `[[initial]]` entry.
     pub(super) initial: usize,
     /// Joint or body to which the row belongs.
     pub(super) owner: crate::model::Owner,
@@ -117,8 +118,9 @@ impl<T: Real, const D: usize> StartRow<T, D> {
         if matches!(self.kind, Kind::Slide { .. }) { target / length } else { target }
     }
 
-    /// Residual of the value at continuation parameter `tau`: 0 in the reference configuration, 1 at the prescribed value. It adds the
-    /// gradient of the row over all coordinates to `gradient`, which must be zero before. The gradient is also that of the rate.
+    /// Residual of the value at continuation parameter `tau`: 0 in the reference configuration, 1 at the prescribed value. Adds the
+    /// gradient of the row over all coordinates to `gradient`, which must be zero before. The rate of the row has the same gradient by the
+    /// velocities.
     pub(super) fn evaluate(&self, q: &[T], tau: T, gradient: &mut [T]) -> T {
         let target = self.value.map(|v| v * tau);
         match &self.kind {
@@ -164,8 +166,8 @@ impl<T: Real, const D: usize> StartRow<T, D> {
         }
     }
 
-    /// Adds `s` times the second derivatives of the value to a packed block over the clique's unknowns. They hold for motions that keep
-    /// directions at unit length.
+    /// Adds `s` times the second derivatives of the value to a packed block over the clique's unknowns. These derivatives are valid for
+    /// motions that keep directions at unit length.
     pub(super) fn add_curvature(&self, q: &[T], s: T, clique: &[u32], block: &mut [T]) {
         let mut add = |x: &Affine<T, D>, y: &Affine<T, D>, s: T| {
             x.add_product_curvature(y, s, clique, block);
@@ -189,7 +191,7 @@ impl<T: Real, const D: usize> StartRow<T, D> {
         }
     }
 
-    /// Coordinates on which the row depends, by the first number of each point or direction.
+    /// Points and directions on which the row depends, each by the index of its first coordinate.
     pub(super) fn entities(&self) -> Vec<u32> {
         let mut all = Vec::new();
         let mut visit = |x: &Affine<T, D>| all.extend(x.entities());
@@ -210,7 +212,7 @@ impl<T: Real, const D: usize> StartRow<T, D> {
     }
 }
 
-/// Vector product e_axis x u.
+/// Vector product of the unit vector along the axis number `axis` and the vector u.
 fn spin_arm<T: Real, const D: usize>(u: &Vector<T, D>, axis: usize) -> Vector<T, D> {
     lowered(&cross(&unit(axis), &raised(u)))
 }
@@ -265,7 +267,7 @@ impl<T: Real, const D: usize> Source<'_, T, D> {
         rows
     }
 
-    /// Three rows for a relative rotation and three for a relative angular velocity. `from` is the number of the first component.
+    /// Three rows for a relative rotation and three for a relative angular velocity. `from` is the index of the first component.
     fn turning(&self, value: Option<&[T]>, rate: Option<&[T]>, from: usize) -> Vec<Row<T, D>> {
         let [first, second] = self.joint.bodies;
         let three = |x: Option<&[T]>| -> Option<[T; 3]> {

@@ -22,7 +22,7 @@ use alloc::vec::Vec;
 /// Mass that a coordinate moves if all other coordinates follow freely [kg or kg m^2]. The coordinate is given by joint and number. Guides
 /// are at rest and couplings hold. `None` if the coordinate moves no mass or cannot move.
 ///
-/// Cost: a model of the scene, and a dense factorisation of its coordinates, (12 bodies)^3/3 products in space.
+/// Cost: a model of the scene, and a dense factorisation of its coordinates: (12 n)^3/3 products for n bodies in space.
 #[must_use]
 pub fn moved_mass(scene: &Scene<f64>, of: (JointId, usize)) -> Option<f64> {
     let moving = moving(scene, of);
@@ -33,7 +33,7 @@ pub fn moved_mass(scene: &Scene<f64>, of: (JointId, usize)) -> Option<f64> {
     mass.filter(|mass| *mass > 0.0 && mass.is_finite())
 }
 
-/// Scene without forces and start values, but with its rotors. One coordinate has a rate of one; guides and couplings are at rest.
+/// Scene without forces and start values, but with its rotors. The given coordinate has a rate of one; guides and couplings are at rest.
 fn moving(scene: &Scene<f64>, (joint, number): (JointId, usize)) -> Scene<f64> {
     let guide = |guide: &Guide<f64>| Guide { law: Motion::Input([0.0; 3]), ..guide.clone() };
     let held = |coupling: &Coupling<f64>| Coupling { value: 0.0, motion: None, ..coupling.clone() };

@@ -15,7 +15,7 @@ use alloc::vec::Vec;
 struct Branch<T> {
     joint: usize,
     values: Vec<T>,
-    /// Does the joint place the second body? Otherwise it places the first.
+    /// True if the joint places the second body; false if it places the first.
     is_forward: bool,
 }
 
@@ -25,7 +25,7 @@ pub(super) struct Placement<'a, T: Real> {
     scene: &'a Scene<T>,
     clusters: &'a Clusters<T>,
     branches: Vec<Branch<T>>,
-    /// Does every joint have given values, and every tree a root on the ground?
+    /// True if every joint has given values, and every tree has a root on the ground.
     pub(super) is_complete: bool,
 }
 
@@ -77,7 +77,7 @@ impl<'a, T: Real> Placement<'a, T> {
         (is_tree && is_known).then_some(Self { scene, clusters, branches, is_complete })
     }
 
-    /// Motions of the bodies without velocity, with all coordinates at the fraction `tau` of their values.
+    /// Positions of the bodies, with all joint coordinates at the fraction `tau` of their given values. Velocities are zero.
     pub(super) fn motions(&self, tau: T) -> Vec<RigidMotion<T>> {
         let origin = Vector::<T, 3>::zeros();
         let mut motions = vec![RigidMotion::at_rest(origin); self.clusters.clusters.len()];
@@ -89,7 +89,7 @@ impl<'a, T: Real> Placement<'a, T> {
             let end = Vector::from(joint.points[1]);
             let (parent, child) = if branch.is_forward { (first, second) } else { (second, first) };
             let parent = parent.map_or(RigidMotion::at_rest(origin), |parent| motions[parent]);
-            // A point x of the second body is at turn (x - end) + place of the first body.
+            // A point x of the second body has the position turn (x - end) + place in the first body's reference frame.
             let (from, to, turn) =
                 if branch.is_forward { (place, end, turn) } else { (end, place, turn.transpose()) };
             if let Some(child) = child {

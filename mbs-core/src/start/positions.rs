@@ -2,8 +2,8 @@
 //! possible from the reference configuration.
 //!
 //! ```text
-//! stage:  q <- the nearest to where the last stage ended with phi(q) = 0 and tau of the held values
-//! least:  min (q - q_ref)^T M (q - q_ref)  from there:  M (q - q_ref) + J^T sigma = 0,  phi(q) = 0, by Newton's method
+//! stage:  q <- the positions nearest to the end of the last stage with phi(q) = 0 and the fraction tau of the prescribed values
+//! least:  min (q - q_ref)^T M (q - q_ref)  from the last stage:  M (q - q_ref) + J^T sigma = 0,  phi(q) = 0, by Newton's method
 //! ```
 //!
 //! q_ref is the reference configuration, tau the fraction of the prescribed values, sigma the multipliers. The stages only select the
@@ -23,13 +23,14 @@ use crate::natural::NaturalModel;
 use crate::outputs::start_values;
 use alloc::vec::Vec;
 
-/// Number of sweeps without halving the smallest residual after which the search ends [-]. Entries that contradict each other never
-/// converge. Chosen, not tuned.
+/// Number of consecutive sweeps that do not halve the smallest residual, after which the search ends [-]. Initial conditions that
+/// contradict each other never converge. Chosen, not tuned.
 const MAX_IDLE_SWEEPS: u32 = 10;
 /// Largest prescribed angle of one continuation stage [rad], or slide in scene lengths. Chosen, not tuned: stages with too large
 /// corrections are halved.
 const MAX_STAGE: f64 = 0.25;
-/// Largest correction of a coordinate in a stage, relative to its size [-]. A larger one may lead to another branch. Chosen, not tuned.
+/// Largest correction of a coordinate in a stage, relative to its size [-]. A larger correction may lead to another branch. Chosen, not
+/// tuned.
 const MAX_STAGE_CORRECTION: f64 = 1.0;
 /// Largest number of halvings of a stage before the path ends [-]. Chosen, not tuned.
 const HALVINGS: i32 = 10;
@@ -46,7 +47,7 @@ const MAX_STEPS: u32 = 400;
 /// Correction below which Newton's method reaches machine precision next, in square roots of machine precision [-]: corrections decrease
 /// quadratically.
 const CLOSE: f64 = 1e-2;
-/// Ratio of two corrections above which the damping is increased [-]. Chosen, not tuned.
+/// Ratio of two consecutive corrections above which the damping is increased [-]. Chosen, not tuned.
 const GROWING: f64 = 0.9;
 /// Damping, relative to the masses, above which the search fails [-]. Chosen, not tuned.
 const MAX_DAMPING: f64 = 1e6;
@@ -96,7 +97,7 @@ impl<T: Real, S: SpdSolver<T>, const D: usize> Assembly<'_, T, S, D> {
         stages
     }
 
-    /// Places an open tree. Returns whether its rows are satisfied; otherwise `s` is unchanged.
+    /// Places an open tree. Returns true if its rows are satisfied; otherwise `s` is unchanged.
     fn place(&mut self, placement: &Placement<'_, T>, stages: u32, s: &mut State<T>) -> bool {
         let (q, memory) = (s.q.clone(), s.memory.clone());
         for stage in 1..=stages {
@@ -158,7 +159,7 @@ impl<T: Real, S: SpdSolver<T>, const D: usize> Assembly<'_, T, S, D> {
             match end {
                 Ok(()) => closed = next,
                 Err(Stop::Gap(error)) if is_last => {
-                    // A small residual at the end is no path that stopped early.
+                    // If the residual at the end is small, the path did not stop early.
                     let is_small = self.worst(&self.rows) <= T::from_f64(STRAIGHT);
                     let closed = if is_small { T::ONE } else { closed };
                     return Err(self.stopped((error, scene), closed));
@@ -227,7 +228,7 @@ impl<T: Real, S: SpdSolver<T>, const D: usize> Assembly<'_, T, S, D> {
         Err(if is_compromise { Stop::Gap(self.gap()) } else { Stop::Jump(self.gap()) })
     }
 
-    /// Applies a part of the correction.
+    /// Applies the fraction `part` of the correction.
     fn correct(&mut self, s: &mut State<T>, part: T) {
         for i in 0..self.problem.n_unknowns() {
             s.q[i] -= self.f[i] * part;
@@ -235,8 +236,8 @@ impl<T: Real, S: SpdSolver<T>, const D: usize> Assembly<'_, T, S, D> {
         }
     }
 
-    /// Moves an assembled mechanism to the assembled one with the smallest change from the reference configuration. Curvature of the rows
-    /// may make the matrix indefinite, or corrections may grow. Damping then turns Newton's method towards steepest descent.
+    /// Moves an assembled mechanism to the assembled positions with the smallest change from the reference configuration. Curvature of the
+    /// rows may make the matrix indefinite, or corrections may grow. Damping then turns Newton's method towards steepest descent.
     fn least(&mut self, s: &mut State<T>) -> Result<(), AssemblyError> {
         let n = self.problem.n_unknowns();
         self.drive(&s.q, T::ONE);
@@ -301,7 +302,7 @@ impl<T: Real, S: SpdSolver<T>, const D: usize> Assembly<'_, T, S, D> {
         Err(self.gap())
     }
 
-    /// Error of rows that are not satisfied, with the largest residual.
+    /// Error for rows that are not satisfied. It contains the largest residual.
     fn gap(&self) -> AssemblyError {
         let (residual, owner, initial) = self.culprit();
         AssemblyError::Position { residual: residual.to_f64(), owner, initial, reached: None }
@@ -337,7 +338,7 @@ impl<T: Real, S: SpdSolver<T>, const D: usize> Assembly<'_, T, S, D> {
     }
 }
 
-/// Angles that couplings remember and that the scene determines: the place in the memory, and the angle.
+/// Angles that couplings remember and that the scene determines: the index in the memory of the state, and the angle.
 pub(super) fn given_turns<T: Real, const D: usize>(
     scene: &Scene<T>,
     model: &NaturalModel<T, D>,

@@ -1,7 +1,7 @@
 //! Start problem as a sum of elements: the elements of the model, a row for each prescribed coordinate, and a small mass for each unknown.
 //!
 //! ```text
-//! W = M + E + C + J^T S J,   S = P m_k of each row (model's and held alike)
+//! W = M + E + C + J^T S J,   S = P m_k for each row, of the model or of a prescribed coordinate
 //! f = M (x - x*) + J^T mu
 //! ```
 //!
@@ -25,7 +25,7 @@ pub(super) const RAISE: f64 = 30.0;
 /// Ratio of residuals above which a sweep is slow [-].
 pub(super) const SLOW_RATIO: f64 = 0.3;
 
-/// Does the scalar have at least double precision?
+/// True if the scalar has at least double precision.
 pub(super) fn is_fine<T: Real>() -> bool {
     /// Machine precision [-] between that of single precision (1e-7) and that of double precision (2e-16).
     const FINE: f64 = 1e-12;
@@ -38,8 +38,8 @@ pub(super) fn penalty<T: Real>() -> T {
     T::from_f64(if is_fine::<T>() { 1e6 } else { 500.0 })
 }
 
-/// Smallest mass for the scaling of rows, relative to the largest [-]. Rows of a light body between heavy ones then have penalties like
-/// those of its neighbours.
+/// Smallest mass for the scaling of rows, relative to the largest [-]. The penalties of a light body's rows between heavy bodies are then
+/// similar to those of the neighbouring rows.
 fn lifted<T: Real>() -> T {
     T::from_f64(if is_fine::<T>() { 1e-4 } else { 1e-2 })
 }
@@ -58,7 +58,7 @@ pub struct Problem<'a, T: Real, const D: usize> {
     spans: Vec<Span>,
     /// Size of each unknown: the scene's length, or one for directions.
     pub(super) sizes: Vec<T>,
-    /// Diagonal of M, with the smallest mass applied.
+    /// Diagonal of M for the scaling of rows. Smaller entries are raised to the smallest mass for scaling.
     pub(super) mass: Vec<T>,
     lent: Vec<T>,
     pub(super) terms: Terms<T>,

@@ -1,8 +1,8 @@
 //! Rank of a sparse matrix with short rows, by elimination of the products of its rows.
 //!
 //! ```text
-//! S = J J^T, rows of J of unit length        s_kk: square of the distance of row k from those eliminated before it
-//! S <- S - s_k s_k^T / s_kk                  large distances first, of these the rows with the fewest products
+//! S = J J^T, rows of J of unit length        s_kk: square of the distance of row k from the span of the rows eliminated before it
+//! S <- S - s_k s_k^T / s_kk                  order: large distances first, among these the rows with the fewest products
 //! ```
 //!
 //! s_k is row k of S. S is positive semidefinite, and so is the remaining matrix after each elimination. Entries therefore do not grow, in
@@ -50,7 +50,7 @@ pub fn sparse_rank<T: Real>(rows: Vec<Row<T>>, n: usize) -> usize {
     rank
 }
 
-/// Turn of a row in the order of elimination: class of its diagonal (larger diagonals first), its length, and its number.
+/// Turn of a row in the order of elimination: class of its diagonal (larger diagonals first), its length, and its index.
 type Turn = (u32, usize, usize);
 
 /// Turn of a row in the order of elimination; `None` if its diagonal is only a rounding error.

@@ -16,8 +16,8 @@ use crate::model::{Model, Owner, State};
 use alloc::vec;
 use alloc::vec::Vec;
 
-/// Accepted residual of a row, in multiples of the machine precision of its terms [-]. It allows for the evaluation of the row and for its
-/// correction.
+/// Accepted residual of a row, in multiples of the machine precision of its terms [-]. It allows for rounding errors in the evaluation of
+/// the row and in its correction.
 const ROUNDINGS: f64 = 256.0;
 
 pub(super) struct Assembly<'a, T: Real, S, const D: usize> {
@@ -161,7 +161,7 @@ impl<'a, T: Real, S: SpdSolver<T>, const D: usize> Assembly<'a, T, S, D> {
         norm_inf(&[norm_inf(&self.problem.terms.phi), norm_inf(&self.problem.residuals)])
     }
 
-    /// Row with the largest residual: the residual, its owner, and the number of the `[[initial]]` entry for a start row.
+    /// Row with the largest residual: the residual, its owner, and the index of the `[[initial]]` entry for a start row.
     pub(super) fn culprit(&self) -> (T, Owner, Option<usize>) {
         let p = &self.problem;
         let (rows, holds) = self.rows.split_at(p.model.n_constraints());

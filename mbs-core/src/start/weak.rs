@@ -24,8 +24,8 @@ pub(super) const TILT: f64 = 1e-6;
 pub(super) const SIEVES: u32 = 3;
 
 impl<T: Real, S: SpdSolver<T>, const D: usize> Assembly<'_, T, S, D> {
-    /// Are the residuals of all rows within `accepted`, relative to their spreads, apart from the effect of their tilt on the motion
-    /// `moved`? The matrix of the level must be factored without curvature.
+    /// True if the residuals of all rows are within `accepted`, relative to their spreads. The effect of their tilt on the motion `moved`
+    /// does not count. The matrix of the level must be factored without curvature.
     pub(super) fn is_met(&mut self, level: Level, accepted: T, moved: &[T]) -> bool {
         if self.worst(&self.rows) <= accepted {
             return true;

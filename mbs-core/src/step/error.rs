@@ -14,19 +14,19 @@ pub enum StepError {
         iterations: u32,
         /// Last correction of a coordinate, relative to the scene's length.
         correction: f64,
-        /// Number of the unknown with the largest correction.
+        /// Index of the unknown with the largest correction.
         unknown: u32,
     },
     /// The tangent matrix is not positive definite: a force acts on a coordinate without inertia, or nothing determines a coordinate.
     Singular(FactorError),
     /// A number became infinite or NaN.
     NotFinite {
-        /// Number of the unknown concerned.
+        /// Index of the unknown concerned.
         unknown: u32,
     },
     /// The constraints lost rank: the mechanism is in or close to a singular position, or rows are redundant.
     RankLost {
-        /// Number of the row that depends on the others.
+        /// Index of the row that depends on the others.
         row: u32,
         /// Size of its pivot, relative to that of an independent row.
         pivot: f64,
@@ -42,7 +42,7 @@ pub enum StepError {
         level: u8,
         /// Largest violation that remains.
         violation: f64,
-        /// Number of the row with the largest violation.
+        /// Index of the row with the largest violation.
         row: u32,
     },
     /// The length of the step or of the scene is not positive and finite.
@@ -58,26 +58,26 @@ pub enum StepError {
     Tables,
     /// A joint rotated by more in one step than its position at the end can resolve, so that its turns are unknown.
     TurnTooLarge {
-        /// Number of the joint in the scene.
+        /// Index of the joint in the scene.
         joint: u32,
         /// Rate of the joint times the step [rad].
         turn: f64,
     },
     /// An effect that measures a rotation in space has rotated by a whole turn, where its law is not defined.
     Overturned {
-        /// Number of the effect in the scene.
+        /// Index of the effect in the scene.
         effect: u32,
     },
     /// A part of a coupling's line, such as a rope, has zero length and therefore no direction.
     RopeCollapsed {
-        /// Number of the coupling in the scene.
+        /// Index of the coupling in the scene.
         coupling: u32,
-        /// Number of the part, from 0 in the order of the coupling's points.
+        /// Index of the part, from 0 in the order of the coupling's points.
         part: u32,
     },
     /// A rolling disc lies flat on its plane, where it has no lowest point, or a blade is parallel to the normal.
     RollingFlat {
-        /// Number of the rolling contact in the scene.
+        /// Index of the rolling contact in the scene.
         rolling: u32,
     },
     /// The formulation has independent coordinates, but the model has velocity rows, as for rolling bodies. Such rows restrict
@@ -85,31 +85,31 @@ pub enum StepError {
     VelocityRows,
     /// A part of an effect's line, such as an elastic rope, has zero length under tension and therefore no direction.
     LineCollapsed {
-        /// Number of the effect in the scene.
+        /// Index of the effect in the scene.
         effect: u32,
-        /// Number of the part, from 0 in the order of the effect's points.
+        /// Index of the part, from 0 in the order of the effect's points.
         part: u32,
     },
     /// The axes of a ball are opposite, where its twist is undefined.
     TwistOpen {
-        /// Number of the effect on the twist in the scene.
+        /// Index of the effect on the twist in the scene.
         effect: u32,
     },
     /// A user-defined law with data returned a number that is infinite or NaN.
     #[cfg(feature = "alloc")]
     Law {
-        /// Number of the effect in the scene.
+        /// Index of the effect in the scene.
         effect: u32,
     },
     /// The user-defined relation of a coupling returned a number that is infinite or NaN.
     #[cfg(feature = "alloc")]
     Relation {
-        /// Number of the coupling in the scene.
+        /// Index of the coupling in the scene.
         coupling: u32,
     },
     /// A guided angle is half a turn from its guide, at the false root of the constraint.
     OppositeBranch {
-        /// Number of the row of the guide.
+        /// Index of the row of the guide.
         row: u32,
     },
 }
@@ -120,14 +120,14 @@ pub enum StepError {
 pub enum InputError {
     /// The effect, guide or signal does not exist, is disabled, or gets its values from the scene.
     NotAnInput {
-        /// Number of the effect, guide or signal in the scene, or of the signal or guide in an exported model.
+        /// Index of the effect, guide or signal in the scene, or of the signal or guide in an exported model.
         number: usize,
     },
     /// A component is infinite or NaN.
     NotFinite {
-        /// Number of the effect, guide or signal.
+        /// Index of the effect, guide or signal.
         number: usize,
-        /// Number of the component, from 0.
+        /// Index of the component, from 0.
         component: usize,
     },
 }
@@ -163,7 +163,7 @@ impl core::fmt::Display for InputError {
 impl core::error::Error for InputError {}
 
 impl StepError {
-    /// Sentence of an error without numbers; `None` for other errors.
+    /// Message of an error whose message contains no numbers; `None` for other errors.
     const fn sentence(&self) -> Option<&'static str> {
         Some(match self {
             Self::NotFinite { .. } => "a number became infinite or NaN: try a smaller step",
@@ -279,7 +279,7 @@ impl From<OptionError> for StepError {
     }
 }
 
-/// Error of an option outside its range, with its name.
+/// Error for an option outside its range. It contains the name of the option.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum OptionError {
     /// The option must be positive and finite.

@@ -19,7 +19,7 @@ pub fn largest<T: Real>(x: &[T]) -> u32 {
     u32::try_from(best).unwrap_or(u32::MAX)
 }
 
-/// Index of the first entry that is not finite; if all are finite, of the largest one.
+/// Index of the first entry that is not finite; if all are finite, index of the entry with the largest absolute value.
 #[cold]
 pub fn largest_or_nan<T: Real>(x: &[T]) -> u32 {
     let bad = x.iter().position(|x| !x.is_finite());

@@ -4,7 +4,7 @@ use crate::small::{GROUND, add_body, add_joint, hold, scene, start};
 use mbs_core::outputs::{Forces, Measures, RelativePoint};
 use mbs_core::scene::{BodyId, Dimension, Inertia, JointId, JointKind, Output, Quantity, Scene};
 
-/// Rounding error of products of numbers of order ten, and of the assembly.
+/// Allowed error: rounding of products of numbers of order ten, and the error of the assembly.
 const CLOSED: f64 = 1e-11;
 const GRAVITY: f64 = 9.81;
 

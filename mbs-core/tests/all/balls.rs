@@ -10,8 +10,8 @@ use mbs_testkit::{Random, model, residual, scene};
 
 type V = Vector<f64, 3>;
 
-/// Step of central differences. Rounding costs 1e-16 of an angle over the step, truncation its square times third derivatives of
-/// order ten.
+/// Step of central differences. The rounding error is 1e-16 of an angle, divided by the step. The truncation error is the square of
+/// the step times third derivatives of order ten.
 const STEP: f64 = 1e-5;
 /// Largest difference of gradients and rates from difference quotients [-].
 const DIFFERENCE: f64 = 1e-7;

@@ -146,7 +146,7 @@ fn every_kept_step_changes_the_invariant_by_less_than_its_limit_and_none_is_long
     let invariant = pendulum.invariant();
     let limits = [1e-5, 1e-7];
     let steps = pendulum.run(energy(limits), 0.1, 20.0);
-    // The exchanged energy is at most that of a height of 2 m, twice.
+    // The exchanged energy is at most twice that of a height of 2 m.
     let scale = 4.0 * G;
     assert!(steps.iter().all(|s| s.change.abs() <= limits[0] * scale + invariant.rounding()));
     // At 20 s the time resolves a step to a few units of its last digits.
@@ -249,7 +249,7 @@ fn failures_shorten_the_step_and_it_grows_again() {
 #[test]
 fn a_run_whose_steps_would_never_end_says_so() {
     let mut pendulum = Pendulum::new(1.0);
-    // No longer trial succeeds, so that two hundred thousand steps are needed for a largest step.
+    // No trial longer than this succeeds, so that two hundred thousand steps are needed for a largest step.
     pendulum.fails_from = 5e-7;
     let (mut driver, mut invariant) =
         (Driver::new(energy([1e-2, 1e-4]), 0.1), pendulum.invariant());

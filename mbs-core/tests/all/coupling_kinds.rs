@@ -1,4 +1,4 @@
-//! Couplings built in code, compared with scene files of the same words, and with the sums that both mean.
+//! Couplings built in code, compared with the same couplings in scene files, and with their sums.
 
 use mbs_core::real::DoubleDouble;
 use mbs_core::scene::{BodyId, Coupling, CouplingTerm, Curve, GROUND, JointId, Number, Scene};

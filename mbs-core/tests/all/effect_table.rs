@@ -100,7 +100,7 @@ fn what_a_kind_says_of_its_numbers_is_of_its_fields() {
             assert!(unit(key).is_some_and(|unit| units.contains(&unit)), "{}: {key}", row.module);
             hinted.push((row.module, key));
         }
-        // A force that rises within a small rate can hold by friction, and steps must not skip it.
+        // Friction whose force rises steeply within a small rate can hold bodies at rest. Steps must not skip it.
         assert_eq!(kind.sticking().is_some(), has("regularisation"), "{}", row.module);
         for field in row.fields {
             let is_open = matches!(field.default, Default::Open | Default::OpenWith(_));

@@ -19,11 +19,11 @@ use mbs_testkit::{Random, close, dot, matrix, model, plus, residual};
 
 type V = Vector<f64, 3>;
 
-/// Step of central differences. Rounding costs 1e-16 of 1e2 N over the step, truncation its square times third derivatives of order
-/// 1e3.
+/// Step of central differences. The rounding error is 1e-16 of 1e2 N, divided by the step. The truncation error is the square of
+/// the step times third derivatives of order 1e3.
 const STEP: f64 = 1e-5;
 const DIFFERENCE: f64 = 2e-6;
-/// Rounding error of sums of some tens of products of numbers of order a hundred.
+/// Allowed error: rounding in sums of some tens of products, whose numbers are of order a hundred.
 const ROUNDING: f64 = 1e-11;
 
 /// Model with a state and its terms.
@@ -167,7 +167,8 @@ fn forces_do_the_work_that_energy_and_power_tell() {
 #[test]
 fn tangents_of_laws_are_the_derivatives_of_their_tensions() {
     fn check<const D: usize>(what: &str, kind: &EffectKind<f64>, scene: &Scene<f64>) {
-        // A tire's load changes its other forces, which the tangent omits. Its value is the depth, opposite to the distance.
+        // The load of a tire changes its other forces, and the tangent omits this. The value of a tire is its depth, whose sign is
+        // opposite to that of the distance.
         let sign = match kind {
             EffectKind::Tire(Tire { rolling_resistance, .. }) if *rolling_resistance > 0.0 => {
                 return;

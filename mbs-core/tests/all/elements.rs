@@ -8,11 +8,11 @@ use mbs_testkit::{
     scene,
 };
 
-/// Step of central differences. Rows and forces are quadratic or smooth, so that rounding costs 1e-16 / 1e-5, and truncation 1e-10.
+/// Step of central differences. Rows and forces are smooth. The rounding error is 1e-16 / 1e-5, and the truncation error is 1e-10.
 const STEP: f64 = 1e-5;
 /// Allowed difference: rounding and truncation, times derivatives of order 100.
 const DIFFERENCE: f64 = 2e-7;
-/// Rounding error of sums of some tens of products of numbers of order ten.
+/// Allowed error: rounding in sums of some tens of products, whose numbers are of order ten.
 const ROUNDING: f64 = 1e-12;
 /// Distances from the constraint manifold at which elements are checked.
 const SPREADS: [f64; 3] = [0.0, 0.01, 0.3];

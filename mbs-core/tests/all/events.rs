@@ -50,7 +50,7 @@ fn swing(a: f64, w: f64) -> impl Fn(f64) -> Vec<[[f64; 3]; 2]> {
     }
 }
 
-/// Allowed error of event times: the band of 1e-9 of a scene's few metres, at rates above 0.1 m/s.
+/// Allowed error of event times [s]. The band of a gap is 1e-9 of a few metres, and is passed at rates above 0.1 m/s.
 const INSTANT: f64 = 1e-7;
 
 #[test]
@@ -357,8 +357,8 @@ stiffness = 80000.0
 
 #[test]
 fn a_contact_that_starts_with_a_step_too_long_for_it_is_told_with_the_share_that_resolves_it() {
-    // Way in 0.1 s, over the 0.1 m without contact, by the trapezoidal rule: 1 / (1 + x^2), x = w h / 2. The product w h is 0.9 in
-    // 0.45 / x of the step.
+    // A body moves by `way` in 0.1 s, beyond the 0.1 m without contact. By the trapezoidal rule the amplitude falls by 1 / (1 +
+    // x^2), with x = w h / 2. The product w h is 0.9 in the fraction 0.45 / x of the step.
     for (way, share) in [(0.02, Some(0.225)), (0.05, Some(0.45)), (0.09, None), (-0.03, Some(0.02))]
     {
         let course = move |t: f64| {

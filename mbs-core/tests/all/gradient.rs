@@ -12,7 +12,7 @@ pub(crate) fn evaluate(model: &NaturalModel<f64, 3>, state: &State<f64>, terms: 
     model.evaluate_forces(&state.q, &state.v, terms);
 }
 
-/// Changes positions by up to `way`, also off unit length of directions, and chooses velocities up to one.
+/// Changes positions at random by up to `way`, so that directions lose their unit length. Velocities are random and up to one.
 pub(crate) fn scatter(
     model: &NaturalModel<f64, 3>,
     state: &mut State<f64>,

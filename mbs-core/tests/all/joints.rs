@@ -11,7 +11,7 @@ use std::collections::BTreeSet;
 
 /// Rounding error of products of unit vectors.
 const ROUNDING: f64 = 1e-12;
-/// Least volume of six independent unit vectors; random ones have more.
+/// Smallest volume of six independent unit vectors; the volumes of random vectors are larger.
 const DEPENDENT: f64 = 1e-6;
 
 /// Joint with random axes at a random place.

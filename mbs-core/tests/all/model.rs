@@ -15,7 +15,7 @@ use mbs_testkit::{
 
 type V = [f64; 3];
 
-/// Rounding error of sums of some tens of products of numbers of order ten, after a projection on the null space.
+/// Allowed error: rounding in sums of some tens of products, whose numbers are of order ten. They are projected on the null space.
 const ROUNDING: f64 = 1e-10;
 
 fn cross(a: V, b: V) -> V {

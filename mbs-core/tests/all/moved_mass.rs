@@ -9,7 +9,8 @@ use mbs_core::scene::{
 use mbs_core::start::moved_mass;
 use mbs_scene::SceneFile;
 
-/// Allowed error: the iterations for the velocities end at rounding, and the energy has twice their error.
+/// Allowed relative error of the mass. It follows from an energy, which has twice the error of the velocities. The iterations for
+/// the velocities end at rounding errors.
 const EXACT: f64 = 1e-9;
 
 fn is_near(found: Option<f64>, expected: f64) {

@@ -4,7 +4,7 @@ use crate::small::{GROUND, add_body, add_joint, hold, output, scene, start};
 use mbs_core::outputs::{Measures, RelativePoint};
 use mbs_core::scene::{BodyId, Dimension, Inertia, JointKind, Quantity, Scene};
 
-/// Rounding error of products of numbers of order ten, and of the assembly.
+/// Allowed error: rounding of products of numbers of order ten, and the error of the assembly.
 const CLOSED: f64 = 1e-10;
 
 fn measured<const D: usize>(scene: &Scene<f64>, quantities: &[Quantity<f64>]) -> Vec<f64> {

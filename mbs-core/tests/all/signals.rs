@@ -97,7 +97,8 @@ fn a_step_rises_from_its_first_value_to_its_last_at_rest_at_both_ends() {
     assert_eq!(graph.values(0.75), [[1.0, 0.0, 0.0]]);
     for (t, value) in [(0.5 + 1e-9, 0.0), (0.75 - 1e-9, 1.0)] {
         let [found, rate, acceleration] = graph.values(t)[0];
-        // s^3, s^2 and s with s = 4e-9 of the rise, times their factors; terms of order ten have rounding errors of 1e-15
+        // Value, rate and acceleration go with s^3, s^2 and s, where s = 4e-9 is the fraction of the rise. Terms of order ten have
+        // rounding errors of 1e-15.
         assert!((found - value).abs() < 1e-14 && rate.abs() < 1e-12 && acceleration.abs() < 1e-4);
     }
     let [middle, rate, acceleration] = graph.values(0.625)[0];

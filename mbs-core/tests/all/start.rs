@@ -96,8 +96,8 @@ impl Frame<'_> {
 
 const AT: V = [0.1, 0.2, 0.3];
 
-/// Checks the pose of body x relative to the first body: `rotation` rotates its directions, and `shift` is the displacement of its
-/// place.
+/// Checks the pose of body x relative to the first body. `rotation` rotates the directions of x, and `shift` is the displacement of
+/// its place.
 fn check_pose(first: &str, text: &str, rotation: impl Fn(V) -> V, shift: V) {
     let scene = scene(text);
     let (model, assembled) = start::<3>(&scene).unwrap_or_else(|e| panic!("{e}\n{text}"));

@@ -6,7 +6,7 @@ use mbs_core::algebra::{Matrix, Vector, norm, rotation};
 use mbs_core::outputs::{Measures, VehicleSide, WheelCarrier};
 use mbs_core::scene::{BodyId, Dimension, Inertia, JointKind, Quantity};
 
-/// Rounding error of products of numbers of order one, and of the assembly [rad].
+/// Allowed error: rounding of products of numbers of order one, and the error of the assembly [rad].
 const CLOSED: f64 = 1e-12;
 
 type V = Vector<f64, 3>;

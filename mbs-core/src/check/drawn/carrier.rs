@@ -65,7 +65,8 @@ impl<T: Real> Element<T> {
         if self.bodies[1] == body { T::ONE } else { -T::ONE }
     }
 
-    /// Does this motion leave the axis of `other` where it is? That holds for a turn about this axis, or a slide along it.
+    /// True if this motion does not move the axis of `other`: it is a turn about the same axis, or a slide in the direction of a slide
+    /// `other`.
     fn keeps(&self, other: &Self, reach: T) -> bool {
         if self.is_turn != other.is_turn || self.sense(&other.axis).is_none() {
             return false;
@@ -80,7 +81,7 @@ impl<T: Real> Element<T> {
 #[derive(Debug, Clone)]
 pub(super) struct Leg<T: Real> {
     pub(super) element: Element<T>,
-    /// Does the joint leave the first element in its place? Otherwise it leaves the second one in its place.
+    /// True if the joint does not move the axis of the first element; false if it does not move the axis of the second element.
     pub(super) is_first: bool,
     sign: T,
 }
@@ -92,11 +93,12 @@ impl<T: Real> Leg<T> {
     }
 }
 
-/// Result for a joint on a path. It has the element and whether this leaves the first element in place; the flag says whether the carrier
-/// is passed. `None`: the path may not use the joint.
+/// Result for a joint on a path: the joint's element with a flag, and a second flag. The first flag is `is_first` of a leg. The second flag
+/// is true if the path has passed the carrier. `None`: the path may not use the joint.
 type Admitted<T> = Option<(Option<(Element<T>, bool)>, bool)>;
 
-/// Signs of two elements as motions of their outer bodies in the carrier, and the path between their inner bodies.
+/// Signs of two elements as motions of their outer bodies in the carrier, and the path between their inner bodies. A joint connects an
+/// outer body to an inner one; the path does not use the outer bodies.
 pub(super) fn of<T: Real>(
     scene: &Scene<T>,
     [first, second]: [&Element<T>; 2],
@@ -127,7 +129,8 @@ pub(super) fn of<T: Real>(
     best.map(|(signs, way, _)| (signs, way))
 }
 
-/// Sign of a wheel in its carrier, and the path from there to the cage, over turns about axes parallel to the cage's.
+/// Sign of a wheel in its carrier, and the path from the carrier to the cage. The turns on the path have axes parallel to the axis of the
+/// cage.
 pub(super) fn to<T: Real>(
     scene: &Scene<T>,
     (wheel, cage): (&Element<T>, &Element<T>),

@@ -3,13 +3,13 @@
 //! ```text
 //! gear          N1 w1 + N2 w2 = 0, internal N1 w1 - N2 w2 = 0        w: turn of a wheel in the carrier, about one sense of the axes
 //! belt          r1 w1 - r2 w2 = 0, crossed  r1 w1 + r2 w2 = 0
-//! rack          v - r (a x n).d w = 0       n: from the pinion's axis a to the pitch line, along d, of the rack
+//! rack          v - r (a x n).d w = 0       n: from the pinion's axis a to the pitch line of the rack, d: direction of this line
 //! screw         2 pi v - lead w = 0         v: slide of the nut along the axis
 //! differential  Na (wa - wc) + Nb (wb - wc) = 0
 //! ```
 //!
-//! w1, w2, wa, wb and wc are turns of wheels and of the cage c, N are numbers of teeth, r radii, v a velocity. The carrier is the body in
-//! which both axes are fixed.
+//! w1, w2, wa and wb are turns of wheels, wc is the turn of the cage. N are numbers of teeth, r radii; v is a slide. The carrier is the
+//! body in which both axes are fixed.
 //!
 //! A joint's coordinate is the turn of its second body relative to the first. If the wheel is the first body, the sign changes. If the two
 //! joints start from different bodies, the turns between these bodies and the carrier are added. The first factor keeps its sign, so a sum
@@ -31,11 +31,12 @@ use carrier::{Element, Leg};
 /// Computes the sum of every coupling that follows from the geometry.
 ///
 /// # Errors
-/// [`SceneFault::NoCarrier`]. [`SceneFault::NotDrawn`] if the coupling says explicitly that it follows from the geometry.
+/// [`SceneFault::NoCarrier`] if no body carries both axes. [`SceneFault::NotDrawn`] if positions and axes do not determine the sum, but the
+/// coupling says explicitly that its sum follows from the geometry.
 pub(super) fn fill<T: Real>(scene: &mut Scene<T>) -> Result<(), SceneError> {
     let bodies = scene.joints.iter().flat_map(|joint| joint.bodies);
     if bodies.filter_map(BodyId::index).any(|body| body >= scene.bodies.len()) {
-        // the check of the joints reports this error
+        // the check of the joints reports a body that does not exist
         return Ok(());
     }
     for i in 0..scene.couplings.len() {

@@ -31,7 +31,8 @@ impl<T> Scene<T> {
 }
 
 impl<T: Real> Scene<T> {
-    /// Notes on gears whose radii do not agree with the distance of their axes. The motion has their ratio, but the wheels do not touch.
+    /// Notes on gears whose radii do not agree with the distance of their axes. The motion has the ratio of the radii, but the wheels do
+    /// not touch.
     pub fn radii_notes(&self) -> impl Iterator<Item = (CouplingId, String)> {
         /// Largest allowed error of the radii, relative to the distance of the axes [-]. Chosen, not tuned: numbers in files are rounded.
         const OFF: f64 = 1e-4;
@@ -92,7 +93,7 @@ impl<T: Real> Scene<T> {
     pub fn effort_notes(&self) -> impl Iterator<Item = String> {
         self.outputs.iter().filter_map(|output| {
             let Target::Coupling(coupling) = output.quantity.target() else { return None };
-            // by the names of version 0.1, since its files have only these
+            // Only names of version 0.1 are compared, since files of that version have no other names.
             let is_effort = match output.quantity.row().name {
                 "effort" => true,
                 "power" => false,

@@ -1,4 +1,4 @@
-//! From the effects of a scene to actions: each kind says what it does by these means.
+//! Conversion of the effects of a scene to actions. Each kind of effect adds its actions by the methods of `Compiler`.
 
 use super::{Action, Actions, Attachment};
 use crate::Real;
@@ -14,13 +14,13 @@ use crate::measure::TermInput;
 use crate::scene::{BodyId, CouplingTerm, JointId, Signal, Surroundings};
 use alloc::vec;
 
-/// Compiler of the effects of a scene: each kind of effect adds its actions here.
+/// Converter of effects to actions: each kind of effect adds its actions to it.
 pub(crate) struct Compiler<'a, T> {
     pub(crate) among: Surroundings<'a, T>,
     pub(crate) effect: usize,
-    /// Features of the left and the right track, and the course of a moving road, once a tire asks.
+    /// Features of the left and the right track, and the signal of a moving road; `None` until a tire needs them.
     pub(crate) roads: Option<([Part; 2], Option<u32>)>,
-    /// The course of time itself, once a law asks.
+    /// Number of the signal whose value is the time; `None` until a law needs it.
     pub(crate) clock: Option<u32>,
     pub(crate) actions: Actions<T>,
 }
@@ -34,7 +34,7 @@ impl<T: Real> Compiler<'_, T> {
         self.actions.list.push((self.effect, action));
     }
 
-    /// The number of a signal, which is added to those of the scene.
+    /// Adds a signal to the signals of the effects, and returns its number.
     pub(crate) fn course(&mut self, signal: &Signal<T>) -> u32 {
         self.input(SignalInput::new(signal))
     }
@@ -43,7 +43,7 @@ impl<T: Real> Compiler<'_, T> {
         number(self.actions.prescribed.add(self.effect, input))
     }
 
-    /// The number of a course whose first component is the time [s].
+    /// Number of a signal whose first component is the time [s]. The first call adds the signal.
     fn clock(&mut self) -> u32 {
         if let Some(clock) = self.clock {
             return clock;
@@ -52,14 +52,14 @@ impl<T: Real> Compiler<'_, T> {
         *self.clock.insert(clock)
     }
 
-    /// A law along a line or on a joint that is an object.
+    /// Adds a user-defined law along a line or on a joint, with its input.
     pub(crate) fn force_code(&mut self, law: &Code<dyn ForceLaw>, input: &Signal<T>) -> CodeLaw<T> {
         let effect = number(self.effect);
         let number = self.actions.tables.codes.add_force(effect, law);
         CodeLaw::new(number, [self.course(input), self.clock()])
     }
 
-    /// A law on a body that is an object.
+    /// Adds a user-defined law on a body, with its input.
     pub(crate) fn body_code(
         &mut self,
         law: &Code<dyn BodyCode>,
@@ -70,12 +70,12 @@ impl<T: Real> Compiler<'_, T> {
         CodeBodyLaw::new(number, [self.course(input), self.clock()])
     }
 
-    /// The relation of a coupling that is an object.
+    /// Adds the user-defined relation of a coupling.
     pub(crate) fn relation(&mut self, coupling: usize, relation: &Code<dyn Relation>) {
         self.actions.tables.codes.add_relation(number(coupling), relation);
     }
 
-    /// Adds an action by a law. One whose feature is off has none: its effect is refused before.
+    /// Adds an action with this law. Nothing is added if the Cargo feature of the law is off; such an effect is refused elsewhere.
     pub(crate) fn act(
         &mut self,
         law: impl Into<Option<Law<T>>>,
@@ -86,7 +86,7 @@ impl<T: Real> Compiler<'_, T> {
         }
     }
 
-    /// A law along the line of two points.
+    /// Adds a law along the line between two points.
     pub(crate) fn length(
         &mut self,
         bodies: [BodyId; 2],
@@ -96,7 +96,7 @@ impl<T: Real> Compiler<'_, T> {
         self.act(law, |law| Action::Length { ends: ends(bodies, points), law });
     }
 
-    /// A law of the distance of two points along a direction that is fixed in the first body, a unit vector.
+    /// Adds a law of the distance of two points along a direction. The direction is a unit vector that is fixed in the first body.
     pub(crate) fn along(
         &mut self,
         bodies: [BodyId; 2],
@@ -108,7 +108,7 @@ impl<T: Real> Compiler<'_, T> {
         self.act(law, |law| Action::Along { ends, direction, offset: T::ZERO, of: None, law });
     }
 
-    /// Joint and number of the coordinate that an effect is on.
+    /// Index of the joint, and number of its coordinate, on which an effect acts.
     pub(crate) fn coordinate(
         &self,
         (id, coordinate): (JointId, Option<usize>),
@@ -118,7 +118,8 @@ impl<T: Real> Compiler<'_, T> {
         Some((id.index(), number))
     }
 
-    /// A force by a signal on a coordinate: one that follows the motion has slopes.
+    /// Law of a force that follows a signal, on a coordinate. A signal that depends on the motion also gives the slopes of the
+    /// force.
     pub(crate) fn torque_law(
         &mut self,
         signal: &Signal<T>,
@@ -130,7 +131,7 @@ impl<T: Real> Compiler<'_, T> {
         TorqueLaw::following(self.input(SignalInput::new(signal).force_on(on)))
     }
 
-    /// A law of a joint's coordinate: the scene's check refuses joints without it.
+    /// Adds a law of a joint's coordinate. The check of a scene has refused coordinates that the joint does not have.
     pub(crate) fn on_joint(
         &mut self,
         (id, coordinate): (JointId, Option<usize>),
@@ -153,12 +154,12 @@ impl<T: Real> Compiler<'_, T> {
         }
     }
 
-    /// A law of a sum of joint coordinates and lengths.
+    /// Adds a law of a sum of joint coordinates and lengths.
     pub(crate) fn on_sum(&mut self, terms: &[CouplingTerm<T>], law: impl Into<Option<Law<T>>>) {
         self.act(law, |law| Action::Sum { terms: TermInput::all(terms), law });
     }
 
-    /// A law of the length of a line over points; over two it is that between them.
+    /// Adds a law of the length of a line through points. For two points it is the distance between them.
     pub(crate) fn on_line(&mut self, points: &[Attachment<T>], law: impl Into<Option<Law<T>>>) {
         match points {
             [first, second] => {
@@ -169,7 +170,7 @@ impl<T: Real> Compiler<'_, T> {
         }
     }
 
-    /// A law on a body at a point, with a direction, a unit vector.
+    /// Adds a law on a body at a point, with a direction. The direction is a unit vector.
     pub(crate) fn on_body(
         &mut self,
         (body, at): Attachment<T>,
@@ -182,7 +183,7 @@ impl<T: Real> Compiler<'_, T> {
     }
 }
 
-/// The places of two points.
+/// Pairs each of two points with its body.
 fn ends<T: Copy>(bodies: [BodyId; 2], points: [[T; 3]; 2]) -> [Attachment<T>; 2] {
     [(bodies[0], points[0]), (bodies[1], points[1])]
 }
@@ -191,12 +192,12 @@ fn number(i: usize) -> u32 {
     u32::try_from(i).unwrap_or(u32::MAX)
 }
 
-/// The entries from `first` up to `end`.
+/// Range of the entries from `first` to `end`, without `end`.
 pub(crate) fn part(first: usize, end: usize) -> Part {
     Part { first: number(first), n: number(end - first) }
 }
 
-/// The direction of length one, each component divided by the length.
+/// Unit vector along the direction `d`.
 pub(crate) fn direction_of<T: Real>(d: [T; 3]) -> [T; 3] {
     let size = norm(&Vector::from(d));
     d.map(|x| x / size)

@@ -1,7 +1,7 @@
-//! Actions that effects are made into, once for all models: what acts, between which places of which bodies, by which law.
+//! Actions: the common form of all effects. An action consists of a law and the places of the bodies on which it acts.
 //!
-//! A scene has many kinds of effect; models, outputs and other formulations know only the few kinds of [`Action`]. Effects that
-//! are switched off are not among them, and effects whose Cargo feature is off are an error.
+//! A scene has many kinds of effect, but models, outputs and other formulations know only the few kinds of [`Action`]. An effect
+//! that is switched off gives no action. An effect whose Cargo feature is off is an error.
 
 mod compile;
 mod road;
@@ -17,89 +17,91 @@ use crate::measure::TermInput;
 use crate::scene::BodyId;
 use alloc::vec::Vec;
 
-/// A place on a body, reference configuration [m].
+/// Place on a body, in the reference configuration [m].
 pub type Attachment<T> = (BodyId, [T; 3]);
 
 /// Action of one effect, or of a part of one.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Action<T> {
-    /// A law along the line of two places.
+    /// Law along the line between two places.
     Length {
         /// Places at both ends of the line.
         ends: [Attachment<T>; 2],
         /// Law of the tension along the line.
         law: Law<T>,
     },
-    /// A law of the distance of two places along a direction fixed in the first body (a unit vector): a slide.
+    /// Law of the distance of two places along a direction: a slide. The direction is a unit vector that is fixed in the first
+    /// body.
     Along {
-        /// Places whose distance counts, the first in the body that has the direction.
+        /// Places whose distance is measured. The direction is fixed in the body of the first place.
         ends: [Attachment<T>; 2],
-        /// The direction, reference configuration.
+        /// Unit vector of the direction, in the reference configuration.
         direction: [T; 3],
-        /// Offset that the distance is counted from [m].
+        /// Offset that is subtracted from the distance [m].
         offset: T,
-        /// Joint and number of the coordinate that it is, where the joint has others too.
+        /// Joint and number of the coordinate that the distance is, if the joint has other coordinates too; else `None`.
         of: Option<(usize, usize)>,
         /// Law of the distance along the direction.
         law: Law<T>,
     },
-    /// A law of a turn of a joint about an axis.
+    /// Law of the rotation of a joint about an axis.
     Angle {
         /// Index of the joint.
         joint: usize,
-        /// The number of the turn among the joint's coordinates.
+        /// Number of the rotation among the joint's coordinates.
         number: usize,
-        /// Law of the turn about the axis.
+        /// Law of the rotation about the axis.
         law: Law<T>,
     },
-    /// A law of a sum of joint coordinates and lengths, each counted from the reference configuration.
+    /// Law of a sum of joint coordinates and lengths, each relative to the reference configuration.
     Sum {
         /// Terms of the sum whose factor is not zero.
         terms: Vec<TermInput<T>>,
         /// Law of the sum.
         law: Law<T>,
     },
-    /// A law of the angle of the second body against the first in the plane, over any number of turns.
+    /// Law of the planar angle of the second body relative to the first, with full turns.
     Turn {
-        /// Bodies of the angle: the second turns against the first.
+        /// Bodies of the angle: the second rotates relative to the first.
         bodies: [BodyId; 2],
         /// Law of the angle between the bodies.
         law: Law<T>,
     },
-    /// A law of a component of the rotation vector of the second body against the first in space, below a whole turn. It is along a
-    /// global axis of the reference configuration, fixed in the first body. An effect has three of them, one after the other, or none.
+    /// Law of one component of the rotation vector of the second body relative to the first, in space and below a full turn. The
+    /// component is along a global axis of the reference configuration that is fixed in the first body. An effect has three such
+    /// actions in sequence, or none.
     Rotation {
-        /// Bodies of the rotation vector: the second turns against the first.
+        /// Bodies of the rotation vector: the second rotates relative to the first.
         bodies: [BodyId; 2],
-        /// The component, from 0.
+        /// Number of the component, from 0.
         number: u32,
         /// Law of this component of the rotation vector.
         law: Law<T>,
     },
-    /// A force that keeps its value and its direction: it has a potential.
+    /// Force of constant value and direction, which has a potential.
     Constant {
         /// Index of the body, and the place on it where the force acts, reference configuration [m].
         at: (usize, [T; 3]),
         /// Force on the body [N].
         force: [T; 3],
     },
-    /// A force that follows a course.
+    /// Force whose value follows a signal.
     Force {
         /// Index of the body, and the place on it where the force acts, reference configuration [m].
         at: (usize, [T; 3]),
-        /// Number of the course.
+        /// Number of the signal that gives the force.
         course: u32,
-        /// Does it turn with the body?
+        /// True if the force rotates with the body.
         turns: bool,
     },
-    /// A torque on a body that follows a course: global axes; in the plane the first component.
+    /// Torque on a body that follows a signal, in global axes. In the plane the first component of the signal is used.
     Torque {
         /// Index of the body that the torque acts on.
         body: usize,
-        /// Number of the course.
+        /// Number of the signal that gives the torque.
         course: u32,
     },
-    /// A law on one body.
+    /// Law that acts on one body.
     BodyLoad {
         /// Index of the body, and the place on it where the law acts, reference configuration [m].
         at: (usize, [T; 3]),
@@ -110,13 +112,13 @@ pub enum Action<T> {
     },
 }
 
-/// The actions of a scene with everything they refer to.
+/// Actions of a scene, with the signals and tables that they refer to.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Actions<T> {
-    /// Index of the effect, and the action. An effect may have several, one after the other.
+    /// Actions, each with the index of its effect. An effect may have several actions in sequence.
     pub list: Vec<(usize, Action<T>)>,
-    /// Prescribed functions of time; those of the guides stand here too.
+    /// Prescribed functions of time, which include those of the guides.
     pub prescribed: Prescribed<T>,
-    /// Tables of the laws.
+    /// Tables to which the laws refer.
     pub tables: Tables<T>,
 }

@@ -1,4 +1,4 @@
-//! The road of a scene as tables, made when the first wheel asks.
+//! Road of a scene as tables of laws. The tables are filled when the first wheel needs them.
 
 use super::Tables;
 use super::compile::{Compiler, part};
@@ -11,7 +11,7 @@ use crate::scene::{Interpolation, RoadFeature, TableEnds};
 use alloc::vec::Vec;
 
 impl<T: Real> Compiler<'_, T> {
-    /// The tracks of the left and the right wheels, and the course of a road that moves.
+    /// Tracks of the left and the right wheels, and the signal of a moving road.
     pub(crate) fn roads(&mut self) -> ([Part; 2], Option<u32>) {
         if let Some(roads) = self.roads {
             return roads;
@@ -26,7 +26,7 @@ impl<T: Real> Compiler<'_, T> {
 }
 
 impl<T: Real> Tables<T> {
-    /// Takes the features of a track in.
+    /// Adds the features of a track to the tables, and returns their range.
     fn track(&mut self, features: &[RoadFeature<T>]) -> Part {
         let first = self.features.len();
         for feature in features {
@@ -70,9 +70,9 @@ impl<T: Real> Tables<T> {
     }
 }
 
-/// Heights of a track [m] at places along x [m]; zero where the Cargo feature of tires is off.
+/// Heights of a track [m] at places along x [m]. Zero if the Cargo feature of tires is off.
 ///
-/// Cost: the features of the track for each place.
+/// Cost: one pass over the features of the track for each place.
 #[must_use]
 pub fn track_heights<T: Real>(track: &[RoadFeature<T>], at: &[T]) -> Vec<T> {
     let mut tables = Tables::empty();

@@ -7,7 +7,7 @@ use crate::laws::polynomial::Piece;
 use crate::laws::road::Feature;
 use alloc::vec::Vec;
 
-/// Tables that laws refer to by number; constant from then on.
+/// Tables to which laws refer by number. They are constant after the effects are converted.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tables<T> {
     pub(crate) pieces: Vec<Piece<T>>,
@@ -34,7 +34,7 @@ impl<T: Real> Tables<T> {
         &self.codes
     }
 
-    /// Returns the inputs of the laws: these tables, and the vectors of `courses` at this instant.
+    /// Returns the inputs of the laws: these tables, and `courses`, the vectors of the signals at the current time.
     #[inline(always)]
     pub fn law_inputs<'a>(&'a self, courses: &'a [[T; 3]]) -> LawInputs<'a, T> {
         LawInputs {

@@ -76,7 +76,7 @@ impl<T: Real> PreparedCurve<T> {
         }
     }
 
-    /// Can the slope be zero over a range of x: between two rows, or outside a table without period?
+    /// True if the slope can be zero over a range of x: between two rows, or outside a table without period.
     #[must_use]
     pub fn may_be_level(&self) -> bool {
         let Self::Spline { knots, curvature, period } = self else { return false };
@@ -86,7 +86,7 @@ impl<T: Real> PreparedCurve<T> {
         !(*period > T::ZERO) || (1..knots.len()).any(|i| is_flat(i - 1))
     }
 
-    /// Is the curve the identity f(x) = x?
+    /// True if the curve is the identity f(x) = x.
     #[must_use]
     pub const fn is_identity(&self) -> bool {
         matches!(self, Self::Identity)

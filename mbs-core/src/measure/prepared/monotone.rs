@@ -1,5 +1,5 @@
-//! Monotone interpolation of tables: the function does not leave the range of two neighbouring rows. It is the cubic spline where that
-//! satisfies the bounds. Elsewhere slopes and curvatures at the rows are limited, and each interval gets two inner knots.
+//! Monotone interpolation of tables: the function does not leave the range of two neighbouring rows. The function is the cubic spline where
+//! the spline satisfies the bounds. Elsewhere slopes and curvatures at the rows are limited, and each interval gets two inner knots.
 //!
 //! ```text
 //! on [x0, x1]:  h = x1 - x0,  D = (f1 - f0)/h,  knots x0 + h/4 and x1 - h/4;  slopes m, curvatures c of the two rows
@@ -11,7 +11,7 @@
 //! neither has f', and f stays between f0 and f1. Sufficient conditions are
 //!
 //! ```text
-//! m D >= 0      |c| h/8 <= |m| where c turns m down to the other sign      e0 + e1 between 0 and 3 D
+//! m D >= 0      |c| h/8 <= |m| if c moves the slope towards the sign opposite to m      e0 + e1 between 0 and 3 D
 //! ```
 //!
 //! The first two conditions limit each row by itself. For the third, both rows of an interval are scaled by 3 D/(e0 + e1). The scaling
@@ -66,7 +66,7 @@ pub(super) fn monotone<T: Real>(
 struct Side {
     slope: f64,
     h: f64,
-    /// Is the neighbouring row too close for inner knots?
+    /// True if the neighbouring row is too close for inner knots.
     is_close: bool,
 }
 
@@ -151,7 +151,8 @@ fn of_row([slope, c]: [f64; 2], [before, after]: [Option<Side>; 2]) -> [f64; 2] 
     [m, c]
 }
 
-/// End sum of a row in an interval: e0 at the left end of the interval, with sign 1, or e1 at its right end, with sign -1.
+/// Sum e0 of the formulas above for the row at the left end of an interval, with `sign` 1. For the row at the right end, with `sign` -1, it
+/// is e1.
 fn end_sum([m, c]: [f64; 2], h: f64, sign: f64) -> f64 {
     m + sign * 3.0 * c * h / 32.0
 }

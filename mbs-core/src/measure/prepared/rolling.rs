@@ -11,7 +11,7 @@ use crate::scene::{BodyId, Rolling, RollingKind, transverse};
 pub struct RollingInput<T: Real> {
     /// Radius of the disc or ball [m]; zero for a blade.
     pub radius: T,
-    /// Is the rolling body a blade?
+    /// True if the rolling body is a blade.
     pub is_blade: bool,
     /// Rolling body, and the body on which it rolls.
     pub bodies: [BodyId; 2],
@@ -73,7 +73,7 @@ impl<T: Real> RollingInput<T> {
         if self.is_blade { 1 } else { dimension.count() }
     }
 
-    /// Is the axis of the disc, or the blade, within a thousandth of a radian of the normal?
+    /// True if the axis of the disc, or the blade, is within a thousandth of a radian of the normal.
     pub fn is_along_normal(&self) -> bool {
         lies_flat(&self.plane[0], &self.axis)
     }

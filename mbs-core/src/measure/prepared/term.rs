@@ -17,7 +17,7 @@ pub struct TermInput<T> {
     pub coordinate: Option<(usize, usize)>,
     /// Function of the measured number.
     pub curve: PreparedCurve<T>,
-    /// Does a length count in full? Otherwise the length in the reference configuration is subtracted.
+    /// True if a length counts in full. Otherwise the length in the reference configuration is subtracted.
     pub is_whole: bool,
 }
 

@@ -1,11 +1,11 @@
 //! Wrenches that effects apply to bodies.
 //!
 //! ```text
-//! length      tension f along the line of two points
-//! along       -f d on the second body's point, f d on the first body there
-//! angle       -f about the joint's axis on the second body, opposite on the first; of two axes by the gradient of the angle
+//! length      tension f of the law along the line of two points
+//! along       -f d on the second body's point, f d on the first body at this point:  d the direction of the law
+//! angle       -f about the joint's axis on the second body, opposite on the first; for a joint of two axes along the gradient of the angle
 //! rotation    -f g on the second body, opposite on the first: g the gradient of a component of the rotation vector
-//! on a body   -f d at the law's point and -f m, over the law's actions
+//! on a body   sum of -f d at the law's point and -f m over the actions of the law:  d and m force and moment of the action for f = 1
 //! ```
 
 use super::super::frame::Frame;
@@ -80,7 +80,8 @@ impl<T: Real, const D: usize> Load<T, D> {
 }
 
 impl<T: Real, const D: usize> Measure<T, D> {
-    /// Wrench of a law at a state. `axes` is the rotation matrix of the first body. `None` at length zero.
+    /// Wrench of a law at a state. `axes` is the rotation matrix of the first body. `None` if the length is zero, since the line then has
+    /// no direction.
     fn pull(
         &self,
         law: &Law<T>,
@@ -156,7 +157,7 @@ impl<T: Real, const D: usize> Measure<T, D> {
     }
 }
 
-/// Passes to `take` the unit wrenches of a law on one body, with their numbers.
+/// Passes to `take` the unit wrenches of a law on one body, each with its index.
 pub(super) fn for_each_action<T: Real>(
     law: &BodyLaw<T>,
     motion: &BodyMotion<T>,

@@ -1,10 +1,10 @@
-//! Gaps of one-sided effects: positive apart, negative in contact. Also the kinks of laws.
+//! Gaps of one-sided effects, and the kinks of laws. A gap is positive without contact and negative in contact.
 //!
 //! ```text
-//! bumper   g = m - touch
-//! limit    g = m - lower and upper - m
-//! tire     g = -(deflection),   kinks of its road by the centre's place over it
-//! spring   by pieces: kinks between them by m
+//! bumper   g = m - touch                     g: gap, m: measured length or angle
+//! limit    g = m - lower, g = upper - m
+//! tire     g = -deflection,                  kinks of the road at places along it, compared with the place of the wheel's centre
+//! spring   of polynomial pieces: kinks at the values of m between two pieces
 //! ```
 
 use super::apply::motion;
@@ -32,7 +32,7 @@ pub(in crate::outputs) const MOST_GAPS: usize = 2;
 pub(in crate::outputs) struct Reading<T> {
     /// Gaps of the effect. The first [`Load::n_gaps`] are used.
     pub(in crate::outputs) gaps: [Gap<T>; MOST_GAPS],
-    /// Coordinates for its kinks: the wheel's centre along the road and its height, or a length and zero.
+    /// Coordinates for the kinks of the effect: the wheel's centre along the road and its height, or a length and zero.
     pub(in crate::outputs) place: [Gap<T>; 2],
 }
 
@@ -73,7 +73,7 @@ impl<T: Real, const D: usize> Load<T, D> {
         has_fade.then_some(FADE)
     }
 
-    /// Can the law have kinks other than those of its gaps?
+    /// True if the law may have kinks besides those of its gaps.
     pub(in crate::outputs) fn may_have_kinks(&self) -> bool {
         match self {
             Self::Between { law, .. } | Self::Sum { law, .. } => law.may_have_kinks(),
@@ -95,8 +95,8 @@ impl<T: Real, const D: usize> Load<T, D> {
         }
     }
 
-    /// Largest distance from its place at which a kink may be passed [m]. On a slope, wheel centre and contact point are apart along the
-    /// road by less than the radius.
+    /// Largest distance along the road between a kink and a wheel's centre when the contact point passes the kink [m]. On a slope, centre
+    /// and contact point are apart along the road by less than the radius.
     pub(in crate::outputs) fn reach(&self) -> T {
         match self {
             Self::OnBody { law, .. } => law.reach(),
@@ -104,7 +104,7 @@ impl<T: Real, const D: usize> Load<T, D> {
         }
     }
 
-    /// Is the measure an angle [rad]? Otherwise it is a length [m].
+    /// True if the measure is an angle [rad]; false if it is a length [m].
     pub(in crate::outputs) fn is_angular(&self) -> bool {
         match self {
             Self::Between { gauge, .. } => matches!(gauge, Measure::Angle { .. }),

@@ -46,7 +46,7 @@ pub(super) enum Load<T: Real, const D: usize> {
     Sum { sum: CoupledSum<T, D>, law: Law<T> },
     /// Constant force in global axes.
     Constant { body: usize, point: Affine<T, D>, force: Vector<T, 3> },
-    /// Force with the values of a signal.
+    /// Force with the values of a signal. Its axes turn with the body if `turns` is true.
     Force { body: usize, point: Affine<T, D>, course: usize, turns: bool },
     /// Torque with the values of a signal.
     Torque { body: usize, frame: Frame<T, D>, course: usize },
@@ -75,20 +75,20 @@ pub(super) enum Measure<T: Real, const D: usize> {
         /// Axis of the joint in the reference configuration, fixed in the first body. `None`: the joint has two axes, one in each body.
         axis: Option<Vector<T, 3>>,
         angle: Coordinate<T, D>,
-        /// Place at which the state remembers the angle; `None`: neither body moves.
+        /// Index of the angle in the memory of the state; `None`: neither body moves.
         memory: Option<usize>,
     },
     /// Component of the rotation vector of the second body relative to the first.
     Rotation {
         frames: Box<[Frame<T, D>; 2]>,
         number: usize,
-        /// Place at which the state remembers the rotation; `None`: neither body moves.
+        /// Index of the rotation in the memory of the state; `None`: neither body moves.
         memory: Option<usize>,
     },
 }
 
 impl<T: Real, const D: usize> Loads<T, D> {
-    /// All enabled effects of a scene, and their numbers.
+    /// All enabled effects of a scene, and their indices.
     ///
     /// # Errors
     /// [`ActionError`] as when the model is built.
@@ -99,7 +99,7 @@ impl<T: Real, const D: usize> Loads<T, D> {
         Self::of(scene, model, |_| true)
     }
 
-    /// Enabled one-sided effects, and their numbers.
+    /// Enabled one-sided effects, and their indices.
     ///
     /// # Errors
     /// [`ActionError`] as when the model is built.
@@ -110,7 +110,7 @@ impl<T: Real, const D: usize> Loads<T, D> {
         Self::of(scene, model, |load| load.n_gaps() > 0)
     }
 
-    /// Enabled effects whose laws have gaps or may have kinks, and their numbers.
+    /// Enabled effects whose laws have gaps or may have kinks, and their indices.
     ///
     /// # Errors
     /// [`ActionError`] as when the model is built.

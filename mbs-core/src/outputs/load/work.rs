@@ -1,9 +1,9 @@
 //! Energy stored in effects, and power of effects on bodies.
 //!
 //! ```text
-//! scalar law   V(m),   power -f m'
-//! constant     V = -F.r
-//! on a body    power F.v + M.omega at its point
+//! scalar law   V(m),   power -f m'       V: energy, m: measure, f: tension of the law
+//! constant     V = -F.r                  F: force, r: position of its point
+//! on a body    power F.v + M.omega       F and M: force and moment at the law's point, v: velocity of this point
 //! ```
 
 use super::Load;

@@ -23,12 +23,12 @@ pub struct Magnitude {
     pub label: &'static str,
     /// Unit of the magnitude.
     pub unit: String,
-    /// Places of the vector's components in the channel.
+    /// Range of the vector's components among the components of the channel.
     pub places: Range<usize>,
 }
 
 /// Vectors among the components of a channel: `x`, `y`, `z`, forces and moments. Quaternions, matrices and coordinates of a joint are no
-/// vectors. A vector with one component is a number.
+/// vectors. A single component counts as a number.
 ///
 /// ```
 /// use mbs_core::outputs::{Component, magnitudes};
@@ -60,9 +60,10 @@ pub(super) fn in_degrees(unit: &str) -> Option<&'static str> {
     ANGLES.iter().find(|[radians, _]| *radians == unit).map(|[_, degrees]| *degrees)
 }
 
-/// Unit in radians for a unit in degrees, and the number of given units in one of it [-]. Other units do not change.
+/// Unit in radians for a unit in degrees, and the factor from a value in radians to the value in the given unit [-]. Other units do not
+/// change, and their factor is one.
 ///
-/// Sizes of outputs in both units are compared with it.
+/// Use the factor to compare outputs in degrees with outputs in radians.
 ///
 /// ```
 /// use mbs_core::outputs::in_radians;
@@ -85,20 +86,21 @@ pub enum ComponentForm {
     Vector(&'static str),
     /// Components about `x`, `y`, `z` with this unit; in a planar scene one number.
     Axial(&'static str),
-    /// Components `1`, `2`, ... for the coordinates of a joint, or one number for a single coordinate. The text follows the unit of each
-    /// coordinate.
+    /// Components `1`, `2`, ... for the coordinates of a joint, or one number for a single coordinate. The text, for example `/s`, is
+    /// appended to the unit of each coordinate.
     Coordinates(&'static str),
     /// Components like `Coordinates`, for the forces on the coordinates.
     Efforts,
     /// One number with this unit.
     Number(&'static str),
-    /// Number that a coupling or an effect measures; the text follows its unit. An effect that measures several numbers has no component.
+    /// Number that a coupling or an effect measures; the text is appended to its unit. An effect that measures several numbers has no
+    /// component.
     Measured(&'static str),
     /// Length of a coupling's lines [m]; other couplings have no component.
     Length,
     /// Contact flag of a one-sided effect; other effects have no component.
     Contact,
-    /// Number of a tire with this unit; other effects have no component.
+    /// Scalar quantity of a tire with this unit; other effects have no component.
     Tire(&'static str),
     /// Position of a tire's contact [m]; other effects have no component.
     TirePoint,
@@ -120,7 +122,7 @@ fn effort(unit: &str) -> &'static str {
 }
 
 impl ComponentForm {
-    /// Is the form for tires only?
+    /// True if the form is for tires only.
     #[must_use]
     pub const fn is_of_tire(self) -> bool {
         matches!(self, Self::Tire(_) | Self::TirePoint)
@@ -146,7 +148,8 @@ impl ComponentForm {
         }
     }
 
-    /// Components of this form. `freedoms` are those of a joint; `measured` is the unit of the number that a coupling or effect measures.
+    /// Components of this form. `freedoms` are the freedoms of a joint; `measured` is the unit of the number that a coupling or effect
+    /// measures.
     pub(super) fn of(
         self,
         dimension: Dimension,

@@ -23,7 +23,8 @@ pub(super) const ROW: QuantityRow = QuantityRow::new(
 )
 .of_reactions();
 
-/// Number of the coupling. Also its sum if it is driven, or the term on which its effort does work.
+/// Index of the coupling, and the sum whose rate times the effort is the power. It is the sum of a driven coupling, or the term on which
+/// the effort does work.
 #[derive(Debug, Clone)]
 pub(in crate::outputs) struct CouplingPower<T: Real, const D: usize>(
     usize,

@@ -1,4 +1,4 @@
-//! Flag: whether a one-sided effect is in contact.
+//! Flag that is true if a one-sided effect is in contact.
 
 use super::kind::{Instant, Maker, Measured};
 use super::{ComponentForm, QuantityDefinition, QuantityRow, TargetKind};
@@ -20,7 +20,7 @@ pub(super) const ROW: QuantityRow = QuantityRow::new(
 )
 .of_effects();
 
-/// Number of the measured effect.
+/// Index of the measured effect.
 #[derive(Debug, Clone)]
 pub(in crate::outputs) struct EffectContact<T: Real, const D: usize>(usize, PhantomData<T>);
 

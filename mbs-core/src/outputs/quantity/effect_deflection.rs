@@ -24,11 +24,11 @@ pub(super) const ROW: QuantityRow = QuantityRow::new(
 /// Keys of free values in scene files.
 const FREE: [&str; 2] = ["free_length", "free_value"];
 
-/// Number of the measured effect, with its free value if it has one.
+/// Index of the measured effect, with its free value if it has one.
 #[derive(Debug, Clone)]
 pub(in crate::outputs) struct EffectDeflection<T: Real, const D: usize>(usize, Option<T>);
 
-/// Does a kind of effect have a free value?
+/// True if a kind of effect has a free value.
 pub(super) fn has_free_value<T>(kind: &EffectKind<T>) -> bool {
     kind.row().fields.iter().any(|field| FREE.contains(&field.key))
 }

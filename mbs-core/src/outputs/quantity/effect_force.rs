@@ -24,7 +24,7 @@ pub(super) const ROW: QuantityRow = QuantityRow::new(
 .of_effects()
 .drawn_as(OutputPicture::Force);
 
-/// Number of the measured effect.
+/// Index of the measured effect.
 #[derive(Debug, Clone)]
 pub(in crate::outputs) struct EffectForce<T: Real, const D: usize>(usize, PhantomData<T>);
 

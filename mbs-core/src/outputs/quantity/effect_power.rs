@@ -21,7 +21,7 @@ pub(super) const ROW: QuantityRow = QuantityRow::new(
 )
 .of_effects();
 
-/// Number of the measured effect.
+/// Index of the measured effect.
 #[derive(Debug, Clone)]
 pub(in crate::outputs) struct EffectPower<T: Real, const D: usize>(usize, PhantomData<T>);
 

@@ -22,7 +22,7 @@ pub(super) const ROW: QuantityRow = QuantityRow::new(
 .of_effects()
 .or("length");
 
-/// Number of the measured effect.
+/// Index of the measured effect.
 #[derive(Debug, Clone)]
 pub(in crate::outputs) struct EffectValue<T: Real, const D: usize>(usize, PhantomData<T>);
 

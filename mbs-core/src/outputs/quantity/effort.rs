@@ -24,7 +24,7 @@ pub(super) const ROW: QuantityRow = QuantityRow::new(
 .of_reactions()
 .or("force");
 
-/// Number of the coupling, and the factor from its multiplier to its effort.
+/// Index of the coupling, and the factor from its multiplier to its effort.
 #[derive(Debug, Clone)]
 pub(in crate::outputs) struct Effort<T: Real, const D: usize>(usize, T);
 

@@ -25,7 +25,7 @@ pub(super) const ROW: QuantityRow = QuantityRow::new(
 )
 .of_reactions();
 
-/// Number of the joint, and its coordinates.
+/// Index of the joint, and its coordinates.
 #[derive(Debug, Clone)]
 pub(in crate::outputs) struct JointEffort<T: Real, const D: usize>(usize, Vec<Coordinate<T, D>>);
 

@@ -34,9 +34,9 @@ pub(super) trait Measured<T: Real, const D: usize> {
 #[derive(Debug, Clone)]
 pub(in crate::outputs) struct Followed<T: Real, const D: usize> {
     pub coordinates: Vec<Coordinate<T, D>>,
-    /// Place of their first value among the values of all tracked coordinates.
+    /// Index of their first value among the values of all tracked coordinates.
     pub start: usize,
-    /// Number of the joint with these coordinates; `None`: a body relative to the ground.
+    /// Index of the joint with these coordinates; `None`: a body relative to the ground.
     pub joint: Option<usize>,
 }
 
@@ -98,7 +98,7 @@ pub(in crate::outputs) struct Instant<'a, T: Real, const D: usize> {
     pub state: &'a State<T>,
     /// Present values of tracked coordinates.
     pub values: &'a [T],
-    /// Reactions at the state; without them the values that need them are zero.
+    /// Reactions at the state. `None`: quantities that need reactions are zero.
     pub reactions: Option<&'a Reactions<T, D>>,
     pub effects: Option<&'a EffectWrenches<T, D>>,
     /// Error of the energy invariant of the run [J].

@@ -17,7 +17,8 @@ use alloc::vec::Vec;
 list::list!(table::constructors);
 
 impl<T: Clone> Output<T> {
-    /// Components in a scene, in the units of the output: those of its quantity, then the magnitudes of its vectors if they are required.
+    /// Components in a scene, in the units of the output. The components of its quantity come first, then the magnitudes of its vectors if
+    /// they are required.
     ///
     /// # Panics
     /// If [`Quantity::components`] panics.
@@ -31,7 +32,7 @@ impl<T: Clone> Output<T> {
         components
     }
 
-    /// Places of the components that the output converts to degrees.
+    /// Indices of the components that the output converts to degrees.
     pub(crate) fn places_in_degrees(&self, scene: &Scene<T>) -> Vec<usize> {
         if !self.is_in_degrees {
             return Vec::new();
@@ -65,7 +66,7 @@ impl<T: Clone> Quantity<T> {
         }
     }
 
-    /// Body and point [m] of which pictures draw the path, in the reference configuration; `None`: they draw no path.
+    /// Body, and point [m] of the body in the reference configuration, whose path pictures show. `None`: pictures show no path.
     #[must_use]
     pub fn traced(&self) -> Option<(BodyId, [T; 3])> {
         match self.target() {
@@ -134,7 +135,7 @@ fn unit_of_coordinate<T>(scene: &Scene<T>, joint: JointId, number: usize) -> &'s
     freedom.map_or("rad", Freedom::unit)
 }
 
-/// Unit of the sum of a coupling, or of the measure on which its effort does work.
+/// Unit of the sum of a coupling. If `is_effort`, it is the unit of the measure on which the coupling's effort does work.
 fn unit_of_coupling<T>(scene: &Scene<T>, coupling: CouplingId, is_effort: bool) -> &'static str {
     let of = &scene.couplings[coupling.index()];
     match of.drawn.map(|drawn| drawn.kind) {
@@ -147,7 +148,7 @@ fn unit_of_coupling<T>(scene: &Scene<T>, coupling: CouplingId, is_effort: bool) 
     }
 }
 
-/// Unit of a sum. It is the metre if a term is a slide or a length: factors of such terms are numbers. Otherwise it is the radian.
+/// Unit of a sum. It is the metre if a term is a slide or a length: factors of such terms have no unit. Otherwise it is the radian.
 fn unit_of_sum<T>(scene: &Scene<T>, terms: &[CouplingTerm<T>]) -> &'static str {
     let mut units = terms.iter().map(|term| unit_of_number(scene, &term.of));
     units.find(|unit| *unit == "m").unwrap_or("rad")
@@ -161,9 +162,9 @@ fn unit_of_number<T>(scene: &Scene<T>, of: &CouplingMeasure<T>) -> &'static str 
     }
 }
 
-/// Unit of a signal. A measured number and an input have a unit; lags and limits of signals keep it. Other signals have `-`.
+/// Unit of a signal. A measured number and an input have a unit. A lag or limit has the unit of its argument. Other signals have `-`.
 fn unit_of_signal<T>(scene: &Scene<T>, mut signal: SignalId) -> &str {
-    // No path without a circle has more signals than the scene.
+    // A chain of signals without a cycle is at most as long as the list of signals.
     for _ in &scene.signals {
         match scene.signals.get(signal.index()).map(|signal| &signal.kind) {
             Some(SignalKind::Measure { of, is_rate }) => {

@@ -27,7 +27,7 @@ pub(super) const ROW: QuantityRow = QuantityRow::new(
 .without_rotation()
 .drawn_as(OutputPicture::Force);
 
-/// Number of the measured joint.
+/// Index of the measured joint.
 #[derive(Debug, Clone)]
 pub(in crate::outputs) struct Reaction<T: Real, const D: usize>(usize, PhantomData<T>);
 

@@ -20,7 +20,7 @@ pub(super) const ROW: QuantityRow = QuantityRow::new(
 )
 .of_reactions();
 
-/// Number of the rolling contact.
+/// Index of the rolling contact.
 #[derive(Debug, Clone)]
 pub(in crate::outputs) struct RollingForce<T: Real, const D: usize>(usize, PhantomData<T>);
 

@@ -50,7 +50,7 @@ impl TargetKind {
 }
 
 impl TargetKind {
-    /// Is the quantity relative to another body?
+    /// True if the quantity is relative to another body.
     #[must_use]
     pub const fn is_relative(self) -> bool {
         matches!(self, Self::RelativePoint | Self::RelativeBody | Self::WheelCarrier)
@@ -73,7 +73,7 @@ pub struct QuantityDefinition {
 /// Picture of an output's quantity.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum OutputPicture {
-    /// Nothing is drawn for it.
+    /// Nothing is drawn for the output.
     Nothing,
     /// Path of its point.
     Trace,
@@ -95,15 +95,15 @@ pub struct QuantityRow {
     pub components: ComponentForm,
     /// Definition of the quantity.
     pub definition: QuantityDefinition,
-    /// Does the quantity need reactions? They are not always unique.
+    /// True if the quantity needs reactions, which are not always unique.
     pub needs_reactions: bool,
-    /// Does the quantity need effects?
+    /// True if the quantity needs effects.
     pub needs_effects: bool,
-    /// Does the quantity need the rotation of its body, of its joint's bodies, or of the body to which it is relative?
+    /// True if the quantity needs the rotation of its body, of its joint's bodies, or of the body to which it is relative.
     pub needs_rotation: bool,
     /// Picture of the quantity.
     pub picture: OutputPicture,
-    /// Does the quantity belong to the run rather than to the motion? Such values do not converge with those of other runs.
+    /// True if the quantity belongs to the numerical run and not to the motion. Its values do not converge to those of other runs.
     pub is_of_run: bool,
 }
 
@@ -159,7 +159,7 @@ impl QuantityRow {
         Self { alias: Some(alias), ..self }
     }
 
-    /// Is this a name of the quantity?
+    /// True if this is a name of the quantity.
     #[must_use]
     pub fn has_name(&self, name: &str) -> bool {
         self.name == name || self.alias == Some(name)

@@ -19,7 +19,7 @@ pub(super) const ROW: QuantityRow = QuantityRow::new(
 )
 .of_effects();
 
-/// Number of the measured signal.
+/// Index of the measured signal.
 #[derive(Debug, Clone)]
 pub(in crate::outputs) struct SignalValue<T: Real, const D: usize>(usize, PhantomData<T>);
 

@@ -20,7 +20,7 @@ pub(super) const ROW: QuantityRow = QuantityRow::new(
 )
 .of_effects();
 
-/// Number of the tire among the effects.
+/// Index of the tire among the effects.
 #[derive(Debug, Clone)]
 pub(in crate::outputs) struct TireLoad<T: Real, const D: usize>(usize, PhantomData<T>);
 

@@ -19,7 +19,7 @@ pub(super) const ROW: QuantityRow = QuantityRow::new(
 )
 .of_effects();
 
-/// Number of the tire among the effects.
+/// Index of the tire among the effects.
 #[derive(Debug, Clone)]
 pub(in crate::outputs) struct TireSlipAngle<T: Real, const D: usize>(usize, PhantomData<T>);
 

@@ -29,8 +29,8 @@ pub(in crate::outputs) struct CarrierDirection<T: Real, const D: usize> {
 }
 
 impl<T: Real, const D: usize> CarrierDirection<T, D> {
-    /// Prepares a direction of the carrier. By default it is axis number `i` of the vehicle body; its component along this axis is
-    /// positive.
+    /// Prepares a direction of the carrier. By default it is axis number `i` of the vehicle body. The sign of the direction is such that
+    /// its component along this axis is positive.
     pub(super) fn new(of: &WheelCarrier<T>, from: &Maker<'_, T, D>, i: usize) -> Self {
         let [up, forward] = [of.up, of.forward].map(|x| normalised(&Vector::from(x)));
         // component of `forward` that is perpendicular to `up`
@@ -46,7 +46,7 @@ impl<T: Real, const D: usize> CarrierDirection<T, D> {
         Self { carrier, vehicle, axes, direction }
     }
 
-    /// Components of the direction forward, inward and up.
+    /// Components of the carrier's direction along the axes forward, inward and up.
     pub(super) fn parts(&self, state: &State<T>) -> [T; 3] {
         let now = self.carrier.rotation(&state.q) * self.direction;
         let seen = self.vehicle.rotation(&state.q).transpose() * now;

@@ -112,7 +112,7 @@ fn inertia_obeys_the_triangle_inequality_in_principal_moments() {
     let spoil = |six| refused(spatial(), |s| s.bodies[1].inertia = Inertia::Spatial(six));
     let found = spoil([1.0, 1.0, 2.5, 0.0, 0.0, 0.0]);
     assert_eq!(found, (Entry::Body(1), "inertia", SceneFault::TriangleInequality([2.5, 2.0])));
-    // diagonal moments fine, but the principal moments, in axes turned by 45 degrees, are 0.5, 1.5, 2.5
+    // The diagonal moments are possible. The principal moments, in axes rotated by 45 degrees, are 0.5, 1.5, 2.5, and impossible.
     let (.., fault) = spoil([1.0, 1.0, 2.5, 0.5, 0.0, 0.0]);
     assert!(matches!(fault, SceneFault::TriangleInequality(_)), "{fault}");
     let (.., fault) = spoil([1.0, 1.0, 1.0, 2.0, 0.0, 0.0]);
@@ -174,7 +174,8 @@ fn tables_of_guides_that_jump_within_the_run_are_refused() {
     let SceneFault::TableSlope { row: 2, is_end: true, time, rate } = error.fault else {
         panic!("{error}")
     };
-    // natural: c₁ = 6 (0.8 − 0.4)/(4 · 0.25); at the end 0.8 + c₁ 0.25/6 = 0.9
+    // Natural spline: its second derivative at the middle row is c₁ = 6 (0.8 − 0.4)/(4 · 0.25). Its slope at the end is 0.8 + c₁
+    // 0.25/6 = 0.9.
     assert_eq!((error.entry, error.field, time), (Entry::Guide(0), "table", 0.5));
     assert!((rate - 0.9).abs() < 1e-14, "{rate}");
     assert_eq!(natural(0.5), Ok(()), "a run may end in motion");
@@ -197,7 +198,7 @@ fn thin_rods_and_plates_pass_in_any_direction() {
     let mut scene = spatial();
     let n = [0.36, 0.48, 0.8];
     for k in 0..40 {
-        // rod: m L²/12 (1 − n nᵀ); plate: the same plus its thin axis; sizes over 40 decades
+        // Inertia of a thin rod along n: m L²/12 (1 − n nᵀ). Sizes extend over 40 decades.
         let size = 10.0_f64.powi(k - 20);
         let [xx, yy, zz] = n.map(|c| size * (1.0 - c * c));
         let six = [xx, yy, zz, -size * n[0] * n[1], -size * n[1] * n[2], -size * n[2] * n[0]];

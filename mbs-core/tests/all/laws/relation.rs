@@ -2,7 +2,7 @@
 
 use mbs_core::laws::relation::*;
 
-/// Relation x y^2 z / l^3, with factors on its derivatives. They are right for factors of one.
+/// Relation x y^2 z / l^3 whose derivatives are multiplied by factors. The derivatives are right if the factors are one.
 #[derive(Debug)]
 struct Product {
     length: f64,

@@ -23,7 +23,8 @@ fn with<R>(features: &[Feature<f64>], f: impl FnOnce(Part, &LawInputs<'_, f64>) 
     f(Part { first: 0, n }, &LawInputs { features, ..LawInputs::courses(&[]) })
 }
 
-/// Least distance among places spaced by 1e-4 of the height. It is too large by 1e-8 of the height, times the curvature.
+/// Least distance among places spaced by 1e-4 of the height. It exceeds the true distance by 1e-8 of the height, times the
+/// curvature.
 fn by_search(road: Part, s: &LawInputs<'_, f64>, [x, z]: [f64; 2]) -> f64 {
     let reach = (z - road::height(road, s, x).value).abs();
     let places = (-10_000..=10_000).map(|i| x + f64::from(i) * 1e-4 * reach);
@@ -34,7 +35,7 @@ fn by_search(road: Part, s: &LawInputs<'_, f64>, [x, z]: [f64; 2]) -> f64 {
     places.map(distance).fold(f64::INFINITY, f64::min)
 }
 
-/// Compares both distances, for centres over the middle of a road.
+/// Compares the distance found by the library with a search, for centres over the middle of a road.
 fn holds(features: &[Feature<f64>], [from, to]: [f64; 2], heights: [f64; 2]) {
     with(features, |road, s| {
         for i in 0..400 {

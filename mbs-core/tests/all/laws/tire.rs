@@ -180,8 +180,8 @@ fn a_wheel_on_its_side_and_one_below_the_road_have_finite_forces() {
             motion.position[2] = 0.4 - 0.002 * f64::from(i);
             let row = radial(&tire, &motion);
             let value = row.measure.value;
-            // Bounds of the row: 1 / cos g for the force, and the distance to the road along the wheel (R at contact) over cos^2 g
-            // for the moment.
+            // Bounds of the row. For the force it is 1 / cos g. For the moment it is the distance to the road along the wheel (R at
+            // contact), divided by cos^2 g.
             let reach = (10.0 * motion.position[2].abs()).max(0.36);
             assert!(norm(&V::from(row.force)) < 10.1, "{camber} {i}");
             let moment = norm(&V::from(row.moment));

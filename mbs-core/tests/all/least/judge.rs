@@ -19,7 +19,7 @@ pub(super) struct Body {
 
 pub(super) struct Joint {
     pub(super) kind: &'static str,
-    /// Body before the joint; `None`: the ground. The number of the joint is that of the body after it.
+    /// Body before the joint; `None`: the ground. A joint has the same number as the body after it.
     pub(super) first: Option<usize>,
     pub(super) at: V,
     pub(super) axes: [V; 2],
@@ -200,7 +200,7 @@ impl Mechanism {
         (gaps, rows)
     }
 
-    /// Gradient of the change with the multipliers of the cuts, followed by the gaps.
+    /// Residual of the conditions for the least change: its gradient with the multipliers of the cuts, then the gaps of the cuts.
     fn stationary(&self, z: &[f64], lambda: &[f64], tau: f64, free: &[usize]) -> Vec<f64> {
         let (poses, columns) = self.place(z, tau, false);
         let (gaps, rows) = self.gaps(&poses, &columns);

@@ -21,7 +21,7 @@ fn through(values: [f64; 2], rates: [f64; 2]) -> Cubic {
     Cubic::new([0, 1].map(|i| Gap { value: values[i], rate: rates[i] }), 1.0)
 }
 
-/// Checks that the first change of a cubic is near `share`. It is later by half the band over the slope.
+/// Checks that the first sign change of a cubic is near `share`. It is later by half the band divided by the slope.
 #[track_caller]
 fn changes_at(cubic: &Cubic, share: f64, slope: f64) {
     let change = cubic.change(BAND).expect("a change");

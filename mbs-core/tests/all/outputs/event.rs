@@ -14,7 +14,7 @@ fn means_of_the_ends_of_cut_steps_are_the_fade_s_own() {
             impulse += 0.5 * (end - at) * (force(at) + force(end.min(1.0)));
             at = end;
         }
-        // a step end that is less than a tenth beyond the fade is not cut, and adds this part of the full force
+        // A step that ends less than a tenth of the fade beyond it is not cut. Its part beyond the fade adds the full force.
         let passed = at - 1.0;
         assert!(passed < 0.1, "a step of {way} fades ends {passed} beyond it");
         assert!((impulse - 0.5 - passed).abs() < 0.02, "{way}: {impulse}");
