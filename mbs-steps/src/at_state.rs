@@ -1,4 +1,5 @@
-//! Quantities of a model at a given state, for studies, compiled here in `f64`: poses of the bodies, and gradients of the constraints.
+//! Quantities of a model at a given state, for studies: poses of the bodies, and gradients of the constraints. They are compiled here in
+//! `f64`.
 
 use mbs_core::model::{Model, Owner, State};
 use mbs_core::natural::NaturalModel;
@@ -32,9 +33,10 @@ fn poses_here<const D: usize>(
 /// Owner of a constraint row (a coupling or a rolling contact), and the gradient of the row.
 pub type Gradient = (Owner, Vec<f64>);
 
-/// Returns the gradients of the rows of joints and bodies at a state, then those of couplings and rolling contacts with their owners.
+/// Returns the gradients of the constraint rows at a state. The rows of joints and bodies come first. The rows of couplings and rolling
+/// contacts follow, each with its owner.
 ///
-/// Cost: number of rows times number of unknowns, as the matrix is dense; allocates.
+/// Cost: number of rows times number of unknowns, because the matrix is dense; allocates.
 pub fn gradients<const D: usize>(
     model: &NaturalModel<f64, D>,
     state: &State<f64>,

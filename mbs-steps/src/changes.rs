@@ -8,8 +8,8 @@ use mbs_core::outputs::in_radians;
 use mbs_core::scene::Scene;
 use mbs_core::{Real, instances};
 
-/// Change of an output that counts as rounding error or iteration error, relative to the size of quantities with its unit [-]. Chosen, not
-/// tuned.
+/// Largest change of an output that counts as rounding error or iteration error, relative to the largest value among outputs of the same
+/// unit [-]. Chosen, not tuned.
 const ROUNDING: f64 = 1e-9;
 
 /// The output ranges of the run with all effects, to which changes are compared.
@@ -19,13 +19,13 @@ pub struct OutputRanges<'a> {
     parts: Vec<Part>,
 }
 
-/// The components of a channel that have the same unit.
+/// Components of a channel that have the same unit.
 #[derive(Debug)]
 struct Part {
     channel: String,
     unit: String,
     columns: Vec<usize>,
-    /// Largest range of a component: maximum minus minimum over the run.
+    /// Largest range of a component; the range is the maximum minus the minimum over the run.
     range: f64,
     /// Largest change that counts as rounding error.
     floor: f64,
@@ -71,8 +71,8 @@ impl<'a> OutputRanges<'a> {
         outputs
     }
 
-    /// Computes the range of each part and its rounding floor. The floor uses the largest value with the same unit: at least the scene's
-    /// length for m, at least 1 for rad.
+    /// Computes for each part its range, and the largest change that counts as rounding error. That change is relative to the largest value
+    /// with the same unit, which is at least the scene's length for m, and at least 1 for rad.
     fn measure(&mut self, length: f64) {
         let rows = self.run.rows();
         let extremes = |part: &Part| {
@@ -107,7 +107,7 @@ impl<'a> OutputRanges<'a> {
         }
     }
 
-    /// The largest difference of each output, over the leading rows whose times agree in both runs.
+    /// Returns the largest difference of each output between the two runs. Rows are compared from the start, as long as their times agree.
     pub fn changes(&self, other: &Outcome) -> Vec<OutputChange> {
         let pairs = || {
             let pairs = self.run.rows().iter().zip(other.rows());

@@ -10,14 +10,15 @@ use mbs_core::outputs::{Forces, Measures, Target};
 use mbs_core::scene::{Output, Scene};
 use mbs_core::{Real, instances};
 
-/// Measures and forces of a scene.
+/// Measures of a scene's outputs, and the tables from which forces are computed.
 #[derive(Debug, Clone)]
 pub struct Channels<T: Real, const D: usize> {
     measures: Measures<T, D>,
     forces: Option<Forces<T, D>>,
     /// Joint coordinates of the first state, with full turns counted.
     remembered: Vec<RememberedAngle<T>>,
-    /// Numbers of joints, then couplings, then rollings, whose output reaction, effort or force was not unique in some row.
+    /// Indices of parts whose requested reaction, effort or force was not unique in some row. Joints are counted first, then couplings,
+    /// then rolling contacts.
     not_unique: Vec<usize>,
     asked: Vec<usize>,
     /// Number of joints, and number of joints plus couplings.
@@ -88,12 +89,12 @@ impl<T: Real, const D: usize> Channels<T, D> {
         Ok(Self { measures, forces, remembered, not_unique, asked, ends, outputs, write_at, track })
     }
 
-    /// Exchanges the tables that forces are computed from, because a scene with other effects needs other tables.
+    /// Exchanges the tables from which forces are computed, because a scene with other effects needs other tables.
     pub fn exchange(&mut self, forces: &mut Option<Forces<T, D>>) {
         core::mem::swap(&mut self.forces, forces);
     }
 
-    /// Writes the memory of the channels to a checkpoint, or reads it from one.
+    /// Writes the stored values of the channels to a checkpoint, or reads them from one.
     pub fn walk(&mut self, tape: &mut impl Tape) -> Walked {
         tape.reals(self.measures.memory_mut())?;
         let asked = &self.asked;
@@ -103,7 +104,7 @@ impl<T: Real, const D: usize> Channels<T, D> {
         })
     }
 
-    /// Follows angles at every step, so that full turns are counted.
+    /// Updates the tracked angles after a step, so that full turns are counted.
     ///
     /// # Errors
     /// [`StopError::Step`] with the joint whose number of turns is ambiguous.
@@ -124,7 +125,8 @@ impl<T: Real, const D: usize> Channels<T, D> {
         self.measures.track(state).map_err(|error| simulation.explain(error))
     }
 
-    /// Initialises the turns of the first state from the assembly, because a search for an equilibrium may turn a joint more than once.
+    /// Sets the initial number of turns of each angle from the assembly, because a search for an equilibrium may turn a joint more than
+    /// once.
     fn begin(&mut self, state: &State<T>) {
         let Self { measures, remembered, .. } = self;
         measures.track_with(state, |joint, number| {
@@ -184,7 +186,7 @@ impl<T: Real, const D: usize> Channels<T, D> {
         self.measures.lengths()
     }
 
-    /// Names of the joints, couplings and rollings whose reaction, effort or force was not unique.
+    /// Names of the joints, couplings and rolling contacts whose reaction, effort or force was not unique.
     pub fn not_unique(&self, scene: &Scene<T>) -> Vec<String> {
         let [n_joints, n_both] = self.ends;
         let name = |&i: &usize| match i {

@@ -15,7 +15,7 @@ mbs_core::named! {
     pub enum IntegratorKind {
         /// Trapezoidal rule, of order 2 and without numerical damping.
         Trapezoidal = "trapezoidal",
-        /// Newmark's method with gamma = 0.6, beta = (gamma + 1/2)^2 / 4 = 0.3025: numerical damping, first order.
+        /// Newmark's method with gamma = 0.6 and beta = (gamma + 1/2)^2 / 4 = 0.3025. It has numerical damping and is of first order.
         Newmark = "newmark",
         /// Generalised-alpha method with spectral radius 0.8 at infinity.
         GeneralisedAlpha = "generalised-alpha",
@@ -27,34 +27,34 @@ mbs_core::named! {
         Rk54 = "rk54",
         /// Explicit Runge-Kutta method of order 8, with error estimates of orders 5 and 3 for the step control.
         Rk853 = "rk853",
-        /// Extrapolation of the midpoint rule (Gragg, Bulirsch and Stoer). Order and step length follow from the tolerance. For reference
-        /// solutions.
+        /// Extrapolation of the midpoint rule (Gragg, Bulirsch and Stoer), for reference solutions. The tolerance determines order and step
+        /// length.
         Extrapolation = "gbs",
-        /// Implicit Runge-Kutta method of order 5 (collocation at three Radau points) with step control. For stiff effects.
+        /// Implicit Runge-Kutta method of order 5 (collocation at three Radau points) with step control, for stiff effects.
         Radau5 = "radau5",
     }
 }
 
 impl IntegratorKind {
-    /// Is the integrator an explicit method?
+    /// True if the integrator is an explicit method.
     #[must_use]
     pub fn is_explicit(self) -> bool {
         matches!(self, Self::Rk4 | Self::Rk54 | Self::Rk853 | Self::Extrapolation)
     }
 
-    /// Is it an integrator for systems of first order? Only relative coordinates give such a system.
+    /// True for an integrator of systems of first order. Only relative coordinates give such a system.
     #[must_use]
     pub fn is_of_first_order(self) -> bool {
         self.is_explicit() || self.controls_its_step()
     }
 
-    /// Does the integrator control its internal steps by the tolerance?
+    /// True if the integrator chooses its internal steps by the tolerance.
     #[must_use]
     pub fn controls_its_step(self) -> bool {
         matches!(self, Self::Rk54 | Self::Rk853 | Self::Extrapolation | Self::Radau5)
     }
 
-    /// Coefficients of a method of the Newmark family; other integrators return the coefficients of the trapezoidal rule.
+    /// Coefficients of an integrator of the Newmark family. Other integrators return the coefficients of the trapezoidal rule.
     #[must_use]
     pub fn coefficients<T: Real>(self) -> Integrator<T> {
         match self {
@@ -71,7 +71,7 @@ impl IntegratorKind {
     }
 }
 
-/// A quotient of two integers, correct to machine precision in every precision.
+/// Quotient of two integers, computed in the scalar type `T`, so that it is correct to the machine precision of `T`.
 fn ratio<T: Real>(over: u16, under: u16) -> T {
     T::from_f64(over.into()) / T::from_f64(under.into())
 }
@@ -83,11 +83,11 @@ mbs_core::named! {
         Fixed = "fixed",
         /// Control by the change of the energy invariant.
         Energy = "energy",
-        /// Control by the change of the energy invariant as in publication 2: the step changes only if the change crosses a limit.
+        /// Control by the change of the energy invariant as in publication 2: the step length changes only if that change crosses a limit.
         EnergyPrinted = "energy-printed",
         /// Control by an estimate of the local error.
         Error = "error",
-        /// Control by both criteria: the shorter step is used.
+        /// Control by both criteria: the shorter one of the two steps is used.
         Both = "both",
     }
 }
@@ -98,13 +98,13 @@ impl StepRule {
         if name == "energy-published" { "energy-printed" } else { name }
     }
 
-    /// Does the change of the energy invariant control the step?
+    /// True if the change of the energy invariant controls the step.
     #[must_use]
     pub fn has_energy(self) -> bool {
         matches!(self, Self::Energy | Self::EnergyPrinted | Self::Both)
     }
 
-    /// Does the error estimate control the step?
+    /// True if the error estimate controls the step.
     #[must_use]
     pub fn has_error(self) -> bool {
         matches!(self, Self::Error | Self::Both)

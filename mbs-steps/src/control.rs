@@ -22,10 +22,10 @@ pub struct Control<T: Real, const D: usize> {
     driver: Driver<T>,
     estimate: Option<LocalError<T>>,
     events: Option<Events<T, D>>,
-    /// Angles of the joints with full turns, for natural coordinates. Relative coordinates count the turns themselves.
+    /// Tracked joint angles with full turns, for natural coordinates. With relative coordinates, the formulation counts the turns.
     turns: Option<Turns<T, D>>,
     saved: State<T>,
-    /// The user-defined law or relation that made the last trial fail, and the time of that trial [s].
+    /// Last user-defined law or relation that failed in a trial step, and the time of that trial [s].
     failed: Option<(CodeOwner, T)>,
     /// The largest step [s].
     max_step: T,
@@ -76,13 +76,13 @@ impl<T: Real, const D: usize> Control<T, D> {
         }))
     }
 
-    /// State of the step control that the next step depends on.
+    /// Data of the step control that the next step depends on.
     pub fn snapshot(&self) -> ControlSnapshot<T> {
         let events = self.events.as_ref().map(Events::history);
         ControlSnapshot { driver: self.driver.history(), events }
     }
 
-    /// Restores a snapshot; returns whether the snapshot has the same rules and effects.
+    /// Restores a snapshot; returns false if the snapshot belongs to other rules or effects.
     pub fn restore(&mut self, snapshot: &ControlSnapshot<T>) -> bool {
         let is_ours = match (&mut self.events, &snapshot.events) {
             (Some(events), Some(history)) => events.set_history(history),
@@ -91,12 +91,12 @@ impl<T: Real, const D: usize> Control<T, D> {
         is_ours && self.driver.set_history(snapshot.driver)
     }
 
-    /// Restarts the detection of events at a state that was set from outside.
+    /// Restarts the detection of events at a state that was set by other code than a step.
     pub fn restart(&mut self, state: &State<T>) {
         self.events.iter_mut().for_each(|events| events.start(state));
     }
 
-    /// Makes one step of at most `rest` [s], which ends where a signal jumps or has a corner.
+    /// Makes one step of at most `rest` [s]. The step ends at the next jump or corner of a signal, if there is one within `rest`.
     pub fn step(
         &mut self,
         (model, formulation): (&NaturalModel<T, D>, &mut dyn Formulation<T, D>),
@@ -122,15 +122,15 @@ impl<T: Real, const D: usize> Control<T, D> {
         Ok(Accepted { attempt, limit: Limit::Event, is_last: false, ..made })
     }
 
-    /// Notes the user-defined law or relation that made trials of a step to time `t` [s] fail, if there is one.
+    /// Stores the user-defined law or relation that failed in a trial step to time `t` [s]; `None`: none failed.
     pub fn note(&mut self, failed: Option<CodeOwner>, t: T) {
         if let Some(failed) = failed {
             self.failed = Some((failed, t));
         }
     }
 
-    /// The user-defined law or relation whose last failure was at most one largest step before time `t` [s]. It is the cause if steps
-    /// become too small there.
+    /// Returns the user-defined law or relation that failed last, if it failed at most one largest step before time `t` [s]. If steps
+    /// become too small at `t`, this failure is the cause.
     pub fn failed_before(&self, t: T) -> Option<CodeOwner> {
         self.failed.filter(|(_, at)| t - *at <= self.max_step).map(|(failed, _)| failed)
     }
@@ -199,7 +199,7 @@ impl<T: Real, const D: usize> Stepper<T> for Trial<'_, T, D> {
             events.accept(self.state);
         }
         if at_event {
-            // The multipliers have a corner at an event, so nothing is extrapolated across it.
+            // The multipliers have a corner at an event, so a length of zero prevents extrapolation across it.
             self.state.dt = T::ZERO;
         }
     }

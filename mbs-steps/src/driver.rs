@@ -1,4 +1,4 @@
-//! Loop that makes the steps of a run: from instant to instant, and calls observers.
+//! Loop that makes the steps of a run from one instant to the next, and calls observers.
 
 use crate::interrupt::Interrupt;
 use crate::precision::is_finer;
@@ -10,10 +10,10 @@ use mbs_core::once::found;
 use mbs_core::step::{InputError, Step, StepError, StepReport};
 use mbs_core::{Real, instances};
 
-/// Largest remaining time at the end of a stretch that is skipped, in units of machine precision of the time [-]. Chosen, not tuned.
+/// Largest remaining time at the end of a stretch that is skipped, in units of the machine precision of the time [-]. Chosen, not tuned.
 const ROUNDINGS: f64 = 32.0;
-/// Largest remaining time that is skipped, relative to the stretch [-]. It bounds `ROUNDINGS` in `f32`, where a rounding error of the time
-/// can exceed a short step.
+/// Largest remaining time that is skipped, relative to the length of the stretch [-]. It limits the effect of `ROUNDINGS` in `f32`, where a
+/// rounding error of the time can exceed a short step.
 const MAX_SLIVER: f64 = 1e-5;
 
 /// Observes a run, sets inputs between steps, and may end the run. All methods do nothing by default.
@@ -59,7 +59,7 @@ const MAX_SLIVER: f64 = 1e-5;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub trait StepObserver<T: Real, const D: usize> {
-    /// Prepares a step; inputs may be set here. With step control, a rejected trial is repeated with the same inputs.
+    /// Prepares a step; inputs may be set here. With step control, a rejected trial step is repeated with the same inputs.
     ///
     /// # Errors
     /// The error that stops the run.
@@ -82,8 +82,7 @@ pub trait StepObserver<T: Real, const D: usize> {
         Ok(ControlFlow::Continue(()))
     }
 
-    /// Called at each instant at which a step must end. It is a row of a comparison, the end of a period, or the end of a step of fixed
-    /// length.
+    /// Called at each instant at which a step must end. It is a row of a comparison, or the end of a period or of a fixed step.
     ///
     /// # Errors
     /// The error that stops the run.
@@ -175,7 +174,7 @@ pub fn continue_if(yes: bool) -> ControlFlow<()> {
     if yes { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
 }
 
-/// System that the loop steps: one simulation, or several simulations that step alternately, one of which observers see.
+/// System that the loop steps. It is one simulation, or several simulations that step alternately; observers see one of them.
 pub trait Plant<T: Real, const D: usize> {
     /// The simulation that makes the next step.
     fn stepped(&mut self) -> &mut Simulation<T, D>;
@@ -204,7 +203,7 @@ impl<T: Real, const D: usize> Plant<T, D> for Simulation<T, D> {
     }
 }
 
-/// Simulated time up to an instant at which a step has to end.
+/// Interval of simulated time that ends at an instant at which a step has to end.
 #[derive(Debug, Clone, Copy)]
 pub struct Stretch<T> {
     /// End of the stretch [s].
@@ -215,10 +214,10 @@ pub struct Stretch<T> {
     pub is_last: bool,
 }
 
-/// Number, start and length of steps of fixed length.
+/// Number of steps, time before the first step, and step length, for steps of fixed length.
 #[derive(Debug, Clone, Copy)]
 pub struct Fixed<T> {
-    /// Number of the steps.
+    /// Number of steps in the stretch.
     pub n: u64,
     /// Time before the first step, in the precision of the run and in `f64` [s].
     pub from: (T, f64),
@@ -227,18 +226,18 @@ pub struct Fixed<T> {
 }
 
 impl<T: Real> Stretch<T> {
-    /// Stretch up to an instant. Its steps have controlled lengths, or one step fills it.
+    /// Stretch from the current time to an instant. The step control chooses its steps, or a single step covers it.
     pub fn to(to: T) -> Self {
         Self { to, fixed: None, is_last: false }
     }
 
-    /// The stretch in a single step of length `dt` [s], if `dt` is given.
+    /// Stretch with a single step of length `dt` [s]. If `dt` is `None`, the step control chooses the steps.
     pub fn in_one(self, dt: Option<T>) -> Self {
         let fixed = |dt: T| Fixed { n: 1, from: (T::ZERO, 0.0), dt: (dt, dt.to_f64()) };
         Self { fixed: dt.map(fixed), ..self }
     }
 
-    /// The stretch in `n` equal steps from time `now`; their sum `dt` is given in the precision of the run and in `f64` [s].
+    /// Stretch with `n` equal steps from time `now`. The total length `dt` [s] is given in the precision of the run and in `f64`.
     pub fn in_parts(self, now: T, dt: (T, f64), n: f64) -> Self {
         let dt = (dt.0 / T::from_f64(n), dt.1 / n);
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
@@ -246,14 +245,15 @@ impl<T: Real> Stretch<T> {
         Self { fixed: Some(Fixed { n, from: (now, now.to_f64()), dt }), ..self }
     }
 
-    /// The time after `j` steps of this stretch [s]; `None` for steps of controlled length.
+    /// Time after `j` steps of fixed length [s]; `None` for steps of controlled length.
     fn known(&self, j: u64) -> Option<T> {
         let Fixed { n, from, dt } = self.fixed?;
         Some(if j == n { self.to } else { multiple(from, j, dt) })
     }
 }
 
-/// Time t + k h [s]. It is computed in `f64` unless `T` has more digits, so that an `f32` run has no rounded times.
+/// Time t + k h [s]: `k` steps of length h after time t. It is computed in `f64` unless `T` has more digits, so that times in an `f32` run
+/// have no accumulated rounding error.
 pub fn multiple<T: Real>(t: (T, f64), k: u64, h: (T, f64)) -> T {
     #[allow(clippy::cast_precision_loss, reason = "step counts stay far below 2^53")]
     let count = k as f64;
@@ -284,7 +284,7 @@ pub fn drive<T: Real, const D: usize>(
     Ok(())
 }
 
-/// [`drive`] of one simulation, for a caller that contains the simulation. It is compiled in this crate.
+/// [`drive`] for one simulation, compiled in this crate. It is for callers that contain the simulation.
 ///
 /// # Errors
 /// The reason why the run stopped.
@@ -318,8 +318,8 @@ fn drive_here<T: Real, const D: usize>(
     drive(simulation, stretches, interrupt, observer)
 }
 
-/// Largest remaining time [s] of a stretch that is skipped instead of stepped, as it is close to the rounding error of the time. `to` is
-/// the end time.
+/// Largest remaining time [s] of a stretch that is skipped, because it is close to the rounding error of the time. `to` is the end of the
+/// stretch [s] and `length` its length [s].
 fn remainder<T: Real>(to: T, length: T) -> T {
     (to * T::EPSILON * T::from_f64(ROUNDINGS)).min(length * T::from_f64(MAX_SLIVER))
 }
@@ -366,7 +366,7 @@ fn along<T: Real, const D: usize>(
     observer.instant(plant.shown())
 }
 
-/// Observer that sums the reports of steps.
+/// Observer that adds the reports of all steps.
 struct Sum<T>(StepReport<T>);
 
 impl<T: Real, const D: usize> StepObserver<T, D> for Sum<T> {

@@ -5,7 +5,7 @@ use crate::simulation::Simulation;
 use crate::stop::StopError;
 use mbs_core::Real;
 
-/// Number of successive steps with too large an error before the run stops [-]; at the end of a run one such step suffices. The first steps
+/// Number of successive steps with too large an error before the run stops [-]. At the end of a run one such step suffices. The first steps
 /// from rest exchange little energy. Their error can be large relative to that energy, yet small relative to the energy of later steps.
 /// Chosen, not tuned.
 const STEPS_IN_A_ROW: u32 = 10;
@@ -29,7 +29,7 @@ impl Alarm {
         tape.small(&mut self.off)
     }
 
-    /// Returns the error to stop with, if the invariant has drifted too far after this step.
+    /// Returns the error with which the run must stop after this step; `None` if the error of the invariant is allowed.
     pub fn rings<T: Real, const D: usize>(
         &mut self,
         simulation: &Simulation<T, D>,
@@ -38,7 +38,7 @@ impl Alarm {
         self.rings_for(simulation, is_last, None)
     }
 
-    /// Checks as [`rings`](Self::rings) does, with a further error `reason`: steps with this reason count as well, and the run stops with it.
+    /// Checks as [`rings`](Self::rings) does. A step for which `reason` is given counts as well, and the run then stops with `reason`.
     pub fn rings_for<T: Real, const D: usize>(
         &mut self,
         simulation: &Simulation<T, D>,

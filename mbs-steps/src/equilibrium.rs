@@ -12,7 +12,7 @@ use mbs_linear::{
 };
 use mbs_sparse::{Indefinite, Multifrontal};
 
-/// Returns the workspace of a static or linear analysis of a model.
+/// Returns the workspace for a static or linear analysis of a model.
 pub fn workspace<T: Real, const D: usize>(
     model: &NaturalModel<T, D>,
 ) -> Workspace<T, Indefinite<T>> {
@@ -53,7 +53,7 @@ impl Search {
     }
 }
 
-/// Moves a state to a static equilibrium, at rest and with guides at their initial values. Effects that act in motion only are omitted:
+/// Moves a state to a static equilibrium, at rest and with guides at their initial values. Effects that act only in motion are omitted:
 /// drives, drag, dry friction, and the forces of a rolling tire.
 ///
 /// # Errors
@@ -119,9 +119,9 @@ fn settle_model<T: Real, const D: usize>(
     })
 }
 
-/// Replaces the start of a scene by its static equilibrium. Positions move from the assembled ones to equilibrium, with guides held.
-/// Velocities then follow from the scene's initial velocities, and accelerations from the equations of motion. Initial positions only
-/// define where the search begins.
+/// Replaces the start of a scene by its static equilibrium. Positions are those of the equilibrium, with guides held. Velocities follow
+/// from the scene's initial velocities, and accelerations from the equations of motion. The scene's initial positions only define where the
+/// search begins.
 ///
 /// # Errors
 /// [`StopError`] if there is no equilibrium, or the initial velocities are inconsistent with it.

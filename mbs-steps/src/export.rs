@@ -1,4 +1,4 @@
-//! Scenes as tables for controllers: `mbs export`.
+//! Export of scenes as tables for controllers: `mbs export`.
 
 use crate::settings::ResolvedMethod;
 use crate::simulation::Simulation;
@@ -16,7 +16,7 @@ use mbs_recursive::space::Space;
 use mbs_recursive::{Planar, Spatial, StartError, TreeModel, TreeState};
 use serde_json::Value;
 
-/// A scene as tables, in two forms.
+/// Tables of a scene, in two forms.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Exported {
     /// Source text of a Rust file with the tables.
@@ -34,8 +34,8 @@ pub enum ExportError {
     Effect(String),
     /// An effect of this name acts on an angle of a ball joint, which controllers do not support.
     Sum(String),
-    /// A signal of this name is a wave, a ramp, or a table that holds or repeats. Or a guide follows it, and it is neither a spline nor a
-    /// step.
+    /// A signal of this name is a wave, a ramp, or a table that holds or repeats its values. Or a guide follows a signal of this name that
+    /// is neither a spline nor a step.
     Signal(String),
     /// A coupling of this name is a user-defined relation.
     Relation(String),
@@ -98,8 +98,8 @@ impl From<StopError> for ExportError {
     }
 }
 
-/// Writes a scene as tables in single or double precision; start and tables are computed in double precision. `form` has the effects of the
-/// degrade ladder by index, the first one to be dropped first, and whether the precision is single.
+/// Writes a scene as tables in single or double precision; start and tables are computed in double precision. The first part of `form` has
+/// the indices of the effects in the degrade ladder; the first effect is dropped first. The second part is true for single precision.
 ///
 /// # Errors
 /// [`ExportError`] if the scene cannot start or cannot be written as tables.
@@ -158,7 +158,7 @@ fn in_space<S: Axes<f64>, const D: usize>(
     Ok(Exported { rust, bytes })
 }
 
-/// Number of operations of a step of a tree on a controller; `None` if controllers do not support the tree.
+/// Bound of the number of operations of a tree's step on a controller; `None` if controllers do not support the tree.
 ///
 /// Cost: the construction of the tables, linear in their size.
 #[must_use]
@@ -204,8 +204,8 @@ fn on_sum<T: Clone>(scene: &Scene<T>) -> String {
     scene.effects.iter().find(is_it).map(|effect| effect.name.clone()).unwrap_or_default()
 }
 
-/// The degrade ladder from a list of effect costs, the JSON of `mbs explain`. It has the effects that have a cost and without which the run
-/// completes. The effect that changes the outputs least comes first.
+/// Reads the degrade ladder from a list of effect costs, the JSON of `mbs explain`. The ladder has the effects with a cost, without which
+/// the run completes. The effect that changes the outputs least comes first.
 ///
 /// # Errors
 /// [`ExportError::Ladder`] if the text is no list of effect costs of this scene.

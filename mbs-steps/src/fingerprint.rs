@@ -4,7 +4,7 @@ use core::fmt;
 
 /// Hash of empty data: the offset basis of FNV-1a, 64 bits.
 const BASIS: u64 = 0xcbf2_9ce4_8422_2325;
-/// Factor applied for each byte: the prime of FNV-1a, 64 bits.
+/// Factor by which the hash is multiplied for each byte: the prime of FNV-1a, 64 bits.
 const PRIME: u64 = 0x0100_0000_01b3;
 
 /// Hash of the bytes added so far.

@@ -4,10 +4,10 @@
 //! |r| <= |a| h   and   |a| h > 3 e        r, a rate and acceleration of the joint or the sum, h the step, e the regularisation
 //! ```
 //!
-//! If both conditions hold, the acceleration reverses the rate within one step. The new rate is far above the rate e at which friction is
-//! fully developed. A rate that only changes its sign meets the conditions for one or two steps. If friction reverses the rate, the
-//! conditions hold in many successive steps. Sticking parts then creep at a rate that does not follow from the law. Implicit methods and
-//! methods with error control resolve the transition.
+//! If both conditions hold, the acceleration reverses the rate within one step. The new rate is then far larger than e, the rate at which
+//! friction is fully developed. A rate that only changes its sign satisfies the conditions for one or two steps. If friction reverses the
+//! rate again and again, the conditions hold in many successive steps. Parts that should stick then creep at a rate that does not follow
+//! from the law. Implicit methods and methods with error control resolve the transition.
 
 use crate::choice::IntegratorKind;
 use crate::settings::ResolvedMethod;
@@ -28,12 +28,13 @@ const MAX_CHANGE: f64 = 3.0;
 #[derive(Debug, Clone)]
 struct Friction<T: Real, const D: usize> {
     effect: usize,
-    /// The coordinates with their factors, whose weighted sum the friction acts on.
+    /// Coordinates with their factors; the friction acts on their weighted sum.
     terms: Vec<(T, CoordinateMotion<T, D>)>,
     regularisation: f64,
 }
 
-/// Coordinates of a friction law and its regularisation; `None` for sums with lengths or curves, which are not monitored.
+/// Coordinates on which a friction law acts, with their factors, and the regularisation of the law. It is `None` for sums with lengths or
+/// curves, which are not monitored.
 type Watched<T, const D: usize> = Option<(Vec<(T, CoordinateMotion<T, D>)>, T)>;
 
 fn watched<T: Real, const D: usize>(
@@ -61,7 +62,7 @@ fn watched<T: Real, const D: usize>(
 }
 
 impl<T: Real, const D: usize> Friction<T, D> {
-    /// Rate and acceleration of the coordinate or sum that the friction acts on.
+    /// Rate and acceleration of the coordinate, or of the weighted sum, on which the friction acts.
     fn motion(&self, state: &State<T>) -> [T; 2] {
         self.terms.iter().fold([T::ZERO; 2], |[rate, acceleration], (factor, of)| {
             let [r, a] = of.at(state);
@@ -90,7 +91,7 @@ impl<T: Real, const D: usize> Frictions<T, D> {
         Self { all: if is_explicit { all.collect() } else { Vec::new() }, step: settings.step }
     }
 
-    /// Returns the error of the first effect whose transition the last step has skipped.
+    /// Returns the error for the first friction effect whose transition was skipped in the last step.
     pub fn passed(&self, simulation: &Simulation<T, D>) -> Option<StopError> {
         let is_passed = |friction: &&Friction<T, D>| {
             let [rate, acceleration] = friction.motion(simulation.state()).map(Real::to_f64);

@@ -6,8 +6,8 @@ use std::sync::Arc;
 
 /// Flag that ends a run after its current step. The default interrupt has no flag and never ends the run.
 ///
-/// An interrupted run keeps its rows and summary, as any run that stops early. All interrupts compare as equal, because an interrupt does
-/// not affect the settings of a run.
+/// An interrupted run has its rows and summary up to that step, as any run that stops early. All interrupts compare as equal, because an
+/// interrupt does not affect the settings of a run.
 #[derive(Clone, Default)]
 pub struct Interrupt(Option<Arc<AtomicBool>>);
 
@@ -18,7 +18,7 @@ impl Interrupt {
         Self(Some(flag))
     }
 
-    /// Must the run end after this step?
+    /// True if the run must end after the current step.
     #[must_use]
     pub fn is_set(&self) -> bool {
         self.0.as_ref().is_some_and(|flag| flag.load(Ordering::Relaxed))

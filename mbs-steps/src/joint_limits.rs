@@ -1,4 +1,4 @@
-//! Joints whose coordinate leaves its range or whose rate exceeds its limit. The run notes them; the motion is not affected.
+//! Joints whose coordinate leaves its range or whose rate exceeds its limit. The run reports them in its notes; the motion is not affected.
 
 use crate::checkpoint::tape::{Tape, Walked};
 use crate::simulation::Simulation;
@@ -9,7 +9,8 @@ use mbs_core::outputs::{Measures, Quantity};
 use mbs_core::scene::{JointId, JointLimits, Output, Scene};
 use mbs_scene::format::{few, significant};
 
-/// Smallest excess that is noted, relative to the width of the range or to the limit [-]. Numbers in files have six or more digits.
+/// Smallest excess that is reported, relative to the width of the range or to the limit of the rate [-]. Numbers in files have six or more
+/// digits.
 const NOTED_EXCESS: f64 = 1e-6;
 
 /// Number of limits of a joint: lower end, upper end and rate.
@@ -21,7 +22,7 @@ struct Watched {
     joint: usize,
     /// Lower end, upper end and largest rate; infinite if there is no limit.
     limits: [f64; N_LIMITS],
-    /// Smallest excess of each limit that is noted.
+    /// Smallest excess that is reported, for each limit.
     noted: [f64; N_LIMITS],
     /// Time at which each limit was exceeded first [s].
     first: [Option<f64>; N_LIMITS],
@@ -129,7 +130,7 @@ impl<T: Real, const D: usize> LimitWatch<T, D> {
         }
     }
 
-    /// Writes the maxima to a checkpoint, or reads them from one; a scene without such joints has none.
+    /// Writes the largest excesses to a checkpoint, or reads them from one. A scene without such joints writes nothing.
     pub fn walk(&mut self, tape: &mut impl Tape) -> Walked {
         if let Some(measures) = &mut self.measures {
             tape.reals(measures.memory_mut())?;
@@ -137,7 +138,7 @@ impl<T: Real, const D: usize> LimitWatch<T, D> {
         self.all.iter_mut().try_for_each(|watched| watched.walk(tape))
     }
 
-    /// Notes of a run: each exceeded limit once, with its first time and its largest excess.
+    /// Notes of a run: one note for each exceeded limit, with the time of the first excess and the largest excess.
     pub fn notes(&self, scene: &Scene<T>) -> Vec<String> {
         self.all.iter().flat_map(|watched| watched.notes(scene)).collect()
     }

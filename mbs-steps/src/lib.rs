@@ -87,7 +87,7 @@ pub mod words;
 #[doc(hidden)]
 pub use mbs_core as core;
 
-/// A scene with known scalar and dimension, for generic code.
+/// Types and functions for generic code that knows the scalar and the dimension of its scene.
 pub mod typed {
     pub use crate::driver::{StepInputs, StepObserver};
     pub use crate::run::{Recording, run, run_recorded};

@@ -1,13 +1,14 @@
-//! The linear motion of a mechanism about a state, with inputs and outputs.
+//! Linear equations of motion of a mechanism about a state, with inputs and outputs.
 //!
 //! ```text
 //! dx/dt = A x + B u,   y = C x + D u
 //! w = (z, z', s):   x = S w + T u,   dx/dt = R w + W u,   y = P w + Q u
 //! A = R S^-1,   B = W - A T,   C = P S^-1,   D = Q - C T
 //! ```
-//! The vector w has coordinates z, their rates z' and the states s of signals. The state x differs from w only in rotations, whose rates in
-//! x are angular velocities. S, T, R, W, P and Q are difference quotients at neighbouring states (`mbs_linear::linearise_ports`). T is not
-//! zero if a guide is an input, because the joints that the guide moves are states as well.
+//! The vector w consists of the coordinates z, their rates z' and the states s of signals. The vectors x, u and y are states, inputs and
+//! outputs. The state x differs from w only in rotations, whose rates in x are angular velocities. S, T, R, W, P and Q are difference
+//! quotients at neighbouring states (`mbs_linear::linearise_ports`). T is not zero if a guide is an input, because the joints that the
+//! guide moves are states as well.
 
 mod about;
 mod coordinates;
@@ -67,11 +68,11 @@ impl LinearSystem {
     }
 
     /// Linearises a scene about an equilibrium or a steady motion, without inputs and outputs. The axes turn with the motion, so the
-    /// eigenvalues are those of the motion.
+    /// matrices are constant and the eigenvalues hold for the whole motion.
     ///
-    /// About a motion, the states are joint coordinates of one freedom, and positions and rotations of bodies.
+    /// About a motion, the states are the coordinates of joints with one freedom, and the positions and rotations of bodies.
     ///
-    /// Cost: the cost of `mbs_linear::linearise_ports`; about a motion twice that.
+    /// Cost: that of `mbs_linear::linearise_ports`; twice as much about a motion.
     ///
     /// # Errors
     /// As for [`linearize`](crate::linearize); `not-steady` if the state is neither an equilibrium nor a steady motion.
@@ -80,7 +81,8 @@ impl LinearSystem {
         asked.about(scene, options)?.or_not_steady(scene)
     }
 
-    /// Linearises as [`steady`](Self::steady) does, about a state whose bodies move as given by `motions`, which satisfy the constraints.
+    /// Linearises as [`steady`](Self::steady) does, about the state in which bodies move as given by `motions`. These motions satisfy the
+    /// constraints.
     ///
     /// # Errors
     /// As for [`linearize_at`](crate::linearize_at); `not-steady` if the state is neither an equilibrium nor a steady motion.
@@ -91,8 +93,8 @@ impl LinearSystem {
         Asked::alone(None, Axes::Turning).at(scene, motions)?.or_not_steady(scene)
     }
 
-    /// Linearises as [`steady`](Self::steady) does, about any state. If the motion is not steady, the matrices hold at that instant, in
-    /// axes that do not turn, and [`unsteady`](Self::unsteady) gives the reason.
+    /// Linearises as [`steady`](Self::steady) does, about any state. If the motion is not steady, the matrices hold only at that instant,
+    /// in axes that do not turn. [`unsteady`](Self::unsteady) then gives the reason.
     ///
     /// # Errors
     /// As for [`linearize`](crate::linearize).
@@ -100,7 +102,8 @@ impl LinearSystem {
         Asked::alone(Some(options.place), Axes::TurningOrStanding).about(scene, options)
     }
 
-    /// Linearises as [`frozen`](Self::frozen) does, about a state whose bodies move as given by `motions`, which satisfy the constraints.
+    /// Linearises as [`frozen`](Self::frozen) does, about the state in which bodies move as given by `motions`. These motions satisfy the
+    /// constraints.
     ///
     /// # Errors
     /// As for [`linearize_at`](crate::linearize_at).
@@ -117,8 +120,8 @@ impl LinearSystem {
         Err(SimulationError::stopped(stop, 0.0, &Names::new(scene)))
     }
 
-    /// Linearises a scene whose bodies move as given by `motions`, which satisfy the constraints. Full turns of angles follow from the
-    /// scene's initial values.
+    /// Linearises a scene about the state in which bodies move as given by `motions`. These motions satisfy the constraints. Full turns of
+    /// angles follow from the scene's initial values.
     ///
     /// # Errors
     /// As for [`linearize_at`](crate::linearize_at).
@@ -132,7 +135,7 @@ impl LinearSystem {
     }
 }
 
-/// Request for a linear system: its place, inputs, outputs and axes.
+/// Request for a linear system: state, inputs, outputs and axes.
 struct Asked<'a> {
     place: Option<Place>,
     inputs: Option<&'a [&'a str]>,

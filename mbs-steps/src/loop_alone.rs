@@ -1,14 +1,14 @@
-//! The closed loops through a joint, as a separate scene.
+//! Closed loops through a joint, as a separate scene.
 //!
-//! Loops that have a joint in common are kept together. They are found from the cycles of a spanning tree: cycles with a common joint are
-//! merged.
+//! Loops that have a joint in common are kept together. The loops are cycles that a spanning tree determines. Cycles with a common joint
+//! are merged.
 
 use mbs_core::Real;
 use mbs_core::cluster::root;
 use mbs_core::scene::{BodyId, Joint, JointKind, JointLimits, Scene};
 
-/// Returns a scene of the joints that belong to the loops of `joint`, with all bodies and nothing else. Bodies outside the loops are welded
-/// to the ground.
+/// Returns a scene with the joints that belong to the loops of `joint`, and with all bodies. Bodies outside the loops are welded to the
+/// ground.
 pub(super) fn loops_alone<T: Real>(scene: &Scene<T>, joint: usize) -> Scene<T> {
     let ground = scene.bodies.len();
     let node = |body: BodyId| body.index().unwrap_or(ground);
@@ -21,7 +21,7 @@ pub(super) fn loops_alone<T: Real>(scene: &Scene<T>, joint: usize) -> Scene<T> {
         ends.iter().for_each(|&end| is_held[end] = false);
     }
     if is_held[ground] {
-        // No joint of the loops is on the ground, so one body of the loops is fixed.
+        // No joint of the loops connects a body to the ground, so one body of the loops is fixed.
         is_held[ends[joint][0]] = true;
     }
     let held = scene.bodies.iter().enumerate().filter(|(b, _)| is_held[*b]);
@@ -37,7 +37,7 @@ pub(super) fn loops_alone<T: Real>(scene: &Scene<T>, joint: usize) -> Scene<T> {
     Scene { bodies, joints, ..Scene::empty("", scene.dimension, T::ONE) }
 }
 
-/// Returns, for each edge of a graph with `n` nodes, whether it lies on a common group of cycles with `edge`.
+/// Returns for each edge of a graph with `n` nodes whether it belongs to the same group of cycles as `edge`.
 fn together(ends: &[[usize; 2]], n: usize, edge: usize) -> Vec<bool> {
     let mut at_node = vec![Vec::new(); n];
     for (e, [a, b]) in ends.iter().enumerate() {

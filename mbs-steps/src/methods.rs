@@ -24,36 +24,37 @@ use mbs_statespace::StateSpace;
 pub struct Row {
     /// Name of the formulation in scenes and on the command line.
     pub name: &'static str,
-    /// Sentence that says what the formulation is.
+    /// Sentence that describes the formulation.
     pub sentence: &'static str,
-    /// Meaning of a penalty to the formulation.
+    /// Meaning of the penalty setting for the formulation.
     pub penalty: PenaltyUse,
-    /// Can several threads work on one step?
+    /// True if several threads can work on one step.
     pub threads: bool,
-    /// Does the formulation step relative coordinates? Integrators for systems of first order need relative coordinates.
+    /// True if the formulation steps relative coordinates. Integrators for systems of first order need relative coordinates.
     pub relative: bool,
-    /// Is the energy rule its default step control? True for a formulation whose index depends on the step length.
+    /// True if the energy rule is its default step control. This is so for a formulation whose index depends on the step length.
     pub energy_rule: bool,
-    /// Does the formulation accept redundant constraints?
+    /// True if the formulation accepts redundant constraints.
     pub redundant: bool,
-    /// May effects be omitted while the formulation runs?
+    /// True if effects may be omitted while the formulation runs.
     pub switches: bool,
-    /// Rank among the formulations that compute and check a reference solution; `None`: the formulation is not used for references.
+    /// Rank among the formulations that compute or check a reference solution, the best first; `None`: the formulation is not used for
+    /// references.
     pub reference: Option<u8>,
 }
 
-/// Meaning of a penalty to a formulation.
+/// Meaning of the penalty setting for a formulation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PenaltyUse {
     /// The formulation has no penalty.
     None,
-    /// The caller may give a penalty; the penalty of a scene file is ignored, as it is intended for other formulations.
+    /// The caller may give a penalty. The penalty of a scene file is ignored, because it is intended for other formulations.
     OfCaller,
-    /// The penalty of the scene file applies, in this unit.
+    /// The penalty of the scene file applies; it has this unit.
     OfScene(&'static str),
 }
 
-/// Default row, from which the rows of the table differ in few fields.
+/// Default row; each row of the table differs from it in few fields.
 const ROW: Row = Row {
     name: "",
     sentence: "",
@@ -66,7 +67,7 @@ const ROW: Row = Row {
     reference: None,
 };
 
-/// Demands on a formulation: integrator, penalty, tolerance, threads and step.
+/// Options of a run that a formulation must satisfy: integrator, penalty, tolerance, threads and step.
 #[derive(Debug, Clone, Copy)]
 pub struct Demands<T> {
     pub integrator: IntegratorKind,
@@ -93,7 +94,7 @@ type Built<T, const D: usize> = Result<Box<dyn Formulation<T, D>>, StopError>;
 
 macro_rules! formulations {
     ($($kind:ident = $name:literal, $sentence:literal, $build:path, { $($field:ident: $value:expr),* };)*) => {
-        /// A formulation that can run.
+        /// Formulations that can run.
         #[derive(Debug, Clone, Copy, PartialEq, Eq)]
         pub enum FormulationKind {
             $(#[doc = $sentence] $kind,)*
@@ -140,7 +141,7 @@ formulations! {
 }
 
 impl FormulationKind {
-    /// Formulation that runs if none is requested; comparisons use it as the basis.
+    /// Formulation that runs if none is requested. Comparisons use it as the basis.
     pub const DEFAULT: Self = Self::Index3;
     /// Formulation in relative coordinates.
     pub const RELATIVE: Self = Self::Recursive;
@@ -171,7 +172,7 @@ impl FormulationKind {
         all
     }
 
-    /// The names of the formulations with an ability, joined as in `index-3, index-1 or recursive`.
+    /// Names of the formulations with an ability, joined as in `index-3, index-1 or recursive`; `last` is the word before the last name.
     pub fn names(can: impl Fn(&Row) -> bool, last: &str) -> String {
         let names: Vec<_> = Self::listed().map(Self::row).filter(can).map(|row| row.name).collect();
         match &names[..] {
@@ -191,7 +192,7 @@ impl FormulationKind {
         }
     }
 
-    /// Can the formulation run with this integrator?
+    /// True if the formulation can run with this integrator.
     #[must_use]
     pub fn runs_with(self, integrator: IntegratorKind) -> bool {
         self.row().relative || !integrator.is_of_first_order()
@@ -209,7 +210,7 @@ fn index3<T: Real, const D: usize>(request: Request<'_, T, D>) -> Built<T, D> {
 }
 
 fn multi_index<T: Real, const D: usize>(request: Request<'_, T, D>) -> Built<T, D> {
-    // One number cannot be both in kg and in N/m. The penalty of a scene is that of index-3.
+    // The penalties of index-1 and index-3 have different units, kg and N/m. The penalty of a scene applies to index-3.
     let one = augmented_options(mbs_augmented::Options::index1(), &request.demands, None);
     let three = options_of_index3(&request.demands);
     augmented(Form::MultiIndex(IndexChange::new(one, three)), request)
@@ -284,8 +285,8 @@ fn tree<T: Real, S: Space<T>, const D: usize>(request: Request<'_, T, D>) -> Bui
     boxed(Tree::new(scene, (model, start), method, (natural, state)))
 }
 
-/// Default error of a step by extrapolation, in units of machine precision [-]: 2e-10 in double precision, 5e-26 in double-double
-/// precision.
+/// Default tolerance of a step of the extrapolation method, in units of machine precision [-]. It is 2e-10 in double precision and 5e-26 in
+/// double-double precision.
 pub const ROUNDINGS: f64 = 1e6;
 
 pub fn tree_options<T: Real>(demands: &Demands<T>) -> mbs_recursive::Options<T> {
@@ -299,7 +300,7 @@ pub fn tree_options<T: Real>(demands: &Demands<T>) -> mbs_recursive::Options<T> 
         options.closure = Closure::Report { alpha, omega: T::from_f64(10.0), mu: T::ONE };
     }
     if demands.integrator == IntegratorKind::Extrapolation {
-        // Methods of such high order are chosen for accuracy, so the default error is close to machine precision.
+        // A method of such high order is chosen for accuracy, so its default tolerance is close to machine precision.
         options.error = T::EPSILON * T::from_f64(ROUNDINGS);
     }
     if let Some(tolerance) = demands.tolerance {
@@ -323,7 +324,7 @@ pub fn tree_method(integrator: IntegratorKind) -> TreeMethod {
     }
 }
 
-/// Returns the reason why the tree has no consistent start, with the part of the scene concerned.
+/// Returns the error of a tree that has no consistent start, with the part of the scene that the error concerns.
 fn not_started<T: Real, S: Space<T>>(error: StartError, model: &TreeModel<T, S>) -> StopError {
     match error {
         StartError::Tree(error) => StopError::tree(error),
@@ -343,7 +344,8 @@ fn boxed<T: Real, const D: usize>(
     }
 }
 
-/// Creates the thread team: the requested number of threads, at most one for each branch of a step. More threads would only wait actively.
+/// Creates the thread team. It has the requested number of threads, but at most one for each branch of a step, because more threads would
+/// only wait.
 fn team<T>(demands: &Demands<T>, branches: usize) -> Result<Threads, StopError> {
     let n = demands.threads.min(most_threads()).min(branches.max(1));
     Threads::new(n).map_err(|_| StopError::NoThreads(n))

@@ -7,9 +7,9 @@ use core::f64::consts::TAU;
 pub struct Mode {
     /// Real part of the eigenvalue [1/s]; a negative one means decay.
     pub real: f64,
-    /// Imaginary part [rad/s], not negative; a positive one stands for a conjugate pair.
+    /// Imaginary part of the eigenvalue [rad/s], never negative. If it is positive, the mode stands for a conjugate pair.
     pub imaginary: f64,
-    /// True if the eigenvalue is zero to the accuracy of the linearisation.
+    /// True if the eigenvalue is zero within the accuracy of the linearisation.
     pub is_neutral: bool,
 }
 
@@ -26,7 +26,7 @@ impl Mode {
         self.imaginary / TAU
     }
 
-    /// Does the mode grow, by more than rounding error?
+    /// True if the mode grows faster than rounding errors explain.
     #[must_use]
     pub fn grows(&self) -> bool {
         !self.is_neutral && self.real > AXIS * libm::hypot(self.real, self.imaginary)
@@ -39,13 +39,14 @@ impl Mode {
     }
 }
 
-/// Ratio of real part to magnitude below which the real part is rounding error of an undamped mode [-]. Difference quotients have ten
-/// digits.
+/// Ratio of real part to magnitude of an eigenvalue, below which the real part counts as rounding error of an undamped mode [-]. Difference
+/// quotients have ten digits.
 const AXIS: f64 = 1e-8;
-/// Square of an eigenvalue below which it counts as zero, in units of the rounding error of the stiffness [-]. Chosen, not tuned.
+/// Largest square of an eigenvalue that counts as zero, in units of the rounding error of squared eigenvalues [-]. Chosen, not tuned.
 pub(crate) const NOISE: f64 = 1e3;
 
-/// Lists eigenvalues in order of increasing magnitude, conjugate pairs once; `noise` is the rounding error of their squares [1/s^2].
+/// Lists the modes of eigenvalues in order of increasing magnitude; a conjugate pair is listed once. `noise` is the rounding error of
+/// squared eigenvalues [1/s^2].
 pub fn slowest_first(values: &[[f64; 2]], noise: f64) -> Vec<Mode> {
     let zero = (NOISE * noise).sqrt();
     let mut modes: Vec<Mode> = values

@@ -16,7 +16,7 @@ use mbs_core::scene::{Dimension, Scene};
 use mbs_linear::{Equilibrium, Linear, Matrix, singular_values};
 use serde_json::{Value, json};
 
-/// The modes (eigenvalues) of a scene, with the names of the scene.
+/// Modes (eigenvalues) of a scene, with the names of the scene.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Modes {
     /// Name of the scene.
@@ -29,17 +29,18 @@ pub struct Modes {
     pub left_out: Vec<LeftOut>,
     /// Number of degrees of freedom of the scene.
     pub dof: usize,
-    /// Reason why the state is neither an equilibrium nor a steady motion; `None` if it is one. With a reason, the eigenvalues hold at one
-    /// instant only.
+    /// Reason why the state is neither an equilibrium nor a steady motion; `None` if it is an equilibrium or a steady motion. With a
+    /// reason, the eigenvalues hold at one instant only.
     pub unsteady: Option<Unsteady>,
-    /// Largest acceleration in the joints that the rotation of bodies causes [m/s^2].
+    /// Largest acceleration of a joint coordinate that is caused by the rotation of bodies [m/s^2].
     pub turning: f64,
     /// The eigenvalues, in order of increasing magnitude.
     pub modes: Vec<Mode>,
 }
 
 impl Modes {
-    /// Assembles a scene, searches for its equilibrium if the place needs one, and linearises it there: at rest, or in a steady motion.
+    /// Assembles a scene, searches for its equilibrium if the place needs one, and linearises it at the place: at rest, or in a steady
+    /// motion.
     ///
     /// # Errors
     /// [`StopError`] when there is no model, consistent start, equilibrium or linearisation; [`StopError::NotSteady`] if the state is
@@ -52,8 +53,8 @@ impl Modes {
         }
     }
 
-    /// Modes at any state. If the motion is not steady, the eigenvalues hold at that instant, in axes that do not turn. They do not show
-    /// whether a disturbance grows or decays.
+    /// Modes at any state. If the motion is not steady, the eigenvalues hold only at that instant, in axes that do not turn. Such
+    /// eigenvalues do not show whether a disturbance grows or decays.
     ///
     /// # Errors
     /// As for [`new`](Self::new), except the error for a motion that is not steady.
@@ -81,7 +82,7 @@ impl Modes {
         Self::of_system(&About::alone(scene, &placed, axes).system()?, place)
     }
 
-    /// The modes of a system that was linearised at this place.
+    /// Modes of a system that was linearised at this place.
     ///
     /// # Errors
     /// [`StopError::Eigenvalues`] if the iteration does not converge.
@@ -114,8 +115,8 @@ impl Modes {
         })
     }
 
-    /// Does every disturbance decay or stay small? Neutral eigenvalues, and eigenvalues on the imaginary axis to machine precision, count
-    /// as stable.
+    /// True if every disturbance decays or stays small. Neutral eigenvalues count as stable. Eigenvalues on the imaginary axis, to machine
+    /// precision, count as stable too.
     #[must_use]
     pub fn is_stable(&self) -> bool {
         !self.modes.iter().any(Mode::grows)
@@ -154,7 +155,7 @@ impl Modes {
     }
 }
 
-/// The eigenvalues of a linearised motion in order of increasing magnitude, conjugate pairs once.
+/// Eigenvalues of a linearised motion in order of increasing magnitude; a conjugate pair is listed once.
 ///
 /// # Errors
 /// [`StopError::Eigenvalues`] if the iteration does not converge.

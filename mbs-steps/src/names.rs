@@ -8,20 +8,20 @@ use mbs_core::scene::{BodyId, CouplingMeasure, CouplingTerm, Effect, Scene};
 use mbs_core::step::StepError;
 use mbs_core::{Real, instances};
 
-/// Names of bodies and joints, and the joint of each body, as error messages need them.
+/// Names of bodies and joints, and one joint of each body, for error messages.
 #[derive(Debug, Clone)]
 pub struct Names {
     bodies: Vec<String>,
     joints: Vec<String>,
     pub couplings: Vec<String>,
     rollings: Vec<String>,
-    /// Bodies at both ends of each line segment of each coupling; `None`: the ground.
+    /// Bodies at both ends of each line segment, for each coupling; `None`: the ground.
     parts: Vec<Vec<[Option<usize>; 2]>>,
     pub effects: Vec<String>,
-    /// Bodies at both ends of each line segment of each effect; `None`: the ground.
+    /// Bodies at both ends of each line segment, for each effect; `None`: the ground.
     effect_parts: Vec<Vec<[Option<usize>; 2]>>,
     pub outputs: Vec<String>,
-    /// First joint in the file that connects each body.
+    /// First joint in the file that connects the body, for each body.
     joint_of_body: Vec<Option<usize>>,
 }
 
@@ -59,7 +59,7 @@ impl Names {
         }
     }
 
-    /// Formats an error of a line segment, with the name of its coupling or effect and of the bodies at its ends.
+    /// Formats an error about a segment of a line, with the name of the coupling or effect and of the bodies at the segment's ends.
     pub fn part_of(&self, error: &StepError, what: &impl Display) -> Option<String> {
         let (names, parts, of, part) = match *error {
             StepError::RopeCollapsed { coupling, part } => {
@@ -87,7 +87,7 @@ impl Names {
         format!("`{name}`: from `{from}` to `{to}`, part {}, {what}", part + 1)
     }
 
-    /// Names of the joint and of the body that an owner stands for.
+    /// Names of the joint and of the body that an owner refers to.
     pub fn of(&self, owner: Owner) -> (Option<String>, Option<String>) {
         match owner {
             Owner::Joint(j) => (self.joints.get(j).cloned(), None),
@@ -102,7 +102,7 @@ impl Names {
     }
 }
 
-/// The bodies at both ends of each line segment of a sum, in order.
+/// Bodies at both ends of each line segment in a sum, in the order of the sum.
 fn parts<T: Real>(terms: &[CouplingTerm<T>]) -> Vec<[Option<usize>; 2]> {
     let terms = terms.iter().filter(|term| !term.factor.is_zero());
     let lines = terms.filter_map(|term| match &term.of {

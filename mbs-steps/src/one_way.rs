@@ -1,5 +1,5 @@
-//! Unilateral elements that are modelled by bilateral constraints: rolling contacts and cams that could lift off, ropes and strands that
-//! could go slack. A run notes where such a constraint had to pull or push in the direction that the real element cannot.
+//! Unilateral elements that are modelled by bilateral constraints. Rolling contacts and cams could lift off; ropes and strands could go
+//! slack. The run reports in its notes if such a constraint had to exert a force that the real element cannot exert.
 
 use crate::checkpoint::tape::{Tape, Walked};
 use crate::simulation::Simulation;
@@ -9,11 +9,11 @@ use mbs_core::outputs::Reactions;
 use mbs_core::scene::{Coupling, CouplingKind, Curve, Freedom, Scene};
 use mbs_scene::format::{few, significant};
 
-/// Smallest force in the inadmissible direction that is noted, relative to the largest force of the constraint so far [-]. It exceeds the
-/// errors of steps.
+/// Smallest force in the inadmissible direction that is reported, relative to the largest force of the constraint so far [-]. It exceeds
+/// the errors of steps.
 const NOTED: f64 = 1e-6;
-/// Acceleration that defines the smallest force that counts [m/s^2], multiplied by the total mass. It covers rounding errors without
-/// gravity.
+/// Acceleration that, multiplied by the total mass, gives the smallest force that counts [m/s^2]. It covers rounding errors in scenes
+/// without gravity.
 const AT_REST: f64 = 1e-9;
 
 /// Bilateral constraint that models a unilateral element.
@@ -23,8 +23,8 @@ enum Row {
     Contact(usize),
     /// The rope with this index in `scene.couplings`, and the factor of its length.
     Rope(usize, f64),
-    /// The cam with this index in `scene.couplings`, and the factor of its follower. A negative factor reverses the direction in which the
-    /// cam lifts.
+    /// The cam with this index in `scene.couplings`, and the factor of its follower. A negative factor means that the cam lifts in the
+    /// opposite direction.
     Cam(usize, f64),
     /// The strands of the belt with this index in `scene.couplings`, and their pretension [N].
     Strands(usize, f64),
@@ -50,7 +50,8 @@ impl Row {
         contacts.map(|(i, _)| Self::Contact(i)).chain(couplings).collect()
     }
 
-    /// The force or moment in the inadmissible direction [N, N m]: tension of a contact or a cam, compression of a rope or a strand.
+    /// Force or moment in the inadmissible direction [N, N m]. It is the tension of a contact or a cam, or the compression of a rope or a
+    /// strand.
     fn force<T: Real, const D: usize>(self, reactions: &Reactions<T, D>) -> f64 {
         match self {
             Self::Contact(rolling) => -reactions.rolling_push(rolling).to_f64(),
@@ -69,23 +70,23 @@ struct Held {
     row: Row,
     /// Time of the first force in the inadmissible direction [s].
     first: Option<f64>,
-    /// Largest force in the inadmissible direction, and largest force in either direction [N].
+    /// Largest force in the inadmissible direction, and largest absolute force [N].
     most: f64,
     largest: f64,
 }
 
-/// Monitor of the constraints of a run that model unilateral elements.
+/// Monitor of those constraints of a run that model unilateral elements.
 #[derive(Debug, Clone)]
 pub struct OneWayWatch<T: Real, const D: usize> {
     all: Vec<Held>,
-    /// Reactions of the scene; `None` without such constraints, or with more forces than reactions are computed for.
+    /// Reactions of the scene; `None` if the scene has no such constraint, or if it is too large for the computation of reactions.
     reactions: Option<Reactions<T, D>>,
     /// Force below which a constraint counts as unloaded [N].
     rest: f64,
 }
 
 impl<T: Real, const D: usize> OneWayWatch<T, D> {
-    /// Prepares the constraints of a scene; without any of them, no reaction is computed.
+    /// Prepares the constraints of a scene. If there is none, no reaction is computed.
     pub fn new(scene: &Scene<T>, model: &NaturalModel<T, D>) -> Self {
         let held = |row| Held { row, first: None, most: 0.0, largest: 0.0 };
         let all: Vec<_> = Row::all(scene).into_iter().map(held).collect();
@@ -111,7 +112,7 @@ impl<T: Real, const D: usize> OneWayWatch<T, D> {
         }
     }
 
-    /// Writes the maxima to a checkpoint, or reads them from one; a scene without such constraints has none.
+    /// Writes the largest forces to a checkpoint, or reads them from one. A scene without such constraints writes nothing.
     pub fn walk(&mut self, tape: &mut impl Tape) -> Walked {
         self.all.iter_mut().try_for_each(|held| {
             tape.option(&mut held.first, Tape::float)?;
@@ -120,7 +121,7 @@ impl<T: Real, const D: usize> OneWayWatch<T, D> {
         })
     }
 
-    /// Notes of a run: for each constraint the time of the first force in the inadmissible direction, and the largest one.
+    /// Notes of a run: for each constraint, the time of the first force in the inadmissible direction, and the largest such force.
     pub fn notes(&self, scene: &Scene<T>) -> Vec<String> {
         let note = |held: &Held| {
             let (t, most) = (significant(held.first?), few(held.most));
@@ -152,7 +153,7 @@ impl<T: Real, const D: usize> OneWayWatch<T, D> {
     }
 }
 
-/// Unit of the force on the follower of a cam: N on a slide, N m on a rotation.
+/// Unit of the force on the follower of a cam: N for a translation, N m for a rotation.
 fn follower_unit<T>(scene: &Scene<T>, cam: &Coupling<T>) -> &'static str {
     let follower = cam.terms.first().and_then(|term| term.of.coordinate());
     let freedom = follower

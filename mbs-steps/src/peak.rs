@@ -7,19 +7,20 @@
 //! q(t) = l(t) + x[0,1,2,3,4] ω(t) (t − t₀)                            all five
 //! ```
 //!
-//! The extremum of q is used only under two conditions. First, l and r differ there by less than half of the height of q above the middle
-//! value. Second, q stays within the straight lines through the first two values and through the last two values. At a jump or a kink the
-//! conditions fail, and the peak is the value at a step.
+//! x₀ to x₄ are the five values at the times t₀ to t₄, and x[i,j,..] are their divided differences. The extremum of q is used only under
+//! two conditions. First, l and r differ there by less than half of the height of q above the middle value. Second, q stays within the
+//! straight lines through the first two values and through the last two values. At a jump or a kink the conditions fail, and the peak is
+//! the value at a step.
 
-/// Largest difference of the two cubics at a peak, relative to the height of the peak above the value of the step [-].
+/// Largest difference of the cubics l and r at a peak, relative to the height of the peak above the middle value [-].
 const AGREED: f64 = 0.5;
-/// Number of Newton iterations from the extremum of the parabola [-]; they converge quadratically.
+/// Number of Newton iterations, which start at the extremum of the parabola p [-]. They converge quadratically.
 const ITERATIONS: usize = 8;
-/// Correction at which Newton's method ends, relative to a step [-]; the error of the value is proportional to its square.
+/// Largest correction at which Newton's method ends, relative to a step [-]. The error of the value is proportional to its square.
 const FOUND: f64 = 1e-8;
 
-/// Returns time and value of the extremum close to the third of five values. Returns `None` without an extremum, or if the neighbouring
-/// values do not justify more than the value of the step.
+/// Returns time and value of the extremum close to the third of five values. Returns `None` if there is no extremum, or if the conditions
+/// of this module fail.
 pub fn turning_point(t: [f64; 5], x: [f64; 5]) -> Option<(f64, f64)> {
     let is_least = x[2] <= x[1] && x[2] <= x[3];
     let is_largest = x[2] >= x[1] && x[2] >= x[3];
@@ -38,7 +39,7 @@ pub fn turning_point(t: [f64; 5], x: [f64; 5]) -> Option<(f64, f64)> {
     Some((t[2] + h * at, x[2] + sign * value))
 }
 
-/// The minimum of the polynomial through five points: the third point is the smallest and is the origin.
+/// Minimum of the polynomial through five points. The third point is the smallest one and is the origin of `u` and `y`.
 fn least(u: [f64; 5], y: [f64; 5]) -> Option<(f64, f64)> {
     let slope = |i: usize, j: usize, (a, b): (f64, f64)| (b - a) / (u[j] - u[i]);
     let first = [0, 1, 2, 3].map(|i| slope(i, i + 1, (y[i], y[i + 1])));

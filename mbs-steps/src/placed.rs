@@ -15,26 +15,26 @@ mbs_core::named! {
         Equilibrium = "equilibrium",
         /// The start of a run, with its velocities and the rates of its guides.
         Initial = "initial",
-        /// Positions of the static equilibrium with the scene's initial velocities, such as a vehicle that drives straight ahead.
+        /// Positions of the static equilibrium with the scene's initial velocities, for example for a vehicle that drives straight ahead.
         Moving = "moving",
     }
 }
 
-/// A scene with its model at the state of a place.
+/// Scene with its model, at the state of a place.
 #[allow(
     missing_debug_implementations,
     reason = "it holds what has none, and is made and used in one call"
 )]
 pub struct PlacedScene<const D: usize> {
-    /// Scene at its place; at an equilibrium, without the effects that act in motion only.
+    /// Scene at its place. At an equilibrium, effects that act only in motion are omitted.
     pub scene: Scene<f64>,
     /// Model of the scene; its start is the state of the place.
     pub ready: AssembledScene<f64, D>,
     /// The equilibrium, if the place is an equilibrium.
     pub found: Option<Equilibrium<f64>>,
-    /// Parts that are omitted from the scene. For a moving state they are omitted only in the search for its equilibrium.
+    /// Parts that are omitted from the scene. For a moving state they are omitted only during the search for its equilibrium.
     pub left_out: Vec<LeftOut>,
-    /// Motion of the guides at the place: held, or moving.
+    /// Motion of the guides at the place: they are held, or they move.
     pub instant: Instant,
 }
 
@@ -67,7 +67,7 @@ impl<const D: usize> PlacedScene<D> {
         Ok(Self { scene, ready, found, left_out, instant })
     }
 
-    /// A scene whose bodies move as given by `motions`, which satisfy the constraints. Guides have their initial values and rates.
+    /// Scene whose bodies move as given by `motions`, which satisfy the constraints. Guides have their initial values and rates.
     ///
     /// # Errors
     /// [`StopError`] if the model cannot be built, or the accelerations cannot be computed.

@@ -1,7 +1,7 @@
-//! Dispatch of a precision to a scalar type: a scene is read in the precision of its run, and generic work is done on it.
+//! Choice of the scalar type from a precision. A scene is read in the precision of its run, and generic work is done on it.
 //!
 //! Every step is compiled once for each scalar and dimension listed here. `f32` and `dd` are features of this crate, on by default. A build
-//! without them compiles half as much. It rejects a scene in these precisions with [`PrecisionError::NotBuilt`].
+//! without these features compiles half as much code. It rejects a scene in one of these precisions with [`PrecisionError::NotBuilt`].
 
 use crate::choice::Precision;
 use core::fmt::{self, Display, Formatter};
@@ -21,7 +21,7 @@ pub trait SceneWork {
     fn done<T: Real, const D: usize>(self, scene: &Scene<T>) -> Self::Done;
 }
 
-/// Source of a scene in every precision.
+/// Source from which a scene can be read in every precision.
 pub trait Source {
     /// Reason why the source has no scene in one of the precisions.
     type Error: From<PrecisionError>;
@@ -56,7 +56,7 @@ pub enum ReadScene<'a> {
 }
 
 impl<'a> ReadScene<'a> {
-    /// Takes the scene in `f64`, or reads it again from the source in another precision.
+    /// Takes the scene in `f64`. For another precision, reads the scene again from the source.
     ///
     /// # Errors
     /// The error of the source, or an error for a precision that is not built.
@@ -77,7 +77,7 @@ impl<'a> ReadScene<'a> {
         }
     }
 
-    /// Returns the scene with its data owned, without a borrow.
+    /// Returns the scene with owned data, so that nothing is borrowed.
     pub fn into_owned(self) -> ReadScene<'static> {
         match self {
             Self::F64(scene) => ReadScene::F64(Box::new(Cow::Owned(scene.into_owned()))),
@@ -99,7 +99,7 @@ impl<'a> ReadScene<'a> {
         }
     }
 
-    /// Does the work in `f32` or `f64`; `None` in double-double precision, for which such work is not compiled.
+    /// Does the work in `f32` or `f64`; `None` in double-double precision, because such work is not compiled for it.
     pub fn work_in_hardware<W: SceneWork>(&self, work: W) -> Option<W::Done> {
         match self {
             Self::F64(scene) => Some(in_space(&***scene, work)),
@@ -119,13 +119,13 @@ pub fn in_space<T: Real, W: SceneWork>(scene: &Scene<T>, work: W) -> W::Done {
     }
 }
 
-/// Does this scalar have more digits than `f64`?
+/// True if this scalar has more digits than `f64`.
 pub fn is_finer<T: Real>() -> bool {
     T::EPSILON.to_f64() < f64::EPSILON
 }
 
 impl Precision {
-    /// Whether this build has the steps of this precision: `f32` and `dd` are features of the crate, on by default.
+    /// True if this build has the steps of this precision. `f32` and `dd` are features of the crate, on by default.
     #[must_use]
     pub const fn is_built(self) -> bool {
         match self {
@@ -140,9 +140,9 @@ impl Precision {
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum PrecisionError {
-    /// The text is a valid scene in `f64` but not in that precision.
+    /// The text is a valid scene in `f64`, but not in the precision of the run.
     Read(Box<ReadError>),
-    /// The build has no steps of that precision.
+    /// This build has no steps of that precision.
     NotBuilt(Precision),
 }
 

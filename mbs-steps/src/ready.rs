@@ -27,7 +27,7 @@ pub struct AssembledScene<T: Real, const D: usize> {
     parts: Parts<T, D>,
 }
 
-/// Functions that are compiled in this crate, for callers with an assembled scene.
+/// Functions that are compiled in this crate and stored here for callers with an assembled scene.
 #[derive(Debug, Clone, Copy)]
 struct Parts<T: Real, const D: usize> {
     rank: Rank<T, D>,
@@ -54,7 +54,7 @@ instances!(ASSEMBLE: Assemble<T, D> = assemble_scene::<T, D>);
 instances!(SETTLE: Settle<T, D> = settle_scene::<T, D>);
 
 impl<T: Real, const D: usize> AssembledScene<T, D> {
-    /// Builds the model of a scene and assembles it; searches for a static equilibrium if the scene requests that start.
+    /// Builds the model of a scene and assembles it. If the scene requests an equilibrium as its start, the equilibrium is searched.
     ///
     /// # Errors
     /// [`StopError`] when there is no model, no consistent start or no equilibrium.

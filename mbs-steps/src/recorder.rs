@@ -1,5 +1,4 @@
-//! Record of a run: rows of channels, energies, violations and counts, reduced to a bounded number of rows; maxima are taken over every
-//! step.
+//! Record of a run: rows of channels, energies, violations and counts. The number of rows is bounded. Maxima are computed over all steps.
 
 use crate::checkpoint::tape::{Tape, Walked, holds};
 use crate::precision::is_finer;
@@ -13,11 +12,12 @@ use mbs_core::control::Limit;
 use mbs_core::real::DoubleDouble;
 use mbs_scene::format::full;
 
-/// Largest number of recorded rows, without the row at the end. Twice as many are kept if the number of steps is not known before. Chosen,
-/// not tuned.
+/// Largest number of recorded rows, without the row at the end. If the number of steps is unknown at the start, up to twice as many rows
+/// are stored. Chosen, not tuned.
 pub const MOST_ROWS: u64 = 10_000;
 
-/// Data of one step: time, energies, violations and counts. For several steps together it has their largest values.
+/// Data of one step: time, energies, violations and counts. For several steps that are combined, violations and counts are the largest
+/// ones.
 #[derive(Debug, Clone, Default)]
 pub struct StepMark {
     pub t: f64,
@@ -28,7 +28,7 @@ pub struct StepMark {
 }
 
 impl StepMark {
-    /// Returns this mark with the maxima of itself and of an earlier mark that became no row.
+    /// Returns this mark, combined with the maxima of an earlier mark that became no row.
     fn after(&self, before: &Self) -> Self {
         let violation = core::array::from_fn(|i| self.violation[i].max(before.violation[i]));
         Self { violation, step: self.step.after(&before.step), ..*self }
@@ -39,29 +39,29 @@ impl StepMark {
 #[derive(Debug)]
 pub struct Recorder {
     pub channels: Vec<Channel>,
-    /// One mark for each row. `rows` has the components of all channels, row by row.
+    /// Marks of the rows, one for each row. The vector `rows` has the components of all channels, row by row.
     marks: Vec<StepMark>,
     rows: Vec<f64>,
-    /// Remainders of the values beyond `f64`, where the run has more digits than `f64`; else empty.
+    /// Difference between each value and its rounding to `f64`, if the run has more digits than `f64`; else empty.
     rests: Vec<f64>,
     n_columns: usize,
     /// Number of steps per recorded row.
     every: u64,
     initial: f64,
     max_violation: [f64; 3],
-    /// Largest values since the last row. They enter the next row, so that a peak between rows is not lost.
+    /// Largest values since the last row. They are included in the next row, so that a peak between rows is not lost.
     recent: StepMark,
     keep: RecordRows,
     /// Statistics over every step, independent of the recorded rows.
     tallies: Tallies,
 }
 
-/// Rows of a run that stay in memory.
+/// Choice of the rows of a run that stay in memory.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RecordRows {
     /// All rows, for files and HTML pages.
     All,
-    /// The last row alone, for a study of many runs with one row each.
+    /// Only the last row, for a study of many runs with one row each.
     Last,
 }
 
@@ -83,12 +83,12 @@ impl StepMark {
         tape.word_of(&mut step.limit, &Limit::ALL.map(Limit::name))
     }
 
-    /// Smallest size of a mark in a file, in bytes. A list is refused if its stated number of marks needs more bytes than the file has.
+    /// Smallest number of bytes of a mark in a file. A list is refused if its stated number of marks needs more bytes than the file has.
     const SIZE: usize = 80;
 }
 
 impl Recorder {
-    /// Writes the record to a checkpoint, or reads it from one. The channels and the choice of rows are not part of it.
+    /// Writes the record to a checkpoint, or reads it from one. The channels and the choice of rows are not stored.
     pub fn walk(&mut self, tape: &mut impl Tape) -> Walked {
         tape.list(&mut self.marks, StepMark::SIZE, |tape, mark| mark.walk(tape))?;
         tape.list(&mut self.rows, 8, Tape::float)?;
@@ -103,7 +103,7 @@ impl Recorder {
         holds(n_rows == n_marks * self.n_columns && (n_rests == 0 || n_rests == n_rows))
     }
 
-    /// Number of steps per row; it changes when rows are removed.
+    /// Number of steps per row. It doubles when every second row is removed.
     pub fn thinning(&self) -> u64 {
         self.every
     }
@@ -113,7 +113,7 @@ impl Recorder {
         self.marks.len()
     }
 
-    /// Creates a recorder for a run of `n_steps` steps (0: not known) from the value of the invariant at the start [J].
+    /// Creates a recorder for a run of `n_steps` steps (0: unknown). `initial` is the energy invariant at the start [J].
     pub fn new(channels: Vec<Channel>, n_steps: u64, initial: f64, keep: RecordRows) -> Self {
         let n_columns: usize = channels.iter().map(|c| c.components.len()).sum();
         Self {
@@ -139,12 +139,12 @@ impl Recorder {
         self.rests.reserve(rows * self.n_columns);
     }
 
-    /// Is step `k` (0: the start) kept as a row?
+    /// True if step `k` becomes a row; step 0 is the start.
     pub fn keeps(&self, k: u64) -> bool {
         k.is_multiple_of(self.every)
     }
 
-    /// Adds the maxima of a step.
+    /// Updates the maxima with a step.
     pub fn mark(&mut self, step: &StepMark) {
         for (most, &v) in self.max_violation.iter_mut().zip(&step.violation) {
             *most = most.max(v);
@@ -152,7 +152,7 @@ impl Recorder {
         self.recent = step.after(&self.recent);
     }
 
-    /// Sets the end of the last step to `t` [s], because the sum of step lengths has rounding errors.
+    /// Sets the time at the end of the last step to `t` [s], because the sum of step lengths has rounding errors.
     pub fn end_at(&mut self, t: f64) {
         self.recent.t = t;
     }
@@ -164,7 +164,7 @@ impl Recorder {
 
     /// Records the row of a step; `values` has the components of all channels.
     pub fn keep<T: Real>(&mut self, step: &StepMark, values: &[T]) {
-        // A marked step is already in `recent`. The rows at the start and at a stop belong to no marked step.
+        // The data of a marked step are already in `recent`. The row at the start and the row at a stop have no marked step.
         let is_marked = self.recent.step.length > 0.0 && self.recent.t >= step.t;
         if self.keep == RecordRows::Last {
             self.marks.clear();
@@ -185,7 +185,7 @@ impl Recorder {
         }
     }
 
-    /// Removes every second row; the first row remains.
+    /// Removes every second row, but not the first row.
     fn thin(&mut self) {
         self.every *= 2;
         let n = self.n_columns;
@@ -212,23 +212,23 @@ impl Recorder {
         ViolationSummary { position, velocity, acceleration }
     }
 
-    /// Do all rows stay in memory?
+    /// True if all rows stay in memory.
     pub fn keeps_all(&self) -> bool {
         self.keep == RecordRows::All
     }
 
-    /// Least and greatest value of each component over every step.
+    /// Least and greatest value of each component over all steps.
     pub fn ranges(&self) -> Vec<[f64; 2]> {
         self.tallies.ranges()
     }
 
-    /// The last row, ordered by channels.
+    /// Components of the last row, as a list of channels with their names.
     pub fn last(&self) -> Vec<(String, Vec<f64>)> {
         let start = self.rows.len().saturating_sub(self.n_columns);
         self.by_channels(self.rows[start..].iter().copied())
     }
 
-    /// Returns the last row, ordered by channels, with all digits, for runs with more digits than `f64`.
+    /// Components of the last row with all digits, for runs with more digits than `f64`; else `None`.
     pub fn last_long(&self) -> Option<Vec<(String, Vec<String>)>> {
         let row = self.long_table().last()?;
         Some(self.by_channels(row.into_iter().map(full)))
@@ -241,7 +241,7 @@ impl Recorder {
             .collect()
     }
 
-    /// The components of all rows with all digits; empty for runs without more digits than `f64`.
+    /// Components of all rows with all digits; empty for runs without more digits than `f64`.
     pub fn long_table(&self) -> impl Iterator<Item = Vec<DoubleDouble>> {
         let n = self.n_columns.max(1);
         let both = self.rows.chunks(n).zip(self.rests.chunks(n));
@@ -257,7 +257,7 @@ impl Recorder {
         marks.map(move |(i, mark)| (mark.t, &self.rows[i * n..(i + 1) * n]))
     }
 
-    /// One value of each row, as a column.
+    /// Values of one quantity, one value for each row.
     fn column(&self, of: impl Fn(&StepMark) -> f64) -> Vec<f64> {
         self.marks.iter().map(of).collect()
     }
@@ -282,7 +282,7 @@ impl Recorder {
         self.channels.iter().zip(stats).map(of_channel).collect()
     }
 
-    /// The statistics of each channel as objects for JSON.
+    /// Statistics of each channel as objects for JSON.
     pub fn summaries(&self) -> Vec<ChannelSummary> {
         let stats = self.tallies.of_channels(&self.channels);
         let each = self.channels.iter().zip(&stats);
@@ -298,7 +298,7 @@ impl Recorder {
         }
     }
 
-    /// Error of the energy invariant Pi: Pi(t) - Pi(0) [J].
+    /// Error of the energy invariant Pi at a row: Pi(t) - Pi(0) [J].
     fn error(&self, mark: &StepMark) -> f64 {
         let [kinetic, potential, work] = mark.energies;
         kinetic + potential - work - self.initial
@@ -313,12 +313,12 @@ impl Recorder {
         }
     }
 
-    /// Rows that end a step: all rows except the one at the start.
+    /// Marks of the rows that end a step, which are all rows except the row at the start.
     fn steps(&self) -> impl Iterator<Item = &StepMark> {
         self.steps_from(0)
     }
 
-    /// Rows that end a step, beginning with row `row`.
+    /// Marks of the rows that end a step, beginning with row `row`.
     fn steps_from(&self, row: usize) -> impl Iterator<Item = &StepMark> {
         let marks = self.marks.iter().skip(row);
         marks.filter(|mark| mark.step.length > 0.0)

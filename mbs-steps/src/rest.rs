@@ -16,9 +16,9 @@ pub struct LeftOut {
     pub part: &'static str,
 }
 
-/// Returns the scene at rest in its initial configuration: guides hold their values, and there are no initial velocities. Effects that act
-/// in motion only are omitted: dry friction, drives, and the forces of a rolling tire. Viscous friction remains, because it damps small
-/// motions. Drag is omitted, because it is of second order in the speed.
+/// Returns the scene at rest in its initial configuration. Guides hold their initial values, and there are no initial velocities. Effects
+/// that act only in motion are omitted: dry friction, drives, and the forces of a rolling tire. Drag is omitted too, because it is of
+/// second order in the speed. Viscous friction remains, because it damps small motions.
 pub fn at_rest<T: Real>(scene: &Scene<T>) -> Scene<T> {
     let mut still = scene.clone();
     for effect in &mut still.effects {
@@ -32,8 +32,8 @@ pub fn at_rest<T: Real>(scene: &Scene<T>) -> Scene<T> {
     without_rates(still)
 }
 
-/// Returns the scene without initial velocities, which need not be consistent with the positions at which a search for an equilibrium
-/// begins.
+/// Returns the scene without initial velocities. Initial velocities need not be consistent with the positions at which a search for an
+/// equilibrium begins.
 pub fn without_rates<T: Real>(mut scene: Scene<T>) -> Scene<T> {
     for initial in &mut scene.initials {
         match &mut initial.target {
@@ -46,7 +46,7 @@ pub fn without_rates<T: Real>(mut scene: Scene<T>) -> Scene<T> {
     scene
 }
 
-/// Parts that [`at_rest`] omits although they could act at rest or on small motions: first parts of effects, then rates.
+/// Parts that [`at_rest`] omits, although they could act at rest or on small motions. Parts of effects come first, then rates.
 pub fn left_out<T: Real>(scene: &Scene<T>) -> Vec<LeftOut> {
     let mut all = effects_left_out(scene);
     let mut leave = |of, name: &String, part| {

@@ -1,4 +1,4 @@
-//! A whole run: from a scene to its summary, rows and page.
+//! Complete run: from a scene to its summary, its rows and its page.
 
 mod checkpoint;
 mod clock;
@@ -30,7 +30,7 @@ use summary::{contact, energy_summary, method_used, not_started, plain_summary};
 
 pub use outcome::Outcome;
 
-/// Runs a checked scene until its end or until it stops, and calls an observer at each step; pass `&mut ()` for no observer.
+/// Runs a checked scene until its end or until it stops, and calls an observer at each step. `&mut ()` is an observer that does nothing.
 pub fn run<T: Real, const D: usize>(
     scene: &Scene<T>,
     settings: &ResolvedMethod,
@@ -57,7 +57,7 @@ fn run_here<T: Real, const D: usize>(
     }
 }
 
-/// Rows, columns and checkpoints of a run.
+/// Options of a recorded run: rows, columns and checkpoints.
 #[allow(
     missing_debug_implementations,
     reason = "it holds what has none, and is made and used in one call"
@@ -79,7 +79,7 @@ impl<T: Real, const D: usize> Default for Recording<'_, T, D> {
     }
 }
 
-/// [`run`] that starts from a checkpoint where one is given, and saves checkpoints where a writer is given.
+/// [`run`] with a start from a checkpoint and with saved checkpoints, both optional.
 ///
 /// # Errors
 /// [`CheckpointError`] if the checkpoint belongs to another scene or other settings.
@@ -106,8 +106,8 @@ pub fn run_recorded<'a, T: Real, const D: usize>(
     Ok(run.complete(observer))
 }
 
-/// Step `k` of a run, counted from 1. It is a step of fixed length, or an interval in which the step size is controlled. The last step ends
-/// with the run.
+/// Stretch for step `k` of a run, counted from 1. It is a step of fixed length, or an interval in which the step size is controlled. The
+/// last stretch ends with the run.
 pub fn step<T: Real>(settings: &ResolvedMethod, lengths: &Lengths<T>, k: u64) -> Stretch<T> {
     let (h, end) = (settings.step_max, settings.duration);
     let &Lengths { step_max, duration, .. } = lengths;
@@ -128,7 +128,7 @@ struct Run<'a, T: Real, const D: usize> {
 }
 
 impl<'a, T: Real, const D: usize> Run<'a, T, D> {
-    /// Builds the simulation and records the first row; returns the outcome of the run if it cannot start.
+    /// Builds the simulation and records the first row. If the run cannot start, the error is its outcome.
     fn begin(
         scene: &'a Scene<T>,
         settings: &'a ResolvedMethod,
@@ -141,7 +141,8 @@ impl<'a, T: Real, const D: usize> Run<'a, T, D> {
         run.started()
     }
 
-    /// Builds simulation and record for a number of rows, one for each step or interval; returns the outcome of the run if it cannot start.
+    /// Builds the simulation and its record. `rows` has the number of steps or intervals, each with one row. If the run cannot start, the
+    /// error is its outcome.
     fn new(
         scene: &'a Scene<T>,
         settings: &'a ResolvedMethod,
@@ -156,7 +157,7 @@ impl<'a, T: Real, const D: usize> Run<'a, T, D> {
         started.map_err(|error| Box::new(not_started(scene, settings, &channels, error)))
     }
 
-    /// Returns the run with its first row recorded, or the outcome of the run if it cannot start.
+    /// Records the first row. If the run cannot start, the error is its outcome.
     fn started(mut self) -> Result<Self, Box<Outcome>> {
         match self.record.start(&self.simulation) {
             Ok(()) => Ok(self),

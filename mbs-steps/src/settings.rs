@@ -1,4 +1,4 @@
-//! Settings of a run: the scene's `[solver]` table, overridden by the command line and checked against the available methods.
+//! Settings of a run: the scene's `[solver]` table, overridden by the command line, and checked against the available methods.
 
 mod error;
 pub mod length;
@@ -21,14 +21,13 @@ use range::{checked, named, ordered, positive};
 /// Length of a step if neither the scene nor the command line gives one [s].
 pub const DEFAULT_STEP: f64 = 1e-3;
 
-/// Tolerance of the estimated local error of a step, relative to the scene's length, if neither the scene nor the command line gives one
-/// [-]. Chosen, not tuned.
+/// Default tolerance of the estimated local error of a step, relative to the scene's length [-]. Chosen, not tuned.
 const DEFAULT_ERROR: f64 = 1e-6;
-/// Largest error of the invariant before a run stops, relative to the exchanged energy [-]. Chosen, not tuned.
+/// Default error of the energy invariant at which a run stops, relative to the exchanged energy [-]. Chosen, not tuned.
 const DEFAULT_ALARM: f64 = 0.1;
 
-/// Settings from the command line or a caller; `None` leaves a setting to the scene. [`SETTINGS`](mbs_core::scene::SETTINGS) lists their
-/// defaults and the methods that use them.
+/// Settings from the command line or from a caller; `None` leaves a setting to the scene. [`SETTINGS`](mbs_core::scene::SETTINGS) lists the
+/// defaults, and the methods that use each setting.
 ///
 /// ```
 /// use mbs::{FormulationKind, IntegratorKind, Method};
@@ -48,19 +47,19 @@ pub struct Method {
     pub step_max: Option<f64>,
     /// Rule for the length of steps.
     pub step_control: Option<String>,
-    /// Limits U and L of the change of the energy invariant per step, relative to the energy that moves.
+    /// Limits U and L of the change of the energy invariant in a step, relative to the energy that moves.
     pub energy_tolerance: Option<[f64; 2]>,
     /// Tolerance of the estimated local error of a step, relative to the scene's length.
     pub error_tolerance: Option<f64>,
-    /// Whether steps end where contacts begin or end, and at kinks of the road and of signals.
+    /// True if steps end where contacts begin or end, and at kinks of the road and of signals.
     pub events: Option<bool>,
-    /// Largest error of the energy invariant, relative to the exchanged energy; beyond it the run stops.
+    /// Largest allowed error of the energy invariant, relative to the exchanged energy. The run stops if the error is larger.
     pub energy_alarm: Option<f64>,
     /// Duration of the run [s].
     pub duration: Option<f64>,
     /// Fixed penalty alpha of the augmented Lagrangian, as published [N/m; index-1: kg].
     pub penalty: Option<f64>,
-    /// Tolerance of the iterations, relative to the displacement by accelerations in a step.
+    /// Tolerance of the iterations, relative to the displacement that accelerations cause in a step.
     pub tolerance: Option<f64>,
     /// Number of threads of a step.
     pub threads: Option<usize>,
@@ -69,7 +68,7 @@ pub struct Method {
 }
 
 impl Method {
-    /// Field of a setting; `None` for a name that is not in [`SETTINGS`](mbs_core::scene::SETTINGS).
+    /// Field that stores a setting; `None` for a name that is not in [`SETTINGS`](mbs_core::scene::SETTINGS).
     pub fn slot(&mut self, name: &str) -> Option<SettingSlot<'_, f64>> {
         Some(match name {
             "formulation" => SettingSlot::Word(&mut self.formulation),
@@ -104,7 +103,7 @@ impl Method {
         self.slot(name).ok_or(NotASetting)?.set(value)
     }
 
-    /// Makes a method with this formulation; all other settings come from the scene or are defaults.
+    /// Makes a method with this formulation. All other settings come from the scene or are defaults.
     #[must_use]
     pub fn new(formulation: FormulationKind) -> Self {
         Self::default().formulation(formulation)
@@ -117,7 +116,7 @@ impl Method {
     }
 
     /// Sets [`integrator`](Self#structfield.integrator) of the method. The integrators of first order (`rk4`, `rk54`, `rk853`, `gbs`,
-    /// `radau5`) need relative coordinates. They select `recursive` if no formulation is given.
+    /// `radau5`) need relative coordinates. If no formulation is given, they select `recursive`.
     #[must_use]
     pub fn integrator(self, integrator: IntegratorKind) -> Self {
         Self { integrator: Some(integrator.name().to_owned()), ..self }
@@ -141,8 +140,8 @@ impl Method {
         Self { step_max: Some(dt), ..self }
     }
 
-    /// Sets [`step_control`](Self#structfield.step_control) of the method. Step lengths only shrink unless [`step_max`](Self::step_max)
-    /// allows longer steps.
+    /// Sets [`step_control`](Self#structfield.step_control) of the method. Steps do not become longer than the first step, unless
+    /// [`step_max`](Self::step_max) allows longer steps.
     ///
     /// ```
     /// use mbs::{Method, StepRule};
@@ -219,24 +218,24 @@ pub struct ResolvedMethod {
     pub step_max: f64,
     /// Rule for the length of steps.
     pub rule: StepRule,
-    /// Limits U and L of the change of the energy invariant per step, relative to the energy that moves.
+    /// Limits U and L of the change of the energy invariant in a step, relative to the energy that moves.
     pub energy_tolerance: [f64; 2],
     /// Tolerance of the estimated local error of a step, relative to the scene's length.
     pub error_tolerance: f64,
-    /// Whether steps end where contacts begin or end, and at kinks of the road and of signals.
+    /// True if steps end where contacts begin or end, and at kinks of the road and of signals.
     pub events: bool,
-    /// Largest error of the energy invariant, relative to the exchanged energy; beyond it the run stops.
+    /// Largest allowed error of the energy invariant, relative to the exchanged energy. The run stops if the error is larger.
     pub energy_alarm: f64,
     /// Duration of the run [s].
     pub duration: f64,
     /// Fixed penalty alpha of the augmented Lagrangian, as published [N/m; index-1: kg]; `None`: the formulation chooses it.
     pub penalty: Option<f64>,
-    /// Tolerance of the iterations, relative to the displacement by accelerations in a step; `None`: default of the formulation or the
-    /// integrator.
+    /// Tolerance of the iterations, relative to the displacement that accelerations cause in a step. `None`: the default of the formulation
+    /// or the integrator.
     pub tolerance: Option<f64>,
     /// Number of threads of a step.
     pub threads: usize,
-    /// Report of the pilot, where a pilot chose the method.
+    /// Report of the pilot; `None` if no pilot chose the method.
     pub choice: Option<Box<PilotReport>>,
     /// Interrupt that ends the run from outside.
     pub interrupt: Interrupt,
@@ -299,7 +298,7 @@ impl ResolvedMethod {
         if duration / shorter > MOST_STEPS {
             return Err(SettingsError::TooManySteps { step: shorter, duration });
         }
-        // The penalty in a scene file is intended for formulations of the augmented Lagrangian.
+        // The penalty in a scene file applies only to formulations of the augmented Lagrangian.
         let of_file = of_scene(solver.penalty).filter(|_| formulation.scene_penalty().is_some());
         let penalty = overrides.penalty.or(of_file);
         Ok(Self {
@@ -363,8 +362,8 @@ impl ResolvedMethod {
         Lengths { step, step_max, duration }
     }
 
-    /// Number of recorded intervals. Each is one step, or several steps of controlled length. If the duration is a multiple of `step_max`
-    /// within 1e-9 (relative), all intervals are equal; else the last interval is shorter.
+    /// Number of recorded intervals. Each interval is one step, or several steps of controlled length. If the duration is a multiple of
+    /// `step_max` within 1e-9 (relative), all intervals are equal. Otherwise the last interval is shorter.
     #[must_use]
     #[allow(
         clippy::cast_possible_truncation,
@@ -382,8 +381,8 @@ impl ResolvedMethod {
     }
 }
 
-/// A length of time [s] in the precision of a run. If the scene has a value that rounds to `x`, that value is returned with all its digits.
-/// Else `x` stands for the shortest decimal number that `f64` reads as `x`.
+/// Converts a length of time [s] to the precision of a run. If this precision is finer than `f64`, the digits beyond `f64` are restored.
+/// They are taken from the scene's value that rounds to `x`, or else from the shortest decimal number that `f64` reads as `x`.
 pub fn exact<T: Real>(scene: &Scene<T>, x: f64) -> T {
     if !is_finer::<T>() {
         return T::from_f64(x);
@@ -393,7 +392,7 @@ pub fn exact<T: Real>(scene: &Scene<T>, x: f64) -> T {
     same.or_else(|| T::from_decimal(&format!("{x:e}"))).unwrap_or(T::from_f64(x))
 }
 
-/// Returns the formulation as requested, the formulation that runs, and the integrator.
+/// Returns the requested formulation, the formulation that runs, and the integrator.
 fn method<T>(
     solver: &SolverTable<T>,
     overrides: &Method,
@@ -402,7 +401,7 @@ fn method<T>(
         "formulation",
         (&overrides.formulation, &solver.formulation, "auto"),
         &FORMULATIONS,
-        // The name `auto` precedes the formulations in the list of names.
+        // In the list of names, `auto` comes before the formulations.
         core::array::from_fn(|i| i.checked_sub(1).map(|i| FormulationKind::ALL[i])),
     )?;
     let (_, integrator) = named(
@@ -427,9 +426,9 @@ fn method<T>(
     Ok((asked, formulation, integrator))
 }
 
-/// Rule that chooses the length of the steps. A rule named by the caller comes first, then the rule of the caller's tolerances. The next is
-/// a rule named by the scene, and the last is the rule of the scene's error tolerance. The energy limits of a scene select no rule: they
-/// are intended for `multi-index`, whose default is the energy rule.
+/// Chooses the rule for the length of the steps. A rule that the caller names has priority over the rule of the caller's tolerances. Then
+/// comes a rule that the scene names, and then the rule of the scene's error tolerance. The energy limits of a scene select no rule,
+/// because they are intended for `multi-index`, whose default is the energy rule.
 fn step_rule<T>(
     solver: &SolverTable<T>,
     overrides: &Method,
@@ -452,7 +451,7 @@ fn step_rule<T>(
     if rule == StepRule::Fixed || !integrator.is_of_first_order() {
         return Ok(rule);
     }
-    // A tolerance in the scene is intended for integrators that can use it, so it is no error here.
+    // A tolerance in the scene is intended for integrators that use it, so for other integrators it is no error.
     if !is_named && given == [false; 2] {
         return Ok(StepRule::Fixed);
     }
@@ -460,7 +459,7 @@ fn step_rule<T>(
     Err(SettingsError::NotTogether { formulation, option })
 }
 
-/// Limits U and L of the energy rule: from the caller, else from the scene, else the defaults.
+/// Limits U and L of the energy rule. The caller's limits have priority over the scene's limits, and these over the defaults.
 fn energy_limits<T: Real>(solver: &SolverTable<T>, overrides: &Method) -> [f64; 2] {
     let of_scene = solver.energy_tolerance.map(|limits| limits.map(T::to_f64));
     let usual = EnergyRule::default();

@@ -1,7 +1,7 @@
 //! Steps that end at jumps and corners of signals.
 //!
-//! A step towards a jump ends shortly before the jump, so that no trial evaluates the signal after it. The time is then set to shortly
-//! after the jump: positions and velocities are unchanged, and accelerations jump. At a corner no acceleration jumps.
+//! A step towards a jump ends shortly before the jump, so that no trial step evaluates the signal after the jump. Then the time is set to a
+//! value shortly after the jump. Positions and velocities are unchanged, and accelerations jump. At a corner accelerations do not jump.
 
 use mbs_core::Real;
 use mbs_core::formulation::Formulation;
@@ -10,23 +10,23 @@ use mbs_core::model::State;
 use mbs_core::natural::NaturalModel;
 use mbs_core::step::{Step, StepError, StepReport};
 
-/// Times at which steps must end because of signals; empty if all signals are smooth.
+/// Times at which steps must end because of signals. The list is empty if all signals are smooth.
 #[derive(Debug, Clone)]
 pub struct SignalEnds<T>(SignalTimes<T>);
 
-/// Distance between a jump and the end of the step before it, in units of machine precision of the time [-]. The next step begins as far
-/// after the jump. It exceeds the rounding error of the times of rows up to the thousandth period.
+/// Distance between a jump and the end of the step before it, in units of the machine precision of the time [-]. The next step begins at
+/// the same distance after the jump. The distance exceeds the rounding error of the times of rows up to the thousandth period.
 const BESIDE_JUMP: f64 = 32.0;
-/// Time to a jump or a corner that is too short for a step, in units of machine precision of the time [-]. Chosen, not tuned.
+/// Largest time to a jump or a corner that is too short for a step, in units of the machine precision of the time [-]. Chosen, not tuned.
 const NO_STEP: f64 = 96.0;
 
 impl<T: Real> SignalEnds<T> {
-    /// Collects the times of a model's signals.
+    /// Collects the times of jumps and corners of a model's signals.
     pub fn new<const D: usize>(model: &NaturalModel<T, D>) -> Self {
         Self(model.prescribed().signal_times())
     }
 
-    /// The first jump or corner within `rest` [s] from time `t` [s], and the length of the step that ends there.
+    /// Returns the first jump or corner within `rest` [s] after time `t` [s], and the length of the step that ends there [s].
     pub fn ahead(&self, t: T, rest: T) -> Option<(SignalTime<T>, T)> {
         let mut after = t;
         loop {
@@ -42,7 +42,7 @@ impl<T: Real> SignalEnds<T> {
         }
     }
 
-    /// Makes one step with an integrator that controls its internal steps, in parts that end at jumps and corners.
+    /// Makes one step with an integrator that controls its internal steps. The step is made in parts that end at jumps and corners.
     ///
     /// # Errors
     /// [`StepError`]; the state is then the state after the last completed part.
@@ -84,7 +84,7 @@ impl<T: Real> SignalEnds<T> {
             formulation.set_time(at.time);
             state.t = at.time;
         }
-        // The multipliers have a corner here, so nothing is extrapolated across it.
+        // The multipliers have a corner here, so a length of zero prevents extrapolation across it.
         state.dt = T::ZERO;
         Ok(())
     }

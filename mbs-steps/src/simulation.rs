@@ -1,4 +1,4 @@
-//! A scene that can step: model, consistent state and formulation in one place.
+//! Simulation of a scene: its model, its state and its formulation, ready to make steps.
 
 mod carry;
 mod checkpoint;
@@ -23,9 +23,9 @@ use mbs_core::start::Assembled;
 use mbs_core::step::{InputError, Step, StepError, largest};
 use mbs_core::{Real, instances};
 
-/// A scene ready to step, in D dimensions and scalar T.
-/// The state is also written in natural coordinates, whatever the formulation, because outputs are measured in natural coordinates. A clone
-/// makes bitwise the same steps and does not change the original. Original and clone use the same thread team.
+/// Scene that is ready to step, in D dimensions and in the scalar T. The state is also written in natural coordinates, whatever the
+/// formulation, because outputs are measured in natural coordinates. A clone makes bitwise the same steps and does not change the original.
+/// Original and clone use the same thread team.
 #[derive(Debug, Clone)]
 pub struct Simulation<T: Real, const D: usize> {
     model: NaturalModel<T, D>,
@@ -36,7 +36,7 @@ pub struct Simulation<T: Real, const D: usize> {
     sizes: [usize; 3],
     initial_energy: [f64; 2],
     control: Option<Box<Control<T, D>>>,
-    /// Times at which signals end a step, for integrators that control their internal steps within a step of the run.
+    /// Times at which signals end a step. They serve integrators that control their internal steps within a step of the run.
     ends: Option<SignalEnds<T>>,
     invariant: Invariant,
     advance: Advance<T, D>,
@@ -48,7 +48,7 @@ type Advance<T, const D: usize> = fn(&mut Simulation<T, D>, T) -> Result<Accepte
 instances!(BUILD: Build<T, D> = Simulation::<T, D>::build);
 
 impl<T: Real, const D: usize> Simulation<T, D> {
-    /// Builds the model of a scene, assembles it, and allocates everything a step needs.
+    /// Builds the model of a scene, assembles it, and allocates all memory that a step needs.
     ///
     /// # Errors
     /// [`StopError`] when there is no model, no consistent start, or the formulation cannot run the scene.
@@ -111,7 +111,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 }
 
 impl<T: Real, const D: usize> Simulation<T, D> {
-    /// Makes one step: of length `rest` [s] where steps have a fixed length, of at most `rest` where the step size is controlled.
+    /// Makes one step: of length `rest` [s] if steps are fixed, of at most `rest` with step control.
     ///
     /// # Errors
     /// [`StepError`]; the state is then unchanged.
@@ -136,8 +136,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         })
     }
 
-    /// Returns the error "a part of a rope loses its length" if the motion of the failed step would shorten that part to zero. With step
-    /// control, the motion is followed over at most twice the length of the last step.
+    /// Returns the error of a part of a rope that has lost its length, if the failed step would shorten a part to zero. With step control,
+    /// the motion is extrapolated over at most twice the length of the last step.
     fn collapsing(&self, rest: T) -> Option<StepError> {
         let State { v, a, dt, .. } = &self.state;
         let h = if *dt > T::ZERO { rest.min(T::TWO * *dt) } else { rest };
@@ -149,7 +149,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     fn advance_by(&mut self, rest: T) -> Result<Accepted<T>, StepError> {
         let Self { model, state, formulation, control, ends, invariant, .. } = self;
         let formulation = &mut **formulation;
-        // The step is checked before a formulation prepares its index for the step.
+        // The step is checked here, because the formulation next prepares its index for the step.
         let step = Step { dt: rest, length: model.length() }.checked()?;
         if let Some(control) = control {
             formulation.take_inputs(model, state)?;
@@ -173,17 +173,17 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         })
     }
 
-    /// Is the step size controlled?
+    /// True if the step size is controlled.
     pub fn is_controlled(&self) -> bool {
         self.control.is_some()
     }
 
-    /// The energy invariant, monitored over every step so far.
+    /// Energy invariant, which is monitored over all steps so far.
     pub fn invariant(&self) -> &Invariant {
         &self.invariant
     }
 
-    /// The index (1 or 3) of the next step and the number of index changes so far; `None` for a formulation of fixed index.
+    /// Returns the index (1 or 3) of the next step, and the number of index changes so far; `None` for a formulation of fixed index.
     pub fn index(&self) -> Option<(u8, u32)> {
         self.formulation.index()
     }
@@ -224,13 +224,13 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         self.model.prescribed().set_signal(&mut self.state.inputs, signal, value)
     }
 
-    /// Angle or displacement of coordinate `number` of a joint, with full turns counted, where the formulation has it as a coordinate. A
-    /// tree has all joint coordinates, except those of cut joints and of rotations in space.
+    /// Returns the angle or displacement of coordinate `number` of a joint, with full turns counted; `None` if it is no coordinate of the
+    /// formulation. A tree has all joint coordinates, except those of cut joints and of rotations in space.
     pub fn coordinate(&self, joint: usize, number: usize) -> Option<T> {
         self.formulation.coordinate(joint, number)
     }
 
-    /// Does the formulation step relative coordinates (those of a tree) instead of natural coordinates?
+    /// True if the formulation steps relative coordinates (those of a tree) instead of natural coordinates.
     pub fn has_own_coordinates(&self) -> bool {
         self.formulation.terms().is_none()
     }
@@ -250,7 +250,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         &mut *self.formulation
     }
 
-    /// Snapshot of everything that the next step depends on.
+    /// Snapshot of all data that the next step depends on.
     pub fn snapshot(&self) -> SimulationSnapshot<T> {
         SimulationSnapshot {
             state: self.state.clone(),
@@ -261,7 +261,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         }
     }
 
-    /// Restores a snapshot; returns whether the snapshot belongs to this simulation.
+    /// Restores a snapshot; returns false if the snapshot belongs to another simulation.
     pub fn restore_snapshot(&mut self, snapshot: &SimulationSnapshot<T>) -> bool {
         let SimulationSnapshot {
             state,
@@ -298,8 +298,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         energies_at(&*self.formulation, &self.model, &self.state)
     }
 
-    /// Kinetic energy, potential energy and work since the start [J], evaluated again. Its cost is the cost of monitoring the invariant in
-    /// each step.
+    /// Kinetic energy, potential energy and work since the start [J], evaluated again. The cost is that of monitoring the invariant in one
+    /// step.
     #[doc(hidden)]
     pub fn watched_energies(&mut self) -> [f64; 3] {
         self.formulation.watch();
@@ -343,7 +343,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     }
 }
 
-/// The energies at a state. Before the first step the formulation has not evaluated its terms, so the model is evaluated here.
+/// Energies at a state. Before the first step the formulation has not evaluated its terms, so the model is evaluated here.
 fn energies_at<T: Real, const D: usize>(
     formulation: &dyn Formulation<T, D>,
     model: &NaturalModel<T, D>,
@@ -351,7 +351,7 @@ fn energies_at<T: Real, const D: usize>(
 ) -> [f64; 3] {
     match formulation.terms() {
         Some(_) if state.dt == T::ZERO => {
-            // Inputs that are set for the next step do not act at this state yet.
+            // Inputs that are set for the next step do not act at this state yet, so the applied inputs are used.
             let mut now = state.clone();
             now.inputs.clone_from(&state.applied);
             energies(model, &now, None)
@@ -360,12 +360,13 @@ fn energies_at<T: Real, const D: usize>(
     }
 }
 
-/// Largest velocity that counts as rounding error, in units of machine precision of positions per step [-]. Chosen, not tuned.
+/// Largest velocity that counts as rounding error, in units of the machine precision of positions per step [-]. Chosen, not tuned.
 const ROUNDINGS: f64 = 64.0;
 
-/// Reference energy of the scene [J], to which energy errors are compared. It is the work of weight and given forces over the length of the
-/// scene. Added is the kinetic energy of an unnoticeable motion of all masses, divided by the square root of machine precision. Such a
-/// motion is too slow to show in the run, or is a rounding error of positions in a step.
+/// Reference energy of the scene [J], to which energy errors are compared. It is the work of weight and prescribed forces over the length
+/// of the scene, plus a small kinetic energy of all masses. This kinetic energy is that of the fastest motion that does not matter, divided
+/// by the square root of machine precision. A motion does not matter if it is too slow to show in the run, or is a rounding error of
+/// positions in a step.
 fn ground<T: Real, const D: usize>(
     scene: &Scene<T>,
     settings: &ResolvedMethod,
@@ -382,7 +383,7 @@ fn ground<T: Real, const D: usize>(
     mass * gravity * length + loads + still / epsilon.sqrt()
 }
 
-/// Work of the largest force or torque that an effect prescribes, over the length of the scene or over one radian [J].
+/// Work of the largest force or torque that an effect prescribes [J], over the length of the scene or over one radian.
 fn given<T: Real>(kind: &EffectKind<T>, length: f64, peaks: &[f64]) -> f64 {
     let largest = |signal: &Signal<T>| match signal {
         Signal::Constant(value) | Signal::Input(value) => size(*value),
@@ -405,7 +406,7 @@ fn given<T: Real>(kind: &EffectKind<T>, length: f64, peaks: &[f64]) -> f64 {
 /// Number of instants at which the signals of a run are sampled [-]. Chosen, not tuned.
 const PEAK_INSTANTS: u32 = 256;
 
-/// The largest absolute value of each signal, sampled at equidistant instants of a run. Inputs have their initial values.
+/// Largest absolute value of each signal, sampled at equidistant instants of a run. Inputs have their initial values.
 fn peaks<T: Real>(scene: &Scene<T>, duration: f64) -> Vec<f64> {
     let signals = SignalGraph::new(&scene.signals);
     let mut peaks = vec![0.0_f64; signals.len()];

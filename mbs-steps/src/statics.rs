@@ -16,10 +16,10 @@ use mbs_core::scene::{Dimension, Joint, JointId, Output, Quantity, Scene};
 use mbs_linear::{Equilibrium, Instant, LinearOptions, linearise};
 use serde_json::{Map, Value, json};
 
-/// Largest displacement or rotation of a body from its start, with the body's name.
+/// Largest displacement or rotation of a body from its start, and the name of that body.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Moved {
-    /// Displacement of the centre of mass [m], or rotation angle about any axis, from 0 to pi [rad].
+    /// Displacement of the centre of mass [m], or angle of rotation from 0 to pi [rad].
     pub size: f64,
     /// Name of the body.
     pub body: String,
@@ -32,25 +32,26 @@ pub struct StaticEquilibrium {
     pub scene: String,
     /// Number of coordinates, number of constraints, rank of the constraints.
     pub sizes: [usize; 3],
-    /// Search that was used.
+    /// Search by which the equilibrium was found.
     pub search: Search,
     /// Equilibrium that the search found.
     pub found: Equilibrium<f64>,
-    /// Largest displacement of a centre of mass and largest rotation of a body from the start; `None` without bodies.
+    /// Largest displacement of a centre of mass, and largest rotation of a body, both from the start; `None` without bodies.
     pub moved: Option<[Moved; 2]>,
-    /// Parts of the scene that are left out.
+    /// Parts of the scene that are omitted in the search.
     pub left_out: Vec<LeftOut>,
-    /// Number of growing modes, from the eigenvalues of the equations of motion; `None` where they cannot be linearised.
+    /// Number of modes that grow, from the eigenvalues of the equations of motion; `None` if the equations cannot be linearised.
     pub unstable: Option<usize>,
-    /// Number of directions of neutral equilibrium; `None` where the equations of motion cannot be linearised.
+    /// Number of directions in which the equilibrium is neutral; `None` if the equations of motion cannot be linearised.
     pub neutral: Option<usize>,
     /// Potential energy of gravity, constant forces and springs [J].
     pub potential: f64,
     /// Joint coordinates [rad or m].
     pub joints: Vec<(Channel, Vec<f64>)>,
-    /// Reactions of the joints, as loads of the first body on the second; empty where the closed loops are too large for reactions.
+    /// Reactions of the joints, as loads that the first body exerts on the second. Empty if the closed loops are too large for the
+    /// computation.
     pub reactions: Vec<(Channel, Vec<f64>)>,
-    /// Joints whose reaction is not unique; the reaction of smallest norm is given.
+    /// Joints whose reaction is not unique. The list of reactions then has the reaction of smallest norm.
     pub not_unique: Vec<String>,
     /// Values of the scene's outputs.
     pub outputs: Vec<(Channel, Vec<f64>)>,
@@ -148,7 +149,7 @@ impl StaticEquilibrium {
     }
 }
 
-/// The largest displacement of a centre of mass, and the largest rotation of a body.
+/// Returns the largest displacement of a centre of mass, and the largest rotation of a body.
 fn moved(
     scene: &Scene<f64>,
     from: &[RigidMotion<f64>],
@@ -170,7 +171,7 @@ fn moved(
     Some([most(0)?, most(1)?])
 }
 
-/// Number of growing modes and of neutral directions at an equilibrium; `None` where the equations of motion cannot be linearised.
+/// Number of growing modes and number of neutral directions at an equilibrium; `None` if the equations of motion cannot be linearised.
 fn stability<const D: usize>(
     model: &NaturalModel<f64, D>,
     state: &State<f64>,

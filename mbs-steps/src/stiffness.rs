@@ -5,7 +5,8 @@
 //! x <- (M + J^T s J)^-1 K x,         K x by a difference of the applied forces
 //! ```
 //!
-//! Dampers, velocities and gravity are not included.
+//! K is the stiffness of the applied forces, M the mass matrix, J the constraint Jacobian and s the penalty. Dampers, velocities and
+//! gravity are not included.
 
 use core::f64::consts::TAU;
 use mbs_core::model::{Load, Model, State, System, Tangent};
@@ -14,15 +15,15 @@ use mbs_core::once::found;
 use mbs_core::{SpdSolver, instances};
 use mbs_sparse::Multifrontal;
 
-/// Iterations of the power method [-]. They give the root of the eigenvalue to a few per cent. Close eigenvalues do not matter: they give
-/// the same period.
+/// Number of iterations of the power method [-]. They give the square root of the eigenvalue to a few per cent. Close eigenvalues do not
+/// matter, because they give the same period.
 const ITERATIONS: u32 = 12;
-/// Penalty of the constraints, relative to the effective masses [-]; motions that violate the constraints are then smaller by a factor of
+/// Penalty s of the constraints, relative to the effective masses [-]. Motions that violate the constraints are then smaller by a factor of
 /// 1e-6.
 const PENALTY: f64 = 1e6;
-/// Difference of coordinates, relative to the length of the model [-]. Chosen, not tuned.
+/// Change of coordinates for a difference quotient, relative to the length of the model [-]. Chosen, not tuned.
 const DIFFERENCE: f64 = 1e-6;
-/// Ratio of a difference of forces to the forces, below which the difference is rounding error [-]. Chosen, not tuned.
+/// Largest difference of forces, relative to the forces, that counts as rounding error [-]. Chosen, not tuned.
 const NOISE: f64 = 1e-9;
 
 /// Returns the shortest period of the forces [s]; `None` if no force grows with a displacement.
@@ -63,7 +64,7 @@ fn period<const D: usize>(
     solver.assemble(&System { model, terms: &terms, tangent, load }, &mut forces);
     let size = forces.iter().fold(0.0, |most: f64, f| most.max(f.abs()));
     let mut scratch = vec![0.0; solver.n_scratch()];
-    // The start vector is irregular, to contain all eigenvectors: fractional parts of multiples of the golden ratio.
+    // The start vector has irregular components, so that it contains all eigenvectors: fractional parts of multiples of the golden ratio.
     let mut x: Vec<f64> = (1..=n).map(|i| (i as f64 * 0.618_034).fract() - 0.5).collect();
     let (mut q, mut moved, mut lambda) = (state.q.clone(), vec![0.0; n], 0.0);
     let mut extended = vec![0.0; state.q.len()];

@@ -27,7 +27,7 @@ use mbs_recursive::TreeError;
 /// Error code of an interrupted run.
 pub const INTERRUPTED: &str = "interrupted";
 
-/// Hint on a body whose motion no inertia resists.
+/// Hint for a body with a motion that no inertia resists.
 const NO_INERTIA: &str = "give the body mass and inertia; write a point mass as `point`, weld a point mass to what carries it, or give it any small \
                           inertia; a node between springs needs mass (a step h carries it from m = 4 k h^2 on), or one rope through it; or remove the \
                           freedom that nothing determines";
@@ -38,9 +38,9 @@ const NO_INERTIA: &str = "give the body mass and inertia; write a point mass as 
 pub enum StopError {
     /// The scene has no consistent start.
     Start(AssemblyError),
-    /// Constraints that would be dependent if a small tilt of an axis were zero.
+    /// Constraints that are almost dependent: without a small tilt of an axis they would be dependent.
     AlmostDependent(AlmostDependent),
-    /// Joint reactions that were requested but cannot be computed.
+    /// Reactions of joints that were requested but cannot be computed.
     Reaction(ReactionError),
     /// A step that failed, and the part of the scene that caused the failure.
     Step(StepError, Option<Owner>),
@@ -66,15 +66,15 @@ pub enum StopError {
         code: &'static str,
         /// Message of the error.
         message: Box<str>,
-        /// Hint on what to try; empty where the error gives none.
+        /// Hint for the user; empty if the error has none.
         hint: Box<str>,
     },
-    /// An output whose value is not finite.
+    /// An output has a value that is not finite.
     Output {
         /// Index of the output in the scene.
         output: usize,
     },
-    /// Friction whose velocity is too small for the steps of an explicit method, so that the steps are unstable.
+    /// The transition of a friction law is too steep for the steps of an explicit method, so that the steps are unstable.
     Friction {
         /// Index of the effect in the scene.
         effect: usize,
@@ -83,7 +83,7 @@ pub enum StopError {
         /// Length of the steps [s].
         step: f64,
     },
-    /// The energy invariant drifted by more than the allowed ratio of the exchanged energy.
+    /// The error of the energy invariant exceeds the allowed ratio of the exchanged energy.
     Energy {
         /// Error of the energy invariant, |Pi - Pi(0)| [J].
         error: f64,
@@ -97,7 +97,7 @@ pub enum StopError {
 }
 
 impl StopError {
-    /// A failed step with its owner; `unknown` and `row` return the owner of an unknown and of a constraint row.
+    /// Error of a failed step, with its owner. `unknown` and `row` return the owner of an unknown and of a constraint row.
     pub fn step(
         error: StepError,
         unknown: impl Fn(usize) -> Owner,
@@ -112,7 +112,7 @@ impl StopError {
         codes.failed().map_or(self, |failed| Self::Step(failed.into(), None))
     }
 
-    /// A search that found no equilibrium, with its owner; the functions return the owner of an unknown and of a constraint row.
+    /// Error of a search that found no equilibrium, with its owner. The functions return the owner of an unknown and of a constraint row.
     pub fn equilibrium(
         error: EquilibriumError,
         n: usize,
@@ -133,7 +133,7 @@ impl StopError {
         Self::Equilibrium(error, owner)
     }
 
-    /// A scene that has no model as a tree.
+    /// Error of a scene that has no model as a tree.
     #[doc(hidden)]
     pub fn tree(error: TreeError) -> Self {
         let owner = match error {
@@ -183,7 +183,7 @@ impl StopError {
         })
     }
 
-    /// Hint on what the user can try.
+    /// Hint for the user: what to do about the error.
     #[must_use]
     #[allow(clippy::too_many_lines, reason = "one line or two for each error")]
     pub fn hint(&self) -> &'static str {
@@ -263,7 +263,7 @@ impl StopError {
         }
     }
 
-    /// The scene keys that can cause the error, the most probable first.
+    /// Keys of the scene that can cause the error, the most probable key first.
     #[must_use]
     pub fn fields(&self) -> &'static [&'static str] {
         match self {

@@ -1,4 +1,4 @@
-//! Statistics of the outputs of a run, updated at every step, with constant memory for each output.
+//! Statistics of the outputs of a run. They are updated at every step, and their memory does not grow with the number of steps.
 //!
 //! ```text
 //! rms = √(1/T ∫ x² dt),   ∫ x² dt ≈ Σ (tₖ − tₖ₋₁) (xₖ² + xₖ₋₁²)/2
@@ -37,7 +37,7 @@ impl Tally {
         recent: [0.0; 5],
     };
 
-    /// Adds a value at time `t` [s], `dt` [s] after the last value.
+    /// Adds the value `x` at time `t` [s]. `dt` is the time since the last value [s].
     fn take(&mut self, t: f64, dt: f64, x: f64) {
         self.peak(t, x);
         self.square += dt * (x * x + self.last * self.last) / 2.0;
@@ -46,7 +46,7 @@ impl Tally {
         self.recent[4] = x;
     }
 
-    /// Updates minimum and maximum with a value that may be a peak.
+    /// Updates minimum and maximum with the value `x` at time `t` [s].
     fn peak(&mut self, t: f64, x: f64) {
         if x < self.min {
             (self.min, self.at_min) = (x, t);
@@ -60,14 +60,14 @@ impl Tally {
 /// Statistics of all quantities of a run.
 #[derive(Debug)]
 pub struct Tallies {
-    /// Columns of each quantity: one column, or all columns of the vector whose magnitude it is.
+    /// Index range of the columns of each quantity: one column, or all columns of the vector whose magnitude is the quantity.
     columns: Vec<Range<usize>>,
-    /// Whether each quantity is the magnitude of a vector.
+    /// True for each quantity that is the magnitude of a vector.
     is_magnitude: Vec<bool>,
     tallies: Vec<Tally>,
     /// First and last time [s]; `None` before the first values.
     times: Option<[f64; 2]>,
-    /// The last five times [s]; `n_recent` of them are valid.
+    /// Last five times [s], of which the last `n_recent` are valid.
     recent: [f64; 5],
     n_recent: u64,
 }
@@ -110,7 +110,7 @@ impl Tallies {
         }
     }
 
-    /// The statistics of each channel. If no time has passed, the root mean square is the magnitude of the single value.
+    /// Statistics of each channel. If no time has passed, the root mean square is the magnitude of the single value.
     pub fn of_channels(&self, channels: &[Channel]) -> Vec<Vec<ComponentStatistics>> {
         let Some([from, to]) = self.times else { return vec![Vec::new(); channels.len()] };
         let mut tallies = self.tallies.iter();

@@ -1,5 +1,5 @@
-//! Axes that are almost parallel or almost perpendicular to another axis: the notes about them, and the error if a tilt locks a closed
-//! loop.
+//! Axes that are almost parallel or almost perpendicular to another axis. Such an axis causes a note, or an error if its tilt locks a
+//! closed loop.
 
 use crate::loop_alone::loops_alone;
 use mbs_core::model::{Model, State};
@@ -12,14 +12,14 @@ use mbs_core::{Cliques, Real, instances};
 use mbs_scene::format::{counted, few};
 use std::borrow::Cow;
 
-/// An axis whose small tilt locks a closed loop.
+/// Axis of a joint with a small tilt that locks a closed loop.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AlmostDependent {
     /// The joint with the tilted axis, and the joint to whose axis it should be parallel or perpendicular.
     pub joints: [usize; 2],
     /// Angle of the tilt [rad].
     pub angle: f64,
-    /// Unit axis without the tilt, which corrects the scene.
+    /// Unit vector of the axis without the tilt. With this axis the scene is correct.
     pub axis: [f64; 3],
 }
 
@@ -41,7 +41,8 @@ impl core::fmt::Display for AlmostDependent {
     }
 }
 
-/// Notes on axes with a small tilt: axes that are treated as exactly parallel or perpendicular, and one axis whose tilt removes freedoms.
+/// Notes on axes with a small tilt: all axes that are treated as exactly parallel or perpendicular, and one axis whose tilt removes
+/// freedoms.
 pub fn notes<T: Real>(scene: &Scene<T>) -> Vec<(usize, String)> {
     if T::HAS_INSTANCES {
         return found::<Notes<T>>(NOTES)(scene);
@@ -64,11 +65,12 @@ fn notes_here<T: Real>(scene: &Scene<T>) -> Vec<(usize, String)> {
     tilts(scene, T::from_f64(MEANT)).iter().map(note).chain(binding_note(scene)).collect()
 }
 
-/// Returns the scene as natural coordinates use it, and the tilts in closed loops that cannot move with the tilt, for [`lock`].
+/// Returns the scene as natural coordinates use it, and the tilts in closed loops that cannot move with the tilt. The tilts are an argument
+/// of [`lock`].
 ///
-/// A tilt up to five digits that removes freedoms of a loop is ignored if the loop can still move. In such a configuration even a tiny tilt
-/// changes the motion by more than its own size. Cost: the search for tilts; if there are tilts, also the ranks of the constraints for some
-/// variants of the scene.
+/// A tilt of at most 1e-5 rad that removes freedoms of a loop is ignored, if the loop can still move with it. In such a configuration
+/// even a tiny tilt changes the motion by more than its own size. Cost: the search for tilts. If there are tilts, the ranks of the
+/// constraints for some variants of the scene are computed too.
 pub(crate) fn meant<T: Real, const D: usize>(
     scene: &Scene<T>,
 ) -> (Cow<'_, Scene<T>>, Vec<Tilt<T>>) {
@@ -82,8 +84,8 @@ pub(crate) fn meant<T: Real, const D: usize>(
     (meant, locks)
 }
 
-/// The axis whose tilt locks closed loops in the reference configuration; `scene` and `locks` are results of [`meant`]. Cost: nothing
-/// without such tilts, else the ranks of the constraints for some variants of the scene.
+/// Returns the axis whose tilt locks closed loops in the reference configuration. `scene` and `locks` are the results of [`meant`]. Cost:
+/// nothing without such tilts, else the ranks of the constraints for some variants of the scene.
 pub(crate) fn lock<T: Real, const D: usize>(
     scene: &Scene<T>,
     locks: &[Tilt<T>],
@@ -91,8 +93,8 @@ pub(crate) fn lock<T: Real, const D: usize>(
     binding::<T, D>(scene, locks).map(|(tilt, _)| AlmostDependent::new(&tilt))
 }
 
-/// Tilts that are too large to be ignored but small enough to be errors of the file. The first list has tilts in loops that cannot move
-/// with the tilt, the second list has all others.
+/// Tilts that are too large to be ignored, but small enough to be errors of the file. The first list has the tilts in loops that cannot
+/// move with the tilt. The second list has all other tilts.
 fn doubtful<T: Real, const D: usize>(scene: &Scene<T>) -> [Vec<Tilt<T>>; 2] {
     let mut tilts = tilts(scene, T::from_f64(DOUBTFUL));
     tilts.retain(|tilt| tilt.angle > T::from_f64(MEANT));
@@ -101,8 +103,8 @@ fn doubtful<T: Real, const D: usize>(scene: &Scene<T>) -> [Vec<Tilt<T>>; 2] {
     [locks, others]
 }
 
-/// The tilt whose removal gives the mechanism more freedoms, and the number of these freedoms. If only several tilts together do so, the
-/// first one.
+/// Returns the tilt whose removal gives the mechanism more freedoms, and the number of these freedoms. If no single removal gives more
+/// freedoms, but the removal of all tilts does, it returns the first tilt.
 fn binding<T: Real, const D: usize>(
     scene: &Scene<T>,
     tilts: &[Tilt<T>],
@@ -118,7 +120,7 @@ fn binding<T: Real, const D: usize>(
     Some(one.unwrap_or((*first, all)))
 }
 
-/// Note on a tilt that removes freedoms; it says whether the tilt is kept.
+/// Note on a tilt that removes freedoms. The note says whether natural coordinates ignore the tilt.
 fn binding_note<T: Real>(scene: &Scene<T>) -> Option<(usize, String)> {
     if scene.dimension != Dimension::Spatial {
         return None;

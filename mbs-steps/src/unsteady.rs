@@ -7,11 +7,11 @@ use serde_json::{Value, json};
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum Unsteady {
-    /// A state variable accelerates in the axes that turn with the motion.
+    /// A state of the linear system accelerates in the axes that turn with the motion.
     Accelerates {
         /// Name of the state.
         state: String,
-        /// Magnitude of the acceleration of the state [rad/s^2 or m/s^2].
+        /// Absolute value of the acceleration of the state [rad/s^2 or m/s^2].
         by: f64,
         /// Unit of the acceleration.
         unit: &'static str,
@@ -20,7 +20,7 @@ pub enum Unsteady {
     Changes {
         /// Name of the state in whose equation a coefficient changes most.
         state: String,
-        /// Change of the coefficient per radian of the motion, relative to the largest coefficient of its row [1/rad].
+        /// Change of this coefficient per radian of the motion, relative to the largest coefficient of its row [1/rad].
         by: f64,
     },
 }

@@ -1,4 +1,4 @@
-//! Texts about a run: rows of a summary, notes, and the time, place and reason of a stop.
+//! Texts about a run: rows of a summary, notes, and sentences on the time, place and reason of a stop.
 
 pub mod paced;
 
@@ -12,7 +12,7 @@ use mbs_core::Real;
 use mbs_core::scene::{Body, BodyId, Inertia, Scene};
 use mbs_scene::format::{counted, rounded, significant};
 
-/// Rows of the summary table of an HTML page, as label and text.
+/// Rows of the summary table of an HTML page, each with label and text.
 pub fn summary_rows(s: &RunSummary) -> Vec<(String, String)> {
     if s.coordinates == 0 && s.error.is_some() {
         return Vec::new();
@@ -44,7 +44,7 @@ pub fn summary_rows(s: &RunSummary) -> Vec<(String, String)> {
     rows
 }
 
-/// Rows of the error estimate for a table.
+/// Rows of a table with the error estimate.
 #[must_use]
 pub fn estimate(e: &ErrorEstimate) -> Vec<(&'static str, String)> {
     const LABEL: &str = "estimated error";
@@ -66,7 +66,7 @@ pub fn estimate(e: &ErrorEstimate) -> Vec<(&'static str, String)> {
     rows
 }
 
-/// Formats a number with two digits, because an error estimate is not more precise.
+/// Formats a number with two digits, because an error estimate has no more valid digits.
 fn small(x: f64) -> String {
     if x == 0.0 { "0".to_owned() } else { format!("{x:.1e}") }
 }
@@ -76,7 +76,7 @@ fn method(m: &MethodUsed) -> String {
     [m.formulation.as_str(), &m.integrator].join(" ").trim_end().to_owned()
 }
 
-/// Describes the number of steps and their lengths.
+/// Describes the number of steps and the step lengths.
 #[must_use]
 pub fn steps(m: &MethodUsed) -> String {
     let count = counted(usize::try_from(m.steps).unwrap_or(usize::MAX), "step");
@@ -89,7 +89,7 @@ pub fn steps(m: &MethodUsed) -> String {
     }
 }
 
-/// Relative difference up to which two step lengths count as equal [-]; the ends of fixed steps have rounding errors.
+/// Relative difference up to which two step lengths count as equal [-]. The times at the ends of fixed steps have rounding errors.
 const SAME_STEP: f64 = 1e-9;
 
 /// Formats the drift and the scatter of the energy invariant for a table.
@@ -98,7 +98,7 @@ pub fn drift(s: &RunSummary) -> String {
     format!("{} W, {} J", size(s.energy.drift), size(s.energy.scatter))
 }
 
-/// Describes for a table the work of the step control.
+/// Formats the counts of the step control for a table.
 #[must_use]
 pub fn control(c: &ControlSummary) -> String {
     let rule = match c.rule {
@@ -117,10 +117,10 @@ pub fn control(c: &ControlSummary) -> String {
     text
 }
 
-/// Largest number of contacts and outputs listed in one line.
+/// Largest number of contacts and outputs that are listed in one line.
 const MAX_LISTED: usize = 8;
 
-/// Lists the first contacts of a run, and their number.
+/// Lists the first contacts of a run, and states the number of all contacts.
 fn contacts(s: &RunSummary) -> Option<String> {
     if s.contacts.is_empty() {
         return None;
@@ -146,13 +146,13 @@ pub fn violation(s: &RunSummary) -> String {
     format!("{position} m, {velocity} m/s, {acceleration} m/s^2 (or rad)")
 }
 
-/// Says when, where and why a run stopped, and what to try, in one sentence each.
+/// Formats the message of an early stop: when, where and why the run stopped, and what to do.
 #[must_use]
 pub fn stop_text(error: &RunError) -> String {
     format!("{}: {}. Hint: {}.", stopped_at(error), error.message, error.hint)
 }
 
-/// Says when and where a run stopped.
+/// Formats when and where a run stopped.
 #[must_use]
 pub fn stopped_at(error: &RunError) -> String {
     let whose = match (&error.joint, &error.body) {
@@ -164,7 +164,7 @@ pub fn stopped_at(error: &RunError) -> String {
     format!("at t = {} s{whose}", significant(error.time))
 }
 
-/// Returns a note if fewer threads run than were requested.
+/// Returns a note if the run uses fewer threads than were requested.
 #[must_use]
 pub fn few_threads(asked: usize, used: usize) -> Option<String> {
     let are = if used == 1 { "thread is used" } else { "threads are used" };
@@ -172,7 +172,7 @@ pub fn few_threads(asked: usize, used: usize) -> Option<String> {
         .then(|| format!("{used} {are}, not {asked}: more have no work here, or no processor"))
 }
 
-/// Collects notes on unusual properties of a scene, each one once.
+/// Collects notes on unusual properties of a scene and its run; no note is repeated.
 pub fn notes<T: Real>(
     scene: &Scene<T>,
     settings: &ResolvedMethod,
@@ -232,7 +232,8 @@ pub fn notes<T: Real>(
     notes
 }
 
-/// Returns the note on extrapolation about the accumulated error: its long steps have errors close to the tolerance, and the errors add up.
+/// Returns the note on the accumulated error of the extrapolation method. Its long steps have errors close to the tolerance, and these
+/// errors add up.
 fn summed<T: Real>(settings: &ResolvedMethod, s: &RunSummary) -> Option<String> {
     if settings.integrator != IntegratorKind::Extrapolation || s.steps < 2 {
         return None;
@@ -251,11 +252,12 @@ fn summed<T: Real>(settings: &ResolvedMethod, s: &RunSummary) -> Option<String> 
 
 /// Smallest change of a coordinate at the start that is reported [m or rad], because numbers in files have six or more digits.
 const REPORTED_CHANGE: f64 = 1e-6;
-/// Rounding error of positions that is reported, relative to the size of a body [-]: a tenth of the accuracy 1e-4 documented for single
-/// precision.
+/// Smallest rounding error of positions that is reported, relative to the size of a body [-]. It is a tenth of 1e-4, the accuracy that is
+/// documented for single precision.
 const SPOILT: f64 = 1e-5;
 
-/// Returns the body whose positions have the largest rounding error relative to its size, and that ratio, if it exceeds `SPOILT`.
+/// Returns the body whose positions have the largest rounding error relative to the body's size, and this ratio; `None` if no ratio exceeds
+/// `SPOILT`.
 fn spoilt<T: Real>(scene: &Scene<T>) -> Option<(&str, f64)> {
     let mut places: Vec<Vec<[f64; 3]>> = scene
         .bodies
@@ -279,7 +281,7 @@ fn spoilt<T: Real>(scene: &Scene<T>) -> Option<(&str, f64)> {
         let spread = places
             .iter()
             .fold(0.0, |a: f64, p| a.max(size(std::array::from_fn(|i| p[i] - first[i]))));
-        // Points that coincide in this precision may differ in the file. The radius of gyration gives the size of the body then.
+        // Points that coincide in this precision may differ in the file. In this case the radius of gyration gives the size of the body.
         let inertia = match body.inertia {
             Inertia::Planar(polar) => polar.to_f64(),
             Inertia::Spatial(six) => six[..3].iter().map(|x| x.to_f64()).fold(0.0, f64::max),

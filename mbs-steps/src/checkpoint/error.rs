@@ -20,10 +20,10 @@ pub enum CheckpointError {
     Torn {
         /// Number of bytes after the header, as stated in the header.
         stated: u64,
-        /// Number of bytes found; one more than stated if the file is longer.
+        /// Number of bytes found after the header. If the file is longer than stated, it is the stated number plus one.
         found: u64,
     },
-    /// The checksum of the bytes differs from the stored one, so the file was changed after it was written.
+    /// The checksum of the bytes differs from the stored checksum, so the file was changed after it was written.
     Checksum,
     /// The bytes are complete, but are no state of this scene.
     Misfit,

@@ -12,9 +12,10 @@ use std::path::Path;
 
 /// First bytes of a checkpoint.
 const MAGIC: [u8; 8] = *b"mbs-ckpt";
-/// Version number of the file format. It increases with every change of the layout, and files with other numbers are not read.
+/// Version number of the file format. It increases with every change of the layout. Files with another number are not read.
 const FORMAT: u32 = 6;
-/// Length of the header in bytes: magic, format, length, checksum. The stored length and checksum cover the bytes after it.
+/// Length of the header in bytes. The header has magic, format, length and checksum; stored length and checksum cover the bytes after the
+/// header.
 const N_HEAD: usize = 28;
 
 /// Content of a checkpoint.
@@ -26,7 +27,7 @@ pub enum Kind {
     Run,
 }
 
-/// A checkpoint that was read: it is complete, and of this version of mbs.
+/// Checkpoint after it was read: it is complete, and was written by this version of mbs.
 #[derive(Debug, Clone)]
 pub struct Checkpoint {
     identity: Identity,
@@ -45,7 +46,7 @@ impl Checkpoint {
         Self::read(std::fs::File::open(path)?)
     }
 
-    /// Reads a checkpoint; reads at most one byte after its end.
+    /// Reads a checkpoint from a source. At most one byte after the end of the checkpoint is read.
     ///
     /// # Errors
     /// [`CheckpointError`] for data that is no checkpoint, is incomplete, or was written by another version.
@@ -94,8 +95,8 @@ impl Checkpoint {
         self.times[1]
     }
 
-    /// Settings for the resumed run: the given ones and those of the checkpoint. Given settings must equal those of the checkpoint, except
-    /// the number of threads.
+    /// Settings for the resumed run: the given settings, completed by the settings of the checkpoint. Given settings must equal those of
+    /// the checkpoint, except the number of threads.
     ///
     /// # Errors
     /// [`CheckpointError::Settings`] for invalid settings, [`CheckpointError::Setting`] for a setting that differs from the checkpoint.
@@ -108,8 +109,8 @@ impl Checkpoint {
         self.settle(settings.map_err(CheckpointError::Settings)?)
     }
 
-    /// Returns the given settings, completed by those of the checkpoint. A caller makes a [`ResolvedMethod::new`] from them, and
-    /// [`settle`](Self::settle) compares it with the checkpoint. The two functions together are [`settings`](Self::settings).
+    /// Returns the given settings, completed by the settings of the checkpoint. The caller makes a [`ResolvedMethod::new`] from them, and
+    /// [`settle`](Self::settle) compares it with the checkpoint. The function [`settings`](Self::settings) does both.
     ///
     /// # Errors
     /// [`CheckpointError::Setting`] for a setting that differs from the checkpoint.
@@ -117,7 +118,8 @@ impl Checkpoint {
         self.identity.overrides(given)
     }
 
-    /// Returns the settings that were resolved from [`overrides`](Self::overrides), after a check that they are those of the checkpoint.
+    /// Returns the resolved settings after a check that they equal those of the checkpoint. They were resolved from
+    /// [`overrides`](Self::overrides).
     ///
     /// # Errors
     /// [`CheckpointError::Setting`] for a setting that differs from the checkpoint.
@@ -135,13 +137,13 @@ impl Checkpoint {
         Eye(&self.body)
     }
 
-    /// Has the checkpoint the record of a run?
+    /// True if the checkpoint has the record of a run.
     pub fn is_of_run(&self) -> bool {
         self.kind == Kind::Run
     }
 }
 
-/// Writes or reads the parts before the state: version, kind, times and identity.
+/// Writes or reads the parts that precede the state: version, kind, times and identity.
 fn walk(
     tape: &mut impl Tape,
     kind: &mut Kind,

@@ -5,9 +5,9 @@ use mbs_core::Real;
 use mbs_core::history::{Entry, Numbers, Shape};
 use mbs_core::model::State;
 
-/// Parts of a checkpoint that several owners use.
+/// Writing and reading of data types that several parts of a checkpoint contain.
 pub(super) trait Parts: Tape {
-    /// Writes or reads the history of a formulation: its values in order, without their names.
+    /// Writes or reads the history of a formulation (the values that its next step depends on), in order and without their names.
     fn history<T: Real>(&mut self, entries: &mut [Entry<T>]) -> Walked {
         entries.iter_mut().try_for_each(|Entry { shape, numbers, .. }| match numbers {
             Numbers::Reals(x) => array(self, *shape, (x, 8), Self::real),
@@ -22,7 +22,7 @@ pub(super) trait Parts: Tape {
         })
     }
 
-    /// Writes or reads the memory of the step control by error estimates.
+    /// Writes or reads the stored values of the step control by error estimates.
     fn errors(&mut self, (memory, was_rejected): &mut (Option<f64>, bool)) -> Walked {
         self.option(memory, Tape::float)?;
         self.flag(was_rejected)
@@ -101,7 +101,7 @@ fn array<P: Tape, E: Copy + Default + PartialEq>(
     x.iter_mut().try_for_each(|x| each(tape, x))
 }
 
-/// Writes or reads a number of rows, which must be the number in the model.
+/// Writes or reads a number of rows. Reading fails if the number differs from the model's number `n`.
 fn same(tape: &mut impl Tape, n: usize) -> Walked {
     let mut found = n as u64;
     tape.count(&mut found)?;

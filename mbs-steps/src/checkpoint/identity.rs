@@ -24,7 +24,8 @@ const PARTS: [&str; 12] = [
     "[solver]",
 ];
 
-/// Settings that must equal those of the checkpoint, in the order of the file format. Further settings follow in the order of the table.
+/// Settings that must equal those of the checkpoint, in the order in which the file stores them. Further settings follow in the order of
+/// the table.
 const FORMAT: [&str; 13] = [
     "formulation",
     "integrator",
@@ -41,7 +42,7 @@ const FORMAT: [&str; 13] = [
     "tolerance",
 ];
 
-/// Setting that may differ from the checkpoint, because the results are bitwise the same for any number of threads.
+/// Name of the only setting that may differ from the checkpoint, because the results are bitwise the same for any number of threads.
 const FREE: &str = "threads";
 
 /// Returns the settings that must equal those of the checkpoint.
@@ -70,7 +71,8 @@ impl Default for Identity {
 }
 
 impl Identity {
-    /// Makes the identity of a scene in the precision of its run. Comments, the order of keys and the name of the file do not change it.
+    /// Computes the identity of a scene and its settings, in the precision of the run. Comments, the order of keys and the name of the file
+    /// do not change it.
     pub fn new<T: Real>(scene: &Scene<T>, settings: &ResolvedMethod) -> Self {
         let (parts, values) = (fingerprints(scene), values(settings));
         Self { parts, values, asked: settings.asked.clone() }
@@ -98,7 +100,8 @@ impl Identity {
     /// Returns the given settings, completed by those of the checkpoint.
     pub(super) fn overrides(&self, given: &Method) -> Result<Method, CheckpointError> {
         let mut method = given.clone();
-        // The same requested formulation, such as `auto`, stands for the formulation that the checkpoint's run used.
+        // A requested formulation that equals the checkpoint's request (for example `auto`) selects the formulation that the checkpoint's
+        // run used.
         if method.formulation.as_ref() == Some(&self.asked) {
             method.formulation = None;
         }
@@ -112,7 +115,7 @@ impl Identity {
         Ok(method)
     }
 
-    /// Returns the settings after a check that they are those of the checkpoint. The requested formulation is taken from the checkpoint.
+    /// Returns the settings after a check that they equal those of the checkpoint. The requested formulation is taken from the checkpoint.
     pub(super) fn settle(
         &self,
         settings: ResolvedMethod,
@@ -171,7 +174,8 @@ fn fingerprints<T: Real>(scene: &Scene<T>) -> [u64; PARTS.len()] {
     ]
 }
 
-/// Returns the fingerprint of all fields in their `Debug` form, which has numbers as the shortest text that reads back exactly.
+/// Returns the fingerprint of all fields in their `Debug` form, because this form has each number as the shortest text that reads back
+/// exactly.
 fn of(part: &impl Debug) -> u64 {
     let mut print = Fingerprint::new();
     // Writing into a fingerprint cannot fail.

@@ -5,8 +5,8 @@
 //! ```
 //!
 //! [`Simulation::save`] and [`Simulation::restore`] are for programs that make the steps themselves. `mbs run` saves a run and its record
-//! with [`CheckpointWriter`]. docs/CHECKPOINT.md describes the content of the file. The numerical crates return their memory between steps
-//! as plain histories, and only this module defines the file format.
+//! with [`CheckpointWriter`]. docs/CHECKPOINT.md describes the content of the file. The numerical crates return their stored values as
+//! plain data; only this module defines the file format.
 
 mod error;
 mod file;

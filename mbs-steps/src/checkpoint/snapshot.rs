@@ -16,11 +16,11 @@ pub struct SimulationSnapshot<T> {
     pub formulation: History<T>,
     pub control: Option<ControlSnapshot<T>>,
     pub invariant: [f64; Invariant::N_HISTORY],
-    /// Inputs of effects, of guides and of signals, by index; for signals only the first value is used.
+    /// Inputs of effects, inputs of guides, and inputs of signals, each with its index. For signals only the first value is used.
     pub inputs: [Vec<(usize, [T; 3])>; 3],
 }
 
-/// Memory of the step control.
+/// Data of the step control that the next step depends on.
 #[derive(Debug, Clone)]
 pub struct ControlSnapshot<T> {
     pub driver: DriverHistory<T>,
@@ -69,7 +69,7 @@ impl<T: Real> ControlSnapshot<T> {
     }
 }
 
-/// Returns the inputs that are set in a state: of effects, of guides, and of signals.
+/// Returns the current inputs of a state: those of effects, of guides, and of signals.
 pub fn inputs<T: Real>(prescribed: &Prescribed<T>, inputs: &[T]) -> [Vec<(usize, [T; 3])>; 3] {
     let of_signals = prescribed.signals().inputs();
     let (threes, ones) = inputs.split_at(inputs.len() - of_signals.len());

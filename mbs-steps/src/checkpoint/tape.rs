@@ -1,8 +1,8 @@
-//! Tapes: one function for each type both writes it and reads it, so that the two cannot differ. Numbers are little-endian; a list follows
-//! its length.
+//! Tapes: byte streams to which values are written, or from which values are read. One function for each type does both, so that writing
+//! and reading always agree. Numbers are little-endian. A list is stored after its length.
 //!
-//! Reading invalid bytes gives an error and no panic. A list is never longer than the remaining bytes allow. A physical value is finite,
-//! and a count is small enough to increase without overflow.
+//! Invalid bytes cause an error and no panic. A list is never longer than the remaining bytes allow. A physical value is finite, and a
+//! count is small enough to increase without overflow.
 
 use super::CheckpointError;
 use crate::precision::is_finer;
@@ -12,9 +12,9 @@ use mbs_core::Real;
 /// Result of writing or reading on a tape.
 pub type Walked = Result<(), CheckpointError>;
 
-/// Largest count of 64 bits in a file; a larger one could overflow during the run.
+/// Largest 64-bit count in a file. A larger count could overflow during the run.
 const MAX_U64: u64 = 1 << 60;
-/// Largest count of 32 bits in a file; a larger one could overflow during the run.
+/// Largest 32-bit count in a file. A larger count could overflow during the run.
 const MAX_U32: u32 = 1 << 30;
 
 /// Bytes to which values are written, or from which values are read.
@@ -23,7 +23,7 @@ const MAX_U32: u32 = 1 << 30;
     reason = "each fails with a `CheckpointError` where the bytes are not those of the item"
 )]
 pub trait Tape: Sized {
-    /// Writes these bytes, or replaces them by the bytes read.
+    /// Writes the given bytes, or replaces them by bytes that are read.
     fn bytes(&mut self, bytes: &mut [u8]) -> Walked;
 
     /// Number of bytes that remain to be read; `None` for a tape that writes.
@@ -53,7 +53,7 @@ pub trait Tape: Sized {
         holds(*x <= MAX_U32)
     }
 
-    /// Writes or reads an index, which must be below a limit.
+    /// Writes or reads an index, which must be less than `below`.
     fn index(&mut self, x: &mut usize, below: usize) -> Walked {
         let mut count = *x as u64;
         self.count(&mut count)?;

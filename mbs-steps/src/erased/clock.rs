@@ -1,4 +1,5 @@
-//! Time of a simulation that a caller steps. Times are multiples of the step, because a sum of many steps would accumulate rounding errors.
+//! Time of a simulation that a caller steps. Times are multiples of the step length, because a sum of many steps would accumulate rounding
+//! errors.
 
 use crate::checkpoint::tape::{Tape, Walked};
 use crate::driver::multiple;
@@ -9,7 +10,7 @@ use mbs_core::Real;
 pub struct StepClock<T> {
     /// Time at which the series begins [s].
     origin: T,
-    /// Length of its steps [s], as requested and in the precision of the run.
+    /// Length of each step [s], as requested and in the precision of the run.
     dt: (f64, T),
     count: u64,
     /// Time at the end of the last step [s].

@@ -6,7 +6,7 @@ use mbs_scene::{Place, ReadError, SweepFault, WriteError, nearest_name};
 
 /// Error of the public API: its code, time, joint, body, hint and place in the file.
 pub trait Error: core::error::Error {
-    /// Code of the error, a word that is part of the contract.
+    /// Code of the error: a constant word for programs, which is part of the contract (docs/CONTRACT.md).
     fn code(&self) -> &'static str;
     /// Time in the run [s].
     fn time(&self) -> Option<f64> {
@@ -20,11 +20,11 @@ pub trait Error: core::error::Error {
     fn body(&self) -> Option<&str> {
         None
     }
-    /// Hint on what to do.
+    /// Hint for the user: what to do about the error.
     fn hint(&self) -> Option<String> {
         None
     }
-    /// Line and column of the file.
+    /// Line and column of the error in the file.
     fn place(&self) -> Option<Place> {
         None
     }
@@ -48,7 +48,7 @@ impl Error for WriteError {
     }
 }
 
-/// Error of a name that no part of that kind has.
+/// Error for a name that no part of the given kind has.
 #[derive(Debug, Clone, PartialEq)]
 pub struct UnknownName {
     pub word: &'static str,
@@ -82,7 +82,7 @@ impl Error for UnknownName {
     }
 }
 
-/// Error of a path to a number of a mechanism, or of a mechanism that has no paths.
+/// Error of a path that should lead to a number of a mechanism, or of a mechanism that has no paths.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum PathError {
@@ -166,7 +166,7 @@ impl SceneError {
         Self { error, part, place: place.map(Box::new) }
     }
 
-    /// The entry, its key and the fault with its values.
+    /// Returns the entry, its key, and the fault with its values.
     #[must_use]
     pub fn error(&self) -> &Refused {
         &self.error

@@ -63,7 +63,7 @@ impl SimulationError {
         found.with_cause(error)
     }
 
-    /// Sets the joint that the error is about.
+    /// Sets the name of the joint that the error concerns.
     pub fn about(mut self, joint: Option<String>) -> Self {
         self.0.joint = joint;
         self
@@ -97,7 +97,7 @@ impl SimulationError {
         self
     }
 
-    /// Converts the error into one that stops a run.
+    /// Converts the error into a reason that stops a run.
     pub fn into_stop(self) -> StopError {
         match self.cause::<StopError>() {
             Some(stop) => stop.clone(),
@@ -139,7 +139,7 @@ impl Error for SimulationError {
 impl Display for SimulationError {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let Parts { message, time, joint, body, hint, place, .. } = &*self.0;
-        // The message of an error in a file begins with the place already.
+        // The message of an error in a file already begins with the place.
         if let Some(place) = place.as_ref().filter(|_| self.cause::<ReadError>().is_none()) {
             write!(f, "{}:{}: ", place.line, place.column)?;
         }

@@ -10,8 +10,8 @@ use mbs_core::Real;
 use mbs_scene::Component;
 use std::sync::Arc;
 
-/// User-defined output of a mechanism: a number computed from a mechanism at an instant. A closure with a [`View`] as its argument is such
-/// a function.
+/// User-defined output of a mechanism: a number that is computed from the mechanism at an instant. A closure with a [`View`] as its
+/// argument is such an output too.
 ///
 /// ```
 /// use mbs::{Mechanism, OutputFunction, View};
@@ -48,7 +48,7 @@ impl<F: Fn(&View<'_>) -> f64 + Send + Sync> OutputFunction for F {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct FunctionId(pub usize);
 
-/// User-defined output with its name. It is stored beside the scene; clones refer to the same function.
+/// User-defined output with its name. It is not part of the scene. Clones refer to the same function.
 #[derive(Clone)]
 pub struct Function {
     pub name: String,
@@ -67,7 +67,7 @@ impl Debug for Function {
     }
 }
 
-/// Columns of a run for the user-defined outputs of a mechanism.
+/// Columns of a run that hold the user-defined outputs of a mechanism.
 #[allow(
     missing_debug_implementations,
     reason = "it holds what has none, and is made and used in one call"

@@ -1,4 +1,4 @@
-//! Simulations with a hidden scalar and dimension: one interface, implemented for every scalar and dimension.
+//! Simulations whose scalar and dimension are hidden: one interface that is implemented for every scalar and dimension.
 
 use super::clock::StepClock;
 use super::inputs::Sink;
@@ -28,7 +28,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 /// A simulation whose scalar and dimension are hidden.
 pub trait Inner: Sink + Debug + Send + Sync {
     fn clone_box(&self) -> Box<dyn Inner>;
-    /// Interface for the quantities of the simulation.
+    /// Interface through which the quantities of the simulation are read.
     fn seen(&self) -> &dyn Read;
     /// Contacts that began or ended since monitoring started.
     fn events(&self) -> &[Instant];
@@ -36,24 +36,25 @@ pub trait Inner: Sink + Debug + Send + Sync {
     fn watch_events(&mut self) -> Result<(), StopError>;
     /// Length of the steps, according to the method [s].
     fn length(&self) -> f64;
-    /// Returns a time as rounded to the precision of the simulation [s], and the relative machine precision.
+    /// Returns a time rounded to the precision of the simulation [s], and the relative machine precision.
     fn rounded(&self, time: f64) -> (f64, f64);
     fn is_controlled(&self) -> bool;
-    /// Is the interrupt flag of the simulation set?
+    /// True if the interrupt flag of the simulation is set.
     fn is_interrupted(&self) -> bool;
     fn set_interrupt(&mut self, interrupt: Interrupt);
-    /// Advances by `dt` [s]; without `dt`, up to the time `to` [s]. If `to` is given, it is the exact time at the end.
+    /// Advances the simulation by `dt` [s], or to the time `to` [s] if `dt` is `None`. If `to` is given, the time at the end is exactly
+    /// `to`.
     fn step(&mut self, dt: Option<f64>, to: Option<f64>) -> Result<StepReport, StopError>;
-    /// Does a guide prescribe the motion of a joint?
+    /// True if the motion of some joint is prescribed by a guide.
     fn is_guided(&self) -> bool;
-    /// Restarts at time `t` [s], from these joint coordinates and rates, or from the scene's initial conditions.
+    /// Restarts the simulation at time `t` [s] from the given joint coordinates and rates; `None`: from the scene's initial conditions.
     fn start(
         &mut self,
         states: Option<&[(JointId, Coordinates, Coordinates)]>,
         t: f64,
     ) -> Result<(), StopError>;
-    /// Restarts at the current time from these motions of the bodies, which satisfy the constraints. Full turns of angles are chosen
-    /// closest to the given joint coordinates.
+    /// Restarts the simulation at the current time from the given motions of the bodies, which satisfy the constraints. For each angle the
+    /// number of full turns is chosen such that it is closest to the given joint coordinate.
     fn place(
         &mut self,
         states: &[(JointId, Coordinates, Coordinates)],
@@ -63,8 +64,8 @@ pub trait Inner: Sink + Debug + Send + Sync {
     fn restore(&mut self, bytes: &[u8]) -> Result<(), CheckpointError>;
 }
 
-/// Largest length of a part, in units of the largest step [-]. A step that an integrator divides internally is made in such parts, so that
-/// an interrupt takes effect between them.
+/// Largest length of a part of a step, in units of the largest step [-]. A step that an integrator divides internally is made in such
+/// parts, so that an interrupt takes effect between them. Chosen, not tuned.
 const INTERRUPTED: f64 = 100.0;
 
 /// Simulation with its scalar, dimension, settings and clock.
@@ -94,7 +95,8 @@ impl<T: Real, const D: usize> Typed<T, D> {
         Ok(Self { seen, settings: settings.clone(), clock, contacts: None })
     }
 
-    /// Replaces this simulation by another one of the same mechanism. The scene is kept, because a later reset uses its initial conditions.
+    /// Replaces this simulation by another simulation of the same mechanism. The original scene remains, because a later reset uses its
+    /// initial conditions.
     fn take(&mut self, fresh: Self) {
         let (own, contacts) = (self.seen.scene.clone(), self.contacts.take());
         *self = fresh;
@@ -102,7 +104,7 @@ impl<T: Real, const D: usize> Typed<T, D> {
         self.rewatch();
     }
 
-    /// Clears the list of contacts, because the state is no longer the one after the last step.
+    /// Clears the list of contacts, because the current state was set and is not the end of the last step.
     fn rewatch(&mut self) {
         if let Some(contacts) = &mut self.contacts {
             contacts.resume(self.seen.simulation.state(), &[], 0);
@@ -179,7 +181,7 @@ impl<T: Real, const D: usize> Inner for Typed<T, D> {
         let readings = readings.get_mut().unwrap_or_else(PoisonError::into_inner);
         let fixed = (!simulation.is_controlled()).then_some(length);
         let mut watch = Watch { readings, contacts, sum: StepReport::default() };
-        // An interrupt ends a call between two steps, but not after its last step.
+        // An interrupt ends the call between two steps. After the last step the call is complete, so no interrupt is reported.
         let mut stretch = Stretch { is_last: true, ..Stretch::to(end).in_one(fixed) };
         let parts = (dt / (settings.step_max * INTERRUPTED)).ceil();
         if fixed.is_some() && settings.integrator.controls_its_step() && parts > 1.0 {
@@ -261,7 +263,7 @@ impl<T: Real, const D: usize> Inner for Typed<T, D> {
     }
 }
 
-/// Returns the scene with these initial coordinates and rates of its joints.
+/// Returns the scene with the given initial coordinates and rates of its joints.
 pub fn started<T: Real>(
     own: &Scene<T>,
     states: &[(JointId, Coordinates, Coordinates)],
@@ -312,7 +314,7 @@ impl<T: Real, const D: usize> StepObserver<T, D> for Watch<'_, T, D> {
     }
 }
 
-/// Builds the simulation of a scene in the precision that it was read in.
+/// Builds the simulation of a scene in the precision of the scene's numbers.
 ///
 /// # Errors
 /// [`StopError`] if there is no model, no consistent start, or no such formulation.

@@ -1,4 +1,4 @@
-//! Tables over time that inputs follow; in the scene the inputs then are tables.
+//! Tables over time that inputs follow. In the scene, each such input is replaced by a table.
 //!
 //! The first column is `t`, and the other columns have the names of inputs. Values are linear between rows, and constant before the first
 //! and after the last row. The motion of a guide or a coupling is the cubic spline through its values.
@@ -13,7 +13,7 @@ use mbs_core::scene::{
 };
 use mbs_scene::{Place, nearest_name};
 
-/// A table over time that inputs follow, from numbers or from CSV. Its columns have the names of inputs of a mechanism.
+/// Table over time that inputs follow, from numbers or from CSV. Its columns have the names of inputs of a mechanism.
 ///
 /// ```
 /// use mbs::{InputTable, Mechanism};
@@ -77,22 +77,22 @@ impl InputTable {
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum InputTableError {
-    /// Error in a file: its name, the place in it, the message and the hint.
+    /// Error in a file: name of the file, place in the file, message and hint.
     Table {
         /// Name of the file as given.
         file: String,
         /// Line number, column number and text of the line.
         place: Place,
-        /// Message on what is wrong.
+        /// Message that says what is wrong in the file.
         message: String,
-        /// Hint on what to do.
+        /// Hint for the user: what to do about the error.
         hint: String,
     },
     /// Error in a table of numbers: the message and the hint.
     Numbers {
-        /// Message on what is wrong.
+        /// Message that says what is wrong in the numbers.
         message: String,
-        /// Hint on what to do.
+        /// Hint for the user: what to do about the error.
         hint: String,
     },
 }
@@ -106,7 +106,7 @@ impl InputTableError {
         }
     }
 
-    /// Hint on what to do.
+    /// Hint for the user: what to do about the error.
     #[must_use]
     pub fn hint(&self) -> &str {
         match self {
@@ -143,7 +143,7 @@ enum Source<'a> {
 }
 
 impl Source<'_> {
-    /// Returns the error at a field (counted from 0) of a line (counted from 1).
+    /// Returns an error that refers to a field (counted from 0) of a line (counted from 1).
     fn fault<R>(
         self,
         (line, field): (u64, usize),
@@ -166,11 +166,11 @@ impl Source<'_> {
     }
 }
 
-/// A table after it was read.
+/// Table of inputs after it was read.
 struct Table<'a> {
-    /// The input of each column after the first one.
+    /// Input that each column belongs to; the first column, which is the time, is not included.
     columns: Vec<&'a InputInfo>,
-    /// Time and values of each row.
+    /// Time and values of each row of the table.
     rows: Vec<Vec<Number>>,
 }
 
@@ -247,13 +247,13 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// Time and value of one input, for each row; `None` if it has no column.
+    /// Returns time and value of an input for each row; `None` if the table has no column for the input.
     fn pairs(&self, info: &InputInfo) -> Option<Vec<[Number; 2]>> {
         let place = self.columns.iter().position(|column| *column == info)?;
         Some(self.rows.iter().map(|row| [row[0].clone(), row[place + 1].clone()]).collect())
     }
 
-    /// Writes all columns of an owner into the scene.
+    /// Writes all columns that belong to an owner into the scene.
     fn write(&self, scene: &mut Scene<Number>, owner: InputOwner) {
         let own = || self.columns.iter().filter(|column| column.owner == owner);
         let rows = own().next().and_then(|info| self.pairs(info)).unwrap_or_default();
@@ -278,7 +278,7 @@ impl<'a> Table<'a> {
     }
 }
 
-/// Message on a table without rows.
+/// Error message for a table without rows.
 const NO_ROW: &str = "there is no row of values";
 
 fn not_after(time: &str) -> String {

@@ -9,12 +9,12 @@ use mbs_core::scene::{
 use mbs_core::step::InputError;
 use std::sync::Arc;
 
-/// An input of a simulation, by its index in `Simulation::inputs`.
+/// Index of an input in the list `Simulation::inputs`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct InputId(usize);
 
 impl InputId {
-    /// The input at an index of the list.
+    /// Makes the identifier of the input at an index of the list.
     #[must_use]
     pub fn new(index: usize) -> Self {
         Self(index)
@@ -27,7 +27,7 @@ impl InputId {
     }
 }
 
-/// Receiver of inputs: a simulation, or a run before one of its steps.
+/// Receiver of input values: a simulation, or a run before one of its steps.
 pub trait Sink {
     fn set_effect_input(&mut self, effect: usize, value: [f64; 3]) -> Result<(), InputError>;
     fn set_guide_input(&mut self, guide: usize, motion: [f64; 3]) -> Result<(), InputError>;
@@ -42,11 +42,11 @@ pub enum InputOwner {
     Effect(EffectId),
     /// The prescribed motion of a guide.
     Guide(GuideId),
-    /// The prescribed sum of a coupling.
+    /// The prescribed value of a coupling's weighted sum of coordinates.
     Coupling {
-        /// Coupling that has the sum.
+        /// Coupling whose sum is prescribed.
         coupling: CouplingId,
-        /// Index of the sum, counted after the guides of the scene.
+        /// Index of the sum among the prescribed motions, which are the guides of the scene and then the sums of couplings.
         sum: GuideId,
     },
     /// A signal of the scene.
@@ -57,8 +57,8 @@ pub enum InputOwner {
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct InputInfo {
-    /// Name of the input. For an effect it is `NAME`, or `NAME.x` for a component of a vector. For a guide it is `JOINT`, `JOINT.rate` or
-    /// `JOINT.acceleration`; a coupling has the same suffixes after its name. For a signal it is `NAME`.
+    /// Name of the input. For an effect it is `NAME`, or `NAME.x` (`.y`, `.z`) for a component of a vector. For a guide it is `JOINT`,
+    /// `JOINT.rate` or `JOINT.acceleration`. For a coupling it is its name, alone or with the same suffixes. For a signal it is `NAME`.
     pub name: String,
     /// Unit of the input; empty for the input of a user-defined law.
     pub unit: String,
@@ -137,7 +137,7 @@ impl Inputs {
         &self.list
     }
 
-    /// Returns the index of each input among the inputs of a state.
+    /// Returns for each input its index in the vector of inputs of a state.
     pub fn places(&self, prescribed: &Prescribed<f64>) -> Vec<usize> {
         let place = |info: &InputInfo| {
             let first = match info.owner {
@@ -224,7 +224,7 @@ impl Inputs {
         Ok(())
     }
 
-    /// Checks the number of values; another simulation of the same mechanism has the same number.
+    /// Checks that the number of values equals the number of inputs. Another simulation of the same mechanism has the same number.
     pub fn check(&self, values: &[f64]) -> Result<(), SimulationError> {
         if values.len() == self.values.len() { Ok(()) } else { Err(self.missing(values.len())) }
     }
@@ -283,7 +283,7 @@ fn finite(input: &InputInfo, value: f64) -> Result<(), SimulationError> {
     Err(SimulationError::new("input-refused", message, "give a finite number"))
 }
 
-/// The signal of an effect, its number of components, and their unit.
+/// Returns the signal of an effect, the number of its components, and their unit.
 fn signal(
     kind: &EffectKind<f64>,
     dimension: Dimension,

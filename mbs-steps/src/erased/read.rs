@@ -1,6 +1,7 @@
-//! Quantities of a simulation between steps and of a run at an instant; both types get the same methods from one macro.
+//! Methods that read quantities of a simulation between steps, and of a run at an instant. One macro defines them for both types.
 
-/// Methods that read quantities. The type must have `seen`, the object to read, and `stopped`, which converts a stop reason to an error.
+/// Defines the methods that read quantities. The type must have the methods `seen`, which returns the object to read, and `stopped`, which
+/// converts a stop reason to an error.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! readings {
@@ -88,11 +89,11 @@ macro_rules! readings {
                 self.seen().reaction(joint.index()).map_err(|error| self.stopped(error))
             }
 
-            /// Force and moment of an effect on its body, or on the second of its two bodies [N, N m]. For an effect on a joint this is the
-            /// joint's second body.
+            /// Force and moment that an effect exerts on its body [N, N m]. If the effect acts between two bodies, it is the load on the
+            /// second body. For an effect on a joint, it is the load on the joint's second body.
             ///
-            /// The moment is about the current position of the effect's attachment point on that body. An effect about an angle has a
-            /// moment only. A disabled effect has no force. The first of the two bodies receives the opposite force along the same line.
+            /// The moment is about the current position of the effect's attachment point on that body. An effect on an angle has a moment
+            /// only. A disabled effect has no force. The first of the two bodies receives the opposite force along the same line.
             ///
             /// Cost: the first call prepares all effects; each call evaluates the laws of this effect.
             ///
@@ -129,7 +130,7 @@ macro_rules! readings {
             }
 
             /// Writes all outputs in their order. `out` has up to [`n_outputs`](Self::n_outputs) values; a shorter slice receives the first
-            /// ones.
+            /// values.
             ///
             /// # Errors
             /// If a component is not finite.

@@ -1,4 +1,4 @@
-//! Readings of a simulation: computed by the first call after a step, and stored until the next step.
+//! Readings of a simulation: quantities that the first call after a step computes, and that are stored until the next step.
 
 use super::values::{Coordinates, Wrench};
 use crate::channels::Channels;
@@ -18,9 +18,9 @@ pub struct Readings<T: Real, const D: usize> {
     rates: Group<T, D>,
     /// Outputs that the scene names; `None`: the outputs are the joint coordinates.
     outputs: Option<Group<T, D>>,
-    /// Created by the first call that needs reactions; the flag is true if they belong to the current state.
+    /// Reactions, created by the first call that needs them. The flag is true if they belong to the current state.
     reactions: Option<(Box<Reactions<T, D>>, bool)>,
-    /// Created by the first call that needs the force of an effect.
+    /// Forces of effects, created by the first call that needs them.
     effects: Option<Box<EffectWrenches<T, D>>>,
 }
 
@@ -61,7 +61,7 @@ impl<T: Real, const D: usize> Group<T, D> {
         Ok(())
     }
 
-    /// Returns the components of a channel, and whether all components of the row are finite.
+    /// Returns the components of a channel. The second value is an error if some component of the row is not finite.
     fn of(
         &mut self,
         channel: usize,
@@ -93,7 +93,7 @@ impl<T: Real, const D: usize> Readings<T, D> {
         })
     }
 
-    /// Follows angles over a step, so that full turns are counted.
+    /// Updates tracked angles after a step, so that full turns are counted.
     pub fn follow(&mut self, simulation: &Simulation<T, D>) -> Result<(), StopError> {
         self.stale();
         self.joints.channels.track(simulation)?;
@@ -104,7 +104,7 @@ impl<T: Real, const D: usize> Readings<T, D> {
         self.outputs.as_mut().unwrap_or(&mut self.joints)
     }
 
-    /// Marks the values as out of date, so that the next call evaluates the current state.
+    /// Marks all stored values as out of date, so that the next call evaluates the current state.
     pub fn stale(&mut self) {
         for group in [&mut self.joints, &mut self.rates].into_iter().chain(&mut self.outputs) {
             group.is_present = false;
@@ -170,7 +170,7 @@ impl<T: Real, const D: usize> Readings<T, D> {
         })
     }
 
-    /// Force and moment of an effect on its body, or on the second of its two bodies [N, N m].
+    /// Force and moment that an effect exerts on its body, or on the second body if it acts between two bodies [N, N m].
     pub fn effect(
         &mut self,
         effect: usize,

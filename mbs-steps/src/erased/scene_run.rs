@@ -21,13 +21,13 @@ use mbs_core::control::Accepted;
 use mbs_core::scene::Scene;
 use mbs_realtime::Clock;
 
-/// A run of a scene: its method, its observers, and the rows it keeps.
+/// Run of a scene: its method, its observers, and the rows that stay in memory.
 #[allow(
     missing_debug_implementations,
     reason = "it holds what has none, and is made and used in one call"
 )]
 pub struct SceneRun<'a, 'b> {
-    /// Settings of the steps.
+    /// Settings of the run, all resolved to values.
     pub settings: &'a ResolvedMethod,
     /// Names of the scene.
     pub names: &'a Names,
@@ -37,11 +37,11 @@ pub struct SceneRun<'a, 'b> {
     pub functions: &'a [Function],
     /// Observers, and the inputs that they may set.
     pub observers: (&'a mut [&'b mut dyn Observer], Inputs),
-    /// Receives the time of each step [s].
+    /// Function that receives the simulated time after each step [s].
     pub progress: Option<&'a mut dyn FnMut(f64)>,
     /// Checkpoint to resume from, and the writer of checkpoints.
     pub checkpoints: (Option<&'a Checkpoint>, Option<&'a mut CheckpointWriter>),
-    /// Pacing of the run, and the clock that it follows. A paced run has no observers, user-defined outputs or checkpoints.
+    /// Pacing of the run and its clock; `None`: the run is not paced. A paced run has no observers, user-defined outputs or checkpoints.
     pub pace: Option<(&'a Pacing, &'a mut dyn Clock)>,
 }
 

@@ -26,11 +26,11 @@ pub trait Read: Debug + Send + Sync {
     fn point(&self, body: BodyId, at: [f64; 3]) -> PointMotion;
     fn energies(&self) -> Energies;
     fn sizes(&self) -> Sizes;
-    /// Sets a tree of the same mechanism to the state of the simulation.
+    /// Sets a tree of the same mechanism to the current state of the simulation.
     fn follow(&self, tree: &mut Tree) -> Result<(), TreeError>;
 }
 
-/// A simulation, owned or borrowed for an instant, with its readings.
+/// Simulation with its readings. The simulation is owned, or borrowed for one call.
 #[derive(Debug)]
 pub struct Seen<T: Real, const D: usize, S> {
     pub scene: Arc<Scene<T>>,
@@ -44,7 +44,8 @@ impl<T: Real, const D: usize, S> Seen<T, D, S> {
     }
 
     pub fn read(&self) -> MutexGuard<'_, Readings<T, D>> {
-        // Readings are always recomputed from the state, so a panic during an earlier computation leaves no invalid data.
+        // Readings are always recomputed from the state. So a panic during an earlier computation leaves no invalid data, and a poisoned
+        // lock is ignored.
         self.readings.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
@@ -152,7 +153,7 @@ where
     }
 }
 
-/// Converts components to `f64`; components that the plane lacks are zero.
+/// Converts components to `f64`. For a planar mechanism, the missing third component is zero.
 fn numbers<T: Real>(from: &[T]) -> [f64; 3] {
     core::array::from_fn(|i| from.get(i).map_or(0.0, |x| x.to_f64()))
 }

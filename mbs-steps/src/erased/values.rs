@@ -34,7 +34,7 @@ impl Debug for Coordinates {
     }
 }
 
-/// An array of more than six values is a compile error.
+/// Converts an array; more than six values are a compile error.
 impl<const N: usize> From<[f64; N]> for Coordinates {
     fn from(values: [f64; N]) -> Self {
         const { assert!(N <= 6, "a joint has six coordinates at most") }
@@ -65,8 +65,8 @@ pub type Components = Coordinates;
 pub struct Pose {
     /// Centre of mass [m].
     pub position: [f64; 3],
-    /// Rotation matrix relative to the reference configuration, by rows: the columns are the current directions of axes that were global
-    /// axes there.
+    /// Rotation matrix relative to the reference configuration, by rows. Its columns are the current directions of the body axes that
+    /// coincided with the global axes x, y and z there.
     pub rotation: [[f64; 3]; 3],
 }
 
@@ -145,9 +145,9 @@ pub struct PointMotion {
 pub struct ContactEvent {
     /// Time of the event [s].
     pub time: f64,
-    /// The bumper, limit or tire of the contact.
+    /// Effect that makes the contact: a bumper, a limit or a tire.
     pub effect: EffectId,
-    /// End of a limit: 0 for its lower end, 1 for its upper end; 0 for other effects.
+    /// End of a limit: 0 for the lower end, 1 for the upper end. Other effects have 0.
     pub end: usize,
     /// True if the contact begins, false if it ends.
     pub is_made: bool,
@@ -192,7 +192,7 @@ impl Sizes {
     }
 }
 
-/// Counts of the steps of a call, and their largest violation.
+/// Counts over the steps of one call, and the largest constraint violation.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
 pub struct StepReport {

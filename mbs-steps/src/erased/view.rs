@@ -45,8 +45,8 @@ impl<'a> From<&Self> for View<'a> {
 
 /// Observes a run, sets its inputs, and may end it. All methods do nothing by default.
 ///
-/// An error stops the run with that reason; [`SimulationError::new`] creates a user-defined one. [`ControlFlow::Break`] ends the run
-/// without an error.
+/// An error that an observer returns stops the run and becomes its reason; [`SimulationError::new`] creates a user-defined error.
+/// [`ControlFlow::Break`] ends the run without an error.
 ///
 /// # Examples
 /// ```
@@ -83,7 +83,7 @@ impl<'a> From<&Self> for View<'a> {
 /// # Ok::<(), SimulationError>(())
 /// ```
 pub trait Observer {
-    /// Sets inputs before a step; they hold until they are set again.
+    /// Sets inputs before a step. The values hold until they are set again.
     ///
     /// # Errors
     /// The error that stops the run.
@@ -109,13 +109,13 @@ pub trait Observer {
         Ok(ControlFlow::Continue(()))
     }
 
-    /// Receives the end of a run; `stop` is the reason if it stopped early.
+    /// Receives the final state of a run; `stop` is the reason if the run stopped early.
     fn end(&mut self, now: &View<'_>, stop: Option<&SimulationError>) {
         let _ = (now, stop);
     }
 }
 
-/// The inputs of a run, which can be set before a step, as those of a `Simulation`.
+/// Inputs of a run, which an observer can set before a step.
 #[derive(Debug)]
 pub struct RunInputs<'a> {
     inputs: &'a mut Inputs,
@@ -137,7 +137,7 @@ impl RunInputs<'_> {
         self.inputs.of_effect(effect)
     }
 
-    /// Sets an input from now on: it acts during the whole next step.
+    /// Sets the value of an input. The value acts from the beginning of the next step until it is set again.
     ///
     /// # Errors
     /// A value that is not finite, or an input of another mechanism. Then no input is set.
@@ -154,7 +154,7 @@ impl RunInputs<'_> {
     }
 }
 
-/// Inputs that an observer has set and that are not yet in the simulation: owner and values.
+/// Inputs that an observer has set and that the simulation has not yet received: owner and values of each.
 #[derive(Debug, Default)]
 struct Pending(Vec<(InputOwner, [f64; 3])>);
 
@@ -219,7 +219,7 @@ impl<'a, T: Real, const D: usize> Sight<'a, T, D> {
         self.readings.as_mut().map_or(Ok(()), |readings| readings.follow(now))
     }
 
-    /// Shows the current state to observers.
+    /// Calls a function with the view of the current state.
     pub fn show<R>(
         &mut self,
         now: &Simulation<T, D>,
@@ -236,7 +236,7 @@ impl<'a, T: Real, const D: usize> Sight<'a, T, D> {
     }
 }
 
-/// Adapter: several observers in `f64`, as one observer of a run in its scalar and dimension.
+/// Adapter that makes several observers in `f64` one observer of a run in its scalar and dimension.
 #[allow(
     missing_debug_implementations,
     reason = "it holds what has none, and is made and used in one call"
@@ -301,7 +301,7 @@ impl<T: Real, const D: usize> typed::StepObserver<T, D> for Observed<'_, '_, T, 
     fn end(&mut self, now: &Simulation<T, D>, stop: Option<&StopError>) {
         let (t, names) = (now.state().t.to_f64(), self.sight.names);
         let stop = stop.map(|stop| SimulationError::stopped(stop.clone(), t, names));
-        // The run has ended, so an error of an observer cannot stop it and is ignored.
+        // The run has already ended, so an error that an observer returns here is ignored.
         let _ = self.show(now, |observer, now, _| {
             observer.end(now, stop.as_ref());
             Ok(())

@@ -8,7 +8,7 @@ use std::path::PathBuf;
 #[derive(Debug)]
 #[non_exhaustive]
 pub enum FolderError {
-    /// Lock held by another process that writes into the directory; the number of the process, if it can be read.
+    /// The directory is locked by a process that writes into it. The value is the number of that process, if it can be read.
     Busy(Option<u32>),
     /// A directory has the name of a file of the results.
     Taken(PathBuf),

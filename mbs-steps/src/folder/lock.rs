@@ -1,5 +1,5 @@
-//! Lock of a directory: a file in it that is locked by the operating system. The system releases the lock when the process ends, for any
-//! reason.
+//! Lock of a directory: a file in the directory that the operating system locks. The system releases the lock when the process ends, for
+//! any reason.
 
 use super::error::FolderError;
 use std::fs::{self, File, TryLockError};
@@ -16,7 +16,7 @@ pub(super) fn take(folder: &Path) -> Result<File, FolderError> {
         let mut options = File::options();
         let opened = options.read(true).write(true).create(true).truncate(false).open(&path);
         let mut file = match opened {
-            // Another process has removed the directory that it had created.
+            // Another process created the directory, used it, and removed it again. So it is created here.
             Err(error) if error.kind() == ErrorKind::NotFound && !folder.exists() => {
                 fs::create_dir_all(folder)?;
                 continue;
@@ -28,7 +28,7 @@ pub(super) fn take(folder: &Path) -> Result<File, FolderError> {
             // On a file system without locks the directory is used without a lock.
             Err(TryLockError::Error(_)) | Ok(()) => {}
         }
-        // The previous owner may have removed the file after it was opened here.
+        // Another process may have removed the lock file after it was opened here. Then the loop tries again.
         if is_at(&file, &path) {
             // The number of the process only informs a reader, so an error is ignored.
             let _ = name(&mut file);
@@ -54,7 +54,7 @@ fn process(file: &mut File) -> Option<u32> {
     text.trim().parse().ok()
 }
 
-/// Is the open file still the one with this name?
+/// True if the open file still has this path in the directory.
 #[cfg(unix)]
 fn is_at(file: &File, path: &Path) -> bool {
     use std::os::unix::fs::MetadataExt;
@@ -63,7 +63,7 @@ fn is_at(file: &File, path: &Path) -> bool {
     both.is_ok_and(|(open, there)| open == there)
 }
 
-/// Other systems do not let an open file lose its name.
+/// Always true here, because these operating systems do not let an open file lose its name.
 #[cfg(not(unix))]
 fn is_at(_: &File, _: &Path) -> bool {
     true

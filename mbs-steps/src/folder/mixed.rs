@@ -6,7 +6,7 @@ use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
-/// Names of JSON objects that list other files, each with the name of its page.
+/// Names of the JSON objects that list other files, each with the name of its HTML page.
 const OBJECTS: [[&str; 2]; 4] = [
     ["run.json", "run.html"],
     ["compare.json", "compare.html"],
@@ -14,7 +14,7 @@ const OBJECTS: [[&str; 2]; 4] = [
     ["doctor.json", "doctor.html"],
 ];
 
-/// Returns the first file that does not belong to the results of its JSON object, and the name of that object.
+/// Returns the name of the first file that does not belong to the results of its JSON object, and the name of that object.
 pub(super) fn find(folder: &Path) -> Option<[String; 2]> {
     OBJECTS.into_iter().find_map(|[object, page]| {
         let value = read(&folder.join(object))?;

@@ -22,7 +22,7 @@ use std::path::{Path, PathBuf};
 /// Name of the directory into which incomplete results are written.
 pub const PART: &str = ".part";
 
-/// Identifier of results that depend on these texts, such as the scene and the method of the run.
+/// Returns an identifier of results that depend on these texts, for example on the scene and the method of the run.
 #[must_use]
 pub fn id(texts: &[&str]) -> String {
     let mut all = Fingerprint::new();
@@ -34,17 +34,18 @@ pub fn id(texts: &[&str]) -> String {
     format!("{:016x}", all.get())
 }
 
-/// A directory into which only this process writes results, until the value is dropped.
+/// Directory into which only this process writes results, until the value is dropped.
 #[derive(Debug)]
 pub struct Folder {
     path: PathBuf,
-    /// Directories that were created for it, the deepest first.
+    /// Directories that were created for the results, the deepest first.
     made: Vec<PathBuf>,
     lock: Option<File>,
 }
 
 impl Folder {
-    /// Locks a directory for results in these files, and creates it if it does not exist. Existing files are not changed.
+    /// Locks a directory into which results with these file names are written, and creates it if it does not exist. Existing files are not
+    /// changed.
     ///
     /// # Errors
     /// [`FolderError`] if another process writes there, or if the directory cannot be written.
@@ -69,8 +70,8 @@ impl Folder {
         &self.path
     }
 
-    /// The first file of a directory that does not belong to the results of its JSON object, with the name of that object. The file was
-    /// changed, or a process was killed between two renames.
+    /// Returns the first file of a directory that does not belong to the results of its JSON object, with the name of that object. Such a
+    /// file was changed, or a process was killed between two renames.
     #[must_use]
     pub fn mixed(path: &Path) -> Option<[String; 2]> {
         mixed::find(path)
@@ -82,7 +83,7 @@ impl Drop for Folder {
         if self.lock.take().is_some() {
             lock::remove(&self.path);
         }
-        // Directories that were created for results that were never written are removed, unless they contain other files.
+        // If no results were written, the directories that were created are removed, unless they contain other files.
         for made in &self.made {
             if fs::remove_dir(made).is_err() {
                 return;

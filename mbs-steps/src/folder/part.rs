@@ -9,15 +9,15 @@ use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
-/// Results that are incomplete. If the value is dropped, their files are removed.
+/// Results that are not complete yet. If the value is dropped, their files are removed.
 #[derive(Debug)]
 pub struct Part<'a> {
     folder: &'a Folder,
     /// Identifier of these results.
     id: String,
-    /// Names of the written files, in this order.
+    /// Names of the written files, in the order in which they were written.
     names: Vec<String>,
-    /// Sizes and checksums of the tables, by name.
+    /// Sizes of the tables by name, and checksums of the tables by name.
     sums: [Map<String, Value>; 2],
 }
 
@@ -40,7 +40,7 @@ impl Folder {
     pub fn begin(&self, id: &str) -> Result<Part<'_>, WriteError> {
         let path = self.path.join(PART);
         clear(&path);
-        // Another program may have removed the directory in the meantime.
+        // Another program may have removed the directory after it was opened.
         match fs::create_dir_all(&path) {
             Ok(()) => {
                 let (id, names, sums) = (id.to_owned(), Vec::new(), Default::default());
@@ -76,8 +76,8 @@ impl Part<'_> {
         self.write(name, |sink| writeln!(sink, "{}\n{end}", text.trim_end())).map(drop)
     }
 
-    /// Writes the JSON object, and renames all files to their final names. The object has the identifier of the results, and the sizes and
-    /// checksums of the tables written so far. Returns the text of the object.
+    /// Writes the JSON object, and renames all files to their final names. The object also gets the identifier of the results, and the
+    /// sizes and checksums of the tables. Returns the text of the object.
     ///
     /// # Errors
     /// [`WriteError`]; the old results are unchanged then, unless a rename failed.
@@ -90,7 +90,7 @@ impl Part<'_> {
             let (from, to) = (part.join(name), folder.join(name));
             fs::rename(from, &to).map_err(|error| WriteError { path: to, bytes: 0, error })?;
         }
-        // Tables of the old results that the new results do not have are removed.
+        // Tables of the old results are removed if the new results have no table of that name.
         for old in before.into_iter().filter(|old| !self.names.contains(old)) {
             let _ = fs::remove_file(folder.join(old));
         }
@@ -154,8 +154,8 @@ pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
     renamed
 }
 
-/// Replaces a file in a directory of results by complete new content. After a kill or a crash the file has either the old bytes or the new
-/// bytes. The new bytes are first written into [`PART`].
+/// Replaces a file in a directory of results by complete new content. The new bytes are first written into [`PART`]. After a kill or a
+/// crash the file has either all old bytes or all new bytes.
 ///
 /// # Errors
 /// [`WriteError`] with the path of the file.

@@ -10,7 +10,7 @@ use std::path::Path;
 /// Names of the files of rows and of steps.
 const FILES: [&str; 2] = ["run.csv", "steps.csv"];
 
-/// Progress of the files: the number of rows they have, and the number of steps per row.
+/// Progress of the files: the number of their rows, and the number of steps per row.
 #[derive(Debug, Default)]
 pub(super) struct Rows {
     /// Number of rows in the files.
@@ -27,8 +27,8 @@ impl Rows {
         recorder.n_rows().saturating_sub(self.tried)
     }
 
-    /// Appends the new rows to the files of a directory, as complete lines. The first write replaces the files, as does a write after rows
-    /// were removed.
+    /// Appends the new rows to the files of a directory, as complete lines. The files are replaced at the first write, and after the
+    /// recorder has removed rows.
     pub(super) fn write(&mut self, out: &Path, recorder: &Recorder) -> io::Result<()> {
         let is_anew = self.thinning != recorder.thinning();
         let from = if is_anew { 0 } else { self.n };
@@ -53,7 +53,7 @@ impl Rows {
     }
 }
 
-/// Returns the lines of both files, beginning with row `from`; for the first row with their headers.
+/// Returns the lines of both files, beginning with row `from`. If `from` is 0, the header lines are included.
 fn texts(recorder: &Recorder, from: usize) -> io::Result<[Vec<u8>; 2]> {
     let (mut rows, mut steps) = (Vec::new(), Vec::new());
     let table = recorder.table().skip(from);
@@ -80,7 +80,7 @@ pub enum Head {
     Units,
 }
 
-/// Writes rows as CSV; with all digits if `long` has the values with more digits than `f64`.
+/// Writes rows as CSV. If `long` has values with more digits than `f64`, all their digits are written.
 ///
 /// # Errors
 /// The errors of the sink.

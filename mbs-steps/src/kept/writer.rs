@@ -1,4 +1,4 @@
-//! Writer of checkpoints at intervals during a run, and of its rows.
+//! Writer that saves checkpoints and rows of a run at intervals.
 
 use super::rows::Rows;
 use crate::checkpoint::CheckpointError;
@@ -11,9 +11,10 @@ use std::path::{Path, PathBuf};
 /// Name of the checkpoint file in the directory of a run.
 pub const FILE: &str = "checkpoint.mbs";
 
-/// Largest number of rows that wait before they are written. Chosen, not tuned.
+/// Number of unwritten rows at which rows are written. Chosen, not tuned.
 const MOST_WAITING: usize = 256;
-/// Time by which a checkpoint may be early, relative to the interval [-], because times have rounding errors. Chosen, not tuned.
+/// Time by which a checkpoint may be too early, relative to the interval of checkpoints [-], because times have rounding errors. Chosen,
+/// not tuned.
 const EARLY: f64 = 1e-6;
 
 /// The bytes of a checkpoint, or the error that prevented them.
@@ -21,8 +22,8 @@ type Bytes = Result<Vec<u8>, CheckpointError>;
 
 /// Writer of a run's checkpoints, into a directory and at an interval of simulated time.
 ///
-/// The first checkpoint is written at the start of the run. Then one is written at the first step that ends at or after each multiple of
-/// the interval; no step is shortened for it. The new file is written next to the old one, synced, and renamed to replace it.
+/// The first checkpoint is written at the start of the run. Each further checkpoint is written after the first step that ends at or after a
+/// multiple of the interval; no step is shortened for it. The new file is written next to the old file, synced, and renamed to replace it.
 ///
 /// Rows are written during the run to `run.csv` and `steps.csv` in [`PART`]. The results of an earlier run remain until the new results are
 /// complete. A failed write is repeated at the next checkpoint, and is reported at the end of the run.
@@ -39,8 +40,8 @@ pub struct CheckpointWriter {
 }
 
 impl CheckpointWriter {
-    /// Creates a writer into a directory, with a checkpoint each `every` [s] of simulated time. The directory is created if missing, and
-    /// locked until the writer is dropped or releases it.
+    /// Creates a writer into a directory, with a checkpoint every `every` [s] of simulated time. The directory is created if it is missing.
+    /// It is locked until the writer is dropped or releases it.
     ///
     /// # Errors
     /// [`CheckpointError::Busy`] if another process has locked the directory, [`CheckpointError::Io`] if the directory cannot be created.
@@ -77,17 +78,17 @@ impl CheckpointWriter {
         self.every
     }
 
-    /// Is a checkpoint due at time `t` [s]?
+    /// True if a checkpoint is due at time `t` [s].
     pub fn is_due(&self, t: f64) -> bool {
         t >= self.next
     }
 
-    /// Are there enough unwritten rows for a write?
+    /// True if there are enough unwritten rows for a write.
     pub fn is_waiting(&self, recorder: &Recorder) -> bool {
         self.rows.waiting(recorder) >= MOST_WAITING
     }
 
-    /// Writes the recorded rows, and the bytes of a checkpoint at time `t` [s] if there are any.
+    /// Writes the recorded rows. Also writes a checkpoint if its time `t` [s] and its bytes are given.
     pub fn write(&mut self, recorder: &Recorder, checkpoint: Option<(f64, Bytes)>) {
         let mut done = self.rows.write(&self.out.join(PART), recorder);
         if let Some((t, bytes)) = checkpoint {

@@ -1,4 +1,4 @@
-//! The linear motion about one state. To test whether the motion is steady, it is linearised again a short time later.
+//! Linear motion about one state. To test whether the motion is steady, it is linearised again a short time later.
 
 use super::data::LinearSystem;
 use super::measured::{Layout, Measured};
@@ -21,9 +21,10 @@ use mbs_linear::{
 pub(crate) enum Axes {
     /// Axes that do not turn.
     Standing,
-    /// Axes that turn with the motion; a test checks that the motion is steady in these axes.
+    /// Axes that turn with the motion. A test checks that the motion is steady in these axes.
     Turning,
-    /// Axes that turn with the motion. If the motion is not steady in them, axes that do not turn: the system of the instant.
+    /// Axes that turn with the motion if the motion is steady in them. Otherwise axes that do not turn; the linear system then holds at
+    /// this instant only.
     TurningOrStanding,
 }
 
@@ -36,7 +37,7 @@ pub(crate) struct About<'a, const D: usize> {
     pub(super) axes: Axes,
 }
 
-/// Quantities measured about a state, and the linear motion there.
+/// Measured quantities at a state, and the linear motion about this state.
 struct At {
     layout: Layout,
     /// Indices of the coordinates that are states.
@@ -49,7 +50,7 @@ struct At {
 }
 
 impl<'a, const D: usize> About<'a, D> {
-    /// Prepares the linear system of a placed scene without inputs and outputs.
+    /// Prepares the linearisation of a placed scene without inputs and outputs.
     pub(crate) fn alone(scene: &'a Scene<f64>, placed: &'a PlacedScene<D>, axes: Axes) -> Self {
         let (columns, inputs) = (OutputColumns::default(), InputPlaces::default());
         Self { scene, placed, columns, inputs, axes }
@@ -131,7 +132,8 @@ impl<'a, const D: usize> About<'a, D> {
         })
     }
 
-    /// Linearises about the state `state`. The states are the given coordinates, or else coordinates chosen for axes that turn or do not turn.
+    /// Linearises about the state `state`. The states of the linear system are the coordinates `given`. If `given` is `None`, they are
+    /// chosen here, for axes that turn or do not turn.
     fn measured(
         &self,
         (state, turns): (&State<f64>, bool),
@@ -175,7 +177,8 @@ impl<'a, const D: usize> About<'a, D> {
     }
 }
 
-/// Linear motion about an equilibrium, in tangent coordinates without names. They are well conditioned, so the eigenvalues are accurate.
+/// Linear motion about an equilibrium, in tangent coordinates, which have no names. These coordinates are well conditioned, so the
+/// eigenvalues are accurate.
 ///
 /// # Errors
 /// [`StopError`] if the motion cannot be linearised.
@@ -187,7 +190,7 @@ pub(crate) fn at_rest<const D: usize>(placed: &PlacedScene<D>) -> Result<Linear<
 }
 
 impl At {
-    /// Computes A, B, C and D in these axes.
+    /// Computes A, B, C and D in the given axes.
     fn matrices(&self, turning: &Turning) -> Result<[crate::tree::Matrix; 4], StopError> {
         let parts = Parts { linear: &self.linear, ports: &self.ports };
         let singular = || StopError::Linear(LinearError::Singular { freedom: 0 });
@@ -203,7 +206,8 @@ impl At {
         sizes
     }
 
-    /// Returns the state with the largest relative acceleration in these axes; `None` if no acceleration exceeds its limit.
+    /// Returns the state with the largest acceleration in the given axes, relative to its limit; `None` if no acceleration exceeds its
+    /// limit.
     fn accelerating(
         &self,
         turning: &Turning,

@@ -1,22 +1,22 @@
-//! Coordinates that can be states of a linear motion: first those of joints, then positions and rotations of bodies.
+//! Coordinates that can be states of a linear motion: first the coordinates of joints, then positions and rotations of bodies.
 
 use crate::record::Channel;
 use mbs_core::outputs::Target;
 use mbs_core::scene::{BodyId, Dimension, Freedom, JointId, Output, Quantity, Scene};
 
-/// First coordinate of a ball joint, with the bodies of the joint; `None` for the ground.
+/// Index of the first coordinate of a ball joint, and the two bodies of the joint; `None` stands for the ground.
 pub(super) type Ball = (usize, [Option<usize>; 2]);
 
 /// The coordinates that can be states.
 pub(super) struct Coordinates {
     /// Value, rate and acceleration of each coordinate or vector.
     pub(super) quantities: Vec<[Output<f64>; 3]>,
-    /// For each component its name, its unit, and whether it belongs to a rotation vector.
+    /// For each component: its name, its unit, and whether it belongs to a rotation vector.
     pub(super) names: Vec<String>,
     pub(super) units: Vec<&'static str>,
     pub(super) turns: Vec<bool>,
     pub(super) n_of_joints: usize,
-    /// For each coordinate of a joint: does it belong to a ball joint, or to a joint with two translations?
+    /// True for each joint coordinate that belongs to a ball joint or to a joint with two translations.
     pub(super) of_vectors: Vec<bool>,
     /// First index and number of components of each vector in global axes.
     pub(super) vectors: Vec<[usize; 2]>,

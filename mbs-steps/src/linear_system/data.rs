@@ -8,19 +8,20 @@ use mbs_linear::Equilibrium;
 
 /// Linear system dx/dt = A x + B u, y = C x + D u. The vectors x, u and y are deviations from a state, in SI units.
 ///
-/// **States** are independent joint coordinates, as many as there are degrees of freedom. They are the first independent ones in the order
-/// of the scene. The name is `JOINT`, or `JOINT.1` for a joint with several coordinates. If there are too few joint coordinates,
+/// **States** are independent joint coordinates, as many as there are degrees of freedom: the first independent ones in the order of the
+/// scene. The name of a state is `JOINT`, or `JOINT.1` for a joint with several coordinates. If there are too few joint coordinates,
 /// coordinates of bodies follow: `BODY.x` of the centre of mass and `BODY.rx` of the rotation vector. Then come the rates in the same order
-/// (`JOINT.rate`). Last are the states of signals: `SIGNAL`, or `SIGNAL.integral` of a controller. The rate of a rotation vector is the
-/// angular velocity in global axes. For a joint it is the angular velocity of the second body relative to the first.
+/// (`JOINT.rate`). The last states are those of signals: `SIGNAL`, or `SIGNAL.integral` of a controller. The rate of a body's rotation
+/// vector is its angular velocity in global axes. The rate of a joint's rotation vector is the angular velocity of the second body relative
+/// to the first.
 ///
-/// **Inputs** that are the value, rate and acceleration of one guide are three separate inputs, although each one is the derivative of the
-/// one before.
+/// **Inputs** that are the value, rate and acceleration of one guide are three separate inputs. The matrices treat them as independent,
+/// although rate and acceleration are derivatives of the value.
 ///
 /// The matrices are constant about an equilibrium, and about a motion that is steady in axes that do not turn. About other states they hold
 /// for an instant, and [`unsteady`](Self::unsteady) gives the reason. [`steady`](Self::steady) uses axes that turn with the motion.
 ///
-/// About a motion, rotation vectors are relative to the rotations of the motion itself.
+/// About a motion, rotation vectors are relative to the rotations of the bodies in that motion.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct LinearSystem {
@@ -52,19 +53,19 @@ pub struct LinearSystem {
     pub input_values: Vec<f64>,
     /// Values of the outputs at the linearisation point, where y = 0.
     pub output_values: Vec<f64>,
-    /// Joints, couplings and rollings whose reaction, effort or force is an output but not unique. The values of smallest norm are
-    /// linearised.
+    /// Joints, couplings and rolling contacts with a reaction, effort or force that is an output but is not unique. For these outputs the
+    /// values of smallest norm are linearised.
     pub not_unique: Vec<String>,
-    /// Reason why the state is neither an equilibrium nor a steady motion; `None` if it is one. With a reason, the matrices hold at one
-    /// instant only.
+    /// Reason why the state is neither an equilibrium nor a steady motion; `None` if it is an equilibrium or a steady motion. With a
+    /// reason, the matrices hold at one instant only.
     pub unsteady: Option<Unsteady>,
-    /// Largest acceleration in the joints that the rotation of bodies causes [m/s^2].
+    /// Largest acceleration of a joint coordinate that is caused by the rotation of bodies [m/s^2].
     pub turning: f64,
     /// Number of degrees of freedom of the scene.
     pub(crate) n_freedoms: usize,
-    /// At an equilibrium, the state matrix in tangent coordinates, column by column. It has the eigenvalues of A, but is better
-    /// conditioned, so that they are more accurate.
+    /// State matrix at an equilibrium in tangent coordinates, column by column. Its eigenvalues are those of A, but it is better
+    /// conditioned, so its computed eigenvalues are more accurate.
     pub(crate) rest: Option<Vec<f64>>,
-    /// Rounding error of squared eigenvalues [1/s^2]; eigenvalues whose square is not larger count as zero.
+    /// Rounding error of squared eigenvalues [1/s^2]. Eigenvalues whose square is not larger than this error count as zero.
     pub(crate) noise: f64,
 }

@@ -1,7 +1,8 @@
-//! Quantities evaluated at each state of a linearisation: outputs, and coordinates of joints and bodies with their rates.
+//! Quantities evaluated at each state of a linearisation: outputs, and coordinates and rates of joints and bodies.
 //!
-//! About a motion, rotation vectors delta are relative to the rotations R_r of the motion, in global axes. omega and omega_r are the
-//! angular velocities:
+//! About a motion, rotation vectors delta are relative to the rotations R_r of that motion, in global axes. R is the rotation of a body.
+//! omega and omega_r are the angular velocities of the body and of the reference motion. For a ball joint, delta_1 and delta_2 belong to
+//! its first and second body:
 //!
 //! ```text
 //! R = exp(delta) R_r:   delta' = omega - omega_r + omega_r x delta,      of a joint delta_2 - delta_1
@@ -17,20 +18,20 @@ use mbs_core::natural::NaturalModel;
 use mbs_core::scene::{Output, Scene};
 use mbs_linear::LinearError;
 
-/// Step of a difference quotient along the velocity, relative to the scene's length [-]. The fourth power of it is the relative error of a
-/// rate.
+/// Step of a difference quotient along the velocity, relative to the scene's length [-]. The relative error of a rate is the fourth power
+/// of this step.
 const WAY: f64 = 1e-3;
 
 /// Indices in a vector of measured values. The order is: outputs, coordinates, rates, derivatives of the coordinates, accelerations.
 #[derive(Debug, Clone)]
 pub(super) struct Layout {
-    /// Indices of the outputs among the measured components, in their order, and the number of these components.
+    /// Indices of the outputs among the components of the measured outputs, and the number of these components.
     outputs: Vec<usize>,
     n_measured: usize,
-    /// Names of the coordinates that can be states, those of joints first, and the number of those of joints.
+    /// Names of the coordinates that can be states, coordinates of joints first, and the number of coordinates of joints.
     pub(super) names: Vec<String>,
     pub(super) n_of_joints: usize,
-    /// For each coordinate of a joint: is it part of a vector in body axes, for a ball joint or two translations?
+    /// True for each joint coordinate that is part of a vector in body axes: in a ball joint, or in a joint with two translations.
     pub(super) of_vectors: Vec<bool>,
     /// First index and number of components of each vector in global axes: positions and rotations of bodies.
     pub(super) vectors: Vec<[usize; 2]>,
@@ -39,7 +40,8 @@ pub(super) struct Layout {
 }
 
 impl Layout {
-    /// Returns a function from a coordinate to its row. Part 0 has coordinates, 1 rates, 2 derivatives of the coordinates, 3 accelerations.
+    /// Returns a function from the index of a coordinate to its row. `part` selects the rows: 0 coordinates, 1 rates, 2 derivatives of the
+    /// coordinates, 3 accelerations.
     pub(super) fn part(&self, part: usize) -> impl Fn(usize) -> usize {
         let start = self.n_measured + part * self.names.len();
         move |coordinate| start + coordinate
@@ -51,14 +53,14 @@ impl Layout {
     }
 
     /// Returns the derivatives of the coordinates by each freedom, one row for each coordinate. `of_all` has the derivatives of all
-    /// measured values, freedom by freedom.
+    /// measured values by the first freedom, then by the second, and so on.
     pub(super) fn slopes(&self, of_all: &[f64]) -> Vec<Vec<f64>> {
         let all = self.n_measured + 4 * self.names.len();
         let rows = (0..self.names.len()).map(self.part(0));
         rows.map(|row| of_all.chunks_exact(all.max(1)).map(|of| of[row]).collect()).collect()
     }
 
-    /// Rows of the coordinates that are states, then rows of their rates.
+    /// Row numbers of the coordinates that are states, then row numbers of their rates.
     pub(super) fn state_rows(&self, chosen: &[usize]) -> impl Iterator<Item = usize> {
         let of = |part| chosen.iter().copied().map(self.part(part));
         of(0).chain(of(1)).collect::<Vec<_>>().into_iter()
@@ -72,14 +74,14 @@ impl Layout {
     }
 }
 
-/// Evaluates outputs and coordinates at a state.
+/// Evaluator of outputs and coordinates at a state.
 pub(super) struct Measured<const D: usize> {
     pub(super) layout: Layout,
     outputs: Option<Channels<f64, D>>,
     coordinates: Option<[Channels<f64, D>; 3]>,
     /// True for each coordinate of a rotation, whose rate is a component of the angular velocity.
     turns: Vec<bool>,
-    /// First rotation coordinate of each body; then the ball joints, with first coordinate and bodies.
+    /// Index of the first rotation coordinate of each body; then the ball joints, each with its first coordinate and its bodies.
     rotations: Vec<usize>,
     balls: Vec<Ball>,
     /// Motion to which rotations are relative; `None` about an equilibrium.
@@ -151,7 +153,7 @@ impl<const D: usize> Measured<D> {
         })
     }
 
-    /// Makes rotations relative to those of the state `s`, if it is in motion.
+    /// Makes rotations relative to those of the state `s`, if the mechanism moves in this state.
     pub(super) fn count_from(&mut self, s: &State<f64>) -> Result<(), StopError> {
         self.reference = None;
         let is_moving = s.v.iter().any(|v| *v != 0.0);
@@ -168,7 +170,7 @@ impl<const D: usize> Measured<D> {
         Ok(())
     }
 
-    /// Coordinates of the reference motion, with rotations relative to the reference configuration.
+    /// Coordinates of the reference motion. Their rotations are relative to the reference configuration.
     pub(super) fn reference_values(&self) -> Option<&[f64]> {
         self.reference.as_ref().map(|reference| &reference.values[..])
     }
@@ -212,7 +214,7 @@ impl<const D: usize> Measured<D> {
         Ok(all)
     }
 
-    /// Names of joints, couplings and rollings whose reaction, effort or force was not unique.
+    /// Names of joints, couplings and rolling contacts whose reaction, effort or force was not unique.
     pub(super) fn not_unique(&self, scene: &Scene<f64>) -> Vec<String> {
         self.outputs.as_ref().map_or_else(Vec::new, |outputs| outputs.not_unique(scene))
     }

@@ -17,7 +17,7 @@ pub(crate) struct InputPlaces {
 }
 
 impl InputPlaces {
-    /// Finds the inputs with these names; `None`: all inputs. The model may be that of the scene at rest.
+    /// Finds the inputs with the given names; `None` stands for all inputs. The model may be that of the scene at rest.
     pub(super) fn new<const D: usize>(
         scene: &Scene<f64>,
         model: &NaturalModel<f64, D>,
@@ -53,7 +53,7 @@ fn place<const D: usize>(
         InputOwner::Guide(guide) | InputOwner::Coupling { sum: guide, .. } => {
             prescribed.guide_input(guide.index()).map(|range| range.start)
         }
-        // This signal drives no guide. A scene with a guide that follows an input signal is an error, because inputs can jump.
+        // An input signal here drives no guide, because the scene check rejects guides that follow an input signal: inputs can jump.
         InputOwner::Signal(signal) => prescribed.signal_input(signal.index()),
     };
     first.map(|first| first + info.component).map_err(|error| {
@@ -89,7 +89,7 @@ pub(super) fn signal_states<const D: usize>(
 /// The requested columns of outputs.
 #[derive(Debug, Default)]
 pub(crate) struct OutputColumns {
-    /// Outputs that have these columns as components.
+    /// Outputs of which these columns are components.
     pub(super) measured: Vec<Output<f64>>,
     /// Indices of the columns among all components of these outputs.
     pub(super) places: Vec<usize>,
@@ -97,8 +97,8 @@ pub(crate) struct OutputColumns {
 }
 
 impl OutputColumns {
-    /// Finds the columns with these names; the name of an output stands for all its columns. `None`: all columns of the motion, without
-    /// columns about the run itself.
+    /// Finds the columns with the given names; the name of an output stands for all its columns. `None` stands for all columns of the
+    /// motion, without columns about the run itself.
     pub(super) fn new(scene: &Scene<f64>, asked: Option<&[&str]>) -> Result<Self, UnknownName> {
         let (mut measured, mut columns) = (Vec::new(), Vec::new());
         for (output, channel) in scene.channels().into_iter().zip(Channel::of_scene(scene)) {

@@ -13,7 +13,7 @@ pub(super) struct Parts<'a> {
 }
 
 impl Parts<'_> {
-    /// Derivatives [P, Q] of the measured values in these rows, by (z, z', s) and by the inputs.
+    /// Derivatives P and Q of the measured values in the given rows: P by (z, z', s), Q by the inputs.
     fn of(&self, rows: impl Iterator<Item = usize>) -> [Matrix; 2] {
         let (rows, all) = (rows.collect::<Vec<_>>(), self.ports.values.len());
         let [by_states, by_inputs] = [&self.ports.outputs, &self.ports.feedthrough];
@@ -29,7 +29,7 @@ impl Parts<'_> {
         [by_states, of(&self.ports.feedthrough, self.ports.n_inputs)].concat()
     }
 
-    /// Matrices [S, T] of the states and [R, W] of their time derivatives, in these axes.
+    /// Matrices S and T of the states, and R and W of their time derivatives, in the given axes.
     fn states(&self, layout: &Layout, chosen: &[usize], turning: &Turning) -> [[Matrix; 2]; 2] {
         let rows = chosen.iter().map(|&i| turning.rows(layout, i, |place| self.row(place)));
         let rows: Vec<[Row; 4]> = rows.collect();

@@ -4,7 +4,8 @@
 //! (A - (lambda + d) 1) v_(k+1) = v_k / |v_k|,   d: rounding of A
 //! ```
 //!
-//! An eigenvalue of multiplicity m has up to m independent eigenvectors. Each one is made orthogonal to the previous ones.
+//! In these formulas lambda is an eigenvalue and v_k the iterated vector. An eigenvalue of multiplicity m has up to m independent
+//! eigenvectors. Each one is made orthogonal to the previous ones.
 
 use super::data::LinearSystem;
 use super::solve::{Complex, Factor, product, quotient, size};
@@ -12,13 +13,14 @@ use crate::erased::SimulationError;
 use crate::mode::{Mode, slowest_first};
 use crate::stop::StopError;
 
-/// Inverse iterations for an eigenvector [-]; one suffices unless the start vector is almost orthogonal to it. Chosen, not tuned.
+/// Number of inverse iterations for an eigenvector [-]. One iteration suffices, unless the start vector is almost orthogonal to the
+/// eigenvector. Chosen, not tuned.
 const ITERATIONS: usize = 3;
-/// Distance up to which eigenvalues count as equal, relative to the largest [-]. Rounding errors split a double eigenvalue by their square
-/// root.
+/// Distance up to which eigenvalues count as equal, relative to the largest eigenvalue [-]. Rounding errors split a double eigenvalue by
+/// the square root of these errors.
 const EQUAL: f64 = 1e-7;
-/// Smallest part of a vector orthogonal to previous vectors of the same eigenvalue, for which it counts as independent [-]. Chosen, not
-/// tuned.
+/// Smallest part of a unit vector orthogonal to previous eigenvectors of the same eigenvalue, for which the vector counts as independent
+/// [-]. Chosen, not tuned.
 const OWN: f64 = 1e-3;
 
 /// An eigenvalue, or a pair of conjugate eigenvalues, with its eigenvector.
@@ -27,15 +29,15 @@ const OWN: f64 = 1e-3;
 pub struct ModeShape {
     /// Eigenvalue of the mode.
     pub mode: Mode,
-    /// Eigenvector as [real, imaginary] of each state, scaled to a largest component of one. The conjugate eigenvalue has the conjugate
-    /// vector.
+    /// Eigenvector as [real, imaginary] of each state, scaled such that its largest component is one. The conjugate eigenvalue has the
+    /// conjugate vector.
     pub states: Vec<[f64; 2]>,
     /// Complex amplitude of each output, [real, imaginary].
     pub outputs: Vec<[f64; 2]>,
 }
 
 impl LinearSystem {
-    /// Eigenvalues of A in order of increasing magnitude, conjugate pairs once, each with its eigenvector.
+    /// Eigenvalues of A in order of increasing magnitude, each with its eigenvector. A conjugate pair is listed once.
     ///
     /// The component of largest magnitude is scaled to one, regardless of its unit. If an eigenvalue has fewer independent eigenvectors
     /// than its multiplicity, as for a free motion, an eigenvector is listed twice.
@@ -92,7 +94,7 @@ impl LinearSystem {
         mbs_linear::eigenvalues(n, &matrix).ok_or(StopError::Eigenvalues)
     }
 
-    /// Computes an eigenvector, scaled to a largest component of one.
+    /// Computes an eigenvector, scaled such that its largest component is one.
     fn vector(&self, value: Complex, largest: f64, before: &[Vec<Complex>]) -> Vec<Complex> {
         let n = self.a.rows;
         let shift = value[0] + largest.max(f64::MIN_POSITIVE) * f64::EPSILON;
@@ -109,7 +111,7 @@ impl LinearSystem {
                 basis.push(unit);
             }
         }
-        // Each start vector has another direction. Its irregular components make it unlikely to be an eigenvector itself.
+        // Each start vector has another direction. Its irregular components make it unlikely that it is orthogonal to the eigenvector.
         let mut found = vec![[0.0; 2]; n];
         for start in 0..=before.len() {
             let of = |i: usize| ((i + 1) as f64 * (1.0 + start as f64 * 0.37)).sin() + 1.5;
@@ -148,7 +150,7 @@ fn normalise(x: &mut [Complex]) -> f64 {
     length
 }
 
-/// Subtracts the components along orthonormal vectors.
+/// Subtracts from `x` its components along orthonormal vectors.
 fn take_out(basis: &[Vec<Complex>], x: &mut [Complex]) {
     for unit in basis {
         let along = unit.iter().zip(&*x).fold([0.0; 2], |sum: Complex, (u, x)| {

@@ -33,7 +33,7 @@ fn subtract(from: &mut Complex, [a, b]: Complex) {
 #[derive(Debug)]
 pub struct Factor {
     n: usize,
-    /// L and U in one matrix, row by row.
+    /// Factors L and U in one matrix, row by row.
     lu: Vec<Complex>,
     rows: Vec<usize>,
     /// Smallest pivot, relative to the largest entry of the matrix.
@@ -41,7 +41,7 @@ pub struct Factor {
 }
 
 impl Factor {
-    /// Factorises a matrix given row by row. A zero pivot is replaced by machine precision times the largest entry.
+    /// Factorises a matrix that is given row by row. A zero pivot is replaced by machine precision times the largest entry of the matrix.
     pub fn new(n: usize, lu: Vec<Complex>) -> Self {
         let largest = lu.iter().fold(f64::MIN_POSITIVE, |most, x| most.max(size(*x)));
         let mut new = Self { n, lu, rows: (0..n).collect(), least: 1.0 };
@@ -93,7 +93,7 @@ impl Factor {
     }
 }
 
-/// Smallest ratio of a pivot to the largest entry for a regular matrix [-]. The inverse then has four correct digits.
+/// Smallest ratio of a pivot to the largest entry for which a matrix counts as regular [-]. The inverse then has four correct digits.
 const REGULAR: f64 = 1e-12;
 
 /// Computes R S^-1 for two matrices R; `None` if S is singular. The columns of S are scaled by their largest entries.

@@ -1,17 +1,20 @@
-//! Choice of the coordinates that are states: as many independent ones as there are freedoms, preferably the first ones of the scene.
+//! Choice of the coordinates that are states: as many independent coordinates as there are freedoms, preferably the first ones of the
+//! scene.
 
 use core::ops::Range;
 
-/// Smallest independent part of a coordinate, relative to its size, for a choice in the order of the scene [-]. Chosen, not tuned.
+/// Smallest independent part of a coordinate, relative to its size, for the first choice, which follows the order of the scene [-]. Chosen,
+/// not tuned.
 const INDEPENDENT: f64 = 0.1;
-/// Smallest independent part of a coordinate for a choice by size, after the choice in order gave too few [-]. With a smaller part, the
-/// states would not determine the motion accurately.
+/// Smallest independent part of a coordinate for the second choice, by the size of this part [-]. The second choice completes the first
+/// one. With a smaller part, the states would not determine the motion accurately.
 const LEAST: f64 = 1e-4;
-/// Largest change of a coordinate that counts as no motion, relative to the largest change [-]. Difference quotients have errors of 1e-11.
+/// Largest change of a coordinate that counts as no motion, relative to the largest change of all coordinates [-]. Difference quotients
+/// have errors of 1e-11.
 const HELD: f64 = 1e-8;
 
-/// Chooses the states among coordinates, whose changes with each freedom are the rows of `slopes`. Coordinates of joints are chosen first,
-/// and coordinates of bodies complete the number. `None` if all coordinates together are too few.
+/// Chooses the states among coordinates. Row i of `slopes` has the derivatives of coordinate i by each freedom. Coordinates of joints are
+/// chosen first, and coordinates of bodies complete the number. `None` if all coordinates together are too few.
 pub fn choose(slopes: &[Vec<f64>], n_of_joints: usize) -> Option<Vec<usize>> {
     let f = slopes.first().map_or(0, Vec::len);
     let mut taken = Taken { slopes, chosen: Vec::new(), basis: Vec::new() };
@@ -24,7 +27,7 @@ pub fn choose(slopes: &[Vec<f64>], n_of_joints: usize) -> Option<Vec<usize>> {
     (chosen.len() == f).then_some(chosen)
 }
 
-/// Chosen coordinates, and an orthonormal basis of their rows.
+/// Chosen coordinates, and an orthonormal basis of their rows in `slopes`.
 struct Taken<'a> {
     slopes: &'a [Vec<f64>],
     chosen: Vec<usize>,
@@ -32,7 +35,8 @@ struct Taken<'a> {
 }
 
 impl Taken<'_> {
-    /// Chooses coordinates of a group that change by more than `held`, until there are `f` coordinates or no further one is independent.
+    /// Chooses coordinates of a group whose rows are larger than `held`. It ends when `f` coordinates are chosen or no further one is
+    /// independent.
     fn fill(&mut self, f: usize, group: Range<usize>, held: f64) {
         let moving = group.filter(|&i| norm(&self.slopes[i]) > held);
         let moving: Vec<usize> = moving.collect();
@@ -61,11 +65,11 @@ impl Taken<'_> {
         true
     }
 
-    /// Part of a row, scaled to unit length, that is orthogonal to the rows of the chosen coordinates.
+    /// Row of a coordinate, scaled to unit length, minus its components along the rows of the chosen coordinates.
     fn rest(&self, i: usize) -> Vec<f64> {
         let size = norm(&self.slopes[i]);
         let mut rest: Vec<f64> = self.slopes[i].iter().map(|x| x / size).collect();
-        // Orthogonalisation is done twice, because rounding errors of the first pass are not orthogonal.
+        // Orthogonalisation is done twice, because the rounding errors of the first pass are not orthogonal to the basis.
         for basis in self.basis.iter().chain(&self.basis) {
             let along: f64 = rest.iter().zip(basis).map(|(x, y)| x * y).sum();
             rest.iter_mut().zip(basis).for_each(|(x, y)| *x -= along * y);

@@ -6,27 +6,28 @@
 //! steady: w_c' = 0 in all states, at the state and a little later, with the same A in these axes
 //! ```
 //!
-//! Joint coordinates of one freedom are the same in all axes. For joints with vector coordinates, the coordinates of bodies are used
-//! instead; their vectors are in global axes.
+//! C is the rotation matrix of the axes at time t, and the index c denotes components in these axes. w is the rate of a state. Joint
+//! coordinates of one freedom are the same in all axes. For joints with vector coordinates, the coordinates of bodies are used instead;
+//! their vectors are in global axes.
 
 use super::measured::Layout;
 use crate::unsteady::Unsteady;
 use mbs_core::algebra::{Matrix, Vector, rotation};
 use mbs_core::scene::{Dimension, Scene};
 
-/// Phase of the motion after which it is linearised again [rad]. A quantity with one period per turn then has changed by about a thirtieth.
-/// One step of an integrator of order four has an error of 1e-10.
+/// Angle of the motion after which it is linearised again [rad]. A quantity with one period per turn then has changed by about a thirtieth.
+/// One step of an integrator of order four over this angle has an error of 1e-10.
 const PHASE: f64 = 0.03;
-/// Largest acceleration in the turning axes for a steady motion [-]. It is relative to the acceleration that a deviation of one radian, or
-/// of the scene's length, causes. Initial values written with seven digits satisfy it.
+/// Largest acceleration in the turning axes for which a motion counts as steady [-]. It is relative to the acceleration that a deviation of
+/// one radian, or of the scene's length, causes. Initial values that are written with seven digits stay below this limit.
 const STEADY: f64 = 1e-6;
-/// Largest acceleration by rounding errors without a deviation, relative to the largest ratio of force to inertia [-].
+/// Largest acceleration that rounding errors cause, relative to the largest ratio of force to inertia [-].
 const LEFT: f64 = 1e-9;
-/// Largest change of an entry of A within the phase for a steady motion, relative to the largest entry of its row [-]. It is 1e-4 per
-/// radian, because a state that is steady to seven digits changes the entries by 1e-5.
+/// Largest change of an entry of A over the angle `PHASE` in a steady motion, relative to the largest entry of its row [-]. It is 1e-4 per
+/// radian, because the entries change by 1e-5 for a state that is steady to seven digits.
 const UNCHANGED: f64 = 1e-4 * PHASE;
-/// Allowed change of entries of A, in units of the rounding error of squared eigenvalues [-]. It covers the errors of two matrices and of
-/// the motion between them. Chosen, not tuned.
+/// Allowed change of entries of A, in units of the rounding error of squared eigenvalues [-]. It covers the rounding errors of both
+/// matrices and of the step between the two states. Chosen, not tuned.
 const ROUNDINGS: f64 = 1e2;
 
 /// Axes that turn with a motion.
@@ -38,7 +39,7 @@ pub(super) struct Turning {
     pub(super) axes: Matrix<f64, 3>,
 }
 
-/// Derivatives of a measured value by states and by inputs, or its value alone.
+/// Derivatives of one measured value by states and by inputs, or the value alone.
 pub(super) type Row = Vec<f64>;
 
 impl Turning {
@@ -47,7 +48,8 @@ impl Turning {
         Self { rate: Vector::zeros(), axes: Matrix::<f64, 3>::identity() }
     }
 
-    /// Returns the turning axes of a state from its measured values. Their rate Omega is that of the vectors among the chosen states.
+    /// Returns the turning axes of a state, from its measured values. Their angular velocity Omega is that of the vectors among the chosen
+    /// states.
     pub(super) fn of(
         scene: &Scene<f64>,
         (layout, chosen): (&Layout, &[usize]),
@@ -75,7 +77,7 @@ impl Turning {
             (true, true) => return Self::none(),
             (true, false) => Vector::<f64, 3>::new(0.0, 0.0, 1.0),
             (false, true) => gravity.normalize(),
-            // Without gravity, the axis is that of the rotation of the vectors, if there is one.
+            // Without gravity, the axis is the axis about which the vectors rotate, if they rotate.
             (false, false) => {
                 let norm = moment.norm();
                 if norm > 0.0 { moment / norm } else { return Self::none() }
@@ -91,7 +93,7 @@ impl Turning {
         Self { axes: rotation(&(self.rate * h)) * self.axes, ..*self }
     }
 
-    /// Value, rate, derivative of the value, and acceleration of a coordinate in these axes; `row` returns a measured value.
+    /// Value, rate, derivative of the value, and acceleration of coordinate `i` in these axes. `row` returns the row of a measured value.
     pub(super) fn rows(&self, layout: &Layout, i: usize, row: impl Fn(usize) -> Row) -> [Row; 4] {
         let part = |part: usize, of: usize| row(layout.part(part)(of));
         if self.rate.iter().all(|rate| *rate == 0.0) {
@@ -104,7 +106,7 @@ impl Turning {
             combined(parts)
         };
         let k = i - first;
-        // (Omega x x)_k = Omega_(k+1) x_(k+2) - Omega_(k+2) x_(k+1)
+        // Component k of the cross product, with indices modulo 3: (Omega x x)_k = Omega_(k+1) x_(k+2) - Omega_(k+2) x_(k+1)
         let carried = |of: usize, moved: Row| {
             let mut parts = vec![(1.0, moved)];
             for (component, by, sign) in
@@ -120,7 +122,7 @@ impl Turning {
     }
 }
 
-/// Sum of rows multiplied by factors.
+/// Sum of rows, each multiplied by a factor.
 fn combined(parts: impl Iterator<Item = (f64, Row)>) -> Row {
     let mut sum = Row::new();
     for (by, row) in parts {
@@ -144,11 +146,11 @@ pub(super) struct Sizes {
 /// Smallest rate of a vector that contributes to the axes, relative to the largest rate [-]. The acceleration of a slower vector is mostly
 /// rounding error.
 const STILL: f64 = 1e-6;
-/// Longest time after which a motion is linearised again [s], because the time of a slow motion would be arbitrarily long.
+/// Longest time after which a motion is linearised again [s]. For a very slow motion the time for the angle `PHASE` would be too long.
 const LONGEST: f64 = 1.0;
 
 impl Sizes {
-    /// Is there a motion, with rates larger than rounding errors?
+    /// True if there is a motion whose rates are larger than rounding errors.
     pub(super) fn has_motion(&self) -> bool {
         self.rate * self.rate > LEFT * self.lively
     }
@@ -164,7 +166,7 @@ impl Sizes {
     }
 }
 
-/// Returns the state whose acceleration exceeds its limit most, given the matrix A; `None` if no limit is exceeded.
+/// Returns the state whose acceleration exceeds its limit most; `None` if no limit is exceeded. The matrix A determines the limits.
 pub(super) fn accelerating(
     (layout, chosen): (&Layout, &[usize]),
     (turning, values): (&Turning, &[f64]),
@@ -189,8 +191,8 @@ pub(super) fn accelerating(
     worst.1
 }
 
-/// Returns the state whose row changes most between two matrices, relative to its limit; `None` if no limit is exceeded. `noise` is their
-/// rounding error [1/s^2].
+/// Returns the state whose row of A changes most between two matrices, relative to its limit; `None` if no limit is exceeded. `noise` is
+/// the rounding error of squared eigenvalues [1/s^2].
 pub(super) fn changing(
     names: &[String],
     [a, b]: [&crate::tree::Matrix; 2],

@@ -6,7 +6,7 @@ use mbs_core::effects::ActsOn;
 use mbs_core::outputs::{OutputPicture, Target};
 use mbs_core::scene::{BodyId, Dimension, Quantity, Scene};
 
-/// Scene that is drawn, with its length.
+/// Scene that is drawn, and its length.
 pub(super) struct Drawing<'a, T> {
     pub(super) scene: &'a Scene<T>,
     /// The scene's length [m].
@@ -14,7 +14,7 @@ pub(super) struct Drawing<'a, T> {
 }
 
 impl<T: Real> Drawing<'_, T> {
-    /// Converts a point on a body, given in the reference configuration.
+    /// Converts a point of a body, which is given in the reference configuration.
     pub(super) fn place(&self, body: BodyId, at: [T; 3]) -> BodyPlace {
         place(self.scene, body, at)
     }
@@ -32,8 +32,8 @@ impl<T: Real> Drawing<'_, T> {
         outputs.filter_map(trace).collect()
     }
 
-    /// Lists the points of measured forces: reactions act on the second body of their joint, effects on their last body. Effects along a
-    /// line are omitted, because they have no vector.
+    /// Lists the points at which measured forces act. A reaction acts on the second body of its joint, and an effect on its last body.
+    /// Effects along a line are omitted, because they have no vector.
     pub(super) fn forces(&self) -> Vec<DrawnForce> {
         let acts = |quantity: &Quantity<T>| match quantity.target() {
             Target::Joint(joint) => {
@@ -69,7 +69,7 @@ impl<T: Real> Drawing<'_, T> {
     }
 }
 
-/// Converts a point on a body, given in the reference configuration.
+/// Converts a point of a body, which is given in the reference configuration.
 pub(super) fn place<T: Real>(scene: &Scene<T>, body: BodyId, at: [T; 3]) -> BodyPlace {
     let body = body.index();
     let center = body.map_or([T::ZERO; 3], |body| scene.bodies[body].center);

@@ -19,11 +19,11 @@ use mbs_core::natural::NaturalModel;
 use mbs_core::scene::{Dimension, Scene};
 use pose::BodyPose;
 
-/// Largest number of recorded frames of a run [-]: ten seconds at sixty frames per second.
+/// Largest number of recorded frames of a run [-]. It suffices for ten seconds at sixty frames per second.
 const MAX_PICTURES: f64 = 600.0;
-/// Time by which a frame may be early, relative to the interval of frames [-], because times have rounding errors. Chosen, not tuned.
+/// Time by which a frame may be too early, relative to the interval of frames [-], because times have rounding errors. Chosen, not tuned.
 const EARLY: f64 = 1e-6;
-/// Largest number of values in all frames [-], which is eighty megabytes. Scenes of some thousand bodies get fewer frames.
+/// Largest number of values in all frames [-]; they need eighty megabytes. Scenes with thousands of bodies get fewer frames.
 const MAX_NUMBERS: f64 = 1e7;
 
 /// Recorder of the motion: functions that compute the poses, and the recorded motion.
@@ -80,7 +80,7 @@ impl<T: Real, const D: usize> MotionRecorder<T, D> {
         holds(self.motion.times.len() * self.poses.len() * N_POSE == self.motion.poses.len())
     }
 
-    /// Records a frame if one is due.
+    /// Records a frame if the time of the next frame is reached.
     pub fn offer(&mut self, t: f64, q: &[T], is_last: bool) {
         if !(t >= self.next || is_last) {
             return;
@@ -97,7 +97,7 @@ impl<T: Real, const D: usize> MotionRecorder<T, D> {
         self.next = ((t / self.every + EARLY).floor() + 1.0 - EARLY) * self.every;
     }
 
-    /// Returns the motion, completed by the road along the path of the tires.
+    /// Returns the recorded motion, completed by the road along the path of the tires.
     pub fn finish(self, scene: &Scene<T>) -> RecordedMotion {
         let mut motion = self.motion;
         motion.road = road::under(scene, &motion);

@@ -1,4 +1,4 @@
-//! Pose of a body from natural coordinates: two or three of its directions are made orthogonal and converted to a quaternion.
+//! Pose of a body from natural coordinates. Two or three directions of the body are made orthogonal and converted to a quaternion.
 
 use mbs_core::Real;
 use mbs_core::natural::{Affine, NaturalModel};
@@ -16,9 +16,10 @@ pub(super) struct BodyPose<T: Real, const D: usize> {
 enum Turn<T: Real, const D: usize> {
     /// The body is a point and has no rotation.
     None,
-    /// Images of the global x and y axes of the reference configuration; in the plane only x is used.
+    /// Current directions of the body axes that were the global x and y axes in the reference configuration. In the plane only x is used.
     Axes([Affine<T, D>; 2]),
-    /// A rod without spin about its axis: its ends, and its direction in the reference configuration. The smallest rotation is used.
+    /// Rod without spin about its axis: its ends, and its direction in the reference configuration. The smallest rotation between the two
+    /// directions is used.
     Line([Affine<T, D>; 2], [f64; 3]),
 }
 
@@ -44,7 +45,7 @@ impl<T: Real, const D: usize> BodyPose<T, D> {
         numbers(&self.center, q)
     }
 
-    /// Rotation from the reference configuration; of the two quaternions q and -q the one closer to `before`.
+    /// Rotation from the reference configuration, as a quaternion. Of the two quaternions q and -q, the one closer to `before` is returned.
     pub(super) fn quaternion(&self, q: &[T], before: Option<[f64; 4]>) -> [f64; 4] {
         let turn = match &self.turn {
             Turn::None => [1.0, 0.0, 0.0, 0.0],
@@ -85,7 +86,7 @@ pub(super) fn unit_of(a: [f64; 3]) -> [f64; 3] {
     if length > 0.0 { a.map(|x| x / length) } else { [0.0, 0.0, 1.0] }
 }
 
-/// Orthonormal axes: the first is along the first vector, the second is in the plane of both vectors.
+/// Orthonormal axes from two vectors: the first axis is along the first vector, and the second axis is in the plane of both vectors.
 pub fn frame([first, second]: [[f64; 3]; 2]) -> [[f64; 3]; 3] {
     let x = unit_of(first);
     let along = dot(x, second);
@@ -93,7 +94,7 @@ pub fn frame([first, second]: [[f64; 3]; 2]) -> [[f64; 3]; 3] {
     [x, y, cross(x, y)]
 }
 
-/// Quaternion of a rotation matrix with these columns, computed from its largest component.
+/// Quaternion of a rotation matrix with these columns. The computation starts from the largest component of the quaternion.
 pub fn of_axes([x, y, z]: [[f64; 3]; 3]) -> [f64; 4] {
     let squares = [
         1.0 + x[0] + y[1] + z[2],
@@ -117,7 +118,7 @@ pub fn of_axes([x, y, z]: [[f64; 3]; 3]) -> [f64; 4] {
 pub fn smallest(from: [f64; 3], to: [f64; 3]) -> [f64; 4] {
     let w = 1.0 + dot(from, to);
     if w < 1e-12 {
-        // For opposite directions: half a turn about any perpendicular axis.
+        // Opposite directions need half a turn about any axis perpendicular to them.
         let other = if from[0].abs() < 0.5 { [1.0, 0.0, 0.0] } else { [0.0, 1.0, 0.0] };
         let axis = unit_of(cross(from, other));
         return [0.0, axis[0], axis[1], axis[2]];

@@ -1,6 +1,6 @@
-//! Principal moments and axes of inertia: Jacobi's rotations of a symmetric 3 x 3 matrix.
+//! Principal moments and axes of inertia, by Jacobi rotations of a symmetric 3 x 3 matrix.
 
-/// Number of sweeps over the three off-diagonal entries [-]. Convergence is quadratic, so that six sweeps reach machine precision.
+/// Number of sweeps over the three off-diagonal entries [-]. Convergence is quadratic, so six sweeps already reach machine precision.
 const ROUNDS: usize = 8;
 
 /// Principal moments and principal axes of the inertia [xx, yy, zz, xy, yz, zx]; the axes are a right-handed orthonormal frame.

@@ -5,18 +5,18 @@ use mbs_core::Real;
 use mbs_core::actions::track_heights;
 use mbs_core::scene::{Dimension, RoadFeature, Scene};
 
-/// Distance of the points of a drawn road [m]; an edge rounded over 0.3 m has three points.
+/// Distance of neighbouring points of a drawn road [m]. An edge that is rounded over 0.3 m has three points.
 const SPACING: f64 = 0.1;
 /// Length of road before and after the path of the tires [m].
 const MARGIN: f64 = 3.0;
-/// Largest number of points along a road [-]: four hundred metres at the usual distance.
+/// Largest number of points along a road [-]. At the default distance of the points it suffices for four hundred metres.
 const MAX_PLACES: f64 = 4000.0;
-/// Half width of the strip of one track if the two tracks differ, relative to the distance of the tracks [-].
+/// Half width of the strip of one track, if the two tracks have different heights, relative to the distance of the tracks [-].
 const TRACK: f64 = 0.35;
 /// Half width of a planar road, relative to the scene's length [-].
 const PLANAR: f64 = 0.3;
 
-/// Returns the road of a scene with tires, along the path of all tires with a margin at both ends; `None` without tires.
+/// Returns the road of a scene with tires; `None` without tires. The road covers the path of all tires, with a margin at both ends.
 pub(super) fn under<T: Real>(scene: &Scene<T>, motion: &RecordedMotion) -> Option<DrawnRoad> {
     let enabled = scene.effects.iter().filter(|effect| effect.enabled);
     let wheels = enabled.filter_map(|effect| effect.kind.road_wheel());

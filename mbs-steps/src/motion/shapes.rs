@@ -1,4 +1,4 @@
-//! Shapes of the bodies: rods, boxes and capsules of their inertia, wheels, bars to their joints, and planar polygons.
+//! Shapes of the bodies, for example rods, boxes and capsules of their inertia, wheels, bars to joints, and planar polygons.
 
 use super::drawing::Drawing;
 use super::pose::{cross, dot, unit_of};
@@ -17,16 +17,16 @@ const POINT: f64 = 0.02;
 const MIN_HALF: f64 = 0.004;
 /// Half length above which a box is not drawn, relative to the scene's length [-], because it would hide everything else.
 const MAX_HALF: f64 = 3.0;
-/// Largest ratio of the two shorter half lengths of a capsule [-].
+/// Largest ratio of the two shorter half lengths for which a solid is drawn as a capsule [-].
 const ALIKE: f64 = 1.15;
-/// Smallest ratio of length to width of a capsule [-].
+/// Smallest ratio of length to width for which a solid is drawn as a capsule [-].
 const LONG: f64 = 1.5;
 /// Width of a tire, relative to its radius [-].
 const TIRE_WIDTH: f64 = 0.35;
 /// Width of rolling discs and of gears, relative to their radius [-].
 const DISC_WIDTH: f64 = 0.12;
 
-/// Box or capsule of a body's inertia, by its half lengths and axes.
+/// Box or capsule with the inertia of a body: its half lengths and axes.
 struct Solid {
     half: [f64; 3],
     axes: [[f64; 3]; 3],
@@ -46,7 +46,7 @@ impl<T: Real> Drawing<'_, T> {
         for body in 0..self.scene.bodies.len() {
             let mut own = self.scene.shapes.iter().filter(|s| s.body == BodyId::Body(body));
             let has_any = own.clone().next().is_some();
-            // A body with mesh files only also gets the shapes of its inertia, in case the files are missing.
+            // A body that has only mesh files also gets the shapes of its inertia. They are drawn if the files are missing.
             if own.all(|shape| matches!(shape.form, ShapeKind::Mesh { .. })) {
                 let first = motion.shapes.len();
                 self.add_body(body, wheels.contains(&body), motion);
@@ -107,8 +107,8 @@ impl<T: Real> Drawing<'_, T> {
         }
     }
 
-    /// Box with the inertia of a body. Its half lengths are sqrt(3 (tr I / 2 - I_i) / m). The term tr I / 2 - I_i is the integral of x_i^2
-    /// dm.
+    /// Box with the inertia of a body, from its principal moments I_i, their sum tr I, and its mass m. Its half lengths are sqrt(3 (tr I /
+    /// 2 - I_i) / m), because tr I / 2 - I_i is the integral of x_i^2 dm.
     fn solid(&self, body: usize, inertia: [T; 6]) -> Option<Solid> {
         let mass = self.scene.bodies[body].mass.to_f64();
         let (moments, axes) = principal(inertia.map(Real::to_f64));
@@ -121,7 +121,7 @@ impl<T: Real> Drawing<'_, T> {
         is_drawn.then_some(Solid { half, axes })
     }
 
-    /// Points of joints, line effects and outputs on a body, each one once. A box must not hide them.
+    /// Points of joints, line effects and outputs on a body; each point is listed once. A box must not hide these points.
     fn used(&self, body: usize) -> Vec<[f64; 3]> {
         let scene = self.scene;
         let of_joints = scene.joints.iter().filter(|j| !j.kind.is_free());
@@ -139,7 +139,7 @@ impl<T: Real> Drawing<'_, T> {
         places
     }
 
-    /// Adds the wheels of tires, of rolling bodies and of gears; returns the bodies that are wheels or carry them.
+    /// Adds the wheels of tires, of rolling bodies and of gears. Returns the bodies that are wheels or carry wheels.
     fn add_wheels(&self, motion: &mut RecordedMotion) -> Vec<usize> {
         let mut bodies = Vec::new();
         let mut add = |body: BodyId, form| {
@@ -183,19 +183,19 @@ impl<T: Real> Drawing<'_, T> {
         bodies
     }
 
-    /// Body that rotates with a wheel, and the axis of rotation.
+    /// Body that rotates with a wheel, and the axis of this rotation.
     fn wheel_of(&self, wheel: &RoadWheel<T>) -> (BodyId, [f64; 3]) {
         let joint = wheel.spin.map(|joint| &self.scene.joints[joint]);
         let others = joint.map(|joint| joint.bodies.into_iter().find(|body| *body != wheel.body));
         let body = others.flatten().filter(|body| body.index().is_some()).unwrap_or(wheel.body);
         let of_joint = || joint.map(|joint| joint.direction(Axis::First).into());
         let axis = wheel.axis.or_else(of_joint).map(|axis: [T; 3]| unit_of(axis.map(Real::to_f64)));
-        // Without an axis, the wheel is perpendicular to the direction of travel.
+        // If no axis is known, the axis is horizontal and perpendicular to the direction of travel x.
         let across = if self.is_planar() { [0.0, 0.0, 1.0] } else { [0.0, 1.0, 0.0] };
         (body, axis.filter(|_| !self.is_planar()).unwrap_or(across))
     }
 
-    /// Joints of gear wheels, with the pitch point of each mesh.
+    /// Joints of gear wheels. Each joint is listed with the pitch point of its mesh.
     fn teeth(&self) -> Vec<(JointId, [T; 3])> {
         let mut found = Vec::new();
         for coupling in &self.scene.couplings {
@@ -207,7 +207,7 @@ impl<T: Real> Drawing<'_, T> {
         found
     }
 
-    /// Gear wheel as a disc through its pitch point, about the axis of its joint.
+    /// Disc of a gear wheel: it goes through the pitch point, and its axis is the axis of the joint.
     fn gear(&self, joint: JointId, pitch: [T; 3]) -> Option<(BodyId, ShapeForm)> {
         let joint = &self.scene.joints[joint];
         let body = joint.bodies[1];

@@ -58,7 +58,7 @@ impl<T: Real> Drawing<'_, T> {
     }
 }
 
-/// Orthonormal axes from the first and second one; the global axes if none are given.
+/// Orthonormal axes from the given first and second axis; the global axes if none are given.
 fn axes_of<T: Real>(axes: Option<&[[T; 3]; 2]>) -> [[f64; 3]; 3] {
     axes.map_or(GLOBAL, |axes| frame(axes.map(|axis| axis.map(Real::to_f64))))
 }

@@ -8,32 +8,32 @@ use mbs_scene::{format::significant, nearest_name};
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum PacingError {
-    /// Invalid time: `period` must be positive and finite, `awake` must not be negative.
+    /// Invalid time: `period` must be positive and finite, and `awake` must be from 0 to 1 s.
     Time {
         /// Key of the time: `period` or `awake`.
         key: &'static str,
         /// The invalid value [s].
         value: f64,
     },
-    /// The quiet time has no periods.
+    /// The quiet time before a return to a better level has zero periods.
     Quiet,
-    /// A level names an effect that the scene does not have, or that is switched off.
+    /// A level names an effect that the scene does not have or that is switched off.
     NoEffect {
         /// Name that the level gives.
         name: String,
         /// Names of the effects that are switched on.
         known: Vec<String>,
     },
-    /// The steps cannot be made longer.
+    /// The steps cannot be made longer for a degraded level.
     Steps {
         /// True if the step size is controlled; false if a period has too few steps.
         is_controlled: bool,
     },
-    /// An effect that cannot be switched off during the run.
+    /// A level omits an effect that cannot be switched off during the run.
     Fixed {
         /// Name of the effect.
         name: String,
-        /// Reason why it cannot be switched off.
+        /// Reason why the effect cannot be switched off.
         why: SwitchError,
     },
     /// No effect that may be omitted saves time, so there is no ladder.

@@ -1,4 +1,4 @@
-//! Degraded levels below the full scene, and the check that a running scene can change to them.
+//! Degraded levels below the full scene, and the check that a running scene can change to these levels.
 
 use super::error::PacingError;
 use crate::record::Degraded;
@@ -9,10 +9,10 @@ use mbs_core::Real;
 use mbs_core::formulation::SwitchError;
 use mbs_core::scene::Scene;
 
-/// Key word of a level with longer steps.
+/// Word that stands for a level with longer steps.
 const STEPS: &str = "steps";
 
-/// The run for which a ladder is computed.
+/// Run for which a ladder of levels is computed.
 pub(super) struct Sought<'a, T> {
     pub(super) scene: &'a Scene<T>,
     pub(super) settings: &'a ResolvedMethod,
@@ -20,7 +20,7 @@ pub(super) struct Sought<'a, T> {
 }
 
 impl<T: Real> Sought<'_, T> {
-    /// Creates a level with this number of halvings and these effects off.
+    /// Creates a level in which the number of steps per period is halved `halvings` times, and the effects `off` are omitted.
     pub(super) fn rung(&self, halvings: u32, off: Vec<usize>) -> PacedLevel {
         let without = off.iter().map(|&e| self.scene.effects[e].name.clone()).collect();
         let steps = self.track.steps.unwrap_or(1);
@@ -29,14 +29,14 @@ impl<T: Real> Sought<'_, T> {
         PacedLevel { measured: Degraded { step_times, without, ..Degraded::default() }, ..rung }
     }
 
-    /// Does this number of halvings give longer steps than one halving fewer?
+    /// True if steps are longer with `halvings` halvings than with one halving less; also true for zero.
     pub(super) fn lengthens(&self, halvings: u32) -> bool {
         let Some(steps) = self.track.steps else { return false };
         let of = |halvings| PacedLevel { halvings, ..PacedLevel::default() }.steps(steps);
         halvings == 0 || of(halvings) < of(halvings - 1)
     }
 
-    /// Can the running scene change from the full scene to this level and back?
+    /// Checks that the running scene can change from the full scene to this level and back.
     pub(super) fn changes<const D: usize>(&self, rung: &PacedLevel) -> Result<(), SwitchError> {
         if rung.off.is_empty() {
             return Ok(());

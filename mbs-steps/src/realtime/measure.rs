@@ -1,13 +1,13 @@
-//! A degradation ladder by measurement: effects that save time and change the outputs least are omitted first.
+//! Degradation ladder by measurement. Effects that save time and change the outputs least are omitted first.
 //!
 //! ```text
 //! saves   = 1 − (median time of a period without it) / (that of the full scene)
 //! changes = max over outputs of (largest difference of the two runs) / (range of the output)
 //! ```
 //!
-//! Each candidate omits one thing and runs over the beginning of the scene. It uses the loop of the paced run, with a clock that does not
-//! wait. Candidates that save more time than the noise are sorted by their changes. Level k omits the first k of them, and is measured
-//! again. The ladder ends before a level that changes an output by more than half of its range.
+//! Each candidate omits one effect or lengthens the steps, and runs over the beginning of the scene. It uses the loop of the paced run,
+//! with a clock that does not wait. Candidates whose saving exceeds the noise are sorted by their changes. Level k omits the first k
+//! candidates, and is measured again. The ladder ends before a level that changes an output by more than half of its range.
 
 use super::error::PacingError;
 use super::ladder::Sought;
@@ -24,18 +24,19 @@ use std::time::Instant;
 
 /// Time limit of all measurements [s]. Chosen, not tuned.
 const SECONDS: f64 = 3.0;
-/// Periods of the first run, and smallest number of periods of a measured run. Chosen, not tuned.
+/// Number of periods of the first run, and smallest number of periods of a measured run. Chosen, not tuned.
 const FEWEST: u64 = 50;
-/// Number of timings of each level, interleaved. Chosen, not tuned.
+/// Number of measurements of each level, interleaved. Chosen, not tuned.
 const REPEATS: u32 = 3;
-/// Smallest saving of a level, relative to the time of a period [-]. Chosen, not tuned.
+/// Smallest fraction of the time of a period that a candidate must save [-]. Chosen, not tuned.
 const LEAST_SAVING: f64 = 0.02;
 /// Largest number of levels below the full scene. If there are more effects, effects of the same kind are omitted together. Chosen, not
 /// tuned.
 const MAX_LEVELS: usize = 8;
-/// Largest change of the outputs by a measured level, relative to their range [-]; a user may list further levels. Chosen, not tuned.
+/// Largest change of an output by a measured level, relative to the range of the output [-]. A user may list levels with larger changes.
+/// Chosen, not tuned.
 const MOST_CHANGE: f64 = 0.5;
-/// Largest number of halvings of the number of steps per period [-]: steps are then twice and four times as long.
+/// Largest number of halvings of the number of steps per period [-]. With one and two halvings, steps are twice and four times as long.
 const HALVINGS: u32 = 2;
 
 /// Clock that runs during computations and skips waiting times.
@@ -56,7 +57,7 @@ impl Clock for Hurried {
     fn pause(&mut self) {}
 }
 
-/// A candidate or a level with the times of its repeats, and its run.
+/// Candidate or level with its measured times and its last run.
 struct Trial {
     rung: PacedLevel,
     times: Vec<f64>,
@@ -68,7 +69,7 @@ impl Trial {
         Self { rung, times: Vec::new(), outcome: None }
     }
 
-    /// Smallest time of the repeats [s per period], and relative distance of the second smallest from it [-].
+    /// Smallest of the measured times [s per period], and the relative difference of the second smallest time from it [-].
     fn best(&self) -> Option<[f64; 2]> {
         let mut sorted = self.times.clone();
         sorted.sort_by(f64::total_cmp);
@@ -96,7 +97,7 @@ pub(super) fn measured<T: Real, const D: usize>(
     let first = trial::<T, D>(sought, &full, FEWEST);
     let one = clock.elapsed().as_secs_f64() / count(FEWEST.min(sought.track.periods) as usize);
     if first.is_none_or(|outcome| !outcome.summary.completed) {
-        // The full scene fails here, so the run itself will report the error.
+        // The full scene fails here. The run itself will report the error.
         return Ok(vec![full]);
     }
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
@@ -112,7 +113,7 @@ pub(super) fn measured<T: Real, const D: usize>(
     if rungs.len() == 1 { Err(PacingError::NoLadder) } else { Ok(rungs) }
 }
 
-/// Candidates: longer steps, and effects individually, or by kind if there are too many.
+/// Candidates: longer steps, and each effect. If there are too many effects, all effects of a kind are one candidate.
 fn candidates<T: Real, const D: usize>(sought: &Sought<'_, T>) -> Vec<PacedLevel> {
     let effects = sought.scene.effects.iter().enumerate().filter(|(_, effect)| effect.enabled);
     let can = |off: &Vec<usize>| sought.changes::<D>(&sought.rung(0, off.clone())).is_ok();
@@ -134,7 +135,7 @@ fn candidates<T: Real, const D: usize>(sought: &Sought<'_, T>) -> Vec<PacedLevel
     longer.chain(groups.into_iter().map(|off| sought.rung(0, off))).collect()
 }
 
-/// Levels below the full scene: each omits one more candidate that saves time, in the order of their changes.
+/// Levels below the full scene. Candidates that save time are sorted by their changes, and each level adds the next candidate.
 fn ladder<T: Real>(sought: &Sought<'_, T>, alone: &[Trial]) -> Vec<PacedLevel> {
     let noise = |trial: &Trial| trial.best().map_or(f64::INFINITY, |[_, noise]| noise);
     let full = alone.first().map_or(f64::INFINITY, noise);
@@ -155,7 +156,7 @@ fn ladder<T: Real>(sought: &Sought<'_, T>, alone: &[Trial]) -> Vec<PacedLevel> {
     rungs
 }
 
-/// Runs the full scene and other levels interleaved, and computes saving and change of each.
+/// Runs the full scene and other levels interleaved, and computes for each level the saved time and the change of the outputs.
 fn run_all<T: Real, const D: usize>(
     sought: &Sought<'_, T>,
     full: &PacedLevel,
@@ -186,7 +187,7 @@ fn run_all<T: Real, const D: usize>(
     trials
 }
 
-/// The output with the largest relative change, and that change; `None` if an output without a range changes.
+/// Returns the output with the largest relative change, and that change; `None` if an output without a range changes.
 fn largest(changes: &[OutputChange]) -> Option<(String, f64)> {
     let share = |change: &OutputChange| match change.relative {
         Some(share) => Some(share),
@@ -198,7 +199,7 @@ fn largest(changes: &[OutputChange]) -> Option<(String, f64)> {
     Some((changes[i].output.clone(), shares[i]))
 }
 
-/// Runs the first periods at one level, without waiting; `None` if the level cannot run in this scene.
+/// Runs the first periods at one level, without waiting for the clock; `None` if the level cannot run in this scene.
 fn trial<T: Real, const D: usize>(
     sought: &Sought<'_, T>,
     rung: &PacedLevel,

@@ -1,11 +1,12 @@
-//! Real time: a scene at the pace of a clock, or a user-defined loop around a [`Simulation`].
+//! Real time: a run that a clock paces, or a user-defined loop around a [`Simulation`].
 //!
 //! `mbs run SCENE --realtime` is a run with a [`Pacing`]; docs/REALTIME.md describes its policies and measurements. No solver reads a
 //! clock: the pacer of [`mbs_realtime`] calls the steps from outside.
 //!
 //! # A loop of your own
 //! A program with a loop of its own, such as a test bench with hardware, sets inputs, makes steps, and reads outputs. The pacer calls
-//! `step` at the begin of each period and `publish` at its end. After an overrun, `publish` follows later, depending on the policy.
+//! `step` at the beginning of each period and `publish` at its end. After an overrun, `publish` is called later; the policy determines
+//! when.
 //!
 //! ```
 //! use core::{cell::Cell, ops::ControlFlow, time::Duration};
@@ -77,8 +78,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! For a ladder in such a loop, a second [`Simulation`] of the same scene has some effects switched off. When [`Task::level`] changes, it
-//! copies the state with [`Simulation::take_over`]. Inputs are set in both simulations.
+//! A ladder in such a loop needs a second [`Simulation`] of the same scene, with some effects switched off. When [`Task::level`] changes,
+//! this simulation copies the state with [`Simulation::take_over`]. Inputs are set in both simulations.
 
 mod error;
 mod ladder;
@@ -103,19 +104,19 @@ use crate::typed::Simulation;
 /// Settings by which a run is paced.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Pacing {
-    /// Length of a period [s]; default: the step, or with step control the largest step.
+    /// Length of a period [s]. Default: the length of a step; with step control, the largest length of a step.
     pub period: Option<f64>,
-    /// Policy for a period that is late.
+    /// Policy for a period that misses its deadline.
     pub overrun: Overrun,
     /// Ladder for the policy [`Overrun::Degrade`].
     pub degrade: Degrade,
-    /// Time before each begin during which the loop waits actively [s].
+    /// Time before the beginning of each period during which the loop waits actively [s].
     pub awake: f64,
-    /// Condition for a degraded run to return to a better level.
+    /// Condition on which a degraded run returns to a better level.
     pub quiet: Recovery,
 }
 
-/// Default time before a period's end during which a run waits actively [s]. Chosen, not tuned.
+/// Default time before the beginning of a period during which a run waits actively [s]. Chosen, not tuned.
 const AWAKE: f64 = 1e-4;
 
 impl Default for Pacing {
@@ -133,8 +134,8 @@ impl Default for Pacing {
 /// Ladder of levels below the full scene, with the omissions of each level.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Degrade {
-    /// Levels found by measurement before the run: steps twice and four times as long, and omitted effects, if they save time. The first
-    /// level changes the outputs least.
+    /// Levels found by measurement before the run. They have longer steps (twice and four times as long) or omit effects, if this saves
+    /// time. The first level changes the outputs least.
     Measured,
     /// Levels listed by the user. Each entry adds a level with one more omission: `steps` doubles the step length, and the name of an
     /// effect switches the effect off.

@@ -1,4 +1,4 @@
-//! Run of a scene at the pace of a clock.
+//! Runs of a scene that a clock paces.
 
 use super::error::PacingError;
 use super::ladder::{Sought, listed};
@@ -44,7 +44,7 @@ pub fn run<T: Real, const D: usize>(
     })
 }
 
-/// Computes the pace, and the division of simulated time into periods and steps.
+/// Computes the pace, and divides simulated time into periods and steps.
 fn track<T: Real>(
     scene: &Scene<T>,
     settings: &ResolvedMethod,
@@ -86,7 +86,7 @@ fn time(seconds: f64) -> Option<Duration> {
     Duration::try_from_secs_f64(seconds).ok()
 }
 
-/// Number of steps of a period: the fewest equal steps that are not longer than `step`, within rounding errors.
+/// Number of steps of a period: the smallest number of equal steps that are not longer than `step`, within rounding errors.
 pub fn parts(period: f64, step: f64) -> u32 {
     let n = (period / step * (1.0 - SAME_LENGTH)).ceil().clamp(1.0, f64::from(u32::MAX));
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "it is clamped")]

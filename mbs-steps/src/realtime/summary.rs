@@ -1,4 +1,4 @@
-//! Measurements of a pacer, in their form for files.
+//! Measurements of a pacer, converted to their form in files.
 
 use crate::record::{Degraded, MarginSummary, Overrun as Logged, RealtimeSummary, Times};
 use crate::run::{PacedLevel, PacedSchedule};

@@ -1,8 +1,8 @@
-//! JSON keys with two names: the value is written under the first name, which is the contract, and under the second name.
+//! JSON keys with two names. The value is written twice: under the first name, which is the contract, and under the second name.
 
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
-/// Defines a function for each pair of names, for `#[serde(flatten, serialize_with = ..)]`.
+/// Defines a function for each pair of names. The functions serve `#[serde(flatten, serialize_with = ..)]`.
 macro_rules! two_names {
     ($($function:ident: $old:literal, $new:literal;)*) => {$(
         pub fn $function<S: Serializer>(value: &impl Serialize, to: S) -> Result<S::Ok, S::Error> {

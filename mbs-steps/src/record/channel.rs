@@ -15,14 +15,14 @@ pub struct Channel {
 }
 
 impl Channel {
-    /// Does the channel belong to the run itself, such as its energy error? The accuracy of such a channel does not show the accuracy of
-    /// the motion.
+    /// True if the channel belongs to the run itself, such as its energy error. The accuracy of such a channel does not show the accuracy
+    /// of the motion.
     #[must_use]
     pub fn is_of_run(&self) -> bool {
         QUANTITIES.iter().any(|row| row.name == self.quantity && row.is_of_run)
     }
 
-    /// Channels of a scene: its outputs, or every joint coordinate if the scene names no outputs.
+    /// Channels of a scene: its outputs, or all joint coordinates if the scene names no outputs.
     ///
     /// Vectors have the components `x`, `y`, `z`. Joints with several coordinates have `1`, `2`, ... Reactions have `Fx`, `Fy`, `Mz` in the
     /// plane, and `Fx`, `Fy`, `Fz`, `Mx`, `My`, `Mz` in space.
@@ -48,7 +48,7 @@ impl Channel {
         outputs.into_iter().map(channel).collect()
     }
 
-    /// The names of the channel's columns: `name`, or `name.x`, `name.y`, ...
+    /// Names of the channel's columns: `name`, or `name.x`, `name.y`, ...
     pub fn columns(&self) -> impl Iterator<Item = String> + '_ {
         self.components.iter().map(|component| {
             if component.label.is_empty() {

@@ -10,9 +10,9 @@ use std::io;
 pub struct PilotReport {
     /// Required error of the outputs, relative to the scale of each output.
     pub error: Option<f64>,
-    /// Time limit for each frame of that length [s].
+    /// Time limit for the computation of one frame that has this length [s].
     pub deadline: Option<f64>,
-    /// Structure of the scene, described in one sentence each.
+    /// Sentences that describe the structure of the scene.
     pub structure: Vec<String>,
     /// Duration of the motion that the pilot simulated [s].
     pub span: f64,
@@ -22,38 +22,39 @@ pub struct PilotReport {
     pub pilot_seconds: f64,
     /// Largest CPU time allowed for the pilot [s].
     pub pilot_budget: f64,
-    /// Reference solution of the errors, and its accuracy.
+    /// Reference solution with which errors are computed, and its accuracy.
     pub reference: Option<PilotReference>,
-    /// Distance of the chosen candidate from index-3, if the chosen one is in relative coordinates.
+    /// Comparison of the chosen candidate with index-3, if the chosen candidate is in relative coordinates.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub second_look: Option<SecondLook>,
-    /// All candidates: the chosen one first, then in the order of predicted CPU time, then the rejected ones.
+    /// All candidates, with the chosen candidate first. The others follow in the order of predicted CPU time, and rejected candidates are
+    /// last.
     pub candidates: Vec<Candidate>,
-    /// Candidates that were chosen first and stopped in the run.
+    /// Candidates that were chosen first, but stopped in the run.
     pub fallbacks: Vec<Fallback>,
     /// Notes for the reader.
     pub notes: Vec<String>,
 }
 
-/// Comparison of the chosen candidate with one in other coordinates, whose model is independent.
+/// Comparison of the chosen candidate with a candidate in other coordinates, whose model is independent of the first.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct SecondLook {
     /// Largest difference of the outputs, relative to the scale of each output.
     pub distance: Option<f64>,
-    /// Error of the comparison itself.
+    /// Error of the run in other coordinates, relative to the scale of each output.
     pub own_error: Option<f64>,
-    /// True if the distance is too large to be an error of either run, so the models differ.
+    /// True if the distance is larger than the errors of both runs can explain, so that the models differ.
     pub differs: bool,
 }
 
-/// Most accurate run of the pilot.
+/// Most accurate run of the pilot, to which other runs are compared.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct PilotReference {
     /// Name of the candidate that ran.
     pub method: String,
-    /// Step [s] or tolerance of the run.
+    /// Step [s] or tolerance of this run.
     pub setting: f64,
-    /// Error of the reference, estimated by its distance from the run with the next coarser setting.
+    /// Error of the reference. It is estimated by the distance from the run with the next coarser setting.
     pub uncertainty: f64,
 }
 
@@ -70,18 +71,18 @@ pub struct Candidate {
     pub integrator: String,
     /// Step control: `fixed`, `error` or `energy`; `own` for an integrator that controls its internal steps.
     pub control: String,
-    /// Step [s] or tolerance that the required error needs.
+    /// Step [s] or tolerance with which the candidate reaches the required error.
     pub setting: Option<f64>,
     /// Predicted CPU time of the whole run [s].
     pub seconds: Option<f64>,
-    /// Predicted CPU time divided by that of the chosen candidate [-].
+    /// Predicted CPU time divided by the predicted CPU time of the chosen candidate [-].
     #[serde(flatten, serialize_with = "alias::over_chosen")]
     pub over_chosen: Option<f64>,
     /// Predicted error of the run.
     pub error: Option<f64>,
-    /// The longest CPU time of a step in its trials [s], if steps were timed individually.
+    /// Longest CPU time of a step in the trials of the candidate [s], if steps were timed individually.
     pub slowest_step: Option<f64>,
-    /// Basis of the prediction.
+    /// Text that says what the prediction is based on.
     #[serde(flatten, serialize_with = "alias::basis")]
     pub basis: String,
     /// Reason why the candidate is rejected.
@@ -100,15 +101,15 @@ pub struct TrialEntry {
     pub seconds: f64,
     /// Number of steps in the trial.
     pub steps: u64,
-    /// Fraction of the span that the trial reached [-].
+    /// Fraction of the pilot's duration that the trial reached [-].
     pub reached: f64,
-    /// Error against the reference, or against the next trial of the same candidate.
+    /// Error relative to the reference, or relative to the next trial of the same candidate.
     pub error: Option<f64>,
     /// Outcome of the trial: `completed`, `given up`, or the code of the error that stopped it.
     pub outcome: String,
 }
 
-/// A candidate that stopped in the run.
+/// Candidate that was chosen and stopped in the run.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct Fallback {
     /// Name of the candidate that stopped.
@@ -123,7 +124,7 @@ pub struct Fallback {
     pub cpu_seconds: f64,
 }
 
-/// Head of the table of candidates.
+/// Column titles of the table of candidates.
 const HEAD: [&str; 6] = ["", "candidate", "step or tolerance", "CPU time", "error", "why"];
 
 impl PilotReport {
@@ -269,7 +270,7 @@ pub fn write_choice(sink: impl io::Write, choice: &PilotReport) -> io::Result<()
     out.flush()
 }
 
-/// Describes the distance of another model from the chosen one.
+/// Describes the distance between the outputs of two models: that of the chosen candidate and another one.
 fn second_look(look: &SecondLook) -> String {
     let distance = look.distance.map_or_else(|| "?".to_owned(), few);
     let own = look.own_error.map_or_else(

@@ -6,7 +6,7 @@ use mbs_core::real::DoubleDouble;
 use mbs_scene::format::{full, shortest};
 use std::io::{self, Write};
 
-/// Writes a header and then one row per recorded time; floats have the shortest form that reads back exactly.
+/// Writes a header, and then one row for each recorded time. Floats have the shortest form that reads back exactly.
 ///
 /// Rows are flushed to the file every [`CsvWriter::FLUSH_EVERY`] rows, at [`CsvWriter::finish`], and when the writer is dropped. A run that
 /// stops therefore keeps its recorded rows.
@@ -35,7 +35,7 @@ impl<W: Write> CsvWriter<W> {
         Ok(Self { out, n_columns: header.len(), n_rows: 0 })
     }
 
-    /// Writes the units as a line: first the unit of the time, then those of the channels.
+    /// Writes a line with the units: first the unit of the time, then the units of the channels.
     ///
     /// # Errors
     /// The errors of the sink.
@@ -46,7 +46,7 @@ impl<W: Write> CsvWriter<W> {
         self.out.write_record(&units).map_err(io::Error::from)
     }
 
-    /// Continues a file that already has its header.
+    /// Continues a file that already has a header.
     pub fn append(sink: W, channels: &[Channel]) -> Self {
         let n_columns = 1 + channels.iter().map(|channel| channel.components.len()).sum::<usize>();
         Self { out: csv::Writer::from_writer(sink), n_columns, n_rows: 0 }
@@ -63,7 +63,7 @@ impl<W: Write> CsvWriter<W> {
         self.fields(core::iter::once(&time).chain(values).map(|&x| shortest(x)))
     }
 
-    /// Writes one row of values with 32 digits; the time has the digits of `f64`.
+    /// Writes one row of values with 32 digits. The time has the digits of `f64`.
     ///
     /// # Errors
     /// The errors of the sink.
@@ -98,7 +98,7 @@ impl<W: Write> CsvWriter<W> {
     }
 }
 
-/// Writes one row for each recorded step: its end time, its length, and its counts and errors.
+/// Writes one row for each recorded step: the time at its end, its length, and its counts and errors.
 ///
 /// # Errors
 /// The errors of the sink.

@@ -5,7 +5,7 @@ use super::outputs::Outputs;
 /// Estimate of the errors of a run's outputs.
 #[derive(Debug, Clone, Default, PartialEq, serde::Serialize)]
 pub struct ErrorEstimate {
-    /// Basis of the estimate; absent without an estimate.
+    /// Sentence that says how the errors were estimated; absent without an estimate.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub basis: Option<String>,
     /// Reason why no estimate could be made.
@@ -14,7 +14,7 @@ pub struct ErrorEstimate {
     /// Largest error of each component over the run, in the unit of the component.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub outputs: Option<Outputs>,
-    /// Largest of these errors relative to the range of its output [-].
+    /// Largest error of an output relative to the range of that output [-].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub largest: Option<f64>,
     /// Output with the largest relative error.
@@ -25,7 +25,7 @@ pub struct ErrorEstimate {
     /// Largest rotation of a body in a step [rad].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub turn_per_step: Option<f64>,
-    /// Number of steps in a period of the stiffest force.
+    /// Number of steps in a period of the stiffest force, which is the force with the shortest period.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub steps_per_period: Option<f64>,
     /// Warnings about steps that are too long for the motion.

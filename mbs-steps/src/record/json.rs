@@ -19,7 +19,7 @@ pub struct RunSummary {
     pub integrator: String,
     /// Precision of the run: `f32`, `f64`, `dd`.
     pub precision: String,
-    /// Method that ran, and its steps.
+    /// Method that the run used, and counts of its steps.
     pub method_used: MethodUsed,
     /// Dimension of the scene, 2 or 3.
     pub dimension: usize,
@@ -43,15 +43,15 @@ pub struct RunSummary {
     pub end_time: f64,
     /// CPU time of all threads from the first step to the last [s]. For a paced run it is the clock time of its periods.
     pub cpu_seconds: f64,
-    /// Simulated time divided by the time of the computation [-].
+    /// Simulated time divided by the computation time [-].
     pub real_time_factor: f64,
-    /// Longest time of a step [s].
+    /// Longest computation time of a step [s].
     pub worst_step_seconds: f64,
     /// Newton iterations, summed over all steps.
     pub iterations: u64,
     /// Factorisations, summed over all steps.
     pub factorizations: u64,
-    /// Energy invariant over the run.
+    /// Errors of the energy invariant over the run.
     pub energy: EnergySummary,
     /// Largest constraint violation over the run.
     pub violation: ViolationSummary,
@@ -63,9 +63,9 @@ pub struct RunSummary {
     pub realtime: Option<RealtimeSummary>,
     /// Values of the channels at `end_time`.
     pub outputs: Outputs,
-    /// Statistics of each channel over every step.
+    /// Statistics of each channel over all steps.
     pub channels: Vec<ChannelSummary>,
-    /// Outputs as texts of 32 digits, for a run with that precision. Most JSON readers keep at most 17 digits of a number.
+    /// Outputs as texts of 32 digits, for a run in double-double precision. Most JSON readers keep at most 17 digits of a number.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub digits: Option<Outputs<String>>,
     /// Estimated accuracy of the outputs; absent without an estimate.
@@ -74,18 +74,18 @@ pub struct RunSummary {
     /// Method that `auto` chose, with the reasons.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub chosen: Option<MethodChoice>,
-    /// Joints whose reaction is not unique; the reaction of smallest norm is given.
+    /// Joints whose reaction is not unique. The record has the reaction of smallest norm.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub not_unique: Vec<String>,
     /// Contacts of bumpers, limits and tires that began or ended, in order of time.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub contacts: Vec<Contact>,
-    /// Number of contacts that are not listed.
+    /// Number of contacts that the list `contacts` omits.
     #[serde(skip_serializing_if = "is_zero")]
     pub contacts_left_out: u64,
 }
 
-/// Method that ran, and its steps.
+/// Method that the run used, and counts of its steps.
 #[derive(Debug, Clone, Default, PartialEq, serde::Serialize)]
 pub struct MethodUsed {
     /// Formulation of the method that ran.
@@ -126,9 +126,9 @@ fn is_zero(n: &u64) -> bool {
 /// Reason why a run stopped early.
 #[derive(Debug, Clone, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct RunError {
-    /// Short constant word for programs, such as `not-converged`.
+    /// Error code for programs, a constant word such as `not-converged`.
     pub code: String,
-    /// Message of one sentence.
+    /// Message of the error, one sentence.
     pub message: String,
     /// Time that the run reached [s].
     pub time: f64,
@@ -138,28 +138,29 @@ pub struct RunError {
     /// Name of the body concerned.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub body: Option<String>,
-    /// Hint on what to try.
+    /// Hint for the user: what to do about the error.
     pub hint: String,
 }
 
-/// Energy invariant Pi = T + V - W [J], with W the work of non-conservative forces and guides.
+/// Energy invariant Pi = T + V - W [J]. T and V are the kinetic and potential energy, and W is the work of non-conservative forces and
+/// guides.
 #[derive(Debug, Clone, Copy, Default, PartialEq, serde::Serialize)]
 pub struct EnergySummary {
     /// Pi at the start [J].
     pub initial: f64,
-    /// Largest |Pi(t) - Pi(0)| over every step [J].
+    /// Largest |Pi(t) - Pi(0)| over all steps [J].
     pub max_error: f64,
     /// Value of |Pi - Pi(0)| at the end [J].
     pub final_error: f64,
-    /// Exchanged energy: largest kinetic energy plus the sum of absolute work [J]. Errors are compared with it.
+    /// Exchanged energy: largest kinetic energy plus the sum of absolute work [J]. Energy errors are compared with it.
     pub turned_over: f64,
-    /// Root mean square of the changes of Pi from step to step [J].
+    /// Root mean square of the change of Pi in one step [J].
     pub scatter: f64,
     /// Slope of the least-squares line through the errors of Pi over time [W].
     pub drift: f64,
 }
 
-/// Largest constraint residuals over every step.
+/// Largest constraint residuals over all steps.
 #[derive(Debug, Clone, Copy, Default, PartialEq, serde::Serialize)]
 pub struct ViolationSummary {
     /// Residual of the positions [m or rad].
@@ -175,7 +176,7 @@ pub struct ViolationSummary {
 pub struct MethodChoice {
     /// Formulation of the method that ran.
     pub formulation: String,
-    /// Formulation, integrator, and step or tolerance that ran.
+    /// Formulation, integrator, and step or tolerance that the run used.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub ran: String,
     /// Reasons for the choice, one sentence each.
@@ -186,7 +187,7 @@ pub struct MethodChoice {
 }
 
 impl RunSummary {
-    /// Returns one JSON object in indented form, without a line end.
+    /// Returns one JSON object, indented and without a line end.
     #[must_use]
     pub fn to_json(&self) -> String {
         // All keys are strings and the sink is memory, so serialisation cannot fail.

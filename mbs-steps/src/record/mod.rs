@@ -1,4 +1,4 @@
-//! Records of a run: plain data, and its rows and objects in files.
+//! Records of a run as plain data, and functions that write them as rows and objects to files.
 
 #[doc(hidden)]
 pub mod alias;

@@ -4,11 +4,11 @@ use mbs_core::Real;
 use mbs_core::scene::{Body, Scene};
 use serde::Serialize;
 
-/// Number of values of a pose. They are the position of the centre of mass [m] and the unit quaternion w, x, y, z of the rotation from the
-/// reference configuration.
+/// Number of values of a pose: three for the position of the centre of mass [m], and four for a unit quaternion. The quaternion (w, x, y,
+/// z) is the rotation from the reference configuration.
 pub const N_POSE: usize = 7;
 
-/// The motion of all bodies over time, and the shapes to draw.
+/// Motion of all bodies over time, and the shapes to draw.
 ///
 /// Points on a body are relative to its centre of mass, in the global axes of the reference configuration. Points on the ground are global.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -21,7 +21,7 @@ pub struct RecordedMotion {
     pub length: f64,
     /// Times of the frames [s].
     pub times: Vec<f64>,
-    /// The poses of all bodies, frame by frame: [`N_POSE`] values for each body.
+    /// Poses of all bodies, frame by frame, with [`N_POSE`] values for each body.
     pub poses: Vec<f64>,
     /// The bodies, in file order.
     pub bodies: Vec<DrawnBody>,
@@ -29,18 +29,19 @@ pub struct RecordedMotion {
     pub shapes: Vec<DrawnShape>,
     /// Lines between points on bodies.
     pub lines: Vec<DrawnLine>,
-    /// Points whose path is drawn.
+    /// Points whose paths are drawn.
     pub traces: Vec<DrawnPoint>,
     /// Positions of the joints, for labels.
     pub joints: Vec<DrawnPoint>,
-    /// Points of forces and moments that outputs measure, with the names of the outputs.
+    /// Points at which measured forces and moments act, with the names of the outputs.
     pub forces: Vec<DrawnForce>,
     /// Surface of the road under tires.
     pub road: Option<DrawnRoad>,
 }
 
 impl RecordedMotion {
-    /// Name of the body whose first pose differs most from the reference configuration, by displacement [m] or rotation [rad].
+    /// Name of the body whose pose in the first frame differs most from the reference configuration. Displacements [m] and rotations [rad]
+    /// are compared as numbers.
     pub fn most_moved<T: Real>(&self, scene: &Scene<T>) -> Option<&str> {
         let moved = |(pose, body): (&[f64], &Body<T>)| {
             let ways = pose[..3].iter().zip(body.center).map(|(x, c)| x - c.to_f64());
@@ -57,18 +58,19 @@ impl RecordedMotion {
 /// Body of a picture, with its name and mass.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct DrawnBody {
-    /// Name of the body.
+    /// Name of the body, as in the scene.
     pub name: String,
     /// Mass of the body [kg].
     pub mass: f64,
 }
 
-/// Point on a body, or on the ground.
+/// Point of a body, or of the ground.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
 pub struct BodyPlace {
     /// Index of the body; `None`: the ground.
     pub body: Option<usize>,
-    /// Position of the point [m]: relative to the body's centre of mass in the reference configuration, or global on the ground.
+    /// Position of the point [m]. On a body it is relative to the centre of mass in the reference configuration, on the ground it is
+    /// global.
     pub at: [f64; 3],
 }
 
@@ -88,7 +90,7 @@ pub struct DrawnForce {
     /// Name of the output, and the point of the force.
     #[serde(flatten)]
     pub point: DrawnPoint,
-    /// Index of the body in whose axes the components are; `None`: global axes.
+    /// Index of the body in whose axes the components of the force are; `None`: they are in global axes.
     pub axes: Option<usize>,
 }
 
@@ -105,7 +107,7 @@ pub struct DrawnShape {
     pub colour: Option<String>,
     /// Opacity from 0 (invisible) to 1 [-].
     pub opacity: f64,
-    /// True for a substitute that is drawn only if no mesh file of the body can be read.
+    /// True for a shape that replaces a mesh. It is drawn only if no mesh file of the body can be read.
     #[serde(skip)]
     pub stands_in: bool,
 }
@@ -152,7 +154,7 @@ pub enum ShapeForm {
         /// True if the capsule must be drawn transparent, to show something inside it.
         is_clear: bool,
     },
-    /// Ball, with marks on its surface that show its rotation.
+    /// Ball, which may have marks on its surface that show its rotation.
     Ball {
         /// Centre of the ball.
         at: [f64; 3],
@@ -175,7 +177,7 @@ pub enum ShapeForm {
         file: String,
         /// Position of the mesh's origin.
         at: [f64; 3],
-        /// Axes of the mesh, multiplied by the scale factors of its coordinates.
+        /// Axes of the mesh, each multiplied by its scale factor.
         axes: [[f64; 3]; 3],
     },
     /// Flat polygon, perpendicular to z.
@@ -208,7 +210,7 @@ pub enum ShapeForm {
         /// Position of the socket.
         at: [f64; 3],
     },
-    /// Straight rail through a point. Its length covers the motion of the sliding point along it.
+    /// Straight rail through a point. It is drawn so long that the sliding point always remains on it.
     Rail {
         /// Point on the rail.
         at: [f64; 3],
@@ -283,30 +285,30 @@ pub struct DrawnRoad {
     pub start: f64,
     /// Distance between successive points along x [m].
     pub spacing: f64,
-    /// Strips next to each other along y, with their sides and the heights of their points [m].
+    /// Strips next to each other along y.
     pub strips: Vec<RoadStrip>,
-    /// Speed of the road in direction -x [m/s].
+    /// Speed at which the road moves in direction -x [m/s].
     pub speed: f64,
 }
 
 /// A strip of a road.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct RoadStrip {
-    /// Two sides of the strip, along y [m].
+    /// Positions of both sides of the strip along y [m].
     pub sides: [f64; 2],
-    /// Heights of the points [m].
+    /// Heights of the road at the points along x [m].
     pub heights: Vec<f64>,
 }
 
 impl RecordedMotion {
-    /// Returns the position of a point in a frame of the record [m]; `None` if the frame or the body does not exist.
+    /// Returns the position of a point in a recorded frame [m]; `None` if the frame or the body does not exist.
     #[must_use]
     pub fn place(&self, picture: usize, place: &BodyPlace) -> Option<[f64; 3]> {
         let Some(body) = place.body else { return Some(place.at) };
         let n = self.bodies.len() * N_POSE;
         let pose = self.poses.get(picture * n..)?.get(body * N_POSE..)?.get(..N_POSE)?;
         let (center, q) = (&pose[..3], &pose[3..]);
-        // With the quaternion (w, r), the rotated vector is at + 2 r x (r x at + w at).
+        // Rotation of `at` by the quaternion (w, r): at + 2 r x (r x at + w at).
         let cross = |a: [f64; 3], b: [f64; 3]| {
             [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
         };

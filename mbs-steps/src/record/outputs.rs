@@ -2,7 +2,7 @@
 
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
-/// Values of channels by name, in order; a single value is written as a number, several values as a list.
+/// Values of channels with their names, in order. In JSON, a single value is a number, and several values are a list.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Outputs<V = f64>(pub Vec<(String, Vec<V>)>);
 

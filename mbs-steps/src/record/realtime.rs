@@ -1,4 +1,4 @@
-//! Timing report of a paced run: an object of its JSON, and a line of CSV for each overrun.
+//! Timing report of a paced run: an object of the run's JSON, and a CSV file with a line for each overrun.
 
 use mbs_scene::format::shortest;
 use std::io::{self, Write};
@@ -19,9 +19,9 @@ pub struct RealtimeSummary {
     pub deadline_held: bool,
     /// Number of periods that missed the deadline.
     pub overruns: u64,
-    /// Longest delay of a period [s].
+    /// Longest time by which a period missed its deadline [s].
     pub latest: f64,
-    /// Delay of the begin of those periods that no earlier overrun delayed.
+    /// Delay of the beginning of periods. Periods that an earlier overrun delayed are not included.
     pub jitter: Times,
     /// Computation time of a period.
     pub duration: Times,
@@ -29,18 +29,18 @@ pub struct RealtimeSummary {
     pub margin: MarginSummary,
     /// Simulated time divided by the computation time [-].
     pub real_time_factor: f64,
-    /// Clock time from the first begin to the last end [s].
+    /// Clock time from the beginning of the first period to the end of the last one [s].
     pub elapsed: f64,
-    /// Delay of the last result relative to the clock [s].
+    /// Time by which the last result was behind the clock [s].
     pub behind: f64,
     /// Number of periods by which `hold` delayed the schedule.
     pub skipped: u64,
-    /// Number of periods at a degraded level; their results are not those of the full scene.
+    /// Number of periods at a degraded level. Their results differ from those of the full scene.
     pub degraded_periods: u64,
-    /// Levels of the degradation ladder, level 0 first; empty for other policies.
+    /// Levels of the degradation ladder, beginning with level 0; empty for other policies.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub levels: Vec<Degraded>,
-    /// List of overruns and changes of level, at most a thousand.
+    /// List of overruns and changes of level; it has at most a thousand entries.
     pub log: Vec<Overrun>,
     /// Number of overruns and changes of level that are not in the log.
     pub log_left_out: u64,
@@ -60,9 +60,9 @@ pub struct Times {
 /// Percentiles of margins [s].
 #[derive(Debug, Clone, Copy, Default, PartialEq, serde::Serialize)]
 pub struct MarginSummary {
-    /// Least of the margins.
+    /// Smallest of the margins.
     pub least: f64,
-    /// First percentile of the margins: 99 of 100 margins are larger or equal.
+    /// First percentile of the margins: 99 of 100 margins are at least as large.
     pub p1: f64,
     /// Median of the margins.
     pub p50: f64,
@@ -73,17 +73,17 @@ pub struct MarginSummary {
 pub struct Degraded {
     /// Number of the level: 0 is the full scene.
     pub level: usize,
-    /// Length of a step, relative to level 0 [-].
+    /// Length of a step divided by the length at level 0 [-].
     pub step_times: f64,
     /// Names of the effects that the level omits.
     pub without: Vec<String>,
     /// Number of periods that ran at the level.
     pub periods: u64,
-    /// Measured fraction of the computation time that the level saves [-]; this and the next two values are `null` without a measurement.
+    /// Measured fraction of the computation time that the level saves [-]. It is `null` without a measurement, as are the next two values.
     pub saves: Option<f64>,
-    /// Simulated time from the start over which the level was measured [s].
+    /// Simulated time from the start, over which the level was measured [s].
     pub measured_over: Option<f64>,
-    /// Measured largest change of an output, relative to the range of the output [-].
+    /// Largest measured change of an output, relative to the range of the output [-].
     pub changes: Option<f64>,
     /// Output with the largest change.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -97,7 +97,7 @@ pub struct Overrun {
     pub index: u64,
     /// Simulated time at the end of the period [s].
     pub time: f64,
-    /// Clock time at the end of the computation, since the begin of the run [s].
+    /// Clock time at the end of the computation, counted from the beginning of the run [s].
     pub at: f64,
     /// Duration of the computation [s].
     pub duration: f64,

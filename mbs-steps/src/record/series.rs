@@ -4,7 +4,7 @@ use super::RecordedMotion;
 use super::channel::Channel;
 use super::statistics::ComponentStatistics;
 
-/// Data of the HTML page of a run. Series may have any number of points; the page reduces them.
+/// Data of the HTML page of a run. Series may have any number of points; the page reduces their number.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct RunRecord {
     /// Name of the scene.
@@ -23,20 +23,20 @@ pub struct RunRecord {
     pub iterations: Option<IterationSeries>,
     /// Lengths of the steps; `None` for fixed steps.
     pub steps: Option<StepSeries>,
-    /// Rows of the summary table: label and value.
+    /// Rows of the summary table, each with label and value.
     pub summary: Vec<(String, String)>,
     /// Notes for the user, for example about redundant constraints.
     pub notes: Vec<String>,
     /// Table of a choice by measurement, with its header row first.
     pub choice: Vec<Vec<String>>,
-    /// Time and reason of an early stop: the text after "The run stopped".
+    /// Time and reason of an early stop. The text follows the words "The run stopped" on the page.
     pub error: Option<String>,
 }
 
-/// Provenance of a run: method, command and program version; empty texts are omitted.
+/// Provenance of a run: method, command and program version. Empty texts are omitted.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Provenance {
-    /// Command line that repeats the run.
+    /// Command line with which the run can be repeated.
     pub command: String,
     /// Precision of the run: `f32`, `f64`, `dd`.
     pub precision: String,
@@ -44,7 +44,7 @@ pub struct Provenance {
     pub formulation: String,
     /// Integrator that the run used.
     pub integrator: String,
-    /// Step with its unit.
+    /// Step length with its unit.
     pub step: String,
     /// Version or commit of the program.
     pub version: String,
@@ -53,7 +53,7 @@ pub struct Provenance {
 }
 
 impl Provenance {
-    /// Label and text of each entry that is not empty.
+    /// Returns label and text of each entry that is not empty.
     pub fn rows(&self) -> impl Iterator<Item = [&str; 2]> {
         let rows = [
             ["command", self.command.as_str()],
@@ -77,7 +77,8 @@ pub struct ChannelSeries {
     pub times: Vec<f64>,
     /// One series per component, each as long as `times`.
     pub values: Vec<Vec<f64>>,
-    /// Statistics over every step, also steps without a row: first of each component, then of the magnitude of each vector.
+    /// Statistics over all steps, including steps without a row. The statistics of the components come first. The statistics of the
+    /// magnitude of each vector follow.
     pub stats: Vec<ComponentStatistics>,
 }
 
@@ -90,7 +91,7 @@ pub struct EnergySeries {
     pub kinetic: Vec<f64>,
     /// Potential energy V of the mechanism.
     pub potential: Vec<f64>,
-    /// Error of the energy invariant: Pi(t) - Pi(0), with Pi = T + V - work.
+    /// Error of the energy invariant: Pi(t) - Pi(0), where Pi is T + V minus the work.
     pub invariant_error: Vec<f64>,
 }
 
@@ -110,7 +111,7 @@ pub struct ViolationSeries {
 /// Newton iterations of each step.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct IterationSeries {
-    /// Ends of the steps [s].
+    /// Times at the ends of the steps [s].
     pub times: Vec<f64>,
     /// Number of iterations of each step.
     pub counts: Vec<u32>,
@@ -119,9 +120,9 @@ pub struct IterationSeries {
 /// Recorded steps of a run.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct StepSeries {
-    /// Ends of the steps [s].
+    /// Times at the ends of the steps [s].
     pub times: Vec<f64>,
-    /// Error of the energy invariant, Pi(t) - Pi(0), at these times [J].
+    /// Error of the energy invariant at these times, Pi(t) - Pi(0) [J].
     pub energy_errors: Vec<f64>,
     /// Data of the steps, at the same times.
     pub rows: Vec<StepRow>,
@@ -129,8 +130,8 @@ pub struct StepSeries {
     pub totals: ControlSummary,
 }
 
-/// Data of one step, or of several successive steps. For several, the length and the index are the smallest, rejected trials are summed,
-/// and the other values are the largest.
+/// Data of one step, or of several successive steps. For several steps, the length and the index are the smallest ones, and rejected trials
+/// are summed. The limit is the last one, and all other values are the largest ones.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct StepRow {
     /// Length of the step [s].
@@ -147,12 +148,12 @@ pub struct StepRow {
     pub penalty_energy: f64,
     /// Estimated local error of the step, relative to the scene's length [-].
     pub error_estimate: Option<f64>,
-    /// Limit of the next step length: `max`, `energy`, `error`, `event`, `contact` or `failure`.
+    /// Reason that limits the length of the next step: `max`, `energy`, `error`, `event`, `contact` or `failure`.
     pub limit: Option<&'static str>,
 }
 
 impl StepRow {
-    /// Combines this step with an earlier one that gets no row.
+    /// Combines the data of this step with those of an earlier step that gets no row.
     #[must_use]
     pub fn after(&self, before: &Self) -> Self {
         if before.length == 0.0 {
@@ -182,7 +183,7 @@ pub struct ControlSummary {
     pub rule: &'static str,
     /// Number of accepted steps.
     pub accepted: u64,
-    /// Number of trials that were rejected, or shortened to end at an event.
+    /// Number of trial steps that were rejected, or shortened to end at an event.
     pub rejected: u64,
     /// Shortest step of the run [s].
     pub smallest_step: f64,

@@ -3,8 +3,8 @@
 use super::channel::Channel;
 use mbs_core::outputs::magnitudes;
 
-/// Statistics of a quantity over every step, including the start. The least and the greatest value may lie between steps, if the
-/// polynomials through five neighbouring values agree on an extremum.
+/// Statistics of a quantity over all steps, including the start. The least or the greatest value may be at a time between steps: the
+/// extremum of a polynomial through five neighbouring values.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Statistics {
     /// Least value of the quantity.
@@ -17,14 +17,15 @@ pub struct Statistics {
     pub at_max: f64,
     /// Root mean square over time, by the trapezoidal rule over the steps of the run.
     pub rms: f64,
-    /// Value at the end.
+    /// Value at the end of the run.
     pub end: f64,
 }
 
-/// Statistics of a component of a channel, or of the magnitude of a vector in it.
+/// Statistics of a component of a channel, or of the magnitude of a vector in the channel.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct ComponentStatistics {
-    /// Label as in the column name; `abs` for a magnitude, or `F` and `M` for those of a wrench. Empty for a scalar channel.
+    /// Label as in the column name; empty for a scalar channel. The magnitude of a vector has the label `abs`. The magnitudes of a wrench's
+    /// force and moment have the labels `F` and `M`.
     pub label: String,
     /// Unit of the component.
     pub unit: String,
@@ -41,9 +42,9 @@ pub struct ChannelSummary {
     pub name: String,
     /// Quantity that the channel measures; empty for a user-defined output.
     pub quantity: String,
-    /// Common unit of all components; absent if they differ.
+    /// Common unit of all components; absent if the components have different units.
     pub unit: Option<String>,
-    /// Labels as in the column names; empty for a scalar channel.
+    /// Labels of the components as in the column names; empty for a scalar channel.
     pub components: Vec<String>,
     /// Units of the components and magnitudes.
     pub units: Vec<String>,
@@ -57,7 +58,7 @@ pub struct ChannelSummary {
     pub at_max: Vec<f64>,
     /// Root mean square of each entry over time.
     pub rms: Vec<f64>,
-    /// Value of each entry at the end.
+    /// Value of each entry at the end of the run.
     pub end: Vec<f64>,
 }
 
@@ -85,7 +86,7 @@ impl ChannelSummary {
 }
 
 /// Returns empty statistics for each component of a channel, then for the magnitude of each vector that is not already a component. Each
-/// entry has the range of the components from which it is computed.
+/// entry also has the index range of the components from which it is computed.
 pub fn measured(channel: &Channel) -> Vec<(ComponentStatistics, core::ops::Range<usize>)> {
     let components = &channel.components;
     let one = |label: &str, unit: &str| {

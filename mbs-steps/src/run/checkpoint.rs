@@ -11,7 +11,7 @@ use mbs_core::Real;
 use mbs_core::outputs::{Instant, MOST_INSTANTS};
 
 impl<T: Real, const D: usize> Run<'_, T, D> {
-    /// Resumes from a checkpoint. After an error the run must not be used.
+    /// Resumes the run from a checkpoint. After an error the run must not be used.
     pub(super) fn resume(
         &mut self,
         checkpoint: &Checkpoint,
@@ -76,8 +76,7 @@ impl<T: Real, const D: usize> Record<'_, T, D> {
         })
     }
 
-    /// Writes the record to a checkpoint, or reads it from one. `mark` and `values` are not part of it, because the next step replaces
-    /// them.
+    /// Writes the record to a checkpoint, or reads it from one. `mark` and `values` are not stored, because the next step replaces them.
     fn walk(
         &mut self,
         simulation: &Simulation<T, D>,
@@ -102,7 +101,7 @@ impl<T: Real, const D: usize> Record<'_, T, D> {
         Ok(())
     }
 
-    /// Writes or reads the instants of contact; the gaps follow from the state.
+    /// Writes or reads the begins and ends of contacts. The gaps are not stored, because they follow from the state.
     fn walk_contacts(&mut self, simulation: &Simulation<T, D>, tape: &mut impl Tape) -> Walked {
         let numbers = |i: &Instant| (i.t, i.effect, i.end, i.makes);
         let mut instants: Vec<_> = self.contacts.instants().iter().map(numbers).collect();
@@ -130,7 +129,7 @@ impl Counts {
         let Self { steps, iterations, factorizations, worst, control } = self;
         [steps, iterations, factorizations].into_iter().try_for_each(|x| tape.count(x))?;
         tape.duration(worst)?;
-        // The rule belongs to the settings, and the index changes to the simulation, so neither is stored here.
+        // The rule belongs to the settings, and the index changes belong to the simulation, so neither is stored here.
         let ControlSummary { accepted, rejected, smallest_step, largest_step, .. } = control;
         [accepted, rejected].into_iter().try_for_each(|x| tape.count(x))?;
         tape.float(smallest_step)?;

@@ -17,7 +17,7 @@ pub struct Outcome {
     pub(super) record: RunRecord,
     pub(super) channels: Vec<Channel>,
     pub(super) table: Vec<(f64, Vec<f64>)>,
-    /// Values of the table with all digits, if the run has more digits than `f64`.
+    /// Rows with all digits, if the run has more digits than `f64`.
     pub(super) long_table: Vec<Vec<DoubleDouble>>,
     pub(super) ranges: Vec<[f64; 2]>,
     pub(super) steps: StepSeries,
@@ -56,7 +56,7 @@ impl Outcome {
         &self.steps
     }
 
-    /// Record that the HTML page of the run shows, completed by the provenance of the run.
+    /// Record that the HTML page of the run shows, completed by the given provenance.
     #[must_use]
     pub fn record(&self, provenance: Provenance) -> RunRecord {
         RunRecord { provenance, ..self.record.clone() }
@@ -90,7 +90,7 @@ impl Outcome {
     }
 
     /// Least and greatest value of each component of each channel, from its statistics; empty if the run did not start. In a run that
-    /// records only the last row they cover only the recorded rows.
+    /// records only the last row, these values cover only the recorded rows.
     #[must_use]
     pub fn ranges(&self) -> &[[f64; 2]] {
         &self.ranges

@@ -1,8 +1,8 @@
-//! A run paced by a clock: each task simulates one period, at a level of the degradation ladder.
+//! Run that a clock paces. Each task simulates one period, at a level of the degradation ladder.
 //!
-//! All memory is allocated before the loop begins. The run's simulation is level 0. A level that omits effects has a separate simulation.
-//! That simulation copies the state when the level changes. After each step the run's simulation copies the new state, and outputs are
-//! measured there. State and rows depend on simulated time only, not on the clock of the loop.
+//! All memory is allocated before the loop begins. The run's simulation makes the steps at level 0. Each level that omits effects has a
+//! separate simulation, which copies the state when the level changes. After each step of a separate simulation, the run's simulation
+//! copies the new state, and outputs are measured there. State and rows depend on simulated time only, not on the clock.
 
 use super::record::Record;
 use super::{Outcome, Run};
@@ -26,7 +26,7 @@ use mbs_core::step::StepError;
 use mbs_realtime::{Clock, Pacer, Task, Work};
 use mbs_scene::Component;
 
-/// Name of the column with the level at which a row was simulated.
+/// Name of the column that has the level at which the row was simulated.
 const LEVEL: &str = "realtime-level";
 
 /// Division of the simulated time into periods and steps.
@@ -45,9 +45,9 @@ pub struct PacedSchedule<T> {
 /// A level of the degradation ladder.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct PacedLevel {
-    /// Number of times that the number of steps of a period is halved.
+    /// Number of times that the number of steps per period is halved.
     pub halvings: u32,
-    /// Effects that are switched off, by index.
+    /// Indices of the effects that are switched off.
     pub off: Vec<usize>,
     /// Measured costs and changes of the level.
     pub measured: Degraded,
@@ -69,10 +69,10 @@ impl PacedLevel {
     }
 }
 
-/// Runs a scene at the pace of a clock; `rungs` are the levels, and the first one is the full scene.
+/// Runs a scene at the pace of a clock. `rungs` are the levels, beginning with the full scene.
 ///
 /// # Errors
-/// [`SwitchError`] if a level cannot copy the state, with the effect that this level omits last.
+/// [`SwitchError`] if a level cannot copy the state, with the index of the effect that was omitted last.
 pub fn paced<T: Real, const D: usize>(
     scene: &Scene<T>,
     settings: &ResolvedMethod,
@@ -116,7 +116,7 @@ pub fn paced<T: Real, const D: usize>(
 
 /// Reason why a level cannot be used.
 enum Unready {
-    /// The level cannot copy the state: the effect that it omits last, and the reason.
+    /// The level cannot copy the state. The values are the index of the effect that was omitted last, and the reason.
     Refused((usize, SwitchError)),
     /// The simulation of the level does not start.
     Stopped(Box<StopError>),
@@ -128,7 +128,7 @@ impl From<StopError> for Unready {
     }
 }
 
-/// Simulation of a level, with its forces and steps; `None` if the level uses the run's simulation.
+/// Level at run time: its simulation, its forces and its number of steps. The simulation is `None` if the level uses the run's simulation.
 struct Level<T: Real, const D: usize> {
     simulation: Option<Box<Simulation<T, D>>>,
     /// Forces of the level's effects; while the level runs, they are exchanged with the forces of the full scene.
@@ -185,7 +185,7 @@ impl<T: Real, const D: usize> Plant<T, D> for Ladder<T, D> {
 }
 
 impl<T: Real, const D: usize> Ladder<T, D> {
-    /// Changes to another level. No allocation.
+    /// Changes to another level of the ladder. No allocation.
     fn change(&mut self, to: usize, record: &mut Record<'_, T, D>) -> Result<(), StopError> {
         let Self { simulation: own, levels, at } = self;
         let from = core::mem::replace(at, to);
@@ -241,14 +241,14 @@ impl<T: Real, const D: usize> Work for Paced<'_, T, D> {
 }
 
 impl<T: Real, const D: usize> Paced<'_, T, D> {
-    /// Stretch of period `k`, counted from 1.
+    /// Stretch of simulated time of period `k`, counted from 1.
     fn period(&self, k: u64) -> Stretch<T> {
         let PacedSchedule { period, periods, .. } = self.track;
         let is_last = k == periods;
         let at = |k| multiple((T::ZERO, 0.0), k, period);
         let from = at(k - 1);
         let to = if is_last { self.record.lengths.duration } else { at(k) };
-        // A full period uses the exact length. The difference of two multiples would have rounding errors.
+        // A full period has exactly the given length, because the difference of two multiples would have rounding errors.
         let is_whole =
             !is_last || (to - from - period.0).abs() <= period.0 * T::from_f64(SAME_LENGTH);
         let whole = if is_whole { period.0 } else { to - from };

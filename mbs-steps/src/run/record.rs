@@ -1,4 +1,4 @@
-//! Record of the steps of a run: rows, maxima, counts and contacts. It also has the alarms that stop the run.
+//! Record of the steps of a run: rows, maxima, counts and contacts. The record also has the alarms that stop the run.
 
 use super::clock::Clock;
 use crate::channels::Channels;
@@ -32,12 +32,12 @@ pub(super) struct Counts {
     pub(super) control: ControlSummary,
 }
 
-/// Additional columns of the rows, after the scene's channels.
+/// Additional columns of the rows. They follow the scene's channels.
 pub trait Columns<T: Real, const D: usize> {
     /// Returns the names and units of the columns.
     fn channels(&self) -> Vec<Channel>;
 
-    /// Called after each step, for columns with memory.
+    /// Called after each step, for columns that store values from step to step.
     ///
     /// # Errors
     /// The error that stops the run.
@@ -50,7 +50,7 @@ pub trait Columns<T: Real, const D: usize> {
     fn write(&mut self, now: &Simulation<T, D>, out: &mut [T]) -> Result<(), StopError>;
 }
 
-/// The record of a run.
+/// Record of a run while it is simulated.
 pub(super) struct Record<'a, T: Real, const D: usize> {
     pub(super) scene: &'a Scene<T>,
     pub(super) settings: &'a ResolvedMethod,
@@ -64,7 +64,7 @@ pub(super) struct Record<'a, T: Real, const D: usize> {
     values: Vec<T>,
     /// True if `values` belongs to the current state and is already in the statistics.
     is_measured: bool,
-    /// Number of components of the scene's channels; `others` writes the components after them.
+    /// Number of components of the scene's channels. The components of `others` follow them.
     n_measured: usize,
     pub(super) others: Option<&'a mut dyn Columns<T, D>>,
     /// Data of the last step.
@@ -74,14 +74,14 @@ pub(super) struct Record<'a, T: Real, const D: usize> {
     pub(super) reached: f64,
     pub(super) alarm: Alarm,
     frictions: Frictions<T, D>,
-    /// Number of completed steps or intervals that the record counts.
+    /// Number of completed steps or intervals.
     pub(super) done: u64,
     pub(super) clock: Clock,
-    /// Time at which the next step began.
+    /// Clock time at which the current step began.
     begun: Instant,
     pub(super) checkpoints: Option<RunCheckpoints<'a>>,
-    /// Number of periods of a paced run, its timing summary, and the most degraded level since the last row (with a ladder). A paced run
-    /// may record one row after each period.
+    /// Number of periods of a paced run, its timing summary, and the most degraded level since the last row. The level is `None` without a
+    /// ladder. A paced run may record one row after each period.
     pub(super) periods: Option<u64>,
     pub(super) realtime: Option<RealtimeSummary>,
     pub(super) level: Option<f64>,
@@ -145,7 +145,7 @@ impl<'a, T: Real, const D: usize> Record<'a, T, D> {
         self.begin_step();
     }
 
-    /// Notes the start time of the next step.
+    /// Stores the clock time at which the next step begins.
     pub(super) fn begin_step(&mut self) {
         self.begun = Instant::now();
     }
@@ -155,10 +155,10 @@ impl<'a, T: Real, const D: usize> Record<'a, T, D> {
         self.clock.get()
     }
 
-    /// Evaluates all outputs at the state, at most once per state, and adds them to the statistics.
+    /// Evaluates all outputs at the current state, at most once for each state, and adds them to the statistics.
     ///
     /// # Errors
-    /// An error if an output is not finite; the statistics do not include this state then.
+    /// An error if an output is not finite. The statistics then do not include this state.
     fn measure(&mut self, simulation: &Simulation<T, D>) -> Result<(), StopError> {
         if self.is_measured {
             return Ok(());
@@ -181,7 +181,7 @@ impl<'a, T: Real, const D: usize> Record<'a, T, D> {
     /// Records a row; nothing is recorded if an output is not finite.
     fn row(&mut self, simulation: &Simulation<T, D>, is_last: bool) -> Result<(), StopError> {
         self.measure(simulation)?;
-        // For the next row, the most degraded level counts from here on.
+        // The most degraded level is determined anew for the next row.
         self.level = self.level.map(|_| 0.0);
         if self.recorder.keeps_all() {
             self.motion.offer(self.mark.t, &simulation.state().q, is_last);
@@ -203,7 +203,8 @@ impl<'a, T: Real, const D: usize> Record<'a, T, D> {
         } else {
             Ok(())
         };
-        // An alarm comes before an output that is not finite, because the energy error is its probable cause.
+        // If an alarm and an output that is not finite occur together, the alarm is reported, because the energy error is the probable
+        // cause.
         let passed = self.frictions.passed(simulation);
         self.alarm.rings_for(simulation, is_last, passed).map_or(recorded, Err)
     }
@@ -265,7 +266,7 @@ impl<T: Real, const D: usize> StepObserver<T, D> for Record<'_, T, D> {
         self.begun = to;
         taken?;
         if self.periods.is_some() {
-            // An output that is not finite stops the run at the end of the period.
+            // If an output is not finite, the run stops at the end of the period.
             let _ = self.measure(now);
         } else {
             let k = self.done + 1;

@@ -1,4 +1,4 @@
-//! Functions for the parts of a run's summary.
+//! Functions that compute the parts of a run's summary.
 
 use super::Outcome;
 use super::record::Counts;
@@ -25,7 +25,7 @@ pub(super) fn contact<T: Real>(scene: &Scene<T>, instant: &outputs::Instant) -> 
     }
 }
 
-/// Summary of the energy invariant over every step.
+/// Summary of the energy invariant over all steps.
 pub(super) fn energy_summary(invariant: &Invariant) -> EnergySummary {
     EnergySummary {
         initial: invariant.initial(),
@@ -37,10 +37,10 @@ pub(super) fn energy_summary(invariant: &Invariant) -> EnergySummary {
     }
 }
 
-/// The method that ran, and its steps up to time `reached` [s].
+/// Method that the run used, and counts of its steps up to time `reached` [s].
 pub(super) fn method_used(settings: &ResolvedMethod, counts: &Counts, reached: f64) -> MethodUsed {
     let control = &counts.control;
-    // If the counts differ, the integrator has made internal steps of unknown length.
+    // If the two counts differ, the integrator has made internal steps of unknown length.
     let is_known = control.accepted == counts.steps && counts.steps > 0;
     #[allow(clippy::cast_precision_loss, reason = "step counts stay far below 2^53")]
     let mean_step = reached / counts.steps.max(1) as f64;

@@ -31,13 +31,13 @@ pub enum SettingsError {
         /// Value of the setting.
         value: f64,
     },
-    /// Limits U and L of the energy rule, where the first must be the larger one but is not.
+    /// Limits U and L of the energy rule of which the first is not larger than the second.
     LimitOrder([f64; 2]),
-    /// Settings that cannot be combined.
+    /// Formulation and option that cannot be combined.
     NotTogether {
-        /// Formulation that does not have the option.
+        /// Formulation that does not support the option.
         formulation: FormulationKind,
-        /// The option that the formulation does not have.
+        /// Option that the formulation does not support.
         option: String,
     },
     /// The scene is not valid for a run of this duration.
@@ -59,7 +59,7 @@ pub enum SettingsError {
 }
 
 impl SettingsError {
-    /// Key of the setting that the error concerns; `None` if no setting is concerned.
+    /// Key of the setting that the error concerns; `None` if the error concerns no setting.
     #[must_use]
     pub fn key(&self) -> Option<&str> {
         match self {

@@ -1,8 +1,8 @@
-//! Checks of the names and values of settings: available names, positive numbers.
+//! Checks of the names and values of settings: names must be available, and numbers must be positive.
 
 use super::error::SettingsError;
 
-/// Returns the requested name and its value; the caller's name precedes the scene's name, and the default is last.
+/// Returns the selected name and its value. The caller's name has priority over the scene's name, and the scene's name over the default.
 pub(super) fn named<U: Copy, const N: usize>(
     key: &'static str,
     (from_caller, from_scene, default): (&Option<String>, &Option<String>, &str),
@@ -29,7 +29,7 @@ pub(super) fn positive(key: &'static str, value: f64) -> Result<f64, SettingsErr
     }
 }
 
-/// Checks the limits U and L of the energy rule: both positive, U larger than L.
+/// Checks the limits U and L of the energy rule: both must be positive, and U must be larger than L.
 pub(super) fn ordered([upper, lower]: [f64; 2]) -> Result<[f64; 2], SettingsError> {
     let limits = [positive("energy_tolerance", upper)?, positive("energy_tolerance", lower)?];
     if upper > lower { Ok(limits) } else { Err(SettingsError::LimitOrder(limits)) }

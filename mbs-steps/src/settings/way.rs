@@ -1,4 +1,4 @@
-//! Checks of the resolved step, and the method as text.
+//! Checks of the resolved step, and a description of the method as text.
 
 use super::length::{is_controlled, is_too_long};
 use super::{ResolvedMethod, SettingsError};
@@ -23,7 +23,7 @@ impl ResolvedMethod {
         Ok(())
     }
 
-    /// Formulation and integrator as text, with the step or the tolerance.
+    /// Formulation and integrator as text, with the length of a step or the tolerance.
     #[must_use]
     pub fn way(&self) -> String {
         let mut way = self.formulation.name().to_owned();
@@ -40,7 +40,7 @@ impl ResolvedMethod {
         }
     }
 
-    /// Returns the method that `auto` chose, with reasons; `None` if a formulation was requested.
+    /// Returns the method that `auto` chose, with the reasons; `None` if a formulation was requested by name.
     #[must_use]
     pub fn chosen(&self) -> Option<MethodChoice> {
         let (formulation, ran) = (self.formulation.name().to_owned(), self.way());

@@ -1,4 +1,4 @@
-//! Transfer of the state of a simulation to another simulation of the same mechanism, in which other effects are on or off.
+//! Transfer of the state of a simulation to another simulation of the same mechanism, in which other effects are enabled.
 //!
 //! ```text
 //! q, v   as they are
@@ -6,7 +6,8 @@
 //! W      + (T + V)_after − (T + V)_before: what the change put into the mechanism or took out counts as work
 //! ```
 //!
-//! With this work the invariant Π = T + V − W has no jump, so that its error can be monitored further.
+//! The positions q and velocities v are copied. The accelerations a and multipliers λ are computed with the effects that are enabled now.
+//! The change of energy counts as work W, so the invariant Π = T + V − W does not jump, and its error can be monitored further.
 
 use super::Simulation;
 use mbs_core::formulation::SwitchError;
@@ -16,7 +17,7 @@ use mbs_core::{Cliques, Real};
 
 impl<T: Real, const D: usize> Simulation<T, D> {
     /// Checks whether this simulation can [`take_over`](Self::take_over) the state of another one. Both must have the same formulation:
-    /// index-3, index-1, multi-index or recursive. The scenes may differ in effects that are on or off, except effects that count full
+    /// index-3, index-1, multi-index or recursive. The scenes may differ in the effects that are enabled, except effects that count full
     /// turns (such as torsion springs). They must not differ in anything else that defines coordinates.
     ///
     /// # Errors
@@ -28,8 +29,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         if is_same { Ok(()) } else { Err(SwitchError::Coordinates) }
     }
 
-    /// Copies time, positions and velocities from another simulation of the same mechanism, which may have other effects on. The next step
-    /// continues from this state. A change of the energy by effects that are switched counts as work.
+    /// Copies time, positions and velocities from another simulation of the same mechanism, in which other effects may be enabled. The next
+    /// step continues from this state. The energy that differs between the two sets of effects counts as work.
     ///
     /// Cost: one copy, and two or three evaluations and factorisations; no allocation.
     ///
@@ -43,7 +44,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         self.resume()
     }
 
-    /// Copies the state of another simulation for outputs. Before the next step, `resume` is needed.
+    /// Copies the state of another simulation, so that outputs can be measured. Before the next step, `resume` must be called.
     pub fn show(&mut self, other: &Self) {
         self.state.copy_unknowns(&other.state, self.model.n_unknowns());
         self.invariant = other.invariant;
@@ -67,7 +68,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     }
 }
 
-/// Do both models count the turns of the same angles, in the same order?
+/// True if both models count the turns of the same angles, in the same order.
 fn same_memory<T: Real, const D: usize>(a: &NaturalModel<T, D>, b: &NaturalModel<T, D>) -> bool {
     a.remembered().eq(b.remembered())
 }

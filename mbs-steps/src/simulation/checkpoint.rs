@@ -9,10 +9,11 @@ use mbs_core::scene::Scene;
 use std::io::{Read, Write};
 
 impl<T: Real, const D: usize> Simulation<T, D> {
-    /// Writes a checkpoint of the simulation, which was created from this scene and these settings. It has all data that the next steps
-    /// depend on, including inputs. After [`restore`](Self::restore) the next steps are bitwise the same.
+    /// Writes a checkpoint of the simulation, which was created from the given scene and settings. The checkpoint has all data that the
+    /// next steps depend on, including inputs. After [`restore`](Self::restore) the next steps are bitwise the same.
     ///
-    /// Cost: the checkpoint is collected in memory. It has about eight numbers (of eight bytes each) for each coordinate and multiplier.
+    /// Cost: the checkpoint is first collected in memory. It has about eight numbers (of eight bytes each) for each coordinate and
+    /// multiplier.
     ///
     /// # Errors
     /// The errors of the sink.
@@ -62,7 +63,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         Ok(sink.write_all(&bytes)?)
     }
 
-    /// Restores a checkpoint of the same scene and settings: one of [`save`](Self::save), or the state in a checkpoint of a run.
+    /// Restores a checkpoint of the same scene and settings. It is a checkpoint of [`save`](Self::save), or the state in a checkpoint of a
+    /// run.
     ///
     /// # Errors
     /// [`CheckpointError`]; the state is unchanged then, but a state-space formulation may choose other independent coordinates.

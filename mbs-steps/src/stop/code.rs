@@ -5,7 +5,7 @@ use mbs_core::start::AssemblyError;
 use mbs_core::step::StepError;
 
 impl StopError {
-    /// Error code of the reason, a constant word for programs.
+    /// Error code of the stop reason, a constant word for programs.
     #[must_use]
     pub fn code(&self) -> &'static str {
         match self {

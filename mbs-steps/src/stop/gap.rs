@@ -4,8 +4,8 @@ use super::StopError;
 use mbs_core::start::AssemblyError;
 
 impl StopError {
-    /// Largest residual of joints and prescribed values in an assembly that failed [m or rad; for velocities m/s or rad/s]. `None` for
-    /// other errors.
+    /// Largest residual of joints and prescribed values in an assembly that failed [m or rad; for velocities m/s or rad/s]. It is `None`
+    /// for other errors.
     #[must_use]
     pub fn gap(&self) -> Option<f64> {
         match self {

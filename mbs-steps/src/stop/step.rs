@@ -4,7 +4,7 @@ use mbs_core::model::Owner;
 use mbs_core::step::StepError;
 use mbs_scene::format::few;
 
-/// Part of the scene that a failed step concerns; `unknown` and `row` return the owner of an unknown and of a constraint row.
+/// Part of the scene that a failed step concerns. `unknown` and `row` return the owner of an unknown and of a constraint row.
 pub(super) fn step_owner(
     error: &StepError,
     unknown: impl Fn(usize) -> Owner,
@@ -28,7 +28,7 @@ pub(super) fn step_owner(
     })
 }
 
-/// Message of a user-defined law or relation that failed.
+/// Message for a user-defined law or relation that failed.
 const NO_NUMBER: &str = "gave a number that is infinite or not a number";
 
 /// Writes the message of a failed step; the hint is separate.

@@ -10,7 +10,7 @@ use mbs_recursive::own::{EffortSlopes, MovingColumns};
 
 impl Tree {
     /// Derivatives of [`inverse_dynamics`](Self::inverse_dynamics) at given accelerations. Couplings of joints by constant ratios are
-    /// allowed; other closed loops are an error.
+    /// allowed. Other closed loops are an error.
     ///
     /// ∂/∂q is the derivative along v, as in a step of [`integrate`](Self::integrate). For a ball joint this is a rotation about axes of
     /// the second body, so ∂/∂q is square too. Effects are not included, as in all equations of a tree.
@@ -48,10 +48,11 @@ impl Tree {
     }
 
     /// Derivatives of [`forward_dynamics`](Self::forward_dynamics) at given efforts τ: ∂v̇/∂(q, v) = −K ∂τ/∂(q, v), ∂v̇/∂τ = K. In an open
-    /// tree K is M⁻¹. With couplings of constant ratio, J v̇ = 0, K is M⁻¹ − M⁻¹ Jᵀ (J M⁻¹ Jᵀ)⁻¹ J M⁻¹. Other closed loops are an error.
+    /// tree K is M⁻¹. Couplings of constant ratio require J v̇ = 0; then K is M⁻¹ − M⁻¹ Jᵀ (J M⁻¹ Jᵀ)⁻¹ J M⁻¹. Other closed loops are an
+    /// error.
     ///
     /// ∂/∂q is the derivative along v, as in [`inverse_dynamics_derivatives`](Self::inverse_dynamics_derivatives). The components of the
-    /// efforts along v are constant in it.
+    /// efforts along v are held constant.
     ///
     /// Cost: both dynamics and their derivatives, and n² times the depth of the tree.
     ///
@@ -78,7 +79,7 @@ impl Tree {
         with!(&mut self.inner, t => {
             let moving = t.moving.get_or_insert_with(|| MovingColumns::new(&t.model));
             let scratch = (&mut t.workspace, moving);
-            // The scratch has the accelerations of the links from the forward dynamics.
+            // The scratch memory contains the accelerations of the links from the forward dynamics.
             t.own.write_effort_slopes_here(&t.model, scratch, &mut slopes);
         });
         self.factor()?;
@@ -96,10 +97,12 @@ impl Tree {
         Ok(&self.by_effort)
     }
 
-    /// Projects the derivatives, so that accelerations satisfy the rows of couplings. With K = M⁻¹ and a constant row j, each matrix X
-    /// becomes X − K jᵀ (j X) / (j K jᵀ). K itself is changed last. A row that depends on earlier rows is skipped.
+    /// Projects the derivatives, so that accelerations satisfy the rows of couplings. At the start K is M⁻¹. For each constant row j, each
+    /// matrix X of derivatives becomes X − K jᵀ (j X) / (j K jᵀ), and K itself is changed last. A row that depends on earlier rows is
+    /// skipped.
     fn keep_rows(&mut self) {
-        /// Fraction of j K jᵀ below which j depends on earlier rows, and the rest is rounding error [-].
+        /// Smallest ratio of j K jᵀ to j M⁻¹ jᵀ for an independent row j [-]. With a smaller ratio, j depends on earlier rows, and j K jᵀ
+        /// is rounding error.
         const ROUNDING: f64 = 1e-12;
         if self.loops.rows == 0 {
             return;
@@ -129,7 +132,7 @@ impl Tree {
         }
     }
 
-    /// Returns an error for loops whose rows change with the position: cut joints, rolling contacts, curves and lines.
+    /// Checks that the rows of all loops are constant. Rows of cut joints, rolling contacts, curves and lines change with the position.
     fn has_constant_rows(&self, what: &'static str) -> Result<(), TreeError> {
         let is_constant = |term: &CouplingTerm<f64>| {
             let CouplingMeasure::Coordinate { joint, number } = &term.of else { return false };
@@ -157,7 +160,7 @@ impl Tree {
         }))
     }
 
-    /// Returns an error if the tree has closed loops; `what` names the quantity that only open trees have.
+    /// Checks that the tree has no closed loops; `what` names the quantity that only open trees have.
     pub fn open(&self, what: &'static str) -> Result<(), TreeError> {
         if self.loops.rows == 0 {
             return Ok(());
@@ -167,7 +170,7 @@ impl Tree {
     }
 }
 
-/// Makes the matrices of derivatives by positions, velocities and accelerations square, and returns their data.
+/// Makes the matrices of derivatives square, and returns their data. The derivatives are by positions, velocities and accelerations.
 fn slopes_in(squares: [&mut Matrix; 3]) -> EffortSlopes<'_, f64> {
     let [q, v, a] = squares.map(|square| {
         square.resize_rows(square.columns);

@@ -6,7 +6,7 @@ use crate::erased::inputs::InputInfo;
 use mbs_recursive::Options;
 
 impl Tree {
-    /// Inputs that can be set, in the order of effects, guides, couplings, then signals.
+    /// Inputs that can be set, in the order of effects, guides, couplings and signals.
     #[must_use]
     pub fn inputs(&self) -> &[InputInfo] {
         &self.input_list
@@ -39,8 +39,8 @@ impl Tree {
         Ok(())
     }
 
-    /// Accelerations v̇ under all effects, signals and inputs, with loops closed. States of signals have their initial values, or the
-    /// values of the simulation that was [followed](Self::follow).
+    /// Accelerations v̇ under all effects, signals and inputs, with closed loops satisfied. States of signals have their initial values.
+    /// After a call of [`follow`](Self::follow) they have the values of the simulation.
     ///
     /// Cost: one evaluation; no allocation.
     ///
@@ -86,8 +86,8 @@ impl Tree {
         with!(&mut self.inner, t => t.model.energies(&t.state, &mut t.workspace))
     }
 
-    /// Projects the coordinates onto the constraints of the loops, with the smallest motion in the norm of the mass matrix. Projects the
-    /// velocities in the same way. Returns the largest change of a coordinate [rad, m].
+    /// Projects the coordinates onto the constraints of the loops, with the smallest motion in the norm of the mass matrix. The velocities
+    /// are projected in the same way. Returns the largest change of a coordinate [rad, m].
     ///
     /// # Errors
     /// [`TreeErrorKind::OpenLoops`] if no small motion closes the loops, [`TreeErrorKind::NoAccelerations`] for a tree without

@@ -79,7 +79,7 @@ impl Tree {
         self.efforts(EffortTerms::WithoutEffects)
     }
 
-    /// Accelerations v̇ under efforts τ along v and under gravity, with loops closed.
+    /// Accelerations v̇ under gravity and the efforts τ along v, with closed loops satisfied.
     ///
     /// # Errors
     /// [`TreeErrorKind::Length`], [`TreeErrorKind::NotFinite`]; [`TreeErrorKind::NoAccelerations`] at a singular position,
@@ -104,10 +104,10 @@ impl Tree {
 
     /// Efforts τ that cause given accelerations v̇: τ = M v̇ + c + g.
     ///
-    /// With closed loops the efforts are not unique. The smallest ones in the norm of M⁻¹ are returned: τ = M (v̇ − v̇₀), with v̇₀ the
-    /// accelerations that [`forward_dynamics`](Self::forward_dynamics) gives without efforts. They are zero for free motion. Accelerations
-    /// that violate the loop constraints are projected with the norm of M. Other solutions are τ + Jᵀ λ for any λ. For example, λ can be
-    /// chosen such that the motor of a four-bar linkage has the only effort.
+    /// With closed loops the efforts are not unique. The efforts that are smallest in the norm of M⁻¹ are returned: τ = M (v̇ − v̇₀). Here
+    /// v̇₀ are the accelerations that [`forward_dynamics`](Self::forward_dynamics) gives without efforts, so the efforts of a free motion
+    /// are zero. Accelerations that violate the loop constraints are projected in the norm of M. Other solutions are τ + Jᵀ λ for any λ.
+    /// For example, λ can be chosen such that only the motor of a four-bar linkage has an effort.
     ///
     /// # Errors
     /// As for [`forward_dynamics`](Self::forward_dynamics).
@@ -185,8 +185,8 @@ impl Tree {
         &self.jacobian
     }
 
-    /// Motion of a point of a body; `at` is its position in the reference configuration [m]. The acceleration is the part for v̇ = 0, which
-    /// is J̇ v. For the full acceleration add the Jacobian times v̇.
+    /// Motion of a point of a body. `at` is the position of the point in the reference configuration [m]. The acceleration is J̇ v, the
+    /// part for v̇ = 0. The full acceleration is J̇ v plus the Jacobian times v̇.
     ///
     /// ```
     /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
@@ -204,7 +204,7 @@ impl Tree {
         PointMotion::of(motion.point(&at.into()))
     }
 
-    /// Motion of the centre of mass of all bodies; its acceleration is the part for v̇ = 0, as in [`point`](Self::point).
+    /// Motion of the centre of mass of all bodies. Its acceleration is the part for v̇ = 0, as in [`point`](Self::point).
     ///
     /// ```
     /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
@@ -224,7 +224,7 @@ impl Tree {
         PointMotion::of(sum)
     }
 
-    /// The motions of the bodies for v̇ = 0.
+    /// Computes the motions of the bodies for v̇ = 0.
     pub fn motions(&mut self) -> &[RigidMotion<f64>] {
         self.place_accelerations(None);
         with!(&mut self.inner, tree => {
@@ -233,7 +233,7 @@ impl Tree {
         })
     }
 
-    /// Computes the Jacobian of a point of a body, with this number of rows.
+    /// Computes the Jacobian of a point of a body, with 3 or 6 rows.
     pub fn jacobian(&mut self, rows: usize, body: BodyId, at: [f64; 3]) -> &Matrix {
         self.jacobian.resize_rows(rows);
         let to = &mut self.jacobian.data;
@@ -243,14 +243,14 @@ impl Tree {
         &self.jacobian
     }
 
-    /// Sets the accelerations of the state to given ones, or to v̇ = 0.
+    /// Sets the accelerations of the state to the given v̇; `None` stands for v̇ = 0.
     pub fn place_accelerations(&mut self, own: Option<&[f64]>) {
         let state = self.inner.state();
         let (own, velocities) = (own.unwrap_or(&self.zero), [&self.v[..], &state.v]);
         self.layout.accelerations_inward(velocities, (own, &mut state.a));
     }
 
-    /// Computes the efforts for the accelerations of the state.
+    /// Computes the efforts that the accelerations of the state need.
     fn efforts(&mut self, terms: EffortTerms) -> &[f64] {
         let out = &mut self.tree;
         with!(&mut self.inner, t => t.model.write_efforts((&t.state, terms), &mut t.workspace, out));
@@ -258,7 +258,7 @@ impl Tree {
         &self.answer
     }
 
-    /// Computes the accelerations under efforts and stores them in the state.
+    /// Computes the accelerations under given efforts, and stores them in the state.
     pub fn accelerate(&mut self, effort: Option<&[f64]>) -> Result<(), TreeError> {
         self.needs_inertia()?;
         self.layout.efforts_inward(effort.unwrap_or(&self.zero), &mut self.tree);

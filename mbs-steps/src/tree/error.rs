@@ -27,19 +27,19 @@ pub enum TreeErrorKind {
     NoInertia(StopError),
     /// The efforts determine no accelerations, for example at a singular position.
     NoAccelerations(StopError),
-    /// No small motion from the position closes the loops.
+    /// No small motion from the current position closes the loops.
     OpenLoops(StopError),
-    /// The quantity, which is named, exists for open trees only. The joint closes a loop, or it is a coupling of joints.
+    /// The named quantity exists only for open trees. The joint of the error closes a loop or belongs to a coupling of joints.
     Loops(&'static str),
-    /// The joints cannot move the frame in some direction, so its operational-space inertia is infinite there.
+    /// The joints cannot move the frame in some direction, so its operational-space inertia is infinite in this direction.
     Held,
-    /// The name is neither that of a frame nor that of a body.
+    /// The given name is neither that of a frame nor that of a body.
     UnknownFrame(UnknownName),
-    /// The joint closes a loop: its equations are rows of the loop Jacobian.
+    /// The joint closes a loop. Its equations are rows of the loop Jacobian, so it has no coordinates.
     Cut,
     /// The motion of the joint is prescribed by its guide, so it has no coordinates.
     Guided,
-    /// The joint carries no body: it is free between two moving bodies, or within one body.
+    /// The joint has no body to carry, because it is free between two moving bodies, or connects a body with itself.
     Idle,
     /// Wrong number of values: name of the argument, expected number, given number.
     Length(&'static str, usize, usize),
@@ -47,12 +47,12 @@ pub enum TreeErrorKind {
     NotFinite(&'static str, usize),
     /// The given matrix is not a rotation matrix.
     NotOrthogonal,
-    /// The four values of q from this index are zero, so they are no quaternion.
+    /// The four values of q from this index on are all zero, so they are no quaternion.
     NoRotation(usize),
 }
 
 impl TreeError {
-    /// Makes an error about the joint or body that an error of the model names.
+    /// Makes a tree error from an error of the model. The tree error names the joint or body that the error of the model concerns.
     pub fn of_model(
         kind: fn(StopError) -> TreeErrorKind,
         (reason, names): (StopError, &Names),

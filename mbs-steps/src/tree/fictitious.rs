@@ -1,12 +1,13 @@
-//! Fictitious masses for mechanisms without inertia, so that loops can be closed by a smallest motion. Positions and Jacobians do not
-//! depend on masses.
+//! Fictitious masses for mechanisms without inertia. A smallest motion that closes loops is measured with masses, but positions and
+//! Jacobians do not depend on them.
 
 use super::inner::{Inner, Typed, with};
 use crate::stop::StopError;
 use mbs_core::cluster::scene_length;
 use mbs_core::scene::{Body, Dimension, Inertia, Scene};
 
-/// The tree of a scene with fictitious masses, in the same coordinates; `None` if it would have other coordinates.
+/// Returns the tree of a scene with fictitious masses. `None` if its coordinates differ from those of the scene's tree, or if the masses do
+/// not determine accelerations.
 pub(super) fn tree(scene: &Scene<f64>, own: &Inner) -> Option<Inner> {
     let length = scene_length(scene);
     let mut heavy = scene.clone();
@@ -21,7 +22,7 @@ pub(super) fn tree(scene: &Scene<f64>, own: &Inner) -> Option<Inner> {
     (is_same && lack.is_none()).then_some(tree)
 }
 
-/// Returns a body with a mass of 1 kg and this moment of inertia about all axes [kg m^2]. A point mass gets no moment of inertia.
+/// Returns a body with a mass of 1 kg and the given moment of inertia about all axes [kg m^2]. A point mass gets no moment of inertia.
 pub fn with_mass<T: Clone + From<f64>>(
     body: &Body<T>,
     dimension: Dimension,
@@ -38,7 +39,7 @@ pub fn with_mass<T: Clone + From<f64>>(
     Body { mass: number(1.0), inertia, ..body.clone() }
 }
 
-/// Projects the state of a tree with masses onto its loop constraints.
+/// Closes the loops of a tree with masses by a projection of its state.
 pub(super) fn close(inner: &mut Inner) -> Result<(), StopError> {
     with!(inner, tree => {
         let Typed { model, state, workspace, .. } = &mut **tree;

@@ -8,8 +8,8 @@ use core::ops::Range;
 use mbs_core::scene::JointId;
 
 impl Tree {
-    /// Copies time, coordinates, velocities, inputs and signals of a simulation of the same mechanism, for every formulation. The number of
-    /// full turns of joints is copied too.
+    /// Copies time, coordinates, velocities, inputs and signals from a simulation of the same mechanism. The simulation may use any
+    /// formulation. The number of full turns of joints is copied too.
     ///
     /// # Errors
     /// [`TreeErrorKind::Length`](super::TreeErrorKind::Length) if the simulation has another number of bodies.
@@ -31,18 +31,18 @@ impl Tree {
         Ok(())
     }
 
-    /// Adds full turns to angles, such that they differ by at most half a turn from the values of the simulation.
+    /// Adds full turns to the tree's angles, so that they differ by at most half a turn from the values of the simulation.
     fn count_turns(&mut self, values: impl Fn(JointId) -> Coordinates) {
         for (joint, at) in self.layout.numbers() {
             for (q, value) in self.q[at].iter_mut().zip(values(joint).iter()) {
-                // Displacements differ by rounding errors only, so nothing is added to them.
+                // Displacements differ by rounding errors only, so this adds zero to them.
                 *q += TAU * ((value - *q) / TAU).round();
             }
         }
         self.layout.coordinates_inward(&self.q, &mut self.inner.state().z);
     }
 
-    /// The joints whose coordinates are angles or displacements, each with its values and rates.
+    /// Lists the joints whose coordinates are angles or displacements, each with its coordinates and rates.
     pub fn joint_states(&self) -> Vec<(JointId, Coordinates, Coordinates)> {
         let state = |(joint, at): (JointId, Range<usize>)| {
             let values = Coordinates::new(self.q[at].iter().copied());

@@ -7,14 +7,14 @@ use mbs_core::algebra::Matrix as Square;
 use mbs_core::scene::{BodyId, Dimension};
 use mbs_recursive::own::MovingColumns;
 
-/// Smallest pivot of a mobility matrix with unit diagonal, in units of machine precision [-]. With a smaller pivot, a direction of motion
-/// is locked. Chosen, not tuned.
+/// Smallest pivot of a mobility matrix with unit diagonal, in units of machine precision [-]. A smaller pivot means that a direction of
+/// motion is locked. Chosen, not tuned.
 const ROUNDINGS: f64 = 64.0;
 
 impl Tree {
-    /// Body that carries a `[[frame]]` of the scene, and origin of the frame in the reference configuration [m]. For the name of a body
-    /// without such a frame it returns the body and its centre of mass. The functions for points and Jacobians take body and origin as
-    /// arguments.
+    /// Returns the body that carries a `[[frame]]` of the scene, and the origin of the frame in the reference configuration [m]. If there
+    /// is no such frame, but a body has the name, it returns this body and its centre of mass. The functions for points and Jacobians take
+    /// both values as arguments.
     ///
     /// # Errors
     /// [`UnknownName`], which suggests the most similar name.
@@ -68,9 +68,9 @@ impl Tree {
         &self.jacobian
     }
 
-    /// Mobility J M⁻¹ Jᵀ of a point fixed to a body, without motor efforts. It gives the accelerations caused by a force at the point and a
-    /// moment on the body. The matrix is 6 × 6 and symmetric; order and axes are those of [`jacobian_at`](Self::jacobian_at). It is zero in
-    /// directions in which the joints cannot move the point.
+    /// Mobility J M⁻¹ Jᵀ of a point that is fixed to a body, without motor efforts. The mobility gives the accelerations caused by a force
+    /// at the point and a moment on the body. The matrix is 6 × 6 and symmetric. Order and axes are those of
+    /// [`jacobian_at`](Self::jacobian_at). The matrix is zero in directions in which the joints cannot move the point.
     ///
     /// # Errors
     /// [`TreeErrorKind::Loops`] with the joint that closes a loop; [`TreeErrorKind::NoAccelerations`] if a joint moves no inertia.
@@ -97,13 +97,13 @@ impl Tree {
         Ok(&self.frame)
     }
 
-    /// Operational-space inertia Λ = (J M⁻¹ Jᵀ)⁻¹ of a point fixed to a body: the forces and moments for given accelerations. The matrix is
-    /// 6 × 6 and symmetric; order and axes are those of [`jacobian_at`](Self::jacobian_at). In the plane only rows and columns 0, 1 and 5
-    /// are not zero.
+    /// Operational-space inertia Λ = (J M⁻¹ Jᵀ)⁻¹ of a point that is fixed to a body. It gives the force and the moment that cause given
+    /// accelerations. The matrix is 6 × 6 and symmetric. Order and axes are those of [`jacobian_at`](Self::jacobian_at). In the plane only
+    /// rows and columns 0, 1 and 5 are not zero.
     ///
     /// # Errors
-    /// [`TreeErrorKind::Held`] if the joints cannot move the point in every direction: less than six joints, or a singular position.
-    /// Further errors are those of [`mobility_at`](Self::mobility_at).
+    /// [`TreeErrorKind::Held`] if the joints cannot move the point in every direction, because there are fewer than six joints or the
+    /// position is singular. Further errors are those of [`mobility_at`](Self::mobility_at).
     ///
     /// ```
     /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/free-body.toml");
@@ -131,7 +131,8 @@ impl Tree {
     }
 }
 
-/// Inverse of a mobility in the directions `moves`, scaled such that lengths and angles have equal weight; `None` if a direction is locked.
+/// Inverse of a mobility in the directions `moves`; `None` if a direction is locked. The matrix is scaled such that lengths and angles have
+/// equal weight.
 fn inverse(mobility: &Matrix, moves: &[usize]) -> Option<Square<f64, 6>> {
     let mut scale = [0.0; 6];
     for &i in moves {
@@ -140,7 +141,7 @@ fn inverse(mobility: &Matrix, moves: &[usize]) -> Option<Square<f64, 6>> {
     if !scale.iter().all(|x| x.is_finite()) {
         return None;
     }
-    // The other directions get a unit diagonal, so that they do not couple.
+    // All other directions get a unit diagonal, so that they are not coupled to the directions `moves`.
     let scaled = Square::<f64, 6>::from_fn(|i, j| match (scale[i] * scale[j], i == j) {
         (0.0, true) => 1.0,
         (scale, _) => mobility[(i, j)] * scale,

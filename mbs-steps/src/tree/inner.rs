@@ -1,4 +1,4 @@
-//! A tree with its state in the coordinates of its links, planar or spatial.
+//! Tree with its state in the coordinates of its links, for the plane and for space.
 
 use super::layout::Layout;
 use crate::stop::StopError;
@@ -24,11 +24,11 @@ pub(super) struct Typed<S: Space<f64>> {
     pub state: TreeState<f64>,
     pub motions: Vec<RigidMotion<f64>>,
     pub own: OwnFreedoms<f64, S>,
-    /// Columns of derivatives; allocated by the first call that needs derivatives.
+    /// Columns of derivatives by coordinates and velocities. The first call that needs derivatives allocates them.
     pub moving: Option<MovingColumns<f64>>,
 }
 
-/// A tree with the layout of its coordinates, and the reason why it has no accelerations, if there is one.
+/// Tree, layout of its coordinates, and the reason why it has no accelerations; `None` if it has accelerations.
 type Made<X> = (X, Layout, Option<StopError>);
 
 /// Evaluates the same expression for the planar and the spatial tree.
@@ -43,7 +43,8 @@ macro_rules! with {
 pub(super) use with;
 
 impl Inner {
-    /// The tree of a scene, at rest in the reference configuration, and the reason why it has no accelerations, if there is one.
+    /// Builds the tree of a scene, at rest in the reference configuration. Also returns the reason why it has no accelerations, if there is
+    /// one.
     pub(super) fn new(scene: &Scene<f64>) -> Result<Made<Self>, StopError> {
         Ok(match scene.dimension {
             Dimension::Planar => {
@@ -63,7 +64,7 @@ impl Inner {
 }
 
 impl<S: Space<f64>> Typed<S> {
-    /// Converts a step error of the model to the reason of a stop, with the parts of the scene concerned.
+    /// Converts an error of a step to the reason of a stop, with the parts of the scene that it concerns.
     pub(super) fn reason(model: &TreeModel<f64, S>, error: StepError) -> StopError {
         let freedom = |unknown| model.owner_of_unknown(unknown);
         StopError::step(error, freedom, |row| model.owner_of_row(row))

@@ -3,11 +3,10 @@
 //! ```text
 //! δ = Aᵀ y,   (A Aᵀ + diag(μ, 0)) y = (e, 0),   A = (J; G)        μ = λ e·e        [Sugihara 2011 (9), (23)]
 //! ```
-//!
-//! The error e is the difference between target and body; lengths are divided by the scene's length. J is the Jacobian of the body's point,
-//! G has the rows of closed loops, and μ is a damping. If a step would move a coordinate out of its range, the coordinate remains at the
-//! end of the range. After a step the loops are closed to machine precision. A step that does not reduce the error is rejected, and λ
-//! increases.
+//! The step δ of the coordinates follows from the error e, the difference between target and body; lengths are divided by the scene's
+//! length. J is the Jacobian of the body's point, G has the rows of closed loops, and μ is a damping. If a step would move a coordinate out
+//! of its range, the coordinate remains at the end of the range. After a step the loops are closed to machine precision. A step that does
+//! not reduce the error is rejected, and λ increases.
 
 use super::inner::{Inner, with};
 use super::{Tree, TreeError, TreeErrorKind, checked, fictitious};
@@ -15,23 +14,23 @@ use crate::erased::values::rows;
 use mbs_core::algebra::{Matrix as Square, Vector, cross, rotation_vector};
 use mbs_core::scene::{BodyId, JointId};
 
-/// Largest number of steps [-]; a reachable target needs about ten.
+/// Largest number of steps of a search [-]. A reachable target needs about ten.
 const MOST_STEPS: u32 = 200;
-/// Error at which the target counts as reached, relative to the scene's length and to 1 rad [-]. The rounding errors of a chain of joints
-/// add up to less.
+/// Largest error at which the target counts as reached, relative to the scene's length and to 1 rad [-]. The rounding errors of a chain of
+/// joints add up to less.
 const REACHED: f64 = 1e-12;
-/// Damping λ at which the search ends [-], because no step reduces the error.
+/// Damping λ at which the search ends [-], because then no step reduces the error.
 const MOST_DAMPING: f64 = 1e12;
 /// Damping λ of the first step [-], its factor after an accepted step, and its factor after a rejected step. Chosen, not tuned.
 const DAMPING: [f64; 3] = [1e-3, 0.2, 8.0];
 /// Largest change of a coordinate in one step [rad, scene lengths].
 const LARGEST_STEP: f64 = 1.0;
-/// Tolerance of the orthogonality of a target rotation [-]; a matrix written with six digits is accepted.
+/// Tolerance of the orthogonality of a target rotation [-]. It accepts a matrix that is written with six digits.
 const ORTHOGONAL: f64 = 1e-5;
-/// Addition to the diagonal, relative to its largest entry [-], because redundant rows of loops have zero pivots.
+/// Number added to the diagonal of the matrix, relative to its largest entry [-], because redundant rows of loops have zero pivots.
 const REPEATED: f64 = 1e-13;
 
-/// Target position and rotation of a body; a part that is `None` is free.
+/// Target position and target rotation of a body. A part that is `None` is not prescribed.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct FrameTarget {
     /// Target position of the point in global axes [m].
@@ -46,15 +45,15 @@ pub struct FrameTarget {
 pub enum InverseKinematicsEnd {
     /// The body has reached the target.
     Reached,
-    /// No motion of the joints reduces the error: the target is out of reach, or needs another start.
+    /// No motion of the joints reduces the error. The target is out of reach, or the search needs another start.
     Nearest,
     /// No motion of the joints reduces the error, and these joints are at an end of their range.
     AtRange(Vec<JointId>),
-    /// The error was still decreasing at the largest number of steps.
+    /// The largest number of steps was reached while the error was still decreasing.
     Unfinished,
 }
 
-/// Result of a search for a position. The tree has that position and zero velocity.
+/// Result of a search for a position. The tree then has the found position and zero velocity.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct InverseKinematics {
@@ -64,18 +63,18 @@ pub struct InverseKinematics {
     pub distance: f64,
     /// Angle between the rotation and its target [rad]; zero without a target rotation.
     pub angle: f64,
-    /// Number of steps, accepted and rejected ones.
+    /// Number of steps that were accepted or rejected.
     pub steps: u32,
 }
 
 impl Tree {
     /// Moves the joints until a point of a body and the body's rotation match the target, or are as close as possible. The search starts at
-    /// the current position. `at` is the point in the reference configuration [m]. Afterwards the tree is at the found position, at rest.
-    /// The result has the remaining error and the reason of the end.
+    /// the current position. `at` is the point in the reference configuration [m]. Afterwards the tree is at rest at the found position.
+    /// The result has the remaining error and the reason why the search ended.
     ///
-    /// Loops remain closed. A joint with a `range` remains within it if it starts within it; no other function of the tree uses ranges. Of
-    /// several solutions, the search usually finds the one closest to the start. Guided joints have the position of
-    /// [`set_time`](Self::set_time). For the ground the joints cannot change the error.
+    /// Loops remain closed. A joint with a `range` remains within it, if it starts within it. No other function of the tree uses ranges. If
+    /// there are several solutions, the search usually finds the one closest to the start. Guided joints have their positions at the time
+    /// of [`set_time`](Self::set_time). If the body is the ground, the joints cannot change the error.
     ///
     /// Cost: some tens of outward passes, and the cube of the number of rows of target and loops; allocates.
     ///
@@ -159,7 +158,7 @@ impl Tree {
         Ok(found)
     }
 
-    /// Moves the joints as [`inverse_kinematics`](Self::inverse_kinematics) does, for a frame given by its name, as in
+    /// Moves the joints as [`inverse_kinematics`](Self::inverse_kinematics) does, for the frame that has the given name in
     /// [`frame`](Self::frame). The target has the position of the frame's origin and the rotation of its axes, both in global axes.
     ///
     /// # Errors
@@ -189,7 +188,7 @@ impl Tree {
         self.inverse_kinematics(frame.body, frame.at, &FrameTarget { rotation, ..*target })
     }
 
-    /// Sets a position at rest, and closes its loops.
+    /// Sets a position at rest, and closes the loops at this position.
     fn close_loops(&mut self, q: &[f64]) -> Result<(), TreeError> {
         let (before, v) = (self.q.clone(), self.v.clone());
         let rest = vec![0.0; v.len()];
@@ -223,7 +222,7 @@ struct Search {
     at: [f64; 3],
     target: FrameTarget,
     length: f64,
-    /// For each range: index in q and in v, the joint, and the ends of the range.
+    /// Ranges that joints must not leave. Each entry has the index of the coordinate in q and in v, the joint, and both ends of the range.
     ranges: Vec<([usize; 2], JointId, [f64; 2])>,
 }
 
@@ -254,7 +253,7 @@ impl Search {
         error
     }
 
-    /// Computes a step from a position; to first order, no coordinate leaves its range.
+    /// Computes a step δ from a position, such that to first order no coordinate leaves its range.
     fn step(&self, tree: &mut Tree, (q, error): (&[f64], &[f64]), damping: f64) -> Vec<f64> {
         let jacobian = tree.jacobian_at(self.body, self.at).clone();
         let loops = tree.loop_jacobian().clone();
@@ -270,7 +269,7 @@ impl Search {
         let mu = damping * dot(error, error);
         let mut right = error.to_vec();
         right.resize(rows.len(), 0.0);
-        // Each range can become active once at most.
+        // Each range becomes active at most once, which limits the number of repetitions.
         for _ in 0..=self.ranges.len() {
             let mut square: Vec<Vec<f64>> =
                 rows.iter().map(|a| rows.iter().map(|b| dot(a, b)).collect()).collect();
@@ -306,7 +305,7 @@ impl Search {
         }
     }
 
-    /// Are all coordinates in their ranges, to machine precision?
+    /// True if all coordinates are in their ranges, to machine precision.
     fn is_kept(&self, q: &[f64]) -> bool {
         let is_in = |q: f64, [lower, upper]: [f64; 2]| {
             let room = (upper - lower) * REACHED;
@@ -315,7 +314,7 @@ impl Search {
         self.ranges.iter().all(|&([place, _], _, range)| is_in(q[place], range))
     }
 
-    /// The joints that are at an end of their range.
+    /// Lists the joints that are at an end of their range.
     fn held(&self, q: &[f64]) -> Vec<JointId> {
         let is_at = |q: f64, [lower, upper]: [f64; 2]| q <= lower || q >= upper;
         let at = self.ranges.iter().filter(|&&([place, _], _, range)| is_at(q[place], range));
@@ -323,7 +322,7 @@ impl Search {
     }
 }
 
-/// Is the matrix orthogonal and right-handed, to six digits?
+/// True if the matrix is orthogonal and right-handed, to six digits.
 fn is_rotation(rows: &[[f64; 3]; 3]) -> bool {
     let rotation = matrix(rows);
     let off = (rotation * rotation.transpose() - Square::<f64, 3>::identity()).amax();

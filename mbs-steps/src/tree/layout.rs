@@ -9,8 +9,9 @@
 //!                         reversed  x = Rᵀ (P − p)     ẋ = −ω × x − Rᵀ ṗ,   ω of q = −R ω
 //! ```
 //!
-//! v = B w, where B depends on the position; v̇ = B ẇ + b; efforts transform with the transposes. For all other joints both coordinates are
-//! equal, or of opposite sign for a reversed joint.
+//! P and p are the attachment points on the first and the second body. r is the arm from c to p in the reference configuration, and R is
+//! the rotation. v = B w, where B depends on the position. v̇ = B ẇ + b with a bias b, and efforts transform with the transposes. For all
+//! other joints both coordinates are equal, or of opposite sign for a reversed joint.
 
 use super::{TreeError, TreeErrorKind};
 use mbs_core::algebra::{Matrix, Vector, cross, rotation_vector};
@@ -28,9 +29,9 @@ type Pair = [V3; 2];
 #[derive(Debug, Clone)]
 struct Place {
     own: TreeRange,
-    /// The joint of the scene, if there is one, and a body that it carries.
+    /// Index of the joint in the scene, and index of a body that it carries; `None` for a body without a joint.
     of: (Option<usize>, usize),
-    /// True for a free body, which no joint connects.
+    /// True for a free body, with or without a free joint in the scene.
     is_free: bool,
 }
 
@@ -40,7 +41,7 @@ struct Single {
     link: u32,
     q: u32,
     z: u32,
-    /// Index of the coordinate in v and in w.
+    /// Index of the coordinate's rate in v and in w.
     at: [u32; 2],
 }
 
@@ -51,7 +52,7 @@ struct Turning {
     link: usize,
     /// Index of its first coordinate in z.
     z: usize,
-    /// First index of its translations and of its rotations, in v and in w.
+    /// Index of the first translation and of the first rotation, in v and in w.
     at: [[usize; 2]; 2],
     /// Number of translations among the coordinates.
     n: usize,
@@ -62,14 +63,14 @@ struct Turning {
 #[derive(Debug, Clone)]
 struct Pose {
     is_reversed: bool,
-    /// Attachment point P, relative to the base.
+    /// Attachment point P, relative to the origin of the base.
     point: V3,
     /// Arm r in the reference configuration.
     reference: V3,
     rotation: Matrix<f64, 3>,
-    /// Arm s = R r at the present rotation.
+    /// Arm s = R r at the current rotation.
     arm: V3,
-    /// Gap x between the two points.
+    /// Vector x between the two attachment points.
     gap: V3,
 }
 
@@ -139,22 +140,22 @@ pub(super) struct Layout {
     places: Vec<Place>,
     singles: Vec<Single>,
     turning: Vec<Turning>,
-    /// Number of coordinates of a rotation in q and in v.
+    /// Number of coordinates of a rotation in q, and in v.
     turns: [usize; 2],
     rotation: fn(&[f64]) -> Matrix<f64, 3>,
-    /// Changes the coordinates of a rotation by a rotation vector in body axes.
+    /// Function that changes the coordinates of a rotation by a rotation vector in body axes.
     advance: fn(&mut [f64], &[f64]),
     /// Number of coordinates in q and in v.
     pub n: [usize; 2],
 }
 
-/// Index of v, or of efforts along v, in a pair.
+/// Index that selects v, or efforts along v, in a pair.
 const OWN: usize = 0;
-/// Index of w, or of efforts along w, in a pair.
+/// Index that selects w, or efforts along w, in a pair.
 const TREE: usize = 1;
 
 impl Layout {
-    /// Creates the layout of a scene. Coordinates have the order of the scene's joints; free bodies follow after them.
+    /// Creates the layout of a scene. Coordinates have the order of the scene's joints. Free bodies without a joint follow.
     pub(super) fn new<S: Space<f64>>(scene: &Scene<f64>, model: &TreeModel<f64, S>) -> Self {
         let turns = [S::FREE - S::Point::N, S::Spin::N];
         let rotation = |z: &[f64]| S::rotation_into(&S::turned_by(&S::identity(), z));
@@ -234,7 +235,7 @@ impl Layout {
         self.range_of(|place| place.of.0 == Some(joint))
     }
 
-    /// Range from the first to the last of the selected places.
+    /// Index range from the first to the last of the selected places; `None` if no place is selected.
     fn range_of(&self, is_own: impl Fn(&Place) -> bool) -> Option<TreeRange> {
         let mut own = self.places.iter().filter(|place| is_own(place));
         let first = own.next()?.own.clone();
@@ -288,7 +289,7 @@ impl Layout {
         ends.map(|end| end - self.turns[0]..end).filter(|at| at.len() == 4)
     }
 
-    /// q ⊕ δ: the coordinates after a step δ along the velocities.
+    /// Computes q ⊕ δ, the coordinates after a step δ along the velocities.
     pub(super) fn integrate(&self, step: &[f64], q: &mut [f64]) {
         for single in &self.singles {
             q[single.q as usize] += step[single.at[OWN] as usize];
@@ -300,7 +301,7 @@ impl Layout {
         }
     }
 
-    /// Step δ from one position to another, such that `from` ⊕ δ = `to`; rotations take the shorter way.
+    /// Computes the step δ from one position to another, such that `from` ⊕ δ = `to`. Rotations take the shorter way.
     pub(super) fn difference(&self, from: &[f64], to: &[f64], step: &mut [f64]) {
         for single in &self.singles {
             let q = single.q as usize;
@@ -425,22 +426,22 @@ fn index(i: usize) -> u32 {
     i as u32
 }
 
-/// The length of a quaternion.
+/// Euclidean length of a quaternion.
 fn length(q: &[f64]) -> f64 {
     q.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
-/// Vector from the first components; the remaining ones are zero.
+/// Vector with the given first components; its remaining components are zero.
 fn vector(x: &[f64]) -> V3 {
     V3::from_fn(|i, _| x.get(i).copied().unwrap_or(0.0))
 }
 
-/// Copies the first components of a vector.
+/// Copies the first components of a vector, as many as `to` has.
 fn put(x: &V3, to: &mut [f64]) {
     to.copy_from_slice(&x.as_slice()[..to.len()]);
 }
 
-/// Copies an angle or a quaternion, inverted for a reversed joint.
+/// Copies an angle or a quaternion. For a reversed joint it is inverted.
 fn invert(from: &[f64], is_reversed: bool, to: &mut [f64]) {
     to.copy_from_slice(from);
     if is_reversed {

@@ -3,9 +3,9 @@
 use super::{Tree, TreeError, checked, sized};
 
 impl Tree {
-    /// Position `to` = q ⊕ δ after a step δ along the velocities v [rad, m]. For angles and displacements ⊕ is the sum. A quaternion is
-    /// rotated by δ, a rotation vector in body axes, and remains a unit quaternion. With δ = h v the result is the position after time h at
-    /// constant v.
+    /// Computes the position `to` = q ⊕ δ after a step δ along the velocities v [rad, m]. For angles and displacements ⊕ is the sum. For a
+    /// quaternion δ is a rotation vector in body axes; the quaternion is rotated by it and remains a unit quaternion. With δ = h v, `to` is
+    /// the position after time h at constant v.
     ///
     /// # Errors
     /// As for [`set`](Self::set); `to` is unchanged then.
@@ -28,8 +28,8 @@ impl Tree {
         Ok(())
     }
 
-    /// Step δ along the velocities from one position to another: `to` = `from` ⊕ δ, with ⊕ as in [`integrate`](Self::integrate). Rotations
-    /// take the shorter way of at most half a turn; differences of angles include full turns.
+    /// Computes the step δ along the velocities from one position to another: `to` = `from` ⊕ δ, with ⊕ as in
+    /// [`integrate`](Self::integrate). Rotations take the shorter way of at most half a turn. Differences of angles include full turns.
     ///
     /// # Errors
     /// As for [`set`](Self::set); `step` is unchanged then.

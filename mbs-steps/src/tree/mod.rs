@@ -34,10 +34,10 @@ use mbs_core::rigid::RigidMotion;
 use mbs_core::scene::{BodyId, JointId, Scene};
 use std::collections::HashSet;
 
-/// A body, a point of it in the reference configuration [m], and its fraction of the total mass [-].
+/// Body, a point of it in the reference configuration [m], and the fraction of the total mass that the body has [-].
 type Weighted = (BodyId, [f64; 3], f64);
 
-/// A mechanism in relative coordinates, at any position and velocity.
+/// Mechanism in relative coordinates, at any position and velocity.
 ///
 /// ```text
 /// M v̇ + c + g = τ + Jᵀ λ,   J v̇ + J̇ v = 0
@@ -49,8 +49,8 @@ type Weighted = (BodyId, [f64; 3], f64);
 /// [`accelerations`](Self::accelerations) and [`rollout`](Self::rollout) include all effects.
 ///
 /// **Coordinates.** Every joint has coordinates in q and v, unless it closes a loop or is guided. Their order is that of the scene, and
-/// [`coordinates_of`](Self::coordinates_of) returns their index ranges. Bodies without a joint come last, each with a free joint at its
-/// centre of mass. All coordinates are measured from the reference configuration, as motion of the second body relative to the first.
+/// [`coordinates_of`](Self::coordinates_of) returns their index ranges. Bodies without a joint come last. Each of them has a free joint at
+/// its centre of mass. All coordinates are measured from the reference configuration, as motion of the second body relative to the first.
 ///
 /// | joint | q | v |
 /// |---|---|---|
@@ -60,25 +60,25 @@ type Weighted = (BodyId, [f64; 3], f64);
 /// | free, space | x, y, z as in the plane; quaternion as for a ball | rates of x, y, z; angular velocity, in axes of the second body |
 ///
 /// A unit quaternion is (cos(φ/2), n sin(φ/2)) for a rotation by φ about the unit vector n; q and −q are the same rotation. Its time
-/// derivative is ½ q (0, ω). Efforts are conjugate to v: τ·v is their power. A thin rod in space with ball joints only has no spin about
-/// its axis, and a small inertia about it.
+/// derivative is ½ q (0, ω). Efforts are conjugate to v: τ·v is their power. A thin rod in space that has only ball joints has no spin
+/// about its axis, and a small inertia about it.
 ///
-/// **Time.** Only guided joints depend on time. They have the position and velocity of their guide at the time of
-/// [`set_time`](Self::set_time), initially zero.
+/// **Time.** Only guided joints depend on time. They have the position and velocity of their guide at the time given by
+/// [`set_time`](Self::set_time), which is initially zero.
 ///
-/// Results are stored in buffers of the tree until the next call. After the first calls no function allocates, except
-/// [`follow`](Self::follow), and [`coordinates_of`](Self::coordinates_of) on an error.
+/// Results are stored in buffers of the tree until the next call. After the first calls no function allocates memory. Exceptions are
+/// [`follow`](Self::follow), and [`coordinates_of`](Self::coordinates_of) if it returns an error.
 #[derive(Debug, Clone)]
 pub struct Tree {
     inner: Inner,
     layout: Layout,
-    /// Reason why no efforts determine accelerations, at any position; `None` if they do.
+    /// Reason why efforts determine no accelerations at any position; `None` if they determine accelerations.
     lack: Option<TreeError>,
-    /// Tree with fictitious masses that closes loops, for a scene with too little inertia.
+    /// Tree with fictitious masses by which loops are closed; `None` if the scene has enough inertia.
     closing: Option<Inner>,
     /// Centre of mass of each body, with its fraction of the total mass.
     shares: Vec<Weighted>,
-    /// Whether the scene has a frame with the name of each body.
+    /// True for each body for which the scene has a frame with the body's name.
     has_frame: Vec<bool>,
     /// Mass of all bodies [kg].
     total: f64,
@@ -87,7 +87,7 @@ pub struct Tree {
     q: Vec<f64>,
     v: Vec<f64>,
     answer: Vec<f64>,
-    /// Vector in the coordinates of the links.
+    /// Vector in the coordinates of the links, for intermediate results.
     tree: Vec<f64>,
     /// Velocities that are all zero.
     zero: Vec<f64>,
@@ -96,7 +96,7 @@ pub struct Tree {
     jacobian: Matrix,
     /// Mobility or inertia of a frame, 6 × 6.
     frame: Matrix,
-    /// Columns of a Jacobian.
+    /// Columns of a Jacobian, for intermediate results.
     columns: Vec<f64>,
     by_effort: AccelerationDerivatives,
     of_effort: EffortDerivatives,
@@ -106,7 +106,7 @@ pub struct Tree {
 }
 
 impl Tree {
-    /// The tree of a checked scene, at rest in the reference configuration.
+    /// Creates the tree of a checked scene, at rest in the reference configuration.
     ///
     /// # Errors
     /// [`TreeErrorKind::NoTree`] if the scene has no model in relative coordinates.
@@ -126,7 +126,7 @@ impl Tree {
             let (mass, center, _) = mass_properties(scene, b);
             (BodyId::new(b), center.into(), if total > 0.0 { mass / total } else { 0.0 })
         };
-        // The first call that needs a square matrix allocates its rows.
+        // The first call that needs a square matrix allocates its rows, so it has no rows here.
         let square = || Matrix::zeros(0, n);
         let inputs = Inputs::new(scene);
         let prescribed = with!(&inner, tree => tree.model.prescribed());
@@ -158,8 +158,8 @@ impl Tree {
         })
     }
 
-    /// Sets coordinates and velocities. Quaternions are normalised. Loops are not closed: results then hold for the given position with
-    /// open loops.
+    /// Sets coordinates and velocities. Quaternions are normalised. Loops are not closed, so results hold for the given position even if
+    /// its loops are open.
     ///
     /// # Errors
     /// [`TreeError`] for a wrong number of values, or a value that is not finite; the tree is unchanged then.
@@ -185,8 +185,8 @@ impl Tree {
         Ok(())
     }
 
-    /// Returns the reason why no efforts determine accelerations at any position: some joint moves no inertia. `None`: accelerations can be
-    /// computed. Positions, velocities, Jacobians, inverse kinematics and inverse dynamics work without inertia.
+    /// Returns the reason why efforts determine no accelerations at any position, for example a joint that moves no inertia. `None`:
+    /// accelerations can be computed. Positions, velocities, Jacobians, inverse kinematics and inverse dynamics work without inertia.
     ///
     /// ```
     /// use mbs::{Body, Error, GROUND, Joint, Mechanism};
@@ -203,7 +203,7 @@ impl Tree {
         self.lack.as_ref()
     }
 
-    /// Returns the error of a missing inertia, for functions that need accelerations.
+    /// Returns an error if accelerations cannot be computed because inertia is missing.
     fn needs_inertia(&self) -> Result<(), TreeError> {
         self.lack.clone().map_or(Ok(()), Err)
     }
@@ -302,7 +302,7 @@ impl Tree {
         Err(TreeError::of_joint(kind, &data.name))
     }
 
-    /// Returns the index ranges of the coordinates of a free body, with or without a free joint in the scene. Of bodies that are welded
+    /// Returns the index ranges of the coordinates of a free body, with or without a free joint in the scene. If several bodies are welded
     /// together, the first one in the scene has the coordinates.
     ///
     /// ```
@@ -355,7 +355,7 @@ fn has_frame(scene: &Scene<f64>) -> Vec<bool> {
     scene.bodies.iter().map(|body| frames.contains(body.name.as_str())).collect()
 }
 
-/// Checks the number of values of an argument.
+/// Checks that an argument has the expected number of values.
 fn sized(what: &'static str, x: &[f64], expected: usize) -> Result<(), TreeError> {
     match x.len() {
         n if n == expected => Ok(()),
@@ -367,7 +367,7 @@ fn sized(what: &'static str, x: &[f64], expected: usize) -> Result<(), TreeError
 /// [`TreeErrorKind::Length`] or [`TreeErrorKind::NotFinite`].
 fn checked(what: &'static str, x: &[f64], expected: usize) -> Result<(), TreeError> {
     sized(what, x, expected)?;
-    // All values are checked together first, because this loop is vectorised.
+    // All values are first checked in one loop, because the compiler can vectorise this loop.
     if x.iter().fold(true, |all, x| all & x.is_finite()) {
         return Ok(());
     }

@@ -28,9 +28,9 @@ pub struct FrameMotion {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct TotalMomentum {
-    /// Mass times velocity of the centre of mass [kg m/s].
+    /// Linear momentum: total mass times velocity of the centre of mass [kg m/s].
     pub linear: [f64; 3],
-    /// Angular momentum about the centre of mass [kg m²/s].
+    /// Angular momentum about the centre of mass of all bodies [kg m²/s].
     pub angular: [f64; 3],
 }
 
@@ -59,8 +59,9 @@ impl Tree {
         Pose { position: motion.point(&center.into())[0].into(), rotation: rows(&motion.rotation) }
     }
 
-    /// Motion of a `[[frame]]` of the scene, by name. The name of a body without such a frame gives its centre of mass, as in
-    /// [`centers`](Self::centers). The axes then are those that were the global axes in the reference configuration.
+    /// Motion of a `[[frame]]` of the scene, by name. If there is no such frame, but a body has the name, it is the motion of the body's
+    /// centre of mass, as in [`centers`](Self::centers). The axes are then the body axes that were the global axes in the reference
+    /// configuration.
     ///
     /// # Errors
     /// [`UnknownName`], which suggests the most similar name.
@@ -78,7 +79,7 @@ impl Tree {
         self.named(name).map(|frame| self.moved(frame))
     }
 
-    /// Motions of all frames of the scene, then of all bodies without a frame of their name, each with its name, as in
+    /// Motions of all frames of the scene, each with its name. Then follow all bodies that have no frame of their name, as in
     /// [`frame`](Self::frame).
     ///
     /// ```
@@ -93,7 +94,8 @@ impl Tree {
         self.placed()
     }
 
-    /// Motions of the centres of mass of all bodies by name, with axes that were the global axes in the reference configuration.
+    /// Motions of the centres of mass of all bodies, each with the body's name. Their axes are the body axes that were the global axes in
+    /// the reference configuration.
     ///
     /// ```
     /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
@@ -107,12 +109,12 @@ impl Tree {
         self.bodies().map(|(name, frame)| (name, self.moved(frame)))
     }
 
-    /// The frames at the body motions that were evaluated last.
+    /// Motions of all frames, from the body motions that were evaluated last.
     fn placed(&self) -> impl Iterator<Item = (&str, FrameMotion)> {
         self.known().map(|(name, frame)| (name, self.moved(frame)))
     }
 
-    /// A frame at the body motions that were evaluated last.
+    /// Motion of a frame, from the body motions that were evaluated last.
     fn moved(&self, Frame { body, at, axes }: Frame) -> FrameMotion {
         let motions = with!(&self.inner, tree => &tree.motions);
         let at_rest = RigidMotion::at_rest(at.into());
@@ -122,14 +124,14 @@ impl Tree {
         FrameMotion { position, rotation, velocity, angular_velocity }
     }
 
-    /// All frames of the scene, then all bodies without a frame of their name, each with its name.
+    /// All frames of the scene with their names. Then follow all bodies that have no frame of their name.
     fn known(&self) -> impl Iterator<Item = (&str, Frame)> {
         let bodies = self.bodies().zip(&self.has_frame);
         let bodies = bodies.filter_map(|(body, &has_frame)| (!has_frame).then_some(body));
         self.own_frames().chain(bodies)
     }
 
-    /// The frames of the scene with their names.
+    /// Frames of the scene with their names.
     fn own_frames(&self) -> impl Iterator<Item = (&str, Frame)> {
         self.scene.frames.iter().map(|x| {
             let frame = Frame { body: x.body, at: x.at, axes: axes(x.axes) };
@@ -137,14 +139,14 @@ impl Tree {
         })
     }
 
-    /// The centres of mass of all bodies as frames, with the names of the bodies.
+    /// Centres of mass of all bodies as frames, with the names of the bodies.
     fn bodies(&self) -> impl Iterator<Item = (&str, Frame)> {
         self.scene.bodies.iter().zip(&self.shares).map(|(x, &(body, at, _))| {
             (x.name.as_str(), Frame { body, at, axes: Matrix::<f64, 3>::identity() })
         })
     }
 
-    /// The frame with this name, of the scene or of a body.
+    /// Returns the frame with this name, which is a frame of the scene or a body.
     pub fn named(&self, name: &str) -> Result<Frame, UnknownName> {
         let found = self.known().find(|(known, _)| *known == name);
         found.map(|(_, frame)| frame).ok_or_else(|| {
@@ -166,7 +168,7 @@ impl Tree {
     /// ```
     pub fn momentum(&mut self) -> TotalMomentum {
         let center = Vector::<f64, 3>::from(self.center_of_mass().position);
-        // The motions were evaluated for the centre of mass.
+        // The call above evaluated the motions of all bodies.
         let motions = with!(&self.inner, tree => &tree.motions);
         let (mut linear, mut angular) = (Vector::<f64, 3>::zeros(), Vector::<f64, 3>::zeros());
         for (b, motion) in motions.iter().enumerate() {
@@ -180,7 +182,7 @@ impl Tree {
     }
 }
 
-/// The axes of a frame as columns; the global axes if the scene gives none.
+/// Axes of a frame, as columns of a matrix; the global axes if the scene gives none.
 fn axes(axes: Option<[[f64; 3]; 2]>) -> Matrix<f64, 3> {
     axes.map_or_else(Matrix::<f64, 3>::identity, |axes| {
         Matrix::<f64, 3>::from_columns(&frame(axes).map(Vector::<f64, 3>::from))

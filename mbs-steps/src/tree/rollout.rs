@@ -1,4 +1,4 @@
-//! Rollouts: motions of a tree from given initial states, as many short simulations without the record of a run.
+//! Rollouts: motions of a tree from given initial states. A rollout is a short simulation without the record of a run.
 
 use super::inner::{Inner, Typed, with};
 use super::{Tree, checked};
@@ -12,14 +12,14 @@ use mbs_core::step::StepError;
 use mbs_recursive::space::Space;
 use mbs_recursive::{TreeModel, TreeState};
 
-/// Request for a motion: initial coordinates and velocities, equal steps, and inputs that are constant in each step.
+/// Data of a rollout: initial coordinates and velocities, equal steps, and inputs that are constant in each step.
 #[derive(Debug, Clone, Copy)]
 pub struct Rollout<'a> {
     /// Initial coordinates, as in [`Tree::coordinates`].
     pub q: &'a [f64],
     /// Initial velocities [rad/s, m/s].
     pub v: &'a [f64],
-    /// Inputs, one row for each step; empty: all inputs have their initial values.
+    /// Inputs, one row for each step. If the slice is empty, all inputs have their initial values.
     pub inputs: &'a [f64],
     /// Length of a step [s].
     pub step: f64,
@@ -31,7 +31,7 @@ pub struct Rollout<'a> {
     pub interrupt: Option<&'a Interrupt>,
 }
 
-/// Early end of a motion: its reason, and the number of steps before the end.
+/// Reason why a motion ended early, and the number of steps before the end.
 #[derive(Debug)]
 pub struct RolloutEnd {
     /// Number of completed steps; `None` if the motion could not begin.
@@ -53,13 +53,13 @@ fn check(task: &Rollout<'_>, n_inputs: usize) -> Result<(), SimulationError> {
 }
 
 impl Tree {
-    /// Computes a motion with all effects from time zero. It writes `n_steps + 1` rows of q and of v; the first row is the initial state
-    /// with closed loops. After a failed step the remaining rows are NaN.
+    /// Computes a motion with all effects from time zero, and writes `n_steps + 1` rows of q and of v. The first row is the initial state
+    /// after its loops were closed. After a failed step the remaining rows are NaN.
     ///
-    /// A simulation by `recursive` with the same integrator and inputs gives the same result. It is bitwise the same if the tree has no
-    /// closed loop, no ball joint and no free joint; else it agrees to machine precision.
+    /// A simulation by `recursive` with the same integrator and inputs gives the same result. The result is bitwise the same if the tree
+    /// has no closed loop, no ball joint and no free joint. Otherwise it agrees to machine precision.
     ///
-    /// Cost: the steps only. Only q and v are recorded, and no step allocates.
+    /// Cost: the steps alone. Only q and v are recorded, and no step allocates memory.
     ///
     /// # Errors
     /// [`RolloutEnd`]: a wrong number of values, a value that is not finite, a start whose loops cannot be closed, or a step that fails.
@@ -128,7 +128,7 @@ impl Tree {
         self.v.fill(0.0);
     }
 
-    /// Makes step `k`, counted from 0.
+    /// Makes step `k` of the motion, counted from 0.
     fn step(&mut self, task: &Rollout<'_>, k: usize) -> Result<(), SimulationError> {
         let n = self.input_list.len();
         let dt = task.step;
@@ -147,7 +147,7 @@ impl Tree {
                 places.iter().zip(row).for_each(|(&place, &value)| state.inputs[place] = value);
             }
             if task.integrator.is_explicit() {
-                // An explicit method evaluates the start of the step, so the inputs of the step apply there.
+                // An explicit method evaluates the accelerations at the start of the step, so the inputs of the step must apply there.
                 model.prescribed().apply(&state.inputs, &mut state.applied);
             }
             let options = tree_options(&demands);
@@ -157,7 +157,7 @@ impl Tree {
             let end = (k + 1) as f64 * dt;
             match made {
                 Ok(_) => {
-                    // The end is a multiple of the step, because a sum of many steps would accumulate rounding errors.
+                    // The time at the end is a multiple of the step, because a sum of many steps would accumulate rounding errors.
                     state.t = end;
                     Ok(())
                 }
@@ -166,7 +166,7 @@ impl Tree {
         })
     }
 
-    /// Writes row k of the motion.
+    /// Writes the current coordinates and velocities into row `k` of the motion.
     fn keep(&mut self, (q_rows, v_rows): (&mut [f64], &mut [f64]), k: usize) {
         let [n_q, n] = self.layout.n;
         let state = self.inner.state();
@@ -177,7 +177,7 @@ impl Tree {
     }
 }
 
-/// The error of a failed step, with names.
+/// Converts the error of a failed step, with the names of the scene.
 fn stopped<S: Space<f64>>(
     (model, t, names): (&TreeModel<f64, S>, f64, &Names),
     error: StepError,

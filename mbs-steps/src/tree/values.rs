@@ -1,10 +1,10 @@
-//! Types of the results of a tree.
+//! Types for the results of a tree: matrices and derivatives.
 
 use crate::erased::values::PointMotion;
 use mbs_core::algebra::Vector;
 use std::ops::{Index, IndexMut};
 
-/// A dense matrix, row by row.
+/// Dense matrix, stored row by row.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Matrix {
     /// Number of rows of the matrix.
@@ -52,7 +52,7 @@ impl IndexMut<(usize, usize)> for Matrix {
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct EffortDerivatives {
-    /// Derivative ∂τ/∂q along the velocities: column j is the rate of change for a motion of q with v_j = 1.
+    /// Derivative ∂τ/∂q along the velocities. Column j is the rate of change of τ if q moves with v_j = 1 and all other velocities zero.
     pub q: Matrix,
     /// Derivative ∂τ/∂v by the velocities.
     pub v: Matrix,
@@ -64,11 +64,11 @@ pub struct EffortDerivatives {
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct AccelerationDerivatives {
-    /// Derivative ∂v̇/∂q along the velocities: column j is the rate of change for a motion of q with v_j = 1.
+    /// Derivative ∂v̇/∂q along the velocities. Column j is the rate of change of v̇ if q moves with v_j = 1 and all other velocities zero.
     pub q: Matrix,
     /// Derivative ∂v̇/∂v by the velocities.
     pub v: Matrix,
-    /// Derivative ∂v̇/∂τ = M⁻¹ by the efforts.
+    /// Derivative ∂v̇/∂τ by the efforts; in an open tree it is M⁻¹.
     pub effort: Matrix,
 }
 

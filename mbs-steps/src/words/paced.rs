@@ -1,10 +1,10 @@
-//! Texts about a paced run: rows of a summary, and a note.
+//! Texts about a paced run: the rows of its summary, and a note.
 
 use crate::record::{Degraded, RealtimeSummary};
 use mbs_scene::format::significant;
 use mbs_scene::format::{duration, few};
 
-/// Rows of the summary of a run: labels, and values with their units.
+/// Rows of the summary of a paced run, each with label and value.
 #[must_use]
 pub fn rows(s: &RealtimeSummary) -> Vec<(&'static str, String)> {
     let spread = |of: &crate::record::Times| {
@@ -73,7 +73,7 @@ fn level_text(level: &Degraded) -> String {
     text + &format!("; {n} {}", if n == 1 { "period" } else { "periods" })
 }
 
-/// Note on a run that was degraded.
+/// Returns a note on a run that was degraded; `None` if it was not.
 pub fn note(s: &RealtimeSummary) -> Option<String> {
     (s.degraded_periods > 0).then(|| {
         format!(
