@@ -1,4 +1,4 @@
-//! Check of a model when it is loaded: every number in its tables that points into a table must be valid.
+//! Check of a model when it is loaded: every index in its tables must refer to an existing entry.
 
 mod couplings;
 mod plan;
@@ -31,21 +31,21 @@ pub enum LoadError {
         /// Largest size that the memory allows.
         capacity: usize,
     },
-    /// A number in a table points outside of its target table, or this build does not contain the effect.
+    /// An index in a table is out of range, or this build does not contain the effect.
     Index {
         /// Name of the table.
         table: &'static str,
-        /// Number of the entry in the table.
+        /// Index of the entry in the table.
         entry: usize,
     },
-    /// An effect on an angle of a ball joint, which tables for controllers do not support.
+    /// An effect depends on an angle of a ball joint, which tables for controllers do not support.
     Sum {
-        /// Number of the entry in the table of effects.
+        /// Index of the entry in the table of effects.
         entry: usize,
     },
-    /// A guided rotation vector, which tables for controllers do not support.
+    /// A guide prescribes a rotation vector, which tables for controllers do not support.
     GuidedBall {
-        /// Number of the link whose joint is guided.
+        /// Index of the link whose joint is guided.
         link: usize,
     },
     /// The model has a machine element that this build does not contain.
@@ -53,14 +53,14 @@ pub enum LoadError {
         /// The Cargo feature that adds the element.
         feature: &'static str,
     },
-    /// The text is not a model of this version and dimension.
+    /// The bytes are not a model of this version and dimension.
     Format,
-    /// The text has a law that this build does not contain, or an entry that is malformed.
+    /// The bytes contain a law that this build does not support, or a malformed entry.
     Record {
-        /// Number of bytes in the text before the entry that cannot be read.
+        /// Number of bytes before the entry that cannot be read.
         byte: usize,
     },
-    /// The text ends before the model does, or continues after it.
+    /// The bytes end before the end of the model, or continue after it.
     Length,
 }
 
@@ -103,7 +103,7 @@ impl core::fmt::Display for LoadError {
 
 impl core::error::Error for LoadError {}
 
-/// Sizes of a model, or largest sizes for which there is memory.
+/// Sizes of a model, or the largest sizes for which a solver has memory.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Sizes {
     /// Number of links, including the ground.
@@ -114,7 +114,7 @@ pub struct Sizes {
     pub freedoms: usize,
     /// Number of rows of loops.
     pub rows: usize,
-    /// Number of entries of the blocks of Λ.
+    /// Number of entries of the blocks of Λ, the matrix of the loops' rows.
     pub blocks: usize,
     /// Number of gains of rows at joints.
     pub gains: usize,
@@ -126,7 +126,8 @@ pub struct Sizes {
     pub states: usize,
     /// Number of signals if there are operations on signals; otherwise zero.
     pub followed: usize,
-    /// Number of sides of a row: two, or for couplings as many branches as carry their joints and points.
+    /// Largest number of sides of a row: branches along which the row is carried inward. Cut joints have two. A coupling has one for each
+    /// branch that carries its joints and points.
     pub sides: usize,
 }
 
@@ -195,7 +196,7 @@ impl Sizes {
     }
 }
 
-/// A model whose tables were checked: every number that points into a table is valid.
+/// A model whose tables were checked: every index in them refers to an existing entry.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Checked<'a, T: Real, S: Space<T>> {
     model: Model<'a, T, S>,
@@ -203,9 +204,9 @@ pub struct Checked<'a, T: Real, S: Space<T>> {
 }
 
 impl<'a, T: Real, S: Space<T>> Checked<'a, T, S> {
-    /// Checks every number of a model.
+    /// Checks every index in the tables of a model.
     ///
-    /// Cost: linear in the tables. It occurs once, when a model is loaded.
+    /// Cost: linear in the size of the tables. The check is made once, when a model is loaded.
     ///
     /// # Errors
     /// [`LoadError::Index`] names the table and the entry. [`LoadError::Feature`] names a feature that this build lacks.
@@ -243,7 +244,8 @@ impl<'a, T: Real, S: Space<T>> Checked<'a, T, S> {
         Ok(Self { model: *model, sizes })
     }
 
-    /// Makes a checked model without a check. The tables of `model` must not have changed since they were checked with these `sizes`.
+    /// Makes a checked model without a new check. The tables of `model` must have been checked with these `sizes`, and must not have
+    /// changed since.
     pub(crate) fn again(model: Model<'a, T, S>, sizes: Sizes) -> Self {
         Self { model, sizes }
     }
@@ -266,33 +268,34 @@ impl<'a, T: Real, S: Space<T>> Checked<'a, T, S> {
         if curves::IS_BUILT { self.model.mechanism.loops.couplings.n_slopes() } else { 0 }
     }
 
-    /// Returns the effects that act on a rung of the degradation ladder; `None` if all effects act.
+    /// Returns the effects that act on a rung of the degradation ladder. `None` if all effects act.
     pub(crate) fn kept_on(&self, rung: u32) -> Option<&'a [Load<T, S>]> {
         let kept = self.model.rungs.get((rung as usize).checked_sub(1)?)?;
         self.model.mechanism.loads.get(..*kept as usize)
     }
 }
 
-/// Tables under check, with the sizes that limit their numbers.
+/// Tables that are being checked, with the sizes that limit their indices.
 struct Look<'a, 'b, T: Real, S: Space<T>> {
     m: &'a TreeSlices<'b, T, S>,
     sizes: Sizes,
 }
 
-/// Returns the error for an entry that points outside.
+/// Returns the error for an entry with an index out of range.
 fn fault(table: &'static str, entry: usize) -> LoadError {
     LoadError::Index { table, entry }
 }
 
-/// Returns the number of sides if `side` is the last one.
+/// Returns the number of sides if `side` is the index of the last side.
 fn sides(side: u32) -> usize {
     (side as usize).saturating_add(1)
 }
 
-/// Smallest number of sides of a row [-]: a cut joint has one at each of its two bodies.
+/// Smallest number of sides of a row [-]: a cut joint has one side at each of its two bodies.
 pub(crate) const MIN_SIDES: usize = 2;
 
-/// Returns the largest number of sides of a row. A side that begins on the ground passes no joint, so the starts are counted too.
+/// Returns the largest number of sides of a row. A side that begins on the ground passes no joint, so the sides of the starts are also
+/// read.
 pub(crate) fn n_sides<T: Real, S: Space<T>>(m: &TreeSlices<'_, T, S>) -> usize {
     let passes = m.loops.plan.passes.iter().map(|pass| pass.side);
     let starts = if coupled::HAS_LINES { m.loops.couplings.starts } else { &[] };
@@ -301,12 +304,12 @@ pub(crate) fn n_sides<T: Real, S: Space<T>>(m: &TreeSlices<'_, T, S>) -> usize {
         .fold(MIN_SIDES, |most, side| most.max(sides(side)))
 }
 
-/// Returns the error of `entry` in `table` unless `holds`.
+/// Returns the error for `entry` of `table` if `holds` is false.
 fn ensure(holds: bool, table: &'static str, entry: usize) -> Result<(), LoadError> {
     if holds { Ok(()) } else { Err(fault(table, entry)) }
 }
 
-/// Do `n` entries from `first` end at or before `end`?
+/// True if `n` entries, beginning at `first`, end at or before `end`.
 fn ends_by(first: u32, n: usize, end: usize) -> bool {
     (first as usize).checked_add(n).is_some_and(|last| last <= end)
 }
@@ -387,7 +390,7 @@ impl<T: Real, S: Space<T>> Look<'_, '_, T, S> {
         Ok(())
     }
 
-    /// Has the link's joint one coordinate?
+    /// True if the link's joint has one coordinate.
     fn has_one_coordinate(&self, link: u32) -> bool {
         self.m
             .links
@@ -436,7 +439,7 @@ impl<T: Real, S: Space<T>> Look<'_, '_, T, S> {
     }
 }
 
-/// Is a range valid for a list of `end` entries?
+/// True if a range is valid for a list with `end` entries.
 fn is_within(span: Span, end: usize) -> bool {
     span.first <= span.end && span.end as usize <= end
 }

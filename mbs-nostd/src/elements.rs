@@ -1,4 +1,4 @@
-//! Machine elements of a model. Each has a Cargo feature, so that a program contains only the code of its own elements.
+//! Machine elements of a model. Each element has a Cargo feature, so that a program contains code only for the elements of its model.
 
 use crate::inputs::{Motion, SignalLaw};
 use crate::model::Model;
@@ -15,13 +15,13 @@ use mbs_recursive::space::Space;
 pub(crate) struct Element {
     /// Cargo feature that adds the element.
     pub(crate) feature: &'static str,
-    /// Is the element in this build?
+    /// True if this build supports the element.
     is_built: bool,
-    /// Has the model such an element?
+    /// True if the model has such an element.
     pub(crate) is_needed: bool,
 }
 
-/// Returns all elements, and for each whether the model has it.
+/// Returns all machine elements. Each says whether this build supports it and whether the model has it.
 pub(crate) fn all<T: Real, S: Space<T>>(model: &Model<'_, T, S>) -> [Element; 7] {
     let (m, laws) = (&model.mechanism, &model.prescriptions);
     let has_coupled = m.loops.rows.iter().any(|row| matches!(row, Row::Coupled(_)));
@@ -46,7 +46,7 @@ pub(crate) fn all<T: Real, S: Space<T>>(model: &Model<'_, T, S>) -> [Element; 7]
     .map(|(feature, is_built, is_needed)| Element { feature, is_built, is_needed })
 }
 
-/// Returns the feature of an element that the model has, but this build does not.
+/// Returns the feature of the first element that the model has but this build does not support.
 pub(crate) fn missing<T: Real, S: Space<T>>(model: &Model<'_, T, S>) -> Option<&'static str> {
     all(model).into_iter().find(Element::is_missing).map(|element| element.feature)
 }

@@ -9,9 +9,9 @@ use mbs_recursive::passes::slices::Inputs;
 /// Law of a guide, as a function of time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Motion<T> {
-    /// An input: value, rate and acceleration are set between steps. These are the values at the start.
+    /// An input: the program sets value, rate and acceleration between steps. The variant has the values at the start.
     Input([T; 3]),
-    /// Sine: amplitude sin(2 pi frequency t + phase).
+    /// Sine over time: amplitude sin(2 pi frequency t + phase).
     Sine {
         /// Amplitude [rad or m].
         amplitude: T,
@@ -25,13 +25,13 @@ pub enum Motion<T> {
         /// Rate [rad/s or m/s].
         rate: T,
     },
-    /// Cubic spline through a part of the knots, with the second derivatives at the knots.
+    /// Cubic spline through a part of the model's knots, with the second derivatives at these knots.
     Table(Part),
     /// Step from one value to another.
     Step(Rise<T>),
 }
 
-/// A smooth step: from + (to - from) s^3 (10 - 15 s + 6 s^2), with s = (t - at)/rise from 0 to 1.
+/// A smooth step: from + (to - from) s^3 (10 - 15 s + 6 s^2), with s = (t - at)/rise limited to the range from 0 to 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rise<T> {
     /// Value before the step.
@@ -47,15 +47,17 @@ pub struct Rise<T> {
 /// Law of a signal, or of the vector of an effect, as a function of time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum SignalLaw<T> {
-    /// An input: value, rate and acceleration of a signal, or a vector, are set between steps. These are the values at the start.
+    /// An input: the program sets value, rate and acceleration of a signal, or the vector of an effect, between steps. The variant has the
+    /// values at the start.
     Input([T; 3]),
     /// Constant value, with zero derivatives.
     Constant([T; 3]),
     /// Position and speed of a moving road: (speed t, speed, 0) [m, m/s].
     Travel(T),
-    /// Linear interpolation of a part of the rows.
+    /// Linear interpolation in a part of the model's rows.
     Table(Part),
-    /// Cubic spline through a part of the knots, with its derivatives. Zero second derivatives at the knots give straight lines.
+    /// Cubic spline through a part of the model's knots, with its derivatives. If the second derivatives at the knots are zero, the spline
+    /// consists of straight lines.
     Spline(Part),
     /// Step from one value to another, with its derivatives.
     Step(Rise<T>),
@@ -74,22 +76,23 @@ pub struct Prescriptions<'a, T> {
     pub rows: &'a [[T; 4]],
 }
 
-/// Values set between steps. Each guide and each signal has an entry, which is used only if it is an input.
+/// Values that the program sets between steps. Each guide and each signal has an entry. The entry is used only if the guide or signal is an
+/// input.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Values<const G: usize, const C: usize, T> {
     pub(crate) guides: [[T; 3]; G],
     pub(crate) courses: [[T; 3]; C],
     /// Motions of the guides at the end of the last step.
     pub(crate) ended: [[T; 3]; G],
-    /// Is each guide an input?
+    /// True for each guide that is an input.
     is_guide: [bool; G],
     is_course: [bool; C],
-    /// Do signals differ from those for which the accelerations were evaluated?
+    /// True if the accelerations were evaluated for other values of the signals.
     pub(crate) has_new: bool,
 }
 
 impl<T: Real, const G: usize, const C: usize> Values<G, C, T> {
-    /// Returns the inputs at the start.
+    /// Returns the values of the inputs at the start.
     pub(crate) fn new(from: &Prescriptions<'_, T>) -> Self {
         let mut values = Self {
             guides: [[T::ZERO; 3]; G],
@@ -117,7 +120,8 @@ impl<T: Real, const G: usize, const C: usize> Values<G, C, T> {
         values
     }
 
-    /// Adapts to a state at the beginning of the model, which belongs to the inputs at the start.
+    /// Prepares for a restart of the model. The accelerations of the start state belong to the inputs at the start, so the values that are
+    /// set now may count as new.
     pub(crate) fn restart(&mut self, from: &Prescriptions<'_, T>) {
         let first = Self::new(from);
         (self.ended, self.has_new) = (first.guides, self.courses != first.courses);
@@ -147,7 +151,7 @@ impl<T: Real, const G: usize, const C: usize> Values<G, C, T> {
     }
 }
 
-/// Laws and set values together, as a step evaluates them.
+/// Laws together with the values that the program set, as a step evaluates them.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Written<'a, const G: usize, const C: usize, T> {
     pub(crate) laws: Prescriptions<'a, T>,
@@ -180,7 +184,7 @@ fn guide_at<T: Real>(
         Motion::Ramp { rate } => guide::ramp(*rate, t),
         Motion::Table(part) => return spline(*part, laws, t),
         Motion::Step(rise) if feedback::IS_BUILT => return rise.at(t),
-        // Not in this build: a model with a step is refused when it is loaded.
+        // This build does not support steps. A model with a step is refused when it is loaded.
         Motion::Step(_) => return [T::ZERO; 3],
     };
     [motion.value, motion.rate, motion.acceleration]
@@ -210,7 +214,7 @@ fn course_at<T: Real>(
         SignalLaw::Travel(speed) => return [*speed * t, *speed, T::ZERO],
         SignalLaw::Spline(part) if feedback::IS_BUILT => return spline(*part, laws, t),
         SignalLaw::Step(rise) if feedback::IS_BUILT => return rise.at(t),
-        // Not in this build: a model with a spline or step is refused when it is loaded.
+        // This build does not support splines and steps of signals. A model with one of them is refused when it is loaded.
         SignalLaw::Spline(_) | SignalLaw::Step(_) => return [T::ZERO; 3],
         SignalLaw::Table(part) => part.of(laws.rows),
     };

@@ -1,6 +1,8 @@
-//! Degradation ladder: after overruns of the time limit, effects are dropped one rung at a time. Later they act again.
+//! Degradation ladder: after steps that overrun the time limit, effects are dropped one after the other. After steps in time they act
+//! again.
 
-/// Rung of the dropped effects. It rises after consecutive overruns, and falls after consecutive steps in time.
+/// Number of dropped effects (the rung), with its rules. The rung rises by one after consecutive overruns of the time limit. It falls by
+/// one after consecutive steps in time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct DegradationLadder {
     /// Number of consecutive overruns after which an effect is dropped.
@@ -21,13 +23,13 @@ impl Default for DegradationLadder {
 }
 
 impl DegradationLadder {
-    /// Makes a ladder on its lowest rung, where all effects act. A patience or recovery of zero counts as one.
+    /// Makes a ladder on its lowest rung, where all effects act. A `patience` or `recovery` of zero counts as one.
     #[must_use]
     pub const fn new(patience: u32, recovery: u32) -> Self {
         Self { patience, recovery, rung: 0, overruns: 0, in_time: 0 }
     }
 
-    /// Returns the number of rungs whose effects are dropped.
+    /// Returns the rung: the number of effects that are dropped.
     #[must_use]
     pub const fn rung(&self) -> u32 {
         self.rung

@@ -5,7 +5,7 @@ use mbs_core::Real;
 use mbs_recursive::passes::slices::TreeSlices;
 use mbs_recursive::space::Space;
 
-/// A scene as tables, in flash memory or in memory of the caller.
+/// A scene as tables, which are in flash memory or in memory of the caller.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Model<'a, T: Real, S: Space<T>> {
     /// Links, loops, effects and gravity.
@@ -14,8 +14,8 @@ pub struct Model<'a, T: Real, S: Space<T>> {
     pub prescriptions: Prescriptions<'a, T>,
     /// State at the start of a run.
     pub start: StartState<'a, T>,
-    /// Number of effects that act on each rung of the degradation ladder; higher rungs have fewer. Effects that are dropped first are last
-    /// in the list of effects. If `rungs` is empty, all effects always act.
+    /// Number of effects that act on each rung of the degradation ladder, beginning with rung 1. On a higher rung fewer effects act. The
+    /// effect that is dropped first is the last in the list of effects. If `rungs` is empty, all effects always act.
     pub rungs: &'a [u32],
 }
 

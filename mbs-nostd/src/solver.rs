@@ -18,13 +18,13 @@ use mbs_recursive::step::trapezoidal::Start;
 use mbs_recursive::{Options, Outside};
 
 /// State, scratch and inputs of a model. The parameters are the largest sizes: `L` links including the ground, `Z` coordinates, `V`
-/// freedoms, `R` rows of loops. `B` is the number of entries in blocks of Λ, `N` of gains, `G` of guides, `C` of signals. `M` is the number
-/// of states of signals, and `F` that of signals if there are operations on signals. `K` is the number of sides of a row: two, or for
-/// couplings as many branches as carry their joints and points. `W` is the number of terms of couplings and sums up to the last term with a
-/// curve.
+/// freedoms, `R` rows of loops. `B` is the number of entries in blocks of Λ (the matrix of the loops' rows), `N` the number of gains of
+/// rows at joints. `G` is the number of guides, `C` the number of signals. `M` is the number of states of signals. `F` is the number of
+/// signals if there are operations on signals, otherwise zero. `K` is the number of sides of a row: two, or for a coupling the number of
+/// branches that carry its joints and points. `W` is the number of terms of couplings and sums up to the last term with a curve.
 ///
-/// The size of a solver is about 130 numbers for each link, 46 for each row and 10 for each freedom. Each of
-/// the other sizes adds at most six numbers.
+/// The size of a solver is about 130 numbers for each link, 46 for each row and 10 for each freedom. Every other size adds at most six
+/// numbers.
 #[derive(Debug, Clone)]
 pub struct Solver<
     T: Real,
@@ -44,7 +44,7 @@ pub struct Solver<
 > {
     /// Options of the steps.
     pub options: Options<T>,
-    /// Limits of the work of a step.
+    /// Limits of the work of a step: numbers of evaluations, sweeps and projections.
     pub bounds: Bounds,
     /// Ladder by which effects are dropped after overruns.
     pub ladder: DegradationLadder,
@@ -80,22 +80,22 @@ struct Scratch<
     trial: [LinkMotion<T, S>; L],
     condensed: [ArticulatedInertia<T, S>; L],
     motions: [[S::Motion; L]; 2],
-    /// K as carried inward, and K at the bodies; for all sides.
+    /// Gradients K of the rows, for all sides: first as carried inward, then as evaluated at the bodies.
     gradients: [[[S::Motion; R]; K]; 2],
     rows: [[T; 3]; R],
-    /// Numbers of each row: l, λ of a sweep, summed λ, scales, pivots.
+    /// Numbers of each row, in this order: right-hand side l, multiplier λ of a sweep, sum of λ, scale, pivot.
     multipliers: [[T; R]; 5],
     blocks: [T; B],
     gains: [[T; N]; 2],
     guides: [[T; 3]; G],
     courses: [[T; 3]; C],
-    /// States of signals at the start of a step, and at the instant.
+    /// States of signals: first at the start of a step, then at the instant of an evaluation.
     states: [[[T; 2]; M]; 2],
     course_slopes: [CourseSlope<T>; F],
     /// Slopes of the terms of couplings that have curves.
     slopes: [T; W],
     z: [T; Z],
-    /// Numbers of each freedom: v, z̈, response, scratch.
+    /// Numbers of each freedom, in this order: velocity v, acceleration z̈, response to multipliers, scratch.
     freedoms: [[T; V]; 4],
     rank: usize,
 }
@@ -117,7 +117,7 @@ impl<
     const W: usize,
 > Solver<T, S, L, Z, V, R, B, N, G, C, M, F, K, W>
 {
-    /// Makes a solver at the start of a model.
+    /// Makes a solver whose state is the start state of a model.
     ///
     /// # Errors
     /// [`LoadError::Capacity`] if the model is larger than the solver.
@@ -142,7 +142,7 @@ impl<
         }
         let zero = S::Motion::zero();
         let from = &model.model().start;
-        // The value is built in place, so that the stack does not hold a second copy.
+        // The value is built in the returned result, so that the stack does not hold a second copy.
         Ok(Self {
             options: Options::default(),
             bounds: Bounds::default(),
@@ -177,7 +177,7 @@ impl<
         })
     }
 
-    /// Returns to the start of the model. Inputs, options and limits are kept.
+    /// Sets the state to the start state of the model. Inputs, options and limits are unchanged.
     pub fn restart(&mut self, model: &Checked<'_, T, S>) {
         let from = &model.model().start;
         self.t = from.t;
@@ -220,12 +220,12 @@ impl<
         states(&self.signals, self.sizes.states)
     }
 
-    /// Sets the vector of a signal from now on, beginning with the start of the next step. The scene's signals come first, in their order;
-    /// then those of effects. The vector of a scene's signal is its value, rate and acceleration. Rate and acceleration are zero if the
-    /// value is held.
+    /// Sets the vector of a signal. It applies from the start of the next step until it is set again. The index `course` counts the scene's
+    /// signals first, in their order, then the signals of effects. The vector of a scene's signal is its value, rate and acceleration. Give
+    /// zero for rate and acceleration if the value remains constant.
     ///
     /// # Errors
-    /// [`InputError`] if the signal does not exist or is not an input, or if a component is not finite. Nothing is set then.
+    /// [`InputError`] if the signal does not exist or is not an input, or if a component is not finite. The inputs are then unchanged.
     pub fn set_input(&mut self, course: usize, value: [T; 3]) -> Result<(), InputError> {
         self.inputs.set_input(course, value)
     }
@@ -233,19 +233,20 @@ impl<
     /// Sets value, rate and acceleration of a guide at the end of the next step.
     ///
     /// # Errors
-    /// [`InputError`] if the guide does not exist or is not an input, or if a component is not finite. Nothing is set then.
+    /// [`InputError`] if the guide does not exist or is not an input, or if a component is not finite. The inputs are then unchanged.
     pub fn set_guide(&mut self, guide: usize, motion: [T; 3]) -> Result<(), InputError> {
         self.inputs.set_guide(guide, motion)
     }
 
-    /// Advances by one step of length `dt` [s], with work within the bounds, while `watch` reports that time remains.
+    /// Advances by one step of length `dt` [s], with work within the bounds. Evaluations and projections are omitted if `watch` reports
+    /// that no time remains.
     ///
     /// The rung of the ladder selects the effects that act, and the ladder counts the step. If a signal was set since the last step, the
-    /// accelerations at the start are evaluated again first, even if no time remains.
+    /// accelerations at the start are first evaluated again, even if no time remains.
     ///
     /// # Errors
-    /// [`StepError`]. Time, coordinates and velocities are unchanged then, and the accelerations belong to the inputs that are set.
-    /// [`StepError::Tables`] if the model is not that of the solver.
+    /// [`StepError`]. Time, coordinates and velocities are then unchanged, and the accelerations belong to the inputs that are set.
+    /// [`StepError::Tables`] if the solver was made for another model.
     pub fn step(
         &mut self,
         model: &Checked<'_, T, S>,
@@ -272,7 +273,8 @@ impl<
         let sizes = &self.sizes;
         let mut s = self.scratch.store(sizes).map_err(|Outside| StepError::Tables)?;
         if self.inputs.has_new {
-            // The motions of guides are those of the end of the last step. The values set since then belong to the end of this step.
+            // The guides have their motions at the end of the last step. The values that were set since then belong to the end of this
+            // step.
             let ended = Written { guides: &self.inputs.ended, ..inputs };
             ended.evaluate(self.t, s.guides, s.courses);
             let place = (
@@ -294,7 +296,7 @@ impl<
         };
         let work = (dt, &self.options, self.bounds);
         let report = bounded::step(mechanism, &inputs, work, (start, watch), &mut s)?;
-        // The step has checked these lengths.
+        // The step has checked the lengths of these slices.
         for (to, from) in [
             (&mut self.z[..], &*s.z),
             (&mut self.v, &*s.v),
@@ -400,7 +402,7 @@ fn taken<X: Copy, const N: usize>(from: &[X], zero: X) -> [X; N] {
     to
 }
 
-/// Copies a list over the first entries of another.
+/// Copies a list over the first entries of another list.
 #[inline(always)]
 fn put<X: Copy>(from: &[X], to: &mut [X]) {
     for (to, from) in to.iter_mut().zip(from) {

@@ -2,7 +2,7 @@
 
 use mbs_core::step::StepError;
 
-/// Reason why a state cannot be set. The solver is not changed then, in any bit.
+/// Reason why a state cannot be set. Outputs and later steps of the solver are then the same, to the bit, as without the call.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum StateError {
@@ -19,24 +19,26 @@ pub enum StateError {
     NotFinite {
         /// Name of the list, `coordinates` or `velocities`.
         of: &'static str,
-        /// Number of the entry in the list, from 0.
+        /// Index of the entry in the list, from 0.
         entry: usize,
     },
-    /// The quaternion of a ball or a free link has no direction: it is shorter than √ε, or its square overflows.
+    /// The quaternion of a ball joint or a free link cannot be normalised. It is shorter than √ε with the machine precision ε, or its
+    /// square overflows.
     Quaternion {
-        /// Number of its first entry in the coordinates.
+        /// Index of the quaternion's first entry in the coordinates.
         entry: usize,
     },
     /// The loops do not close: the projection does not converge from this state.
     Open {
-        /// Level: 0 for positions, 1 for velocities.
+        /// Level of the equations: 0 for positions, 1 for velocities.
         level: u8,
-        /// Number of the row with the largest violation.
+        /// Index of the row with the largest violation.
         row: u32,
         /// Violation that remains [m or rad, m/s or rad/s].
         violation: f64,
     },
-    /// The loops cannot be closed, or the state has no accelerations. With [`StepError::Tables`] the model is not that of the solver.
+    /// The loops cannot be closed, or the state has no accelerations. [`StepError::Tables`] means that the solver was made for another
+    /// model.
     Failed(StepError),
 }
 

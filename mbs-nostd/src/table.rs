@@ -1,4 +1,4 @@
-//! Names that source files by `mbs export --rust` use.
+//! Names that are used in source files which `mbs export --rust` wrote.
 
 pub use crate::{
     LoadError, Model, Motion, Planar, Prescriptions, Rise, SignalLaw, Solver, Spatial, StartState,

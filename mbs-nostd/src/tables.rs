@@ -21,18 +21,18 @@ use mbs_recursive::rows::closed_loop::ClosedLoop;
 use mbs_recursive::rows::coupled::{Couplings, LinePoint, LinkStart, SumTerm};
 use mbs_recursive::space::Space;
 
-/// First numbers of a model's text: the format's mark, and the version.
+/// First numbers of a model's bytes: the mark of the format, and the version.
 pub(crate) const HEAD: [u32; 2] = [u32::from_le_bytes(*b"MBSN"), 2];
-/// Number added to the version if the text ends with rotors [-].
+/// Number added to the version if the bytes contain rotors [-].
 pub(crate) const WITH_ROTORS: u32 = 1;
-/// Number added to the version if the text ends with operations on signals [-].
+/// Number added to the version if the bytes contain operations on signals [-].
 pub(crate) const WITH_SIGNALS: u32 = 2;
-/// Number added to the version if the text ends with curves that do not belong to operations on signals [-].
+/// Number added to the version if the bytes contain curves that do not belong to operations on signals [-].
 pub(crate) const WITH_CURVES: u32 = 4;
-/// Number added to the version if the text ends with points of lines and their links [-].
+/// Number added to the version if the bytes contain points of lines and their links [-].
 pub(crate) const WITH_LINES: u32 = 8;
 
-/// Are these valid parts of a text? Curves may occur only once.
+/// True if this is a valid combination of optional parts. Curves may occur only once.
 fn are_known(parts: u32) -> bool {
     let twice = WITH_SIGNALS + WITH_CURVES;
     parts <= WITH_ROTORS + WITH_SIGNALS + WITH_CURVES + WITH_LINES && parts & twice != twice
@@ -107,7 +107,7 @@ fn list<X: Record, const N: usize>(
     list_by(of, from, X::read)
 }
 
-/// Reads a list of entries that laws refer to. In a build without the effect the list must be empty.
+/// Reads a list of entries to which laws refer. In a build without the effect the list must be empty.
 fn entries<T: Real + Record, X: Entry<T>, const N: usize>(
     of: &'static str,
     from: &mut Reader<'_>,
@@ -145,9 +145,9 @@ impl<
     const W: usize,
 > Tables<T, S, L, K, R, P, E, X, I, Q, F, W>
 {
-    /// Reads a model, and checks every number that points into its tables.
+    /// Reads a model, and checks every index in its tables.
     ///
-    /// Cost: linear in the bytes; no allocation.
+    /// Cost: linear in the number of bytes; no allocation.
     ///
     /// # Errors
     /// [`LoadError`].
@@ -245,7 +245,7 @@ impl<
         Checked::again(self.unchecked(), self.sizes)
     }
 
-    /// Returns the tables that the rows of couplings refer to.
+    /// Returns the tables to which the rows of couplings refer.
     #[allow(clippy::needless_update, reason = "with `alloc` there is a field more")]
     fn couplings_of_rows(&self) -> Couplings<'_, T, S> {
         Couplings {

@@ -1,7 +1,7 @@
 //! Interface of mbs-nostd for C programs. The header `include/mbs.h` documents each function.
 //!
-//! Only this file handles pointers. Callers promise in the header that a solver pointer comes from `mbs_init`, and that its memory still
-//! exists. No two calls use it at the same time. Arrays have the lengths that the arguments state. Null pointers are checked.
+//! Only this file handles pointers. The header states what callers promise: a solver pointer comes from `mbs_init`, and its memory still
+//! exists. No two calls use one solver at the same time. Arrays have the lengths that the arguments state. Null pointers are checked here.
 
 #![no_std]
 
@@ -59,7 +59,7 @@ pub struct mbs_state_report {
     violation: [Scalar; 3],
 }
 
-/// Callback that returns whether there is time for further work.
+/// Callback that returns a number other than zero while time remains for further evaluations or projections.
 type Watch = Option<unsafe extern "C" fn(*mut c_void) -> c_int>;
 
 /// Returns the size of a solver in bytes.
@@ -77,7 +77,7 @@ pub extern "C" fn mbs_align() -> usize {
 /// Reads a model and makes its solver in the caller's memory.
 ///
 /// # Safety
-/// `memory` has `size` bytes, and `model` has `n`. Nothing else uses `memory` while the solver is in use.
+/// `memory` has `size` bytes, and `model` has `n` bytes. Nothing else uses `memory` while the solver is in use.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mbs_init(
     memory: *mut c_void,
@@ -105,7 +105,7 @@ pub unsafe extern "C" fn mbs_init(
     OK
 }
 
-/// Returns the status code of an input that was to be set.
+/// Returns the status code of the result of setting an input.
 fn status(done: Result<(), InputError>) -> c_int {
     match done {
         Ok(()) => OK,
@@ -124,7 +124,7 @@ pub unsafe extern "C" fn mbs_set_guide(
     guide: usize,
     motion: *const [Scalar; 3],
 ) -> c_int {
-    // SAFETY: null is checked; otherwise the caller's promise holds.
+    // SAFETY: a null pointer gives `None`; any other pointer is valid, as the caller promised.
     let (Some(own), Some(motion)) = (unsafe { solver.as_mut() }, unsafe { motion.as_ref() }) else {
         return NULL;
     };
@@ -134,21 +134,21 @@ pub unsafe extern "C" fn mbs_set_guide(
 /// Sets the vector of a signal.
 ///
 /// # Safety
-/// The promises are those of [`mbs_set_guide`].
+/// The caller makes the promises of [`mbs_set_guide`], with `value` in place of `motion`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mbs_set_input(
     solver: *mut mbs_solver,
     course: usize,
     value: *const [Scalar; 3],
 ) -> c_int {
-    // SAFETY: null is checked; otherwise the caller's promise holds.
+    // SAFETY: a null pointer gives `None`; any other pointer is valid, as the caller promised.
     let (Some(own), Some(value)) = (unsafe { solver.as_mut() }, unsafe { value.as_ref() }) else {
         return NULL;
     };
     status(own.solver.set_input(course, *value))
 }
 
-/// Sets the limits of the work of a step.
+/// Sets the largest numbers of evaluations, sweeps and projections of a step.
 ///
 /// # Safety
 /// `solver` comes from `mbs_init`.
@@ -159,7 +159,7 @@ pub unsafe extern "C" fn mbs_set_bounds(
     sweeps: u32,
     projections: u32,
 ) -> c_int {
-    // SAFETY: null is checked; otherwise the caller's promise holds.
+    // SAFETY: a null pointer gives `None`; any other pointer is valid, as the caller promised.
     let Some(own) = (unsafe { solver.as_mut() }) else { return NULL };
     own.solver.bounds = Bounds { evaluations, sweeps, projections };
     OK
@@ -177,7 +177,7 @@ pub unsafe extern "C" fn mbs_step(
     context: *mut c_void,
     report: *mut mbs_report,
 ) -> c_int {
-    // SAFETY: null is checked; otherwise the caller's promise holds.
+    // SAFETY: a null pointer gives `None`; any other pointer is valid, as the caller promised.
     let Some(own) = (unsafe { solver.as_mut() }) else { return NULL };
     let model = own.model.model();
     let done = match watch {
@@ -189,7 +189,7 @@ pub unsafe extern "C" fn mbs_step(
         }
     };
     let Ok(done) = done else { return STOPPED };
-    // SAFETY: null is checked; otherwise the pointer is valid for writing a report.
+    // SAFETY: a null pointer gives `None`; any other pointer is valid for writing a report, as the caller promised.
     if let Some(report) = unsafe { report.as_mut() } {
         *report = mbs_report {
             evaluations: done.evaluations,
@@ -227,7 +227,7 @@ pub unsafe extern "C" fn mbs_set_state(
     n_v: usize,
     report: *mut mbs_state_report,
 ) -> c_int {
-    // SAFETY: null is checked; otherwise the caller's promise holds.
+    // SAFETY: a null pointer gives `None`; any other pointer is valid, as the caller promised.
     let Some(own) = (unsafe { solver.as_mut() }) else { return NULL };
     if z.is_null() || v.is_null() {
         return NULL;
@@ -235,14 +235,14 @@ pub unsafe extern "C" fn mbs_set_state(
     if (n_z, n_v) != (own.solver.coordinates().len(), own.solver.velocities().len()) {
         return LENGTH;
     }
-    // SAFETY: the pointers are not null, and the caller gave arrays of these lengths, which are those of the model.
+    // SAFETY: the pointers are not null, and the caller promised arrays of the lengths `n_z` and `n_v`.
     let (z, v) =
         unsafe { (core::slice::from_raw_parts(z, n_z), core::slice::from_raw_parts(v, n_v)) };
     let done = match own.solver.set_state(&own.model.model(), z, v) {
         Ok(done) => done,
         Err(error) => return refused(&error),
     };
-    // SAFETY: null is checked; otherwise the pointer is valid for writing a report.
+    // SAFETY: a null pointer gives `None`; any other pointer is valid for writing a report, as the caller promised.
     if let Some(report) = unsafe { report.as_mut() } {
         *report = mbs_state_report {
             evaluations: done.evaluations,
@@ -254,30 +254,30 @@ pub unsafe extern "C" fn mbs_set_state(
     OK
 }
 
-/// Copies up to `n` numbers to the caller. Returns how many there are.
+/// Copies at most `n` numbers to the caller. Returns the number of numbers in `from`.
 ///
 /// # Safety
 /// `to` is null or valid for writing `n` numbers.
 unsafe fn copy(from: &[Scalar], to: *mut Scalar, n: usize) -> usize {
     if !to.is_null() {
         for (i, x) in from.iter().take(n).enumerate() {
-            // SAFETY: `i < n`.
+            // SAFETY: `i < n`, and `to` is valid for writing `n` numbers.
             unsafe { to.add(i).write(*x) };
         }
     }
     from.len()
 }
 
-/// Copies the origin of the positions.
+/// Copies the point from which positions are measured to the caller, in global axes [m].
 ///
 /// # Safety
-/// The promises are those of [`mbs_coordinates`].
+/// The caller makes the promises of [`mbs_coordinates`].
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mbs_base(solver: *const mbs_solver, to: *mut Scalar, n: usize) -> usize {
-    // SAFETY: null is checked; otherwise the caller's promise holds.
+    // SAFETY: a null pointer gives `None`; any other pointer is valid, as the caller promised.
     let Some(own) = (unsafe { solver.as_ref() }) else { return 0 };
     let base = own.model.model().model().mechanism.base;
-    // SAFETY: the caller's promise holds.
+    // SAFETY: `to` is null or valid for writing `n` numbers, as the caller promised.
     unsafe { copy(&[base[0], base[1], base[2]], to, n) }
 }
 
@@ -291,35 +291,35 @@ pub unsafe extern "C" fn mbs_coordinates(
     to: *mut Scalar,
     n: usize,
 ) -> usize {
-    // SAFETY: null is checked; otherwise the caller's promise holds.
+    // SAFETY: a null pointer gives `None`; any other pointer is valid, as the caller promised.
     unsafe { solver.as_ref().map_or(0, |own| copy(own.solver.coordinates(), to, n)) }
 }
 
 /// Copies the velocities to the caller.
 ///
 /// # Safety
-/// The promises are those of [`mbs_coordinates`].
+/// The caller makes the promises of [`mbs_coordinates`].
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mbs_velocities(
     solver: *const mbs_solver,
     to: *mut Scalar,
     n: usize,
 ) -> usize {
-    // SAFETY: null is checked; otherwise the caller's promise holds.
+    // SAFETY: a null pointer gives `None`; any other pointer is valid, as the caller promised.
     unsafe { solver.as_ref().map_or(0, |own| copy(own.solver.velocities(), to, n)) }
 }
 
 /// Copies the accelerations to the caller.
 ///
 /// # Safety
-/// The promises are those of [`mbs_coordinates`].
+/// The caller makes the promises of [`mbs_coordinates`].
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mbs_accelerations(
     solver: *const mbs_solver,
     to: *mut Scalar,
     n: usize,
 ) -> usize {
-    // SAFETY: null is checked; otherwise the caller's promise holds.
+    // SAFETY: a null pointer gives `None`; any other pointer is valid, as the caller promised.
     unsafe { solver.as_ref().map_or(0, |own| copy(own.solver.accelerations(), to, n)) }
 }
 
@@ -329,7 +329,7 @@ pub unsafe extern "C" fn mbs_accelerations(
 /// `solver` is null or comes from `mbs_init`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mbs_time(solver: *const mbs_solver) -> Scalar {
-    // SAFETY: null is checked; otherwise the caller's promise holds.
+    // SAFETY: a null pointer gives `None`; any other pointer is valid, as the caller promised.
     unsafe { solver.as_ref() }.map_or(0.0, |own| own.solver.time())
 }
 

@@ -1,4 +1,4 @@
-//! A model on an emulated Cortex-M. It prints states and instructions of each step by `run`, and the stack:
+//! A run of a model on an emulated Cortex-M. The program prints the lines of `run`, and the stack that was used:
 //!
 //! ```text
 //! m STACK     bytes of stack that were used

@@ -1,3 +1,3 @@
-//! The model: a file by `mbs export SCENE --rust FILE`, which MBS_MODEL names.
+//! The model: a file that `mbs export SCENE --rust FILE` wrote and MBS_MODEL names.
 
 include!(env!("MBS_MODEL"));

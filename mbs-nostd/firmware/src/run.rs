@@ -15,7 +15,7 @@ use mbs_nostd::{BoundedReport, Checked, StepError, Unwatched};
 
 /// Number of steps of 1 ms [-].
 const STEPS: u32 = 10_000;
-/// Number of pairs of further steps, one with one evaluation and one with two [-].
+/// Number of pairs of further steps [-]. The first step of a pair has one evaluation, the second has two.
 const COMPARED: u32 = 100;
 /// Number of steps between two reports [-].
 const REPORT_INTERVAL: u32 = 100;
@@ -36,7 +36,7 @@ pub fn run(out: &mut impl Write, mut clock: impl FnMut() -> u32) -> Option<()> {
         writeln!(out, "the model does not pass its check").ok()?;
         return None;
     };
-    // A reference avoids a move out of the result, which would need the stack twice.
+    // The solver is used by reference. A move out of the result would need the stack memory of two solvers.
     let mut made = ModelSolver::new(&model);
     let Ok(solver) = &mut made else {
         writeln!(out, "the model does not fit its solver").ok()?;
@@ -88,7 +88,7 @@ fn write_line(out: &mut impl Write, what: Arguments<'_>, numbers: &[Scalar]) -> 
     writeln!(out).ok()
 }
 
-/// Returns the kind of a step's error as text. The host shows names and numbers.
+/// Returns the kind of a step's error as text, without indices and numbers. A run on the host shows these.
 fn what(error: &StepError) -> &'static str {
     match error {
         StepError::NotFinite { .. } => "not finite",

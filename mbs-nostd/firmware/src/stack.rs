@@ -1,8 +1,8 @@
 //! Measurement of the used stack by a fill pattern. Only this file accesses memory by address.
 //!
-//! The stack grows down from the end of RAM to the end of the static data (`_stack_start` and `__euninit` of the linker script). The memory
-//! between the static data and the stack pointer is unused. It is filled with a pattern, which later stack frames overwrite. Words are read
-//! and written volatile, and only between these two addresses.
+//! The stack grows down from the end of RAM (`_stack_start` of the linker script) towards the end of the static data (`__euninit`). The
+//! memory between the static data and the stack pointer is unused. It is filled with a pattern, which later stack frames overwrite. Words
+//! are read and written volatile, and only between these two addresses.
 
 use core::ptr::{addr_of, addr_of_mut};
 
@@ -13,7 +13,7 @@ unsafe extern "C" {
 
 /// Pattern of unused words.
 const PAINT: u32 = 0x5ca1_ab1e;
-/// Number of bytes below the stack pointer that are not filled: the frames of this file.
+/// Number of bytes below the stack pointer that are not filled, because the frames of this file's functions use them.
 const MARGIN: usize = 512;
 
 /// Fills the unused memory with the pattern.

@@ -1,4 +1,5 @@
-//! Instruction count by the system timer. The emulator runs one instruction in a nanosecond of its time, and the timer ticks at 25 MHz.
+//! Instruction count by the system timer. The emulator runs one instruction in a nanosecond of emulated time, and the timer ticks at 25 MHz
+//! of emulated time.
 
 use cortex_m::peripheral::syst::SystClkSource;
 use cortex_m::peripheral::{Peripherals, SYST};
@@ -9,7 +10,7 @@ pub const INSTRUCTIONS_PER_TICK: u32 = 40;
 /// Largest value of the counter, which has 24 bits.
 const MASK: u32 = 0x00ff_ffff;
 
-/// System timer that was started.
+/// Access to the system timer after its start.
 #[derive(Debug)]
 pub struct Timer(());
 
@@ -31,7 +32,7 @@ impl Timer {
         SYST::get_current()
     }
 
-    /// Returns the ticks since the counter was `before`, for up to 671 million instructions.
+    /// Returns the number of ticks since the counter was `before`. It is correct for up to 671 million instructions.
     pub fn since(&self, before: u32) -> u32 {
         before.wrapping_sub(self.now()) & MASK
     }

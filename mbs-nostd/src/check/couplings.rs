@@ -28,7 +28,7 @@ impl<T: Real, S: Space<T>> Look<'_, '_, T, S> {
         ensure(sum.law.fits(&self.m.tables, self.sizes.courses), "effects", i)
     }
 
-    /// Checks terms and the links of their lines. `on_ball` is the error for an angle of a ball.
+    /// Checks terms and the links of their lines. `on_ball` is the error for a term that measures an angle of a ball joint.
     fn terms(
         &self,
         (table, i): (&'static str, usize),
@@ -59,7 +59,8 @@ impl<T: Real, S: Space<T>> Look<'_, '_, T, S> {
         Ok(())
     }
 
-    /// Returns for a link with one coordinate whether it is guided; `None` for other links.
+    /// Returns true if a link with one coordinate is guided, and false if it is not. `None` for the ground and for links with several
+    /// coordinates.
     fn has_one(&self, link: u32) -> Option<bool> {
         let kind = self.m.links.get(link as usize).filter(|_| link > 0)?.kind;
         let n = kind.n_freedoms::<T, S>();

@@ -1,4 +1,4 @@
-//! Check of the order of elimination: every number in its lists must point to an entry.
+//! Check of the order of elimination: every index in its lists must refer to an existing entry.
 
 use super::{Look, ends_by, ensure, is_within, sides};
 use crate::check::LoadError;

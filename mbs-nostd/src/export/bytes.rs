@@ -9,7 +9,7 @@ use mbs_core::laws::entry::{Entry, EntryWriter};
 use mbs_recursive::rows::coupled::Couplings;
 
 impl Bytes {
-    /// Writes a list of table entries that laws refer to.
+    /// Writes a list of table entries to which laws refer.
     fn entries<T: Real + Record, X: Entry<T>>(&mut self, list: &[X]) -> bool {
         list.len().write(self) && list.iter().all(|entry| entry.numbers(self))
     }
@@ -19,7 +19,7 @@ impl Bytes {
         list.len().write(self) && list.iter().all(|entry| entry.write(self))
     }
 
-    /// Writes the operations on signals, with the tables that they refer to.
+    /// Writes the operations on signals, with the tables to which they refer.
     fn signals<T: Real + Record, S: Axes<T>>(&mut self, model: &Model<'_, T, S>) -> bool {
         let feedback = &model.mechanism.feedback;
         self.list(feedback.steps)
@@ -34,7 +34,7 @@ impl Bytes {
     }
 }
 
-/// Returns the bytes of a model, in single or double precision. `None` if the model has an effect that cannot be written, such as a
+/// Returns the bytes of a model, in single or double precision. `None` if the model has an effect that cannot be written, for example a
 /// user-defined law.
 #[must_use]
 pub fn bytes<T: Real + Record, S: Axes<T>>(

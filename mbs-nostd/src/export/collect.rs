@@ -1,4 +1,4 @@
-//! Tables of a tree, with the effects in the order in which they may be dropped.
+//! Tables of a tree. Effects that the degradation ladder may drop are last, in the order of the ladder.
 
 use super::signals::{MovingSignal, SignalTables, add_laws, held};
 use crate::elements;
@@ -16,7 +16,7 @@ use mbs_recursive::rows::Row;
 use mbs_recursive::space::Space;
 use mbs_recursive::{TreeModel, TreeState};
 
-/// A model whose tables belong partly to a tree and partly to this value.
+/// A model as tables. Some tables belong to the tree from which the model was collected, the others to this value.
 #[derive(Debug, Clone)]
 pub struct Collected<'a, T: Real, S: Space<T>> {
     mechanism: TreeSlices<'a, T, S>,
@@ -29,7 +29,7 @@ pub struct Collected<'a, T: Real, S: Space<T>> {
     rows: Vec<[T; 4]>,
     signals: SignalTables<T>,
     rungs: Vec<u32>,
-    /// Rows of the loops. A row of a coupling also has the constant that its guide adds to its law.
+    /// Rows of the loops. A row of a coupling also contains the constant that its guide adds to the guide's law.
     lap_rows: Vec<Row<T, S>>,
 }
 
@@ -38,8 +38,8 @@ fn index(i: usize) -> u32 {
 }
 
 impl<'a, T: Real, S: Space<T>> Collected<'a, T, S> {
-    /// Collects the tables of a tree and a start state. `ladder` has the indices of effects in the scene, beginning with the first to be
-    /// dropped. Each effect is one rung.
+    /// Collects the tables of a tree and a start state. `ladder` has the indices of effects in the scene. The first of them is dropped
+    /// first. Each effect is one rung.
     ///
     /// # Errors
     /// [`MovingSignal`] for a function that tables do not support: waves, ramps, and tables that hold their last value or repeat. Guides
@@ -68,8 +68,8 @@ impl<'a, T: Real, S: Space<T>> Collected<'a, T, S> {
         Ok(model)
     }
 
-    /// Orders the effects: first those that always act, in the order of the scene. Then those of the ladder, with the first to be dropped
-    /// last.
+    /// Sorts the effects for the ladder. The effects that always act come first, in the order of the scene. Then the effects of the ladder
+    /// follow; the effect that is dropped first is the last.
     fn order(&mut self, effects: &[usize], ladder: &[usize]) {
         let loads = self.mechanism.loads;
         let with = |wanted: &dyn Fn(usize) -> bool| -> Vec<Load<T, S>> {
@@ -140,7 +140,7 @@ impl<'a, T: Real, S: Space<T>> Collected<'a, T, S> {
         Ok(())
     }
 
-    /// Returns the model over the collected tables.
+    /// Returns the model, whose slices refer to the collected tables.
     #[must_use]
     pub fn model(&self) -> Model<'_, T, S> {
         Model {

@@ -1,4 +1,5 @@
-//! Models as tables: collected from a tree, then written as bytes or as Rust source. Only on the host, with the feature `export`.
+//! Models as tables: collected from a tree, then written as bytes or as Rust source. This module exists on the host only, with the feature
+//! `export`.
 
 mod bytes;
 mod collect;

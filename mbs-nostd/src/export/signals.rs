@@ -18,7 +18,7 @@ use mbs_recursive::space::Space;
 /// or a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct MovingSignal {
-    /// Number of the signal in the scene.
+    /// Index of the signal in the scene.
     pub signal: SignalId,
 }
 
@@ -35,7 +35,7 @@ impl core::fmt::Display for MovingSignal {
 
 impl core::error::Error for MovingSignal {}
 
-/// Operations on signals, with the curves that they refer to.
+/// Operations on signals, with the curves to which they refer.
 #[derive(Debug, Clone)]
 pub(super) struct SignalTables<T> {
     steps: Vec<FeedbackStep<T>>,
@@ -44,8 +44,8 @@ pub(super) struct SignalTables<T> {
 }
 
 impl<T: Real> SignalTables<T> {
-    /// Collects the operations of the signals that depend on other signals. Curves of the mechanism keep their numbers; new curves follow
-    /// them.
+    /// Collects the operations of the signals that depend on other signals. The indices of the mechanism's curves do not change; new curves
+    /// are appended.
     pub(super) fn new<S: Space<T>>(
         prescribed: &Prescribed<T>,
         mechanism: &TreeSlices<'_, T, S>,
@@ -73,7 +73,7 @@ impl<T: Real> SignalTables<T> {
         tables
     }
 
-    /// Returns the couplings with these curves.
+    /// Returns the tables of couplings, with the curves of signals appended to their curves.
     pub(super) fn couplings<'a, S: Space<T>>(
         &'a self,
         of: &Couplings<'a, T, S>,
@@ -109,7 +109,7 @@ pub(super) fn held<T: Real>(signals: &SignalGraph<T>) -> Vec<[T; 3]> {
 /// Tables to which signals are added: laws, and the knots and curvatures of splines.
 type Laws<'a, T> = (&'a mut Vec<SignalLaw<T>>, (&'a mut Vec<[T; 2]>, &'a mut Vec<T>));
 
-/// Adds the laws of signals. `held` has the values of constant signals. Signals that depend on others get a constant law, because
+/// Adds the laws of signals. `held` has the values of constant signals. Signals that depend on other signals get a constant law, because
 /// operations compute them.
 pub(super) fn add_laws<T: Real>(
     signals: &SignalGraph<T>,

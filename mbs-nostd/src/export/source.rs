@@ -40,10 +40,10 @@ fn value<X: Record>(x: &X) -> String {
 }
 
 /// Returns the source of a model in single or double precision, to be included as a module of a crate that depends on mbs-nostd. `title`
-/// names the scene. Decimal numbers have the precision of the model; only the compiler rounds them.
+/// names the scene. Numbers are written with all decimal digits of the model's precision, so that only the compiler rounds them.
 ///
 /// # Errors
-/// The errors of [`Checked::new`]. A user-defined law is written as a word that does not compile.
+/// The errors of [`Checked::new`]. A user-defined law has no source. In its place a word is written that does not compile.
 pub fn source<T: Real + Record, S: Axes<T>>(
     model: &Model<'_, T, S>,
     (title, is_single): (&str, bool),
@@ -95,7 +95,7 @@ pub fn source<T: Real + Record, S: Axes<T>>(
     Ok(to)
 }
 
-/// Returns the optional sizes of a solver, up to the last one that differs from its default.
+/// Returns the optional sizes of a solver, up to the last size that differs from its default.
 fn further(sizes: &Sizes, n_slopes: usize) -> String {
     let all = [(sizes.states, 0), (sizes.followed, 0), (sizes.sides, MIN_SIDES), (n_slopes, 0)];
     let last = all.iter().rposition(|(needed, default)| needed != default);
@@ -159,7 +159,7 @@ fn constant<T: Real + Record, S: Axes<T>>(
     ));
 }
 
-/// Writes all tables except those of laws.
+/// Writes all tables except the tables of laws.
 fn lists<T: Real + Record, S: Axes<T>>(model: &Model<'_, T, S>, to: &mut String) {
     let m = &model.mechanism;
     let (plan, laws, begin) = (&m.loops.plan, &model.prescriptions, &model.start);
@@ -186,7 +186,8 @@ fn lists<T: Real + Record, S: Axes<T>>(model: &Model<'_, T, S>, to: &mut String)
     table("A", "Scalar", begin.a, to);
 }
 
-/// Writes the tables of signals, if there are operations on them. Returns the fields of feedback and start state that refer to them.
+/// Writes the tables of signals, if there are operations on signals. Returns the fields of feedback and start state that refer to these
+/// tables.
 fn signals<T: Real + Record, S: Axes<T>>(
     model: &Model<'_, T, S>,
     to: &mut String,
@@ -204,7 +205,7 @@ fn signals<T: Real + Record, S: Axes<T>>(
     ]
 }
 
-/// Writes the tables of curves and lines that are not empty. Returns the fields for them, with the defaults of the others.
+/// Writes the tables of curves and lines that are not empty. Returns the fields for all these tables; an empty table has the default.
 fn couplings<T: Real + Record, S: Axes<T>>(of: &Couplings<'_, T, S>, to: &mut String) -> String {
     let mut fields = Vec::new();
     if !of.curves.is_empty() {
@@ -248,7 +249,7 @@ fn law_inputs<T: Real + Record>(
     }
 }
 
-/// Writes a constant table of entries that laws refer to.
+/// Writes a constant table of entries to which laws refer.
 fn entries<T: Real + Record, X: Entry<T>>(name: &str, of: &str, list: &[X], to: &mut String) {
     let write = |entry: &X, to: &mut String| {
         entry.numbers(&mut Source(to));

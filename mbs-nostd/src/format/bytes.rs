@@ -15,7 +15,7 @@ impl Bytes {
         self.bytes.extend_from_slice(bytes);
     }
 
-    /// Appends a real number in the precision of the text.
+    /// Appends a real number in the precision of the buffer, single or double.
     #[allow(clippy::cast_possible_truncation, reason = "the nearest number of this precision")]
     pub(crate) fn put_real(&mut self, x: f64) {
         if self.is_single {

@@ -1,4 +1,4 @@
-//! Force laws and their tables. mbs-core lists the numbers of each law.
+//! Format of force laws and their tables. The order of the numbers of each law is defined in mbs-core.
 
 #[cfg(feature = "export")]
 use super::{Bytes, Source};

@@ -26,7 +26,7 @@ macro_rules! record_struct {
     };
 }
 
-/// Implements the format of an enum from its variants with their numbers and fields. A field is given by a name or by its position.
+/// Implements the format of an enum from its variants. Each variant has a number and fields. A field is given by a name or by its position.
 macro_rules! record_enum {
     ([$($bounds:tt)*] $type:ty = $name:ident {
         $($(#[$meta:meta])* $tag:literal $variant:ident { $($field:tt $own:ident),* }),* $(,)?

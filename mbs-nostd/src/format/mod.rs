@@ -1,4 +1,4 @@
-//! Entries of tables as bytes and as Rust source. Each type lists its fields once, for both.
+//! Entries of tables as bytes and as Rust source. Each type lists its fields once, for both formats.
 //!
 //! ```text
 //! numbers      little endian: u32 for counts and indices, four or eight bytes for reals (the head of the text has the width)
@@ -32,7 +32,7 @@ pub struct Reader<'a> {
 }
 
 impl<'a> Reader<'a> {
-    /// Reads from the first byte.
+    /// Makes a reader that begins at the first byte.
     #[must_use]
     pub fn new(bytes: &'a [u8]) -> Self {
         Self { bytes, at: 0, is_double: true }
@@ -51,12 +51,12 @@ impl<'a> Reader<'a> {
         Ok(*bytes)
     }
 
-    /// Returns the error of a malformed entry that begins `back` bytes before the position.
+    /// Returns the error for a malformed entry that begins `back` bytes before the position of the reader.
     pub(crate) fn fault(&self, back: usize) -> LoadError {
         LoadError::Record { byte: self.at.saturating_sub(back) }
     }
 
-    /// Have all bytes been read?
+    /// True if all bytes have been read.
     pub(crate) fn is_at_end(&self) -> bool {
         self.at >= self.bytes.len()
     }
@@ -70,7 +70,7 @@ pub trait Record: Sized {
     /// [`LoadError`].
     fn read(from: &mut Reader<'_>) -> Result<Self, LoadError>;
 
-    /// Writes the entry as bytes. Returns false if it cannot be written.
+    /// Writes the entry as bytes. Returns false if the entry cannot be written.
     #[cfg(feature = "export")]
     fn write(&self, to: &mut Bytes) -> bool;
 

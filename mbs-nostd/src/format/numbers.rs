@@ -1,4 +1,4 @@
-//! Format of numbers, of indices, and of tuples and arrays of them.
+//! Format of numbers, indices, tuples and arrays.
 
 #[cfg(feature = "export")]
 use super::Bytes;

@@ -1,4 +1,4 @@
-//! Format of the laws of signals, of the operations on signals, and of the curves that these refer to.
+//! Format of the laws of signals, of the operations on signals, and of the curves to which the operations refer.
 
 use super::Record;
 use super::macros::{record_enum, record_struct};

@@ -1,4 +1,5 @@
-//! Operation counts of couplings and sums. N is the number of components of a motion, d that of a point, p the number of parts of a line.
+//! Operation counts of couplings and sums. N is the number of components of a motion, d the number of components of a point, p the number
+//! of parts of a line.
 //!
 //! ```text
 //! joint      a coordinate                    with a curve: the function, and the products with its first and second derivatives
@@ -17,11 +18,11 @@ use mbs_recursive::rows::Row;
 use mbs_recursive::rows::coupled::{CoupledRow, Couplings, NONE, SumMeasure, SumTerm};
 use mbs_recursive::space::{Numbers, Space};
 
-/// Table entries that the value of a term reads [-]. Counted for a gear train on a Cortex-M7, rounded up.
+/// Number of table entries that are read for the value of a term [-]. Counted for a gear train on a Cortex-M7, rounded up.
 const TERM_ENTRIES: u64 = 4;
-/// Table entries that the residual of a term reads [-]. Counted for a gear train on a Cortex-M7, rounded up.
+/// Number of table entries that are read for the residual of a term [-]. Counted for a gear train on a Cortex-M7, rounded up.
 const RESIDUAL_ENTRIES: u64 = 2;
-/// Table entries that the curve of a term reads [-]. Counted for a cam with nine knots on a Cortex-M7, rounded up.
+/// Number of table entries that are read for the curve of a term [-]. Counted for a cam with nine knots on a Cortex-M7, rounded up.
 const CURVE_ENTRIES: u64 = 24;
 
 const fn ops(products: u64, sums: u64) -> Operations {
@@ -33,7 +34,7 @@ const fn numbers<T: Real, S: Space<T>>() -> (u64, u64) {
     (count(S::Point::N), count(S::Motion::N))
 }
 
-/// Operations to rotate a point, and for the cross product of a spin and a point.
+/// Operations to rotate a point, and operations for the cross product of an angular velocity and a vector.
 fn turned<T: Real, S: Space<T>>() -> [Operations; 2] {
     if S::DIMENSION == 3 { [ops(9, 6), ops(6, 3)] } else { [ops(4, 2), ops(2, 0)] }
 }
@@ -62,7 +63,7 @@ fn n_parts<T: Real, S: Space<T>>(couplings: &Couplings<'_, T, S>, of: Span) -> u
     terms(couplings, of).0.iter().map(parts).sum()
 }
 
-/// Operations for a part of a line: its ends with velocities and biases, and its direction.
+/// Operations for the geometry of a part of a line: its two ends with velocities and biases, and its direction.
 fn geometry<T: Real, S: Space<T>>() -> Operations {
     let ([turned, cross], (d, _)) = (turned::<T, S>(), numbers::<T, S>());
     (turned + cross * 3 + ops(0, 2 * d)) * 2 + ops(2 * d, 4 * d).and(1, 1, 0)
@@ -106,7 +107,7 @@ pub(super) fn row<T: Real, S: Space<T>>(
     value(couplings, row.terms) + ops(3, 12)
 }
 
-/// Operations for J a + bias of a coupling's row, in addition to those of any row.
+/// Operations for J a + bias of a coupling's row, in addition to the operations that every row needs.
 pub(super) fn residual<T: Real, S: Space<T>>(row: &Row<T, S>) -> Operations {
     let (_, n) = numbers::<T, S>();
     match row {
@@ -118,12 +119,12 @@ pub(super) fn residual<T: Real, S: Space<T>>(row: &Row<T, S>) -> Operations {
     }
 }
 
-/// Returns the number of sides whose gradients are added to that of the second side before an elimination.
+/// Returns the number of gradients that are added when the gradients of all sides are summed before an elimination.
 pub(super) fn added<T: Real, S: Space<T>>(m: &TreeSlices<'_, T, S>) -> u64 {
     count(n_sides(m).saturating_sub(1))
 }
 
-/// Operations for an effect on a sum that depends on accelerations. `resist` is the count for one end.
+/// Operations for an effect on a sum, with its dependence on accelerations. `resist` is the count for one end.
 pub(super) fn sum<T: Real, S: Space<T>>(
     couplings: &Couplings<'_, T, S>,
     sum: &SumLoad<T>,
@@ -143,15 +144,15 @@ pub(super) fn sum<T: Real, S: Space<T>>(
     total
 }
 
-/// Operations for the gaps of the parts of a sum at the start and at the end of a step.
+/// Operations for the vectors along all line parts of a sum, at the start and at the end of a step.
 fn gaps<T: Real, S: Space<T>>(couplings: &Couplings<'_, T, S>, of: Span) -> Operations {
     let ([turned, cross], (d, _)) = (turned::<T, S>(), numbers::<T, S>());
     let part = (turned + cross + ops(0, 2 * d)) * 4 + ops(4 * d + 6, 8 * d + 3);
     part * n_parts(couplings, of)
 }
 
-/// Operations to check whether a part of a line has collapsed in a step. The arguments are the counts for inputs at an instant and for the
-/// places of all links.
+/// Operations to check whether a part of a line has collapsed to zero length in a step. The arguments are the counts for the inputs at an
+/// instant and for the places of all links.
 pub(super) fn collapse<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
     [inputs, places]: [Operations; 2],
@@ -170,7 +171,7 @@ pub(super) fn collapse<T: Real, S: Space<T>>(
     for load in m.loads {
         let Load::Sum(load) = load else { continue };
         sum += gaps(couplings, load.terms);
-        // is the law without force at the start and at the end?
+        // operations to check whether the law has no force at the start and at the end of the step
         if n_parts(couplings, load.terms) > 0 {
             sum += value(couplings, load.terms) * 2 + both_ends;
         }

@@ -1,4 +1,4 @@
-//! Operation counts of effects and inputs, each for its most expensive branch.
+//! Operation counts of effects and inputs. Each count is that of the most expensive branch.
 
 use super::Operations;
 use super::count;
@@ -41,11 +41,11 @@ pub(super) fn inputs<T>(laws: &Prescriptions<'_, T>) -> Operations {
     sum
 }
 
-/// Operation counts of the parts of loads, in space or in the plane.
+/// Operation counts of the steps from which loads are computed, in space or in the plane.
 struct Parts {
     /// Operations to rotate a vector.
     turned: Operations,
-    /// Operations for the wrench of a force at an arm.
+    /// Operations for the wrench of a force that acts at a vector from the origin.
     wrench: Operations,
     /// Operations for the inner product of two motions.
     motions: Operations,
@@ -89,7 +89,7 @@ pub(super) fn load<T: Real, S: Space<T>>(
     load: &Load<T, S>,
 ) -> Operations {
     let parts = Parts::of::<T, S>();
-    // weight κ and its contribution to a joint
+    // weight κ and the inertia that it adds to a joint
     let across = ops(3, 3);
     match load {
         Load::Between { links, gauge, law } => {
@@ -116,7 +116,7 @@ pub(super) fn load<T: Real, S: Space<T>>(
         }
         Load::Torque { .. } => ops(0, parts.motion),
         Load::BodyLoad(load) => {
-            // Point and arm, place and velocity of the point, and direction of the law; then each action.
+            // First the point, its arm, its place and velocity, and the direction of the law; then each action of the law.
             let place = parts.turned * 4 + parts.wrench * 2 + ops(0, 4 * parts.point);
             let law = load.law.operations(&m.tables);
             let action = parts.wrench + ops(0, parts.motion) + parts.resist;
@@ -125,7 +125,7 @@ pub(super) fn load<T: Real, S: Space<T>>(
     }
 }
 
-/// Operations for the number that a law measures, its wrenches and its rate.
+/// Operations for the number on which a law depends, with its rate and its unit wrenches.
 fn measured<T: Real, S: Space<T>>(
     n_links: usize,
     gauge: &Measure<T, S>,
@@ -147,14 +147,15 @@ fn measured<T: Real, S: Space<T>>(
                 + ops(0, 1)
                 + rate
         }
-        // Half angles of both links, over at most all links; then the rotation vector, its gradient, and the moment.
+        // Half angles of both links, with at most all links on the path to the ground; then the rotation vector, its gradient, and the
+        // moment.
         Measure::Rotation { .. } => {
             let joint = ops(20, 12).and(0, 0, 1);
             let vector = ops(24, 14).and(1, 1, 1);
             let gradient = ops(28, 16).and(1, 1, 1);
             joint * (2 * n_links as u64) + vector + gradient + parts.turned + rate
         }
-        // Angles of both links, over at most all links.
+        // Angles of both links, with at most all links on the path to the ground.
         Measure::Turn => ops(2 * n_links as u64, 2 * n_links as u64 + 1) + parts.wrench + rate,
     }
 }

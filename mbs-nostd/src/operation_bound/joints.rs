@@ -9,7 +9,7 @@ const fn ops(products: u64, sums: u64) -> Operations {
     Operations::new(products, sums)
 }
 
-/// Is the model in space (not in the plane)?
+/// True if the model is in space, false if it is in the plane.
 const fn is_spatial<T: Real, S: Space<T>>() -> bool {
     S::DIMENSION == 3
 }
@@ -62,7 +62,7 @@ fn advance<T: Real, S: Space<T>>(kind: LinkKind) -> Operations {
     }
 }
 
-/// Operations to add a link to a parent other than the ground: inertia and force, and the force alone.
+/// Operations to add a link to a parent other than the ground. The first count is for inertia and force, the second for the force alone.
 fn shift<T: Real, S: Space<T>>() -> [Operations; 2] {
     if is_spatial::<T, S>() { [ops(60, 81), ops(6, 12)] } else { [ops(8, 19), ops(2, 5)] }
 }
@@ -92,7 +92,7 @@ pub(super) fn response<T: Real, S: Space<T>>(link: &Link<T, S>) -> Operations {
     if link.parent > 0 { sum + shift::<T, S>()[1] } else { sum }
 }
 
-/// Operations for the accelerations of the links from those of the joints.
+/// Operations to compute the acceleration of a link from the acceleration of its joint.
 pub(super) fn spread<T: Real, S: Space<T>>(kind: LinkKind) -> Operations {
     match (kind, is_spatial::<T, S>()) {
         (LinkKind::Revolute | LinkKind::Prismatic, true) => ops(12, 18),
@@ -119,7 +119,7 @@ pub(super) fn moved<T: Real, S: Space<T>>(kind: LinkKind) -> Operations {
     }
 }
 
-/// Operations to pass a row of a loop over the joint: its head, its gain, and the row on the parent's side.
+/// Operations to carry a row of a loop over the joint: the products K b and K b D⁻¹, and the row on the parent's side.
 pub(super) fn pass<T: Real, S: Space<T>>(kind: LinkKind) -> Operations {
     match (kind, is_spatial::<T, S>()) {
         (LinkKind::Revolute | LinkKind::Prismatic, true) => ops(10, 8),

@@ -1,4 +1,4 @@
-//! Operation counts of closed loops. A loop has m rows, a joint f freedoms, a motion N components.
+//! Operation counts of closed loops. A loop has m rows (a coupled loop m'), a joint has f freedoms, and a motion has N components.
 //!
 //! ```text
 //! passing a joint     m (pass + N·N + shift + 2 f),   pairs m m' f
@@ -11,7 +11,8 @@ use mbs_recursive::passes::slices::TreeSlices;
 use mbs_recursive::rows::Row;
 use mbs_recursive::space::{Numbers, Space};
 
-/// Table entries that the values and the residual of a row read [-]. Counted for a slider-crank on a Cortex-M7, rounded up.
+/// Number of table entries that are read for the values and the residual of a row [-]. Counted for a slider-crank on a Cortex-M7, rounded
+/// up.
 const ROW_ENTRIES: u64 = 4;
 
 const fn ops(products: u64, sums: u64) -> Operations {
@@ -33,7 +34,7 @@ const fn solve(rows: u64) -> Operations {
     ops(below(rows) + rows, below(rows))
 }
 
-/// Operations for J a + bias of all rows, with the scale of its terms.
+/// Operations for J a + bias of all rows, with the scale of the terms.
 pub(super) fn residual<T: Real, S: Space<T>>(m: &TreeSlices<'_, T, S>) -> Operations {
     let n = motion::<T, S>();
     let terms = count(m.loops.couplings.terms.len());
@@ -70,7 +71,7 @@ pub(super) fn rows<T: Real, S: Space<T>>(m: &TreeSlices<'_, T, S>) -> Operations
     sum
 }
 
-/// Operations to pass all joints, to eliminate at the ancestors, and to compute the multipliers.
+/// Operations to carry all rows over the joints, to eliminate the loops at their ancestors, and to compute the multipliers.
 pub(super) fn evaluation<T: Real, S: Space<T>>(m: &TreeSlices<'_, T, S>) -> Operations {
     let n = motion::<T, S>();
     let gathered = if S::DIMENSION == 3 { ops(6, 6) } else { ops(2, 2) };
@@ -87,7 +88,7 @@ pub(super) fn evaluation<T: Real, S: Space<T>>(m: &TreeSlices<'_, T, S>) -> Oper
         }
     };
     let plan = &m.loops.plan;
-    // K of all further sides is added to that of the first side.
+    // The gradients K of all further sides are added to the gradient of the first side.
     let added = couplings::added(m);
     let mut sum = opening(m);
     for (station, link) in plan.stations.iter().zip(m.links) {
@@ -136,7 +137,7 @@ pub(super) fn evaluation<T: Real, S: Space<T>>(m: &TreeSlices<'_, T, S>) -> Oper
     sum
 }
 
-/// Operations to pass and eliminate l only, and to compute the multipliers.
+/// Operations to carry and eliminate the right-hand sides l only, and to compute the multipliers.
 pub(super) fn response<T: Real, S: Space<T>>(m: &TreeSlices<'_, T, S>) -> Operations {
     let n = motion::<T, S>();
     let lap_rows = |lap: u32| m.loops.loops.get(lap as usize).map_or(0, |lap| u64::from(lap.n));

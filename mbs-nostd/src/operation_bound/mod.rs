@@ -1,4 +1,4 @@
-//! Bound of the operations of one step, from the structure of a model only.
+//! Bound of the number of operations of one step, computed from the structure of a model only.
 //!
 //! ```text
 //! step         inputs + (E + 1) reach + E evaluation + P projection          E evaluations, P projections, σ further sweeps
@@ -9,13 +9,13 @@
 //! projection   Σ links place + Σ loops rows + 2 response + move
 //! ```
 //!
-//! Counts are exact for mechanisms without effects, and with springs and dampers only, because no branch of the code depends on numbers
-//! then. Other effects are counted by their most expensive branch. A road that is not level is counted with the longest search for the
-//! nearest point. In these cases the count is a bound.
+//! Counts are exact for mechanisms without effects and for mechanisms with springs and dampers only, because no branch of their code
+//! depends on numbers. Other effects are counted by their most expensive branch. A road that is not level is counted with the longest
+//! search for the nearest point. For such effects and roads the count is a bound.
 //!
 //! The counts contain products, sums and differences, quotients, square roots, and calls of sine with cosine or of the arc tangent. Changes
-//! of sign, comparisons and copies are not counted. Their instructions are included in those of the counted operations, and of the table
-//! entries that links, rows and terms read.
+//! of sign, comparisons and copies are not counted. The instructions for them are included in the instructions for the counted operations
+//! and for the table entries that are read.
 
 mod couplings;
 mod curves;
@@ -33,27 +33,27 @@ use mbs_recursive::link::Link;
 use mbs_recursive::space::{Numbers, Space};
 use mbs_recursive::step::bounded::Bounds;
 
-/// Table entries that a step reads, in addition to those of links and loops [-]. Counted for a pendulum of two links on a Cortex-M7,
-/// rounded up.
+/// Number of table entries that are read in a step, in addition to the entries for links and loops [-]. Counted for a pendulum of two links
+/// on a Cortex-M7, rounded up.
 const STEP_ENTRIES: u64 = 8;
-/// Table entries that an evaluation reads for a link [-]. Counted for a pendulum of two links on a Cortex-M7, rounded up.
+/// Number of table entries that are read for a link in an evaluation [-]. Counted for a pendulum of two links on a Cortex-M7, rounded up.
 const LINK_ENTRIES: u64 = 8;
 
-/// Returns the operations of one step within `bounds`.
+/// Returns the number of operations of one step within `bounds`.
 ///
-/// Cost: linear in the tables.
+/// Cost: linear in the size of the tables.
 #[must_use]
 pub fn step<T: Real, S: Space<T>>(model: &Model<'_, T, S>, bounds: Bounds) -> Operations {
     let m = &model.mechanism;
     let freedoms = count(m.n_freedoms);
     let has_loops = !m.loops.loops.is_empty();
     let evaluations = u64::from(bounds.evaluations.max(1));
-    // h² β and h γ, and the time at the end, for the inputs and for the state
+    // h² β and h γ, and the time at the end of the step, which is computed for the inputs and for the state
     let mut total = Operations::new(3, 2) + effects::inputs(&model.prescriptions);
     total += Operations::entries(STEP_ENTRIES);
     let reach = Operations::new(7, 6) * freedoms + moves::<T, S>(m.links);
     total += reach * (evaluations + 1);
-    // Largest change of an acceleration, and its scale.
+    // Operations for the largest change of an acceleration, and for its scale.
     let mut evaluation = Operations::new(1, freedoms);
     for link in skip_ground(m.links) {
         evaluation += joints::evaluation::<T, S>(link) + Operations::entries(LINK_ENTRIES);
@@ -114,7 +114,7 @@ fn moves<T: Real, S: Space<T>>(links: &[Link<T, S>]) -> Operations {
     sum
 }
 
-/// Operations for a response to rows only.
+/// Operations for a response of the tree to new right-hand sides of rows only.
 fn response<T: Real, S: Space<T>>(
     m: &mbs_recursive::passes::slices::TreeSlices<'_, T, S>,
 ) -> Operations {

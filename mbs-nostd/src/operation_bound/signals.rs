@@ -11,7 +11,7 @@ const fn ops(products: u64, sums: u64) -> Operations {
     Operations::new(products, sums)
 }
 
-/// Returns the count of all operations on signals at an instant.
+/// Returns the number of operations for all signals at an instant.
 pub(super) fn evaluation<T: Real, S: Space<T>>(m: &TreeSlices<'_, T, S>) -> Operations {
     let mut sum = Operations::NONE;
     for step in m.feedback.steps {

@@ -1,4 +1,4 @@
-//! States that are set from outside, for example by an observer.
+//! States that the program sets, for example in an observer.
 
 use super::{Solver, put, states};
 use crate::check::Checked;
@@ -30,12 +30,12 @@ impl<
     const W: usize,
 > Solver<T, S, L, Z, V, R, B, N, G, C, M, F, K, W>
 {
-    /// Sets the state of the model at the present time, and closes its loops from there. Accelerations and multipliers are evaluated, and
-    /// the next step starts from them.
+    /// Sets the state of the model at the present time, and closes the loops of the model, beginning at this state. Accelerations and
+    /// multipliers are then evaluated, and the next step starts from them.
     ///
-    /// `z` and `v` have the order of [`coordinates`](Self::coordinates) and [`velocities`](Self::velocities), which is that of the exported
-    /// links. [`Link::z`](mbs_recursive::link::Link::z) and [`Link::v`](mbs_recursive::link::Link::v) are the indices of a link's first
-    /// numbers. The numbers of each kind are:
+    /// `z` and `v` have the order of [`coordinates`](Self::coordinates) and [`velocities`](Self::velocities), which is the order of the
+    /// exported links. [`Link::z`](mbs_recursive::link::Link::z) and [`Link::v`](mbs_recursive::link::Link::v) are the indices of a link's
+    /// first numbers. The numbers of each kind of link are:
     ///
     /// | link | in `z` | in `v` |
     /// |---|---|---|
@@ -47,21 +47,22 @@ impl<
     /// | guided | none | none |
     ///
     /// A quaternion q and its negative −q are the same attitude, but different twists of a bushing or a torsion spring. Give the quaternion
-    /// that is nearer to the present one.
+    /// that is nearer to the present quaternion of the link.
     ///
-    /// All loops are closed together, first in positions, then in velocities. The change is to first order the smallest in the norm of the
-    /// masses. In a model with loops any coordinate may change. In a model without loops all values are kept exactly, except quaternions
-    /// that are not of unit length. Time, inputs, the states of signals and the rung of the ladder are kept. The motions of guides are
-    /// those at the end of the last step.
+    /// All loops are closed together, first in positions, then in velocities. To first order, the change is the smallest in the norm of the
+    /// mass matrix. In a model with loops any coordinate may change. In a model without loops all values are used exactly as given, except
+    /// quaternions that are not of unit length. Time, inputs, the states of signals and the rung of the ladder are unchanged. The guides
+    /// have their motions at the end of the last step.
     ///
-    /// Cost: one evaluation. Without loops that is about nine tenths of a step with its default bounds. With loops it is two evaluations,
-    /// and one response for each sweep. The report counts the sweeps: about five near a closed state. Far from closure there are at most
-    /// five evaluations. There are at most `5 (options.max_sweeps + 1)` sweeps for the loops and thirty for the accelerations. No
-    /// allocation. A program that does not call this function does not contain its code.
+    /// Cost: without loops one evaluation, which is about nine tenths of a step with its default bounds. With loops two evaluations, and
+    /// one response for each sweep. The report counts the sweeps: about five near a closed state. If the loops are far from closed, there
+    /// are at most five evaluations. There are at most `5 (options.max_sweeps + 1)` sweeps for the loops and thirty for the accelerations.
+    /// No allocation. A program that does not call this function does not contain its code.
     ///
     /// # Errors
-    /// [`StateError`]: lists of another length, numbers that are not finite, quaternions without direction, loops that stay open, no
-    /// accelerations there. Everything is then as it was, to the bit.
+    /// [`StateError`] if a list has another length, a number is not finite, or a quaternion is too short or too long to be normalised. Also
+    /// if the loops do not close, or if the state has no accelerations. All outputs and later steps of the solver are then the same, to the
+    /// bit, as without the call.
     ///
     /// ```
     /// # mod model { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/../examples/pick/nostd/src/model.rs")); }
@@ -101,13 +102,13 @@ impl<
         let rank = self.scratch.rank;
         let done = self.close(model, z, v);
         if done.is_err() {
-            // The largest rank so far is part of the state that later closings use, so it is restored.
+            // Later calls that close loops use the largest rank so far, so it is restored.
             self.scratch.rank = rank;
         }
         Ok(done?)
     }
 
-    /// Closes the loops from a finite state. If that fails, only the scratch is changed.
+    /// Closes the loops, beginning at a finite state. If this fails, only the scratch is changed.
     fn close(
         &mut self,
         model: &Checked<'_, T, S>,
@@ -117,7 +118,7 @@ impl<
         let whole = &model.model().mechanism;
         let loads = model.kept_on(self.ladder.rung()).unwrap_or(whole.loads);
         let mechanism = TreeSlices { loads, ..*whole };
-        // The motions of guides are those at the end of the last step.
+        // The guides have their motions at the end of the last step.
         let inputs = Written {
             laws: model.model().prescriptions,
             guides: &self.inputs.ended,
@@ -141,7 +142,7 @@ impl<
     }
 }
 
-/// Checks the length of a list, and that its numbers are finite.
+/// Checks that a list has the needed length and that its numbers are finite.
 fn check<T: Real>(of: &'static str, list: &[T], needed: usize) -> Result<(), StateError> {
     if list.len() != needed {
         return Err(StateError::Length { of, given: list.len(), needed });
@@ -152,7 +153,7 @@ fn check<T: Real>(of: &'static str, list: &[T], needed: usize) -> Result<(), Sta
     }
 }
 
-/// Checks that the quaternions of balls and free links can be normalised: their squared length is finite and above rounding.
+/// Checks that the quaternions of ball joints and free links can be normalised: their squared length is finite and above rounding.
 fn check_quaternions<T: Real, S: Space<T>>(
     links: &[Link<T, S>],
     z: &[T],

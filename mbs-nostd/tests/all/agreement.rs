@@ -45,7 +45,7 @@ fn a_solver_of_fixed_capacity_gives_the_bits_of_the_recursion() {
     }
 }
 
-/// Gears between the wheels of a free housing, and a wheel that is driven relative to it.
+/// A scene with a housing that can turn freely, and two wheels in it that mesh as gears.
 const GEARS: &str = include_str!("couplings.toml");
 
 const DRIVEN: &str = r#"
@@ -86,7 +86,7 @@ fn apart_on_controller(text: &str) -> Result<f64, LoadError> {
 fn couplings_of_joints_hold_on_a_controller_as_in_the_recursion() {
     assert_eq!(apart_on_controller(GEARS), Ok(0.0));
     assert_eq!(apart_on_controller(&format!("{GEARS}{DRIVEN}")), Ok(0.0));
-    // The exported guide has its constant separately, which changes the rounding of the accelerations.
+    // The constant of an exported guide is stored separately, which changes the rounding of the accelerations.
     let held = format!("{GEARS}{}", DRIVEN.replace("sine", "value = 0.1\nsine"));
     let apart = apart_on_controller(&held).expect("a model");
     assert!(apart < 1e-10, "{apart}");
@@ -177,7 +177,7 @@ fn rotors_turn_on_a_controller_as_in_the_recursion() {
     let arm =
         std::fs::read_to_string(mbs_testkit::repository::path("geared-arm")).expect("a scene");
     assert_eq!(apart_on_controller(&arm), Ok(0.0));
-    // texts without optional parts have version 2
+    // models without optional parts have version 2
     let version = |text: &str| {
         let (tree, begin) = start::<Planar, 2>(&mbs_testkit::scene(text));
         let collected = Collected::new(&tree, &begin, &[]).expect("no signal moves");
@@ -222,7 +222,8 @@ fn apart(name: &str, evaluations: u32) -> f64 {
 #[test]
 fn one_evaluation_a_step_stays_below_the_error_of_the_step_itself_on_level_roads_and_a_second_one_on_stairs()
  {
-    // The error of the trapezoidal rule itself is h² times a third derivative. A jump has about 100 m/s³, so the error is 1e-6 times that.
+    // The error of the trapezoidal rule is h² times a third derivative. The third derivative after a jump is about 100 m/s³, so the error
+    // is about 1e-4.
     for name in ["iltis-slalom", "iltis-bump-5", "iltis-jump", "iltis-suspension"] {
         let apart = apart(name, 1);
         assert!(apart < 1e-4, "{name}: {apart}");
@@ -289,7 +290,7 @@ fn whatever_word_of_a_model_is_broken_nothing_panics() {
             };
             let model = tables.model();
             let Ok(mut solver) = Room::new(&model) else { continue };
-            // A changed number may be wrong. Then a step returns an error, or the motion differs.
+            // A changed word may give a valid model with a wrong number. A step then returns an error, or the motion differs.
             for _ in 0..3 {
                 let _ = solver.step(&model, 1e-3, &mut Unwatched);
             }

@@ -1,4 +1,4 @@
-//! Inputs that are set between steps: in the solver of fixed capacity, and in the bound of its work.
+//! Inputs that are set between steps: tests of the solver of fixed capacity, and of the bound of its operations.
 
 use crate::support::start;
 use mbs_core::scene::{Effect, EffectKind, JointId, JointTorque, Motion, Scene, Signal, TableEnds};
@@ -45,7 +45,7 @@ fn a_course_written_for_one_step_acts_in_that_whole_step() {
         let mut solver = Room::new(&model).expect("room");
         for _ in 0..2 {
             for k in 0..6 {
-                // one N m on each kg m^2, in the third step only
+                // a torque of one N m for each kg m^2 of inertia, in the third step only
                 let torque = if k == 2 { mass[0] } else { 0.0 };
                 solver.set_input(0, [torque, 0.0, 0.0]).expect("an input");
                 solver.step(&model, h, &mut Unwatched).expect("a regular step");
@@ -86,7 +86,7 @@ fn a_solver_of_fixed_capacity_takes_inputs_as_the_recursion_does() {
         let work = (1e-3, &Options::default(), Bounds::default());
         host.bounded_step(work, &mut state, &mut workspace).expect("a regular step");
         solver.step(&flash, 1e-3, &mut Unwatched).expect("a regular step");
-        // After a change of inputs the host evaluates to rounding; the solver uses its bounded sweeps.
+        // After a change of inputs the host evaluates accelerations to rounding; the solver uses a bounded number of sweeps.
         for (x, y) in solver.velocities().iter().zip(&state.v) {
             assert!((x - y).abs() < 1e-9 * (1.0 + y.abs()), "step {k}: {x} {y}");
         }

@@ -1,4 +1,5 @@
-//! A Luenberger observer of the two-link arm. The firmware runs it on an emulated board; here it runs in both precisions.
+//! A Luenberger observer of the two-link arm. The firmware runs this observer on an emulated board. The tests run it on the host, in both
+//! precisions.
 
 use crate::support::start;
 use mbs_core::Real;
@@ -11,17 +12,18 @@ type ArmTables<T> = Tables<T, Spatial, 4, 1, 1, 4, 4, 4, 4, 4, 2>;
 
 /// Step of the arm and of the observer [s].
 const STEP: f64 = 1e-3;
-/// Double root of the observer's error [1/s].
+/// Decay rate of the observer's error: double root of its characteristic equation [1/s].
 const ROOT: f64 = 20.0;
 
-/// Returns the accelerations of the arm at (`z`, `v`), by setting this state.
+/// Returns the accelerations of the arm at the coordinates `z` and velocities `v`. They are evaluated by setting this state.
 fn accelerations(model: &Checked<'_, f64, Spatial>, z: [f64; 2], v: [f64; 2]) -> [f64; 2] {
     let mut solver = Arm::<f64>::new(model).expect("room");
     solver.set_state(model, &z, &v).expect("an open chain");
     [solver.accelerations()[0], solver.accelerations()[1]]
 }
 
-/// Returns A and B of the linearised arm, hanging at rest, by central differences of the accelerations.
+/// Returns A and B of the linearised arm v' = A z + B v at its equilibrium, hanging at rest. They are central differences of the
+/// accelerations.
 fn linearised(model: &Checked<'_, f64, Spatial>) -> [[[f64; 2]; 2]; 2] {
     let by = 1e-4;
     let mut matrices = [[[0.0; 2]; 2]; 2];
@@ -40,7 +42,8 @@ fn linearised(model: &Checked<'_, f64, Spatial>) -> [[[f64; 2]; 2]; 2] {
     matrices
 }
 
-/// Runs the arm and its observer together. Returns the largest error of an angle after 0.4 s, and that of the whole run [rad].
+/// Runs the arm and its observer together. Returns the largest error of an angle after 0.4 s, and the largest error of the complete run
+/// [rad].
 fn observed<T: Real + Record>(
     model: &Checked<'_, T, Spatial>,
     gains: [[[f64; 2]; 2]; 2],

@@ -1,4 +1,4 @@
-//! The bound of operations compared with a number type that counts its operations.
+//! The bound of the number of operations compared with counts. A number type counts the operations of a step.
 
 use crate::ropes_and_cams::{HOIST, SUMS, WINCH};
 use crate::signals::{ARM, LINE};
@@ -24,7 +24,7 @@ fn scene(name: &str) -> Scene<f64> {
     }
 }
 
-/// Counts the operations of some steps of a scene. Returns the bound and the counts.
+/// Counts the operations of some steps of a scene. Returns the bound and the count of each step.
 fn counted<S: Axes<Counted> + Axes<f64>, const D: usize>(
     name: &str,
     bounds: Bounds,
@@ -59,9 +59,9 @@ fn is_exact<S: Axes<Counted> + Axes<f64>, const D: usize>(name: &str) {
     for (evaluations, sweeps, projections) in [(1, 0, 1), (2, 1, 1), (3, 0, 2)] {
         let bounds = Bounds { evaluations, sweeps, projections };
         let (bound, steps) = counted::<S, D>(name, bounds);
-        // The first steps from rest may have no rotation, whose functions would then take another branch.
+        // The first steps from rest are left out. They may have no rotation, and the functions of rotations then take another branch.
         for step in &steps[3..] {
-            // Table entries are not arithmetic operations and are not counted by the type.
+            // Table entries are not arithmetic operations, so the number type does not count them.
             assert_eq!(*step, Operations { entries: 0, ..bound }, "{name} {bounds:?}");
         }
     }
@@ -167,7 +167,7 @@ fn rows_of_what_rolls_stay_below_the_bound() {
 
 #[test]
 fn laws_on_sums_stay_below_the_bound() {
-    // without loops, because the counts of their rows are above the actual operations
+    // without couplings, because the counts of their rows are larger than the actual numbers of operations
     let text = include_str!("couplings.toml");
     let alone = text.split("[[coupling]]").next().expect("what stands before");
     let effect =

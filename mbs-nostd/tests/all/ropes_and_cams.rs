@@ -16,7 +16,7 @@ type RoomTables<T, S> = Tables<T, S, 8, 4, 8, 32, 8, 32, 12, 16, 16, 16>;
 
 /// A cam that lifts a slide, and a rope from a drum over the slide and a load.
 pub(crate) const HOIST: &str = include_str!("hoist.toml");
-/// A cam and a rope as in [`HOIST`], but in space, with axes across each other.
+/// A cam and a rope as in [`HOIST`], but in space, with axes in different directions.
 pub(crate) const WINCH: &str = include_str!("winch.toml");
 
 /// Number of steps of each comparison [-].
@@ -102,7 +102,7 @@ terms = [{ joint = "shaft", factor = 0.5, coefficients = [0.0, 1.0, 0.1] }, { jo
 #[test]
 fn effects_on_lengths_and_curves_have_the_bits_of_the_recursion_on_a_controller() {
     assert_eq!(apart::<Planar, 2>(&format!("{HOIST}{SUMS}")), Ok(0.0));
-    // the effects without couplings
+    // the effects of the scene without its couplings
     let alone = HOIST.split("[[coupling]]").next().expect("what stands before");
     let start = "[[initial]]\njoint = \"shaft\"\nvalue = 0.3\nrate = 15.0\n";
     assert_eq!(apart::<Planar, 2>(&format!("{alone}{start}{SUMS}")), Ok(0.0));
@@ -133,7 +133,7 @@ signal = "falls"
     assert_eq!(version(&exported::<Planar, 2>(&text)), 2 + 2 + 8);
 }
 
-/// Returns the version of a text.
+/// Returns the version of a model in bytes.
 fn version(text: &[u8]) -> u32 {
     u32::from_le_bytes([text[4], text[5], text[6], text[7]])
 }
@@ -145,7 +145,7 @@ fn texts_say_by_their_version_whether_curves_and_lines_follow() {
     assert_eq!(version(&exported::<Planar, 2>(HOIST)), 2 + 4 + 8);
     let alone = HOIST.split("[[coupling]]").next().expect("what stands before");
     assert_eq!(version(&exported::<Planar, 2>(alone)), 2);
-    // curves that are present twice, and unknown parts
+    // versions that are refused: curves that are present twice, and unknown parts
     for unknown in [2 + 2 + 4, 2 + 16, 1] {
         let mut broken = cam.clone();
         broken[4..8].copy_from_slice(&u32::to_le_bytes(unknown));
@@ -154,7 +154,7 @@ fn texts_say_by_their_version_whether_curves_and_lines_follow() {
     }
 }
 
-/// Returns the coordinates after some steps in a precision.
+/// Returns the coordinates after some steps in the precision of `T`.
 fn after<T: Real + Record, S: Axes<T>>(text: &[u8], (steps, dt): (u32, f64)) -> Vec<f64> {
     let tables = RoomTables::<T, S>::read(text).expect("a model");
     let model = tables.model();
@@ -165,7 +165,7 @@ fn after<T: Real + Record, S: Axes<T>>(text: &[u8], (steps, dt): (u32, f64)) -> 
     solver.coordinates().iter().map(|x| x.to_f64()).collect()
 }
 
-/// Returns the largest difference of a coordinate in single precision from that in double precision.
+/// Returns the largest difference between a coordinate in single precision and in double precision.
 fn apart_in_single<S: Axes<f64> + Axes<f32>, const D: usize>(text: &str) -> f64 {
     let (tree, begin) = start::<S, D>(&mbs_testkit::scene(text));
     let collected = Collected::new(&tree, &begin, &[]).expect("no signal moves");
@@ -217,17 +217,17 @@ fn the_heavier_of_two_masses_on_a_rope_falls_with_a_fifth_of_gravity() {
     let [double, single] =
         [false, true].map(|is_single| bytes(&collected.model(), is_single).expect("tables"));
     for (z, near) in [
-        // rounding errors of a thousand steps in each precision
+        // limits for the rounding errors of a thousand steps in each precision
         (after::<f64, Planar>(&double, (1000, 1e-3)), 1e-12),
         (after::<f32, Planar>(&single, (1000, 1e-3)), 1e-4),
     ] {
         assert!((z[0] + 0.981).abs() < near && (z[1] - 0.981).abs() < near, "{z:?}");
     }
-    // T = 2·3·2/(3 + 2) g = 23.544 N. The multiplier belongs to the sum divided by its largest factor, which is one.
+    // T = 2·3·2/(3 + 2) g = 23.544 N. The multiplier belongs to the sum divided by its largest factor; this factor is one here.
     let model = Checked::new(&collected.model()).expect("a model");
     let mut solver = Room::<f64, Planar>::new(&model).expect("room");
     solver.step(&model, 1e-3, &mut Unwatched).expect("a step");
-    // one sweep leaves the fraction ε of the regularisation, 1e-10 of the force
+    // one sweep leaves an error of the fraction ε = 1e-10 of the force, where ε is the regularisation
     assert!((solver.multipliers()[0].abs() - 23.544).abs() < 1e-8, "{:?}", solver.multipliers());
 }
 
@@ -286,8 +286,8 @@ value = 0.0
 rate = 4.0
 "#;
 
-/// Returns the angle of that cam after a time, by the Runge-Kutta method of order 4. The rate follows from the energy (I + m f'²) a'²/2,
-/// which is constant.
+/// Returns the angle of the cam in [`BY_COEFFICIENTS`] after a time, by the Runge-Kutta method of order 4. The rate follows from the energy
+/// (I + m f'²) a'²/2, which is constant.
 fn angle_of_cam(duration: f64) -> f64 {
     let slope = |a: f64| {
         let [f, f0] = [0.05 + 0.2 * a, 0.05];
@@ -333,7 +333,7 @@ fn a_cam_drifts_and_is_projected() {
     };
     let ([drift, rates], [kept, kept_rates]) = (left(0), left(1));
     assert!(drift > 1e-7 && rates > 1e-6, "{drift:e} {rates:e}");
-    // a projection leaves the second-order part of the correction: f''/2 times its square, which is below 1e-11
+    // a projection leaves the second-order part of the correction: f''/2 times the square of the correction, which is below 1e-11
     assert!(kept < 1e-10 && kept_rates < 1e-6, "{kept:e} {kept_rates:e}");
 }
 

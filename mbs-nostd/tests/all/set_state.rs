@@ -1,4 +1,4 @@
-//! States that are set from outside: compared with the recursion on the host and with closed forms, or refused.
+//! States that a program sets. They are compared with the recursion on the host and with closed forms; invalid states are refused.
 
 use crate::support::start;
 use mbs_core::Real;
@@ -17,7 +17,7 @@ type RoomTables = Tables<f32, Planar, 8, 12, 16, 64, 24, 64, 8, 40, 4>;
 /// A four-bar linkage with a ground of 1 m, a crank of 0.3 m, a coupler and a rocker. Its points have one decimal.
 const CRANK: &str = include_str!("crank-rocker.toml");
 
-/// Returns the state after `n` steps of 1 ms, changed by small numbers of both signs. Quaternions remain of unit length.
+/// Returns the state after `n` steps of 1 ms. Small numbers of both signs are added to it. Quaternions remain of unit length.
 fn aside<S: Space<f64>>(
     tree: &TreeModel<f64, S>,
     begin: &TreeState<f64>,
@@ -94,7 +94,7 @@ fn a_state_that_is_set_is_that_of_the_recursion_to_the_bit_and_so_are_the_steps_
     for name in ["six-joint-arm", "servo-arm", "spatial-four-bar", "iltis-slalom"] {
         same_as_in_the_recursion::<Spatial, 3>(name, (50, 1e-3));
     }
-    // the quaternion comes from a step, and its bits are kept
+    // the quaternion comes from a step, so setting it does not change its bits
     same_as_in_the_recursion::<Spatial, 3>("free-body", (50, 0.0));
 }
 
@@ -122,9 +122,9 @@ fn a_solver_set_to_the_state_of_another_run_follows_it_but_for_the_accelerations
             *apart = apart.max((x - y).abs());
         }
     }
-    // A run starts its step from the accelerations at the last predicted position, which has an error of β h² times their change in a step.
-    // This is h³/4 times a third derivative. Newly evaluated accelerations differ by this error times ∂z̈/∂z. They change the end of the
-    // step by h²/4 of the difference, which is h⁵ in total.
+    // A run starts its step from the accelerations at the last predicted position. The error of this position is β h² times the change of
+    // the accelerations in a step, which is h³/4 times a third derivative. Newly evaluated accelerations differ by this error times ∂z̈/∂z.
+    // The difference changes the end of the step by h²/4 times the difference. The total change is of order h⁵.
     assert!(apart[0] < 1e-10 && apart[1] < apart[0] / 16.0, "{apart:?}");
 }
 
@@ -147,17 +147,17 @@ fn after_a_new_input_steps_begin_with_accelerations_anew_and_a_state_that_is_set
     }
 }
 
-/// Returns the gap of the crank-rocker's loop between the ends of its coupler and its rocker, with its first and second rate. It is
-/// computed from the coordinates of the links only.
+/// Returns the gap in the loop of the crank-rocker, with its first and second rate. The gap is the distance between the end of the coupler
+/// and the end of the rocker. It is computed from the coordinates of the links only.
 ///
-/// A link is rotated by the sum φ of the angles up to the ground. A point r in its axes is at R(φ) r. Its rate is φ' R(φ) i r, and its
-/// second rate φ'' R(φ) i r - φ'² R(φ) r.
+/// A link is rotated by the sum φ of all joint angles between the ground and the link. A vector r in the link's axes is R(φ) r in global
+/// axes. Its rate is φ' R(φ) i r, and its second rate is φ'' R(φ) i r - φ'² R(φ) r, where i is a rotation by a right angle.
 fn gap<T: Real>(model: &Checked<'_, T, Planar>, motion: [&[T]; 3]) -> [f64; 3] {
     let mechanism = &model.model().mechanism;
     let point = |link: usize, own: [f64; 2]| -> [[f64; 2]; 3] {
         let (mut at, mut number, mut arm) = ([[0.0; 2]; 3], link, own);
         loop {
-            // rotation of this link: the sum over all links up to the ground
+            // rotation of this link: the sum of the angles of all links on the path to the ground
             let (mut turn, mut k) = ([0.0; 3], number);
             while k > 0 {
                 let v = mechanism.links[k].v as usize;
@@ -205,7 +205,7 @@ fn a_loop_is_closed_with_its_velocities_and_accelerations_in_both_precisions() {
     let report = solver.set_state(&double, &given.z, &given.v).expect("it is near");
     let motion = [solver.coordinates(), solver.velocities(), solver.accelerations()];
     let after = gap(&double, motion);
-    // rates are about 6 rad/s, and accelerations about 100 rad/s^2
+    // the limits are rounding errors: rates are about 6 rad/s, and accelerations about 100 rad/s^2
     assert!(after[0] < 1e-14 && after[1] < 1e-13 && after[2] < 1e-11, "{after:?} {report:?}");
     assert!(report.violation[0] < 1e-14 && report.responses < 40, "{report:?}");
     let text = bytes(&collected.model(), true).expect("a scene without own laws");
@@ -240,15 +240,15 @@ fn a_loop_is_closed_by_the_move_that_is_smallest_in_the_norm_of_the_masses() {
     };
     let (part, speed) = (along(&begin.v, &moved), along(&begin.v, &begin.v).sqrt());
     let size = along(&moved, &moved).sqrt();
-    // The correction is 1e-4 of the linkage's size, so the direction of the velocities changes by as much.
+    // The correction is 1e-4 of the linkage's size, so the direction of the velocities also changes by about 1e-4.
     assert!(size > 1e-6 && part.abs() < 1e-3 * size * speed, "{part} of {size}");
 }
 
-/// Checks that a solver after a refused state has the same outputs, closings and steps as a solver without the call.
+/// Checks that a refused state changes nothing: outputs, later closings of loops and later steps are those of a solver without the call.
 fn is_untouched(model: &Checked<'_, f64, Planar>, asked: &Room<Planar>, other: &Room<Planar>) {
     let (mut after, mut other) = (asked.clone(), other.clone());
     assert_eq!(shown(&after), shown(&other));
-    // The memory for later closings is unchanged too.
+    // The memory that later closings of loops use is also unchanged.
     let mut closed = [&after, &other].map(Clone::clone);
     let reports = closed.each_mut().map(|solver| {
         let (mut z, v) = (solver.coordinates().to_vec(), solver.velocities().to_vec());
@@ -301,7 +301,8 @@ fn what_is_no_state_is_refused_and_the_state_before_stays_to_the_bit() {
     for turn in [0.5, 1.0, 1.5] {
         let mut asked = before.clone();
         asked.set_state(&model, &with(&z, 1, z[1] + turn), &v).expect("it is near enough");
-        // Far from closure the projection converges slowly, and ends below a root of rounding. The next step projects the remainder.
+        // If the loops are far from closed, the projection converges slowly and ends below the square root of machine precision. The next
+        // step projects the remainder.
         let motion = [asked.coordinates(), asked.velocities(), asked.accelerations()];
         assert!(gap(&model, motion)[0] < 2e-9, "{turn}");
         asked.step(&model, 1e-3, &mut Unwatched).expect("a step");

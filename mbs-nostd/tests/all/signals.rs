@@ -1,4 +1,5 @@
-//! Signals on a controller, compared with the steps of the host. Inputs change during the run; models are in flash and in bytes.
+//! Signals on a controller, compared with the steps of the host. Inputs change during the run. Models are tested as constant tables and as
+//! bytes.
 
 use crate::support::start;
 use mbs_core::scene::{Scene, SignalKind};
@@ -193,7 +194,7 @@ fn input(number: usize, step: u32) -> f64 {
     [0.5, 0.9, -0.2, 1.3][(step / 60) as usize % 4] * if number == 1 { 0.4 } else { 1.0 }
 }
 
-/// Returns the numbers of the signals that are inputs.
+/// Returns the indices of the signals that are inputs.
 fn inputs(scene: &Scene<f64>) -> Vec<usize> {
     let all = scene.signals.iter().enumerate();
     all.filter(|(_, signal)| matches!(signal.kind, SignalKind::Input { .. }))
@@ -201,7 +202,7 @@ fn inputs(scene: &Scene<f64>) -> Vec<usize> {
         .collect()
 }
 
-/// Returns the largest difference of coordinates, velocities, accelerations and states from the host's steps.
+/// Returns the largest difference of coordinates, velocities, accelerations and states of signals from the steps of the host.
 fn apart<S: Axes<f64>, const D: usize>(scene: &Scene<f64>) -> f64 {
     let inputs = inputs(scene);
     let (tree, begin) = start::<S, D>(scene);
@@ -212,7 +213,7 @@ fn apart<S: Axes<f64>, const D: usize>(scene: &Scene<f64>) -> f64 {
     let mut worst = 0.0_f64;
     for model in [flash, tables.model()] {
         let mut solver = Room::<S>::new(&model).expect("room");
-        // the second run starts from the beginning again
+        // the second run starts again from the start of the model
         for _ in 0..2 {
             let (mut state, mut workspace) = (begin.clone(), Workspace::new(&tree));
             for k in 0..STEPS {

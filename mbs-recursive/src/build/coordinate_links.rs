@@ -9,7 +9,8 @@ use mbs_core::Real;
 use mbs_core::scene::Scene;
 
 impl<T: Real, S: Space<T>> TreeModel<T, S> {
-    /// Returns the link of each joint coordinate, by joint and number. `None` for coordinates of cut joints and of rotations in space.
+    /// Returns the link of each joint coordinate, indexed by joint and by coordinate of the joint. A coordinate of a cut joint or of a
+    /// rotation in space has no link: `None`.
     #[must_use]
     pub fn coordinate_links(&self, scene: &Scene<T>) -> Vec<Vec<Option<u32>>> {
         let count = |joint: &mbs_core::scene::Joint<T>| joint.kind.n_coordinates(scene.dimension);
@@ -18,7 +19,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
             let Some(joint) = seat.branch.joint else { continue };
             let kind = self.links[seat.link as usize].kind;
             match kind {
-                // In the plane, the first coordinate of a free link is its angle against the ground, which is the last coordinate of its
+                // In the plane, the first coordinate of a free link is its angle relative to the ground, which is the last coordinate of its
                 // joint.
                 LinkKind::Free => {
                     let is_plain = S::DIMENSION == 2 && !seat.branch.is_reversed;

@@ -9,15 +9,16 @@ use alloc::vec::Vec;
 use mbs_core::Real;
 use mbs_core::laws::code::Codes;
 
-/// Point where a row begins on its way inward: a link, with gradient K, or the joint of a link, with slope g.
+/// Start of a row that is carried inward along the tree. A row starts at a link with its gradient K, or at the joint of a link with its
+/// slope g.
 pub(crate) struct Begin<'a> {
     pub(crate) link: u32,
     pub(crate) at_joint: bool,
-    /// Entry into which the number of the side is written.
+    /// Table entry that receives the index of the side.
     pub(crate) side: Option<&'a mut u32>,
 }
 
-/// Owner of the slices of [`Couplings`].
+/// Tables that own the data of the slices in [`Couplings`].
 #[derive(Debug, Clone)]
 pub(crate) struct CouplingTables<T: Real, S: Space<T>> {
     pub(crate) n_cut: u32,
@@ -54,7 +55,7 @@ impl<T: Real, S: Space<T>> CouplingTables<T, S> {
         }
     }
 
-    /// Returns the points where a row begins: the links of its lines, and the joints whose coordinates are its terms.
+    /// Returns the starts of a row: the links of its lines, and the joints whose coordinates are its terms.
     pub(crate) fn begins(&mut self, row: &CoupledRow<T>) -> Vec<Begin<'_>> {
         let starts = self.starts[row.starts.range()].iter_mut();
         let starts =

@@ -19,7 +19,7 @@ use mbs_core::measure::{CouplingInput, TermInput};
 use mbs_core::scene::{BallAngle, BodyId, CouplingMeasure, JointId, Scene};
 
 impl<T: Real, S: Space<T>> TreeModel<T, S> {
-    /// Adds the rows of couplings after those of cut joints.
+    /// Adds the rows of couplings after the rows of cut joints.
     ///
     /// # Errors
     /// [`TreeError::Coupling`], [`TreeError::CouplingGuided`].
@@ -88,10 +88,10 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         Ok(())
     }
 
-    /// Adds terms and the links of their lines to the tables. Factors are divided by `scale`.
+    /// Adds terms to the tables, and the links of their lines. Factors are divided by `scale`.
     ///
     /// # Errors
-    /// The number of a joint whose coordinate is not that of a single link.
+    /// Index of a joint whose coordinate is not the coordinate of a single link.
     pub(crate) fn add_terms(
         &mut self,
         (terms, scale): (&[TermInput<T>], T),
@@ -108,10 +108,10 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         Ok((terms, starts))
     }
 
-    /// Makes the measure of a term. Its links are added to the links of its row, which begin at index `first`.
+    /// Makes the measure of a term. Adds the links of the measure to the links of the row, which begin at index `first`.
     ///
     /// # Errors
-    /// The number of a joint whose coordinate is not that of a single link.
+    /// Index of a joint whose coordinate is not the coordinate of a single link.
     fn sum_measure(
         &mut self,
         term: &TermInput<T>,
@@ -132,7 +132,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         }
     }
 
-    /// Returns the link whose coordinate is a coordinate of a joint, if there is one.
+    /// Returns the link that carries a coordinate of a joint. `None` if no single link carries it.
     fn sole_link(
         &self,
         links: &[Vec<Option<u32>>],
@@ -156,7 +156,8 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         self.rows.push(Row::Coupled(row));
     }
 
-    /// Makes a line over points. Its links are added to the links of its row, which begin at index `first`.
+    /// Makes the measure of the length of a line through points. Adds the links of the line to the links of the row, which begin at index
+    /// `first`.
     fn line(
         &mut self,
         (points, term): (&[(BodyId, [T; 3])], &TermInput<T>),
@@ -175,7 +176,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         }
     }
 
-    /// Adds a point of a link to the points of lines. The link is added to the links of its row, which begin at index `first`.
+    /// Adds a point of a link to the points of lines. Adds the link to the links of the row, which begin at index `first`.
     fn add_point(&mut self, link: u32, point: S::Point, first: usize) {
         let starts = &mut self.couplings.starts;
         let known = starts[first..].iter().position(|start| start.link == link);
@@ -186,10 +187,11 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         self.couplings.points.push(LinePoint { start: index(start), point });
     }
 
-    /// Makes an angle of a ball. A twist is computed from the coordinates of the link that carries the joint.
+    /// Makes the measure of the swing or twist of a ball joint. A twist is computed from the coordinates of the link that carries the
+    /// joint.
     ///
     /// # Errors
-    /// The number of a joint that no link carries.
+    /// Index of a joint that no link carries.
     fn ball(
         &mut self,
         (scene, joint): (&Scene<T>, JointId),
@@ -214,7 +216,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         Ok(SumMeasure::Twist { axes, first, is_reversed: seat.branch.is_reversed })
     }
 
-    /// Is the sum an angle: is the measured number of the term with the largest factor an angle?
+    /// True if the sum of the terms is an angle: the term with the largest factor measures an angle.
     fn is_angle(&self, terms: Span) -> bool {
         let terms = &self.couplings.terms[terms.range()];
         let largest = terms.iter().filter(|term| term.factor.abs() == T::ONE);
@@ -228,7 +230,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         })
     }
 
-    /// Has one of the row's joints a freedom, or does a line of the row connect different links?
+    /// True if one of the row's joints has a freedom, or if a line of the row connects different links.
     fn can_move(&self, row: &CoupledRow<T>) -> bool {
         let is_line = self.couplings.starts[row.starts.range()].len() > 1;
         is_line
@@ -238,9 +240,9 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
             })
     }
 
-    /// Do the guides of the row's joints satisfy it? They are compared at a few times.
+    /// True if the guides of the row's joints satisfy the row. The guides are evaluated at a few times.
     fn is_held_by_guides(&self, row: &CoupledRow<T>) -> bool {
-        /// Times at which guides are compared [s]. Chosen, not tuned.
+        /// Times at which guides are evaluated [s]. Chosen, not tuned.
         const TIMES: [f64; 5] = [0.0, 0.171_3, 0.618_2, 1.393_7, 7.129_1];
         /// Sum of guides that counts as zero, relative to the sum of the absolute values of its terms [-]. Chosen, not tuned.
         const ROUNDING: f64 = 1e-9;

@@ -7,7 +7,7 @@ use mbs_core::Real;
 use mbs_core::elements::NONE;
 use mbs_core::measure::PreparedCurve;
 
-/// Owner of the slices of curves. Curves are added one by one.
+/// Tables that own the data of curves. Curves are added one at a time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CurveTables<T> {
     curves: Vec<CurveTable<T>>,
@@ -34,7 +34,7 @@ impl<T: Real> CurveTables<T> {
         (&self.curves, &self.knots, &self.numbers)
     }
 
-    /// Adds a curve to the tables and returns its number.
+    /// Adds a curve to the tables and returns the index of the curve.
     pub fn add(&mut self, curve: &PreparedCurve<T>) -> u32 {
         let table = match curve {
             PreparedCurve::Identity => return NONE,
@@ -52,7 +52,7 @@ impl<T: Real> CurveTables<T> {
     }
 }
 
-/// Appends a list to another. Returns the range that it has there.
+/// Appends a list to another list. Returns the range of the appended entries.
 fn extend<X: Copy>(to: &mut Vec<X>, list: &[X]) -> Span {
     let first = index(to.len());
     to.extend_from_slice(list);

@@ -35,7 +35,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         self.close([first, second], start, index_of_joint);
     }
 
-    /// Adds a loop that connects two points. Its rows begin at index `start`. `owner` is the number of the joint or rolling.
+    /// Adds a loop that connects two points. Its rows begin at index `start`. `owner` is the index of the joint or rolling.
     fn close(&mut self, [first, second]: [(u32, S::Point); 2], start: usize, owner: usize) {
         self.loops.push(ClosedLoop {
             links: [first.0, second.0],
@@ -105,7 +105,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         }
     }
 
-    /// Adds the effects of a scene. Effects on the ground alone are skipped.
+    /// Adds the effects of a scene. Effects that act on the ground alone are skipped.
     ///
     /// # Errors
     /// [`TreeError::EffectCut`]: an effect about the axis of a cut joint, whose angle is not a coordinate of the tree.
@@ -151,12 +151,12 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         Ok(())
     }
 
-    /// Makes the load of a law about an axis, on the coordinate of the link that turns about the axis. A free joint in the plane has no
-    /// such link: the law then depends on the difference of its bodies' angles. Parts of one rigid body do not turn against each other, so
-    /// there is no load.
+    /// Makes the load of a law about the axis of a joint. The load acts on the coordinate of the link that turns about the axis. A free
+    /// joint in the plane has no such link: the law then depends on the difference of the angles of its two bodies. A joint between parts
+    /// of one rigid body does not turn and has no load.
     ///
     /// # Errors
-    /// The number of the joint, if its angle is not known in the tree.
+    /// Index of the joint, if its angle is no coordinate of the tree.
     fn about_axis(
         &self,
         scene: &Scene<T>,
@@ -176,10 +176,10 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         load.map(Some).ok_or(index)
     }
 
-    /// Makes the load of an action. `coordinates` has the links of the joints' coordinates.
+    /// Makes the load of an action. `coordinates` contains the link of each joint coordinate.
     ///
     /// # Errors
-    /// The number of a joint whose angle the action needs, but the tree does not have.
+    /// Index of a joint whose angle the action needs, although the angle is no coordinate of the tree.
     fn load(
         &mut self,
         (scene, coordinates): (&Scene<T>, &[Vec<Option<u32>>]),
@@ -234,7 +234,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         }))
     }
 
-    /// Returns links and points of two attachment points.
+    /// Returns the links of two attachment points, and the points on these links.
     fn ends(&self, ends: &[actions::Attachment<T>; 2]) -> ([u32; 2], [S::Point; 2]) {
         let [first, second] = ends.map(|(body, at)| self.seat_point(body, at));
         ([first.0, second.0], [first.1, second.1])
@@ -242,7 +242,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
 }
 
 impl<T: Real, S: Space<T>> Load<T, S> {
-    /// Does the load act on the ground alone?
+    /// True if the load acts on the ground alone.
     pub(crate) fn is_idle(&self) -> bool {
         match self {
             Self::Between { .. } | Self::Sum(_) => false,

@@ -1,4 +1,4 @@
-//! Checks that every joint of a tree moves some inertia. Otherwise forces do not determine accelerations.
+//! Checks that every joint of a tree moves some inertia. Forces do not determine the acceleration of a joint that moves no inertia.
 
 use crate::build::error::TreeError;
 use crate::build::own_tables::own;
@@ -36,7 +36,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         Ok(())
     }
 
-    /// Checks that every joint of the tree has a positive pivot in the reference configuration.
+    /// Checks that every joint of the tree has a positive pivot (inertia along its freedom) in the reference configuration.
     pub(crate) fn check_inertia(&self) -> Result<(), TreeError> {
         let n = self.links.len();
         let mut z = vec![T::ZERO; self.n_coordinates];

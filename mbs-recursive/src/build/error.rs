@@ -1,4 +1,4 @@
-//! Errors for scenes that cannot be made into a tree, and for evaluations that a tree cannot make.
+//! Errors for scenes that have no tree, and for trees that several lanes cannot evaluate at once.
 
 use mbs_core::actions::ActionError;
 
@@ -6,46 +6,46 @@ use mbs_core::actions::ActionError;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum TreeError {
-    /// The scene is not of this space's dimension.
+    /// The dimension of the scene differs from the dimension of this space.
     Dimension,
-    /// A guided joint closes a loop in which every joint is guided, or it has no moving body.
+    /// A guided joint closes a loop in which every joint is guided, or a guided joint connects no moving body.
     GuideCut {
-        /// Number of the joint: `scene.joints[joint]`.
+        /// Index of the joint: `scene.joints[joint]`.
         joint: usize,
     },
-    /// A joint with a torsion spring or a torque closes a loop. It must be cut, because every joint of the loop has such an effect or is
-    /// guided.
+    /// A joint with an effect about its axis, for example a torsion spring, closes a loop. The joint must be cut, because every joint of
+    /// the loop has such an effect or is guided.
     EffectCut {
-        /// Number of the effect: `scene.effects[effect]`.
+        /// Index of the effect: `scene.effects[effect]`.
         effect: usize,
-        /// Number of the joint: `scene.joints[joint]`.
+        /// Index of the joint: `scene.joints[joint]`.
         joint: usize,
     },
-    /// A coupling that relative coordinates cannot express. One of its joints is free, connects parts of one rigid body, or must be cut. It
+    /// Relative coordinates cannot express a coupling. One of its joints is free, connects parts of one rigid body, or must be cut. A joint
     /// must be cut if every joint of its loop is guided or has an effect or a coupling.
     Coupling {
-        /// Number of the coupling: `scene.couplings[coupling]`.
+        /// Index of the coupling: `scene.couplings[coupling]`.
         coupling: usize,
     },
-    /// A signal measures a joint whose coordinate is not a number of the tree. The joint is free, connects parts of one rigid body, or must
-    /// be cut. It must be cut if every joint of its loop is required as a coordinate.
+    /// A signal measures a joint whose coordinate is no coordinate of the tree. The joint is free, connects parts of one rigid body, or
+    /// must be cut. A joint must be cut if the coordinate of every joint of its loop is required.
     Signal {
-        /// Number of the joint: `scene.joints[joint]`.
+        /// Index of the joint: `scene.joints[joint]`.
         joint: usize,
     },
-    /// A coupling of guided joints only, whose guides contradict it.
+    /// A coupling has guided joints only, and their guides contradict the coupling.
     CouplingGuided {
-        /// Number of the coupling: `scene.couplings[coupling]`.
+        /// Index of the coupling: `scene.couplings[coupling]`.
         coupling: usize,
     },
     /// An effect cannot be made into actions.
     Effect(ActionError),
-    /// A body without mass at the end of a branch: its joint moves no inertia.
+    /// A body at the end of a branch has no mass, so that its joint moves no inertia.
     MasslessEnd {
-        /// Number of the body: `scene.bodies[body]`.
+        /// Index of the body: `scene.bodies[body]`.
         body: usize,
     },
-    /// A joint without inertia: nothing beyond it resists its motion.
+    /// A joint moves no inertia: the bodies that it carries have no inertia along its freedom.
     NoInertia {
         /// Owner of the freedom: the joint, or the free body.
         owner: mbs_core::model::Owner,
@@ -60,12 +60,12 @@ pub enum LanesError {
     Tree(TreeError),
     /// The mechanism has loops. The number of sweeps of a loop depends on the state, so lanes may differ.
     Closed {
-        /// Number of loop rows.
+        /// Number of rows (scalar equations) of all loops.
         rows: usize,
     },
-    /// An effect whose law has pieces, or a user-defined law, whose branches are unknown.
+    /// The law of an effect has pieces. Or the law is user-defined, so that its branches are unknown.
     Effect {
-        /// Number of the effect: `scene.effects[effect]`.
+        /// Index of the effect: `scene.effects[effect]`.
         effect: usize,
     },
 }

@@ -1,18 +1,19 @@
-//! The spanning tree: selection of the joints that carry coordinates, and of those that are cut.
+//! The spanning tree: selection of the joints that carry coordinates, and of the joints that are cut.
 //!
 //! The ground and the bodies are nodes; welded bodies are one node. Joints are edges. The tree grows from the ground by Prim's algorithm.
 //! It depends on the scene alone, because the next joint is always the first in this order:
 //!
 //! 1. guided joints, since their motion is prescribed;
-//! 2. joints whose coordinates are needed: revolute joints with an effect about their axis, joints with a rotor, joints of couplings and
-//!    of effects on sums, and joints that signals measure. A free joint among them has one link for each coordinate;
+//! 2. joints whose coordinates are needed: revolute joints with an effect about their axis, joints with a rotor, joints of couplings and of
+//!    effects on sums, and joints that signals measure. A free joint whose coordinates are needed has one link for each coordinate;
 //! 3. joints of bodies without mass, so that these bodies are at the end of a branch only where this is unavoidable;
 //! 4. joints with few freedoms, so that the cut joints have few equations;
 //! 5. balls off the line of a thin rod, because the rod has inertia about such a point in every direction;
 //! 6. joints near the ground, then joints that come first in the file.
 //!
-//! A part that the ground does not reach starts from a free root of its own. The root is a body with a free joint to the ground, or else
-//! the heaviest body. Joints of kind link are always cut. Other free joints between moving bodies are no constraints.
+//! A part of the mechanism that no joint connects to the ground starts from a free root. The root is a body with a free joint to the
+//! ground. If the part has no such body, the root is its heaviest body. Joints of kind link are always cut. Other free joints between
+//! moving bodies are no constraints.
 
 use crate::build::error::TreeError;
 use alloc::collections::BinaryHeap;
@@ -28,17 +29,17 @@ use mbs_core::scene::{BallAngle, BodyId, CouplingMeasure, Freedom, Scene, Signal
 /// Branch of the tree: a cluster (bodies welded together) with the joint that carries it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Branch {
-    /// Number of the cluster.
+    /// Index of the cluster.
     pub(crate) cluster: usize,
-    /// Number of the parent cluster; `None` for the ground.
+    /// Index of the parent cluster; `None` for the ground.
     pub(crate) parent: Option<usize>,
-    /// Number of the joint; `None` for a free cluster without a joint in the scene.
+    /// Index of the joint; `None` for a free cluster without a joint in the scene.
     pub(crate) joint: Option<usize>,
-    /// Is the parent the joint's second body?
+    /// True if the parent is the joint's second body.
     pub(crate) is_reversed: bool,
-    /// Is the cluster a point mass, which does not turn?
+    /// True if the cluster is a point mass, which has no rotation.
     pub(crate) is_point: bool,
-    /// Has a free joint one link for each slide and one for its rotation? True if one of its coordinates is needed.
+    /// True if a free joint has one link for each slide and one link for its rotation. This is so if one of its coordinates is needed.
     pub(crate) is_apart: bool,
 }
 
@@ -54,17 +55,17 @@ pub(crate) struct Graph {
 /// A joint between different clusters that can carry coordinates.
 struct Edge {
     joint: usize,
-    /// Clusters at both ends; the ground has the largest number.
+    /// Indices of the clusters at both ends; the ground has the largest index.
     ends: [usize; 2],
     rank: Rank,
 }
 
-/// Rank of a joint by the first five criteria of the order.
+/// Rank of a joint by the first five criteria of the order. A lower rank comes first.
 type Rank = (bool, bool, bool, usize, bool);
 
 /// Finds the spanning tree.
 ///
-/// Cost: n log n in joints and bodies.
+/// Cost: of order n log n, where n is the number of joints and bodies.
 pub(crate) fn span<T: Real>(
     scene: &Scene<T>,
     actions: &Actions<T>,
@@ -80,7 +81,7 @@ pub(crate) fn span<T: Real>(
     growth.reach(ground);
     loop {
         growth.grow(&mut is_used);
-        // A part that is not reached starts from a free root.
+        // A part that is not connected to the ground starts from a free root.
         let Some((root, joint)) = roots.next(scene, &growth.depth, node) else { break };
         let is_reversed = joint.is_some_and(|j| node(scene.joints[j].bodies[1]) == ground);
         let is_point = clusters.clusters[root].is_point;
@@ -121,16 +122,16 @@ pub(crate) fn span<T: Real>(
     Ok(Graph { branches: growth.branches, cuts })
 }
 
-/// Demands for the coordinates of each joint, by guides, effects, couplings and signals.
+/// Guides, effects, couplings and signals that need the coordinates of each joint.
 struct Demands {
     is_guided: Vec<bool>,
-    /// Effect that acts along the joint, the first of several.
+    /// First effect that acts along the joint, if any.
     effect: Vec<Option<usize>>,
-    /// Coupling with a coordinate of the joint, the first of several.
+    /// First coupling that has a coordinate of the joint, if any.
     coupling: Vec<Option<usize>>,
-    /// Does a signal measure a coordinate of the joint?
+    /// True if a signal measures a coordinate of the joint.
     is_measured: Vec<bool>,
-    /// Is a coordinate of the joint a term of a sum, or measured? Angles between bodies are known without such a coordinate.
+    /// True if a coordinate of the joint is a term of a sum or is measured. Angles between bodies are known without such a coordinate.
     is_apart: Vec<bool>,
 }
 
@@ -182,7 +183,7 @@ impl Demands {
     }
 }
 
-/// Returns the joint whose coordinates a term needs. The swing of a ball needs no coordinate.
+/// Returns the joint whose coordinates a term needs, if any. The swing of a ball needs no coordinate.
 fn carried_joint<T: Real>(term: &TermInput<T>) -> Option<usize> {
     match term.of {
         CouplingMeasure::Ball { joint, angle: BallAngle::Twist, .. } => Some(joint.index()),
@@ -224,14 +225,14 @@ fn edges<T: Real>(
     edges
 }
 
-/// State of a tree that grows.
+/// State of the tree while it grows.
 struct Growth {
     edges: Vec<Edge>,
     /// Indices of the edges at each node.
     at_node: Vec<Vec<usize>>,
     ground: usize,
     depth: Vec<usize>,
-    /// Edges that lead out of the tree, in the order rank, depth in the tree, number.
+    /// Edges that lead out of the tree. They are sorted by rank, then by depth in the tree, then by index.
     open: BinaryHeap<Reverse<(Rank, usize, usize)>>,
     branches: Vec<Branch>,
 }
@@ -246,7 +247,7 @@ impl Growth {
         Self { edges, at_node, ground, depth, open: BinaryHeap::new(), branches: Vec::new() }
     }
 
-    /// Adds the edges at a new node of the tree that lead out of the tree.
+    /// Takes a new node of the tree, and adds its edges that lead out of the tree to the open edges.
     fn reach(&mut self, node: usize) {
         for &e in &self.at_node[node] {
             let [a, b] = self.edges[e].ends;
@@ -272,7 +273,8 @@ impl Growth {
                 parent: (parent != self.ground).then_some(parent),
                 joint: Some(joint),
                 is_reversed,
-                // a cluster on a joint can turn: a point on a ball joint belongs to the body that the ball connects
+                // A cluster that a joint carries can turn, so it is no point mass. A point mass at a ball joint belongs to the body of the
+                // ball joint.
                 is_point: false,
                 is_apart: true,
             });
@@ -281,11 +283,11 @@ impl Growth {
     }
 }
 
-/// Candidates for the roots of parts that the ground does not reach, best first.
+/// Candidates for the roots of parts that are not connected to the ground, best first.
 struct Roots {
     /// Free joints, in the order of the file.
     free: vec::IntoIter<usize>,
-    /// Clusters, the heaviest first; equal ones in their order.
+    /// Clusters, the heaviest first. Clusters of equal mass are in the order of their indices.
     heavy: vec::IntoIter<usize>,
 }
 
@@ -305,7 +307,7 @@ impl Roots {
         Self { free: free.into_iter(), heavy: heavy.into_iter() }
     }
 
-    /// Returns the next root that the tree does not reach, with its free joint to the ground if there is one.
+    /// Returns the next root outside the tree, with its free joint to the ground if there is one.
     fn next<T: Real>(
         &mut self,
         scene: &Scene<T>,

@@ -6,11 +6,11 @@ use mbs_core::Real;
 use mbs_core::cluster::{Clusters, is_on_line};
 use mbs_core::scene::{BodyId, CouplingMeasure, Scene};
 
-/// Guides by joint, and by cluster whether it is a thin rod without spin.
+/// The guide of each joint, and for each cluster whether it is a thin rod without spin.
 pub(crate) struct JointFacts {
-    /// Guide of each joint, the first of several.
+    /// First guide of each joint, if any.
     pub(crate) guide: Vec<Option<usize>>,
-    /// Is the cluster a thin rod that no joint, coupling or rolling can turn about its line?
+    /// True for each cluster that is a thin rod which no joint, coupling or rolling can turn about its line.
     pub(crate) is_idle: Vec<bool>,
 }
 

@@ -1,8 +1,8 @@
-//! Construction of the lists of [`Plan`](crate::link::plan::Plan): which rows are coupled on the way inward, and the order in which loops
-//! are eliminated.
+//! Construction of the lists of [`Plan`](crate::link::plan::Plan). They say which rows are coupled while they are carried inward, and in
+//! which order loops are eliminated.
 //!
 //! Ancestors are processed from the outermost inward. At one ancestor the loop with the fewest remaining couplings is eliminated first
-//! (minimum degree). Many loops through the ground therefore remain sparse.
+//! (minimum degree). The matrix of many loops through the ground therefore remains sparse.
 
 use crate::build::coupling_tables::{Begin, CouplingTables};
 use crate::link::Link;
@@ -16,7 +16,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 use mbs_core::Real;
 
-/// Owner of the slices of a [`Plan`].
+/// Lists that own the data of the slices in a [`Plan`].
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub(crate) struct Order {
     stations: Vec<Station>,
@@ -29,7 +29,7 @@ pub(crate) struct Order {
     pub(crate) n_blocks: usize,
     /// Number of entries of all gains.
     pub(crate) n_gains: usize,
-    /// Largest number of sides of a loop.
+    /// Largest number of sides of one loop. A side is a path from a start of the loop's rows inward to the ancestor.
     pub(crate) n_sides: usize,
 }
 
@@ -84,7 +84,7 @@ impl Order {
             if turn[x] >= turn[y] { blocks[&(x, y)] } else { blocks[&(y, x)] }
         };
         for (i, mut passes) in alive.into_iter().enumerate() {
-            // The loop of a pair that is eliminated later gives the rows of the block.
+            // The block of a pair has the rows of the loop that is eliminated later.
             passes.sort_by_key(|pass| turn[pass.lap as usize]);
             order.add_passes(links, loops, (i, &mut passes), &block);
         }
@@ -156,7 +156,7 @@ impl Order {
             others.sort_by_key(|&l| turn[l]);
             let (first, first_update) = (self.couplings.len(), self.updates.len());
             for (x, &l) in others.iter().enumerate() {
-                // A loop that is eliminated here too has its sum in its first side.
+                // A loop that is also eliminated at this link has the sum of its sides in its first side.
                 let passes = &self.passes[self.stations[at as usize].passes.range()];
                 let pass = passes.iter().find(|pass| pass.lap as usize == l);
                 let side = pass.map_or(0, |pass| pass.side);
@@ -184,8 +184,8 @@ fn span(first: usize, end: usize) -> Span {
     Span { first: index(first), end: index(end) }
 }
 
-/// Sets the ancestor of a loop, and adds the passes of its sides on the way there. Returns the number of sides. A joint term whose joint is
-/// passed by a side of the same loop uses this side.
+/// Sets the ancestor of a loop, and adds the passes of its sides through all joints up to the ancestor. Returns the number of sides. If a
+/// side of the loop passes the joint of a joint term, the term uses this side.
 fn travel<T: Real, S: Space<T>>(
     links: &[Link<T, S>],
     (l, lap): (u32, &mut ClosedLoop<T, S>),
@@ -232,7 +232,8 @@ fn ancestor<T: Real, S: Space<T>>(links: &[Link<T, S>], [mut a, mut b]: [u32; 2]
     a
 }
 
-/// Computes the order of elimination, and for each loop the later loops with which it is coupled, including fill.
+/// Computes the order of elimination. Computes for each loop the loops that are eliminated later and are coupled with it, including
+/// coupling by fill.
 fn eliminate<T: Real, S: Space<T>>(
     n_links: usize,
     loops: &[ClosedLoop<T, S>],

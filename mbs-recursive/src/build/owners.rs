@@ -1,4 +1,4 @@
-//! Owners of the freedoms, links and rows of a tree, for messages.
+//! Owners (joint, body or coupling) of the freedoms, links and rows of a tree, for messages.
 
 use crate::build::tree::TreeModel;
 use crate::link::Link;

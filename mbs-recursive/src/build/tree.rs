@@ -30,19 +30,19 @@ use mbs_core::scene::{BodyId, Freedom, Joint, Scene};
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Part<T: Real> {
     pub(crate) kind: LinkKind,
-    /// Axis or direction of the part, reference axes.
+    /// Axis or direction of the part, in the axes of the reference configuration.
     pub(crate) axis: Vector<T, 3>,
-    /// Number of the part among the joint's coordinates.
+    /// Index of the part among the joint's coordinates.
     pub(crate) number: usize,
 }
 
-/// Links that a cluster has in the tree.
+/// Links of a cluster's joint in the tree.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct TreePlace {
     pub(crate) branch: Branch,
-    /// Last link of its joint. This link carries the body.
+    /// Last link of the joint. This link carries the body.
     pub(crate) link: u32,
-    /// First link of its joint.
+    /// First link of the joint.
     pub(crate) first: u32,
 }
 
@@ -56,10 +56,10 @@ pub struct TreeModel<T: Real, S: Space<T>> {
     pub(crate) feedback: Feedback<T>,
     /// Link of each coordinate that signals measure.
     pub(crate) measured: Vec<u32>,
-    /// Lengths, and angles of balls, that signals measure.
+    /// Lengths and angles of ball joints that signals measure.
     pub(crate) measures: Vec<FeedbackMeasure<T>>,
     pub(crate) order: Order,
-    /// Loads: first forces at centres of mass for factors of gravity, then the effects.
+    /// Loads: first the forces at centres of mass for bodies with a factor of gravity, then the loads of effects.
     pub(crate) loads: Vec<Load<T, S>>,
     /// Number of loads that represent factors of gravity.
     pub(crate) n_weights: usize,
@@ -69,14 +69,14 @@ pub struct TreeModel<T: Real, S: Space<T>> {
     pub(crate) prescribed: Prescribed<T>,
     pub(crate) tables: Tables<T>,
     pub(crate) gravity: S::Point,
-    /// Origin of the positions, global axes [m].
+    /// Point from which the positions of links are measured, in global axes [m].
     pub(crate) base: Vector<T, 3>,
     pub(crate) length: T,
     pub(crate) floor: [T; 2],
     pub(crate) n_coordinates: usize,
     pub(crate) n_freedoms: usize,
     pub(crate) seats: Vec<TreePlace>,
-    /// Origin of each link in the reference configuration, global axes [m].
+    /// Origin of each link in the reference configuration, in global axes [m].
     pub(crate) origins: Vec<Vector<T, 3>>,
     /// Link of each body of the scene; 0 for a body that is welded to the ground.
     pub(crate) link_of_body: Vec<u32>,
@@ -84,7 +84,7 @@ pub struct TreeModel<T: Real, S: Space<T>> {
     pub(crate) owner_of_link: Vec<Owner>,
 }
 
-/// A tree, with the reason why it has no accelerations, if any.
+/// Result of building a tree. The error in the pair is the reason why the tree has no accelerations, if any.
 type Built<T, S> = Result<(TreeModel<T, S>, Option<TreeError>), TreeError>;
 
 #[cfg(feature = "instances")]
@@ -98,11 +98,11 @@ mbs_core::instances!(
 impl<T: Real, S: Space<T>> TreeModel<T, S> {
     /// Makes the tree of a scene that was checked before.
     ///
-    /// A thin rod in space has no inertia about its line. It gets the inertia of a sphere if only balls, distances and ropes at points of
-    /// its line hold it, or if it is free. It starts without spin about its line and keeps none. Its motion is therefore that
-    /// of the rod.
+    /// A thin rod in space has no inertia about its line. The tree gives the rod the inertia of a sphere in two cases: the rod is free, or
+    /// only balls, distances and ropes at points of its line hold it. Such a rod starts without spin about its line and never gets spin.
+    /// Its motion is therefore the motion of the thin rod.
     ///
-    /// Cost: n log n in bodies and joints, and the elimination order of the loops.
+    /// Cost: of order n log n for n bodies and joints, plus the computation of the loops' elimination order.
     ///
     /// # Errors
     /// [`TreeError`] names the body or joint.
@@ -110,8 +110,8 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         Ok(Self::made(scene, true)?.0)
     }
 
-    /// Makes the tree of a scene that may have joints without inertia, and returns the fault for such a joint. Accelerations do not exist
-    /// then. Places, velocities, Jacobians and the efforts of given accelerations do not need inertia.
+    /// Makes the tree of a scene that may have joints without inertia, and returns an error for the first such joint. A tree with such a
+    /// joint has no accelerations. Places, velocities, Jacobians and the efforts of given accelerations do not need inertia.
     ///
     /// # Errors
     /// [`TreeError`] names the body or joint.
@@ -219,7 +219,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         }
     }
 
-    /// Returns the link of a cluster in the tree; for `None` the ground.
+    /// Returns the link of a cluster in the tree. For `None` it returns the ground, link 0.
     fn link_of(&self, cluster: Option<usize>) -> u32 {
         cluster.map_or(0, |c| self.link_of_body[self.clusters.clusters[c].bodies[0]])
     }
@@ -270,7 +270,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         self.seats.push(TreePlace { branch, link: parent, first });
     }
 
-    /// Writes the coordinates of the reference configuration.
+    /// Writes the tree's coordinates in the reference configuration.
     pub(crate) fn write_reference(&self, z: &mut [T]) {
         z.fill(T::ZERO);
         for (link, origin) in self.links.iter().zip(&self.origins).skip(1) {
@@ -292,13 +292,13 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         }
     }
 
-    /// Returns a point of a body as its link and the vector from the link's origin.
+    /// Returns the link that carries a body, and the vector from the link's origin to a point of the body [m].
     pub(crate) fn seat_point(&self, body: BodyId, at: [T; 3]) -> (u32, S::Point) {
         let link = self.link(body);
         (link, S::point_from(&(Vector::from(at) - self.origins[link as usize])))
     }
 
-    /// Returns the mechanism as slices.
+    /// Returns the tables of the mechanism as slices.
     #[must_use]
     pub fn mechanism(&self) -> TreeSlices<'_, T, S> {
         TreeSlices {
@@ -340,8 +340,8 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         &self.effects
     }
 
-    /// Has another tree the same coordinates, velocities and rows of cut joints, in the same order? Trees of a scene with and without an
-    /// effect do, unless the effect determines which joint is cut.
+    /// True if another tree has the same coordinates, velocities and rows of cut joints, in the same order. This holds for the trees of a
+    /// scene with and without an effect, unless the effect determines which joint is cut.
     #[must_use]
     pub fn has_same_coordinates(&self, other: &Self) -> bool {
         let sizes = |tree: &Self| [tree.n_coordinates, tree.n_freedoms, tree.rows.len()];
@@ -369,13 +369,13 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         self.rows.len()
     }
 
-    /// Number of links, massless parts of composed joints included.
+    /// Number of links without the ground. The massless parts of composed joints are included.
     #[must_use]
     pub fn n_links(&self) -> usize {
         self.links.len() - 1
     }
 
-    /// Returns the numbers of the cut joints, one for each loop.
+    /// Returns the indices of the cut joints, one for each loop.
     pub fn cut_joints(&self) -> impl Iterator<Item = usize> + '_ {
         let rolls = |lap: &&ClosedLoop<T, S>| {
             self.rows.get(lap.first as usize).is_some_and(Row::begins_rolling)
@@ -384,7 +384,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         cut.iter().filter(move |lap| !rolls(lap)).map(|lap| lap.joint as usize)
     }
 
-    /// Returns the scene's length [m].
+    /// Returns the characteristic length of the scene [m].
     pub fn length(&self) -> T {
         self.length
     }
@@ -396,7 +396,7 @@ impl<T: Real> Inputs<T> for (&Prescribed<T>, &[T]) {
     }
 }
 
-/// Returns the inertia of a cluster about a point.
+/// Returns the inertia tensor of a cluster about a point [kg m^2].
 fn tensor<T: Real>(cluster: &Cluster<T>, is_idle: bool, at: &Vector<T, 3>) -> Matrix<T, 3> {
     let mut inertia = cluster.inertia;
     if is_idle {

@@ -12,7 +12,7 @@ use mbs_core::cluster::mass_properties;
 use mbs_core::scene::{BodyId, Scene};
 
 impl<T: Real, S: Space<T>> TreeModel<T, S> {
-    /// Adds these forces as the first loads. Bodies that cannot move are skipped.
+    /// Adds the forces that correct gravity as the first loads. Bodies that cannot move are skipped.
     pub(crate) fn add_weights(&mut self, scene: &Scene<T>) {
         for (b, body) in scene.bodies.iter().enumerate() {
             let Some(scale) = body.gravity_scale else { continue };

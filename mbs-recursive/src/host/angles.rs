@@ -1,4 +1,5 @@
-//! Joint coordinates, including whole turns, as the tree stores them. They are coordinates of the state and need no measurement.
+//! Joint coordinates as the tree stores them, including whole turns. They are read from the state and are not measured from the positions
+//! of the bodies.
 
 use crate::build::TreeModel;
 use crate::host::state::TreeState;
@@ -9,10 +10,10 @@ use mbs_core::scene::BodyId;
 impl<T: Real, S: Space<T>> TreeModel<T, S> {
     /// Returns the coordinate of a link with one freedom, or the angle of a free link in the plane, including whole turns [rad or m].
     ///
-    /// Cost: one read; for a guided joint, an evaluation of its law.
+    /// Cost: one read. For a guided joint, one evaluation of its guide.
     ///
     /// # Panics
-    /// If there is no such link.
+    /// If the link does not exist.
     #[must_use]
     pub fn coordinate(&self, state: &TreeState<T>, link: u32) -> T {
         let link = &self.links[link as usize];
@@ -26,10 +27,10 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         }
     }
 
-    /// Returns the angle of the second body against the first in the plane, including whole turns [rad].
+    /// Returns the angle of the second body relative to the first in the plane, including whole turns [rad].
     ///
     /// # Panics
-    /// If there is no such body.
+    /// If one of the bodies does not exist.
     #[must_use]
     pub fn turn_between(&self, state: &TreeState<T>, bodies: [BodyId; 2]) -> T {
         self.turn_of(state, bodies.map(|body| self.link(body)))

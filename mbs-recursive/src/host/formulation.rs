@@ -1,5 +1,5 @@
-//! Implementation of the common formulation trait for this crate: [`Tree`]. Its state is also written in natural coordinates, for the
-//! outputs.
+//! Implementation of the common formulation trait by [`Tree`]. The state of a tree is also written in natural coordinates, because the
+//! outputs read natural coordinates.
 
 use crate::build::TreeModel;
 use crate::host::history::History as OfWorkspace;
@@ -25,20 +25,20 @@ use mbs_core::step::{OptionError, Step, StepError, StepReport};
 enum Angle {
     /// Coordinate of a link.
     Of(u32),
-    /// Coordinate of a link with opposite sign.
+    /// Coordinate of a link, with opposite sign.
     Against(u32),
-    /// Angle of the second body against the first, in the plane.
+    /// Angle of the second body relative to the first, in the plane.
     Between([BodyId; 2]),
 }
 
-/// Finds the angles of effects and couplings that the tree stores, each with its index in the memory of the natural state. These are the
-/// angles of joints that are not cut, and all angles in the plane.
+/// Finds the angles of effects and couplings that the tree stores: the angles of joints that are not cut, and all angles in the plane. Each
+/// angle has its index in the memory of the natural state.
 fn angles<T: Real, const D: usize>(
     scene: &Scene<T>,
     natural: &NaturalModel<T, D>,
     coordinates: &[Vec<Option<u32>>],
 ) -> Vec<(usize, Angle)> {
-    // A scene that became a tree has valid actions.
+    // The actions are valid, because the tree of this scene was made from them.
     let list = Actions::new(scene).map(|actions| actions.list).unwrap_or_default();
     let angle = |(effect, action): &(usize, Action<T>)| {
         let angle = match action {
@@ -69,7 +69,7 @@ pub struct Tree<T: Real, S: Space<T>> {
     method: TreeMethod,
     motions: Vec<RigidMotion<T>>,
     terms: Terms<T>,
-    /// Links that carry the coordinates of each joint; `None` for a coordinate without a link.
+    /// Link of each coordinate of each joint; `None` for a coordinate without a link.
     coordinates: Vec<Vec<Option<u32>>>,
     /// Angles that the tree stores, each with its index in the memory of the natural state.
     angles: Vec<(usize, Angle)>,
@@ -113,10 +113,10 @@ impl<T: Real, S: Space<T>> Tree<T, S> {
         Ok(tree)
     }
 
-    /// Uses other options in the steps from now on.
+    /// Sets the options of all later steps.
     ///
     /// # Errors
-    /// [`OptionError`] for an option out of range; the old options are kept then.
+    /// [`OptionError`] for an option out of range; the options are then unchanged.
     pub fn set_options(&mut self, options: Options<T>) -> Result<(), OptionError> {
         options.validate()?;
         self.options = options;
@@ -263,12 +263,12 @@ impl<T: Real, S: Space<T>, const D: usize> Trials<T, D> for Tree<T, S> {
 }
 
 impl<T: Real, S: Space<T>, const D: usize> Describe<T, D> for Tree<T, S> {
-    /// Numbers of freedoms of the tree, of equations of its cut joints, and of independent equations.
+    /// Number of freedoms of the tree, number of equations of its cut joints, and number of independent equations.
     fn sizes(&self) -> Option<[usize; 3]> {
         Some([self.state.v.len(), self.model.n_rows(), self.rank])
     }
 
-    /// Returns `None` if the joint is cut, or if it has a rotation in space as coordinate.
+    /// Returns the value of a joint coordinate. `None` if the joint is cut, or if the coordinate belongs to a rotation in space.
     fn coordinate(&self, joint: usize, number: usize) -> Option<T> {
         let link = (*self.coordinates.get(joint)?.get(number)?)?;
         Some(self.model.coordinate(&self.state, link))
@@ -287,7 +287,7 @@ impl<T: Real, S: Space<T>, const D: usize> Describe<T, D> for Tree<T, S> {
     }
 }
 
-/// Visits all numbers that a checkpoint stores.
+/// Visits all numbers that a checkpoint stores, to write or to restore them.
 fn walk<T: Real>(
     (state, energies): (&mut TreeState<T>, &mut [f64; 2]),
     own: &mut OfWorkspace<T>,
@@ -306,7 +306,7 @@ fn walk<T: Real>(
     book.rows("lambda", lambda)?;
     let (threes, ones) = applied.as_chunks_mut::<3>();
     book.vectors("inputs", threes)?;
-    // Lists without entries are not written, so that files of scenes without signals do not change.
+    // Empty lists are not written, so that a checkpoint of a scene without signals has no entries for them.
     for (name, numbers) in [("input of a signal", ones), ("signals", signals.as_flattened_mut())] {
         if !numbers.is_empty() {
             book.rows(name, numbers)?;
@@ -327,7 +327,7 @@ fn walk<T: Real>(
     book.doubles("energies", energies)
 }
 
-/// Visits the control of internal steps.
+/// Visits the memory of the error control of internal steps.
 fn walk_steps<T: Real>(book: &mut Book<'_, T>, history: &mut AdaptiveHistory<T>) -> Restored {
     let AdaptiveHistory { step, control: (memory, was_rejected), counts } = history;
     book.real("step", step)?;

@@ -1,4 +1,4 @@
-//! Memory that a step leaves for the next one in addition to the state. It can be read and restored.
+//! Memory that one step leaves for the next step in addition to the state. It can be read and restored.
 
 use crate::host::state::Workspace;
 use crate::link::options::Options;
@@ -41,8 +41,8 @@ impl<T: Real, S: Space<T>> Workspace<T, S> {
         }
     }
 
-    /// Restores the history of the same model with the same `options`. Returns false, and changes nothing, if the history does not fit the
-    /// model.
+    /// Restores a history that was read from a workspace of the same model with the same `options`. Returns false and changes nothing if
+    /// the history does not fit the model, for example because it has another number of rows.
     pub fn set_history(&mut self, history: &History<T>, options: &Options<T>) -> bool {
         let n = self.explicit.y.len();
         let (s, explicit) = self.parts();
@@ -74,7 +74,8 @@ impl<T: Real, S: Space<T>> Workspace<T, S> {
     }
 }
 
-/// Makes a driver from its history. Returns `Some(None)` without a history, and `None` if the history does not fit the method.
+/// Makes the driver of a method with error control from its history. Returns `Some(None)` if there is no history, and `None` if the history
+/// does not fit the method.
 fn driver<T: Real, M: Method<T>>(
     history: Option<AdaptiveHistory<T>>,
     method: impl FnOnce() -> M,

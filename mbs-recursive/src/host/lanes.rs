@@ -1,10 +1,10 @@
 //! Several states of one mechanism in one evaluation: for ensembles, sensitivities and finite differences.
 //!
 //! A tree in [`Lanes`] evaluates accelerations, efforts, energies and mass matrices of `N` states at once. Each result has the same bits as
-//! a separate evaluation. A branch on a number would be taken for all lanes together. Trees with such branches are therefore refused:
-//! loops, which need different numbers of sweeps, and effects whose laws have pieces. A spring must have a positive length in every lane.
-//! The methods of steps decide for all lanes at once too. Integrate lane by lane, or with steps of fixed length around
-//! [`TreeModel::accelerate`].
+//! a separate evaluation. All lanes would follow the same branch of a condition, even if their numbers differ. Trees with such conditions
+//! are therefore refused: trees with loops, because lanes need different numbers of sweeps, and trees with effects whose laws have pieces.
+//! A spring must have a positive length in every lane. The methods of [`TreeModel::step`] also make each decision for all lanes at once.
+//! Integrate each lane separately, or write steps of fixed length that call [`TreeModel::accelerate`].
 
 use crate::build::{LanesError, TreeModel};
 use crate::host::state::TreeState;
@@ -13,7 +13,7 @@ use mbs_core::real::Lanes;
 use mbs_core::scene::Scene;
 
 impl<S: Space<Lanes<N>>, const N: usize> TreeModel<Lanes<N>, S> {
-    /// Makes the tree of a scene whose numbers are equal in all lanes, such as a scene that was read from a file.
+    /// Makes the tree of a scene whose numbers are equal in all lanes, for example a scene that was read from a file.
     ///
     /// Cost: that of [`TreeModel::new`].
     ///
@@ -36,7 +36,7 @@ impl<const N: usize> TreeState<Lanes<N>> {
     /// Writes coordinates and velocities into one lane.
     ///
     /// # Panics
-    /// If the numbers of values differ from those of the state, or if the lane is not below `N`.
+    /// If the lengths of `z` and `v` differ from those of the state, or if `lane` is not below `N`.
     pub fn set_lane(&mut self, lane: usize, z: &[f64], v: &[f64]) {
         assert_eq!((self.z.len(), self.v.len()), (z.len(), v.len()), "a state of this mechanism");
         let pairs = self.z.iter_mut().zip(z).chain(self.v.iter_mut().zip(v));
@@ -48,7 +48,7 @@ impl<const N: usize> TreeState<Lanes<N>> {
     /// Returns the accelerations of one lane.
     ///
     /// # Panics
-    /// If the lane is not one of `N`.
+    /// If `lane` is not below `N`.
     pub fn lane_accelerations(&self, lane: usize) -> impl Iterator<Item = f64> + '_ {
         assert!(lane < N, "a lane of {N}");
         self.a.iter().map(move |wide| wide.0[lane])

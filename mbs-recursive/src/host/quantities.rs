@@ -24,7 +24,7 @@ use mbs_core::step::StepError;
 /// Selection of terms of the efforts M v̇ + c + g.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum EffortTerms {
-    /// All terms, minus the efforts of effects: zero at the accelerations of free motion.
+    /// All terms minus the efforts of effects. The result is zero if the accelerations are those of the free motion.
     WithEffects,
     /// All terms, without effects.
     WithoutEffects,
@@ -37,13 +37,13 @@ pub enum EffortTerms {
 /// Links of one joint of the tree, or of a free body without a joint.
 #[derive(Debug, Clone, PartialEq)]
 pub struct JointLinks<T> {
-    /// Number of the joint: `scene.joints[joint]`; `None` for a free body without a joint.
+    /// Index of the joint: `scene.joints[joint]`; `None` for a free body without a joint.
     pub joint: Option<usize>,
-    /// Body that the joint carries. Of several welded bodies it is the first.
+    /// Index of the body that the joint carries. If several welded bodies are carried, this is the first of them.
     pub body: usize,
     /// Links of the joint from the parent to the child, one for each freedom. A ball or a free joint has one link.
     pub links: Range<usize>,
-    /// Is the parent the joint's second body? The links are then in reverse order of the joint's coordinates.
+    /// True if the parent is the joint's second body. The links are then in reverse order of the joint's coordinates.
     pub is_reversed: bool,
     /// The origin of the last link in the reference configuration [m].
     pub origin: [T; 3],
@@ -61,7 +61,8 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         })
     }
 
-    /// Writes the efforts along all freedoms that cause the state's accelerations `a`, with all loops open.
+    /// Writes the efforts along all freedoms that cause the accelerations `a` of the state, with all loops open [N m for angles, N for
+    /// slides].
     ///
     /// Cost: two outward passes and an inward one; no allocation.
     ///
@@ -91,7 +92,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         if terms == EffortTerms::Inertia {
             s.a[0] = S::Motion::zero();
         }
-        // In this case v is zero. With zero accelerations the efforts are those of gravity.
+        // The velocities `s.v` are zero in this case. Used as accelerations too, they give the efforts of gravity alone.
         let a = if terms == EffortTerms::Gravity { &*s.v } else { &state.a };
         own(inverse::spread(m.links, s.placed, a, s.a));
         own(inverse::forces(&m, &mut s));

@@ -44,9 +44,9 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         Ok(())
     }
 
-    /// Applies inputs that were set since the last step: evaluates accelerations, multipliers and power with them. Returns whether an input
-    /// has changed. The change of stored spring energy by the new inputs is counted as work. Every step begins with this call. A caller
-    /// that wants to return to the state before a step calls it before copying the state.
+    /// Applies inputs that were set since the last step: evaluates accelerations, multipliers and power with the new inputs. Returns true
+    /// if an input has changed. New inputs may change the energy stored in springs; this change is counted as work. Every step begins with
+    /// this call. A caller that may return to the state before a step calls this function before it copies the state.
     ///
     /// Cost: nothing if no input changed, otherwise one evaluation; no allocation.
     ///
@@ -65,7 +65,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         Ok(true)
     }
 
-    /// Replaces the accelerations before the jump of a signal by those after it, at time `to` [s].
+    /// Replaces the accelerations before the jump of a signal by the accelerations after the jump, at time `to` [s].
     ///
     /// Cost: one evaluation; no allocation.
     ///
@@ -83,7 +83,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         Ok(())
     }
 
-    /// Replaces the loads of a state by those of the inputs that are set, at time `to` [s].
+    /// Evaluates a state with the loads of the inputs that are set now, at time `to` [s].
     fn take_loads(
         &self,
         options: &Options<T>,
@@ -148,10 +148,9 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         own(rotor::add_efforts(&m, (&state.a, s.guides), s.condensed));
     }
 
-    /// Writes the reaction [N, N m] of each joint: force and moment of the first body on the second. They are about the joint's point on
-    /// the second body, in global axes. Forces of guides are included; effects along the joint are not. Welds and free joints have zero. If
-    /// rows of loops are
-    /// redundant, the multipliers are those of least norm.
+    /// Writes the reaction of each joint: force [N] and moment [N m] of the first body on the second, in global axes. The moment is about
+    /// the joint's point on the second body. Forces of guides are included; effects along the joint are not included. Reactions of welds
+    /// and free joints are zero. If rows of loops are redundant, the multipliers are those of least norm.
     ///
     /// Cost: an outward and an inward pass; no allocation.
     ///
@@ -175,8 +174,8 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
             let through = s.condensed[link].force - along(seat, &s);
             let force = S::point_into(&S::point(&through));
             let moment = S::spin_into(&S::spin(&through));
-            // On the child, about its origin, which is the joint's point. For a reversed joint: on the parent, about the joint's point
-            // there.
+            // The wrench acts on the child, about the child's origin, which is the joint's point. For a reversed joint it acts on the
+            // parent, about the joint's point on the parent.
             out[joint] = if seat.branch.is_reversed {
                 let apart = s.placed[link].position - self.parent_place(seat, &s);
                 let arm = S::point_into(&apart);
@@ -198,7 +197,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         }
     }
 
-    /// Returns the effort of `scene.couplings[coupling]`. The force along a coordinate is the coordinate's factor times the effort [N m or
+    /// Returns the effort of `scene.couplings[coupling]`. The effort times a coordinate's factor is the force along this coordinate [N m or
     /// N, per unit of the factor]. Returns `None` for a coupling whose joints are all guided.
     #[must_use]
     pub fn coupling_effort(&self, state: &TreeState<T>, coupling: usize) -> Option<T> {
@@ -209,7 +208,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         Some(-*state.lambda.get(row)? * of.inverse)
     }
 
-    /// Returns the joint's point on the parent, from the base of the tree.
+    /// Returns the position of the joint's point on the parent, relative to the base of the tree [m].
     fn parent_place(&self, seat: &TreePlace, s: &Store<'_, T, S>) -> S::Point {
         let first = &self.links[seat.first as usize];
         let parent = &s.placed[first.parent as usize];
@@ -230,7 +229,8 @@ fn kinetic<T: Real, S: Space<T>>(
     Ok(twice * T::HALF)
 }
 
-/// Returns the wrench of effects and rotors along a joint's coordinates. It acts on the joint's last link, about its origin.
+/// Returns the wrench of effects and rotors along a joint's coordinates. The wrench acts on the joint's last link, about the origin of this
+/// link.
 fn along<T: Real, S: Space<T>>(place: &TreePlace, s: &Store<'_, T, S>) -> S::Motion {
     let mut sum = S::Motion::zero();
     for link in place.first as usize..=place.link as usize {

@@ -1,4 +1,4 @@
-//! Conversion between joint coordinates and the motions of the bodies.
+//! Conversion between the coordinates of a tree and the motions of the bodies.
 
 use crate::build::TreeError;
 use crate::build::graph::Branch;
@@ -60,10 +60,10 @@ impl From<StepError> for StartError {
 
 impl<T: Real, S: Space<T>> TreeModel<T, S> {
     /// Returns the state of an assembled mechanism. Coordinates are computed from natural ones and projected onto the loops. Accelerations
-    /// are evaluated. Angles are those nearest to the scene's start values.
+    /// are evaluated. Of all angles that differ by whole turns, the angle nearest to the scene's start value is chosen.
     ///
     /// # Errors
-    /// [`StartError`] if the loops do not close, or are in a singular position.
+    /// [`StartError`] if the loops cannot be closed, or if they are in a singular position.
     pub fn start<const D: usize>(
         &self,
         scene: &Scene<T>,
@@ -83,7 +83,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
     /// Makes the state of an assembled mechanism at time `t` from one motion for each of the scene's bodies.
     ///
     /// # Errors
-    /// The errors are those of [`start`](Self::start).
+    /// Fails as [`start`](Self::start) does.
     ///
     /// # Panics
     /// If there are fewer motions than bodies.
@@ -98,8 +98,8 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         Ok(state)
     }
 
-    /// Computes coordinates and velocities from one motion for each of the scene's bodies, at the state's time. Angles are those nearest to
-    /// the angles in the state.
+    /// Computes coordinates and velocities from one motion for each of the scene's bodies, at the state's time. Of all angles that differ
+    /// by whole turns, the angle nearest to the angle in the state is chosen.
     ///
     /// # Panics
     /// If there are fewer motions than bodies.
@@ -145,8 +145,8 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         state
     }
 
-    /// Projects the positions of a state onto the loops, by the change that is smallest in the norm of the masses. Everything else in the
-    /// state is kept.
+    /// Projects the positions of a state onto the constraints of the loops. The change of the positions is the smallest in the norm of the
+    /// mass matrix. All other numbers of the state are unchanged.
     ///
     /// Cost: a few projections; no allocation.
     ///
@@ -167,7 +167,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         Ok(())
     }
 
-    /// Projects positions and velocities on the loops and evaluates accelerations and multipliers.
+    /// Projects positions and velocities onto the constraints of the loops, then evaluates accelerations and multipliers.
     ///
     /// # Errors
     /// [`StepError`]; the state is then unchanged.
@@ -242,7 +242,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         }
     }
 
-    /// Computes the angles and slides of a joint of several parts, from the parent to the child.
+    /// Computes the angles and slides of a joint that consists of several parts, from the parent to the child.
     fn read_chain(
         &self,
         seat: &TreePlace,
@@ -261,8 +261,8 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
             let z = &mut state.z[self.links[at].z as usize];
             axes[k] = rotation * part.axis;
             if part.kind == LinkKind::Revolute {
-                // The angle is that of a direction about the axis: the next revolute axis, which later parts do not rotate about this axis,
-                // or else any direction across the axis.
+                // The angle is measured by the rotation of one direction about the axis. The direction is the next revolute axis, because
+                // later parts do not rotate it about this axis. Without a next revolute axis, any direction across the axis is used.
                 let next = turns.iter().find(|&&j| j > k).map(|&j| chain[j].axis);
                 let shown = next.unwrap_or_else(|| across(&part.axis));
                 let v = shown - part.axis * part.axis.dot(&shown);
@@ -280,7 +280,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
                 *z = gap.dot(&axes[k]);
             }
         }
-        // Rates: first the revolute ones from ω = Σ n z', then the slides, in the frame that carries them.
+        // Rates: first the rates of the revolute parts from ω = Σ n z', then the rates of the slides, in the frame that carries the slides.
         let mut rates = vec![T::ZERO; chain.len()];
         match turns[..] {
             [j] => rates[j] = turning.dot(&axes[j]),
@@ -353,7 +353,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         state: &TreeState<T>,
         workspace: &mut Workspace<T, S>,
     ) -> Result<usize, StepError> {
-        /// Regularisation of the rows for the rank, in units of rounding [-]. Chosen, not tuned.
+        /// Regularisation of the rows when the rank is determined, in units of machine precision [-]. Chosen, not tuned.
         const SHARP: f64 = 256.0;
         let m = self.mechanism();
         let options = Options { closure: Closure::Constraints, ..Options::default() };
@@ -376,8 +376,8 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
     }
 }
 
-/// Returns the rotation of a branch's child against its parent: the last coordinates of the joint, with opposite sign if the joint is
-/// reversed.
+/// Returns the rotation vector of a branch's child relative to its parent. It consists of the last coordinates of the joint, with opposite
+/// sign if the joint is reversed.
 fn turned<T: Real>(branch: &Branch, values: &[T]) -> Vector<T, 3> {
     let sign = if branch.is_reversed { -T::ONE } else { T::ONE };
     let mut last = Vector::<T, 3>::zeros();
@@ -385,13 +385,13 @@ fn turned<T: Real>(branch: &Branch, values: &[T]) -> Vector<T, 3> {
     last
 }
 
-/// Returns a spatial vector without the components that the plane does not have.
+/// Returns a vector in which the components that do not exist in this space are zero.
 fn lifted<T: Real, S: Space<T>>(x: &Vector<T, 3>) -> Vector<T, 3> {
     S::point_into(&S::point_from(x))
 }
 
-/// Chooses the sign of the quaternion in `z` by the rotation vector nearest to `last`. The scalar part is negative if the rotation angle is
-/// above half a turn.
+/// Chooses the sign of the quaternion in `z`, so that its rotation vector is the one nearest to `last`. The scalar part is negative if the
+/// angle of this rotation vector is above half a turn.
 fn orient<T: Real, S: Space<T>>(rotation: &Matrix<T, 3>, last: Vector<T, 3>, z: &mut [T]) {
     let Some((q, _)) = z.split_first_chunk_mut::<4>().filter(|_| S::DIMENSION == 3) else { return };
     let w = unwrap_rotation(&rotation_vector(rotation), &last);

@@ -19,7 +19,8 @@ use mbs_core::ode::{Adaptive, Extrapolation, Radau, Tableau, rk4_scratch};
 pub struct TreeState<T> {
     /// Time of the state [s].
     pub t: T,
-    /// Coordinates: angles [rad], slides [m], quaternions of balls. A free body has its rotation, then its position [m].
+    /// Coordinates: angles [rad], slides [m], quaternions of balls. A free body has its rotation (an angle [rad] in the plane, a quaternion
+    /// in space), then its position [m].
     pub z: Vec<T>,
     /// Velocities: rates of angles and slides, and angular velocities in the link's own axes. A free body has its angular velocity, then
     /// the velocity of its origin in global axes.
@@ -30,12 +31,12 @@ pub struct TreeState<T> {
     pub a_aux: Vec<T>,
     /// Multipliers of the cut joints' equations [N, N m].
     pub lambda: Vec<T>,
-    /// Inputs for the next step, set from outside. The functions [`Prescribed::input`](mbs_core::inputs::Prescribed::input) and
-    /// [`Prescribed::guide_input`](mbs_core::inputs::Prescribed::guide_input) return their indices.
+    /// Inputs for the next step, set by the caller. The functions [`Prescribed::input`](mbs_core::inputs::Prescribed::input) and
+    /// [`Prescribed::guide_input`](mbs_core::inputs::Prescribed::guide_input) return the indices of inputs.
     pub inputs: Vec<T>,
     /// Inputs for which accelerations, multipliers and power were evaluated.
     pub applied: Vec<T>,
-    /// States of signals that have a state, then the signals that depend on the motion, each with its rate.
+    /// Values and rates of signals: first the states of signals that have a state, then the signals that depend on the motion.
     pub signals: Vec<[T; 2]>,
     /// Work of dampers, signals and guides since the start [J].
     pub work: T,
@@ -64,7 +65,7 @@ impl<T: Real> TreeState<T> {
         }
     }
 
-    /// Returns the state as the start of a step.
+    /// Returns the numbers of the state from which a step starts.
     pub(crate) fn start(&self) -> Start<'_, T> {
         Start { t: self.t, z: &self.z, v: &self.v, a: &self.a, signals: &self.signals }
     }
@@ -105,19 +106,19 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
     }
 }
 
-/// Scratch of the steps of one model. Only [`Workspace::new`] allocates, and the first step by [`Radau5`](crate::TreeMethod::Radau5), for
-/// its matrices.
+/// Scratch memory of the steps of one model. [`Workspace::new`] allocates the scratch. The first step by
+/// [`Radau5`](crate::TreeMethod::Radau5) allocates its matrices. No other step allocates.
 #[derive(Debug, Clone)]
 pub struct Workspace<T: Real, S: Space<T>> {
     placed: Vec<LinkMotion<T, S>>,
     trial: Vec<LinkMotion<T, S>>,
     condensed: Vec<ArticulatedInertia<T, S>>,
     motions: Vec<S::Motion>,
-    /// Gradients K of the loop rows, twice: as evaluated at the bodies, and as carried inward.
+    /// Gradients K of the loop rows, in two copies: as evaluated at the bodies, and as carried inward.
     gradients: Vec<S::Motion>,
     slopes: Vec<T>,
     rows: Vec<[T; 3]>,
-    /// Numbers of each loop row, in this order: l, λ, scales, pivots, summed λ.
+    /// Numbers of each loop row, in this order: right-hand side l, multiplier λ, scale, pivot, sum of the multipliers λ.
     multipliers: Vec<T>,
     blocks: Vec<T>,
     gains: Vec<T>,
@@ -126,7 +127,7 @@ pub struct Workspace<T: Real, S: Space<T>> {
     signals: [Vec<[T; 2]>; 2],
     course_slopes: Vec<CourseSlope<T>>,
     z: Vec<T>,
-    /// Numbers of each freedom, in this order: v, z̈, response, scratch.
+    /// Numbers of each freedom, in this order: velocity v, acceleration z̈, response to multipliers, scratch.
     freedoms: Vec<T>,
     history: Vec<T>,
     n_guides: usize,

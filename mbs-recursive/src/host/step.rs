@@ -30,31 +30,32 @@ pub enum TreeMethod {
     Rk4,
     /// The pair 5(4) of Dormand and Prince, with error control.
     ///
-    /// Cost: six evaluations for each step tried. With loops up to seven and a quarter, because the error is projected too.
+    /// Cost: six evaluations for each step tried. With loops the cost is at most 7.25 evaluations, because the error is projected too.
     Rk54,
     /// The method 8(5,3) of Dormand and Prince, with error control: for errors of 1e-6 and below in smooth motions.
     ///
-    /// Cost: twelve evaluations for each step tried; with loops twelve and a half.
+    /// Cost: twelve evaluations for each step tried; with loops 12.5 evaluations.
     Rk853,
-    /// Extrapolation with error control, which chooses its order by cost. For reference runs: in double-double the error may be 1e-28.
+    /// Extrapolation with error control, which chooses its order by cost. This method is for reference runs: in double-double numbers the
+    /// required error may be as small as 1e-28.
     ///
     /// Cost: k² evaluations for each step tried with k columns; one more with loops.
     Extrapolation,
     /// Radau collocation with three points and error control, implicit and of order 5. Stiff effects do not limit its step. The step length
     /// is kept constant where possible.
     ///
-    /// Cost: about ten evaluations for each step. A new Jacobian takes n + 1 more for n components. A change of the step takes five times
-    /// (n/2)³ products. The first call allocates 4 n² numbers.
+    /// Cost: about ten evaluations for each step. With n components, a new Jacobian takes n + 1 more evaluations. A change of the step
+    /// length takes 5 (n/2)³ multiplications. The first call allocates 4 n² numbers.
     Radau5,
 }
 
 impl<T: Real, S: Space<T>> TreeModel<T, S> {
     /// Advances `state` by one step of length `dt` [s] with a method.
     ///
-    /// Cost: that of the [`TreeMethod`]; no allocation except where its documentation says so.
+    /// Cost: see the [`TreeMethod`]. The step allocates only where the documentation of the method says so.
     ///
     /// # Errors
-    /// [`StepError`]; the state is then as [`TreeModel::take_inputs`] left it.
+    /// [`StepError`]; the inputs are then applied by [`TreeModel::take_inputs`], and the state is otherwise unchanged.
     pub fn step(
         &self,
         method: TreeMethod,
@@ -80,14 +81,14 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         Ok(report)
     }
 
-    /// Advances `state` by one step of length `dt` [s] with bounded work, as a controller does.
+    /// Advances `state` by one step of length `dt` [s] with a bounded number of operations, as a controller does.
     ///
     /// The state's `work` is not updated.
     ///
     /// Cost: see [`bounded::step`]; no allocation.
     ///
     /// # Errors
-    /// [`StepError`]; the state is then as [`TreeModel::take_inputs`] left it.
+    /// [`StepError`]; the inputs are then applied by [`TreeModel::take_inputs`], and the state is otherwise unchanged.
     pub fn bounded_step(
         &self,
         (dt, options, bounds): (T, &Options<T>, Bounds),
@@ -115,7 +116,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         self.take_inputs(options, state, workspace).map(drop)
     }
 
-    /// Returns the error with the number of the scene's effect in place of the load's number.
+    /// Returns the error with the index of the scene's effect in place of the index of the load.
     fn with_effect(&self, error: StepError) -> StepError {
         let of = |load: u32| {
             let effect = self.effects.get(load as usize).copied().unwrap_or(usize::MAX);
@@ -132,8 +133,8 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
     }
 }
 
-/// Makes one step of a method and leaves its end in `s`. For every method except the trapezoidal rule, the last entry of `y` is the work
-/// done.
+/// Makes one step of a method and writes the state at the end of the step into `s`. For every method except the trapezoidal rule, the last
+/// entry of `y` is the work done.
 fn make<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
     inputs: &impl Inputs<T>,
@@ -170,7 +171,7 @@ fn make<T: Real, S: Space<T>>(
     }
 }
 
-/// Copies the end of a step into the state.
+/// Copies the result of a step into the state.
 fn take<T: Real, S: Space<T>>(
     options: &Options<T>,
     (dt, power): (T, T),

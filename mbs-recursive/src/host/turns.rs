@@ -1,8 +1,8 @@
-//! Whole turns at the start. The assembly counts whole turns of the angles that effects measure. The tree takes these turns over into its
+//! Whole turns at the start. The assembly counts whole turns of the angles that effects measure. The tree adds these turns to its
 //! coordinates.
 //!
 //! The coordinate of a joint starts at the value nearest to its given value. The angle of a free link comes from its rotation matrix,
-//! within half a turn. An angle between a free link and another link may therefore lack whole turns, which the natural state remembers.
+//! within half a turn. An angle between a free link and another link may therefore lack whole turns. The natural state stores these turns.
 
 use crate::build::TreeModel;
 use crate::build::own_tables::own;
@@ -18,7 +18,7 @@ use mbs_core::model::State;
 use mbs_core::natural::{NaturalModel, unwrap};
 use mbs_core::scene::Scene;
 
-/// Groups of links whose relative turns are known. A group is named by the free link at its root, or 0 for the ground.
+/// Groups of links whose relative turns are known. The name of a group is the index of the free link at its root, or 0 for the ground.
 struct Groups {
     /// Group of each root link.
     of: Vec<u32>,
@@ -29,14 +29,14 @@ impl Groups {
         self.of[root as usize]
     }
 
-    /// Joins the second group to the first; the joined group has the name of the first.
+    /// Joins two groups of links. The joined group has the name of the first group.
     fn join(&mut self, [first, second]: [u32; 2]) {
         self.of.iter_mut().filter(|of| **of == second).for_each(|of| *of = first);
     }
 }
 
 impl<T: Real, S: Space<T>> TreeModel<T, S> {
-    /// Adds the whole turns that the natural state remembers for couplings and effects to the coordinates.
+    /// Adds whole turns to the coordinates. The natural state stores these turns for couplings and effects.
     pub(crate) fn take_turns<const D: usize>(
         &self,
         scene: &Scene<T>,
@@ -108,7 +108,8 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         link
     }
 
-    /// Returns the whole turns by which the rotation of the second link against the first differs from the remembered one [rad].
+    /// Returns the whole turns [rad] that the rotation of the second link relative to the first lacks, compared with the rotation stored in
+    /// `last`.
     fn missing(&self, state: &TreeState<T>, links: [u32; 2], last: &[T]) -> T {
         if S::DIMENSION == 2 {
             return unwrap(T::ZERO, last[0] - self.turn_of(state, links));
@@ -118,12 +119,12 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         if gap.sqrt() > T::PI { T::TWO * T::PI } else { T::ZERO }
     }
 
-    /// Returns the angle of the second link against the first in the plane, including whole turns [rad].
+    /// Returns the angle of the second link relative to the first in the plane, including whole turns [rad].
     pub(crate) fn turn_of(&self, state: &TreeState<T>, links: [u32; 2]) -> T {
         self.with_angles(state, |at| own(at.turn(links[1])) - own(at.turn(links[0])))
     }
 
-    /// Evaluates `f` at an instant with coordinates only; the places of the links are not set.
+    /// Calls `f` with an instant that has coordinates only; the places of the links are not set.
     fn with_angles<R>(&self, state: &TreeState<T>, f: impl FnOnce(&Instant<'_, T, S>) -> R) -> R {
         let mut guides = vec![[T::ZERO; 3]; self.prescribed.n_guides()];
         let mut signals = vec![[T::ZERO; 3]; self.prescribed.signals().len()];

@@ -10,7 +10,7 @@ use crate::passes::slices::{Store, TreeSlices};
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
 
-/// Evaluates the accelerations under given efforts along the freedoms; the other loads are those of gravity.
+/// Evaluates the accelerations under given efforts along the freedoms and under gravity.
 pub(crate) fn accelerations_under<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
     options: &Options<T>,

@@ -6,7 +6,7 @@ use mbs_core::Real;
 use mbs_core::elements::NONE;
 use mbs_core::measure::{polynomial, spline_curve};
 
-/// Does this build support curves of couplings and sums?
+/// True if this build supports curves of couplings and sums.
 pub const IS_BUILT: bool = cfg!(feature = "curves");
 
 /// A twice differentiable function.
@@ -16,7 +16,8 @@ pub enum CurveTable<T> {
     Spline {
         /// Knots of the spline.
         knots: Span,
-        /// Index of the spline's first second derivative in the numbers. A spline has one second derivative for each knot.
+        /// Index in the list of numbers at which the second derivatives of the spline begin. A spline has one second derivative for each
+        /// knot.
         first: u32,
         /// Period of the spline; zero means that the spline is not periodic.
         period: T,

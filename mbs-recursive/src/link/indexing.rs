@@ -1,9 +1,9 @@
-//! Access to entries of tables by number, without a panic: a number beyond the end of a table returns a typed error.
+//! Access to entries of tables by index, without a panic: an index beyond the end of a table returns a typed error.
 //!
-//! The numbers of a model are checked when the model is built or loaded, so this error does not occur in a valid model. The compiler cannot
+//! The indices in a model are checked when the model is built or loaded, so this error does not occur in a valid model. The compiler cannot
 //! know this. With plain indexing it would add a path to a panic at every index.
 
-/// Error: a number in a mechanism's tables is out of range, or a scratch slice has the wrong length.
+/// Error: an index in a mechanism's tables is out of range, or a scratch slice has the wrong length.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Outside;
 
@@ -31,7 +31,7 @@ pub(crate) fn part_mut<X>(table: &mut [X], first: usize, n: usize) -> Result<&mu
     table.get_mut(first..).and_then(|rest| rest.get_mut(..n)).ok_or(Outside)
 }
 
-/// Returns two parts of a table at once: one to read and one to write. One part must lie entirely before the other.
+/// Returns two parts of a table at once: one to read and one to write. The parts must not overlap.
 #[inline(always)]
 pub(crate) fn apart<X>(
     table: &mut [X],

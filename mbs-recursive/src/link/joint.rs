@@ -6,6 +6,9 @@
 //! advance    z'' = D⁻¹ (u − Uᵀ a')                      [P3 (35)]
 //! pass       rows K of loops: K ← K − (K b) D⁻¹ Uᵀ
 //! ```
+//!
+//! I and p are the articulated inertia and the bias force of the link. b is the motion of the link for unit rate z' of the joint, τ the
+//! effort along the joint. a' is the acceleration of the link for z'' = 0.
 
 use crate::link::indexing::{Outside, at, at_mut, part, part_mut};
 use crate::link::{ArticulatedInertia, Link, LinkKind, LinkMotion};
@@ -17,7 +20,7 @@ use mbs_core::laws::spin::spin;
 /// Error: the links beyond a joint have no inertia along the freedom of the joint.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NoInertia<T> {
-    /// Number of the link that the joint carries.
+    /// Index of the link that the joint carries.
     pub link: u32,
     /// Pivot bᵀ I b that was computed.
     pub pivot: T,
@@ -70,7 +73,8 @@ pub(crate) fn place<T: Real, S: Space<T>, const MOVES: bool>(
     })
 }
 
-/// Returns place and motion of a link that moves with its parent. Velocity and bias do not yet contain the motion of the joint.
+/// Returns place and motion of a link at the present position of its joint, as if the rate of the joint were zero. The caller adds the rate
+/// of the joint to velocity and bias.
 #[inline(always)]
 fn carried<T: Real, S: Space<T>, const MOVES: bool>(
     link: &Link<T, S>,
@@ -128,10 +132,10 @@ fn free<T: Real, S: Space<T>, const MOVES: bool>(
     Ok(p)
 }
 
-/// Does this build support guided balls? Tables for controllers have no guided balls.
+/// True if this build supports guided balls. Tables for controllers have no guided balls.
 pub(crate) const HAS_GUIDED_BALLS: bool = cfg!(feature = "alloc");
 
-/// Returns place and motion of a link whose rotation against its parent is prescribed by a guided ball.
+/// Returns place and motion of a link whose rotation relative to its parent is prescribed by a guided ball.
 #[inline(never)]
 fn guided_ball<T: Real, S: Space<T>, const MOVES: bool>(
     link: &Link<T, S>,
@@ -143,7 +147,7 @@ fn guided_ball<T: Real, S: Space<T>, const MOVES: bool>(
     }
     let f = guided_vector(link, guides)?;
     let angle = norm(&f[0]);
-    // without a rotation any axis gives the identity
+    // if the angle is zero, any axis gives the identity
     let axis = if angle > T::ZERO { f[0] * (T::ONE / angle) } else { f[0] };
     let rotation = S::turned(&parent.rotation, &S::spin_from(&axis), angle);
     // guided ball: ω = ω_p + w,   d = (ω_p × w + R_p ω'(f), ω_p × (ω_p × r)),   w = R_p ω(f)
@@ -159,7 +163,7 @@ fn guided_ball<T: Real, S: Space<T>, const MOVES: bool>(
     Ok(p)
 }
 
-/// Returns the rotation vector of a guided ball's link against its parent, with its first two derivatives.
+/// Returns the rotation vector of a guided ball's link relative to its parent, with its first two derivatives.
 pub(crate) fn guided_vector<T: Real, S: Space<T>>(
     link: &Link<T, S>,
     guides: &[[T; 3]],
@@ -174,7 +178,7 @@ pub(crate) fn guided_vector<T: Real, S: Space<T>>(
     Ok(f)
 }
 
-/// Reads consecutive numbers of a slice, from number `first`.
+/// Reads consecutive numbers of a slice, beginning at index `first`.
 #[inline(always)]
 pub(crate) fn read<T: Real, X: Numbers<T>>(from: &[T], first: usize) -> Result<X, Outside> {
     let mut x = X::zero();
@@ -184,7 +188,7 @@ pub(crate) fn read<T: Real, X: Numbers<T>>(from: &[T], first: usize) -> Result<X
     Ok(x)
 }
 
-/// Writes numbers into a slice, from number `first`.
+/// Writes numbers into a slice, beginning at index `first`.
 #[inline(always)]
 pub(crate) fn write<T: Real, X: Numbers<T>>(
     x: &X,
@@ -204,7 +208,8 @@ pub(crate) fn eliminate<T: Real, S: Space<T>>(
     p: &LinkMotion<T, S>,
     c: &mut ArticulatedInertia<T, S>,
 ) -> Result<(S::Inertia, S::Motion), T> {
-    /// Largest pivot that counts as no inertia, in units of rounding of the inertia's size [-]. Chosen, not tuned.
+    /// Largest pivot that counts as no inertia, relative to the magnitude of the inertia and in units of machine precision [-]. Chosen, not
+    /// tuned.
     const ROUNDINGS: f64 = 64.0;
     let rounding = T::EPSILON * T::from_f64(ROUNDINGS);
     match kind {
@@ -279,7 +284,7 @@ pub(crate) fn impulse<T: Real, S: Space<T>>(
     }
 }
 
-/// Computes z'' = D⁻¹ (u − Uᵀ a') in world axes, less the response to the multipliers of loops. Returns the link's acceleration.
+/// Computes z'' = D⁻¹ (u − Uᵀ a') in world axes, minus the response to the multipliers of loops. Returns the link's acceleration.
 #[inline(always)]
 pub(crate) fn advance<T: Real, S: Space<T>>(
     link: &Link<T, S>,

@@ -4,7 +4,7 @@ use crate::link::indexing::{Outside, at};
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
 
-/// Kinds of joints in the recursion. Every other joint is composed of several of these.
+/// Kinds of joints in the recursion. Every other joint is composed of several joints of these kinds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LinkKind {
     /// Rotation about an axis fixed in the parent; one freedom.
@@ -13,7 +13,7 @@ pub enum LinkKind {
     Prismatic,
     /// A ball joint; three freedoms (space only).
     Ball,
-    /// Free motion against the ground; six freedoms, in the plane three.
+    /// Free motion relative to the ground; six freedoms, in the plane three.
     Free,
     /// A revolute joint whose angle is prescribed.
     GuidedRevolute,
@@ -45,7 +45,7 @@ impl LinkKind {
         }
     }
 
-    /// Is the motion of the joint prescribed by a guide?
+    /// True if a guide prescribes the motion of the joint.
     #[must_use]
     pub fn is_guided(self) -> bool {
         matches!(self, Self::GuidedRevolute | Self::GuidedPrismatic | Self::GuidedBall)
@@ -55,19 +55,19 @@ impl LinkKind {
 /// A link of the tree. Link 0 is the ground. In the list of links, parents come before their children.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Link<T: Real, S: Space<T>> {
-    /// Number of the parent link.
+    /// Index of the parent link.
     pub parent: u32,
     /// Kind of the joint to the parent.
     pub kind: LinkKind,
     /// Index of the link's first coordinate in z.
     pub z: u32,
-    /// Index of the link's first freedom in v. For a guided joint: number of its guide. For a guided ball: number of the first of its three
+    /// Index of the link's first freedom in v. For a guided joint: index of its guide. For a guided ball: index of the first of its three
     /// guides.
     pub v: u32,
-    /// Unit axis of a revolute joint, reference axes. For a guided ball the axis is ±x: +x if the rotation vector is that of the link
-    /// against its parent, −x if it is that of the parent against the link.
+    /// Unit axis of a revolute joint, in the axes of the reference configuration. For a guided ball the axis is ±x: +x if the guides
+    /// prescribe the rotation of the link relative to its parent, −x if they prescribe the rotation of the parent relative to the link.
     pub axis: S::Spin,
-    /// Unit direction of a prismatic joint, reference axes.
+    /// Unit direction of a prismatic joint, in the axes of the reference configuration.
     pub direction: S::Point,
     /// Vector from the parent's origin to the joint, reference axes [m].
     pub offset: S::Point,
@@ -80,7 +80,8 @@ pub struct Link<T: Real, S: Space<T>> {
 }
 
 impl<T: Real, S: Space<T>> Link<T, S> {
-    /// Angle of the link against its parent in the plane, for a value of its coordinate; for a free link against the ground [rad].
+    /// Angle of the link in the plane for a value of its coordinate [rad]. The angle is relative to the parent, for a free link relative to
+    /// the ground.
     pub(crate) fn turn(&self, coordinate: T) -> T {
         match self.kind {
             // guided balls exist in space only
@@ -178,7 +179,7 @@ impl<T: Real, S: Space<T>> ArticulatedInertia<T, S> {
 /// Inertia that a rotor adds to the coordinate of a link whose joint has one freedom.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LinkRotor<T> {
-    /// Number of the link.
+    /// Index of the link.
     pub link: u32,
     /// Rotor inertia times the square of its transmission ratio [kg m^2; kg for a slide].
     pub inertia: T,

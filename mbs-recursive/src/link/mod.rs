@@ -1,4 +1,4 @@
-//! Links with the joints to their parents, and the numbers, tables and options that the other modules use.
+//! Links with the joints to their parents, and the indexing, tables and options that the other modules use.
 
 pub mod curves;
 pub(crate) mod indexing;

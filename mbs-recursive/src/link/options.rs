@@ -13,7 +13,7 @@ pub struct Options<T> {
     pub tolerance: T,
     /// Largest number of fixed-point iterations in a step.
     pub max_iterations: u32,
-    /// Largest number of sweeps of a projection.
+    /// Largest number of sweeps (iterations) of one projection.
     pub max_sweeps: u32,
     /// Method by which loops are closed.
     pub closure: Closure<T>,
@@ -22,10 +22,10 @@ pub struct Options<T> {
     pub error: T,
     /// First step tried with error control [s]. `None`: the first step has the length of the call.
     pub first_step: Option<T>,
-    /// Largest number of steps that a call with error control tries. A call fails earlier if its remaining time would take more than ten
-    /// times this number of steps. This is checked after a tenth of the number, and after 10,000 steps at the earliest.
+    /// Largest number of steps that a call with error control tries. A call fails earlier if the remaining time would take more than ten
+    /// times this number of steps. This is checked after a tenth of this number of steps, but not before 10,000 steps.
     pub max_steps: u32,
-    /// Regularisation ε in Λ + ε, relative to the scale of each row [-].
+    /// Regularisation ε that is added to the diagonal of Λ = J M⁻¹ Jᵀ, relative to the scale of each row [-].
     pub regularisation: T,
 }
 
@@ -56,17 +56,17 @@ impl<T: Real> Closure<T> {
 }
 
 impl<T: Real> Default for Options<T> {
-    /// Returns the default options. Trapezoidal rule with tolerance 1e-10 (64 roundings in single precision), 50 iterations and 30 sweeps.
-    /// Error control with error 1e-8 and a million steps. Regularisation ε = √rounding / 256.
+    /// Returns the default options. The trapezoidal rule has tolerance 1e-10 (in single precision 64 times machine precision), 50
+    /// iterations and 30 sweeps. Error control has error 1e-8 and a million steps. The regularisation is ε = √(machine precision) / 256.
     fn default() -> Self {
         /// Default tolerance of corrections, relative to the displacement by accelerations in a step [-].
         const TOLERANCE: f64 = 1e-10;
         /// Default error of a step with error control, relative to the size of a component [-].
         const ERROR: f64 = 1e-8;
-        /// Smallest tolerance and error, in units of rounding [-]. It is larger than the defaults in single precision only. Chosen, not
-        /// tuned.
+        /// Smallest tolerance and error, in units of machine precision [-]. This limit is larger than the defaults in single precision
+        /// only. Chosen, not tuned.
         const ROUNDINGS: f64 = 64.0;
-        /// Regularisation of the rows of loops, in units of the square root of rounding [-]. Chosen, not tuned.
+        /// Regularisation of the rows of loops, in units of the square root of machine precision [-]. Chosen, not tuned.
         const REGULARISATION: f64 = 1.0 / 256.0;
         let least = T::EPSILON * T::from_f64(ROUNDINGS);
         Self {

@@ -9,7 +9,7 @@
 pub struct Span {
     /// First index of the range.
     pub first: u32,
-    /// Index after the last one of the range.
+    /// Index after the last index of the range.
     pub end: u32,
 }
 
@@ -20,7 +20,7 @@ impl Span {
     pub fn range(self) -> core::ops::Range<usize> {
         self.first as usize..self.end as usize
     }
-    /// Is the range empty?
+    /// True if the range is empty.
     #[inline(always)]
     #[must_use]
     pub fn is_empty(self) -> bool {
@@ -28,7 +28,7 @@ impl Span {
     }
 }
 
-/// Loops at a link: those whose rows pass its joint, those coupled there, and those eliminated there.
+/// Loops at a link: loops whose rows pass the joint of the link, loops that are coupled by this, and loops that are eliminated at the link.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Station {
     /// Passes of loops through the joint of the link.
@@ -42,11 +42,11 @@ pub struct Station {
 /// Passage of one side of a loop through a joint.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Pass {
-    /// Number of the loop.
+    /// Index of the loop.
     pub lap: u32,
     /// Side of the loop: 0 for the side of the first body, 1 for the side of the second.
     pub side: u32,
-    /// Index of its gains. Their number is the number of rows times the number of freedoms of the joint.
+    /// Index of the first gain of the pass. A pass has one gain for each row of the loop and each freedom of the joint.
     pub gain: u32,
 }
 
@@ -64,7 +64,7 @@ pub struct Pair {
 /// Elimination of one loop.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct End {
-    /// Number of the loop.
+    /// Index of the loop.
     pub lap: u32,
     /// Couplings of the loop with loops that are eliminated later.
     pub couplings: Span,
@@ -75,7 +75,7 @@ pub struct End {
 /// Coupling of an eliminated loop with a loop that is eliminated later.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct LoopCoupling {
-    /// Number of the later loop.
+    /// Index of the later loop.
     pub lap: u32,
     /// Side by which the later loop passes the link of elimination.
     pub side: u32,
@@ -105,7 +105,7 @@ pub struct Plan<'a> {
     pub pairs: &'a [Pair],
     /// Eliminations of loops, in order; see [`End`].
     pub ends: &'a [End],
-    /// Couplings of eliminated loops with later ones; see [`LoopCoupling`].
+    /// Couplings of eliminated loops with loops that are eliminated later; see [`LoopCoupling`].
     pub couplings: &'a [LoopCoupling],
     /// Updates of blocks by eliminations; see [`Update`].
     pub updates: &'a [Update],

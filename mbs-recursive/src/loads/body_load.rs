@@ -15,11 +15,11 @@ use mbs_core::laws::body::{BodyLaw, BodyMotion, MAX_ACTIONS, UnitWrench};
 /// A law that acts on one body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BodyLoad<T: Real, S: Space<T>> {
-    /// Point of the law, from the link's origin, reference axes [m].
+    /// Index of the link on which the law acts.
     pub link: u32,
-    /// The law's point, from the link's origin, reference axes.
+    /// Vector from the link's origin to the point of the law, in the axes of the reference configuration [m].
     pub point: S::Point,
-    /// Direction of the law, reference axes.
+    /// Direction of the law, in the axes of the reference configuration.
     pub axis: [T; 3],
     /// Law that acts on the body.
     pub law: BodyLaw<T>,
@@ -31,7 +31,7 @@ impl<T: Real, S: Space<T>> BodyLoad<T, S> {
         let speed = at.speed(self.link, &at.arm(self.link, &self.point)?)?;
         let along = S::rotate(&placed.rotation, &S::point_from(&Vector::from(self.axis)));
         let mut axis = S::point_into(&along);
-        // A direction across the plane does not turn.
+        // A direction normal to the plane does not rotate with the link.
         if S::DIMENSION == 2 {
             axis[2] = self.axis[2];
         }
@@ -45,7 +45,7 @@ impl<T: Real, S: Space<T>> BodyLoad<T, S> {
         Ok(())
     }
 
-    /// Sums a number over the actions of the law.
+    /// Evaluates `number` for each action of the law and returns the sum.
     fn sum(
         &self,
         at: &Instant<'_, T, S>,
@@ -71,8 +71,8 @@ impl<T: Real, S: Space<T>> BodyLoad<T, S> {
         Ok(S::wrench(&arm, &force) + S::motion(moment, S::Point::zero()))
     }
 
-    /// Adds the wrench of the law and its dependence on the acceleration. `a` is the acceleration for which the wrench was evaluated. The
-    /// dependence is an inertia that is added to the link.
+    /// Adds the wrench of the law, and its linear dependence on the acceleration as an inertia of the link. `a` is the acceleration for
+    /// which the wrench was evaluated.
     pub(super) fn apply_ahead(
         &self,
         at: &Instant<'_, T, S>,
@@ -98,7 +98,7 @@ impl<T: Real, S: Space<T>> BodyLoad<T, S> {
         self.sum(at, |k, action| self.law.energy(k, &action.measure))
     }
 
-    /// Returns the power that is not stored as energy [W].
+    /// Returns the power of the law that is not stored as energy, for example in a damper [W].
     pub(super) fn power(&self, at: &Instant<'_, T, S>) -> Result<T, Outside> {
         self.sum(at, |k, action| self.law.power(k, &action.measure))
     }

@@ -15,7 +15,8 @@ use mbs_core::algebra::rotation_gradient;
 use mbs_core::effects::bushing;
 use mbs_core::laws::scalar::{Law, ScalarForce};
 
-/// Number between two links that a law depends on. Points are given from their links' origins, in reference axes.
+/// Number measured between two links, on which a law depends. A point is the vector from its link's origin, in the axes of the reference
+/// configuration.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Measure<T: Real, S: Space<T>> {
     /// The distance of two points.
@@ -27,18 +28,18 @@ pub enum Measure<T: Real, S: Space<T>> {
     Along {
         /// Points on the first and the second link.
         points: [S::Point; 2],
-        /// The direction, reference axes.
+        /// The direction in the first link, in the axes of the reference configuration.
         direction: S::Point,
-        /// Origin from which the distance is counted [m].
+        /// Value of the distance along the direction that counts as zero [m].
         offset: T,
     },
-    /// A component of the rotation vector of the second link in the first. The axis was a global one in the reference configuration. The
-    /// coordinates of the tree determine the rotation below a whole turn.
+    /// A component of the rotation vector of the second link relative to the first, in the first link's axes. In the reference
+    /// configuration these are the global axes. The coordinates of the tree determine the rotation if it is below a whole turn.
     Rotation {
-        /// Number of the component, from 0.
+        /// Index of the component, from 0.
         number: u32,
     },
-    /// The angle of the second link in the first, in the plane. The coordinates of the tree count its whole turns.
+    /// The angle of the second link relative to the first, in the plane. The coordinates of the tree count its whole turns.
     Turn,
 }
 
@@ -77,7 +78,7 @@ impl<T: Real, S: Space<T>> Measure<T, S> {
                 let g = S::motion(S::moment(&x, &y), S::Point::zero());
                 (at.turn(links[1])? - at.turn(links[0])?, [-g, g])
             }
-            // Not in this build, or not in this space: a model with this measure is refused when it is loaded.
+            // This build or this space does not support the measure. A model with this measure is refused when it is loaded.
             Self::Rotation { .. } | Self::Turn => return Err(Outside),
         };
         let rate = gradient[0].dot(&at.placed(links[0])?.velocity)

@@ -31,7 +31,7 @@ use mbs_core::laws::scalar::Law;
 pub enum Load<T: Real, S: Space<T>> {
     /// A law of a number that is measured between two links.
     Between {
-        /// Numbers of the two links.
+        /// Indices of the two links.
         links: [u32; 2],
         /// Measured number on which the law depends.
         gauge: Measure<T, S>,
@@ -40,36 +40,37 @@ pub enum Load<T: Real, S: Space<T>> {
     },
     /// A law of the coordinate of a link with one freedom.
     Angle {
-        /// Number of the link.
+        /// Index of the link.
         link: u32,
         /// Law of the coordinate.
         law: Law<T>,
     },
     /// A constant force in fixed directions.
     Constant {
-        /// Number of the link.
+        /// Index of the link.
         link: u32,
-        /// Vector from the link's origin to the point of application, reference axes [m].
+        /// Vector from the link's origin to the point of application, in the axes of the reference configuration [m].
         point: S::Point,
-        /// The force, global axes [N].
+        /// The force in global axes [N].
         force: S::Point,
     },
     /// A force that follows a signal.
     Force {
-        /// Number of the link.
+        /// Index of the link.
         link: u32,
-        /// Vector from the link's origin to the point of application, reference axes [m].
+        /// Vector from the link's origin to the point of application, in the axes of the reference configuration [m].
         point: S::Point,
-        /// Number of the signal that gives the force.
+        /// Index of the signal that gives the force.
         course: u32,
-        /// Does the force turn with the body?
+        /// True if the direction of the force rotates with the body.
         turns: bool,
     },
-    /// A torque that follows a signal: global axes; in the plane the signal's first component.
+    /// A torque that follows a signal. In space the signal gives the torque in global axes; in the plane the torque is the signal's first
+    /// component.
     Torque {
-        /// Number of the link.
+        /// Index of the link.
         link: u32,
-        /// Number of the signal that gives the torque.
+        /// Index of the signal that gives the torque.
         course: u32,
     },
     /// A law that acts on one body.
@@ -79,10 +80,10 @@ pub enum Load<T: Real, S: Space<T>> {
 }
 
 impl<T: Real, S: Space<T>> Load<T, S> {
-    /// Adds the load's forces: p −= (τ, f).
+    /// Adds the load's moment τ and force f to the bias forces p of links: p −= (τ, f).
     ///
     /// # Errors
-    /// [`Outside`] if the tables do not fit each other.
+    /// [`Outside`] if the tables are inconsistent.
     #[inline]
     pub fn apply(
         &self,
@@ -123,7 +124,7 @@ impl<T: Real, S: Space<T>> Load<T, S> {
     /// Returns the energy stored by the load [J].
     ///
     /// # Errors
-    /// [`Outside`] if the tables do not fit each other.
+    /// [`Outside`] if the tables are inconsistent.
     pub fn potential(&self, at: &Instant<'_, T, S>) -> Result<T, Outside> {
         Ok(match self {
             Self::Between { links, gauge, law } => {
@@ -137,10 +138,10 @@ impl<T: Real, S: Space<T>> Load<T, S> {
         })
     }
 
-    /// Returns the power that is not stored as energy [W].
+    /// Returns the power of the load that is not stored as energy, for example in a damper [W].
     ///
     /// # Errors
-    /// [`Outside`] if the tables do not fit each other.
+    /// [`Outside`] if the tables are inconsistent.
     pub fn power(&self, at: &Instant<'_, T, S>) -> Result<T, Outside> {
         Ok(match self {
             Self::Between { links, gauge, law } => {

@@ -1,4 +1,5 @@
-//! Coefficients by which accelerations change positions and velocities within a step, for effects that depend on accelerations.
+//! Coefficients by which accelerations change positions and velocities within a step. The forces of effects depend on accelerations through
+//! these changes.
 
 use crate::link::ArticulatedInertia;
 use crate::space::{Numbers, Space};
@@ -8,21 +9,21 @@ use mbs_core::laws::scalar::ScalarForce;
 /// Coefficients by which accelerations change positions and velocities at the end of a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Reach<T> {
-    /// Coefficient of positions, β h² [s^2].
+    /// Coefficient of positions, β h², with the integrator's β and the step length h [s^2].
     pub place: T,
-    /// Coefficient of velocities, γ h [s].
+    /// Coefficient of velocities, γ h, with the integrator's γ and the step length h [s].
     pub speed: T,
 }
 
 impl<T: Real> Reach<T> {
-    /// Returns the weight κ = β h² stiffness + γ h damping, at least zero.
+    /// Returns the weight κ = β h² stiffness + γ h damping. A negative weight is replaced by zero.
     #[inline]
     pub(super) fn weight(self, measure: &ScalarForce<T>) -> T {
         (self.place * measure.stiffness + self.speed * measure.damping).max(T::ZERO)
     }
 
-    /// Adds a tension with the unit wrench `w` on a link, and its dependence on the acceleration. The tension was evaluated for the
-    /// acceleration `a`. Builds for controllers do not inline this function, to have one copy of its code.
+    /// Adds a tension with the unit wrench `w` on a link, and the linear dependence of the tension on the acceleration. The tension was
+    /// evaluated for the acceleration `a`. Builds for controllers do not inline this function, so that its code exists once.
     #[cfg_attr(feature = "alloc", inline)]
     #[cfg_attr(not(feature = "alloc"), inline(never))]
     pub(super) fn resist<S: Space<T>>(

@@ -9,19 +9,19 @@ use mbs_core::Real;
 use mbs_core::algebra::{Vector, norm};
 
 impl<T: Real, S: Space<T>> Instant<'_, T, S> {
-    /// Returns the rotation vector of the second link against the first, in the first link's axes. It is computed from the half angles of
-    /// the joints between the links, and is valid below a whole turn.
+    /// Returns the rotation vector of the second link relative to the first, in the first link's axes. It is computed from the half angles
+    /// of the joints between the links. It is valid if the rotation is below a whole turn.
     pub(crate) fn rotation(&self, links: [u32; 2]) -> Result<Vector<T, 3>, Outside> {
         let [[s, x, y, z], second] = [self.quaternion(links[0])?, self.quaternion(links[1])?];
         let [s, x, y, z] = product([s, -x, -y, -z], second);
         let v = Vector::<T, 3>::new(x, y, z);
         let sine = norm(&v);
-        // w = θ v/|v| with tan θ/2 = |v|/s; without a rotation 2 v
+        // rotation vector w = θ v/|v| with tan θ/2 = |v|/s, from the quaternion (s, v); for v = 0 the factor is its limit 2
         let share = if sine > T::ZERO { T::TWO * sine.atan2(s) / sine } else { T::TWO };
         Ok(v * share)
     }
 
-    /// Returns the quaternion of a link against the ground in space, with the sign that follows from the joint coordinates.
+    /// Returns the quaternion of a link's rotation relative to the ground in space. Its sign follows from the joint coordinates.
     fn quaternion(&self, link: u32) -> Result<[T; 4], Outside> {
         let (mut sum, mut number) = ([T::ONE, T::ZERO, T::ZERO, T::ZERO], link);
         while number > 0 {
@@ -43,7 +43,7 @@ impl<T: Real, S: Space<T>> Instant<'_, T, S> {
                 LinkKind::GuidedBall if HAS_GUIDED_BALLS => {
                     let half = guided_vector(link, self.coordinates.2)?[0] * T::HALF;
                     let (angle, (s, c)) = (norm(&half), norm(&half).sin_cos());
-                    // sin(|f|/2) f/|f|; without a rotation f/2
+                    // vector part sin(|f|/2) f/|f| for the rotation vector f of the guides; for f = 0 its limit f/2
                     let n = if angle > T::ZERO { half * (s / angle) } else { half };
                     sum = product([c, n[0], n[1], n[2]], sum);
                 }

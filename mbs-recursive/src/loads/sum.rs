@@ -1,4 +1,4 @@
-//! A law of a sum of coordinates and lengths: a spring, a stop or a clutch between several joints.
+//! A law of a sum of coordinates and lengths, for example a spring, a stop or a clutch between several joints.
 //!
 //! ```text
 //! m = Σ cₖ fₖ(mₖ)        the terms are stored in the table of terms of couplings
@@ -8,8 +8,8 @@
 //! inertia of an end      κ n/2 w wᵀ for the dependence of f on accelerations, with n ends that move
 //! ```
 //!
-//! The last line makes the iteration contract, because (Σ xₖ)² is at most n Σ xₖ². With one moving end n counts as two, and the weight κ
-//! n/2 is κ itself.
+//! With the inertia of the last line the iteration contracts, because (Σ xₖ)² is at most n Σ xₖ². For a single moving end n is set to two,
+//! so that the weight κ n/2 equals κ.
 
 use super::{Instant, Reach};
 use crate::link::ArticulatedInertia;
@@ -21,7 +21,7 @@ use mbs_core::Real;
 use mbs_core::laws::apart::is_apart;
 use mbs_core::laws::scalar::{Law, ScalarForce};
 
-/// Does this build support effects on sums?
+/// True if this build supports effects on sums.
 pub const IS_BUILT: bool = cfg!(feature = "sums");
 
 /// A law of a sum.
@@ -29,14 +29,14 @@ pub const IS_BUILT: bool = cfg!(feature = "sums");
 pub struct SumLoad<T> {
     /// Terms of the sum.
     pub terms: Span,
-    /// Links that carry points of its lines.
+    /// Links that carry points of the sum's lines.
     pub starts: Span,
     /// Law of the sum.
     pub law: Law<T>,
 }
 
 impl<T: Real> SumLoad<T> {
-    /// Returns the row whose value is the sum.
+    /// Returns the sum in the form of a coupling's row, for its evaluation.
     pub(crate) fn row(&self) -> CoupledRow<T> {
         CoupledRow {
             terms: self.terms,
@@ -48,7 +48,7 @@ impl<T: Real> SumLoad<T> {
         }
     }
 
-    /// Is the law one-sided, and without force at the present sum?
+    /// True if the law is one-sided and has no force at the present sum.
     pub(crate) fn is_apart<S: Space<T>>(
         &self,
         couplings: &Couplings<'_, T, S>,
@@ -73,7 +73,7 @@ impl<T: Real> SumLoad<T> {
         &self,
         here: &Instant<'_, T, S>,
     ) -> Result<ScalarForce<T>, Outside> {
-        // Not in this build: a model with sums is refused when it is loaded.
+        // This build does not support sums. A model with sums is refused when it is loaded.
         if !IS_BUILT {
             return Err(Outside);
         }
@@ -103,7 +103,7 @@ impl<T: Real> SumLoad<T> {
         })
     }
 
-    /// Adds the forces of the law, and their dependence on accelerations.
+    /// Adds the forces of the law, and their linear dependence on accelerations.
     #[inline(never)]
     pub(super) fn apply_ahead<S: Space<T>>(
         &self,
@@ -153,7 +153,7 @@ impl<T: Real> SumLoad<T> {
         Ok(self.law.energy(self.evaluate(here)?.value, &here.law_inputs))
     }
 
-    /// Returns the power that is not stored as energy [W].
+    /// Returns the power of the law that is not stored as energy, for example in a damper [W].
     pub(super) fn power<S: Space<T>>(&self, here: &Instant<'_, T, S>) -> Result<T, Outside> {
         Ok(self.law.power(&self.evaluate(here)?, &here.law_inputs))
     }

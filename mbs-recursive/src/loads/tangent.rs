@@ -10,9 +10,10 @@
 //! along a sum                             as on one link, for each of its ends
 //! ```
 //!
-//! The first two lines are the exact linear part. In the third line the acceleration of the other link is taken from the last iterate, so
-//! that an iteration remains necessary. It contracts, because M + 2 κ diag(w wᵀ) − κ (w₁ − w₂)(w₁ − w₂)ᵀ is positive definite. The
-//! converged accelerations do not depend on κ; only the iterates do. For friction and slip, κ uses the slope of the secant.
+//! The first two lines (one link; one joint) are the exact linear part. In the third line (other links) the acceleration of the other link
+//! is taken from the last iterate, so that an iteration remains necessary. The iteration contracts, because M + 2 κ diag(w wᵀ) − κ (w₁ −
+//! w₂)(w₁ − w₂)ᵀ is positive definite. The converged accelerations do not depend on κ; only the iterates do. For friction and slip, κ uses
+//! the slope of the secant.
 
 use super::{Instant, Load, Reach};
 use crate::link::ArticulatedInertia;
@@ -21,11 +22,11 @@ use crate::space::{Numbers, Space};
 use mbs_core::Real;
 
 impl<T: Real, S: Space<T>> Load<T, S> {
-    /// Adds the load's forces as [`apply`](Self::apply) does, and their dependence on accelerations. The forces are those for the
-    /// accelerations `zdd` of the freedoms and `a` of the links.
+    /// Adds the load's forces as [`apply`](Self::apply) does, and their linear dependence on accelerations. The forces were evaluated for
+    /// the accelerations `zdd` of the freedoms and `a` of the links.
     ///
     /// # Errors
-    /// [`Outside`] if the tables do not fit each other.
+    /// [`Outside`] if the tables are inconsistent.
     pub fn apply_ahead(
         &self,
         here: &Instant<'_, T, S>,
@@ -69,7 +70,8 @@ impl<T: Real, S: Space<T>> Load<T, S> {
     }
 }
 
-/// Finds the link of a pair whose parent is the other link, if its joint has at most one freedom. Returns the link with its wrench.
+/// Finds the outer link of a pair: the link whose parent is the other link and whose joint has at most one freedom. Returns this link with
+/// its unit wrench.
 fn outer<T: Real, S: Space<T>>(
     here: &Instant<'_, T, S>,
     [first, second]: [u32; 2],

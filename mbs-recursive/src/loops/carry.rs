@@ -1,4 +1,5 @@
-//! Rows of loops at a joint: carried inward with their gains, and the responses of the joint to multipliers, outward.
+//! Rows of loops at a joint. The inward pass carries the rows over the joint and stores their gains. The outward pass computes the response
+//! of the joint to the multipliers.
 
 use super::{LoopStore, Loops, inner};
 use crate::link::indexing::{Outside, at, at_mut, part, part_mut, range};
@@ -10,7 +11,7 @@ use crate::rows::coupled::{self, CoupledRow};
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
 
-/// A joint to be passed: its kind, the motion of its link, and the result of its elimination.
+/// A joint over which rows are carried: its kind, the motion of its link, and the result of its elimination.
 type Joint<'s, T, S> = (LinkKind, &'s LinkMotion<T, S>, &'s ArticulatedInertia<T, S>);
 
 /// Carries all rows inward over the joint of link `i`.
@@ -77,7 +78,8 @@ fn carry<T: Real, S: Space<T>>(
     Ok(())
 }
 
-/// Carries one side of a coupling's row inward over the joint of link `i`. The joint may be a term of the row, with slope g.
+/// Carries one side of a coupling's row inward over the joint of link `i`. The coordinate of the joint may be a term of the row; g is then
+/// the slope of this term.
 #[inline(always)]
 fn carry_coupled<T: Real, S: Space<T>>(
     (m, row): (&Loops<'_, T, S>, &CoupledRow<T>),
@@ -97,7 +99,7 @@ fn carry_coupled<T: Real, S: Space<T>>(
     Ok(())
 }
 
-/// Adds the mobility of a joint to the block of Λ of two passes.
+/// Adds the mobility (K b) D⁻¹ (K b)ᵀ of a joint to the block of Λ that belongs to two passes through the joint.
 #[inline(always)]
 fn meet<T: Real, S: Space<T>>(
     (rows, columns, freedoms): (usize, usize, usize),
@@ -117,7 +119,7 @@ fn meet<T: Real, S: Space<T>>(
     Ok(())
 }
 
-/// Carries only l over the joint of link `i`, after a change of its drive.
+/// Carries only the right-hand side l over the joint of link `i`, after the force u along the joint has changed.
 #[inline]
 pub(crate) fn pass_again<T: Real, S: Space<T>>(
     m: &Loops<'_, T, S>,
@@ -148,7 +150,7 @@ fn carry_again<T: Real, S: Space<T>>(
     Ok(())
 }
 
-/// Returns the response D⁻¹ (K b)ᵀ λ at the joint of link `i`.
+/// Returns the response D⁻¹ (K b)ᵀ λ of the joint of link `i` to the multipliers λ.
 #[inline]
 pub(crate) fn held<T: Real, S: Space<T>>(
     m: &Loops<'_, T, S>,
@@ -187,7 +189,7 @@ fn hold<T: Real, S: Space<T>>(
     Ok(())
 }
 
-/// Returns the product g·u over the joint's freedoms.
+/// Returns the inner product of a row's gain and the force u along the joint's freedoms.
 #[inline(always)]
 fn driven<T: Real, M: Numbers<T>>(drive: &M, gain: &[T]) -> T {
     let mut sum = T::ZERO;

@@ -57,7 +57,8 @@ fn close_some<T: Real, S: Space<T>>(
     Ok(())
 }
 
-/// Adds K of the third and further sides of couplings to K of the second side, for the rows that are eliminated here.
+/// Adds the gradients K of the third and further sides of couplings to K of the second side. This is done for the rows that are eliminated
+/// at this link.
 #[inline(never)]
 fn join<T: Real, S: Space<T>>(
     m: &Loops<'_, T, S>,
@@ -80,7 +81,7 @@ fn join<T: Real, S: Space<T>>(
     Ok(())
 }
 
-/// Adds K of the second side to K of the first. At the ground, the acceleration is known: K a is added to l.
+/// Adds the gradient K of the second side to K of the first side. At the ground the acceleration a is known, so K a is added to l instead.
 #[inline(always)]
 fn meet<T: Real, S: Space<T>>(
     n: usize,
@@ -103,8 +104,8 @@ fn meet<T: Real, S: Space<T>>(
     Ok(())
 }
 
-/// Adds ε times the rows' scale to Λ and factors it in place: Λ = C Cᵀ. The lower triangle has C, with the inverses of its diagonal
-/// entries.
+/// Adds ε times the rows' scale to Λ and factors it in place: Λ = C Cᵀ. C is stored in the lower triangle, with the inverses of its
+/// diagonal entries.
 #[inline(always)]
 fn regularise<T: Real, S: Space<T>>(
     n: usize,
@@ -117,7 +118,7 @@ fn regularise<T: Real, S: Space<T>>(
     let block = part_mut(st.blocks, lap.block as usize, n * n)?;
     let (rows, scales) = (part(m.rows, first, n)?, part(st.scales, first, n)?);
     let pivots = part_mut(st.pivots, first, n)?;
-    // A loop of one row may be a coupling, which may be an angle.
+    // A loop with one row may be a coupling, and the sum of a coupling may be an angle.
     let is_angle = |row: &Row<T, S>| if n > 1 { row.is_cut_angle() } else { row.is_angle() };
     let mut scale = m.floor;
     for (row, &own) in rows.iter().zip(scales) {
@@ -199,7 +200,7 @@ fn solve<T: Real>(n: usize, factor: &[T], l: &mut [T]) -> Result<(), Outside> {
     Ok(())
 }
 
-/// Updates all later loops that are coupled with an eliminated one.
+/// Updates all loops that are eliminated later and are coupled with an eliminated loop.
 fn couple_all<T: Real, S: Space<T>>(
     m: &Loops<'_, T, S>,
     end: &End,
@@ -233,7 +234,7 @@ fn couple_all<T: Real, S: Space<T>>(
     Ok(())
 }
 
-/// Computes W = Λₗₖ C⁻ᵀ, Kₗ −= W K̃ and lₗ −= W l̃ for a later loop l.
+/// Computes W = Λₗₖ C⁻ᵀ, Kₗ −= W K̃ and lₗ −= W l̃ for an eliminated loop k and a later loop l.
 #[inline(always)]
 fn couple<T: Real, S: Space<T>>(
     (rows, n): (usize, usize),
@@ -264,7 +265,7 @@ fn couple<T: Real, S: Space<T>>(
     Ok(())
 }
 
-/// Updates a block of Λ: Λₗₗ' −= W W'ᵀ.
+/// Updates the block of Λ for two later loops l and l': Λₗₗ' −= W W'ᵀ.
 #[inline(always)]
 fn take<T: Real, S: Space<T>>(
     (rows, columns, n): (usize, usize, usize),
@@ -283,7 +284,7 @@ fn take<T: Real, S: Space<T>>(
     Ok(())
 }
 
-/// Repeats the elimination of the loops at a link for l only.
+/// Repeats the elimination of the loops at a link for a new right-hand side l only.
 #[inline(always)]
 pub(crate) fn close_again<T: Real, S: Space<T>>(
     m: &Loops<'_, T, S>,

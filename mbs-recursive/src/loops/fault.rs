@@ -1,25 +1,25 @@
-//! Faults by which a pass ends.
+//! Faults that end a pass.
 
 use super::RankLost;
 use crate::link::indexing::Outside;
 use crate::link::joint::NoInertia;
 
-/// Reason why a pass ends with a fault.
+/// Fault that ends a pass.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Fault<T> {
-    /// The tables do not fit each other.
+    /// Tables of the mechanism are inconsistent.
     Outside,
     /// A joint moves no inertia.
     NoInertia(NoInertia<T>),
     /// The regularised rows of loops cannot be factored.
     RankLost(RankLost<T>),
-    /// The sweeps do not reach the level of the loops' equations.
+    /// The sweeps leave a violation of the loops' equations that is too large.
     Unreached {
-        /// Level of the equations: 0 position, 1 velocity, 2 acceleration.
+        /// Level of the equations: 0 for positions, 1 for velocities, 2 for accelerations.
         level: u8,
-        /// Number of the row with the largest violation.
+        /// Index of the row with the largest violation.
         row: u32,
-        /// Violation that the sweeps leave.
+        /// Violation that remains after the sweeps.
         violation: T,
     },
 }

@@ -8,13 +8,14 @@
 //! outward             λ = C⁻ᵀ (K̃ a + l̃ − Σ Wᵀ λₗ),   z'' −= D⁻¹ (K b)ᵀ λ
 //! ```
 //!
-//! K b D⁻¹ is stored for each joint on the way (`gains`). ε times the scale of the rows is added to the diagonal of Λ. C is stored with the
-//! inverses of its diagonal entries.
+//! K is the gradient of the rows, l their right-hand side. b is the motion of a joint for unit rate, D its pivot, u the force along it. K b
+//! D⁻¹ is stored for each joint that the rows pass (`gains`). ε times the scale of the rows is added to the diagonal of Λ. C is stored with
+//! the inverses of its diagonal entries.
 //!
 //! Most loops have one row for each coordinate of a point, couplings have one row, and most joints have one freedom. For these sizes the
-//! macro `sized` calls the passes with constants.
+//! macro `sized` passes the sizes as constants.
 
-/// Calls a function with its sizes; common sizes are passed as constants.
+/// Calls a function with its sizes. Common sizes are passed as constants.
 ///
 /// The function is inlined. With constants the compiler unrolls its loops and removes its checks of lengths.
 macro_rules! sized {
@@ -50,31 +51,31 @@ use mbs_core::Real;
 /// The loops of a mechanism; their data are constant.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Loops<'a, T: Real, S: Space<T>> {
-    /// Loops of cut joints and rollings, then those of couplings.
+    /// Loops of cut joints and rollings, then loops of couplings.
     pub loops: &'a [ClosedLoop<T, S>],
     /// Rows of all loops, one for each equation.
     pub rows: &'a [Row<T, S>],
     /// Order of the passes: which loops are coupled, and where each loop is eliminated.
     pub plan: Plan<'a>,
-    /// Smallest scale of a row's mobility: for lengths [1/kg], for angles [1/(kg m^2)].
+    /// Smallest scale of a row's mobility: first for rows that are lengths [1/kg], then for rows that are angles [1/(kg m^2)].
     pub floor: [T; 2],
-    /// Tables that the rows of couplings refer to.
+    /// Tables to which the rows of couplings refer.
     pub couplings: Couplings<'a, T, S>,
 }
 
 impl<'a, T: Real, S: Space<T>> Loops<'a, T, S> {
-    /// Returns the loops that are cut joints or rollings.
+    /// Returns the loops that belong to cut joints or rollings.
     pub(crate) fn cut(&self) -> &'a [ClosedLoop<T, S>] {
         self.loops.get(..self.couplings.n_cut as usize).unwrap_or(self.loops)
     }
 
-    /// Are there couplings among the loops? Passes over all rows check this once.
+    /// True if there are couplings among the loops. Passes over all rows check this once.
     #[inline(always)]
     pub(crate) fn has_coupled(&self) -> bool {
         coupled::IS_BUILT && (self.couplings.n_cut as usize) < self.loops.len()
     }
 
-    /// Returns the rows of couplings, each with its number and the number of all rows.
+    /// Returns the rows of couplings. Each row comes with its index and the total number of rows.
     pub(crate) fn coupled(&self) -> impl Iterator<Item = (&'a CoupledRow<T>, usize, usize)> + 'a {
         let rows = self.rows;
         let first = if coupled::IS_BUILT { self.couplings.n_cut as usize } else { usize::MAX };
@@ -92,21 +93,21 @@ impl<'a, T: Real, S: Space<T>> Loops<'a, T, S> {
 pub struct LoopStore<'a, T: Real, S: Space<T>> {
     /// Gradients K of all sides as carried inward: all first sides, then all second sides, and so on.
     pub k: &'a mut [S::Motion],
-    /// Slopes of the terms of couplings that have curves, by the number of the term.
+    /// Slopes of the terms of couplings that have curves, by the index of the term.
     pub slopes: &'a mut [T],
-    /// Right-hand sides l of the rows, later l̃.
+    /// Right-hand sides l of the rows. The elimination replaces l by l̃.
     pub l: &'a mut [T],
     /// Multipliers λ of the rows.
     pub lambda: &'a mut [T],
-    /// Blocks of Λ, later of its factor.
+    /// Blocks of the matrix Λ. The elimination replaces them by blocks of the factor of Λ.
     pub blocks: &'a mut [T],
     /// Products K b D⁻¹ of each pass.
     pub gains: &'a mut [T],
-    /// Products K b of each pass.
+    /// Products K b of each pass, with the slope g added if the joint is a term of the row.
     pub heads: &'a mut [T],
     /// Mobility of each row, Σ (K b) D⁻¹ (K b)ᵀ, before any elimination.
     pub scales: &'a mut [T],
-    /// Pivots of Λ relative to their rows' scale.
+    /// Pivots of Λ, each relative to the scale of its row [-].
     pub pivots: &'a mut [T],
 }
 
@@ -119,10 +120,10 @@ pub enum Regularisation<T> {
     Fixed(T),
 }
 
-/// A row without effect on any freedom, or a redundant row that the regularisation is too small for.
+/// A row has no effect on any freedom, or a row is redundant and the regularisation is too small to factor Λ.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RankLost<T> {
-    /// Number of the row.
+    /// Index of the row.
     pub row: u32,
     /// Pivot of the row, relative to its scale.
     pub pivot: T,
@@ -133,7 +134,7 @@ fn inner<T: Real>(x: &[T], y: &[T]) -> T {
     x.iter().zip(y).fold(T::ZERO, |sum, (&x, &y)| sum + x * y)
 }
 
-/// Converts an index of a mechanism to 32 bits.
+/// Converts an index of a mechanism to 32 bits. A larger index becomes the largest number of 32 bits.
 pub(crate) fn index(i: usize) -> u32 {
     u32::try_from(i).unwrap_or(u32::MAX)
 }

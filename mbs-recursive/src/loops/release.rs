@@ -8,8 +8,8 @@ use crate::rows::closed_loop::ClosedLoop;
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
 
-/// Computes λ of the loops that are eliminated at link `i`. `a` is the acceleration of the link; `None` for the ground, whose acceleration
-/// is in l already.
+/// Computes λ of the loops that are eliminated at link `i`. `a` is the acceleration of the link. It is `None` for the ground, because l
+/// already contains the acceleration of the ground.
 #[inline(always)]
 pub(crate) fn open<T: Real, S: Space<T>>(
     m: &Loops<'_, T, S>,
@@ -62,7 +62,7 @@ fn begin<T: Real, S: Space<T>>(
     Ok(())
 }
 
-/// Subtracts Wᵀ λ of a later loop.
+/// Subtracts Wᵀ λ of a loop that was eliminated later.
 #[inline(always)]
 fn take<T: Real, S: Space<T>>(
     (rows, n): (usize, usize),

@@ -1,4 +1,4 @@
-//! Columns of the freedoms: their list, and their values at a position.
+//! Columns of the freedoms: the list of the columns, and their values at a position.
 
 use super::six::{Moments, Six, V3};
 use crate::build::TreeModel;
@@ -15,21 +15,21 @@ use core::ops::Range;
 use mbs_core::Real;
 use mbs_core::algebra::Vector;
 
-/// Column number that means no column.
+/// Column index that means no column.
 pub(super) const NONE: u32 = u32::MAX;
 
-/// Numbers of a link's freedoms in the joints' order, and the points about which a free joint's freedoms are defined.
+/// Indices of a link's freedoms in the order of the joints, and the points about which a free joint's freedoms are defined.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LinkFreedoms<T: Real> {
-    /// Number of the link's first translational freedom. Not used for a joint without such freedoms.
+    /// Index of the link's first translational freedom. It is not used for a joint without such freedoms.
     pub moves: usize,
-    /// Number of the link's first rotational freedom, or of the only freedom of its joint.
+    /// Index of the link's first rotational freedom, or of the only freedom of its joint.
     pub turns: usize,
-    /// Is the freedom the motion of the parent against the child?
+    /// True if the freedom is the motion of the parent relative to the child.
     pub is_reversed: bool,
     /// Point of a free joint on the ground, from the tree's base [m].
     pub point: Vector<T, 3>,
-    /// Point of a free joint on the body, from the link's origin, reference axes [m].
+    /// Point of a free joint on the body, from the link's origin, in the axes of the reference configuration [m].
     pub reference: Vector<T, 3>,
 }
 
@@ -54,7 +54,7 @@ pub(super) struct ColumnPart<T: Real> {
     pub(super) link: usize,
     pub(super) kind: PartKind,
     pub(super) columns: Range<usize>,
-    /// Is the motion measured from the ground, as for a free joint?
+    /// True if the motion is relative to the ground, as for a free joint.
     pub(super) is_free: bool,
     pub(super) point: V3<T>,
     pub(super) reference: V3<T>,
@@ -63,25 +63,25 @@ pub(super) struct ColumnPart<T: Real> {
 /// Column of a freedom at a position.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Column<T: Real> {
-    /// Number of the freedom in the joints' order.
+    /// Index of the freedom in the order of the joints.
     pub(super) number: u32,
-    /// Index of the preceding column on the way to the ground.
+    /// Index of the next column on the path to the ground.
     pub(super) up: u32,
     /// Column about the origin of its link.
     pub(super) here: Six<T>,
-    /// Column about the origin of the first link on the way from the ground.
+    /// Column about the origin of the first link on the path from the ground.
     pub(super) rooted: Six<T>,
 }
 
 /// Data of a link that its columns need, stored together.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct OwnLink<T: Real> {
-    /// Vector from the origin of the first link on the way from the ground to the origin of this link.
+    /// Vector from the origin of the first link on the path from the ground to the origin of this link [m].
     pub(super) place: V3<T>,
-    /// Number of the parent; for a free link the ground.
+    /// Index of the parent link; for a free link the ground.
     pub(super) parent: usize,
     pub(super) columns: Range<usize>,
-    /// Range of the parts of its joint.
+    /// Range of the parts of the link's joint.
     pub(super) parts: Range<usize>,
     /// Inertia tensor of the link about its origin in reference axes: xx, xy, xz, yy, yz, zz.
     pub(super) tensor: [T; 6],
@@ -92,16 +92,16 @@ pub(super) struct OwnLink<T: Real> {
 pub struct OwnFreedoms<T: Real, S: Space<T>> {
     pub(super) parts: Vec<ColumnPart<T>>,
     pub(super) columns: Vec<Column<T>>,
-    /// For each column: numbers of the columns on its way to the ground, the nearest first. Empty before the first factorisation.
+    /// For each column: indices of the columns on its path to the ground, the nearest first. Empty before the first factorisation.
     pub(super) above: Vec<Vec<u32>>,
-    /// For each column: numbers of the columns that have it on their way to the ground. Empty before the first factorisation.
+    /// For each column: indices of the columns whose path to the ground contains it. Empty before the first factorisation.
     pub(super) below: Vec<Vec<u32>>,
-    /// For each column: range from the smallest to the largest number in `above`, `below` and its own. Empty before the first
-    /// factorisation.
+    /// For each column: range from the smallest to the largest index among the entries of `above`, the entries of `below` and the column
+    /// itself. Empty before the first factorisation.
     pub(super) related: Vec<Range<usize>>,
     /// Data of the links, beginning with the ground.
     pub(super) links: Vec<OwnLink<T>>,
-    /// Links on the way from the ground to one link, as placed last.
+    /// Links on the path from the ground to the link that was placed last.
     pub(super) way: Vec<usize>,
     pub(super) composite: Vec<Moments<T>>,
     /// Scratch for a row of a solution.
@@ -112,10 +112,10 @@ pub struct OwnFreedoms<T: Real, S: Space<T>> {
 }
 
 impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
-    /// Makes the tree's freedoms in the numbering of `places`, which has one entry for each link. Guided links have no freedoms.
+    /// Makes the tree's freedoms with the indices of `places`, which has one entry for each link. Guided links have no freedoms.
     ///
     /// # Panics
-    /// If `places` has not one entry for each link, including the ground.
+    /// If the length of `places` is not the number of links, including the ground.
     #[must_use]
     pub fn new(model: &TreeModel<T, S>, places: &[LinkFreedoms<T>]) -> Self {
         let links = model.mechanism().links;
@@ -179,7 +179,7 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
         Self::new(model, &links.map(place).collect::<Vec<_>>())
     }
 
-    /// Places the links at a state, without velocities, and writes the columns.
+    /// Computes the places of the links at a state, without velocities, and writes the columns.
     pub(super) fn place(
         &mut self,
         model: &TreeModel<T, S>,
@@ -193,8 +193,8 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
         self.write_columns(&m, s.placed);
     }
 
-    /// Places only the links on the way from a link to the ground at a state, and writes their columns. `self.way` has these links then,
-    /// from the ground on.
+    /// Computes the places of only the links on the path from a link to the ground at a state, and writes their columns. Writes these links
+    /// to `self.way`, beginning at the ground.
     pub(super) fn place_way(
         &mut self,
         model: &TreeModel<T, S>,
@@ -216,12 +216,12 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
         }
     }
 
-    /// Writes all columns for the links as placed.
+    /// Writes all columns for the current places of the links.
     pub(super) fn write_columns(&mut self, m: &TreeSlices<'_, T, S>, placed: &[LinkMotion<T, S>]) {
         self.write_columns_of(m, 0..self.parts.len(), placed);
     }
 
-    /// Writes the columns of some parts for the links as placed.
+    /// Writes the columns of some parts for the current places of the links.
     #[inline]
     fn write_columns_of(
         &mut self,
@@ -245,7 +245,7 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
 }
 
 impl<T: Real> ColumnPart<T> {
-    /// Returns the columns of a ball or of slides, about the link's origin.
+    /// Returns the columns of a ball joint or of slides, about the link's origin.
     fn columns<S: Space<T>>(
         &self,
         (p, parent): (&LinkMotion<T, S>, &S::Rotation),
@@ -280,7 +280,7 @@ impl<T: Real> ColumnPart<T> {
     }
 }
 
-/// Returns the parts of a link's joint, from the parent outward, with the numbers of their columns.
+/// Returns the parts of a link's joint, from the parent outward, with the indices of their columns.
 fn parts<T: Real, S: Space<T>>(
     kind: LinkKind,
     place: &LinkFreedoms<T>,
@@ -324,10 +324,10 @@ fn tensor<T: Real, S: Space<T>>(tensor: &S::Tensor) -> [T; 6] {
     [x[0], y[0], z[0], y[1], z[1], z[2]]
 }
 
-/// Places some links, each after its parent. Velocities and velocity products are not changed.
+/// Computes the places of some links, each after its parent. Velocities and velocity products are not changed.
 ///
 /// # Errors
-/// [`Outside`] if the tables do not fit each other.
+/// [`Outside`] if the tables are inconsistent.
 #[inline]
 fn positions<T: Real, S: Space<T>>(
     links: &[Link<T, S>],

@@ -6,8 +6,12 @@
 //! ∂τⱼ/∂qᵢ = Sⱼᵀ (2 B Ψ̇ᵢ + I Ψ̈ᵢ + Sᵢ ×* f)   ∂τⱼ/∂vᵢ = Sⱼᵀ (2 B Sᵢ + I (Ψ̇ᵢ + Ṡᵢ))        Mⱼᵢ = Sⱼᵀ I Sᵢ
 //! ```
 //!
-//! ∂/∂q is the derivative along velocities: ∂/∂qᵢ is the change while freedom i moves at unit rate. The source treats balls with axes fixed
-//! in the child: no column of the ball rotates the force. For axes fixed in the parent every column of the ball rotates it.
+//! τ are the efforts and S the columns of the freedoms. I, B and f are sums over a subtree (`sums`). Ṡ, Ψ̇ and Ψ̈ are rates of columns
+//! (`moving`).
+//!
+//! ∂/∂q is the derivative along velocities: ∂/∂qᵢ is the change while freedom i moves at unit rate. The source treats ball joints with axes
+//! fixed in the child: no column of the ball joint rotates the force. If the axes are fixed in the parent, every column of the ball joint
+//! rotates the force.
 
 use super::columns::{ColumnPart, NONE, PartKind};
 use super::moving::{MovingColumns, move_to};
@@ -17,21 +21,22 @@ use crate::host::{TreeState, Workspace};
 use crate::space::Space;
 use mbs_core::Real;
 
-/// Derivatives of efforts to be written. Each is a square matrix over the freedoms, by rows, with one row for each effort.
+/// Matrices to which the derivatives of efforts are written. Each is a square matrix over the freedoms, stored by rows, with one row for
+/// each effort.
 #[derive(Debug)]
 pub struct EffortSlopes<'a, T> {
-    /// Derivatives by positions, in the directions of the freedoms' velocities.
+    /// Derivatives of the efforts by positions, in the directions of the freedoms' velocities.
     pub q: &'a mut [T],
     /// Derivatives of the efforts by velocities.
     pub v: &'a mut [T],
-    /// Derivatives by accelerations: the mass matrix.
+    /// Derivatives of the efforts by accelerations: the mass matrix.
     pub a: &'a mut [T],
 }
 
 impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
     /// Writes the derivatives of the efforts that cause the state's accelerations, under gravity and without effects, with open loops.
     ///
-    /// Cost: an outward pass, and about 40 multiplications for each pair of freedoms on a common way to the ground; no allocation.
+    /// Cost: an outward pass, and about 40 multiplications for each pair of freedoms on a common path to the ground; no allocation.
     ///
     /// # Panics
     /// If the length of a matrix in `slopes` is not the square of the number of freedoms.
@@ -46,8 +51,8 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
         self.write_effort_slopes_here(model, (workspace, moving), slopes);
     }
 
-    /// Writes the derivatives of the efforts for the places and accelerations that the scratch has after
-    /// [`accelerate_under`](TreeModel::accelerate_under).
+    /// Writes the derivatives of the efforts for the places and accelerations that [`accelerate_under`](TreeModel::accelerate_under) left
+    /// in the scratch.
     ///
     /// # Panics
     /// If the length of a matrix in `slopes` is not the square of the number of freedoms.
@@ -81,7 +86,7 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
         }
     }
 
-    /// Writes the entries between column `c` and the columns on its way to the ground.
+    /// Writes the entries between column `c` and the columns on its path to the ground.
     #[inline(always)]
     fn write_slopes(
         &self,

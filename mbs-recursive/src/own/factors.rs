@@ -1,5 +1,4 @@
-//! Factorisation of a mass matrix as Lᵀ D L. L is as sparse as the tree: an entry is not zero only between columns on a common way to the
-//! ground [Featherstone 2005].
+//! Factorisation of a mass matrix as Lᵀ D L. L has entries only between columns on a common path to the ground [Featherstone 2005].
 
 use super::OwnFreedoms;
 use super::columns::NONE;
@@ -9,16 +8,16 @@ use alloc::vec::Vec;
 use core::ops::Range;
 use mbs_core::Real;
 
-/// Largest pivot that counts as no inertia, in units of rounding of the diagonal [-]. Chosen, not tuned.
+/// Largest pivot that counts as no inertia, relative to the diagonal entry and in units of machine precision [-]. Chosen, not tuned.
 const ROUNDINGS: f64 = 64.0;
 
 impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
     /// Replaces a mass matrix by its factors: D on the diagonal, and L below it in the order of the tree.
     ///
-    /// Cost: freedoms times the square of the depth; no allocation after the first call.
+    /// Cost: of order (number of freedoms) × (depth of the tree)²; no allocation after the first call.
     ///
     /// # Errors
-    /// The number of a link whose joint moves no inertia.
+    /// Index of a link whose joint moves no inertia.
     ///
     /// # Panics
     /// If the length of `mass` is not the square of the number of freedoms.
@@ -39,7 +38,7 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
                 return Err(link.unwrap_or(0));
             }
             let inverse = T::ONE / pivot;
-            // elimination of column k: M_ij −= M_ki M_kj / D_k for i, j on the way to the ground, L_ki = M_ki / D_k
+            // elimination of column k: M_ij −= M_ki M_kj / D_k for i, j on the path to the ground, L_ki = M_ki / D_k
             for (place, &i) in self.above[c].iter().enumerate() {
                 let factor = mass[k * n + i as usize] * inverse;
                 for &j in &self.above[c][place..] {
@@ -52,7 +51,7 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
         Ok(())
     }
 
-    /// Finds the columns on a common way to the ground.
+    /// Finds for each column the columns that are on a common path to the ground with it.
     fn relate(&mut self) {
         let n = self.columns.len();
         (self.above, self.below) = (vec![Vec::new(); n], vec![Vec::new(); n]);
@@ -74,10 +73,10 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
         }
     }
 
-    /// Replaces a square X by M⁻¹ X, with the factors of M. Entries of X between freedoms that are not on a common way to the ground must
+    /// Replaces a square X by M⁻¹ X, with the factors of M. Entries of X between freedoms that are not on a common path to the ground must
     /// be zero. Derivatives of efforts and the identity have this property.
     ///
-    /// Cost: twice the freedoms squared times depth; no allocation after the first call.
+    /// Cost: of order 2 × (number of freedoms)² × (depth of the tree); no allocation after the first call.
     ///
     /// # Panics
     /// If the length of `x` is not the square of the number of freedoms.
@@ -88,7 +87,7 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
         let mut sum = core::mem::take(&mut self.row);
         for c in 0..n {
             let k = self.columns[c].number as usize;
-            // forward substitution: x_k ← x_k / D_k − Σ L_kj x_j over the way to the ground
+            // forward substitution: x_k ← x_k / D_k − Σ L_kj x_j over the path to the ground
             let scale = T::ONE / factors[k * n + k];
             sum.clear();
             sum.extend(row(x, n, k).iter().map(|&x| x * scale));
@@ -99,12 +98,12 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
         self.row = sum;
     }
 
-    /// Writes J M⁻¹ Jᵀ with the factors of M, for `width` rows J. On return `columns` has L⁻ᵀ Jᵀ.
+    /// Writes J M⁻¹ Jᵀ with the factors of M, for `width` rows J. On return `columns` contains L⁻ᵀ Jᵀ.
     ///
-    /// Cost: rows times freedoms times depth and rows; no allocation.
+    /// Cost: of order (number of rows) × (number of freedoms) × (depth of the tree + number of rows); no allocation.
     ///
     /// # Panics
-    /// If `columns` does not have the length of `rows`, or that of `mobility` is not the square of the number of rows.
+    /// If the lengths of `columns` and `rows` differ, or if the length of `mobility` is not the square of the number of rows.
     pub fn write_mobility(
         &mut self,
         factors: &[T],
@@ -132,7 +131,7 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
         }
     }
 
-    /// Replaces `x` by L⁻ᵀ x. In a square, entries outside of the related columns are zero and skipped.
+    /// Replaces `x` by L⁻ᵀ x. In a square matrix, the entries outside of the related columns are zero and are skipped.
     fn solve_half(&mut self, (factors, is_square): (&[T], bool), x: &mut [T]) {
         let n = self.columns.len();
         assert_eq!(x.len() % n.max(1), 0, "rows of freedoms");
@@ -162,8 +161,8 @@ fn row_mut<T>(x: &mut [T], n: usize, k: usize) -> &mut [T] {
     &mut x[k * width..][..width]
 }
 
-/// Subtracts rows of `x`, each times its factor, from a sum, beginning at a column. Four rows are subtracted in one pass, which reads and
-/// writes the sum only once.
+/// Subtracts rows of `x`, each times its factor, from a sum, beginning at a column. Four rows are subtracted in one pass, so that the sum
+/// is read and written once for four rows.
 #[inline(always)]
 fn subtract<T: Real>(
     (x, n, start): (&[T], usize, usize),

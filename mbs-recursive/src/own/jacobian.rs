@@ -14,7 +14,7 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
     /// Writes the Jacobian of a body's point by rows, in global axes. The point was at `at` in the reference configuration. The first three
     /// rows give the velocity of the point. If there are six rows, the last three give the body's angular velocity.
     ///
-    /// Cost: that of the links on the way to the ground; no allocation.
+    /// Cost: proportional to the number of links on the path to the ground; no allocation.
     ///
     /// # Panics
     /// If `rows` has neither three nor six rows.

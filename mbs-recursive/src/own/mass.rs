@@ -11,7 +11,7 @@ use mbs_core::Real;
 impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
     /// Writes the mass matrix of the tree with open loops, by rows.
     ///
-    /// Cost: an outward pass without velocities, and bodies times depth; no allocation.
+    /// Cost: an outward pass without velocities, and operations of order (number of bodies) × (depth of the tree); no allocation.
     ///
     /// # Panics
     /// If the length of `mass` is not the square of the number of freedoms.
@@ -60,8 +60,9 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
         }
     }
 
-    /// Writes the moments of the bodies about their links' origins. Writes the columns about the origin of the first link on the way from
-    /// the ground. Vectors between these origins are exact to rounding of their length, however far the mechanism is from the ground's origin.
+    /// Writes the moments of the bodies about their links' origins. Writes the columns about the origin of the first link on the path from
+    /// the ground. The rounding errors of the vectors between these origins are relative to their length. They do not grow with the
+    /// distance of the mechanism from the ground's origin.
     fn write_rooted(&mut self, links: &[Link<T, S>], placed: &[LinkMotion<T, S>]) {
         for (i, (link, p)) in links.iter().zip(placed).enumerate().skip(1) {
             let own = &self.links[i];

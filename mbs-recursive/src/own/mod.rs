@@ -1,4 +1,5 @@
-//! Freedoms in the order and with the signs of the joints, as columns of motion, with mass matrices, Jacobians and derivatives over them.
+//! Freedoms in the order and with the signs of the joints, as columns of motion. The module computes mass matrices, Jacobians and
+//! derivatives over these freedoms.
 //!
 //! ```text
 //! one number                       n about the joint, or a slide

@@ -75,7 +75,7 @@ impl<T: Real> MovingColumns<T> {
     }
 }
 
-/// Places the links at a state, with its velocities and accelerations.
+/// Computes the places, velocities and accelerations of the links at a state.
 pub(super) fn move_to<T: Real, S: Space<T>>(
     model: &TreeModel<T, S>,
     state: &TreeState<T>,
@@ -89,10 +89,10 @@ pub(super) fn move_to<T: Real, S: Space<T>>(
 }
 
 impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
-    /// Writes motions, columns and the sums of single links, for the links as placed and their accelerations `a`.
+    /// Writes motions, columns and the sums of single links, for the current places of the links and their accelerations `a`.
     ///
-    /// The common point is the first link's origin. Rounding then does not grow with the distance of the mechanism from the ground's
-    /// origin.
+    /// The common point is the first link's origin, so that rounding errors do not grow with the distance of the mechanism from the
+    /// ground's origin.
     pub(super) fn write_moving(
         &mut self,
         m: &TreeSlices<'_, T, S>,
@@ -130,7 +130,8 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
         }
     }
 
-    /// Returns the motions before and after a part of a joint. A free joint has two parts; a fictitious body is between them.
+    /// Returns the motions of the bodies before and after a part of a joint. A free joint has two parts, with a fictitious body between
+    /// them.
     fn around(
         &self,
         part: &ColumnPart<T>,

@@ -15,10 +15,10 @@ use mbs_core::Real;
 impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
     /// Writes the Jacobian of the equations of cut joints and couplings, by rows over the freedoms.
     ///
-    /// Cost: for each row the links on the way to the ground; no allocation.
+    /// Cost: for each row proportional to the number of links on the paths to the ground; no allocation.
     ///
     /// # Panics
-    /// If `rows` does not have as many numbers as rows times freedoms.
+    /// If the length of `rows` is not the number of equations times the number of freedoms.
     pub fn write_loop_rows(
         &mut self,
         model: &TreeModel<T, S>,
@@ -68,7 +68,7 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
         Ok(())
     }
 
-    /// Adds the products of a force on a link, about its origin, with the columns on the way to the ground.
+    /// Adds the products of a force on a link, about the link's origin, with the columns on the path to the ground.
     fn add_along(
         &self,
         (mut i, force): (usize, &S::Motion),

@@ -1,4 +1,4 @@
-//! Motions (ω, v) and forces (τ, f) about a point, and inertias of rigid bodies about it, always in space.
+//! Motions (ω, v), forces (τ, f) and inertias of rigid bodies about a point. They are three-dimensional also for plane mechanisms.
 
 use core::ops::{Add, AddAssign, Mul, Neg, Sub};
 use mbs_core::Real;
@@ -24,7 +24,7 @@ impl<T: Real> Six<T> {
         Self { turn: V3::zeros(), push: V3::zeros() }
     }
 
-    /// Returns the power of a force along a motion. Two independent sums let the processor work on both at once.
+    /// Returns the power of a force along a motion. The two sums are independent, so that the processor can compute them in parallel.
     #[inline(always)]
     pub(super) fn dot(&self, other: &Self) -> T {
         let (a, b, c, d) = (&self.turn, &self.push, &other.turn, &other.push);
@@ -47,13 +47,13 @@ impl<T: Real> Six<T> {
         Self { turn, push: cross(&self.turn, &f.push) }
     }
 
-    /// Returns the motion about a point at `arm` from the present point.
+    /// Returns the motion about another point. `arm` is the vector from the present point to that point.
     #[inline(always)]
     pub(super) fn at(&self, arm: &V3<T>) -> Self {
         Self { turn: self.turn, push: self.push + cross(&self.turn, arm) }
     }
 
-    /// Returns the force about another point. `arm` is the vector from that point to the present one.
+    /// Returns the force about another point. `arm` is the vector from that point to the present point.
     #[inline(always)]
     pub(super) fn gathered(&self, arm: &V3<T>) -> Self {
         Self { turn: self.turn + cross(arm, &self.push), push: self.push }
@@ -133,7 +133,7 @@ impl<T: Real> Moments<T> {
         }
     }
 
-    /// Returns the moments about another point. `arm` is the vector from that point to the present one.
+    /// Returns the moments about another point. `arm` is the vector from that point to the present point.
     #[inline(always)]
     pub(super) fn gathered(&self, arm: &V3<T>) -> Self {
         let (m, h) = (self.mass, &self.first);

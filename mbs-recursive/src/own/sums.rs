@@ -1,12 +1,14 @@
-//! Sums over a subtree about a common point: moments, momentum, the stream of the momentum, and the force that accelerates the subtree.
+//! Sums over a subtree about a common point: moments, momentum P, momentum flux N, and the force f that accelerates the subtree.
 //!
 //! ```text
 //! P = Σ m v        N x = Σ m r × (x × v)        f = Σ I a + v ×* I v
 //! 2 B s = 2 (N ω_s, ω_s × P)                    the change of velocity forces by a motion s, up to what is carried along
 //! ```
 //!
-//! B is a sum over particles. The translation of s cancels in it, because only the rotation of s changes the momentum's direction. Twelve
-//! numbers therefore replace the thirty-six of the general form.
+//! m, r and v are the mass, position and velocity of a particle. In f, I is the inertia of a body, v its velocity and a its acceleration.
+//!
+//! The matrix B is a sum over particles. Only the rotation of the motion s changes the direction of the momentum, so the translation of s
+//! cancels in B s. Twelve numbers (P and N) therefore replace the thirty-six numbers of a general matrix B.
 
 use super::six::{Moments, Six, V3, dot};
 use core::ops::AddAssign;
@@ -18,7 +20,7 @@ pub(super) struct Sums<T: Real> {
     pub(super) moments: Moments<T>,
     /// Momentum P of the subtree.
     momentum: V3<T>,
-    /// Stream N of the momentum, defined above.
+    /// Momentum flux N of the subtree, defined at the top of the file.
     stream: Matrix<T, 3>,
     pub(super) force: Six<T>,
 }
@@ -38,7 +40,7 @@ impl<T: Real> Sums<T> {
     pub(super) fn body(moments: Moments<T>, v: &Six<T>, a: &Six<T>) -> Self {
         let momentum = moments.times(v);
         let force = moments.times(a) + v.carries_force(&momentum);
-        // stream of the momentum: N = (h·v) − v hᵀ − [ω] Q with Q = ½ tr J − J = Σ m r rᵀ
+        // momentum flux: N = (h·v) − v hᵀ − [ω] Q with Q = ½ tr J − J = Σ m r rᵀ
         let (h, s, w) = (&moments.first, &moments.second, &v.turn);
         let half = (s[0] + s[3] + s[5]) * T::HALF;
         let q = [
@@ -65,7 +67,7 @@ impl<T: Real> Sums<T> {
         Six { turn: turn * T::TWO, push: cross(&s.turn, &self.momentum) * T::TWO }
     }
 
-    /// Returns 2 Bᵀ s. Only rotations have a product with it.
+    /// Returns the rotational part of 2 Bᵀ s. The translational part is zero.
     #[inline(always)]
     pub(super) fn streams_back(&self, s: &Six<T>) -> V3<T> {
         (self.stream.tr_mul(&s.turn) + cross(&self.momentum, &s.push)) * T::TWO

@@ -1,4 +1,4 @@
-//! Derivatives by positions of the efforts against gravity, for bodies whose gravity has a factor.
+//! Derivatives of the efforts against gravity by positions, for bodies that have a factor of gravity.
 //!
 //! ```text
 //! F = m g (s − 1) is what a body at rest of the mass W = m (s − 1) adds where the ground is accelerated by −g:
@@ -16,7 +16,7 @@ use crate::space::{Numbers, Space};
 use mbs_core::Real;
 
 impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
-    /// Adds the derivatives for factors of gravity to those of the efforts. Without such factors nothing is added.
+    /// Adds the derivatives due to factors of gravity to the derivatives of the efforts. If no body has such a factor, nothing is added.
     pub(super) fn add_weight_slopes(
         &self,
         model: &TreeModel<T, S>,
@@ -48,7 +48,7 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
         }
     }
 
-    /// Adds the entries between column `c` and the columns on its way to the ground.
+    /// Adds the entries between column `c` and the columns on its path to the ground.
     fn add_weight_slope(
         &self,
         (part, c): (&ColumnPart<T>, usize),

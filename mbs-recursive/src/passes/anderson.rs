@@ -1,14 +1,14 @@
-//! Anderson mixing: a multisecant acceleration of a fixed-point iteration. The next iterate is a combination of earlier ones whose
-//! residuals cancel.
+//! Anderson mixing: a multisecant acceleration of a fixed-point iteration. The next iterate is a combination of earlier iterates, chosen so
+//! that the combination of their residuals is as small as possible.
 //!
 //! ```text
 //! x ↦ g(x),   r = x − g(x)      pairs (p, q) of past steps Δx and changes Δr, the q made orthonormal
 //! next x = g − Σ (q·r) (p − q)
 //! ```
 //!
-//! A linear iteration with n slowly converging directions loses these directions after n iterates. A fast iteration is hardly changed. A
-//! new pair replaces the oldest pair. In a slow iteration r is much smaller than the error. The length of the next move estimates the error
-//! then. Source: Anderson (1965), in the form of Fang and Saad (2009), type II.
+//! In a linear iteration with n slowly converging directions, the errors in these directions are removed after n iterates. A fast iteration
+//! is hardly changed. A new pair replaces the oldest pair. In a slow iteration r is much smaller than the error. The length of the next
+//! move is therefore used as the estimate of the error. Source: Anderson (1965), in the form of Fang and Saad (2009), type II.
 
 use mbs_core::Real;
 use mbs_core::algebra::norm_inf;
@@ -16,7 +16,7 @@ use mbs_core::algebra::norm_inf;
 /// Number of pairs that are stored [-]. Each pair removes one slowly converging direction. Chosen, not tuned.
 pub const DEPTH: usize = 4;
 
-/// Number of values that the history of an iteration in `n` unknowns has.
+/// Number of values in the history of an iteration with `n` unknowns.
 #[must_use]
 pub fn history(n: usize) -> usize {
     (2 * (DEPTH + 1) + 1) * n
@@ -25,19 +25,19 @@ pub fn history(n: usize) -> usize {
 /// State of an iteration in progress.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) struct Mixing {
-    /// Does the history contain a last x and r?
+    /// True if the history contains the last iterate x and the last residual r.
     has_last: bool,
-    /// Number of pairs found.
+    /// Number of pairs found so far.
     n_pairs: usize,
     /// Index at which the next pair is stored. It overwrites the oldest pair.
     place: usize,
 }
 
 impl Mixing {
-    /// Adds an iterate to the history and returns the length of the next move, an estimate of the error. `r` is x − g. `history` has
-    /// [`history`] values: the last r and x, the pairs, and the next move. If `history` is too short, nothing is mixed.
+    /// Adds an iterate to the history and returns the length of the next move, an estimate of the error. `r` is the residual x − g.
+    /// `history` has [`history`] values: the last r and x, the pairs, and the next move. If `history` is too short, nothing is mixed.
     ///
-    /// Cost: at most `5 DEPTH` products of n numbers.
+    /// Cost: at most `5 DEPTH` inner products of vectors with n entries.
     pub(crate) fn take<T: Real>(&mut self, r: &[T], g: &[T], history: &mut [T]) -> T {
         let n = r.len();
         if n == 0 || history.len() < self::history(n) {
@@ -55,7 +55,7 @@ impl Mixing {
                 self.n_pairs = self.n_pairs.max(self.place + 1);
                 self.place = (self.place + 1) % DEPTH;
             } else {
-                // r has not changed in a new direction: the old pairs no longer describe this iteration and are dropped
+                // the change of r has no new direction: the old pairs no longer describe this iteration and are dropped
                 (self.n_pairs, self.place) = (0, 0);
             }
         }
@@ -92,7 +92,8 @@ impl Mixing {
     }
 }
 
-/// Makes q of a new pair (q, p) orthogonal to the old pairs and gives it unit length. Returns false if the rest of q is rounding.
+/// Makes q of a new pair (q, p) orthogonal to the q of the old pairs and scales it to unit length. Returns false if only rounding errors
+/// remain of q.
 fn orthonormalise<T: Real>(old: [&[T]; 2], new: &mut [T]) -> bool {
     let n = new.len() / 2;
     let before = norm_inf(&new[..n]);
@@ -103,7 +104,7 @@ fn orthonormalise<T: Real>(old: [&[T]; 2], new: &mut [T]) -> bool {
         }
     }
     let left = norm_inf(&new[..n]);
-    // If the change has no new direction, the remainder is rounding.
+    // If the change has no new direction, only rounding errors remain.
     if !(left > before * T::EPSILON.sqrt()) {
         return false;
     }
@@ -123,8 +124,8 @@ mod tests {
     use super::*;
     use alloc::{vec, vec::Vec};
 
-    /// Returns the residual r and the next iterate g = x − r of an iteration that contracts each direction towards `solution` by its own
-    /// factor.
+    /// Returns the residual r and the next iterate g = x − r of a test iteration. The iteration contracts each component towards `solution`
+    /// by a factor of this component.
     fn left_over(x: &[f64], slow: &[f64], solution: f64) -> [Vec<f64>; 2] {
         let r: Vec<f64> = x.iter().zip(slow).map(|(x, share)| share * (x - solution)).collect();
         let g = x.iter().zip(&r).map(|(x, r)| x - r).collect();

@@ -1,4 +1,5 @@
-//! Checks after a step for directions that became undefined: line parts of zero length, twists of balls with opposite axes, flat discs.
+//! Checks after a step that all directions are still defined. A direction is undefined for a line part of zero length, for the twist of a
+//! ball joint with opposite axes, and for a disc that lies flat.
 
 use crate::link::indexing::{Outside, at};
 use crate::loads::{Load, SumLoad};
@@ -13,15 +14,15 @@ use crate::space::Space;
 use mbs_core::Real;
 use mbs_core::step::StepError;
 
-/// Checks whether a part of a line has collapsed in the step of `dt` [s] from `start` to the state in `s`. It also checks whether a disc
-/// lies flat at the end.
+/// Checks that no part of a line has collapsed to zero length in the step of `dt` [s] from `start` to the state in `s`. Checks that no disc
+/// lies flat at the end of the step.
 ///
-/// Cost: without lines one comparison for each loop; with lines also the places of the links at the start of the step.
+/// Cost: one comparison for each loop. With lines also the places of the links at the start of the step.
 ///
 /// # Errors
-/// [`StepError::RopeCollapsed`] names coupling and part. [`StepError::LineCollapsed`] names the part and the load, by the load's number in
-/// place of the effect's. [`StepError::TwistOpen`] and [`StepError::Overturned`] name the load likewise. [`StepError::RollingFlat`] names
-/// the rolling.
+/// [`StepError::RopeCollapsed`] names the coupling and the part. [`StepError::LineCollapsed`] names the part, and has the index of the load
+/// in place of the index of the effect. [`StepError::TwistOpen`] and [`StepError::Overturned`] also have the index of the load.
+/// [`StepError::RollingFlat`] names the rolling.
 #[inline(always)]
 pub(crate) fn check_lines<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
@@ -35,7 +36,7 @@ pub(crate) fn check_lines<T: Real, S: Space<T>>(
     check_parts(m, inputs, step, s)
 }
 
-/// Checks whether a part of a line has collapsed in the step; discs are not checked.
+/// Checks that no part of a line has collapsed to zero length in the step. Discs are not checked.
 #[inline(always)]
 pub(crate) fn check_parts<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
@@ -126,7 +127,7 @@ fn check_twists<T: Real, S: Space<T>>(
     Ok(())
 }
 
-/// Is the law of a sum one-sided, and without force at the start and at the end of the step?
+/// True if the law of a sum is one-sided and has no force at the start and at the end of the step.
 fn is_slack<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
     inputs: &impl Inputs<T>,

@@ -1,4 +1,4 @@
-//! Couplings in the work on all rows. Each function here is called only if the mechanism has couplings.
+//! Work on the rows of couplings. Passes over all rows call these functions, and only if the mechanism has couplings.
 
 use crate::link::indexing::{Outside, at, at_mut};
 use crate::loops::index;
@@ -6,19 +6,20 @@ use crate::passes::slices::{Store, TreeSlices};
 use crate::space::Space;
 use mbs_core::Real;
 
-/// Largest violation of a coupling that counts as rounding, in units of rounding of the sum of its terms [-]. Chosen, not tuned.
+/// Largest violation of a coupling that counts as rounding, relative to the sum of the absolute values of its terms and in units of machine
+/// precision [-]. Chosen, not tuned.
 const SUM_ROUNDINGS: f64 = 4.0;
 
-/// Largest absolute value so far, its row, and the scale of the terms of the rows.
+/// Largest absolute value so far, the index of its row, and the scale of the terms of the rows.
 pub(crate) type Largest<T> = (T, u32, T);
 
-/// Returns the larger of the largest value so far and |x|, with its row.
+/// Returns the larger of the largest value so far and |x|, with the index of its row.
 #[inline(always)]
 fn note<T: Real>((worst, row): (T, u32), k: usize, x: T) -> (T, u32) {
     if x.abs() <= worst { (worst, row) } else { (x.abs(), index(k)) }
 }
 
-/// Evaluates Φ, Φ̇, the bias of Φ̈ and the gradients of the couplings for the links as placed.
+/// Evaluates Φ, Φ̇, the bias of Φ̈ and the gradients of the couplings for the current places of the links.
 #[inline(never)]
 pub(crate) fn evaluate<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
@@ -52,8 +53,9 @@ pub(crate) fn residual<T: Real, S: Space<T>>(
     Ok((worst, row, scale))
 }
 
-/// Writes Φ or Φ̇ of the couplings at the trial state into l. Returns the largest value of all rows with the scale of the rows' speeds, and
-/// whether every row is within `share`.
+/// Writes Φ or Φ̇ of the couplings at the trial state into l. Returns the largest absolute value over all rows with the scale of the rows'
+/// speeds. Returns true with it if no row violates its equation by more than `share`; for velocities, `share` is relative to max(1, speed
+/// of the row).
 #[inline(never)]
 pub(crate) fn violation<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
@@ -80,7 +82,7 @@ pub(crate) fn violation<T: Real, S: Space<T>>(
     Ok(((worst, row, scale), is_within))
 }
 
-/// Writes Φ of the couplings into l and Φ̇ into the rows, at the trial state. Returns the largest |Φ| and |Φ̇| of all rows.
+/// Writes Φ of the couplings into l and Φ̇ into the rows, at the trial state. Returns the largest |Φ| and |Φ̇| over all rows.
 #[inline(never)]
 pub(crate) fn at_trial<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
@@ -97,7 +99,7 @@ pub(crate) fn at_trial<T: Real, S: Space<T>>(
     Ok(largest)
 }
 
-/// Writes J δ into l, where δ is given by motions of the links in `a_response` and of the freedoms in `delta`.
+/// Writes J δ into l for a change of motion δ. `a_response` has δ for the links, `delta` has δ for the freedoms.
 #[inline(never)]
 pub(crate) fn along<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
@@ -112,7 +114,7 @@ pub(crate) fn along<T: Real, S: Space<T>>(
     Ok(())
 }
 
-/// Largest |Φ|, |Φ̇| and |Φ̈| of all rows, as evaluated last.
+/// Returns the largest |Φ|, |Φ̇| and |Φ̈| over all rows, from the last evaluation.
 #[inline(never)]
 pub(crate) fn violations<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,

@@ -8,7 +8,7 @@ use crate::passes::{inverse, rotor};
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
 
-/// Kinetic energy [J]: ½ Σ Zᵀ M Z.
+/// Returns the kinetic energy ½ Σ Zᵀ M Z over all links, with velocity Z and mass matrix M of a link [J].
 pub fn kinetic<T: Real, S: Space<T>>(links: &[Link<T, S>], placed: &[LinkMotion<T, S>]) -> T {
     let mut twice = T::ZERO;
     for (link, p) in links.iter().zip(placed).skip(1) {
@@ -18,10 +18,10 @@ pub fn kinetic<T: Real, S: Space<T>>(links: &[Link<T, S>], placed: &[LinkMotion<
     twice * T::HALF
 }
 
-/// Potential energy of gravity, springs and constant forces [J].
+/// Returns the potential energy of gravity, springs and constant forces [J].
 ///
 /// # Errors
-/// [`Outside`] if the tables do not fit each other.
+/// [`Outside`] if the tables are inconsistent.
 pub fn potential<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
     at: &Instant<'_, T, S>,
@@ -36,10 +36,10 @@ pub fn potential<T: Real, S: Space<T>>(
     Ok(energy)
 }
 
-/// Power of non-conservative forces and of guides [W], at the positions, accelerations and multipliers in the store.
+/// Returns the power of non-conservative forces and of guides at the positions, accelerations and multipliers in the store [W].
 ///
 /// # Errors
-/// [`Outside`] if the tables do not fit each other.
+/// [`Outside`] if the tables are inconsistent.
 pub fn power<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
     s: &mut Store<'_, T, S>,

@@ -4,9 +4,12 @@
 //! M a + p + Jᵀ λ = 0,   J a + bias = 0            λ from (J M⁻¹ Jᵀ + ε) Δλ = J a + bias, a −= M⁻¹ Jᵀ Δλ, until it is zero
 //! ```
 //!
-//! One sweep of the regularised system leaves the fraction ε of the residual. Further sweeps reduce the residual to rounding. They repeat
-//! the force and row right-hand sides only, with the factored inertias. Redundant rows need no special treatment: their forces are the
-//! solution of least norm.
+//! M is the mass matrix, a the accelerations, and p the bias forces. J is the Jacobian of the loops' rows, λ are their multipliers, and ε
+//! is the regularisation.
+//!
+//! One sweep (solution of the regularised system) leaves the fraction ε of the residual J a + bias. Further sweeps reduce the residual to
+//! rounding. They recompute the forces and the right-hand sides of rows only, with the factored inertias. Redundant rows need no special
+//! treatment: their forces are the solution of least norm.
 //!
 //! The closure of the report is an option: λ = α (Φ̈ + 2 μ Ω Φ̇ + Ω² Φ)   [P3 (39)–(41)]. It is the same elimination with ε = 1/α, one
 //! sweep, and bias + 2 μ Ω Φ̇ + Ω² Φ in place of the bias.
@@ -25,18 +28,20 @@ use crate::rows::closed_loop::ClosedLoop;
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
 
-/// Largest number of sweeps [-]. The residual must have reached its level by then. Chosen, not tuned.
+/// Largest number of sweeps [-]. The evaluation fails if the residual is still too large after them. Chosen, not tuned.
 const MAX_SWEEPS: u32 = 30;
-/// Largest pivot of a redundant row, in units of the square root of rounding [-]. Rounding alone leaves smaller pivots. Chosen, not tuned.
+/// Largest pivot of a redundant row, in units of the square root of machine precision [-]. Rounding errors alone leave smaller pivots.
+/// Chosen, not tuned.
 const NO_EFFECT: f64 = 64.0;
 /// Pivot below which rows are nearly redundant [-]. A displacement by a projection may then change accelerations by 10,000 times as much.
 const TIGHT: f64 = 1e-4;
-/// Residual of an evaluation within an iteration, in units of the square root of rounding [-]. Later iterations reduce it. Chosen, not
-/// tuned.
+/// Residual of an evaluation within an iteration, in units of the square root of machine precision [-]. Later iterations reduce the
+/// residual. Chosen, not tuned.
 const COARSE: f64 = 0.01;
-/// Residual of an evaluation for rates, relative to the error of the method [-]. A hundredth hardly adds to that error. Chosen, not tuned.
+/// Residual of an evaluation for rates, relative to the required error of the method [-]. A residual of a hundredth hardly adds to that
+/// error. Chosen, not tuned.
 const RATES_FRACTION: f64 = 0.01;
-/// Residual that counts as rounding, in units of rounding of a row's terms [-]. Chosen, not tuned.
+/// Residual that counts as rounding, relative to a row's terms and in units of machine precision [-]. Chosen, not tuned.
 const FINE_ROUNDINGS: f64 = 256.0;
 /// Residual that is accepted if sweeps stall near a singular position [-]. Chosen, not tuned.
 const SINGULAR_RESIDUAL: f64 = 1e-3;
@@ -44,19 +49,20 @@ const SINGULAR_RESIDUAL: f64 = 1e-3;
 /// Level of the residual at which sweeps end.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Level {
-    /// One sweep, whatever residual remains.
+    /// One sweep; the remaining residual is accepted.
     Once,
     /// Tolerance of an iteration that is not yet converged.
     Coarse,
-    /// A hundredth of the error of a step.
+    /// A hundredth of the required error of a step.
     Rates,
     /// Rounding of a row's terms.
     Fine,
-    /// This number of sweeps after the first one, whatever residual remains.
+    /// This number of sweeps after the first sweep; the remaining residual is accepted.
     Fixed(u32),
 }
 
-/// Evaluates the accelerations `s.zdd` at (`s.z`, `s.v`, `s.guides`, `s.courses`). Returns the largest remaining |Φ̈|.
+/// Evaluates the accelerations `s.zdd` at the coordinates `s.z`, velocities `s.v`, guides `s.guides` and signals `s.courses`. Returns the
+/// largest remaining |Φ̈|.
 pub(crate) fn accelerations<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
     options: &Options<T>,
@@ -71,9 +77,9 @@ pub(crate) fn accelerations<T: Real, S: Space<T>>(
     finish(m, options, level, s)
 }
 
-/// Evaluates accelerations with effects that depend linearly on them. On entry `s.zdd` has the accelerations from which (`s.z`, `s.v`) were
-/// computed. A difference from them changes the forces of effects by stiffness and damping times `reach` (see [`Reach`]). Without a
-/// difference the result is that of [`accelerations`].
+/// Evaluates accelerations on which the forces of effects depend linearly. On entry `s.zdd` has the accelerations from which the step
+/// computed `s.z` and `s.v`. If the new accelerations differ from `s.zdd`, the forces of effects change by stiffness and damping times
+/// `reach` (see [`Reach`]) times the difference. Without a difference the result is that of [`accelerations`].
 ///
 /// Cost: that of [`accelerations`], one outward pass without velocity products, and a rank-one update of an inertia for each effect.
 pub(crate) fn accelerations_ahead<T: Real, S: Space<T>>(
@@ -92,8 +98,8 @@ pub(crate) fn accelerations_ahead<T: Real, S: Space<T>>(
     finish(m, options, level, s)
 }
 
-/// Evaluates places and each body's own inertia. Returns the articulated inertias, so that loads can add to them. Builds for controllers do
-/// not inline this function, to have one copy of its code.
+/// Evaluates places and the inertia of each single body. Returns the table of articulated inertias, so that loads can add to it. Builds for
+/// controllers do not inline this function, so that its code exists once.
 #[cfg_attr(feature = "alloc", inline(always))]
 pub(crate) fn begin<'b, T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
@@ -161,7 +167,7 @@ fn begin_loops<T: Real, S: Space<T>>(
     })
 }
 
-/// Evaluates Φ, Φ̇, the bias of Φ̈ and the gradients of all rows for the links as placed.
+/// Evaluates Φ, Φ̇, the bias of Φ̈ and the gradients of all rows for the current places of the links.
 pub(crate) fn evaluate_rows<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
     s: &mut Store<'_, T, S>,
@@ -196,8 +202,8 @@ fn evaluate_cut<T: Real, S: Space<T>>(
     Ok(())
 }
 
-/// Writes J a + bias into l. Returns the largest absolute value, its row, and the scale of its terms. Builds for controllers do not inline
-/// this function, to have one copy of its code.
+/// Writes J a + bias into l. Returns the largest absolute value, the index of its row, and the scale of its terms. Builds for controllers
+/// do not inline this function, so that its code exists once.
 #[cfg_attr(feature = "alloc", inline(always))]
 fn residual<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
@@ -239,7 +245,7 @@ fn residual_of_cut<T: Real, S: Space<T>>(
     Ok((worst, row, scale))
 }
 
-/// Is the last factorisation near a singular position: is its rank lower than the largest rank so far?
+/// True if the last factorisation is near a singular position: its rank is lower than the largest rank so far. Updates the largest rank.
 pub(crate) fn note_rank<T: Real, S: Space<T>>(s: &mut Store<'_, T, S>) -> bool {
     let least = T::EPSILON.sqrt() * T::from_f64(NO_EFFECT);
     let rank = s.loops.pivots.iter().filter(|&&pivot| pivot > least).count();
@@ -247,18 +253,18 @@ pub(crate) fn note_rank<T: Real, S: Space<T>>(s: &mut Store<'_, T, S>) -> bool {
     rank < *s.rank
 }
 
-/// Are rows redundant, or is a singular position near? Away from Φ = 0 redundant rows contradict each other. Positions and velocities are
-/// therefore projected before accelerations are evaluated.
+/// True if rows are redundant or a singular position is near. If Φ is not zero, redundant rows contradict each other. Positions and
+/// velocities are therefore projected before accelerations are evaluated.
 pub(crate) fn is_redundant<T: Real, S: Space<T>>(s: &Store<'_, T, S>) -> bool {
     has_pivot_below(T::EPSILON.sqrt(), s)
 }
 
-/// Are rows nearly redundant? A small displacement by a projection may then change accelerations much.
+/// True if rows are nearly redundant. A small displacement by a projection may then change accelerations much.
 pub(crate) fn is_tight<T: Real, S: Space<T>>(s: &Store<'_, T, S>) -> bool {
     has_pivot_below(T::from_f64(TIGHT).max(T::EPSILON.sqrt()), s)
 }
 
-/// Is a pivot of the last factorisation NaN or at most `least`?
+/// True if a pivot of the last factorisation is NaN or at most `least`.
 fn has_pivot_below<T: Real, S: Space<T>>(least: T, s: &Store<'_, T, S>) -> bool {
     s.loops.pivots.iter().any(|&pivot| !(pivot > least))
 }
@@ -284,7 +290,7 @@ fn sweep<T: Real, S: Space<T>>(
         Level::Rates => (options.error * T::from_f64(RATES_FRACTION)).max(rounding()),
         Level::Fine => rounding(),
     };
-    // Near a singular position a combination of rows is weakly determined: part of its residual may remain.
+    // Near a singular position a combination of rows is weakly determined, so that a part of its residual may remain.
     let enough = if note_rank(s) { T::from_f64(SINGULAR_RESIDUAL) } else { T::EPSILON.sqrt() };
     let mut last: Option<T> = None;
     for _ in 0..MAX_SWEEPS {
@@ -307,9 +313,9 @@ fn sweep<T: Real, S: Space<T>>(
     }
 }
 
-/// Largest acceleration along a row that gravity, the rows' speeds, or the rows' forces alone would cause. A residual of rounding is small
-/// relative to it, even where all accelerations cancel, as in a structure or in free fall. The lower limit is the rounding unit, so that
-/// the value is never zero.
+/// Returns the largest acceleration along a row that gravity, the rows' speeds, or the rows' forces alone would cause. A residual that is
+/// caused by rounding is small relative to this acceleration. This also holds if all accelerations cancel, for example in a structure at
+/// rest or in free fall. The lower limit is the machine precision, so that the value is never zero.
 fn acting<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
     row: u32,
@@ -317,7 +323,7 @@ fn acting<T: Real, S: Space<T>>(
 ) -> Result<T, Outside> {
     let size = |k: usize| Ok(if at(m.loops.rows, k)?.is_angle() { T::ONE } else { m.length });
     let n = m.loops.rows.len();
-    // Largest of the squares of rates, in the same unit for all rows [1/s^2].
+    // Largest acceleration found so far, divided by the length for rows that are lengths [1/s^2].
     let mut acting = T::EPSILON.max(m.gravity.dot(&m.gravity).sqrt() / m.length);
     let forced = |k: usize| Ok(at(s.lambda, k)?.abs() * *at(s.loops.scales, k)? / size(k)?);
     for lap in m.loops.cut() {
@@ -337,7 +343,7 @@ fn acting<T: Real, S: Space<T>>(
     Ok(acting * size(row as usize)?)
 }
 
-/// Adds the response to l = J a + bias to accelerations and multipliers.
+/// Computes the response to the residual l = J a + bias, and adds it to accelerations and multipliers.
 #[inline(never)]
 fn improve<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
@@ -356,8 +362,8 @@ fn improve<T: Real, S: Space<T>>(
     Ok(())
 }
 
-/// Computes the change of motion x with J x = −l that is smallest in the norm of the masses, by one sweep. Writes `s.v_response` and
-/// `s.a_response`.
+/// Computes by one sweep the change of motion x with J x = −l that is smallest in the norm of the mass matrix. Writes x to `s.v_response`
+/// (freedoms) and `s.a_response` (links).
 pub(crate) fn respond<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
     s: &mut Store<'_, T, S>,

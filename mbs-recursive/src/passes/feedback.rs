@@ -17,10 +17,10 @@ impl<T: Real, S: Space<T>> Store<'_, T, S> {
     }
 }
 
-/// Does this build have signals that depend on the motion, and splines or steps over time as signals?
+/// True if this build supports signals that depend on the motion, and signals that are splines or steps over time.
 pub const IS_BUILT: bool = cfg!(feature = "signals");
 
-/// Evaluates the signals that depend on the motion at (`s.z`, `s.v`), and writes them to `s.courses`.
+/// Evaluates the signals that depend on the motion at the coordinates `s.z` and velocities `s.v`. Writes them to `s.courses`.
 #[inline(always)]
 pub(crate) fn follow_motion<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,

@@ -4,6 +4,10 @@
 //! outward   Ż = Żₚ + b z̈ + d
 //! inward    f = M Ż − Q + Σ children,   τ = bᵀ f
 //! ```
+//!
+//! Z is the velocity of a link, Zₚ the velocity of its parent carried to the link's origin. b is the motion of the link for unit rate ż of
+//! its joint, d are the velocity products. M is the inertia of the link and Q the force on it. f is the force through the joint and τ the
+//! effort along it.
 
 use crate::link::indexing::{Outside, at, at_mut};
 use crate::link::joint::{read, write};
@@ -14,10 +18,10 @@ use crate::passes::slices::{Store, TreeSlices};
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
 
-/// Accelerations of the links for given joint accelerations. The acceleration `a[0]` of the ground is an input.
+/// Computes the accelerations `a` of the links from given joint accelerations. The acceleration `a[0]` of the ground is an input.
 ///
 /// # Errors
-/// [`Outside`] if the tables do not fit each other.
+/// [`Outside`] if the tables are inconsistent.
 pub fn spread<T: Real, S: Space<T>>(
     links: &[Link<T, S>],
     placed: &[LinkMotion<T, S>],
@@ -27,8 +31,8 @@ pub fn spread<T: Real, S: Space<T>>(
     spread_each(links, (placed, true), zdd, a)
 }
 
-/// Motions of the links for given joint motions. Velocity products are added if the motions are accelerations. The motion `a[0]` of the
-/// ground is an input.
+/// Computes the motions of the links from given joint motions. Velocity products are added if the motions are accelerations. The motion
+/// `a[0]` of the ground is an input.
 #[inline(always)]
 pub(crate) fn spread_each<T: Real, S: Space<T>>(
     links: &[Link<T, S>],
@@ -65,8 +69,9 @@ pub(crate) fn spread_each<T: Real, S: Space<T>>(
     Ok(())
 }
 
-/// Writes the force through every joint into the links' `force`: the force on the link about its origin, at the accelerations and
-/// multipliers of the store. It includes the effects along the joint, which are also in `effort`. The factored inertias are not changed.
+/// Writes the force through every joint into the `force` of the link that the joint carries. It is the force on the link about the link's
+/// origin, at the accelerations and multipliers of the store. The force includes the effects along the joint, which are also in `effort`.
+/// The factored inertias are not changed.
 pub(crate) fn forces<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
     s: &mut Store<'_, T, S>,
@@ -103,7 +108,8 @@ pub(crate) fn forces<T: Real, S: Space<T>>(
     Ok(())
 }
 
-/// Writes the effort bᵀ f that a link's joint must apply, without the efforts of effects along it. For a guided ball the effort is a power.
+/// Writes the effort bᵀ f that a link's joint must apply. Efforts of effects along the joint are not included. For a guided ball the effort
+/// is a power.
 pub(crate) fn effort<T: Real, S: Space<T>>(
     link: &Link<T, S>,
     p: &LinkMotion<T, S>,

@@ -1,4 +1,4 @@
-//! Check of laws of rotations in space, which are valid up to a whole turn.
+//! Check that rotations in space on which laws depend are below a whole turn. The laws are valid up to a whole turn only.
 //!
 //! Beyond a whole turn the half angles of the tree describe the opposite rotation: the rotation vector changes its sign.
 
@@ -13,12 +13,13 @@ use mbs_core::effects::bushing;
 use mbs_core::laws::LawInputs;
 use mbs_core::step::StepError;
 
-/// Checks whether a rotation has passed a whole turn in the step of `dt` [s] from `start` to (`s.z`, `s.v`).
+/// Checks that no rotation has passed a whole turn in the step of `dt` [s] from `start` to the state (`s.z`, `s.v`).
 ///
-/// Cost: one comparison for each effect; for a rotation, the half angles of the joints in between, at the start and at the end.
+/// Cost: one comparison for each effect. A rotation also takes the half angles of the joints between its links, at the start and at the end
+/// of the step.
 ///
 /// # Errors
-/// [`StepError::Overturned`] with the number of the load in place of the number of the effect.
+/// [`StepError::Overturned`] with the index of the load in place of the index of the effect.
 #[inline(always)]
 pub(crate) fn check_rotations<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,

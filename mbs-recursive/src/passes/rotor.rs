@@ -10,7 +10,7 @@ use crate::passes::slices::TreeSlices;
 use crate::space::Space;
 use mbs_core::Real;
 
-/// Does this build support rotors?
+/// True if this build supports rotors.
 pub const IS_BUILT: bool = cfg!(feature = "rotors");
 
 /// Returns the rotors; a build without rotors returns an empty slice.
@@ -44,7 +44,7 @@ pub(crate) fn add_efforts<T: Real, S: Space<T>>(
     Ok(())
 }
 
-/// Returns the entry of a link's freedom in `numbers`. For a guided link returns the given derivative of its guide.
+/// Returns the entry of a link's freedom in `numbers`. For a guided link it returns a derivative of the guide; `derivative` is its order.
 pub(crate) fn of_link<T: Real, S: Space<T>>(
     links: &[Link<T, S>],
     link: u32,

@@ -1,4 +1,4 @@
-//! A mechanism and its scratch as slices, so that every step uses memory that the caller provides.
+//! A mechanism and its scratch memory as slices, so that every step uses memory that the caller provides.
 
 use crate::link::plan::Span;
 use crate::link::{ArticulatedInertia, Link, LinkMotion, LinkRotor};
@@ -27,7 +27,7 @@ pub struct TreeSlices<'a, T: Real, S: Space<T>> {
     pub feedback: FeedbackSlices<'a, T>,
     /// Acceleration of gravity [m/s^2].
     pub gravity: S::Point,
-    /// Origin of the positions, global axes [m].
+    /// Point from which the positions of links are measured, in global axes [m].
     pub base: S::Point,
     /// Characteristic length of the scene [m].
     pub length: T,
@@ -37,30 +37,30 @@ pub struct TreeSlices<'a, T: Real, S: Space<T>> {
     pub n_freedoms: usize,
 }
 
-/// Length, or angle of a ball, that is measured for signals.
+/// Length or angle of a ball joint that is measured for signals.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FeedbackMeasure<T> {
     /// Index of the measured number among all measured numbers.
     pub number: u32,
-    /// Measured length or measured angle of a ball.
+    /// The measured length, or the measured angle of a ball joint.
     pub of: SumMeasure<T>,
-    /// Links that carry points of the measured line or axes of the ball.
+    /// Links that carry points of the measured line or axes of the ball joint.
     pub starts: Span,
 }
 
-/// Operations that compute signals which depend on the motion, with the links whose coordinates they measure. Curves are those of
-/// [`Couplings`](crate::rows::coupled::Couplings).
+/// Operations that compute signals which depend on the motion, with the links whose coordinates they measure. The operations use the curves
+/// of [`Couplings`](crate::rows::coupled::Couplings).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FeedbackSlices<'a, T> {
     /// Operations that compute the signals.
     pub steps: &'a [FeedbackStep<T>],
     /// Link of each measured number; [`NONE`](crate::rows::coupled::NONE) if the measured number is not a coordinate.
     pub links: &'a [u32],
-    /// Measured numbers that are not coordinates: lengths, and angles of balls.
+    /// Measured numbers that are not coordinates: lengths and angles of ball joints.
     pub measures: &'a [FeedbackMeasure<T>],
     /// Number of states of signals.
     pub n_states: usize,
-    /// Numbers of the signals that depend on the motion.
+    /// Indices of the signals that depend on the motion.
     pub signals: &'a [u32],
 }
 
@@ -78,12 +78,12 @@ pub trait Inputs<T> {
     fn evaluate(&self, t: T, guides: &mut [[T; 3]], courses: &mut [[T; 3]]);
 }
 
-/// Scratch of a step.
+/// Scratch memory of a step.
 #[derive(Debug)]
 pub struct Store<'a, T: Real, S: Space<T>> {
-    /// Links at the state for which inertias were factored; one for each link.
+    /// Place and motion of each link at the state for which inertias were factored.
     pub placed: &'a mut [LinkMotion<T, S>],
-    /// Links at a trial state; one for each link.
+    /// Place and motion of each link at a trial state.
     pub trial: &'a mut [LinkMotion<T, S>],
     /// Articulated inertias, one for each link.
     pub condensed: &'a mut [ArticulatedInertia<T, S>],
@@ -95,9 +95,9 @@ pub struct Store<'a, T: Real, S: Space<T>> {
     pub v_response: &'a mut [T],
     /// Scratch of the loops.
     pub loops: LoopStore<'a, T, S>,
-    /// Gradients K of the rows: first for the first bodies of all rows, then for the second bodies.
+    /// Gradients K of the rows: first the gradients for the first bodies of all rows, then those for the second bodies.
     pub gradient: &'a mut [S::Motion],
-    /// Φ, Φ̇ and the bias of Φ̈, one of each for each row.
+    /// Violation Φ, its rate Φ̇ and the bias of Φ̈ for each row.
     pub rows: &'a mut [[T; 3]],
     /// Multipliers, summed over the sweeps.
     pub lambda: &'a mut [T],
@@ -134,7 +134,7 @@ pub struct Counts {
 }
 
 impl<'a, T: Real, S: Space<T>> Store<'a, T, S> {
-    /// Returns the data of the mechanism from which loads are evaluated, at the state for which inertias were factored.
+    /// Returns the data from which loads are evaluated, at the state for which inertias were factored.
     #[allow(clippy::needless_update, reason = "with effects compiled there are tables")]
     pub(crate) fn instant<'b>(&'b self, m: &'b TreeSlices<'_, T, S>) -> Instant<'b, T, S> {
         Instant {

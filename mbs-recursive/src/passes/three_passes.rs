@@ -6,9 +6,12 @@
 //! 3  outward   z̈ = (bᵀ M̂ b)⁻¹ [bᵀ (Q̂ − M̂ d) − bᵀ M̂ Żₚ],   Ż = Żₚ + b z̈ + d                  [P3 (27), (35)]
 //! ```
 //!
-//! Differences from the source: each link's quantities refer to the link's own origin, a point of the body near its joint, in world axes.
-//! Inertias and forces are shifted to the parent's origin on the way inward. p = −Q̂. The equations of a loop are eliminated at the common
-//! ancestor of its bodies (`loops`). The source derives them by hand for each mechanism.
+//! Z = (ω, v) is the velocity of a link, Zₚ the velocity of its parent carried to the link's origin. b is the motion of a link for unit
+//! rate ż of its joint, d are the velocity products. M̂ and Q̂ are the articulated inertia and force.
+//!
+//! Differences from the source: the quantities of a link are in world axes and refer to the link's origin, a point of the body near its
+//! joint. Inertias and forces are shifted to the parent's origin in the inward pass. The code stores p = −Q̂. The equations of a loop are
+//! eliminated at the common ancestor of its bodies (`loops`). The source derives the equations of loops by hand for each mechanism.
 
 use crate::link::indexing::{Outside, at, at_mut};
 use crate::link::joint::{self, NoInertia};
@@ -19,10 +22,10 @@ use mbs_core::Real;
 
 /// First pass of an evaluation, outward: places, velocities and velocity products.
 ///
-/// Cost: about 50 multiplications for each planar link and 150 for each spatial one, and a sine and cosine.
+/// Cost: for each link about 50 multiplications in the plane or 150 in space, and a sine and cosine.
 ///
 /// # Errors
-/// [`Outside`] if the tables do not fit each other.
+/// [`Outside`] if the tables are inconsistent.
 #[inline]
 pub fn kinematics<T: Real, S: Space<T>>(
     links: &[Link<T, S>],
@@ -38,7 +41,7 @@ pub fn kinematics<T: Real, S: Space<T>>(
     Ok(())
 }
 
-/// Returns a body's inertia about its link's origin, and its velocity-dependent forces: M and −Q without effects [P3 (24)–(25)].
+/// Returns the inertia M of a body about its link's origin, and its velocity-dependent forces −Q without effects [P3 (24)–(25)].
 #[inline(always)]
 pub(crate) fn body<T: Real, S: Space<T>>(
     link: &Link<T, S>,
@@ -102,12 +105,13 @@ pub fn condense<T: Real, S: Space<T>>(
     Ok(())
 }
 
-/// Second pass again for other forces and rows l, with the factored inertias. It has no velocity products, and the ground is at rest.
+/// Repeats the second pass for other forces and other right-hand sides l, with the factored inertias. There are no velocity products, and
+/// the ground is at rest.
 ///
 /// Cost: about a fifth of [`condense`].
 ///
 /// # Errors
-/// [`Outside`] if the tables do not fit each other.
+/// [`Outside`] if the tables are inconsistent.
 #[inline]
 pub fn condense_again<T: Real, S: Space<T>>(
     links: &[Link<T, S>],
@@ -137,7 +141,7 @@ pub type Factors<'a, T, S> = (&'a [LinkMotion<T, S>], &'a [ArticulatedInertia<T,
 /// zero for a response. A response (`has_bias` false) has no velocity products.
 ///
 /// # Errors
-/// [`Outside`] if the tables do not fit each other.
+/// [`Outside`] if the tables are inconsistent.
 #[inline]
 pub fn accelerate<T: Real, S: Space<T>>(
     links: &[Link<T, S>],

@@ -6,8 +6,10 @@
 //! rate    g·(ω₂ − ω₁),   wrench g on the second link, −g on the first
 //! ```
 //!
-//! The half angles keep their sign from step to step. The twist is therefore known up to a whole turn in both directions. Beyond that it
-//! jumps by two turns.
+//! a and b are the unit axes in the first and the second body, in world axes.
+//!
+//! The sign of the half angles is continuous from step to step. The twist is therefore known up to a whole turn in both directions. Beyond
+//! a whole turn it jumps by two turns.
 
 use crate::link::LinkMotion;
 use crate::link::indexing::{Outside, at, range};
@@ -18,11 +20,11 @@ use mbs_core::Real;
 use mbs_core::algebra::{Vector, cross, norm};
 use mbs_core::elements::{ball_directions, is_open};
 
-/// Links of a ball, and world directions of its axes.
+/// Links of a ball joint, and the directions of its axes in world axes.
 type Axes<T> = ([u32; 2], [Vector<T, 3>; 2]);
 
 impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
-    /// Returns the links of a ball and the world directions of its axes.
+    /// Returns the links of a ball joint, and the directions of its axes in world axes.
     fn ball_axes(
         &self,
         (axes, starts): (Span, Span),
@@ -39,13 +41,13 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
         Ok(([i, j], [a, b]))
     }
 
-    /// Returns the direction g of an angle of a ball.
+    /// Returns the direction g of a swing or twist, from the axes a and b of the ball joint.
     fn direction(of: &SumMeasure<T>, [a, b]: &[Vector<T, 3>; 2]) -> Vector<T, 3> {
         let [swing, twist] = ball_directions(a, b);
         if matches!(of, SumMeasure::Twist { .. }) { twist } else { swing }
     }
 
-    /// Returns an angle of a ball and its rate.
+    /// Returns the swing or twist of a ball joint, and its rate.
     pub(crate) fn ball_angle(
         &self,
         (of, axes, starts): (&SumMeasure<T>, Span, Span),
@@ -65,7 +67,7 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
         Ok([value, rate])
     }
 
-    /// Returns the twist from the half angles that begin at index `first` in z.
+    /// Returns the twist from the joint's quaternion, which begins at index `first` in z.
     fn twist(&self, (axes, first, is_reversed): (Span, u32, bool), z: &[T]) -> Result<T, Outside> {
         let axis = range(self.points, axes.range())?.first().ok_or(Outside)?;
         let axis = S::point_into(&axis.point);
@@ -75,7 +77,7 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
         Ok(if is_reversed { -twist } else { twist })
     }
 
-    /// Returns the links of a ball, and the wrench on the second link for unit rate.
+    /// Returns the links of a ball joint, and the wrench g of its angle on the second link.
     pub(crate) fn ball_wrench(
         &self,
         (of, axes, starts): (&SumMeasure<T>, Span, Span),
@@ -86,7 +88,7 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
         Ok((links, S::motion(g, crate::space::Numbers::zero())))
     }
 
-    /// Does the row have an undefined twist: are the axes of a ball opposite in these places?
+    /// True if a twist of the row is undefined, because the axes of its ball joint are opposite at these places.
     pub(crate) fn has_open_twist(
         &self,
         row: &CoupledRow<T>,
@@ -102,8 +104,8 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
         Ok(false)
     }
 
-    /// Returns the amount that a row's sum lacks because twists have jumped by two turns between two states. `None` if the row is not
-    /// linear in such a twist.
+    /// Returns the amount that must be added to a row's sum because twists have jumped by two turns between two states. `None` if the row
+    /// is not linear in such a twist.
     pub(crate) fn lost_twist(
         &self,
         row: &CoupledRow<T>,

@@ -9,6 +9,8 @@
 //! dot           x·y − const                       K₁ = (x × y, 0),   K₂ = −K₁
 //! length        (g·g − L²)/(2L)                   K₂ = (s₂ × g, g)/L,  K₁ = −(s₁ × g, g)/L
 //! ```
+//!
+//! K₁ and K₂ are the gradients of an equation Φ by the motions of the first and the second link, whose velocities are V₁ and V₂.
 
 use crate::link::LinkMotion;
 use crate::link::indexing::{Outside, at, part};
@@ -16,19 +18,19 @@ use crate::rows::{Row, RowValue, rolling};
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
 
-/// A closed loop of the mechanism: a cut joint, a body that rolls on another, or a coupling. A coupling's links and points are in its
-/// row instead.
+/// A closed loop of the mechanism: a cut joint, a body that rolls on another, or a coupling. The links and points of a coupling are in its
+/// row, and are not used here.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ClosedLoop<T: Real, S: Space<T>> {
     /// Links of the loop's first and second body.
     pub links: [u32; 2],
-    /// Point of the loop on each link, from the link's origin, reference axes [m].
+    /// Point of the loop on each link: vector from the link's origin, in the axes of the reference configuration [m].
     pub points: [S::Point; 2],
     /// Index of the loop's first row.
     pub first: u32,
     /// Number of the loop's rows.
     pub n: u32,
-    /// Nearest common ancestor of both links. The rows are eliminated there.
+    /// Nearest common ancestor of both links. The rows are eliminated at this link.
     pub ancestor: u32,
     /// Index of the loop's diagonal block of Λ.
     pub block: u32,
@@ -47,7 +49,7 @@ impl<T: Real, S: Space<T>> ClosedLoop<T, S> {
     /// Evaluates the loop's rows and passes each one to `take`, in order.
     ///
     /// # Errors
-    /// [`Outside`] if the tables do not fit each other, or an error of `take`.
+    /// [`Outside`] if the tables are inconsistent, or an error of `take`.
     #[inline(always)]
     pub fn evaluate(
         &self,
@@ -90,7 +92,7 @@ impl<T: Real, S: Space<T>> ClosedLoop<T, S> {
             let rate = gradient[0].dot(&a.velocity) + gradient[1].dot(&b.velocity);
             take(k, RowValue { gradient, value, rate, bias })
         };
-        // Fast path for most loops: with the axes in order, the axis numbers are constants.
+        // Fast path for most loops: with the axes in order, the indices of the axes are constants.
         if own.len() == S::Point::N && own.iter().enumerate().all(|(i, row)| row.is_along(i)) {
             for axis in 0..S::Point::N {
                 give(self.first as usize + axis, coincidence(axis))?;

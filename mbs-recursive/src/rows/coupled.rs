@@ -1,4 +1,4 @@
-//! Couplings: rows over joint coordinates and lengths, such as gears, racks, cams and ropes.
+//! Couplings: rows over joint coordinates and lengths, for example of gears, racks, cams and ropes.
 //!
 //! ```text
 //! Φ = (Σ cₖ fₖ(mₖ) − s(t)) / c          c: the largest |cₖ|
@@ -9,6 +9,11 @@
 //! line over points    m = Σ |d| − L          n = d/|d|,   K = (s × n, n) at the end of a part, its opposite at the beginning
 //!                                            bias = Σ (n·s̈ + (ḋ·ḋ − (n·ḋ)²)/|d|)
 //! ```
+//!
+//! mₖ are the measured numbers of the terms, cₖ their factors and fₖ their curves. s(t) is the value of the guide. gᵢ is the slope of the
+//! row by the coordinate zᵢ of a joint. K is the gradient of the row by the motion of a link, which has velocity V and acceleration a. For
+//! a line, L is the length in the reference configuration, d the vector along a part, and s the vector from a link's origin to an end of
+//! the part.
 
 use crate::link::curves::{self, CurveTable};
 use crate::link::indexing::{Outside, at, at_mut, range};
@@ -18,11 +23,11 @@ use crate::space::{Numbers, Space};
 use mbs_core::Real;
 pub use mbs_core::elements::NONE;
 
-/// Does this build support couplings?
+/// True if this build supports couplings.
 pub const IS_BUILT: bool = cfg!(feature = "couplings");
-/// Does this build support lines over points of links?
+/// True if this build supports lines over points of links.
 pub const HAS_LINES: bool = cfg!(feature = "lines");
-/// Does this build support angles of balls? Tables for controllers have no such angles.
+/// True if this build supports angles of ball joints. Tables for controllers have no such angles.
 pub(crate) const HAS_BALL_ANGLES: bool = cfg!(feature = "alloc");
 
 /// Data of the row of a coupling.
@@ -30,15 +35,15 @@ pub(crate) const HAS_BALL_ANGLES: bool = cfg!(feature = "alloc");
 pub struct CoupledRow<T> {
     /// Terms of the row.
     pub terms: Span,
-    /// Links that carry points of its lines or axes of its balls.
+    /// Links that carry points of the row's lines or axes of its ball joints.
     pub starts: Span,
-    /// Number of the guide to which the sum is equal; [`NONE`] if the sum is zero.
+    /// Index of the guide to which the sum is equal; [`NONE`] if the sum is zero.
     pub guide: u32,
-    /// Constant that is subtracted from the sum, divided by the largest factor. An exported guide has its constant part here.
+    /// Constant that is subtracted from the sum, divided by the largest factor. In an exported model it is the constant part of the guide.
     pub value: T,
-    /// One over the largest factor. The sum is multiplied by it.
+    /// Inverse of the largest factor. The sum is multiplied by this number.
     pub inverse: T,
-    /// Is the value of the row an angle (otherwise a length)?
+    /// True if the value of the row is an angle; false if it is a length.
     pub is_angle: bool,
 }
 
@@ -47,21 +52,21 @@ pub struct CoupledRow<T> {
 pub struct SumTerm<T> {
     /// Factor of the term, divided by the largest factor of the row.
     pub factor: T,
-    /// Number of the term's curve; [`NONE`] if the term is the measured number itself.
+    /// Index of the term's curve; [`NONE`] if the term is the measured number itself.
     pub curve: u32,
-    /// Measure that the term is a function of.
+    /// Measured number of which the term is a function.
     pub of: SumMeasure<T>,
 }
 
 impl<T: Real> SumTerm<T> {
-    /// Returns the derivative of term `i` by its measured number. If the term has a curve, `slopes` has the derivative from the last
-    /// evaluation.
+    /// Returns the derivative of term `i` by its measured number. If the term has a curve, the derivative is read from `slopes`, where the
+    /// last evaluation stored it.
     #[inline(always)]
     fn slope(&self, i: usize, slopes: &[T]) -> Result<T, Outside> {
         if self.has_curve() { at(slopes, i).copied() } else { Ok(self.factor) }
     }
 
-    /// Does the term have a curve? In a build without curves no term has one.
+    /// True if the term has a curve. In a build without curves no term has a curve.
     #[inline(always)]
     fn has_curve(&self) -> bool {
         curves::IS_BUILT && self.curve != NONE
@@ -73,9 +78,9 @@ impl<T: Real> SumTerm<T> {
 pub enum SumMeasure<T> {
     /// The coordinate of a link whose joint has one freedom, or is guided.
     Joint {
-        /// Number of the link.
+        /// Index of the link.
         link: u32,
-        /// Side by which this part of the row is carried inward; [`NONE`] if the joint is guided.
+        /// Index of the side by which this part of the row is carried inward; [`NONE`] if the joint is guided.
         side: u32,
     },
     /// The length of a line minus its length in the reference configuration.
@@ -85,54 +90,55 @@ pub enum SumMeasure<T> {
         /// The length in the reference configuration [m].
         reference: T,
     },
-    /// The swing of a ball: the angle between a direction of one link and one of another.
+    /// The swing of a ball joint: the angle between a direction of one link and a direction of the other link.
     Swing {
-        /// Directions of the ball, stored in the list of points.
+        /// Directions of the ball joint's axes, stored in the list of points.
         axes: Span,
     },
-    /// The twist of a ball about a direction of one link and one of another.
+    /// The twist of a ball joint: the angle of rotation about a direction of one link and a direction of the other link.
     Twist {
-        /// Directions of the ball, stored in the list of points.
+        /// Directions of the ball joint's axes, stored in the list of points.
         axes: Span,
-        /// Index of the first of the joint's half angles in z.
+        /// Index in z at which the joint's quaternion begins.
         first: u32,
-        /// Is the parent of the link the joint's second body?
+        /// True if the parent of the link is the joint's second body.
         is_reversed: bool,
     },
 }
 
-/// A point of a line, or a direction of a ball.
+/// A point of a line, or a direction of a ball joint's axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LinePoint<T: Real, S: Space<T>> {
     /// Index of the point's link in the list of the row's links.
     pub start: u32,
-    /// Vector from the link's origin to the point, reference axes [m].
+    /// Vector from the link's origin to the point [m], or unit direction, in the axes of the reference configuration.
     pub point: S::Point,
 }
 
 /// A link from which a row is carried inward.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct LinkStart {
-    /// Side by which the row is carried inward from this link.
+    /// Index of the link from which the row is carried inward.
     pub link: u32,
-    /// Number of the side by which the row is carried inward from the link.
+    /// Index of the side by which the row is carried inward from the link.
     pub side: u32,
 }
 
 /// Tables for the rows of couplings; they are constant.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Couplings<'a, T: Real, S: Space<T>> {
-    /// Number of loops that are cut joints or rollings. The loops after these are couplings. A number beyond the list means no couplings.
+    /// Number of loops that belong to cut joints or rollings. All later loops belong to couplings. If this number is larger than the number
+    /// of loops, there are no couplings.
     pub n_cut: u32,
     /// Terms of all rows.
     pub terms: &'a [SumTerm<T>],
-    /// Points of lines, and directions of balls.
+    /// Points of lines, and directions of ball joints' axes.
     pub points: &'a [LinePoint<T, S>],
-    /// Links from which the rows of lines and balls are carried inward.
+    /// Links from which the rows of lines and of angles of ball joints are carried inward.
     pub starts: &'a [LinkStart],
     /// Curves of terms and signals.
     pub curves: &'a [CurveTable<T>],
-    /// Knots of splines, each an argument with its value.
+    /// Knots of all splines. A knot is an argument and the value of the spline at this argument.
     pub knots: &'a [[T; 2]],
     /// Second derivatives of splines at their knots, and coefficients of polynomials.
     pub numbers: &'a [T],
@@ -145,13 +151,13 @@ pub struct Couplings<'a, T: Real, S: Space<T>> {
 pub(crate) type Here<'a, T, S> =
     (&'a [Link<T, S>], &'a [LinkMotion<T, S>], (&'a [T], &'a [T], &'a [[T; 3]]));
 
-/// Gradients of all rows: K of all sides, first sides first, and the slopes of terms with curves.
+/// Gradients of all rows: K of the first sides of all rows, then K of the second sides and so on, and the slopes of terms with curves.
 pub(crate) type Gradients<'a, T, S> = (&'a mut [<S as Space<T>>::Motion], &'a mut [T]);
 
 /// Value of the row of a coupling at an instant.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct CoupledValue<T> {
-    /// Φ, Φ̇, and Φ̈ without accelerations.
+    /// Value Φ, rate Φ̇, and bias: the part of Φ̈ that remains for zero accelerations.
     pub(crate) row: [T; 3],
     /// Sums of absolute values of the parts of Φ and of Φ̇.
     pub(crate) parts: [T; 2],
@@ -163,7 +169,7 @@ impl<T: Real> CoupledValue<T> {
         Self { row: [T::ZERO; 3], parts: [T::ZERO; 2] }
     }
 
-    /// Adds value, rate and bias of a term or guide, and the size of the parts of its rate.
+    /// Adds value, rate and bias of a term or guide. `speed` is the sum of the absolute values of the parts of its rate.
     #[inline(always)]
     pub(crate) fn add(&mut self, x: [T; 3], speed: T) {
         self.row.iter_mut().zip(x).for_each(|(sum, x)| *sum += x);
@@ -200,8 +206,8 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
         last.map_or(0, |last| last + 1)
     }
 
-    /// Returns value, rate and known part of the acceleration of a term's measured number. The last result is the size of the parts of its
-    /// rate.
+    /// Returns value, rate, and bias of a term's measured number; the bias is the part of the acceleration that remains for zero
+    /// accelerations. The last result is the sum of the absolute values of the parts of the rate.
     pub(crate) fn measure(
         &self,
         (of, starts): (&SumMeasure<T>, Span),
@@ -214,7 +220,7 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
                 Ok((numbers, numbers[1].abs()))
             }
             SumMeasure::Line { points, reference } if HAS_LINES => {
-                // Parts of a rate may cancel where the ends move across their part of the line, so `speed` sums their sizes.
+                // Parts of a rate may cancel if the ends move across their part of the line, so `speed` sums their absolute values.
                 let (mut sum, mut speed) = ([-reference, T::ZERO, T::ZERO], T::ZERO);
                 self.each_part((points, starts), here.1, |part| {
                     let along = part.direction.dot(&part.rate);
@@ -230,12 +236,12 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
                 let numbers = self.ball_angle((of, axes, starts), here)?;
                 Ok(([numbers[0], numbers[1], T::ZERO], numbers[1].abs()))
             }
-            // Not in this build: a model with this measure is refused when it is loaded.
+            // This build does not support the measure. A model with this measure is refused when it is loaded.
             _ => Err(Outside),
         }
     }
 
-    /// Evaluates row `k` of `n_rows`, the row of a coupling. If `out` is given, the gradients are written there.
+    /// Evaluates the row of a coupling, which is row `k` of `n_rows`. If `out` is given, writes the gradients to it.
     #[inline(always)]
     pub(crate) fn evaluate(
         &self,
@@ -249,7 +255,7 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
             #[cfg(feature = "alloc")]
             None if self.is_related(row) => self.of_relation(place, here, out)?,
             None if curves::IS_BUILT || HAS_LINES => self.of_terms(place, here, out)?,
-            // Not in this build: a model with such a row is refused when it is loaded.
+            // This build does not support the row. A model with such a row is refused when it is loaded.
             None => return Err(Outside),
         };
         sum.add([-row.value, T::ZERO, T::ZERO], T::ZERO);
@@ -310,7 +316,8 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
         Ok(sum)
     }
 
-    /// Calls `take` for each coordinate or link whose motion changes a row's sum, with the derivative. The row's guide is not included.
+    /// Calls `take` for each coordinate or link whose motion changes a row's sum, with the derivative of the sum. The row's guide is not
+    /// included.
     pub(crate) fn each_end(
         &self,
         row: &CoupledRow<T>,
@@ -340,7 +347,7 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
                         Ok(())
                     })?;
                 }
-                // Not in this build: a model with this measure is refused when it is loaded.
+                // This build does not support the measure. A model with this measure is refused when it is loaded.
                 _ => return Err(Outside),
             }
         }
@@ -352,7 +359,8 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
         if HAS_LINES { range(self.starts, row.starts.range()) } else { Ok(&[]) }
     }
 
-    /// Returns the links whose coordinates are terms of a row, each with the side by which it is carried inward, and its slope g.
+    /// Returns the links whose coordinates are terms of a row. Each link comes with the side by which its term is carried inward, and with
+    /// the slope g of the term.
     pub(crate) fn joints_of<'s>(
         &'s self,
         row: &CoupledRow<T>,
@@ -365,8 +373,8 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
         }))
     }
 
-    /// Returns Σ K a + Σ g x of row `k` for motions `a` of the links and `x` of the freedoms. The second result is the sum of absolute
-    /// values of its parts.
+    /// Returns Σ K a + Σ g x of row `k` for motions `a` of the links and `x` of the freedoms. The second result is the sum of the absolute
+    /// values of all parts.
     #[inline(always)]
     pub(crate) fn along(
         &self,
@@ -393,7 +401,8 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
         Ok(sum)
     }
 
-    /// Returns the slope g of a row by the coordinate of link `i`, for one side of the row; zero if the side has no such term.
+    /// Returns the slope g of a row by the coordinate of link `i`, for one side of the row. It is zero if no term of this side measures the
+    /// coordinate.
     #[inline(always)]
     pub(crate) fn slope(
         &self,
@@ -417,14 +426,14 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
 pub(crate) enum SumEnd<T: Real, S: Space<T>> {
     /// The coordinate of a link.
     Joint {
-        /// Number of the link.
+        /// Index of the link.
         link: u32,
         /// Derivative of the sum by the coordinate.
         slope: T,
     },
     /// The motion of a link.
     Link {
-        /// Number of the link.
+        /// Index of the link.
         link: u32,
         /// Derivative of the sum by the motion, as a wrench on the link.
         wrench: S::Motion,

@@ -1,4 +1,4 @@
-//! Lines over points of links, part by part: lengths, gradients, and parts that collapse.
+//! Lines over points of links. The module computes lengths and gradients of their parts, and finds parts that collapse to zero length.
 
 use crate::link::LinkMotion;
 use crate::link::indexing::{Outside, at, at_mut, range};
@@ -39,7 +39,7 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
         Ok(())
     }
 
-    /// Adds the gradient of a line term, times its slope, to row `k` of `n_rows`.
+    /// Adds the gradient of a line, multiplied by the slope of its term, to row `k` of `n_rows`.
     #[inline(always)]
     pub(crate) fn add_gradient(
         &self,
@@ -90,11 +90,12 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
     }
 }
 
-/// End of a part of a line: link, angular velocity, arm of the point, and place and velocity of the point.
+/// End of a part of a line: link, angular velocity of the link, vector from the link's origin to the point, and place and velocity of the
+/// point.
 type LineEnd<T, S> =
     (LinkStart, <S as Space<T>>::Spin, <S as Space<T>>::Point, [<S as Space<T>>::Point; 2]);
 
-/// Evaluates a point of a line.
+/// Evaluates a point of a line at an instant.
 fn line_end<T: Real, S: Space<T>>(
     starts: &[LinkStart],
     of: &LinePoint<T, S>,
@@ -108,15 +109,15 @@ fn line_end<T: Real, S: Space<T>>(
     Ok((start, spin, arm, [p.position + arm, rate]))
 }
 
-/// A part of a line.
+/// A part of a line: the segment between two adjacent points.
 pub(crate) struct LinePart<T: Real, S: Space<T>> {
-    /// Links at both ends, each with the arm of the point from the link's origin.
+    /// Links at both ends, each with the vector from the link's origin to the point.
     pub(crate) ends: [(LinkStart, S::Point); 2],
     /// Unit vector from the first end to the second.
     pub(crate) direction: S::Point,
     pub(crate) length: T,
-    /// Velocity of the second end minus that of the first [m/s].
+    /// Velocity of the second end minus the velocity of the first end [m/s].
     pub(crate) rate: S::Point,
-    /// Acceleration of the second end minus that of the first, for zero accelerations of the links [m/s^2].
+    /// Acceleration of the second end minus the acceleration of the first end, for zero accelerations of the links [m/s^2].
     pub(crate) bias: S::Point,
 }

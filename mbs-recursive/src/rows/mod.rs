@@ -1,4 +1,4 @@
-//! Equations of loops, with gradients: of cut joints, of rolling bodies and of couplings.
+//! Equations of cut joints, rolling bodies and couplings, with their gradients.
 
 mod ball;
 pub mod closed_loop;

@@ -1,11 +1,12 @@
-//! User-defined relations: rows that are a function φ of joint coordinates and lengths in place of their sum.
+//! User-defined relations: rows with a function φ of joint coordinates and lengths in place of a sum.
 //!
 //! ```text
 //! Φ = (φ(c₁ m₁ .. cₙ mₙ) − s(t)) / c          c: its largest derivative in the reference configuration
 //! Φ̈ = Σ φₖ cₖ m̈ₖ + ṁᵀ H ṁ                     head = K b + g as of a sum, with the slopes φₖ cₖ
 //! ```
 //!
-//! A term of such a row has the number of its relation in place of a curve. The derivatives of φ are stored as the slopes of curves are.
+//! A term of such a row has the index of its relation in place of the index of a curve. The derivatives of φ are stored in the list of the
+//! slopes of curves.
 
 use crate::link::indexing::{Outside, at_mut, range};
 use crate::rows::coupled::{CoupledRow, CoupledValue, Couplings, Gradients, Here, NONE};
@@ -15,12 +16,12 @@ use mbs_core::laws::code::NumberedRelation;
 use mbs_core::laws::relation::MAX_ARGUMENTS;
 use mbs_core::measure::Arguments;
 
-/// First number that marks a relation in place of a curve. The number minus this constant is the number of the relation. No scene has as
-/// many curves.
+/// Smallest curve index that means a relation. The index minus this constant is the index of the relation. No scene has this number of
+/// curves.
 pub(crate) const ARGUMENTS: u32 = 1 << 31;
 
 impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
-    /// Is the row that of a user-defined relation?
+    /// True if the row belongs to a user-defined relation.
     #[inline(always)]
     pub(crate) fn is_related(&self, row: &CoupledRow<T>) -> bool {
         let first = self.terms.get(row.terms.first as usize);
@@ -60,7 +61,7 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
             let ([m, rate, known], speed) = of;
             let slope = arguments.slope(number) * row.inverse * term.factor;
             sum.add([T::ZERO, slope * rate, slope * known], slope * speed);
-            // the rounding of the value is that of its parts
+            // the rounding error of the value is relative to its parts
             sum.parts[0] += (slope * m).abs();
             let Some((gradient, slopes)) = &mut out else { continue };
             *at_mut(slopes, i)? = slope;

@@ -6,6 +6,9 @@
 //! K1 = (r_1 x u, u),   K2 = -(r_2 x u, u)
 //! bias = u.(w_1 x (r' - v_1) - w_2 x (r' - v_2)) + u'.(v_1 + w_1 x r_1 - v_2 - w_2 x r_2)
 //! ```
+//!
+//! c is the centre of the body and rho the vector from c to the lowest point. n is the normal of the plane and d the direction of the
+//! blade. v and w are the velocity and angular velocity of the links, with 1 for the rolling body and 2 for the plane.
 
 use crate::link::LinkMotion;
 use crate::link::indexing::{Outside, at};
@@ -15,14 +18,14 @@ use mbs_core::Real;
 use mbs_core::algebra::{Vector, cross, unit};
 use mbs_core::measure::{Moving, lies_flat, lowest_point};
 
-/// Does this build support rows of rolling bodies?
+/// True if this build supports rows of rolling bodies.
 pub const IS_BUILT: bool = cfg!(feature = "rolling");
 
-/// The rolling body, or the body with the plane, in space.
+/// Motion of the rolling body, or of the body with the plane, as three-dimensional vectors.
 struct Carrier<T: Real> {
     origin: Moving<T>,
     spin: Vector<T, 3>,
-    /// Centre of the rolling body, or point of the plane, with its velocity.
+    /// Centre of the rolling body or a point of the plane, with the velocity of this point.
     point: Moving<T>,
 }
 
@@ -35,13 +38,13 @@ impl<T: Real> Carrier<T> {
         Self { origin, spin, point }
     }
 
-    /// Returns a body-fixed direction with its rate.
+    /// Returns the direction `x`, which is fixed in the body, with its rate.
     fn turning(&self, x: Vector<T, 3>) -> Moving<T> {
         [x, cross(&self.spin, &x)]
     }
 
-    /// Returns the arm from the origin to a point and the velocity of the body there. The third result is the acceleration by the point's
-    /// motion relative to the origin.
+    /// Returns the vector from the body's origin to a point, and the velocity of the body at this point. The third result is the part of
+    /// the acceleration that is due to the motion of the point relative to the origin.
     fn carries(&self, [r, r_t]: &Moving<T>) -> [Vector<T, 3>; 3] {
         let arm = *r - self.origin[0];
         let velocity = self.origin[1] + cross(&self.spin, &arm);
@@ -65,7 +68,7 @@ fn directions<T: Real, S: Space<T>>(
     Ok((normal, S::point_into(&S::rotate(&body.rotation, axis))))
 }
 
-/// Evaluates the rows of a rolling, the first of which has number `k`, and passes each one to `take`, in order.
+/// Evaluates the rows of a rolling and passes each one to `take`, in order. The first row has the index `k`.
 pub(crate) fn evaluate<T: Real, S: Space<T>>(
     (own, mut k): (&[Row<T, S>], usize),
     (links, points): ([&LinkMotion<T, S>; 2], &[S::Point; 2]),
@@ -108,7 +111,7 @@ pub(crate) fn evaluate<T: Real, S: Space<T>>(
     Ok(())
 }
 
-/// Does the disc of this row lie flat on the plane, or the direction of the blade lie along the normal?
+/// True if the disc of this row lies flat on the plane, or if the direction of the blade is parallel to the normal of the plane.
 pub(crate) fn is_flat<T: Real, S: Space<T>>(
     first: &Row<T, S>,
     links: [&LinkMotion<T, S>; 2],

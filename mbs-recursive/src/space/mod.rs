@@ -1,4 +1,4 @@
-//! Algebra of motions, forces and inertias for plane and space. With the trait [`Space`] every pass is written once for both.
+//! Algebra of motions, forces and inertias for plane and space. Every pass is written once, over the trait [`Space`].
 //!
 //! ```text
 //! motion (ω, v)   force (τ, f)   about a link's own origin, world axes
@@ -7,7 +7,7 @@
 //!     (τ, f) ↦ (τ + r × f, f)        inward
 //! ```
 //!
-//! A motion has three numbers in the plane and six in space. Inertias are symmetric, with 6 and 21 numbers.
+//! A motion has three numbers in the plane and six in space. An inertia is a symmetric matrix with 6 numbers in the plane and 21 in space.
 
 mod planar;
 mod spatial;
@@ -39,7 +39,7 @@ pub trait Numbers<T>:
 {
     /// Number of components of the vector.
     const N: usize;
-    /// Returns zero in every component.
+    /// Returns the vector with zero in every component.
     fn zero() -> Self;
     /// Returns the inner product with `other`.
     fn dot(&self, other: &Self) -> T;
@@ -82,7 +82,7 @@ pub trait Space<T: Real>: Copy + Debug + Send + Sync + 'static {
     type Rotation: Copy + Debug + PartialEq + Send + Sync + 'static;
     /// A symmetric map from motions to forces.
     type Inertia: Copy + Debug + PartialEq + Send + Sync + 'static;
-    /// Inertia tensor of a body, reference axes.
+    /// Inertia tensor of a body, in the axes of the reference configuration.
     type Tensor: Copy + Debug + PartialEq + Send + Sync + 'static;
 
     /// Dimension of the space: 2 or 3.
@@ -98,7 +98,7 @@ pub trait Space<T: Real>: Copy + Debug + Send + Sync + 'static {
     fn point(motion: &Self::Motion) -> Self::Point;
     /// Returns the cross product ω × x.
     fn cross(spin: &Self::Spin, x: &Self::Point) -> Self::Point;
-    /// Returns the cross product ω × n of angular velocities; zero in the plane.
+    /// Returns the cross product ω × n of angular velocities. It is zero in the plane.
     fn cross_spin(spin: &Self::Spin, n: &Self::Spin) -> Self::Spin;
     /// Returns the moment r × f.
     fn moment(r: &Self::Point, f: &Self::Point) -> Self::Spin;
@@ -138,7 +138,7 @@ pub trait Space<T: Real>: Copy + Debug + Send + Sync + 'static {
         tensor: &Self::Tensor,
         r: &Self::Rotation,
     ) -> Self::Inertia;
-    /// Returns the angular momentum of the body's tensor: the rotational block times ω.
+    /// Returns the rotational block of the inertia times ω: the angular momentum of a rotation about the origin.
     fn turning_block(inertia: &Self::Inertia, spin: &Self::Spin) -> Self::Spin;
     /// Returns the product I a.
     fn times(inertia: &Self::Inertia, a: &Self::Motion) -> Self::Motion;
@@ -146,13 +146,13 @@ pub trait Space<T: Real>: Copy + Debug + Send + Sync + 'static {
     fn times_spin(inertia: &Self::Inertia, n: &Self::Spin) -> Self::Motion;
     /// Returns the product I (0, d).
     fn times_point(inertia: &Self::Inertia, d: &Self::Point) -> Self::Motion;
-    /// Returns I − w u uᵀ, for a weight w.
+    /// Returns the inertia I − w u uᵀ, for a weight w.
     fn reduced(inertia: &Self::Inertia, u: &Self::Motion, w: T) -> Self::Inertia;
     /// Adds a rank-one term: I += k kᵀ.
     fn add_square(inertia: &mut Self::Inertia, k: &Self::Motion);
-    /// Adds the inertia J, given about an origin at `arm` from the origin of I.
+    /// Adds the inertia J to I. J is given about a point at the vector `arm` from the origin of I.
     fn add_shifted(inertia: &mut Self::Inertia, j: &Self::Inertia, arm: &Self::Point);
-    /// Returns the largest diagonal entries: of the rotational and of the translational block.
+    /// Returns the largest diagonal entry of the rotational block, and the largest diagonal entry of the translational block.
     fn size(inertia: &Self::Inertia) -> (T, T);
 
     /// Replaces I by its factors. Returns false if I is not positive definite.
@@ -173,11 +173,11 @@ pub trait Space<T: Real>: Copy + Debug + Send + Sync + 'static {
 
     /// Returns the components of a spatial vector that exist in this space.
     fn point_from(x: &Vector<T, 3>) -> Self::Point;
-    /// Returns a vector as a spatial one; the component across the plane is zero.
+    /// Returns a vector as a spatial vector. For the plane, the component normal to the plane is zero.
     fn point_into(x: &Self::Point) -> Vector<T, 3>;
     /// Returns the axial part of a spatial vector: in the plane its z component.
     fn spin_from(x: &Vector<T, 3>) -> Self::Spin;
-    /// Returns an axial vector as a spatial one.
+    /// Returns an axial vector as a spatial vector.
     fn spin_into(x: &Self::Spin) -> Vector<T, 3>;
     /// Returns the rotation of a spatial rotation matrix.
     fn rotation_from(r: &mbs_core::algebra::Matrix<T, 3>) -> Self::Rotation;
@@ -203,7 +203,7 @@ pub trait Space<T: Real>: Copy + Debug + Send + Sync + 'static {
     fn centrifugal(spin: &Self::Spin, x: &Self::Point) -> Self::Point {
         Self::cross(spin, &Self::cross(spin, x))
     }
-    /// Returns the force f at the point at `arm`, as (arm × f, f).
+    /// Returns the wrench (arm × f, f) of a force f that acts at the vector `arm` from the origin.
     #[inline(always)]
     fn wrench(arm: &Self::Point, f: &Self::Point) -> Self::Motion {
         Self::motion(Self::moment(arm, f), *f)

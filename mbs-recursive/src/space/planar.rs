@@ -1,4 +1,4 @@
-//! The plane: motions (ω, vx, vy) and inertias of six numbers.
+//! The plane: a motion (ω, vx, vy) has three numbers, an inertia has six.
 
 use super::Space;
 use mbs_core::Real;
@@ -177,7 +177,7 @@ impl<T: Real> Space<T> for Planar {
     }
 
     fn factor(i: &mut Self::Inertia) -> bool {
-        // L D Lᵀ factors, from the translational block inward: pivots m_xx, m_yy', a'.
+        // L D Lᵀ factors, in the order of the pivots m_xx, m_yy', a': the translational block comes first.
         let d0 = i.m[0];
         let l1 = i.m[1] / d0;
         let d1 = i.m[2] - l1 * i.m[1];

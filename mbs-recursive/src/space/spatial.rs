@@ -1,4 +1,4 @@
-//! Space: motions (ω, v) of six numbers and inertias of twenty-one.
+//! Space: a motion (ω, v) has six numbers, an inertia has twenty-one.
 
 use super::Space;
 use mbs_core::Real;
@@ -19,7 +19,7 @@ pub struct SpatialInertia<T> {
     pub m: [T; 6],
 }
 
-/// Index of entry (i, j) of a symmetric 3×3 matrix.
+/// Index of entry (i, j) of a symmetric 3×3 matrix in the list xx, xy, xz, yy, yz, zz.
 const AT: [[usize; 3]; 3] = [[0, 1, 2], [1, 3, 4], [2, 4, 5]];
 
 #[inline(always)]
@@ -57,7 +57,7 @@ fn backward<T: Real>(h: &[T; 9], x: &Vector<T, 3>) -> Vector<T, 3> {
     )
 }
 
-/// Returns the quaternion in joint coordinates; the identity if there are fewer than four.
+/// Returns the quaternion in joint coordinates. Returns the identity if there are fewer than four coordinates.
 #[inline(always)]
 fn quaternion<T: Real>(z: &[T]) -> [T; 4] {
     z.first_chunk().copied().unwrap_or([T::ONE, T::ZERO, T::ZERO, T::ZERO])
@@ -208,7 +208,7 @@ impl<T: Real> Space<T> for Spatial {
         times(r, &of_quaternion(quaternion(z)))
     }
     fn write_rotation(r: &Self::Rotation, z: &mut [T]) {
-        // The largest of the four squares selects the branch, so that no digits cancel.
+        // The branch is selected by the largest of the four squared components, so that no digits cancel.
         let (xx, yy, zz) = (r[(0, 0)], r[(1, 1)], r[(2, 2)]);
         let squares = [xx + yy + zz, xx - yy - zz, yy - xx - zz, zz - xx - yy];
         let mut k = 0;
@@ -421,10 +421,11 @@ impl<T: Real> Space<T> for Spatial {
     }
 }
 
-/// Largest leading minor that counts as zero, in units of rounding of its factors [-]. Chosen, not tuned.
+/// Largest leading minor that counts as zero, relative to the product of its factors and in units of machine precision [-]. Chosen, not
+/// tuned.
 const MINOR_ROUNDINGS: f64 = 64.0;
 
-/// Inverse of a symmetric positive definite 3×3 matrix. `None` if a leading minor is not clearly positive.
+/// Returns the inverse of a symmetric positive definite 3×3 matrix. `None` if a leading minor is zero within rounding, or negative.
 fn inverse<T: Real>(s: &[T; 6]) -> Option<[T; 6]> {
     let [xx, xy, xz, yy, yz, zz] = *s;
     let two = xx * yy - xy * xy;

@@ -1,4 +1,4 @@
-//! A step of bounded work: the trapezoidal rule with a fixed number of evaluations, sweeps and projections.
+//! A step with a bounded number of operations: the trapezoidal rule with a fixed number of evaluations, sweeps and projections.
 //!
 //! ```text
 //! z̈ ← z̈ₙ;   k times:   zₙ₊₁, żₙ₊₁ from z̈   [P3 (43)–(44)],   z̈ by the three passes, effects ahead (`loads::Reach`)
@@ -6,10 +6,13 @@
 //! p times:   z ← z ⊕ −M⁻¹ Jᵀ (J M⁻¹ Jᵀ + ε)⁻¹ Φ,   v ← v − M⁻¹ Jᵀ (J M⁻¹ Jᵀ + ε)⁻¹ Φ̇      both at the same places
 //! ```
 //!
+//! k is the number of evaluations and p the number of projections. M is the mass matrix, J the Jacobian of the loops' equations Φ, and ε
+//! the regularisation.
+//!
 //! The number of iterations is fixed, so that the work of a step depends on the mechanism alone. The remaining residuals are reported. The
-//! method is `trapezoidal` with its iteration cut off. It does not mix iterates, does not evaluate accelerations at the projected end, and
-//! uses one outward pass for both projections. A step starts from the accelerations of the last evaluation, which differ from the converged
-//! ones by O(h²).
+//! method is `trapezoidal` with a fixed number of iterations. It does not mix iterates, does not evaluate accelerations at the projected
+//! end, and uses one outward pass for both projections. A step starts from the accelerations of the last evaluation, which differ from the
+//! converged accelerations by O(h²).
 
 use crate::link::indexing::{Outside, at_mut, copy};
 use crate::link::options::{Closure, Options};
@@ -29,10 +32,10 @@ use mbs_core::Real;
 use mbs_core::algebra::norm_inf;
 use mbs_core::step::{OptionError, StepError, largest_or_nan};
 
-/// Limits of the work of a step: evaluations, sweeps and projections.
+/// Limits of the work of a step: numbers of evaluations, sweeps and projections.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Bounds {
-    /// Evaluations of the accelerations, at least one.
+    /// Number of evaluations of the accelerations, at least one.
     pub evaluations: u32,
     /// Number of sweeps of the loops' equations in each evaluation, after the first sweep.
     pub sweeps: u32,
@@ -47,9 +50,9 @@ impl Default for Bounds {
     }
 }
 
-/// Clock that reports whether time remains. A step asks it before each evaluation except the first, and before each projection.
+/// Clock that reports whether time remains. A step calls it before each evaluation except the first, and before each projection.
 pub trait Watch {
-    /// Is there time for further work?
+    /// True if time remains for a further evaluation or projection.
     fn has_time(&mut self) -> bool;
 }
 
@@ -78,16 +81,16 @@ pub struct BoundedReport<T> {
     pub evaluations: u32,
     /// Number of projections made.
     pub projections: u32,
-    /// Last correction of a coordinate: β h² times the last change of an acceleration [m or rad].
+    /// Largest last correction of a coordinate: β h² times the last change of an acceleration [m or rad].
     pub correction: T,
-    /// Largest |Φ| and |Φ̇| before the last projection [m, m/s], and largest |Φ̈| after the last sweep [m/s^2]. The projection leaves the
-    /// fraction ε of |Φ| and |Φ̇|, and a part of second order.
+    /// Largest |Φ| and |Φ̇| before the last projection [m, m/s], and largest |Φ̈| after the last sweep [m/s^2]. The projection multiplies
+    /// |Φ| and |Φ̇| by about ε, and adds a part of second order.
     pub violation: [T; 3],
     /// Is true if time ran out, so that evaluations or projections were omitted.
     pub is_cut_short: bool,
 }
 
-/// Makes one step of length `dt` [s]. The end is in `s.z`, `s.v`, `s.zdd`, `s.lambda`.
+/// Makes one step of length `dt` [s]. The state at the end is written to `s.z`, `s.v`, `s.zdd` and `s.lambda`.
 ///
 /// Three of the `options` are used: the integrator (of the Newmark family), the closure and the regularisation.
 ///
@@ -120,14 +123,14 @@ pub fn step<T: Real, S: Space<T>>(
     }
 }
 
-/// Evaluates accelerations and multipliers at (`z`, `v`) into `s.zdd` and `s.lambda`, with the guides and signals in `s`. The states of
-/// signals are `signals`; they are written to `s.signals.ends` with their rates. After a change of inputs, the next step starts from these
-/// accelerations.
+/// Evaluates accelerations and multipliers at the coordinates `z` and velocities `v`, with the guides and signals in `s`. Writes them to
+/// `s.zdd` and `s.lambda`. `signals` are the states of signals. They are written to `s.signals.ends` with their rates. After a change of
+/// inputs, the next step starts from these accelerations.
 ///
 /// Cost: one evaluation; no allocation.
 ///
 /// # Errors
-/// As for [`step`].
+/// The errors of [`step`].
 pub fn begin<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
     (options, bounds): (&Options<T>, Bounds),
@@ -148,7 +151,7 @@ pub fn begin<T: Real, S: Space<T>>(
     }
 }
 
-/// Makes the step, with the inputs already in `s`.
+/// Makes the bounded step. The inputs must already be in `s`.
 fn advance_by<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
     (dt, options, bounds): (T, &Options<T>, Bounds),
@@ -202,7 +205,8 @@ fn advance_by<T: Real, S: Space<T>>(
     Ok(report)
 }
 
-/// Projects positions and velocities once with the inertias that were factored last. Returns the largest |Φ| and |Φ̇| before it.
+/// Projects positions and velocities once with the inertias that were factored last. Returns the largest |Φ| and |Φ̇| before the
+/// projection.
 fn project<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
     s: &mut Store<'_, T, S>,

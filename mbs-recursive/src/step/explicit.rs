@@ -5,8 +5,8 @@
 //! y = (z, ż, x, W),   y' = (ż or ½ q ω for rotations, z̈, x', power)      x: states of signals
 //! ```
 //!
-//! Positions and velocities are projected onto the loops after each accepted step. Quaternions are normalised at the end. The stages are
-//! those of [`mbs_core::ode`].
+//! Positions and velocities are projected onto the loops after each accepted step. Quaternions are normalised at the end. The methods are
+//! implemented in [`mbs_core::ode`].
 
 use crate::link::indexing::Outside;
 use crate::link::options::{Closure, Options};
@@ -31,16 +31,16 @@ struct System<'r, 'a, 'b, T: Real, S: Space<T>, I> {
     options: &'r Options<T>,
     s: &'r mut Store<'b, T, S>,
     evaluations: u32,
-    /// Is a shorter step tried after a failed evaluation? True with error control.
+    /// True if a shorter step is tried after a failed evaluation, as error control does.
     is_patient: bool,
-    /// Residual at which sweeps for the accelerations end: a hundredth of the error with error control.
+    /// Level of the residual at which sweeps for the accelerations end. With error control it is a hundredth of the required error.
     level: Level,
     last_failure: Option<StepError>,
 }
 
 impl<'r, 'a, 'b, T: Real, S: Space<T>, I: Inputs<T>> System<'r, 'a, 'b, T, S, I> {
-    /// Makes the system of a mechanism. `level` is the accuracy of its accelerations: rounding for a fixed step, a part of the error with
-    /// error control.
+    /// Makes the system of a mechanism. `level` is the accuracy of the accelerations: rounding for a fixed step, a fraction of the required
+    /// error with error control.
     fn new(
         m: &'r TreeSlices<'a, T, S>,
         inputs: &'r I,
@@ -64,7 +64,8 @@ impl<'r, 'a, 'b, T: Real, S: Space<T>, I: Inputs<T>> System<'r, 'a, 'b, T, S, I>
         }
     }
 
-    /// Projects the end of a step until at most `share` of the scales remains, with the inertias of the last stage.
+    /// Projects the state at the end of a step, with the inertias of the last stage. The violations that remain are at most `share` times
+    /// their scales.
     fn clean(&mut self, t: T, y: &mut [T], share: T) -> Result<EndState, StepError> {
         if self.m.loops.loops.is_empty() || self.options.closure != Closure::Constraints {
             return Ok(EndState::Kept);
@@ -120,7 +121,7 @@ impl<T: Real, S: Space<T>, I: Inputs<T>> Rates<T> for System<'_, '_, '_, T, S, I
         let done = ready.and_then(|()| accelerations(self.m, self.options, self.level, self.s));
         if let Err(fault) = done {
             let failure = failure(self.m, fault);
-            // An error after a state with NaN or infinity is a consequence of an earlier one, and is not stored.
+            // If the state has NaN or infinity, the error is a consequence of an earlier error and is not stored.
             if y.iter().all(|y| y.is_finite()) {
                 self.last_failure = Some(failure);
             }
@@ -154,8 +155,8 @@ impl<T: Real, S: Space<T>, I: Inputs<T>> Rates<T> for System<'_, '_, '_, T, S, I
         let (nz, nv) = (self.m.n_coordinates, self.m.n_freedoms);
         let failed = |outside: Outside| failure(self.m, outside.into());
         let (places, rest) = error.split_at_mut(nz);
-        // Away from singular positions this part of the position error is smaller by a factor of the step. Rotations with quaternions have
-        // more coordinates than freedoms, so that the projection does not apply to them.
+        // Away from singular positions this part of the position error is of higher order in the step length, so that it is not removed.
+        // The projection is over freedoms. Trees with quaternions have more coordinates than freedoms, so that it does not apply to them.
         if nz == nv && is_tight(self.s) {
             project::keep(self.m, places, self.s).map_err(failed)?;
         }
@@ -207,9 +208,10 @@ fn begin<T: Real, S: Space<T>>(m: &TreeSlices<'_, T, S>, start: &Start<'_, T>, y
     work[0] = T::ZERO;
 }
 
-/// Makes one step of order 4. The end is in `s.z`, `s.v`, `s.zdd`, `s.lambda`; the work done is the last entry of `y`.
+/// Makes one step of order 4. The state at the end is written to `s.z`, `s.v`, `s.zdd` and `s.lambda`. The work done is the last entry of
+/// `y`.
 ///
-/// `y` has [`n_components`] numbers. `scratch` has at least [`mbs_core::ode::rk4_scratch`] of that number.
+/// `y` has [`n_components`] numbers. The length of `scratch` is at least [`mbs_core::ode::rk4_scratch`] for this number.
 ///
 /// Cost: five evaluations; no allocation.
 ///
@@ -257,7 +259,7 @@ pub fn controlled<T: Real, S: Space<T>, M: Method<T>>(
     let done =
         driver.advance(&mut system, (start.t, dt), (y, scratch), &control, |system, t, y| {
             system.last_failure = None;
-            // Near a singular position a small violation of rows means a large position error: the violation over the root of a small
+            // Near a singular position a small violation of rows means a large position error: the violation divided by the root of a small
             // pivot.
             let is_fine = t == start.t + dt || is_tight(system.s);
             let share =

@@ -1,4 +1,4 @@
-//! Steps of a mechanism in slices: trapezoidal rule, bounded work, error control, projections, and states that are set from outside.
+//! Steps of a mechanism in slices: trapezoidal rule, bounded steps, error control, projections, and states that the caller sets.
 
 pub mod bounded;
 pub mod explicit;

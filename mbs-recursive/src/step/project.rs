@@ -1,12 +1,15 @@
-//! Projection of positions and velocities onto the loops' equations, by the change that is smallest in the norm of the masses.
+//! Projection of positions and velocities onto the loops' equations. The change is the smallest in the norm of the mass matrix.
 //!
 //! ```text
 //! δ = −M⁻¹ Jᵀ (J M⁻¹ Jᵀ + ε)⁻¹ Φ,   z ← z ⊕ δ       until Φ is at its level
 //! v ← v − M⁻¹ Jᵀ (J M⁻¹ Jᵀ + ε)⁻¹ Φ̇                 until Φ̇ is
 //! ```
 //!
-//! The level is rounding at the end of a step or of a call. Between the steps of a call with error control it is a hundredth of the error;
-//! near singular positions it is rounding there too.
+//! z are the coordinates, v the velocities, and ⊕ moves coordinates along the freedoms. M is the mass matrix, J the Jacobian of the loops'
+//! equations Φ, and ε the regularisation.
+//!
+//! The level is the violation at which sweeps end. At the end of a step or of a call it is rounding. Between the steps of a call with error
+//! control it is a hundredth of the required error, or rounding near singular positions.
 //!
 //! Both changes are responses of the tree with its last factored inertias. These are accurate enough after a step, because the residuals
 //! are always evaluated at the new state. The inertias include the resistance of effects to accelerations, so that the projection deforms
@@ -55,29 +58,31 @@ pub(crate) fn advance<T: Real, S: Space<T>>(
     Ok(())
 }
 
-/// Violation that counts as rounding, in units of rounding of its scale [-]. Chosen, not tuned.
+/// Violation that counts as rounding, relative to its scale and in units of machine precision [-]. Chosen, not tuned.
 const ROUNDINGS: f64 = 16.0;
-/// Violation allowed within a call of a method, relative to the error of the method [-]. A hundredth hardly adds to that error. Chosen, not
-/// tuned.
+/// Violation allowed between the steps of a call with error control, relative to the required error [-]. A hundredth hardly adds to this
+/// error. Chosen, not tuned.
 const ERROR_FRACTION: f64 = 0.01;
-/// Violation that is accepted if sweeps stall, in units of the square root of rounding of its scale [-]. Chosen, not tuned.
+/// Violation that is accepted if sweeps stall, relative to its scale and in units of the square root of machine precision [-]. Chosen, not
+/// tuned.
 const STALLED: f64 = 0.1;
-/// Violation that is accepted near a singular position, in units of the square root of rounding of its scale [-]. A combination of rows has
-/// no effect on the motion there. Chosen, not tuned.
+/// Violation that is accepted near a singular position, relative to its scale and in units of the square root of machine precision [-]. A
+/// combination of rows has no effect on the motion at such a position. Chosen, not tuned.
 const STALLED_SINGULAR: f64 = 1e2;
 
-/// Largest number of attempts to close the loops [-]. Each attempt factors inertias and rows at the end of the last one. Chosen, not tuned.
+/// Largest number of attempts to close the loops [-]. Each attempt factors inertias and rows at the positions that the last attempt
+/// reached. Chosen, not tuned.
 const MAX_CLOSINGS: u32 = 4;
-/// Violation below which a further attempt is made, relative to the scene's length [-]. The sweeps converged slowly then, but did converge.
+/// Violation below which a further attempt is made, relative to the scene's length [-]. Below it the sweeps converged, although slowly.
 /// Chosen, not tuned.
 const NEARING: f64 = 0.1;
 
-/// Smallest level of a projection: rounding, relative to the scales of Φ and Φ̇.
+/// Returns the smallest level of a projection: the rounding error, relative to the scales of Φ and Φ̇.
 pub(crate) fn rounding<T: Real>() -> T {
     T::EPSILON * T::from_f64(ROUNDINGS)
 }
 
-/// Level of a projection within a call of a method with error control: a fraction of `error`.
+/// Returns the level of a projection between the steps of a call with error control: a fraction of the required `error`.
 pub(crate) fn share_of<T: Real>(error: T) -> T {
     (error * T::from_f64(ERROR_FRACTION)).min(T::EPSILON.sqrt()).max(rounding())
 }
@@ -85,8 +90,8 @@ pub(crate) fn share_of<T: Real>(error: T) -> T {
 /// Projects positions and velocities of the store onto the loops, from any state. Inertias are factored at that state first. If the sweeps
 /// converge too slowly, inertias are factored again.
 ///
-/// Cost: without loops nothing. With loops one evaluation, up to [`MAX_CLOSINGS`] evaluations far from closure, and one response for each
-/// sweep.
+/// Cost: without loops nothing. With loops one evaluation, and one response for each sweep. If the loops are far from closed, up to
+/// [`MAX_CLOSINGS`] evaluations.
 pub(crate) fn onto_loops<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
     options: &Options<T>,
@@ -109,8 +114,8 @@ pub(crate) fn onto_loops<T: Real, S: Space<T>>(
     project(m, (options, rounding()), s)
 }
 
-/// Projects the positions and velocities of the store until at most the fraction `share` of their scales remains. Returns the largest
-/// remaining |Φ| and |Φ̇|.
+/// Projects the positions and velocities of the store until their violations are at most the fraction `share` of their scales. Returns the
+/// largest remaining |Φ| and |Φ̇|.
 pub(crate) fn project<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
     (options, share): (&Options<T>, T),
@@ -125,14 +130,15 @@ pub(crate) fn project<T: Real, S: Space<T>>(
     Ok([position, velocity])
 }
 
-/// Sweeps positions (level 0) or velocities (level 1) until at most `share` remains. `s.trial` matches the state before and after.
+/// Corrects positions (level 0) or velocities (level 1) by sweeps until the violation is at most `share` of its scale. Before and after the
+/// call, `s.trial` has the places and motions of the state.
 fn settle<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
     (options, share): (&Options<T>, T),
     level: u8,
     s: &mut Store<'_, T, S>,
 ) -> Result<T, Fault<T>> {
-    // Near a singular position a combination of rows hardly affects the motion: part of its violation may remain.
+    // Near a singular position a combination of rows hardly affects the motion, so that a part of its violation may remain.
     let leave = if note_rank(s) { STALLED_SINGULAR } else { STALLED };
     let enough = T::EPSILON.sqrt() * T::from_f64(leave);
     let mut last: Option<T> = None;
@@ -167,8 +173,8 @@ fn settle<T: Real, S: Space<T>>(
     }
 }
 
-/// Is this velocity violation only rounding of larger velocities elsewhere? A link may be at rest although the joints inward of it move.
-/// The speeds of its rows then consist of the rounding of these joints' rates.
+/// True if this velocity violation is only the rounding error of larger velocities of other links. A link may be at rest although the
+/// joints between it and the ground move. The speeds of its rows are then rounding errors of these joints' rates.
 #[inline(never)]
 fn is_elsewhere<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
@@ -176,13 +182,14 @@ fn is_elsewhere<T: Real, S: Space<T>>(
     s: &Store<'_, T, S>,
 ) -> bool {
     let fastest = s.v.iter().fold(T::ZERO, |most, v| most.max(v.abs()));
-    // The rates have units m/s or rad/s, so the length is at least one.
+    // The rates are in m/s or rad/s. The length is therefore replaced by one if it is smaller.
     level > 0 && worst <= rounding::<T>() * fastest * m.length.max(T::ONE)
 }
 
-/// Removes from an error δ of velocities, or of freedoms, the part that a projection removes: δ − M⁻¹ Jᵀ (J M⁻¹ Jᵀ + ε)⁻¹ J δ. Rows and
-/// inertias are those evaluated last, at `s.z` and `s.v`. Near a singular position most of the rounding error lies in directions that the
-/// constraints do not allow a little further on. Without the removal, error control would reduce the step in vain.
+/// Removes from an error δ of velocities, or of freedoms, the part that a projection removes: δ − M⁻¹ Jᵀ (J M⁻¹ Jᵀ + ε)⁻¹ J δ. The rows and
+/// inertias are those of the last evaluation, at `s.z` and `s.v`. Near a singular position most of the rounding error has directions that
+/// the constraints forbid slightly further along the motion. If this part counted as an error, error control would reduce the step without
+/// effect.
 pub(crate) fn keep<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
     delta: &mut [T],
@@ -209,16 +216,16 @@ pub(crate) fn keep<T: Real, S: Space<T>>(
     Ok(())
 }
 
-/// Violation of the loops' equations, with the scale to compare it with.
+/// Violation of the loops' equations, with the scale to which it is compared.
 struct Violation<T> {
     /// The largest |Φ| or |Φ̇|.
     worst: T,
-    /// Number of the row with the largest violation.
+    /// Index of the row with the largest violation.
     row: u32,
     /// Scale of the violation: the scene's length for positions, the speed of the fastest row for velocities.
     scale: T,
-    /// Is every row within the tolerance relative to max(1, its own speed), and the largest within it relative to `scale`? Also true if the
-    /// largest violation is rounding.
+    /// True if two conditions hold: the violation of each row is within the tolerance relative to max(1, speed of the row), and the largest
+    /// violation is within the tolerance relative to `scale`. Also true if the largest violation is rounding.
     is_within: bool,
 }
 
@@ -255,14 +262,14 @@ fn violation_of_cut<T: Real, S: Space<T>>(
     s: &mut Store<'_, T, S>,
 ) -> Result<(Largest<T>, bool), Outside> {
     let (mut worst, mut row, mut is_within) = (T::ZERO, 0, true);
-    // Speeds below rounding of the length per second count as rest.
+    // A speed below the rounding error of one length per second counts as zero.
     let mut scale = if level == 0 { m.length } else { m.length * T::EPSILON };
     for lap in cut {
         let [a, b] = lap.links;
         let speeds = [at(s.trial, a as usize)?.velocity, at(s.trial, b as usize)?.velocity];
         lap.evaluate(m.loops.rows, s.trial, |k, values| {
             let x = if level == 0 { values.value } else { values.rate };
-            // The tolerance is that of a step's error: absolute, and for speeds also relative.
+            // The tolerance is that of the error of a step: absolute for positions, absolute and relative for velocities.
             let mut own = T::ONE;
             if level > 0 {
                 let [first, second] = &values.gradient;

@@ -1,15 +1,16 @@
-//! A state that is set from outside: it is projected onto the loops, and its accelerations are evaluated.
+//! A state that the caller sets: it is projected onto the loops, and its accelerations are evaluated.
 //!
 //! ```text
 //! z ← z ⊕ −M⁻¹ Jᵀ (J M⁻¹ Jᵀ + ε)⁻¹ Φ,   then v ← v − M⁻¹ Jᵀ (J M⁻¹ Jᵀ + ε)⁻¹ Φ̇,   each again and again
 //! z̈ by the three passes there
 //! ```
 //!
-//! M and J are evaluated at the given state. All loops are closed together, by the change that to first order is smallest in the norm of
-//! the masses. Velocities are projected with the same M and J. If the sweeps converge too slowly, M and J are evaluated again.
+//! M and J are evaluated at the given state. All loops are closed together. To first order, the change is the smallest in the norm of the
+//! mass matrix. Velocities are projected with the same M and J. If the sweeps converge too slowly, M and J are evaluated again.
 //!
-//! Sweeps end when the remaining violation is rounding. They also end when it no longer halves and is below √ε/10 of the scene's length, or
-//! near a singular position below 100 √ε. The report contains the remaining violation; the next step projects it again.
+//! Sweeps end when the remaining violation is rounding. Sweeps also end when the violation no longer halves and is below √ε/10 of the
+//! scene's length, with the machine precision ε. Near a singular position this limit is 100 √ε. The report contains the remaining
+//! violation; the next step projects it again.
 
 use crate::link::indexing::{Outside, copy, part_mut};
 use crate::link::options::{Closure, Options};
@@ -25,8 +26,8 @@ use crate::step::project::onto_loops;
 use mbs_core::Real;
 use mbs_core::step::{StepError, largest_or_nan};
 
-/// Error of a quaternion's squared length below which it is not normalised, in units of rounding [-]. The quaternions of steps have errors
-/// below four units, so that their bits are kept.
+/// Error of a quaternion's squared length below which the quaternion is not normalised, in units of machine precision [-]. The quaternions
+/// that steps compute have errors below four units, so that setting such a state does not change their bits.
 const UNIT_ROUNDINGS: f64 = 16.0;
 
 /// Work and results of setting a state.
@@ -38,17 +39,17 @@ pub struct StateReport<T> {
     /// Number of responses of the tree, one for each sweep that closes loops or refines accelerations. A response takes about a fifth of an
     /// evaluation.
     pub responses: u32,
-    /// Largest change of a coordinate, by closing the loops and normalising quaternions [m, rad or, for quaternions, -].
+    /// Largest change of a coordinate by closing the loops and normalising quaternions [m; rad; - for quaternions].
     pub moved: T,
     /// Largest remaining |Φ|, |Φ̇| and |Φ̈| [m, m/s, m/s^2].
     pub violation: [T; 3],
 }
 
-/// Sets a state from outside. Positions and velocities of `start`, projected onto the loops, are written to `s.z` and `s.v`. The
-/// accelerations and multipliers there are written to `s.zdd` and `s.lambda`. The accelerations of `start` are not read. The states of
-/// signals are kept, and written to `s.signals.ends` with their rates.
+/// Sets the state `start`. Its positions and velocities are projected onto the loops and written to `s.z` and `s.v`. The accelerations and
+/// multipliers of the projected state are written to `s.zdd` and `s.lambda`. The accelerations of `start` are not read. The states of
+/// signals are unchanged, and are written to `s.signals.ends` with their rates.
 ///
-/// Of `options` three are used: the regularisation, the number of sweeps of a projection, and the closure for the accelerations.
+/// Three of the `options` are used: the regularisation, the number of sweeps of a projection, and the closure for the accelerations.
 ///
 /// Cost: one evaluation. With loops, one more evaluation and a response for each sweep. Near a closed state there are at most
 /// `2 (max_sweeps + 1)` sweeps for the loops and thirty for the accelerations. Far from closure there are at most four evaluations and
@@ -76,7 +77,7 @@ pub fn set_state<T: Real, S: Space<T>>(
     Ok(report)
 }
 
-/// Closes the loops with the inputs already in `s`.
+/// Closes all loops together. The inputs must already be in `s`.
 fn close<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
     options: &Options<T>,
@@ -101,7 +102,7 @@ fn close<T: Real, S: Space<T>>(
     })
 }
 
-/// Normalises the quaternions of balls and free links to unit length.
+/// Normalises the quaternions of ball joints and free links to unit length.
 fn make_unit<T: Real, S: Space<T>>(links: &[Link<T, S>], z: &mut [T]) -> Result<(), Outside> {
     if S::DIMENSION < 3 {
         return Ok(());

@@ -1,4 +1,5 @@
-//! The trapezoidal rule and its family, solved by fixed-point iteration [P3 (43)-(44)], in increments.
+//! The trapezoidal rule and other integrators of the Newmark and generalised-alpha families, solved by fixed-point iteration [P3
+//! (43)-(44)].
 //!
 //! ```text
 //! δ = h ż + h² ((1/2 − β) z̈ + β z̈ₙ₊₁),   zₙ₊₁ = zₙ ⊕ δ       β = 1/4                  [P3 (43)]
@@ -10,10 +11,11 @@
 //! (32)] ([`Integrator::auxiliary`]).
 //!
 //! Within the passes, the forces of effects depend linearly on Δz̈. The iteration therefore contracts with stiff effects too
-//! (`loads::Reach`). Iterates of models with effects are mixed (`anderson`). Without effects the iteration is that of the source.
+//! (`loads::Reach`). Iterates of models with effects are mixed (`anderson`). In models without effects the iteration is that of the source.
 //!
-//! Differences from the source: increments replace the hats, because they have less rounding error. Rotations are quaternions, q exp(δ).
-//! Positions and velocities are projected onto the loops afterwards, and the accelerations are those of the projected state.
+//! Differences from the source: the code uses the increments δ in place of the quantities that the source writes with hats, because
+//! increments have less rounding error. Rotations are quaternions, q exp(δ). Positions and velocities are projected onto the loops
+//! afterwards, and the accelerations are those of the projected state.
 
 pub use crate::passes::slices::Start;
 
@@ -39,9 +41,11 @@ use mbs_core::step::{StepError, StepReport, Stop, largest, largest_or_nan};
 const STALLED: u32 = 4;
 /// Growth of the residual between two iterates at which mixing restarts [-]. Chosen, not tuned.
 const LOST: f64 = 4.0;
-/// Correction that counts as rounding, in units of rounding of the displacement by accelerations [-]. Chosen, not tuned.
+/// Correction that counts as rounding, relative to the displacement by accelerations in a step and in units of machine precision [-].
+/// Chosen, not tuned.
 const ROUNDINGS: f64 = 64.0;
-/// Correction that counts as rounding of the coordinates in the forces, in units of rounding of the scene's length [-]. Chosen, not tuned.
+/// Correction that counts as an effect of the rounding of coordinates on forces, relative to the scene's length and in units of machine
+/// precision [-]. Chosen, not tuned.
 const PLACE_ROUNDINGS: f64 = 8.0;
 /// Largest correction at which a stalled iteration without effects may end, relative to the displacement by accelerations [-]. Chosen, not
 /// tuned.
@@ -50,15 +54,16 @@ const ENOUGH: f64 = 1e-2;
 /// because a stiff effect turns a small error of position into a large force. Chosen, not tuned.
 const ENOUGH_WITH_EFFECTS: f64 = 1e-6;
 /// Largest correction at which a stalled iteration may end near a singular position, relative to the displacement by accelerations [-].
-/// Rounding errors are amplified there. Chosen, not tuned.
+/// Rounding errors are amplified near such a position. Chosen, not tuned.
 const PASSAGE: f64 = 0.1;
 
-/// Makes one step of length `dt` [s] from a start and its auxiliary accelerations. The end is in `s.z`, `s.v`, `s.zdd`, `s.lambda`.
+/// Makes one step of length `dt` [s] from a start and its auxiliary accelerations. The state at the end is written to `s.z`, `s.v`, `s.zdd`
+/// and `s.lambda`.
 ///
 /// Cost: three to six evaluations for steps that resolve the motion, with or without stiff effects; no allocation.
 ///
 /// # Errors
-/// [`StepError`]. Its unknowns are numbers of freedoms; its rows are numbers of loop equations.
+/// [`StepError`]. The unknowns in the error are indices of freedoms; the rows are indices of loop equations.
 pub fn step<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
     inputs: &impl Inputs<T>,
@@ -69,7 +74,7 @@ pub fn step<T: Real, S: Space<T>>(
     s.counts = crate::passes::slices::Counts::default();
     let mut projects = false;
     if options.closure == Closure::Constraints && is_redundant(s) {
-        // The projections need factored inertias, here at the start of the step.
+        // The projections within the iteration need factored inertias. They are factored at the start of the step.
         inputs.evaluate(start.t, s.guides, s.courses);
         s.z.copy_from_slice(start.z);
         s.v.copy_from_slice(start.v);
@@ -133,7 +138,8 @@ fn iterate<T: Real, S: Space<T>>(
         for i in 0..start.v.len() {
             s.scratch[i] -= s.zdd[i];
         }
-        // In slow directions the correction is much smaller than the error. The length of the mixed move estimates the error.
+        // In slowly converging directions the correction is much smaller than the error. The length of the mixed move is therefore used as
+        // the estimate of the error.
         let rest = norm_inf(s.scratch) * share;
         let mut correction = rest;
         if !m.loads.is_empty() {
@@ -145,7 +151,7 @@ fn iterate<T: Real, S: Space<T>>(
         }
         let is_best = correction + correction <= best;
         (best, stalled) = if is_best { (correction, 0) } else { (best, stalled + 1) };
-        // Converged also if the next correction, extrapolated from the last two, is below the tolerance.
+        // The iteration has also converged if the next correction, extrapolated from the last two corrections, is below the tolerance.
         let goal = scale * options.tolerance;
         let rate = if last > T::ZERO { (correction / last).max(rest / last_rest) } else { T::ONE };
         if correction <= goal || (iterations > 2 && rate < T::HALF && correction * rate <= goal) {
@@ -177,14 +183,14 @@ fn iterate<T: Real, S: Space<T>>(
     })
 }
 
-/// Returns the coefficients by which accelerations at the end of a step change positions and velocities there.
+/// Returns the coefficients by which accelerations at the end of a step change positions and velocities at the end.
 fn reach_of<T: Real>(integrator: &Integrator<T>, dt: T) -> Reach<T> {
     let share = integrator.share();
     Reach { place: dt * dt * integrator.beta * share, speed: dt * integrator.gamma * share }
 }
 
-/// Returns the reason for which an iteration that does not contract may end with this correction, or `None`. `scale` is the displacement by
-/// accelerations in the step.
+/// Returns the reason why an iteration that does not contract may end with this correction. Returns `None` if it may not end. `scale` is
+/// the displacement by accelerations in the step.
 fn given_up<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
     options: &Options<T>,
@@ -202,14 +208,14 @@ fn given_up<T: Real, S: Space<T>>(
     if correction <= scale * passage && note_rank(s) {
         return Some(Stop::Passage);
     }
-    // The correction is small relative to the scene and the step. Mixed iterates do not decrease monotonically, so these must also have
-    // stalled.
+    // The correction is small relative to the scene and the step. The corrections of mixed iterates do not decrease monotonically, so an
+    // iteration with mixing must also have stalled.
     let is_small = correction <= m.length * options.tolerance && correction <= scale * enough;
     (is_small && (!has_effects || stalled >= STALLED)).then_some(Stop::Tolerance)
 }
 
-/// Computes zₙ₊₁ and żₙ₊₁ from z̈ₙ₊₁. `aux` has the auxiliary accelerations at the start; `next` gives those at the end. The increments
-/// remain in the scratch.
+/// Computes zₙ₊₁ and żₙ₊₁ from z̈ₙ₊₁. `aux` has the auxiliary accelerations at the start; `next` returns an auxiliary acceleration at the
+/// end. The increments are written to `s.scratch`.
 #[inline]
 pub(crate) fn reach_end<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
@@ -228,7 +234,7 @@ pub(crate) fn reach_end<T: Real, S: Space<T>>(
     advance(m.links, s.scratch, s.z)
 }
 
-/// Returns the largest |Φ|, |Φ̇| and |Φ̈|, as evaluated last.
+/// Returns the largest |Φ|, |Φ̇| and |Φ̈| over all rows, from the last evaluation.
 pub(crate) fn violations<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
     s: &Store<'_, T, S>,

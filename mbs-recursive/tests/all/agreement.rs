@@ -1,4 +1,4 @@
-//! The recursion compared with natural coordinates: independent derivations of the same accelerations.
+//! Accelerations of the recursion compared with those of natural coordinates. The two are derived independently.
 
 use crate::support::{Run, imbalance, random};
 use mbs_core::model::State;
@@ -11,10 +11,11 @@ use mbs_testkit::{file, start};
 /// Largest residual of the equations, relative to their terms [-]: a few hundred rounding errors.
 const ROUNDING: f64 = 1e-12;
 
-/// Largest difference of two evaluations of accelerations, for loops with the conditioning of random geometry [-].
+/// Largest relative difference of two evaluations of accelerations [-]. It allows for the conditioning of loops with random geometry.
 const TWICE: f64 = 1e-8;
 
-/// Returns the largest differences of positions, velocities and accelerations, each relative to the largest value.
+/// Returns the largest differences of positions, velocities and accelerations between tree and natural coordinates, each relative to the
+/// largest value.
 fn apart<S: Space<f64>, const D: usize>(scene: &Scene<f64>) -> [f64; 3] {
     let (model, state) = start::<D>(scene);
     let motions = Run::<S>::new::<D>(scene).motions(scene.bodies.len());
@@ -35,7 +36,8 @@ fn check(scene: &Scene<f64>) {
     assert!(apart.iter().all(|&d| d < ROUNDING), "{}: {apart:?}", scene.name);
 }
 
-/// Checks a state that was reached from random velocities with the equations of natural coordinates.
+/// Starts a scene with random velocities and advances it. Then checks the accelerations of the state by the equations of natural
+/// coordinates.
 fn wander<S: Space<f64>, const D: usize>(scene: &Scene<f64>, seed: u64) {
     let mut run = Run::<S>::wandering(scene, seed);
     let motions = run.motions(scene.bodies.len());
@@ -99,7 +101,7 @@ fn a_loop_given_twice_changes_nothing() {
         other.state.v.copy_from_slice(&run.state.v);
         other.accelerate();
         mbs_testkit::close(&once.name, &other.state.a, &run.state.a, TWICE);
-        // The two equal loops divide their force between them, so that each row has a smaller one.
+        // The force is divided between the two equal loops, so that the force of each row is smaller.
         let rank = |run: &mut Run<Spatial>| run.model.rank(&run.state, &mut run.workspace);
         let mut run = run;
         assert_eq!(rank(&mut run), rank(&mut other), "{}", once.name);

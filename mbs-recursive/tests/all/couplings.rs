@@ -1,4 +1,4 @@
-//! Couplings: gears, cams and ropes compared with closed forms, dense saddle systems and natural coordinates.
+//! Tests of couplings: gears, cams and ropes are compared with closed-form solutions, dense saddle-point systems and natural coordinates.
 
 use crate::support::{Run, imbalance, random};
 use mbs_core::model::State;
@@ -76,12 +76,12 @@ fn wheels_in_a_free_housing_accelerate_as_the_closed_form_says() {
     assert!((housing + 0.675_944_334).abs() < 1e-9, "{housing}");
     assert!((first - 19.151_756_130).abs() < 1e-9, "{first}");
     assert!((17.0 * second - 40.0 * first).abs() < 1e-11, "{second}");
-    // The torque on the first wheel is its factor times the effort.
+    // The torque on the first wheel is the wheel's factor times the effort.
     let effort = run.model.coupling_effort(&run.state, 0).expect("a row");
     assert!((40.0 * effort + 0.430_483_764).abs() < 1e-9, "{effort}");
 }
 
-/// Adds a coupling over two or three random coordinates of one freedom.
+/// Adds a coupling over the coordinates of two or three random joints that have one freedom.
 fn couple(scene: &mut Scene<f64>, random: &mut Random) {
     let mut known = Vec::new();
     for (j, joint) in scene.joints.iter().enumerate() {
@@ -99,7 +99,7 @@ fn couple(scene: &mut Scene<f64>, random: &mut Random) {
     scene.couplings.push(Coupling::sum(terms, 0.0));
 }
 
-/// Solves [M -Cᵀ; C 0] (a, e) = (-bias, 0) for accelerations and efforts. Returns the relative difference from those of the tree.
+/// Solves [M -Cᵀ; C 0] (a, e) = (-bias, 0) for accelerations a and efforts e. Returns the relative difference from the results of the tree.
 fn apart_from_saddle<S: Space<f64>>(scene: &Scene<f64>, seed: u64) -> f64 {
     let mut run = Run::<S>::wandering(scene, seed);
     run.accelerate();
@@ -134,7 +134,7 @@ fn apart_from_saddle<S: Space<f64>>(scene: &Scene<f64>, seed: u64) -> f64 {
     found.iter().zip(&x).fold(0.0_f64, |worst, (x, y)| worst.max((x - y).abs() / largest))
 }
 
-/// Returns the solution of a system by elimination with the largest pivots. The last column is the right side.
+/// Returns the solution of a linear system by elimination with the largest pivots. The last column of `rows` is the right-hand side.
 fn solved(mut rows: Vec<Vec<f64>>) -> Vec<f64> {
     let n = rows.len();
     for k in 0..n {
@@ -230,7 +230,7 @@ fn a_planetary_set_with_its_ring_held_accelerates_as_the_closed_form_says() {
     assert!((sun - 4.0 * carrier).abs() < 1e-11 && (planet + 3.0 * carrier).abs() < 1e-11);
 }
 
-/// Returns the scene with the housing as a pendulum and eccentric wheels.
+/// Returns the scene of the wheels in a housing, with the housing as a pendulum and with eccentric wheels.
 fn swinging() -> Scene<f64> {
     let text = format!("{HOUSING}{MESH}")
         .replace("dimension = 2", "dimension = 2\ngravity = [0.0, -9.81]");
@@ -257,7 +257,7 @@ fn a_gear_on_a_swinging_housing_keeps_its_ratio_over_ten_thousand_steps() {
     }
 }
 
-/// Returns the ratio of the errors of coordinates after half a second, for steps of length `dt` and of half that length.
+/// Returns the error of the coordinates after half a second with steps of length `dt`, divided by the error with steps of half this length.
 fn ratio(scene: &Scene<f64>, (dt, n): (f64, u32), is_explicit: bool) -> f64 {
     let mut exact = Run::<Planar>::new::<2>(scene);
     exact.options.error = 1e-13;
@@ -486,7 +486,7 @@ fn a_guided_wheel_turns_the_other_one() {
     let turn = 0.3 * (4.0 * core::f64::consts::PI * run.state.t).sin();
     let [hinge, second] = [0, 2].map(|joint| run.state.z[coordinate(&run, &scene, joint)]);
     assert!((second - turn * 40.0 / 17.0).abs() < 1e-13, "{second} {turn}");
-    // The angular momentum 0.3 φ' + I1 a' - I2 b' remains zero, from a start with the rates of the guide.
+    // The angular momentum 0.3 φ' + I1 a' - I2 b' is zero at a start with the rates of the guide, and remains zero.
     let rates = |x: [f64; 3]| 0.3 * x[0] + 0.02 * x[1] - 0.004 * x[2];
     let start = Run::<Planar>::new::<2>(&scene);
     let before = rates([

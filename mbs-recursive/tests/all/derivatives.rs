@@ -7,9 +7,10 @@ use mbs_recursive::space::{Numbers, Space};
 use mbs_recursive::{EffortTerms, Planar, Spatial, TreeModel, TreeState, Workspace};
 use mbs_testkit::{Random, file_in};
 
-/// Step of the central differences. Their error is of the order of its square; the rounding of double-double numbers is smaller.
+/// Step of the central differences. The error of the differences is of the order of the square of this step; the rounding of double-double
+/// numbers is smaller.
 const STEP: f64 = 1e-8;
-/// Error of the derivatives, relative to the largest one [-]: rounding of doubles through trees of twenty bodies.
+/// Largest error of the derivatives, relative to the largest derivative [-]: rounding of doubles through trees of twenty bodies.
 const ROUNDING: f64 = 1e-12;
 
 fn at<T: Real, S: Space<T>>(model: &TreeModel<T, S>, seed: u64) -> TreeState<T> {
@@ -22,8 +23,8 @@ fn at<T: Real, S: Space<T>>(model: &TreeModel<T, S>, seed: u64) -> TreeState<T> 
     state
 }
 
-/// Moves the coordinates by a step along the velocities. The rotation of a link is in its own axes, and comes before its translation in
-/// `step`.
+/// Moves the coordinates by a step along the velocities. In `step`, the rotation of a link is in the link's axes and comes before the
+/// translation.
 fn moved<T: Real, S: Space<T>>(model: &TreeModel<T, S>, state: &mut TreeState<T>, step: &[T]) {
     for link in model.mechanism().links.iter().skip(1).filter(|link| !link.kind.is_guided()) {
         let n = link.kind.n_freedoms::<T, S>();

@@ -1,6 +1,7 @@
 //! Reference runs: extrapolation in double-double compared with published rows of 15 to 20 digits.
 //!
-//! The rows come from extrapolations with 30 and 34 digits. Two settings agree to the given digits. The scenes cite the same numbers.
+//! The rows were computed by extrapolations with 30 and 34 digits. The results of two settings agree to the given digits. The scene files
+//! cite the same numbers.
 #![allow(clippy::print_stdout, reason = "what is measured is shown with --nocapture")]
 
 use mbs_core::Real;
@@ -52,7 +53,7 @@ impl Run {
         }
     }
 
-    /// Extrapolates over `dt`, tracking the outputs `n` times on the way, and returns them.
+    /// Advances the tree over the time `dt` by extrapolation, in `n` parts. Updates the outputs after each part, and returns them.
     fn advance(&mut self, dt: &str, n: u32) -> Vec<Pair> {
         let part = pair(dt) / Pair::from_f64(f64::from(n));
         let mut out = vec![Pair::ZERO; self.measures.n_components()];
@@ -73,7 +74,7 @@ impl Run {
     }
 }
 
-/// Asserts that `got` agrees with all digits of `text` up to `slack` units of the last one.
+/// Asserts that `got` agrees with all digits of `text`, up to `slack` units of the last digit.
 #[track_caller]
 fn assert_digits(what: &str, got: Pair, text: &str, slack: f64) {
     let digits = text.split('e').next().expect("digits");
@@ -84,13 +85,14 @@ fn assert_digits(what: &str, got: Pair, text: &str, slack: f64) {
     assert!(off.to_f64() <= slack, "{what}: {got} is off by {} units of {text}", off.to_f64());
 }
 
-/// Tolerance of the last two digits, in units of the last one.
+/// Tolerance of the last two digits, in units of the last digit.
 const LAST_TWO: f64 = 100.0;
 
 #[test]
 fn the_double_pendulum_has_all_digits_of_its_reference() {
     let mut run = Run::new(&file_in("double-pendulum"), 1e-26);
-    // The row of the table at 1 s differs in the ninth digit of y from the sines of its angles, which are correct.
+    // In the published row at 1 s, the ninth digit of y differs from the value computed from the angles of the same row. The angles are
+    // correct.
     let rows = [
         ["-1.66211513581612758", "-1.04146663719322474"],
         ["0.313524776450181586", "-1.91474661756230525"],

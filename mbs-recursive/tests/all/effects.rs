@@ -13,9 +13,10 @@ use mbs_testkit::effects::{every, with};
 const ROUNDING: f64 = 1e-12;
 /// Largest residual of the balances of single bodies [N], under forces of about a hundred newtons.
 const BODIES: f64 = 1e-10;
-/// Length of a step so short that the powers at both ends determine its work [s].
+/// Length of a step so short that the powers at its start and end determine the work in the step [s].
 const SHORT: f64 = 1e-4;
-/// Error of that work, relative to energies divided by the step [-]: third derivatives of order 1e3, and rounding.
+/// Error of the power over this step, relative to energies divided by the step [-]. It comes from third derivatives of order 1e3 and from
+/// rounding.
 const BALANCE: f64 = 1e-4;
 
 const SEEDS: std::ops::Range<u64> = 1..5;
@@ -30,7 +31,7 @@ fn check<S: Space<f64>, const D: usize>(what: &str, scene: &Scene<f64>) {
         model.write_motions(&motions, &mut state);
         let left = imbalance(&model, &state);
         assert!(left.iter().all(|&x| x < ROUNDING), "{what}, {D}, seed {seed}: {left:?}");
-        // Effects, gravity and joint reactions balance the inertia of every body.
+        // Effects, gravity and joint reactions balance the inertia force of every body.
         let mut reactions = Reactions::new(scene, &model).expect("no loops");
         reactions.update(&state);
         let left = reactions.residual();

@@ -9,7 +9,7 @@ use mbs_recursive::space::Space;
 use mbs_recursive::{EffortTerms, Planar, Spatial};
 use mbs_testkit::{file, start};
 
-/// Rounding through trees of 20 bodies with random geometry [-].
+/// Largest relative error by rounding in trees of 20 bodies with random geometry [-].
 const ROUNDING: f64 = 1e-10;
 
 fn check_tree<S: Space<f64>>(scene: &Scene<f64>, seed: u64) {
@@ -33,7 +33,7 @@ fn check_tree<S: Space<f64>>(scene: &Scene<f64>, seed: u64) {
     let product: Vec<f64> =
         (0..n).map(|i| mbs_testkit::dot(&mass[i * n..(i + 1) * n], &a) + bias[i]).collect();
     mbs_testkit::close("M a + bias", &product, &vec![0.0; n], ROUNDING * largest(&bias));
-    // A second acceleration tests the product in another direction.
+    // A second acceleration tests the product M a in another direction.
     let other = mbs_testkit::Random(seed + 99).vector(n, n, 3.0);
     run.state.a.copy_from_slice(&other);
     let efforts = inverse(&mut run);
@@ -54,7 +54,8 @@ fn inverse_dynamics_and_mass_matrix_return_what_forward_dynamics_took() {
     }
 }
 
-/// Compares reactions at the start with those of natural coordinates, where these are unique. Returns the number of comparisons.
+/// Compares the reactions of a tree at the start with those of natural coordinates, for each joint whose reaction is unique. Returns the
+/// number of comparisons.
 fn reactions<S: Space<f64>, const D: usize>(scene: &Scene<f64>) -> usize {
     let (model, state) = start::<D>(scene);
     let mut reference = Reactions::new(scene, &model).expect("reactions of the scene");

@@ -1,4 +1,4 @@
-//! Several states in one evaluation, compared with an evaluation of each.
+//! Several states in one evaluation, compared with a separate evaluation of each state.
 
 use mbs_core::real::Lanes;
 use mbs_recursive::space::Space;
@@ -7,8 +7,8 @@ use mbs_recursive::{
 };
 use mbs_testkit::file_in;
 
-/// Returns a state at some distance from the reference: angles, slides and all velocities differ. Balls keep their coordinates, because
-/// their quaternions must have length one.
+/// Returns a state whose angles, slides and velocities differ from the reference configuration. The coordinates of ball joints are
+/// unchanged, because their quaternions must have length one.
 fn wandered<S: Space<f64>>(model: &TreeModel<f64, S>, seed: usize) -> TreeState<f64> {
     let mut state = TreeState::at_rest(model);
     for (k, z) in state.z.iter_mut().enumerate().filter(|(_, z)| **z == 0.0) {
@@ -20,7 +20,7 @@ fn wandered<S: Space<f64>>(model: &TreeModel<f64, S>, seed: usize) -> TreeState<
     state
 }
 
-/// Checks that accelerations and efforts of four states in lanes have the bits of separate evaluations.
+/// Checks that accelerations and efforts of four states in lanes have the same bits as in separate evaluations.
 fn hold<S: Space<f64> + Space<Lanes<4>>>(name: &str) {
     let model = TreeModel::<f64, S>::new(&file_in(name)).expect("a tree");
     let wide = TreeModel::<Lanes<4>, S>::in_lanes(&file_in(name)).expect("a tree in lanes");
@@ -56,7 +56,7 @@ fn each_lane_has_the_bits_of_its_state_alone() {
     hold::<Spatial>("tree-30");
 }
 
-/// Central differences of four freedoms at once have the bits of separate differences.
+/// Checks that central differences of four freedoms at once have the same bits as separate differences.
 #[test]
 fn finite_differences_in_lanes_are_those_one_by_one() {
     const STEP: f64 = 1e-6;

@@ -1,15 +1,15 @@
-//! Runs of whole mechanisms: order, energy, singular positions, and the report's closure.
+//! Runs of complete mechanisms: tests of order, energy, singular positions, and the closure of the report.
 
 use crate::support::Run;
 use mbs_core::integrator::Integrator;
 use mbs_recursive::{Closure, Planar, Spatial};
 use mbs_testkit::file;
 
-/// Largest energy error of the trapezoidal rule on the double pendulum in natural coordinates [J]. Runs of 10 s with steps of 1e-2 s and
-/// 1e-3 s.
+/// Largest energy error of the trapezoidal rule on the double pendulum in natural coordinates [J]. The runs have 10 s, with steps of 1e-2 s
+/// and of 1e-3 s.
 const DOUBLE_PENDULUM: [f64; 2] = [4.645e-1, 4.636e-3];
-/// Tip of the first crank of the two four-bars after 10 s [m]. The mechanism moves as a pendulum, as the scene states, so the tip has a
-/// closed form.
+/// Position of the tip of the first crank of the two four-bars after 10 s [m]. The mechanism moves as a pendulum, as the scene states, so
+/// the tip has a closed form.
 const TIP: [f64; 2] = [0.328_458_111_540_815_4, 0.944_518_538_178_601];
 
 #[test]
@@ -22,8 +22,8 @@ fn trapezoidal_rule_is_of_second_order_and_below_the_level_of_natural_coordinate
 
 #[test]
 fn generalised_alpha_and_hht_are_of_second_order_on_trees_loops_and_a_damped_oscillator() {
-    // The reference is the method of order 8, with an error of 1e-5 of that of the steps. With order one the error would halve with the
-    // step.
+    // The reference is the method of order 8. Its error is 1e-5 times the error of the steps. A method of order one would have half the
+    // error with half the step.
     fn ratio(name: &str, integrator: Integrator<f64>) -> f64 {
         let scene = file(name);
         let mut exact = Run::<Planar>::new::<2>(&scene);
@@ -123,7 +123,7 @@ fn a_hinge_of_two_balls_repeats_one_row_though_its_weights_are_large() {
 
 #[test]
 fn two_four_bars_pass_their_singular_positions_on_the_pendulum_s_branch() {
-    // Ten passages of the singular position in 10 s. The error of the tip decreases with the order of the method.
+    // The mechanism passes the singular position ten times in 10 s. The error of the tip is smaller for methods of higher order.
     let tip = |run: &mut Run<Planar>| {
         let tip = run.motions(5)[0].point(&[0.0, 1.0, 0.0].into())[0];
         (tip[0] - TIP[0]).abs().max((tip[1] - TIP[1]).abs())
@@ -142,8 +142,8 @@ fn two_four_bars_pass_their_singular_positions_on_the_pendulum_s_branch() {
 #[test]
 fn singular_positions_cost_no_digits_at_tight_tolerances() {
     // Near a singular position, velocities have an error of rounding / distance² in a direction that the constraints forbid a little
-    // further on. If this counted as an error of the step, steps would become shorter until one ends in the singular position. The error of
-    // the tip would be 1e-5 m for any tolerance.
+    // further on. If this counted as an error of the step, steps would become shorter until a step ends in the singular position. The error
+    // of the tip would then be 1e-5 m for any tolerance.
     for (name, tip) in
         [("four-bar", [0.478_385_057_760_970_6, 0.878_150_178_791_209_3]), ("two-four-bars", TIP)]
     {
@@ -174,7 +174,7 @@ fn the_report_s_closure_holds_loops_within_its_penalty() {
         }
     }
     let energy = (run.invariant() - start).abs();
-    // λ = α Φ̈ is about 10 N with α = 1e7, so Φ̈ is 1e-6. The loops open much less than by drift.
+    // λ = α Φ̈ is about 10 N with α = 1e7, so Φ̈ is 1e-6. The loops open much less than they would by drift.
     assert!(worst[0] > 0.0 && worst[0] < 1e-4 && worst[1] < 1e-4 && worst[2] < 1e-3, "{worst:?}");
     assert!(energy < 1e-2, "{energy}");
 }
@@ -186,7 +186,7 @@ fn guides_and_dampers_are_in_the_ledger() {
     assert!((3.5..4.5).contains(&(errors[0] / errors[1])), "{errors:?}");
 }
 
-/// A body that a guide turns, without contact or joint to any other body.
+/// A body that a guide turns about a joint to the ground. It has no contact or joint with the other bodies.
 const FLAG: &str = r#"
 [[body]]
 name = "flag"
@@ -229,7 +229,7 @@ fn a_guided_body_that_meets_no_other_changes_nothing() {
     for [(z, v), (z_beside, v_beside)] in [fixed, controlled] {
         assert_eq!((z.len(), v.len()), (z_beside.len(), v_beside.len()));
         for (x, y) in z.iter().chain(&v).zip(z_beside.iter().chain(&v_beside)) {
-            // Rounding errors of numbers of order ten over twenty steps, which the motion amplifies.
+            // The limit allows for rounding errors of numbers of order ten over twenty steps, which the motion amplifies.
             assert!((x - y).abs() < 1e-11, "{x} {y}");
         }
     }

@@ -87,7 +87,7 @@ impl Bench {
         })
     }
 
-    /// Returns the decrease of the forces by accelerations `x`, from the tangents at (z, v).
+    /// Returns the decrease of the forces that accelerations `x` cause, computed from the tangents at (z, v).
     fn resistance(&mut self, reach: Reach<f64>, v: &[f64; 3], x: &[f64; 3]) -> [f64; 3] {
         self.along((&Z, v), |load, at, condensed| {
             load.apply_ahead(at, (reach, &[0.0; 3], &[Motion::zeros(); 4]), condensed)
@@ -104,7 +104,7 @@ impl Bench {
         .map(|f| -f)
     }
 
-    /// Returns the decrease of the forces by accelerations `x`, from central differences of the forces.
+    /// Returns the decrease of the forces that accelerations `x` cause, computed from central differences of the forces.
     fn difference(&mut self, reach: Reach<f64>, v: &[f64; 3], x: &[f64; 3]) -> [f64; 3] {
         let h = 1e-6;
         let mut moved = |sign: f64| {
@@ -123,7 +123,8 @@ const X: [[f64; 3]; 4] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.
 /// Coefficients of a step of 0.2 s with the trapezoidal rule.
 const REACH: Reach<f64> = Reach { place: 0.01, speed: 0.1 };
 
-/// Returns the length that a spring measures at [`Z`], if it is larger than zero. It follows from V = k L² / 2 without free length.
+/// Returns the length of a spring at [`Z`], if the length is larger than zero. With free length zero it follows from the energy V = k L² /
+/// 2.
 fn at_z(effect: &str, stiffness: f64) -> f64 {
     let mut bench = Bench::new(effect);
     let m = bench.model.mechanism();
@@ -139,7 +140,8 @@ fn at_z(effect: &str, stiffness: f64) -> f64 {
     (2.0 * m.loads[0].potential(&at).expect("tables that fit") / stiffness).sqrt()
 }
 
-/// Returns a spring whose free length is its length at [`Z`]. It has no force there, so a rotation of it causes none.
+/// Returns a spring whose free length is its length at [`Z`]. The spring has no force there, so that a rotation of the spring does not
+/// change the forces.
 fn slack(first: &str, second: &str, points: [[f64; 2]; 2]) -> String {
     spring(first, second, points, at_z(&spring(first, second, points, 0.0), 70.0))
 }
@@ -162,7 +164,8 @@ fn tangents_against_the_ground_and_across_joints_are_those_of_the_forces() {
                 let told = bench.resistance(reach, &v, x);
                 let found = bench.difference(reach, &v, x);
                 for i in 0..3 {
-                    // Central differences have an error of (1e-6)² times third derivatives, and of rounding: 1e-16 of 10 N divided by 1e-6.
+                    // Central differences have an error of (1e-6)² times third derivatives. They also have a rounding error: 1e-16 of 10 N,
+                    // divided by 1e-6.
                     assert!((told[i] - found[i]).abs() < 1e-7, "{effect}{x:?}: {told:?} {found:?}");
                 }
             }
@@ -170,7 +173,8 @@ fn tangents_against_the_ground_and_across_joints_are_those_of_the_forces() {
     }
 }
 
-/// Checks that (M + T̃)⁻¹ (T̃ − T) contracts for every M. The condition is that 2 T̃ − T is not negative, here for many directions.
+/// Checks that the iteration with (M + T̃)⁻¹ (T̃ − T) contracts for every mass matrix M. T is the tangent of the effect, T̃ its
+/// approximation by separate links. The condition is that xᵀ (2 T̃ − T) x is not negative; it is checked for many directions x.
 fn contracts(effect: &str) {
     let mut bench = Bench::new(effect);
     for i in 0..200_u32 {
@@ -179,7 +183,7 @@ fn contracts(effect: &str) {
         let told = bench.resistance(REACH, &[0.0; 3], &x);
         let found = bench.difference(REACH, &[0.0; 3], &x);
         let work = |f: &[f64; 3]| f.iter().zip(&x).map(|(f, x)| f * x).sum::<f64>();
-        // The tolerance is the rounding of differences, as above.
+        // The tolerance is the rounding error of central differences, as in the check of the tangents.
         assert!(2.0 * work(&told) - work(&found) > -1e-7, "{x:?}");
         assert!(work(&found) > -1e-7, "{x:?}");
     }
@@ -192,7 +196,7 @@ fn between_other_links_the_tangent_is_enough_for_the_iteration_to_contract() {
 
 #[test]
 fn along_a_sum_the_tangent_is_enough_for_the_iteration_to_contract() {
-    // no tension at Z, because the rotation of lines would add a term to the differences
+    // The effects have no tension at Z, because with a tension the rotation of lines would add a term to the differences.
     let joints = "{ joint = \"j0\", factor = 0.7 }, { joint = \"j1\", factor = 1.0 }, { joint = \"j2\", factor = -2.0 }";
     let sum = 0.7 * Z[0] + Z[1] - 2.0 * Z[2];
     let of = |terms: &str, free: f64| {
@@ -203,7 +207,7 @@ fn along_a_sum_the_tangent_is_enough_for_the_iteration_to_contract() {
     contracts(&of(joints, sum));
     contracts(&of("{ joint = \"j0\" }, { joint = \"j2\", factor = -1.0 }", Z[0] - Z[2]));
     let line = "{ points = [{ body = \"b0\", at = [0.4, 0.3] }, { body = \"ground\", at = [1.0, 2.0] }, { body = \"b2\", at = [2.8, 0.2] }] }";
-    // the sum is counted from the reference configuration, and the energy does not determine its sign
+    // The sum is relative to the reference configuration. The energy does not determine the sign of the sum, so both signs are tried.
     let sum = at_z(&of(line, 0.0), 30.0);
     let free = if at_z(&of(line, sum), 30.0) < 1e-9 { sum } else { -sum };
     contracts(&of(line, free));

@@ -1,5 +1,5 @@
-//! The run of the firmware on the host. It has a panic handler of its own. If the standard library were linked by mistake, its second panic
-//! handler would be a compile error.
+//! The run of the firmware on the host. This program defines a panic handler. If the standard library were linked by mistake, its panic
+//! handler would be the second one, which is a compile error.
 
 #![no_std]
 #![no_main]
@@ -48,7 +48,7 @@ fn write_units() -> fmt::Result {
     writeln!(Out)
 }
 
-/// Is the free link planar, with three coordinates?
+/// True if the free link is planar and has three coordinates.
 fn is_planar(free: LinkKind) -> bool {
     free.n_coordinates::<model::Scalar, model::Axes>() == 3
 }

@@ -1,5 +1,5 @@
-//! An observer of a two-link arm and the closing of a loop, on an emulated Cortex-M7. `ffi/controller/observer.c` computes the same in C,
-//! with the same bits. Both print these lines:
+//! An observer of a two-link arm and the closing of a loop, on an emulated Cortex-M7. `ffi/controller/observer.c` makes the same
+//! computations in C, and its results have the same bits. Both programs print these lines:
 //!
 //! ```text
 //! o STEP ERROR ERROR      differences of the two angles between the arm and the observer [rad], as hexadecimal bits
@@ -17,12 +17,12 @@ mod stack;
 #[path = "../timer.rs"]
 mod timer;
 
-/// Arm: the source file by `mbs export --rust` that MBS_MODEL names.
+/// Model of the arm: the source file that `mbs export --rust` wrote and MBS_MODEL names.
 mod arm {
     include!(env!("MBS_MODEL"));
 }
 
-/// Linkage: the source file by `mbs export --rust` that MBS_LOOP names.
+/// Model of the linkage: the source file that `mbs export --rust` wrote and MBS_LOOP names.
 mod linkage {
     include!(env!("MBS_LOOP"));
 }
@@ -40,22 +40,23 @@ const STEPS: u32 = 500;
 const REPORT_INTERVAL: u32 = 50;
 /// Errors of the observer's angles at the start [rad].
 const START_ERRORS: [f64; 2] = [0.04, 0.02];
-/// Torque of the shoulder's motor on both arm and observer [N m].
+/// Torque of the shoulder's motor, which acts on the arm and on the observer's model [N m].
 const TORQUE: f64 = 0.5;
 /// Changes of the loop's coordinates and velocities before it is closed [rad, rad/s].
 const ASIDE: [f64; 3] = [0.05, -0.025, 0.0125];
 
-/// Double root of the observer's error [1/s]. After 0.4 s at most the fraction (1 + 8) exp(-8) of 0.04 rad remains, 0.12 mrad.
+/// Decay rate of the observer's error: double root of its characteristic equation [1/s]. After 0.4 s at most the fraction (1 + 8) exp(-8)
+/// of the error 0.04 rad remains, which is 0.12 mrad.
 const ROOT: f64 = 20.0;
 
-/// Returns the gains of the observer for one step, h L1 and h L2 in
+/// Returns the gains of the observer for one step of length h, which are h L1 and h L2 in
 ///
 /// ```text
 /// z' = v + L1 (y - z),   v' = f(z, v) + L2 (y - z)
 /// ```
 ///
-/// With e = y - z the linearised arm v' = A z + B v gives e'' + (L1 - B) e' + (L2 - A - B L1) e = 0. This equation is e'' + 2 r e' + r² e =
-/// 0 for
+/// Here y are the measured angles, z and v the observer's angles and velocities. With e = y - z the linearised arm v' = A z + B v gives e''
+/// + (L1 - B) e' + (L2 - A - B L1) e = 0. This equation is e'' + 2 r e' + r² e = 0 for
 ///
 /// ```text
 /// L1 = 2 r 1 + B,   L2 = r² 1 + A + B L1
@@ -149,7 +150,7 @@ fn whole() -> Option<()> {
     writeln!(out, "m {}", stack::used()).ok()
 }
 
-/// Runs the arm and its observer together. Returns the numbers of instructions for setting a state and for a step.
+/// Runs the arm and its observer together. Returns the number of instructions for setting a state, and the number for a step.
 fn observe(out: &mut impl Write, clock: &mut impl FnMut() -> u32) -> Option<[u32; 2]> {
     let model = Checked::new(&arm::MODEL).ok()?;
     let mut arm = arm::ModelSolver::new(&model).ok()?;

@@ -1,4 +1,4 @@
-//! Scenes, their starts, and runs.
+//! Scenes, their starts, and runs, for all tests of this crate.
 
 use mbs_core::model::{Load, Model, State};
 use mbs_core::natural::NaturalModel;
@@ -11,8 +11,8 @@ use nalgebra::Vector3;
 
 pub(crate) mod random;
 
-/// Returns the residuals of a state's accelerations in the equations of natural coordinates, relative to their terms. The first is that of
-/// M a - Q along all directions that the constraints allow. The second is that of J a + bias.
+/// Returns two residuals of a state's accelerations in the equations of natural coordinates, relative to their terms. The first is the
+/// residual of M a - Q along all directions that the constraints allow. The second is the residual of J a + bias.
 pub(crate) fn imbalance<const D: usize>(
     model: &NaturalModel<f64, D>,
     state: &State<f64>,
@@ -75,7 +75,7 @@ impl<S: Space<f64>> Run<S> {
             .expect("a regular position");
     }
 
-    /// Makes one step of a method.
+    /// Makes one step of length `dt` [s] with a method.
     pub(crate) fn by(&mut self, method: TreeMethod, dt: f64) -> Result<StepReport<f64>, StepError> {
         self.model.step(method, dt, &self.options, &mut self.state, &mut self.workspace)
     }

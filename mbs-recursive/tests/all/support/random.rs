@@ -89,7 +89,8 @@ const CUTS: [JointKind; 7] = [
     JointKind::Prismatic,
 ];
 
-/// Returns a tree of balls (revolute joints in the plane) with `loops` further joints. These close loops in the reference configuration.
+/// Returns a tree of ball joints (revolute joints in the plane) with `loops` further joints. The further joints close loops in the
+/// reference configuration.
 pub(crate) fn closed(seed: u64, n: usize, loops: usize, dimension: Dimension) -> Scene<f64> {
     let random = &mut Random(seed);
     let mut scene = tree(seed ^ 0x55, n, dimension);
