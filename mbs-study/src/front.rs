@@ -118,13 +118,13 @@ pub struct Sweep {
 }
 
 impl Sweep {
-    /// Combines each value with each; the values of the last path change fastest.
+    /// Makes a sweep over all combinations of the values. The values of the last path change fastest.
     #[must_use]
     pub fn grid() -> Self {
         Self::of(SweepSource::grid())
     }
 
-    /// Combines the first values of all paths, then the second ones, and so on. All paths need the same number of values.
+    /// Makes a sweep that combines the first values of all paths, then the second values, and so on. All paths need the same number of values.
     #[must_use]
     pub fn zip() -> Self {
         Self::of(SweepSource::zip())
@@ -202,7 +202,7 @@ impl SweepResult {
         self.rows.len()
     }
 
-    /// Does the result have no runs?
+    /// True if the result has no runs.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.rows.is_empty()
@@ -211,7 +211,7 @@ impl SweepResult {
     /// Writes the result as `mbs sweep` writes `table.csv`.
     ///
     /// # Errors
-    /// Errors of the sink.
+    /// Errors of the writer `sink`.
     pub fn write_csv(&self, sink: impl io::Write) -> io::Result<()> {
         let rows: Vec<_> = self.rows.iter().map(|row| self.columns.cells(row)).collect();
         self.columns.write_csv(sink, rows.iter())

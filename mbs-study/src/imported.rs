@@ -1,4 +1,4 @@
-//! Report on an imported model: what became of its elements, and whether its scene has a start.
+//! Report on an imported model: how the scene represents its elements, and whether the scene has a start.
 
 use crate::doctor::{Effort, Finding, Severity, examine};
 use mbs::models::{FindingKind, Imported, ModelFinding, ModelSizes};
@@ -14,12 +14,12 @@ pub struct StartFault {
     pub line: Option<usize>,
 }
 
-/// Largest number of joints of a model with loops that the doctor examines [-]. The time grows with the cube of this number, and is a second
-/// here.
+/// Largest number of joints of a model with loops that the doctor examines [-]. The time of the examination grows with the cube of this number.
+/// With 200 joints it is about a second.
 const MOST_JOINTS: usize = 200;
 
-/// Finds faults that keep the scene of a model from starting. A model without closed loops has none if all of its branches have inertia.
-/// `None` means that a large model was not examined. `name` is the file name in messages.
+/// Finds faults that keep the scene of a model from starting. A model without closed loops has no such fault if all of its branches have
+/// inertia. `None` means that a large model was not examined. `name` is the file name in messages.
 ///
 /// # Errors
 /// [`SimulationError`] for a scene that is refused.

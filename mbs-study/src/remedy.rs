@@ -122,7 +122,7 @@ fn candidates(
     others.chain(shorter).collect()
 }
 
-/// Returns the time that a method reaches [s], and whether it did not stop with an error. It then reached the end or its work limit.
+/// Returns the time that a method reaches [s], and true if it reached the end or its work limit without an error.
 fn trial<const D: usize>(scene: &Scene<f64>, settings: &ResolvedMethod) -> (f64, bool) {
     let Ok(mut simulation) = Simulation::<f64, D>::new(scene, settings) else {
         return (0.0, false);

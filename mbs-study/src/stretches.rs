@@ -1,4 +1,4 @@
-//! Stretches of a run that an observer examines, as in the original run.
+//! Parts of a repeated run, which has the same steps or rows as the original run. An observer examines the run after each part.
 
 use mbs::ResolvedMethod;
 use mbs::inside::{Stretch, step};

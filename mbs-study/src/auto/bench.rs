@@ -19,7 +19,7 @@ use mbs_core::step::StepError;
 /// Number of steps between two readings of the clock, unless each step is timed [-]. The shortest steps take less time than one reading.
 const STRIDE: u64 = 8;
 /// Limit of steps in the first interval, for an integrator with its own step control [-]. The clock is not read within an interval, so only
-/// this limit ends one with far too many steps.
+/// this limit ends an interval with far too many steps.
 const FIRST_STEPS: u32 = 1000;
 
 /// Clock that a pilot measures time by: the processor's clock, or a clock that counts work.
@@ -47,7 +47,7 @@ pub(crate) struct SceneBench<'a, T: Real, const D: usize> {
 }
 
 impl<'a, T: Real, const D: usize> SceneBench<'a, T, D> {
-    /// Makes a bench whose time starts at `spent` seconds, which were used before.
+    /// Makes a bench whose elapsed time starts at `spent` [s], the time that was used before.
     pub(crate) fn new(
         (scene, base): (&'a Scene<T>, &'a Method),
         ready: &'a Result<AssembledScene<T, D>, Box<RunError>>,
@@ -170,7 +170,7 @@ fn refused(error: &SettingsError) -> RunError {
     }
 }
 
-/// Settings of a run with a method; all other settings are the caller's.
+/// Returns the settings of a run with a method. Settings that the method does not decide are the caller's.
 pub(crate) fn settings<T: Real>(
     scene: &Scene<T>,
     base: &Method,
@@ -196,7 +196,7 @@ pub(crate) fn settings<T: Real>(
     ResolvedMethod::new(scene, &overrides)
 }
 
-/// Records a trial, and gives it up after its time limit.
+/// Recorder of a trial, which stops the trial after its time limit.
 struct Recorder<'a, T: Real, const D: usize> {
     channels: Option<Channels<T, D>>,
     alarm: Alarm,
@@ -204,7 +204,7 @@ struct Recorder<'a, T: Real, const D: usize> {
     rows: Rows,
     clock: &'a mut dyn Clock,
     per_iteration: f64,
-    /// Is the clock read at every step?
+    /// True if the clock is read at every step.
     is_fine: bool,
     begun: f64,
     /// Longest time that the trial may take [s].

@@ -7,15 +7,16 @@ use super::trial::{Trial, TrialEnd};
 use crate::compare::method::{Control, MethodCase};
 use mbs::FormulationKind;
 
-/// Factor by which the next trial has a shorter step [-]. Two trials then show the order of a method between 1 and 4, and the second one is
-/// still affordable.
+/// Ratio of a trial's step to that of the next trial [-]. With this ratio two trials show the order of a method if it is between 1 and 4, and
+/// the second trial is still affordable.
 const FINER_STEP: f64 = 4.0;
 /// First tolerance of steps that are controlled by an error estimate [-]. A run with this tolerance takes less time than most other trials.
 const FIRST_ERROR_TOLERANCE: f64 = 1e-3;
 /// Largest tolerance that is tried [-]. With 0.1 the scenes rssr and iltis-stairs-stiff stop, and the number of steps is only a third
 /// smaller.
 const LOOSEST: f64 = 0.01;
-/// Relative difference up to which two settings are equal [-]: the product of a number and its inverse is rounded.
+/// Relative difference up to which two settings count as equal [-]. They differ by rounding, because the product of a number and its inverse is
+/// not exactly 1.
 pub(super) const ROUNDING: f64 = 2.0 * f64::EPSILON;
 
 /// Trial of a method, with its error where it is known.
@@ -57,7 +58,7 @@ pub struct PilotCandidate {
     pub(crate) coarsest: f64,
     /// Finest setting that the deadline allows; 0 without a deadline.
     pub(crate) finest: f64,
-    /// Did a trial with a predicted setting miss the required error? Predictions are then ignored, and only measured errors count. This
+    /// True if a trial with a predicted setting missed the required error. Predictions are then ignored, and only measured errors count. This
     /// happens where the instants of the results limit the steps (quarter-car at 1e-4).
     pub(crate) has_missed: bool,
 }
@@ -66,16 +67,16 @@ pub struct PilotCandidate {
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Next {
     Try(f64),
-    /// Enough is known of the candidate.
+    /// The candidate needs no further trial.
     Settled,
     Out(String),
 }
 
 /// Selects the candidates among the methods that the caller allows, and sorts them in the order of their trials.
 ///
-/// With a spanning tree they are, in relative coordinates, integrators with their own step control, rk4 and error control; then index-3 with
-/// fixed steps. Without a tree they are index-3 with fixed steps, then error control in index-3, classical and state-space. If the caller
-/// asks for a formulation, all of its methods are candidates.
+/// If the scene has a spanning tree, relative coordinates come first: with integrators of their own step control, rk4 and error control. Then
+/// follows index-3 with fixed steps. Without a tree, index-3 with fixed steps comes first. Then follows error control in index-3, classical and
+/// state-space. If the caller asks for a formulation, all of its methods are candidates.
 pub(super) fn select(
     (is_asked, has_deadline): (bool, bool),
     methods: &[MethodCase],
@@ -176,7 +177,7 @@ impl PilotCandidate {
     /// Predicts the setting for the target error, with its error and CPU time.
     pub(crate) fn predict(&self, target: PilotTarget) -> Option<Prediction> {
         let points = self.points();
-        // a setting coarser than that of the first completed trial would stop, or would make the same steps (guided-four-bar at 1e-6)
+        // a run with a coarser setting than the first completed trial would stop, or would make the same steps (guided-four-bar at 1e-6)
         let is_held = self.done().next().is_some_and(|t| self.is_held(&t.trial));
         let coarsest = match (self.trials.first(), points.first()) {
             (Some(t), Some(first)) if is_held || t.setting > first.setting => first.setting,
@@ -192,14 +193,14 @@ impl PilotCandidate {
         Some(extended(points.last()?, self.law(), setting))
     }
 
-    /// Error that is expected with a setting beyond all trials, none of which has the required error. The error of the finest trial is
+    /// Error that is expected with a setting beyond all trials, if no trial has the required error. The error of the finest trial is
     /// extrapolated by the smallest exponent.
     pub(crate) fn expected(&self, setting: f64) -> f64 {
         let Some(last) = self.points().last().copied() else { return f64::INFINITY };
         last.error * (setting / last.setting).powf(ERROR_RANGE[0] * self.law().error)
     }
 
-    /// Are the controlled steps of a trial limited by the instants of the results, where every step must end?
+    /// True if the instants of the results limit the steps of a trial with step control. A step must end at each instant.
     pub(crate) fn is_held(&self, trial: &Trial) -> bool {
         let [steps, rows] = [trial.steps, trial.rows.len() as u64].map(|n| n as f64);
         !self.method.is_fixed() && steps * (1.0 - SMALL) <= rows
@@ -216,7 +217,7 @@ impl PilotCandidate {
         self.trials.iter().filter_map(|t| t.trial.slowest).reduce(f64::max)
     }
 
-    /// Is the candidate not excluded, and did its finest trial complete?
+    /// True if the candidate is not excluded and its finest trial completed.
     pub(crate) fn may_continue(&self) -> bool {
         self.out.is_none() && self.trials.last().is_some_and(|t| t.trial.end == TrialEnd::Done)
     }
@@ -258,7 +259,7 @@ impl PilotCandidate {
         if is_known || self.has_tried(setting) { Next::Settled } else { Next::Try(setting) }
     }
 
-    /// Does a trial have an error close to the target, or would coarser settings not reduce the number of steps?
+    /// True if a trial has an error close to the target, or if coarser settings would not reduce the number of steps.
     pub(crate) fn is_settled(&self, target: PilotTarget) -> bool {
         let points = self.points();
         let is_near = |p: &Point| p.error <= target.error && p.error >= 0.5 * target.aim();

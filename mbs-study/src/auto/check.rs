@@ -25,8 +25,8 @@ pub fn check(
     let precision = chosen.method.precision;
     Some(fine(search, precision, longest).map(|(trial, own)| {
         let apart = search.bench.distance(&rows, &trial.rows);
-        // models differ only if the distance is ten times all errors: in chaotic motion errors are larger than estimated (double-pendulum at
-        // 1e-3)
+        // the models count as different only if the distance is ten times all errors: in chaotic motion errors are larger than estimated
+        // (double-pendulum at 1e-3)
         let differs = SMALL * apart > search.target.error.max(error).max(own);
         SecondLook { distance: apart.is_finite().then_some(apart), own_error: Some(own), differs }
     }))

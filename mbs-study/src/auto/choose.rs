@@ -56,7 +56,7 @@ pub fn methods<T>(
             m.integrator == integrator
         });
     } else if settings.precision != Precision::DoubleDouble {
-        // rk853 is faster than gbs for every error that these numbers resolve: gbs is for references in more digits
+        // rk853 is faster than gbs for every error that the run's numbers resolve; gbs is for references with more digits
         methods.retain(|m| m.integrator != IntegratorKind::Extrapolation);
     }
     if goal.deadline.is_some() {
@@ -80,7 +80,7 @@ pub(crate) fn instants(duration: f64, goal: &Goal) -> Instants {
     Instants { count, interval: between * frame }
 }
 
-/// Choice for a scene, which gives ranked picks and the evidence for them.
+/// Pilot for a scene. It gives ranked settings and the evidence for them.
 pub(crate) struct Pilot<'a> {
     pub(crate) task: &'a Task<'a>,
     pub(crate) methods: &'a [MethodCase],

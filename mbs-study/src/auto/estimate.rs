@@ -18,7 +18,7 @@ const COST_RANGE: [f64; 2] = [0.25, 1.25];
 /// the trial before.
 pub(super) const SMALL: f64 = 0.1;
 
-/// Exponents of the error and of the CPU time in the setting of a method, which is its step or its tolerance.
+/// Exponents of a method: its error and its CPU time are powers of its setting. The setting is the step or the tolerance.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PowerLaw {
     /// Exponent a of the error.
@@ -93,7 +93,7 @@ impl Prediction {
     }
 }
 
-/// Predicts the setting for an error, which is no coarser than `coarsest`. `points` are trials sorted by setting, the coarsest first.
+/// Predicts the setting for an error. The setting is no coarser than `coarsest`. `points` are trials sorted by setting, the coarsest first.
 pub fn predict(
     theory: PowerLaw,
     points: &[Point],
@@ -144,7 +144,8 @@ fn interpolated(coarse: &Point, fine: &Point, error: f64) -> Prediction {
 /// e = d r/(1 - r),   r = (coarse steps / fine steps)^order
 /// ```
 ///
-/// The error is infinite if the other trial made less than a tenth fewer steps. The instants of the results then limited the steps of both.
+/// The error is infinite if the coarse trial made more than nine tenths of the steps of the fine trial. The instants of the results then
+/// limited the steps of both.
 pub(crate) fn error_of_finer(method: &MethodCase, fine: &Trial, coarse: &Trial, d: f64) -> f64 {
     let steps = coarse.steps as f64 / fine.steps as f64;
     let r = steps.powf(method.order());

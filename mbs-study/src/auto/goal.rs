@@ -13,7 +13,7 @@ pub(super) const ACCURATE: f64 = 1e-6;
 pub struct PilotTarget {
     /// Error of the outputs.
     pub error: f64,
-    /// Length of a frame, each of which must be computed within the same time [s].
+    /// Length of a frame [s]. The steps of each frame must be computed in at most this time.
     pub deadline: Option<f64>,
 }
 
@@ -22,7 +22,7 @@ impl PilotTarget {
         Self { error: goal.error.unwrap_or(ACCURATE), deadline: goal.deadline }
     }
 
-    /// Error that settings are chosen for, smaller than the required one.
+    /// Error for which settings are chosen. It is smaller than the required error.
     pub(crate) fn aim(&self) -> f64 {
         AIM * self.error
     }
@@ -40,9 +40,9 @@ pub enum GoalError {
     Deadline(f64),
     /// Deadline longer than the run: deadline and duration [s].
     TooLong(f64, f64),
-    /// Option that the choice decides and that the caller has set, by its name.
+    /// Name of an option that the caller has set although the choice decides it.
     Chosen(&'static str),
-    /// Deadline for integrators with their own step control only: the time of their steps has no bound.
+    /// Deadline although all allowed integrators have their own step control. The time of their steps has no bound.
     OwnSteps,
     /// Options that leave no method to choose from.
     NoCandidate,

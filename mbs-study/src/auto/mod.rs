@@ -1,8 +1,8 @@
 //! Choice of formulation, integrator and step by measurement, for a required error of the outputs or for a deadline.
 //!
 //! Methods that the scene's structure excludes are left out. A short pilot runs the others with coarse settings over the whole span. It
-//! compares their outputs with those of the best one, and predicts the CPU time that each needs for the required error. A given [`Clock`]
-//! measures the time.
+//! compares their outputs with those of the most accurate run. Then it predicts the CPU time that each method needs for the required error. A
+//! given [`Clock`] measures the time.
 
 mod bench;
 pub(crate) mod candidates;

@@ -1,7 +1,7 @@
 //! Pilot of a choice: it decides which candidate gets the next trial, and when enough is known.
 //!
-//! All trials run over the whole span, so that late events count as well. Candidates without a trial are tried first, then the one with the
-//! smallest predicted time. The pilot ends when half of each predicted time exceeds the cheapest time that reaches the required error.
+//! All trials run over the whole span, so that late events count as well. Candidates without a trial are tried first, then the candidate with
+//! the smallest predicted time. The pilot ends when half of each predicted time exceeds the cheapest time that reaches the required error.
 
 use super::candidates::{Next, PilotCandidate, Tried};
 use super::estimate::{Basis, Point, Prediction, SMALL, error_of_finer};
@@ -11,12 +11,12 @@ use crate::compare::method::Control;
 use core::fmt::{self, Debug, Formatter};
 use mbs_scene::format::duration;
 
-/// CPU time of the pilot [s]: a user does not notice this delay.
+/// CPU time that the pilot may always take [s]. A user does not notice this delay.
 pub const BUDGET: f64 = 0.2;
-/// CPU time of the pilot, relative to the predicted run [-]: a long run may have a longer pilot.
+/// CPU time that the pilot may take, relative to the predicted time of the run [-]. A long run may have a longer pilot.
 pub const BUDGET_FRACTION: f64 = 0.05;
-/// Ratio of a trial's time to the cheapest time at which the trial is given up [-]. Such a candidate cannot win, although its time may be
-/// wrong by half.
+/// Largest time of a trial, relative to the cheapest time [-]. A longer trial is given up. Its candidate cannot win, even if its time is wrong
+/// by half.
 pub(super) const GIVE_UP: f64 = 1.5;
 
 /// Place of a candidate in the ranking.
@@ -26,7 +26,7 @@ pub struct PilotPlace {
     pub candidate: usize,
     /// Prediction of setting, error and CPU time.
     pub prediction: Prediction,
-    /// Did a trial reach the required error?
+    /// True if a trial reached the required error.
     pub reaches: bool,
     /// Whether the time was measured by a run with this setting.
     pub is_timed: bool,
@@ -47,7 +47,7 @@ pub struct PilotSearch<'a> {
     pub candidates: Vec<PilotCandidate>,
     pub(crate) target: PilotTarget,
     pub(crate) best: Option<Best>,
-    /// Did the budget end the search?
+    /// True if the budget ended the search.
     pub(crate) is_cut: bool,
     /// CPU time that is reserved for second trials [s].
     reserve: f64,
@@ -95,9 +95,10 @@ impl<'a> PilotSearch<'a> {
 
     /// Returns the next trial if errors are not known well enough for a choice.
     ///
-    /// Two conditions must hold. The error of the best trial is at most a tenth of the required error. In chaotic motion (double-pendulum at
-    /// 1e-2), or where instants limit the steps (simple-pendulum at 1e-6), trials agree better than their errors. A trial by another
-    /// integrator also reaches the required error. Trials of rk853 for rssr at 1e-2 differ by only a tenth of their errors.
+    /// Errors are known well enough if two conditions hold. First, the error of the best trial is at most a tenth of the required error. This
+    /// is needed because trials may agree better than their errors: in chaotic motion (double-pendulum at 1e-2), or where instants limit the
+    /// steps (simple-pendulum at 1e-6). Second, a trial by another integrator also reaches the required error. Trials of one integrator may
+    /// agree too well: for rssr at 1e-2, trials of rk853 differ by only a tenth of their errors.
     fn confirming(&mut self) -> Option<(usize, f64, f64)> {
         let (best, left) = (self.best?, self.left());
         self.cheapest()?;
@@ -193,9 +194,9 @@ impl<'a> PilotSearch<'a> {
         BUDGET.max(BUDGET_FRACTION * run.unwrap_or(0.0))
     }
 
-    /// Returns a place by theory if no trial came near the required error. The tolerance is a tenth of that error. The integrator is the one
-    /// with its own step control that is fastest by its theoretical order. The measured power law is not used, because it may give any
-    /// setting so far beyond the trials (iltis-links at 1e-6, on a busy machine).
+    /// Returns a place by theory if no trial came near the required error. The tolerance is a tenth of that error. Among the integrators with
+    /// their own step control, the one that is fastest by its theoretical order is chosen. The measured power law is not used, because it may
+    /// give any setting so far beyond the trials (iltis-links at 1e-6, on a busy machine).
     pub(crate) fn by_theory(&self, places: &[PilotPlace]) -> Option<PilotPlace> {
         let is_near = |p: &PilotPlace| p.reaches || p.prediction.error <= self.target.error / SMALL;
         if self.target.deadline.is_some() || places.first().is_some_and(is_near) {
@@ -260,7 +261,7 @@ impl<'a> PilotSearch<'a> {
             let d = self.distance(&a.rows, &b.rows);
             let method = self.candidates[i].method;
             let finer = |fine: &Trial, coarse: &Trial| error_of_finer(&method, fine, coarse, d);
-            // upper and lower bounds of the errors of both trials
+            // `most` and `least` are the upper and lower bounds of the errors of both trials
             let (most, least) = if i != j {
                 // two integrators have different errors: if their results agree, both errors are small
                 let is_same = method.integrator == self.candidates[j].method.integrator;
@@ -338,8 +339,8 @@ impl<'a> PilotSearch<'a> {
         Some(PilotPlace { candidate: i, prediction, reaches: seen.is_some(), is_timed: false })
     }
 
-    /// Tries the candidates whose predicted time is close to the cheapest with their predicted settings. Then it times them twice more,
-    /// interleaved, within the budget.
+    /// Runs the finalists with their predicted settings. Finalists are candidates whose predicted time is close to the cheapest. Each finalist
+    /// is then timed twice more, interleaved with the others, within the budget.
     fn retime(&mut self) -> Vec<(usize, f64)> {
         while let Some((i, setting, limit)) = self.untried() {
             self.attempt(i, setting, limit);

@@ -81,7 +81,7 @@ pub fn plan(run: &PreparedRun<'_>, clock: &mut dyn Clock) -> Result<Plan, Simula
     Ok(Plan { ranked: ranked(&run.scene, &task, (&picks, &methods), &choice) })
 }
 
-/// Settings of the picks. If there are none, the original settings are returned: their run reports why no method starts.
+/// Returns the settings of the picks. If there are no picks, the original settings are returned: their run reports why no method starts.
 fn ranked(
     scene: &Scene<f64>,
     task: &Task<'_>,

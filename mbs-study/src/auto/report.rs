@@ -124,7 +124,7 @@ fn notes(search: &PilotSearch<'_>, places: &[PilotPlace]) -> Vec<String> {
     notes
 }
 
-/// Note that the method in other coordinates did not confirm the choice, with the reason.
+/// Makes the note that the method in other coordinates did not confirm the choice, with the reason.
 pub(super) fn unconfirmed(why: &str) -> String {
     format!("index-3, which shares no model with the chosen one, does not confirm it: {why}")
 }

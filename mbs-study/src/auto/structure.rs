@@ -14,12 +14,12 @@ use mbs_recursive::{Planar, Spatial, TreeError, TreeModel};
 pub(crate) struct Structure {
     pub(crate) dimension: usize,
     pub(crate) bodies: usize,
-    /// Coordinates, constraints, their rank, in natural coordinates.
+    /// Number of natural coordinates, number of constraints, and rank of the constraints.
     pub(crate) natural: Option<[usize; 3]>,
     /// Number of cut joints of the spanning tree, or the reason why there is no tree.
     pub(crate) loops: Result<usize, String>,
     pub(crate) guides: usize,
-    /// Bumpers, limits and tires.
+    /// Number of bumpers, limits and tires.
     pub(crate) contacts: usize,
     /// Highest angular frequency of a spring between its two bodies, estimated [rad/s].
     pub(crate) frequency: f64,

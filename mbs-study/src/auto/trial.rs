@@ -22,7 +22,7 @@ pub enum Aim {
 pub struct Trial {
     /// Outputs at the instants.
     pub rows: Rows,
-    /// CPU time of its steps [s].
+    /// CPU time of the trial's steps [s].
     pub seconds: f64,
     /// Number of steps of the run.
     pub steps: u64,

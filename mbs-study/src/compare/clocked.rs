@@ -5,7 +5,7 @@ use mbs_realtime::nearest_rank;
 
 /// Number of histogram classes in a decade. Chosen, not tuned: a class is 26 % wide.
 const PER_DECADE: f64 = 10.0;
-/// Fraction of a class by which a time may be below its lower edge [-], since the logarithm is rounded.
+/// Fraction of a class by which a time may be below the lower edge of its class [-]. The logarithm of the time is rounded.
 const ROUNDING: f64 = 1e-9;
 
 /// Makes a histogram and quantiles of the times of steps [s]. `reading` is the time of one reading of the clock [s], which is subtracted.

@@ -103,7 +103,7 @@ impl Study<'_> {
     }
 }
 
-/// True error and shortest CPU time of a chosen run [s], and the time of the best method at the required error [s].
+/// Error of a chosen run against the reference, its shortest CPU time [s], and the time of the best method at the required error [s].
 struct Held {
     true_error: Option<f64>,
     seconds: Option<f64>,

@@ -66,7 +66,7 @@ impl Instants {
         candidates.into_iter().find(fits).unwrap_or_else(|| of(most))
     }
 
-    /// Number of steps between two instants whose length is nearest to `step` [s].
+    /// Number of steps between two instants. The length of these steps is nearest to `step` [s].
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
     pub fn steps_between(&self, step: f64) -> u64 {
         (self.interval / step).round().max(1.0) as u64

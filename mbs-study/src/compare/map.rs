@@ -21,7 +21,7 @@ const ITERATIONS: f64 = 3.0;
 pub struct MapPlan {
     /// The first instants of the comparison.
     pub instants: Instants,
-    /// Steps between two instants, from the longest step.
+    /// Number of steps between two instants for each step length, from the longest step.
     pub between: Vec<u64>,
     pub(super) formulations: Vec<FormulationKind>,
     pub(super) precisions: Vec<Precision>,

@@ -75,7 +75,7 @@ impl MethodCase {
         methods
     }
 
-    /// Returns the name of the method. Usual settings are left out of it, the precision is not.
+    /// Returns the name of the method. The name leaves out usual settings, but not the precision.
     pub fn name(&self) -> String {
         let integrator = match self.integrator {
             IntegratorKind::Trapezoidal => String::new(),
@@ -99,7 +99,7 @@ impl MethodCase {
         }
     }
 
-    /// Are the settings of this method step lengths?
+    /// True if the settings of this method are step lengths.
     pub fn is_fixed(&self) -> bool {
         self.control == Control::Fixed
     }
@@ -109,7 +109,7 @@ impl MethodCase {
         ratio.powf(self.cost())
     }
 
-    /// Exponent of the CPU time in the setting, with its sign reversed.
+    /// Exponent b of the CPU time, which is proportional to setting^-b.
     pub(crate) fn cost(&self) -> f64 {
         match (self.control, self.integrator) {
             (Control::Fixed, _) => 1.0,

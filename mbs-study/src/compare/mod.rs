@@ -56,15 +56,15 @@ pub struct Request {
     pub errors: Vec<f64>,
     /// Length of the runs [s]. Default: the scene's duration.
     pub duration: Option<f64>,
-    /// Smallest number of timings of each run. `≥ 2`.
+    /// Smallest number of timings of each run, at least 2.
     pub repeats: u32,
     /// Largest CPU time of a run [s].
     pub time_limit: f64,
     /// Estimated work of all runs together [s]. Without given steps it limits how short steps become.
     pub budget: f64,
-    /// Are convergence maps part of the comparison?
+    /// True if convergence maps are part of the comparison.
     pub maps: bool,
-    /// Is the choice by measurement made at each error and compared with all methods?
+    /// True if the choice by measurement is made at each error and compared with all methods.
     pub choices: bool,
     /// Interrupt by which the caller ends the comparison.
     pub interrupt: Interrupt,

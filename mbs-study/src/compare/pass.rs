@@ -18,7 +18,7 @@ use mbs_core::scene::Scene;
 use mbs_scene::SceneFile;
 use std::borrow::Cow;
 
-/// Time from which a single run is a timing [s]. Shorter runs are repeated, and the shortest time counts. Chosen, not tuned.
+/// Shortest time of a run that is timed only once [s]. A shorter run is repeated, and the shortest time counts. Chosen, not tuned.
 const SHORT: f64 = 0.01;
 /// Largest number of repetitions within one timing. Chosen, not tuned.
 const MOST_FRESH: u32 = 10;
@@ -47,7 +47,7 @@ pub(super) struct Recorded {
     pub(super) work: f64,
     /// Whether the run was given up because it exceeded its time limit.
     pub(super) is_given_up: bool,
-    /// Whether the run did not even start.
+    /// Whether the run failed before its first step.
     pub(super) is_not_started: bool,
 }
 
@@ -92,8 +92,8 @@ impl Scenes {
         scene.work(ToRecord { settings, course, n_columns: self.n_columns, most })
     }
 
-    /// CPU time of all steps from a new start [s]. If it is short, it is the shortest of several runs. Each value of `turn` places stack and
-    /// heap elsewhere in memory.
+    /// CPU time of all steps from a new start [s]. If this time is short, several runs are made, and the shortest time is returned. Each value
+    /// of `turn` places stack and heap elsewhere in memory.
     pub(super) fn timed(
         &self,
         settings: &ResolvedMethod,

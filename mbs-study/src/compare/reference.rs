@@ -6,7 +6,8 @@ use crate::compare::results::{CrossCheck, OutputScale, Reference, output_scales,
 use mbs::record::Channel;
 use mbs_scene::format::significant;
 
-/// Ratio of the smallest ranked error to the uncertainty of the reference, from which an instant is well known [-]. Chosen, not tuned.
+/// Smallest ratio of the smallest ranked error to the uncertainty of the reference at an instant that counts as well known [-]. Chosen, not
+/// tuned.
 const KNOWN: f64 = 3.0;
 /// Smallest fraction of the instants that is compared, even if they are not well known [-]. Chosen, not tuned.
 const LEAST_SHARE: f64 = 0.1;
@@ -58,7 +59,7 @@ pub struct Known {
     pub report: Reference,
     /// Notes on what is doubtful in the reference.
     pub notes: Vec<String>,
-    /// Is the reference a table that two agreeing formulations refute?
+    /// True if the reference is a table that two agreeing formulations refute.
     pub is_refuted: bool,
 }
 
@@ -249,7 +250,7 @@ fn doubt(check: Option<&CrossCheck>) -> String {
     }
 }
 
-/// Largest distance up to each instant.
+/// Returns for each instant the largest distance of two runs up to it.
 fn distances(scales: &[OutputScale], a: &[Vec<f64>], b: &[Vec<f64>]) -> Vec<f64> {
     let mut largest = 0.0_f64;
     let distances = a.iter().zip(b).map(|(a, b)| {

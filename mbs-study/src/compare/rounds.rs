@@ -57,7 +57,7 @@ impl Study<'_> {
     }
 }
 
-/// Completed runs, each by method and run.
+/// Returns the completed runs, each by the indices of its method and of the run.
 pub fn completed(comparison: &Comparison) -> Vec<(usize, usize)> {
     let methods = comparison.methods.iter().enumerate();
     let runs = methods.flat_map(|(m, method)| {
@@ -67,7 +67,7 @@ pub fn completed(comparison: &Comparison) -> Vec<(usize, usize)> {
     runs.collect()
 }
 
-/// Runs that decide the ranking at some errors, and whose times are not known well enough.
+/// Returns the runs that decide the ranking at some errors and whose times are not known well enough.
 pub fn unsettled(comparison: &Comparison, errors: &[f64]) -> Vec<(usize, usize)> {
     let is_apart = |run: &RunEntry| {
         let mut times = run.cpu_seconds.clone();

@@ -97,8 +97,8 @@ impl Study<'_> {
         Ok(entry)
     }
 
-    /// Returns the reason why a setting is not run. It is predicted from the nominal time of the run before, and as a last resort from its
-    /// CPU time.
+    /// Returns the reason why a setting is not run. The time of its run is predicted from the nominal time of the run before, and as a last
+    /// resort from the CPU time of that run.
     fn too_long(&self, method: &MethodCase, setting: f64, refined: &Refinement) -> Option<String> {
         if refined.no_better >= NO_BETTER {
             return Some(format!("{NO_BETTER} finer settings in a row were no better"));

@@ -23,7 +23,7 @@ pub enum TableError {
     UnknownColumn(String, Vec<String>),
     /// Cell that is no finite number: line and column name.
     NotANumber(u64, String),
-    /// Time that is not later than that of the row before: line.
+    /// Line whose time is not later than that of the line before.
     Order(u64),
     /// Time before the start or after the end of the run: line, time and duration, as texts.
     Beyond(u64, String, String),
@@ -38,7 +38,7 @@ pub struct ReferenceTable {
     pub rows: Vec<Option<Vec<f64>>>,
     /// Half a unit of the last digit of each column, as root mean square over the rows.
     pub digits: Vec<f64>,
-    /// Column by column, whether the table has it.
+    /// True for each column that the table has.
     pub has: Vec<bool>,
 }
 

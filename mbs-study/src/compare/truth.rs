@@ -60,8 +60,8 @@ impl Study<'_> {
         Ok(Known::of_runs(best, pairs.get(1), of, (&self.instants, least)))
     }
 
-    /// Makes up to two solutions by different formulations. The first is in relative coordinates, by the first method that runs to the end.
-    /// The second is in natural coordinates. Also returns why the last failed method failed.
+    /// Makes up to two solutions by different formulations. The first is in relative coordinates, by the first method that runs to the end. The
+    /// second is in natural coordinates. Also returns the reason of the last failure.
     fn pairs(
         &self,
         kinds: &[Way<'_>],

@@ -14,7 +14,7 @@ use mbs_core::start::Assembled;
 pub struct Effort {
     /// Number of positions along the motion. With `0` the motion is not examined.
     pub positions: u64,
-    /// Time limit for the motion [s]. A longer motion is reported as not examined to its end. `> 0`.
+    /// Time limit for the motion [s]. A longer motion is reported as not examined to its end. The limit must be positive.
     pub seconds: f64,
 }
 

@@ -4,7 +4,8 @@
 //! N: motions that the joints leave, an orthonormal basis;   h_k = N^T g_k of each coupling's gradient g_k
 //! ```
 //!
-//! A row whose h lies in the span of the rows before it removes no degree of freedom. The rows that it is a combination of are named with it.
+//! A row whose h lies in the span of the rows before it removes no degree of freedom. The finding names this row together with the rows of
+//! which it is a combination.
 
 use super::finding::{Finding, Severity, Topic};
 use crate::redundancy::Rank;
@@ -14,11 +15,11 @@ use mbs_core::model::{Model, Owner, State};
 use mbs_core::natural::NaturalModel;
 use mbs_core::scene::{Entry, Scene};
 
-/// Component of a gradient outside the span of others, relative to the gradient, below which the gradient depends on them [-]. The limit is
-/// the rounding of the rank's basis. Chosen, not tuned.
+/// Largest component of a gradient outside the span of others at which the gradient counts as dependent on them, relative to the gradient [-].
+/// The limit is the rounding of the rank's basis. Chosen, not tuned.
 const FOLLOWS: f64 = 1e-9;
-/// Component of a gradient outside the span of others, relative to the gradient, below which the gradient almost depends on them [-]. Ratios
-/// in a file have six digits or more.
+/// Largest component of a gradient outside the span of others at which the gradient counts as almost dependent on them, relative to the
+/// gradient [-]. Ratios in a file have six digits or more.
 const ALMOST: f64 = 1e-6;
 /// Largest number of elements of the examined rows [-]: about a second of work. Chosen, not tuned.
 const LARGEST: usize = 250_000;

@@ -77,14 +77,14 @@ impl Finding {
         }
     }
 
-    /// Sets the joints that the finding concerns. The first of them is its place, unless it has one.
+    /// Sets the joints that the finding concerns. The first joint becomes the place of the finding, unless a place is set.
     pub(super) fn joints(mut self, joints: Vec<usize>) -> Self {
         self.place = self.place.or(joints.first().map(|&j| (Entry::Joint(j), "name")));
         self.joints = joints;
         self
     }
 
-    /// Sets the bodies that the finding concerns. The first of them is its place, unless it has one.
+    /// Sets the bodies that the finding concerns. The first body becomes the place of the finding, unless a place is set.
     pub(super) fn bodies(mut self, bodies: Vec<usize>) -> Self {
         self.place = self.place.or(bodies.first().map(|&b| (Entry::Body(b), "name")));
         self.bodies = bodies;

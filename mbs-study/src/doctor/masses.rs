@@ -67,7 +67,7 @@ pub(super) fn findings(
     }
 }
 
-/// Notes bodies whose inertia is valid only in the sum of the bodies welded together.
+/// Notes bodies whose own inertia is not valid. Only the sum with the bodies that are welded to them must be valid.
 fn odd_parts(scene: &Scene<f64>, findings: &mut Vec<Finding>) {
     for (body, fault) in scene.odd_parts() {
         let what = if fault == SceneFault::InertiaWithoutMass {
@@ -100,7 +100,7 @@ fn direction(scene: &Scene<f64>, motion: &Massless) -> Finding {
         .bodies(bodies)
 }
 
-/// Is the largest principal moment of inertia nearly the sum of the others?
+/// True if the largest principal moment of inertia is nearly the sum of the others.
 fn is_flat(scene: &Scene<f64>, lump: &Cluster<f64>) -> bool {
     if scene.dimension == Dimension::Planar || lump.rod.is_some() {
         return false;

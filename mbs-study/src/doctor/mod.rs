@@ -52,9 +52,9 @@ pub struct Checkup {
     pub natural: Option<[usize; 3]>,
     /// Diagnosis on the joint level: one set of velocities for each body, and the equations of each joint.
     pub joint_level: Diagnosis,
-    /// Is the joint level examined at the assembled start, and not in the reference configuration?
+    /// True if the joint level is examined at the assembled start, false if in the reference configuration.
     pub is_at_start: bool,
-    /// Whether each component of each joint's reaction is uniquely determined: [Fx, Fy, Mz] or all six, in global axes.
+    /// True for each component of each joint's reaction that is uniquely determined: [Fx, Fy, Mz] or all six, in global axes.
     pub unique: Vec<Vec<bool>>,
     /// Joints whose reactions do not contain the force of a coupling, with the name of the coupling.
     pub lacking: Vec<(usize, String)>,
@@ -62,9 +62,9 @@ pub struct Checkup {
     pub loops: Vec<Loop>,
     /// Joints of parts with one degree of freedom, each with its fraction of the motion.
     pub drives: Vec<Drive>,
-    /// Motions of the scene without mass. `None` if the scene is too large.
+    /// Motions of the scene that move no mass. `None` if the scene is too large.
     pub massless: Option<Vec<Massless>>,
-    /// Steps that formulations tried, if equations are dependent.
+    /// First step of each formulation. Steps are tried only if equations are dependent.
     pub methods: Vec<Attempt>,
     /// Observations along the motion.
     pub motion: Option<Motion>,

@@ -4,9 +4,10 @@
 //! κ(t) = σ_r / σ₁,   r: the largest rank met on the way
 //! ```
 //!
-//! At a zero, κ is the absolute value of a smooth function. Near the smallest sample, the sign of later samples is therefore reversed. A
-//! cubic is put through two samples before and two after it. If the cubic fits the sample between them, κ passes through zero at the cubic's
-//! root. Otherwise the minimum is that of the parabola through three values of κ².
+//! σ₁ is the largest singular value of the constraint equations at time t, and σ_r the r-th largest. At a zero, κ is the absolute value of a
+//! smooth function. Near the smallest sample, the sign of later samples is therefore reversed. A cubic is put through two samples before and
+//! two after it. If the cubic fits the sample between them, κ passes through zero at the cubic's root. Otherwise the minimum is that of the
+//! parabola through three values of κ².
 
 use super::basis::{Effort, places, stopped};
 use super::finding::{Finding, Severity, Topic, joint_names};
@@ -32,7 +33,7 @@ pub struct Motion {
     pub reached: f64,
     /// Duration of the run that was requested [s].
     pub duration: f64,
-    /// Did the examination reach its time limit before the end of the run?
+    /// True if the examination reached its time limit before the end of the run.
     pub is_cut_short: bool,
     /// The nearest singular position of each part with loops.
     pub nearest: Vec<Nearest>,
@@ -64,7 +65,7 @@ pub struct Nearest {
 /// A corner of a loop along the motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LinearMotion {
-    /// Number of the loop.
+    /// Index of the loop.
     pub lap: usize,
     /// Joint in the corner of the loop.
     pub joint: usize,
@@ -147,7 +148,7 @@ pub(super) fn watch<const D: usize>(
     motion
 }
 
-/// Examines positions along a run, until its time limit.
+/// Observer that examines positions along a run until its time limit.
 struct Look<'a, 'b> {
     watch: &'a mut Watch<'b>,
     motion: &'a mut Motion,
@@ -178,7 +179,7 @@ impl<const D: usize> StepObserver<f64, D> for Look<'_, '_> {
     }
 }
 
-/// Returns the number of positions that are decomposed.
+/// Returns the number of positions at which the equations are decomposed.
 fn positions(linkage: &Linkage, effort: &Effort) -> f64 {
     let watched = linkage.parts.iter().filter(|p| is_watched(p));
     let work =
@@ -315,7 +316,7 @@ fn crossed(kappa: &[[f64; 2]], i: usize) -> Option<[f64; 2]> {
         .chain(behind.iter().map(|&k| [kappa[k][0], -kappa[k][1]]))
         .collect();
     let [t, value] = kappa[i];
-    // weights of Lagrange's interpolation at t
+    // these are the weights of Lagrange's interpolation at time t
     let weight = |a: usize| {
         let others = (0..4).filter(|&b| b != a);
         others.map(|b| (t - points[b][0]) / (points[a][0] - points[b][0])).product::<f64>()

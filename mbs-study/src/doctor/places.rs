@@ -13,8 +13,8 @@ const NEAR_ON_SCENE: f64 = 0.02;
 /// Distance below which a point near a rod's unattached end is reported, relative to the rod's length [-]. The rod's other end is not
 /// compared with it.
 const NEAR_ON_ROD: f64 = 0.15;
-/// Distance from the centre of mass beyond which a point is not on the body, in sizes of the body [-]. The same numbers measured from the
-/// centre would be on the body if they are within one size.
+/// Distance from the centre of mass beyond which a point is not on the body, in sizes of the body [-]. If the coordinates of the point are
+/// within one size, they were probably measured from the centre of mass.
 const FAR_FROM_CENTER: f64 = 3.0;
 
 /// Owner of a point on a body.
@@ -72,7 +72,8 @@ fn places(scene: &Scene<f64>) -> Vec<Vec<Place>> {
     places
 }
 
-/// Pairs of points of one body that are near each other: each point that coincides with no joint, with the nearest other one.
+/// Returns pairs of points of one body that are near each other. Each pair is a point that coincides with no joint, and the point that is
+/// nearest to it.
 ///
 /// An end of a rod or of an effect that coincides with a joint belongs to it, even if another joint is near.
 fn apart<'a>(scene: &Scene<f64>, here: &'a [Place], near: f64) -> Vec<(&'a Place, &'a Place)> {
@@ -106,8 +107,8 @@ fn apart<'a>(scene: &Scene<f64>, here: &'a [Place], near: f64) -> Vec<(&'a Place
     pairs
 }
 
-/// Returns the largest distance from the point to another one that it may have been meant to coincide with [m]. It is at most half of a rod,
-/// whose ends may be near each other.
+/// Returns the largest distance [m] at which another point was probably meant to coincide with this point. On a rod it is at most half of the
+/// rod's length, because the ends of a rod may be near each other.
 fn limit(scene: &Scene<f64>, place: &Place, (near, is_shared): (f64, bool)) -> f64 {
     let Inertia::Rod { from, to } = scene.bodies[place.body].inertia else { return near };
     let length = (Vector::from(to) - Vector::from(from)).norm();
@@ -117,7 +118,7 @@ fn limit(scene: &Scene<f64>, place: &Place, (near, is_shared): (f64, bool)) -> f
     }
 }
 
-/// Do two effects act between the same bodies?
+/// True if two effects act between the same bodies.
 fn is_same_pair(scene: &Scene<f64>, a: &Place, b: &Place) -> bool {
     let (Owner::Effect(i, _), Owner::Effect(j, _)) = (a.owner, b.owner) else { return false };
     let pair = |e: usize| match scene.effects[e].kind.values()[..] {

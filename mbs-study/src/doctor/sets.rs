@@ -130,7 +130,7 @@ fn remedy(scene: &Scene<f64>, set: &Set) -> String {
     }
 }
 
-/// Are all joints of a set between the same two bodies?
+/// True if all joints of a set are between the same two bodies.
 fn of_one_pair(scene: &Scene<f64>, set: &Set) -> bool {
     let pair = |m: &crate::redundancy::Member| {
         let mut bodies = scene.joints[m.joint].bodies;

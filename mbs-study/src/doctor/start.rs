@@ -38,8 +38,9 @@ pub(super) fn no_start(scene: &Scene<f64>, error: &StopError, findings: &mut Vec
     findings.push(finding);
 }
 
-/// Adds notes about axes, couplings and splines. Axes that are taken as parallel or perpendicular deviate a little from it. A coupling has
-/// another sense than in version 0.1, an unclear sense, or wheels that do not touch. A spline leaves the range of the values in its table.
+/// Adds notes about axes, couplings and splines. Axes are noted if they are only nearly parallel or perpendicular. A coupling is noted if it
+/// has another sense than in version 0.1, an unclear sense, or wheels that do not touch. A spline is noted if it leaves the range of the values
+/// in its table.
 pub(super) fn axes(scene: &Scene<f64>, findings: &mut Vec<Finding>) {
     for (joint, message) in mbs::inside::notes(scene) {
         let finding = Finding::new(Severity::Note, (Topic::Start, "axis-off"), message, "");
@@ -107,7 +108,7 @@ pub(super) fn findings<const D: usize>(
     }
 }
 
-/// Does the scene prescribe positions other than those of the reference configuration?
+/// True if the scene prescribes positions other than those of the reference configuration.
 fn asks(scene: &Scene<f64>) -> bool {
     let holds = |i: &mbs_core::scene::InitialCondition<f64>| matches!(&i.target, InitialTarget::Joint { value: Some(v), .. } if v.iter().any(|x| x.abs() > 0.0));
     let drives = |guide: &mbs_core::scene::Guide<f64>| !matches!(guide.law, Motion::Ramp { .. });

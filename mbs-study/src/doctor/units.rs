@@ -102,8 +102,7 @@ fn bodies(scene: &Scene<f64>, findings: &mut Vec<Finding>) {
     findings.push(doubt("size-or-mass-unit", message, remedy).at(Entry::Scene, "name"));
 }
 
-/// Does a number look like an angle in degrees? It exceeds a revolution in radians, is at most two revolutions in degrees, and is a multiple
-/// of five.
+/// True if a number looks like an angle in degrees. Such a number exceeds 2 π, is at most 720, and is a multiple of five.
 fn like_degrees(x: f64) -> bool {
     /// Rounding of a quotient of two decimal numbers [-]. Chosen, not tuned.
     const ROUNDING: f64 = 1e-9;

@@ -8,8 +8,8 @@
 //!
 //! The sum does not contain the growth or decay of earlier errors. A damped mechanism has smaller errors, a sensitive one larger errors.
 
-/// Safety factor for the growth of errors during the run [-]. Over scenes with long steps, the sum is 0.1 to 4 times smaller than the error
-/// in nine components of ten. Rates of natural coordinates may have larger errors, which rows do not show.
+/// Safety factor for the growth of errors during the run [-]. In nine of ten components of scenes with long steps, the error is 0.1 to 4 times
+/// the sum. Rates of natural coordinates may have larger errors, which rows do not show.
 pub const GROWTH: f64 = 3.0;
 
 /// Smallest error that a comparison run shows, in units of the rounding of an output [-]. Chosen, not tuned.

@@ -11,8 +11,8 @@ use mbs_core::scene::Scene;
 use mbs_core::step::{StepError, StepReport};
 use mbs_sparse::Multifrontal;
 
-/// Fraction of the largest work of a comparison run after which it may end because it would take too much [-]. Its first steps still search
-/// for their length.
+/// Fraction of its largest work that a comparison run does before it may end for too much predicted work [-]. In the first steps the integrator
+/// still searches for the step length.
 const PROBE: f64 = 0.1;
 /// Factor by which the predicted work of a comparison run may exceed the limit at first [-]. The factor falls to one when the limit is
 /// reached. Chosen, not tuned.
@@ -29,7 +29,7 @@ const STATES: usize = 5;
 const TURN: f64 = 1.5;
 /// Number of steps between two measurements that a comparison run with controlled steps may always make [-]. Chosen, not tuned.
 const FEW_STEPS: f64 = 64.0;
-/// Evaluations in a step of a comparison run with controlled steps [-]: those of order 8. The last one is also the first of the next step.
+/// Number of evaluations in a step of the integrator of order 8 [-]. The last evaluation is also the first of the next step.
 const EVALUATIONS: f64 = 12.0;
 /// Largest number of steps between two measurements [-]: the default limit of an integrator.
 const MOST_STEPS: f64 = 1e6;
@@ -37,7 +37,7 @@ const MOST_STEPS: f64 = 1e6;
 /// End of a comparison run.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum End {
-    /// Comparison run over the whole run.
+    /// Comparison run that covers the whole run.
     Whole,
     /// Comparison run that would take too much work.
     Late,
@@ -89,7 +89,7 @@ pub(super) struct Look<'a, const D: usize> {
     pub(super) rows: &'a [(f64, Vec<f64>)],
     /// Number of steps of the run.
     pub(super) n_steps: f64,
-    /// Function of the run's step at a time [s]; zero if its integrator controls the step itself.
+    /// Function that returns the run's step at a time [s], or zero if the integrator controls the step itself.
     pub(super) step_at: &'a dyn Fn(f64) -> f64,
 }
 
@@ -162,12 +162,13 @@ struct Limit<'a> {
 }
 
 impl Limit<'_> {
-    /// Does the work, or an interrupt, end the comparison run?
+    /// True if the work or an interrupt ends the comparison run.
     fn is_reached(&self, work: f64) -> bool {
         work > self.most || self.interrupt.is_set()
     }
 
-    /// Does the run need too much work? `seen` has, for each measurement, the completed fraction of the run and the work up to it.
+    /// True if the comparison run needs too much work. `seen` has, for each measurement, the completed fraction of the run and the work up to
+    /// it.
     fn is_behind(&self, seen: &[(f64, f64)]) -> bool {
         let Some(&(share, work)) = seen.last() else { return false };
         let (before, done) = seen[seen.len().saturating_sub(RECENT + 1)];
@@ -204,7 +205,7 @@ impl<const D: usize> Eye<'_, D> {
         Ok(())
     }
 
-    /// Steps to a time `to` [s]. `rate` is the largest angular velocity of a body [rad/s].
+    /// Makes steps up to a time `to` [s]. `rate` is the largest angular velocity of a body [rad/s].
     fn reach(&mut self, (to, rate): (f64, f64), is_last: bool, work: &mut f64) -> Result<(), End> {
         let from = self.simulation.state().t;
         let rest = to - from;
@@ -267,7 +268,7 @@ fn counted(report: &StepReport<f64>) -> f64 {
     f64::from(report.iterations) + f64::from(report.steps)
 }
 
-/// Makes the end of a comparison run that stops.
+/// Makes the `End` of a comparison run that stopped with an error.
 fn stopped<const D: usize>(
     scene: &Scene<f64>,
     simulation: &Simulation<f64, D>,

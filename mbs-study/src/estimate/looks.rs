@@ -7,19 +7,20 @@ use mbs::{FormulationKind, IntegratorKind, Precision, ResolvedMethod, StepRule};
 use mbs_scene::format::few;
 use std::collections::BTreeSet;
 
-/// Largest number of rows, besides the equally spaced ones, at which an output is steepest [-]. Chosen, not tuned.
+/// Largest number of rows that are compared because an output is steepest there [-]. Equally spaced rows are not counted. Chosen, not tuned.
 const STEEP: usize = 48;
 /// Largest number of rows that are compared with the same method in other steps. Chosen, not tuned.
 const MANY: usize = 400;
 /// Ratios of the comparison run's step to the original step, with the same method [-]. The first affordable one is used.
 const RATIOS: [f64; 5] = [0.5, 2.0, 3.0, 5.0, 7.0];
-/// Ratio of the iterations of a longer step to those of the original step [-]: up to half as many more are needed.
+/// Ratio that is assumed for the iterations of a longer step to those of the original step [-]. A longer step needs up to half as many more
+/// iterations.
 const MORE_ITERATIONS: f64 = 1.2;
 /// Comparison runs in relative coordinates: integrator, tolerance [-], and largest number of evaluations relative to the run before, over all
 /// scenes [-].
 type Sequence = [(IntegratorKind, f64, f64)];
-/// Comparison runs by explicit integrators. The first one is cheap. It is right within a third if the original run has large errors, and
-/// predicts the work of the next.
+/// Comparison runs by explicit integrators. The first one is cheap. If the original run has large errors, the first comparison run shows them
+/// to within a third. It also predicts the work of the next one.
 const EXPLICIT: &Sequence = &[
     (IntegratorKind::Rk54, 1e-4, 0.0),
     (IntegratorKind::Rk853, 1e-8, 4.0),
@@ -52,7 +53,7 @@ const LOST: f64 = 0.1;
 pub(super) struct Found {
     pub(super) basis: String,
     pub(super) errors: Vec<f64>,
-    /// Are the errors of the run's iterations added?
+    /// True if the errors of the run's iterations are added.
     pub(super) floor: bool,
 }
 
@@ -110,8 +111,8 @@ impl<'a, const D: usize> Looks<'a, D> {
         seen
     }
 
-    /// Compares with runs in relative coordinates. Finer runs follow while they are affordable and differ from each other by more than the
-    /// original run does.
+    /// Compares with runs in relative coordinates. Finer runs follow while they are affordable. They end when two of them differ less from each
+    /// other than the original run differs from them.
     fn relative(&mut self, sequences: &[&Sequence], instants: &[usize]) -> Result<Found, End> {
         let mut best: Option<(Seen, String)> = None;
         let mut n_whole = 0;
@@ -151,7 +152,7 @@ impl<'a, const D: usize> Looks<'a, D> {
         Ok(Found { basis, errors: self.differences(&seen, instants), floor: false })
     }
 
-    /// Do two successive comparison runs differ by less than the original run does, in each component?
+    /// True if two successive comparison runs differ less from each other than the original run differs from the second one, in each component.
     fn is_finer(&self, (look, next): (&Seen, &Seen), instants: &[usize]) -> bool {
         let of_run = self.differences(next, instants);
         let both = || look.values.iter().zip(&next.values);

@@ -13,9 +13,9 @@
 //! read, so every machine gives the same errors. Comparison runs may always take a tenth of a second, also for runs of less than a third of a
 //! second.
 //!
-//! In relative coordinates a finer comparison run follows, until two of them differ by less than the original run does. In the third
-//! comparison the exact divisor is r - 1 for order 1 and r² - 1 for order 2. The geometric mean of both is wrong by a factor of at most 2.9.
-//! The results of the run are read, never changed.
+//! In relative coordinates, finer comparison runs follow until two of them differ less from each other than the original run differs from them.
+//! In the third comparison the exact divisor is r - 1 for order 1 and r² - 1 for order 2. The geometric mean of both is wrong by a factor of at
+//! most 2.9. The results of the run are read, never changed.
 
 pub(crate) mod differences;
 mod look;

@@ -27,9 +27,9 @@ const OF_UNKNOWN_INDEX_3: f64 = 7e-8;
 const OF_UNKNOWN_CLASSICAL: f64 = 2.8e-7;
 /// Nominal time of an iteration or a step for each coordinate and constraint, by the other formulations [s]: fitted to all scenes.
 const OF_UNKNOWN: f64 = 1.8e-7;
-/// Fraction of the original run's nominal time that counts [-]: few runs take less.
+/// Fraction of its nominal time that is assumed for the original run [-]. Few runs take less.
 const AT_LEAST: f64 = 0.8;
-/// Multiple of the nominal time that counts for a comparison run by the original method [-]: few runs take more.
+/// Multiple of its nominal time that is assumed for a comparison run by the original method [-]. Few runs take more.
 const AT_MOST: f64 = 1.5;
 /// Nominal time of the reactions at an instant, for each natural coordinate and constraint [s]: fitted to scenes with reactions as outputs.
 const OF_REACTIONS: f64 = 1.2e-6;
@@ -44,7 +44,7 @@ const OF_CONSTRAINT: f64 = 2.5e-7;
 const OF_IMPLICIT: f64 = 1.5;
 /// Fraction of all work for steps that must end at a compared row [-]. Chosen, not tuned.
 const OF_ROWS: f64 = 0.1;
-/// Evaluations of a step of the integrator of order 8 [-].
+/// Number of evaluations in a step of the integrator of order 8 [-].
 const OF_A_STEP: f64 = 12.0;
 /// Smallest number of equally spaced rows at which runs are compared [-]. Chosen, not tuned.
 const FEWEST_ROWS: usize = 100;
@@ -95,7 +95,7 @@ impl Purse {
         let row = if has_reactions { OF_REACTIONS * natural as f64 } else { 0.0 };
         let of_rows = run.steps as f64 * row;
         let most = (WORK_SHARE * AT_LEAST * (of_run * one + of_rows)).max(ALWAYS);
-        // a fraction of the original run is measured in counts, independent of the nominal time of one iteration
+        // the limit is a fraction of the counts of the original run, so it does not depend on the nominal time of one iteration
         let counts = (ALWAYS / (AT_MOST * one)).max(WORK_SHARE * of_run);
         let step = most / counts;
         Self { effects: scene.effects.len(), of_run, step, row, most, spent: 0.0 }
@@ -111,7 +111,7 @@ impl Purse {
         n as f64 * self.row
     }
 
-    /// Is there time left for a comparison run of `seconds`?
+    /// True if time is left for a comparison run of `seconds` [s].
     pub(super) fn has(&self, seconds: f64) -> bool {
         seconds <= self.left()
     }

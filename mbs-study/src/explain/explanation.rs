@@ -149,7 +149,8 @@ pub struct ControllerStep {
 pub struct ThinRod {
     /// Name of the body.
     pub body: String,
-    /// Is the rotation about the rod's axis part of the natural coordinates? This is so if a joint holds more than points of its axis.
+    /// True if the rotation about the rod's axis is part of the natural coordinates. This is the case if a joint constrains more than points of
+    /// the axis.
     pub idle_spin_carried: bool,
 }
 
@@ -160,7 +161,7 @@ pub struct EffectEntry {
     pub name: String,
     /// Kind, as in scene files.
     pub kind: String,
-    /// Is the effect switched on?
+    /// True if the effect is switched on.
     pub enabled: bool,
 }
 
@@ -183,11 +184,11 @@ pub struct EffectCosts {
     pub repeats: u32,
     /// CPU time per step with all effects, the shortest of the repeats [s].
     pub seconds_per_step: Option<f64>,
-    /// CPU time per step for the energy invariant [s]. It is part of the time above, in every run and every formulation.
+    /// CPU time per step for the energy invariant [s]. It is part of `seconds_per_step`, in every run and every formulation.
     pub monitor_seconds_per_step: Option<f64>,
     /// Length of the compared runs, from the start [s].
     pub compared_duration: f64,
-    /// Did the run with all effects reach this length?
+    /// True if the run with all effects reached this length.
     pub completed: bool,
     /// Newton iterations (or evaluations) per step in the run with all effects.
     pub iterations_per_step: f64,
@@ -211,11 +212,12 @@ pub struct EffectCost {
     /// Fraction of the time that the effects cost: 1 - (CPU time per step without them) / (with all) [-]. It is negative if the run is slower
     /// without them.
     pub share: Option<f64>,
-    /// Noise of the times: relative difference of the second shortest from the shortest, the larger one of both runs [-].
+    /// Noise of the times: relative difference of the second shortest time from the shortest [-]. It is the larger value of the runs with and
+    /// without these effects.
     pub noise: Option<f64>,
-    /// Is the fraction at most as large as the noise?
+    /// True if the fraction is at most as large as the noise.
     pub below_noise: Option<bool>,
-    /// Did the run without these effects reach the end?
+    /// True if the run without these effects reached the end.
     pub completed: bool,
     /// Newton iterations (or evaluations) per step in the run without these effects.
     pub iterations_per_step: f64,

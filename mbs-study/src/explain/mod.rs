@@ -48,7 +48,7 @@ pub fn explain_run(
     }))
 }
 
-/// Explanation as work on a scene of any precision and dimension.
+/// Task that explains a scene of any precision and dimension.
 struct Explained<'a> {
     settings: &'a ResolvedMethod,
     effort: &'a Effort,

@@ -7,11 +7,11 @@ use mbs_core::scene::Scene;
 /// Limits of the measurements. If a scene would take more, a shorter part of its run is measured.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Effort {
-    /// Largest number of steps of a timed run. `≥ 1`.
+    /// Largest number of steps of a timed run, at least 1.
     pub timed_steps: u64,
-    /// Number of timings of each run, interleaved with those of the others. `≥ 2`, so that there is a noise.
+    /// Number of timings of each run, interleaved with those of the other runs. At least 2 timings are needed to measure the noise.
     pub repeats: u32,
-    /// Time limit of all measurements [s]. Results without time left are reported as not measured. `> 0`.
+    /// Time limit of all measurements [s]. Results for which no time is left are reported as not measured. The limit must be positive.
     pub seconds: f64,
 }
 

@@ -94,7 +94,7 @@ impl Study {
 }
 
 impl Collection {
-    /// Members without a row, from 0, of `n` in all.
+    /// Returns the members without a row, counted from 0. `n` is the number of all members.
     #[must_use]
     pub fn missing(&self, n: usize) -> Vec<usize> {
         (0..n).filter(|member| !self.rows.contains_key(member)).collect()

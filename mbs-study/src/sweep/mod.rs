@@ -125,7 +125,7 @@ pub struct SweepTask<'a> {
     pub out: &'a Path,
     /// Number of threads of the sweep. Default: all processors.
     pub threads: Option<NonZeroUsize>,
-    /// Is an earlier journal discarded, even one of another sweep?
+    /// True if an earlier journal is discarded, even the journal of another sweep.
     pub anew: bool,
     /// Part of the sweep to run, without a table. Default: all members.
     pub part: Option<SweepPart>,
@@ -215,7 +215,8 @@ impl Study {
     /// is processed. Killing the process loses only members that are running.
     ///
     /// # Errors
-    /// No threads; a journal of another scene, sweep or version, or in use; a directory that cannot be written; an interrupt.
+    /// Threads that the system does not provide; a journal of another scene, sweep or version; a journal in use; a directory that cannot be
+    /// written; an interrupt.
     pub fn run(&self, task: &SweepTask<'_>, watch: &mut impl Watch) -> Result<Report, SweepError> {
         self.run_jobs(task, watch, |i| self.member(i))
     }

@@ -168,7 +168,7 @@ impl Columns {
         cells
     }
 
-    /// Was the run of a row completed?
+    /// True if the run of a row was completed.
     pub(super) fn is_completed(&self, cells: &[String]) -> bool {
         cells.get(self.n_parameters + 1).is_some_and(|cell| cell == "true")
     }

@@ -203,7 +203,8 @@ fn four_bars_in_a_chain_pass_their_singular_position_where_it_is() {
     }
     let crank = simulation.model().motion(&scene, 0, simulation.state());
     let upright = crank.rotation[(0, 0)].abs();
-    // the crank turns by two steps' motion at most: one to the end of the step, and one for the cubic's error between samples 25 steps apart
+    // the crank deviates by at most the motion of two steps: one step because the simulation ends after the passage, and one for the error of
+    // the cubic, whose samples are 25 steps apart
     let off = 2.0 * settings.step * crank.omega[2].abs();
     assert!(off > 0.0 && upright < off, "{upright} {off}");
 }

@@ -8,8 +8,8 @@ use mbs_testkit::repository::{field, read, text, tilted};
 
 /// Effort without a run: all findings of these tests concern the start.
 const STILL: Effort = Effort { positions: 0, seconds: 60.0 };
-/// Difference of two independent computations of a motion [m or rad]: the reference has these digits, and the rule of second order steps by
-/// 0.1 ms.
+/// Largest difference of two independent computations of a motion [m or rad]. The reference is given to this precision. The runs use a rule of
+/// second order with steps of 0.1 ms.
 const CLOSE: f64 = 1e-5;
 
 fn checkup(scene: &Scene<f64>) -> Checkup {
@@ -68,7 +68,7 @@ fn effects_that_share_a_place_are_named_where_one_of_them_was_moved() {
         + "[[effect]]\nname = \"strut\"\nkind = \"spring-damper\"\nbodies = [\"crank\", \"ground\"]\n\
            points = [[0.05, 0.0926], [0.5, 0.0]]\ndamping = 5.0\n";
     assert_eq!(places(&read(&attached, "attached")).len(), 2, "the rod and the strut");
-    // spring and damper both miss the rod's eye
+    // neither the spring nor the damper ends at the end of the rod
     let both = spring.clone() + &damper.replace("[0.3, 0.0]", "[0.4, 0.0]");
     assert_eq!(places(&read(&both, "both")).len(), 2);
 }
@@ -94,7 +94,7 @@ fn places_that_are_counted_from_the_body_are_reported() {
 
 #[test]
 fn no_scene_has_a_place_that_is_doubtful() {
-    // all scenes of the repository, without an exception
+    // the check includes all scenes of the repository
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes");
     let mut n = 0;
     for entry in std::fs::read_dir(folder).expect("the scenes") {
@@ -146,7 +146,7 @@ fn a_table_that_ends_on_a_slope_within_the_run_is_refused_at_its_row_and_runs_wi
     let error = ResolvedMethod::new(&scene, &Method::default()).unwrap_err();
     let SettingsError::Scene(fault) = error else { panic!("{error}") };
     let told = document.meaning(fault);
-    // the third row of the table
+    // the error names the third row of the table
     assert_eq!((told.place().line, told.place().column), (34, 35));
     assert!(
         told.to_string().contains("ends at 0.5 s, within the run, with a rate of 0.900"),
@@ -170,7 +170,7 @@ fn a_table_that_ends_on_a_slope_within_the_run_is_refused_at_its_row_and_runs_wi
     };
     let [value, rate, r] = run("index-3", 1e-4);
     assert!((value - 0.3).abs() < 1e-12 && rate.abs() < 1e-9, "{value} {rate}");
-    // reference: the same motion by an integrator of order 8 in relative coordinates
+    // the reference is the same motion by an integrator of order 8 in relative coordinates
     assert!((r + 0.349_771_266).abs() < CLOSE, "{r}");
 }
 
@@ -200,7 +200,7 @@ fn point_masses_are_no_doubt() {
                 [[joint]]\nname = \"held\"\nkind = \"spherical\"\nbodies = [\"arm\", \"ball\"]\nat = [0.5, 0.2, 0.1]\n\
                 [[joint]]\nname = \"string\"\nkind = \"distance\"\nbodies = [\"ball\", \"far\"]\npoints = [[0.5, 0.2, 0.1], [1.0, 0.2, -0.5]]\n";
     let found = checkup(&mbs_testkit::scene(text));
-    // degrees of freedom: three of the ball joint, and two of the point on a string
+    // the ball joint has three degrees of freedom, and the point on a string two
     let [_, columns, rank] = found.joint_level.sizes;
     let [coordinates, _, natural_rank] = found.natural.expect("it starts");
     assert_eq!((columns - rank, coordinates - natural_rank), (5, 5));

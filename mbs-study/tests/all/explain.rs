@@ -99,7 +99,7 @@ axis = [0.0, 1.0, 0.0]
     let rods: Vec<_> =
         simulated.rods.iter().map(|rod| (rod.body.as_str(), rod.idle_spin_carried)).collect();
     assert_eq!(rods, [("on-ball", false), ("on-hinge", true)]);
-    // two swings of the ball and one rotation of the hinge; relative coordinates also have the rod's spin
+    // degrees of freedom: two swings of the ball joint and one rotation of the hinge; relative coordinates also have the rod's spin
     assert_eq!((simulated.dof, simulated.relative.map(|r| r.sizes.dof)), (Some(3), Some(4)));
     let planar = explained(&mbs_testkit::file("guided-four-bar")).0;
     assert!(planar.simulated.rods.is_empty(), "the plane has no such spin");
@@ -137,7 +137,7 @@ fn leaving_a_damper_out_changes_what_two_runs_differ_by_and_an_idle_effect_chang
     assert!((changes[0].relative.expect("it moves") * changes[0].range - by_hand).abs() < 1e-12);
 
     let idle = price(&explanation, "idle");
-    /// Difference of sums in another order [rad].
+    /// Rounding difference of the same sum in another order [rad].
     const ROUNDING: f64 = 1e-12;
     assert!(idle.completed && idle.changes[0].largest < ROUNDING, "{:?}", idle.changes);
     assert!(idle.changes[0].is_rounding && !changes[0].is_rounding);

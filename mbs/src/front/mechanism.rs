@@ -36,7 +36,7 @@ use std::sync::Arc;
 #[derive(Debug, Clone)]
 pub struct Mechanism {
     pub(super) scene: Scene<Number>,
-    /// Scene file of this mechanism; older than the scene where `is_changed` is true.
+    /// Scene file of this mechanism. If `is_changed` is true, the file is older than the scene.
     file: Option<SceneFile>,
     is_changed: bool,
     functions: Vec<Function>,

@@ -32,7 +32,7 @@ impl Goal {
         Self { error: None, deadline: Some(frame) }
     }
 
-    /// Is an error or a deadline required?
+    /// True if an error or a deadline is required.
     #[must_use]
     pub fn is_some(&self) -> bool {
         self.error.is_some() || self.deadline.is_some()
@@ -64,13 +64,13 @@ pub struct Run {
 }
 
 impl Run {
-    /// Options of a run with the settings of the mechanism alone.
+    /// Makes options that leave all settings to the mechanism.
     #[must_use]
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// Sets the method of the run. A [`duration`](Self::duration) that was set before stays, unless the method has one.
+    /// Sets the method of the run. A [`duration`](Self::duration) that was set before stays, unless the method sets a duration too.
     #[must_use]
     pub fn method(self, method: Method) -> Self {
         let duration = method.duration.or(self.method.duration);

@@ -100,14 +100,14 @@ impl Simulation {
         self.inner.step(Some(dt), None).map_err(|error| self.stopped(error))
     }
 
-    /// Does the method choose the length of its steps?
+    /// True if the method chooses the length of its steps.
     #[must_use]
     pub fn is_controlled(&self) -> bool {
         self.inner.is_controlled()
     }
 
-    /// Sets the interrupt that ends [`advance_to`](Self::advance_to) and steps of controlled length from now on. A copy shares the interrupt
-    /// of its original until it gets one itself.
+    /// Sets the interrupt that ends [`advance_to`](Self::advance_to) and steps of controlled length from now on. A copy of the simulation
+    /// shares the interrupt of the original until another interrupt is set in the copy.
     pub fn set_interrupt(&mut self, interrupt: Interrupt) {
         self.inner.set_interrupt(interrupt);
     }
@@ -183,7 +183,7 @@ impl Simulation {
     /// too.
     ///
     /// # Errors
-    /// Errors of the model. A simulation that was built has none.
+    /// Errors of the model. They cannot occur after the simulation was built.
     ///
     /// ```
     /// use mbs::{Body, Effect, GROUND, Joint, Mechanism, Method};
@@ -216,7 +216,7 @@ impl Simulation {
         self.inputs.values()
     }
 
-    /// Writes all inputs into the model after it was started anew.
+    /// Writes all inputs into the model after the model was restarted.
     pub(super) fn renew_inputs(&mut self) -> Result<(), SimulationError> {
         self.inputs.renew(&mut *self.inner)
     }
@@ -309,7 +309,7 @@ impl Simulation {
     /// Starts again at time zero, with the start values of the mechanism's inputs.
     ///
     /// # Errors
-    /// Errors of the first start.
+    /// The errors with which the first start can fail.
     pub fn reset(&mut self) -> Result<(), SimulationError> {
         self.inner.start(None, 0.0).map_err(|error| self.stopped(error))?;
         self.inputs.reset();
@@ -319,7 +319,7 @@ impl Simulation {
     /// Saves the state that the next steps depend on.
     ///
     /// # Errors
-    /// Errors of the snapshot's format only, which no use of this interface causes.
+    /// Errors of the snapshot's format only. No call of this interface causes them.
     pub fn save(&self) -> Result<Snapshot, SimulationError> {
         Ok(Snapshot { bytes: self.inner.save()?, inputs: self.inputs.values().to_vec() })
     }

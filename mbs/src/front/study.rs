@@ -15,7 +15,7 @@ use mbs_core::scene::Scene;
 /// Options of the search for an equilibrium.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct EquilibriumOptions {
-    /// Search for a stable equilibrium downhill in potential energy, or for the nearest equilibrium of any kind.
+    /// Kind of the search: for a stable equilibrium downhill in potential energy, or for the nearest equilibrium of any kind.
     pub search: Search,
 }
 

@@ -59,7 +59,7 @@ impl Table {
         self.time.len()
     }
 
-    /// Does the table have no rows?
+    /// True if the table has no rows.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.time.is_empty()
@@ -68,7 +68,7 @@ impl Table {
     /// Writes the table as `mbs run` writes `run.csv`: a line of names, then a line for each instant.
     ///
     /// # Errors
-    /// Those of the sink.
+    /// Errors of the writer `sink`.
     pub fn write_csv(&self, sink: impl io::Write) -> io::Result<()> {
         let rows: Vec<Vec<f64>> = (0..self.len())
             .map(|i| self.columns.iter().map(|column| column[i]).collect())

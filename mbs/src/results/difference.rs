@@ -41,22 +41,22 @@ pub struct ColumnDifference {
 pub struct Difference {
     /// Columns that both runs have.
     pub columns: Vec<ColumnDifference>,
-    /// Channels that the first run alone has.
+    /// Channels that only the first run has.
     pub only_a: Vec<String>,
-    /// Channels that the second run alone has.
+    /// Channels that only the second run has.
     pub only_b: Vec<String>,
     /// End time of each run [s].
     pub ends: [f64; 2],
 }
 
 impl Difference {
-    /// Do both runs end at the same time, and is each column's largest difference at most `within` times its range?
+    /// True if both runs end at the same time and each column's largest difference is at most `within` times its range.
     #[must_use]
     pub fn is_within(&self, within: f64) -> bool {
         self.ends_together() && self.columns.iter().all(|column| column.relative <= within)
     }
 
-    /// Do both runs end at the same time?
+    /// True if both runs end at the same time.
     #[must_use]
     pub fn ends_together(&self) -> bool {
         let [a, b] = self.ends;
@@ -91,7 +91,7 @@ pub fn difference_over_time(a: &ResultTable, b: &ResultTable, name: &str) -> Opt
     Some([times, values])
 }
 
-/// Times within the span that both runs cover, and the first run minus the second at each of them.
+/// Returns the times of the span that both runs cover, each with the value of the first run minus that of the second.
 fn rows(
     (a, x): (&ResultTable, &ResultColumn),
     (b, y): (&ResultTable, &ResultColumn),

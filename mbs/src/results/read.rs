@@ -22,7 +22,7 @@ pub struct ResultColumn {
     pub values: Vec<f64>,
     /// Largest magnitude of the values. It covers every step if the run has recorded it in its statistics, and otherwise the rows.
     pub peak: f64,
-    /// Root mean square over time, likewise of every step or of the rows.
+    /// Root mean square over time. Like `peak`, it covers every step if the statistics have it, and otherwise the rows.
     pub rms: f64,
 }
 
@@ -104,7 +104,7 @@ impl ResultTable {
         for (i, record) in reader.records().enumerate() {
             let record = record.map_err(|error| error.to_string())?;
             if i == 0 && record.get(0) == Some("s") {
-                // the line of units
+                // this line contains the units
                 continue;
             }
             let mut numbers = record.iter().map(str::parse::<f64>);

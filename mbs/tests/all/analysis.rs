@@ -29,7 +29,7 @@ fn rests<const D: usize>(scene: &mbs::core::scene::Scene<f64>) {
         .unwrap_or_else(|e| panic!("{}: {e}", scene.name));
     assert!(found.relative < 1e-12, "{}: {found:?}", scene.name);
     assert!(start.state.v.iter().all(|v| *v == 0.0), "{}", scene.name);
-    // rounding of forces divided by the smallest inertia, about 1e-3 kg m^2 of the tree
+    // the limit is the rounding of forces divided by the smallest inertia of the tree, about 1e-3 kg m^2
     let fastest = start.state.a.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
     assert!(fastest < 1e-8, "{}: {fastest}", scene.name);
     assert!(start.residual.iter().all(|r| *r < 1e-9), "{:?}", start.residual);

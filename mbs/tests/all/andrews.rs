@@ -74,7 +74,7 @@ fn andrews_angles_converge_with_order_2_to_the_reference() {
 /// Constant c of the largest energy error of the trapezoidal rule [J/s^2]: error = c dt^2. The constant is 8.1e5 in the limit, 8.5e5 at 1e-4
 /// s.
 const ENERGY_LEVEL: f64 = 8.6e5;
-/// Largest asymmetry [rad]: the iteration stops at 1e-10 of the scene's length, which is about that of the two links.
+/// Largest asymmetry of the angles [rad]. The iteration stops at 1e-10 of the scene's length, which is about the length of the two links.
 const SYMMETRY: f64 = 1e-10;
 
 #[test]
@@ -84,7 +84,7 @@ fn andrews_keeps_its_energy_with_order_2_and_its_symmetry() {
         let energy = [1e-4, 1e-5, 1e-6].map(|step| {
             let outcome = run_in(&scene, formulation, Some(step));
             assert!(outcome.error.is_none(), "{formulation} {step}: {:?}", outcome.error);
-            // omega = -phi by symmetry, as channels are changes from starts with the same symmetry
+            // omega = -phi by symmetry: channels are measured from the start, which has the same symmetry
             let mut asymmetry = 0.0;
             for (_, row) in outcome.rows() {
                 asymmetry = worst(asymmetry, (row[3] + row[5]).abs());

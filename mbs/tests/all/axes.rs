@@ -178,7 +178,7 @@ type Case = ([f64; 2], &'static str, [f64; 2]);
 /// Cases of start, effect, and value and rate after `t` [s]. The first number is the angular frequency of their springs [rad/s].
 fn cases(inertia: f64, t: f64) -> (f64, [Case; 4]) {
     let omega = (5.0 / inertia).sqrt();
-    // value and rate at the start, effect, value and rate at t
+    // each case has the value and rate at the start, the effect, and the value and rate at time t
     let cases = [
         (
             [0.0, 0.3],
@@ -280,7 +280,8 @@ fn effects_move_each_coordinate_alone_by_closed_form() {
 
 #[test]
 fn a_torque_on_a_free_joint_turns_its_body_by_closed_form() {
-    // a free body: α = M / J; rate of the second body relative to the first after 0.6 s: 0.6 · 0.7 / 0.05 rad/s
+    // a free body has the angular acceleration α = M / J, with moment M and inertia J; after 0.6 s the second body has the rate 0.6 · 0.7 /
+    // 0.05 rad/s relative to the first
     for place in [[false, false], [false, true]] {
         let mut scene = scene(&hung(true, "free", place, ON_ONE_ROTATION[0]));
         let joint = JointId::new(scene.joints.len() - 1);
@@ -296,7 +297,7 @@ fn a_torque_on_a_free_joint_turns_its_body_by_closed_form() {
 
 #[test]
 fn chains_that_are_guided_at_every_joint_run_in_relative_coordinates() {
-    // two bars of 1 m and 1 kg with angles q = 0.5 sin 2πt and 0.3 sin 2πt; at 1 s q = 0, q' = π and 0.6 π, q'' = 0
+    // two bars of 1 m and 1 kg have the angles q = 0.5 sin 2πt and 0.3 sin 2πt; at 1 s this gives q = 0, q' = π and 0.6 π, q'' = 0
     let text = "[scene]\nname = \"guided\"\ndimension = 2\ngravity = [0.0, -9.81]\nduration = 1.0\n\
         [[body]]\nname = \"a\"\nmass = 1.0\nrod = { from = [0.0, 0.0], to = [1.0, 0.0] }\n\
         [[body]]\nname = \"b\"\nmass = 1.0\nrod = { from = [1.0, 0.0], to = [2.0, 0.0] }\n\
@@ -306,14 +307,14 @@ fn chains_that_are_guided_at_every_joint_run_in_relative_coordinates() {
         [[guide]]\njoint = \"j2\"\nsine = { amplitude = 0.3, frequency = 1.0 }\n\
         [[output]]\nname = \"ground\"\njoint = \"j1\"\nquantity = \"reaction\"\n";
     let scene = scene(text);
-    // centres at 0.5 m and 1.5 m:   m a = −(0.5 + 1) π² − 0.5 (1.6 π)²,   and the weight of both
+    // the force of the ground moves the centres at 0.5 m and 1.5 m:   m a = −(0.5 + 1) π² − 0.5 (1.6 π)²,   and the weight of both
     let pi = core::f64::consts::PI;
     let x = -(1.5 * pi * pi + 0.5 * (1.6 * pi) * (1.6 * pi));
     for method in methods().iter().filter(|method| method.0 == "recursive") {
         let rows = rows(&scene, *method, (1e-3, 1.0), 1000);
         let rows = rows.unwrap_or_else(|e| panic!("{method:?}: {e}"));
         let last = &rows.last().expect("rows").1;
-        // force of the ground, and the moments of the guides; the first moment is m g (0.5 + 1.5)
+        // the row has the force of the ground and the moments of the guides; the first moment is m g (0.5 + 1.5)
         for (found, expected) in last.iter().zip([x, 19.62, 19.62]) {
             assert!((found - expected).abs() < 1e-6 * 27.0, "{method:?}: {last:?}");
         }

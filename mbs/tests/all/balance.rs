@@ -301,7 +301,7 @@ impl<'a> Instant<'a> {
                 panic!("inertia")
             };
             let rows = [[xx, xy, zx], [xy, yy, yz], [zx, yz, zz]];
-            // product of the rotated inertia R I R^T and a vector
+            // `times` is the product of the rotated inertia R I R^T and a vector
             let r = &placed.rotation;
             let times = |x: Vector| {
                 let own: Vector = core::array::from_fn(|i| (0..3).map(|j| r[j][i] * x[j]).sum());

@@ -24,7 +24,8 @@ fn body_on_ball(height: f64, rotation: [f64; 3], spin: [f64; 3], rest: &str) -> 
 
 #[test]
 fn a_body_that_turns_about_the_vertical_rests_on_its_cone() {
-    // steady precession about the vertical, below the ball joint: (J - I) w^2 sin cos - m g l sin = k (swing - end)
+    // steady precession at w about the vertical, below the ball joint, with inertia J across and I about the axis: (J - I) w^2 sin cos - m g l
+    // sin = k (swing - end)
     let (below, swing, omega, stiffness) = (0.4, 0.7_f64, 8.0, 900.0);
     let [across, about] = INERTIAS;
     let pull = (across - about) * omega * omega * swing.sin() * swing.cos()
@@ -86,7 +87,7 @@ fn a_twist_spring_has_the_frequency_of_the_inertia_about_its_axis() {
     for way in WAYS {
         for (t, row) in run(&text, way, (1e-4, 1.2)) {
             let (sin, cos) = (omega * t).sin_cos();
-            // phase error (w h)^2/12 of seven radians; in natural coordinates that of w = 30 rad/s
+            // the phase error is (w h)^2/12 of seven radians, with frequency w and step h; in natural coordinates w is 30 rad/s
             let most = 2e-5 * amplitude;
             assert!((row[0] - amplitude * sin).abs() < most, "{way:?}, {t}: {row:?}");
             assert!((row[1] - 28.0 * cos).abs() < most * omega, "{way:?}, {t}: {row:?}");
@@ -130,7 +131,7 @@ fn a_torque_on_a_twist_turns_on_past_whole_turns() {
 
 #[test]
 fn a_twist_is_open_where_its_axes_are_opposite() {
-    // rotation about x, across the axis: half a revolution after pi seconds
+    // the body rotates about x, across the axis, by half a revolution in pi seconds
     let damper = "[[effect]]\nname = \"e\"\nkind = \"torsion-spring\"\njoint = \"ball\"\ncoordinate = \"twist\"\naxis = [0.0, 0.0, 1.0]\nstiffness = 1.0\n";
     let text = body_on_ball(0.0, [0.0; 3], [1.0, 0.0, 0.0], damper);
     for way in WAYS {
@@ -166,7 +167,7 @@ fn chain() -> String {
         body("one", [0.3, 0.1, -0.2], 2.0),
         body("two", [0.8, 0.0, -0.5], 1.5),
         ball("a", ["ground", "one"], [0.0, 0.0, 0.0]),
-        // its tree attaches the second body to the first
+        // the joint names its bodies in reverse; the spanning tree attaches the second body to the first
         ball("b", ["two", "one"], [0.6, 0.1, -0.3]),
         "[[initial]]\njoint = \"a\"\nvalue = [0.3, 0.2, -0.4]\nrate = [1.0, -0.5, 2.0]\n[[initial]]\njoint = \"b\"\nvalue = [-0.2, 0.5, 0.3]\nrate = [0.4, 1.0, -1.5]\n".to_owned(),
         effect("swing-a", "torsion-spring", "a", "swing", "axis = [0.36, 0.48, -0.8]\nstiffness = 20.0\ndamping = 0.3\nfree_value = 0.1"),
@@ -207,7 +208,7 @@ fn a_thin_rod_swings_about_its_line_without_a_turn_of_its_own() {
     for way in WAYS {
         for (t, row) in run(&text, way, (1e-3, 1.0)) {
             let expected = (rate / omega * (omega * t).sin()).abs();
-            // errors by the amplitude cubed, and by (w h)^2
+            // the errors are proportional to the cube of the amplitude, and to (w h)^2
             assert!((row[0] - expected).abs() < 1e-6, "{way:?}, {t}: {row:?} {expected}");
         }
     }

@@ -201,7 +201,7 @@ fn changes_of_index_resume_to_the_same_bits() {
 
 #[test]
 fn what_is_thinned_resumes_to_the_same_bits() {
-    // 30,000 steps, of which every third is a row; then about 30,000 steps of controlled lengths
+    // the first run has 30,000 steps, of which every third is a row; the second run has about 30,000 steps of controlled lengths
     let fixed = Method { step: Some(1e-4), ..with("recursive", 3.0) };
     assert_eq!(split("double-pendulum", &fixed, 0.7501).summary.steps, 30_000);
     let controlled = Method {
@@ -217,7 +217,7 @@ fn what_is_thinned_resumes_to_the_same_bits() {
 
 #[test]
 fn a_run_that_stops_resumes_to_the_same_stop() {
-    // long steps of the double pendulum: the energy error is too large, relative to the exchanged energy, in ten steps in a row
+    // with long steps of the double pendulum, the energy error is too large in ten steps in a row, relative to the exchanged energy
     let alarm = Method { energy_alarm: Some(1e-3), step: Some(1e-2), ..with("index-3", 10.0) };
     let outcome = split("double-pendulum", &alarm, 0.13);
     let stop = outcome.summary.error.expect("it stops");

@@ -96,7 +96,7 @@ fn simulate(m: &Mechanism, method: &Method) -> Simulation {
     m.simulate(method).unwrap_or_else(|e| panic!("{method:?}: {e}"))
 }
 
-/// Does the energy invariant control the lengths of the steps?
+/// True if the energy invariant controls the lengths of the steps.
 fn follows_energy(method: &Method) -> bool {
     method.formulation.as_deref() == Some(FormulationKind::MultiIndex.name())
 }
@@ -221,7 +221,7 @@ fn every_precision_that_is_built_moves_as_doubles_do() {
             Some(coordinates(&sim, &m))
         };
         let doubles = end(Precision::F64).expect("always built");
-        // rounding of 300 steps; in double-double the difference is the rounding of the run in doubles
+        // the runs differ by the rounding of 300 steps; in double-double the difference is the rounding of the run in doubles
         for (precision, allowed) in [(Precision::F32, 1e-2), (Precision::DoubleDouble, 1e-9)] {
             for (x, y) in end(precision).into_iter().flatten().zip(&doubles) {
                 assert!((x - y).abs() < allowed, "{precision:?}: {x} {y}");

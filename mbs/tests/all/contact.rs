@@ -202,8 +202,9 @@ impl Bounce {
     }
 }
 
-/// Largest ratio of the errors of order two at a tenth of the step. It is a hundredth, times a change by the position of the contacts within
-/// their steps. A kink of the force at a fraction r of a step gives r (1 - r) of the largest error.
+/// Largest ratio of the errors at a tenth of the step to those at the step, for errors of order two. The ratio is a hundredth, times a factor
+/// that depends on the position of the contacts within their steps. A kink of the force at a fraction r of a step gives r (1 - r) of the
+/// largest error.
 const TENTH: f64 = 0.03;
 
 /// Cases without a damper, with their names.
@@ -244,7 +245,8 @@ fn contacts_leave_no_energy_behind_but_an_error_of_order_two_of_the_step() {
                 energy.max_error / energy.turned_over
             });
             println!("{what}, {formulation}: {errors:?} of the energy turned over");
-            // quartering the step of order two twice gives 1 / 256, times a change by the position of contacts within their steps
+            // two quarterings of the step reduce an error of order two to 1 / 256, times a factor that depends on the position of the contacts
+            // within their steps
             assert!(errors[2] < 0.02 * errors[0] && errors[2] < 2e-5, "{what}, {formulation}");
         }
     }
@@ -260,7 +262,7 @@ fn a_damper_takes_energy_at_every_bounce_and_gives_none_back() {
         let n = bounce.scene.dimension.count();
         let contacts: Vec<f64> = outcome.summary.contacts.iter().map(|c| c.time).collect();
         assert!(contacts.len() >= 5, "{what}: {contacts:?}");
-        // largest height between two contacts
+        // `top` is the largest height between two contacts
         let top = |from: f64, to: f64| {
             let rows = outcome.rows().iter().filter(|(t, _)| (from..to).contains(t));
             rows.fold(f64::MIN, |top, (_, row)| top.max(row[n - 1]))
@@ -279,7 +281,7 @@ fn a_damper_takes_energy_at_every_bounce_and_gives_none_back() {
 
 #[test]
 fn a_damper_that_fades_in_within_a_step_gives_its_impulse_where_steps_end_at_events() {
-    // the damper fades in over a millimetre: three steps at the lowest speed, a fifth of a step at the highest
+    // the damper fades in over a millimetre, which takes three steps at the lowest speed and a fifth of a step at the highest
     let (step, damping, mass) = (1e-3, 400.0, 2.0);
     for rate in [-0.35, -0.7, -0.95, -1.3, -2.1, -5.0] {
         let bounce = bumper(0.0, [0.05, rate], damping);

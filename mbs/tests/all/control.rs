@@ -69,7 +69,7 @@ fn suspension(name: &str) {
         trials(&multi)
     );
     assert!(multi.summary.energy.max_error <= limit, "{name}");
-    // both runs spend most time in factorisations; the report's gain was a quarter of the CPU time
+    // both runs spend most time in factorisations; the published run took a quarter of the CPU time
     assert!(many <= 0.25 * one, "{name}: {many} of {one}");
     assert!(trials(&multi) as f64 <= 0.7 * cheapest as f64, "{name}: of {cheapest}");
     // steps are short only while the vehicle settles, from 0 to 0.8 s, and from the bump on, from 3 to 3.8 s; otherwise they have their
@@ -140,7 +140,7 @@ fn a_blow_in_a_calm_motion_costs_a_tenth_of_the_fixed_step_that_works_everywhere
     let exact = hammer(0.8);
     let error = |outcome: &Outcome| (output(outcome, "angle")[0] - exact).abs();
     let multi = completed(&scene, &to(by("multi-index")));
-    // the largest fixed step, by halving, with the same error
+    // the largest fixed step with the same error is found by halving
     let wanted = error(&multi).max(1e-4);
     let steps = (0..14).map(|k| 2e-2 / f64::powi(2.0, k));
     let works = steps

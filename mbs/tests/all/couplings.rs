@@ -8,7 +8,7 @@ use mbs_testkit::scene;
 /// divided by the step as much.
 const EXACT: f64 = 1e-8;
 
-/// Ways of all formulations with the trapezoidal rule.
+/// Returns each formulation with the trapezoidal rule.
 fn ways() -> [Way; 5] {
     TRAPEZOIDAL.map(|f| Way(f, "trapezoidal"))
 }
@@ -98,7 +98,8 @@ fn housing() -> String {
 
 #[test]
 fn a_gear_in_a_free_housing_takes_the_housing_along() {
-    // equations of motion: [[0.3, I1 - k I2], [I1 - k I2, I1 + k^2 I2]] (h, a)'' = (0, 0.8), k = 40/17
+    // equations of motion: [[0.3, I1 - k I2], [I1 - k I2, I1 + k^2 I2]] (h, a)'' = (0, 0.8), k = 40/17, with the angles h of the housing and a
+    // of the first wheel
     has_accelerations("housing", &housing(), &[-0.675_944_334_0, 19.151_756_130]);
     let (i1, i2, k) = (0.02, 0.004, 40.0 / 17.0);
     let (m12, m22) = (i1 - k * i2, i1 + k * k * i2);
@@ -133,7 +134,7 @@ fn a_planetary_set_drives_its_carrier() {
 
 #[test]
 fn elements_between_two_coordinates_share_their_inertia() {
-    // each coupling: m1 x'' + m2 r^2 x'' = f for y = r x
+    // each coupling y = r x gives m1 x'' + m2 r^2 x'' = f, with m1 and m2 the masses or inertias, and the force or torque f
     let turn_and_slide = |coupling: &str| {
         [
             HEAD.to_owned(),
@@ -180,7 +181,8 @@ fn elements_between_two_coordinates_share_their_inertia() {
 
 #[test]
 fn a_differential_shares_its_torque_by_the_teeth() {
-    // the cage c drives a and b: a - c = -(b - c); with a torque T on the cage, (Ia + Ib) c'' = T for equal wheels
+    // the cage with angle c drives the wheels with angles a and b: a - c = -(b - c); a torque T on the cage gives (Ia + Ib) c'' = T for equal
+    // wheels
     let text = [
         HEAD.to_owned(),
         body("wa", 1.0, [0.0, 1.0], 0.03),
@@ -194,7 +196,7 @@ fn a_differential_shares_its_torque_by_the_teeth() {
         rates(&["a", "b", "c"]),
     ]
     .concat();
-    // with the coupling's torque l: a'' = l/Ia, b'' = l/Ib, c'' = (T - 2 l)/Ic, a'' + b'' = 2 c''
+    // the coupling's torque l gives a'' = l/Ia, b'' = l/Ib, c'' = (T - 2 l)/Ic, where a'' + b'' = 2 c''
     let (ia, ib, ic, t) = (0.03, 0.01, 0.02, 0.7);
     let l = 2.0 * t / ic / (1.0 / ia + 1.0 / ib + 4.0 / ic);
     has_accelerations("differential", &text, &[l / ia, l / ib, (t - 2.0 * l) / ic]);
@@ -239,7 +241,7 @@ fn ropes_over_points_share_their_tension() {
         ]),
         rates(&["p-s", "n-s"]),
     ];
-    // pulley p and mass n with tension T: 4 p'' = 2 T - 4 g, 3 n'' = T - 3 g, n'' = -2 p''
+    // the tension T moves the pulley at height p and the mass at height n: 4 p'' = 2 T - 4 g, 3 n'' = T - 3 g, n'' = -2 p''
     has_accelerations("movable pulley", &movable.concat(), &[1.226_25, -2.4525]);
 }
 

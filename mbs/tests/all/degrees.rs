@@ -142,7 +142,7 @@ fn angles_of_a_wheel_are_those_of_its_rotation_in_the_vehicle_body_in_every_form
         assert!(outcome.summary.completed, "{formulation}: {:?}", outcome.error);
         for (t, row) in outcome.rows() {
             let [o, b] = [&row[..9], &row[9..18]];
-            // rotation of the wheel relative to its carrier, R = R_o^T R_b; y is to the left
+            // `r` is an entry of the wheel's rotation relative to its carrier, R = R_o^T R_b; y is to the left
             let r = |i: usize, j: usize| (0..3).map(|k| o[3 * k + i] * b[3 * k + j]).sum::<f64>();
             let (lean, turn) = (r(2, 1).asin(), (-r(0, 1)).atan2(r(1, 1)));
             let tilt = (-r(0, 2)).atan2(r(2, 2));

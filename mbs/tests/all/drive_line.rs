@@ -29,7 +29,7 @@ fn the_iltis_accelerates_and_brakes_as_engine_gears_and_brakes_say() {
             assert!(off < 1e-9 * (1.0 + speed.abs()), "{formulation}, {t} s: {row:?}");
         }
         let ahead = |t: f64| at(t)[3].hypot(at(t)[4]);
-        // driving straight ahead at full throttle
+        // the vehicle drives straight ahead at full throttle
         let rate = (ahead(1.9) - ahead(1.3)) / 0.6;
         let mean = (0..=12).map(|i| at(1.3 + 0.05 * f64::from(i))[7]).sum::<f64>() / 13.0;
         let right = mean * RATIO / RADIUS / inertia;
@@ -38,7 +38,7 @@ fn the_iltis_accelerates_and_brakes_as_engine_gears_and_brakes_say() {
         // the outer wheel is faster: the vehicle turns to the left
         let [left, right] = [at(4.0)[8], at(4.0)[9]];
         assert!(right > left + 0.5, "{formulation}: {left}, {right} rad/s");
-        // braking with the engine in gear
+        // the vehicle brakes with the engine in gear
         let rate = (ahead(6.5) - ahead(5.5)) / 1.0;
         let right = -(BRAKES - RATIO * at(6.0)[7]) / RADIUS / inertia;
         assert!((rate / right - 1.0).abs() < 0.06, "{formulation}: {rate}, not {right} m/s^2");

@@ -71,17 +71,17 @@ fn locked_wheels_stop_where_friction_and_the_slip_near_rest_say() {
     let slip = format!("{{ stiffness = {stiffness:?}, friction = {friction:?} }}");
     let most = friction * LOAD;
     let mass = MASSES[0] + MASSES[1];
-    // x = integral of v / a(v), a = force / mass, by the midpoint rule, whose error is 1e-8 m
+    // the distance x is the integral of v / a(v) over the speed v, with a = force / mass, by the midpoint rule; its error is 1e-8 m
     let force = |v: f64| most * share(stiffness * v / v.hypot(0.1) / most);
     let n = 400_000;
     let h = from / f64::from(n);
     let x: f64 = (0..n).map(|i| (f64::from(i) + 0.5) * h).map(|v| mass * v / force(v) * h).sum();
-    // with full friction up to the end it would be v^2 mass / (2 most)
+    // with full friction up to the end, the braking distance would be v^2 mass / (2 most)
     assert!((x - 6.25).abs() < 2e-3 && x > 6.25, "{x}");
     for dimension in [2, 3] {
         let text = car(dimension, &slip, from, 0.0, brake);
         for (way, row) in ends(&text, 1e-3, 3.0) {
-            // errors of the step, and of the brake's slip of 1e-3 rad/s times the radius
+            // the limit covers the error of the step, and the brake's slip: 1e-3 rad/s times the radius
             assert!((row[0] - x).abs() < 1e-3, "{dimension}, {way:?}: {row:?}, not {x}");
             assert!(row[1].abs() < 1e-3, "{dimension}, {way:?}: {row:?}");
         }
@@ -159,7 +159,7 @@ fn away(formulation: &'static str, integrator: &'static str, step: f64) -> f64 {
 
 #[test]
 fn a_car_that_drives_and_brakes_follows_equations_derived_apart_with_order_2() {
-    // error of the reference's digits and of the step control
+    // the limit covers the digits of the reference and the error of the step control
     let error = away("recursive", "radau5", 1e-3);
     assert!(error < 5e-8, "{error}");
     for formulation in TRAPEZOIDAL {

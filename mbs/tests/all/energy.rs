@@ -27,7 +27,7 @@ fn check(name: &str, formulation: &str, limits: &[f64]) {
 
 /// Publication 2's table of energy errors for index-3 [J], computed again by a prototype in double precision. 6e-9 J at 1e-6 s is rounding.
 const DOUBLE_PENDULUM_INDEX3: [f64; 5] = [4.7e-1, 4.7e-3, 4.4e-5, 4.5e-7, 6e-9];
-/// Publication 2's table of energy errors for index-1 [J], which agree to 1e-5 s.
+/// Publication 2's table of energy errors for index-1 [J]. Runs agree with it for steps down to 1e-5 s.
 const DOUBLE_PENDULUM_INDEX1: [f64; 4] = [4.7e-1, 4.75e-3, 4.4e-5, 4.5e-7];
 /// Energy errors of the trapezoidal rule on the symmetric branch [J], computed again by a prototype. At 1e-6 s, the rounding of ten passages
 /// dominates: steps that differ in the seventh digit give 1.7e-9 to 2.3e-8 J.
@@ -311,7 +311,7 @@ body = "b2"
 at = [0.7093583914263255, 0.6361639383743557]
 "#;
 
-/// Error constant of the trapezoidal rule for this scene [m/s^2], in squares of the step. It is found from the classical Lagrangian, which
+/// Error constant c of the trapezoidal rule for this scene [m/s^2]: error = c dt^2. The constant is found from the classical Lagrangian, which
 /// has no penalty, with steps of 1.5e-4 s and 1e-4 s.
 const CHANGE_POINT_ERROR: f64 = 46.2;
 
@@ -331,7 +331,7 @@ fn a_change_point_is_passed_in_index3_and_multi_index_wherever_steps_land() {
         outcome.summary.outputs.0[0].1[0]
     };
     let right = end("recursive", "gbs", (1e-3, Some(1e-13)));
-    // the singular positions are passed at different fractions of a step, at 1.1e-4 s three microseconds from an end
+    // the singular positions are at different fractions of a step; with steps of 1.1e-4 s one is three microseconds from the end of a step
     for k in 0..20 {
         let step = 1e-4 * (1.0 + f64::from(k) / 40.0);
         for formulation in ["index-3", "multi-index"] {

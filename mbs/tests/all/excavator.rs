@@ -81,7 +81,7 @@ fn the_excavator_reaches_where_its_triangles_say_and_its_cylinders_carry_it() {
         for (t, row) in &rows {
             let lengths = [row[2], row[4], row[6]];
             let (tip, energy) = placed(lengths);
-            // a thousand times the violation of the joints' rows
+            // the tolerance is a thousand times the violation of the joints' constraints
             let off = distance(tip, [row[0], row[1]]);
             assert!(off < 1e-8, "{formulation}, {t} s: {row:?}, {tip:?}");
             // the machine is at rest before the first and after the last motion

@@ -38,7 +38,7 @@ fn end(text: &str, way: Way, step: f64, duration: f64) -> Vec<f64> {
     rows.last().expect("a row").1.to_vec()
 }
 
-/// Asserts the first output at the end. Its error must fall by four at half the step in each formulation, and be small with accurate
+/// Asserts the first output at the end. Its error must fall to a quarter at half the step in each formulation, and must be small with accurate
 /// integrators.
 fn meets(text: &str, (duration, right): (f64, f64), allowed: f64) {
     for formulation in TRAPEZOIDAL {
@@ -88,7 +88,7 @@ fn an_engine_whose_torque_falls_with_its_speed_runs_up_as_an_exponential() {
 
 #[test]
 fn a_late_torque_follows_its_command_with_its_time() {
-    // 4 N m with a lag of T = 0.2 s on 2 kg m^2: angle t^2 - 2 T t + 2 T^2 (1 - e^(-t/T))
+    // 4 N m act with a lag of T = 0.2 s on 2 kg m^2, which gives the angle t^2 - 2 T t + 2 T^2 (1 - e^(-t/T))
     let text = wheel(2, &asked("\"lag\"\nof = \"command\"\ntime = 0.2", &constant("command", 4.0)));
     let t = 0.2_f64;
     meets(&text, (1.0, 1.0 - 2.0 * t + 2.0 * t * t * (1.0 - (-5.0_f64).exp())), 1e-5);
@@ -110,7 +110,7 @@ fn an_integral_stops_at_its_limit_and_comes_back_at_once() {
     let command = "[[signal]]\nname = \"command\"\nkind = \"table\"\ninterpolation = \"hold\"\ntable = [[0.0, 8.0], [0.75, -8.0]]\n";
     let kind = "\"integral\"\nof = \"command\"\nlower = -1.0\nupper = 4.0";
     let text = wheel(2, &asked(kind, command));
-    // angle: 4 t^3/6 up to 0.5 s, then with a constant torque, then with a torque that falls as -4 t^3/6
+    // the angle is 4 t^3/6 up to 0.5 s; then the torque is constant; then the torque falls, which adds -4 t^3/6
     let (w1, a1) = (0.5, 0.5 / 6.0);
     let (w2, a2) = (w1 + 2.0 * 0.25, a1 + w1 * 0.25 + 0.25 * 0.25);
     let right = a2 + w2 * 0.25 + 0.25 * 0.25 - 4.0 / 6.0 * 0.25_f64.powi(3);
@@ -168,7 +168,7 @@ fn signals_that_nothing_can_follow_are_refused_at_their_place() {
 
 #[test]
 fn a_stiff_controller_converges_where_its_damping_outweighs_the_inertia() {
-    // d h / 2 is five times the inertia; the target rises over 0.1 s
+    // half of the derivative gain d times the step h is five times the inertia; the target rises over 0.1 s
     let servo = SERVO
         .replace("p = 40.0\ni = 30.0\nd = 6.0", "p = 1e6\nd = 2e4")
         .replace("kind = \"constant\"\nvalue = 1.0", "kind = \"step\"\nto = 1.0\nrise = 0.1");
@@ -186,7 +186,7 @@ fn a_stiff_controller_converges_where_its_damping_outweighs_the_inertia() {
         for formulation in TRAPEZOIDAL {
             let way = Way(formulation, "trapezoidal");
             let found = end(&wheel(dimension, &servo), way, 1e-3, 0.08)[0];
-            // position of the target after 80 of its 100 steps; errors are (h/T)^2
+            // position of the target after 80 of its 100 steps; errors are (h/T)^2 with the step h and the rise time T
             assert!((found - right).abs() < 1e-4, "{formulation}: {found}, not {right}");
         }
     }
@@ -252,7 +252,7 @@ fn what_a_motor_gives_is_its_signal_and_turns_are_counted_in_every_formulation()
         let [coarse, fine] = [1e-3, 5e-4].map(|step| end(&text, way, step, 1.0));
         let [asked, turn] = [fine[2], fine[3]];
         assert!((fine[1] + asked).abs() < 1e-12 * asked.abs(), "{formulation}: {fine:?}");
-        // value of the joint, from its slide and its rotation
+        // column 5 is the value of the joint, from its slide and its rotation
         assert!((turn - fine[5]).abs() < 1e-9, "{formulation}: {fine:?}");
         let (power, rate) = (fine[6], fine[7]);
         assert!((power - asked * rate).abs() < 1e-9 * power.abs(), "{formulation}: {fine:?}");
@@ -287,7 +287,7 @@ fn the_servo_arm_ends_at_its_targets_with_the_torques_of_its_weight() {
     let targets = [0.4, 0.3, -0.5, 0.6, 0.5, -0.8];
     scene.outputs.truncate(6);
     let (bodies, n) = (scene.bodies.clone(), scene.bodies.len());
-    // outputs: each body's centre, the point of its joint, and a point a metre further on the joint's axis
+    // the outputs are each body's centre, the point of its joint, and a point a metre further on the joint's axis
     let axes = [
         [0.0, 0.0, 1.0],
         [0.0, 1.0, 0.0],
@@ -428,7 +428,7 @@ fn a_torque_by_the_length_of_a_line_turns_its_wheel_as_the_equation_of_its_angle
             let pin = [[0.3, 0.0, 0.0], [0.0, 0.3, 0.0]];
             (pin, [[0.9, 0.2, 0.0], [-0.1, 0.8, 0.0]])
         } else {
-            // the pin in a plane perpendicular to the axle
+            // the pin moves in a plane perpendicular to the axle
             let pin = [[0.24, 0.0, -0.18], [-0.108, 0.24, -0.144]];
             (pin, [[0.9, 0.2, 0.3], [-0.1, 0.8, -0.2]])
         };

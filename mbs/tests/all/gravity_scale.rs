@@ -39,7 +39,7 @@ fn every_formulation_has_the_same_motion_and_energies_under_factors_of_gravity()
 
 #[test]
 fn a_factor_is_the_same_as_a_force_that_carries_the_rest_of_the_weight() {
-    // one mechanism with the key, another with a constant upward force m g (1 − s) at the centre
+    // one mechanism has the key with the factor s; another has a constant upward force m g (1 − s) at the centre
     let mut light =
         Mechanism::parse(include_str!("../../../scenes/double-pendulum.toml")).expect("a scene");
     let mut carried = light.clone();

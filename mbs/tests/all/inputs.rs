@@ -168,10 +168,10 @@ fn a_torque_that_is_set_every_ten_milliseconds_leaves_every_rule_its_order_in_a_
         let order = (coarse / fine).log2();
         // Newmark's rule damps and is of first order; the others would be of first order too if half of an input acted in the wrong step
         let least = if method.1 == "newmark" { 0.9 } else { 1.8 };
-        // methods with error control, and of higher order
+        // true for methods with error control or of higher order
         let is_exact = fine < 1e-8;
         assert!(is_exact || order > least, "{method:?}: order {order}, {coarse:e} and {fine:e}");
-        // of about 10 J; the limits are twice the errors of the rules at 1 ms
+        // the energies are about 10 J; the limits are twice the errors of the rules at 1 ms
         let allowed = if method.1 == "newmark" { 1.2e-3 } else { 1e-6 };
         assert!(ledger < allowed, "{method:?}: {ledger:e} J");
     }
@@ -281,7 +281,7 @@ fn an_input_changes_the_motion_from_the_next_step_on() {
             still.step(1e-3).expect("a regular step");
             driven.step(1e-3).expect("a regular step");
         }
-        // 40 N m on 8/3 kg m^2 (two rods in a line) for 0.05 s: about 0.02 rad, or 0.04 m at the tip
+        // 40 N m act on 8/3 kg m^2 (two rods in a line) for 0.05 s, which gives about 0.02 rad, or 0.04 m at the tip
         assert!(common::distance(tip(&still), tip(&driven)) > 0.01, "{formulation}");
     }
 }
@@ -365,7 +365,7 @@ fn a_guide_that_is_set_follows_what_it_is_told() {
     for formulation in common::with_fixed_steps() {
         let mut scene = common::scene("guided-four-bar");
         scene.outputs.clear();
-        // at rest, with an acceleration of 2 rad/s^2
+        // the guide begins at rest with an acceleration of 2 rad/s^2
         scene.guides[0].law = Motion::Input([0.0, 0.0, 2.0]);
         scene.initials.clear();
         let joint = scene.guides[0].joint;

@@ -115,7 +115,8 @@ fn a_pendulum_falls_back_with_its_weight_and_its_pivot_carries_it() {
 
 #[test]
 fn a_four_bar_in_motion_is_the_pendulum_that_its_cranks_are() {
-    // as the scene file says of parallel cranks: (5/3) theta'' = 2 g sin(theta) + u, with theta from the upright crank
+    // parallel cranks have the equation of the scene file, (5/3) theta'' = 2 g sin(theta) + u; theta is the angle from the upright crank, and u
+    // the torque
     for (place, theta) in [
         (Place::Initial, 0.0_f64),
         (Place::Initial, 0.5),
@@ -165,7 +166,7 @@ fn a_long_chain_keeps_its_digits_in_relative_angles() {
             let weight = if j <= i { g * (below(i) + 0.5) } else { 0.0 };
             let moments = turns.iter().enumerate().map(|(k, turn)| mass(i, k) * turn);
             let left = (weight + moments.sum::<f64>()).abs();
-            // error relative to the weight of the whole chain, for an angle of one
+            // the limit is relative to the weight of the whole chain, for an angle of one radian
             assert!(left < SAME * g * n as f64, "{i}, {j}: {left} N m");
         }
     }
@@ -316,7 +317,7 @@ fn two_damped_masses_move_in_the_golden_ratio() {
     let system = about(&m, Place::Equilibrium);
     let shapes = system.shapes().expect("they converge");
     let root = 5.0_f64.sqrt();
-    // mode shape and eigenvalue: x2 = (2 - omega^2 m / k) x1, lambda^2 + beta omega^2 lambda + omega^2 = 0
+    // the mode shape is x2 = (2 - omega^2 m / k) x1; the eigenvalue lambda is a root of lambda^2 + beta omega^2 lambda + omega^2 = 0
     for (shape, sign) in shapes.iter().zip([-1.0, 1.0]) {
         let square = 0.5 * k * (3.0 + sign * root);
         let real = -0.5 * beta * square;
@@ -402,8 +403,8 @@ fn a_tumbling_body_turns_as_eulers_equations_say() {
         [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
     };
     let unit = |j: usize| core::array::from_fn::<f64, 3, _>(|i| if i == j { 1.0 } else { 0.0 });
-    // omega' = R a(R^T omega) in global axes with a = -J^-1 (w x J w) and R = 1 + theta x; theta' = omega - w + w x theta from the motion
-    // itself
+    // in global axes omega' = R a(R^T omega), with a(w) = -J^-1 (w x J w) and the small rotation R = 1 + theta x; relative to the motion with
+    // the angular velocity w, theta' = omega - w + w x theta
     let gyration = |a: [f64; 3], b: [f64; 3]| {
         let both = cross(a, core::array::from_fn(|i| inertia[i] * b[i]));
         core::array::from_fn::<f64, 3, _>(|i| -both[i] / inertia[i])

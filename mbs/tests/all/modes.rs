@@ -36,7 +36,8 @@ fn modes_at_rest_are_those_of_an_independent_model_of_the_plane_of_symmetry() {
         let near = modes.iter().map(distance).fold(f64::INFINITY, f64::min);
         let size = real.hypot(imaginary);
         println!("{real} + {imaginary} i: {:.1e} of it apart", near / size);
-        // second differences of the energy have an error of 1e-4, and the reference has the arms' centres at mid-length
+        // the limit covers two errors: second differences of the energy are accurate to 1e-4, and the reference assumes the arms' centres at
+        // mid-length
         assert!(near < 1e-3 * size, "{real} + {imaginary} i is {near} away in {modes:?}");
     }
 }
@@ -57,7 +58,7 @@ fn response(linear: &Linear<f64>, freedom: usize, t: f64) -> Vec<f64> {
     };
     let mut y = vec![0.0; 2 * f];
     y[f + freedom] = 1.0;
-    // the fastest mode has 91 1/s, so the error of order four is below 1e-9
+    // the fastest mode has an eigenvalue of 91 1/s, so the error of order four is below 1e-9
     let steps = 2000;
     let h = t / f64::from(steps);
     for _ in 0..steps {

@@ -10,7 +10,7 @@ use mbs::{Method, Search, StaticEquilibrium};
 
 /// Relative difference from the weight at an equilibrium, whose residual is below 1e-12 [-].
 const SAME: f64 = 1e-9;
-/// Relative difference of the same sum in two orders [-].
+/// Relative rounding difference of a sum in two orders of its terms [-].
 const ROUNDING: f64 = 1e-9;
 /// Gravity of the scenes [m/s^2].
 const GRAVITY: f64 = 9.81;
@@ -179,7 +179,7 @@ fn wheel(scene: &Scene<f64>, effect: EffectId) -> (BodyId, Vector) {
 
 #[test]
 fn the_invariant_error_is_that_of_the_summary_to_the_bit() {
-    // three cases: fixed steps without losses; dampers and inputs on a road; controlled steps
+    // the three cases have fixed steps without losses, dampers and inputs on a road, and controlled steps
     let controlled = Method { step_control: Some("error".to_owned()), ..Method::default() };
     for (name, method) in [
         ("double-pendulum", Method::default()),

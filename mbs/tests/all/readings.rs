@@ -87,7 +87,7 @@ fn angular_velocity_is_the_difference_of_rotations_in_every_formulation() {
                 let right = turning(before, after, h);
                 assert_eq!(found.len(), if is_planar { 1 } else { 3 }, "{name}");
                 for (found, right) in found.iter().rev().zip(right.iter().rev()) {
-                    // error h^2/6 times third derivatives, of a motion at 3 rad/s and 100 rad/s^2
+                    // the error is h^2/6 times the third derivatives; the motion has about 3 rad/s and 100 rad/s^2
                     assert!((found - right).abs() < 1e-5, "{name}: {found} is not {right}");
                 }
             }

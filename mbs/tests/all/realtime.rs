@@ -111,7 +111,7 @@ fn a_period_of_several_steps_has_the_results_of_these_steps() {
     let pacing = Pacing { period: Some(5e-3), ..Pacing::default() };
     let run = paced(&document, &fine, &pacing, &mut ScriptedClock::default()).expect("it is paced");
     assert_eq!((run.rows().len(), run.summary.steps), (101, 500));
-    // 5e-3 / 5 is not exactly 1e-3, but this motion is not chaotic yet
+    // 5e-3 / 5 is not exactly 1e-3, but the motion is not chaotic yet, so the difference stays small
     for ((t, a), (u, b)) in run.rows().iter().zip(plain.rows().iter().step_by(5)) {
         assert!((t - u).abs() < 1e-12);
         assert!(a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-11), "{t}: {a:?} {b:?}");
@@ -250,8 +250,8 @@ fn a_state_taken_over_with_the_same_effects_continues_as_if_it_had_stayed() {
     }
 }
 
-/// Runs a scene with pacing, on a clock with one sleep of fifty periods too much. The run is then late in a row for longer than its limit,
-/// and degrades.
+/// Runs a scene with pacing, on a clock with one sleep of fifty periods too much. The run is then late in more consecutive periods than its
+/// limit allows, and degrades.
 fn degraded(document: &SceneFile, overrides: &Method, words: &[&str]) -> (Outcome, ScriptedClock) {
     let pacing = Pacing {
         overrun: Overrun::Degrade,

@@ -157,8 +157,8 @@ fn rows_of_four_bars_end_at_their_exact_places_with_order_2() {
 /// Angle of the rocker in the scene rssr from its crank's angle, on the branch of the start.
 fn rocker(crank: f64) -> f64 {
     let (s, c) = crank.sin_cos();
-    // closing equation with the rocker's angle b and c, s of the crank: (0.4 + 0.5 cos b)^2 + (0.5 sin b - 0.15 c)^2 = 1.0425 - (0.7 - 0.15
-    // s)^2; so 0.4 cos b - 0.15 c sin b = rest
+    // this is the closing equation, with the rocker's angle b, and cosine c and sine s of the crank's angle: (0.4 + 0.5 cos b)^2 + (0.5 sin b -
+    // 0.15 c)^2 = 1.0425 - (0.7 - 0.15 s)^2; so 0.4 cos b - 0.15 c sin b = rest
     let rest = 1.0425 - (0.7 - 0.15 * s).powi(2) - 0.16 - 0.25 - 0.0225 * c * c;
     let (x, y) = (0.4, -0.15 * c);
     y.atan2(x) + (rest / x.hypot(y)).acos() - 0.4_f64.atan2(0.3)

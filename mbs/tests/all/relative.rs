@@ -184,7 +184,7 @@ fn a_rollout_that_fails_says_when_and_leaves_no_numbers_behind() {
     let mut tree = m.tree().expect("a tree");
     let integrator = IntegratorKind::Rk4;
     let (mut q, mut v) = ([0.0; 2 * 11], [0.0; 2 * 11]);
-    // rates whose squares are infinite
+    // the squares of these rates overflow
     let task = Rollout {
         q: &[0.0; 2],
         v: &[1e200, 0.0],

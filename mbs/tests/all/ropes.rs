@@ -100,7 +100,7 @@ fn a_rope_that_would_have_to_push_is_noted_with_its_time_and_force() {
         assert_eq!(notes(3.0, rod), [""; 0], "{}", kind.name());
         let noted = notes(3.0, rope);
         let omega = core::f64::consts::TAU * 3.0;
-        // the first step after sin(w t) = g / (A w^2)
+        // the note has the end of the first step after sin(w t) = g / (A w^2), with amplitude A and angular frequency w
         let first = ((9.81 / (0.1 * omega * omega)).asin() / omega * 1e3).ceil() / 1e3;
         let begin = format!("the rope `line` pushes at t = {first} s, by up to ");
         assert_eq!(noted.len(), 1, "{}: {noted:?}", kind.name());

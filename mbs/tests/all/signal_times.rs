@@ -19,7 +19,7 @@ fn methods() -> impl Iterator<Item = Method> {
     })
 }
 
-/// Does the integrator control its steps itself, within the interval of a row?
+/// True if the integrator controls its steps itself, within the interval between two rows.
 fn has_rows_of_its_own(method: &Method) -> bool {
     method.integrator.as_deref().is_some_and(|i| i != "trapezoidal")
 }
@@ -56,7 +56,7 @@ fn error(outcome: &Outcome, right: [f64; 2]) -> f64 {
 
 #[test]
 fn a_jump_of_a_force_costs_no_accuracy_and_fewer_rejected_steps() {
-    // 2 x'' = 5 - 50 x from 0.3123 s on, so x = 0.1 (1 - cos 5 s) with the time s since then
+    // from 0.3123 s on, the equation is 2 x'' = 5 - 50 x, so x = 0.1 (1 - cos 5 s) with the time s since then
     let (at, duration) = (0.3123, 1.0);
     let signal = format!("kind = \"step\"\nto = 5.0\nat = {at:?}");
     let scene = wheel(50.0, duration, &signal);
@@ -74,7 +74,7 @@ fn a_jump_of_a_force_costs_no_accuracy_and_fewer_rejected_steps() {
         let rejected = [&with, &without]
             .map(|outcome| outcome.summary.control.as_ref().map_or(0, |c| c.rejected));
         println!("{}: {errors:?}, {rejected:?}", name(&method));
-        // a tolerance of 1e-7 of the scene's length for each of some hundred trapezoidal steps
+        // the limit covers a tolerance of 1e-7 of the scene's length for each of some hundred trapezoidal steps
         assert!(errors[0] < 1e-4 && errors[0] < 1.1 * errors[1] + 1e-9, "{errors:?}");
         assert!(rejected[0] <= rejected[1], "{}: {rejected:?}", name(&method));
         // a row is at the jump if rows are at the controlled steps
@@ -104,7 +104,7 @@ fn a_square_wave_is_met_to_rounding_by_every_method() {
 
 #[test]
 fn corners_of_a_force_cost_no_accuracy() {
-    // a triangle from 0.2 s over 0.4137 s to 0.9 s: x''' is constant in each piece
+    // the torque is a triangle from 0.2 s over 0.4137 s to 0.9 s, so x''' is constant in each piece
     let rows = [[0.2, 0.0], [0.4137, 6.0], [0.9, 0.0]];
     let signal = format!("kind = \"table\"\ninterpolation = \"linear\"\ntable = {rows:?}");
     let scene = wheel(0.0, 1.0, &signal);

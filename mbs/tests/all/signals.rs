@@ -112,7 +112,7 @@ fn a_torque_by_the_sum_of_two_signals_meets_the_closed_form() {
         let is_exact = formulation == "recursive";
         let allowed = if is_exact { 1e-9 } else { 1e-5 };
         assert!((rate - 2.5).abs() < allowed, "{formulation}: {rate} rad/s");
-        // error h^2/12 of the third derivative
+        // the rule has an error of h^2/12 times the third derivative
         assert!((angle - 4.0 / 3.0).abs() < allowed.max(2e-7), "{formulation}: {angle} rad");
         let [kinetic, _, work] = simulation.energies();
         let off = (kinetic - 6.25).abs().max((work - 6.25).abs());

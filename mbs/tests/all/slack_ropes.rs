@@ -85,7 +85,7 @@ fn two_masses_on_an_elastic_rope_fall_slack_and_are_caught() {
         let rows = run(&text, way, (1e-4, duration));
         for (t, row) in &rows {
             let [y0, y1, v0, v1] = [row[0], row[2], row[1], row[3]];
-            // total length of the rope, and its rate
+            // columns 4 and 5 are the total length of the rope and its rate
             assert!((row[4] - (6.0 - y0 - y1)).abs() < 1e-11, "{way:?}, {t}: {row:?}");
             assert!((row[5] + v0 + v1).abs() < 1e-9, "{way:?}, {t}: {row:?}");
             let stretch = row[4] - 6.0 - SLACK;
@@ -112,7 +112,7 @@ fn two_masses_on_an_elastic_rope_fall_slack_and_are_caught() {
 
 #[test]
 fn a_taut_rope_over_two_points_oscillates_about_the_motion_of_a_rigid_one() {
-    // stretch e: e'' = 2 g - w^2 e, from rest without stretch
+    // the stretch e has the equation e'' = 2 g - w^2 e, from rest without stretch
     let mobility = MASSES.iter().map(|m| 1.0 / m).sum::<f64>();
     let omega = (LAW[0] * mobility).sqrt();
     let rope = format!(
@@ -126,7 +126,7 @@ fn a_taut_rope_over_two_points_oscillates_about_the_motion_of_a_rigid_one() {
         for (t, row) in run(&text, way, (1e-4, 0.5)).iter().step_by(100) {
             let e = 2.0 * GRAVITY / (omega * omega) * (1.0 - (omega * t).cos());
             assert!((row[4] - 6.0 - e).abs() < ROUGH, "{way:?}, {t}: {} {e}", row[4]);
-            // displacement of the first mass: -g t^2/2, plus k/m of the double integral of e
+            // the first mass is displaced by -g t^2/2 plus k/m times the double integral of e
             let twice = 2.0 * GRAVITY / (omega * omega)
                 * (0.5 * t * t - (1.0 - (omega * t).cos()) / (omega * omega));
             let y = -0.5 * GRAVITY * t * t + LAW[0] / MASSES[0] * twice;

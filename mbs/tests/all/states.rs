@@ -1,4 +1,4 @@
-//! States that a simulation is set to: exactly, or refused without a change.
+//! Setting the state of a simulation: the state is set exactly, or refused without a change.
 
 use mbs::{
     Body, Coordinates, Effect, Error, FormulationKind, GROUND, Guide, Joint, JointId, Mechanism,
@@ -23,7 +23,7 @@ fn a_state_is_held_or_refused_with_its_joint_in_every_formulation() {
         let mut sim = m.simulate(&Method::new(kind)).expect("it starts");
         let state = [(pivot, 0.3.into(), 1.0.into()), (elbow, none, (-2.0).into())];
         sim.set_state(&state).expect("an open chain allows all");
-        // error by the rounding of the assembly
+        // the limit is the rounding error of the assembly
         let off = [sim.value(pivot) - 0.3, sim.rate(pivot) - 1.0, sim.rate(elbow) + 2.0];
         assert!(off.iter().all(|x| x.abs() < 1e-12), "{}: {off:?}", kind.name());
         let before = sim.save().expect("a state");

@@ -179,7 +179,8 @@ fn statistics_of_an_oscillator_are_those_of_its_closed_form_though_rows_are_thin
     let [x, v] = &channels[..] else { panic!("two outputs") };
     let [x, speed] = [x.stats[0].of, v.stats[2].of];
     assert_eq!((v.stats[2].label.as_str(), v.stats[2].is_magnitude), ("abs", true));
-    // errors of the trapezoidal rule and of the step nearest to a peak: (w h)^2, and w^3 h^2 t/12 of the phase
+    // the limit covers errors at frequency w with steps h: (w h)^2 by the step nearest to a peak, and the phase error w^3 h^2 t/12 of the
+    // trapezoidal rule
     let small = (w * step).powi(2) * w * duration;
     let mean = (0.5 + (2.0 * w * duration).sin() / (4.0 * w * duration)).sqrt();
     let checks = [
@@ -216,7 +217,7 @@ fn peaks_between_long_steps_are_those_of_the_closed_form() {
     for (found, right) in [(x.min, -a), (x.max, a)] {
         assert!((found - right).abs() < 4e-5 * a, "{found} for {right}");
     }
-    // period of the rule, from tan(θ/2) = w h/2
+    // the rule rotates the phase by θ in a step, with tan(θ/2) = w h/2, which gives the period
     let period = core::f64::consts::PI * step / (w * step / 2.0).atan();
     let halves = x.at_min / period - 0.5;
     assert!((halves - halves.round()).abs() < 1e-3, "{} of {period}", x.at_min);

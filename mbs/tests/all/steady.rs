@@ -1,4 +1,4 @@
-//! Modes of steady motions: bodies that spin, precess, or drive in a bend, against closed forms and equations of others. Other motions are
+//! Modes of steady motions: bodies that spin, precess, or drive in a bend, against closed forms and independent equations. Other motions are
 //! refused as not steady.
 
 use crate::common::{path, run, scene};
@@ -85,7 +85,7 @@ fn a_governor_swings_about_its_rest_in_the_turning_axes() {
     let error = Modes::new(&field("25-governor-at-speed"), Place::Initial, Search::Down);
     let Err(StopError::NotSteady(unsteady)) = error else { panic!("{error:?}") };
     let Unsteady::Accelerates { state, by, unit } = *unsteady else { panic!("{unsteady:?}") };
-    // acceleration of the angle a: a'' = (64 · 0.3298 cos 0.2 − 2 · 9.81 · 0.4) sin 0.2 / 0.33
+    // the angle a has the acceleration a'' = (64 · 0.3298 cos 0.2 − 2 · 9.81 · 0.4) sin 0.2 / 0.33
     let (sine, cosine) = 0.2_f64.sin_cos();
     let right = (64.0 * 0.3298 * cosine - 7.848) * sine / 0.33;
     assert!(
@@ -248,7 +248,7 @@ fn damping_in_turning_axes_makes_a_shaft_grow_beyond_its_limit() {
     );
     for (rate, grows) in [(100.0, false), (189.0, false), (191.0, true), (200.0_f64, true)] {
         let found = modes(&shaft((rate, 0.0), [0.0; 2], &(effects.concat() + &outer)));
-        // root of the discriminant, √((ci + ce)² − 4 m (k − i ci Ω))
+        // `root` is the root of the discriminant, √((ci + ce)² − 4 m (k − i ci Ω))
         let (a, b) = ((ci + ce).powi(2) - 4.0 * m * k, 4.0 * m * ci * rate);
         let size = f64::hypot(a, b);
         let root = [((size + a) / 2.0).sqrt(), ((size - a) / 2.0).sqrt()];
@@ -269,7 +269,7 @@ fn unbalance_is_a_steady_motion_where_the_shaft_bends_by_it_alone() {
     let x = m * e * rate * rate / (k - (m + ms) * rate * rate);
     assert!((x - 6.667_111_141e-4).abs() < 1e-13);
     let found = modes(&shaft((rate, ms), [x, e], ""));
-    // characteristic equation: ((m + ms) s² + k − (m + ms) Ω²)(m s² + k − m Ω²) + 4 m² Ω² s² = 0
+    // the characteristic equation is ((m + ms) s² + k − (m + ms) Ω²)(m s² + k − m Ω²) + 4 m² Ω² s² = 0
     let w = rate * rate;
     let [kx, ky] = [k - (m + ms) * w, k - m * w];
     let (a, b, c) = ((m + ms) * m, (m + ms) * ky + m * kx + 4.0 * m * m * w, kx * ky);

@@ -51,7 +51,7 @@ fn two_flywheels_on_a_spring_and_a_damper_turn_against_each_other_as_one_oscilla
     let [j1, j2] = INERTIAS;
     let (k, c, w) = (40.0, 0.2, 20.0);
     for (dimension, factor) in [(2, 1.0), (3, 1.0), (3, 2.5)] {
-        // sum m = a - n b: m'' (1/(1/J1 + n^2/J2)) = -k m - c m'
+        // the sum m = a - n b of the shafts' angles has the equation m'' (1/(1/J1 + n^2/J2)) = -k m - c m'
         let n: f64 = factor;
         let mass = 1.0 / (1.0 / j1 + n * n / j2);
         let text = shafts(
@@ -129,7 +129,7 @@ fn a_clutch_slips_until_its_shafts_have_the_common_rate_of_their_momentum() {
             let locked =
                 rows.iter().find(|(_, row)| row[5].abs() < 1e-3 * slip).expect("it locks").0;
             assert!((locked - lock).abs() < 2e-3 * lock + 2.0 * step, "{way:?}: {locked} {lock}");
-            // afterwards a' = n b', with the earlier n J1 a' + J2 b'
+            // afterwards a' = n b', and n J1 a' + J2 b' keeps its value
             let b = (n * j1 * w[0] + j2 * w[1]) / (n * n * j1 + j2);
             let end = &rows.last().expect("a row").1;
             for (found, expected) in [(end[1], n * b), (end[3], b)] {

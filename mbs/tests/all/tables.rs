@@ -87,7 +87,7 @@ fn buffer(way: &str) -> String {
 #[test]
 fn a_buffer_by_a_monotone_curve_never_pulls_in_every_formulation() {
     for formulation in TRAPEZOIDAL {
-        // force of the first body on the second
+        // `force` is the range of the force of the first body on the second; the output has the opposite sign
         let force = |way: &str| {
             let all = column(&buffer(way), Way(formulation, "trapezoidal"), 1e-3, 0);
             range(&all.iter().map(|x| -x).collect::<Vec<_>>())

@@ -70,7 +70,7 @@ fn bearings_of_an_external_pair_carry_the_tangent_and_what_drives_it_apart() {
 
 #[test]
 fn a_pinion_in_a_ring_is_pressed_inward_whichever_comes_first() {
-    // radii 0.2 and 0.6 m, axes 0.4 m apart: the wheels touch 0.2 m beyond the pinion's axis
+    // the radii are 0.2 and 0.6 m and the axes 0.4 m apart, so the wheels touch 0.2 m beyond the pinion's axis
     let k = 0.2 / 0.6;
     let (pinion, ring) = ([0.4, 0.02], [0.0, 0.05]);
     let coupling =
@@ -99,7 +99,7 @@ fn a_pinion_in_a_ring_is_pressed_inward_whichever_comes_first() {
 #[test]
 fn teeth_beside_their_bearings_bend_the_shafts_in_space() {
     let n = [1.0 / 3.0, 2.0 / 3.0, 2.0 / 3.0];
-    // unit vectors perpendicular to n: e from the first axis to the second, and the tangent n × e
+    // e and t are unit vectors perpendicular to n: e points from the first axis to the second, and t is the tangent n × e
     let e = [2.0 / 3.0, 1.0 / 3.0, -2.0 / 3.0];
     let t = [-2.0 / 3.0, 2.0 / 3.0, -1.0 / 3.0];
     let at = |x: f64, z: f64| [0, 1, 2].map(|i| x * e[i] + z * n[i]);

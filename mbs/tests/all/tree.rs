@@ -89,7 +89,7 @@ fn moved(scene: &Scene<f64>, tree: &Tree, v: &[f64], h: f64) -> Vec<f64> {
             q[at.start + k] += h * v[rates.start + k];
         }
         if linear < rates.len() {
-            // rate of a quaternion: q (0, ω) / 2
+            // the rate of a quaternion q at the angular velocity ω is q (0, ω) / 2
             let w: [f64; 3] = v[rates.end - 3..rates.end].try_into().expect("three");
             let [a, b, c, d]: [f64; 4] = q[at.end - 4..at.end].try_into().expect("four");
             let rate = [
@@ -218,7 +218,7 @@ fn points_move_as_their_jacobians_say_and_as_their_coordinates_do() {
             close(&name, &times(tree.point_jacobian(b, at), &v), &velocity, ROUNDING);
             let rate = difference(scene, &tree, &none, |t| motion_of(t, b, at)[1].clone());
             close(&name, &acceleration, &rate, 10.0 * DIFFERENCES);
-            // velocity of a point: v(p) = v(c) + ω × (p − c)
+            // a point p of a body with centre c has the velocity v(p) = v(c) + ω × (p − c)
             let BodyId::Body(i) = b else { unreachable!() };
             let center = scene.bodies[i].center;
             let frame = times(tree.frame_jacobian(b), &v);

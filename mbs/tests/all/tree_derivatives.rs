@@ -7,7 +7,7 @@ use mbs::{Error as _, FrameTarget, InverseKinematicsEnd, Matrix, Tree};
 use mbs_testkit::random::{self, Random};
 use mbs_testkit::{close, dot, file};
 
-/// Step of the differences of order eight. Truncation and the rounding of the quantities are both below 1e-13 of it.
+/// Step of the differences of order eight. Relative to the step, truncation and the rounding of the quantities are both below 1e-13.
 const STEP: f64 = 1e-2;
 /// Largest difference, relative to the largest derivative [-]. Accelerations of a light body at the end of a chain lose three digits.
 const DIFFERENCES: f64 = 1e-9;
@@ -85,7 +85,7 @@ fn derivatives_of_both_dynamics_are_those_of_differences_whichever_body_comes_fi
                 let by_v = derivative(&tree, &|t, h| faster(t, k, h), quantity);
                 close(&name, &column(v, k), &by_v, size);
             }
-            // product of M and a column of its inverse
+            // the product of M and a column of its inverse is a unit vector
             let unit: Vec<f64> = (0..n).map(|i| f64::from(u8::from(i == k))).collect();
             let inverse = column(&forward.effort, k);
             let product: Vec<f64> = (0..n).map(|i| dot(mass.row(i), &inverse)).collect();
@@ -140,7 +140,7 @@ fn operational_space_inertia_makes_the_accelerations_of_a_force_on_the_frame() {
         let body = BodyId::Body(scene.bodies.len() - 1);
         let at = [0.3, 0.2, 0.0];
         let n = tree.velocities().len();
-        // a force and a moment, converted to efforts: the accelerations of the frame that these alone cause
+        // a force and a moment are converted to efforts; the test uses the accelerations of the frame that these efforts alone cause
         let mut force = Random::new(4).vector(6, 6, 2.0);
         if scene.dimension == Dimension::Planar {
             force[2..5].fill(0.0);

@@ -107,7 +107,7 @@ fn a_mechanism_with_loops_is_moved_to_where_a_simulation_had_its_body() {
 fn a_position_that_is_far_from_closing_its_loops_is_refused_and_kept() {
     let mut bars = tree(&file("four-bar"));
     let n = bars.velocities().len();
-    // the rods point away from each other
+    // this state is far from closing the loop: the rods point away from each other
     let apart = [2.5, -2.0, 1.9];
     bars.set(&apart, &vec![0.0; n]).expect("a state");
     let target = FrameTarget::default();

@@ -36,7 +36,7 @@ const HEADER: [&str; 26] = [
 /// Writes a row for each run with its status, its error and its CPU time. Cells without a measurement are empty.
 ///
 /// # Errors
-/// Errors of the sink.
+/// Errors of the writer `sink`.
 pub fn write_comparison(sink: impl io::Write, comparison: &Comparison) -> io::Result<()> {
     let mut out = csv::Writer::from_writer(sink);
     out.write_record(HEADER)?;

@@ -180,7 +180,7 @@ pub struct RunEntry {
     pub error: Option<f64>,
     /// Root mean square of these errors.
     pub error_rms: Option<f64>,
-    /// Is the error less than three times the reference's uncertainty, so that the reference does not resolve it?
+    /// True if the error is less than three times the reference's uncertainty. The reference does not resolve such an error.
     pub is_below_reference: bool,
     /// CPU times of the steps, one for each repetition from a new start [s].
     pub cpu_seconds: Vec<f64>,

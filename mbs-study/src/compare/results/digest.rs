@@ -5,7 +5,7 @@ use super::{fit, front, rank};
 
 /// Error below which a run is marked as not resolved, in units of the reference's uncertainty [-]. Chosen, not tuned.
 const MIN_RESOLVED: f64 = 3.0;
-/// Ratio to the fastest time of a formulation up to which a method may be the fastest after more timings [-]. Chosen, not tuned.
+/// Largest ratio to the fastest time of a formulation at which a method may still be the fastest after more timings [-]. Chosen, not tuned.
 const NEARLY: f64 = 1.15;
 /// Inverse of the relative difference up to which two numbers of steps are equal: a fiftieth. Chosen, not tuned.
 const SAME_COUNT: u64 = 50;
@@ -34,8 +34,8 @@ impl Comparison {
         self.ranking = levels.iter().map(|level| self.ranked(*level)).collect();
     }
 
-    /// Runs whose times decide the ranking at these errors, each by method and run. They are the runs around an error, of methods that are
-    /// the fastest of their formulation and integrator, or nearly so.
+    /// Returns the runs whose times decide the ranking at these errors, each by the indices of its method and of the run. They are the runs
+    /// around a ranked error. They belong to the fastest method of a formulation and integrator, or to methods that are nearly as fast.
     #[must_use]
     pub fn decisive(&self, levels: &[f64]) -> Vec<(usize, usize)> {
         let mut runs = Vec::new();
@@ -124,8 +124,8 @@ impl MethodRuns {
         Some(self.at_error(level, instants)?[0])
     }
 
-    /// Returns the method with only its timed runs around an error, to be timed again. Each run has the error that it is credited with, and
-    /// no times.
+    /// Returns the method with only its timed runs around an error, to be timed again. Each run has no times, and at least the error of the
+    /// next finer run.
     #[must_use]
     pub fn beside_alone(&self, level: f64) -> Self {
         let untimed = |(i, error): (usize, f64)| RunEntry {
@@ -136,8 +136,8 @@ impl MethodRuns {
         Self { runs: self.beside(level).into_iter().map(untimed).collect(), ..self.clone() }
     }
 
-    /// Can there be a run with more steps than the coarse run and fewer than the fine run? Fixed steps must divide the intervals of the
-    /// results. If the intervals limit an integrator's own steps, the number of steps changes in jumps with the tolerance.
+    /// True if a run is possible that has more steps than the coarse run and fewer than the fine run. Fixed steps must divide the intervals of
+    /// the results. If the intervals limit an integrator's own steps, the number of steps changes in jumps with the tolerance.
     #[doc(hidden)]
     #[must_use]
     pub fn has_between(&self, [coarse, fine]: [u64; 2], instants: u64) -> bool {
@@ -148,7 +148,7 @@ impl MethodRuns {
         }
     }
 
-    /// Indices of the runs around an error, each with the error that it is credited with.
+    /// Indices of the runs around an error. Each run has at least the error of the next finer run.
     fn beside(&self, level: f64) -> Vec<(usize, f64)> {
         let (places, errors): (Vec<usize>, Vec<f64>) =
             self.timed().map(|(i, (error, _))| (i, error)).unzip();

@@ -14,7 +14,7 @@ const RESIDUAL: f64 = 0.15;
 const MOST_ORDER: f64 = 20.0;
 /// Relative difference below which two steps are equal [-], since steps are adapted to the instants of the results. Chosen, not tuned.
 const SAME_STEP: f64 = 1e-6;
-/// Ratio of an error at a shorter step to the smallest error, from which it is caused by rounding [-]. Chosen, not tuned.
+/// Smallest ratio to the smallest error at which a larger error at a shorter step is attributed to rounding [-]. Chosen, not tuned.
 const GROWN: f64 = 2.0;
 
 /// Fits the order to points (step, error), from the longest step to the shortest. The reference does not resolve errors below `floor`.
@@ -37,7 +37,7 @@ pub fn fit(points: &[(f64, f64)], floor: f64) -> Option<Fit> {
     })
 }
 
-/// Do neighbouring points show an order?
+/// True if neighbouring points lie on a line that shows an order.
 fn is_line(points: &[(f64, f64)]) -> bool {
     let [first, _, .., last] = points else { return false };
     let order = slope(points);

@@ -9,7 +9,8 @@ pub const FLOOR: f64 = 1e-3;
 
 /// Computes the scales of all channels. Components of a channel with the same unit have one scale: their largest range over the reference. It
 /// is at least a thousandth of the largest range of all outputs of that unit. For lengths it is also at least a thousandth of the scene's
-/// length [m], for angles of a radian. Outputs of the run itself, such as its energy error, have no scale and are not compared.
+/// length [m]. For angles it is at least a thousandth of a radian. Outputs of the run itself, such as its energy error, have no scale and are
+/// not compared.
 #[must_use]
 pub fn output_scales(channels: &[Channel], rows: &[Vec<f64>], length: f64) -> Vec<OutputScale> {
     let mut scales: Vec<OutputScale> = Vec::new();

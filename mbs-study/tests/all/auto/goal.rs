@@ -1,4 +1,4 @@
-//! Goals, and times as texts.
+//! Checks of goals, and parsing of times with units.
 
 use mbs::{Method, Precision};
 use mbs_study::auto::{Goal, GoalError, time};

@@ -1,4 +1,4 @@
-//! Classes and percentiles of the times of steps.
+//! Histogram classes and percentiles of step times.
 
 use mbs_study::inside::compare::step_times;
 

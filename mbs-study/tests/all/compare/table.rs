@@ -20,7 +20,7 @@ fn a_table_may_have_some_instants_and_some_columns() {
     assert_eq!(given, [true, false, false, true]);
     assert_eq!(table.rows[3].as_ref().unwrap()[1].to_bits(), 1.5e-3_f64.to_bits());
     assert_eq!(table.has, [false, true]);
-    // root mean square of half units of the last digits, 0.005 and 0.00005
+    // this is the root mean square of half units of the last digits, 0.005 and 0.00005
     let expected = 0.005 * (0.5_f64 * 1.0001).sqrt();
     assert!((table.digits[1] - expected).abs() < 1e-15, "{:?}", table.digits);
 }

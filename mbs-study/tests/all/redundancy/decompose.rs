@@ -8,8 +8,8 @@ use mbs_study::redundancy::Jacobian;
 
 #[test]
 fn groups_of_a_null_space_do_not_depend_on_its_basis() {
-    // five joints of two rows each; one null vector on joints 0 and 1, (1, 0, 1, 0, ...); another on joints 2 and 3, (0, 0, 0, 0, 1, -2, 0,
-    // 1)
+    // each of five joints has two rows; one null vector is on joints 0 and 1, (1, 0, 1, 0, ...); another is on joints 2 and 3, (0, 0, 0, 0, 1,
+    // -2, 0, 1)
     let zero = Wrench { force: Vector::zeros(), moment: Vector::zeros() };
     let rows = (0..5).map(|i| 2 * i..2 * i + 2).collect();
     let jacobian = Jacobian { matrix: Matrix::zeros(0, 0), rows, wrenches: vec![zero; 10] };

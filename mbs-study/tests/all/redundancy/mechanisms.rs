@@ -24,7 +24,7 @@ fn a_spatial_four_bar_has_three_redundancies_across_its_plane() {
     assert_eq!((d.sizes, dof(&d)), ([20, 18, 17], 1));
     assert_eq!(sets(&d), [(vec![0, 1, 2, 3], 3, Nature::Structural)]);
     for member in &d.sets[0].members {
-        // components are open for one force normal to the plane and two moments in it; loads in the plane are determined
+        // one force normal to the plane and two moments in it are not determined; loads in the plane are determined
         assert_eq!(member.open, [1, 2, 3]);
         assert_eq!(member.is_unique, [true, true, false, false, false, true]);
     }
@@ -88,7 +88,7 @@ fn scott_russell_with_both_slides_has_one_redundancy_in_all_joints() {
     let d = diagnosis(&b.0);
     assert_eq!((d.sizes, dof(&d)), ([12, 12, 11], 1));
     assert_eq!(sets(&d), [((0..6).collect(), 1, Nature::Structural)]);
-    // the moments of the slides are determined; at a slide only the force across it is open
+    // the moments of the slides are determined; at a slide only the force across it is not determined
     assert_eq!(d.sets[0].members[3].is_unique, [true, false, true]);
 }
 
@@ -145,7 +145,7 @@ fn a_linkage_of_four_skew_hinges_is_a_structure_and_one_digit_off_is_reported_so
     };
     let far = build(0.1);
     assert_eq!((dof(&far), far.sets[0].redundant, far.sets[0].nature), (0, 2, Nature::Rigid));
-    // an error in the seventh digit: two exact redundancies, and a third almost exact one
+    // an error in the seventh digit leaves two exact redundancies, and makes the third almost exact
     let near = build(3e-7);
     assert_eq!((dof(&near), near.sets.len()), (0, 2));
     let almost = &near.sets[1];

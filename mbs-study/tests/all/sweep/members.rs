@@ -116,7 +116,7 @@ fn parts_are_joined_to_the_table_of_one_run_and_what_lacks_is_named() {
     let job = completed;
     let report = study.run_jobs(&all(&whole), &mut (), job).expect("the directory is ours");
     let table = |out: &Path| std::fs::read_to_string(out.join("table.csv")).expect("a table");
-    // including more parts than members
+    // the last number of parts exceeds the number of members
     for of in [1, 2, 4, 7] {
         let out = scratch("parts");
         let run = |number: usize, job: &(dyn Fn(usize) -> Row + Sync)| {
@@ -166,7 +166,7 @@ fn parts_that_do_not_belong_together_are_refused() {
     let counts = study.join(&out).expect_err("two counts").to_string();
     assert_eq!(counts, "part 1/2 is of 2 parts, and part 2/3 of 3");
     std::fs::remove_file(out.join("part-2-of-3.journal")).expect("it is there");
-    // the journal of the first part under the name of the second
+    // the journal of the first part gets the name of the journal of the second part
     std::fs::copy(out.join("part-1-of-2.journal"), out.join("part-2-of-2.journal")).expect("ours");
     for foreign in [study.join(&out).map(drop), run("2/2").map(drop)] {
         let why = foreign.expect_err("it is of another part").to_string();

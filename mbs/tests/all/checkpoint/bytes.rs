@@ -79,7 +79,7 @@ fn no_bytes_do_harm() {
             changed[..begin].copy_from_slice(&bytes[..begin]);
             let restored = simulation.restore((&scene, &settings), &sealed(&changed)[..]);
             if case.control != "fixed" && restored.is_ok() {
-                // the end may be far away, as the steps suit the changed state
+                // the run to the end may need very many steps, because the changed state determines their length
                 let _ = (0..20).try_for_each(|_| simulation.advance(case.rest()).map(|_| ()));
             } else if case.integrator == "trapezoidal" {
                 let from = Recording { from: Some(&checkpoint), ..Recording::default() };

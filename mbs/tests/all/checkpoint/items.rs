@@ -201,7 +201,7 @@ const CARRIED: [Item; 6] = [
     ("residuals", Left::Fresh),
 ];
 
-/// Bytes of an energy rule without history: it is present, with no change, and none in a row.
+/// Bytes of an energy rule without history: a flag that the rule is present, no change of energy, and a count of zero.
 const NO_ENERGY: &[u8] = &[1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0];
 /// Bytes of an error control without history: it is present, with no error, not rejected.
 const NO_ERROR: &[u8] = &[1, 0, 0];
@@ -226,10 +226,10 @@ fn every_item_of_the_natural_state_matters() {
 
 #[test]
 fn what_the_penalty_remembers_matters() {
-    // through the singular position of two four-bar linkages
+    // the steps pass the singular position of two four-bar linkages
     let items = [
         ("penalty", Left::Of(|_| 1.0_f64.to_le_bytes().to_vec())),
-        // as after a step that failed
+        // the value that a failed step leaves
         ("strength of penalties", Left::Of(|_| 16_384.0_f64.to_le_bytes().to_vec())),
         ("combination of constraints", Left::Of(|part| all(part, 1.0))),
         ("what is left of the combination", Left::Bytes(&[0; 8])),
@@ -250,7 +250,7 @@ fn what_the_penalty_remembers_matters() {
         steps += 1;
         assert!(steps < 5000, "no penalty is raised");
     }
-    // and checkpoints on the way to the singular position
+    // further checkpoints are made on the way to the singular position
     every_item_matters::<2>(Case { steps: [steps - 8, 100], places: 60, ..case }, &items);
 }
 

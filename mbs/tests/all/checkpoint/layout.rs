@@ -157,7 +157,7 @@ impl<'a> Walk<'a> {
             }
             walk.named("invariant", |walk| walk.numbers(N_INVARIANT as u64))?;
             walk.named("inputs", |walk| {
-                // inputs of effects, guides and signals
+                // these are lists of the inputs of effects, guides and signals
                 let input = |walk: &mut Self| walk.numbers(5);
                 walk.list(input)?;
                 walk.list(input)?;

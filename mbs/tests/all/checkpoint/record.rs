@@ -75,7 +75,7 @@ fn every_item_matters<const D: usize>(name: &str, overrides: &Method, at: f64, i
                 kept.with(item, &(done + 1).to_le_bytes())
             }
             "turns of angles" => {
-                // the rate is uniform: with the time, the last number, the revolutions could be found again
+                // the rate is uniform: the revolutions could be computed again from the time, which is the last number
                 let (mut turns, now) = (first.part(item).to_vec(), kept.part(item));
                 let n = u64::from_le_bytes(now[..8].try_into().expect("eight bytes"));
                 let time = 8 * usize::try_from(n).expect("a small count");

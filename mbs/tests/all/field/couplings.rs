@@ -21,7 +21,7 @@ fn ends_with(name: &str, scene: &Scene<f64>, values: &[(usize, f64)]) {
         for &(column, right) in values {
             let coarse = last(&coarse)[column];
             let [one, half] = [&rule[0], &rule[1]].map(|run| last(run)[column]);
-            // the rule's error with an order of at least 1.9
+            // this is the largest error of a rule with an order of at least 1.9
             let by_the_rule = 1.37 * (one - half).abs() + 1e-9 * right.abs();
             assert!(
                 (coarse - right).abs() < by_the_rule,
@@ -58,10 +58,10 @@ fn sums_and_signals_take_the_coordinates_of_a_free_body_in_every_formulation() {
     let fall = -0.5 * 9.81 * 0.3 / (0.3 + 0.25) * 0.09;
     let reel = text("26-coupling-on-a-free-body");
     ends_with("reel", &read(&reel, "reel"), &[(1, fall), (2, -fall / 0.02)]);
-    // 2 x'' = -80 x
+    // the equation of motion is 2 x'' = -80 x
     let disc = text("26-signal-on-a-free-body");
     ends_with("disc", &read(&disc, "disc"), &[(0, 0.1 * (40.0_f64.sqrt() * 0.3).cos())]);
-    // the same motion by an effect on a sum of coordinates
+    // an effect on a sum of coordinates gives the same motion
     let effect = disc.find("[[signal]]").zip(disc.find("[[initial]]"));
     let (from, to) = effect.expect("signals and a start");
     let spring = "[[effect]]\nkind = \"spring-damper\"\nterms = [{ joint = \"place\", coordinate = \"x\", factor = 1.0 }]\n\
@@ -113,7 +113,7 @@ fn efforts_are_torques_forces_and_tensions_of_the_drawn_machine() {
     let differential = format!("{}\n{effort}{power}", text("22-differential-axes-outward"));
     // each half shaft of 0.03 kg m² accelerates by 25 rad/s²
     ends_with("differential", &read(&differential, "d"), &[(9, 0.75), (10, 0.75 * 12.5)]);
-    // with tension T and acceleration a: 60 (g − a) = T, 0.25 T = 0.5 a/0.25
+    // tension T and acceleration a follow from 60 (g − a) = T and 0.25 T = 0.5 a/0.25
     ends_with("tension of a rope", &field("29-axle-of-a-winch"), &[(3, 69.247_058_823_529_41)]);
     ends_with("force of a thread", &field("30-lead-screw"), &[(0, 600.0)]);
     let units = |name: &str| {

@@ -83,7 +83,7 @@ fn a_bushing_in_the_plane_springs_back_from_any_angle() {
             errs_by_the_rule_alone(found, right, formulation);
         }
     }
-    // wound up by two revolutions: q(1 s) is proportional to the start; the steps of multi-index are not those requested
+    // the spring is wound up by two revolutions, so q(1 s) is proportional to the start; multi-index does not make the requested steps
     let scene = let_go_at("12.0");
     for formulation in formulations().filter(|formulation| *formulation != "multi-index") {
         let found = [1e-3, 5e-4].map(|step| value::<2>(&scene, formulation, step));
@@ -110,7 +110,7 @@ fn rejected_steps_leave_the_turn_of_a_bushing_as_it_was() {
     for formulation in formulations() {
         let overrides = Method {
             formulation: Some(formulation.into()),
-            // much too long, so that the first trials are rejected
+            // this step is much too long, so that the first trials are rejected
             step: Some(0.2),
             step_max: Some(0.2),
             error_tolerance: Some(1e-9),

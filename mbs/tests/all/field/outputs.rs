@@ -29,7 +29,7 @@ fn efforts_of_a_cross_with_oblique_axes_are_about_its_axes() {
 #[test]
 fn the_power_of_a_cross_is_its_moment_times_the_turn() {
     let oblique = text("60-guided-cross");
-    // axes at any angle, including a right and an acute one, and the bodies in both orders
+    // the axes have a right, an acute and other angles, and the bodies have both orders
     for axes in [
         "[[0.0, 1.0, 0.0], [1.0, 0.4, 0.0]]",
         "[[0.0, 1.0, 0.0], [1.0, 0.0, 0.0]]",
@@ -105,8 +105,8 @@ fn a_link_at_rest_between_joints_that_move_stops_nothing() {
 /// Angle [rad] and energy [J] of a bar that falls on a stop, at 1.2 s, by an independent integrator with a tolerance of 1e-12.
 const STOPPED: [f64; 2] = [-0.961_152_555_21, 0.0];
 
-/// Forces that begin just before the end of a long step are resolved, since every column of the extrapolation has the rates at the end. Each
-/// of some hundred steps may have an error of its tolerance. Steps over a corner of the force may have some hundred times that.
+/// Forces that begin just before the end of a long step are resolved, since every column of the extrapolation has the rates at the end. Each of
+/// some hundred steps may have an error of the size of the tolerance. A step over a corner of the force may have some hundred times this error.
 #[test]
 fn extrapolation_sees_a_stop_at_the_end_of_its_steps() {
     let scene = field("62-stop-by-gbs");

@@ -99,7 +99,7 @@ fn a_tree_with_all_values_starts_whatever_its_inertias_are() {
         let scene = read(&text, "tree");
         let (model, state) = start::<3>(&scene);
         let arm = model.motion(&scene, 2, &state);
-        // rotation of the arm, Ry(0.8) Rx(-0.9) Rz(0.3)
+        // the arm has the rotation Ry(0.8) Rx(-0.9) Rz(0.3)
         let about = |axis: usize, angle: f64| {
             let w: [f64; 3] = std::array::from_fn(|i| if i == axis { angle } else { 0.0 });
             mbs::core::algebra::rotation(&w.into())

@@ -85,7 +85,7 @@ fn changes_by_handle_keep_the_rest_of_a_file() {
     assert!(written.contains("[0.0, -1.62]") && written.contains("mass = 3.0"), "{written}");
     assert!(written.contains("[[effect]]\nname = \"effect-1\""), "{written}");
     assert_eq!(Mechanism::parse(&written).expect("a scene"), m);
-    // a change by path, after one by handle
+    // a change by path follows a change by handle
     m.set("effect.effect-1.value", -0.5).expect("a path");
     assert_eq!((m.part(lower).mass.to_f64(), m.get("effect.effect-1.value")), (3.0, Ok(-0.5)));
 }

@@ -23,7 +23,7 @@ fn a_quaternion_turns_axes_as_its_rotation_does() {
         let sign = half.cos().signum();
         let right = [half.cos(), n[0] * half.sin(), n[1] * half.sin(), n[2] * half.sin()];
         for (a, b) in q.iter().zip(right) {
-            // about eight rounding errors of numbers of order one
+            // the limit is about eight rounding errors of numbers of order one
             assert!((a - sign * b).abs() < 1e-15, "{q:?} for {right:?}");
         }
     }

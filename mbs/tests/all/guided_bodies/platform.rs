@@ -51,7 +51,7 @@ fn expected(t: f64) -> [Vec<f64>; 7] {
     let of = |x: Vector| move |t: f64| add(AT, m.place(minus(x, AT), t));
     let second = |x: Vector| rate(|t| rate(of(x), t), t);
     let (omega, omega_t) = (m.spin(t), rate(|t| m.spin(t), t));
-    // with the guided point p and the centre c: F = m (a − g), M = I ω' + ω × I ω + (c − p) × F
+    // the guided point p and the centre c give the efforts F = m (a − g), M = I ω' + ω × I ω + (c − p) × F
     let force = scaled(minus(second(CENTER), GRAVITY), MASS);
     let r = m.rotation_at(t);
     let inertia = product(&product(&r, &INERTIA), &transposed(&r));

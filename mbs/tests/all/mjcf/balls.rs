@@ -4,7 +4,7 @@ use super::{agrees, turns};
 
 #[test]
 fn a_time_and_a_damping_ratio_of_a_ball_follow_from_the_mean_of_what_it_moves() {
-    // rotated by (0.2, 0.1, 0), with a rate of 0.5 rad/s about z
+    // the ball is rotated by the rotation vector (0.2, 0.1, 0) [rad] and has a rate of 0.5 rad/s about z
     let model = r#"<mujoco><worldbody><body name="b" pos="0 0 1"><joint name="ball" type="ball" springdamper="0.2 1"/><geom type="box" pos="0 0 -0.2" size="0.05 0.1 0.2" mass="2"/></body></worldbody>
 <keyframe><key name="on" qpos="QPOS" qvel="QVEL"/></keyframe></mujoco>"#;
     let model = model.replace("QPOS", KEY[0]).replace("QVEL", KEY[1]);

@@ -15,10 +15,10 @@ fn one(joint: &str, geom: &str, extra: &str, key: &str) -> String {
 #[test]
 fn a_spring_of_three_numbers_pushes_by_k_x_plus_an_even_and_a_cubic_term() {
     let wagon = r#"type="box" size="0.1 0.1 0.1" mass="2""#;
-    // force -(100 x + 400 x²) - (2 + 3 |v|) v on 2 kg
+    // the force -(100 x + 400 x²) - (2 + 3 |v|) v acts on 2 kg
     let way = r#"type="slide" axis="1 0 0" stiffness="100 400" damping="2 3""#;
     agrees(&one(way, wagon, "", r#"qpos="0.1" qvel="-0.5""#), &[("j", -6.125)]);
-    // force 50 · 0.2 - 20 · 0.04 + 300 · 0.008 on 2 kg
+    // the force 50 · 0.2 - 20 · 0.04 + 300 · 0.008 acts on 2 kg
     let way = r#"type="slide" axis="1 0 0" stiffness="50 20 300""#;
     agrees(&one(way, wagon, "", r#"qpos="-0.2""#), &[("j", 5.8)]);
 }
@@ -39,7 +39,7 @@ fn motors_of_one_joint_and_of_one_tendon_are_limited_together() {
 
 #[test]
 fn drag_of_a_geared_motor_is_in_the_rate_of_the_joint() {
-    // drag torque 4 (0.5 · 2 + 0.25 · 4 + 0.125 · 8) on J = 10 · 0.2²/2 kg m²
+    // the drag torque 4 (0.5 · 2 + 0.25 · 4 + 0.125 · 8) acts on the inertia J = 10 · 0.2²/2 kg m²
     let motor = r#"<actuator><motor joint="j" gear="2" damping="0.5 0.25 0.125"/></actuator>"#;
     let wheel = r#"type="cylinder" size="0.2 0.05" mass="10""#;
     agrees(&one(r#"axis="0 0 1""#, wheel, motor, r#"qvel="-2""#), &[("j", 60.0)]);
@@ -50,7 +50,7 @@ fn a_motor_keeps_its_range_beside_a_servo_that_inherits_one() {
     let model = r#"<mujoco><compiler angle="radian"/><default><position kp="100" inheritrange="1"/><motor ctrlrange="-20 20"/></default>
 <worldbody><body pos="0 0 1"><joint name="knee" axis="0 1 0" range="0.2 1.6"/><geom type="box" pos="0.15 0 0" size="0.15 0.02 0.02" mass="1"/></body></worldbody>
 <actuator><motor joint="knee"/></actuator><keyframe><key name="on" qpos="0.9" ctrl="5"/></keyframe></mujoco>"#;
-    // acceleration (5 + m g l cos q)/J of the knee
+    // the knee has the acceleration (5 + m g l cos q)/J
     let inertia = (0.15_f64 * 0.15 + 0.02 * 0.02) / 3.0 + 0.15 * 0.15;
     let expected = (5.0 + 9.81 * 0.15 * 0.9_f64.cos()) / inertia;
     agrees(model, &[("knee", expected)]);
@@ -66,7 +66,8 @@ fn a_body_that_stands_needs_no_force_against_gravity() {
 
 #[test]
 fn a_damped_free_body_has_a_moment_against_its_turn_and_a_force_against_its_velocity() {
-    // rotated by 0.9 rad about x, with a rate of 2 rad/s about y: Euler's equations with the moment -w
+    // the body is rotated by 0.9 rad about x and has a rate of 2 rad/s about y; Euler's equations have the moment -w, with the angular velocity
+    // w
     let (sine, cosine) = 0.9_f64.sin_cos();
     let model = r#"<mujoco><worldbody><body name="b" pos="0 0 1"><joint type="free" damping="1"/><geom type="box" size="0.1 0.2 0.05" mass="1"/></body></worldbody>
 <keyframe><key name="on" qpos="0 0 1 HALF_COSINE HALF_SINE 0 0" qvel="0 0 0 0 Y Z"/></keyframe></mujoco>"#;

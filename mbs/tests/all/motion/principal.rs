@@ -4,7 +4,7 @@ use mbs::inside::tested::principal;
 
 #[test]
 fn a_turned_inertia_has_its_own_moments_along_its_own_axes() {
-    // diag(1, 2, 4) rotated about (1, 1, 1)/sqrt 3 by a third of a revolution, then about z by 0.3 rad
+    // the inertia is diag(1, 2, 4), rotated about (1, 1, 1)/sqrt 3 by a third of a revolution, then about z by 0.3 rad
     let (sin, cos) = 0.3_f64.sin_cos();
     let axes = [[0.0, 0.0, 1.0], [cos, sin, 0.0], [-sin, cos, 0.0]];
     let of = |i: usize, j: usize| {

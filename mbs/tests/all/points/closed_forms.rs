@@ -97,7 +97,7 @@ fn two_points_on_springs_oscillate_along_and_across_them() {
         found.sort_by(f64::total_cmp);
         assert_eq!(found.len(), expected.len());
         for (found, expected) in found.iter().zip(&expected) {
-            // error of the square root of the eigenvalues' rounding
+            // the limit is the square root of the rounding of the eigenvalues
             assert!((found - expected).abs() < 1e-7, "{found}, not {expected}");
         }
         // at rest the forces balance to rounding

@@ -23,7 +23,7 @@ fn a_spherical_pendulum_of_a_point_follows_its_equation() {
         output("ball", &at, "velocity"),
     ]
     .concat();
-    // acceleration on the sphere: x'' = g - x (g.x + v.v) / x.x
+    // a point x with velocity v on the sphere has the acceleration x'' = g - x (g.x + v.v) / x.x
     let slope = |s: &[f64; 6]| {
         let (x, v) = (&s[..3], &s[3..]);
         let pull = (dot(&DOWN, x) + dot(v, v)) / dot(x, x);
@@ -60,7 +60,8 @@ fn chain_slope(s: &[f64; 18]) -> [f64; 18] {
     };
     let r: [[f64; 3]; 3] = core::array::from_fn(|i| link(0, i));
     let w: [[f64; 3]; 3] = core::array::from_fn(|i| link(9, i));
-    // with tensions over lengths t and link vectors r, w: a_i = g + (-t_i r_i + t_(i+1) r_(i+1)) / m_i, r_i.(a_i - a_(i-1)) + w_i.w_i = 0
+    // t_i is the tension of link i over its length, r_i the vector along the link, and w_i its rate: a_i = g + (-t_i r_i + t_(i+1) r_(i+1)) /
+    // m_i, r_i.(a_i - a_(i-1)) + w_i.w_i = 0
     let mut a = [[0.0; 4]; 3];
     for i in 0..3 {
         let before = if i > 0 { 1.0 / MASSES[i - 1] } else { 0.0 };

@@ -77,7 +77,8 @@ fn two_slides_on_a_hyperbola_move_as_its_equation_says_in_every_formulation() {
     }
 }
 
-/// Scene of a carrier on a slide and a bead on it, perpendicular to the slide, on an ellipse; and its equation of motion.
+/// Returns a scene and its equation of motion. A carrier moves on a slide. A bead moves on the carrier, perpendicular to the slide. A relation
+/// holds the bead on an ellipse.
 fn trammel() -> (Scene<f64>, impl Fn([f64; 2]) -> f64) {
     let (axes, mass, gravity) = ([0.7, 0.4], [2.0, 0.9], [-1.0, 4.0, -7.0]);
     let [u, w] = [[0.48, 0.64, 0.6], [0.8, -0.6, 0.0]];

@@ -42,7 +42,7 @@ fn wheels(dimension: usize) -> String {
     text + "[[initial]]\njoint = \"a\"\nvalue = 0.0\nrate = 7.0\n"
 }
 
-/// Both scenes move alike, with the same efforts, to the digits given for each method.
+/// Both scenes move alike, with the same efforts. `allowed` is the largest difference for each method.
 fn are_alike([own, library]: [&Scene<f64>; 2], duration: f64, allowed: impl Fn(Way) -> f64) {
     for way in WAYS {
         let [a, b] = [own, library].map(|scene| run(scene, way, 1e-3, duration, 1));
@@ -63,7 +63,7 @@ fn a_relation_that_is_a_sum_is_the_linear_coupling() {
         let own = of_joints(&[0, 1, 2], Sum(factors.to_vec()));
         let library = Coupling::linear(joints.into_iter().zip(factors));
         let scenes = [own, library].map(|of| scene(&wheels(dimension), [of]));
-        // rounding and the iterations' tolerance over 500 steps
+        // the limit covers rounding and the tolerance of the iterations over 500 steps
         are_alike([&scenes[0], &scenes[1]], 0.5, |_| 1e-9);
     }
 }
@@ -113,7 +113,8 @@ fn a_relation_of_angles_and_a_length_is_the_coupling_of_curves_and_a_line() {
             CouplingTerm { factor: 1.into(), of: line(), curve: None },
         ]);
         let scenes = [own, library].map(|of| scene(&wheels(dimension), [of]));
-        // rounding and the tolerance of the iterations over 300 steps; in state space, rounding also decides when the basis changes
+        // the limits cover rounding and the tolerance of the iterations over 300 steps; in state space, rounding also decides when the basis
+        // changes
         let allowed = |way: Way| if way.0 == "state-space" { 1e-6 } else { 1e-8 };
         are_alike([&scenes[0], &scenes[1]], 0.3, allowed);
     }
@@ -122,7 +123,7 @@ fn a_relation_of_angles_and_a_length_is_the_coupling_of_curves_and_a_line() {
 #[test]
 fn formulations_agree_on_a_relation_of_angles_and_a_length_that_mixes_them() {
     for dimension in [2, 3] {
-        // effect of the iterations' tolerance on rates of 20 rad/s in 800 steps
+        // the limit of 1e-6 covers the effect of the iterations' tolerance on rates of 20 rad/s in 800 steps
         let measures = [0, 1].map(|joint| CouplingMeasure::from(JointId::new(joint)));
         let measures = measures.into_iter().chain([line(&points(dimension))]);
         let scene =
@@ -149,7 +150,7 @@ fn a_ratio_of_a_relation_holds_over_many_hundred_turns() {
         let rows = run(&scene, way, 5e-4, 20.0, 100);
         let end = last(&rows);
         assert!(end[0] > 250.0 * core::f64::consts::TAU, "{way:?}: {end:?}");
-        // rounding of angles of 2,000 rad
+        // the limit is the rounding of angles of 2,000 rad
         let left = 13.0 * end[0] + 17.0 * end[2];
         assert!(left.abs() < 1e-10, "{way:?}: {left:e}");
     }

@@ -134,7 +134,7 @@ fn a_derivative_that_is_right_in_the_reference_configuration_alone_is_refused_at
     let SceneFault::Relation(RelationFault::Gradient { argument, numbers }) = fault else {
         panic!("{fault:?}")
     };
-    // derivative d/dx (x + y + x^3 y) at (1, -0.5)
+    // the derivative d/dx (x + y + x^3 y) at (1, -0.5) is -0.5
     assert_eq!((argument, numbers[0]), (0, 1.0));
     assert!((numbers[1] + 0.5).abs() < 1e-5, "{numbers:?}");
 }

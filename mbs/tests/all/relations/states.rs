@@ -48,7 +48,7 @@ fn a_bead_rests_at_the_lowest_point_of_its_ellipse_and_swings_there_as_its_equat
         assert_eq!(rest.unstable, Some(0));
         let found = modes(&m, &rest).expect("it swings");
         assert_eq!(found.modes.len(), 1);
-        // small motion: (m + M) a^2 s'' = -m g b (s + pi/2)
+        // a small motion has the equation (m + M) a^2 s'' = -m g b (s + pi/2), with the masses m of the bead and M of the carrier
         let right = (0.8 * g * b / (1.3 * a * a)).sqrt() / core::f64::consts::TAU;
         // numerical derivatives of forces have ten digits
         let frequency = found.modes[0].frequency();
@@ -68,7 +68,7 @@ fn single_precision_moves_as_doubles_do() {
             Some(values(&m, &sim))
         };
         let Some(doubles) = end(Precision::F64) else { continue };
-        // seven digits in 300 steps
+        // single precision has seven digits, some of which are lost in 300 steps
         for (x, y) in end(Precision::F32).into_iter().flatten().zip(&doubles) {
             assert!((x - y).abs() < 2e-2, "{method:?}: {x} {y}");
         }

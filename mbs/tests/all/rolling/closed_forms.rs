@@ -79,7 +79,8 @@ fn a_free_disc_rolls_as_its_equations_of_motion_say() {
 
 #[test]
 fn a_disc_leans_into_its_steady_circle() {
-    // steady circle of radius rho = 1 m with an inward lean of b = 0.3 rad: W^2 = 4 g tan b / (6 rho + R sin b)
+    // a disc of radius R on a steady circle of radius rho = 1 m, with an inward lean of b = 0.3 rad, turns at the rate W: W^2 = 4 g tan b / (6
+    // rho + R sin b)
     let (lean, rho, radius) = (0.3_f64, 1.0, 0.3);
     let w = (4.0 * 9.81 * lean.tan() / (6.0 * rho + radius * lean.sin())).sqrt();
     assert!((w - 1.411949572).abs() < 1e-9);

@@ -124,7 +124,7 @@ fn an_eccentric_wheel_rests_and_rocks_as_its_energy_says() {
             .unwrap_or_else(|e| panic!("{angle}: {e}"));
         // V = m g (R (t sin) - e cos t) with the angle t; at equilibrium the centre of mass is displaced sideways by R sin
         let turn = (RADIUS * angle.sin() / below).asin();
-        // distance of the centre of mass from the contact, and curvature of V
+        // `square` is the squared distance of the centre of mass from the contact; `up` gives the curvature of V
         let up = below * turn.cos();
         let square = (RADIUS * angle.sin() - below * turn.sin()).powi(2)
             + (RADIUS * angle.cos() - up).powi(2);
@@ -198,7 +198,7 @@ fn a_contact_that_pulls_is_noted_with_its_time_and_force() {
         assert_eq!(notes(1.5), [""; 0], "{formulation}");
         let noted = notes(3.0);
         let omega = core::f64::consts::TAU * 3.0;
-        // the first step after sin(w t) = g / (A w^2)
+        // the note has the end of the first step after sin(w t) = g / (A w^2), with amplitude A and angular frequency w
         let first = ((9.81 / (0.1 * omega * omega)).asin() / omega * 1e3).ceil() / 1e3;
         let begin = format!("`contact` pulls on its plane at t = {first} s, by up to ");
         assert_eq!(noted.len(), 1, "{formulation}: {noted:?}");

@@ -13,7 +13,8 @@ fn exact(text: &str, duration: f64) -> Vec<f64> {
     end(text, Way("recursive", "rk853"), 1e-3, duration)
 }
 
-/// Asserts an order of 1.9 to 2.1 and an error of at most 4/3 of the change by half the step. For order two this limit is the error itself.
+/// Asserts an order of 1.9 to 2.1. The error may be at most 4/3 of the change of the result when the step is halved. For a method of order two,
+/// this limit equals the error.
 fn is_of_order_two(text: &str, (duration, step): (f64, f64), right: &[f64]) {
     for formulation in WAYS {
         let by = |step| end(text, Way(formulation, "trapezoidal"), step, duration);

@@ -5,7 +5,8 @@
 //! M22 = I2 + m2 c2² + R2                                          R: inertia ratio² of the rotors
 //! ```
 //!
-//! The second rotor rotates with the elbow only: R2 is in M22 and in no other entry.
+//! Link i has the mass mi, the inertia Ii about its centre, and the distance ci of its centre from its joint. l is the length of the first
+//! link, and b the angle of the elbow. The second rotor rotates with the elbow only: R2 is in M22 and in no other entry.
 
 use super::{head, initial, output, rotor};
 use crate::common::oracle::{TRAPEZOIDAL, Way, last, rows};
@@ -81,7 +82,7 @@ fn arm(dimension: usize, enabled: &str) -> String {
     .concat()
 }
 
-/// Rates of the state: from angles and rates, returns rates and accelerations.
+/// Returns the rates and accelerations for given angles and rates.
 fn motion([a, b, a1, b1]: [f64; 4], reflected: [f64; 2]) -> [f64; 4] {
     let [[m1, c1, i1], [m2, c2, i2]] = LINKS;
     let coupling = m2 * LENGTH * c2;

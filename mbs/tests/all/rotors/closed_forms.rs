@@ -115,7 +115,7 @@ fn housing() -> String {
 
 #[test]
 fn a_housing_that_is_free_to_turn_gets_the_torque_of_the_wheel_alone() {
-    // equations of motion: [[0.3, J], [J, J + I]] (h, w)'' = (0, 0.8), J = 0.02, I = 0.25 kg m^2
+    // the angles h of the housing and w of the wheel have the equations [[0.3, J], [J, J + I]] (h, w)'' = (0, 0.8), J = 0.02, I = 0.25 kg m^2
     let (j, i) = (0.02, 0.25);
     let det = 0.3 * (j + i) - j * j;
     let right = [-j * 0.8 / det, 0.3 * 0.8 / det];
@@ -131,7 +131,7 @@ fn a_housing_that_is_free_to_turn_gets_the_torque_of_the_wheel_alone() {
 
 #[test]
 fn a_guide_moves_the_rotor_too() {
-    // acceleration of the guide: f'' = -a w^2 sin(w t)
+    // the guide has the acceleration f'' = -a w^2 sin(w t), with amplitude a and angular frequency w
     let guide = "[[guide]]\njoint = \"JOINT\"\nsine = { amplitude = 0.3, frequency = 0.7 }\n";
     let effort = |joint| output(joint, "effort");
     let turn = [

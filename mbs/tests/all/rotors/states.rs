@@ -70,7 +70,7 @@ fn a_guided_joint_in_a_chain_has_the_effort_of_its_rotor_in_every_formulation() 
 
 #[test]
 fn a_rotor_beside_a_gear_adds_at_its_own_joint() {
-    // two wheels of 0.1 and 0.4 kg m^2 with b = -a / 2, and a rotor of 0.25 kg m^2 at b
+    // two wheels of 0.1 and 0.4 kg m^2 have the angles a and b = -a / 2; the joint of b has a rotor of 0.25 kg m^2
     let text = [
         head(2, "[0.0, 0.0]"),
         "[[body]]\nname = \"a\"\nmass = 1.0\ncenter = [0.0, 0.0]\ninertia = 0.1\n".into(),
@@ -85,7 +85,7 @@ fn a_rotor_beside_a_gear_adds_at_its_own_joint() {
     ]
     .concat();
     let acceleration = 0.6 / (0.1 + (0.4 + 0.25) / 4.0);
-    // the effort is the coupling's torque on a
+    // the effort is the torque of the coupling on wheel a
     let effort = (0.4 + 0.25) * -acceleration / 4.0;
     for formulation in TRAPEZOIDAL {
         let rows = run(&text, formulation, 1e-3 / 32.0, 1e-3);

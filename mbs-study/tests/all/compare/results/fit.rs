@@ -20,7 +20,7 @@ fn rounding_is_found_where_errors_grow_again_and_does_not_bend_the_order() {
     let fit = fit(&points, 0.0).unwrap();
     // at the shortest step on the line, 1.25e-3 s, rounding is an eighth of the error and changes the last slope by a tenth
     assert!((fit.order.unwrap() - 2.0).abs() < 0.1, "{fit:?}");
-    // rounding of 1e-12 equals the error 3 h^4 at h = 7.6e-4
+    // the rounding of 1e-12 equals the error 3 h^4 at the step h = 7.6e-4
     let below = fit.rounding_below.unwrap();
     assert!((6e-4..9e-4).contains(&below), "{below}");
 }

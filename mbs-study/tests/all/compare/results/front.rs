@@ -4,7 +4,7 @@ use mbs_study::inside::results::{at_error, beside};
 
 #[test]
 fn times_are_interpolated_between_the_runs_beside_the_error() {
-    // an error of h^2 and a time of 1/h
+    // a run with steps h has an error of h^2 and takes a time of 1/h
     let points: Vec<(f64, [f64; 1])> = [1e-1, 1e-2, 1e-3].map(|h| (h * h, [1.0 / h])).to_vec();
     let [t] = at_error(&points, 1e-5, |_, _| true).unwrap();
     assert!((t - 10.0 * f64::sqrt(10.0) * 10.0).abs() < 1e-9 * t, "{t}");

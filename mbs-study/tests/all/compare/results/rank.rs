@@ -36,7 +36,7 @@ fn a_quotient_that_the_repeats_do_not_show_is_none() {
     assert_eq!(printed(&of(&[1.0, 3.0], 0.5)), [(1, "m0"), (2, "m1")]);
 }
 
-/// Is a quotient of times that decides a rank within the relative distance `share` of the limit?
+/// True if a quotient of times that decides a rank is within the relative distance `share` of the limit.
 fn is_near(times: &[f64], share: f64) -> bool {
     let mut times = times.to_vec();
     times.sort_by(f64::total_cmp);

@@ -37,7 +37,7 @@ fn degrees_have_the_scales_of_radians() {
         output_scales(&channels, &[vec![0.0; 3], vec![4.0 * n, 0.0, 3.0]], 0.5)
     };
     let radians = both(["rad", "rad", "rad/s"], 1.0);
-    // one of two angles in degrees, or both
+    // one of the two angles is in degrees, or both are
     for (units, of_still) in [(["deg", "rad", "rad/s"], 1.0), (["deg", "deg", "rad/s"], n)] {
         let degrees = both(units, n);
         for (i, factor) in [n, of_still, 1.0].into_iter().enumerate() {

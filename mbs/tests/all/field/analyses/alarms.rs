@@ -20,7 +20,7 @@ fn what_is_at_rest_without_forces_stays_there() {
         for formulation in ALL {
             let outcome = run(&field(name), &by(formulation));
             assert!(outcome.error.is_none(), "{name} {formulation}: {:?}", outcome.error);
-            // rounding of positions over the length of a run
+            // the limit is the rounding of positions over the length of a run
             let energy = outcome.summary.energy.max_error;
             assert!(energy < 1e-24, "{name} {formulation}: {energy:e} J");
         }
@@ -31,7 +31,7 @@ fn what_is_at_rest_without_forces_stays_there() {
 fn a_structure_carries_its_load_in_every_formulation() {
     for formulation in ALL {
         let outcome = run(&field("07-propped-bar"), &by(formulation));
-        // balance of moments about the foot: 12 kg, 9.81 m/s^2, 0.6 m over 3.2 m
+        // the balance of moments about the foot gives the force 12 kg · 9.81 m/s^2 · 0.6 m / 3.2 m
         let wall = last(&outcome, "wall", formulation);
         let force = wall[..2].iter().map(|x| x * x).sum::<f64>().sqrt();
         assert!((force - 22.0725).abs() < 1e-9, "{formulation}: {wall:?}");
@@ -50,7 +50,7 @@ fn a_loop_with_redundant_rows_runs_in_recursive_and_classical_says_why_not() {
     ];
     for (name, value) in wanted {
         let found = last(&outcome, name, "recursive")[0];
-        // error of the rule at 0.1 ms, and the digits of the reference
+        // the limit covers the error of the rule at 0.1 ms and the digits of the reference
         assert!((found - value).abs() < 1e-6, "{name}: {found} {value}");
     }
     let outcome = run(&scene, &by("classical"));

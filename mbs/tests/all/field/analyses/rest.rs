@@ -96,7 +96,7 @@ fn near_its_start_a_pendulum_stands_and_otherwise_it_hangs() {
 
 #[test]
 fn rates_that_do_not_fit_do_not_keep_it_from_an_equilibrium() {
-    // contradictory rates, of a joint and of a point of its body
+    // the rates of a joint and of a point of its body contradict each other
     let text = format!(
         "{PENDULUM}rate = 2.0\n[[initial]]\nbody = \"rod\"\nat = [0.0, -1.0]\nvelocity = [9.0, 0.0]\n"
     );
@@ -181,7 +181,7 @@ fn a_load_on_an_elastic_rope_over_three_points_rests() {
     assert_eq!(found.unstable, Some(0));
 }
 
-/// A wheel of 0.2 m rolls by a quarter revolution. The search rolls it, and slips by 2e-7 in a step of a fifth.
+/// A wheel of 0.2 m rolls by a quarter revolution. The search rolls the wheel. A large step of the search slips by about 2e-7.
 #[test]
 fn a_wheel_with_a_weight_off_its_centre_rests_where_it_rolls_to() {
     let wheel = text("24-wheel-rolls-to-rest");

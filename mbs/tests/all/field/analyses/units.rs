@@ -79,7 +79,7 @@ fn equilibria_and_modes_are_the_same_in_every_unit() {
     };
     let (still, modes) = analyse([1.0; 3]);
     assert_eq!((still.unstable, still.neutral), (Some(0), Some(0)));
-    // one degree of freedom of the hinge, three of the ball joint, one of the block
+    // the hinge has one degree of freedom, the ball joint three, the slide one
     assert_eq!(modes.len(), 5);
     for l in [1e-4, 1e-3, 0.1, 100.0] {
         for [m, t] in [[1.0, 1.0], [1e-6, 1.0], [1e6, 1.0], [1.0, 1e-3], [1.0, 60.0]] {
