@@ -5,7 +5,8 @@ use crate::vector::{compose, scale};
 
 /// Numbers of parts of the step in the rows of the extrapolation table.
 const PARTS: [usize; 4] = [2, 4, 6, 8];
-/// Ratio of a longer step to a step [-]. No row evaluates the last eighth of a step, so a kink there is seen only by a step of 8/7.
+/// Ratio of a longer trial step to a step [-]. The extrapolation does not evaluate the last eighth of a step. The longer step evaluates
+/// there, and so detects a kink.
 const BEYOND: f64 = 8.0 / 7.0;
 /// Largest number of steps in one call. Chosen, not tuned.
 const MOST_TRIALS: usize = 1_000;
@@ -101,7 +102,7 @@ impl Mechanism {
                 let next = before.iter().zip(&rates).map(|(y, f)| y + 2.0 * part * f).collect();
                 before = std::mem::replace(&mut at, next);
             }
-            // Gragg's sequence with even n has an expansion in h² without the final smoothing
+            // Gragg's sequence with an even number n of parts of length h has an error expansion in h² without the final smoothing
             let mut row = vec![at];
             for j in 1..=k {
                 let ratio = (n as f64 / PARTS[k - j] as f64).powi(2);

@@ -31,8 +31,8 @@ impl Now<'_> {
         row
     }
 
-    /// Returns the forces of a unit multiplier on bodies, where the scene gives the attachment points of the coupling. `sign` is that of
-    /// the effort. In all motions that joints allow, the power of these forces is that of the row.
+    /// Returns the forces of a unit multiplier on bodies, where the scene gives the attachment points of the coupling. `sign` is the sign
+    /// of the effort. In all motions that joints allow, these forces have the same power as the row.
     pub(crate) fn seated(&self, coupling: &Coupling, row: &Row, sign: f64) -> Option<Parts> {
         match &coupling.seat {
             Seat::Nowhere => None,

@@ -24,7 +24,7 @@ fn are_parallel(a: Vector, b: Vector) -> bool {
     norm(cross(a, b)) < PARALLEL
 }
 
-/// Is the line of one joint fixed in both bodies of another joint?
+/// True if the line of one joint is fixed in both bodies of another joint.
 fn stands(of: &Joint, in_both: &Joint, planar: bool) -> bool {
     let ((p, a), (q, b)) = (line(of, planar), line(in_both, planar));
     let off = sub(q, p);
@@ -39,7 +39,8 @@ fn stands(of: &Joint, in_both: &Joint, planar: bool) -> bool {
     }
 }
 
-/// Bodies in which the line of a joint is fixed: those that are reached from one of its bodies, without the other body.
+/// Bodies in which the line of a joint is fixed. The search begins at the body `from`, passes only joints that do not move the line, and
+/// does not enter `without`.
 fn bodies(
     joints: &[Joint],
     [one, other]: [usize; 2],

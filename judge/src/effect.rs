@@ -10,7 +10,7 @@ pub struct Line {
     pub bodies: [Carrier; 2],
     /// Points of the line on the two bodies.
     pub points: [Vector; 2],
-    /// Direction of the first body along which the line is measured; otherwise the distance is measured.
+    /// Direction, fixed in the first body, along which the line is measured; `None` if the distance is measured.
     pub direction: Option<Vector>,
 }
 
@@ -36,7 +36,7 @@ impl Path {
     }
 }
 
-/// Side force of a tire by the Calspan model: a, omega, b, skid, trail.
+/// Coefficients of a tire's side force by the Calspan model.
 #[derive(Debug, Clone)]
 pub struct Calspan {
     /// Coefficients A0 to A4.
@@ -71,9 +71,9 @@ pub struct Tire {
 /// Effect that is enabled, with its numbers.
 #[derive(Debug, Clone)]
 pub enum Effect {
-    /// Spring and damper: stiffness, damping, free value; does it only pull?
+    /// Spring and damper: stiffness, damping, free value. The Boolean is true if the spring only pulls.
     Spring(Path, [f64; 3], bool),
-    /// Polynomial pieces [lower, upper, c0, ...] of the measured number, or of its rate.
+    /// Polynomial pieces [lower, upper, c0, ...] of the measured number, or of its rate if the Boolean is true.
     Polynomial(Path, Vec<Vec<f64>>, bool),
     /// Bumper: stiffness, damping, clearance.
     Bumper(Line, [f64; 3]),
@@ -85,9 +85,9 @@ pub enum Effect {
     BodyTorque(usize, Given),
     /// Limit of a sum: lower, upper, stiffness, damping.
     Limit(Vec<Term>, [f64; 4]),
-    /// Friction along a sum: coulomb, static, stribeck, viscous, regularisation; and a factor over time of the first two.
+    /// Friction along a sum: coulomb, static, stribeck, viscous, regularisation; then a factor over time, which multiplies the first two.
     Friction(Vec<Term>, [f64; 5], Given),
-    /// Force on a body: body, point, force; does it turn with the body?
+    /// Force on a body: body, point, force. The Boolean is true if the force rotates with the body.
     Force(usize, Vector, Given, bool),
     /// Drag on a body: body, point; area times coefficient, density.
     Drag(usize, Vector, [f64; 2]),

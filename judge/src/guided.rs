@@ -18,7 +18,7 @@ use crate::vector::{
 const SMALL: f64 = 1e-2;
 
 impl Now<'_> {
-    /// The rows of guides, with a fraction of the rotation vectors that guides prescribe.
+    /// The rows of guides, each with its owner. The rotation vectors that guides prescribe are multiplied by `share`.
     pub(crate) fn guided(&self, share: f64) -> Vec<(Owner, Row)> {
         let mut rows = Vec::new();
         for guide in &self.scene.guides {
@@ -54,7 +54,7 @@ impl Now<'_> {
     }
 }
 
-/// Angular velocity and angular acceleration of a rotation vector with its first and second derivative.
+/// Angular velocity and angular acceleration of a rotation, from its rotation vector f with the first and the second derivative.
 fn turning(f: Vector, f1: Vector, f2: Vector) -> [Vector; 2] {
     let t = norm(f);
     let s = t * t;

@@ -22,7 +22,8 @@ impl Joint {
         axes.iter().map(|&e| places.along(self.bodies, &seats, e, false)).collect()
     }
 
-    /// Row of u · (p2 - p1), the displacement along u, which is fixed in the first body.
+    /// Row of u · (p2 - p1), the displacement along u. Here p1 and p2 are the joint's points in both bodies, and u is fixed in the first
+    /// body.
     fn slide(&self, places: &Places, u: Vector) -> Row {
         let u = places.direction(self.bodies[0], u);
         places.along(self.bodies, &self.seats(places), u, true)
@@ -35,7 +36,7 @@ impl Joint {
         sides.into_iter().map(|u| self.slide(places, u)).collect()
     }
 
-    /// Row of u · w, the cosine between u of the first body and w of the second.
+    /// Row of u · w, the cosine of the angle between u of the first body and w of the second.
     fn cosine(&self, places: &Places, u: Vector, w: Vector) -> Row {
         let (u, w) = (places.direction(self.bodies[0], u), places.direction(self.bodies[1], w));
         places.cosine(self.bodies, u, w)
@@ -94,7 +95,7 @@ impl Joint {
         let [a, b] = self.axes;
         let (a1, b1) = (places.direction(self.bodies[0], a), places.direction(self.bodies[0], b));
         let (a2, b2) = (places.direction(self.bodies[1], a), places.direction(self.bodies[1], b));
-        // first: about a1, from b without rotation to b in the second body; second: about b2, from a1 to a in the second body
+        // first angle: about a1, from b1 to b2; second angle: about b2, from a1 to a2; a and b are the axes, 1 and 2 the bodies
         let first = angle_about(a1, b1, b2);
         let second = angle_about(b2, a1, a2);
         let cosine = dot(a, b);
@@ -123,7 +124,8 @@ impl Joint {
         axes.map(|(e, value)| places.about(self.bodies, e, None).with_value(value)).collect()
     }
 
-    /// The joint's coordinates in the order of the contract. Its angles are followed over whole turns: they are those nearest to `near`.
+    /// The joint's coordinates, in the order of the contract of scene files. Of the angles that differ by whole turns, the one nearest to
+    /// `near` is used.
     pub(crate) fn coordinates(
         &self,
         places: &Places,
@@ -209,7 +211,7 @@ pub(crate) fn nearest(angle: f64, near: f64) -> f64 {
 fn nearest_vector(v: Vector, near: Vector) -> Vector {
     let angle = norm(v);
     if angle < 1e-6 {
-        // close to a whole turn the axis is undetermined: that of `near` is used
+        // close to a whole turn the axis is undetermined, so the axis of `near` is used
         let whole = nearest(0.0, norm(near));
         return if whole > 0.0 { add(v, scale(whole, unit(near))) } else { v };
     }

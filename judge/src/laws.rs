@@ -238,8 +238,8 @@ impl Now<'_> {
     }
 }
 
-/// φ̇ = J⁻¹ ω, J⁻¹ = 1 - ½ [φ] + (1 - (θ/2) cot(θ/2))/θ² [φ]². Here φ is the rotation vector, θ its length, and ω the angular velocity of
-/// the second body against the first, in axes of the first.
+/// The matrix J⁻¹ of φ̇ = J⁻¹ ω, J⁻¹ = 1 - ½ [φ] + (1 - (θ/2) cot(θ/2))/θ² [φ]². Here φ is the rotation vector, θ its length, and ω the
+/// angular velocity of the second body against the first, in axes of the first.
 fn inverse_tangent(phi: Vector) -> [[f64; 3]; 3] {
     let angle = norm(phi);
     let factor = if angle < 1e-2 {

@@ -21,9 +21,9 @@ pub(crate) struct Loads {
 /// Numbers of an effect at a time, besides its forces on bodies.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Exerted {
-    /// Row of the measured number, with the force along its growth.
+    /// Row of the measured number, and the force that acts towards larger numbers.
     pub(crate) along: Option<(Row, f64)>,
-    /// Force on the effect's body and moment about its point there. Of two bodies it is the second.
+    /// Force on the effect's body, and moment about the effect's point on it. If the effect has two bodies, this is the second.
     pub(crate) wrench: Option<[Vector; 2]>,
     /// Measured number less its free value, or the depth of the effect's contact.
     pub(crate) deflection: f64,
@@ -31,7 +31,7 @@ pub(crate) struct Exerted {
     pub(crate) stored: f64,
     /// Rate of the stored energy [W].
     pub(crate) stored_rate: f64,
-    /// Is the effect in contact?
+    /// True if the effect is in contact.
     pub(crate) touches: bool,
 }
 
@@ -50,7 +50,7 @@ impl Exerted {
         Self { wrench: Some(wrench), ..Self::default() }
     }
 
-    /// Adds the energy that a contact stores, and its rate, at a depth with a rate.
+    /// Adds the energy that a contact stores at a depth, and the rate of this energy.
     pub(crate) fn touching(self, stiffness: f64, depth: f64, rate: f64) -> Self {
         let x = depth.max(0.0);
         let (stored, stored_rate) = (0.5 * stiffness * x * x, stiffness * x * rate);
@@ -114,7 +114,8 @@ pub(crate) struct Now<'a> {
     pub(crate) memory: &'a [f64],
 }
 
-/// Contact force max(0, k x + c ẋ s) at a depth x, with s = 3 r² - 2 r³ and r = min(1, x / 1 mm).
+/// Contact force max(0, k x + c ẋ s) at a depth x, with the stiffness k and the damping c. The factor s = 3 r² - 2 r³, with r = min(1, x /
+/// 1 mm), lets the damping begin smoothly.
 pub(crate) fn contact(k: f64, c: f64, x: f64, rate: f64) -> f64 {
     if x <= 0.0 {
         return 0.0;

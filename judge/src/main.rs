@@ -89,8 +89,8 @@ fn drawn(name: &str) -> Option<random::Drawn> {
     Some(random::Drawn { text: case.text, step: case.step, steps: random::STEPS })
 }
 
-/// Channels of a scene that differ by more than `1e-7` of their size, with the values of the crates and of the judge. The crates take steps
-/// of the scene's step over `share`.
+/// Channels of a scene that differ by more than `1e-7` of their size, with the values of the crates and of the judge. The crates run with
+/// the scene's step divided by `share`.
 fn look(drawn: &random::Drawn, method: Way, share: u32) -> String {
     let mut out = random::kinds(&drawn.text).join(", ");
     let (judged, product) =

@@ -78,13 +78,14 @@ fn mirrored([slope, curvature]: [f64; 2]) -> [f64; 2] {
     [slope, -curvature]
 }
 
-/// The coefficient e next to a row at the beginning of an interval of length h.
+/// The number e = m + 3 c h/32 of a row with the slope m and the curvature c, at the beginning of an interval of length h. The middle
+/// coefficient of f' follows from it (docs/EFFECTS.md).
 fn inner([slope, curvature]: [f64; 2], h: f64) -> f64 {
     slope + 3.0 * curvature * h / 32.0
 }
 
-/// The two knots within an interval. At a knot f'' is the difference of two coefficients of f' over their distance. Between knots f'' is
-/// linear.
+/// The two knots within an interval of the function f. At a knot f'' is the difference of two coefficients of f', divided by their
+/// distance. Between knots f'' is linear.
 fn between([x, f, _]: [f64; 3], side: Side, [first, last]: [[f64; 2]; 2]) -> [[f64; 3]; 2] {
     let Side { h, rise } = side;
     let middle = 3.0 * rise - inner(first, h) - inner(mirrored(last), h);

@@ -4,6 +4,7 @@
 //! M a - Jᵀ λ = Q - ω × I ω,    J a = given - bias
 //! ```
 //!
+//! M has masses and inertias I, J the gradients of the rows, and Q the loads; a are accelerations, ω angular velocities, λ multipliers.
 //! Unknowns are scaled by the square roots of masses and moments of inertia, and rows to length one. So pivots have the order of one, and a
 //! small pivot shows that rows depend on each other.
 
@@ -39,17 +40,17 @@ pub struct Moved {
     pub efforts: Vec<[f64; 6]>,
     /// The multiplier of each coupling.
     pub couplings: Vec<f64>,
-    /// Is the multiplier of each coupling unique?
+    /// True for each coupling whose multiplier is unique.
     pub unique_couplings: Vec<bool>,
     /// The force on each body that rolls, at its contact.
     pub contacts: Vec<Vector>,
-    /// Is the force of each contact unique?
+    /// True for each contact whose force is unique.
     pub unique_contacts: Vec<bool>,
-    /// Do constraint rows depend on each other?
+    /// True if constraint rows depend on each other.
     pub is_redundant: bool,
-    /// Is the reaction of each joint unique?
+    /// True for each joint whose reaction is unique.
     pub unique: Vec<bool>,
-    /// Can a body turn without inertia, as a thin rod about its own line?
+    /// True for each body that can rotate without inertia, such as a thin rod about its own line.
     pub idle: Vec<bool>,
     /// Kinetic and stored energy [J].
     pub energy: [f64; 2],
@@ -171,7 +172,7 @@ impl Mechanism {
         self.rows_at(now, 1.0)
     }
 
-    /// All constraint rows, with a fraction of the rotation vectors that guides prescribe.
+    /// All constraint rows, each with its owner. The rotation vectors that guides prescribe are multiplied by `share`.
     pub(crate) fn rows_at(&self, now: &Now<'_>, share: f64) -> Vec<(Owner, Row)> {
         let mut rows = Vec::new();
         for (j, joint) in self.scene.joints.iter().enumerate() {
@@ -234,7 +235,8 @@ impl Mechanism {
         entries
     }
 
-    /// M = bodies + Σ I g gᵀ of rotors in scaled velocities. The matrix has room for the constraint rows.
+    /// Mass matrix in scaled velocities: M = masses of bodies + Σ I g gᵀ, for rotors with inertia I and gradient g of their coordinate. The
+    /// matrix has room for the constraint rows.
     fn masses(&self, places: &Places, n_rows: usize, rotors: &[(f64, Row)]) -> Square {
         let mut matrix = Square::zero(self.n + n_rows);
         for (b, of) in self.columns.iter().enumerate() {
@@ -262,13 +264,13 @@ impl Mechanism {
         matrix
     }
 
-    /// Factors [[M, -Jᵀ], [J, 0]] in scaled velocities.
+    /// Factors [[M, -Jᵀ], [J, 0]] in scaled velocities, with the masses M and the gradients J of the rows.
     pub(crate) fn saddle(&self, places: &Places, rows: &[Row], rotors: &[(f64, Row)]) -> Saddle {
         self.factor_with(self.masses(places, rows.len(), rotors), rows, false)
     }
 
-    /// Adds rows to a scaled mass matrix and factors it. With `seated` the multipliers act where the attachment points of the machine are,
-    /// rather than along the gradients.
+    /// Adds rows to a scaled mass matrix and factors it. With `seated` the forces of multipliers act at the attachment points of the
+    /// couplings, otherwise along the gradients of the rows.
     pub(crate) fn factor_with(&self, mut matrix: Square, rows: &[Row], seated: bool) -> Saddle {
         let mut row_scales = Vec::with_capacity(rows.len());
         for (k, row) in rows.iter().enumerate() {
@@ -324,7 +326,7 @@ impl Mechanism {
         self.evaluate_among(state, None)
     }
 
-    /// Returns accelerations, reactions, energies and power, computed with the given rows alone. The other rows follow from these.
+    /// Returns accelerations, reactions, energies and power, computed with the rows that `among` marks. The other rows depend on these.
     pub(crate) fn evaluate_among(&self, state: &State, among: Option<&[bool]>) -> Moved {
         let places = self.places(state);
         let now = self.now(state, &places);
@@ -332,7 +334,8 @@ impl Mechanism {
         let rotors = self.rotors(&now);
         let mut kinetic = 0.0;
         for (inertia, row) in &rotors {
-            // a rotor's load is g · I (g · a + bias) for its gradient g; here the part of the bias
+            // a rotor with inertia I and gradient g has the load g · I (g · a + bias), with the accelerations a; this is the part of the
+            // bias
             loads.along(row, -inertia * row.bias);
             kinetic += 0.5 * inertia * row.rate(&places).powi(2);
         }
@@ -398,8 +401,8 @@ impl Mechanism {
         }
     }
 
-    /// Corrects the forces of teeth whose multiplier is negative, since teeth are pushed apart for both signs of the effort. Is there such
-    /// a row?
+    /// Corrects the forces of teeth whose multiplier is negative, since teeth are pushed apart for both signs of the effort. Returns true
+    /// if there is such a row.
     fn turn_teeth(
         &self,
         now: &Now<'_>,

@@ -188,7 +188,7 @@ impl Table {
         if rows.is_empty() { Ok(vec![(0.0, ZERO)]) } else { Ok(rows) }
     }
 
-    /// Refuses a table in which keys remain: they are unknown.
+    /// Refuses a table in which keys are left that were not read, since they are unknown.
     pub(crate) fn done(self, of: &str) -> Read<()> {
         match self.entries.keys().next() {
             None => Ok(()),

@@ -19,9 +19,9 @@ pub enum Curve {
     Spline(Spline),
     /// A cubic spline that is periodic.
     Periodic(Spline),
-    /// Linear interpolation between rows, constant beyond the ends; is it periodic?
+    /// Linear interpolation between rows, constant beyond the ends. The Boolean is true if the curve is periodic.
     Linear(Vec<[f64; 2]>, bool),
-    /// The value of the row before, constant beyond the ends; is it periodic?
+    /// The value of the preceding row, constant beyond the ends. The Boolean is true if the curve is periodic.
     Hold(Vec<[f64; 2]>, bool),
     /// Polynomial with the coefficients c0, c1, ... of increasing power.
     Polynomial(Vec<f64>),
@@ -45,9 +45,9 @@ pub enum Law {
 pub enum Measure {
     /// A coordinate of a joint.
     Coordinate(usize, usize),
-    /// The length of a line over points of bodies, less that in the reference configuration.
+    /// The length of a line over points of bodies, less its length in the reference configuration.
     Length(Vec<(Carrier, Vector)>),
-    /// An angle of a body against another, by its number among the scene's wheels.
+    /// Rotation angle of one body against another, by its index in the list `wheels` of the scene.
     Wheel(usize),
     /// The displacement of a point of the second body along an axis of the first.
     Way([Carrier; 2], Vector, Vector),
@@ -62,7 +62,7 @@ pub struct Term {
     pub measure: Measure,
     /// Factor of the term.
     pub factor: f64,
-    /// A function of the measured number, which then is the term.
+    /// Function of the measured number, if there is one. The term is then the factor times the function's value.
     pub curve: Option<Curve>,
 }
 
@@ -80,7 +80,7 @@ pub struct Wheel {
 pub enum Seat {
     /// No attachment points: the effort acts on the coordinates alone.
     Nowhere,
-    /// A thread between two bodies, along an axis of the carrier through a point: carrier, screw, nut.
+    /// A thread between two bodies: carrier, screw and nut; the direction of the axis, which is fixed in the carrier; a point of the axis.
     Thread([Carrier; 3], Vector, Vector),
     /// Teeth in mesh at a point of the carrier: carrier and wheels, axis, points on the axes of the wheels, pitch point, tangent of the
     /// pressure angle, and whether the first wheel is the smaller one.
@@ -105,7 +105,7 @@ pub struct Coupling {
     pub value: f64,
     /// Law over time that is added to the constant value.
     pub law: Option<Law>,
-    /// Ratio of the displayed effort to the multiplier.
+    /// Ratio of the effort that a channel shows to the multiplier.
     pub gain: f64,
     /// The coordinate on which the effort is measured: joint, number, and the ratio of this coordinate to the displacement of the effort.
     pub passed: Option<(usize, usize, f64)>,

@@ -14,8 +14,8 @@ impl Frame {
 }
 
 impl Mechanism {
-    /// Projects a state onto its constraints by the given rows. The other rows follow from these. Angles of joints are then followed to
-    /// their new values.
+    /// Projects a state onto its constraints. Only the rows marked in `among` are used; the other rows depend on them. Then the angles of
+    /// joints are updated.
     pub(crate) fn project(&self, state: &mut State, among: &[bool]) {
         for _ in 0..2 {
             let places = self.places(state);
@@ -32,7 +32,7 @@ impl Mechanism {
         self.project_velocities(state, Some(among), &[]);
     }
 
-    /// Projects velocities onto the constraints, and onto further rows that must have given rates.
+    /// Projects velocities onto the constraints, and onto further rows whose rates are given.
     pub(crate) fn project_velocities(
         &self,
         state: &mut State,
@@ -56,7 +56,7 @@ impl Mechanism {
         unmet
     }
 
-    /// Updates the angles of all joints: each is followed over whole turns from its value before.
+    /// Updates the angles of all joints. Of the angles that differ by whole turns, the one nearest to the value before is used.
     pub(crate) fn count_turns(&self, state: &mut State) {
         let places = self.places(state);
         state.turns = self.now(state, &places).measured_turns();

@@ -10,7 +10,7 @@ pub struct Output {
     pub name: String,
     /// Quantity that the channel shows.
     pub quantity: Quantity,
-    /// Is the channel in degrees? If so, all of its components are angles.
+    /// True if the channel is in degrees. Then all of its components are angles.
     pub degrees: bool,
 }
 
@@ -23,7 +23,7 @@ pub struct Relative {
     pub at: Vector,
     /// The body from which the point is seen.
     pub other: Carrier,
-    /// The point of that body from which positions and distances are measured.
+    /// The point of the other body from which positions and distances are measured.
     pub origin: Vector,
 }
 
@@ -58,7 +58,7 @@ pub struct Leaning {
 /// Quantities of an effect, as a channel shows them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Exerts {
-    /// Tension, or force and moment on a body.
+    /// Tension of the effect, or its force and moment on a body.
     Force,
     /// Number that the effect measures.
     Value,
@@ -93,7 +93,7 @@ pub enum Whole {
     Kinetic,
     /// Potential energy of gravity and of effects.
     Potential,
-    /// Sum of both energies.
+    /// Sum of kinetic and potential energy.
     Energy,
     /// Centre of mass of all bodies.
     CenterOfMass,
@@ -155,7 +155,7 @@ pub enum Quantity {
     JointAcceleration(usize),
     /// Effort of a joint's guide on its coordinate.
     Effort(usize),
-    /// Power that a joint's guide gives through it.
+    /// Power that the guide of a joint gives to the mechanism.
     Power(usize),
     /// Reaction of a joint.
     Reaction(usize),
@@ -163,11 +163,11 @@ pub enum Quantity {
     Coupling(usize, Coupled),
     /// Quantity of an effect.
     Effect(usize, Exerts),
-    /// Value of a signal, or its rate.
+    /// Value of a signal, by its index; its rate if the Boolean is true.
     Signal(usize, bool),
     /// Force at the contact on a body that rolls, or on a blade.
     Contact(usize),
-    /// Angular velocity of a body against another one; in global axes, or in those of the other one.
+    /// Angular velocity of a body against another one: in global axes if the Boolean is true, otherwise in axes of the other one.
     RelativeAngularVelocity(usize, Carrier, bool),
     /// Quantity of the whole scene.
     Whole(Whole),

@@ -4,12 +4,12 @@ use crate::dense::Square;
 use crate::motion::{Mechanism, State};
 use crate::rows::Row;
 
-/// Largest rest of a row of length one, orthogonal to all other rows, that counts as zero [-]. Projected states leave smaller rests.
-/// Chosen, not tuned.
+/// Largest length of a rest that counts as zero [-]. The rest of a row of length one is its part that is orthogonal to all other rows.
+/// Dependent rows of projected states have smaller rests. Chosen, not tuned.
 const DEPENDENT: f64 = 1e-8;
 
 impl Mechanism {
-    /// Marks the rows that are independent. The state must satisfy all constraints, since dependent rows within a step are dependent only
+    /// Marks the rows that are independent. The state must satisfy all constraints, since otherwise dependent rows are dependent only
     /// approximately.
     pub(crate) fn independent(&self, state: &State) -> Vec<bool> {
         let places = self.places(state);

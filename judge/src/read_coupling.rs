@@ -141,7 +141,7 @@ impl Reader<'_> {
         let joints = self.joints_of(t)?;
         let radii = [a, if crossed { b } else { -b }];
         let (mut sum, bodies) = self.mesh(joints, radii)?;
-        // the effort becomes the torque on the first wheel over its radius, and its rate the speed of the rim
+        // the effort is the force at the rim: the torque on the first wheel over its radius; the rate is the speed of the rim
         sum.gain /= a;
         sum.passed = sum.passed.map(|(joint, number, _)| (joint, number, a));
         if let Some(pull) = t.take("pretension") {
@@ -246,7 +246,7 @@ impl Reader<'_> {
         Ok(Sum { gain, passed, ..Sum::plain(terms, 0.0) })
     }
 
-    /// Does the body that carries a wheel rotate about the axis by another joint? A steering knuckle does not.
+    /// True if the body that carries a wheel rotates about the axis by another joint. A steering knuckle does not.
     fn turns_beside(&self, wheel: usize, moved: Option<usize>, axis: Vector) -> bool {
         let stand = self.joints[wheel].bodies.into_iter().find(|b| *b != moved).flatten();
         let turns = |(j, joint): (usize, &Joint)| {

@@ -24,7 +24,7 @@ fn flag(table: &mut Table, key: &str) -> bool {
     matches!(table.take(key), Some(Node::Flag(true)))
 }
 
-/// The curve through the rows of `table`, by `interpolation`, `ends` and `periodic`.
+/// Reads the curve through the given rows, with the keys `interpolation`, `ends` and `periodic`.
 fn tabled(table: &mut Table, rows: &[[f64; 2]]) -> Read<Curve> {
     let (how, ends) = (word(table, "interpolation", "spline")?, word(table, "ends", "natural")?);
     let repeats = flag(table, "periodic");
@@ -47,7 +47,7 @@ fn tabled(table: &mut Table, rows: &[[f64; 2]]) -> Read<Curve> {
     })
 }
 
-/// A curve by `table` or `coefficients`, if one of these keys exists.
+/// Reads a curve from the key `table` or `coefficients`; `None` without these keys.
 pub(crate) fn curve(table: &mut Table) -> Read<Option<Curve>> {
     if let Some(node) = table.take("coefficients") {
         return Ok(Some(Curve::Polynomial(node.numbers()?)));
@@ -91,7 +91,7 @@ fn coordinate_names(kind: Kind, planar: bool) -> &'static [&'static str] {
     }
 }
 
-/// The number of `coordinate`, if the key exists.
+/// Reads the number of the coordinate that the key `coordinate` names; `None` without the key.
 pub(crate) fn coordinate(table: &mut Table, kind: Kind) -> Read<Option<usize>> {
     let names = coordinate_names(kind, table.planar);
     let Some(node) = table.take("coordinate") else { return Ok(None) };
@@ -120,7 +120,7 @@ pub(crate) fn points(table: &mut Table, names: &Names) -> Read<Vec<(Carrier, Vec
     table.tables("points")?.into_iter().map(one).collect()
 }
 
-/// Reads the measure by `joint` with `coordinate` and `axis`, or by `points`.
+/// Reads a measure: a coordinate of a joint (keys `joint`, `coordinate`, `axis`), or the length of a line (key `points`).
 pub(crate) fn measure(table: &mut Table, names: &Names, joints: &[Joint]) -> Read<Measure> {
     if table.has("points") {
         return Ok(Measure::Length(points(table, names)?));

@@ -5,13 +5,13 @@ use crate::node::{Node, Read, Table, fault};
 use crate::scene::{Body, Leaning, Output, Quantity, Relative, Scene};
 use crate::vector::{Vector, ZERO, cross, dot, scale, sub, unit};
 
-/// Reads `at`; without the key, the centre of mass for a quantity of a point.
+/// Reads the key `at`, a point of a body. Without the key, a quantity of a point is that of the centre of mass.
 fn place(table: &mut Table, kind: &str, body: usize, all: &[Body]) -> Read<Option<Vector>> {
     let at = table.vector_or_none("at")?;
     Ok(at.or_else(|| Quantity::OF_POINTS.contains(&kind).then(|| all[body].center)))
 }
 
-/// The number of a name in a list.
+/// The index of a name in a list.
 fn number<'a>(name: &str, mut all: impl Iterator<Item = &'a String>) -> Option<usize> {
     all.position(|known| known == name)
 }

@@ -1,4 +1,4 @@
-//! Reads signals of a scene. Each is read as a tree of sources.
+//! Reads signals of a scene. Each signal is read as a tree of sources.
 
 use crate::names::Names;
 use crate::node::{Node, Read, Table, fault};

@@ -4,9 +4,9 @@
 //! w = n - a (a·n)      ρ = -R w/|w|      c' + ω₁ × ρ - (velocity of the plane's body there) = s,     u·s = 0
 //! ```
 //!
-//! Here a is the axis of the disc, n the plane's normal, R the radius, ρ the arm from the centre c to the lowest point, and s the slip
-//! velocity. The direction u is the normal, or it is in the plane and fixed in its body. The row of the normal is the derivative of the
-//! height. A blade along d has ρ = 0 and u = n × d.
+//! Here a is the axis of the disc, n the plane's normal, R the radius, and ρ the arm from the centre c to the lowest point. The body has
+//! the angular velocity ω₁, and s is the slip velocity. The direction u is the normal, or it is in the plane and fixed in its body. The row
+//! of the normal is the derivative of the height. A blade along d has ρ = 0 and u = n × d.
 
 use crate::loads::Now;
 use crate::rows::{Row, Seat, six};

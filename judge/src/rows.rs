@@ -35,7 +35,8 @@ pub(crate) struct Placed {
     pub(crate) w: Vector,
 }
 
-/// A point of a body: its place, its velocity, its arm from the centre of mass, and its acceleration without accelerations of the body.
+/// A point of a body: its place, its velocity, its arm from the centre of mass, and the part of its acceleration that follows from
+/// velocities.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Seat {
     pub(crate) p: Vector,
@@ -51,11 +52,11 @@ pub(crate) struct Row {
     pub(crate) parts: Vec<(Carrier, [f64; 6])>,
     /// Value of the scalar.
     pub(crate) value: f64,
-    /// Second derivative of the scalar without accelerations.
+    /// Second derivative of the scalar by time, if all accelerations are zero.
     pub(crate) bias: f64,
     /// Rate and acceleration that the row must have.
     pub(crate) given: [f64; 2],
-    /// Does the row constrain rates alone?
+    /// True if the row constrains rates alone.
     pub(crate) of_rates: bool,
     /// Forces and moments of a unit multiplier on bodies, where they differ from the gradient.
     pub(crate) acts: Option<Vec<(Carrier, [f64; 6])>>,
@@ -104,7 +105,7 @@ impl Places {
         times(&self.of(body).turn, direction)
     }
 
-    /// Row of u · (p2 - p1), where u is fixed in the first body or in space.
+    /// Row of u · (p2 - p1), where p1 and p2 are points of two bodies, and u is fixed in the first body or in space.
     pub(crate) fn along(
         &self,
         bodies: [Carrier; 2],
@@ -127,7 +128,7 @@ impl Places {
         Row::new(parts.to_vec(), dot(u, d), bias)
     }
 
-    /// Row of a constant distance between two points, (d·d - L²)/(2 L).
+    /// Row (d·d - L²)/(2 L), which keeps two points at the constant distance L. Here d is the vector between them.
     pub(crate) fn distance(&self, bodies: [Carrier; 2], seats: &[Seat; 2], length: f64) -> Row {
         let (d, rate) = (sub(seats[1].p, seats[0].p), sub(seats[1].v, seats[0].v));
         let mut row = self.along(bodies, seats, scale(1.0 / length, d), false);
@@ -198,7 +199,7 @@ impl Row {
     }
 }
 
-/// Adds to the part of a body, which is made if there is none.
+/// Adds numbers to the part of a body. If the body has no part, one is made.
 pub(crate) fn add_part(parts: &mut Vec<(Carrier, [f64; 6])>, body: Carrier, more: &[f64; 6]) {
     match parts.iter_mut().find(|(b, _)| *b == body) {
         Some((_, part)) => part.iter_mut().zip(more).for_each(|(x, y)| *x += y),

@@ -13,7 +13,7 @@ use crate::vector::{Matrix, Vector};
 pub struct Scene {
     /// Name of the scene.
     pub name: String,
-    /// Is the scene planar?
+    /// True if the scene is planar.
     pub planar: bool,
     /// Acceleration of gravity [m/s²].
     pub gravity: Vector,
@@ -41,12 +41,12 @@ pub struct Scene {
     pub signals: Vec<Signal>,
     /// Effects that are enabled.
     pub effects: Vec<Effect>,
-    /// Names of these effects.
+    /// Names of the enabled effects.
     pub effect_names: Vec<String>,
-    /// Limits whose stiffness or damping follows from the mass that their coordinate moves: index of the effect, and whether stiffness and
-    /// damping are open.
+    /// Limits without a given stiffness or damping, which follows from the mass that the coordinate moves. Each has the index of its
+    /// effect, and true where stiffness and damping are not given.
     pub open_limits: Vec<(usize, [bool; 2])>,
-    /// Features of the road: left and right.
+    /// Features of the road under the left and under the right wheels.
     pub road: [Vec<Feature>; 2],
     /// Speed of the road along -x [m/s].
     pub road_speed: f64,
@@ -109,7 +109,7 @@ pub struct Joint {
     pub points: [Vector; 2],
     /// Unit vectors: the axis of the joint; its direction or second axis.
     pub axes: [Vector; 2],
-    /// Is it a link of constant distance with a hinge at its first end?
+    /// True if the joint is a link of constant distance with a hinge at its first end.
     pub hinged: bool,
     /// Least and largest value of the coordinate, for kinds with one coordinate.
     pub range: Option<[f64; 2]>,

@@ -25,7 +25,7 @@ impl Mechanism {
         let [p, o] =
             [places.seat(Some(point.body), point.at), places.seat(point.other, point.origin)];
         let r = sub(p.p, o.p);
-        // R' v = r' - ω × r
+        // velocity as seen from the other body: v = r' - ω × r, where r is the vector between the points
         let v = sub(sub(p.v, o.v), cross(other.w, r));
         let seen = match what {
             Seen::Distance => return vec![norm(r)],

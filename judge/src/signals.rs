@@ -8,7 +8,8 @@ use core::f64::consts::PI;
 /// A value with its first and second derivative by time.
 type Jet = [f64; 3];
 
-/// The composition g(f): derivatives by time, from g with its derivatives by f, and f as a function of time.
+/// The composition g(f(t)) with its derivatives by time. `inner` is f with its derivatives by time; the first argument is g with its
+/// derivatives by f.
 fn chain([value, slope, bend]: Jet, inner: Jet) -> Jet {
     [value, slope * inner[1], bend * inner[1] * inner[1] + slope * inner[2]]
 }
@@ -20,7 +21,7 @@ fn wave(amplitude: f64, offset: f64, angle: Jet) -> Jet {
     [x + offset, rate, bend]
 }
 
-/// max(x, 0) with its corner rounded: the rate rises by u² (3 - 2 u), u = (x + r/2)/r.
+/// max(x, 0) with its corner rounded over the width r = `rounding`. The rate rises by u² (3 - 2 u), where u = (x + r/2)/r.
 fn corner(x: f64, rounding: f64) -> Jet {
     let half = 0.5 * rounding;
     if x >= half {
@@ -35,7 +36,7 @@ fn corner(x: f64, rounding: f64) -> Jet {
     [value, u * u * (3.0 - 2.0 * u), 6.0 * u * (1.0 - u) / rounding]
 }
 
-/// Returns the ratio L/x of the limited number L to the number x: one within the limits.
+/// Returns the ratio L/x, where L is the number x limited to a range. The ratio is one within the range.
 fn limit_ratio([x, dx, ddx]: Jet, [lower, upper]: [f64; 2]) -> Jet {
     if (lower..=upper).contains(&x) {
         return [1.0, 0.0, 0.0];
@@ -140,7 +141,7 @@ impl Source {
     }
 }
 
-/// Number of periods of a table, before and after the first, at whose rows steps end. Chosen, not tuned.
+/// Number of periods, before and after the first, in which steps end at the rows of a periodic table. Chosen, not tuned.
 const PERIODS: i32 = 50;
 
 impl Law {

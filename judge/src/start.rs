@@ -5,6 +5,9 @@
 //! least  Σ ½ ∫ |displacement of each particle|² dm = Σ ½ m |r - r₀|² + tr S - tr R S + Σ ½ I θ² of rotors,   S = ½ tr(I) E - I
 //! ```
 //!
+//! Here m, I, r and R are mass, inertia, centre of mass and rotation of a body, r₀ is r in the reference configuration, and E is the unit
+//! matrix. For rotors, I is the moment of inertia and θ the angle.
+//!
 //! Newton's method solves the conditions of the minimum, with second derivatives by differences. Given values grow from zero in stages.
 //! Each stage measures the change from the reference configuration. A negative curvature along allowed motions is made positive. So no step
 //! increases the change, and no saddle point is accepted as a minimum.
@@ -24,7 +27,7 @@ const STAGE: f64 = 0.15;
 const LEAST_STAGE: f64 = 1e-3;
 /// Largest number of iterations of a stage. Chosen, not tuned: Newton's method needs few.
 const MOST_ITERATIONS: usize = 40;
-/// Least curvature that is added where the least one is negative [-]. Chosen, not tuned.
+/// Curvature that is added where the least curvature is negative, beside twice its magnitude [-]. Chosen, not tuned.
 const CURVED: f64 = 0.1;
 /// Displacement from a saddle point along the direction of negative curvature, in radians or lengths of the mechanism. Chosen, not tuned.
 const ASIDE: f64 = 0.03;
@@ -54,7 +57,7 @@ struct Correction {
     moves: Vec<[f64; 6]>,
     /// Multipliers after the step.
     multipliers: Vec<f64>,
-    /// A direction of negative curvature.
+    /// A direction of negative curvature, if there is one.
     falls: Option<Vec<[f64; 6]>>,
 }
 
@@ -97,7 +100,8 @@ impl Mechanism {
         Ok(state)
     }
 
-    /// Corrects all rows to machine precision. Near a singular position, an error of positions enters rates many times enlarged.
+    /// Corrects the positions until all rows are zero to machine precision. Near a singular position, rates are very sensitive to errors of
+    /// positions.
     fn meet(&self, state: &mut State) {
         for _ in 0..2 {
             let places = self.places(state);
@@ -174,7 +178,7 @@ impl Mechanism {
         largest
     }
 
-    /// Rows of constraints, guides and given values, at a fraction of the given values.
+    /// Rows of constraints, guides and given values. The given values are multiplied by `share`.
     fn start_rows(&self, state: &State, places: &Places, share: f64) -> Vec<Row> {
         let now = self.now(state, places);
         let (mut rows, mut guides) = (Vec::new(), self.scene.guides.iter());
@@ -218,7 +222,7 @@ impl Mechanism {
         rows
     }
 
-    /// Gradient of the change less Jᵀ times the multipliers.
+    /// Gradient of the change from the reference configuration, less Jᵀ times the multipliers. It is zero at the minimum.
     fn balance(&self, state: &State, rows: &[Row], multipliers: &[f64]) -> Vec<[f64; 6]> {
         let gradient = |(f, b): (&crate::rows::Frame, &crate::scene::Body)| {
             let half = 0.5 * (0..3).map(|i| b.inertia[i][i]).sum::<f64>();
@@ -244,7 +248,7 @@ impl Mechanism {
         sum
     }
 
-    /// Newton's method from a trial, at a fraction of the given values.
+    /// Finds the least change by Newton's method from a trial, with the given values multiplied by `share`.
     fn least_change(&self, from: &Trial, share: f64) -> Option<Trial> {
         let mut trial = Trial { state: from.state.clone(), multipliers: from.multipliers.clone() };
         let length = self.length();
@@ -307,7 +311,7 @@ impl Mechanism {
         Correction { moves, multipliers, falls }
     }
 
-    /// Second derivatives of the change less those of the rows times their multipliers, by differences, in scaled velocities.
+    /// Second derivatives, by differences and in scaled velocities: those of the change, less those of the rows times their multipliers.
     fn second(&self, trial: &Trial, rows: &[Row], share: f64) -> Square {
         let n = self.n_velocities();
         let mut matrix = Square::zero(n + rows.len());

@@ -27,7 +27,7 @@ impl Mechanism {
     }
 
     /// The mass that a sum moves while guides are fixed and all other coordinates are free. It is λ of M a = g λ + Jᵀ μ with g a = 1, where
-    /// g is the gradient of the sum.
+    /// g is the gradient of the sum. M, J and a are masses, gradients of the rows and accelerations; μ are multipliers.
     fn moved_mass(&self, sum: &[Term]) -> f64 {
         let state = self.reference();
         let places = self.places(&state);

@@ -37,7 +37,8 @@ impl Now<'_> {
         Row::sum(points.windows(2).map(part))
     }
 
-    /// The row of an angle that a coupling measures, nearest to the angle in the state.
+    /// The row of an angle that a coupling measures. Of the angles that differ by whole turns, it has the one nearest to the angle in the
+    /// state.
     pub(crate) fn wheel(&self, number: usize) -> Row {
         let wheel = &self.scene.wheels[number];
         if self.scene.planar {
@@ -92,7 +93,7 @@ fn principal(angle: f64) -> f64 {
 }
 
 impl Term {
-    /// The term of a joint's coordinate with a factor.
+    /// Returns the term that is a factor times a coordinate of a joint.
     pub(crate) fn of(joint: usize, number: usize, factor: f64) -> Self {
         Self { measure: Measure::Coordinate(joint, number), factor, curve: None }
     }

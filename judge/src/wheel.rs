@@ -71,7 +71,7 @@ fn ground(now: &Now<'_>, tire: &Tire, center: Vector) -> Ground {
     let mut t = ZERO;
     (t[0], t[up]) = (n[up], -n[0]);
     let d = (x - at) * n[0] + (center[up] - h) * n[up];
-    // dn/ds = -κ t along the road; the foot moves by 1/(1 - κ d) of the centre's displacement
+    // n normal, t tangent, κ curvature, s road length, d distance of the centre: dn/ds = -κ t, and s grows by 1/(1 - κ d) per displacement
     let curvature = bend / (1.0 + slope * slope).powf(1.5);
     Ground { n, t, d, turning: -curvature / (1.0 - curvature * d) }
 }
@@ -102,7 +102,7 @@ pub(crate) fn tread(now: &Now<'_>, tire: &Tire) -> Tread {
     // arm from the centre to the contact point
     let down = axis.map_or(scale(-1.0, n), |a| unit(sub(scale(sine, a), n)));
     let arm = scale(d / held, down);
-    // the force that belongs to the rotation of the normal as the centre moves
+    // the contact depth also depends on the normal, which rotates as the centre moves: this force belongs to that rotation
     let along = axis.map_or(0.0, |a| dot(a, t));
     let bent = radial * leaning * along * turning;
     let force = add(scale(load, n), scale(bent, t));
@@ -178,7 +178,8 @@ impl Sliding {
     }
 }
 
-/// The ratio s(r) of forces when a part of the contact patch slides: 1 - r/3 + r²/27, and 1/r where the whole patch slides.
+/// Ratio s(r) of the slip force to the force without sliding, where r is the force without sliding relative to the friction limit.
+/// While a part of the contact patch slides, s = 1 - r/3 + r²/27. Where the whole patch slides, s = 1/r.
 fn slides(r: f64) -> f64 {
     if r < 3.0 { 1.0 - r / 3.0 + r * r / 27.0 } else { 1.0 / r }
 }

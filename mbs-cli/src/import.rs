@@ -123,7 +123,7 @@ fn fault_lines(faults: &Faults, place: &str, file: &Path) -> String {
     }
 }
 
-/// Does a finding concern a part that may act on the motion, and is it approximated or ignored?
+/// True if a finding concerns a part that may act on the motion, and the part is approximated or ignored.
 fn acts(finding: &ModelFinding) -> bool {
     matches!(finding.kind, FindingKind::Approximated | FindingKind::Ignored)
 }

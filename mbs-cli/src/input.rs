@@ -22,7 +22,7 @@ pub(crate) fn read_big() {
     IS_BIG.store(true, Ordering::Relaxed);
 }
 
-/// Does a path mean standard input?
+/// True if a path means standard input.
 pub(crate) fn is_standard(path: &Path) -> bool {
     path == Path::new("-")
 }

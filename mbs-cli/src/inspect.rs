@@ -36,8 +36,8 @@ const QUANTITIES: [&str; 11] = [
 ];
 /// Quantities that do not need masses.
 const GEOMETRY: [&str; 2] = ["frames", "jacobians"];
-/// Number of quantities that are computed by default. The others are left out: the next is available from frames, two are large, and the
-/// last exists for open trees only.
+/// Number of quantities that are computed by default: the first ones. Of the others, centers follow from frames, jacobians and derivatives
+/// are large, and derivatives exist for open trees only.
 const DEFAULT: usize = 8;
 
 /// Arguments of `mbs inspect`.
@@ -311,8 +311,8 @@ fn numbers(value: Option<&Value>) -> Result<Option<Vec<f64>>, ()> {
     }
 }
 
-/// Sets the joints to the given state. A joint without a given value that no constraint connects to others is held at its drawn position
-/// without velocity. Otherwise it would take part in the motion of the given joints. Joints in closed loops follow from the given ones.
+/// Sets the joints to the given state. Some joints have no given value, and no constraint connects them to other joints. Such a joint is
+/// held at its drawn position without velocity. Otherwise it would take part in the motion of the given joints.
 fn begin(mechanism: &mut Mechanism, given: &[Given]) -> Result<(), Refusal> {
     for given in given {
         mechanism.find::<JointId>(&given.name).map_err(|error| {
@@ -350,8 +350,8 @@ fn begin(mechanism: &mut Mechanism, given: &[Given]) -> Result<(), Refusal> {
     Ok(())
 }
 
-/// The rows of closed loops at a position beside the drawn one. A mechanism may be drawn in a singular position, where rows do not show all
-/// the joints that they connect.
+/// The rows of closed loops at a position close to the drawn one. A mechanism may be drawn in a singular position, where rows do not show
+/// all the joints that they connect.
 fn rows_aside(tree: &mut Tree) -> Result<Matrix, TreeError> {
     // different steps for all joints, so that the new position is not singular
     let step: Vec<f64> =
@@ -362,7 +362,7 @@ fn rows_aside(tree: &mut Tree) -> Result<Matrix, TreeError> {
     Ok(tree.loop_jacobian().clone())
 }
 
-/// Are all numbers of a JSON value finite? A number that is not finite is written as null.
+/// True if all numbers of a JSON value are finite. A number that is not finite is written as null.
 fn is_finite(value: &Value) -> bool {
     match value {
         Value::Null => false,

@@ -92,7 +92,7 @@ impl Arguments {
     }
 }
 
-/// Does the file exist, and is it a different file from the other path?
+/// True if the file exists and is a different file from the other path.
 fn is_another(file: &Path, other: &Path) -> bool {
     file.exists() && file.canonicalize().ok() != other.canonicalize().ok()
 }
@@ -106,7 +106,7 @@ fn unfinished(out: &Path, hint: &str) -> Refusal {
 }
 
 impl RunCheckpoints {
-    /// Returns the given settings, with those of the checkpoint where none is given; otherwise the refusal.
+    /// Returns the given settings, and the settings of the checkpoint where none is given; otherwise the refusal.
     pub(crate) fn overrides(&self, given: Method) -> Result<Method, Refusal> {
         let Some(from) = &self.from else { return Ok(given) };
         from.overrides(&given).map_err(|error| Refusal::checkpoint(&error))

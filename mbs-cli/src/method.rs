@@ -11,10 +11,10 @@ const UNRECORDED: &str = "threads";
 
 /// Set of settings that a command accepts.
 pub(crate) trait SettingSet: Debug + Clone + Send + Sync + 'static {
-    /// Does the set contain the setting?
+    /// Returns true if the set contains the setting.
     fn has(row: &Setting) -> bool;
 
-    /// Does the help contain the complete text of a setting, or only its first paragraph?
+    /// True if the help contains the complete text of a setting; otherwise it has the first paragraph.
     const IS_WHOLE: bool = false;
     /// Words that the command does not accept as values of settings.
     const WITHOUT: &[&str] = &[];

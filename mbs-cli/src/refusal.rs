@@ -152,7 +152,7 @@ impl Refusal {
     }
 }
 
-/// Is one JSON object requested? If arguments are refused they are not parsed, so the words themselves are searched.
+/// True if one JSON object is requested. Refused arguments are not parsed, so the words themselves are searched.
 fn wants_json() -> bool {
     crate::line::words().take_while(|word| word != "--").any(|word| word == "--json")
 }

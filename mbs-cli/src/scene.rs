@@ -43,7 +43,7 @@ impl SceneArgument {
         Self { scene: path.to_owned(), set: set.to_vec(), import: Vec::new() }
     }
 
-    /// Is there a file or standard input to read?
+    /// True if there is a file or standard input to read.
     pub(crate) fn is_there(&self) -> bool {
         input::is_standard(&self.scene) || self.scene.is_file()
     }

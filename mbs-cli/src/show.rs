@@ -42,14 +42,14 @@ pub(crate) fn open(page: &Path) {
     }
 }
 
-/// Is there a screen? On systems where this is unknown the answer is yes.
+/// True if there is a screen, or if this is unknown on the system.
 fn has_screen() -> bool {
     let is_known = cfg!(all(unix, not(target_os = "macos")));
     let is_set = |name| std::env::var_os(name).is_some_and(|value| !value.is_empty());
     !is_known || ["DISPLAY", "WAYLAND_DISPLAY"].into_iter().any(is_set)
 }
 
-/// Lets the system open a page. Did that program start?
+/// Lets the system open a page. Returns true if the program of the system started.
 fn is_opened(page: &Path) -> bool {
     let program = match std::env::consts::OS {
         "macos" => "open",
@@ -97,8 +97,8 @@ pub(crate) fn watch(scene: &Path, others: &[&Path], out: Option<&Path>) -> ExitC
     }
 }
 
-/// The files of a scene with their size and the time of their last change: the scene, files that it names in quotes, and files that those
-/// name.
+/// The files of a scene with their size and the time of their last change. These are the scene, the files that it names in quotes, and the
+/// files that those files name.
 fn times(scene: &Path, others: &[&Path]) -> BTreeMap<PathBuf, Option<(SystemTime, u64)>> {
     let mut found = BTreeMap::new();
     let mut open: Vec<PathBuf> = [scene].iter().chain(others).map(|path| path.into()).collect();

@@ -1,4 +1,4 @@
-//! `cargo xtask check`: every check of this repository.
+//! The job `cargo xtask check`: runs every check of this repository.
 
 use crate::debian;
 use crate::documentation;
@@ -16,18 +16,18 @@ use crate::test::{self, DOCUMENTS};
 use std::path::Path;
 use std::process::{Command, ExitCode, Stdio};
 
-/// Scope of the checks: what is left out of them, and what is added.
+/// Scope of the checks: parts that are left out, and parts that are added.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Scope {
-    /// Whether the tests are left out: `cargo xtask test` has run them.
+    /// True if the tests are left out, since `cargo xtask test` has run them.
     pub is_tested: bool,
-    /// A check that lacks a tool fails.
+    /// True if a check that lacks a tool fails.
     pub is_strict: bool,
-    /// The jobs too that take hours.
+    /// True if the jobs that take hours are run too.
     pub is_long: bool,
 }
 
-/// Runs every check and prints the summary; exit status 1 if one failed.
+/// Runs every check and prints the summary. The exit status is 1 if a check failed.
 pub fn check(scope: Scope) -> ExitCode {
     let mut summary = Summary::new(scope.is_strict);
     listed(&BEFORE_THE_TESTS, &mut summary);
@@ -50,7 +50,7 @@ pub fn check(scope: Scope) -> ExitCode {
     summary.end("cargo xtask check")
 }
 
-/// Runs one of the lists beside each other, by its number, and writes how its checks ended into a file.
+/// Runs one of the parallel lists, by its number, and writes the outcomes of its checks into a file.
 pub fn list(words: &[String]) -> ExitCode {
     let number = words.first().and_then(|word| word.parse::<usize>().ok());
     let (Some(list), Some(report)) = (number.and_then(|i| BESIDE.get(i)), words.get(1)) else {
@@ -72,16 +72,16 @@ type Check = fn() -> Result<Outcome, String>;
 
 type Listed = (&'static str, Check);
 
-/// Checks that fail first where a mistake was made in writing.
+/// Checks that run first, since they find mistakes of writing quickly.
 const BEFORE_THE_TESTS: [Listed; 2] = [("format", format), ("lints", lints)];
 
-/// Checks that run on the build of the tests, on all cores: one after another. `lean` leaves a lean `mbs` where later jobs look for the whole
-/// one; its tests put that back.
+/// Checks that use the build of the tests and all cores, so that they run one after another. `lean` replaces `mbs` by a lean build, where
+/// later jobs need the complete one. The tests of `lean` restore the complete one.
 const AFTER_THE_TESTS: [Listed; 3] =
     [("rules", rules), ("lean", features::lean), ("documents", documents)];
 
-/// Lists beside each other: each alone leaves a core idle half of the time. What they use of the target folder of the tests is built there by
-/// now, with the features of the tests.
+/// Lists that run in parallel, since each list alone leaves a core idle half of the time. The programs of the tests that they need are built
+/// before, with the features of the tests.
 const BESIDE: [&[Listed]; 3] = [
     &[("fuzz", fuzz), ("pages", pages::check), ("counts", counts)],
     &[("check-nostd", nostd::check)],
@@ -110,13 +110,13 @@ const LONG_FUZZ: &str = "1800";
 /// A job of the long list.
 #[derive(Debug, Clone, Copy)]
 enum LongJob {
-    /// Function of this program.
+    /// Function of this program that makes the check.
     Here(Check),
-    /// Words of the command line, for a job that ends the process it runs in.
+    /// Words of the command line. Such a job ends its process, so it needs a process of its own.
     Words(&'static [&'static str]),
 }
 
-/// The long list: what each of the checks above has in a short form, whole, and what takes other programs.
+/// The long list: complete forms of the checks above, and checks that need other programs.
 const LONG: [(&str, LongJob); 13] = [
     ("packages", LongJob::Here(package::check)),
     ("notebooks", LongJob::Here(python::notebooks)),
@@ -144,7 +144,7 @@ fn long(summary: &mut Summary) {
     }
 }
 
-/// Folders whose files are modules by a macro: cargo does not find them by itself.
+/// Folders whose files a macro declares as modules. Cargo does not find these files by itself.
 const BY_MACRO: [&str; 2] = ["mbs-core/src/effects", "mbs-core/src/outputs/quantity"];
 
 fn format() -> Result<Outcome, String> {
@@ -159,7 +159,8 @@ fn format() -> Result<Outcome, String> {
     component("fmt", "rustfmt", &args)
 }
 
-/// With the benches, the rival that they name, our side of the peers and the program `counts`: here alone they have lints.
+/// Runs the lints on the workspace, with lab's features: benches, effects, and our program among the peers. No other check has lints for
+/// these.
 fn lints() -> Result<Outcome, String> {
     let benches = ["clippy", "--workspace", "--features", "lab/benches,lab/effects,lab/ours"];
     let args = ["--all-targets", "--quiet", "--", "--deny", "warnings"];
@@ -176,7 +177,7 @@ fn documents() -> Result<Outcome, String> {
     passed(cargo().args(["test", "--workspace", "--quiet", "--test", "command", DOCUMENTS]))
 }
 
-/// The first texts of fuzzing, the same on every machine that is fast enough: two to six minutes, ten at most.
+/// Runs the first texts of fuzzing, which are the same on every machine. They take two to six minutes, and ten at most.
 fn fuzz() -> Result<Outcome, String> {
     lab(&["fuzz", "--seconds", "600", "--count", "4000"])
 }
@@ -188,7 +189,7 @@ fn counts() -> Result<Outcome, String> {
     }
 }
 
-/// Has `lab` do a job, built as the tests are; the last line that it prints is the remark.
+/// Runs a job of `lab`, which is built as for the tests. The last line that it prints is the remark on the check.
 fn lab(words: &[&str]) -> Result<Outcome, String> {
     let mut lab = Command::new(process::tested("lab", "short")?);
     let out = lab.args(words).current_dir(process::root()).stderr(Stdio::inherit()).output();
@@ -200,7 +201,7 @@ fn lab(words: &[&str]) -> Result<Outcome, String> {
     Ok(Outcome::Passed(text.lines().last().unwrap_or_default().to_owned()))
 }
 
-/// Runs a command whose success is all that counts.
+/// Runs a command of which only the exit status counts.
 fn passed(command: &mut Command) -> Result<Outcome, String> {
     run(command.current_dir(process::root())).map(|()| Outcome::Passed(String::new()))
 }

@@ -39,7 +39,7 @@ fn faults(messages: &str) -> Vec<&str> {
     blocks.filter(|block| !is_harmless(block.lines().next().unwrap_or_default())).collect()
 }
 
-/// Is a message's first line about a unit, or a count of the messages of a crate?
+/// True if a message's first line is about a unit, or is a count of the messages of a crate.
 fn is_harmless(line: &str) -> bool {
     let link = line.strip_prefix("warning: unresolved link to `");
     let word = link.and_then(|rest| rest.strip_suffix('`'));

@@ -10,7 +10,7 @@ pub struct Listed {
     pub module: &'static str,
     /// The Cargo feature that enables the effect; `None`: every build has the effect.
     pub feature: Option<&'static str>,
-    /// Does the effect's file contain a law?
+    /// True if the effect's file contains a law.
     pub has_law: bool,
 }
 
@@ -23,7 +23,7 @@ impl Listed {
         }
     }
 
-    /// Can tables of controllers contain the effect: its law, or the measures of bushings?
+    /// True if tables for controllers can contain the effect. It must have a law, or be a bushing, and must not need a function in code.
     pub fn is_exported(self) -> bool {
         let is_code = self.module == "user" || self.module.starts_with("law_on");
         (self.has_law || self.module == "bushing") && !is_code

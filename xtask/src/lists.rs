@@ -1,7 +1,9 @@
-//! Lists of checks beside each other, each in a process of its own: the CPU time of a check is then that of what its process waited for.
+//! Lists of checks that run in parallel, each list in a process of its own. So the CPU time of a check includes only the processes for
+//! which its own process waited.
 //!
-//! The system counts CPU time of children by process, not by thread. The process of a list is this program again, with an option that is not shown;
-//! it writes into a file how each check ended. A check that is not in it did not run, and has failed.
+//! The system counts the CPU time of child processes for a process, not for a thread. The process of a list is this program again, started
+//! with a hidden option. It writes the outcome of each check into a file. A check that is missing in the file did not run, and counts as
+//! failed.
 
 use crate::process;
 use crate::summary::{Ended, LeftOut, Outcome};
@@ -9,11 +11,11 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 
-/// Characters that no text of a check has: the ends of a field and of a record, as ASCII names them.
+/// Characters that no text of a check contains: the ASCII separators of fields and of records.
 const ENDS: [char; 2] = ['\u{1f}', '\u{1e}'];
 
-/// Runs lists of checks, by their names, beside each other; how their checks ended, list by list. `words` are those that start list `i` and have it
-/// write a file.
+/// Runs lists of checks in parallel. Returns the outcomes of the checks, list by list. `lists` has the names of the checks. `words` returns
+/// the arguments that start list `i` and name the file of its outcomes.
 pub(crate) fn run(lists: &[Vec<&str>], words: impl Fn(usize, &Path) -> Vec<String>) -> Vec<Ended> {
     let started: Vec<_> = (0..lists.len()).map(|i| start(i, &words)).collect();
     let ended = started.into_iter().zip(lists).map(|(list, names)| {
@@ -24,7 +26,7 @@ pub(crate) fn run(lists: &[Vec<&str>], words: impl Fn(usize, &Path) -> Vec<Strin
     ended.flatten().collect()
 }
 
-/// All checks of a list: those that did not end are failures.
+/// All checks of a list. A check without an outcome is a failure.
 fn whole(mut ended: Vec<Ended>, names: &[&str], why: &str) -> Vec<Ended> {
     for name in names {
         if !ended.iter().any(|check| check.name == *name) {
@@ -41,7 +43,7 @@ fn start(
 ) -> Result<(Child, PathBuf), String> {
     let folder = process::target_dir().join("check");
     fs::create_dir_all(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
-    // Its name is of this run alone: another one may run, and none of an earlier run may be taken for this one's.
+    // the name contains the number of this process: another run, or an earlier one, has a file of its own
     let report = folder.join(format!("list-{}-{i}", std::process::id()));
     fs::write(&report, "").map_err(|e| format!("{}: {e}", report.display()))?;
     let program = std::env::current_exe().map_err(|e| e.to_string())?;
@@ -51,7 +53,7 @@ fn start(
     Ok((child, report))
 }
 
-/// Waits for the process of a list; the checks in its report, and how the process ended.
+/// Waits for the process of a list. Returns the checks in its report, and the exit status of the process as text.
 fn read(mut child: Child, report: &Path) -> Result<(Vec<Ended>, String), String> {
     let status = child.wait().map_err(|e| e.to_string())?;
     let text = fs::read_to_string(report);
@@ -60,11 +62,11 @@ fn read(mut child: Child, report: &Path) -> Result<(Vec<Ended>, String), String>
     Ok((decode(&text), format!("the process of its list ended with {status}")))
 }
 
-/// Writes how the checks of a list ended so far.
+/// Writes the outcomes of the checks so far into the report of a list.
 ///
 /// # Errors
 ///
-/// Why the file cannot be written.
+/// The reason why the file cannot be written.
 pub(crate) fn write(report: &Path, ended: &[Ended]) -> Result<(), String> {
     fs::write(report, encode(ended)).map_err(|e| format!("{}: {e}", report.display()))
 }
@@ -84,7 +86,7 @@ fn encode(ended: &[Ended]) -> String {
     ended.iter().map(record).collect()
 }
 
-/// The checks of a report. A record that is cut short is left out: its check did not end.
+/// The checks in a report. An incomplete record at the end is left out, since its check has not ended.
 fn decode(text: &str) -> Vec<Ended> {
     let record = |text: &str| {
         let fields: Vec<&str> = text.split(ENDS[0]).collect();
@@ -129,7 +131,7 @@ mod tests {
 
     #[test]
     fn checks_of_a_list_whose_process_ends_without_a_report_have_failed() {
-        // No option of a program of tests: it ends at once.
+        // the program of the tests has no such option, so that it ends at once
         let ended = run(&[vec!["one", "two"]], |_, _| vec!["--no-such-option".to_owned()]);
         let names: Vec<_> = ended.iter().map(|check| check.name.as_str()).collect();
         assert_eq!(names, ["one", "two"]);

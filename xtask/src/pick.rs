@@ -94,7 +94,7 @@ fn names(tree: &str) -> BTreeSet<String> {
     tree.lines().filter_map(|line| Some(line.split_whitespace().next()?.to_owned())).collect()
 }
 
-/// Is a crate in a tree, or a part of its family such as `faer-traits`?
+/// True if a tree contains a crate, or a part of its family such as `faer-traits`.
 fn is_within(name: &str, tree: &BTreeSet<String>) -> bool {
     tree.iter().any(|other| {
         other.strip_prefix(name).is_some_and(|rest| rest.is_empty() || rest.starts_with('-'))

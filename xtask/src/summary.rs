@@ -60,7 +60,7 @@ pub struct Summary {
     left_out: Vec<(String, LeftOut)>,
     /// Names of the checks that failed, and why.
     failures: Vec<String>,
-    /// Does a check fail if it cannot run here?
+    /// True if a check that cannot run here counts as failed.
     is_strict: bool,
 }
 

@@ -13,7 +13,7 @@ pub(crate) struct Tally {
     names: Vec<String>,
     /// Names of the list that is being read. A program prints its list twice; the last one before the result counts.
     listed: Vec<String>,
-    /// Has a program begun without a result so far?
+    /// True if a program has begun and has not printed its result so far.
     is_running: bool,
 }
 
@@ -121,7 +121,7 @@ fn count(text: &str, word: &str) -> usize {
     before.and_then(|pair| pair[0].parse().ok()).unwrap_or(0)
 }
 
-/// Is a text the time at the end of pytest: `3.21s`, or `61.11s (0:01:01)`?
+/// True if a text is the time at the end of pytest's output, such as `3.21s` or `61.11s (0:01:01)`.
 fn is_time(text: &str) -> bool {
     let seconds = text.split(' ').next().and_then(|word| word.strip_suffix('s'));
     seconds.is_some_and(|number| number.parse::<f64>().is_ok())

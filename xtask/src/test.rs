@@ -10,7 +10,7 @@ use std::thread;
 
 /// The module with the rules for text, in the tests of xtask. It is a check of its own.
 pub const RULES: &str = "tidy::";
-/// The module with the documents that are run, in the tests of the command. It is a check of its own.
+/// The module that runs the commands of documents, in the tests of the command. It is a check of its own.
 pub const DOCUMENTS: &str = "documents::";
 
 /// Runs the tests of the repository. The last line of standard output has their counts.

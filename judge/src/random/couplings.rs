@@ -8,7 +8,7 @@ use crate::vector::{Vector, across, add, cross, dot, norm, scale, sub, unit};
 
 /// Couplings that get bodies of their own. Those of three wheels are last.
 const TRAINS: [&str; 6] = ["gear", "belt", "gear on an arm", "rack", "differential", "screw"];
-/// Couplings of existing coordinates, with the probability of each trial. A cam or a screw fits few joints.
+/// Couplings of existing coordinates, each with the probability that a trial draws it. A cam or a screw fits few joints.
 const SUMS: [(&str, f64); 6] = [
     ("ratio", 0.12),
     ("mimic", 0.15),

@@ -23,7 +23,7 @@ impl Dice {
 
     /// Draws a number from the uniform distribution between two numbers.
     pub(crate) fn between(&mut self, low: f64, high: f64) -> f64 {
-        // a double has 53 bits
+        // a double represents 53 random bits exactly
         #[allow(clippy::cast_precision_loss, reason = "53 bits")]
         let share = (self.next() >> 11) as f64 / (1_u64 << 53) as f64;
         low + (high - low) * share

@@ -3,7 +3,7 @@
 use crate::scene::{Carrier, Kind};
 use crate::vector::Vector;
 
-/// Standard gravity, from which the time scale of a length follows [m/s²].
+/// Standard gravity g [m/s²]. A length L has the time scale sqrt(L/g).
 pub(crate) const GRAVITY: f64 = 9.81;
 
 /// A random scene while its parts are drawn.
@@ -51,8 +51,8 @@ pub(crate) struct Link {
     pub(crate) guide: Option<String>,
     pub(crate) value: Option<Vec<f64>>,
     pub(crate) rate: Option<Vec<f64>>,
-    /// Is the joint in a closed loop?
+    /// True if the joint belongs to a closed loop.
     pub(crate) looped: bool,
-    /// Does a coupling or a rolling contact constrain the joint?
+    /// True if a coupling or a rolling contact constrains the joint.
     pub(crate) coupled: bool,
 }

@@ -91,7 +91,7 @@ impl Effects<'_> {
         Some(self.dice.below(self.draft.bodies.len())).filter(|b| *b != a)
     }
 
-    /// Two bodies, one of them perhaps the ground, with a point each.
+    /// Draws two bodies with a point on each; one may be the ground. Returns their keys as text, and the distance of the points.
     fn line(&mut self) -> (String, f64) {
         let a = self.body();
         let b = self.other(a);
@@ -105,8 +105,8 @@ impl Effects<'_> {
         (format!("bodies = {}\npoints = [{p}, {q}]\n", pair(ends.map(|e| e.0))), length)
     }
 
-    /// A line over three points of two bodies, and its length. Thin rods are left out: the line's force would rotate them about their own
-    /// lines.
+    /// Draws a line over three points of two bodies. Returns its keys as text, and its length; `None` for thin rods, which the line's force
+    /// would rotate about their own lines.
     fn points(&mut self) -> Option<(String, f64)> {
         let a = self.body();
         let b = self.other(a);
@@ -133,7 +133,7 @@ impl Effects<'_> {
         ))
     }
 
-    /// A stiffness by a random frequency, and a damping by a random damping ratio.
+    /// Draws a stiffness, from a random frequency, and a damping, from a random damping ratio.
     fn spring(&mut self) -> [f64; 2] {
         let frequency = self.dice.logarithmic(0.5, 8.0);
         self.draft.stiffest = self.draft.stiffest.max(frequency);

@@ -181,7 +181,7 @@ impl Draft {
         }
     }
 
-    /// Does the mechanism have a freedom, and is its reference configuration far from a locked one?
+    /// True if the mechanism has a freedom and its reference configuration is not nearly locked.
     pub(crate) fn moves(&self) -> bool {
         let Some(mechanism) = mechanism_of(self) else { return false };
         let reference = mechanism.reference();
@@ -212,7 +212,8 @@ impl Draft {
         }
     }
 
-    /// Draws guides of all coordinates of joints outside closed loops, and for some draws of a joint in a loop.
+    /// Draws guides of joints. A guided joint has a guide for each of its coordinates. Joints that closed loops or couplings constrain are
+    /// guided more rarely, and only if the mechanism can then move.
     pub(crate) fn guide(&mut self, dice: &mut Dice) {
         for i in 0..self.links.len() {
             let slide = 0.5 * self.length;
@@ -281,7 +282,7 @@ impl Draft {
         [some(slides, slide), some(turns, turn)].concat()
     }
 
-    /// Draws initial values and rates of some joints, and for some draws velocities of a body. Conditions that cannot be met are left out.
+    /// Draws initial values and rates of some joints. Some draws also give velocities of a body. Contradictory conditions are left out.
     pub(crate) fn start(&mut self, dice: &mut Dice) {
         for i in 0..self.links.len() {
             let (planar, kind) = (self.planar, self.links[i].kind);
@@ -289,7 +290,7 @@ impl Draft {
             if self.links[i].guide.is_some() {
                 continue;
             }
-            // with couplings, large values have several local minima of the change, so values are small
+            // with couplings, large values give several local minima of the change from the reference configuration, so values are small
             let apart = self.couplings.is_empty() && self.rollings.is_empty();
             let size = if looped {
                 0.2

@@ -26,7 +26,7 @@ pub use cases::{Case, STEPS, cases};
 pub struct Drawn {
     /// Text of the scene file.
     pub text: String,
-    /// Step by the time scale of the motion [s].
+    /// Step, chosen by the time scale of the motion [s].
     pub step: f64,
     /// Number of steps.
     pub steps: u32,
@@ -57,14 +57,14 @@ pub fn scene(seed: u64) -> Drawn {
     Drawn { text: draft.text(), step, steps }
 }
 
-/// Is there a force that no inertia balances?
+/// True if there is a force that no inertia balances.
 fn loads_unmet(draft: &Draft) -> bool {
     let Some(mechanism) = mechanism_of(draft) else { return true };
     mechanism.start().map_or(true, |start| mechanism.evaluate(&start).unmet > 1e-9)
 }
 
-/// The shortest time scale at the start: times in which a body rotates by a radian or moves by the mechanism's size, and that of the
-/// largest frequency.
+/// The shortest time scale at the start. Time scales are the times in which a body rotates by a radian or moves by the mechanism's size,
+/// and the time scale of the largest frequency.
 fn time_scale(draft: &Draft) -> f64 {
     let own = draft.time;
     let Some(mechanism) = mechanism_of(draft) else { return own };

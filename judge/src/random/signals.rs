@@ -26,7 +26,7 @@ impl Draft {
         }
     }
 
-    /// Adds a signal and returns its name. `has_rate`: is the signal's rate an output?
+    /// Adds a signal and returns its name. With `has_rate` the signal's rate is an output.
     fn signal(&mut self, text: String, has_rate: bool) -> String {
         let name = format!("s{}", self.signals.len());
         self.signals.push((text, has_rate));

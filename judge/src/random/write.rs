@@ -6,7 +6,7 @@ use crate::vector::Vector;
 use crate::{Mechanism, read};
 use std::fmt::Write;
 
-/// Interval of bodies with reduced gravity: one in three has a quarter of its weight.
+/// Number of bodies among which one has a quarter of its weight.
 const LIGHTENED: usize = 3;
 
 /// Text of a vector of the plane or of space.
@@ -194,7 +194,7 @@ impl Draft {
     }
 }
 
-/// Does the judge find a start for the draft?
+/// True if the judge finds a start for the draft.
 pub(crate) fn starts(draft: &Draft) -> bool {
     mechanism_of(draft).is_some_and(|m| m.start().is_ok())
 }

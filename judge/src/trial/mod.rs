@@ -48,7 +48,7 @@ pub fn trial(
     }
 }
 
-/// Verdict by runs with the step over `share` and with half of that.
+/// Verdict by two runs: with the step divided by `share`, and with half of that step.
 fn by_two(
     judged: &Judged,
     product: &mbs::Mechanism,

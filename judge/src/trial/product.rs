@@ -14,7 +14,7 @@ pub const ROUNDING: f64 = 1e-7;
 /// Tolerance of the judge's steps [-]. Chosen, not tuned.
 const TOLERANCE: f64 = 1e-11;
 
-/// Does the formulation control its steps by the energy?
+/// True if the formulation controls its steps by the energy.
 pub(super) fn is_steered(formulation: &str) -> bool {
     FormulationKind::of_name(formulation).is_some_and(|f| f.row().energy_rule)
 }
@@ -31,13 +31,13 @@ pub enum Verdict {
     Differs {
         /// The output with the largest difference, relative to the allowed one.
         channel: String,
-        /// Largest difference of the output from the judge's.
+        /// Largest difference of the output from that of the judge.
         off: f64,
         /// Largest difference that is allowed.
         allowed: f64,
         /// Largest value of the output.
         size: f64,
-        /// Does it differ at the start already?
+        /// True if the output differs at the start already.
         start: bool,
     },
     /// Run that stops.
@@ -69,7 +69,7 @@ pub struct Judged {
     pub channels: Vec<(usize, bool)>,
     /// The smallest pivot during the motion.
     pub least_pivot: f64,
-    /// Do rows of joints depend on each other, so that reactions are not unique?
+    /// True if rows of joints depend on each other, so that reactions are not unique.
     pub is_redundant: bool,
 }
 
@@ -174,7 +174,7 @@ pub fn document(text: &str) -> Result<Scene<f64>, String> {
     document.scene().map_err(|e| e.render())
 }
 
-/// Runs the crates with the step over `share`. Returns the rows at multiples of the step.
+/// Runs the crates with the step divided by `share`. Returns the rows at multiples of the step.
 ///
 /// # Errors
 /// The verdict on a run that does not end well.
@@ -188,7 +188,7 @@ pub fn rows(
         formulation: Some(formulation.to_owned()),
         integrator: Some(integrator.to_owned()),
         step: Some(step / f64::from(share)),
-        // steps that the energy controls are halved by an eighth of the tolerance
+        // an eighth of the tolerance halves the steps that the energy controls
         energy_tolerance: (is_steered(formulation) && share > 1).then(|| {
             let n = f64::from(share);
             [1e-5, 1e-7].map(|x| x / (n * n * n))

@@ -16,7 +16,7 @@ pub(crate) fn of(scene: &Scene<f64>) -> String {
     text + "[[output]]\nname = \"invariant\"\nquantity = \"invariant-error\"\n"
 }
 
-/// Is the quantity a rotation of a point, which has no orientation?
+/// True if the quantity needs the orientation of a body that is a point, which has none.
 fn turns_point(quantity: &Quantity<f64>, scene: &Scene<f64>) -> bool {
     let is_point = |id: BodyId| match id {
         BodyId::Ground => false,

@@ -19,7 +19,7 @@ fn text(name: &str) -> String {
     std::fs::read_to_string(path).expect("the scene is there")
 }
 
-/// Compares channels at the end of a run: name, component, reference value.
+/// Compares channels at the end of a run with reference values. `right` lists name, component and reference value.
 fn ends(name: &str, text: &str, duration: f64, right: &[(&str, usize, f64)], tolerance: f64) {
     let m = mechanism(text);
     let end = run(&m, duration);

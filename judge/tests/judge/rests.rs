@@ -155,7 +155,8 @@ fn a_wheel_is_driven_up_by_two_radians() {
     near("axle", channel(&m, &run(&m, 0.2), "axle")[0], 2.0);
 }
 
-/// A thin rod has no inertia about its own line. So the moments of a force and a rope that act beside this line are equal: T 0.1 = 3 0.2.
+/// A thin rod has no inertia about its own line. So the moments of a force and of a rope about this line are equal: the rope's tension T at
+/// 0.1 m, and 3 N at 0.2 m.
 #[test]
 fn a_rope_beside_the_line_of_a_thin_rod_balances_a_force() {
     let text = "[scene]\ndimension = 3\nduration = 0.1\n\

@@ -68,7 +68,7 @@ fn every_kind_is_in_a_twentieth_or_a_hundredth_of_the_random_scenes_at_least() {
         }
     }
     crate::say(&format!("scenes of 400 by kind: {counts:?}"));
-    // ten kinds of couplings and thirteen of signals are spread over half of the scenes
+    // half of the scenes have couplings and signals, of ten and thirteen kinds; so each kind occurs more rarely
     let least = |kind: &str| match kind.split(' ').next() {
         Some("coupling" | "signal" | "rolling") => 4,
         _ => 20,

@@ -45,13 +45,13 @@ impl Row {
         Some((seconds + pilot) / best)
     }
 
-    /// Is the error larger than the required one, without a warning by the pilot?
+    /// True if the error is larger than the required one, without a warning by the pilot.
     fn is_missed(&self) -> bool {
         let is_larger = |e: Option<f64>| e.is_some_and(|e| e > self.error);
         is_larger(self.true_error) && !is_larger(self.expected)
     }
 
-    /// Is the choice good: within the factor `GOOD`, and not stopped? `None` without a best method.
+    /// True if the choice is good: within the factor `GOOD`, and not stopped. `None` without a best method.
     fn is_good(&self) -> Option<bool> {
         self.best.as_ref()?;
         Some(self.stopped == 0 && self.over_best().is_some_and(|q| q <= GOOD))
@@ -194,7 +194,7 @@ fn levels(rows: &[Row]) -> Vec<f64> {
     levels
 }
 
-/// Is a large enough fraction of choices good, does none take much longer than the best, and did none stop?
+/// True if a large enough fraction of choices is good, no choice takes much longer than the best, and no choice stopped.
 fn verdict(rows: &[Row]) -> bool {
     let judged: Vec<bool> = rows.iter().filter_map(Row::is_good).collect();
     let good = judged.iter().filter(|is| **is).count();

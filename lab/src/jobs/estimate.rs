@@ -25,7 +25,7 @@ const FORMULATIONS: [&str; 6] =
 const ALWAYS: f64 = 0.1;
 /// Largest time of an estimate relative to that of the steps [-], if this is more than [`ALWAYS`].
 const LOOKS_SHARE: f64 = 0.3;
-/// Largest ratio of a finer reference's energy error to that of the coarser one at which the finer one is used [-].
+/// Largest energy error of the finer reference at which it is used, relative to that of the coarser one [-].
 const BETTER: f64 = 0.1;
 /// Tolerances of the reference. The coarser one is used if the finer run stops or has a larger energy error, as at a singular position.
 const TOLERANCES: [&str; 2] = ["1e-12", "1e-10"];

@@ -49,7 +49,7 @@ pub(super) struct Panel {
     /// Titles of the horizontal and of the vertical axis.
     pub(super) titles: [String; 2],
     pub(super) lines: Vec<Line>,
-    /// Are magnitudes shown by their logarithm?
+    /// True if magnitudes are shown by their logarithm.
     pub(super) is_log: bool,
 }
 
@@ -65,7 +65,7 @@ pub(super) trait Picture {
     fn draw<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>) -> Result<(), Fault<B>>;
 }
 
-/// Is this an extension of picture files?
+/// True for an extension of picture files.
 pub(crate) fn is_picture(ending: &str) -> bool {
     matches!(ending, "svg" | "pdf")
 }

@@ -15,7 +15,7 @@ fn inspected(name: &str, model: &str, options: &[&str]) -> Value {
     serde_json::from_slice(&output.stdout).expect("JSON")
 }
 
-/// Numbers of a value, at any depth.
+/// Returns all numbers in a JSON value, at any depth, as one list.
 fn flat(value: &Value) -> Vec<f64> {
     match value {
         Value::Array(list) => list.iter().flat_map(flat).collect(),

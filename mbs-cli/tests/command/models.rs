@@ -104,7 +104,7 @@ fn options_of_import_reach_every_command_and_faults_of_the_start_are_told() {
     assert!(text(&refused.stderr).contains("leave out --import"));
 }
 
-/// Numbers of a value, at any depth.
+/// Returns all numbers in a JSON value, at any depth, as one list.
 fn flat(value: &Value) -> Vec<f64> {
     match value {
         Value::Array(list) => list.iter().flat_map(flat).collect(),
@@ -190,7 +190,7 @@ fn states_that_no_joint_can_have_are_refused_with_the_nearest_name() {
     let asked = ["--joint=pivot=0.4", "--what=accelerations", "--json"];
     let object = done(&run("inspect", &[&[scene.as_str()][..], &asked].concat()));
     assert_eq!(flat(&object["q"]), [0.4, 0.0]);
-    // the base is the only free joint
+    // the key `base` stands for the only free joint; this mechanism has none
     let state = file("base.json");
     std::fs::write(&state, "{\"base\": {\"rate\": [1, 0, 0, 0, 0, 2]}}").expect("a folder");
     let state = state.to_str().expect("UTF-8");

@@ -281,7 +281,7 @@ fn another_sweep_in_the_same_directory_is_refused_until_restart() {
     assert_eq!(std::fs::read_to_string(out.join("sweep.journal")).unwrap(), "my diary\n");
 }
 
-/// Standard error of a refusal, in a folder of its own, since tests run in parallel.
+/// Runs a sweep that is refused, in a folder of its own since tests run in parallel. Returns the standard error.
 fn refusal(text: &str, more: &[&str]) -> String {
     static N_REFUSALS: AtomicUsize = AtomicUsize::new(0);
     let out = scratch(&format!("refusal-{}", N_REFUSALS.fetch_add(1, Ordering::Relaxed)));

@@ -57,7 +57,7 @@ pub(super) fn example(mbs: &Path, folder: &Path) -> Result<f64, String> {
     Ok(clock.elapsed().as_secs_f64())
 }
 
-/// Does the file exist, with at least one byte?
+/// Checks that the file exists and is not empty.
 pub(super) fn is_filled(file: &Path) -> Result<(), String> {
     let is_filled = fs::metadata(file).is_ok_and(|file| file.len() > 0);
     is_filled.then_some(()).ok_or_else(|| format!("{} is missing or empty", file.display()))

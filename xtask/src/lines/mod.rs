@@ -40,11 +40,11 @@ impl Set {
     }
 }
 
-/// Crates whose steps call functions of those modules directly, rather than through a table.
+/// Crates whose steps directly call functions of modules that another crate owns. Other crates call them through a table.
 const STEPS: [&str; 1] = ["mbs_steps"];
 
-/// Largest number of lines of those modules in any other crate, for three precisions together. Allowed are functions that read a field or
-/// two, since they are smaller than a call through a table. A model that is compiled outside its owner adds 50,000 lines.
+/// Largest number of lines of the modules with an owner in any other crate, for three precisions together. Allowed are functions that read
+/// a field or two, since they are smaller than a call through a table. A model that is compiled outside its owner adds 50,000 lines.
 const MOST_STRAY: u64 = 14_000;
 
 /// Counts and prints the table. With `keep` it writes the counts into docs/PROFILES.md, and leaves the bounds unchanged.

@@ -15,7 +15,7 @@ use std::process::{Command, ExitCode};
 
 /// The environment variable with the folder of counts, which gets a file for each crate. If it is set, this program acts as the compiler.
 pub(super) const FOLDER: &str = "MBS_IR_LINES";
-/// The environment variable that keeps LLVM's code as text beside the counts.
+/// The environment variable that, if it is set, keeps LLVM's code as text beside the counts.
 const KEEP: &str = "MBS_IR_KEEP";
 /// Flags of rustc: no passes of LLVM, one file per crate, readable names.
 const FLAGS: [&str; 8] = [

@@ -1,4 +1,4 @@
-//! The firmware example built, and run on emulated boards and on the host.
+//! Builds of the firmware example, and its runs on emulated boards and on the host.
 
 use super::image::Image;
 use super::toolchain::Toolchain;
@@ -13,10 +13,10 @@ use std::time::Duration;
 /// The target of both boards.
 pub(super) const TARGET: &str = "thumbv7em-none-eabihf";
 
-/// Longest run of an emulator.
+/// Largest wall-clock time of an emulator's run.
 const PATIENCE: Duration = Duration::from_secs(600);
 
-/// Features of mbs-nostd: machine elements, and all of them.
+/// Features of mbs-nostd for machine elements; the last one enables all of them.
 pub(super) const ELEMENTS: [&str; 8] =
     ["couplings", "curves", "lines", "rolling", "rotors", "signals", "sums", "elements"];
 
@@ -24,17 +24,17 @@ pub(super) const M7: Board = Board { machine: "mps2-an500", cpu: "cortex-m7" };
 
 pub(super) const M4: Board = Board { machine: "mps2-an386", cpu: "cortex-m4" };
 
-/// A toolchain, and the linker where it has none of its own.
+/// A toolchain, and a linker if the toolchain has none.
 pub(super) type Tools<'a> = (Toolchain, Option<&'a Path>);
 
-/// An emulated board, by the emulator's names.
+/// An emulated board, with the names that the emulator uses.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Board {
     machine: &'static str,
     pub(super) cpu: &'static str,
 }
 
-/// Writes a scene, named by its file beside or among the scenes, as a table of Rust; where.
+/// Exports a scene as a table of Rust, and returns its path. `scene` is the file's path relative to `scenes/`, without its ending.
 pub(super) fn export(scene: &str, precision: &str, models: &Path) -> Result<PathBuf, String> {
     let file = models.join(format!("{}-{precision}.rs", name(scene)));
     let mut command = Command::new(process::tested("mbs", "command")?);
@@ -48,12 +48,12 @@ pub(super) fn export(scene: &str, precision: &str, models: &Path) -> Result<Path
     Ok(file)
 }
 
-/// The name of a scene.
+/// The name of a scene, from its path.
 pub(super) fn name(scene: &str) -> &str {
     scene.rsplit('/').next().unwrap_or(scene)
 }
 
-/// Builds the firmware with a model; the image, and its sizes.
+/// Builds the firmware with a model. Returns the path of the image, and its sizes.
 pub(super) fn build(
     tools: Tools<'_>,
     board: &Board,
@@ -63,7 +63,7 @@ pub(super) fn build(
     build_program(tools, board, ("mbs-firmware", features), &[("MBS_MODEL", model)])
 }
 
-/// Builds a program of the firmware with the models that these variables name; the image, and its sizes.
+/// Builds a program of the firmware. The environment variables of `models` name its models. Returns the path of the image, and its sizes.
 pub(super) fn build_program(
     tools: Tools<'_>,
     board: &Board,
@@ -79,7 +79,8 @@ pub(super) fn build_program(
     Ok((elf, image))
 }
 
-/// A build for a board, and the folder of what it makes. All have the same flags: libraries are compiled once.
+/// The command of a build for a board, and the folder of the built programs. All builds have the same flags, so that libraries are compiled
+/// once.
 pub(super) fn cross_build((toolchain, lld): Tools<'_>, board: &Board) -> (Command, PathBuf) {
     let folder = process::target_dir().join("firmware").join(board.cpu);
     let mut command = toolchain.cargo(false);
@@ -93,7 +94,7 @@ pub(super) fn cross_build((toolchain, lld): Tools<'_>, board: &Board) -> (Comman
     (command, folder.join(TARGET).join("release"))
 }
 
-/// Runs an image on its board; what it printed.
+/// Runs an image on its board. Returns the text that it prints.
 pub(super) fn emulate(board: &Board, elf: &Path) -> Result<String, String> {
     let mut command = Command::new("qemu-system-arm");
     command.args(["-machine", board.machine, "-cpu", board.cpu, "-nographic"]);
@@ -105,7 +106,7 @@ pub(super) fn emulate(board: &Board, elf: &Path) -> Result<String, String> {
     if out.status.success() { Ok(text) } else { Err(format!("{name}: {}\n{text}", out.status)) }
 }
 
-/// Runs a model on the host, in a program without the standard library. A process asks for each run once.
+/// Runs a model on the host, in a program without the standard library. A second request for the same run returns the stored text.
 pub(super) fn on_host(model: &Path, features: &str) -> Result<String, String> {
     static RUNS: Mutex<BTreeMap<(PathBuf, String), String>> = Mutex::new(BTreeMap::new());
     let mut runs = RUNS.lock().unwrap_or_else(PoisonError::into_inner);
@@ -126,7 +127,7 @@ pub(super) fn on_host(model: &Path, features: &str) -> Result<String, String> {
     Ok(text)
 }
 
-/// Features as the firmware names them: machine elements are those of mbs-nostd, effects those of mbs-core.
+/// Features with the names of their crates: machine elements belong to mbs-nostd, effects to mbs-core.
 fn qualified(features: &str) -> String {
     let named = features.split(',').filter(|feature| !feature.is_empty());
     let of = |feature| if ELEMENTS.contains(&feature) { "mbs-nostd" } else { "mbs-core" };

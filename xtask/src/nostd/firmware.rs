@@ -1,4 +1,4 @@
-//! The firmware example on emulated boards: built, run, disassembled, and compared with the same run on the host.
+//! Checks of the firmware example on emulated boards: it is built, run, disassembled, and compared with the same run on the host.
 
 use super::board::{Board, M4, M7, build, emulate, export, name, on_host};
 use super::form::Form;
@@ -12,33 +12,34 @@ use super::toolchain::Toolchain;
 use crate::process;
 use std::path::Path;
 
-/// A run, and what must hold of it.
+/// A run of the firmware, with the limits of its results.
 #[derive(Debug, Clone, Copy)]
 struct Case {
     scene: &'static str,
     features: &'static str,
     precision: &'static str,
     board: Board,
-    /// Instructions of the slowest step, and bytes of stack, at most.
+    /// Largest number of instructions of a step, and largest size of the stack in bytes.
     instructions: u64,
     stack: u64,
-    /// Largest differences of coordinates from the host's run in double precision [m], [rad]; none: no bit differs.
+    /// Largest differences of coordinates from the host's run in double precision [m], [rad]; `None` if all bits must be equal.
     apart: Option<[f64; 2]>,
-    /// Least form of the check that has it.
+    /// Shortest form of the check that makes this run.
     form: Form,
 }
 
-/// Most bytes of an image.
+/// Largest size of an image in bytes.
 const FLASH: u64 = 256 * 1024;
-/// Most bytes of its stack.
+/// Largest size of the stack in bytes.
 const STACK: u64 = 64 * 1024;
-/// Most bytes of the stack where links are bodies, of which there are four times as many, and of a vehicle with its drive line in double.
+/// Largest size of the stack in bytes for the two largest models: a vehicle whose links are bodies, and a vehicle with its drive line in
+/// double precision.
 const MORE_STACK: u64 = 96 * 1024;
 
 const VEHICLE: &str = "polynomial,speed-hold,tire";
 const SUSPENSION: &str = "polynomial,tire";
 const DRIVE_LINE: &str = "couplings,friction,polynomial,signals,tire";
-/// A cam and a rope, from the tests of mbs-nostd.
+/// Scene with a cam and a rope, from the tests of mbs-nostd.
 const HOIST_SCENE: &str = "../mbs-nostd/tests/all/hoist";
 
 /// Largest difference of a vehicle in single precision from the run in double [m, rad].
@@ -46,7 +47,8 @@ const NEAR_VEHICLE: Option<[f64; 2]> = Some([5e-3, 5e-3]);
 /// Largest difference of the other cases in single precision from the run in double [m, rad].
 const NEARER: Option<[f64; 2]> = Some([1e-3, 1e-3]);
 
-/// Runs, and what must hold of them. The short form has the vehicle and the robot in both precisions, and elements with rows, on one board. `iltis-links` is the vehicle with 42 coordinates and 36 closures, whose links are bodies.
+/// Runs of the firmware with the limits of their results. The short form has the vehicle and the robot in both precisions, and machine
+/// elements with rows, on one board. `iltis-links` is the vehicle with links as bodies: it has 42 coordinates and 36 closures of loops.
 #[rustfmt::skip]
 const CASES: &[Case] = &[
     Case { scene: "iltis-slalom", features: VEHICLE, precision: "f32", board: M7, instructions: 100_000, stack: STACK, apart: NEAR_VEHICLE, form: Form::Short },
@@ -60,11 +62,11 @@ const CASES: &[Case] = &[
     Case { scene: HOIST_SCENE, features: "couplings,curves,lines", precision: "f64", board: M7, instructions: 30_000, stack: STACK, apart: None, form: Form::Short },
 ];
 
-/// Builds and runs the cases of a form; what was measured, a line for each.
+/// Builds and runs the cases of a form. Returns a line with the measurements of each.
 ///
 /// # Errors
 ///
-/// The first thing that does not hold.
+/// The first build or run that fails, or the first limit that is exceeded.
 pub(super) fn check(
     (toolchain, lld): (Toolchain, Option<&Path>),
     form: Form,
@@ -131,12 +133,12 @@ impl Case {
     }
 }
 
-/// The table that stands in the repository is the one that its scene is exported to, but for white space.
+/// Checks that the committed table is equal to the exported table of its scene, except for white space.
 fn fresh_export(models: &Path) -> Result<String, String> {
     let read = |path: &Path| {
         let text = std::fs::read_to_string(path).map_err(|e| format!("{}: {e}", path.display()))?;
         let text: String = text.split_whitespace().collect();
-        // Where a list is broken into lines its last comma comes or goes.
+        // a list on several lines has a comma after its last item, one on a single line has none
         Ok::<_, String>(text.replace(",]", "]").replace(",}", "}").replace(",)", ")"))
     };
     let committed = process::root().join("examples/pick/nostd/src/model.rs");

@@ -1,10 +1,10 @@
-//! Extent of the check of controllers: the short form among the other checks, the whole alone.
+//! Extent of the check of controllers: short among the other checks, long if it is run alone.
 
 /// Extent of the check.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Form {
-    /// Two targets, one board, images without features and with all of them.
+    /// Two targets and one board; images without features and with all features.
     Short,
-    /// All targets, boards and models, and an image with each feature.
+    /// All targets, boards and models; also an image with each feature.
     Whole,
 }

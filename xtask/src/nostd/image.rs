@@ -1,4 +1,4 @@
-//! Contents of an image: its size in flash, and what its functions call.
+//! Contents of an image: its size in flash, and the functions that a function can reach.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -20,7 +20,7 @@ impl Image {
     ///
     /// # Errors
     ///
-    /// The file, if it is none.
+    /// The file, if it is no such image.
     pub(super) fn read(path: &Path) -> Result<Self, String> {
         let bytes = std::fs::read(path).map_err(|e| format!("{}: {e}", path.display()))?;
         let word = |at: usize| {
@@ -32,7 +32,7 @@ impl Image {
             let (first, size, n) = (word(28)?, half(42)?, half(44)?);
             let mut sizes = Self { flash: 0, ram: 0 };
             for header in (0..n).map(|i| first + i * size) {
-                // What is loaded, as many bytes as the file has of it; what stands in RAM, zeros included.
+                // loaded segments: bytes of the file count as flash; bytes in memory, zeros included, count as RAM if the segment is there
                 if word(header)? == 1 {
                     sizes.flash += word(header + 16)? as u64;
                     if word(header + 8)? as u64 >= RAM {
@@ -47,19 +47,19 @@ impl Image {
         sizes.ok_or(format!("{} is no image", path.display()))
     }
 
-    /// All readable text of the file, where the names of its functions are.
+    /// The bytes of the file as text. It contains the names of the functions.
     pub(super) fn names(self, path: &Path) -> Result<String, String> {
         let bytes = std::fs::read(path).map_err(|e| format!("{}: {e}", path.display()))?;
         Ok(String::from_utf8_lossy(&bytes).into_owned())
     }
 }
 
-/// The functions that can be reached from `start` in a disassembly: by calls, jumps and falling through. A call through a
-/// register may go anywhere, and an instruction that is not known may be one: both are refused.
+/// Returns the functions that can be reached from `start` in a disassembly: by calls, by jumps, and by running on into the next function. A
+/// call through a register may lead to any function. An unknown instruction may be such a call. Both are refused.
 ///
 /// # Errors
 ///
-/// No such function, or one that may go anywhere.
+/// There is no such function, or a reached function has a call or an instruction that is refused.
 pub(super) fn reachable(disassembly: &str, start: &str) -> Result<BTreeSet<String>, String> {
     let functions = functions(disassembly);
     let mut calls: BTreeMap<&str, BTreeSet<&str>> = BTreeMap::new();
@@ -103,19 +103,19 @@ pub(super) fn reachable(disassembly: &str, start: &str) -> Result<BTreeSet<Strin
     Ok(seen)
 }
 
-/// An instruction that jumps where it has the program counter for its target.
+/// True for a load or a move. Such an instruction is a jump if its target is the program counter.
 fn is_load(operation: &str) -> bool {
     operation.starts_with("ldr") || operation.starts_with("mov")
 }
 
-/// Functions by their addresses; `$t` and `$d` only mark where code and data begin within one.
+/// Functions by their addresses. The names `$t` and `$d` are left out: they mark code and data within a function.
 fn functions(disassembly: &str) -> BTreeMap<u64, &str> {
     let headers = disassembly.lines().filter_map(|line| line.strip_suffix(">:")?.split_once(" <"));
     let functions = headers.filter(|(_, name)| !name.starts_with('$'));
     functions.filter_map(|(address, name)| Some((number(address)?, name))).collect()
 }
 
-/// The function that an address lies in.
+/// The function that contains an address.
 fn holder<'a>(functions: &BTreeMap<u64, &'a str>, address: u64) -> Option<&'a str> {
     functions.range(..=address).next_back().map(|(_, name)| *name)
 }

@@ -1,4 +1,4 @@
-//! The static library for C and its example, compiled, run, and compared with the host's run.
+//! Check of the static library for C: its example is compiled and run, and compared with the same run on the host.
 
 use super::board::{export, on_host};
 use super::run_report::RunReport;
@@ -6,14 +6,14 @@ use crate::process::{self, cargo, output, run};
 use std::path::Path;
 use std::process::Command;
 
-/// Builds the library and the example with the system's C compiler, and runs it.
+/// Builds the library and the example with the system's C compiler, and runs the example.
 ///
 /// # Errors
 ///
-/// What failed, or that a bit differs.
+/// The command that failed, or a difference in a bit.
 pub(super) fn check(models: &Path) -> Result<String, String> {
     let here = process::root().join("mbs-nostd/ffi");
-    // Other people's crates are those of the host's run.
+    // this folder is that of the run on the host, so that external crates are compiled only once
     let folder = process::target_dir().join("firmware/host");
     let mut library = cargo();
     library.args(["build", "--release", "--quiet", "--locked", "--target-dir"]).arg(&folder);

@@ -1,18 +1,20 @@
-//! `cargo xtask check-nostd`: the `no_std` crates are cross-compiled for microcontrollers, and the firmware example is run on
-//! emulated ones.
+//! The job `cargo xtask check-nostd`: cross-compiles the `no_std` crates for microcontrollers, and runs the firmware example on emulated
+//! boards.
 //!
-//! 1. Every crate and feature set of the table compiles for the first target, the ends of each crate's range for the second.
-//! 2. Nothing that panics or allocates can be reached from a step, in the disassembled images.
-//! 3. The images run under QEMU, within their bounds, and end where the host does.
-//! 4. All features together add to the image, and what they add is gone without them.
-//! 5. A program in C, linked with the static library, gives the bits of the host's run. That one links with a panic handler of
-//!    its own, which a standard library that sneaks in would contradict.
-//! 6. An observer sets the state of an exported arm on an emulated board, and a loop is closed there, in Rust and in C with the same bits.
+//! 1. Every crate and feature set of the table compiles for the first target. For the other targets, the smallest and the largest set of
+//!    each crate are compiled.
+//! 2. A step can reach no panic and no allocation, by the disassembled images.
+//! 3. The images run under QEMU within their bounds, and have the results of the host.
+//! 4. All features together add code to the image, and an image without a feature does not contain its code.
+//! 5. A program in C, linked with the static library, gives the same bits as the run on the host. The library has a panic handler of its
+//!    own. So the linker would fail if the standard library were included.
+//! 6. An observer sets the state of an exported arm on an emulated board, and a loop is closed there. Programs in Rust and in C give the
+//!    same bits.
 //!
-//! Asked for alone it is whole: with the third target, each feature of an effect in an image, the other board and more models.
+//! The job alone makes the long form: with the third target, an image with each feature of an effect, the other board and more models.
 //!
-//! A host build cannot show that a crate works without the standard library: the library is there, and a
-//! dependency that asks for it goes unnoticed. The target has none.
+//! A build for the host cannot show that a crate works without the standard library. The host has this library, so a dependency that needs
+//! it is not noticed. The targets do not have it.
 
 mod board;
 mod firmware;
@@ -34,7 +36,7 @@ use std::thread;
 use table::{Build, TARGETS};
 use toolchain::Toolchain;
 
-/// Runs the check by itself: here a toolchain that is missing is a failure.
+/// Runs the check alone. A missing toolchain is then a failure.
 pub fn check_nostd() -> ExitCode {
     summary::ended("check-nostd", check_with(Form::Whole))
 }
@@ -43,7 +45,7 @@ pub fn check_nostd() -> ExitCode {
 ///
 /// # Errors
 ///
-/// The first build that failed, with crate, features and target.
+/// The first build that fails, with crate, features and target.
 pub(crate) fn check() -> Result<Outcome, String> {
     check_with(Form::Short)
 }
@@ -70,8 +72,8 @@ fn check_with(form: Form) -> Result<Outcome, String> {
     Ok(Outcome::Passed(format!("{builds} builds, {}; {}", used.join(", "), measured.join("; "))))
 }
 
-/// Builds the rows of the table for their targets; how many. Each target has a thread and a folder of its own: most of the time is that of
-/// a few large crates, which one core compiles.
+/// Builds the rows of the table for their targets. Returns the number of builds. Each target has a thread and a folder of its own, since
+/// most of the time a few large crates are compiled, each on one core.
 fn cross_compile_all(toolchains: &[(&str, Toolchain)]) -> Result<usize, String> {
     let build_for = |(target, toolchain): &(&str, Toolchain)| {
         table::of(target)
@@ -83,11 +85,11 @@ fn cross_compile_all(toolchains: &[(&str, Toolchain)]) -> Result<usize, String> 
     })
 }
 
-/// Compiles one crate with one feature set for a target. What a target lacks shows in types and names: machine code, not optimised, is made of
-/// the last row alone, and for the first target by the images.
+/// Compiles one crate with one feature set for a target. Parts that the target lacks are missing types and names, so the code is only
+/// checked. Machine code, not optimised, is made for the last row alone; for the first target the images are built anyway.
 fn cross_compile(toolchain: &Toolchain, build: &Build, target: &str) -> Result<(), String> {
     eprintln!("   {} [{}] for {target}", build.package, build.features.join(", "));
-    // Whether a crate needs `alloc` does not depend on the target. The first target lacks it where the crate must do without.
+    // whether a crate needs `alloc` does not depend on the target; so only the first target is without it, for crates that must not need it
     let has_alloc = build.is_alloc || target != TARGETS[0];
     let mut command = toolchain.cargo(has_alloc);
     let verb = if table::is_whole(build) && target != TARGETS[0] { "build" } else { "check" };

@@ -1,5 +1,5 @@
-//! An observer of an exported arm and the closing of a loop on an emulated board: the firmware's program in Rust, and the one in C, which
-//! is compiled for the board by clang.
+//! Check of an observer of an exported arm, and of the closing of a loop, on an emulated board. The firmware has a program in Rust and one
+//! in C, which clang compiles for the board.
 
 use super::board::{M7, TARGET, Tools, build_program, cross_build, emulate, export};
 use super::panics::no_panics;
@@ -9,12 +9,12 @@ use crate::process::{self, run};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// The arm of the observer, from the tests of mbs-nostd, and the linkage.
+/// The scenes: the arm of the observer, from the tests of mbs-nostd, and the linkage whose loop is closed.
 const SCENES: [&str; 2] = ["../mbs-nostd/tests/all/two-link-arm", "spatial-four-bar"];
 
-/// Error of the observer's angles after [`SETTLED`] steps, at most [rad]: a fortieth of what it starts with.
+/// Largest error of the observer's angles after [`SETTLED`] steps [rad]: a fortieth of the error at the start.
 const MAX_ERROR: f64 = 1e-3;
-/// Steps of 1 ms after which the observer has reached the arm [-].
+/// Number of steps of 1 ms after which the observer must have reached the state of the arm [-].
 const SETTLED: u32 = 400;
 /// Largest violation that the closing of the loop leaves [m, m/s]: the rounding of lengths of 1 m and of rates of 6 rad/s.
 const MAX_VIOLATION: f64 = 1e-12;
@@ -22,19 +22,19 @@ const MAX_VIOLATION: f64 = 1e-12;
 /// Report of a run of the observer.
 #[derive(Debug, Clone, PartialEq)]
 struct ObserverReport {
-    /// Lines of the errors, of the closing and of the loop's coordinates, as they stand.
+    /// Lines with the errors, the result of the closing, and the coordinates of the loop, as the run prints them.
     lines: Vec<String>,
-    /// Instructions of a state of the arm, of one of the loop, and of a step of the arm.
+    /// Numbers of instructions: to set a state of the arm, to set one of the loop, and for a step of the arm.
     instructions: [u64; 3],
-    /// Largest error of an angle from [`SETTLED`] steps on [rad].
+    /// Largest error of an angle after [`SETTLED`] steps [rad].
     error: f64,
-    /// Largest |Φ| and |Φ'| that the closing left, and the largest move [rad].
+    /// Largest residual of |Φ| and |Φ'| after the closing, and in `moved` the largest displacement by it [rad].
     violation: f64,
     moved: f64,
 }
 
 impl ObserverReport {
-    /// Reads what a run printed.
+    /// Reads the report from the text that a run prints.
     fn read(text: &str) -> Result<Self, String> {
         let mut report = Self {
             lines: Vec::new(),
@@ -80,7 +80,7 @@ impl ObserverReport {
         Ok(report)
     }
 
-    /// The observer has reached the arm, and the loop is closed.
+    /// Checks that the observer has reached the arm, and that the loop is closed.
     fn holds(&self, place: &str) -> Result<(), String> {
         let Self { error, violation, moved, .. } = *self;
         if !(error < MAX_ERROR) {
@@ -93,16 +93,16 @@ impl ObserverReport {
     }
 }
 
-/// The largest of two numbers; what is no number stays.
+/// The larger of two numbers. A NaN is never replaced.
 fn largest(most: f64, x: f64) -> f64 {
     if most.is_nan() || x <= most { most } else { x }
 }
 
-/// Builds and runs both programs.
+/// Builds and runs the programs in Rust and in C.
 ///
 /// # Errors
 ///
-/// The first thing that does not hold.
+/// The first program that fails, or the first result that is wrong.
 pub(super) fn check(tools: Tools<'_>, models: &Path) -> Result<String, String> {
     let [arm, linkage] = SCENES.map(|scene| export(scene, "f64", models));
     let (arm, linkage) = (arm?, linkage?);
@@ -144,7 +144,7 @@ fn in_c(tools: Tools<'_>, models: &Path, [arm, linkage]: [&Path; 2]) -> Result<P
     let (object, program) = (models.join("observer.o"), models.join("observer"));
     let mut compile = Command::new("clang");
     compile.args([&format!("--target={TARGET}"), &format!("-mcpu={}", M7.cpu)]);
-    // Products and sums are rounded one by one, as in Rust.
+    // products and sums are rounded separately, as in Rust
     compile.args(["-std=c11", "-ffreestanding", "-ffp-contract=off", "-O1"]);
     compile.args(["-Wall", "-Wextra", "-Werror", "-I", "include", "-I"]).arg(models);
     compile.args(["-c", "controller/observer.c", "-o"]).arg(&object);
@@ -156,7 +156,7 @@ fn in_c(tools: Tools<'_>, models: &Path, [arm, linkage]: [&Path; 2]) -> Result<P
     Ok(program)
 }
 
-/// The bytes of a file as an array of C.
+/// The bytes of a file as an array in C.
 fn array(name: &str, file: &Path) -> Result<String, String> {
     let bytes = std::fs::read(file).map_err(|e| format!("{}: {e}", file.display()))?;
     let numbers: Vec<String> = bytes.iter().map(u8::to_string).collect();

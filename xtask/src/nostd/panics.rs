@@ -1,4 +1,4 @@
-//! Proof in an image that a function reaches no panic and no heap.
+//! Proof that a function of an image can reach no panic and no allocation.
 
 use super::image::reachable;
 use crate::debian;
@@ -6,7 +6,7 @@ use crate::process::{self, output};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Nothing that panics, and nothing of a heap, can be reached from the function.
+/// Checks that a function of an image can reach no function that panics or allocates.
 pub(super) fn no_panics(
     elf: &Path,
     (cpu, function): (&str, &str),
@@ -20,7 +20,8 @@ pub(super) fn no_panics(
         }
     };
     let mut command = Command::new(disassembler);
-    // Without its name instructions of the floating-point unit are not known, and what follows them is read from the middle.
+    // without the name of the processor, the disassembler does not know instructions of the floating-point unit, and misreads those after
+    // them
     command.args(["-d", "--no-show-raw-insn", &format!("--mcpu={cpu}")]);
     let text = output(command.arg(elf));
     let text = text.ok_or_else(|| format!("`{}` failed", process::line(&command)))?;
@@ -34,7 +35,7 @@ pub(super) fn no_panics(
     }
 }
 
-/// An `llvm-objdump`, of whatever version.
+/// A program `llvm-objdump` in the path, of the newest version.
 fn disassembler() -> Option<PathBuf> {
     let is_one = |path: &PathBuf| {
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
@@ -46,7 +47,7 @@ fn disassembler() -> Option<PathBuf> {
         .flat_map(|entries| entries.flatten().map(|entry| entry.path()))
         .filter(is_one)
         .collect();
-    // The newest knows most.
+    // the newest version knows most instructions
     found.sort_by_key(|path| {
         let name = path.to_string_lossy().into_owned();
         name.rsplit('-').next().and_then(|n| n.parse::<u32>().ok()).unwrap_or(0)

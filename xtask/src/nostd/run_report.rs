@@ -3,11 +3,11 @@
 /// Kind of a coordinate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Unit {
-    /// Coordinate that is a way [m].
+    /// Coordinate that is a displacement [m].
     Way,
     /// Coordinate that is an angle [rad].
     Angle,
-    /// One of the four numbers of a turn.
+    /// One of the four components of a quaternion.
     Turn,
 }
 
@@ -19,7 +19,7 @@ pub(super) struct Apart {
 }
 
 impl Apart {
-    /// Is it within these? Not a number is not.
+    /// True if both differences are within these limits. A difference that is NaN is not.
     pub(super) fn is_within(self, [way, angle]: [f64; 2]) -> bool {
         self.way <= way && self.angle <= angle
     }
@@ -34,28 +34,28 @@ impl std::fmt::Display for Apart {
 /// Lines and figures that a run reports.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct RunReport {
-    /// Lines of states, as they stand.
+    /// Lines with states, as the run prints them.
     pub(super) lines: Vec<String>,
-    /// Least and most instructions of a step.
+    /// Least and largest number of instructions of a step.
     pub(super) least: u64,
     pub(super) most: u64,
-    /// Bytes of stack, and of the solver.
+    /// Sizes of the used stack and of the solver, in bytes.
     pub(super) stack: u64,
     pub(super) solver: u64,
-    /// Instructions of one more evaluation in a step.
+    /// Number of instructions that one more evaluation adds to a step.
     pub(super) evaluation: u64,
-    /// Instructions of a step that the formula allows; reported on the host alone, as what each coordinate is.
+    /// Largest number of instructions of a step by the formula. Only the host reports it, and the kinds of the coordinates.
     pub(super) bound: u64,
     units: Vec<Unit>,
     is_single: bool,
 }
 
 impl RunReport {
-    /// Reads the report from what a run printed.
+    /// Reads the report from the text that a run prints.
     ///
     /// # Errors
     ///
-    /// A line that is not one.
+    /// A line of an unknown kind, or a text without states.
     pub(super) fn read(text: &str) -> Result<Self, String> {
         let mut report = Self { is_single: true, ..Self::default() };
         for line in text.lines() {
@@ -85,11 +85,11 @@ impl RunReport {
         }
     }
 
-    /// The largest differences from a run that reported what its coordinates are.
+    /// Largest differences from another run, which must have reported the kinds of its coordinates.
     ///
     /// # Errors
     ///
-    /// Runs of other lengths, or of other coordinates.
+    /// The runs have different lengths or different coordinates.
     pub(super) fn apart(&self, other: &Self) -> Result<Apart, String> {
         if self.lines.len() != other.lines.len() {
             return Err("the runs have different lengths".to_owned());
@@ -121,7 +121,7 @@ impl RunReport {
 }
 
 impl Apart {
-    /// Takes the differences of one state. The angle between two turns is twice the distance of their quaternions, nearly.
+    /// Includes the differences of one state. The angle between two orientations is approximately twice the distance of their quaternions.
     fn widen(&mut self, mut differences: &[f64], mut units: &[Unit]) {
         while let Some(unit) = units.first() {
             let n = if *unit == Unit::Turn { 4.min(units.len()) } else { 1 };
@@ -132,7 +132,7 @@ impl Apart {
                 Unit::Angle => (&mut self.angle, size),
                 Unit::Turn => (&mut self.angle, 2.0 * size),
             };
-            // Not a number stays.
+            // a NaN is never replaced
             if size > *largest || size.is_nan() {
                 *largest = size;
             }
@@ -171,7 +171,7 @@ mod tests {
 
     #[test]
     fn the_angle_of_two_turns_is_twice_the_distance_of_their_quaternions() {
-        // 1, 0, 0, 0 beside 1, 0.001, 0, 0: two milliradians.
+        // the quaternions (1, 0, 0, 0) and (1, 0.001, 0, 0) differ by an angle of two milliradians
         let text = |x: f64| {
             let bits = [1.0, x, 0.0, 0.0, 0.3].map(|x: f64| format!("{:x}", x.to_bits())).join(" ");
             RunReport::read(&format!("s 100 {bits}\nu q q q q m\n")).expect("a run")

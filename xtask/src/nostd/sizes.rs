@@ -1,4 +1,4 @@
-//! Growth of an image by each effect's feature, and by that of all machine elements: flash, static data, stack.
+//! Growth of an image by the feature of each effect, and by the feature of all machine elements: flash, static data, stack.
 
 use super::board::{M7, build, emulate, export};
 use super::form::Form;
@@ -9,18 +9,18 @@ use super::toolchain::Toolchain;
 use crate::effects::{self, Listed};
 use std::path::Path;
 
-/// Modules of the law of tires, which no other effect shares.
+/// Modules of the law of tires, which no other effect uses.
 const OF_TIRES: [&str; 5] =
     ["4laws4tire", "4laws12road_contact", "4laws7calspan", "4laws4road", "4laws7feature"];
 
-/// The modules of rotations in space, which bushings alone measure.
+/// Modules of rotations in space, which only bushings use.
 const OF_BUSHINGS: [&str; 2] = ["5loads8rotation", "10overturned"];
 
-/// Modules of machine elements, and the feature of all of these.
+/// Feature of all machine elements, and their modules.
 const OF_ELEMENTS: (&str, [&str; 5]) =
     ("elements", ["12coupled_rows", "13coupled_lines", "8feedback", "5loads3sum", "7rolling"]);
 
-/// The features that bring code, and mangled modules that must not be in an image without them.
+/// Features that add code, each with the mangled names of its modules. An image without the feature must not contain these modules.
 fn features() -> Vec<(&'static str, Vec<String>)> {
     let exported = effects::all().filter(|listed| listed.is_exported());
     let named = exported.filter_map(|Listed { module, feature, .. }| {
@@ -37,11 +37,12 @@ fn features() -> Vec<(&'static str, Vec<String>)> {
     named.chain([(elements, modules.map(str::to_owned).to_vec())]).collect()
 }
 
-/// Builds one scene, which has no effects, with none of the features, with each where these are asked for, and with all; a line for each.
+/// Builds a scene without effects: without features, with all features, and in the long form with each feature alone. Returns a line for
+/// each image.
 ///
 /// # Errors
 ///
-/// A feature that adds nothing, or whose code is in an image without it.
+/// A feature that adds nothing, or whose code is in an image without the feature.
 pub(super) fn check(
     (toolchain, lld): (Toolchain, Option<&Path>),
     models: &Path,
@@ -80,7 +81,7 @@ pub(super) fn check(
     Ok(lines)
 }
 
-/// Checks that an image has no code of features that are off, and that the search finds what is on.
+/// Checks that an image has no code of features that are off. It also checks that the search finds the code of features that are on.
 fn without_others(names: &str, set: &str) -> Result<(), String> {
     for (feature, modules) in features() {
         let is_on = set.split(',').any(|on| on == feature);

@@ -7,13 +7,13 @@ use super::form::Form;
 pub(crate) struct Build {
     /// Name of the crate.
     pub(crate) package: &'static str,
-    /// Features of the build; the default ones are always off.
+    /// Features of the build; the default features are always off.
     pub(crate) features: &'static [&'static str],
-    /// Whether the build may use `alloc`.
+    /// True if the build may use `alloc`.
     pub(crate) is_alloc: bool,
 }
 
-/// The builds; those of a crate stand together, from the least features to the most.
+/// List of all builds. Builds of one crate follow each other, from the fewest features to the most.
 const BUILDS: &[Build] = &[
     Build { package: "mbs-math", features: &[], is_alloc: false },
     Build { package: "mbs-math", features: &["alloc"], is_alloc: true },
@@ -38,17 +38,17 @@ const BUILDS: &[Build] = &[
     Build { package: "mbs-nostd", features: &["elements", "mbs-core/effects"], is_alloc: false },
 ];
 
-/// The targets: Cortex-M4F and Cortex-M7 with hardware floating point; Cortex-M0 without; RISC-V without.
+/// The targets: Cortex-M4F and Cortex-M7 with hardware floating point; Cortex-M0 and RISC-V without it.
 pub(crate) const TARGETS: &[&str] =
     &["thumbv7em-none-eabihf", "thumbv6m-none-eabi", "riscv32imac-unknown-none-elf"];
 
-/// The targets of a form. RISC-V has nothing in types and names that the two before it lack: it is left to the whole.
+/// The targets of a form. RISC-V lacks no types or names that the two other targets have, so only the long form builds for it.
 pub(super) fn targets(form: Form) -> &'static [&'static str] {
     if form == Form::Whole { TARGETS } else { &TARGETS[..2] }
 }
 
-/// The builds for a target: every set for the first target; for the others the first and the last set of each crate. A set between
-/// them has no code for a target that the ends lack.
+/// The builds for a target. The first target has every feature set; the others have the first and the last set of each crate. A set between
+/// these has no code that such a target might lack.
 pub(crate) fn of(target: &str) -> impl Iterator<Item = &'static Build> {
     let is_first = target == TARGETS[0];
     let package = |at: Option<usize>| at.and_then(|at| BUILDS.get(at)).map(|build| build.package);
@@ -59,7 +59,7 @@ pub(crate) fn of(target: &str) -> impl Iterator<Item = &'static Build> {
     BUILDS.iter().enumerate().filter(move |(at, _)| is_first || is_end(*at)).map(|(_, build)| build)
 }
 
-/// Whether a build is the last one: the solver of controllers with all that it has.
+/// True for the last build: the solver of controllers with all features.
 pub(crate) fn is_whole(build: &Build) -> bool {
     BUILDS.last() == Some(build)
 }

@@ -1,5 +1,5 @@
-//! A Rust that can compile for a bare target: one with the target's libraries installed, or the system's with
-//! its sources. Debian's packages are installed where that is possible; toolchains and targets are never fetched.
+//! Search of a Rust toolchain that can compile for a bare target. Either the target's libraries are installed, or the system's Rust has its
+//! sources. Debian's packages are installed where that is possible. Toolchains and targets of rustup are never downloaded.
 
 use crate::debian::{find as find_program, install};
 use crate::process::{cargo, output};
@@ -7,17 +7,17 @@ use crate::summary::LeftOut;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Debian's Rust for building browsers, kept current in stable releases.
+/// Debian's packages of the Rust with which browsers are built. They are recent in stable releases too.
 const DEBIAN_PACKAGES: [&str; 3] = ["rustc-web", "cargo-web", "rust-web-src"];
 
-/// The emulator, and Debian's package of it.
+/// The emulator, which is also the name of Debian's package.
 const EMULATOR: &str = "qemu-system-arm";
 
-/// The system's compiler and cargo, by path: proxies of rustup come earlier in `PATH`.
+/// The system's compiler and cargo, by their paths, since `PATH` may contain proxies of rustup before them.
 const SYSTEM_RUSTC: &str = "/usr/bin/rustc";
 const SYSTEM_CARGO: &str = "/usr/bin/cargo";
 
-/// Variables that `cargo run` and rustup set for the outer toolchain and that would mislead the system's.
+/// Variables that `cargo run` and rustup set for the toolchain of this job. They would mislead the system's toolchain.
 const OUTER_VARIABLES: [&str; 12] = [
     "RUSTUP_TOOLCHAIN",
     "RUSTUP_HOME",
@@ -36,7 +36,7 @@ const OUTER_VARIABLES: [&str; 12] = [
 /// A Rust that can build for the target.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Toolchain {
-    /// The Rust that runs this job; the target's libraries are installed.
+    /// The Rust that runs this job, which has the target's libraries.
     Installed,
     /// The system's Rust, which compiles `core` and `alloc` from its sources.
     System,
@@ -51,13 +51,13 @@ impl Toolchain {
         }
     }
 
-    /// A cargo of this toolchain, for a build without `alloc` or with it.
+    /// The command cargo of this toolchain, for a build with or without `alloc`.
     pub(crate) fn cargo(self, has_alloc: bool) -> Command {
         match self {
             Self::Installed => cargo(),
             Self::System => {
                 let mut command = system(SYSTEM_CARGO);
-                // Building the libraries from source is not stable yet; the variable admits the option.
+                // the build of the libraries from source is an unstable option, which this variable allows
                 command.env("RUSTC", SYSTEM_RUSTC).env("RUSTC_BOOTSTRAP", "1");
                 let libraries = if has_alloc { "core,alloc" } else { "core" };
                 command.arg("-Z").arg(format!("build-std={libraries}"));
@@ -67,11 +67,11 @@ impl Toolchain {
     }
 }
 
-/// Finds a toolchain for the target, installing Debian's packages where they are missing and that is possible.
+/// Finds a toolchain for the target. Missing packages of Debian are installed where that is possible.
 ///
 /// # Errors
 ///
-/// What is missing, and how to get it.
+/// The missing part, and the remedy.
 pub(crate) fn find(target: &str) -> Result<Toolchain, LeftOut> {
     if is_installed(target) {
         return Ok(Toolchain::Installed);
@@ -94,12 +94,12 @@ pub(crate) fn find(target: &str) -> Result<Toolchain, LeftOut> {
     })
 }
 
-/// Finds what the firmware example asks for beside a toolchain: an emulator, installed where that is possible. For the system's Rust it asks for
-/// the linker too, that of the Rust which runs this job or one in the path.
+/// Finds the tools that the firmware example needs besides a toolchain. The emulator is installed where that is possible. The system's Rust
+/// also needs a linker: that of the Rust that runs this job, or one in the path. Returns the linker, if one is needed.
 ///
 /// # Errors
 ///
-/// What is missing, and how to get it.
+/// The missing part, and the remedy.
 pub(crate) fn for_images(toolchain: Toolchain) -> Result<Option<PathBuf>, LeftOut> {
     find_program(EMULATOR, EMULATOR)?;
     if toolchain == Toolchain::Installed {
@@ -108,11 +108,11 @@ pub(crate) fn for_images(toolchain: Toolchain) -> Result<Option<PathBuf>, LeftOu
     linker().map(Some)
 }
 
-/// Finds a linker for bare targets: that of the Rust which runs this job, or one in the path.
+/// Finds a linker for bare targets: that of the Rust that runs this job, or one in the path.
 ///
 /// # Errors
 ///
-/// What is missing, and how to get it.
+/// The missing part, and the remedy.
 pub(crate) fn linker() -> Result<PathBuf, LeftOut> {
     let own = output(Command::new("rustc").args(["--print", "target-libdir"]));
     let own = own.and_then(|lib| Some(Path::new(&lib).parent()?.join("bin/rust-lld")));
@@ -128,19 +128,19 @@ pub(crate) fn linker() -> Result<PathBuf, LeftOut> {
     })
 }
 
-/// Whether the Rust that runs this job has the target's libraries.
+/// True if the Rust that runs this job has the target's libraries.
 fn is_installed(target: &str) -> bool {
     let args = ["--print", "target-libdir", "--target", target];
     output(Command::new("rustc").args(args)).is_some_and(|folder| Path::new(&folder).is_dir())
 }
 
-/// Whether the system's Rust has its sources and is recent enough; otherwise what it lacks.
+/// Checks that the system's Rust is recent enough and has its sources. Otherwise returns the missing part.
 fn system_rust() -> Result<(), String> {
     let wanted = env!("CARGO_PKG_RUST_VERSION");
     if !Path::new(SYSTEM_CARGO).is_file() {
         return Err(format!("there is no {SYSTEM_CARGO}"));
     }
-    // A proxy of rustup in that place answers with a toolchain outside /usr.
+    // a proxy of rustup at this path reports a toolchain outside /usr
     if output(system(SYSTEM_RUSTC).args(["--print", "sysroot"])).as_deref() != Some("/usr") {
         return Err(format!("{SYSTEM_RUSTC} is not the system's own Rust"));
     }
@@ -154,7 +154,7 @@ fn system_rust() -> Result<(), String> {
     Ok(())
 }
 
-/// A command free of the outer toolchain's variables.
+/// A command without the variables of the outer toolchain.
 fn system(program: &str) -> Command {
     let mut command = Command::new(program);
     for variable in OUTER_VARIABLES {

@@ -1,4 +1,4 @@
-//! The imports between the files of a crate have no circles, and neither have those between its rooms.
+//! Rule for imports: neither those between the files of a crate nor those between its rooms have circles.
 //!
 //! A room is a file or a folder directly below the crate's first file. The module `imports` defines what counts as an import. Imports from
 //! one room to another are an arrow. Arrows that still make a circle are listed in allow.txt, as `up | CRATE: FROM -> TO | COUNT | reason`,
@@ -85,7 +85,7 @@ impl Plan {
         format!("{} -> {}", self.rooms[from], self.rooms[to])
     }
 
-    /// The circles of rooms. Each has its rooms and its arrows with their imports.
+    /// The circles of rooms, as texts. Each text has the rooms, and the arrows with their imports.
     fn circles(&self) -> Vec<String> {
         let circle = |rooms: Vec<usize>| {
             let names: Vec<_> = rooms.iter().map(|room| self.rooms[*room].as_str()).collect();
@@ -101,8 +101,8 @@ impl Plan {
         circles(self.rooms.len(), &self.arrows).into_iter().map(circle).collect()
     }
 
-    /// Removes the arrows of the list. Returns those that close a circle, with their imports: the room at their end needs, over other
-    /// rooms, the room at their beginning.
+    /// Removes the listed arrows. Returns the removed arrows that close a circle, with their imports. An arrow closes a circle if the room
+    /// at its end needs the room at its beginning through other rooms.
     fn take_out(&mut self, listed: &BTreeSet<String>) -> BTreeMap<String, Vec<String>> {
         let (taken, kept): (Arrows<_>, Arrows<_>) = std::mem::take(&mut self.arrows)
             .into_iter()

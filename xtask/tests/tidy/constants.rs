@@ -27,7 +27,7 @@ fn constant(line: &str) -> Option<(&str, &str)> {
     is_name.then_some((name, kind))
 }
 
-/// Does a type consist of numbers alone, or arrays and tuples of numbers? The length of an array may be any expression.
+/// True if a type consists of numbers alone, or of arrays and tuples of numbers. The length of an array may be any expression.
 fn is_numeric(kind: &str) -> bool {
     let mut parts = kind.split(']').map(|part| part.split("; ").next().unwrap_or_default());
     let mut words = Vec::new();

@@ -1,7 +1,8 @@
 //! The imports of a crate as edges between its files. A name leads to the file that defines it, through all re-exports.
 //!
-//! A re-export is not an import. Tests and definitions made by macros are left out. A file that no file declares as a module is declared by
-//! a macro, as the kinds of effect are; it is read with the others. A name that a module does not define leads to the module's file.
+//! A re-export is not an import. Tests and definitions made by macros are left out. A file that no file declares as a module counts as
+//! declared by a macro, as the kinds of effect are. It is read with the others. A name that a module does not define leads to the module's
+//! file.
 
 use super::name;
 use proc_macro2::{Delimiter, TokenStream, TokenTree};
@@ -284,7 +285,7 @@ impl Crate<'_> {
         found
     }
 
-    /// Does a path begin with an item that its module imports? Such a path counts at the import.
+    /// True if a path begins with an item that its module imports. Such a path counts at the import.
     fn is_imported(&self, at: usize, need: &Need) -> bool {
         let is_own = |(own, what): &(String, Name)| {
             need.path.first() == Some(own) && matches!(what, Name::Import { is_shown: false, .. })

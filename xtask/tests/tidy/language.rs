@@ -100,7 +100,7 @@ fn plain(line: &str) -> String {
     text
 }
 
-/// Does a plain line contain the word or words, with no letter or digit directly before or after?
+/// True if a plain line contains the word or words, with no letter or digit directly before or after.
 fn has_word(line: &str, word: &str) -> bool {
     line.match_indices(word).any(|(at, _)| {
         !line[..at].ends_with(char::is_alphanumeric)

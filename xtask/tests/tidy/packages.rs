@@ -53,8 +53,8 @@ fn text<'a>(package: &'a Value, key: &str) -> &'a str {
     package[key].as_str().unwrap_or_default()
 }
 
-/// Does an SPDX expression allow a choice from the list? `AND` requires all its parts, `OR` (formerly `/`) one of them. An expression in
-/// parentheses is a part of `AND`.
+/// True if an SPDX expression allows a choice from the list. `AND` requires all its parts, `OR` (formerly `/`) one of them. An expression
+/// in parentheses is a part of `AND`.
 fn is_allowed(expression: &str) -> bool {
     let one_of = |choices: &str| {
         choices.split(" OR ").any(|all| all.split(" AND ").all(|name| LICENCES.contains(&name)))

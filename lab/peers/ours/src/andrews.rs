@@ -72,7 +72,7 @@ fn runs<S: Space<f64>>(space: &str, scene: &Scene<f64>, seconds: f64) -> Result<
     Ok(())
 }
 
-/// Places of the seven angles among the coordinates.
+/// Indices of the seven angles among the coordinates.
 fn seats<S: Space<f64>>(
     scene: &Scene<f64>,
     model: &TreeModel<f64, S>,

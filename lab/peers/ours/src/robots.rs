@@ -97,7 +97,7 @@ impl Asked<'_> {
     }
 }
 
-/// A sum over the joints, which does not depend on their order.
+/// Value of an answer: a sum over the joints, so that their order does not matter.
 fn value(problem: &str, answer: &[f64], (n, joints): (usize, &[usize])) -> f64 {
     let of = |j: usize| match problem {
         "robot-mass" => answer[j * (n + 1)],

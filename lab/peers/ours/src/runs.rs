@@ -11,7 +11,7 @@ use mbs_recursive::{Options, Planar, Spatial, TreeMethod, TreeModel, Workspace};
 use mbs_scene::SceneFile;
 use std::f64::consts::FRAC_PI_2;
 
-/// Formulation and integrator of the runs that are made in the same way as by `mbs run`.
+/// Formulations and integrators of the runs that simulate as `mbs run` does.
 const METHODS: [[&str; 2]; 4] = [
     ["recursive", "trapezoidal"],
     ["recursive", "rk4"],
@@ -19,7 +19,7 @@ const METHODS: [[&str; 2]; 4] = [
     ["state-space", "trapezoidal"],
 ];
 
-/// The scenes of four-bars, with the x of the first crank's end after 10 s [m].
+/// The scenes of the runs. Those of four-bars have the x of the first crank's end after 10 s [m].
 const DOUBLE_PENDULUM: &str = include_str!("../../../../scenes/double-pendulum.toml");
 const TWO: (&str, f64) =
     (include_str!("../../../../scenes/two-four-bars.toml"), 0.328_458_111_540_815_4);
@@ -93,7 +93,7 @@ fn print_run(name: &str, judge: Judge, run: impl Fn(bool) -> Result<[f64; 2], Fa
     }
 }
 
-/// A run by the steps of mbs-recursive alone: its seconds and its value.
+/// Simulates the scene by the steps of mbs-recursive alone. Returns the CPU time of the steps [s], and the quantity that `judge` names.
 fn kernel<S: Space<f64>, const D: usize>(
     scene: &Scene<f64>,
     (dt, n): (f64, usize),
@@ -135,7 +135,7 @@ fn assembled<const D: usize>(
     Ok(Simulation::new(scene, &ResolvedMethod::new(scene, &asked)?)?)
 }
 
-/// A run in the same way as by `mbs run`: its seconds and its value.
+/// Simulates the scene as `mbs run` does. Returns the CPU time of the steps [s], and the quantity that `judge` names.
 fn simulated<const D: usize>(
     scene: &Scene<f64>,
     (dt, n): (f64, usize),

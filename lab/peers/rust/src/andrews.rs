@@ -62,7 +62,7 @@ pub fn digits(q: &[f64]) -> f64 {
     -errors.fold(0.0, f64::max).log10()
 }
 
-/// M(q).
+/// M(q). This is the mass matrix.
 fn mass(q: &[f64]) -> SMatrix<f64, 7, 7> {
     let (ct, sp, so, a, b) = (q[1].cos(), q[3].sin(), q[5].sin(), E - EA, ZF - FA);
     let mut m = SMatrix::zeros();
@@ -84,7 +84,7 @@ fn mass(q: &[f64]) -> SMatrix<f64, 7, 7> {
     m
 }
 
-/// f(q, q').
+/// f(q, q'). These are the forces, with those that depend on velocities.
 fn force(q: &[f64], v: &[f64]) -> SVector<f64, 7> {
     let (a, b) = (E - EA, ZF - FA);
     let (s, c) = q[2].sin_cos();
@@ -102,7 +102,7 @@ fn force(q: &[f64], v: &[f64]) -> SVector<f64, 7> {
     ])
 }
 
-/// G and γ.
+/// G and γ. These are the Jacobian of the loop equations, and the part of their second derivative that follows from velocities.
 fn loops(q: &[f64], v: &[f64]) -> (SMatrix<f64, 6, 7>, SVector<f64, 6>) {
     let turned = |length: f64, angle: f64| {
         let (s, c) = angle.sin_cos();

@@ -27,7 +27,7 @@ impl Machine {
         self.load[1] = load();
     }
 
-    /// Was the machine busy before the measurements? `None` if its load is unknown.
+    /// True if the machine was busy before the measurements; `None` if its load is unknown.
     pub(crate) fn is_busy(&self) -> Option<bool> {
         #[allow(clippy::cast_precision_loss, reason = "a number of cores")]
         let cores = self.cores as f64;

@@ -37,9 +37,9 @@ pub(crate) struct Lane {
     pub(crate) team: String,
     pub(crate) threads: usize,
     pub(crate) order: String,
-    /// Were the phases of the lane's steps timed?
+    /// True if the phases of the lane's steps were timed.
     pub(crate) clocked: bool,
-    /// Median time of a step [s]; `None` if there is a reason.
+    /// Median time of a step [s]; `None` if the lane has a reason instead of a time.
     pub(crate) seconds: Option<f64>,
     pub(crate) reason: Option<String>,
     /// Line of the lane.

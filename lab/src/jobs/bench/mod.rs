@@ -46,7 +46,7 @@ const LARGEST: [&str; 4] = ["net-1000", "convoy-100", "tree-4095", "chain-10000"
 pub(crate) struct Asked {
     /// Sizes of thread teams. Default: from one to the number of cores.
     pub(crate) threads: Option<Threads>,
-    /// Are the largest scenes left out, and do all others get less time?
+    /// True if the largest scenes are left out and all others get less time.
     pub(crate) quick: bool,
     /// Names of the scenes to measure; if the list is empty, the default ones.
     pub(crate) scenes: Vec<String>,

@@ -90,7 +90,7 @@ impl Axis {
         Self::new("t [s]", Kind::Linear)
     }
 
-    /// Can the axis show this number?
+    /// True if the axis can show this number.
     fn shows(&self, x: f64) -> bool {
         x.is_finite() && (self.kind != Kind::Log || x > 0.0)
     }

@@ -80,7 +80,7 @@ fn case(name: &str, dump: &str) -> Case {
     case
 }
 
-/// Is the function one of libc's that copy, fill or compare memory?
+/// True if the function is one of libc's that copy, fill or compare memory.
 fn is_copy(function: &str) -> bool {
     let name = function.trim_start_matches('_');
     ["memcpy", "memmove", "memset", "memcmp", "bcmp"].iter().any(|f| name.starts_with(f))

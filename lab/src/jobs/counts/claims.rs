@@ -38,7 +38,7 @@ impl Claim {
         }
     }
 
-    /// Did every comparison agree, and was there at least one?
+    /// True if there was at least one comparison, and every comparison agreed.
     pub(crate) fn holds(&self) -> bool {
         self.n_checked > 0 && self.against.is_empty()
     }
@@ -205,8 +205,8 @@ enum Kind {
 }
 
 impl Kind {
-    /// Does the function belong to this kind? `<mbs_core::effects::...>::f` belongs to effects, `<Vec<mbs_core::effects::...>>::len` does
-    /// not.
+    /// True if the function belongs to this kind. `<mbs_core::effects::...>::f` belongs to effects, `<Vec<mbs_core::effects::...>>::len`
+    /// does not.
     fn has(self, function: &str) -> bool {
         let (places, names): (&[&str], &[&str]) = match self {
             Self::Effect => (
@@ -231,8 +231,8 @@ impl Kind {
     }
 }
 
-/// Is the function of a formulation compiled for three dimensions? Planar motions of the recursive formulation have three components,
-/// spatial ones six.
+/// True if the function of a formulation is compiled for three dimensions. Planar motions of the recursive formulation have three
+/// components, spatial ones six.
 fn is_spatial(formulation: &str, function: &str) -> bool {
     let marks: &[&str] = match formulation {
         "recursive" => &["spatial::Spatial", "Const<6>"],

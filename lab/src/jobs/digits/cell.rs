@@ -77,7 +77,7 @@ impl Cell {
         10_f64.powi(-self.k)
     }
 
-    /// Does this choice of the penalty give the cell's alpha for its step?
+    /// True if this choice of the penalty gives the cell's alpha for its step.
     pub(super) fn is_on(&self, ladder: &Ladder) -> bool {
         (ladder.exponent)(self.k) == self.exponent
     }

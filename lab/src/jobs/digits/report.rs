@@ -148,7 +148,7 @@ fn judge(section: &mut Section, what: &str, cells: &[&Cell]) {
     }
 }
 
-/// Was the run of this form completed, with at most the error of our default form?
+/// True if the run of this form was completed, with at most the error of our default form.
 fn is_same(cell: &Cell, way: usize) -> bool {
     let error = |way: usize| cell.runs[way].completed().map(|f| f.energy_error);
     matches!((error(way), error(OURS)), (Some(a), Some(b)) if a <= SAME_ERROR * b)

@@ -6,9 +6,9 @@ use std::collections::BTreeMap;
 /// Counts of a method's verdicts.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct Tally {
-    /// Runs with an error like that of the rule, and with constant energy.
+    /// Runs with constant energy and an error like that of the trapezoidal rule.
     pub(super) right: usize,
-    /// Runs with an error like that of the rule, which itself has a large error at the step.
+    /// Runs with an error like that of the trapezoidal rule, where the rule itself has a large error at the step.
     pub(super) coarse: usize,
     /// Runs with a larger error, which decreases with the square of the step.
     pub(super) apart: usize,

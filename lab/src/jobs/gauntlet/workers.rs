@@ -8,7 +8,7 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::time::Duration;
 use xtask::process;
 
-/// Outcomes of the cases of one worker, by their lines.
+/// Lines that one worker prints, with the outcomes of its cases.
 pub(super) type Lines = Vec<Value>;
 
 /// Cases of a worker, and the time limit of a run.

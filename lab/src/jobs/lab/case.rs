@@ -7,14 +7,14 @@ use crate::format::step;
 pub(crate) enum Rule {
     /// All steps have the same length.
     Fixed,
-    /// The change of the energy balance within a step, relative to the exchanged energy. A step with a larger change is rejected. A step
-    /// with less than a hundredth of it is followed by a longer one.
+    /// Control by the change of the energy balance within a step, relative to the exchanged energy. A step whose change exceeds the
+    /// tolerance is rejected. A step with less than a hundredth of the tolerance is followed by a longer one.
     Energy(f64),
     /// The energy rule as published in the report's second publication.
     Printed(f64),
-    /// The estimated error of a step, relative to the scene's length.
+    /// Control by the estimated error of a step, relative to the scene's length, with a tolerance.
     Error(f64),
-    /// The energy and the error of a step, with the same tolerance.
+    /// Control by the energy and by the error of a step, with the same tolerance.
     Both(f64),
 }
 
@@ -33,7 +33,7 @@ pub(crate) struct Case {
     pub(crate) largest: f64,
     /// Simulated time of the run [s]; `None` for that of the scene.
     pub(crate) duration: Option<f64>,
-    /// Do steps end at contacts and kinks?
+    /// True if steps end at contacts and kinks; `None` for the default of `mbs run`.
     pub(crate) events: Option<bool>,
     /// Further arguments of `mbs run`.
     pub(crate) arguments: &'static [&'static str],
@@ -72,7 +72,7 @@ impl Case {
         Self { duration, ..self }
     }
 
-    /// Returns the run with or without steps that end at events.
+    /// Returns the run with the setting `events`, which is true if steps end at contacts and kinks.
     pub(crate) fn with_events(self, events: bool) -> Self {
         Self { events: Some(events), ..self }
     }

@@ -55,7 +55,7 @@ pub(crate) type Runner<'a> = dyn Fn(&Case, Option<&Path>) -> Result<Outcome, Str
 pub(crate) struct Lab<'a> {
     /// Function that runs a case.
     pub(crate) runner: &'a Runner<'a>,
-    /// Are the finest runs left out?
+    /// True if the finest runs are left out.
     pub(crate) quick: bool,
     /// The folder for files of runs.
     pub(crate) folder: PathBuf,

@@ -14,7 +14,7 @@ pub(crate) struct Step {
     pub(crate) t: f64,
     /// Length of the step [s].
     pub(crate) step: f64,
-    /// Was the step made in index 1?
+    /// True if the step was made in index 1.
     pub(crate) is_index_1: bool,
     /// Error of the energy balance at the end of the step [J].
     pub(crate) energy_error: f64,

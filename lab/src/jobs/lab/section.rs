@@ -17,7 +17,7 @@ pub(crate) struct Claim {
     pub(crate) what: String,
     /// Measurement on which the claim is based.
     pub(crate) measured: String,
-    /// Does the claim hold? `None` if the runs do not show it.
+    /// True if the claim holds; `None` if the runs do not show it.
     pub(crate) holds: Option<bool>,
 }
 

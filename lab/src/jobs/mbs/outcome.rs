@@ -26,7 +26,7 @@ pub(crate) enum Outcome {
 }
 
 impl Outcome {
-    /// Did the run make steps, so that it has rows?
+    /// True if the run made steps, so that it has rows.
     pub(crate) fn has_run(&self) -> bool {
         matches!(self, Self::Completed(_) | Self::Stopped { .. })
     }

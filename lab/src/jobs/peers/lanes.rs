@@ -37,7 +37,7 @@ impl Lane {
         median(self.seconds.clone())
     }
 
-    /// Is the lane one of ours that treats the scene as spatial?
+    /// True if the lane is one of ours that treats the scene as spatial.
     pub(super) fn is_spatial(&self) -> bool {
         self.algorithm.starts_with("spatial")
     }

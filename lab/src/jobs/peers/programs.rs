@@ -93,7 +93,7 @@ impl Who {
         }
     }
 
-    /// Can the program run here?
+    /// True if the program can run here.
     pub(super) fn is_here(self) -> bool {
         self.needed().exists()
     }

@@ -58,7 +58,7 @@ pub(crate) struct Frame<'a> {
 }
 
 impl Frame<'_> {
-    /// Is one of these the function's name, or the name of the function whose closure it is?
+    /// True if one of `names` is the name of the function. A closure has the name of the function that contains it.
     fn is(&self, names: &[&str]) -> bool {
         let words = self.function.split(|c: char| !(c.is_ascii_alphanumeric() || c == '_'));
         names.iter().any(|name| words.clone().any(|word| word == *name))

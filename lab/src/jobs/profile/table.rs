@@ -51,7 +51,7 @@ const FUNCTIONS: usize = 12;
 
 /// Best rates of the machine.
 struct Rates {
-    /// Operations per second, one and two per instruction.
+    /// Operations per second: with one operation per instruction, and in `packed` with two.
     scalar: f64,
     packed: f64,
     /// Bytes per second, for an array that fits into the second cache and for one that fits into no cache; sizes of the arrays.

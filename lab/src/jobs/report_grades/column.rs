@@ -166,7 +166,7 @@ fn missing(given: Given) -> Vec<Cell> {
     given.into_iter().map(cell).collect()
 }
 
-/// Is a run useful: was it completed, with a small energy error?
+/// True if a run is useful: it was completed, with a small energy error.
 fn is_useful(run: &Run) -> bool {
     ladder::share(run).is_some_and(|share| share <= USEFUL)
 }

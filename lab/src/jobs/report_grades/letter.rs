@@ -22,8 +22,8 @@ impl Letter {
         }
     }
 
-    /// Letter of a ratio to the best number, where smaller is better. A is up to the first limit, B up to the second, and so on. No ratio
-    /// is a failure.
+    /// Letter of a ratio to the best number, where smaller is better. A is up to the first limit, B up to the second, and so on. A
+    /// missing ratio is a failure.
     pub(crate) fn of_ratio(ratio: Option<f64>, limits: [f64; 3]) -> Self {
         let Some(ratio) = ratio.filter(|ratio| ratio.is_finite()) else { return Self::F };
         let [a, b, c] = limits;

@@ -87,7 +87,7 @@ fn fixed(lab: &Lab<'_>, reference: &Reference, variable: &[Run]) -> Result<Vec<R
     Ok(runs)
 }
 
-/// The run with the largest fixed step at which, as at all smaller ones, the error is at most this.
+/// The run with the largest fixed step such that this step and all smaller ones have errors of at most `at_most`.
 fn largest(fixed: &[Run], at_most: f64) -> Option<&Run> {
     fixed.iter().rev().take_while(|run| run.true_error.is_some_and(|e| e <= at_most)).last()
 }

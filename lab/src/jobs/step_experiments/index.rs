@@ -1,5 +1,5 @@
-//! Experiment on the need for a change of index: the same rule with steps much smaller than 1e-4 s, in both indices and in each of them
-//! alone.
+//! Experiment on the need for a change of index. The same rule, with steps much smaller than 1e-4 s, is used with changes between both
+//! indices and with each index alone.
 
 use super::draw::work_precision;
 use super::fit::span;

@@ -5,11 +5,11 @@ use crate::format::ratio;
 use crate::lab::case::size;
 use crate::lab::section::Section;
 
-/// Ratio of an error to that of the estimate at equal time above which a rule is reported as blind to the error [-].
+/// Least ratio of an error to that of the estimate, at equal CPU time, for which a rule is reported as blind to the error [-].
 const BLIND: f64 = 10.0;
-/// Least exponent in the power law of error over tolerance at which a rule counts as sensitive to the error [-].
+/// Least exponent p in error = c · tolerance^p for which a rule counts as sensitive to the error [-].
 const FLAT: f64 = 0.15;
-/// Least ratio of an error to the uncertainty of the reference at which the error is evaluated [-].
+/// Least error that is evaluated, relative to the uncertainty of the reference [-].
 const ABOVE_DOUBT: f64 = 10.0;
 
 /// Relation of a rule's tolerance to the true error in a scene.

@@ -1,4 +1,5 @@
-//! Entries of the tables that are known to stop before their end. Other stops are surprises, and so are listed entries that are completed.
+//! Entries of the tables that are known to stop before their end. Other stops are reported as surprises. Listed entries that are completed
+//! are surprises too.
 
 use super::rows::Row;
 use crate::mbs::outcome::Outcome;
@@ -6,7 +7,7 @@ use crate::mbs::outcome::Outcome;
 /// An entry that stops: table, method, step [s], and the code of its error.
 type Entry = (&'static str, &'static str, f64, &'static str);
 
-/// The entries that stop. With the published penalty the report found stops too, or needed its pivoting. Others have singular positions, at
+/// The entries that stop. With the published penalty, the report found stops too, or it needed pivoting. Others have singular positions, at
 /// steps that are too large for index-1, or so small that a state is close to the singular position.
 const STOPPED: &[Entry] = &[
     ("T1", "index-3, alpha = 1e7", 1e-4, "not-converged"),

@@ -1,5 +1,5 @@
-//! A model and a solver that call another one and read a clock or another meter. So the real step is timed, and the library contains no
-//! clock.
+//! A model and a solver that call those of the library, and read a clock or another meter around each call. So the real step is timed, and
+//! the library contains no clock.
 
 use mbs_core::model::{Model, Terms};
 use mbs_core::team::Team;
@@ -40,7 +40,7 @@ pub(crate) struct Clock {
     readings: AtomicU64,
     began: AtomicU64,
     evaluated: AtomicU64,
-    /// Is the step possibly still iterating? The bias is evaluated after the iterations, and ends them.
+    /// True while the step may be iterating. The bias is evaluated after the iterations, and so marks their end.
     is_iterating: AtomicBool,
 }
 

@@ -181,7 +181,7 @@ fn run<T: Real, S: SpdSolver<T>>(
     Ok(outcome.json())
 }
 
-/// A solver with the factor in the precision of the model.
+/// Makes a solver whose factor has the precision of the model.
 fn plain<T: Real, C: Cliques>(cliques: &C) -> Multifrontal<T> {
     Multifrontal::analyse(cliques, mbs_sparse::Options::default())
 }

@@ -201,8 +201,8 @@ impl Sizes {
             counters: walk.workspace.solver().counters(),
             jacobian: jacobian.len(),
             terms: rows + jacobian.len() + force.len() + measures,
-            // all coordinates: q, q_low, v, a, a_aux; dq, q, v, a, change. Rows: lambda, the lambda before, reaction, phi; lambda, sigma,
-            // mu, rates, penalty, masses, probe. Unknowns: f and the pivots. The rest is scratch of the sweeps.
+            // ten numbers for each coordinate: q, q_low, v, a, a_aux; dq, q, v, a, change; eleven for each row: lambda, the lambda before,
+            // reaction, phi; lambda, sigma, mu, rates, penalty, masses, probe; two for each unknown: f and the pivots; scratch of the sweeps
             vectors: 10 * e + 11 * m + 2 * n + scratch,
         }
     }

@@ -11,7 +11,7 @@ use mbs::scene_file::{Dice, SceneFile};
 use mbs_study::compare::check_table;
 use mbs_study::sweep::{Study, StudyError};
 
-/// Largest number of columns of a table of references.
+/// Largest number of columns of a table of references, and number of its time intervals.
 const ROWS: usize = 12;
 
 /// Damages one file of each kind and reads it.

@@ -15,9 +15,9 @@ const STEP: f64 = 1e-3;
 const OTHER_PRECISIONS: usize = 5;
 /// Largest number of bodies of a mechanism that is run in double-double, which takes long. Chosen, not tuned.
 const SMALL: usize = 8;
-/// Methods that control their steps. The list begins with those whose index follows the step. Every second text that is not run in
-/// double-double is tried with one of these methods. They are tried less often, since step control may need a hundred thousand steps before
-/// it stops.
+/// Further methods that control their steps, besides the formulations whose steps the energy controls. Every second text that is not run in
+/// double-double is tried with one of all these methods. They are tried less often, since step control may need a hundred thousand steps
+/// before it stops.
 const CONTROLLED: [[&str; 3]; 6] = [
     ["state-space", "trapezoidal", "both"],
     ["recursive", "trapezoidal", "error"],
@@ -27,8 +27,8 @@ const CONTROLLED: [[&str; 3]; 6] = [
     ["recursive", "radau5", "fixed"],
 ];
 
-/// All methods under trial: formulation, integrator and control of the step. The number is that of the first methods, which every text is
-/// tried with.
+/// All methods under trial: formulation, integrator and control of the step. The number is the length of the first part of the list, whose
+/// methods every text is tried with.
 fn tried() -> (Vec<[&'static str; 3]>, usize) {
     let (steered, fixed): (Vec<_>, Vec<_>) =
         FormulationKind::ALL.into_iter().partition(|f| f.row().energy_rule);
@@ -117,7 +117,8 @@ fn refusal(words: &str) -> Verdict {
     }
 }
 
-/// Runs a scene for some steps of a fraction of the scene's step. Was the run completed? `None` if the method refuses the scene.
+/// Runs a scene for some steps of a fraction of the scene's step. Returns true if the run was completed; `None` if
+/// the method refuses the scene.
 fn run(
     (mechanism, scene): (&Mechanism, &Scene<f64>),
     [formulation, integrator, control]: [&str; 3],

@@ -20,7 +20,7 @@ pub struct Case {
 /// Options of the run of a case.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Options {
-    /// Is the run in single precision?
+    /// True if the run is in single precision.
     pub is_single: bool,
     /// Fixed penalty factor of the augmented formulations.
     pub penalty: Option<f64>,

@@ -22,7 +22,8 @@ const COARSE: f64 = 0.1;
 const AGREEMENT: f64 = 1e-3;
 /// Largest residual of joints where only invariants are checked, relative to the size of the case [-]. Chosen, not tuned.
 const MOST_VIOLATION: f64 = 1e-6;
-/// Largest ratio of a quotient of errors to the square of the quotient of steps, or its inverse [-]. Chosen, not tuned.
+/// Largest factor between a quotient of two errors and the square of the quotient of their steps for an error of second order [-]. Chosen,
+/// not tuned.
 const ORDER: f64 = 3.0;
 /// Number of steps of a reference in one step of the case. Chosen, not tuned.
 const FINER: f64 = 10.0;
@@ -144,8 +145,8 @@ fn at_smaller(case: &Case, method: &str, references: &[Reference]) -> f64 {
     SMALLER.into_iter().map(off).filter(|e| e.is_finite()).fold(0.0, f64::max)
 }
 
-/// Is an error that of a rule of second order? If so, it decreases with the square of the step. An error of a motion on another branch, or
-/// of an iteration that ended early, does not.
+/// True if an error is that of a rule of second order. Such an error decreases with the square of the step. An error of a motion on another
+/// branch, or of an iteration that ended early, does not.
 fn is_of_the_rule(case: &Case, method: &str, error: f64, reference: &[Row]) -> bool {
     if error >= COARSE {
         return is_of_the_rule_later(case, method, error, reference);
@@ -159,8 +160,8 @@ fn is_of_the_rule(case: &Case, method: &str, error: f64, reference: &[Row]) -> b
     fine.is_some_and(|(finer, fine)| is_square(error / fine, finer))
 }
 
-/// Is an error of the size of the motion that of a rule of second order? Such an error decreases by no law at this step, but with the
-/// square of the step from a tenth of it on. Its limit must be the reference, up to the reference's error with steps of a tenth.
+/// True if an error of the size of the motion is that of a rule of second order. Such an error decreases by no law at this step, but with
+/// the square of the step from a tenth of it on. Its limit must be the reference, up to the reference's error with steps of a tenth.
 fn is_of_the_rule_later(case: &Case, method: &str, error: f64, reference: &[Row]) -> bool {
     let finer = [FINER, FINER * THIRD, FINER * THIRD * THIRD];
     let [Some(tenth), Some(finer), Some(finest)] = finer.map(|f| at_part(case, method, f)) else {
@@ -181,7 +182,7 @@ fn at_part(case: &Case, method: &str, finer: f64) -> Option<Rows> {
     }
 }
 
-/// Is a quotient of errors the square of the quotient of steps, up to a factor?
+/// True if a quotient of errors is the square of the quotient of steps, up to the factor `ORDER`.
 fn is_square(errors: f64, steps: f64) -> bool {
     let square = steps * steps;
     errors > square / ORDER && errors < square * ORDER

@@ -33,7 +33,7 @@ fn agree(shown: &str, found: &str) -> bool {
     shown.len() == found.len() && shown.iter().zip(&found).all(|(a, b)| a == b || near(a, b))
 }
 
-/// Are two words the same number, to the digits of the first?
+/// True if two words are the same number, to the digits of the first.
 fn near(shown: &str, found: &str) -> bool {
     let plain = |word: &str| word.trim_matches(['(', ')', ',', ';', ':', '%', '.']).to_owned();
     let [a, b] = [shown, found].map(plain);

@@ -52,7 +52,7 @@ fn a_run_killed_at_any_time_leaves_the_old_or_the_new_and_resumes_to_the_same_bi
         let is_mixed = Folder::mixed(&out).is_some();
         let is_whole = tables(&now) == tables(&old) || tables(&now) == tables(&whole);
         assert!(is_mixed || (now.len() == 4 && is_whole), "kill {k}: {:?}", place.names(&name));
-        // without a checkpoint the run had not begun, or it had ended
+        // there is no checkpoint if the run had not begun, or if it had ended
         let is_kept = out.join(mbs::CHECKPOINT).exists();
         let again =
             if is_kept { format!("--out {name} --resume") } else { format!("--out {name} {LONG}") };

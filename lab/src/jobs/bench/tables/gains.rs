@@ -5,7 +5,7 @@ use super::numbers::{by_size, percent, ratio, time};
 use crate::chart::{Axis, Chart, Kind, Look, Series};
 use crate::lab::section::Section;
 
-/// Least speedup that is reported as one [-].
+/// Least ratio of times that the report calls a speedup [-].
 const SEEN: f64 = 1.05;
 /// Scene of the complete vehicle, which has 168 coordinates in the report.
 const VEHICLE: &str = "iltis-stairs";

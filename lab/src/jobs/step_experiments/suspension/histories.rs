@@ -54,7 +54,7 @@ fn shaded(mut chart: Chart, caption: &str, section: &mut Section) {
     section.figure(&chart, &format!("{caption} The bump is shaded."));
 }
 
-/// Is a step on the bump?
+/// True if the time is within the interval on the bump.
 fn is_on_bump(t: f64) -> bool {
     BUMP[0] < t && t <= BUMP[1]
 }

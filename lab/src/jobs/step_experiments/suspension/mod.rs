@@ -12,7 +12,7 @@ use crate::lab::section::Section;
 use crate::lab::{Lab, Run};
 use histories::{COARSE, FINE};
 
-/// Scenes of the experiment: the damper as published there, and a suspension whose rubber stop the bump reaches.
+/// Scenes of the experiment: one with the damper as published, and one in which the bump compresses the suspension to its rubber stop.
 const SCENES: [&str; 2] = ["iltis-suspension-halved", "iltis-suspension-stiff"];
 /// First step of the controlled run [s].
 const FIRST_STEP: f64 = 1e-3;

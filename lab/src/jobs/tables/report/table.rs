@@ -101,13 +101,13 @@ impl Table {
         })
     }
 
-    /// Is this the first method at its smallest step?
+    /// True if this is the first method at its smallest step.
     pub(crate) fn is_finest(&self, method: &Method, step: f64) -> bool {
         let last = self.entries().take_while(|(m, _)| m.name == self.methods[0].name).last();
         last.is_some_and(|(m, dt)| m.name == method.name && dt.to_bits() == step.to_bits())
     }
 
-    /// Is the history of this entry drawn? Drawn are the finest entry, and every method of the report with its first step.
+    /// True if the history of this entry is drawn. Drawn are the finest entry, and every method of the report with its first step.
     pub(crate) fn draws(&self, method: &Method, step: f64) -> bool {
         let is_first = method.dt.first().is_some_and(|dt| dt.to_bits() == step.to_bits());
         let is_printed = !method.printed.is_empty() && method.arguments.is_empty();

@@ -3,7 +3,7 @@
 use super::table::Printed::{NoConvergence, Wrong};
 use super::table::{CLASSICAL, History, Method, Printed, Table, method, n};
 
-/// Makes a method with its own steps, for the first of which the report prints a time.
+/// Makes a method with its own steps. The report prints a time for the first of them.
 const fn timed(
     formulation: &'static str,
     printed_name: &'static str,

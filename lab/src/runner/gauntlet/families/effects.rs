@@ -200,7 +200,7 @@ pub(super) fn stiff_hinge(dice: &mut Dice) -> Case {
     draft.rate(hinge, 0.0);
     draft.watch(beam, tip);
     let span = time(dice, &STEPS, 0.4);
-    // the beam bends by roughly 10 N m / k
+    // the hinge with the stiffness k bends by roughly 10 N m / k; a soft one does not move as the whole rod
     if stiffness < 3e8 {
         return others(&draft, "stiff hinge", span);
     }

@@ -35,7 +35,7 @@ pub(super) fn parallelograms(dice: &mut Dice) -> Case {
     twin(&draft, &plain, "parallelograms", time(dice, &STEPS, 1.5))
 }
 
-/// The pendulum that is equivalent to n + 1 parallel cranks of a length with n couplers, of given masses.
+/// The pendulum that is equivalent to n + 1 parallel cranks with n couplers. Arguments are n, the length of a crank, and both masses.
 pub(super) fn pendulum(
     (n, length): (usize, f64),
     [crank, coupler]: [f64; 2],
