@@ -12,7 +12,7 @@ const MAX_DEPTH: usize = 32;
 /// Largest number of files that a model includes [-].
 const MAX_FILES: usize = 1_000;
 
-/// The folder of the model, for an attribute with a path; `hint` is the advice in the error when there is no folder.
+/// The folder of the model, to which the path in an attribute is relative. `hint` is the advice in the error when there is no folder.
 pub(crate) fn home<'a>(file: &Attribute, hint: &str, context: &'a Context<'_>) -> Read<&'a Path> {
     context
         .options
@@ -21,7 +21,7 @@ pub(crate) fn home<'a>(file: &Attribute, hint: &str, context: &'a Context<'_>) -
         .ok_or_else(|| file.fault("this text has no folder, from which it could read files", hint))
 }
 
-/// The file with path `name`, relative to the folder of the model, or else the file `other`.
+/// The file `name` in the folder of the model if it exists, or else the file `other`.
 pub(crate) fn find(
     file: &Attribute,
     name: &Path,
@@ -41,7 +41,7 @@ pub(crate) fn find(
 /// Possible paths of a file that is named in a file of this folder. A package or model is sought in the folder given for it, then in the
 /// search path, then in the parent folders.
 ///
-/// An error for a URI scheme that is not supported.
+/// The error is a URI scheme that is not supported.
 pub(crate) fn places<'a>(
     written: &'a str,
     folder: &Path,
@@ -88,7 +88,7 @@ pub(crate) fn existing(places: impl IntoIterator<Item = PathBuf>) -> Option<Path
     places.into_iter().find(|path| path.is_file())?.canonicalize().ok()
 }
 
-/// Is a file outside of the model's folder, when the options forbid this? `path` is absolute.
+/// True if a file is outside of the model's folder and the options forbid this. `path` is absolute.
 pub(crate) fn is_barred(path: &Path, options: &ImportOptions) -> bool {
     let is_inside = |home: &Path| path.starts_with(whole(home));
     options.no_outside && !options.folder.as_deref().is_some_and(is_inside)

@@ -54,7 +54,7 @@ impl Named {
         })
     }
 
-    /// The index of the copy with this ending, or else of the part with the plain name.
+    /// The index of the copy of a part: its name is `name` with this ending. If there is no copy, the index of the part `name`.
     pub(crate) fn find_copy(&self, name: &str, ending: &str, at: Origin) -> Read<usize> {
         self.get(&format!("{name}{ending}")).map_or_else(|| self.find(name, at), Ok)
     }

@@ -19,7 +19,7 @@ pub struct FileCoordinate {
     pub motion: FileMotion,
     /// Name of the joint in the scene.
     pub joint: String,
-    /// Index of its first coordinate among those of the scene's joint.
+    /// Index of the first coordinate of this joint among the coordinates of the scene's joint.
     pub number: usize,
     /// Sign of a single coordinate: the scene's value is `sign` (value − `zero`) [-].
     pub sign: f64,

@@ -1,4 +1,4 @@
-//! Separates links with different factors of gravity. They cannot be one body, so a weld joint of the scene connects them.
+//! Separates links with different factors of gravity. Such links cannot be parts of one body, so a weld joint of the scene connects them.
 
 use crate::robot::{GROUND, Kind, Link, Robot};
 use std::collections::HashSet;
@@ -39,7 +39,7 @@ fn factor(link: &Link) -> Option<f64> {
     link.mass.is_some_and(|mass| mass.mass > 0.0).then_some(link.gravity_scale)
 }
 
-/// Are the bits of two factors equal?
+/// True if the bits of two factors are equal.
 pub(crate) fn is_same(x: f64, y: f64) -> bool {
     x.to_bits() == y.to_bits()
 }

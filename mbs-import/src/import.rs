@@ -62,14 +62,14 @@ pub struct ModelSizes {
     pub inputs: usize,
 }
 
-/// Is a file a model rather than a scene? A model begins with `<` (in UTF-8 or UTF-16) after blanks, or is a file of USD.
+/// True if a file is a model rather than a scene. A model begins with `<` (in UTF-8 or UTF-16) after blanks, or is a file of USD.
 #[must_use]
 pub fn is_model(bytes: &[u8]) -> bool {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     match bytes {
-        // UTF-16, for which the reader has an error message.
+        // A file in UTF-16 counts as a model, because the reader of models has an error message for it.
         [0xff, 0xfe, b'<', 0, ..] | [0xfe, 0xff, 0, b'<', ..] => true,
-        // Also USD, for which the reader has an error message.
+        // A file of USD counts as a model for the same reason.
         _ if is_usd(bytes) => true,
         _ => bytes.iter().find(|byte| !byte.is_ascii_whitespace()) == Some(&b'<'),
     }

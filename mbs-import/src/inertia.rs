@@ -22,7 +22,7 @@ impl Mass {
         Self { mass: 0.0, center: V3::zeros(), tensor: M3::zeros() }
     }
 
-    /// Returns the inertia in the axes of another frame; `pose` is the pose of the present frame in that one.
+    /// Returns the inertia in the axes of another frame. `pose` is the pose of the present frame in the other frame.
     pub(crate) fn seen_from(&self, pose: &Pose) -> Self {
         let turned = pose.turn * self.tensor * pose.turn.transpose();
         // The rounding errors of the products are not symmetric, so the mean is taken.
@@ -48,7 +48,7 @@ impl Mass {
         Self { mass, center, tensor }
     }
 
-    /// Are both mass and inertia zero?
+    /// True if both mass and inertia are zero.
     pub(crate) fn is_nothing(&self) -> bool {
         self.mass == 0.0 && self.tensor == M3::zeros()
     }

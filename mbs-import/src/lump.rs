@@ -14,7 +14,7 @@ const NEGLIGIBLE: f64 = 1.0e-7;
 /// Links that are welded together and form one body.
 #[derive(Debug, Clone)]
 pub(crate) struct Lump {
-    /// Link that the others are welded to, whose name the body gets.
+    /// Link to which the other links are welded. The body gets the name of this link.
     pub(crate) carrier: usize,
     pub(crate) mass: Mass,
     /// Factor of gravity, equal for all links that have mass [-].

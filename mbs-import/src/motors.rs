@@ -4,8 +4,8 @@ use crate::findings::Findings;
 use crate::robot::{Coordinate, GROUND, Joint, Kind, Law, Robot, Signal, Target, Term, What};
 use crate::source::{Fault, Read};
 
-/// Adds a motor to each joint that no actuator of the file drives, unless the joint follows another one. A free joint on the ground belongs
-/// to a base and gets no motor.
+/// Adds a motor to each joint that no actuator of the file drives. A coordinate that a coupling determines gets no motor. A joint that closes
+/// a loop gets none, and neither does a free joint on the ground, which belongs to a base.
 pub(crate) fn add(robot: &mut Robot, findings: &mut Findings) -> Read<()> {
     let driven = driven(robot);
     for number in 0..robot.joints.len() {
@@ -67,7 +67,7 @@ fn efforts(joint: &Joint, number: usize, robot: &mut Robot) -> Read<()> {
     let words = words(joint.kind);
     for (i, word) in words.iter().enumerate() {
         let of = Coordinate { joint: number, number: (words.len() > 1).then_some(i) };
-        // A coupling determines its first coordinate.
+        // A coupling determines the coordinate of its first term. This coordinate gets no motor.
         let is_led = robot.couplings.iter().any(|coupling| coupling.terms[0].of == of);
         if is_led {
             continue;
@@ -91,7 +91,7 @@ fn efforts(joint: &Joint, number: usize, robot: &mut Robot) -> Read<()> {
 fn moments(joint: &Joint, robot: &mut Robot) -> Read<()> {
     let word = match joint.kind {
         Kind::Spherical => "",
-        // The word distinguishes the rotations from the translations.
+        // The ending distinguishes the names of these motors from those of the translations.
         Kind::Free => "turn-",
         _ => return Ok(()),
     };

@@ -31,11 +31,11 @@ const SEARCH_PATHS: [&str; 3] = ["ROS_PACKAGE_PATH", "SDF_PATH", "GZ_SIM_RESOURC
 /// Options for reading a model.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct ImportOptions {
-    /// Base of the model; `None`: the base in the file, or a fixed one for a URDF without this information.
+    /// Base of the model. With `None`, the file decides; a URDF without this information gets a fixed base.
     pub base: Option<BaseKind>,
-    /// Stops at limits that have no stiffness in the file; `None`: limits are written as data, without stops.
+    /// Stops at limits that have no stiffness in the file. With `None`, such limits are written as data, without stops.
     pub limits: Option<Stops>,
-    /// Are impossible inertias corrected? The two smaller principal moments are then raised by the least amount that is needed.
+    /// True if impossible inertias are corrected. The two smaller principal moments are then raised by the least amount that is needed.
     pub balance: bool,
     /// Fixed joints that become weld joints of the scene, so that their reaction is available.
     pub keep_fixed: Vec<String>,
@@ -43,19 +43,19 @@ pub struct ImportOptions {
     pub key: Option<String>,
     /// Folder of the file, to which includes are relative; `None` refuses includes.
     pub folder: Option<PathBuf>,
-    /// Are files outside that folder refused?
+    /// True if files outside the folder of the model are refused.
     pub no_outside: bool,
-    /// Folder of the scene, to which paths of meshes are relative; `None`: the folder of the model.
+    /// Folder of the scene, to which paths of meshes are relative. With `None`, they are relative to the folder of the model.
     pub scene_folder: Option<PathBuf>,
     /// Folders of packages, each with the package's name.
     pub packages: Vec<(String, PathBuf)>,
     /// Folders that contain packages and models.
     pub package_path: Vec<PathBuf>,
-    /// Does each moving joint get an input, unless an actuator of the file drives it?
+    /// True if each moving joint gets an input, unless an actuator of the file drives it.
     pub motors: bool,
-    /// Are meshes, whose mass is needed, counted as massless and reported?
+    /// True if a mesh whose mass is needed counts as massless. A finding then reports it.
     pub massless_meshes: bool,
-    /// Are impossible inertias left out and reported? The scene then serves for positions, Jacobians and inverse kinematics.
+    /// True if impossible inertias are left out and reported. The scene then serves for positions, Jacobians and inverse kinematics.
     pub geometry_alone: bool,
 }
 

@@ -25,12 +25,13 @@ impl Pose {
         Self { turn, at }
     }
 
-    /// The pose of an inner frame relative to the outer frame, given the pose `inner` of the inner frame relative to this one.
+    /// The pose of `inner` relative to the outer frame. The argument is its pose relative to this frame, which has the pose `self` in the
+    /// outer frame.
     pub(crate) fn then(&self, inner: &Self) -> Self {
         Self { turn: self.turn * inner.turn, at: self.point(&inner.at) }
     }
 
-    /// The pose of the other frame relative to this one.
+    /// The inverse pose: that of the outer frame relative to this frame.
     pub(crate) fn inverse(&self) -> Self {
         let turn = self.turn.transpose();
         Self { turn, at: -(turn * self.at) }

@@ -80,7 +80,7 @@ pub(crate) struct Joint {
     /// Limits of the effort of the drive [N m or N] and of the rate [rad/s or m/s].
     pub(crate) effort: Option<f64>,
     pub(crate) rate: Option<f64>,
-    /// Does the joint close a loop, given in the file as a constraint equation?
+    /// True if the joint closes a loop that the file gives as a constraint equation.
     pub(crate) closes: bool,
 }
 
@@ -192,8 +192,8 @@ pub(crate) enum What {
         on: Target,
         signal: String,
     },
-    /// A force at a point of a link, or without a point a moment. Its components are signals, along global axes. When `turns` is true, the
-    /// axes turn with the link from the reference configuration on.
+    /// A force at a point of a link. Without a point it is a moment on the link. The components are signals, along global axes. When `turns`
+    /// is true, the axes turn with the link from the reference configuration on.
     Push {
         link: usize,
         at: Option<V3>,
@@ -316,7 +316,7 @@ pub(crate) fn scene_name(name: &str, what: &str) -> String {
     if name == "ground" { format!("{name}-{what}") } else { name.to_owned() }
 }
 
-/// Are the factors along all axes equal?
+/// True if the factors along all axes are equal.
 pub(crate) fn is_even(scale: [f64; 3]) -> bool {
     scale.map(f64::to_bits) == [scale[0].to_bits(); 3]
 }
@@ -412,8 +412,8 @@ impl Robot {
         }
     }
 
-    /// Root of each link along the joints that `is_counted` selects, from child to parent. Links that are joined to the ground have the
-    /// ground as root.
+    /// For each link, the root that is reached along the joints that `is_counted` selects, from child to parent. Links that are joined to the
+    /// ground have the ground as root.
     pub(crate) fn carriers(&self, is_counted: impl Fn(&Joint) -> bool) -> Vec<usize> {
         fn root(parent: &mut [usize], mut link: usize) -> usize {
             while parent[link] != link {

@@ -28,7 +28,8 @@ pub(crate) fn cuboid(half: [f64; 3]) -> Shell {
     let [a, b, c] = half;
     let faces = [b * c, a * c, a * b];
     let all: f64 = faces.iter().sum();
-    // Mean square of a coordinate: that of the faces across the axis is one, that of the other faces a third.
+    // The mean square of the coordinate, relative to the square of the half length, is one on the faces across the axis. On the other faces
+    // it is a third.
     let square = |axis: usize| {
         let share = faces[axis] / all;
         half[axis] * half[axis] * (share + (1.0 - share) / 3.0)

@@ -17,9 +17,9 @@ pub(crate) enum Treatment {
     Refused,
 }
 
-/// A row: an element and some of its attributes, with their common treatment. The element may have its parent's name before it,
-/// `mimic/joint`. A name may end with `*` for any ending. Without attributes the row is for the element itself. The first matching row
-/// applies; rows with a parent come before rows without one.
+/// A row: an element and some of its attributes, with their common treatment. The element's name may follow its parent's name, as in
+/// `mimic/joint`. A name may end with `*` for any ending. A row without attributes is for the element itself. The first matching row applies;
+/// rows with a parent come before rows without one.
 pub(crate) struct Row {
     pub(crate) element: &'static str,
     /// Names of attributes, separated by blanks; `*` stands for all others.
@@ -68,7 +68,8 @@ mod tests {
     use super::*;
     use crate::{mjcf, sdf, urdf};
 
-    /// Lines `parent/element attribute` of a stored list that a table does not have. The parts of an element without effect are left out.
+    /// Lines `parent/element attribute` of a stored list that a table does not have. The parts of an element that is ignored or refused as a
+    /// whole are left out.
     fn unknown(list: &str, table: &[Row]) -> Vec<String> {
         let lines = list.lines().filter(|line| !line.starts_with('#')).map(|line| {
             let (path, attribute) = line.split_once(' ').expect("two words");

@@ -5,7 +5,7 @@ use crate::source::{Fault, Origin};
 /// First bytes of USD files, in text and in binary form.
 const BEGINS: [&[u8]; 2] = [b"#usda", b"PXR-USDC"];
 
-/// Do the bytes begin like a file of USD?
+/// True if the bytes begin like a file of USD.
 pub(crate) fn is_usd(bytes: &[u8]) -> bool {
     BEGINS.iter().any(|begin| bytes.starts_with(begin))
 }

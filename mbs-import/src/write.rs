@@ -200,7 +200,7 @@ impl Writer<'_> {
                 if let Some(number) = of.number {
                     self.key("coordinate", number.to_string());
                 } else if self.robot.joints[of.joint].kind == Kind::Prismatic {
-                    // The coordinate of a torque or torsion spring on a prismatic joint must be named.
+                    // For a torque or a torsion spring on a prismatic joint, the coordinate must be named.
                     self.key("coordinate", quoted("slide"));
                 }
             }

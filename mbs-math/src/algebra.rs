@@ -77,7 +77,7 @@ impl<T: Real> Coef<T> {
     pub fn norm_squared(self) -> T {
         self.re * self.re + self.im * self.im
     }
-    /// Are alpha and beta exactly zero?
+    /// True if alpha and beta are exactly zero.
     #[must_use]
     pub fn is_zero(self) -> bool {
         self.re == T::ZERO && self.im == T::ZERO
@@ -247,8 +247,9 @@ pub fn rotation_vector<T: Real>(r: &Matrix<T, 3>) -> Vector<T, 3> {
     if n.dot(&w) < T::ZERO { n * -angle } else { n * angle }
 }
 
-/// The gradient of a component of the rotation vector w = log(R) with respect to a rotation of the frame that R leads to. The rate of the
-/// component is w_i' = g.omega, where omega [rad/s] is the angular velocity of that frame.
+/// Gradient g of component i of the rotation vector w = log(R). R converts components in a rotated frame to components in the first frame.
+/// When the rotated frame turns with the angular velocity omega [rad/s], the rate of the component is w_i' = g.omega. Both g and omega have
+/// their components in the first frame.
 ///
 /// ```text
 /// g = e_i + w x e_i / 2 + c w x (w x e_i),   c = (1 - a cot a) / |w|^2,   a = |w| / 2

@@ -36,7 +36,7 @@ pub trait BlockSource<T: Real>: Sync {
     /// Writes the residual of `element` in the order of its clique. All k places of `residual` are written, where k is the length of the
     /// clique.
     fn write_residual(&self, element: usize, residual: &mut [T]);
-    /// Has the block of `element` a number that is not zero? A solver may leave out a block for which this is `false`.
+    /// True if the block of `element` has a number that is not zero. A solver may leave out a block for which this is `false`.
     #[inline]
     fn has_block(&self, _element: usize) -> bool {
         true
@@ -50,7 +50,8 @@ pub trait BlockSource<T: Real>: Sync {
     }
 }
 
-/// Joins, for each unknown u, `start` and the values that the elements write for u, in the order of the elements, into `out[u]`.
+/// Accumulates values of the elements for each unknown u: `out[u]` begins as `start`. Each element that has u then replaces it by
+/// `join(out[u], value)`, in the order of the elements.
 ///
 /// `write(e, values)` writes the values of element e into a slice with one place for each unknown of its clique.
 #[inline(always)]
@@ -96,8 +97,8 @@ pub trait SpdSolver<T: Real> {
     fn elimination_order(&self) -> &[u32];
 }
 
-/// A solver for symmetric matrices that need not be definite, such as saddle systems. The symbolic analysis is done when the solver is
-/// made. The pivots are chosen by the numbers of each matrix.
+/// A solver for symmetric matrices that need not be definite, such as saddle systems. The symbolic analysis is done when the solver is made.
+/// The pivots are chosen by the values of the entries of each matrix.
 ///
 /// ```text
 /// T = [ W   J^T ]      regular exactly when J has full rank and W is definite where J x = 0

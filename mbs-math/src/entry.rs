@@ -2,7 +2,7 @@
 
 use crate::Real;
 
-/// Reader of the numbers of an entry.
+/// Reader of a sequence of numbers, from which entries are read.
 pub trait EntryReader<T> {
     /// Error when a number cannot be read.
     type Error;
@@ -23,7 +23,7 @@ pub trait EntryReader<T> {
     fn fault(&self) -> Self::Error;
 }
 
-/// Writer of values, as bytes or as an expression of Rust. The methods with an empty default serve the expression alone, and write no
+/// Writer of values, as bytes or as an expression of Rust. The methods with an empty default write parts of the expression that have no
 /// bytes.
 pub trait EntryWriter<T> {
     /// Writes a real number.

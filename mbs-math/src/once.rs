@@ -17,7 +17,7 @@ pub fn find<F: Copy + 'static>(table: &InstanceTable) -> Option<F> {
     table.iter().find_map(|function| (*function as &dyn Any).downcast_ref::<F>().copied())
 }
 
-/// The function of type `F`, whose scalar has a true [`HAS_INSTANCES`](crate::Real::HAS_INSTANCES).
+/// The function of type `F`. Its scalar must be one for which [`HAS_INSTANCES`](crate::Real::HAS_INSTANCES) is true.
 ///
 /// # Panics
 /// If the table has no entry of this type, as for a dimension other than 2 and 3.
@@ -28,8 +28,8 @@ pub fn found<F: Copy + 'static>(table: &InstanceTable) -> F {
 
 /// Makes a table of a generic function for `f64`, and for `f32` and `dd` when the crate has these features.
 ///
-/// `T` is the name of the scalar. The last argument lists the other generic arguments; without it, `D` is 2 and 3. A table that begins with
-/// `f64` is for that scalar alone.
+/// `T` is the name of the scalar in the type and the function. The last argument lists the other generic arguments; without it, the table has
+/// an entry for `D` = 2 and one for `D` = 3. Only `f64` is the scalar of a table whose arguments begin with `f64`.
 ///
 /// ```
 /// use mbs_math::{Real, instances, once};

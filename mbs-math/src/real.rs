@@ -54,13 +54,13 @@ pub trait Real:
     const EPSILON: Self;
     /// Half a turn [rad].
     const PI: Self;
-    /// Have the crates with large functions compiled them for this scalar, if their feature `instances` is on? See [`once`](crate::once).
+    /// True if the crates with large functions compile them for this scalar when their feature `instances` is on. See [`once`](crate::once).
     const HAS_INSTANCES: bool = false;
 
     /// The nearest number to `x`.
     fn from_f64(x: f64) -> Self;
-    /// The value of a function that was computed in `f64`. Each entry of `_slopes` has the derivative with respect to an argument, and that
-    /// argument. A scalar that carries derivatives computes its derivatives from the slopes.
+    /// The value of a function that was computed in `f64`. `_slopes` has an entry for each argument of the function: the derivative with
+    /// respect to the argument, and the argument. A scalar that carries derivatives computes its derivatives from these entries.
     #[inline]
     #[must_use]
     fn from_f64_with(value: f64, _slopes: &[(f64, Self)]) -> Self {
@@ -110,7 +110,7 @@ pub trait Real:
         let finer = Self::EPSILON / Self::from_f64(f64::EPSILON);
         Self::from_f64(x) * finer.min(Self::ONE)
     }
-    /// Is the number neither infinite nor NaN?
+    /// True if the number is neither infinite nor NaN.
     #[inline]
     fn is_finite(self) -> bool {
         let zero = self * Self::ZERO;

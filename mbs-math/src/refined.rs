@@ -109,7 +109,7 @@ impl core::fmt::Display for RefinementError {
 
 impl core::error::Error for RefinementError {}
 
-/// Number of corrections that gives all digits of a double-double [-]: enough when each leaves less than half of the error.
+/// Number of corrections that gives all digits of a double-double [-]: enough when each correction halves the error or does better.
 pub const ALL: u32 = 100;
 
 impl<T: Real, S: SpdSolver<f64>> Refined<T, S> {

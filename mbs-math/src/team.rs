@@ -11,7 +11,7 @@ use crate::Real;
 
 /// Runs two pieces of work, at the same time if the team has several threads.
 pub trait Team: Sync {
-    /// Is the team always the caller's thread alone? Code for several threads is not compiled for such a type.
+    /// True if the team is always the caller's thread alone. Code for several threads is not compiled for such a type.
     const IS_ALONE: bool = false;
 
     /// Runs `a` and `b` and returns both results after both have ended. A panic of either is passed on.
@@ -63,7 +63,7 @@ impl<W: Team> Team for &W {
     }
 }
 
-/// Largest number of entries in one stretch of a vector [-]. A thread adds so many in some microseconds.
+/// Largest number of entries in one stretch of a vector [-]. A thread adds this many entries in a few microseconds.
 pub const STRETCH: usize = 4096;
 
 /// Calls `work` with the first index and the stretch of each of `N` vectors of equal length, stretch by stretch.

@@ -9,9 +9,9 @@ use crate::source::Read;
 /// An actuator with force = (g₀ + g₁ l + g₂ l̇) u + b₀ + b₁ l + b₂ l̇. Here l is its length, and u is its control or activation.
 #[derive(Debug, Clone)]
 pub(super) struct Actuator {
-    /// Element name that set gain and bias, or `general`.
+    /// Name of the last element that set gain and bias, without regard to `general` elements; `general` if there is no other.
     by: String,
-    /// Element name that wrote to the actuator last.
+    /// Name of the element whose attributes were applied last.
     word: String,
     gain: [f64; 3],
     bias: [f64; 3],
@@ -31,7 +31,7 @@ pub(super) struct Actuator {
     inherit: f64,
     /// Length of the rod between a crank and its slider [m].
     pub(super) crank_length: Option<f64>,
-    /// Parts of the actuator that affect the force but have no counterpart in the scene.
+    /// Descriptions of the attributes that affect the force but have no counterpart in the scene.
     pub(super) lost: Vec<String>,
 }
 
@@ -72,8 +72,8 @@ impl Actuator {
         }
     }
 
-    /// The actuator from the defaults of an element's class and from the element. Each default has the depth of its class; `depth` is that
-    /// of the element's own class.
+    /// The actuator of an element: the defaults are applied first, from the outermost class inwards, then the element. Each default is given
+    /// with the depth of its class; `depth` is the depth of the element's class.
     pub(super) fn of(
         element: &Element,
         (defaults, depth): (&[(usize, &Element)], usize),
@@ -88,10 +88,10 @@ impl Actuator {
         Ok(actuator)
     }
 
-    /// Applies the attributes of an element or a default, in a class within `outer` classes.
+    /// Applies the attributes of an element or of a default. `outer` has the actuator as each enclosing class left it.
     ///
-    /// Attributes of different kinds of actuators do not combine. For another kind, the actuator starts from the nearest outer class whose
-    /// last element has that kind or `general`.
+    /// Attributes of different kinds of actuators do not combine. For another kind, the values begin as in the innermost entry of `outer`
+    /// whose last element has that kind or `general`.
     fn apply(&mut self, element: &Element, outer: &[Self]) -> Read<()> {
         let word = element.name.as_str();
         let is_alike = |own: &str| own == word || own == "general";
@@ -275,7 +275,7 @@ impl Actuator {
         if self.bias_kind == "affine" { self.bias } else { [0.0; 3] }
     }
 
-    /// Limits of the control. `auto`: limits that are written apply even without `ctrllimited`.
+    /// Limits of the control. With `auto`, limits that are written apply even without `ctrllimited`.
     pub(super) fn control_range(
         &self,
         of_length: Option<[f64; 2]>,
@@ -330,7 +330,7 @@ impl Actuator {
         None
     }
 
-    /// Is its damping given by a damping ratio and the inertia that it moves?
+    /// True if the damping is given by a damping ratio and the inertia that the actuator moves.
     pub(super) fn has_ratio(&self) -> bool {
         let ([stiffness, ..], [_, bias, ratio]) = (self.gain, self.biases());
         stiffness == -bias && ratio > 0.0
@@ -351,7 +351,8 @@ impl Actuator {
         Ok(damped)
     }
 
-    /// Returns the actuator of a hinge or a slide, scaled by the size of its frames; `None` when the scene cannot have it.
+    /// Returns the actuator of a hinge or a slide, scaled by the size factors of the frames that contain it. `None` when the scene cannot
+    /// have it.
     pub(super) fn grown(&self, size: Size, is_slide: bool) -> Option<Self> {
         if size == Size::ONE {
             return Some(self.clone());
@@ -378,7 +379,8 @@ impl Actuator {
         Some(grown)
     }
 
-    /// Factor of the control in the file. The control of a servo on a slide is a length or a rate, and is scaled like one.
+    /// Factor that converts the control in the file. The control of a servo on a slide is a length or a rate of a length, and scales with the
+    /// lengths.
     pub(super) fn control_factor(&self, (size, is_slide): (Size, bool)) -> f64 {
         if is_slide && self.is_servo() { size.length } else { 1.0 }
     }

@@ -106,7 +106,7 @@ pub(super) fn mass(geom: &MeshGeom, model: &mut Model<'_, '_, '_>) -> Read<Mass>
     Ok(own.seen_from(&geom.pose.then(&frame)))
 }
 
-/// The triangles of a mesh in the frame of a geom, the rule for their volume, and their mass at a density of one.
+/// Triangles of a mesh in the frame of a geom, the rule for their volume, and their mass at a density of one.
 type Whole = (TriangleMesh, VolumeRule, Mass);
 
 /// Reads a mesh and computes its mass. The inner error is the reason why it has no mass.

@@ -1,7 +1,7 @@
 //! Attached models: their bodies replace the `attach` element, and their names get a prefix.
 //!
-//! Each attached model keeps its default classes and its unit of angles. Its tendons, actuators and equalities are attached too, if
-//! everything that they name is attached.
+//! Each attached model keeps its default classes and its unit of angles. A tendon, an actuator or an equality is attached too, if all
+//! elements that it names are attached.
 
 use super::compiler::{ATTACHED, Compiler, SAVED, SOURCES};
 use super::defaults::is_actuator;
@@ -36,7 +36,7 @@ const NAMES: [&str; 20] = [
     "tendon2",
     "mesh",
 ];
-/// Number of attributes at the beginning of `NAMES` that are no references to other elements.
+/// Number of attributes at the beginning of `NAMES` that name the element itself. The others refer to other elements.
 const OWN_NAMES: usize = 3;
 
 /// Replaces the `attach` elements by the bodies of other models.
@@ -212,7 +212,7 @@ fn collect_sources(element: &Element, sources: &mut BTreeSet<u16>) {
     element.children.iter().for_each(|child| collect_sources(child, sources));
 }
 
-/// Are all elements attached that this element names?
+/// True if all elements that this element names are attached.
 fn is_whole(element: &Element, names: &HashSet<(&'static str, String)>) -> bool {
     let is_there = |word: &Attribute| {
         let kind = match word.name.as_str() {

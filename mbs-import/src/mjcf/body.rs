@@ -31,13 +31,13 @@ struct Scope {
     class: usize,
     /// Ending of all names in a copy; empty outside of copies.
     ending: String,
-    /// Is the body fixed to the ground?
+    /// True if the body is fixed to the ground.
     is_still: bool,
     /// Size factors of everything in the scope.
     size: Size,
 }
 
-/// Parts of a body, without the bodies in it.
+/// Parts of a body, without the parts of the bodies in it.
 #[derive(Debug, Default)]
 struct Own {
     joints: Vec<Written>,
@@ -92,7 +92,7 @@ impl<'a> Walk<'_, 'a, '_, '_> {
         Ok(())
     }
 
-    /// The default class for the elements in an element.
+    /// Index of the default class for the elements within `element`.
     fn class(&self, element: &Element, scope: &Scope) -> Read<usize> {
         let class = element.attribute("childclass");
         class.map_or(Ok(scope.class), |name| self.model.classes.find(name))

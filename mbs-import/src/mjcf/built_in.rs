@@ -81,7 +81,8 @@ fn sphere(divisions: usize) -> Vec<[f64; 3]> {
     points
 }
 
-/// The upper half of an octahedron with points in rows on the unit sphere, and its centre.
+/// The points of a hemisphere and its centre. The points are in rows on the upper half of an octahedron, and are then projected onto the unit
+/// sphere.
 fn hemisphere(rows: i32) -> Vec<[f64; 3]> {
     let n = rows + 1;
     let mut points = vec![[0.0; 3]];

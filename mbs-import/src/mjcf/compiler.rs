@@ -13,7 +13,7 @@ pub(super) const SOURCES: &str = "sources";
 /// Name of the element that holds the settings of an attached model. No XML file can have this name.
 pub(super) const ATTACHED: &str = "attached model";
 
-/// Rule whether the inertia of a body comes from its geoms.
+/// Rule that decides whether the inertia of a body comes from its geoms.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum FromGeoms {
     Never,
@@ -38,13 +38,13 @@ pub(super) struct Compiler {
     pub(super) total_mass: Option<f64>,
     /// Folder of meshes, relative to the folder of the file.
     pub(super) mesh_folder: String,
-    /// Is the folder in a mesh's own path ignored?
+    /// True if the folder in a mesh's own path is ignored.
     pub(super) strip_path: bool,
-    /// Are geoms fitted to the boxes around meshes, not to their inertias?
+    /// True if geoms are fitted to the boxes around meshes, not to the inertias of the meshes.
     pub(super) fits_boxes: bool,
-    /// Is the mass of a mesh that of its enclosed volume?
+    /// True if the mass of a mesh is that of its enclosed volume.
     pub(super) is_mesh_exact: bool,
-    /// Are frames of free joints at the centre of mass, unless `align` says otherwise?
+    /// True if the frames of free joints are at the centre of mass, unless the attribute `align` of a joint decides otherwise.
     pub(super) align_free: bool,
     pub(super) gravity: [f64; 3],
     pub(super) acts: Acts,
@@ -108,7 +108,7 @@ impl Compiler {
         Ok(settings)
     }
 
-    /// The settings that apply at a place: those of the attached model that contains it, or else those of the file.
+    /// The settings that apply at a place. If an attached model contains the place, they are its settings, or else those of the file.
     pub(super) fn of(&self, at: Origin) -> &Self {
         self.attached.get(&at.source).unwrap_or(self)
     }

@@ -6,8 +6,8 @@ use crate::element::Element;
 use crate::robot::{Coordinate, Joint, Kind, Link, Term};
 use crate::source::Read;
 
-/// The slide of an actuator with `cranksite` and `slidersite`, or the reason why there is none. Its length is measured from the slider's
-/// site to the end of the rod.
+/// The slide of an actuator with `cranksite` and `slidersite`, or the reason why there is none. The length of this transmission is measured
+/// from the slider's site to the end of the rod.
 pub(super) fn slide(
     element: &Element,
     gear: f64,

@@ -14,10 +14,11 @@ pub(super) const MAIN: usize = 0;
 /// Values that a class gives to elements, with the values of its parent classes.
 #[derive(Debug, Clone, Default)]
 struct Class<'a> {
-    /// Attributes by the names of element and attribute. Each is listed once for every class on the way that writes it, the innermost last.
+    /// Attributes, by element name and attribute name. Each list has the values from the classes that write the attribute, from the outermost
+    /// class to this one.
     values: HashMap<(&'a str, &'a str), Vec<&'a Attribute>>,
-    /// Default elements of actuators, with the depths of their classes. Their order matters, since one kind of actuator changes the start
-    /// of another.
+    /// Default elements of actuators, with the depths of their classes. Their order matters, since a default of one kind of actuator changes
+    /// values that a later default of another kind starts from.
     actuators: Vec<(usize, &'a Element)>,
     /// Number of classes that contain this class.
     depth: usize,
@@ -65,7 +66,7 @@ impl<'a> Classes<'a> {
         Ok(())
     }
 
-    /// Adds the default elements of a class first, and then its inner classes, which start as copies of it.
+    /// Adds the default elements of a class, and then its inner classes. An inner class begins as a copy of the outer one.
     fn add(&mut self, element: &'a Element, number: usize) -> Read<()> {
         for child in element.children.iter().filter(|child| child.name != "default") {
             if treatment(TABLE, "default", &child.name, "") != Some(Treatment::Mapped) {
@@ -116,7 +117,7 @@ impl<'a> Classes<'a> {
         self.view_as(element, &element.name, scope)
     }
 
-    /// An element with the defaults of another element name: `tendon` for `fixed`.
+    /// An element with the defaults of another element name. For example, a `fixed` element has the defaults of `tendon`.
     pub(super) fn view_as(
         &'a self,
         element: &'a Element,
@@ -135,7 +136,7 @@ impl<'a> Classes<'a> {
     }
 }
 
-/// Is an element of this name an actuator?
+/// True if an element of this name is an actuator.
 pub(super) fn is_actuator(name: &str) -> bool {
     [
         "general",
@@ -217,7 +218,8 @@ impl<'a> View<'a> {
         self.attribute(name).map_or(Ok(default), Attribute::numbers)
     }
 
-    /// Do the limits of a range apply? `limited` decides it, or for `auto` whether the limits are written.
+    /// True if the limits in the attribute `range` apply. The attribute `limited` decides this. When it is `auto` or missing, limits that are
+    /// written apply if `auto` is true, and are an error otherwise.
     pub(super) fn is_limited(&self, limited: &str, range: &str, auto: bool) -> Read<bool> {
         let word = self
             .attribute(limited)

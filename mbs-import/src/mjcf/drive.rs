@@ -34,7 +34,7 @@ pub(super) fn read<'a>(
     Ok(())
 }
 
-/// Adds an actuator to the model. One that the scene cannot have is always reported.
+/// Adds an actuator to the model. An actuator that the scene cannot have is reported.
 fn add(
     element: &Element,
     actuator: &Actuator,
@@ -202,10 +202,11 @@ fn gained(
     model.signal(&format!("{name} of control"), Signal::Product { of: vec![gain, signal] })
 }
 
-/// Adds the inertia and the damping of the actuator itself. They act on its length, which is the gear times the length of its transmission.
+/// Adds the inertia and the damping of the actuator itself. They act on the actuator's length, which is the gear times the length of its
+/// transmission.
 fn own(name: &str, actuator: &Actuator, pulled: &Transmission, model: &mut Model<'_, '_, '_>) {
     let square = pulled.gear * pulled.gear;
-    // The higher powers are those of the rate of the transmission.
+    // All coefficients get the factor gear². The powers in the damping law are powers of the transmission's rate, not of the actuator's.
     let damping = Strength(actuator.damping.0.map(|x| x * square));
     if damping != Strength::NONE && model.compiler.acts.damper {
         let on = effort::target(&pulled.terms);
@@ -226,7 +227,7 @@ fn measured(
 ) -> Vec<(String, f64)> {
     let gear = pulled.gear;
     let mut sum = Vec::new();
-    // A measured line gives its whole length, a measured coordinate its deviation from the reference configuration.
+    // The measured value of a line is its whole length. The measured value of a coordinate is its deviation from the reference configuration.
     let lines = pulled.terms.iter().map(|term| term.factor * super::tendon::length(&term.line));
     let drawn = pulled.drawn - lines.sum::<f64>();
     let constant = constant + of_length * gear * drawn;

@@ -26,7 +26,7 @@ pub(super) struct Shared {
 }
 
 impl Shared {
-    /// Adds the force of an actuator. `rope` is the index of its tendon if that tendon limits all its actuators together.
+    /// Adds the force of an actuator. `rope` is the index of the actuator's tendon if that tendon limits the total force of its actuators.
     pub(super) fn add(&mut self, pull: Pull, rope: Option<usize>, model: &mut Model<'_, '_, '_>) {
         let Some(rope) = rope else { return self.spread(&pull, model) };
         match self.ropes.iter_mut().find(|(other, _)| *other == rope) {
@@ -132,7 +132,7 @@ pub(super) fn target(terms: &[Term]) -> Target {
     }
 }
 
-/// Index of the file's joint to which a term belongs, if that joint limits its actuators together.
+/// Index of the file's joint to which a term belongs, if that joint limits the total effort of its actuators.
 fn limited_joint(term: &Term, model: &Model<'_, '_, '_>) -> Option<usize> {
     let is_it = |of: &Coordinate| *of == term.of && term.line.is_empty();
     model.motions.iter().position(|motion| {
@@ -140,12 +140,12 @@ fn limited_joint(term: &Term, model: &Model<'_, '_, '_>) -> Option<usize> {
     })
 }
 
-/// Is a term the coordinate of a joint whose actuators have a common limit?
+/// True if a term is the coordinate of a joint whose actuators have a common limit.
 pub(super) fn is_limited(terms: &[Term], model: &Model<'_, '_, '_>) -> bool {
     terms.iter().any(|term| limited_joint(term, model).is_some())
 }
 
-/// Joints with a common limit of their actuators that a line or a force on a body affects without this limit.
+/// Names of the joints that limit their actuators' total effort, but on which a line or a force on a body acts without this limit.
 pub(super) fn passed_by(pulled: &Transmission, model: &Model<'_, '_, '_>) -> Vec<String> {
     let limited: Vec<&Motion> =
         model.motions.iter().filter(|motion| motion.effort.is_some()).collect();
@@ -166,7 +166,7 @@ pub(super) fn passed_by(pulled: &Transmission, model: &Model<'_, '_, '_>) -> Vec
     found.map(|motion| motion.name.clone()).collect()
 }
 
-/// Is a link equal to another link, or connected to the ground by way of it?
+/// True if a link is the link `by`, or if the chain of joints from it to the ground contains `by`.
 fn is_carried(mut link: usize, by: usize, robot: &Robot) -> bool {
     while link != GROUND && link != by {
         // The first joint of a link leads to the ground; later joints of the same child close loops.

@@ -91,7 +91,7 @@ fn closing(element: &Element, ending: &str, model: &mut Model<'_, '_, '_>) -> Re
     Ok(())
 }
 
-/// Offset at which the first of two bodies holds the second one.
+/// Returns the offset from the drawn pose of the second body to the pose at which the first body holds it.
 fn between(
     element: &Element,
     is_weld: bool,
@@ -101,7 +101,7 @@ fn between(
     let links = &model.robot.links;
     let size = |link: usize| model.sizes.get(&link).copied().unwrap_or(Size::ONE);
     let point = |link: usize, at: [f64; 3]| links[link].pose.point(&(v3(at) * size(link).length));
-    // The weld holds the relative pose of the drawn configuration: where the first body has the second one now.
+    // By default, the weld holds the second body at its pose relative to the first one in the drawn configuration.
     let drawn = |link: usize| model.drawn.get(&link).copied().unwrap_or(links[link].pose);
     let held = links[first].pose.then(&drawn(first).inverse().then(&drawn(second)));
     let back = match model.posed {
@@ -124,7 +124,7 @@ fn between(
     let Some(turn) = quaternion([a, b, c, d]) else { return Ok(drawn) };
     let wanted = links[first].pose.then(&Pose::new(turn, v3([x, y, z])));
     let is = &links[second].pose;
-    // The second body has its anchor where the first body holds it.
+    // The first body holds the anchor of the second body at the position and orientation in `wanted`.
     let turned = wanted.turn * is.turn.transpose();
     Ok(Offset { place: drawn.place, moved: wanted.at - drawn.place, turned })
 }

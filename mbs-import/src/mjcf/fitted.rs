@@ -15,7 +15,7 @@ pub(super) struct Fitted {
     pub(super) solid: Solid,
     /// Frame of the shape, relative to that of the mesh.
     pub(super) frame: Pose,
-    /// Are its axes arbitrary, although the mass or the moments depend on them?
+    /// True if its axes are arbitrary, although the mass or the moments depend on them.
     pub(super) is_chosen: bool,
 }
 

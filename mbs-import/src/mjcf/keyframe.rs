@@ -123,7 +123,7 @@ fn start(key: &Element, model: &mut Model<'_, '_, '_>) -> Read<()> {
         let (start, turn) =
             joint_start(joint, &own, values.as_deref(), speeds.as_deref(), &turned[parent], model)?;
         turned[child] = turned[parent] * turn;
-        // The coordinate of a joint that a coupling determines is not set.
+        // When a coupling determines a joint, the keyframe does not set the initial state of this joint.
         let couplings = &model.robot.couplings;
         if couplings.iter().any(|coupling| coupling.terms[0].of.joint == joint) {
             continue;

@@ -53,7 +53,8 @@ pub(crate) fn read(root: &Element, context: &mut Context<'_>) -> Read<Robot> {
     if !is_open {
         return Ok(robot);
     }
-    // The bodies are placed as in the keyframe, if that closes the loops that are drawn open.
+    // A loop is open in the drawn configuration. If the options name a keyframe, the model is read again with its bodies placed as in the
+    // keyframe.
     let Some(posed) = keyframe::places(root, context)? else { return Ok(robot) };
     context.findings = before;
     whole(root, Some(posed), context).map(|(robot, _)| robot)

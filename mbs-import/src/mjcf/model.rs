@@ -77,7 +77,7 @@ pub(super) struct Motion {
 }
 
 impl Motion {
-    /// Has the joint a single coordinate?
+    /// True if the joint has a single coordinate.
     pub(super) const fn is_single(&self) -> bool {
         matches!(self.moves, Moves::Hinge | Moves::Slide)
     }
@@ -141,13 +141,13 @@ pub(super) struct Site {
 }
 
 impl Site {
-    /// Is the site in a frame with a scale?
+    /// True if the site is in a frame with a scale.
     pub(super) fn is_grown(&self) -> bool {
         self.size != Size::ONE
     }
 }
 
-/// A tendon of the file. One without terms has no counterpart in the scene.
+/// A tendon of the file. A tendon without terms has no counterpart in the scene.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Tendon {
     pub(super) name: String,
@@ -158,16 +158,16 @@ pub(super) struct Tendon {
     pub(super) range: Option<[f64; 2]>,
     /// Limits of the force of all its actuators together.
     pub(super) effort: Option<[f64; 2]>,
-    /// Is a part of the tendon in a frame with a scale?
+    /// True if a part of the tendon is in a frame with a scale.
     pub(super) is_grown: bool,
 }
 
 /// Control of an actuator, which a keyframe sets.
 #[derive(Debug, Clone)]
 pub(super) struct Control {
-    /// Index of the law that is its input.
+    /// Index of the law that is the input of the actuator.
     pub(super) law: Option<usize>,
-    /// Index of the law that is its activation.
+    /// Index of the law that is the activation of the actuator.
     pub(super) activation: Option<usize>,
     /// Factor that converts control and activation from the file to the scene.
     pub(super) factor: f64,
@@ -201,11 +201,11 @@ pub(super) struct Model<'a, 'b, 'c> {
     pub(super) copies: HashMap<String, Vec<String>>,
     /// Controls of the actuators, by actuator index.
     pub(super) inputs: Vec<Control>,
-    /// Coordinates of the keyframe that gives the reference configuration; `None`: the bodies are as drawn.
+    /// Coordinates of the keyframe that gives the reference configuration. `None` if the bodies are as drawn.
     pub(super) posed: Option<Vec<f64>>,
     /// Poses of links in the configuration in which the model is drawn.
     pub(super) drawn: HashMap<usize, Pose>,
-    /// Is a loop open in the reference configuration?
+    /// True if a loop is open in the reference configuration.
     pub(super) is_open: bool,
     /// Number of geoms that could be in contact.
     pub(super) touching: usize,
@@ -315,8 +315,8 @@ impl<'a, 'b, 'c> Model<'a, 'b, 'c> {
         Ok((number, &self.tendons[number]))
     }
 
-    /// Endings of the copies that an element refers to by a name without ending; the element is then copied too. Otherwise the list has a
-    /// single, empty ending.
+    /// Endings of the copies of an element. When an element refers to a copied part by the name without ending, the element is copied for
+    /// each ending. Otherwise the list has a single, empty ending.
     pub(super) fn endings(&self, element: &Element) -> Vec<String> {
         let mut names = element
             .attributes

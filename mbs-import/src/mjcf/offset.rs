@@ -1,4 +1,4 @@
-//! Loops that are open in the drawn configuration: a massless link is added where the other side has to be.
+//! Loops that are open in the drawn configuration. A massless link is added at the pose that closes the loop.
 
 use super::model::{Model, Sort};
 use crate::element::Element;
@@ -17,7 +17,7 @@ pub(super) struct Offset {
     pub(super) turned: M3,
 }
 
-/// A link that the first link carries, at an offset from it. When both sides coincide as drawn, it is the first link itself.
+/// A link that the first link carries at the offset. When both sides coincide as drawn, no link is added, and the result is the first link.
 pub(super) fn carried(
     name: &str,
     element: &Element,
@@ -44,7 +44,7 @@ pub(super) fn carried(
     link
 }
 
-/// Place of the joints that make up one offset.
+/// Name, element and place of the joints that one offset consists of.
 struct Step<'a> {
     name: &'a str,
     element: &'a Element,

@@ -10,7 +10,7 @@ use crate::pose::{Pose, V3};
 use crate::robot::{Form, FormKind};
 use crate::source::Read;
 
-/// Factors of lengths and masses, and the factors from which those of forces follow.
+/// Factors of lengths and masses, and two factors from which the factors of forces are computed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Size {
     pub(super) length: f64,
@@ -23,7 +23,7 @@ impl Size {
     pub(super) const ONE: Self =
         Self { length: 1.0, mass: 1.0, force_length: 1.0, force_mass: 1.0 };
 
-    /// The size factors within a frame that itself has these factors.
+    /// Returns the size factors inside the element `frame`, given the factors outside of it.
     pub(super) fn of_frame(self, frame: &Element) -> Read<Self> {
         let length = frame.attribute("scale").map(scale).transpose()?;
         let scaling = frame.attribute("scaling");

@@ -42,7 +42,8 @@ pub(super) fn add(
     }
 }
 
-/// Adds a spring that has no force between two lengths. One spring pulls above them; another acts on the negative sum below them.
+/// Adds a spring that has no force between two lengths. One spring pulls above the upper length. Another acts on the negative sum, below the
+/// lower length.
 fn slack_between(
     (name, on): (&str, &Target),
     [lower, upper]: [f64; 2],

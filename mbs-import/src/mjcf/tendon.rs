@@ -15,10 +15,10 @@ use crate::robot::{Coordinate, Target, Term, What};
 use crate::source::{Fault, Read};
 use mbs_core::algebra::norm;
 
-/// The sum on which a tendon acts: its terms, its length as drawn, and its length when the springs of its joints have no force.
+/// The sum on which a tendon acts: its terms, its length in the reference configuration, and its length when its springs have no force.
 struct Pulled {
     terms: Vec<Term>,
-    /// Is a part of the tendon in a frame with a scale?
+    /// True if a part of the tendon is in a frame with a scale.
     is_grown: bool,
     drawn: f64,
     slack: f64,
@@ -126,7 +126,7 @@ fn winding_fault(winding: &Element) -> Fault {
     )
 }
 
-/// Has the tendon a spring, damper, friction or armature?
+/// True if the tendon has a spring, damper, friction or armature.
 fn acts(view: &View<'_>) -> Read<bool> {
     for name in ["stiffness", "damping", "frictionloss", "armature"] {
         let values = view.attribute(name).map(|word| word.list()).transpose()?.unwrap_or_default();

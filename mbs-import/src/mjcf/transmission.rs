@@ -16,23 +16,23 @@ const ARM: f64 = 1.0;
 
 /// Transmission of an actuator: the sum or the forces on which it acts.
 pub(super) struct Transmission {
-    /// Terms of its length without gear. `drawn` is the length in the reference configuration.
+    /// Terms of the length of the transmission, without the gear. `drawn` is this length in the reference configuration.
     pub(super) terms: Vec<Term>,
     pub(super) drawn: f64,
     pub(super) gear: f64,
     /// Forces and moments on a body per newton of actuator force, used in place of terms. They include the gear.
     pub(super) pushes: Vec<Push>,
-    /// Has the transmission a length that can differ from zero?
+    /// True if the length of the transmission can differ from zero.
     pub(super) has_length: bool,
-    /// Index of its tendon, if that tendon limits all its actuators together.
+    /// Index of the tendon, if the tendon limits the total force of its actuators.
     pub(super) rope: Option<usize>,
     pub(super) range: Option<[f64; 2]>,
-    /// Size factors of the frames that contain it, and whether it is a slide.
+    /// Size factors of the frames that contain the transmission, and whether it is a slide.
     pub(super) size: (Size, bool),
     pub(super) label: String,
 }
 
-/// A force at a point of a link, or without a point a moment.
+/// A force at a point of a link. Without a point it is a moment on the link.
 #[derive(Debug, Clone)]
 pub(super) struct Push {
     pub(super) link: usize,
@@ -109,7 +109,7 @@ pub(super) fn transmission(
 }
 
 impl Transmission {
-    /// A transmission without terms and forces, to which they are added.
+    /// A transmission that has neither terms nor forces. The caller adds them.
     pub(super) fn none(label: &str) -> Self {
         Self {
             terms: Vec::new(),

@@ -77,9 +77,9 @@ pub(super) fn settle(model: &mut Model<'_, '_, '_>) -> Read<()> {
     Ok(())
 }
 
-/// Converts the armature a of a free joint, or of a ball on the ground, to inertia of its body. Its energy is ½ a |v|² + ½ a |ω|², with v
-/// the velocity at the joint's place. It equals that of a weightless mass a there, and of a moment a about all axes. Between moving bodies
-/// it has no counterpart.
+/// Converts the armature a of a free joint, or of a ball on the ground, to inertia of its body. The energy of the armature is ½ a |v|² + ½ a
+/// |ω|², where v is the velocity of the body at the joint's place. A weightless mass a at this place has the same energy, together with a
+/// moment a about all axes. The armature of a joint between moving bodies has no counterpart.
 pub(super) fn armatures(model: &mut Model<'_, '_, '_>) {
     let carriers = model.robot.carriers(|joint| joint.kind == Kind::Fixed);
     for number in 0..model.motions.len() {
@@ -151,7 +151,7 @@ fn balance(mass: &mut Mass) -> bool {
     !is_possible
 }
 
-/// Is no principal moment larger than the sum of the other two?
+/// True if no principal moment is larger than the sum of the other two.
 fn is_possible(mass: &Mass) -> bool {
     let moments = mass.tensor.symmetric_eigen().eigenvalues;
     2.0 * moments.max() <= moments.sum() + SLACK * moments.max()

@@ -89,7 +89,8 @@ impl<'a, 'r, 'c> Collector<'a, 'r, 'c> {
         let attached_to = canonical.or(first);
         let mut node = Node { at: model.at, relative_to, pose: own, attached_to, link: None };
         if let Some(placement) = filled(model, "placement_frame") {
-            // The pose is that of the placement frame. The model's pose follows from the pose of that frame within the model.
+            // The `pose` in the file is that of the placement frame. The pose of the model follows from it and from the pose of that frame
+            // within the model.
             let alone = Node { relative_to: WORLD.into(), pose: Pose::identity(), ..node.clone() };
             self.frames.add(scope.model(), alone);
             let inner =

@@ -74,7 +74,7 @@ fn points(element: &Element, word: &str, scope: &Scope, frames: &Frames) -> Read
     Ok([point("body_A", "p_AP")?, point("body_B", "p_BQ")?])
 }
 
-/// Are both points fixed to the ground?
+/// True if both points are fixed to the ground.
 fn are_still(ends: &[(usize, V3); 2], frames: &Frames) -> bool {
     ends.iter().all(|(link, _)| frames.is_still(*link))
 }

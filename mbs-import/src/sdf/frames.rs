@@ -21,7 +21,7 @@ pub(super) struct Node {
     pub(super) pose: Pose,
     /// Full name of the frame to which it is attached. `None` for links and joints, whose motion is defined elsewhere.
     pub(super) attached_to: Option<String>,
-    /// Index of the link whose frame it is.
+    /// Index of the link, if the frame is that of a link.
     pub(super) link: Option<usize>,
 }
 
@@ -69,7 +69,7 @@ impl Frames {
         self.still.insert(link);
     }
 
-    /// Is a link the ground, or a link of a static model?
+    /// True if a link is the ground, or a link of a static model.
     pub(super) fn is_still(&self, link: usize) -> bool {
         link == GROUND || self.still.contains(&link)
     }
@@ -95,7 +95,7 @@ impl Frames {
         Err(Fault::new(at, format!("unknown link, joint, frame or model `{name}`"), hint))
     }
 
-    /// Pose of a frame relative to its model, which is placed in the world only for this computation.
+    /// Pose of a frame relative to its model. For this computation, the model is placed in the world temporarily.
     pub(super) fn alone(&self, name: &str, model: &str, at: Origin) -> Read<Pose> {
         if !self.nodes.contains_key(name) {
             return Err(Fault::new(
@@ -105,7 +105,7 @@ impl Frames {
             ));
         }
         let places = [self.place(model)?, self.place(name)?];
-        // The poses change when the model gets its own place.
+        // These poses hold only until the model gets its own place.
         self.places.borrow_mut().clear();
         Ok(places[0].inverse().then(&places[1]))
     }
@@ -155,7 +155,8 @@ impl Frames {
         }
     }
 
-    /// A frame by its full name, or the frame of the model of that name. The last frame in `chain` refers to it.
+    /// A frame by its full name, or the frame of the model of that name. `chain` has the frames that led to this name; an error is reported
+    /// at its last frame.
     fn node(&self, name: &str, chain: &[&str]) -> Read<&Node> {
         let found = self.nodes.get(name).or_else(|| self.nodes.get(&format!("{name}::{MODEL}")));
         found.ok_or_else(|| {

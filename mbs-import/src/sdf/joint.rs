@@ -81,7 +81,8 @@ pub(super) fn read(
     Ok(())
 }
 
-/// Reads the damping of a ball joint, which the file writes at an axis. It acts about all axes; nothing else of the axis acts.
+/// Reads the damping of a ball joint, which the file gives at an axis. The damping acts about all axes. The other properties of the axis have
+/// no effect.
 fn damped_ball(
     element: &Element,
     (number, name): (usize, &str),
@@ -139,7 +140,7 @@ pub(super) fn known<'a>(frames: &'a Frames, full: &str, element: &Element) -> Re
     })
 }
 
-/// Does a joint connect two links that are fixed to the ground, as within static models? Such a joint has no effect.
+/// True if a joint connects two links that are fixed to the ground, for example in a static model. Such a joint has no effect.
 pub(super) fn is_still(element: &Element, scope: &Scope, frames: &Frames) -> Read<bool> {
     let ends = [end(element, "parent", scope, frames)?, end(element, "child", scope, frames)?];
     Ok(ends.iter().all(|link| frames.is_still(*link)))

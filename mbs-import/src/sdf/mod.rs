@@ -121,13 +121,14 @@ fn links(
     Ok(())
 }
 
-/// Does a link or a frame with this name exist?
+/// True if a link or a frame with this name exists.
 fn is_taken(name: &str, robot: &Robot) -> bool {
     let mut links = robot.links.iter().map(|link| &link.name);
     links.any(|link| link == name) || robot.frames.iter().any(|frame| frame.name == name)
 }
 
-/// Joins every tree of links without a connection to the ground: freely by default, or rigidly for a static model.
+/// Connects every tree of links that has no connection to the ground by a joint to the ground. The joint is free, or fixed if the options
+/// request it. Links of static models are always fixed.
 fn base(frames: &Frames, trunks: &[usize], robot: &mut Robot, context: &Context<'_>) {
     for link in 1..robot.links.len() {
         if frames.is_still(link) {

@@ -27,7 +27,7 @@ pub(super) fn root(model: &Element) -> Option<&Element> {
     model.child(URDF)?.child("robot")
 }
 
-/// Does a model contain a URDF?
+/// True if a model contains a URDF.
 pub(super) fn is_part(model: &Element) -> bool {
     model.children.iter().any(|child| child.name == URDF)
 }

@@ -77,7 +77,8 @@ fn reflected(element: &Element, joint: usize, robot: &mut Robot) -> Read<()> {
     Ok(())
 }
 
-/// The coupling of a gearbox. Angles are relative to a third link: that of the child is minus the ratio times that of the parent.
+/// The coupling of a gearbox. Its angles are relative to a third link. The angle of the child is minus the ratio times the angle of the
+/// parent.
 fn gearbox(element: &Element, scope: &Scope, frames: &Frames, robot: &Robot) -> Read<Coupling> {
     let full = format!("{}{}", scope.prefix, element.need("name")?.value);
     let [own, shown] = known(frames, &full, element)?;

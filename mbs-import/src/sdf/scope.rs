@@ -19,7 +19,7 @@ pub(super) struct Scope {
 }
 
 impl Scope {
-    /// Is the scope that of the world?
+    /// True if the scope is that of the world.
     pub(super) const fn is_world(&self) -> bool {
         self.prefix.is_empty()
     }
@@ -41,7 +41,7 @@ pub(super) fn version(attribute: &Attribute) -> Read<[u32; 2]> {
     }
 }
 
-/// Is the joint a gearbox? A gearbox is a relation between two joints.
+/// True if the joint is a gearbox. A gearbox is a relation between two joints.
 pub(super) fn is_gearbox(element: &Element) -> bool {
     element
         .attributes

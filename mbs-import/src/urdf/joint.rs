@@ -102,8 +102,8 @@ fn axis(element: &Element) -> Read<V3> {
         .ok_or_else(|| xyz.fault("the axis has no direction", "write a direction, as 0 0 1"))
 }
 
-/// A unit vector perpendicular to `normal`. It is made from the x axis of the frame. When x is nearly along the normal, it is made from the
-/// axis with the smallest component.
+/// A unit vector perpendicular to `normal`. It is the part of the x axis across the normal, scaled to unit length. When x is nearly along the
+/// normal, the axis with the smallest component of the normal replaces x.
 fn across(normal: &V3) -> V3 {
     let least = (0..3).min_by(|a, b| normal[*a].abs().total_cmp(&normal[*b].abs())).unwrap_or(0);
     let first = crate::pose::unit(if normal[0].abs() < 0.9 { 0 } else { least });

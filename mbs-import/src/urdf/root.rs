@@ -60,7 +60,7 @@ impl Graph<'_> {
     }
 
     fn reached(&self, trunk: usize, parent: &[Option<usize>]) -> Read<()> {
-        // The number of the walk that reached each link, from 1; the root counts as reached before all walks.
+        // For each link, the number of the walk that first reached it, from 1. The root counts as reached before all walks.
         let mut by = vec![0; self.links.len()];
         by[trunk] = usize::MAX;
         for link in 0..self.links.len() {

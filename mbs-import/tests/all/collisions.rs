@@ -19,7 +19,7 @@ fn collision(pose: &str, density: &str, form: &str) -> String {
 const PANEL: &str = "<box><size>0.8 2 0.04</size></box>";
 const AUTO: &str = "<inertial auto='true'><density>600</density></inertial>";
 
-/// Compares the ten numbers of the link in a text. The import may leave out nothing but contact.
+/// Compares the ten numbers of the link in a text. Contact is the only part that the import may leave out.
 #[track_caller]
 fn agrees(text: &str, expected: [f64; 10], tolerance: f64) {
     let model = model(text, "m.sdf", &ImportOptions::default());
@@ -34,7 +34,7 @@ fn masses_of_links_follow_from_their_forms_of_collision() {
     let flap = collision("0.4 0 0 0 0 0", "", PANEL);
     let expected = [38.4, 0.4, 0.0, 0.0, 12.80512, 2.05312, 14.848, 0.0, 0.0, 0.0];
     agrees(&sdf(AUTO, &flap), expected, TOLERANCE);
-    // Two shapes, one with its own density and one with that of the link, and a mass that scales both.
+    // One shape has its own density, the other has the density of the link. The mass in the file scales both.
     let own = collision("0 0 0 0 0 0", "<density>100</density>", PANEL);
     let two = own + &collision("1 0 0 0 0 0", "", PANEL);
     let [xx, yy, zz] = [14.939306666666662, 7.8810209523809505, 22.80838095238095];
@@ -66,7 +66,7 @@ fn masses_of_all_forms_are_those_of_the_other_program() {
         let turned = |density: &str| collision("0.4 0 0 0.1 0.2 0.3", density, &form);
         let other = "<inertial auto='true'><density>7</density></inertial>";
         agrees(&sdf(other, &turned("<density>1000</density>")), expected, tolerance);
-        // The format's default density is the same.
+        // Without a density, the shape has the format's default density, which is 1000 kg/m^3 too.
         agrees(&sdf("<inertial auto='true'/>", &turned("")), expected, tolerance);
     }
 }

@@ -92,7 +92,8 @@ fn numbers(value: &Value) -> Vec<f64> {
     }
 }
 
-/// Files that are left out. MuJoCo stores vertices of meshes in single precision, and does not add the armature of a free body to the body.
+/// Files that the comparison leaves out. MuJoCo stores vertices of meshes in single precision, and does not add the armature of a free body
+/// to the body.
 const LEFT_OUT: [&str; 2] = ["mesh.xml", "armature_free.xml"];
 
 /// Compares all files with an ending; returns the number of bodies that were compared.

@@ -56,7 +56,7 @@ fn what_cannot_be_meant_is_refused_at_its_place() {
         ("robot", "robots", "2:1: the root element is `robots`"),
         ("</robot>", "", "7:117: not XML: the root node was opened but never closed"),
     ] {
-        // For the root element, its start and its end are replaced.
+        // For the word `robot`, both tags of the root element are replaced.
         let all = found == "robot";
         let text = if all { ARM.replace(found, instead) } else { ARM.replacen(found, instead, 1) };
         assert_eq!(refused(&text), message, "{found} -> {instead}");
@@ -139,7 +139,7 @@ fn damaged(bytes: &[u8], dice: &mut mbs_scene::Dice) -> Vec<u8> {
         0 => text[at] = u8::try_from(dice.below(256)).unwrap_or(0),
         1 => drop(text.drain(at..(at + dice.below(40)).min(bytes.len()))),
         2 => text.splice(at..at, bytes[at / 2..at].iter().copied()).for_each(drop),
-        // The replacement by another number.
+        // In the last case, another number replaces a number.
         _ => {
             let digits = ["-1", "0", "1e300", "nan", "7 7 7", ""];
             let end = (at + 1 + dice.below(3)).min(bytes.len());

@@ -16,7 +16,7 @@ pub(crate) fn scene_of(model: &Imported) -> Scene<f64> {
     scene.unwrap_or_else(|e| panic!("{}\n{}", e.render(), model.text))
 }
 
-/// The scene of a text, from which the import may leave out appearance alone.
+/// The scene of a text. The import may leave out only elements for pictures.
 pub(crate) fn whole(text: &str, name: &str) -> Scene<f64> {
     let model = model(text, name, &ImportOptions::default());
     let acts = model.findings.iter().find(|finding| finding.kind != FindingKind::Appearance);
@@ -41,8 +41,8 @@ pub(crate) fn ten(scene: &Scene<f64>, name: &str) -> [f64; 10] {
     all.try_into().expect("ten numbers")
 }
 
-/// The acceleration of a joint between the ground and a body that no other joint moves. For a slide it is m a·g divided by the mass; for a
-/// hinge (r × m g)·a divided by the inertia.
+/// The acceleration of a joint between the ground and a body that no other joint moves. With the axis a, gravity g and the vector r from the
+/// joint to the centre of mass, it is a·g for a slide. For a hinge it is (r × m g)·a divided by the inertia about the axis.
 pub(crate) fn acceleration(scene: &Scene<f64>, joint: &str) -> f64 {
     let found = scene.joints.iter().find(|found| found.name == joint);
     let joint = found.unwrap_or_else(|| panic!("no joint `{joint}`"));

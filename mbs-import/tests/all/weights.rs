@@ -338,12 +338,13 @@ fn polygons_of_an_obj_are_cut_as_in_mujoco_4() {
             "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 2\nv 0 1 1\nf 4 3 2 1\nf {lid}\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n"
         )
     };
-    // The diagonal beside the corner is the shorter one, so a pyramid with a third of half a square is on the box.
+    // The lid is divided along its shorter diagonal, which does not pass through the bent corner. A pyramid over half a square is therefore
+    // on the box.
     let box_and_pyramid = 1.0 + 1.0 / 6.0;
     for (text, inertia, mass) in [
         (concave.to_owned(), "exact", 3.0),
         (concave.to_owned(), "legacy", 3.0),
-        // A concave corner on the edge of a possible ear.
+        // A polygon is divided by cutting off corner triangles (ears). Here a concave corner is on the edge of a possible ear.
         (
             concave
                 .replace("f 6 5 4 3 2 1\n", "f 1 6 5 4 3 2\n")
@@ -352,10 +353,11 @@ fn polygons_of_an_obj_are_cut_as_in_mujoco_4() {
             3.0,
         ),
         (concave.replace("f 6 5 4 3 2 1\n", "f 2 1 6 5 4 3\n"), "legacy", 3.0),
-        // The choice of ears depends on the side of the origin: the same L, three metres away.
+        // The division of a polygon depends on its position relative to the origin. This is the same L, three metres away.
         (moved_back(concave), "exact", 2.825_262_308_313_156),
         (regular_prism(100), "exact", 50.0 * (core::f64::consts::TAU / 100.0).sin()),
-        // A polygon of more than 100 corners is lost. The remainder has 2/3 of the volume, about the centre of the faces.
+        // A polygon with more than 100 corners is left out. The other faces then give 2/3 of the volume, since volumes are computed about the
+        // centre of the faces.
         (regular_prism(101), "exact", 101.0 / 3.0 * (core::f64::consts::TAU / 101.0).sin()),
         (bent("5 6 7 8"), "exact", box_and_pyramid),
         (bent("6 7 8 5"), "exact", box_and_pyramid),

@@ -76,7 +76,7 @@ fn frames_of_the_world_place_models_joints_and_axes() {
         bolt("base"),
         link("rod", "0 0 0.1 0 0 0"),
     );
-    // The axis is (0, cos, sin); I = 0.02 + 0.09 about both perpendicular axes.
+    // The axis is (0, cos, sin) of 0.5 rad. The inertia about both axes across the rod is I = 0.02 + 0.09.
     swings(&inside, "j", SWING * 0.5_f64.cos());
 }
 
@@ -123,7 +123,7 @@ fn what_is_in_a_static_model_does_nothing() {
     for inside in [
         arm(),
         link("base", "0 0 0 0 0 0") + &link("rod", "0 0 1 0 0 0") + screw + &follows,
-        // Links without an inertia and without gravity.
+        // One link has neither an inertia nor gravity. The other has an automatic inertia, but no shape to compute it from.
         format!(
             "<link name='base'><gravity>false</gravity></link><link name='rod'><inertial auto='true'/></link>{PIN}"
         ),
@@ -194,7 +194,7 @@ fn a_urdf_stands_in_a_world_as_a_model_would() {
     };
     swings(&(include("") + &bolt("part::base")), "pin", SWING);
     swings(&(include("<name>p</name>") + &bolt("p::base")), "pin", SWING);
-    // The pose of the model, the pose of a frame in it, and a model around it.
+    // The cases are a pose of the model, a pose of a frame in the model, and a model around it.
     let posed = "<name>p</name><pose>0 3 0 0.4 0 0</pose>";
     swings(&(include(posed) + &bolt("p")), "pin", SWING * 0.4_f64.cos());
     let placed = "<name>p</name><pose>0 3 0 0.4 0 0</pose><placement_frame>rod</placement_frame>";
@@ -253,7 +253,7 @@ fn the_world_of_a_urdf_need_not_be_declared() {
     let scene = whole(&text.replace("</robot>", frames), "part.urdf");
     let at = |name: &str| scene.frames.iter().find(|frame| frame.name == name).map(|x| x.at);
     assert_eq!([at("hand"), at("wall")], [Some([0.5, 0.0, 1.0]), Some([0.0, 2.0, 0.0])]);
-    // As a child link, `world` is unknown.
+    // The world cannot be the child link of a joint: `world` is then an unknown name.
     let text = PART.replace("child link=\"rod\"", "child link=\"world\"");
     let refused = import(text.as_bytes(), "part.urdf", &ImportOptions::default());
     assert_eq!(refused.expect_err("refused").fault().to_string(), "unknown link `world`");

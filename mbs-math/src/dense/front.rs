@@ -1,4 +1,4 @@
-//! Partial L D L^T factorisation of one dense front. The pivots are chosen by the numbers.
+//! Partial L D L^T factorisation of one dense front. The pivots are chosen by the values of the entries.
 //!
 //! ```text
 //! 1x1:  d = a_kk,                    |d| >= u max_{i != k} |a_ik|
@@ -7,15 +7,16 @@
 //! l = a B^-1,   a_ij <- a_ij - l_i B l_j^T
 //! ```
 //!
-//! A candidate that passes the 1x1 test at its own place becomes a pivot there. Up to six such pivots are collected and then applied to the
-//! later columns together. A column is updated before it is tested.
+//! Only the first `p` unknowns of a front are candidates for pivots. A candidate that passes the 1x1 test becomes a pivot at its present
+//! place. Up to six such pivots are collected, and then applied to the later columns in one pass. A column is updated before it is tested.
 //!
-//! Only the first `p` unknowns may become pivots. A candidate that fails both tests stays for a later front, where more of its equations
-//! are assembled. A pivot at machine precision relative to the sum of the absolute values that it was computed from is never used. These
-//! sums are updated with the front.
+//! A candidate that fails both tests is left to a later front, where more of its equations are assembled. A pivot counts as zero when it is
+//! at machine precision, relative to the sum of the absolute values that it was computed from. Such a pivot is never used. These sums are
+//! updated with the front.
 //!
 //! A front of f unknowns is a lower triangle packed by columns; column j starts at [`column()`] of (f, j) with its diagonal. After the
-//! elimination, each column of L is below its entry of D^-1. A pair of pivots has its B^-1 in the triangle of its two columns.
+//! elimination, the diagonal place of each column has the entry of D^-1, and the places below it have the column of L. A pair of pivots has
+//! its B^-1 in the triangle of its two columns.
 
 use super::panel::Panel;
 pub use super::panel::column;
@@ -25,9 +26,10 @@ use crate::blocks::{FactorError, Inertia, Weakest};
 /// Thresholds that a pivot has to pass.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Thresholds<T> {
-    /// Threshold u of growth, in (0, 0.35]: multipliers l stay below 1/u. Up to 0.35, a front of candidates alone always has a pivot.
+    /// Threshold u of growth, in (0, 0.35]: multipliers l stay below 1/u. With u up to 0.35, a pivot always exists in a front in which every
+    /// unknown is a candidate.
     pub growth: T,
-    /// Fraction of the sum of the absolute values that a pivot was computed from. A smaller pivot counts as zero.
+    /// Threshold of zero, relative to the sum of the absolute values that the pivot was computed from [-]. A smaller pivot counts as zero.
     pub zero: T,
 }
 
@@ -114,7 +116,7 @@ fn at(f: usize, row: usize, col: usize) -> usize {
 pub struct Places<'a, T> {
     /// The unknown at each place of the front. It is permuted with the pivots, as is `size`.
     pub order: &'a mut [u32],
-    /// Says for each place whether its pivot is the first of a pair. Length f.
+    /// For each place, true if its pivot is the first of a pair. Length f.
     pub pairs: &'a mut [bool],
     /// Sum of the absolute values that the diagonal was computed from, for the unknown at each place. Length f.
     pub size: &'a mut [T],
@@ -154,7 +156,7 @@ pub fn eliminate<T: Real>(
             k += 1;
             continue;
         }
-        // A pair or another candidate is needed. Every column is updated, since the search compares all of them.
+        // No 1x1 pivot is at place k, so the search compares all columns. Every column is therefore updated first.
         panel.apply(a, f, k + 1..f);
         panel = Panel::starting_at(k);
         let found = (k..p).find_map(|c| test(a, f, (k, p, c), places, thresholds));
@@ -163,7 +165,7 @@ pub fn eliminate<T: Real>(
         places.swap(k, first);
         tally.note(places.order[k], ratio);
         if let Some(second) = second {
-            // The exchange for the first of the pair may have moved the second from place k.
+            // When the second unknown of the pair was at place k, the first exchange has moved it to the place `first`.
             let second = if second == k { first } else { second };
             swap(a, f, k + 1, second);
             places.swap(k + 1, second);
@@ -180,7 +182,7 @@ pub fn eliminate<T: Real>(
     k
 }
 
-/// A pivot of one unknown or of a pair, at their places before the exchange.
+/// A pivot of one unknown or of two: the places of these unknowns before the exchange, and the ratio for the tally.
 struct Pivot<T> {
     first: usize,
     second: Option<usize>,
@@ -337,7 +339,8 @@ fn eliminate_pair<T: Real>(
     (first[0], first[1], second[0]) = (x, y, z);
 }
 
-/// Swaps the unknowns at places `k <= q` of a packed front of `f`. The columns from `k` on change, and the columns of L before `k`.
+/// Swaps the unknowns at places `k <= q` of a packed front of `f` unknowns. The swap permutes the columns from `k` on, and the rows of the
+/// columns of L before `k`.
 pub fn swap<T: Real>(a: &mut [T], f: usize, k: usize, q: usize) {
     if k == q {
         return;

@@ -1,4 +1,4 @@
-//! A solver with one dense matrix for all unknowns: [`Dense`]. It is for small systems, for tests, and for users who want no other crate.
+//! A solver with one dense matrix for all unknowns: [`Dense`]. It is for small systems, for tests, and for users who need no other crate.
 //! Sparse solvers use its modules [`front`] and [`scaling`].
 //!
 //! ```text

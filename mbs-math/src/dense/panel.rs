@@ -41,7 +41,7 @@ impl<T: Real> Panel<T> {
         self.len == MAX_PIVOTS
     }
 
-    /// Applies the pivots to `columns`, all of them after the panel.
+    /// Applies the pivots to `columns`, which must all come after the panel.
     #[inline(always)]
     pub(super) fn apply(&self, a: &mut [T], f: usize, columns: Range<usize>) {
         match self.len {

@@ -43,7 +43,7 @@ pub fn equilibrate<W: Team, T: Real>(
     }
 }
 
-/// Can a diagonal entry be scaled to one? The entry must be positive and finite, and so must be its reciprocal.
+/// True if a diagonal entry can be scaled to one: the entry must be positive and finite, and its reciprocal finite.
 #[inline(always)]
 fn is_unit<T: Real>(d: T) -> bool {
     d > T::ZERO && d.is_finite() && (T::ONE / d).is_finite()

@@ -5,7 +5,7 @@ use crate::Real;
 
 /// Shortest step, in machine precisions of the time [-]: the rounding of the time is then at most a sixteenth of the step.
 const SMALLEST_STEP: f64 = 16.0;
-/// Largest displacement by a projection, in tolerances, after which the rates found before the projection are used again [-]. The error of
+/// Largest displacement by a projection, in tolerances, for which the rates found before the projection are used again [-]. The error of
 /// those rates enters the next state multiplied by the step. Chosen, not tuned.
 const HOLDING_MOVE: f64 = 0.1;
 /// Least number of steps before a call may end because too many more are expected [-]. Up to ten thousand steps near a discontinuity may be
@@ -116,7 +116,7 @@ impl<T: Real, M: Method<T>> Adaptive<T, M> {
         is_step
     }
 
-    /// Length of the next step [s] when the remaining time `rest` is longer than the `planned` step. A method that wants equal steps gets
+    /// Length of the next step [s] when the remaining time `rest` is longer than the `planned` step. A method that requires equal steps gets
     /// an equal part of the remaining time.
     fn share(&self, rest: T, planned: T) -> T {
         if !self.method.shares() {
@@ -132,16 +132,16 @@ impl<T: Real, M: Method<T>> Adaptive<T, M> {
     /// [`EndState`]. The last step is shortened to end at `t + dt`, and the planned length is kept for the next call. `scratch` has at
     /// least [`Method::n_scratch`] numbers.
     ///
-    /// Cost, besides the hook: one evaluation, and [`Method::evaluations`] less one for each trial step. Each accepted step but the last
-    /// costs one evaluation more when the rates at its end are not known. They are not known after `EndState::Changed`, after a
+    /// Cost, besides the hook: one evaluation, and for each trial step one evaluation less than [`Method::evaluations`]. Each accepted step
+    /// but the last costs one evaluation more when the rates at its end are not known. They are not known after `EndState::Changed`, after a
     /// projection by more than a tenth of the tolerance, and for methods that do not evaluate them. No allocation.
     ///
     /// # Errors
     ///
-    /// [`OdeError::Rates`] with the error of the rates or of the hook. [`OdeError::StepTooSmall`] when the error at the smallest step is
-    /// too large or is NaN. [`OdeError::TooManySteps`] when all steps are used up. A call also ends with this error after a tenth of a
-    /// large number of steps. The condition is that the rest would need more than ten times that number. `y` is then the last accepted
-    /// state (when the hook failed, the state that the hook left).
+    /// [`OdeError::Rates`] with the error of the rates or of the hook. [`OdeError::StepTooSmall`] when the error at the smallest step is too
+    /// large or is NaN. [`OdeError::TooManySteps`] when the call has tried the allowed number of steps. The call ends with this error earlier
+    /// if the remaining time needs more than ten times the allowed number. This is checked after a tenth of the allowed steps, but not before
+    /// ten thousand steps. `y` is then the last accepted state. When the hook failed, `y` is the state that the hook left.
     ///
     /// # Panics
     ///
@@ -217,8 +217,8 @@ impl<T: Real, M: Method<T>> Adaptive<T, M> {
     }
 }
 
-/// Will the call need far too many steps? The answer is no before a tenth of the allowed steps. `wanted` is the remaining time in steps of
-/// the next one's length.
+/// True if the call would need far too many steps. False until a tenth of the allowed steps, and at least ten thousand steps, were tried.
+/// `wanted` is the remaining time divided by the length of the next step.
 fn is_hopeless<T: Real>(tried: u32, wanted: T, max_steps: u32) -> bool {
     let limit = TOO_MANY * f64::from(max_steps);
     tried > (max_steps / 10).max(LEAST_TRIED) && wanted > T::from_f64(limit)

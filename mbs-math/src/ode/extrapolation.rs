@@ -7,7 +7,7 @@ use crate::Real;
 /// 12,600 for 14 columns.
 const COLUMNS: (usize, usize) = (3, 16);
 
-/// The midpoint rule over a step in 2, 4, 6, ... 2k parts, extrapolated in h² to parts of length zero.
+/// The midpoint rule over a step in nⱼ = 2 j parts, j from 1 to k. The results are extrapolated in h² to parts of length zero.
 ///
 /// ```text
 /// d₀ = 0,   d₁ = η f(t, y),   dₘ₊₁ = dₘ₋₁ + 2 η f(t + m η, y + dₘ),   η = h/nⱼ
@@ -15,8 +15,8 @@ const COLUMNS: (usize, usize) = (3, 16);
 /// Tⱼ,ₗ₊₁ = Tⱼₗ + (Tⱼₗ − Tⱼ₋₁,ₗ) / ((nⱼ/nⱼ₋ₗ)² − 1),   y(t + h) = y + Tₖₖ,   error = Tₖₖ − Tₖ,ₖ₋₁
 /// ```
 ///
-/// The rates at the end are in every column. When a force begins just before the end, the columns differ, and the estimate shows it.
-///
+/// Every column uses the rates at the end of the step. When a force begins just before the end, the columns therefore differ, and the error
+/// estimate becomes large.
 /// With k columns the method has order 2k, and its error estimate is proportional to h^(2k−1). The method is for reference runs in
 /// [`DoubleDouble`](crate::real::DoubleDouble): a higher order needs fewer evaluations for the last digits. The increments are
 /// extrapolated, not the states. The reason is that rounding errors grow with the sum of the weights: 26 for 6 columns, 12,600 for 14.
@@ -32,7 +32,8 @@ impl Extrapolation {
         Self { columns: columns.clamp(COLUMNS.0, COLUMNS.1) }
     }
 
-    /// Extrapolation with the number of columns for a tolerance: nine for twenty digits, plus two.
+    /// Extrapolation with the number of columns for a tolerance: two, plus 0.45 for each digit of the tolerance. Twenty digits take eleven
+    /// columns.
     #[must_use]
     pub fn for_tolerance<T: Real>(tolerance: T) -> Self {
         /// Columns for each digit [-]. Chosen, not tuned.

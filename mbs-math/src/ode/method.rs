@@ -40,7 +40,7 @@ pub trait Method<T: Real> {
     /// evaluate those rates.
     fn carry(&self, n: usize, scratch: &mut [T]) -> bool;
 
-    /// Does the method want the remaining time divided into equal steps? An implicit method does, since another step length costs a
+    /// True if the method requires equal steps over the remaining time. An implicit method does, since another step length costs a
     /// factorisation.
     fn shares(&self) -> bool {
         false

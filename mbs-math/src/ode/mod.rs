@@ -61,13 +61,13 @@ pub trait Rates<T> {
         self.rates(t, y, dy)
     }
 
-    /// Removes components from the estimated error of a trial step, namely those that the hook after the step removes from the state. A
-    /// projection is an example. Only the remaining components measure the accuracy of the step. The function is called after the rates of
-    /// all stages, once for each estimate. Default: nothing is removed.
+    /// Removes from the estimated error of a trial step the components that the hook after the step removes from the state. A projection, for
+    /// example, removes the components across the constraints. Only the remaining components measure the accuracy of the step. The function
+    /// is called after the rates of all stages, once for each estimate. Default: nothing is removed.
     ///
     /// # Errors
     ///
-    /// An error that prevents the answer; it ends the integration.
+    /// An error that prevents the computation; it ends the integration.
     fn keep(&mut self, error: &mut [T]) -> Result<(), Self::Error> {
         let _ = error;
         Ok(())

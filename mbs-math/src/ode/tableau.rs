@@ -19,10 +19,11 @@ pub struct Tableau<T, const S: usize> {
     /// Weights of a second estimate, of lower order. Where it is large too, the first estimate may be small by accident. The size of the
     /// error is then E²/√(E² + 0.01 C²), with E from `e` and C from this estimate.
     pub coarse: Option<[T; S]>,
-    /// Power of h in the size of the error: the order of the estimate plus one. With two estimates it is twice the power of the first less
-    /// the power of the second.
+    /// Power of h in the size of the error: the order of the estimate plus one. With two estimates, it is twice the power of the first
+    /// estimate minus the power of the second.
     pub power: u32,
-    /// Is the last stage at the new state (the last row of a is b)? Its rates are then the first rates of the next step.
+    /// True if the last stage is at the new state, that is, if the last row of a equals b. Its rates are then the first rates of the next
+    /// step.
     pub first_same_as_last: bool,
 }
 

@@ -26,7 +26,7 @@ impl<const N: usize> Lanes<N> {
         Self([x; N])
     }
 
-    /// Is `holds` true in every lane of the two numbers?
+    /// True if `holds` returns true for the two numbers of every lane.
     #[inline(always)]
     fn every(&self, other: &Self, holds: impl Fn(f64, f64) -> bool) -> bool {
         let mut every = true;

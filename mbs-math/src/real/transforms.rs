@@ -1,8 +1,8 @@
 //! Error-free transforms of two numbers: their rounded sum or product, and its rounding error.
 //!
 //! A fused multiply-add is not used: without hardware support it is a slow call, and a product can be split exactly without it. The results
-//! have the same bits on every target whose `f64` is IEEE 754 binary64 in every operation. The x87 registers of 32-bit x86 without SSE2 are
-//! not.
+//! have the same bits on every target whose `f64` is IEEE 754 binary64 in every operation. This excludes 32-bit x86 without SSE2, whose x87
+//! registers are wider.
 
 /// Factor 2²⁷ + 1: its product with a number separates the upper 26 bits from the others.
 const SPLITTER: f64 = 134_217_729.0;
@@ -23,7 +23,7 @@ pub(super) const fn fast_two_sum(a: f64, b: f64) -> (f64, f64) {
     (s, b - (s - a))
 }
 
-/// Splits a into two parts of at most 26 bits each whose sum is exactly a (Veltkamp). 4 flops; |a| < 2⁹⁹⁶.
+/// Splits a into two parts of at most 26 bits each whose sum is exactly a (Veltkamp). 4 flops. Requires |a| < 2⁹⁹⁶.
 #[inline]
 const fn split(a: f64) -> (f64, f64) {
     let c = SPLITTER * a;

@@ -147,7 +147,7 @@ proptest! {
         prop_assert!(relative(back, &exact(x)) <= 1.0);
     }
 
-    /// A number of 53 bits is written as `f64` writes it, when `f64` is given the number of digits.
+    /// A double-double number of 53 bits has the text of the equal `f64`, when both are written with the same number of digits.
     #[test]
     fn plain_numbers_are_written_as_f64_writes_them(x in -1e6..1e6_f64, small in -300..300_i32, p in 0..17_usize) {
         let y = x * 2f64.powi(small);

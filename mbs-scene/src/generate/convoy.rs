@@ -14,9 +14,9 @@ Names of the vehicle with the number k begin with `vk-`; the first drives ahead 
 other one stands that distance further back and meets the road that much later. They know nothing of each other. Outputs
 are those of the first and of the last vehicle.";
 
-/// Keys whose values are places in the scene: each copy moves them along x.
+/// Keys whose values are places in the scene. Each copy shifts these places along x.
 const PLACES: [&str; 6] = ["center", "at", "points", "from", "to", "rod"];
-/// Keys whose values are names: each copy gets a prefix before them.
+/// Keys whose values are names. Each copy puts its prefix before these names.
 const NAMES: [&str; 4] = ["name", "body", "joint", "bodies"];
 /// Tables that are copied for each vehicle.
 const LISTS: [&str; 5] = ["body", "joint", "guide", "initial", "effect"];

@@ -15,7 +15,7 @@ pub use error::GenerateError;
 
 use crate::read::SceneFile;
 
-/// Largest number of bodies of a generated scene. It turns a mistyped count into a message. Chosen, not tuned.
+/// Largest number of bodies of a generated scene. A larger number is refused as a mistake. Chosen, not tuned.
 pub const MOST_BODIES: usize = 10_000_000;
 
 /// A family of scenes, with its size.

@@ -4,7 +4,7 @@
 //! knot (i, j) at (x_i, y_j, f_i + g_j),   (x, f) and (y, g) points of an arc with equal chords
 //! ```
 //!
-//! In a sum of two arcs all rods have equal length. No rope is straight between two corners, as it would be in a flat net.
+//! In this sum of two arcs, all rods have equal length. No rope is straight between two corners. In a flat net, every rope would be straight.
 
 use super::text::{self, vector};
 use mbs_core::scene::{Body, BodyId, Dimension, GROUND, Joint, Number, Scene};
@@ -57,7 +57,7 @@ fn arc(n: usize) -> Vec<[f64; 2]> {
 }
 
 struct Net {
-    /// Positions of the knots in x, and in y, each with a height [m].
+    /// Coordinates x of the knots, each with its part f of the height [m]. `along` has the coordinates y, each with the part g.
     across: Vec<[f64; 2]>,
     along: Vec<[f64; 2]>,
 }
@@ -82,7 +82,8 @@ impl Net {
         if to[0] > i { j * (n - 1) + i } else { m * (n - 1) + i * (m - 1) + j }
     }
 
-    /// Adds the joints of a knot: every other rod is joined to the first one, and a corner to the ground.
+    /// Adds the joints of a knot. Each rod at the knot but the first is joined to the first rod. At a corner, the first rod is joined to the
+    /// ground.
     fn tie(&self, scene: &mut Scene<Number>, knot: [usize; 2]) {
         let [i, j] = knot;
         let (last_i, last_j) = (self.across.len() - 1, self.along.len() - 1);

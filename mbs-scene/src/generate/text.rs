@@ -37,7 +37,7 @@ pub(super) fn headed(comment: &str, command: &str, tables: &str) -> String {
 
 /// The text of a scene, below its comment.
 pub(super) fn text(comment: &str, command: &str, scene: &Scene<Number>) -> String {
-    // A generated scene has neither code nor unknown references, so writing it does not fail.
+    // A generated scene has no user-defined code and no unknown references, so writing it does not fail.
     headed(comment, command, &crate::to_toml(scene).unwrap_or_default())
 }
 
@@ -56,8 +56,9 @@ pub(super) fn vector<const N: usize>(x: [f64; N]) -> [Number; N] {
 /// Width of a bar relative to its length [-].
 const SLENDER: f64 = 0.2;
 
-/// Inertia of a uniform bar of square section about its centre [kg m²], in the order of scene files. The mass is m [kg], `d` goes from end
-/// to end [m]. The matrix is It 1 + (Ia - It) u u^T, where u is the unit vector along the bar.
+/// Inertia of a uniform bar of square section about its centre [kg m²], in the order of scene files. `d` is the vector from end to end [m].
+/// The matrix is It 1 + (Ia - It) u u^T. Here u is the unit vector along the bar, Ia the moment about it, and It the moment about any axis
+/// across it.
 pub(super) fn bar(mass: f64, d: [f64; 3]) -> [Number; 6] {
     let square: f64 = d.iter().map(|x| x * x).sum();
     let width = SLENDER * SLENDER * square;

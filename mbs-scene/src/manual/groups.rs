@@ -2,7 +2,7 @@
 
 use crate::keys::{KeyTable, tables};
 
-/// The key tables of entries, without those of whole files. The tables of one header form a group.
+/// The key tables of the entries of a scene or a sweep, in groups. Tables with one header form a group. Tables of a whole file are left out.
 pub fn groups() -> Vec<&'static [KeyTable]> {
     let mut groups = Vec::new();
     let mut rest = tables();

@@ -24,7 +24,7 @@ pub fn schema() -> String {
     serde_json::to_string_pretty(&schema).unwrap_or_default() + "\n"
 }
 
-/// The schema of a header: any of its key tables.
+/// The schema of the tables with this header. A table must match at least one of the header's key tables.
 fn of_header(header: &str) -> Json {
     let tables: Vec<Json> = keys::of(header).iter().map(of_table).collect();
     match <[Json; 1]>::try_from(tables) {
@@ -39,7 +39,8 @@ fn of_table(table: &KeyTable) -> Json {
     for key in &table.keys {
         let others = || table.keys.iter().filter(|other| other.name == key.name);
         let forms: Vec<Json> = others().map(of_key).collect();
-        // A key that differs between planar and spatial scenes: the schema allows both, since it does not know the dimension.
+        // The values of a key may differ between planar and spatial scenes. The schema then allows both, since it does not know the
+        // dimension.
         let form = match <[Json; 1]>::try_from(forms) {
             Ok([form]) => form,
             Err(forms) => json!({ "anyOf": forms }),
@@ -69,7 +70,7 @@ fn of_key(key: &Key) -> Json {
     let description = format!("{}{unit}", key.meaning);
     if let Json::Object(form) = &mut form {
         form.insert("description".into(), description.into());
-        // Only a default that is a value, not an explanation.
+        // A default is added only if it is a value. Some defaults are an explanation.
         if let Ok(default @ (Json::Number(_) | Json::Bool(_))) = serde_json::from_str(&key.default)
         {
             form.insert("default".into(), default);
@@ -84,7 +85,7 @@ fn of_value(value: &KeyValue) -> Json {
         None => json!({ "type": "array", "items": of }),
     };
     let text = || json!({ "type": "string" });
-    // A text may be an expression.
+    // A number may be written as a text, since a text may be an expression.
     let number = || json!({ "type": ["number", "string"] });
     let count = || json!({ "type": "integer", "minimum": 1 });
     let any_of = |forms: Vec<Json>| json!({ "anyOf": forms });

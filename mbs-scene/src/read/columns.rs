@@ -19,7 +19,7 @@ use mbs_core::scene::Number;
 
 /// The keys whose value may be a table in a file.
 const TABLES: [&str; 2] = ["table", "points"];
-/// Largest total length of the CSV files of a scene [bytes], as for its texts. Chosen, not tuned.
+/// Largest total length of the CSV files of a scene [bytes]. The texts of a scene have the same limit. Chosen, not tuned.
 const MAX_BYTES: usize = 64 << 20;
 const FORM: &str = "a list of rows, or { file = \"force.csv\", columns = [\"time\", \"force\"] }";
 

@@ -25,13 +25,13 @@ use mbs_core::scene::{
     DrawnKind, Freedom, Joint, JointId, Mesh, Motion, Number,
 };
 
-/// Largest number of teeth of a wheel [-]. A larger one is taken for a mistake. Chosen, not tuned.
+/// Largest number of teeth of a wheel [-]. A larger number is refused as a mistake. Chosen, not tuned.
 const MAX_TEETH: u32 = 1_000_000;
 
 /// Sum that a coupling becomes: its terms, its value, and the motion that drives it.
 type Sum = (Vec<CouplingTerm<Number>>, Number, Option<Motion<Number>>);
 
-/// Reads a coupling; one without a name is called `coupling-N`, counted from 1.
+/// Reads a coupling of any kind. A coupling without a name gets the name `coupling-N`, where N is its number in the list, from 1.
 pub(crate) fn read<'a>(
     index: usize,
     fields: &Fields<'a>,
@@ -91,8 +91,8 @@ pub(crate) fn read<'a>(
     Ok(Coupling { name, terms, relation: None, value, motion, kind, drawn })
 }
 
-/// Finds whether the signs of the sum follow from the places and axes of the joints, and whether the file requests it. `None`: the file
-/// gives the sum.
+/// Reads the rule by which the signs of the sum follow from the places and axes of the joints. `None` for kinds whose terms are written with
+/// their signs. `is_stated` is true if the file has `sense = "drawn"`.
 fn read_drawn(kind: &str, fields: &Fields<'_>) -> Read<Option<Drawn>> {
     let kind = match kind {
         "gear" if fields.get("ratio").is_some() => {
@@ -117,7 +117,7 @@ fn read_drawn(kind: &str, fields: &Fields<'_>) -> Read<Option<Drawn>> {
     Ok(Some(Drawn { is_stated, ..kind.drawn() }))
 }
 
-/// Is one wheel inside the other (`mesh = "internal"`)?
+/// True if one wheel is inside the other (`mesh = "internal"`).
 fn is_internal(fields: &Fields<'_>) -> Read<bool> {
     match fields.get("mesh").map(|_| fields.word("mesh")).transpose()? {
         None | Some(("external", _)) => Ok(false),
@@ -347,7 +347,7 @@ pub(crate) fn read_points<'a>(
     points.iter().map(point).collect()
 }
 
-/// The angle of a ball joint that `coordinate` names. `None`: `coordinate` is another coordinate.
+/// The angle of a ball joint that `coordinate` names. `None` if `coordinate` does not name such an angle.
 pub(crate) fn ball_angle<'a>(
     fields: &Fields<'a>,
     joints: &'a [Joint<Number>],
@@ -362,7 +362,7 @@ pub(crate) fn ball_angle<'a>(
     Ok(BallAngle::ALL.into_iter().find(|angle| has_ball && angle.name() == word))
 }
 
-/// Term of an angle of a ball joint, with its axis; `None`: `coordinate` names no such angle.
+/// Term of an angle of a ball joint, with its axis. `None` if `coordinate` does not name such an angle.
 pub(crate) fn ball_term<'a>(
     fields: &Fields<'a>,
     joints: &'a [Joint<Number>],
@@ -399,7 +399,7 @@ fn read_term<'a>(
     Ok(CouplingTerm { factor: term.number_or("factor", "1")?, of, curve: table::of_curve(&term)? })
 }
 
-/// Reads the measure that `points` defines, or `joint` with `coordinate`.
+/// Reads a measure: the length over `points`, or the `coordinate` of a `joint`.
 pub(crate) fn read_measure<'a>(
     fields: &Fields<'a>,
     joints: &'a [Joint<Number>],
@@ -415,7 +415,7 @@ pub(crate) fn read_measure<'a>(
     Ok(CouplingMeasure::Coordinate { joint, number })
 }
 
-/// A joint and one of its coordinates. The coordinate of a joint with only one need not be named.
+/// A joint and one of its coordinates. If the joint has only one coordinate, the key `coordinate` may be left out.
 fn measured_coordinate<'a>(
     fields: &Fields<'a>,
     joints: &'a [Joint<Number>],

@@ -71,7 +71,7 @@ impl SceneFile {
         &self.texts.main().text
     }
 
-    /// All texts of the scene, one after the other. Equal scenes have equal texts.
+    /// All texts of the scene, one after the other. Two scenes with equal texts are equal.
     #[must_use]
     pub fn whole_text(&self) -> String {
         let texts = self.texts.list().iter().map(|text| text.text.as_str());

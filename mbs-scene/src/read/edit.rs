@@ -32,7 +32,7 @@ impl SceneFile {
         self.number_at(&address).ok_or(SweepFault::PathSyntax("it names no finite number"))
     }
 
-    /// The number at an address; the value, if an expression is written there.
+    /// The number at an address. If an expression is written there, the result is the value of the expression.
     pub(super) fn number_at(&self, address: &[usize]) -> Option<Number> {
         let item = path::item(self.root(), address)?;
         match &item.node {
@@ -67,7 +67,8 @@ impl SceneFile {
         Ok(self.respelled(&address, &span, literal(&number.text())))
     }
 
-    /// Returns the file with another number at an address. `old` has the bytes of its text in the only text.
+    /// Returns the file with another number at an address. When the file is the only text of the scene, `old` has the bytes of the old number
+    /// in it.
     fn respelled(&self, address: &[usize], old: &Span, new: String) -> Self {
         let mut file = self.clone();
         file.texts.replace(old.clone(), &new);

@@ -9,7 +9,7 @@ use crate::read::tree::{Item, Node};
 use mbs_core::effects::{Default, EFFECTS, Field, Form, Value};
 use mbs_core::scene::{AxisFrame, BallAngle, Effect, EffectKind, Joint, Number, Signal};
 
-/// Reads an effect; one without a name is called `effect-N`, counted from 1.
+/// Reads an effect of any kind. An effect without a name gets the name `effect-N`, where N is its number in the list, from 1.
 pub(crate) fn read(
     index: usize,
     fields: &Fields<'_>,
@@ -55,7 +55,8 @@ pub(crate) fn read(
     }
 }
 
-/// The fields of an effect on a coordinate of a joint: the coordinate that is named, or the only one.
+/// Returns the fields with the units of the coordinate on which the effect acts. It is the coordinate that the file names, or the joint's
+/// only one.
 fn on_coordinate<'a>(fields: &Fields<'a>, joints: &[Joint<Number>]) -> Read<Fields<'a>> {
     let Some(joint) = fields.get("joint") else { return Ok(*fields) };
     let joint = &joints[fields.context.joint(joint)?.index()];
@@ -70,8 +71,8 @@ fn on_coordinate<'a>(fields: &Fields<'a>, joints: &[Joint<Number>]) -> Read<Fiel
     })
 }
 
-/// Finds the kind on a sum that replaces a kind with a joint, and the angle. `None` when the joint coordinate is not an angle of a ball
-/// joint.
+/// Finds the kind of effect for an angle of a ball joint, and the angle. `named` are the kinds with the same name. An effect on such an angle
+/// is read as the kind on a sum instead of the kind on a joint. `None` when the effect acts on anything else.
 fn on_ball(
     fields: &Fields<'_>,
     named: &[usize],
@@ -90,7 +91,8 @@ fn on_ball(
     Ok(angle.map(|angle| (row, angle)))
 }
 
-/// Chooses among kinds of the same name by their first key. A kind on a sum or on a line excludes the keys of the others.
+/// Chooses among the kinds `named` of the same name, by their first key. The keys of the other kinds are refused for a kind on a sum or on a
+/// line.
 fn choose(fields: &Fields<'_>, named: &[usize]) -> Read<usize> {
     let first = |row: usize| EFFECTS[row].fields.first().map_or("", |field| field.key);
     let is_line = |row: usize| first_form(row) == Some(Form::Line);
@@ -119,7 +121,8 @@ fn choose(fields: &Fields<'_>, named: &[usize]) -> Read<usize> {
     }
 }
 
-/// Is the effect on a line of points with bodies, or between two bodies with a key that only the kind on a line has?
+/// True if the effect acts on a line. Either `points` has points with bodies, or an effect between two bodies has a flag of the kind on a
+/// line.
 fn has_line(fields: &Fields<'_>, row: usize) -> bool {
     let is_flagged = EFFECTS[row]
         .fields
@@ -129,7 +132,7 @@ fn has_line(fields: &Fields<'_>, row: usize) -> bool {
     has_tables(fields, "points") || (is_flagged && is_between)
 }
 
-/// Is the value at a key a list of tables that are not places relative to points?
+/// True if the value at a key is a list of tables that are not places relative to points.
 fn has_tables(fields: &Fields<'_>, key: &str) -> bool {
     match fields.get(key).map(|item| &item.node) {
         Some(Node::List(items)) => items

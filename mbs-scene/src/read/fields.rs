@@ -20,9 +20,9 @@ pub(crate) struct Context<'a> {
     pub(crate) signals: &'a Names,
     pub(crate) frames: Frames<'a>,
     pub(crate) values: &'a Values<'a>,
-    /// Key and unit of the numbers that are read; `None`: a number may have any unit.
+    /// Key and unit of the numbers that are read. `None` if a number may have any unit.
     pub(crate) unit: Option<KeyUnit>,
-    /// Is the coordinate of this table a translation? `None`: the coordinate is not known.
+    /// True if the coordinate of this table is a translation. `None` if the coordinate is not known.
     pub(crate) is_slide: Option<bool>,
 }
 
@@ -49,12 +49,12 @@ pub(crate) struct Fields<'a> {
     pub(crate) context: Context<'a>,
     pub(crate) header: &'a Span,
     pub(crate) members: &'a [Member],
-    /// Tables of keys that may apply; one of them is that of the entry.
+    /// Key tables that may apply to this table of the file. One of them is the key table of the entry.
     pub(crate) tables: &'static [KeyTable],
 }
 
 impl<'a> Context<'a> {
-    /// Context of a file whose tables refer to no part of it; `none` is an empty list of names.
+    /// Context of a file whose tables do not refer to its bodies, joints or signals. `none` is an empty list of names.
     pub(crate) fn of_file(texts: &'a Texts, values: &'a Values<'a>, none: &'a Names) -> Self {
         let (bodies, joints, signals) = (none, none, none);
         let frames = Frames { names: none, items: &[] };
@@ -129,8 +129,8 @@ impl<'a> Context<'a> {
         }
     }
 
-    /// A vector of the scene's dimension that is not a place. It may also be given as the vector from one place to another. A third
-    /// component in a planar scene is left for the check of the scene.
+    /// A vector of the scene's dimension, given by its components or as the vector from one place to another. In a planar scene, the check of
+    /// the scene refuses a third component, not this function.
     pub(crate) fn vector(&self, item: &'a Item) -> Read<[Number; 3]> {
         if !matches!(item.node, Node::Table(_)) {
             let items = self.list(item, "a list of numbers")?;
@@ -228,7 +228,8 @@ impl<'a> Fields<'a> {
         }
     }
 
-    /// The value of `at` of the frame that is named in place of a body, for a key `at` that is not written.
+    /// Returns the value of the frame's key `at`, when `body` names a frame and the entry has no key `at` itself. `None` for every other
+    /// `key`.
     pub(crate) fn of_frame(&self, key: &str) -> Option<&'a Item> {
         let body = tree::find(self.members, "body").filter(|_| key == "at")?;
         let Node::Text(name) = &body.node else { return None };
@@ -252,7 +253,8 @@ impl<'a> Fields<'a> {
         Self { tables, ..*self }.checked()
     }
 
-    /// The fields with the key tables that have key `one` when it is written, and otherwise with the tables that have key `other`.
+    /// The fields with the key tables that have the key `one`, if it is written. Otherwise the fields with the key tables that have the key
+    /// `other`.
     pub(crate) fn by(&self, one: &str, other: &str) -> Read<Self> {
         let key = if self.get(one).is_some() { one } else { other };
         self.checked_by(keys::together(self.tables, |table| table.key(key).is_some()))
@@ -279,7 +281,7 @@ impl<'a> Fields<'a> {
         self.context.fault(&stranger.key_span, fault)
     }
 
-    /// Is the key in a key table of this header, for any kind?
+    /// True if a key table of this header has the key, for any kind.
     fn is_of_header(&self, key: &str) -> bool {
         keys::of(self.header_name()).iter().any(|table| table.key(key).is_some())
     }

@@ -31,8 +31,8 @@ impl SceneFile {
         None
     }
 
-    /// The place of a guide's key, or of its entry when the key is not written. The key `signal` is one of several in `signals`, and
-    /// `joint` may be written as `body`.
+    /// The place of the value of a guide's key, or of the guide's entry when the key is not written. The key `signal` refers to one of the
+    /// list `signals`. The key `joint` may be written as `body`.
     pub(crate) fn item_of_guide(&self, guide: usize, field: &str) -> Option<&Item> {
         let (entry, number) = self.entry_of_guide(guide)?;
         let entry = self.listed("guide").get(entry)?;
@@ -44,7 +44,7 @@ impl SceneFile {
         found.or(Some(entry))
     }
 
-    /// The place of a key of a joint, which is a joint of the file or that of a guided body.
+    /// The place of a joint's key. The joint is written in the file, or it belongs to a guided body.
     pub(crate) fn item_of_joint(&self, joint: usize, field: &str) -> Option<&Item> {
         let joints = self.listed("joint");
         let Some(entry) = joints.get(joint) else {

@@ -65,7 +65,7 @@ pub(crate) fn read_of_guided_body(
 }
 
 fn read_limits(fields: &Fields<'_>, kind: JointKind) -> Read<JointLimits<Number>> {
-    // A kind with other coordinates has no limits; the check of the scene reports them.
+    // The units are those of the first coordinate. The check of the scene refuses limits for a kind that cannot have any.
     let fields = &fields.about(kind, 0);
     let range = |item| fields.at("range").numbers_of(item, "a list of two numbers: [lower, upper]");
     Ok(JointLimits {

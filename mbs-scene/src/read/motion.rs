@@ -32,7 +32,7 @@ pub(crate) fn read_initial(
     Ok(InitialCondition { target })
 }
 
-/// Reads `at` and `velocity`, of which one requires the other.
+/// Reads `at` and `velocity`. Each of these keys requires the other.
 fn point_velocity(fields: &Fields<'_>) -> Read<Option<([Number; 3], [Number; 3])>> {
     if fields.get("at").is_none() && fields.get("velocity").is_none() {
         return Ok(None);

@@ -57,7 +57,7 @@ pub fn nearest_name<S: AsRef<str>>(found: &str, known: &[S], what: &str) -> Stri
     }
 }
 
-/// A list of the names; of many names only the first.
+/// A list of the names. When there are many, the list has only the first ones and the number of the others.
 pub(super) fn listing<S: AsRef<str>>(known: &[S], what: &str) -> String {
     /// Largest number of names that are listed [-]: some lines of a terminal.
     const MAX_NAMES: usize = 16;

@@ -56,7 +56,7 @@ pub(crate) fn read(
         let known: Vec<_> = rows.iter().map(|row| row.name).collect();
         fields.unknown_word("quantity", word, &known)
     };
-    // The quantity is checked before its keys, which another quantity may not have.
+    // The quantity is checked first, since another quantity may not have the keys of this one.
     let Some(kind) = rows.iter().find(|row| row.has_name(word.0)).map(|row| row.target) else {
         return unknown();
     };

@@ -126,7 +126,7 @@ impl<'a> Prefix<'a> {
         }
     }
 
-    /// Adds the prefix to a reference, or to several, if the file has the name.
+    /// Adds the prefix to one reference or to a list of references. A name that the included file does not have remains unchanged.
     fn references(&self, item: &mut Item, part: Referent) {
         match &mut item.node {
             Node::Text(name) if self.names[part.name()].contains(name) => self.name(name),
@@ -142,7 +142,7 @@ impl<'a> Prefix<'a> {
         }
     }
 
-    /// Adds the prefix to the names of points in a place or a vector, or in several.
+    /// Adds the prefix to the names of points in a place, in a vector, or in a list of them.
     fn places(&self, item: &mut Item, value: &KeyValue) {
         match (value, &mut item.node) {
             (KeyValue::Places(_), Node::List(items)) => {

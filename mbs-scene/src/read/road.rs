@@ -6,7 +6,7 @@ use crate::read::table;
 use crate::read::tree::{Item, Node};
 use mbs_core::scene::{Number, Road, RoadFeature};
 
-/// Largest number of steps of a staircase [-]. It turns a mistyped count into a message. Chosen, not tuned.
+/// Largest number of steps of a staircase [-]. A larger number is refused as a mistake. Chosen, not tuned.
 const MOST_STEPS: u32 = 10_000;
 /// Default length of the rounded corners of a ramp, as a fraction of the length of the ramp [-].
 const ROUNDING: &str = "0.1";

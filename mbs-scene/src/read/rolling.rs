@@ -3,7 +3,7 @@
 use crate::read::fields::{Fields, Read};
 use mbs_core::scene::{BodyId, Number, Rolling, RollingKind, RollingPlane};
 
-/// Reads a rolling; one without a name is called `rolling-N`, counted from 1.
+/// Reads a rolling of any kind. A rolling without a name gets the name `rolling-N`, where N is its number in the list, from 1.
 pub(crate) fn read(index: usize, fields: &Fields<'_>) -> Read<Rolling<Number>> {
     let (kind, fields) = &fields.kind()?;
     let context = &fields.context;

@@ -345,7 +345,7 @@ fn read_start(header: &Fields<'_>) -> Read<Start> {
     }
 }
 
-/// The row of a list that a fault refers to.
+/// The row of a table, or the piece of a polynomial, to which a fault refers.
 fn row(fault: SceneFault) -> Option<usize> {
     match fault {
         SceneFault::TableOrder(row)

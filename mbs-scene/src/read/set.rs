@@ -125,7 +125,7 @@ fn read(value: &str, at: usize) -> Item {
     Item { span: start..start + text.len(), node: Node::Text(text.to_owned()) }
 }
 
-/// Is it a table of the scene file that may occur only once?
+/// True if the scene file may have the table only once.
 fn is_once(table: &str) -> bool {
     let is_of_file = keys::of(FILE).iter().any(|file| file.key(table).is_some());
     is_of_file && keys::of(table).iter().any(|table| table.standing == Standing::Once)
@@ -136,7 +136,7 @@ fn tables_at(parts: &[PathPart]) -> &'static [KeyTable] {
     let [PathPart::Key(table), rest @ ..] = parts else { return &[] };
     let mut tables = keys::of(table);
     let is_list = tables.first().is_some_and(|table| table.standing == Standing::Listed);
-    // The first part after a list is the name of an entry, and may equal the name of a key.
+    // The first part after a list is the name or the index of an entry. It is skipped, since a name may equal the name of a key.
     for part in rest.iter().skip(usize::from(is_list)) {
         let PathPart::Key(name) = part else { continue };
         let key = tables.iter().find_map(|table| table.key(name));

@@ -6,7 +6,7 @@ use super::tree::{Item, Node};
 use crate::keys::{COLOURS, SHAPES};
 use mbs_core::scene::{BodyShape, Number, ShapeKind};
 
-/// Reads a shape; one without a name is called `shape-N`, counted from 1.
+/// Reads a shape of any kind. A shape without a name gets the name `shape-N`, where N is its number in the list, from 1.
 pub(crate) fn read(index: usize, fields: &Fields<'_>) -> Read<BodyShape<Number>> {
     let context = fields.context;
     let written = SHAPES.into_iter().filter_map(|form| Some((form, fields.get(form)?)));

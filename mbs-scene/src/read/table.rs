@@ -24,7 +24,7 @@ fn word<'a>(fields: &Fields<'a>, n_words: usize) -> Read<&'a str> {
     }
 }
 
-/// The shape of a table without end conditions; `None`: a spline.
+/// Shape of the curve between the rows. `None` for a spline, which needs conditions at its ends.
 fn shape(fields: &Fields<'_>) -> Read<Option<CurveShape>> {
     Ok(match word(fields, 3)? {
         "monotone" => Some(CurveShape::Monotone),
@@ -100,7 +100,7 @@ pub(crate) fn of_motion(fields: &Fields<'_>) -> Read<Motion<Number>> {
     }
 }
 
-/// Reads a function of a number; `None`: no function is written.
+/// Reads a function of a number. `None` if the file has no function there.
 pub(crate) fn of_curve(fields: &Fields<'_>) -> Read<Option<Curve<Number>>> {
     fields.exclusive("table", "coefficients")?;
     let context = fields.context;

@@ -20,11 +20,11 @@ pub(crate) struct Text {
     pub(crate) prefix: String,
     /// Bytes of the table that includes the text.
     pub(crate) by: Option<Span>,
-    /// Is the text a file, not a value from a command line?
+    /// True if the text is a file, not a value from a command line.
     pub(crate) is_file: bool,
-    /// Is the text a CSV file, with the rows of a table?
+    /// True if the text is a CSV file with the rows of a table.
     pub(crate) is_table: bool,
-    /// Folder to which relative paths in the text refer; `None`: the working directory.
+    /// Folder to which relative paths in the text refer. `None` stands for the working directory.
     pub(crate) folder: Option<PathBuf>,
 }
 
@@ -125,7 +125,7 @@ impl Texts {
             if text.is_table {
                 return Some(format!("for the table at {file}:{}", place.line));
             }
-            // The prefix of the outer includes is left out of the prefix of this one.
+            // The prefix of this text begins with the prefixes of the outer includes, which are left out here.
             let outer = text.by.as_ref().map_or("", |by| &self.of(by).prefix);
             let prefix = text.prefix.strip_prefix(outer).unwrap_or(&text.prefix);
             Some(format!("included from {file}:{} as \"{prefix}\"", place.line))

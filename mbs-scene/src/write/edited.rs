@@ -6,8 +6,8 @@ use crate::read::edit::spliced;
 use crate::read::tree::{self, Item, Member, Node, Span};
 
 impl SceneFile {
-    /// The text with the values and entries of another scene, given both scenes as trees. Values, new keys and new entries can be changed;
-    /// `None` when other changes are needed, such as removed keys.
+    /// The text with the values and entries of another scene, given both scenes as trees. Values may differ, and keys and entries may be new.
+    /// `None` when the scenes differ in another way, for example by a removed key.
     pub(crate) fn edited(&self, old: &[Member], new: &[Member]) -> Option<String> {
         if self.texts.list().len() > 1 {
             return None;

@@ -113,7 +113,8 @@ fn tree(scene: &Scene<Number>) -> Result<Vec<Member>, WriteError> {
     Ok(root.0)
 }
 
-/// Visits the tables of a scene one by one, so that a large scene is never in memory as a tree. The flag is `true` for entries of a list.
+/// Calls a function for each table of a scene in turn, so that a large scene is never in memory as a tree. The flag is `true` for entries of
+/// a list.
 fn tables(
     scene: &Scene<Number>,
     visit: &mut dyn FnMut(&str, bool, Keys),
@@ -326,7 +327,7 @@ impl Writer<'_> {
         Ok(keys)
     }
 
-    /// Is a free joint at the place that the reader assumes when no place is written?
+    /// True if a free joint is at the place that the reader assumes when no place is written.
     fn is_in_the_centre(self, joint: &Joint<Number>) -> bool {
         let body = match joint.bodies {
             [_, BodyId::Body(i)] | [BodyId::Body(i), BodyId::Ground] => self.scene.bodies.get(i),

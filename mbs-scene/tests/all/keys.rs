@@ -36,7 +36,7 @@ fn every_table_of_files_has_an_example_that_reads_in_all_precisions() {
         if let Err(error) = file.scene::<f64>() {
             panic!("{name:?}: {}", error.render());
         }
-        // The example is one of its own table.
+        // The example must have an entry of the table that it belongs to.
         let header = table.title();
         assert!(example.text.contains(&header), "{name:?}");
         assert!(table.kind.is_none_or(|kind| example.text.contains(kind)), "{name:?}");

@@ -57,8 +57,8 @@ impl<T: Real, N: Number<T>> Factor<T, N> {
 
     /// Factors x − J; returns `true` when all pivots are finite and not zero.
     ///
-    /// Cost, with l leading unknowns: (n − l)³/3 products for the others. The leading ones cost less than (n − l)² l when each is the rate
-    /// of few unknowns.
+    /// Cost, with l leading unknowns: (n − l)³/3 products for the other unknowns. The leading unknowns cost less than (n − l)² l, when the
+    /// rate of each depends on few unknowns.
     pub(super) fn factor(&mut self, x: N, jacobian: &[T]) -> bool {
         let n = self.n;
         for (entry, &slope) in self.entries.iter_mut().zip(jacobian) {

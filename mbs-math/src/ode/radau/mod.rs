@@ -44,10 +44,10 @@ const SAME_STEP: f64 = 1e-3;
 /// fast. In the basis where A⁻¹ is diagonal, the matrices of the iteration are γ/h − J and (α + iβ)/h − J. The iteration begins from the
 /// collocation polynomial of the previous step.
 ///
-/// A converged iteration is rejected when the slopes hide a defect of the stages. An example is a stiff spring that loses contact within
-/// the step. An event that begins and ends within a step is not detected. An event that moves the state by less than the tolerance is not
-/// detected either. [`Options::max_step`] limits the step for such events. In `f32`, the rounding of positions times the slopes of very
-/// stiff springs limits the tolerances that the iteration can reach, and keeps steps short.
+/// A converged iteration is rejected when the slopes hide a defect of the stages. An example is a stiff spring that loses contact within the
+/// step. An event that begins and ends within a step is not detected. An event that moves the state by less than the tolerance is not
+/// detected either. [`Options::max_step`] limits the step for such events. In `f32`, very stiff springs amplify the rounding of positions.
+/// This limits the tolerances that the iteration can reach, and keeps steps short.
 ///
 /// [`Radau::new`] allocates all memory; a step allocates nothing.
 #[derive(Debug, Clone, PartialEq)]
@@ -68,7 +68,7 @@ pub struct Radau<T> {
 pub struct RadauHistory<T> {
     /// Slopes J = ∂f/∂y, row by row.
     pub jacobian: Vec<T>,
-    /// May the next step use J?
+    /// True if the next step may use J.
     pub has_jacobian: bool,
     /// Step length for which the matrices are factored [s], if they are factored with the present slopes.
     pub factored: Option<T>,
@@ -192,7 +192,7 @@ impl<T: Real> Radau<T> {
         Ok(is_sound.then_some(is_new))
     }
 
-    /// Does the defect confirm that the last correction converged? `last` has the rates at the end of the step.
+    /// Decides by the defect of the stages whether the last correction converged. `last` has the rates at the end of the step.
     ///
     /// Cost: 6 n products, and n² more when the defect is above one tolerance and did not fall by half.
     fn judge(&self, h: T, y: &[T], last: &[T]) -> End {

@@ -66,8 +66,8 @@ impl<T: Real> Newton<T> {
 
     /// Defect of the third stage with these `rates` at it, h f − (A⁻¹ z)₃, in tolerances.
     ///
-    /// Corrections are small where the slopes are steep, whatever the rates are. When a spring is still in the slopes but has left the
-    /// motion, small corrections hide the error of the stages. The defect shows it.
+    /// Corrections are small where the slopes are steep, whatever the rates are. A spring may have lost contact although the slopes still
+    /// contain it. Small corrections then hide the error of the stages, and the defect shows it.
     pub(super) fn defect(&self, coefficients: &Coefficients<T>, h: T, rates: &[T]) -> T {
         let n = self.one.len();
         let (gamma, Complex { re, im }) = (coefficients.real, coefficients.complex);
@@ -168,7 +168,8 @@ impl<T: Real> Newton<T> {
         Ok(End::Diverged)
     }
 
-    /// Solves (Λ/h − J) Δw = T⁻¹ f − Λ/h w for Δw; its components are written to `one` and `pair`.
+    /// Solves (Λ/h − J) Δw = T⁻¹ f − Λ/h w for Δw, where Λ = T⁻¹ A⁻¹ T has the eigenvalues of A⁻¹. The first component of Δw is written to
+    /// `one`, the others as a complex number to `pair`.
     fn correct(&mut self, (coefficients, matrices): (&Coefficients<T>, &Matrices<T>), h: T) {
         let n = self.one.len();
         let (gamma, alpha) = (coefficients.real / h, coefficients.complex.re / h);

@@ -110,9 +110,9 @@ fn the_basis_is_that_of_the_collocation_in_32_digits() {
     }
 }
 
-/// A spring of up to 1e10 per second squared, for which explicit methods need half a million steps. On stiff problems the order of the
-/// velocities drops to that of the stages, and with it the step, but only once. The bound of 30 tolerances allows for the sum over all
-/// steps.
+/// The spring has a stiffness of up to 1e10 per second squared for a unit mass, for which explicit methods need half a million steps. On
+/// stiff problems the order of the velocities drops to that of the stages. The step then becomes shorter, but only once. The bound of 30
+/// tolerances allows for the sum over all steps.
 #[test]
 fn stiff_springs_hardly_cost_steps() {
     for k in [1e2, 1e6, 1e10] {
@@ -160,7 +160,8 @@ fn slopes_and_factors_are_kept_while_they_serve() {
     let driver = run(&mut problem, (1e-6, 0.05), (5.0, 100), &mut y).expect("a run");
     let counts = driver.counts();
     let steps = counts.accepted + counts.rejected;
-    // Each step has one evaluation at its beginning and three for each of at most two iterations. The slopes have three, once.
+    // Each step has one evaluation at its beginning, and three for each of at most two iterations. The slopes take three evaluations in the
+    // whole run.
     assert!(counts.evaluations <= 7 * steps + 6, "{counts:?}");
 }
 

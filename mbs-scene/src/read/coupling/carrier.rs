@@ -1,6 +1,6 @@
 //! Message and hint for a drawn coupling whose two parts have no common carrier.
 
-/// Message of the fault. The arguments are the bodies that carry one part each, and the joint whose axis the missing joint would have.
+/// Message of the fault. The arguments are the two bodies that carry the parts, and the joint whose axis the missing joint would have.
 pub(crate) fn no_carrier([one, other]: &[String; 2], joint: &str) -> String {
     format!(
         "no body carries both axes: `{other}` does not turn on `{one}` about the axis of `{joint}`"

@@ -37,7 +37,8 @@ impl<'a> Named<'a> {
         Ok(Self { id, joint: &joints[id.index()], item })
     }
 
-    /// The number of the coordinate. A joint without a coordinate about or along an axis is left for the check of the scene.
+    /// Number of the coordinate, from 0. The number is 0 for a joint that has no coordinate about or along an axis. The check of the scene
+    /// refuses such a joint later.
     pub(super) fn number(&self, fields: &Fields<'a>, needed: Needed) -> Read<usize> {
         let (kind, dimension) = (self.joint.kind, fields.context.dimension);
         let n = kind.n_coordinates(dimension);

@@ -34,7 +34,7 @@ pub struct Evaluated {
     pub dimensions: Option<Dimensions>,
 }
 
-/// Is the name a constant, a function or a unit of expressions, which no parameter may have?
+/// True if the name is a constant, a function or a unit of expressions. No parameter may have such a name.
 pub(crate) fn is_reserved(name: &str) -> bool {
     name == "pi" || FUNCTIONS.contains(&name) || unit::of_name(name).is_some()
 }

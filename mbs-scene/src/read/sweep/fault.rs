@@ -103,7 +103,7 @@ pub enum SweepFault {
     },
 }
 
-/// Largest number of members of a sweep [-]. It turns a mistyped count into a message. Chosen, not tuned.
+/// Largest number of members of a sweep [-]. A larger number is refused as a mistake. Chosen, not tuned.
 pub(super) const MOST_MEMBERS: u32 = 1_000_000;
 
 impl Display for SweepFault {

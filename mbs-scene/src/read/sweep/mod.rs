@@ -93,8 +93,8 @@ impl SceneSweep {
         self.replaced(scene, |p| Some(values[p]))
     }
 
-    /// Tries the values of each parameter in the scene, one at a time. Of a list it tries all values, of a range the ends and two values.
-    /// It rejects a value that is wrong for any values of the other parameters, such as a negative mass or a count with decimals. `also`
+    /// Tries the values of each parameter in the scene, one at a time. It tries all values of a list. For a range it tries the ends and two
+    /// values. It rejects a value that is invalid whatever the other parameters are, such as a negative mass or a count with decimals. `also`
     /// may reject a scene with a message and a hint.
     ///
     /// Cost: the scene is read once for each trial.
@@ -109,7 +109,7 @@ impl SceneSweep {
         for (p, parameter) in self.parameters.iter().enumerate() {
             let texts = parameter.texts.iter().enumerate();
             let is_list = parameter.ends.is_empty();
-            // Two values of a range show whether its values are whole numbers.
+            // The first two values of a range show whether all its values are whole numbers.
             let texts = texts.take(if is_list { parameter.texts.len() } else { 2 });
             let own = texts.map(|(i, text)| {
                 (text, parameter.value_spans.get(i).unwrap_or(&parameter.value_spans[0]))
@@ -133,7 +133,7 @@ impl SceneSweep {
         Ok(())
     }
 
-    /// Does the sweep change the number that a path names?
+    /// True if the sweep changes the number that a path names.
     #[must_use]
     pub fn varies(&self, scene: &SceneFile, path: &str) -> bool {
         let address = path::address(scene, path);
@@ -166,7 +166,7 @@ impl SceneSweep {
         choice
     }
 
-    /// The scene with new values for the parameters for which `text` gives one.
+    /// Returns the scene with new numbers. `text` gives the value of a parameter, or `None` for a parameter that does not change.
     fn replaced<'a>(
         &self,
         scene: &SceneFile,
@@ -263,7 +263,7 @@ impl SceneSweep {
     }
 }
 
-/// Is the fault that of one number alone, for any values of the other numbers?
+/// True if the fault concerns a single number, whatever the values of the other numbers are.
 fn is_final(fault: &ReadFault) -> bool {
     match fault {
         ReadFault::NotFinite { .. } | ReadFault::NotACount { .. } => true,

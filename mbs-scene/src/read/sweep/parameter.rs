@@ -32,7 +32,7 @@ pub(super) struct Parameter {
     pub(super) value_spans: Vec<Span>,
     /// Ends of a range, with their bytes. `SceneSweep::check` tries them as well as the values.
     pub(super) ends: Vec<(String, Span)>,
-    /// Is the parameter given in code? Then its spans refer to no text, and its name is its path.
+    /// True if the parameter is given in code. Its spans then refer to no text, and its name is its path.
     pub(super) is_in_code: bool,
 }
 

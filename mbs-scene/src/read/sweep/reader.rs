@@ -15,7 +15,7 @@ use crate::read::{ReadFault, SceneFile};
 const COMBINE: [&str; 3] = ["grid", "zip", "latin-hypercube"];
 const SCALES: [&str; 2] = ["linear", "log"];
 
-/// Reads the combination of values, and the parameters in the order of the file. `has_more`: code gives further parameters.
+/// Reads the combination of values, and the parameters in the order of the file. `has_more` is true if code gives further parameters.
 pub(super) fn read(
     sweep: &SceneFile,
     scene: &SceneFile,

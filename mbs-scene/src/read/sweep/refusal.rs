@@ -1,4 +1,4 @@
-//! Errors of sweeps: of a file with the place in it, of code with the path.
+//! Errors of sweeps in a file or in code. An error of a file has the place in it; an error of numbers from code has the path.
 
 use super::SweepFault;
 use crate::read::ReadError;

@@ -24,7 +24,7 @@ pub struct ValueRange {
     pub from: f64,
     /// Last number of the range.
     pub to: f64,
-    /// Are the values at equal distances in the logarithm?
+    /// True if the logarithms of the values are at equal distances.
     pub is_log: bool,
 }
 
@@ -48,7 +48,7 @@ impl ValueRange {
         (0..count).map(|i| self.at(f64::from(i) / last)).collect()
     }
 
-    /// Number of values at a given distance; `None` when the step does not lead from the beginning towards the end.
+    /// Number of values at a given distance. `None` when the step leads away from the end of the range.
     pub fn steps(&self, step: f64) -> Option<f64> {
         let steps = (self.to - self.from) / step;
         (steps.is_finite() && steps >= 1.0 - ROUNDING).then(|| (steps + ROUNDING).floor() + 1.0)

@@ -1,4 +1,5 @@
-//! Writes `[[coupling]]`: a coupling drawn by its kind with the keys of that kind, any other coupling as a sum.
+//! Writes the entries of the list `[[coupling]]`. A drawn coupling, whose signs follow from places and axes, is written with the keys of its
+//! kind. Other couplings are written as a sum.
 
 use super::{Keys, Node, WriteError, Writer, curve, list};
 use mbs_core::scene::{
@@ -9,8 +10,8 @@ use mbs_core::scene::{
 type Coordinates<'a> = [(JointId, usize, &'a Number)];
 
 impl Writer<'_> {
-    /// The keys of a coupling. A relation is code and cannot be written. A coupling that its kind has no keys for, such as gears driven in
-    /// code, is written as a sum.
+    /// The keys of a coupling. A relation is code and cannot be written. Some couplings built in code do not fit the keys of their kind, such
+    /// as driven gears. They are written as a sum.
     pub(super) fn coupling(self, coupling: &Coupling<Number>) -> Result<Keys, WriteError> {
         let in_code = || WriteError::InCode(format!("coupling `{}`", coupling.name));
         if coupling.relation.is_some() {
@@ -47,7 +48,7 @@ impl Writer<'_> {
         Ok(keys)
     }
 
-    /// The keys of a drawn coupling; `None` when its kind has no keys for it.
+    /// The keys of a drawn coupling, whose signs follow from places and axes. `None` when the keys of its kind cannot express it.
     fn drawn(self, coupling: &Coupling<Number>, drawn: Drawn) -> Result<Option<Keys>, WriteError> {
         let mut keys = Keys::default();
         let of =
@@ -109,7 +110,7 @@ impl Writer<'_> {
         Ok(written.then_some(keys))
     }
 
-    /// The keys of a cam; `None` when the coupling is not a cam, or when the kind has no keys for it.
+    /// The keys of a cam. `None` when the coupling is not a cam, or when the keys of a cam cannot express it.
     fn cam(self, coupling: &Coupling<Number>) -> Result<Option<Keys>, WriteError> {
         let is_cam = coupling.kind == CouplingKind::Cam && coupling.value.is_zero();
         let [follower, shaft] = &coupling.terms[..] else { return Ok(None) };
@@ -152,7 +153,8 @@ impl Writer<'_> {
         Ok(())
     }
 
-    /// Does the kind find these coordinates from the joints alone, as their only turn or their only slide?
+    /// True if each coordinate is the only rotation of its joint about an axis, or with `is_turn` false the only translation. The file then
+    /// need not name the coordinates.
     fn takes(self, named: &Coordinates<'_>, is_turn: bool) -> bool {
         named.iter().all(|&(joint, number, _)| {
             let Some(joint) = self.scene.joints.get(joint.index()) else { return false };

@@ -121,7 +121,7 @@ impl Writer<'_> {
     }
 }
 
-/// Is the signal the constant that the reader assumes when no key is written?
+/// True if the signal is the constant that the reader assumes when no key is written.
 fn is_default(field: &Field, signal: &Signal<Number>) -> bool {
     let Default::Number(text) = field.default else { return false };
     matches!(signal, Signal::Constant([x, ..]) if Number::from_decimal(text).as_ref() == Some(x))

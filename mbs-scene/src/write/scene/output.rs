@@ -63,7 +63,7 @@ impl Writer<'_> {
         Ok(keys)
     }
 
-    /// The axes of an output of this body. A body whose name is also a word of the key cannot be written.
+    /// The value of the key `frame`: the body to whose axes an output refers. A body whose name is also a word of this key cannot be written.
     fn axes(self, frame: BodyId, own: Option<BodyId>) -> Result<Node, WriteError> {
         if frame == BodyId::Ground {
             return Ok(GLOBAL.into());

@@ -4,7 +4,7 @@ use super::includes::Folder;
 use mbs_core::scene::*;
 use mbs_scene::{SceneFile, to_toml};
 
-/// A prismatic joint that is guided, pushed and measured by tables; the road follows.
+/// A scene with a prismatic joint that is guided, pushed and measured by tables. The table of a road comes last.
 fn scene(guide: &str, effect: &str, curve: &str) -> String {
     format!(
         "[scene]\ndimension = 2\nduration = 4\n\

@@ -43,7 +43,8 @@ fn sum(coupling: &str) -> (Vec<(f64, usize, usize)>, f64) {
 fn every_kind_of_coupling_is_the_sum_that_it_says() {
     let tau = core::f64::consts::TAU;
     for (coupling, terms, value) in [
-        // Wheels in external mesh, about axes of opposite sense, have angles that grow alike. Wheels with a belt on such axes do not.
+        // Wheels in external mesh about axes of opposite sense have angles of equal sign. Wheels with a belt about such axes have angles of
+        // opposite sign.
         (
             "kind = \"gear\"\njoints = [\"a\", \"b\"]\nteeth = [20, 40]",
             vec![(20.0, 0, 0), (-40.0, 1, 0)],

@@ -409,7 +409,7 @@ fn effects_name_a_coordinate_of_a_joint_that_has_several() {
     assert_eq!(coordinate(SHAFT), Some(0));
     assert_eq!(coordinate(&with("coordinate = \"turn\"\n")), Some(1));
     assert_eq!(coordinate(&with("coordinate = 1\n")), Some(1));
-    // The only rotation is the default coordinate.
+    // The default of `coordinate` is the only rotation of the joint.
     let turn = with("").replace("\"limit\"", "\"torsion-spring\"");
     let turn = turn.replace("lower = -1\nupper = 1\n", "");
     assert_eq!(coordinate(&turn), None);

@@ -1,4 +1,4 @@
-//! Guides of whole joints and of bodies: they are read to the intended data and written back. Invalid ones are refused at their place.
+//! Guides of whole joints and of bodies: they are read to the intended data and written back. Invalid guides are refused at their place.
 
 use super::{refused, spoil};
 use mbs_core::scene::*;

@@ -1,4 +1,4 @@
-//! Limits of joints: they are read and written. Invalid ones are refused at their place.
+//! Limits of joints: they are read and written. Invalid limits are refused at their place.
 
 use super::{PLANAR, read, refused};
 use mbs_core::scene::*;

@@ -1,4 +1,4 @@
-//! Rotors: they are read and written. Invalid ones are refused at their place.
+//! Rotors: they are read and written. Invalid rotors are refused at their place.
 
 use super::{read, refused, spoil};
 use mbs_core::scene::*;

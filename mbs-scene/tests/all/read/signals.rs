@@ -1,4 +1,4 @@
-//! Signals: they are read to the intended data and written back. Invalid ones are refused at their place.
+//! Signals: they are read to the intended data and written back. Invalid signals are refused at their place.
 
 use super::{refused, spoil};
 use mbs_core::scene::*;

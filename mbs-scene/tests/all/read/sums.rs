@@ -71,7 +71,7 @@ fn every_kind_on_a_line_is_written_as_it_was_read() {
         let scene = read_back(&text);
         assert_eq!(scene.effects[0].kind.acts_on(), ActsOn::Line, "{rest}");
     }
-    // The flag makes an effect between two bodies one on a line.
+    // With the key `pulls_only`, an effect between two bodies is read as an effect on a line.
     let pair = "bodies = [\"w\", \"u\"]\npoints = [[0, 0, 0], [2, 0, 0]]\nkind = \"spring-damper\"\nstiffness = 3.0\n";
     let slack = read(&with(&format!("{pair}pulls_only = true"))).expect("it reads");
     let EffectKind::LineSpring(spring) = &slack.effects[0].kind else { panic!("a line") };

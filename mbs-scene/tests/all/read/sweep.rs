@@ -110,7 +110,7 @@ fn zip_pairs_values_one_to_one() {
 
 #[test]
 fn a_latin_hypercube_has_one_sample_in_each_stratum_of_each_parameter() {
-    // Number of samples, and of intervals of each parameter.
+    // Number of samples, and of equal intervals of each range.
     const N: usize = 64;
     let text = format!("[sweep]\ncombine = 'latin-hypercube'\nsamples = {N}\nseed = 5\n")
         + &vary("body.lower.mass", &format!("from = 1\nto = {}", N + 1))
@@ -160,7 +160,7 @@ fn hard_points_shift_together_and_shifts_add() {
 
 #[test]
 fn what_only_a_member_can_show_is_no_refusal() {
-    // Alone, each value of the pair would break a rule of the scene: a rod must have a length.
+    // The two values are valid together. One value alone would break a rule of the scene, for example that a rod must have a length.
     let text = "[sweep]\ncombine = 'zip'\n".to_owned()
         + &vary("body.lower.rod.from[0]", "values = [2.0]\nshift = 'joint.elbow.at[0]'")
         + &vary("body.lower.rod.to[0]", "values = [3.0]");
